@@ -57,47 +57,36 @@ private:
   int Previous = -1;
 };
 
-using Stream = std::shared_ptr<CUstream_st>;
-using Resource = std::shared_ptr<cudaGraphicsResource>;
-
-/// @throws std::runtime_error, as what follows.
-Stream MakeStream()
-{
-  cudaStream_t stream = nullptr;
-  Require(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "make a stream");
-  return Stream(stream, [](cudaStream_t made) { cudaStreamDestroy(made); });
-}
-
-/// The buffer keeps what is not written. Of a context that is gone nothing can be released; that is
-/// no error.
-Resource Register(unsigned int buffer)
-{
-  cudaGraphicsResource_t resource = nullptr;
-  Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
-    "register a buffer of OpenGL");
-  return Resource(resource,
-    [](cudaGraphicsResource_t registered)
-    {
-      cudaGraphicsUnregisterResource(registered);
-      cudaGetLastError();
-    });
-}
-
 class CudaFiller : public BufferFiller
 {
 public:
+  /// The buffer keeps what is not written. Of a context that is gone nothing can be released; that
+  /// is no error.
   CudaFiller(int device, const TriangleBuffer& buffer)
     : Device(device),
-      Count(buffer.Count),
-      Buffer(Register(buffer.Name))
+      Count(buffer.Count)
   {
+    cudaGraphicsResource_t resource = nullptr;
+    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer.Name, cudaGraphicsRegisterFlagsNone),
+      "register a buffer of OpenGL");
+    this->Buffer.reset(resource,
+      [](cudaGraphicsResource_t registered)
+      {
+        cudaGraphicsUnregisterResource(registered);
+        cudaGetLastError();
+      });
+    void* memory = nullptr;
+    Require(cudaMalloc(&memory, 4 * static_cast<std::size_t>(this->Count)), "allocate memory");
+    this->Written.reset(static_cast<std::int32_t*>(memory), cudaFree);
   }
   ~CudaFiller() override
   {
-    if (this->IsMapped)
+    try
     {
-      this->Call(cudaGraphicsUnmapResources);
-      cudaGetLastError();
+      this->Unmap();
+    }
+    catch (const std::exception&)
+    {
     }
   }
 
@@ -105,8 +94,7 @@ public:
   {
     if (!std::exchange(this->IsMapped, true))
     {
-      const CurrentGpu current(this->Device);
-      Require(this->Call(cudaGraphicsMapResources), "map a buffer of OpenGL");
+      this->Call(cudaGraphicsMapResources, "map a buffer of OpenGL");
     }
   }
 
@@ -114,12 +102,11 @@ public:
   {
     if (std::exchange(this->IsMapped, false))
     {
-      const CurrentGpu current(this->Device);
-      Require(this->Call(cudaGraphicsUnmapResources), "return a buffer to OpenGL");
+      this->Call(cudaGraphicsUnmapResources, "return a buffer to OpenGL");
     }
   }
 
-  void Fill(const FlipSession& session, bool /*isNew*/) override
+  void Fill(const FlipSession& session, bool isNew) override
   {
     if (!IsOnGpu(session.GetReport().Backend))
     {
@@ -135,24 +122,30 @@ public:
     {
       throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
     }
-    session.StoreTriangles(
-      MutableTriangleArray(static_cast<std::int32_t*>(memory), this->Count), { this->Queue.get() });
+    if (isNew)
+    {
+      Require(cudaMemset(this->Written.get(), -1, 4 * static_cast<std::size_t>(this->Count)),
+        "set memory");
+    }
+    session.StoreTriangles(MutableTriangleArray(static_cast<std::int32_t*>(memory), this->Count),
+      {}, this->Written.get());
     this->Unmap();
   }
 
 private:
-  /// Maps or unmaps the buffer.
+  /// Maps or unmaps the buffer, in the default stream.
   template <typename Function>
-  cudaError_t Call(Function function) const
+  void Call(Function function, const char* action) const
   {
+    const CurrentGpu current(this->Device);
     cudaGraphicsResource_t buffer = this->Buffer.get();
-    return function(1, &buffer, this->Queue.get());
+    Require(function(1, &buffer, nullptr), action);
   }
 
   int Device;
   std::int64_t Count;
-  Stream Queue = MakeStream();
-  Resource Buffer;
+  std::shared_ptr<cudaGraphicsResource> Buffer;
+  std::shared_ptr<std::int32_t> Written; ///< For FlipSession::StoreTriangles.
   bool IsMapped = false;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LiveScene.h"
+/// What vtkDelaunayFlipLiveView draws: a mesh, its colour scale, and texts.
+#include "vtkDelaunayFlipLiveView.h"
 
 #include "UpdateReport.h"
 
 #include "vtkDelaunayFlip.h"
-#include "vtkDelaunayFlipLiveView.h"
 #include "vtkDelaunayFlipMapper.h"
 
 #include "vtkActor.h"
@@ -28,19 +28,13 @@
 #include <sstream>
 #include <string>
 
-namespace delaunayflip
-{
+using namespace delaunayflip;
 
 namespace
 {
 
 constexpr int FontSize = 14;
 constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
-
-double DarkInk[] = { 0.13, 0.19, 0.25 };
-double LightInk[] = { 0.92, 0.94, 0.96 };
-double DarkRed[] = { 0.75, 0.05, 0.1 };
-double LightRed[] = { 1.0, 0.6, 0.55 };
 
 constexpr const char* KeyHelp = "space: run/pause, n: next step, b: begin again, "
                                 "k: colours, g: edges, i: statistics, d: drawing, q: quit";
@@ -60,59 +54,10 @@ std::string Wrap(const std::string& text, std::size_t width = 60)
   return wrapped;
 }
 
-/// After a failure the filter has no counts, so the text says which frame is shown instead.
-std::string DescribeFailure(vtkDelaunayFlipLiveView* view)
-{
-  // If the filter's source failed, the filter itself has no message.
-  const std::string reason = view->GetFilter()->GetErrorMessage();
-  return Wrap("failed: " + (reason.empty() ? "no input" : reason)) + "\nthe mesh of frame " +
-    Count(view->GetFrameNumber());
 }
 
-std::string DescribeMesh(
-  vtkDelaunayFlipLiveView* view, vtkDelaunayFlipMapper* mapper, const std::string& state)
-{
-  vtkDelaunayFlip* filter = view->GetFilter();
-  if (view->GetFrameNumber() == 0)
-  {
-    return "input, " + state + "\n" + Count(mapper->GetNumberOfTriangles(), "triangle");
-  }
-  const bool isOne = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0)) != nullptr;
-  return (isOne ? "iteration " + Count(filter->GetNumberOfIterations())
-                : "all blocks in one step") +
-    ", " + state + "\n" + Count(filter->GetTotalFlips(), "flip") + ", " +
-    Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
-}
-
-/// Two or three lines. A failure, and how the mesh is drawn, take as many as their reasons need.
-std::string DescribeStatus(
-  vtkDelaunayFlipLiveView* view, vtkDelaunayFlipMapper* mapper, int state, bool isRunning)
-{
-  std::string text;
-  if (state == vtkDelaunayFlip::STOP_REASON_FAILED)
-  {
-    text = DescribeFailure(view);
-  }
-  else
-  {
-    text = DescribeMesh(view, mapper,
-      state != vtkDelaunayFlip::STOP_REASON_RUNNING ? view->GetFilter()->GetStopReasonAsString()
-        : isRunning                                 ? "running"
-                                                    : "paused");
-    const double angle = mapper->GetSmallestAngle();
-    char line[64] = "";
-    if (!std::isnan(angle))
-    {
-      std::snprintf(line, sizeof(line), "\nsmallest angle %.2f degrees", angle);
-    }
-    text += line;
-  }
-  return view->GetShowDrawing() ? text + "\n" + Wrap(mapper->GetDrawing()) : text;
-}
-
-}
-
-LiveScene::LiveScene()
+/// What does not change.
+void vtkDelaunayFlipLiveView::MakeScene()
 {
   this->Actor->SetMapper(this->Mapper);
   this->Actor->PickableOff(); // see vtkDelaunayFlipMapper
@@ -140,18 +85,16 @@ LiveScene::LiveScene()
   this->Scale->SetWidth(0.6);
 }
 
-LiveScene::~LiveScene() { this->Leave(); }
-
 //------------------------------------------------------------------------------
-void LiveScene::Enter(vtkRenderWindow* window)
+/// In the first renderer of the window, or in a new one if it has none.
+void vtkDelaunayFlipLiveView::EnterWindow()
 {
-  this->Leave();
-  this->Renderer = window->GetRenderers()->GetFirstRenderer();
+  this->Renderer = this->Window->GetRenderers()->GetFirstRenderer();
   if (!this->Renderer)
   {
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(1.0, 1.0, 1.0);
-    window->AddRenderer(renderer);
+    this->Window->AddRenderer(renderer);
     this->Renderer = renderer;
   }
   this->Renderer->AddViewProp(this->Actor);
@@ -160,7 +103,7 @@ void LiveScene::Enter(vtkRenderWindow* window)
   this->Renderer->AddViewProp(this->Keys);
 }
 
-void LiveScene::Leave()
+void vtkDelaunayFlipLiveView::LeaveWindow()
 {
   if (this->Renderer)
   {
@@ -170,11 +113,12 @@ void LiveScene::Leave()
     this->Renderer->RemoveViewProp(this->Keys);
   }
   this->Renderer = nullptr;
+  this->Window = nullptr;
 }
 
 //------------------------------------------------------------------------------
 /// Along the axis in which the mesh is flat, else along z.
-void LiveScene::LookAtMesh()
+void vtkDelaunayFlipLiveView::LookAtMesh()
 {
   if (this->Renderer->IsActiveCameraCreated() || this->Mapper->GetNumberOfTriangles() == 0)
   {
@@ -196,7 +140,8 @@ void LiveScene::LookAtMesh()
 }
 
 //------------------------------------------------------------------------------
-void LiveScene::SetMesh(vtkDataObject* mesh)
+/// A mesh, or all blocks of a composite one.
+void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
 {
   vtkNew<vtkPolyData> shown;
   if (vtkPolyData::SafeDownCast(mesh))
@@ -218,40 +163,37 @@ void LiveScene::SetMesh(vtkDataObject* mesh)
 }
 
 //------------------------------------------------------------------------------
-void LiveScene::Draw(vtkDelaunayFlipLiveView* view, int state)
+void vtkDelaunayFlipLiveView::Draw()
 {
-  const vtkSmartPointer<vtkRenderWindow> window = this->Renderer->GetRenderWindow();
+  const vtkSmartPointer<vtkRenderWindow> window = this->Window.Get();
+  const std::string drawing = this->GetDrawing();
   const bool isOffScreen = window->GetOffScreenRendering(); // there are no keys, and no timer
-  const bool hasFailed = state == vtkDelaunayFlip::STOP_REASON_FAILED;
-  const std::string drawing = this->Mapper->GetDrawing();
   const bool isSmall = this->Mapper->GetNumberOfTriangles() < SmallMesh;
-  this->Mapper->SetColorBy(view->GetColorBy());
-  this->Actor->GetProperty()->SetEdgeVisibility(
-    view->GetEdgeVisibility() == vtkDelaunayFlipLiveView::EDGE_VISIBILITY_ON ||
-    (view->GetEdgeVisibility() == vtkDelaunayFlipLiveView::EDGE_VISIBILITY_AUTO && isSmall));
-  this->Keys->SetVisibility(view->GetShowKeys() && !isOffScreen);
-  this->Status->SetVisibility(view->GetShowStatistics() || hasFailed);
+  this->Mapper->SetColorBy(this->ColorBy);
+  this->Actor->GetProperty()->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
+    (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
+  this->Keys->SetVisibility(this->ShowKeys && !isOffScreen);
+  this->Status->SetVisibility(
+    this->ShowStatistics || this->State == vtkDelaunayFlip::STOP_REASON_FAILED);
   if (this->Status->GetVisibility())
   {
-    this->Status->SetInput(
-      DescribeStatus(view, this->Mapper, state, view->IsRunning() || isOffScreen).c_str());
+    this->Status->SetInput(this->DescribeStatus(this->IsRunning() || isOffScreen).c_str());
   }
-  this->Scale->SetVisibility(view->GetColorBy() != vtkDelaunayFlipLiveView::COLOR_BY_SOLID);
-  this->Scale->SetTitle(view->GetColorBy() == vtkDelaunayFlipLiveView::COLOR_BY_FLIP_COUNT
-      ? "flips of a triangle"
-      : "smallest angle (degrees)");
-  this->ArrangeTexts(hasFailed);
+  this->Scale->SetVisibility(this->ColorBy != COLOR_BY_SOLID);
+  this->Scale->SetTitle(
+    this->ColorBy == COLOR_BY_FLIP_COUNT ? "flips of a triangle" : "smallest angle (degrees)");
+  this->ArrangeTexts();
   this->Renderer->ResetCameraClippingRange();
   window->Render();
-  if (view->GetShowDrawing() && this->Mapper->GetDrawing() != drawing)
+  if (this->ShowDrawing && this->GetDrawing() != drawing)
   {
-    this->Draw(view, state); // with the text that is right only now
+    this->Draw(); // with the text that is right only now
   }
 }
 
 /// The keys take as many lines as the width of the renderer needs. The scale is above them, and as
 /// high as its labels need.
-void LiveScene::ArrangeTexts(bool hasFailed)
+void vtkDelaunayFlipLiveView::ArrangeTexts()
 {
   constexpr double characterWidth = 6.5; // pixels
   const int* size = this->Renderer->GetSize();
@@ -264,9 +206,47 @@ void LiveScene::ArrangeTexts(bool hasFailed)
 
   const double* rgb = this->Renderer->GetBackground();
   const bool isDark = 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2] < 0.5;
-  this->Keys->GetTextProperty()->SetColor(isDark ? LightInk : DarkInk);
-  this->Status->GetTextProperty()->SetColor(
-    hasFailed ? (isDark ? LightRed : DarkRed) : (isDark ? LightInk : DarkInk));
+  double ink[3] = { 0.13, 0.19, 0.25 };
+  double red[3] = { 0.75, 0.05, 0.1 };
+  for (int i = 0; i < 3 && isDark; ++i)
+  {
+    ink[i] = 1.0 - 0.4 * ink[i];
+    red[i] = 1.0 - 0.5 * (1.0 - red[i]);
+  }
+  const bool hasFailed = this->State == vtkDelaunayFlip::STOP_REASON_FAILED;
+  this->Keys->GetTextProperty()->SetColor(ink);
+  this->Status->GetTextProperty()->SetColor(hasFailed ? red : ink);
 }
 
+//------------------------------------------------------------------------------
+/// Two or three lines. A failure, and how the mesh is drawn, take as many as their reasons need.
+std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
+{
+  const std::string drawing = this->ShowDrawing ? "\n" + Wrap(this->GetDrawing()) : "";
+  if (this->State == vtkDelaunayFlip::STOP_REASON_FAILED)
+  {
+    // The filter has no counts now, and no message if it was its source that failed.
+    const std::string reason = this->Filter->GetErrorMessage();
+    return Wrap("failed: " + (reason.empty() ? "no input" : reason)) + "\nthe mesh of frame " +
+      Count(this->FrameNumber) + drawing;
+  }
+  const std::string state = this->State != vtkDelaunayFlip::STOP_REASON_RUNNING
+    ? this->Filter->GetStopReasonAsString()
+    : isRunning ? "running"
+                : "paused";
+  const std::string counts = Count(this->Filter->GetTotalFlips(), "flip") + ", " +
+    Count(this->Filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
+  const bool isOne = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)) != nullptr;
+  const std::string mesh = this->FrameNumber == 0
+    ? "input, " + state + "\n" + Count(this->Mapper->GetNumberOfTriangles(), "triangle")
+    : isOne
+    ? "iteration " + Count(this->Filter->GetNumberOfIterations()) + ", " + state + "\n" + counts
+    : "all blocks in one step, " + state + "\n" + counts;
+  const double angle = this->Mapper->GetSmallestAngle();
+  char line[64] = "";
+  if (!std::isnan(angle))
+  {
+    std::snprintf(line, sizeof(line), "\nsmallest angle %.2f degrees", angle);
+  }
+  return mesh + line + drawing;
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipLiveView.h"
 
-#include "LiveScene.h"
-
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
@@ -19,6 +17,8 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
+#include "vtkTextActor.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
 
@@ -62,9 +62,9 @@ vtkStandardNewMacro(vtkDelaunayFlipLiveView);
 
 //------------------------------------------------------------------------------
 vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
-  : Scene(new LiveScene),
-    State(vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
+  : State(vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
 {
+  this->MakeScene();
 }
 
 vtkDelaunayFlipLiveView::~vtkDelaunayFlipLiveView() { this->Detach(); }
@@ -119,17 +119,13 @@ void vtkDelaunayFlipLiveView::Start()
 
 bool vtkDelaunayFlipLiveView::IsReady()
 {
-  if (!this->Filter || this->Filter->GetNumberOfInputConnections(0) == 0)
+  const bool hasInput = this->Filter && this->Filter->GetNumberOfInputConnections(0) > 0;
+  const bool isReady = hasInput && this->Interactor && this->Interactor->GetRenderWindow();
+  if (!isReady)
   {
-    vtkErrorMacro("A filter with an input is needed.");
-    return false;
+    vtkErrorMacro("A filter with an input and an interactor with a render window are needed.");
   }
-  if (!this->Interactor || !this->Interactor->GetRenderWindow())
-  {
-    vtkErrorMacro("An interactor with a render window is needed.");
-    return false;
-  }
-  return true;
+  return isReady;
 }
 
 bool vtkDelaunayFlipLiveView::HasStarted() const
@@ -150,7 +146,7 @@ bool vtkDelaunayFlipLiveView::BeginIfNeeded()
 void vtkDelaunayFlipLiveView::Attach()
 {
   this->Window = this->Interactor->GetRenderWindow();
-  this->Scene->Enter(this->Window);
+  this->EnterWindow();
   // Called before the interactor styles, which do not receive events handled here.
   constexpr float priority = 1.0f;
   using Self = vtkDelaunayFlipLiveView;
@@ -172,8 +168,7 @@ void vtkDelaunayFlipLiveView::Detach()
     }
   }
   this->Observers.clear();
-  this->Scene->Leave();
-  this->Window = nullptr;
+  this->LeaveWindow();
   this->State = vtkDelaunayFlip::STOP_REASON_NOT_STARTED;
   this->FrameNumber = -1;
   this->IsMeantToRun = false;
@@ -190,9 +185,9 @@ void vtkDelaunayFlipLiveView::ShowInput()
   this->Filter->GenerateFlipCountOn();
   this->Filter->Restart();
   this->State = vtkDelaunayFlip::STOP_REASON_RUNNING;
-  this->Scene->Mapper->SetFilter(nullptr);
-  this->Scene->SetMesh(input);
-  this->Scene->LookAtMesh();
+  this->Mapper->SetFilter(nullptr);
+  this->ShowMesh(input);
+  this->LookAtMesh();
   this->ShowFrame(0);
 }
 
@@ -245,13 +240,12 @@ bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
-  vtkDelaunayFlipMapper* mapper = this->Scene->Mapper;
   const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
   this->IsBusy = true;
-  mapper->SetZeroCopy(this->ZeroCopy);
-  mapper->BeginStep();
+  this->Mapper->SetZeroCopy(this->ZeroCopy);
+  this->Mapper->BeginStep();
   bool works = true;
-  if (mapper->DrawsRun())
+  if (this->Mapper->DrawsRun())
   {
     works = filter->AdvanceSession();
   }
@@ -281,10 +275,10 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   {
     if (!filter->GetMeshIsWithheld())
     {
-      this->Scene->SetMesh(filter->GetOutputDataObject(0));
-      mapper->SetFilter(filter->GetSession() ? filter.Get() : nullptr);
+      this->ShowMesh(filter->GetOutputDataObject(0));
+      this->Mapper->SetFilter(filter->GetSession() ? filter.Get() : nullptr);
     }
-    mapper->EndStep();
+    this->Mapper->EndStep();
     this->ShowFrame(this->FrameNumber + 1);
   }
   else
@@ -321,25 +315,22 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
 
 void vtkDelaunayFlipLiveView::Render()
 {
-  if (!this->IsBusy && this->Window && this->Scene->Renderer)
+  if (!this->IsBusy && this->Window && this->Renderer)
   {
     this->IsBusy = true;
-    this->Scene->Draw(this, this->State);
+    this->Draw();
     this->IsBusy = false;
   }
 }
 
-std::string vtkDelaunayFlipLiveView::GetDrawing() const
-{
-  return this->Scene->Mapper->GetDrawing();
-}
+std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Mapper->GetDrawing(); }
 
 bool vtkDelaunayFlipLiveView::GetConverged() const
 {
   return this->State == vtkDelaunayFlip::STOP_REASON_CONVERGED;
 }
 
-vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Scene->Renderer; }
+vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Renderer; }
 
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::StartTimer()
@@ -398,7 +389,7 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
     { "g",
       [](Self* self)
       {
-        const bool areShown = self->Scene->Actor->GetProperty()->GetEdgeVisibility() != 0;
+        const bool areShown = self->Actor->GetProperty()->GetEdgeVisibility() != 0;
         self->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
       } },
     { "i", [](Self* self) { self->SetShowStatistics(!self->ShowStatistics); } },

@@ -61,23 +61,23 @@
 #define vtkDelaunayFlipLiveView_h
 
 #include "vtkDelaunayFlipRenderingModule.h" // For export macro
+#include "vtkNew.h" // For Mapper and others
 #include "vtkObject.h"
 #include "vtkSmartPointer.h" // For Filter
 #include "vtkWeakPointer.h" // For Interactor and Window
 
-#include <memory> // For std::unique_ptr
 #include <string> // For std::string
 #include <vector> // For std::vector
 
+class vtkActor;
+class vtkDataObject;
 class vtkDelaunayFlip;
+class vtkDelaunayFlipMapper;
 class vtkRenderer;
 class vtkRenderWindow;
 class vtkRenderWindowInteractor;
-
-namespace delaunayflip
-{
-class LiveScene;
-}
+class vtkScalarBarActor;
+class vtkTextActor;
 
 class VTKDELAUNAYFLIPRENDERING_EXPORT vtkDelaunayFlipLiveView : public vtkObject
 {
@@ -106,10 +106,8 @@ public:
 
   ///@{
   /**
-   * What the colour of a triangle shows. SOLID: nothing. SMALLEST_ANGLE (default): its smallest
-   * angle in space, from 0 (red) to 60 degrees (blue). FLIP_COUNT: in how many flips it took part,
-   * from 0 to the largest count so far or 12, whichever is larger. Takes effect at the next frame
-   * or Render().
+   * What the colour of a triangle shows, as vtkDelaunayFlipMapper says; default SMALLEST_ANGLE.
+   * Takes effect at the next frame or Render().
    */
   enum ColorByType
   {
@@ -282,6 +280,14 @@ protected:
   std::string FramePrefix;
 
 private:
+  void MakeScene();
+  void EnterWindow();
+  void LeaveWindow();
+  void LookAtMesh();
+  void ShowMesh(vtkDataObject* mesh);
+  void Draw();
+  void ArrangeTexts();
+  std::string DescribeStatus(bool isRunning);
   bool IsReady();
   bool HasStarted() const;
   bool BeginIfNeeded();
@@ -298,7 +304,12 @@ private:
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkRenderWindow> Window; ///< Null before Start().
-  std::unique_ptr<delaunayflip::LiveScene> Scene;
+  vtkWeakPointer<vtkRenderer> Renderer;
+  vtkNew<vtkDelaunayFlipMapper> Mapper;
+  vtkNew<vtkActor> Actor; ///< The mesh.
+  vtkNew<vtkScalarBarActor> Scale;
+  vtkNew<vtkTextActor> Status;
+  vtkNew<vtkTextActor> Keys;
   int State; ///< Of the mesh that is shown: one of vtkDelaunayFlip::StopReasonType.
   int FrameNumber = -1;
   int TimerId = 0; ///< The timer that makes the next step; 0: none. Others still fire: ignored.

@@ -32,6 +32,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 #include "vtkTriangleFilter.h"
+#include "vtkTypeInt32Array.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
@@ -145,73 +146,19 @@ void main()
 }
 )";
 
-/// A copy of a mesh, which shares arrays, if its polygons are triangles, as in outputs of the
-/// filter. Otherwise one in which polygons and strips are split into triangles.
-vtkSmartPointer<vtkPolyData> MakeFaces(vtkPolyData* mesh)
-{
-  auto faces = vtkSmartPointer<vtkPolyData>::New();
-  if (mesh)
-  {
-    faces->ShallowCopy(mesh);
-  }
-  const vtkIdType size = faces->GetPolys()->IsHomogeneous(); // 0: there are none
-  if (faces->GetNumberOfStrips() > 0 || (size != 3 && size != 0))
-  {
-    vtkNew<vtkTriangleFilter> split;
-    split->SetInputData(faces);
-    split->Update();
-    return split->GetOutput();
-  }
-  return faces;
-}
-
-TriangleArray ViewTriangles(vtkPolyData* faces)
-{
-  vtkDataArray* ids = faces->GetPolys()->GetConnectivityArray();
-  const void* first = ids->GetVoidPointer(0);
-  return ids->GetDataTypeSize() == 4
-    ? TriangleArray(static_cast<const std::int32_t*>(first), faces->GetNumberOfPolys())
-    : TriangleArray(static_cast<const std::int64_t*>(first), faces->GetNumberOfPolys());
-}
-
-/// The bounds of the points that triangles use; none if a triangle names a point that does not
-/// exist: the mesh may be one that no filter has checked.
-vtkBoundingBox FindBounds(vtkPolyData* faces)
-{
-  std::vector<unsigned char> areUsed(static_cast<std::size_t>(faces->GetNumberOfPoints()));
-  const TriangleArray triangles = ViewTriangles(faces);
-  const auto mark = [&](const auto* ids)
-  {
-    for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
-    {
-      const auto id = static_cast<std::size_t>(ids[i]); // large if negative
-      if (id >= areUsed.size())
-      {
-        return false;
-      }
-      areUsed[id] = 1;
-    }
-    return triangles.Count > 0;
-  };
-  double bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
-  if (triangles.Ids32 ? mark(triangles.Ids32) : mark(triangles.Ids64))
-  {
-    vtkBoundingBox::ComputeBounds(faces->GetPoints(), areUsed.data(), bounds);
-  }
-  return vtkBoundingBox(bounds);
-}
-
-/// Fills the table, for flip counts or angles, with twelve bands between a few colours.
-void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
+/// Fills the table with twelve bands between a few colours: for flip counts up to the largest or,
+/// if that is negative, for angles.
+void FillTable(vtkLookupTable* table, double largestCount)
 {
   // From nearly white to dark violet, or from red for slivers to blue for equilateral triangles.
   double countColors[] = { 0.96, 0.95, 0.98, 0.80, 0.81, 0.91, 0.62, 0.60, 0.80, 0.46, 0.32, 0.66,
     0.25, 0.0, 0.49 };
   double angleColors[] = { 0.70, 0.09, 0.17, 0.94, 0.54, 0.38, 0.99, 0.86, 0.78, 0.82, 0.90, 0.94,
     0.40, 0.66, 0.81, 0.13, 0.40, 0.67 };
+  const bool isOfAngles = largestCount < 0.0;
   vtkNew<vtkColorTransferFunction> colors; // of the numbers of bands
-  byFlipCount ? colors->BuildFunctionFromTable(0, Bands - 1, 5, countColors)
-              : colors->BuildFunctionFromTable(0, Bands - 1, 6, angleColors);
+  isOfAngles ? colors->BuildFunctionFromTable(0, Bands - 1, 6, angleColors)
+             : colors->BuildFunctionFromTable(0, Bands - 1, 5, countColors);
   table->SetNumberOfTableValues(Bands);
   for (int i = 0; i < Bands; ++i)
   {
@@ -219,7 +166,7 @@ void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
     table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
   // The largest count is rounded up to a multiple of four for whole labels at its quarters.
-  table->SetRange(0.0, byFlipCount ? 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0) : 60.0);
+  table->SetRange(0.0, isOfAngles ? 60.0 : 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0));
 }
 
 /// OpenGL has the columns of a matrix one after the other.
@@ -231,6 +178,39 @@ void SetProduct(vtkShaderProgram* program, const char* name, vtkMatrix4x4* a, vt
   program->SetUniformMatrix(name, product);
 }
 
+/// Values of four bytes, which the shader reads as a texture.
+struct ShaderBuffer
+{
+  vtkNew<vtkOpenGLBufferObject> Values;
+  vtkNew<vtkTextureObject> Texture;
+
+  template <typename Value>
+  void Upload(const Value* values, std::int64_t count, vtkOpenGLBufferObject::ObjectType type)
+  {
+    this->Values->Upload(values, static_cast<std::size_t>(count), type);
+  }
+
+  void MakeReadable(vtkOpenGLRenderWindow* window, std::int64_t count, unsigned int format)
+  {
+    this->Texture->SetContext(window);
+    this->Texture->SetInternalFormat(format);
+    this->Texture->CreateTextureBuffer(
+      static_cast<unsigned int>(count), 1, VTK_FLOAT, this->Values);
+  }
+
+  void Activate(vtkShaderProgram* program, const char* name)
+  {
+    this->Texture->Activate();
+    program->SetUniformi(name, this->Texture->GetTextureUnit());
+  }
+
+  void Release(vtkWindow* window)
+  {
+    this->Texture->ReleaseGraphicsResources(window);
+    this->Values->ReleaseGraphicsResources();
+  }
+};
+
 }
 
 /// The mesh as it is on the host, and what OpenGL has of it.
@@ -239,18 +219,12 @@ struct vtkDelaunayFlipMapper::Parts
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkMTimeType InputTime = 0;
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< Of the input.
+  vtkNew<vtkTypeInt32Array> Ids; ///< Of the corners of the faces.
   vtkBoundingBox Box; ///< Of the points that triangles use; not valid if nothing can be drawn.
   double SmallestAngle = -1.0; ///< Of the faces; less than 0: not measured yet.
 
-  enum BufferName
-  {
-    Places,
-    Corners,
-    Counts ///< Of flips.
-  };
   vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That of the buffers.
-  vtkNew<vtkOpenGLBufferObject> Buffers[3];
-  vtkNew<vtkTextureObject> Textures[3]; ///< By which the shader reads the buffers.
+  ShaderBuffer Places, Corners, Counts;
   vtkNew<vtkOpenGLVertexArrayObject> Array;
   std::int64_t Count = 0, PointCount = 0; ///< The sizes of the buffers; 0: there are none.
   vtkMTimeType PointsTime = 0; ///< Of the points in the buffer.
@@ -264,7 +238,7 @@ struct vtkDelaunayFlipMapper::Parts
   bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
   bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
-  double TableKind = -2.0; ///< What the table was filled for: a largest count, or -1 for angles.
+  double TableKind = -1.0; ///< What the table was filled for: a largest count, or -1 for angles.
   bool HasWarned = false;
 
   /// The session whose triangles are the faces; or null.
@@ -273,6 +247,50 @@ struct vtkDelaunayFlipMapper::Parts
     const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
     const bool fits = session && session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
     return fits ? session : nullptr;
+  }
+
+  /// The faces are a copy of the mesh, which shares arrays, if its polygons are triangles, as in
+  /// outputs of the filter. Otherwise polygons and strips are split into triangles.
+  void ReadFaces(vtkPolyData* mesh)
+  {
+    this->Faces = vtkSmartPointer<vtkPolyData>::New();
+    if (mesh)
+    {
+      this->Faces->ShallowCopy(mesh);
+    }
+    const vtkIdType size = this->Faces->GetPolys()->IsHomogeneous(); // 0: there are none
+    if (this->Faces->GetNumberOfStrips() > 0 || (size != 3 && size != 0))
+    {
+      vtkNew<vtkTriangleFilter> split;
+      split->SetInputData(this->Faces);
+      split->Update();
+      this->Faces = split->GetOutput();
+    }
+    this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
+    this->FindBounds();
+  }
+
+  /// There are none if a triangle names a point that does not exist: the mesh may be one that no
+  /// filter has checked.
+  void FindBounds()
+  {
+    this->Box.Reset();
+    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
+    {
+      const auto id = static_cast<std::size_t>(this->Ids->GetValue(i)); // large if negative
+      if (id >= areUsed.size())
+      {
+        return;
+      }
+      areUsed[id] = 1;
+    }
+    if (this->Ids->GetNumberOfValues() > 0)
+    {
+      double bounds[6];
+      vtkBoundingBox::ComputeBounds(this->Faces->GetPoints(), areUsed.data(), bounds);
+      this->Box.SetBounds(bounds);
+    }
   }
 
   /// Keeps those that there are, if they have the right sizes.
@@ -291,17 +309,10 @@ struct vtkDelaunayFlipMapper::Parts
     this->PointCount = points;
     this->UploadPoints();
     this->UploadTriangles(nullptr);
-    this->Buffers[Counts]->Upload(std::vector<std::int32_t>(count), Buffer::TextureBuffer);
-    for (const int name : { Places, Corners, Counts })
-    {
-      this->Textures[name]->SetContext(window);
-      this->Textures[name]->SetInternalFormat(name == Places ? GL_R32F : GL_R32I);
-      this->Textures[name]->CreateTextureBuffer(
-        static_cast<unsigned int>(name == Places ? 3 * points
-            : name == Corners                    ? 3 * count
-                                                 : count),
-        1, VTK_FLOAT, this->Buffers[name]);
-    }
+    this->UploadFlipCounts(nullptr);
+    this->Places.MakeReadable(window, 3 * points, GL_R32F);
+    this->Corners.MakeReadable(window, 3 * count, GL_R32I);
+    this->Counts.MakeReadable(window, count, GL_R32I);
   }
 
   /// Needs the window's context only if it is given.
@@ -316,10 +327,9 @@ struct vtkDelaunayFlipMapper::Parts
       window->MakeCurrent();
     }
     this->Filler.reset();
-    for (const int name : { Places, Corners, Counts })
+    for (ShaderBuffer* buffer : { &this->Places, &this->Corners, &this->Counts })
     {
-      this->Textures[name]->ReleaseGraphicsResources(window);
-      this->Buffers[name]->ReleaseGraphicsResources();
+      buffer->Release(window);
     }
     this->Array->ReleaseGraphicsResources();
     this->Obstacle = NoRun;
@@ -353,7 +363,7 @@ struct vtkDelaunayFlipMapper::Parts
           }
         }
       });
-    this->Buffers[Places]->Upload(places, Buffer::ArrayBuffer);
+    this->Places.Upload(places.data(), 3 * this->PointCount, Buffer::ArrayBuffer);
   }
 
   /// CUDA is tried once for every mesh that the host has got. If the filter fails, its session is
@@ -374,7 +384,7 @@ struct vtkDelaunayFlipMapper::Parts
       try
       {
         this->Filler = DeviceFillerMaker(this->Filter,
-          { static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()), this->Count });
+          { static_cast<unsigned int>(this->Corners.Values->GetHandle()), this->Count });
         this->IsNew = true;
       }
       catch (const std::exception& error)
@@ -413,20 +423,14 @@ struct vtkDelaunayFlipMapper::Parts
 
   void UploadTriangles(const FlipSession* session)
   {
-    std::vector<std::int32_t> ids(3 * static_cast<std::size_t>(this->Count));
+    vtkNew<vtkTypeInt32Array> ids;
     if (session)
     {
-      session->StoreTriangles(MutableTriangleArray(ids.data(), this->Count));
+      ids->SetNumberOfValues(3 * this->Count);
+      session->StoreTriangles(MutableTriangleArray(ids->GetPointer(0), this->Count));
     }
-    else
-    {
-      const TriangleArray triangles = ViewTriangles(this->Faces);
-      for (std::size_t i = 0; i < ids.size(); ++i)
-      {
-        ids[i] = static_cast<std::int32_t>(triangles.Get(i / 3, i % 3));
-      }
-    }
-    this->Buffers[Corners]->Upload(ids, Buffer::ElementArrayBuffer);
+    this->Corners.Upload(session ? ids->GetPointer(0) : this->Ids->GetPointer(0), 3 * this->Count,
+      Buffer::ElementArrayBuffer);
   }
 
   void UploadFlipCounts(const FlipSession* session)
@@ -443,49 +447,26 @@ struct vtkDelaunayFlipMapper::Parts
       const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
       std::copy_n(given->GetPointer(first), counts.size(), counts.begin());
     }
-    this->Buffers[Counts]->Upload(counts, Buffer::TextureBuffer);
+    this->Counts.Upload(counts.data(), this->Count, Buffer::TextureBuffer);
     this->LargestCount =
       std::max<double>(this->LargestCount, *std::max_element(counts.begin(), counts.end()));
-  }
-
-  void MeasureSmallestAngle()
-  {
-    vtkNew<vtkDoubleArray> coordinates;
-    coordinates->DeepCopy(this->Faces->GetPoints()->GetData());
-    TriangleMesh mesh;
-    mesh.Points = PointArray(coordinates->GetPointer(0), this->Faces->GetNumberOfPoints());
-    mesh.Triangles = ViewTriangles(this->Faces);
-    this->SmallestAngle = MinimumAngle(mesh, GeometryKind::Surface);
-  }
-
-  /// The table changes only if it must, since VTK then makes the scale anew.
-  void UpdateTable(vtkLookupTable* table)
-  {
-    const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
-    if (std::exchange(this->TableKind, kind) != kind)
-    {
-      FillTable(table, this->ByFlipCount, this->LargestCount);
-    }
   }
 
   void Draw(vtkShaderProgram* program)
   {
     this->Array->Bind();
     this->Array->AddAttributeArray(
-      program, this->Buffers[Places], "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
-    this->Buffers[Corners]->Bind();
-    const char* const names[] = { "places", "corners", "counts" };
-    for (const int name : { Places, Corners, Counts })
-    {
-      this->Textures[name]->Activate();
-      program->SetUniformi(names[name], this->Textures[name]->GetTextureUnit());
-    }
+      program, this->Places.Values, "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
+    this->Corners.Values->Bind();
+    this->Places.Activate(program, "places");
+    this->Corners.Activate(program, "corners");
+    this->Counts.Activate(program, "counts");
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * this->Count), GL_UNSIGNED_INT, nullptr);
-    for (const int name : { Places, Corners, Counts })
+    for (ShaderBuffer* buffer : { &this->Places, &this->Corners, &this->Counts })
     {
-      this->Textures[name]->Deactivate();
+      buffer->Texture->Deactivate();
     }
-    this->Buffers[Corners]->Release();
+    this->Corners.Values->Release();
     this->Array->Release();
   }
 };
@@ -497,7 +478,7 @@ vtkDelaunayFlipMapper::vtkDelaunayFlipMapper()
   : Own(new Parts)
 {
   vtkNew<vtkLookupTable> table;
-  FillTable(table, false, 0.0);
+  FillTable(table, -1.0);
   this->SetLookupTable(table);
 }
 
@@ -544,7 +525,13 @@ double vtkDelaunayFlipMapper::GetSmallestAngle()
   }
   if (this->Own->SmallestAngle < 0.0)
   {
-    this->Own->MeasureSmallestAngle();
+    vtkNew<vtkDoubleArray> coordinates;
+    coordinates->DeepCopy(this->Own->Faces->GetPoints()->GetData());
+    TriangleMesh mesh;
+    mesh.Points = PointArray(coordinates->GetPointer(0), coordinates->GetNumberOfTuples());
+    mesh.Triangles =
+      TriangleArray(this->Own->Ids->GetPointer(0), this->Own->Faces->GetNumberOfPolys());
+    this->Own->SmallestAngle = MinimumAngle(mesh, GeometryKind::Surface);
   }
   return this->Own->SmallestAngle;
 }
@@ -586,8 +573,7 @@ void vtkDelaunayFlipMapper::ReadInput()
   const vtkMTimeType time = input ? input->GetMTime() : 0;
   if (std::exchange(own.InputTime, time) != time)
   {
-    own.Faces = MakeFaces(input);
-    own.Box = FindBounds(own.Faces);
+    own.ReadFaces(input);
     own.SmallestAngle = own.Box.IsValid() ? -1.0 : std::numeric_limits<double>::quiet_NaN();
     own.MayTryDevice = true;
     own.IsNew = true;
@@ -625,7 +611,12 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
   {
     own.ChooseFiller(session, this->ZeroCopy);
     own.Fill(session);
-    own.UpdateTable(vtkLookupTable::SafeDownCast(this->LookupTable));
+    // The table changes only if it must, since VTK then makes the scale anew.
+    const double kind = own.ByFlipCount ? own.LargestCount : -1.0;
+    if (std::exchange(own.TableKind, kind) != kind)
+    {
+      FillTable(vtkLookupTable::SafeDownCast(this->LookupTable), kind);
+    }
     return true;
   }
   catch (const std::exception& error)
