@@ -62,12 +62,12 @@ class CudaFiller : public BufferFiller
 public:
   /// The buffer keeps what is not written. Of a context that is gone nothing can be released; that
   /// is no error.
-  CudaFiller(int device, const TriangleBuffer& buffer)
+  CudaFiller(int device, unsigned int buffer, std::int64_t triangles)
     : Device(device),
-      Count(buffer.Count)
+      Count(triangles)
   {
     cudaGraphicsResource_t resource = nullptr;
-    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer.Name, cudaGraphicsRegisterFlagsNone),
+    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
       "register a buffer of OpenGL");
     this->Buffer.reset(resource,
       [](cudaGraphicsResource_t registered)
@@ -156,7 +156,8 @@ private:
 FillerMaker DeviceFillerMaker = &MakeCudaFiller;
 
 #ifdef DELAUNAYFLIP_HAS_CUDA
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const TriangleBuffer& buffer)
+std::unique_ptr<BufferFiller> MakeCudaFiller(
+  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles)
 {
   if (!IsOnGpu(filter->GetBackendUsed()))
   {
@@ -177,10 +178,10 @@ std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const Tria
     throw std::runtime_error("OpenGL does not draw on the GPU of the filter");
   }
   const CurrentGpu current(device);
-  return std::make_unique<CudaFiller>(device, buffer);
+  return std::make_unique<CudaFiller>(device, buffer, triangles);
 }
 #else
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, const TriangleBuffer&)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, unsigned int, std::int64_t)
 {
   throw std::runtime_error("this build has no CUDA backend");
 }

@@ -23,6 +23,7 @@
 #include "vtkTextProperty.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -35,6 +36,9 @@ namespace
 
 constexpr int FontSize = 14;
 constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
+
+constexpr std::array<double, 3> DarkInk = { 0.13, 0.19, 0.25 }, LightInk = { 0.92, 0.94, 0.96 };
+constexpr std::array<double, 3> DarkRed = { 0.75, 0.05, 0.1 }, LightRed = { 1.0, 0.6, 0.55 };
 
 constexpr const char* KeyHelp = "space: run/pause, n: next step, b: begin again, "
                                 "k: colours, g: edges, i: statistics, d: drawing, q: quit";
@@ -85,7 +89,6 @@ void vtkDelaunayFlipLiveView::MakeScene()
   this->Scale->SetWidth(0.6);
 }
 
-//------------------------------------------------------------------------------
 /// In the first renderer of the window, or in a new one if it has none.
 void vtkDelaunayFlipLiveView::EnterWindow()
 {
@@ -116,7 +119,6 @@ void vtkDelaunayFlipLiveView::LeaveWindow()
   this->Window = nullptr;
 }
 
-//------------------------------------------------------------------------------
 /// Along the axis in which the mesh is flat, else along z.
 void vtkDelaunayFlipLiveView::LookAtMesh()
 {
@@ -139,7 +141,6 @@ void vtkDelaunayFlipLiveView::LookAtMesh()
   this->Renderer->ResetCamera();
 }
 
-//------------------------------------------------------------------------------
 /// A mesh, or all blocks of a composite one.
 void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
 {
@@ -162,7 +163,6 @@ void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
   this->Mapper->SetInputDataObject(shown);
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::Draw()
 {
   const vtkSmartPointer<vtkRenderWindow> window = this->Window.Get();
@@ -206,19 +206,12 @@ void vtkDelaunayFlipLiveView::ArrangeTexts()
 
   const double* rgb = this->Renderer->GetBackground();
   const bool isDark = 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2] < 0.5;
-  double ink[3] = { 0.13, 0.19, 0.25 };
-  double red[3] = { 0.75, 0.05, 0.1 };
-  for (int i = 0; i < 3 && isDark; ++i)
-  {
-    ink[i] = 1.0 - 0.4 * ink[i];
-    red[i] = 1.0 - 0.5 * (1.0 - red[i]);
-  }
+  const std::array<double, 3> ink = isDark ? LightInk : DarkInk, red = isDark ? LightRed : DarkRed;
   const bool hasFailed = this->State == vtkDelaunayFlip::STOP_REASON_FAILED;
-  this->Keys->GetTextProperty()->SetColor(ink);
-  this->Status->GetTextProperty()->SetColor(hasFailed ? red : ink);
+  this->Keys->GetTextProperty()->SetColor(ink.data());
+  this->Status->GetTextProperty()->SetColor((hasFailed ? red : ink).data());
 }
 
-//------------------------------------------------------------------------------
 /// Two or three lines. A failure, and how the mesh is drawn, take as many as their reasons need.
 std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
 {
@@ -234,19 +227,19 @@ std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
     ? this->Filter->GetStopReasonAsString()
     : isRunning ? "running"
                 : "paused";
-  const std::string counts = Count(this->Filter->GetTotalFlips(), "flip") + ", " +
-    Count(this->Filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
+  const bool isInput = this->FrameNumber == 0;
   const bool isOne = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)) != nullptr;
-  const std::string mesh = this->FrameNumber == 0
-    ? "input, " + state + "\n" + Count(this->Mapper->GetNumberOfTriangles(), "triangle")
-    : isOne
-    ? "iteration " + Count(this->Filter->GetNumberOfIterations()) + ", " + state + "\n" + counts
-    : "all blocks in one step, " + state + "\n" + counts;
+  const std::string mesh = isInput ? "input"
+    : isOne                        ? "iteration " + Count(this->Filter->GetNumberOfIterations())
+                                   : "all blocks in one step";
+  const std::string counts = isInput ? Count(this->Mapper->GetNumberOfTriangles(), "triangle")
+                                     : Count(this->Filter->GetTotalFlips(), "flip") + ", " +
+      Count(this->Filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
   const double angle = this->Mapper->GetSmallestAngle();
   char line[64] = "";
   if (!std::isnan(angle))
   {
     std::snprintf(line, sizeof(line), "\nsmallest angle %.2f degrees", angle);
   }
-  return mesh + line + drawing;
+  return mesh + ", " + state + "\n" + counts + line + drawing;
 }

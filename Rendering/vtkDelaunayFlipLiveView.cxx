@@ -60,7 +60,6 @@ bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
 
 vtkStandardNewMacro(vtkDelaunayFlipLiveView);
 
-//------------------------------------------------------------------------------
 vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
   : State(vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
 {
@@ -69,7 +68,6 @@ vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
 
 vtkDelaunayFlipLiveView::~vtkDelaunayFlipLiveView() { this->Detach(); }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlip* filter)
 {
   if (this->Filter != filter)
@@ -82,7 +80,6 @@ void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlip* filter)
 
 vtkDelaunayFlip* vtkDelaunayFlipLiveView::GetFilter() const { return this->Filter; }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::SetInteractor(vtkRenderWindowInteractor* interactor)
 {
   if (this->Interactor != interactor)
@@ -98,7 +95,6 @@ vtkRenderWindowInteractor* vtkDelaunayFlipLiveView::GetInteractor() const
   return this->Interactor;
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::SetFramePrefix(const char* prefix)
 {
   this->FramePrefix = prefix ? prefix : "";
@@ -106,7 +102,6 @@ void vtkDelaunayFlipLiveView::SetFramePrefix(const char* prefix)
   this->Modified();
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::Start()
 {
   if (!this->IsBusy && this->IsReady())
@@ -142,7 +137,6 @@ bool vtkDelaunayFlipLiveView::BeginIfNeeded()
   return !this->IsBusy && this->HasStarted();
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::Attach()
 {
   this->Window = this->Interactor->GetRenderWindow();
@@ -175,7 +169,6 @@ void vtkDelaunayFlipLiveView::Detach()
   this->CanWrite = true;
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::ShowInput()
 {
   vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
@@ -191,7 +184,6 @@ void vtkDelaunayFlipLiveView::ShowInput()
   this->ShowFrame(0);
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::Run()
 {
   if (this->BeginIfNeeded())
@@ -232,7 +224,6 @@ void vtkDelaunayFlipLiveView::Restart()
   }
 }
 
-//------------------------------------------------------------------------------
 /// Makes a step without putting the mesh out, if the mapper can do without. An update follows the
 /// last step, so that the output is then the final mesh. An update that is caused only by a change
 /// of the input or of an option is a step too.
@@ -292,7 +283,6 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   return goesOn;
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::ShowFrame(int number)
 {
   this->FrameNumber = number;
@@ -332,7 +322,6 @@ bool vtkDelaunayFlipLiveView::GetConverged() const
 
 vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Renderer; }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::StartTimer()
 {
   if (!this->IsRunning() && this->AwaitStep())
@@ -358,7 +347,6 @@ bool vtkDelaunayFlipLiveView::AwaitStep()
 
 bool vtkDelaunayFlipLiveView::IsRunning() const { return this->TimerId != 0 && this->Interactor; }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
 {
   const int awaited = this->TimerId;
@@ -377,7 +365,6 @@ void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
 {
   using Self = vtkDelaunayFlipLiveView;
@@ -410,7 +397,6 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -422,10 +408,7 @@ void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShowKeys: " << this->ShowKeys << "\n";
   os << indent << "ZeroCopy: " << this->ZeroCopy << "\n";
   os << indent << "ShowDrawing: " << this->ShowDrawing << "\n";
-  os << indent << "Drawing: " << this->GetDrawing() << "\n";
   os << indent << "FrameInterval: " << this->FrameInterval << "\n";
   os << indent << "FramePrefix: " << this->FramePrefix << "\n";
   os << indent << "FrameNumber: " << this->FrameNumber << "\n";
-  os << indent << "Running: " << this->IsRunning() << "\n";
-  os << indent << "Converged: " << this->GetConverged() << "\n";
 }

@@ -143,10 +143,10 @@ public:
   ///@{
   /**
    * Whether three lines of statistics are drawn in the upper left corner: the iteration and whether
-   * the run continues; the flips so far and the bad edges left (GetNumberOfNonDelaunayEdges() of
-   * the filter); the smallest angle of the mesh that is shown, in degrees, in space or, after a
-   * step with PLANAR_XY, in the projection. For the input the second line is the number of
-   * triangles. Default on. A failure is always shown. Takes effect at the next frame or Render().
+   * the run continues; the flips so far and the bad edges left, or the number of triangles of the
+   * input; the smallest angle in degrees, in space or, after a step with PLANAR_XY, in the
+   * projection. Default on. A failure is always shown, instead of them. Takes effect at the next
+   * frame or Render().
    */
   vtkSetMacro(ShowStatistics, bool);
   vtkGetMacro(ShowStatistics, bool);
@@ -165,10 +165,8 @@ public:
 
   ///@{
   /**
-   * Whether the mesh is drawn without copies where that is possible: CUDA writes the triangles of
-   * the run into the buffer that OpenGL draws. That takes a filter that works on a GPU by CUDA, and
-   * OpenGL on the same GPU. Otherwise they are sent from the host, as flip counts always are.
-   * Default on. Takes effect at the next step. The picture is the same.
+   * Whether CUDA may write what OpenGL draws, if both use one GPU; see vtkDelaunayFlipMapper. The
+   * picture is the same. Default on. Takes effect at the next step.
    */
   vtkSetMacro(ZeroCopy, bool);
   vtkGetMacro(ZeroCopy, bool);

@@ -184,12 +184,6 @@ struct ShaderBuffer
   vtkNew<vtkOpenGLBufferObject> Values;
   vtkNew<vtkTextureObject> Texture;
 
-  template <typename Value>
-  void Upload(const Value* values, std::int64_t count, vtkOpenGLBufferObject::ObjectType type)
-  {
-    this->Values->Upload(values, static_cast<std::size_t>(count), type);
-  }
-
   void MakeReadable(vtkOpenGLRenderWindow* window, std::int64_t count, unsigned int format)
   {
     this->Texture->SetContext(window);
@@ -363,7 +357,7 @@ struct vtkDelaunayFlipMapper::Parts
           }
         }
       });
-    this->Places.Upload(places.data(), 3 * this->PointCount, Buffer::ArrayBuffer);
+    this->Places.Values->Upload(places, Buffer::ArrayBuffer);
   }
 
   /// CUDA is tried once for every mesh that the host has got. If the filter fails, its session is
@@ -383,8 +377,8 @@ struct vtkDelaunayFlipMapper::Parts
     {
       try
       {
-        this->Filler = DeviceFillerMaker(this->Filter,
-          { static_cast<unsigned int>(this->Corners.Values->GetHandle()), this->Count });
+        this->Filler = DeviceFillerMaker(
+          this->Filter, static_cast<unsigned int>(this->Corners.Values->GetHandle()), this->Count);
         this->IsNew = true;
       }
       catch (const std::exception& error)
@@ -429,8 +423,9 @@ struct vtkDelaunayFlipMapper::Parts
       ids->SetNumberOfValues(3 * this->Count);
       session->StoreTriangles(MutableTriangleArray(ids->GetPointer(0), this->Count));
     }
-    this->Corners.Upload(session ? ids->GetPointer(0) : this->Ids->GetPointer(0), 3 * this->Count,
-      Buffer::ElementArrayBuffer);
+    const std::int32_t* first = session ? ids->GetPointer(0) : this->Ids->GetPointer(0);
+    this->Corners.Values->Upload(
+      first, static_cast<std::size_t>(3 * this->Count), Buffer::ElementArrayBuffer);
   }
 
   void UploadFlipCounts(const FlipSession* session)
@@ -447,7 +442,7 @@ struct vtkDelaunayFlipMapper::Parts
       const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
       std::copy_n(given->GetPointer(first), counts.size(), counts.begin());
     }
-    this->Counts.Upload(counts.data(), this->Count, Buffer::TextureBuffer);
+    this->Counts.Values->Upload(counts, Buffer::TextureBuffer);
     this->LargestCount =
       std::max<double>(this->LargestCount, *std::max_element(counts.begin(), counts.end()));
   }
@@ -471,7 +466,6 @@ struct vtkDelaunayFlipMapper::Parts
   }
 };
 
-//------------------------------------------------------------------------------
 vtkStandardNewMacro(vtkDelaunayFlipMapper);
 
 vtkDelaunayFlipMapper::vtkDelaunayFlipMapper()
@@ -490,7 +484,6 @@ vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper()
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
 {
   if (this->Own->Filter != filter)
@@ -565,7 +558,6 @@ void vtkDelaunayFlipMapper::BeginStep()
 
 void vtkDelaunayFlipMapper::EndStep() { this->Own->IsBehind = true; }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipMapper::ReadInput()
 {
   Parts& own = *this->Own;
@@ -633,7 +625,6 @@ void vtkDelaunayFlipMapper::ReleaseGraphicsResources(vtkWindow* window)
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
