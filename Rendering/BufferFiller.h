@@ -15,16 +15,9 @@ namespace delaunayflip
 
 class FlipSession;
 
-/// A buffer of OpenGL with the triangles that it draws: three point ids of 32 bits each.
-struct TriangleBuffer
-{
-  unsigned int Name = 0; ///< OpenGL's.
-  std::int64_t Count = 0; ///< The number of triangles.
-};
-
-/// Writes the triangles of a session on a GPU into the buffer that OpenGL draws. All calls but the
-/// destructor are made with OpenGL's context current, and none after one has thrown an exception.
-/// What the buffer holds is undefined then.
+/// Writes the triangles of a session on a GPU, three point ids of 32 bits each, into the buffer
+/// that OpenGL draws. All calls but the destructor are made with OpenGL's context current, and none
+/// after one has thrown an exception. What the buffer holds is undefined then.
 class BufferFiller
 {
 public:
@@ -49,15 +42,16 @@ public:
   virtual void Fill(const FlipSession& session, bool isNew) = 0;
 };
 
-/// Makes a filler of a buffer of the current context, for sessions of a filter. The buffer's memory
+/// Makes a filler of a buffer of the current context, by OpenGL's name of it, for sessions of a
+/// filter with so many triangles. The buffer's memory
 /// must stay as it is as long as the filler exists.
 /// @throws std::exception that says why it cannot fill it.
 using FillerMaker = std::unique_ptr<BufferFiller> (*)(
-  vtkDelaunayFlip* filter, const TriangleBuffer& buffer);
+  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles);
 
 /// By CUDA, for sessions on the GPU that draws.
 VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller(
-  vtkDelaunayFlip* filter, const TriangleBuffer& buffer);
+  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles);
 
 /// What mappers use where they need not fill from the host: MakeCudaFiller, or what a test has put
 /// in its place.

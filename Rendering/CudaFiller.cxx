@@ -57,57 +57,36 @@ private:
   int Previous = -1;
 };
 
-using Stream = std::shared_ptr<CUstream_st>;
-using Resource = std::shared_ptr<cudaGraphicsResource>;
-
-/// @throws std::runtime_error, as what follows.
-Stream MakeStream()
-{
-  cudaStream_t stream = nullptr;
-  Require(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking), "make a stream");
-  return Stream(stream, [](cudaStream_t made) { cudaStreamDestroy(made); });
-}
-
-/// The buffer keeps what is not written. Of a context that is gone nothing can be released; that is
-/// no error.
-Resource Register(unsigned int buffer)
-{
-  cudaGraphicsResource_t resource = nullptr;
-  Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
-    "register a buffer of OpenGL");
-  return Resource(resource,
-    [](cudaGraphicsResource_t registered)
-    {
-      cudaGraphicsUnregisterResource(registered);
-      cudaGetLastError();
-    });
-}
-
-using Numbers = std::shared_ptr<std::int32_t>;
-
-Numbers MakeNumbers(std::int64_t count)
-{
-  void* memory = nullptr;
-  Require(cudaMalloc(&memory, 4 * static_cast<std::size_t>(count)), "allocate memory");
-  return Numbers(static_cast<std::int32_t*>(memory), [](std::int32_t* made) { cudaFree(made); });
-}
-
 class CudaFiller : public BufferFiller
 {
 public:
-  CudaFiller(int device, const TriangleBuffer& buffer)
+  /// The buffer keeps what is not written. Of a context that is gone nothing can be released; that
+  /// is no error.
+  CudaFiller(int device, unsigned int buffer, std::int64_t triangles)
     : Device(device),
-      Count(buffer.Count),
-      Buffer(Register(buffer.Name)),
-      Written(MakeNumbers(buffer.Count))
+      Count(triangles)
   {
+    cudaGraphicsResource_t resource = nullptr;
+    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
+      "register a buffer of OpenGL");
+    this->Buffer.reset(resource,
+      [](cudaGraphicsResource_t registered)
+      {
+        cudaGraphicsUnregisterResource(registered);
+        cudaGetLastError();
+      });
+    void* memory = nullptr;
+    Require(cudaMalloc(&memory, 4 * static_cast<std::size_t>(this->Count)), "allocate memory");
+    this->Written.reset(static_cast<std::int32_t*>(memory), cudaFree);
   }
   ~CudaFiller() override
   {
-    if (this->IsMapped)
+    try
     {
-      this->Call(cudaGraphicsUnmapResources);
-      cudaGetLastError();
+      this->Unmap();
+    }
+    catch (const std::exception&)
+    {
     }
   }
 
@@ -115,8 +94,7 @@ public:
   {
     if (!std::exchange(this->IsMapped, true))
     {
-      const CurrentGpu current(this->Device);
-      Require(this->Call(cudaGraphicsMapResources), "map a buffer of OpenGL");
+      this->Call(cudaGraphicsMapResources, "map a buffer of OpenGL");
     }
   }
 
@@ -124,8 +102,7 @@ public:
   {
     if (std::exchange(this->IsMapped, false))
     {
-      const CurrentGpu current(this->Device);
-      Require(this->Call(cudaGraphicsUnmapResources), "return a buffer to OpenGL");
+      this->Call(cudaGraphicsUnmapResources, "return a buffer to OpenGL");
     }
   }
 
@@ -147,29 +124,28 @@ public:
     }
     if (isNew)
     {
-      Require(cudaMemsetAsync(this->Written.get(), -1, 4 * static_cast<std::size_t>(this->Count),
-                this->Queue.get()),
+      Require(cudaMemset(this->Written.get(), -1, 4 * static_cast<std::size_t>(this->Count)),
         "set memory");
     }
     session.StoreTriangles(MutableTriangleArray(static_cast<std::int32_t*>(memory), this->Count),
-      { this->Queue.get() }, this->Written.get());
+      {}, this->Written.get());
     this->Unmap();
   }
 
 private:
-  /// Maps or unmaps the buffer.
+  /// Maps or unmaps the buffer, in the default stream.
   template <typename Function>
-  cudaError_t Call(Function function) const
+  void Call(Function function, const char* action) const
   {
+    const CurrentGpu current(this->Device);
     cudaGraphicsResource_t buffer = this->Buffer.get();
-    return function(1, &buffer, this->Queue.get());
+    Require(function(1, &buffer, nullptr), action);
   }
 
   int Device;
   std::int64_t Count;
-  Stream Queue = MakeStream();
-  Resource Buffer;
-  Numbers Written; ///< For FlipSession::StoreTriangles.
+  std::shared_ptr<cudaGraphicsResource> Buffer;
+  std::shared_ptr<std::int32_t> Written; ///< For FlipSession::StoreTriangles.
   bool IsMapped = false;
 };
 
@@ -180,7 +156,8 @@ private:
 FillerMaker DeviceFillerMaker = &MakeCudaFiller;
 
 #ifdef DELAUNAYFLIP_HAS_CUDA
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const TriangleBuffer& buffer)
+std::unique_ptr<BufferFiller> MakeCudaFiller(
+  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles)
 {
   if (!IsOnGpu(filter->GetBackendUsed()))
   {
@@ -201,10 +178,10 @@ std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, const Tria
     throw std::runtime_error("OpenGL does not draw on the GPU of the filter");
   }
   const CurrentGpu current(device);
-  return std::make_unique<CudaFiller>(device, buffer);
+  return std::make_unique<CudaFiller>(device, buffer, triangles);
 }
 #else
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, const TriangleBuffer&)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, unsigned int, std::int64_t)
 {
   throw std::runtime_error("this build has no CUDA backend");
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LiveScene.h"
+/// What vtkDelaunayFlipLiveView draws: a mesh, its colour scale, and texts.
+#include "vtkDelaunayFlipLiveView.h"
 
 #include "UpdateReport.h"
 
@@ -8,7 +9,10 @@
 #include "vtkDelaunayFlipMapper.h"
 
 #include "vtkActor.h"
+#include "vtkAppendPolyData.h"
+#include "vtkBoundingBox.h"
 #include "vtkCamera.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
@@ -23,51 +27,21 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <string>
 
-namespace delaunayflip
-{
+using namespace delaunayflip;
 
 namespace
 {
 
 constexpr int FontSize = 14;
+constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
+
+constexpr std::array<double, 3> DarkInk = { 0.13, 0.19, 0.25 }, LightInk = { 0.92, 0.94, 0.96 };
+constexpr std::array<double, 3> DarkRed = { 0.75, 0.05, 0.1 }, LightRed = { 1.0, 0.6, 0.55 };
 
 constexpr const char* KeyHelp = "space: run/pause, n: next step, b: begin again, "
                                 "k: colours, g: edges, i: statistics, d: drawing, q: quit";
-
-using Color = std::array<double, 3>;
-
-constexpr Color PlainColor = { 0.80, 0.86, 0.91 };
-constexpr Color DarkInk = { 0.13, 0.19, 0.25 };
-constexpr Color LightInk = { 0.92, 0.94, 0.96 };
-constexpr Color DarkRed = { 0.75, 0.05, 0.1 };
-constexpr Color LightRed = { 1.0, 0.6, 0.55 };
-
-bool IsDark(vtkRenderer* renderer)
-{
-  const double* rgb = renderer->GetBackground();
-  return 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2] < 0.5;
-}
-
-void Paint(vtkTextProperty* text, const double* color)
-{
-  text->SetColor(color[0], color[1], color[2]);
-}
-
-/// The axis along which to look at a mesh: the one along which it is flat, else z.
-int GetViewAxis(const double* bounds)
-{
-  const auto extent = [bounds](int axis) { return bounds[2 * axis + 1] - bounds[2 * axis]; };
-  const double largest = std::max({ extent(0), extent(1), extent(2) });
-  const auto isFlat = [&](int axis) { return extent(axis) < 1e-3 * largest; };
-  return isFlat(2) ? 2 : isFlat(1) ? 1 : isFlat(0) ? 0 : 2;
-}
-
-std::string DescribeCounts(vtkDelaunayFlip* filter)
-{
-  return Count(filter->GetTotalFlips(), "flip") + ", " +
-    Count(filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
-}
 
 /// Breaks a text into lines of so many characters.
 std::string Wrap(const std::string& text, std::size_t width = 60)
@@ -84,75 +58,17 @@ std::string Wrap(const std::string& text, std::size_t width = 60)
   return wrapped;
 }
 
-std::string DescribeState(const LiveStatus& status)
-{
-  switch (status.State)
-  {
-    case LiveState::Failed:
-    {
-      // If the filter's source failed, the filter itself has no message.
-      const std::string reason = status.Filter->GetErrorMessage();
-      return Wrap("failed: " + (reason.empty() ? "no input" : reason));
-    }
-    case LiveState::Converged:
-      return "converged";
-    case LiveState::Limited:
-      return "iteration limit";
-    case LiveState::Aborted:
-      return "aborted";
-    default:
-      return status.IsRunning ? "running" : "paused";
-  }
 }
 
-/// After a failure the filter has no counts, so the text says which frame is shown instead.
-std::string DescribeMesh(const LiveStatus& status)
-{
-  const std::string state = DescribeState(status);
-  const std::string triangles = Count(status.Triangles, "triangle");
-  if (status.State == LiveState::Failed)
-  {
-    return state + "\nthe mesh of frame " + Count(status.Frame);
-  }
-  if (status.Frame == 0)
-  {
-    return "input, " + state + "\n" + triangles;
-  }
-  if (!vtkPolyData::SafeDownCast(status.Filter->GetOutputDataObject(0)))
-  {
-    return "all blocks in one step, " + state + "\n" + DescribeCounts(status.Filter);
-  }
-  return "iteration " + Count(status.Filter->GetNumberOfIterations()) + ", " + state + "\n" +
-    DescribeCounts(status.Filter);
-}
-
-std::string DescribeStatus(const LiveStatus& status)
-{
-  char angle[64] = "";
-  if (!std::isnan(status.SmallestAngle))
-  {
-    std::snprintf(angle, sizeof(angle), "\nsmallest angle %.2f degrees", status.SmallestAngle);
-  }
-  const std::string drawing = status.Drawing.empty() ? "" : "\n" + Wrap(status.Drawing);
-  return DescribeMesh(status) + angle + drawing;
-}
-
-}
-
-LiveScene::LiveScene()
+/// What does not change.
+void vtkDelaunayFlipLiveView::MakeScene()
 {
   this->Actor->SetMapper(this->Mapper);
   this->Actor->PickableOff(); // see vtkDelaunayFlipMapper
   this->Actor->GetProperty()->SetAmbient(0.3);
   this->Actor->GetProperty()->SetDiffuse(0.7);
-  this->Actor->GetProperty()->SetColor(PlainColor[0], PlainColor[1], PlainColor[2]);
+  this->Actor->GetProperty()->SetColor(0.80, 0.86, 0.91);
   this->Actor->GetProperty()->SetEdgeColor(0.15, 0.17, 0.2);
-  this->Scale->SetLookupTable(this->Mapper->GetLookupTable());
-  this->Scale->SetOrientationToHorizontal();
-  this->Scale->UnconstrainedFontSizeOn();
-  this->Scale->SetTextPositionToPrecedeScalarBar();
-  this->Scale->SetLabelFormat("%.0f");
-  this->Scale->SetWidth(0.6);
   for (vtkTextActor* text : { this->Status.Get(), this->Keys.Get() })
   {
     text->GetTextProperty()->SetFontSize(FontSize);
@@ -163,53 +79,59 @@ LiveScene::LiveScene()
   this->Status->SetPosition(0.02, 0.985);
   this->Keys->GetTextProperty()->SetJustificationToCentered();
   this->Keys->SetPosition(0.5, 0.015);
+  this->Scale->SetLookupTable(this->Mapper->GetLookupTable());
+  this->Scale->SetOrientationToHorizontal();
+  this->Scale->UnconstrainedFontSizeOn();
+  this->Scale->SetTitleTextProperty(this->Keys->GetTextProperty());
+  this->Scale->SetLabelTextProperty(this->Keys->GetTextProperty());
+  this->Scale->SetTextPositionToPrecedeScalarBar();
+  this->Scale->SetLabelFormat("%.0f");
+  this->Scale->SetWidth(0.6);
 }
 
-LiveScene::~LiveScene() { this->Leave(); }
-
-//------------------------------------------------------------------------------
-void LiveScene::Enter(vtkRenderWindow* window)
+/// In the first renderer of the window, or in a new one if it has none.
+void vtkDelaunayFlipLiveView::EnterWindow()
 {
-  this->Leave();
-  this->Renderer = window->GetRenderers()->GetFirstRenderer();
+  this->Renderer = this->Window->GetRenderers()->GetFirstRenderer();
   if (!this->Renderer)
   {
     vtkNew<vtkRenderer> renderer;
     renderer->SetBackground(1.0, 1.0, 1.0);
-    window->AddRenderer(renderer);
+    this->Window->AddRenderer(renderer);
     this->Renderer = renderer;
   }
-  this->Renderer->AddActor(this->Actor);
+  this->Renderer->AddViewProp(this->Actor);
   this->Renderer->AddViewProp(this->Scale);
   this->Renderer->AddViewProp(this->Status);
   this->Renderer->AddViewProp(this->Keys);
-  const Color& ink = IsDark(this->Renderer) ? LightInk : DarkInk;
-  std::copy(ink.begin(), ink.end(), this->Ink);
-  Paint(this->Keys->GetTextProperty(), this->Ink);
 }
 
-void LiveScene::Leave()
+void vtkDelaunayFlipLiveView::LeaveWindow()
 {
   if (this->Renderer)
   {
-    this->Renderer->RemoveActor(this->Actor);
+    this->Renderer->RemoveViewProp(this->Actor);
     this->Renderer->RemoveViewProp(this->Scale);
     this->Renderer->RemoveViewProp(this->Status);
     this->Renderer->RemoveViewProp(this->Keys);
   }
   this->Renderer = nullptr;
+  this->Window = nullptr;
 }
 
-//------------------------------------------------------------------------------
-void LiveScene::LookAtMesh()
+/// Along the axis in which the mesh is flat, else along z.
+void vtkDelaunayFlipLiveView::LookAtMesh()
 {
   if (this->Renderer->IsActiveCameraCreated() || this->Mapper->GetNumberOfTriangles() == 0)
   {
     return;
   }
-  double bounds[6];
-  this->Mapper->GetBounds(bounds);
-  const int axis = GetViewAxis(bounds);
+  const vtkBoundingBox box(this->Mapper->GetBounds());
+  int axis = 2;
+  for (const int flat : { 0, 1, 2 })
+  {
+    axis = box.GetLength(flat) < 1e-3 * box.GetMaxLength() ? flat : axis;
+  }
   vtkCamera* camera = this->Renderer->GetActiveCamera();
   double position[3] = { 0.0, 0.0, 0.0 };
   position[axis] = axis == 1 ? -1.0 : 1.0; // so that x points to the right
@@ -219,87 +141,105 @@ void LiveScene::LookAtMesh()
   this->Renderer->ResetCamera();
 }
 
-//------------------------------------------------------------------------------
-void LiveScene::SetMesh(vtkPolyData* mesh)
+/// A mesh, or all blocks of a composite one.
+void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
 {
   vtkNew<vtkPolyData> shown;
-  if (mesh)
+  if (vtkPolyData::SafeDownCast(mesh))
   {
     shown->ShallowCopy(mesh);
+  }
+  else if (mesh)
+  {
+    vtkNew<vtkAppendPolyData> append;
+    append->AddInputData(shown); // so that there is one
+    for (vtkPolyData* block : vtkCompositeDataSet::GetDataSets<vtkPolyData>(mesh))
+    {
+      append->AddInputData(block);
+    }
+    append->Update();
+    shown->ShallowCopy(append->GetOutput());
   }
   this->Mapper->SetInputDataObject(shown);
 }
 
-/// The first frame is drawn twice: before it there are no buffers.
-void LiveScene::SetColorBy(int what)
+void vtkDelaunayFlipLiveView::Draw()
 {
-  this->Mapper->SetColorBy(what);
-  if (!this->Mapper->Fill())
+  const vtkSmartPointer<vtkRenderWindow> window = this->Window.Get();
+  const std::string drawing = this->GetDrawing();
+  const bool isOffScreen = window->GetOffScreenRendering(); // there are no keys, and no timer
+  const bool isSmall = this->Mapper->GetNumberOfTriangles() < SmallMesh;
+  this->Mapper->SetColorBy(this->ColorBy);
+  this->Actor->GetProperty()->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
+    (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
+  this->Keys->SetVisibility(this->ShowKeys && !isOffScreen);
+  this->Status->SetVisibility(
+    this->ShowStatistics || this->State == vtkDelaunayFlip::STOP_REASON_FAILED);
+  if (this->Status->GetVisibility())
   {
-    this->Renderer->GetRenderWindow()->Render();
+    this->Status->SetInput(this->DescribeStatus(this->IsRunning() || isOffScreen).c_str());
   }
-  this->Scale->SetVisibility(what != vtkDelaunayFlipMapper::COLOR_BY_SOLID);
-  this->ShowScale(what == vtkDelaunayFlipMapper::COLOR_BY_FLIP_COUNT ? "flips of a triangle"
-                                                                     : "smallest angle (degrees)");
-}
-
-void LiveScene::ShowScale(const char* title)
-{
-  // Above the lines of keys, if there are any, and as high as the labels need.
-  const double height = std::max(1, this->Renderer->GetSize()[1]); // pixels
-  const std::string keys = this->Keys->GetVisibility() ? this->Keys->GetInput() : "";
-  const double more = 1.2 * static_cast<double>(std::count(keys.begin(), keys.end(), '\n'));
-  const double lines = keys.empty() ? 0.4 : 2.0 + more;
-  this->Scale->SetPosition(0.2, lines * FontSize / height);
-  this->Scale->SetHeight(3.6 * FontSize / height);
-  this->Scale->SetTitle(title);
-  for (vtkTextProperty* text :
-    { this->Scale->GetTitleTextProperty(), this->Scale->GetLabelTextProperty() })
-  {
-    text->SetFontSize(FontSize);
-    text->ItalicOff();
-    text->BoldOff();
-    text->ShadowOff();
-    Paint(text, this->Ink);
-  }
-}
-
-//------------------------------------------------------------------------------
-void LiveScene::SetEdgeVisibility(bool visible)
-{
-  this->Actor->GetProperty()->SetEdgeVisibility(visible);
-}
-
-bool LiveScene::GetEdgeVisibility() const
-{
-  return this->Actor->GetProperty()->GetEdgeVisibility() != 0;
-}
-
-void LiveScene::SetStatus(const LiveStatus& status)
-{
-  const Color& red = IsDark(this->Renderer) ? LightRed : DarkRed;
-  this->Status->SetInput(DescribeStatus(status).c_str());
-  this->Status->VisibilityOn();
-  Paint(
-    this->Status->GetTextProperty(), status.State == LiveState::Failed ? red.data() : this->Ink);
-}
-
-void LiveScene::HideStatus() { this->Status->VisibilityOff(); }
-
-/// In as many lines as the width of the renderer needs.
-void LiveScene::SetKeyVisibility(bool visible)
-{
-  constexpr double characterWidth = 6.5; // pixels
-  const auto width = static_cast<std::size_t>(this->Renderer->GetSize()[0] / characterWidth);
-  this->Keys->SetInput(Wrap(KeyHelp, width).c_str());
-  this->Keys->SetVisibility(visible);
-}
-
-void LiveScene::Draw()
-{
-  const vtkSmartPointer<vtkRenderWindow> window = this->Renderer->GetRenderWindow();
+  this->Scale->SetVisibility(this->ColorBy != COLOR_BY_SOLID);
+  this->Scale->SetTitle(
+    this->ColorBy == COLOR_BY_FLIP_COUNT ? "flips of a triangle" : "smallest angle (degrees)");
+  this->ArrangeTexts();
   this->Renderer->ResetCameraClippingRange();
   window->Render();
+  if (this->ShowDrawing && this->GetDrawing() != drawing)
+  {
+    this->Draw(); // with the text that is right only now
+  }
 }
 
+/// The keys take as many lines as the width of the renderer needs. The scale is above them, and as
+/// high as its labels need.
+void vtkDelaunayFlipLiveView::ArrangeTexts()
+{
+  constexpr double characterWidth = 6.5; // pixels
+  const int* size = this->Renderer->GetSize();
+  this->Keys->SetInput(Wrap(KeyHelp, static_cast<std::size_t>(size[0] / characterWidth)).c_str());
+  const std::string keys = this->Keys->GetVisibility() ? this->Keys->GetInput() : "";
+  const double more = 1.2 * static_cast<double>(std::count(keys.begin(), keys.end(), '\n'));
+  const double unit = static_cast<double>(FontSize) / std::max(1, size[1]);
+  this->Scale->SetPosition(0.2, unit * (keys.empty() ? 0.4 : 2.0 + more));
+  this->Scale->SetHeight(3.6 * unit);
+
+  const double* rgb = this->Renderer->GetBackground();
+  const bool isDark = 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2] < 0.5;
+  const std::array<double, 3> ink = isDark ? LightInk : DarkInk, red = isDark ? LightRed : DarkRed;
+  const bool hasFailed = this->State == vtkDelaunayFlip::STOP_REASON_FAILED;
+  this->Keys->GetTextProperty()->SetColor(ink.data());
+  this->Status->GetTextProperty()->SetColor((hasFailed ? red : ink).data());
+}
+
+/// Two or three lines. A failure, and how the mesh is drawn, take as many as their reasons need.
+std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
+{
+  const std::string drawing = this->ShowDrawing ? "\n" + Wrap(this->GetDrawing()) : "";
+  if (this->State == vtkDelaunayFlip::STOP_REASON_FAILED)
+  {
+    // The filter has no counts now, and no message if it was its source that failed.
+    const std::string reason = this->Filter->GetErrorMessage();
+    return Wrap("failed: " + (reason.empty() ? "no input" : reason)) + "\nthe mesh of frame " +
+      Count(this->FrameNumber) + drawing;
+  }
+  const std::string state = this->State != vtkDelaunayFlip::STOP_REASON_RUNNING
+    ? this->Filter->GetStopReasonAsString()
+    : isRunning ? "running"
+                : "paused";
+  const bool isInput = this->FrameNumber == 0;
+  const bool isOne = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)) != nullptr;
+  const std::string mesh = isInput ? "input"
+    : isOne                        ? "iteration " + Count(this->Filter->GetNumberOfIterations())
+                                   : "all blocks in one step";
+  const std::string counts = isInput ? Count(this->Mapper->GetNumberOfTriangles(), "triangle")
+                                     : Count(this->Filter->GetTotalFlips(), "flip") + ", " +
+      Count(this->Filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
+  const double angle = this->Mapper->GetSmallestAngle();
+  char line[64] = "";
+  if (!std::isnan(angle))
+  {
+    std::snprintf(line, sizeof(line), "\nsmallest angle %.2f degrees", angle);
+  }
+  return mesh + ", " + state + "\n" + counts + line + drawing;
 }

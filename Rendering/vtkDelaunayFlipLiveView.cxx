@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipLiveView.h"
 
-#include "LiveScene.h"
-
+#include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"
-#include "vtkAppendPolyData.h"
 #include "vtkCommand.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
@@ -16,14 +13,16 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
-#include "vtkPolyData.h"
+#include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkScalarBarActor.h"
+#include "vtkTextActor.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
 
-#include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <map>
 
@@ -31,88 +30,6 @@ using namespace delaunayflip;
 
 namespace
 {
-
-constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
-
-/// Sets a flag for as long as it lives.
-struct Raised
-{
-  bool& Flag;
-  explicit Raised(bool& flag)
-    : Flag(flag)
-  {
-    flag = true;
-  }
-  ~Raised() { this->Flag = false; }
-};
-
-/// Whether a step with this outcome ends a run. An abort only pauses it.
-bool IsEnd(LiveState state) { return state != LiveState::UnderWay && state != LiveState::Aborted; }
-
-/// Makes the filter do one step. On request it does not put the mesh out, if it can do without; an
-/// update follows the last step, so that the output is then the final mesh.
-/// An update caused only by a change of the input or of an option is a step too.
-LiveState MakeStep(vtkDelaunayFlip* filter, bool withholdsMesh)
-{
-  const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
-  bool works = true;
-  if (withholdsMesh)
-  {
-    works = filter->AdvanceSession();
-  }
-  else
-  {
-    filter->Advance();
-    works = filter->GetExecutive()->Update(0) != 0;
-  }
-  if (!works || filter->GetFailure() != vtkDelaunayFlip::FAILURE_NONE)
-  {
-    return LiveState::Failed;
-  }
-  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
-  const int reason = filter->GetStopReason();
-  const LiveState state = !isNew                             ? LiveState::Unchanged
-    : reason == vtkDelaunayFlip::STOP_REASON_RUNNING         ? LiveState::UnderWay
-    : reason == vtkDelaunayFlip::STOP_REASON_ABORTED         ? LiveState::Aborted
-    : reason == vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT ? LiveState::Limited
-                                                             : LiveState::Converged;
-  if (IsEnd(state))
-  {
-    filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
-  }
-  return state;
-}
-
-/// A mesh, or all blocks of a composite one as one mesh.
-vtkSmartPointer<vtkPolyData> JoinBlocks(vtkDataObject* data)
-{
-  vtkNew<vtkAppendPolyData> append;
-  auto* blocks = vtkCompositeDataSet::SafeDownCast(data);
-  if (!blocks)
-  {
-    return vtkPolyData::SafeDownCast(data);
-  }
-  const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
-  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
-  {
-    if (auto* mesh = vtkPolyData::SafeDownCast(block->GetCurrentDataObject()))
-    {
-      append->AddInputData(mesh);
-    }
-  }
-  if (append->GetNumberOfInputConnections(0) > 0)
-  {
-    append->Update();
-  }
-  return append->GetOutput();
-}
-
-/// The name of a frame's file, e.g. "prefix0012.png" for frame 12.
-std::string MakeFrameName(const std::string& prefix, int frame)
-{
-  const std::string number = std::to_string(frame);
-  return prefix + std::string(4 - std::min<std::size_t>(4, number.size()), '0') + number + ".png";
-}
 
 /// Writes the picture in a window to a PNG file. Encodes it in memory first, because VTK's writer
 /// does not report a full disk.
@@ -143,16 +60,14 @@ bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
 
 vtkStandardNewMacro(vtkDelaunayFlipLiveView);
 
-//------------------------------------------------------------------------------
 vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
-  : Scene(new LiveScene),
-    State(LiveState::NotStarted)
+  : State(vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
 {
+  this->MakeScene();
 }
 
 vtkDelaunayFlipLiveView::~vtkDelaunayFlipLiveView() { this->Detach(); }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlip* filter)
 {
   if (this->Filter != filter)
@@ -165,7 +80,6 @@ void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlip* filter)
 
 vtkDelaunayFlip* vtkDelaunayFlipLiveView::GetFilter() const { return this->Filter; }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::SetInteractor(vtkRenderWindowInteractor* interactor)
 {
   if (this->Interactor != interactor)
@@ -181,7 +95,6 @@ vtkRenderWindowInteractor* vtkDelaunayFlipLiveView::GetInteractor() const
   return this->Interactor;
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::SetFramePrefix(const char* prefix)
 {
   this->FramePrefix = prefix ? prefix : "";
@@ -189,7 +102,6 @@ void vtkDelaunayFlipLiveView::SetFramePrefix(const char* prefix)
   this->Modified();
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::Start()
 {
   if (!this->IsBusy && this->IsReady())
@@ -202,33 +114,33 @@ void vtkDelaunayFlipLiveView::Start()
 
 bool vtkDelaunayFlipLiveView::IsReady()
 {
-  if (!this->Filter || this->Filter->GetNumberOfInputConnections(0) == 0)
+  const bool hasInput = this->Filter && this->Filter->GetNumberOfInputConnections(0) > 0;
+  const bool isReady = hasInput && this->Interactor && this->Interactor->GetRenderWindow();
+  if (!isReady)
   {
-    vtkErrorMacro("A filter with an input is needed.");
-    return false;
+    vtkErrorMacro("A filter with an input and an interactor with a render window are needed.");
   }
-  if (!this->Interactor || !this->Interactor->GetRenderWindow())
-  {
-    vtkErrorMacro("An interactor with a render window is needed.");
-    return false;
-  }
-  return true;
+  return isReady;
+}
+
+bool vtkDelaunayFlipLiveView::HasStarted() const
+{
+  return this->State != vtkDelaunayFlip::STOP_REASON_NOT_STARTED && this->Window;
 }
 
 bool vtkDelaunayFlipLiveView::BeginIfNeeded()
 {
-  if (this->State == LiveState::NotStarted || !this->Window)
+  if (!this->HasStarted())
   {
     this->Start();
   }
-  return !this->IsBusy && this->State != LiveState::NotStarted && this->Window;
+  return !this->IsBusy && this->HasStarted();
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::Attach()
 {
   this->Window = this->Interactor->GetRenderWindow();
-  this->Scene->Enter(this->Window);
+  this->EnterWindow();
   // Called before the interactor styles, which do not receive events handled here.
   constexpr float priority = 1.0f;
   using Self = vtkDelaunayFlipLiveView;
@@ -250,15 +162,13 @@ void vtkDelaunayFlipLiveView::Detach()
     }
   }
   this->Observers.clear();
-  this->Scene->Leave();
-  this->Window = nullptr;
-  this->State = LiveState::NotStarted;
+  this->LeaveWindow();
+  this->State = vtkDelaunayFlip::STOP_REASON_NOT_STARTED;
   this->FrameNumber = -1;
   this->IsMeantToRun = false;
   this->CanWrite = true;
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::ShowInput()
 {
   vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
@@ -267,14 +177,13 @@ void vtkDelaunayFlipLiveView::ShowInput()
   this->Filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(input));
   this->Filter->GenerateFlipCountOn();
   this->Filter->Restart();
-  this->State = LiveState::UnderWay;
-  this->Scene->GetMapper()->SetFilter(nullptr);
-  this->Scene->SetMesh(JoinBlocks(input));
-  this->Scene->LookAtMesh();
+  this->State = vtkDelaunayFlip::STOP_REASON_RUNNING;
+  this->Mapper->SetFilter(nullptr);
+  this->ShowMesh(input);
+  this->LookAtMesh();
   this->ShowFrame(0);
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::Run()
 {
   if (this->BeginIfNeeded())
@@ -300,7 +209,7 @@ bool vtkDelaunayFlipLiveView::Step()
 
 void vtkDelaunayFlipLiveView::Restart()
 {
-  if (this->State == LiveState::NotStarted || !this->Window)
+  if (!this->HasStarted())
   {
     this->Start();
   }
@@ -315,67 +224,80 @@ void vtkDelaunayFlipLiveView::Restart()
   }
 }
 
-//------------------------------------------------------------------------------
+/// Makes a step without putting the mesh out, if the mapper can do without. An update follows the
+/// last step, so that the output is then the final mesh. An update that is caused only by a change
+/// of the input or of an option is a step too.
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
-  LiveState next = LiveState::Unchanged;
+  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+  const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
+  this->IsBusy = true;
+  this->Mapper->SetZeroCopy(this->ZeroCopy);
+  this->Mapper->BeginStep();
+  bool works = true;
+  if (this->Mapper->DrawsRun())
   {
-    const Raised busy(this->IsBusy);
-    const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
-    vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
-    mapper->SetZeroCopy(this->ZeroCopy);
-    mapper->BeginStep();
-    next = MakeStep(filter, mapper->DrawsRun());
+    works = filter->AdvanceSession();
   }
-  if (this->State == LiveState::NotStarted)
+  else
+  {
+    filter->Advance();
+    works = filter->GetExecutive()->Update(0) != 0;
+  }
+  const int state = works ? filter->GetStopReason() : vtkDelaunayFlip::STOP_REASON_FAILED;
+  const bool hasFailed = state == vtkDelaunayFlip::STOP_REASON_FAILED;
+  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
+  const bool isUnderWay = state == vtkDelaunayFlip::STOP_REASON_RUNNING;
+  const bool goesOn = isNew && (isUnderWay || state == vtkDelaunayFlip::STOP_REASON_ABORTED);
+  if (!goesOn && !hasFailed)
+  {
+    filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
+  }
+  this->IsBusy = false;
+  if (this->State == vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
   {
     return false; // An observer of the filter has ended the run.
   }
-  const bool isNews = next != LiveState::Unchanged || this->IsRunning();
-  if (next != LiveState::UnderWay)
+  const bool isEnd = !goesOn && (isNew || hasFailed || this->IsRunning());
+  this->TimerId = isNew && isUnderWay ? this->TimerId : 0;
+  this->State = isNew || hasFailed ? state : this->State;
+  if (isNew && !hasFailed)
   {
-    this->TimerId = 0;
+    if (!filter->GetMeshIsWithheld())
+    {
+      this->ShowMesh(filter->GetOutputDataObject(0));
+      this->Mapper->SetFilter(filter->GetSession() ? filter.Get() : nullptr);
+    }
+    this->Mapper->EndStep();
+    this->ShowFrame(this->FrameNumber + 1);
   }
-  this->State = next == LiveState::Unchanged ? this->State : next;
-  this->ShowStep(next);
-  if (isNews && IsEnd(next))
+  else
+  {
+    this->Render(); // the last mesh
+  }
+  if (isEnd)
   {
     this->InvokeEvent(vtkCommand::EndEvent);
   }
-  return !IsEnd(next);
+  return goesOn;
 }
 
-/// If the filter failed, the last mesh stays.
-void vtkDelaunayFlipLiveView::ShowStep(LiveState outcome)
-{
-  if (outcome == LiveState::Failed || outcome == LiveState::Unchanged)
-  {
-    this->Render();
-    return;
-  }
-  if (!this->Filter->GetMeshIsWithheld())
-  {
-    this->Scene->SetMesh(JoinBlocks(this->Filter->GetOutputDataObject(0)));
-    this->Scene->GetMapper()->SetFilter(this->Filter->GetSession() ? this->Filter : nullptr);
-  }
-  this->Scene->GetMapper()->EndStep();
-  this->ShowFrame(this->FrameNumber + 1);
-}
-
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::ShowFrame(int number)
 {
   this->FrameNumber = number;
   this->Render();
   if (!this->FramePrefix.empty() && this->CanWrite && this->Window)
   {
-    const Raised busy(this->IsBusy);
-    const std::string name = MakeFrameName(this->FramePrefix, number);
-    this->CanWrite = WriteFrame(this->Window, name);
+    char name[32];
+    std::snprintf(name, sizeof(name), "%04d.png", number);
+    this->IsBusy = true;
+    this->CanWrite = WriteFrame(this->Window, this->FramePrefix + name);
+    this->IsBusy = false;
     if (!this->CanWrite)
     {
-      vtkErrorMacro("Cannot write " << name << "; no more frames are written.");
+      vtkErrorMacro(
+        "Cannot write " << this->FramePrefix << name << "; no more frames are written.");
     }
   }
   this->InvokeEvent(vtkCommand::UpdateEvent);
@@ -383,41 +305,23 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
 
 void vtkDelaunayFlipLiveView::Render()
 {
-  if (this->IsBusy || !this->Window || !this->Scene->GetRenderer())
+  if (!this->IsBusy && this->Window && this->Renderer)
   {
-    return;
+    this->IsBusy = true;
+    this->Draw();
+    this->IsBusy = false;
   }
-  const Raised busy(this->IsBusy);
-  vtkDelaunayFlipMapper* mapper = this->Scene->GetMapper();
-  const bool isSmall = mapper->GetNumberOfTriangles() < SmallMesh;
-  const bool isOffScreen = this->Window->GetOffScreenRendering(); // there are no keys
-  this->Scene->SetKeyVisibility(this->ShowKeys && !isOffScreen);
-  this->Scene->SetColorBy(this->ColorBy);
-  this->Scene->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
-    (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
-  if (this->ShowStatistics || this->State == LiveState::Failed)
-  {
-    this->Scene->SetStatus({ this->Filter, this->State, this->IsRunning() || isOffScreen,
-      this->FrameNumber, mapper->GetNumberOfTriangles(), mapper->GetSmallestAngle(),
-      this->ShowDrawing ? mapper->GetDrawing() : "" });
-  }
-  else
-  {
-    this->Scene->HideStatus();
-  }
-  this->Scene->Draw();
 }
 
-std::string vtkDelaunayFlipLiveView::GetDrawing() const
+std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Mapper->GetDrawing(); }
+
+bool vtkDelaunayFlipLiveView::GetConverged() const
 {
-  return this->Scene->GetMapper()->GetDrawing();
+  return this->State == vtkDelaunayFlip::STOP_REASON_CONVERGED;
 }
 
-bool vtkDelaunayFlipLiveView::GetConverged() const { return this->State == LiveState::Converged; }
+vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Renderer; }
 
-vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Scene->GetRenderer(); }
-
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::StartTimer()
 {
   if (!this->IsRunning() && this->AwaitStep())
@@ -443,7 +347,6 @@ bool vtkDelaunayFlipLiveView::AwaitStep()
 
 bool vtkDelaunayFlipLiveView::IsRunning() const { return this->TimerId != 0 && this->Interactor; }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
 {
   const int awaited = this->TimerId;
@@ -462,7 +365,6 @@ void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
   }
 }
 
-//------------------------------------------------------------------------------
 bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
 {
   using Self = vtkDelaunayFlipLiveView;
@@ -474,7 +376,7 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
     { "g",
       [](Self* self)
       {
-        const bool areShown = self->Scene->GetEdgeVisibility();
+        const bool areShown = self->Actor->GetProperty()->GetEdgeVisibility() != 0;
         self->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
       } },
     { "i", [](Self* self) { self->SetShowStatistics(!self->ShowStatistics); } },
@@ -495,7 +397,6 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
   return true;
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -507,10 +408,7 @@ void vtkDelaunayFlipLiveView::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShowKeys: " << this->ShowKeys << "\n";
   os << indent << "ZeroCopy: " << this->ZeroCopy << "\n";
   os << indent << "ShowDrawing: " << this->ShowDrawing << "\n";
-  os << indent << "Drawing: " << this->GetDrawing() << "\n";
   os << indent << "FrameInterval: " << this->FrameInterval << "\n";
   os << indent << "FramePrefix: " << this->FramePrefix << "\n";
   os << indent << "FrameNumber: " << this->FrameNumber << "\n";
-  os << indent << "Running: " << this->IsRunning() << "\n";
-  os << indent << "Converged: " << this->GetConverged() << "\n";
 }

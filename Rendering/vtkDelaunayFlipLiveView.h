@@ -61,24 +61,23 @@
 #define vtkDelaunayFlipLiveView_h
 
 #include "vtkDelaunayFlipRenderingModule.h" // For export macro
+#include "vtkNew.h" // For Mapper and others
 #include "vtkObject.h"
 #include "vtkSmartPointer.h" // For Filter
 #include "vtkWeakPointer.h" // For Interactor and Window
 
-#include <memory> // For std::unique_ptr
 #include <string> // For std::string
 #include <vector> // For std::vector
 
+class vtkActor;
+class vtkDataObject;
 class vtkDelaunayFlip;
+class vtkDelaunayFlipMapper;
 class vtkRenderer;
 class vtkRenderWindow;
 class vtkRenderWindowInteractor;
-
-namespace delaunayflip
-{
-class LiveScene;
-enum class LiveState;
-}
+class vtkScalarBarActor;
+class vtkTextActor;
 
 class VTKDELAUNAYFLIPRENDERING_EXPORT vtkDelaunayFlipLiveView : public vtkObject
 {
@@ -107,10 +106,8 @@ public:
 
   ///@{
   /**
-   * What the colour of a triangle shows. SOLID: nothing. SMALLEST_ANGLE (default): its smallest
-   * angle in space, from 0 (red) to 60 degrees (blue). FLIP_COUNT: in how many flips it took part,
-   * from 0 to the largest count so far or 12, whichever is larger. Takes effect at the next frame
-   * or Render().
+   * What the colour of a triangle shows, as vtkDelaunayFlipMapper says; default SMALLEST_ANGLE.
+   * Takes effect at the next frame or Render().
    */
   enum ColorByType
   {
@@ -146,10 +143,10 @@ public:
   ///@{
   /**
    * Whether three lines of statistics are drawn in the upper left corner: the iteration and whether
-   * the run continues; the flips so far and the bad edges left (GetNumberOfNonDelaunayEdges() of
-   * the filter); the smallest angle of the mesh that is shown, in degrees, in space or, after a
-   * step with PLANAR_XY, in the projection. For the input the second line is the number of
-   * triangles. Default on. A failure is always shown. Takes effect at the next frame or Render().
+   * the run continues; the flips so far and the bad edges left, or the number of triangles of the
+   * input; the smallest angle in degrees, in space or, after a step with PLANAR_XY, in the
+   * projection. Default on. A failure is always shown, instead of them. Takes effect at the next
+   * frame or Render().
    */
   vtkSetMacro(ShowStatistics, bool);
   vtkGetMacro(ShowStatistics, bool);
@@ -168,10 +165,8 @@ public:
 
   ///@{
   /**
-   * Whether the mesh is drawn without copies where that is possible: CUDA writes the triangles of
-   * the run into the buffer that OpenGL draws. That takes a filter that works on a GPU by CUDA, and
-   * OpenGL on the same GPU. Otherwise they are sent from the host, as flip counts always are.
-   * Default on. Takes effect at the next step. The picture is the same.
+   * Whether CUDA may write what OpenGL draws, if both use one GPU; see vtkDelaunayFlipMapper. The
+   * picture is the same. Default on. Takes effect at the next step.
    */
   vtkSetMacro(ZeroCopy, bool);
   vtkGetMacro(ZeroCopy, bool);
@@ -283,13 +278,21 @@ protected:
   std::string FramePrefix;
 
 private:
+  void MakeScene();
+  void EnterWindow();
+  void LeaveWindow();
+  void LookAtMesh();
+  void ShowMesh(vtkDataObject* mesh);
+  void Draw();
+  void ArrangeTexts();
+  std::string DescribeStatus(bool isRunning);
   bool IsReady();
+  bool HasStarted() const;
   bool BeginIfNeeded();
   void Attach();
   void Detach();
   void ShowInput();
   bool TakeStep();
-  void ShowStep(delaunayflip::LiveState outcome);
   void ShowFrame(int number);
   void StartTimer();
   bool AwaitStep();
@@ -299,8 +302,13 @@ private:
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkRenderWindow> Window; ///< Null before Start().
-  std::unique_ptr<delaunayflip::LiveScene> Scene;
-  delaunayflip::LiveState State;
+  vtkWeakPointer<vtkRenderer> Renderer;
+  vtkNew<vtkDelaunayFlipMapper> Mapper;
+  vtkNew<vtkActor> Actor; ///< The mesh.
+  vtkNew<vtkScalarBarActor> Scale;
+  vtkNew<vtkTextActor> Status;
+  vtkNew<vtkTextActor> Keys;
+  int State; ///< Of the mesh that is shown: one of vtkDelaunayFlip::StopReasonType.
   int FrameNumber = -1;
   int TimerId = 0; ///< The timer that makes the next step; 0: none. Others still fire: ignored.
   std::vector<unsigned long> Observers; ///< Tags of the observers of the interactor.

@@ -9,20 +9,18 @@
 
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
+#include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
-#include "vtkMath.h"
-#include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLBufferObject.h"
-#include "vtkOpenGLCamera.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLVertexArrayObject.h"
@@ -34,16 +32,17 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 #include "vtkTriangleFilter.h"
+#include "vtkTypeInt32Array.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
 using namespace delaunayflip;
+using Buffer = vtkOpenGLBufferObject;
 
 namespace
 {
@@ -64,37 +63,30 @@ void main()
 }
 )";
 
-/// The lines through the edges are found in homogeneous coordinates, in pixels from the middle of
-/// the viewport, so that a corner may be behind the camera.
+/// A pixel's distance from an edge is that of its place from the line, by how far places are apart
+/// from pixel to pixel.
 constexpr const char* FragmentShader = R"(//VTK::System::Dec
 //VTK::Output::Dec
 in vec3 drawnPlace;
-uniform mat4 placeToClip;
 uniform mat4 dataToView;
 uniform samplerBuffer places;
 uniform isamplerBuffer corners;
 uniform isamplerBuffer counts;
+uniform int colorBy;     // as in vtkDelaunayFlipMapper
+uniform vec3 plainColor;
 uniform vec3 bands[12];  // colours
 uniform float bandsPerUnit;
-uniform int byFlipCount; // else by smallest angle
 uniform int numberOfPlanes;
 uniform vec4 planes[6];
 uniform vec2 light;      // ambient, diffuse
-uniform vec4 plainColor; // if alpha is not 0
-uniform vec4 viewport;   // its middle and half its size
-uniform vec4 edge;       // its colour, and half its width in pixels or 0
+uniform vec3 edgeColor;
+uniform float edgeWidth; // half of it, in pixels; 0: no edges
 
 vec3 findPlace(int slot)
 {
   int first = 3 * texelFetch(corners, 3 * gl_PrimitiveID + slot).r;
   return vec3(texelFetch(places, first).r, texelFetch(places, first + 1).r,
     texelFetch(places, first + 2).r);
-}
-
-vec3 findPixel(vec3 place)
-{
-  vec4 clip = placeToClip * vec4(place, 1.0);
-  return vec3(clip.xy * viewport.zw, clip.w);
 }
 
 // The smallest angle of a triangle has the largest cosine.
@@ -105,30 +97,25 @@ float findAngle(vec3 a, vec3 b, vec3 c)
   return degrees(atan(area, most));
 }
 
-float findDistance(vec3 line)
+float findEdge(vec3 a, vec3 b, vec3 c, vec3 right, vec3 up)
 {
-  return abs(dot(line, vec3(gl_FragCoord.xy - viewport.xy, 1.0))) / length(line.xy);
-}
-
-float findEdge(vec3 a, vec3 b, vec3 c)
-{
-  float distance = min(findDistance(cross(b, c)),
-    min(findDistance(cross(c, a)), findDistance(cross(a, b))));
-  float strength = 1.0;
-  if (min(a.z, min(b.z, c.z)) > 0.0)
-  {
-    vec2 ab = b.xy / b.z - a.xy / a.z;
-    vec2 ac = c.xy / c.z - a.xy / a.z;
-    float inradius = abs(ab.x * ac.y - ab.y * ac.x) / (length(ab) + length(ac) + length(ac - ab));
-    strength = min(1.0, inradius * inradius / (8.0 * edge.w));
-  }
-  return strength * clamp(edge.w + 0.5 - distance, 0.0, 1.0);
+  vec3 normal = cross(b - a, c - a);
+  float area = length(normal);
+  mat3 inward = mat3(cross(normal, b - a), cross(normal, c - b), cross(normal, a - c)) / area;
+  vec3 along = vec3(
+    dot(drawnPlace - a, inward[0]), dot(drawnPlace - b, inward[1]), dot(drawnPlace - c, inward[2]));
+  vec3 perPixel = sqrt((right * inward) * (right * inward) + (up * inward) * (up * inward));
+  vec3 pixels = along / perPixel;
+  float inradius = area / (perPixel.x + perPixel.y + perPixel.z);
+  float strength = min(1.0, inradius * inradius / (8.0 * edgeWidth));
+  return strength * clamp(edgeWidth + 0.5 - min(pixels.x, min(pixels.y, pixels.z)), 0.0, 1.0);
 }
 
 void main()
 {
-  mat3 turn = mat3(dataToView);
-  vec3 normal = cross(turn * dFdx(drawnPlace), turn * dFdy(drawnPlace));
+  vec3 right = dFdx(drawnPlace);
+  vec3 up = dFdy(drawnPlace);
+  vec3 normal = cross(mat3(dataToView) * right, mat3(dataToView) * up);
   float size = length(normal);
   for (int i = 0; i < numberOfPlanes; ++i)
   {
@@ -137,133 +124,86 @@ void main()
       discard;
     }
   }
-  vec3 color = plainColor.rgb;
   vec3 a, b, c;
-  if (plainColor.a == 0.0 || edge.w > 0.0)
+  if (colorBy == 1 || edgeWidth > 0.0)
   {
     a = findPlace(0);
     b = findPlace(1);
     c = findPlace(2);
   }
-  if (plainColor.a == 0.0)
+  vec3 color = plainColor;
+  if (colorBy != 0)
   {
-    float value =
-      byFlipCount != 0 ? float(texelFetch(counts, gl_PrimitiveID).r) : findAngle(a, b, c);
+    float value = colorBy == 1 ? findAngle(a, b, c) : float(texelFetch(counts, gl_PrimitiveID).r);
     color = bands[int(clamp(value * bandsPerUnit, 0.0, 11.0))];
   }
   color *= light.x + light.y * (size > 0.0 ? abs(normal.z) / size : 1.0);
-  if (edge.w > 0.0)
+  if (edgeWidth > 0.0)
   {
-    color = mix(color, edge.rgb, findEdge(findPixel(a), findPixel(b), findPixel(c)));
+    color = mix(color, edgeColor, findEdge(a, b, c, right, up));
   }
   gl_FragData[0] = vec4(color, 1.0);
 }
 )";
 
-/// A copy of a mesh, which shares arrays, if its polygons are triangles, as in outputs of the
-/// filter. Otherwise one in which polygons and strips are split into triangles.
-vtkSmartPointer<vtkPolyData> MakeFaces(vtkPolyData* mesh)
+/// Fills the table with twelve bands between a few colours: for flip counts up to the largest or,
+/// if that is negative, for angles.
+void FillTable(vtkLookupTable* table, double largestCount)
 {
-  auto faces = vtkSmartPointer<vtkPolyData>::New();
-  if (mesh)
-  {
-    faces->ShallowCopy(mesh);
-  }
-  const vtkIdType size = faces->GetPolys()->IsHomogeneous(); // 0: there are none
-  if (faces->GetNumberOfStrips() > 0 || (size != 3 && size != 0))
-  {
-    vtkNew<vtkTriangleFilter> split;
-    split->SetInputData(faces);
-    split->Update();
-    return split->GetOutput();
-  }
-  return faces;
-}
-
-template <typename Array>
-auto* FindValues(vtkDataArray* data)
-{
-  auto* array = Array::FastDownCast(data); // null for null
-  return array ? array->GetPointer(0) : nullptr;
-}
-
-PointArray ViewPoints(vtkDataArray* data)
-{
-  const std::int64_t count = data->GetNumberOfTuples();
-  const float* floats = FindValues<vtkFloatArray>(data);
-  return floats ? PointArray(floats, count) : PointArray(FindValues<vtkDoubleArray>(data), count);
-}
-
-TriangleArray ViewTriangles(vtkPolyData* faces)
-{
-  vtkDataArray* ids = faces->GetPolys()->GetConnectivityArray();
-  const void* first = ids->GetVoidPointer(0);
-  return ids->GetDataTypeSize() == 4
-    ? TriangleArray(static_cast<const std::int32_t*>(first), faces->GetNumberOfPolys())
-    : TriangleArray(static_cast<const std::int64_t*>(first), faces->GetNumberOfPolys());
-}
-
-/// Fills the table, for flip counts or angles, with twelve bands between a few colours.
-void FillTable(vtkLookupTable* table, bool byFlipCount, double largestCount)
-{
-  using Colors = std::vector<std::array<double, 3>>;
   // From nearly white to dark violet, or from red for slivers to blue for equilateral triangles.
-  const Colors colors = byFlipCount
-    ? Colors{ { 0.96, 0.95, 0.98 }, { 0.80, 0.81, 0.91 }, { 0.62, 0.60, 0.80 },
-        { 0.46, 0.32, 0.66 }, { 0.25, 0.0, 0.49 } }
-    : Colors{ { 0.70, 0.09, 0.17 }, { 0.94, 0.54, 0.38 }, { 0.99, 0.86, 0.78 },
-        { 0.82, 0.90, 0.94 }, { 0.40, 0.66, 0.81 }, { 0.13, 0.40, 0.67 } };
+  double countColors[] = { 0.96, 0.95, 0.98, 0.80, 0.81, 0.91, 0.62, 0.60, 0.80, 0.46, 0.32, 0.66,
+    0.25, 0.0, 0.49 };
+  double angleColors[] = { 0.70, 0.09, 0.17, 0.94, 0.54, 0.38, 0.99, 0.86, 0.78, 0.82, 0.90, 0.94,
+    0.40, 0.66, 0.81, 0.13, 0.40, 0.67 };
+  const bool isOfAngles = largestCount < 0.0;
+  vtkNew<vtkColorTransferFunction> colors; // of the numbers of bands
+  isOfAngles ? colors->BuildFunctionFromTable(0, Bands - 1, 6, angleColors)
+             : colors->BuildFunctionFromTable(0, Bands - 1, 5, countColors);
   table->SetNumberOfTableValues(Bands);
   for (int i = 0; i < Bands; ++i)
   {
-    const double place = static_cast<double>(i) / (Bands - 1) * (colors.size() - 1.0);
-    const std::size_t low = std::min(static_cast<std::size_t>(place), colors.size() - 2);
-    double rgb[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      rgb[k] = colors[low][k] + (place - low) * (colors[low + 1][k] - colors[low][k]);
-    }
+    const double* rgb = colors->GetColor(i);
     table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
   // The largest count is rounded up to a multiple of four for whole labels at its quarters.
-  table->SetRange(0.0, byFlipCount ? 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0) : 60.0);
+  table->SetRange(0.0, isOfAngles ? 60.0 : 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0));
 }
 
-void MakeCurrent(vtkOpenGLRenderWindow* window)
+/// OpenGL has the columns of a matrix one after the other.
+void SetProduct(vtkShaderProgram* program, const char* name, vtkMatrix4x4* a, vtkMatrix4x4* b)
 {
-  if (!window->IsCurrent()) // else a context may be flushed for nothing
+  vtkNew<vtkMatrix4x4> product;
+  vtkMatrix4x4::Multiply4x4(a, b, product);
+  product->Transpose();
+  program->SetUniformMatrix(name, product);
+}
+
+/// Values of four bytes, which the shader reads as a texture.
+struct ShaderBuffer
+{
+  vtkNew<vtkOpenGLBufferObject> Values;
+  vtkNew<vtkTextureObject> Texture;
+
+  void MakeReadable(vtkOpenGLRenderWindow* window, std::int64_t count, unsigned int format)
   {
-    window->MakeCurrent();
+    this->Texture->SetContext(window);
+    this->Texture->SetInternalFormat(format);
+    this->Texture->CreateTextureBuffer(
+      static_cast<unsigned int>(count), 1, VTK_FLOAT, this->Values);
   }
-}
 
-void SetBands(vtkShaderProgram* program, vtkLookupTable* table, bool byFlipCount)
-{
-  float bands[Bands][3];
-  for (int i = 0; i < Bands; ++i)
+  void Activate(vtkShaderProgram* program, const char* name)
   {
-    std::copy_n(table->GetTableValue(i), 3, bands[i]);
+    this->Texture->Activate();
+    program->SetUniformi(name, this->Texture->GetTextureUnit());
   }
-  program->SetUniform3fv("bands", Bands, bands);
-  program->SetUniformf("bandsPerUnit", static_cast<float>(Bands / table->GetRange()[1]));
-  program->SetUniformi("byFlipCount", byFlipCount);
-}
 
-void SetMatrix(
-  vtkShaderProgram* program, const char* name, vtkMatrix4x4* first, vtkMatrix4x4* transposed)
-{
-  vtkNew<vtkMatrix4x4> matrix;
-  vtkMatrix4x4::Transpose(first, matrix);
-  vtkMatrix4x4::Multiply4x4(matrix, transposed, matrix);
-  program->SetUniformMatrix(name, matrix);
-}
-
-void SetColor(vtkShaderProgram* program, const char* name, const double* rgb, double fourth)
-{
-  const float values[4] = { static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
-    static_cast<float>(rgb[2]), static_cast<float>(fourth) };
-  program->SetUniform4f(name, values);
-}
+  void Release(vtkWindow* window)
+  {
+    this->Texture->ReleaseGraphicsResources(window);
+    this->Values->ReleaseGraphicsResources();
+  }
+};
 
 }
 
@@ -271,40 +211,29 @@ void SetColor(vtkShaderProgram* program, const char* name, const double* rgb, do
 struct vtkDelaunayFlipMapper::Parts
 {
   vtkSmartPointer<vtkDelaunayFlip> Filter;
-  std::string Obstacle = NoRun; ///< Why CUDA does not write; empty: it does.
-
   vtkMTimeType InputTime = 0;
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< Of the input.
-  vtkSmartPointer<vtkDataArray> Points; ///< As float or double.
-  vtkMTimeType PointsTime = 0;
-  vtkBoundingBox Box; ///< Of the points that triangles use.
+  vtkNew<vtkTypeInt32Array> Ids; ///< Of the corners of the faces.
+  vtkBoundingBox Box; ///< Of the points that triangles use; not valid if nothing can be drawn.
+  double SmallestAngle = -1.0; ///< Of the faces; less than 0: not measured yet.
+
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That of the buffers.
+  ShaderBuffer Places, Corners, Counts;
+  vtkNew<vtkOpenGLVertexArrayObject> Array;
+  std::int64_t Count = 0, PointCount = 0; ///< The sizes of the buffers; 0: there are none.
+  vtkMTimeType PointsTime = 0; ///< Of the points in the buffer.
   double Center[3] = { 0.0, 0.0, 0.0 };
   double Unit = 1.0; ///< Of places in the shader.
 
-  enum BufferName
-  {
-    Places,
-    Corners,
-    Counts ///< Of flips.
-  };
-  bool HasBuffers = false;
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That of the buffers.
-  vtkNew<vtkOpenGLBufferObject> Buffers[3];
-  vtkNew<vtkTextureObject> Textures[3]; ///< By which the shader reads the buffers.
-  vtkNew<vtkOpenGLVertexArrayObject> Array;
-  std::int64_t Count = 0, PointCount = 0; ///< The sizes of the buffers.
-  vtkMTimeType UploadTime = 0; ///< Of the points in the buffer.
-
   std::unique_ptr<BufferFiller> Filler; ///< Null: the host fills.
+  std::string Obstacle = NoRun; ///< Why the host fills.
   bool MayTryDevice = true;
   bool IsBehind = true; ///< The buffers hold an earlier mesh.
   bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
-  bool HasCounts = false; ///< Flip counts are those of the triangles.
   bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
-  double SmallestAngle = -1.0; ///< Of the triangles in the buffer; less than 0: not measured yet.
+  double TableKind = -1.0; ///< What the table was filled for: a largest count, or -1 for angles.
   bool HasWarned = false;
-  double TableKind = -2.0; ///< What the table was filled for: a largest count, or -1 for angles.
 
   /// The session whose triangles are the faces; or null.
   const FlipSession* FindSession() const
@@ -314,42 +243,47 @@ struct vtkDelaunayFlipMapper::Parts
     return fits ? session : nullptr;
   }
 
-  /// Points that no triangle uses do not matter. The mesh may be one that no filter has checked.
-  void ReadPoints()
+  /// The faces are a copy of the mesh, which shares arrays, if its polygons are triangles, as in
+  /// outputs of the filter. Otherwise polygons and strips are split into triangles.
+  void ReadFaces(vtkPolyData* mesh)
   {
-    vtkPoints* points = this->Faces->GetPoints();
-    this->Points = points ? points->GetData() : vtkSmartPointer<vtkDoubleArray>::New().Get();
-    if (!vtkFloatArray::FastDownCast(this->Points) && !vtkDoubleArray::FastDownCast(this->Points))
+    this->Faces = vtkSmartPointer<vtkPolyData>::New();
+    if (mesh)
     {
-      auto doubles = vtkSmartPointer<vtkDoubleArray>::New();
-      doubles->DeepCopy(this->Points);
-      this->Points = doubles;
+      this->Faces->ShallowCopy(mesh);
     }
-    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Points->GetNumberOfTuples()));
-    const TriangleArray triangles = ViewTriangles(this->Faces);
-    const auto mark = [&](const auto* ids)
+    const vtkIdType size = this->Faces->GetPolys()->IsHomogeneous(); // 0: there are none
+    if (this->Faces->GetNumberOfStrips() > 0 || (size != 3 && size != 0))
     {
-      for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
+      vtkNew<vtkTriangleFilter> split;
+      split->SetInputData(this->Faces);
+      split->Update();
+      this->Faces = split->GetOutput();
+    }
+    this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
+    this->FindBounds();
+  }
+
+  /// There are none if a triangle names a point that does not exist: the mesh may be one that no
+  /// filter has checked.
+  void FindBounds()
+  {
+    this->Box.Reset();
+    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
+    {
+      const auto id = static_cast<std::size_t>(this->Ids->GetValue(i)); // large if negative
+      if (id >= areUsed.size())
       {
-        const auto id = static_cast<std::size_t>(ids[i]); // large if negative
-        if (id < areUsed.size())
-        {
-          areUsed[id] = 1;
-        }
+        return;
       }
-    };
-    triangles.Ids32 ? mark(triangles.Ids32) : mark(triangles.Ids64);
-    vtkNew<vtkPoints> places;
-    places->SetData(this->Points);
-    double bounds[6];
-    vtkBoundingBox::ComputeBounds(places, areUsed.data(), bounds);
-    this->Box.SetBounds(bounds);
-    const vtkMTimeType time = points ? points->GetMTime() : 0;
-    if (std::exchange(this->PointsTime, time) != time && this->Box.IsValid())
+      areUsed[id] = 1;
+    }
+    if (this->Ids->GetNumberOfValues() > 0)
     {
-      this->Box.GetCenter(this->Center);
-      const double half = 0.5 * this->Box.GetDiagonalLength();
-      this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
+      double bounds[6];
+      vtkBoundingBox::ComputeBounds(this->Faces->GetPoints(), areUsed.data(), bounds);
+      this->Box.SetBounds(bounds);
     }
   }
 
@@ -357,64 +291,28 @@ struct vtkDelaunayFlipMapper::Parts
   void MakeBuffers(vtkOpenGLRenderWindow* window)
   {
     const std::int64_t count = this->Faces->GetNumberOfPolys();
-    const std::int64_t points = this->Points->GetNumberOfTuples();
-    if (this->HasBuffers && this->Window == window && count == this->Count &&
-      points == this->PointCount)
+    const std::int64_t points = this->Faces->GetNumberOfPoints();
+    if (this->Window == window && count == this->Count && points == this->PointCount)
     {
       return;
     }
     this->Release(this->Window);
     window->MakeCurrent();
-    this->HasBuffers = true;
     this->Window = window;
     this->Count = count;
     this->PointCount = points;
-    using Buffer = vtkOpenGLBufferObject;
-    this->MakeBuffer(Places, Buffer::ArrayBuffer, GL_ARRAY_BUFFER, 3 * points, GL_R32F);
-    this->MakeBuffer(
-      Corners, Buffer::ElementArrayBuffer, GL_ELEMENT_ARRAY_BUFFER, 3 * count, GL_R32I);
-    this->MakeBuffer(Counts, Buffer::TextureBuffer, GL_TEXTURE_BUFFER, count, GL_R32I);
-  }
-
-  /// Every value has four bytes.
-  void MakeBuffer(BufferName name, vtkOpenGLBufferObject::ObjectType type, GLenum target,
-    std::int64_t count, GLenum format)
-  {
-    vtkOpenGLBufferObject* buffer = this->Buffers[name];
-    buffer->GenerateBuffer(type);
-    buffer->Bind();
-    glBufferData(target, static_cast<GLsizeiptr>(4 * count), nullptr, GL_DYNAMIC_DRAW);
-    buffer->Release();
-    vtkTextureObject* texture = this->Textures[name];
-    texture->SetContext(this->Window);
-    texture->SetInternalFormat(format);
-    texture->CreateTextureBuffer(static_cast<unsigned int>(count), 1, VTK_FLOAT, buffer);
-  }
-
-  void UploadPoints()
-  {
-    if (std::exchange(this->UploadTime, this->PointsTime) == this->PointsTime)
-    {
-      return;
-    }
-    std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
-    const PointArray points = ViewPoints(this->Points);
-    vtkSMPTools::For(0, this->PointCount,
-      [&](vtkIdType begin, vtkIdType end)
-      {
-        for (vtkIdType i = 3 * begin; i < 3 * end; ++i)
-        {
-          const double x = points.Get(i / 3, static_cast<int>(i % 3)) - this->Center[i % 3];
-          places[i] = static_cast<float>(x / this->Unit);
-        }
-      });
-    this->Buffers[Places]->Upload(places, vtkOpenGLBufferObject::ArrayBuffer);
+    this->UploadPoints();
+    this->UploadTriangles(nullptr);
+    this->UploadFlipCounts(nullptr);
+    this->Places.MakeReadable(window, 3 * points, GL_R32F);
+    this->Corners.MakeReadable(window, 3 * count, GL_R32I);
+    this->Counts.MakeReadable(window, count, GL_R32I);
   }
 
   /// Needs the window's context only if it is given.
   void Release(vtkWindow* window)
   {
-    if (!std::exchange(this->HasBuffers, false))
+    if (std::exchange(this->Count, 0) == 0)
     {
       return;
     }
@@ -423,45 +321,64 @@ struct vtkDelaunayFlipMapper::Parts
       window->MakeCurrent();
     }
     this->Filler.reset();
-    for (const int name : { Places, Corners, Counts })
+    for (ShaderBuffer* buffer : { &this->Places, &this->Corners, &this->Counts })
     {
-      this->Textures[name]->ReleaseGraphicsResources(window);
-      this->Buffers[name]->ReleaseGraphicsResources();
+      buffer->Release(window);
     }
     this->Array->ReleaseGraphicsResources();
     this->Obstacle = NoRun;
-    this->UploadTime = 0;
+    this->PointsTime = 0;
     this->IsBehind = true;
     this->MayTryDevice = true;
   }
 
-  /// CUDA is tried once for every mesh that the host has got. After a failure of the filter its
-  /// session is gone, but the mesh in the buffers stays.
-  void ChooseFiller(bool allowsDevice)
+  void UploadPoints()
   {
-    const bool hasSession = this->FindSession() != nullptr;
-    const bool hasOther = this->Filter && this->Filter->GetSession();
-    if (this->Filter && !hasOther && !this->IsBehind)
+    vtkPoints* points = this->Faces->GetPoints();
+    const vtkMTimeType time = points->GetMTime();
+    if (std::exchange(this->PointsTime, time) == time)
     {
       return;
     }
-    if (!hasSession || !allowsDevice)
+    const double half = 0.5 * this->Box.GetDiagonalLength();
+    this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
+    this->Box.GetCenter(this->Center);
+    std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
+    vtkSMPTools::For(0, this->PointCount,
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = begin; i < end; ++i)
+        {
+          double x[3];
+          points->GetPoint(i, x);
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            places[3 * i + axis] = static_cast<float>((x[axis] - this->Center[axis]) / this->Unit);
+          }
+        }
+      });
+    this->Places.Values->Upload(places, Buffer::ArrayBuffer);
+  }
+
+  /// CUDA is tried once for every mesh that the host has got. If the filter fails, its session is
+  /// gone, but the mesh in the buffers stays.
+  void ChooseFiller(const FlipSession* session, bool allowsDevice)
+  {
+    if (!session || !allowsDevice)
     {
-      this->Obstacle = hasSession ? "ZeroCopy is off"
-        : hasOther                ? "the mesh has other cells than triangles"
-                                  : NoRun;
+      const bool hasOther = this->Filter && this->Filter->GetSession();
+      this->Obstacle = session ? "ZeroCopy is off"
+        : hasOther             ? "the mesh has other cells than triangles"
+                               : NoRun;
       this->MayTryDevice = true;
-      this->IsBehind = this->IsBehind || this->Filler;
       this->Filler.reset();
     }
     else if (!this->Filler && std::exchange(this->MayTryDevice, false))
     {
       try
       {
-        this->Filler = DeviceFillerMaker(this->Filter,
-          { static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()), this->Count });
-        this->Obstacle.clear();
-        this->IsBehind = true;
+        this->Filler = DeviceFillerMaker(
+          this->Filter, static_cast<unsigned int>(this->Corners.Values->GetHandle()), this->Count);
         this->IsNew = true;
       }
       catch (const std::exception& error)
@@ -480,139 +397,82 @@ struct vtkDelaunayFlipMapper::Parts
   }
 
   /// Brings the buffers of triangles and, if colours show them, of flip counts up to date.
-  void Fill()
+  void Fill(const FlipSession* session)
   {
-    const FlipSession* session = this->FindSession();
-    if (!this->IsBehind && this->Filler)
-    {
-      this->Filler->Unmap();
-    }
-    else if (this->IsBehind)
+    if (this->IsBehind)
     {
       this->Filler ? this->Filler->Fill(*session, std::exchange(this->IsNew, false))
                    : this->UploadTriangles(session);
-      this->SmallestAngle = session ? session->GetReport().MinimumAngleAfter : -1.0;
-      this->HasCounts = false;
+      if (this->ByFlipCount)
+      {
+        this->UploadFlipCounts(session);
+      }
       this->IsBehind = false;
     }
-    if (this->ByFlipCount && !std::exchange(this->HasCounts, true))
+    else if (this->Filler)
     {
-      this->UploadFlipCounts(session);
+      this->Filler->Unmap();
     }
   }
 
-  /// Ids of points that do not exist become 0: the mesh may be one that no filter has checked.
   void UploadTriangles(const FlipSession* session)
   {
-    std::vector<std::int32_t> ids(3 * static_cast<std::size_t>(this->Count));
-    const TriangleArray triangles = ViewTriangles(this->Faces);
-    for (std::size_t i = 0; i < ids.size() && !session; ++i)
-    {
-      const std::int64_t id = triangles.Get(static_cast<std::int64_t>(i / 3), i % 3);
-      ids[i] = id >= 0 && id < this->PointCount ? static_cast<std::int32_t>(id) : 0;
-    }
+    vtkNew<vtkTypeInt32Array> ids;
     if (session)
     {
-      session->StoreTriangles(MutableTriangleArray(ids.data(), this->Count));
+      ids->SetNumberOfValues(3 * this->Count);
+      session->StoreTriangles(MutableTriangleArray(ids->GetPointer(0), this->Count));
     }
-    this->Upload(Corners, ids);
+    const std::int32_t* first = session ? ids->GetPointer(0) : this->Ids->GetPointer(0);
+    this->Corners.Values->Upload(
+      first, static_cast<std::size_t>(3 * this->Count), Buffer::ElementArrayBuffer);
   }
 
   void UploadFlipCounts(const FlipSession* session)
   {
     std::vector<std::int32_t> counts(static_cast<std::size_t>(this->Count));
-    vtkDataArray* given = this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount");
-    const int* flips = FindValues<vtkIntArray>(given);
+    auto* given =
+      vtkIntArray::SafeDownCast(this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount"));
     if (session)
     {
       session->StoreFlipCounts(counts.data());
     }
-    else if (flips && given->GetNumberOfValues() >= this->Faces->GetNumberOfCells())
+    else if (given && given->GetNumberOfValues() >= this->Faces->GetNumberOfCells())
     {
       const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
-      std::copy_n(flips + first, counts.size(), counts.begin());
+      std::copy_n(given->GetPointer(first), counts.size(), counts.begin());
     }
-    this->Upload(Counts, counts);
+    this->Counts.Values->Upload(counts, Buffer::TextureBuffer);
     this->LargestCount =
       std::max<double>(this->LargestCount, *std::max_element(counts.begin(), counts.end()));
-  }
-
-  void Upload(BufferName name, const std::vector<std::int32_t>& values)
-  {
-    glBindBuffer(GL_COPY_WRITE_BUFFER, static_cast<GLuint>(this->Buffers[name]->GetHandle()));
-    glBufferSubData(
-      GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(4 * values.size()), values.data());
-    glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
-  }
-
-  /// Of a mesh without a run in space; of a run, as its report.
-  double GetSmallestAngle()
-  {
-    if (this->SmallestAngle < 0.0)
-    {
-      TriangleMesh mesh;
-      mesh.Points = ViewPoints(this->Points);
-      mesh.Triangles = ViewTriangles(this->Faces);
-      this->SmallestAngle = std::numeric_limits<double>::quiet_NaN();
-      try
-      {
-        this->SmallestAngle = MinimumAngle(mesh, GeometryKind::Surface);
-      }
-      catch (const std::exception&) // a triangle names a point that does not exist
-      {
-      }
-    }
-    return this->SmallestAngle;
-  }
-
-  /// The table changes only if it must, since VTK then makes the scale anew.
-  void UpdateTable(vtkLookupTable* table)
-  {
-    const double kind = this->ByFlipCount ? this->LargestCount : -1.0;
-    if (std::exchange(this->TableKind, kind) != kind)
-    {
-      FillTable(table, this->ByFlipCount, this->LargestCount);
-    }
-  }
-
-  /// Whether a shader can read buffers of these sizes.
-  bool IsReadable() const
-  {
-    GLint largest = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
-    return 3 * std::max(this->Count, this->PointCount) <= largest;
   }
 
   void Draw(vtkShaderProgram* program)
   {
     this->Array->Bind();
     this->Array->AddAttributeArray(
-      program, this->Buffers[Places], "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
-    this->Buffers[Corners]->Bind();
-    const char* const names[] = { "places", "corners", "counts" };
-    for (const int name : { Places, Corners, Counts })
-    {
-      this->Textures[name]->Activate();
-      program->SetUniformi(names[name], this->Textures[name]->GetTextureUnit());
-    }
+      program, this->Places.Values, "place", 0, 3 * sizeof(float), VTK_FLOAT, 3, false);
+    this->Corners.Values->Bind();
+    this->Places.Activate(program, "places");
+    this->Corners.Activate(program, "corners");
+    this->Counts.Activate(program, "counts");
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * this->Count), GL_UNSIGNED_INT, nullptr);
-    for (const int name : { Places, Corners, Counts })
+    for (ShaderBuffer* buffer : { &this->Places, &this->Corners, &this->Counts })
     {
-      this->Textures[name]->Deactivate();
+      buffer->Texture->Deactivate();
     }
-    this->Buffers[Corners]->Release();
+    this->Corners.Values->Release();
     this->Array->Release();
   }
 };
 
-//------------------------------------------------------------------------------
 vtkStandardNewMacro(vtkDelaunayFlipMapper);
 
 vtkDelaunayFlipMapper::vtkDelaunayFlipMapper()
   : Own(new Parts)
 {
   vtkNew<vtkLookupTable> table;
-  FillTable(table, false, 0.0);
+  FillTable(table, -1.0);
   this->SetLookupTable(table);
 }
 
@@ -624,12 +484,12 @@ vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper()
   }
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
 {
   if (this->Own->Filter != filter)
   {
     this->Own->Filter = filter;
+    this->Own->IsNew = true;
     this->EndStep();
     this->Modified();
   }
@@ -652,56 +512,63 @@ vtkIdType vtkDelaunayFlipMapper::GetNumberOfTriangles()
 double vtkDelaunayFlipMapper::GetSmallestAngle()
 {
   this->ReadInput();
-  return this->Own->GetSmallestAngle();
+  if (const FlipSession* session = this->Own->FindSession())
+  {
+    return session->GetReport().MinimumAngleAfter;
+  }
+  if (this->Own->SmallestAngle < 0.0)
+  {
+    vtkNew<vtkDoubleArray> coordinates;
+    coordinates->DeepCopy(this->Own->Faces->GetPoints()->GetData());
+    TriangleMesh mesh;
+    mesh.Points = PointArray(coordinates->GetPointer(0), coordinates->GetNumberOfTuples());
+    mesh.Triangles =
+      TriangleArray(this->Own->Ids->GetPointer(0), this->Own->Faces->GetNumberOfPolys());
+    this->Own->SmallestAngle = MinimumAngle(mesh, GeometryKind::Surface);
+  }
+  return this->Own->SmallestAngle;
 }
 
 std::string vtkDelaunayFlipMapper::GetDrawing() const
 {
-  return this->Own->Obstacle.empty() ? "drawn without copies"
-                                     : "drawn from copies: " + this->Own->Obstacle;
+  return this->Own->Filler ? "drawn without copies" : "drawn from copies: " + this->Own->Obstacle;
 }
 
-/// If something is drawn before Fill(), the buffers are given back for that.
+/// If something is drawn before the end of the step, the buffer is given back for that.
 void vtkDelaunayFlipMapper::BeginStep()
 {
-  if (this->Own->Filler && this->Own->Window)
+  const vtkSmartPointer<vtkOpenGLRenderWindow> window = this->Own->Window.Get();
+  if (!this->Own->Filler || !window)
   {
-    try
+    return;
+  }
+  try
+  {
+    if (!window->IsCurrent()) // else a context may be flushed for nothing
     {
-      MakeCurrent(this->Own->Window);
-      this->Own->Filler->Map();
+      window->MakeCurrent();
     }
-    catch (const std::exception& error)
-    {
-      this->Own->Abandon(error);
-    }
+    this->Own->Filler->Map();
+  }
+  catch (const std::exception& error)
+  {
+    this->Own->Abandon(error);
   }
 }
 
 void vtkDelaunayFlipMapper::EndStep() { this->Own->IsBehind = true; }
 
-bool vtkDelaunayFlipMapper::Fill()
-{
-  const vtkSmartPointer<vtkOpenGLRenderWindow> window = this->Own->Window.Get();
-  if (!window || !this->Own->HasBuffers)
-  {
-    return false;
-  }
-  MakeCurrent(window);
-  return this->Prepare(window);
-}
-
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipMapper::ReadInput()
 {
+  Parts& own = *this->Own;
   vtkPolyData* input = this->GetInput();
   const vtkMTimeType time = input ? input->GetMTime() : 0;
-  if (std::exchange(this->Own->InputTime, time) != time)
+  if (std::exchange(own.InputTime, time) != time)
   {
-    this->Own->Faces = MakeFaces(input);
-    this->Own->ReadPoints();
-    this->Own->MayTryDevice = true;
-    this->Own->IsNew = true;
+    own.ReadFaces(input);
+    own.SmallestAngle = own.Box.IsValid() ? -1.0 : std::numeric_limits<double>::quiet_NaN();
+    own.MayTryDevice = true;
+    own.IsNew = true;
     this->EndStep();
   }
 }
@@ -709,11 +576,7 @@ void vtkDelaunayFlipMapper::ReadInput()
 void vtkDelaunayFlipMapper::ComputeBounds()
 {
   this->ReadInput();
-  vtkMath::UninitializeBounds(this->Bounds);
-  if (this->Own->Box.IsValid())
-  {
-    this->Own->Box.GetBounds(this->Bounds);
-  }
+  this->Own->Box.GetBounds(this->Bounds);
 }
 
 /// Brings everything that is drawn up to date, in the current context of a window. After a failure
@@ -723,33 +586,37 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
 {
   Parts& own = *this->Own;
   this->ReadInput();
-  if (own.Faces->GetNumberOfPolys() == 0)
+  if (!own.Box.IsValid())
   {
     return false;
   }
   own.MakeBuffers(window);
   own.UploadPoints();
+  const FlipSession* session = own.FindSession();
   const bool byFlipCount = this->ColorBy == COLOR_BY_FLIP_COUNT;
-  if (own.ByFlipCount != byFlipCount && (!own.Filter || own.FindSession()))
+  if (own.ByFlipCount != byFlipCount && (!own.Filter || session))
   {
     own.ByFlipCount = byFlipCount;
+    own.IsBehind = true;
   }
-  for (bool isOnDevice = true; isOnDevice;)
+  try
   {
-    try
+    own.ChooseFiller(session, this->ZeroCopy);
+    own.Fill(session);
+    // The table changes only if it must, since VTK then makes the scale anew.
+    const double kind = own.ByFlipCount ? own.LargestCount : -1.0;
+    if (std::exchange(own.TableKind, kind) != kind)
     {
-      own.ChooseFiller(this->ZeroCopy);
-      isOnDevice = own.Filler != nullptr;
-      own.Fill();
-      own.UpdateTable(vtkLookupTable::SafeDownCast(this->LookupTable));
-      return true;
+      FillTable(vtkLookupTable::SafeDownCast(this->LookupTable), kind);
     }
-    catch (const std::exception& error)
-    {
-      own.Abandon(error);
-    }
+    return true;
   }
-  return false;
+  catch (const std::exception& error)
+  {
+    const bool wasOnDevice = own.Filler != nullptr;
+    own.Abandon(error);
+    return wasOnDevice && this->Prepare(window); // from the host
+  }
 }
 
 void vtkDelaunayFlipMapper::ReleaseGraphicsResources(vtkWindow* window)
@@ -758,12 +625,10 @@ void vtkDelaunayFlipMapper::ReleaseGraphicsResources(vtkWindow* window)
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
-//------------------------------------------------------------------------------
 void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  auto* camera = vtkOpenGLCamera::SafeDownCast(renderer->GetActiveCamera());
-  if (!window || !camera || renderer->GetSelector() || !this->GetInputAlgorithm())
+  if (!window || renderer->GetSelector() || !this->GetInputAlgorithm())
   {
     return;
   }
@@ -790,53 +655,66 @@ void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
     vtkErrorMacro("OpenGL does not compile the shader.");
     return;
   }
-  const Parts& own = *this->Own;
-  vtkMatrix4x4 *worldToView, *viewToClip, *worldToClip; // transposed
-  vtkMatrix3x3* normals;
-  camera->GetKeyMatrices(renderer, worldToView, normals, viewToClip, worldToClip);
-  vtkNew<vtkMatrix4x4> placeToWorld;
+  this->SetPlaces(program, renderer, actor->GetMatrix());
+  this->SetColors(program, actor->GetProperty());
+  this->Own->Draw(program);
+}
+
+/// Where the triangles are drawn, and where they are cut off.
+void vtkDelaunayFlipMapper::SetPlaces(
+  vtkShaderProgram* program, vtkRenderer* renderer, vtkMatrix4x4* dataToWorld)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkMatrix4x4* worldToView = camera->GetModelViewTransformMatrix();
+  vtkNew<vtkMatrix4x4> placeToWorld, placeToView;
   for (int axis = 0; axis < 3; ++axis)
   {
-    placeToWorld->SetElement(axis, axis, own.Unit);
-    placeToWorld->SetElement(axis, 3, own.Center[axis]);
+    placeToWorld->SetElement(axis, axis, this->Own->Unit);
+    placeToWorld->SetElement(axis, 3, this->Own->Center[axis]);
   }
-  vtkMatrix4x4::Multiply4x4(actor->GetMatrix(), placeToWorld, placeToWorld);
-  SetMatrix(program, "placeToClip", placeToWorld, worldToClip);
-  SetMatrix(program, "dataToView", actor->GetMatrix(), worldToView);
-
+  vtkMatrix4x4::Multiply4x4(dataToWorld, placeToWorld, placeToWorld);
+  vtkMatrix4x4::Multiply4x4(worldToView, placeToWorld, placeToView);
+  SetProduct(program, "dataToView", worldToView, dataToWorld);
+  SetProduct(program, "placeToClip",
+    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0), placeToView);
   float planes[MostPlanes][4] = {};
   const int count = std::min(MostPlanes, this->GetNumberOfClippingPlanes());
   for (int i = 0; i < count; ++i)
   {
     double plane[4];
-    this->GetClippingPlaneInDataCoords(actor->GetMatrix(), i, plane);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      planes[i][axis] = static_cast<float>(plane[axis] * own.Unit);
-      plane[3] += plane[axis] * own.Center[axis];
-    }
-    planes[i][3] = static_cast<float>(plane[3]);
+    this->GetClippingPlaneInDataCoords(placeToWorld, i, plane);
+    std::copy_n(plane, 4, planes[i]);
   }
   program->SetUniformi("numberOfPlanes", count);
   program->SetUniform4fv("planes", MostPlanes, planes);
+}
 
-  const bool isReadable = own.IsReadable();
-  SetBands(program, vtkLookupTable::SafeDownCast(this->LookupTable), own.ByFlipCount);
-  vtkProperty* property = actor->GetProperty();
+/// Buffers that are too large for the shader show neither colours nor edges.
+void vtkDelaunayFlipMapper::SetColors(vtkShaderProgram* program, vtkProperty* property)
+{
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
+  const bool isReadable = 3 * std::max(this->Own->Count, this->Own->PointCount) <= largest;
+  auto* table = vtkLookupTable::SafeDownCast(this->LookupTable);
+  float bands[Bands][3];
+  for (int i = 0; i < Bands; ++i)
+  {
+    std::copy_n(table->GetTableValue(i), 3, bands[i]);
+  }
+  program->SetUniform3fv("bands", Bands, bands);
+  program->SetUniformf("bandsPerUnit", static_cast<float>(Bands / table->GetRange()[1]));
+  const int colorBy = this->Own->ByFlipCount ? COLOR_BY_FLIP_COUNT
+    : this->ColorBy == COLOR_BY_SOLID        ? COLOR_BY_SOLID
+                                             : COLOR_BY_SMALLEST_ANGLE;
+  program->SetUniformi("colorBy", isReadable ? colorBy : COLOR_BY_SOLID);
+  program->SetUniform3f("plainColor", property->GetColor());
   const bool isLit = property->GetLighting();
   const float light[2] = { isLit ? static_cast<float>(property->GetAmbient()) : 1.0f,
     isLit ? static_cast<float>(property->GetDiffuse()) : 0.0f };
   program->SetUniform2f("light", light);
-  SetColor(program, "plainColor", property->GetColor(),
-    isReadable && this->ColorBy != COLOR_BY_SOLID ? 0.0 : 1.0);
-  SetColor(program, "edge", property->GetEdgeColor(),
-    property->GetEdgeVisibility() && isReadable ? 0.5 * property->GetLineWidth() : 0.0);
-  int width, height, left, bottom;
-  renderer->GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
-  const float viewport[4] = { left + 0.5f * width, bottom + 0.5f * height, 0.5f * width,
-    0.5f * height };
-  program->SetUniform4f("viewport", viewport);
-  this->Own->Draw(program);
+  program->SetUniform3f("edgeColor", property->GetEdgeColor());
+  program->SetUniformf("edgeWidth",
+    property->GetEdgeVisibility() && isReadable ? 0.5f * property->GetLineWidth() : 0.0f);
 }
 
 void vtkDelaunayFlipMapper::PrintSelf(ostream& os, vtkIndent indent)

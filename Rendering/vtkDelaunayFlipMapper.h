@@ -41,7 +41,10 @@
 #include <string> // For std::string
 
 class vtkDelaunayFlip;
+class vtkMatrix4x4;
 class vtkOpenGLRenderWindow;
+class vtkProperty;
+class vtkShaderProgram;
 
 class VTKDELAUNAYFLIPRENDERING_EXPORT vtkDelaunayFlipMapper : public vtkPolyDataMapper
 {
@@ -101,15 +104,8 @@ public:
   ///@}
 
   /**
-   * Brings the buffers up to date without drawing, so that GetSmallestAngle() is that of the mesh
-   * as it is now. Makes the context of the window current.
-   * @returns false if there are no buffers, because nothing has been drawn yet.
-   */
-  bool Fill();
-
-  /**
-   * The smallest angle of the mesh in the buffers, in degrees; NaN if there is none. It is measured
-   * in space, but that of a run with PLANAR_XY in the projection.
+   * The smallest angle of the mesh, in degrees; NaN if there is none. It is measured in space, but
+   * that of a run with PLANAR_XY in the projection.
    */
   double GetSmallestAngle();
 
@@ -139,6 +135,8 @@ protected:
 private:
   void ReadInput();
   bool Prepare(vtkOpenGLRenderWindow* window);
+  void SetPlaces(vtkShaderProgram* program, vtkRenderer* renderer, vtkMatrix4x4* dataToWorld);
+  void SetColors(vtkShaderProgram* program, vtkProperty* property);
 
   struct Parts;
   std::unique_ptr<Parts> Own;

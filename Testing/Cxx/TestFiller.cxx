@@ -16,7 +16,8 @@ namespace
 {
 
 TestFiller Plan;
-TriangleBuffer Last;
+unsigned int LastBuffer = 0; ///< Of the last filler, as is the count.
+std::int64_t LastCount = 0; ///< Of triangles.
 
 /// Counts a call, and lets it fail as planned.
 void Count(int& calls, int failing, const char* message)
@@ -73,10 +74,10 @@ public:
 private:
   static void FillFromHost(const FlipSession& session)
   {
-    std::vector<std::int32_t> ids(static_cast<std::size_t>(3 * Last.Count));
-    session.StoreTriangles(MutableTriangleArray(ids.data(), Last.Count));
-    glBindBuffer(GL_COPY_WRITE_BUFFER, Last.Name);
-    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, 12 * Last.Count, ids.data());
+    std::vector<std::int32_t> ids(static_cast<std::size_t>(3 * LastCount));
+    session.StoreTriangles(MutableTriangleArray(ids.data(), LastCount));
+    glBindBuffer(GL_COPY_WRITE_BUFFER, LastBuffer);
+    glBufferSubData(GL_COPY_WRITE_BUFFER, 0, 12 * LastCount, ids.data());
     glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
   }
 
@@ -84,25 +85,26 @@ private:
 };
 
 std::unique_ptr<BufferFiller> MakeWatchedFiller(
-  vtkDelaunayFlip* filter, const TriangleBuffer& buffer)
+  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles)
 {
   if (!Plan.Obstacle.empty())
   {
     throw std::runtime_error(Plan.Obstacle);
   }
-  Last = buffer;
+  LastBuffer = buffer;
+  LastCount = triangles;
   Plan.AreMapped = false;
   return std::make_unique<WatchedFiller>(
-    IsTestBackendCuda() ? MakeCudaFiller(filter, buffer) : nullptr);
+    IsTestBackendCuda() ? MakeCudaFiller(filter, buffer, triangles) : nullptr);
 }
 
 }
 
 std::vector<std::int32_t> TestFiller::GetTriangles() const
 {
-  std::vector<std::int32_t> values(static_cast<std::size_t>(3 * Last.Count));
-  glBindBuffer(GL_COPY_READ_BUFFER, Last.Name);
-  glGetBufferSubData(GL_COPY_READ_BUFFER, 0, 12 * Last.Count, values.data());
+  std::vector<std::int32_t> values(static_cast<std::size_t>(3 * LastCount));
+  glBindBuffer(GL_COPY_READ_BUFFER, LastBuffer);
+  glGetBufferSubData(GL_COPY_READ_BUFFER, 0, 12 * LastCount, values.data());
   glBindBuffer(GL_COPY_READ_BUFFER, 0);
   return values;
 }

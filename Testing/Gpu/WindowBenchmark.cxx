@@ -11,15 +11,11 @@
 #include "OpenGLFunctions.h"
 #include "TestWindow.h"
 
-#include "vtkActor.h"
-#include "vtkActorCollection.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipLiveView.h"
-#include "vtkDelaunayFlipMapper.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-#include "vtkRenderer.h"
 
 #include <CLI/CLI.hpp>
 
@@ -68,16 +64,14 @@ struct Scene
   }
 };
 
-/// Calls prepare() and work() and waits for OpenGL, several times, and prints what work() took.
+/// Calls work() and waits for OpenGL, several times, and prints what it took.
 void Measure(
-  const BenchmarkMesh& mesh, const std::string& what, int frames, const std::function<bool()>& work,
-  const std::function<void()>& prepare = []() {})
+  const BenchmarkMesh& mesh, const std::string& what, int frames, const std::function<bool()>& work)
 {
   std::vector<double> times;
   bool goesOn = true;
   while (goesOn && static_cast<int>(times.size()) < frames)
   {
-    prepare();
     const auto start = std::chrono::steady_clock::now();
     goesOn = work();
     glFinish();
@@ -127,15 +121,6 @@ void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arg
     GetRendererName().c_str());
   if (what != "no copies, with texts")
   {
-    auto* actor = vtkActor::SafeDownCast(scene.View->GetRenderer()->GetActors()->GetLastActor());
-    auto* mapper = vtkDelaunayFlipMapper::SafeDownCast(actor->GetMapper());
-    Measure(
-      mesh, what + ": filling alone", drawsEdges ? 1 : frames, [&]() { return mapper->Fill(); },
-      [&]()
-      {
-        scene.Filter->AdvanceSession();
-        mapper->EndStep();
-      });
     scene.View->Render();
     Measure(mesh, "drawing alone" + edges, frames,
       [&]()

@@ -25,7 +25,7 @@ CLEAN = {
     "Engine/Session/CallerMesh.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
     "CUDA/Team.cuh": LICENCE + '#include "EdgeMesh.h"\n',
     "Filters/vtkDelaunayFlip.cxx": LICENCE + '#include "FlipOptions.h"\n#include <vtkObject.h>\n',
-    "Rendering/LiveScene.h": LICENCE,
+    "Rendering/BufferFiller.h": LICENCE,
     "Testing/Core/EdgeMeshTest.cpp": LICENCE + '#include "EdgeMesh.h"\n#include "vtkObject.h"\n',
     "Testing/Meshes/GeneratedMeshes.h": LICENCE,
     "Utilities/short.py": "#!/usr/bin/env python3\n" + HASH_LICENCE + "def answer():\n    return 42\n",
@@ -55,7 +55,7 @@ FAULTS = {
         ("Engine/Geometry/Bad.h", '#include "EdgeMesh.h"\n', "Geometry includes EdgeMesh.h of"),
         ("Engine/FlipOptions.h", '#include "EdgeMesh.h"\n', "public headers includes EdgeMesh.h"),
         ("Filters/Bad.h", '#include "EdgeMesh.h"\n', "Filters includes EdgeMesh.h of Engine/Mesh"),
-        ("Filters/Bad.cxx", '# include "LiveScene.h"\n', "Filters includes LiveScene.h of"),
+        ("Filters/Bad.cxx", '# include "BufferFiller.h"\n', "Filters includes BufferFiller.h of"),
         ("Command/Bad.cxx", '#include "GeneratedMeshes.h"\n', "GeneratedMeshes.h of Testing")],
 }
 
