@@ -52,15 +52,6 @@ class Blocks(RanksTest):
                           for kind in ("point", "cell"))
                 self.assertIn(f"{place}: " + "; ".join(arrays), facts["said"][0])
 
-    def test_wrong_ghosts_are_ignored(self):
-        for kind, place in PLACES_ON_RANK_1:
-            with self.subTest(kind):
-                facts = flip_on(2, "wrong_ghosts", kind=kind)
-                self.assertEqual((facts["same"], facts["left"]), (True, 0))
-                self.assertEqual(len(facts["said"]), 1)
-                self.assertIn(f"{place}: 1 ghost array that is not of type unsigned char ignored: "
-                              '"vtkGhostType"', facts["said"][0])
-
     def test_constraints(self):
         for kind, unmatched in (("shared", True), ("composite", False)):
             with self.subTest(kind):
@@ -83,11 +74,6 @@ class BlockFailures(RanksTest):
         self.assertEqual(facts["error"],
                          "rank 1: this rank has a single mesh, but others have composite datasets")
 
-    def test_any_rank_stops_all_blocks(self):
-        for rank in (0, 2):
-            with self.subTest(rank):
-                facts = flip_on(3, "aborted_blocks", rank=rank)
-                self.assertEqual((facts["stopped"], facts["rounds"]), ("aborted", 1))
 
 
 if __name__ == "__main__":
