@@ -307,12 +307,12 @@ namespace
 {
 /// Of the inner edges of some triangles, those whose two opposite points are both shared, that are
 /// bad and whose flip would not fold the mesh over; in the order of the later of their triangles.
-std::vector<FlipQuestion> FindWaiting(
+std::vector<WaitingFlip> FindWaiting(
   PartMesh& mesh, std::vector<std::int64_t> triangles, const QuadJudge& judge)
 {
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  std::vector<FlipQuestion> questions;
+  std::vector<WaitingFlip> waiting;
   for (const std::int64_t t : triangles)
   {
     for (int slot = 0; slot < 3 && !mesh.Triangles[t].HasLeft; ++slot)
@@ -328,16 +328,17 @@ std::vector<FlipQuestion> FindWaiting(
         judge.Judge(mesh, corner, mate) == EdgeState::Bad)
       {
         const auto& [one, other] = std::minmax(corner, mate);
-        questions.push_back({ mesh.GetKeys(mesh.GetEdge(t, slot)),
-          mesh.GetKeys(
-            { mesh.Triangles[t].Points[slot], mesh.Triangles[mate.Triangle].Points[mate.Slot] }),
-          false, one, other });
+        waiting.push_back({ { mesh.GetKeys(mesh.GetEdge(t, slot)),
+                              mesh.GetKeys({ mesh.Triangles[t].Points[slot],
+                                mesh.Triangles[mate.Triangle].Points[mate.Slot] }),
+                              false },
+          one, other });
       }
     }
   }
-  std::sort(questions.begin(), questions.end(),
-    [](const FlipQuestion& a, const FlipQuestion& b) { return a.Other < b.Other; });
-  return questions;
+  std::sort(waiting.begin(), waiting.end(),
+    [](const WaitingFlip& a, const WaitingFlip& b) { return a.Other < b.Other; });
+  return waiting;
 }
 
 /// The edges that may be made, and by the flip of which edge: of those that can flip now, or else
@@ -372,16 +373,16 @@ GuardRound AskForFlips(PartMesh& mesh, const QuadJudge& judge, std::vector<std::
   const SeamTest& test, PieceGroup& group)
 {
   GuardRound round;
-  DoTogether(group, [&]() { round.Questions = FindWaiting(mesh, std::move(waiting), judge); });
+  DoTogether(group, [&]() { round.Waiting = FindWaiting(mesh, std::move(waiting), judge); });
   waiting.clear();
-  for (const FlipQuestion& question : round.Questions)
+  for (const WaitingFlip& one : round.Waiting)
   {
-    waiting.insert(waiting.end(), { question.One.Triangle, question.Other.Triangle });
+    waiting.insert(waiting.end(), { one.One.Triangle, one.Other.Triangle });
   }
-  std::vector<FlipQuestion> questions = round.Questions;
+  std::vector<FlipQuestion> questions(round.Waiting.begin(), round.Waiting.end());
   for (const BadSeam& seam : test.Bad)
   {
-    questions.push_back({ seam.Ends, seam.Opposite, true, {}, {} });
+    questions.push_back({ seam.Ends, seam.Opposite, true });
   }
   round.Granted = GrantFlips(mesh, questions, group);
   round.FreeOfAll = static_cast<std::int64_t>(round.Granted.size());
@@ -396,15 +397,15 @@ void GuardRound::Flip(PartMesh& mesh, SeamTest& test)
     return found != this->Granted.end() && found->second == ends;
   };
   std::unordered_set<std::int64_t> changed; // each triangle only once
-  for (const auto& [ends, opposite, isSeam, one, other] : this->Questions)
+  for (const WaitingFlip& flip : this->Waiting)
   {
-    if (changed.count(one.Triangle) == 0 && changed.count(other.Triangle) == 0 &&
-      isGranted(ends, opposite))
+    const std::int64_t one = flip.One.Triangle, other = flip.Other.Triangle;
+    if (changed.count(one) == 0 && changed.count(other) == 0 && isGranted(flip.Ends, flip.Opposite))
     {
-      this->Gone.push_back(mesh.Triangles[one.Triangle].GetEdge(one.Slot));
-      mesh.Flip(one, other);
-      this->Changed.insert(this->Changed.end(), { one.Triangle, other.Triangle });
-      changed.insert({ one.Triangle, other.Triangle });
+      this->Gone.push_back(mesh.GetEdge(one, flip.One.Slot));
+      mesh.Flip(flip.One, flip.Other);
+      this->Changed.insert(this->Changed.end(), { one, other });
+      changed.insert({ one, other });
     }
   }
   // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.

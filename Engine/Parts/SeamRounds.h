@@ -141,7 +141,12 @@ struct FlipQuestion
   PointPair Ends; ///< Keys.
   PointPair Opposite; ///< Keys.
   bool IsSeam; ///< Between ranks, so that it cannot flip now.
-  PartCorner One, Other; ///< Opposite to an edge that is not, on the rank that asks.
+};
+
+/// An inner edge of a rank that waits, with the two corners opposite to it.
+struct WaitingFlip : FlipQuestion
+{
+  PartCorner One, Other;
 };
 
 /// The guarded part of a round, on one rank.
@@ -161,7 +166,7 @@ struct GuardRound
   /// changed.
   void Flip(PartMesh& mesh, SeamTest& test);
 
-  std::vector<FlipQuestion> Questions; ///< About the edges that wait.
+  std::vector<WaitingFlip> Waiting;
   PairMap<PointPair> Granted; ///< The edges that may be made, and by the flip of which edge.
 };
 
