@@ -193,16 +193,7 @@ TEST_P(RanksTest, NeedTheSameOptions)
         o.Geometry = GeometryKind::Surface;
         o.Tolerance = 0.5; // the first difference counts
       } },
-    { "Tolerance is '-1' on rank 0, but '0.5'", [](FlipOptions& o) { o.Tolerance = 0.5; } },
-    { "Criterion is 'in-circle' on rank 0, but 'opposite-angles'",
-      [](FlipOptions& o) { o.Criterion = CriterionKind::OppositeAngles; } },
-    { "TieRule is 'canonical' on rank 0, but 'keep'",
-      [](FlipOptions& o) { o.TieRule = TieRuleKind::Keep; } },
     { "FeatureAngle is '30' on rank 0, but '0.1'", [](FlipOptions& o) { o.FeatureAngle = 0.1; } },
-    { "MaximumDeviation is 'inf' on rank 0, but '0.5'",
-      [](FlipOptions& o) { o.MaximumDeviation = 0.5; } },
-    { "MaximumIterations is '-1' on rank 0, but '7'",
-      [](FlipOptions& o) { o.MaximumIterations = 7; } },
     { "TrackQuality is 'off' on rank 0, but 'on'", [](FlipOptions& o) { o.TrackQuality = true; } },
   };
   const std::string end =

@@ -13,14 +13,12 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-import delaunayflip
 import rank_blocks
 import rank_constraints
 import rank_meshes
 import rank_seams
 from rank_runs import (
-    RANK, RANKS, WORLD, describe, flip_alone, flip_piece, gather_triangles, require, same,
-    set_options, start)
+    RANK, RANKS, WORLD, describe, flip_alone, flip_piece, gather_triangles, require, same, start)
 
 def run_same(maker, count, kind, ids, options, unique=True):
     points, triangles = getattr(rank_meshes, maker)(count)
@@ -71,21 +69,6 @@ def run_failure(rank, wrong):
     flip.UpdatePiece(RANK, RANKS, 0)
     facts["then"] = flip.GetStopReasonAsString()
     return facts, said
-
-
-def run_abort(rank):
-    points, triangles = rank_meshes.make_random(2000)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space")
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
-    flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"TieRule": 1})
-    flip.SetInputData(piece)
-    if RANK == rank:
-        flip.AddObserver("ProgressEvent", lambda *_: flip.SetAbortExecute(1))
-    flip.UpdatePiece(RANK, RANKS, 0)
-    reasons = WORLD.allgather(flip.GetStopReasonAsString())
-    cells = WORLD.allreduce(flip.GetOutput().GetNumberOfCells())
-    require(cells == len(triangles), f"{cells} triangles")
-    return {"reasons": reasons}, []
 
 
 def main():

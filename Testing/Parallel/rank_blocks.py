@@ -166,21 +166,6 @@ def run_composite(kind):
     return facts, []
 
 
-def run_short_arrays(kind):
-    """On rank 1, an array of the cells and one of the points have too few tuples."""
-    data = MAKERS[kind]() if kind in MAKERS else cut(0)
-    leaf = list_leaves(data)[-1] if kind in MAKERS else data
-    if RANK == 1:
-        for attributes in (leaf.GetCellData(), leaf.GetPointData()):
-            rank_meshes.add_array(attributes, "Short", np.arange(2.0))
-    flip, facts = update(data)
-    output = flip.GetOutputDataObject(0)
-    leaf = list_leaves(output)[-1] if kind in MAKERS else output
-    require(not leaf.GetCellData().HasArray("Short"), "a short cell array")
-    require(not leaf.GetPointData().HasArray("Short"), "a short point array")
-    return facts, []
-
-
 def run_failing_block():
     """Mesh 1 is broken on rank 1: its leaves are empty, the others are flipped."""
     data = make_blocks()

@@ -6,8 +6,6 @@ import unittest
 from RanksTesting import RanksTest, flip_on
 
 NO_SURFACE = "block 2: not a surface, passed unchanged"
-PLACES_ON_RANK_1 = (("partitions", "rank 1, block 2"), ("two partitions", "rank 1, block 3"),
-                    ("mesh", "rank 1"))
 
 
 class Blocks(RanksTest):
@@ -42,15 +40,6 @@ class Blocks(RanksTest):
                 self.assertEqual((facts["stopped"], facts["left"]), ("converged", 0))
                 self.assertEqual(facts["flips of leaves"], [facts["flips"]])
                 self.assertEqual((facts["partitions"], facts["rounds"] > 1), (count, ranks > 1))
-
-    def test_short_arrays_are_left_out(self):
-        for kind, place in PLACES_ON_RANK_1:
-            with self.subTest(kind):
-                facts = flip_on(2, "short_arrays", kind=kind)
-                self.assertEqual(len(facts["said"]), 1)
-                arrays = ('1 %s array with too few tuples left out: "Short"' % kind
-                          for kind in ("point", "cell"))
-                self.assertIn(f"{place}: " + "; ".join(arrays), facts["said"][0])
 
     def test_constraints(self):
         for kind, unmatched in (("shared", True), ("composite", False)):

@@ -52,7 +52,6 @@ class Pieces(RanksTest):
                       facts["said"][0])
 
 
-
 class Failures(RanksTest):
     def test_a_failure_is_that_of_all(self):
         for rank in (0, 2):
@@ -66,12 +65,6 @@ class Failures(RanksTest):
     def test_missing_regions(self):
         facts = flip_on(2, "failure", rank=0, wrong="regions")
         self.assertIn('no cell array named "missing"', facts["error"])
-
-    def test_any_rank_stops_all(self):
-        for rank in (0, 2):
-            with self.subTest(rank):
-                facts = flip_on(3, "abort", rank=rank)
-                self.assertEqual(facts["reasons"], ["aborted"] * 3)
 
 
 if __name__ == "__main__":
