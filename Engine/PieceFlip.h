@@ -68,6 +68,22 @@ struct FlippedPiece
 /// @param rank the one whose piece this is.
 DELAUNAYFLIP_EXPORT std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank);
 
+/// Which points of several pieces are the same.
+struct JoinedPoints
+{
+  /// For each point of all pieces, numbered one piece behind the other: the first that is the same.
+  std::vector<std::int64_t> Same;
+  /// How many coincide with others of their piece and with a point of another one. It is not known
+  /// which of them are the same, so they stay apart.
+  std::int64_t Ambiguous = 0;
+};
+
+/// Finds the points of pieces of one process that are the same: those with the same number or, if a
+/// piece with points has no numbers, at the same place, if at least one of them is at the border of
+/// its piece. Points that neither a triangle nor a constraint has are not compared.
+/// @param pieces with valid ids.
+DELAUNAYFLIP_EXPORT JoinedPoints JoinPoints(const std::vector<MeshPiece>& pieces);
+
 /// What happened to the whole mesh; the same on every rank.
 struct PiecesReport : FlipReport
 {

@@ -5,8 +5,13 @@
 
 #include "EngineExport.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -16,6 +21,71 @@ namespace delaunayflip
 {
 
 using Message = std::vector<char>;
+
+/// Adds a value to a message, of a type that has the same bytes on all ranks.
+template <typename Value>
+void Put(Message& message, const Value& value)
+{
+  static_assert(std::is_trivially_copyable<Value>::value, "copied byte by byte");
+  const char* bytes = reinterpret_cast<const char*>(&value);
+  message.insert(message.end(), bytes, bytes + sizeof(value));
+}
+inline void Put(Message& message, const std::string& text)
+{
+  Put(message, static_cast<std::int64_t>(text.size()));
+  message.insert(message.end(), text.begin(), text.end());
+}
+template <typename Value>
+void Put(Message& message, const std::vector<Value>& values)
+{
+  Put(message, static_cast<std::int64_t>(values.size()));
+  std::for_each(
+    values.begin(), values.end(), [&message](const Value& value) { Put(message, value); });
+}
+
+/// Reads a message in the order in which it was written.
+class MessageReader
+{
+public:
+  explicit MessageReader(Message bytes)
+    : Bytes(std::move(bytes))
+  {
+  }
+
+  bool IsAtEnd() const { return this->At >= this->Bytes.size(); }
+  void Read(char* bytes, std::int64_t count)
+  {
+    std::copy_n(this->Bytes.data() + this->At, count, bytes);
+    this->At += count;
+  }
+  template <typename Value>
+  void Get(Value& value)
+  {
+    this->Read(reinterpret_cast<char*>(&value), sizeof(value));
+  }
+  void Get(std::string& text)
+  {
+    text.resize(this->Get<std::int64_t>());
+    this->Read(&text[0], static_cast<std::int64_t>(text.size()));
+  }
+  template <typename Value>
+  void Get(std::vector<Value>& values)
+  {
+    values.resize(this->Get<std::int64_t>());
+    std::for_each(values.begin(), values.end(), [this](Value& value) { this->Get(value); });
+  }
+  template <typename Value>
+  Value Get()
+  {
+    Value value{};
+    this->Get(value);
+    return value;
+  }
+
+private:
+  Message Bytes;
+  std::size_t At = 0;
+};
 
 /// The ranks that hold the pieces of one mesh, as one of them sees it. A rank is a process, or a
 /// thread of this process. All ranks must call Exchange and Gather the same number of times and in

@@ -4,7 +4,9 @@
 
 #include "DataArrays.h"
 #include "FlipError.h"
+#include "PieceFlip.h"
 #include "PolyDataBridge.h"
+#include "UpdateProgress.h"
 
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -15,8 +17,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <tuple>
+#include <memory>
 #include <utility>
 
 namespace delaunayflip
@@ -94,113 +95,6 @@ vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
   return kept;
 }
 
-/// How cells use a point.
-enum Use : unsigned char
-{
-  Unused,
-  OfLines,
-  AtBorder, ///< Of polygons that do not close around it.
-  Inside
-};
-
-std::vector<Use> FindUses(vtkPolyData* mesh)
-{
-  std::vector<Use> uses(mesh->GetNumberOfPoints(), Unused);
-  // Around a closed fan every neighbour is the next one once, and once the previous one.
-  std::vector<std::uint64_t> fans(uses.size(), 0);
-  const auto scatter = [](vtkIdType id)
-  {
-    std::uint64_t bits = static_cast<std::uint64_t>(id) * 0x9e3779b97f4a7c15u;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    return bits ^ (bits >> 27);
-  };
-  const auto addCorner = [&](vtkIdType point, vtkIdType next, vtkIdType previous)
-  {
-    uses[point] = Inside;
-    fans[point] += scatter(next) - scatter(previous);
-  };
-  const PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
-  VisitCells(mesh->GetLines(), check,
-    [&](vtkIdType, vtkIdList* ids)
-    {
-      for (const vtkIdType id : *ids)
-      {
-        uses[id] = OfLines;
-      }
-    });
-  VisitCells(mesh->GetPolys(), check,
-    [&](vtkIdType, vtkIdList* ids)
-    {
-      const vtkIdType count = ids->GetNumberOfIds();
-      for (vtkIdType i = 0; i < count; ++i)
-      {
-        addCorner(ids->GetId(i), ids->GetId((i + 1) % count), ids->GetId((i + count - 1) % count));
-      }
-    });
-  VisitCells(mesh->GetStrips(), check,
-    [&](vtkIdType, vtkIdList* ids)
-    {
-      for (vtkIdType i = 0; i + 2 < ids->GetNumberOfIds(); ++i)
-      {
-        const vtkIdType a = ids->GetId(i), b = ids->GetId(i + 1 + i % 2),
-                        c = ids->GetId(i + 2 - i % 2);
-        addCorner(a, b, c);
-        addCorner(b, c, a);
-        addCorner(c, a, b);
-      }
-    });
-  for (std::size_t i = 0; i < uses.size(); ++i)
-  {
-    uses[i] = uses[i] == Inside && fans[i] != 0 ? AtBorder : uses[i];
-  }
-  return uses;
-}
-
-/// A point that other partitions may have, too.
-struct Candidate
-{
-  std::array<double, 3> Place; ///< Coordinates, or a global id.
-  bool IsOfLines;
-  vtkIdType Number; ///< Among the points of all partitions.
-  std::size_t Partition;
-  bool IsInside;
-};
-
-std::vector<Candidate> ListCandidates(const std::vector<vtkSmartPointer<vtkPolyData>>& partitions)
-{
-  std::vector<std::vector<std::int64_t>> ids;
-  bool haveIds = true;
-  for (const auto& mesh : partitions)
-  {
-    ids.push_back(ReadPointNumbers(mesh));
-    haveIds = haveIds && (!ids.back().empty() || mesh->GetNumberOfPoints() == 0);
-  }
-  std::vector<Candidate> all;
-  vtkIdType number = 0;
-  for (std::size_t k = 0; k < partitions.size(); ++k)
-  {
-    const std::vector<Use> uses = FindUses(partitions[k]);
-    for (std::size_t i = 0; i < uses.size(); ++i, ++number)
-    {
-      std::array<double, 3> place{};
-      if (haveIds) // all bits of the id, which a double may not have
-      {
-        place = { static_cast<double>(ids[k][i] >> 32), static_cast<double>(ids[k][i] & 0xffffffff),
-          0.0 };
-      }
-      else
-      {
-        partitions[k]->GetPoint(static_cast<vtkIdType>(i), place.data());
-      }
-      if (uses[i] != Unused && place == place) // no NaN
-      {
-        all.push_back({ place, uses[i] == OfLines, number, k, !haveIds && uses[i] == Inside });
-      }
-    }
-  }
-  return all;
-}
-
 /// The name in the joined data of an array of a partition.
 std::string FindName(vtkDataSetAttributes* own, int index, vtkDataSetAttributes* joined)
 {
@@ -273,66 +167,35 @@ JoinedPartitions::JoinedPartitions(
 /// not compared.
 void JoinedPartitions::JoinPoints()
 {
-  std::vector<Candidate> all = ListCandidates(this->Partitions);
-  const auto order = [](const Candidate& one)
-  { return std::tie(one.Place, one.IsOfLines, one.Number); };
-  std::sort(all.begin(), all.end(),
-    [&](const Candidate& a, const Candidate& b) { return order(a) < order(b); });
-  vtkIdType count = 0;
+  std::vector<std::unique_ptr<PolyDataBridge>> bridges;
+  std::vector<std::vector<std::int64_t>> numbers;
+  std::vector<MeshPiece> pieces;
   bool areDoubles = false;
   for (const auto& mesh : this->Partitions)
   {
-    count += mesh->GetNumberOfPoints();
+    bridges.push_back(
+      std::make_unique<PolyDataBridge>(mesh, nullptr, BridgeSettings(), UpdatePlan({}, {})));
+    numbers.push_back(ReadPointNumbers(mesh));
+    pieces.push_back(
+      { bridges.back()->GetMesh(), numbers.back().empty() ? nullptr : numbers.back().data() });
     areDoubles =
       areDoubles || (mesh->GetPoints() && mesh->GetPoints()->GetDataType() == VTK_DOUBLE);
   }
-  std::vector<vtkIdType> same(count); // of every point, the first one that is the same
-  std::iota(same.begin(), same.end(), 0);
-  for (auto begin = all.begin(), end = begin; begin != all.end(); begin = end)
-  {
-    std::vector<Candidate> here;
-    bool isRepeated = false;
-    for (; end != all.end() && end->Place == begin->Place; ++end)
-    {
-      const bool isKnown = std::any_of(here.begin(), here.end(),
-        [&](const Candidate& one) { return one.Partition == end->Partition; });
-      if (!isKnown || !end->IsOfLines) // the partition has a point of polygons there
-      {
-        here.push_back(*end);
-        isRepeated = isRepeated || isKnown;
-      }
-    }
-    const bool isShared = here.front().Partition != here.back().Partition;
-    if (!isShared ||
-      std::all_of(here.begin(), here.end(), [](const Candidate& one) { return one.IsInside; }))
-    {
-      continue;
-    }
-    if (isRepeated)
-    {
-      this->Ambiguous += static_cast<vtkIdType>(here.size());
-      continue;
-    }
-    const auto first = std::min_element(here.begin(), here.end(),
-      [](const Candidate& a, const Candidate& b) { return a.Number < b.Number; });
-    for (const Candidate& one : here)
-    {
-      same[one.Number] = first->Number;
-    }
-  }
+  const JoinedPoints joined = delaunayflip::JoinPoints(pieces);
+  this->Ambiguous = joined.Ambiguous;
+  std::vector<vtkIdType> ids; // of the points of all partitions, in the joined mesh
   vtkNew<vtkPoints> points;
   points->SetDataType(areDoubles ? VTK_DOUBLE : VTK_FLOAT);
-  vtkIdType number = 0;
   for (const auto& mesh : this->Partitions)
   {
-    this->PointIds.emplace_back();
-    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i, ++number)
+    const auto first = static_cast<std::ptrdiff_t>(ids.size());
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
     {
-      // From here on the point's id in the joined mesh.
-      same[number] =
-        same[number] < number ? same[same[number]] : points->InsertNextPoint(mesh->GetPoint(i));
-      this->PointIds.back().push_back(same[number]);
+      const std::int64_t same = joined.Same[ids.size()];
+      const bool isKnown = same < static_cast<std::int64_t>(ids.size());
+      ids.push_back(isKnown ? ids[same] : points->InsertNextPoint(mesh->GetPoint(i)));
     }
+    this->PointIds.emplace_back(ids.begin() + first, ids.end());
   }
   this->Mesh->SetPoints(points);
 }

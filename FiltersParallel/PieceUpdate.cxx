@@ -114,7 +114,7 @@ void ShareRegionLabels(PolyDataBridge& bridge, PieceGroup& group)
   std::set<std::string> all;
   for (MessageReader reader = GatherAll(own, group); !reader.IsAtEnd();)
   {
-    all.insert(reader.GetText());
+    all.insert(reader.Get<std::string>());
   }
   std::vector<std::int32_t> labels;
   for (const std::string& key : bridge.RegionKeys)

@@ -4,13 +4,175 @@
 
 #include "DataArrays.h"
 
+#include "vtkCommunicator.h"
 #include "vtkDataArray.h"
+#include "vtkMultiProcessController.h"
 #include "vtkVariant.h"
 
 #include <algorithm>
+#include <array>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace delaunayflip
 {
+namespace
+{
+
+constexpr int Tag = 5707; // of no other message of VTK or ParaView
+constexpr std::size_t LargestPart = std::size_t(1) << 30; // MPI counts with 32 bits
+
+void Require(int isDone)
+{
+  if (!isDone)
+  {
+    throw std::runtime_error("a message to or from another rank was lost");
+  }
+}
+
+class ControllerGroup : public PieceGroup
+{
+public:
+  explicit ControllerGroup(vtkMultiProcessController* controller)
+    : Controller(controller)
+  {
+  }
+
+  int GetRank() const override { return this->Controller->GetLocalProcessId(); }
+  int GetSize() const override { return this->Controller->GetNumberOfProcesses(); }
+
+  /// Sends only messages that are not empty, from each rank to one other at a time.
+  std::vector<Message> Exchange(std::vector<Message> messages) override
+  {
+    const int ranks = this->GetSize();
+    const int own = this->GetRank();
+    std::vector<Message> received(ranks);
+    std::vector<std::int64_t> sizes(ranks);
+    std::vector<std::int64_t> all(sizes.size() * sizes.size()); // from each rank to each rank
+    std::transform(messages.begin(), messages.end(), sizes.begin(),
+      [](const Message& message) { return static_cast<std::int64_t>(message.size()); });
+    Require(this->Controller->AllGather(sizes.data(), all.data(), ranks));
+    this->AllocateTogether(
+      [&]()
+      {
+        for (int rank = 0; rank < ranks; ++rank)
+        {
+          received[rank].resize(
+            rank == own ? 0 : all[static_cast<std::size_t>(rank) * ranks + own]);
+        }
+      });
+    received[own] = std::move(messages[own]);
+    // In every step the ranks are paired. The lower one of a pair sends first, so none waits in
+    // vain. In steps from the next power of two on, none has a partner.
+    for (int step = 1; step < 2 * ranks; ++step)
+    {
+      const int other = own ^ step;
+      for (const bool sends : { own<other, own> other })
+      {
+        if (other < ranks)
+        {
+          this->Pass(sends ? messages[other] : received[other], sends, other);
+        }
+      }
+    }
+    return received;
+  }
+
+  /// Short messages take one collective operation, longer ones three.
+  std::vector<Message> Gather(const Message& message) override
+  {
+    struct Slot
+    {
+      std::int64_t Size;
+      char Bytes[56]; ///< Of a message that is short.
+    };
+    const std::size_t ranks = static_cast<std::size_t>(this->GetSize());
+    std::vector<Slot> slots(ranks);
+    std::vector<Message> received(ranks);
+    Slot own{ static_cast<std::int64_t>(message.size()), {} };
+    std::copy_n(message.begin(), std::min(message.size(), sizeof(own.Bytes)), own.Bytes);
+    Require(this->Controller->AllGather(reinterpret_cast<const char*>(&own),
+      reinterpret_cast<char*>(slots.data()), static_cast<vtkIdType>(sizeof(own))));
+    std::vector<vtkIdType> sizes, offsets;
+    vtkIdType total = 0, longest = 0;
+    for (const Slot& slot : slots)
+    {
+      sizes.push_back(slot.Size);
+      offsets.push_back(total);
+      total += slot.Size;
+      longest = std::max<vtkIdType>(longest, slot.Size);
+    }
+    if (static_cast<std::size_t>(longest) <= sizeof(own.Bytes))
+    {
+      for (std::size_t rank = 0; rank < ranks; ++rank)
+      {
+        received[rank].assign(slots[rank].Bytes, slots[rank].Bytes + slots[rank].Size);
+      }
+      return received;
+    }
+    if (static_cast<std::size_t>(total) > LargestPart)
+    {
+      return this->Exchange(std::vector<Message>(ranks, message));
+    }
+    Message all;
+    this->AllocateTogether([&]() { all.resize(total); });
+    Require(this->Controller->AllGatherV(message.empty() ? all.data() : message.data(), all.data(),
+      static_cast<vtkIdType>(message.size()), sizes.data(), offsets.data()));
+    for (std::size_t rank = 0; rank < ranks; ++rank)
+    {
+      received[rank].assign(all.begin() + offsets[rank], all.begin() + offsets[rank] + sizes[rank]);
+    }
+    return received;
+  }
+
+private:
+  /// Sends a message to a rank, or receives one of known size from it.
+  void Pass(Message& message, bool sends, int rank)
+  {
+    for (std::size_t at = 0; at < message.size(); at += LargestPart)
+    {
+      char* bytes = message.data() + at;
+      const auto size = static_cast<vtkIdType>(std::min(LargestPart, message.size() - at));
+      Require(sends ? this->Controller->Send(bytes, size, rank, Tag)
+                    : this->Controller->Receive(bytes, size, rank, Tag));
+    }
+  }
+
+  /// Calls allocate() on this rank, and waits for the others.
+  /// @throws on every rank if one lacks memory.
+  template <typename Allocate>
+  void AllocateTogether(const Allocate& allocate)
+  {
+    const int ranks = this->GetSize();
+    int failed = ranks, first = ranks;
+    try
+    {
+      allocate();
+    }
+    catch (const std::bad_alloc&)
+    {
+      failed = this->GetRank();
+    }
+    Require(this->Controller->AllReduce(&failed, &first, 1, vtkCommunicator::MIN_OP));
+    if (first < ranks)
+    {
+      throw std::runtime_error("rank " + std::to_string(first) + ": not enough memory");
+    }
+  }
+
+  vtkMultiProcessController* Controller;
+};
+
+}
+
+std::unique_ptr<PieceGroup> MakeControllerGroup(vtkMultiProcessController* controller)
+{
+  return std::unique_ptr<PieceGroup>(new ControllerGroup(controller));
+}
+
+//------------------------------------------------------------------------------
 namespace
 {
 
@@ -36,9 +198,9 @@ void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
     }
     taken->InsertTuples(MakeRange(0, count), ids, array);
     Put(message, std::string(taken->GetName() ? taken->GetName() : ""));
-    Put(message, taken->GetDataType());
-    Put(message, taken->GetNumberOfComponents());
-    Put(message, data->IsArrayAnAttribute(i));
+    Put(message,
+      std::array<int, 3>{
+        taken->GetDataType(), taken->GetNumberOfComponents(), data->IsArrayAnAttribute(i) });
     if (auto* numbers = vtkArrayDownCast<vtkDataArray>(taken))
     {
       const auto* bytes = static_cast<const char*>(numbers->GetVoidPointer(0));
@@ -55,13 +217,13 @@ void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
 /// Reads an array of `count` tuples. @param attribute receives what it is, or -1.
 vtkSmartPointer<vtkAbstractArray> GetTuples(MessageReader& reader, vtkIdType count, int& attribute)
 {
-  const std::string name = reader.GetText();
-  const auto array =
-    vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(reader.Get<int>()));
+  const auto name = reader.Get<std::string>();
+  const auto [type, components, role] = reader.Get<std::array<int, 3>>();
+  const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
   array->SetName(name.empty() ? nullptr : name.c_str());
-  array->SetNumberOfComponents(reader.Get<int>());
+  array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(count);
-  attribute = reader.Get<int>();
+  attribute = role;
   if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
   {
     reader.Read(static_cast<char*>(numbers->GetVoidPointer(0)), CountBytes(numbers));
@@ -69,7 +231,7 @@ vtkSmartPointer<vtkAbstractArray> GetTuples(MessageReader& reader, vtkIdType cou
   }
   for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
   {
-    array->SetVariantValue(value, vtkVariant(reader.GetText()));
+    array->SetVariantValue(value, vtkVariant(reader.Get<std::string>()));
   }
   return array;
 }

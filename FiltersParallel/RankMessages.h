@@ -7,14 +7,13 @@
 
 #include "vtkType.h"
 
-#include <cstring>
+#include <cstdint>
 #include <functional>
-#include <string>
-#include <type_traits>
-#include <utility>
+#include <memory>
 #include <vector>
 
 class vtkDataSetAttributes;
+class vtkMultiProcessController;
 
 /// @file
 /// What ranks tell each other. All ranks must call each function together.
@@ -22,53 +21,10 @@ class vtkDataSetAttributes;
 namespace delaunayflip
 {
 
-/// Adds a number to a message, of a type that has the same bytes on all ranks.
-template <typename Number>
-void Put(Message& message, Number number)
-{
-  static_assert(!std::is_base_of<std::string, Number>::value, "a text");
-  const char* bytes = reinterpret_cast<const char*>(&number);
-  message.insert(message.end(), bytes, bytes + sizeof(number));
-}
-inline void Put(Message& message, const std::string& text)
-{
-  Put(message, static_cast<std::int64_t>(text.size()));
-  message.insert(message.end(), text.begin(), text.end());
-}
-
-/// Reads a message in the order in which it was written.
-class MessageReader
-{
-public:
-  explicit MessageReader(Message bytes)
-    : Bytes(std::move(bytes))
-  {
-  }
-
-  bool IsAtEnd() const { return this->At >= this->Bytes.size(); }
-  template <typename Number>
-  Number Get()
-  {
-    Number number;
-    this->Read(reinterpret_cast<char*>(&number), sizeof(number));
-    return number;
-  }
-  void Read(char* bytes, std::int64_t count)
-  {
-    std::memcpy(bytes, this->Bytes.data() + this->At, count);
-    this->At += count;
-  }
-  std::string GetText()
-  {
-    const auto size = this->Get<std::int64_t>();
-    this->At += size;
-    return std::string(this->Bytes.data() + this->At - size, size);
-  }
-
-private:
-  Message Bytes;
-  std::size_t At = 0;
-};
+/// The processes of a controller as ranks. If one of them lacks memory for long messages, all ranks
+/// throw, with its number: they allocate, then agree, then communicate.
+/// @param controller must live as long as the group.
+std::unique_ptr<PieceGroup> MakeControllerGroup(vtkMultiProcessController* controller);
 
 /// Sends a message to all ranks. @returns those of all ranks, one behind the other.
 MessageReader GatherAll(const Message& message, PieceGroup& group);

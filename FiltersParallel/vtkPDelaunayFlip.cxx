@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPDelaunayFlip.h"
 
-#include "ControllerGroup.h"
 #include "FlipError.h"
 #include "MeshBlocks.h"
 #include "PieceUpdate.h"
@@ -47,23 +46,15 @@ std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup
   Message message;
   for (const MeshBlock& block : own)
   {
-    Put(message, static_cast<std::int64_t>(block.Place.size()));
-    for (const std::int64_t number : block.Place)
-    {
-      Put(message, number);
-    }
+    Put(message, block.Place);
     Put(message, block.Name);
     Put(message, block.Size);
   }
   std::map<std::vector<std::int64_t>, MeshBlock> shared;
   for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
   {
-    std::vector<std::int64_t> place(reader.Get<std::int64_t>());
-    for (std::int64_t& number : place)
-    {
-      number = reader.Get<std::int64_t>();
-    }
-    const std::string name = reader.GetText();
+    const auto place = reader.Get<std::vector<std::int64_t>>();
+    const auto name = reader.Get<std::string>();
     MeshBlock& block =
       shared.emplace(place, MeshBlock{ place, name, 0.0, false, {} }).first->second;
     block.Size += reader.Get<double>();
@@ -97,8 +88,9 @@ std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group)
   std::vector<Note> notes;
   for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
   {
-    const std::string where = reader.GetText();
-    notes.push_back({ where, reader.GetText() });
+    Note& note = notes.emplace_back();
+    reader.Get(note.Where);
+    reader.Get(note.Text);
   }
   return notes;
 }

@@ -96,7 +96,9 @@ struct DividedSession::Run : MeshInParts
     }
     if (this->Survey.Geometry != GeometryKind::Surface)
     {
-      SurveyStars(this->Mesh, this->Threads, this->Survey);
+      const auto group = MakeSingleGroup();
+      SurveyStars(this->Mesh, MatchPoints({ this->Mesh, nullptr }, *group, this->Threads),
+        this->Threads, *group, this->Survey);
     }
     this->Mesh.Whole = this->Survey.Whole;
     this->PartOf = FindParts(this->Mesh, axes, this->Parts, this->Threads);
@@ -162,7 +164,7 @@ struct DividedSession::Run : MeshInParts
     const auto count = [&](const SubMesh& part, std::int64_t factor)
     {
       const FlipSession session(part.View(), options);
-      this->Seams.Add(session.GetReport(), factor);
+      AddEdges(this->Seams, session.GetReport(), factor);
       return session.GetReport().Edges;
     };
     SubMesh strip = this->GetTrianglesAt(this->Seam);
@@ -234,10 +236,9 @@ struct DividedSession::Run : MeshInParts
     {
       part.GuardPoints([this](std::int64_t point) { return this->Seam.Has(point); });
     }
-    FlipOptions options = this->Options;
-    options.NumberOfPieces = 1;
-    options.TrackQuality = false;
-    options.Geometry = this->Survey.Geometry;
+    FlipOptions options = GetPartOptions(this->Survey, this->Options);
+    options.FeatureAngle = this->Options.FeatureAngle;
+    options.Backend = this->Options.Backend;
     if (!this->Options.Devices.empty())
     {
       options.Device = this->Options.Devices[number % this->Options.Devices.size()];
@@ -267,28 +268,24 @@ struct DividedSession::Run : MeshInParts
         this->AreCounted = false;
       }
       this->Reports[number] = session.GetReport();
-      session.StoreTriangles(part.GetTriangles());
-      if (this->FlipCounts)
-      {
-        Array<std::int32_t> counts =
-          this->Threads.MakeArray<std::int32_t>(part.GetNumberOfTriangles());
-        session.StoreFlipCounts(counts.Data());
-        this->KeepFlips(part, counts.Data());
-      }
+      this->TakeTriangles(session, part);
     };
     group.Work(flip);
     part.Store(this->Triangles);
   }
 
-  /// Adds the flips of a part's triangles. Parts that are flipped at the same time have no triangle
-  /// in common.
-  void KeepFlips(const SubMesh& part, const std::int32_t* counts)
+  /// Takes the triangles of a part from its session. Parts that are flipped at the same time have
+  /// none in common.
+  /// @returns how many flips each has made.
+  Array<std::int32_t> TakeTriangles(const FlipSession& session, SubMesh& part)
   {
-    if (this->FlipCounts)
-    {
-      this->Threads.ForEach(part.GetNumberOfTriangles(),
-        [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += counts[t]; });
-    }
+    session.StoreTriangles(part.GetTriangles());
+    const std::int64_t count = part.GetNumberOfTriangles();
+    Array<std::int32_t> flips = this->Threads.MakeArray<std::int32_t>(count);
+    session.StoreFlipCounts(flips.Data());
+    this->Threads.ForEach(this->FlipCounts ? count : 0,
+      [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += flips[t]; });
+    return flips;
   }
 
   /// Begins the report of the whole mesh.
@@ -310,9 +307,7 @@ struct DividedSession::Run : MeshInParts
       const FlipReport& part = this->Reports[number];
       build[number % devices] += part.BuildSeconds;
       flip[number % devices] += part.FlipSeconds;
-      const bool isWorse = part.StopReason == StopReasonKind::Aborted ||
-        (part.StopReason == StopReasonKind::IterationLimit && this->Report.Converged());
-      this->Report.StopReason = isWorse ? part.StopReason : this->Report.StopReason;
+      this->Report.StopReason = std::max(this->Report.StopReason, part.StopReason); // the worst
       this->HasBadEdges = this->HasBadEdges || part.NonDelaunayAfter > 0;
     }
     this->Report.BuildSeconds = *std::max_element(build.begin(), build.end());
@@ -346,7 +341,6 @@ struct DividedSession::Run : MeshInParts
   /// of the two is reached.
   PointSet FlipRegion(const PointSet& active, const ProgressObserver& progress)
   {
-    const ThreadBackend& threads = this->Threads;
     const PointSet inner = this->FindPointsAround(active); // all of whose triangles belong to it
     SubMesh region = this->GetTrianglesAt(inner);
     region.FixEdges(this->Fixed);
@@ -378,12 +372,9 @@ struct DividedSession::Run : MeshInParts
     this->Report.FlipSeconds += report.FlipSeconds;
     this->HasBadEdges = this->HasBadEdges || report.NonDelaunayAfter > 0;
 
-    std::vector<std::int32_t> flips(region.GetNumberOfTriangles());
-    session.StoreFlipCounts(flips.data());
-    this->KeepFlips(region, flips.data());
-    session.StoreTriangles(region.GetTriangles());
+    const Array<std::int32_t> flips = this->TakeTriangles(session, region);
     region.Store(this->Triangles);
-    PointSet next(this->Mesh.Points.Count, threads);
+    PointSet next(this->Mesh.Points.Count, this->Threads);
     for (std::int64_t t = 0; t < region.GetNumberOfTriangles(); ++t)
     {
       for (int slot = 0; slot < 3 && flips[t] > 0; ++slot)
@@ -395,7 +386,7 @@ struct DividedSession::Run : MeshInParts
         }
       }
     }
-    next.Number(threads);
+    next.Number(this->Threads);
     return next;
   }
 
@@ -407,7 +398,7 @@ struct DividedSession::Run : MeshInParts
     {
       AddCounts(report.Edges, this->Seams.Edges, 1);
       report.EulerCharacteristic = this->Survey.UsedPoints - report.Edges.Edges + report.Triangles;
-      report.NonDelaunayBefore += this->Seams.NonDelaunay;
+      report.NonDelaunayBefore += this->Seams.NonDelaunayAfter;
     }
     else
     {
@@ -443,12 +434,12 @@ struct DividedSession::Run : MeshInParts
   void CountBadEdges()
   {
     const FlipOptions options = this->GetCountingOptions();
-    EdgeTotals totals;
+    FlipReport totals;
     const auto count = [&](SubMesh& part, std::int64_t factor)
     {
       part.FixEdges(this->Fixed);
       const FlipSession session(part.View(false), options);
-      totals.Add(session.GetReport(), factor);
+      AddEdges(totals, session.GetReport(), factor);
     };
     SubMesh strip = this->GetTrianglesAt(this->FindSeamPoints());
     count(strip, 1);
@@ -459,12 +450,12 @@ struct DividedSession::Run : MeshInParts
       count(whole, 1);
       count(atSeams, -1);
     }
-    this->Report.NonDelaunayAfter = totals.NonDelaunay;
+    this->Report.NonDelaunayAfter = totals.NonDelaunayAfter;
     this->Report.BlockedByShape = totals.BlockedByShape;
     this->Report.BlockedByDeviation = totals.BlockedByDeviation;
     // A part does not know all edges that exist. After the last flip nothing else blocks any.
     this->Report.BlockedByEdge = this->Report.Converged()
-      ? totals.NonDelaunay - totals.BlockedByShape - totals.BlockedByDeviation
+      ? totals.NonDelaunayAfter - totals.BlockedByShape - totals.BlockedByDeviation
       : totals.BlockedByEdge;
   }
 
@@ -498,7 +489,7 @@ struct DividedSession::Run : MeshInParts
   std::vector<std::int64_t> Constraints; ///< Edges that the caller fixes: two ids for each.
   PointSet Seam; ///< The points of seam edges before the first flip.
   std::int64_t Unmatched = 0; ///< Constraints that are not edges of the mesh.
-  EdgeTotals Seams; ///< To be added to the sums of the parts' reports (EdgeTotals).
+  FlipReport Seams; ///< To be added to the sums of the parts' reports (AddEdges).
   std::vector<std::int64_t> FixedAtSeams; ///< The same for all edges there that stay.
 
   std::vector<std::atomic<double>> Shares; ///< Of the work for each part that is done.

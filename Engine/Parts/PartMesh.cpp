@@ -83,25 +83,19 @@ void PointStars::Remove(const PartCorner& corner, std::int32_t point)
 PartMesh::PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin)
   : Caller(piece.Mesh.Triangles),
     FirstOrigin(firstOrigin),
-    Shared(std::move(keys.Shared)),
     Given(piece.Mesh.Points),
-    Keys(std::move(keys.Keys)),
-    FirstOwnKey(keys.Owners.Firsts[rank])
+    Points(std::move(keys)),
+    Rank(rank),
+    FirstOwnKey(Points.Owners.Firsts[rank])
 {
-  keys.Keys.clear();
-  keys.Shared.clear();
-  keys.Closed = keys.Used = std::vector<unsigned char>();
-  this->WholeKeys = std::move(keys);
+  this->Points.Closed = this->Points.Used = std::vector<unsigned char>();
   for (std::int64_t i = 0; i < this->Given.Count; ++i)
   {
-    if (this->Keys[i] != this->FirstOwnKey + i)
+    if (this->GetKey(i) != this->FirstOwnKey + i)
     {
-      this->OtherKeys.emplace(this->Keys[i], static_cast<std::int32_t>(i));
+      this->OtherKeys.emplace(this->GetKey(i), static_cast<std::int32_t>(i));
     }
-  }
-  for (std::size_t i = 0; i < this->Shared.size(); ++i)
-  {
-    if (this->Shared[i])
+    if (this->IsShared(i))
     {
       this->SharedPoints.push_back(static_cast<std::int32_t>(i));
     }
@@ -117,7 +111,7 @@ std::int64_t PartMesh::FindPoint(std::int64_t key) const
   const std::int64_t own = key - this->FirstOwnKey;
   if (own >= 0 && own < this->Given.Count)
   {
-    return this->Keys[own] == key ? own : -1;
+    return this->GetKey(own) == key ? own : -1;
   }
   const auto other = this->OtherKeys.find(key);
   return other != this->OtherKeys.end() ? other->second : -1;
@@ -189,55 +183,44 @@ void PartMesh::MakeTriangle(std::int64_t t)
   triangle.Origin = this->FirstOrigin + slot;
   triangle.Flips = (record ? static_cast<std::int32_t>(record->Flips / OneFlip) : 0) +
     (this->PastFlips.empty() ? 0 : this->PastFlips[slot]);
-  for (int corner = 0; corner < 3 && record; ++corner)
+  for (int corner = 0; corner < 3; ++corner)
   {
-    triangle.SetMarks(corner, this->Marks.Get(triangle.GetStart(corner), triangle.GetEnd(corner)));
-    const CornerId other = this->Made.GetOtherCorner(t, corner);
-    this->Mates[GetNumber({ t, corner })] = other == NoCorner
-      ? NoMate
-      : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) }));
+    triangle.SetMarks(corner, this->FindMarks(triangle.GetEdge(corner)));
+    if (record)
+    {
+      const CornerId other = this->Made.GetOtherCorner(t, corner);
+      this->Mates[GetNumber({ t, corner })] = other == NoCorner
+        ? NoMate
+        : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) }));
+    }
+    if (this->HasStars)
+    {
+      this->Stars.Add({ t, corner }, triangle.Points[corner]);
+    }
   }
   this->Listed[t] = 1;
   ++this->NumberListed;
-  for (int corner = 0; corner < 3 && this->HasStars; ++corner)
-  {
-    this->Stars.Add({ t, corner }, triangle.Points[corner]);
-  }
 }
 
 void PartMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
 {
   this->Made = made;
   this->Marks = std::move(marks);
+  if (!made.Records)
+  {
+    this->ListAll();
+    return;
+  }
   this->Mates.reserve(3 * this->Triangles.capacity());
   this->Mates.resize(3 * this->Triangles.size());
   made.ForEachAtBoundary(
     [&](CornerId corner)
     {
-      std::int32_t points[3];
-      this->GetPoints(TriangleOf(corner), points);
-      const int slot = SlotOf(corner);
-      if (this->Marks.Get(points[(slot + 1) % 3], points[(slot + 2) % 3]) != 0)
+      if (this->FindMarks(this->GetEdge(TriangleOf(corner), SlotOf(corner))) != 0)
       {
         this->List(TriangleOf(corner));
       }
     });
-}
-
-void PartMesh::TakeTriangles(
-  const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks)
-{
-  this->ListAll();
-  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
-  {
-    std::copy_n(ids + 3 * t, 3, this->Triangles[t].Points);
-    this->Triangles[t].Flips += flips[t];
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      PartTriangle& triangle = this->Triangles[t];
-      triangle.SetMarks(slot, marks.Get(triangle.GetStart(slot), triangle.GetEnd(slot)));
-    }
-  }
 }
 
 void PartMesh::BeginRounds()
@@ -248,33 +231,24 @@ void PartMesh::BeginRounds()
   this->Stars.Begin(static_cast<std::int64_t>(count),
     static_cast<std::int64_t>(this->Triangles.capacity()), this->GetNumberOfPoints());
   this->HasStars = true;
-  for (std::size_t t = count; t-- > 0;) // so that lists begin with their first triangle
+  for (auto t = static_cast<std::int64_t>(count); t-- > 0;) // lists begin with the first triangle
   {
-    for (int slot = 0; slot < 3 && this->Listed[t]; ++slot)
+    for (int slot = 0; slot < 3 && this->IsListed(t); ++slot)
     {
-      this->Stars.Add({ static_cast<std::int64_t>(t), slot }, this->Triangles[t].Points[slot]);
-    }
-  }
-  for (std::size_t t = 0; t < count; ++t)
-  {
-    if (this->Listed[t])
-    {
-      this->NoteSeams(static_cast<std::int64_t>(t));
+      this->Stars.Add({ t, slot }, this->Triangles[t].Points[slot]);
     }
   }
   for (const std::int32_t point : this->SharedPoints)
   {
-    this->NoteChanges(point);
+    this->NoteChangesAt(point);
   }
 }
 
-void PartMesh::NoteSeams(std::int64_t t)
+void PartMesh::NoteChange(std::int64_t t)
 {
-  PartTriangle& triangle = this->Triangles[t];
-  if (triangle.HasSeam() && !triangle.IsNoted)
+  if (!std::exchange(this->Triangles[t].IsNoted, true))
   {
-    triangle.IsNoted = true;
-    this->MayHaveSeams.push_back(t);
+    this->Changed.push_back(t);
   }
 }
 
@@ -319,8 +293,7 @@ void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
   for (const std::int64_t changed : { one.Triangle, other.Triangle })
   {
     ++this->Triangles[changed].Flips;
-    this->NoteSeams(changed);
-    this->Changed.push_back(changed);
+    this->NoteChange(changed);
   }
 }
 
@@ -330,7 +303,7 @@ void PartMesh::SetSeam(const PartCorner& corner)
   triangle.SetMarks(
     corner.Slot, static_cast<unsigned char>(triangle.GetMarks(corner.Slot) | SeamMark));
   this->Mates[GetNumber(corner)] = Unknown;
-  this->NoteSeams(corner.Triangle);
+  this->NoteChange(corner.Triangle);
 }
 
 void PartMesh::ClearSeam(const PartCorner& corner)
@@ -341,46 +314,41 @@ void PartMesh::ClearSeam(const PartCorner& corner)
   this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
 }
 
-std::vector<PartCorner> PartMesh::TakeNewSeams()
+std::vector<std::int64_t> PartMesh::TakeChanged()
 {
-  std::vector<PartCorner> corners;
-  for (const std::int64_t t : this->MayHaveSeams)
+  for (const std::int64_t t : this->Changed)
   {
-    PartTriangle& triangle = this->Triangles[t];
-    triangle.IsNoted = false;
-    for (int slot = 0; slot < 3 && !triangle.HasLeft; ++slot)
-    {
-      if (triangle.Has(SeamMark, slot))
-      {
-        corners.push_back({ t, slot });
-      }
-    }
+    this->Triangles[t].IsNoted = false;
   }
-  this->MayHaveSeams.clear();
-  return corners;
+  return std::exchange(this->Changed, {});
 }
 
 //------------------------------------------------------------------------------
 PartCorner PartMesh::FindMate(const PartCorner& corner) const
 {
   const PartTriangle& triangle = this->Triangles[corner.Triangle];
-  const std::int32_t start = triangle.GetStart(corner.Slot);
-  const std::int32_t end = triangle.GetEnd(corner.Slot);
-  PartCorner mate{ -1, 0 };
+  return this->FindEdge(
+    triangle.GetStart(corner.Slot), triangle.GetEnd(corner.Slot), corner.Triangle);
+}
+
+/// A corner opposite to an edge between two points, in any triangle but one; or none.
+PartCorner PartMesh::FindEdge(std::int32_t start, std::int32_t end, std::int64_t except) const
+{
+  PartCorner found{ -1, 0 };
   this->Stars.FindAtEither(start, end,
     [&](const PartCorner& at)
     {
       const PartTriangle& other = this->Triangles[at.Triangle];
       for (const int slot : { (at.Slot + 1) % 3, (at.Slot + 2) % 3 })
       {
-        if (at.Triangle != corner.Triangle && other.HasEdge(slot, start, end))
+        if (at.Triangle != except && other.HasEdge(slot, start, end))
         {
-          mate = { at.Triangle, slot };
+          found = { at.Triangle, slot };
         }
       }
-      return mate.Triangle >= 0;
+      return found.Triangle >= 0;
     });
-  return mate;
+  return found;
 }
 
 PartCorner PartMesh::FindOpenMate(const PartCorner& corner)
@@ -426,20 +394,6 @@ void PartMesh::PrefetchPoints(std::int64_t triangle) const
       this->PrefetchPoint(this->Triangles[mate / 3].Points[mate % 3]);
     }
   }
-}
-
-bool PartMesh::HasEdge(const PointPair& ends) const
-{
-  bool has = false;
-  this->Stars.FindAtEither(static_cast<std::int32_t>(ends[0]), static_cast<std::int32_t>(ends[1]),
-    [&](const PartCorner& corner)
-    {
-      const PartTriangle& triangle = this->Triangles[corner.Triangle];
-      const auto isEnd = [&](std::int64_t point) { return point == ends[0] || point == ends[1]; };
-      has = isEnd(triangle.GetStart(corner.Slot)) || isEnd(triangle.GetEnd(corner.Slot));
-      return has;
-    });
-  return has;
 }
 
 //------------------------------------------------------------------------------
@@ -493,26 +447,24 @@ std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
   triangle.Origin = packed.Origin;
   triangle.Flips = packed.Flips;
   triangle.Marks = packed.Marks;
-  this->NoteSeams(t);
-  this->Changed.push_back(t);
+  this->NoteChange(t);
   return t;
 }
 
 void PartMesh::SharePoint(std::int32_t point)
 {
-  if (!this->Shared[point])
+  if (!this->IsShared(point))
   {
-    this->Shared[point] = 1;
+    this->Points.Shared[point] = 1;
     this->SharedPoints.push_back(point);
-    this->NoteChanges(point);
+    this->NoteChangesAt(point);
   }
 }
 
 /// Takes the triangles at a point for changed ones.
-void PartMesh::NoteChanges(std::int32_t point)
+void PartMesh::NoteChangesAt(std::int32_t point)
 {
-  this->ForEachAt(
-    point, [&](const PartCorner& corner) { this->Changed.push_back(corner.Triangle); });
+  this->ForEachAt(point, [&](const PartCorner& corner) { this->NoteChange(corner.Triangle); });
 }
 
 std::int32_t PartMesh::FindOrAddPoint(std::int64_t key, const double (&x)[3])
@@ -526,9 +478,9 @@ std::int32_t PartMesh::FindOrAddPoint(std::int64_t key, const double (&x)[3])
   {
     throw MeshTooLarge("a piece has more than 2^31 points: divide the mesh among more ranks");
   }
-  const auto point = static_cast<std::int32_t>(this->Keys.size());
-  this->Keys.push_back(key);
-  this->Shared.push_back(0);
+  const auto point = static_cast<std::int32_t>(this->Points.Keys.size());
+  this->Points.Keys.push_back(key);
+  this->Points.Shared.push_back(0);
   this->Received.insert(this->Received.end(), x, x + 3);
   this->OtherKeys.emplace(key, point);
   return point;

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -67,7 +68,7 @@ struct PartTriangle
   std::int64_t Origin; ///< The number of its input slot, counted over all ranks.
   unsigned char Marks;
   bool HasLeft; ///< It is on another rank now, and its place is empty.
-  bool IsNoted; ///< In the list of triangles that may have new seam edges.
+  bool IsNoted; ///< In the list of changed triangles.
   TriangleStep Step;
 
   /// The marks of one edge, shifted to slot 0; SetMarks takes them in the same form.
@@ -103,39 +104,15 @@ struct PartCorner
 {
   std::int64_t Triangle; ///< -1: there is none.
   int Slot;
+
+  bool operator<(const PartCorner& other) const
+  {
+    return std::tie(this->Triangle, this->Slot) < std::tie(other.Triangle, other.Slot);
+  }
 };
 
 /// The marks (EdgeMark, of slot 0) of the edges of a part, by the ends of the edges.
-class MarkedEdges
-{
-public:
-  void Add(const PointPair& edge, unsigned char marks)
-  {
-    const auto last = static_cast<std::size_t>(edge[1]);
-    if (last >= this->Ends.size())
-    {
-      this->Ends.resize(std::max(last + 1, 2 * this->Ends.size()));
-    }
-    this->Ends[edge[0]] = this->Ends[edge[1]] = 1;
-    this->Marks[edge] |= marks;
-  }
-  /// The marks of the edge between two points; 0 if it has none.
-  unsigned char Get(std::int32_t a, std::int32_t b) const
-  {
-    const auto found =
-      this->IsEnd(a) && this->IsEnd(b) ? this->Marks.find(MakePair(a, b)) : this->Marks.end();
-    return found != this->Marks.end() ? found->second : 0;
-  }
-
-private:
-  bool IsEnd(std::int32_t point) const
-  {
-    return static_cast<std::size_t>(point) < this->Ends.size() && this->Ends[point] != 0;
-  }
-
-  PairMap<unsigned char> Marks;
-  std::vector<unsigned char> Ends; ///< One flag per point: whether it is an end of a marked edge.
-};
+using MarkedEdges = PairMap<unsigned char>;
 
 /// The edges of a mesh that stay, but boundary edges: two ids for each.
 /// @param counts of its edges.
@@ -156,14 +133,14 @@ public:
   /// Removes a corner from its list.
   void Remove(const PartCorner& corner, std::int32_t point);
 
-  /// Calls visit(corner) for the corners at a point until visit returns true.
+  /// Calls visit(corner) for every corner at a point.
   template <typename Visit>
-  void Find(std::int32_t point, const Visit& visit) const
+  void ForEach(std::int32_t point, const Visit& visit) const
   {
-    std::uint32_t number = this->GetFirst(point);
-    while (number != None && !visit(GetCorner(number)))
+    for (std::uint32_t number = this->GetFirst(point); number != None;
+         number = this->Links[number].Next)
     {
-      number = this->Links[number].Next;
+      visit(GetCorner(number));
     }
   }
 
@@ -225,7 +202,7 @@ public:
   /// @param firstOrigin the number of the first of them among the triangles of all ranks.
   PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
   /// Starts with others in their slots, which flips have made.
-  /// @param flips how many, by triangle.
+  /// @param flips how many, by triangle. It adds up with those of the engine (TakeTriangles).
   void Begin(const TriangleArray& triangles, std::vector<std::int32_t> flips)
   {
     this->Caller = triangles;
@@ -259,11 +236,10 @@ public:
   /// flips measures the triangles that are not listed, which takes less time.
   double FindSmallestAngle(const PartSurvey& survey, int threads) const;
   /// Takes the result of the first flips, in the order of the engine: triangles near each other in
-  /// the mesh are near each other in memory. Lists the triangles at marked boundary edges.
+  /// the mesh are near each other in memory. Lists the triangles at marked boundary edges. Where
+  /// the engine's triangles are not on the host, takes those of Begin, and lists all.
   /// @param made must not change as long as there are triangles that are not listed.
   void TakeTriangles(const HostTriangles& made, MarkedEdges marks);
-  /// The same for arrays in the order of the triangles here. Lists all triangles.
-  void TakeTriangles(const std::int32_t* ids, const std::int32_t* flips, const MarkedEdges& marks);
   /// Begins the lists of corners at every point (PointStars), with which rounds find triangles
   /// without a pass over all. From now on only the functions below may change triangles.
   void BeginRounds();
@@ -274,24 +250,17 @@ public:
   void SetSeam(const PartCorner& corner);
   /// Removes this mark: both triangles of the edge are on this rank.
   void ClearSeam(const PartCorner& corner);
-  /// The triangles that have changed or arrived since the last call, and those at points that have
-  /// become shared; at first, all at shared points. A triangle may be repeated.
-  std::vector<std::int64_t> TakeChanged() { return std::exchange(this->Changed, {}); }
-  /// The seam edges whose triangles here have changed or arrived since the last call.
-  std::vector<PartCorner> TakeNewSeams();
+  /// The triangles that have changed or arrived since the last call, perhaps left by now, and those
+  /// at points that have become shared; at first, all at shared points.
+  std::vector<std::int64_t> TakeChanged();
   /// The keys of seam edges that have lost their triangle here since the last call. They may
-  /// include edges that have a triangle here again, or that TakeNewSeams has never returned.
+  /// include edges that have a triangle here again.
   std::vector<PointPair> TakeLostSeams() { return std::exchange(this->LostSeams, {}); }
   /// Calls visit(corner) for every corner at a point.
   template <typename Visit>
   void ForEachAt(std::int32_t point, const Visit& visit) const
   {
-    this->Stars.Find(point,
-      [&](const PartCorner& corner)
-      {
-        visit(corner);
-        return false;
-      });
+    this->Stars.ForEach(point, visit);
   }
   /// The mate of a corner: the corner of another triangle here that is opposite to the same edge.
   PartCorner FindMate(const PartCorner& corner) const;
@@ -299,21 +268,28 @@ public:
   PartCorner FindOpenMate(const PartCorner& corner);
   /// Prefetches the points of a triangle and those opposite to it.
   void PrefetchPoints(std::int64_t triangle) const;
-  bool HasEdge(const PointPair& ends) const;
+  /// Whether a triangle here has an edge between these points.
+  bool HasEdge(std::int64_t a, std::int64_t b) const
+  {
+    return this->FindEdge(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)).Triangle >= 0;
+  }
 
-  bool IsShared(std::int64_t point) const { return this->Shared[point] != 0; }
+  bool IsShared(std::int64_t point) const { return this->Points.Shared[point] != 0; }
   /// Whether two different points are shared.
   bool AreShared(const std::int64_t* ends) const
   {
     return ends[0] != ends[1] && this->IsShared(ends[0]) && this->IsShared(ends[1]);
   }
-  /// One flag per point: whether other ranks may have triangles at it.
-  const std::vector<unsigned char>& GetShared() const { return this->Shared; }
-  /// What is known of the points of all ranks, without the arrays with one value per point.
-  const PointKeys& GetWholeKeys() const { return this->WholeKeys; }
+  /// The keys of all points, with flags of those at which other ranks may have triangles. Without
+  /// the flags of Used and Closed.
+  const PointKeys& GetPointKeys() const { return this->Points; }
+  std::int32_t GetRank() const { return this->Rank; }
 
-  std::int64_t GetNumberOfPoints() const { return static_cast<std::int64_t>(this->Keys.size()); }
-  std::int64_t GetKey(std::int64_t point) const { return this->Keys[point]; }
+  std::int64_t GetNumberOfPoints() const
+  {
+    return static_cast<std::int64_t>(this->Points.Keys.size());
+  }
+  std::int64_t GetKey(std::int64_t point) const { return this->Points.Keys[point]; }
   /// The id of a key here, or -1.
   std::int64_t FindPoint(std::int64_t key) const;
   void GetPosition(std::int64_t point, double (&x)[3]) const
@@ -333,7 +309,7 @@ public:
   }
   PointPair GetKeys(const PointPair& pair) const
   {
-    return MakePair(this->Keys[pair[0]], this->Keys[pair[1]]);
+    return MakePair(this->GetKey(pair[0]), this->GetKey(pair[1]));
   }
 
   /// Removes triangles that go to other ranks. @returns them, in the same order.
@@ -346,10 +322,16 @@ public:
 
 private:
   void MakeTriangle(std::int64_t t);
+  unsigned char FindMarks(const PointPair& edge) const
+  {
+    const auto found = this->Marks.find(edge);
+    return found != this->Marks.end() ? found->second : 0;
+  }
+  PartCorner FindEdge(std::int32_t start, std::int32_t end, std::int64_t except = -1) const;
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   void SharePoint(std::int32_t point);
-  void NoteChanges(std::int32_t point);
-  void NoteSeams(std::int64_t triangle);
+  void NoteChange(std::int64_t triangle);
+  void NoteChangesAt(std::int32_t point);
 
   static constexpr std::uint32_t Unknown = 0xFFFFFFFFu, NoMate = Unknown - 1;
   static std::size_t GetNumber(const PartCorner& corner)
@@ -372,15 +354,13 @@ private:
   PointStars Stars; ///< Of the listed triangles.
   /// By corner, 3 * triangle + slot: its mate (FindMate), or Unknown until it is searched for.
   RawVector<std::uint32_t> Mates;
-  std::vector<std::int64_t> Changed;
-  std::vector<std::int64_t> MayHaveSeams; ///< Triangles for TakeNewSeams (PartTriangle::IsNoted).
+  std::vector<std::int64_t> Changed; ///< For TakeChanged (PartTriangle::IsNoted).
   std::vector<PointPair> LostSeams;
-  std::vector<unsigned char> Shared;
   std::vector<std::int32_t> SharedPoints;
   PointArray Given; ///< The caller's points.
   std::vector<double> Received; ///< Coordinates of the points from other ranks, which follow these.
-  PointKeys WholeKeys;
-  HostVector<std::int64_t> Keys;
+  PointKeys Points;
+  std::int32_t Rank;
   std::int64_t FirstOwnKey;
   std::unordered_map<std::int64_t, std::int32_t> OtherKeys; ///< Never iterated over.
 };

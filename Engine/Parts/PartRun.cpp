@@ -67,7 +67,7 @@ public:
       Constraints(Job, Mesh)
   {
     this->Whole.SeamEdges = this->Constraints.Seams.Seams;
-    this->Whole.AmbiguousPoints = this->Mesh.GetWholeKeys().Ambiguous;
+    this->Whole.AmbiguousPoints = this->Mesh.GetPointKeys().Ambiguous;
   }
 
   /// Makes the first flips and all rounds. All ranks must call this together.
@@ -121,7 +121,7 @@ public:
         double x[3];
         this->Mesh.GetPosition(point, x);
         flipped.ReceivedPoints.push_back(
-          this->Mesh.GetWholeKeys().Owners.Find(this->Mesh.GetKey(point)));
+          this->Mesh.GetPointKeys().Owners.Find(this->Mesh.GetKey(point)));
         flipped.ReceivedCoordinates.insert(flipped.ReceivedCoordinates.end(), x, x + 3);
       }
       return id;
@@ -207,13 +207,11 @@ private:
   {
     TriangleMesh mesh = this->Constraints.Mesh;
     mesh.Whole.SharedPoints =
-      this->Job.Survey.NeedsGuard() ? this->Mesh.GetShared().data() : nullptr;
-    FlipOptions options = this->Job.Options;
-    options.Geometry = this->Job.Survey.Geometry;
+      this->Job.Survey.NeedsGuard() ? this->Mesh.GetPointKeys().Shared.data() : nullptr;
     const double begin = this->Constraints.Share;
     const ProgressObserver progress = [=](double share)
     { return this->Tell(begin + (FirstShare - begin) * share); };
-    this->First = std::make_unique<FlipSession>(mesh, options, progress);
+    this->First = std::make_unique<FlipSession>(mesh, this->Job.Options, progress);
     if (this->First->GetReport().StopReason != StopReasonKind::Aborted)
     {
       this->First->Advance(-1, {}, progress);
@@ -229,22 +227,19 @@ private:
   /// @param mesh what they started from.
   void TakeFirst(const TriangleMesh& mesh)
   {
-    MarkedEdges marks = this->MarkEdges(mesh);
     const HostTriangles made = this->First->ViewHostTriangles();
-    if (made.Records)
+    RawVector<std::int32_t> ids; // in the order of slots, if they are on a GPU
+    if (!made.Records)
     {
-      this->Mesh.TakeTriangles(made, std::move(marks));
-    }
-    else
-    {
-      const std::size_t count = this->Mesh.Triangles.size();
-      RawVector<std::int32_t> ids(3 * count);
-      RawVector<std::int32_t> flips(count);
-      this->First->StoreTriangles(
-        MutableTriangleArray(ids.data(), static_cast<std::int64_t>(count)));
+      const std::int64_t count = mesh.Triangles.Count;
+      ids.resize(3 * count);
+      std::vector<std::int32_t> flips(count);
+      this->First->StoreTriangles(MutableTriangleArray(ids.data(), count));
       this->First->StoreFlipCounts(flips.data());
-      this->Mesh.TakeTriangles(ids.data(), flips.data(), marks);
+      this->Constraints.AddFlipCounts(flips.data());
+      this->Mesh.Begin(TriangleArray(ids.data(), count), std::move(flips));
     }
+    this->Mesh.TakeTriangles(made, this->MarkEdges(mesh));
     if (this->Job.Survey.NeedsGuard())
     {
       this->Mesh.ListAll();
@@ -264,12 +259,11 @@ private:
   MarkedEdges MarkEdges(const TriangleMesh& mesh)
   {
     MarkedEdges edges = std::move(this->Constraints.Seams.Marks);
-    FlipOptions options = this->Job.Options;
-    options.Geometry = this->Job.Survey.Geometry;
-    const std::vector<std::int64_t> fixed = ListFixedEdges(mesh, options, this->Own.Edges);
+    const std::vector<std::int64_t> fixed =
+      ListFixedEdges(mesh, this->Job.Options, this->Own.Edges);
     for (std::size_t i = 0; i < fixed.size(); i += 2)
     {
-      edges.Add(MakePair(fixed[i], fixed[i + 1]), FixedMark);
+      edges[MakePair(fixed[i], fixed[i + 1])] |= FixedMark;
     }
     return edges;
   }
@@ -313,13 +307,11 @@ private:
     PieceGroup& group = this->Job.Group;
     const bool needsGuard = this->Job.Survey.NeedsGuard();
     const bool mayGoOn = this->MayGoOn();
-    SeamTest test = this->Tester.Run(this->Mesh, this->Judge, group);
-    this->BadSeams = test.BadOfAll + test.BlockedOfAll;
-    this->BlockedSeams = test.BlockedOfAll;
-    this->DeviatingSeams = test.DeviatingOfAll;
     const std::vector<std::int64_t> changed = this->Mesh.TakeChanged();
+    SeamTest test = this->Tester.Run(this->Mesh, changed, this->Judge, group);
+    this->Seams = test.OfAll;
     GuardRound waiting;
-    waiting.FreeOfAll = test.BadOfAll;
+    waiting.FreeOfAll = test.OfAll.Bad;
     if (needsGuard && mayGoOn)
     {
       this->Waiting.insert(this->Waiting.end(), changed.begin(), changed.end());
@@ -452,10 +444,10 @@ private:
 
   PiecesReport MakeReport()
   {
-    const PointKeys& keys = this->Mesh.GetWholeKeys();
-    const EdgeTotals& seams = this->Constraints.Seams.Totals;
+    const PointKeys& keys = this->Mesh.GetPointKeys();
+    const FlipReport& seams = this->Constraints.Seams.Totals;
     AddCounts(this->Own.Edges, seams.Edges, 1);
-    this->Own.NonDelaunayBefore += seams.NonDelaunay;
+    this->Own.NonDelaunayBefore += seams.NonDelaunayAfter;
     PiecesReport report = this->Whole;
     static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Job.Group);
     CountIterations(report);
@@ -466,11 +458,11 @@ private:
       report.Edges = EdgeCounts();
       report.EulerCharacteristic = 0;
     }
-    report.NonDelaunayAfter += this->BadSeams;
-    report.BlockedByShape += this->BlockedSeams - this->DeviatingSeams;
-    report.BlockedByDeviation += this->DeviatingSeams;
+    report.NonDelaunayAfter += this->Seams.Bad + this->Seams.Blocked;
+    report.BlockedByShape += this->Seams.Blocked - this->Seams.Deviating;
+    report.BlockedByDeviation += this->Seams.Deviating;
     const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
-    report.BlockedByEdge += areBlocked ? this->BadSeams - this->BlockedSeams : 0;
+    report.BlockedByEdge += areBlocked ? this->Seams.Bad : 0;
     report.GeometryUsed = this->Job.Survey.Geometry;
     report.GeometryReason = this->Job.Survey.GeometryReason;
     report.StopReason = this->WholeStopReason;
@@ -503,12 +495,39 @@ private:
   StopReasonKind WholeStopReason = StopReasonKind::Converged;
   std::int64_t Iterations = 0; ///< Of earlier rounds.
   bool IsCounted = true; ///< Whether no rank was stopped before its edges were counted.
-  std::int64_t BadSeams = 0; ///< Bad seam edges that are left at the end, for any reason.
-  std::int64_t BlockedSeams = 0; ///< Of these, the ones blocked by their shape or deviation.
-  std::int64_t DeviatingSeams = 0; ///< Of these, the ones blocked by deviation.
+  SeamCounts Seams; ///< At the last test.
 };
 
 //------------------------------------------------------------------------------
+void FlippedPiece::Clear()
+{
+  this->Triangles.clear();
+  this->FlipCounts.clear();
+  this->GoneTriangles.clear();
+  this->ReceivedTriangles.clear();
+  this->ReceivedPoints.clear();
+  this->ReceivedCoordinates.clear();
+}
+
+std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank)
+{
+  const std::size_t kept = flipped.FlipCounts.size() - flipped.ReceivedTriangles.size();
+  std::vector<PieceOrigin> origins;
+  origins.reserve(flipped.FlipCounts.size());
+  auto gone = flipped.GoneTriangles.begin();
+  for (std::int64_t slot = 0; origins.size() < kept; ++slot)
+  {
+    if (gone != flipped.GoneTriangles.end() && *gone == slot)
+    {
+      ++gone;
+      continue;
+    }
+    origins.push_back({ rank, slot });
+  }
+  origins.insert(origins.end(), flipped.ReceivedTriangles.begin(), flipped.ReceivedTriangles.end());
+  return origins;
+}
+
 PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group,
   FlippedPiece& flipped, const ProgressObserver& progress)
 {
@@ -522,6 +541,7 @@ PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options, Piece
     own.TrackQuality = false;
     PointKeys keys = MatchPoints(piece, told);
     const PartSurvey survey = SurveyParts(piece, keys, own, told);
+    own.Geometry = survey.Geometry;
     PartRun run({ piece, own, survey, told, progress }, std::move(keys));
     report = run.Run();
     run.Store(flipped);

@@ -8,19 +8,359 @@
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "MeshSurveyBuilder.h"
+#include "PartMesh.h"
 #include "PlanarSurvey.h"
 #include "SubMesh.h"
 #include "SurfaceAngles.h"
 #include "TriangleAngles.h"
 
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
+#include <tuple>
 #include <utility>
 
 namespace delaunayflip
 {
 
+namespace
+{
+/// The place of a point: its global number, or the bits of its three coordinates. Points of
+/// different ranks can be the same point only if their places are equal.
+using Place = std::array<std::uint64_t, 3>;
+
+std::uint64_t GetHash(const Place& place)
+{
+  return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
+}
+
+/// If it holds no point, Lower exceeds Upper.
+struct Box
+{
+  static constexpr double Inf = std::numeric_limits<double>::infinity();
+  double Lower[3] = { Inf, Inf, Inf }, Upper[3] = { -Inf, -Inf, -Inf };
+
+  void Add(const double (&x)[3])
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Lower[axis] = std::min(this->Lower[axis], x[axis]);
+      this->Upper[axis] = std::max(this->Upper[axis], x[axis]);
+    }
+  }
+  bool Holds(const double (&x)[3]) const
+  {
+    bool holds = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      holds = holds && this->Lower[axis] <= x[axis] && x[axis] <= this->Upper[axis];
+    }
+    return holds;
+  }
+};
+
+/// A point of one rank that another may have, too.
+struct Candidate
+{
+  Place At;
+  std::int64_t Key; ///< Its key if it is not shared.
+  std::int32_t Rank;
+  bool IsUnused; ///< It has no triangles.
+  bool IsInside; ///< It has no number and is not at the border of its part.
+};
+
+/// One number per point: 0 if its triangles form a closed fan, or closed fans, or it has none.
+/// @param used one flag per point; set to 1 where a triangle has it.
+Array<std::uint64_t> SumFans(
+  const TriangleMesh& mesh, const ThreadBackend& threads, unsigned char* used)
+{
+  Array<std::uint64_t> fans = threads.MakeArray<std::uint64_t>(mesh.Points.Count);
+  threads.ForEach(mesh.Points.Count, [&](std::int64_t i) { fans[i] = 0; });
+  threads.ForEach(mesh.Triangles.Count,
+    [&](std::int64_t t)
+    {
+      std::int64_t ids[3];
+      std::uint64_t bits[3];
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        ids[slot] = mesh.Triangles.Get(t, slot);
+        bits[slot] = ScatterBits(ids[slot]);
+      }
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        // Around a closed fan every neighbour is the next one once, and once the previous one.
+        __atomic_fetch_add(
+          &fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
+        AtomicStore<unsigned char>(&used[ids[slot]], 1);
+      }
+    });
+  return fans;
+}
+
+/// What is known of the points of a piece.
+class PiecePoints
+{
+public:
+  /// @param haveNumbers whether all pieces that have points give numbers.
+  PiecePoints(const MeshPiece& piece, bool haveNumbers, const ThreadBackend& threads)
+    : Mesh(piece.Mesh),
+      Used(Mesh.Points.Count, 0),
+      Numbers(haveNumbers ? piece.PointNumbers : nullptr),
+      Fans(SumFans(Mesh, threads, Used.data())),
+      Ends(Mesh.Points.Count, 0)
+  {
+    for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
+    {
+      this->Ends[this->Mesh.ConstraintEdges[i]] = 1;
+    }
+  }
+
+  bool HaveNumbers() const { return this->Numbers != nullptr; }
+  /// Whether the triangles of a point form a closed fan.
+  bool IsClosed(std::int64_t point) const
+  {
+    return this->Used[point] != 0 && this->Fans[point] == 0;
+  }
+  /// Whether a point must be matched with points of other ranks: a triangle has it, or it is the
+  /// end of a constraint.
+  bool IsWanted(std::int64_t point) const
+  {
+    return this->Used[point] != 0 || this->Ends[point] != 0;
+  }
+  /// Whether a point is at the border of the part: its triangles do not form a closed fan, or it
+  /// has none and is the end of a constraint. Also true where triangles are not wound consistently.
+  bool IsAtBorder(std::int64_t point) const
+  {
+    return this->Fans[point] != 0 || (this->Used[point] == 0 && this->Ends[point] != 0);
+  }
+
+  /// @returns whether the coordinates are numbers.
+  bool GetPosition(std::int64_t point, double (&x)[3]) const
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = this->Mesh.Points.Get(point, axis) + 0.0; // -0 becomes 0
+    }
+    return !std::isnan(x[0]) && !std::isnan(x[1]) && !std::isnan(x[2]);
+  }
+  /// @returns whether a point has a place: a number, or coordinates without NaN.
+  bool FindPlace(std::int64_t point, Place& place) const
+  {
+    if (this->Numbers)
+    {
+      place = { static_cast<std::uint64_t>(this->Numbers[point]), 0, 0 };
+      return true;
+    }
+    double x[3];
+    const bool isPlace = this->GetPosition(point, x);
+    std::memcpy(place.data(), x, sizeof(x));
+    return isPlace;
+  }
+
+  /// Calls add(candidate) for the wanted points for which isAsked(place) is true or that are at the
+  /// border.
+  /// @param firstKey of the piece.
+  template <typename IsAsked, typename Add>
+  void List(std::int64_t firstKey, int rank, const IsAsked& isAsked, const Add& add) const
+  {
+    for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
+    {
+      Place place{};
+      if (this->IsWanted(i) && this->FindPlace(i, place) && (this->IsAtBorder(i) || isAsked(place)))
+      {
+        const bool isInside = !this->Numbers && !this->IsAtBorder(i);
+        add({ place, firstKey + i, rank, this->Used[i] == 0, isInside });
+      }
+    }
+  }
+
+  const TriangleMesh& Mesh;
+  std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
+
+private:
+  const std::int64_t* Numbers; ///< Of the points, or null.
+  Array<std::uint64_t> Fans; ///< SumFans.
+  std::vector<unsigned char> Ends; ///< One flag per point: whether it is the end of a constraint.
+};
+
+/// Calls visit(same) for the candidates at each place, if several ranks have it and one of them is
+/// not inside its part: first those with triangles, then the others; each group by key, hence by
+/// rank.
+/// @returns how many are not visited because a rank has several at one place.
+template <typename Visit>
+std::int64_t ForEachShared(std::vector<Candidate> all, const Visit& visit)
+{
+  const auto order = [](const Candidate& a) { return std::tie(a.At, a.IsUnused, a.Key); };
+  std::sort(all.begin(), all.end(),
+    [&](const Candidate& a, const Candidate& b) { return order(a) < order(b); });
+  std::int64_t ambiguous = 0;
+  const auto join = [&](const Candidate* begin, const Candidate* end)
+  {
+    // Of points without triangles only one of a rank counts, and none if it has one with triangles.
+    std::vector<Candidate> list;
+    bool isRepeated = false;
+    for (const Candidate* one = begin; one != end; ++one)
+    {
+      const bool isKnown = std::any_of(
+        list.begin(), list.end(), [=](const Candidate& other) { return other.Rank == one->Rank; });
+      if (!one->IsUnused || !isKnown)
+      {
+        list.push_back(*one);
+        isRepeated = isRepeated || isKnown;
+      }
+    }
+    if (list.front().Rank == list.back().Rank ||
+      std::all_of(list.begin(), list.end(), [](const Candidate& one) { return one.IsInside; }))
+    {
+      return;
+    }
+    if (isRepeated)
+    {
+      ambiguous += static_cast<std::int64_t>(list.size());
+      return;
+    }
+    visit(list);
+  };
+  ForEachRun(
+    all, [](const Candidate& a, const Candidate& b) { return a.At == b.At; }, join);
+  return ambiguous;
+}
+
+/// Asks the ranks whose box holds a point of this one whether they have it, too: a border point, or
+/// any point if points have numbers. It may be inside their part: where three sheets of a
+/// non-manifold mesh meet, two may be on one rank; and sheets that lie on each other may have the
+/// same points.
+/// @returns the hashes of the places, for each rank.
+RecordLists<std::uint64_t> AskForPoints(const PiecePoints& points, PieceGroup& group)
+{
+  if (group.GetSize() == 1)
+  {
+    return RecordLists<std::uint64_t>(1); // without a pass over all points
+  }
+  Box used; // NaN changes nothing
+  double x[3];
+  for (std::int64_t i = 0; i < points.Mesh.Points.Count; ++i)
+  {
+    if (points.Used[i] != 0)
+    {
+      points.GetPosition(i, x);
+      used.Add(x);
+    }
+  }
+  const RecordLists<Box> boxes = GatherRecords(group, std::vector<Box>{ used });
+  RecordLists<std::uint64_t> questions(boxes.size());
+  for (std::int64_t i = 0; i < points.Mesh.Points.Count; ++i)
+  {
+    Place place{};
+    if (!(points.HaveNumbers() ? points.IsWanted(i) : points.IsAtBorder(i)) ||
+      !points.FindPlace(i, place))
+    {
+      continue;
+    }
+    const bool isSomewhere = points.GetPosition(i, x);
+    for (int rank = 0; rank < group.GetSize(); ++rank)
+    {
+      if (rank != group.GetRank() && (!isSomewhere || boxes[rank].front().Holds(x)))
+      {
+        questions[rank].push_back(GetHash(place));
+      }
+    }
+  }
+  return questions;
+}
+}
+
+PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group, const ThreadBackend& threads)
+{
+  const std::int64_t count = piece.Mesh.Points.Count;
+  const bool lacksNumbers = !piece.PointNumbers && count > 0;
+  PiecePoints points(piece, SumOverRanks(group, std::int64_t(lacksNumbers ? 1 : 0)) == 0, threads);
+  PointKeys keys;
+  keys.Owners = RankNumbers(count, group);
+  const std::int64_t first = keys.Owners.Firsts[group.GetRank()];
+  std::vector<std::uint64_t> asked = Join(ExchangeRecords(group, AskForPoints(points, group)));
+  std::sort(asked.begin(), asked.end());
+  RecordLists<Candidate> toHome(group.GetSize());
+  points.List(
+    first, group.GetRank(), // another place with the same hash is only sent in vain
+    [&](const Place& place)
+    { return std::binary_search(asked.begin(), asked.end(), GetHash(place)); },
+    [&](const Candidate& one) { toHome[GetHome(GetHash(one.At), group)].push_back(one); });
+  // As the home of places. An answer is the key that the rank has sent, and that of the owner.
+  RecordLists<PointPair> answers(group.GetSize());
+  keys.UsedPoints = std::count(points.Used.begin(), points.Used.end(), 1);
+  keys.Ambiguous = ForEachShared(Join(ExchangeRecords(group, toHome)),
+    [&](const std::vector<Candidate>& same)
+    {
+      const Candidate& owner = same.front();
+      for (const Candidate& one : same)
+      {
+        if (!owner.IsUnused)
+        {
+          keys.Repeated += one.Key == owner.Key ? 0 : 1;
+          keys.UsedPoints -= one.Key == owner.Key || one.IsUnused ? 0 : 1;
+          answers[one.Rank].push_back({ one.Key, owner.Key });
+        }
+      }
+    });
+  keys.Keys.resize(count);
+  keys.Shared.resize(count);
+  keys.Closed.resize(count);
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    keys.Keys[i] = first + i;
+    keys.Closed[i] = points.IsClosed(i) ? 1 : 0;
+  }
+  for (const auto& [own, key] : Join(ExchangeRecords(group, answers)))
+  {
+    keys.Keys[own - first] = key;
+    keys.Shared[own - first] = 1;
+    keys.Closed[own - first] = 0;
+  }
+  for (std::int64_t* sum : { &keys.Repeated, &keys.UsedPoints, &keys.Ambiguous })
+  {
+    *sum = SumOverRanks(group, *sum);
+  }
+  keys.Used = std::move(points.Used);
+  return keys;
+}
+
+JoinedPoints JoinPoints(const std::vector<MeshPiece>& pieces)
+{
+  const bool haveNumbers = std::all_of(pieces.begin(), pieces.end(),
+    [](const MeshPiece& piece) { return piece.PointNumbers || piece.Mesh.Points.Count == 0; });
+  const ThreadBackend threads(1);
+  JoinedPoints joined;
+  std::vector<Candidate> all;
+  for (std::size_t number = 0; number < pieces.size(); ++number)
+  {
+    const auto first = static_cast<std::int64_t>(joined.Same.size());
+    PiecePoints(pieces[number], haveNumbers, threads)
+      .List(
+        first, static_cast<int>(number), [](const Place&) { return true; },
+        [&](const Candidate& one) { all.push_back(one); });
+    joined.Same.resize(joined.Same.size() + pieces[number].Mesh.Points.Count);
+    std::iota(joined.Same.begin() + first, joined.Same.end(), first);
+  }
+  joined.Ambiguous = ForEachShared(std::move(all),
+    [&](const std::vector<Candidate>& same)
+    {
+      std::int64_t least = same.front().Key;
+      for (const Candidate& one : same)
+      {
+        least = std::min(least, one.Key);
+      }
+      for (const Candidate& one : same)
+      {
+        joined.Same[one.Key] = least;
+      }
+    });
+  return joined;
+}
+
+//------------------------------------------------------------------------------
 namespace
 {
 /// Threads whose sums are those of all ranks, so that a survey decides alike on all of them.
@@ -47,44 +387,27 @@ public:
 /// The sum of a rank at a shared point.
 struct PointSum
 {
-  std::int64_t Key;
+  std::int64_t Point; ///< Its id on the rank that owns its key.
   std::uint32_t Sum;
 };
 
 /// Found in GeometryChoice.h instead of the function that does nothing. The total of every point
-/// goes to the first rank that has it, and 0 to the others.
+/// goes to the rank that owns its key, and 0 to the others.
 void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
 {
   const PointKeys& keys = backend.Keys;
-  RecordLists<PointSum> toHome(backend.Group.GetSize());
-  RecordLists<std::int64_t> points(backend.Group.GetSize()); // in the order of what is sent
+  RecordLists<PointSum> toOwner(backend.Group.GetSize());
   for (std::size_t i = 0; i < keys.Keys.size(); ++i)
   {
     if (keys.Shared[i])
     {
-      const int home = GetHome(ScatterBits(keys.Keys[i]), backend.Group);
-      toHome[home].push_back({ keys.Keys[i], sums[i] });
-      points[home].push_back(static_cast<std::int64_t>(i));
+      const PieceOrigin owner = keys.Owners.Find(keys.Keys[i]);
+      toOwner[owner.Rank].push_back({ owner.Id, std::exchange(sums[i], 0u) });
     }
   }
-  const RecordLists<PointSum> lists = ExchangeRecords(backend.Group, toHome);
-  RecordLists<std::uint32_t> totals(lists.size()); // in the same orders
-  std::unordered_map<std::int64_t, std::uint32_t*> totalOf; // never iterated over
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
+  for (const PointSum& one : Join(ExchangeRecords(backend.Group, toOwner)))
   {
-    totals[rank].resize(lists[rank].size());
-    for (std::size_t i = 0; i < lists[rank].size(); ++i)
-    {
-      *totalOf.emplace(lists[rank][i].Key, &totals[rank][i]).first->second += lists[rank][i].Sum;
-    }
-  }
-  totals = ExchangeRecords(backend.Group, totals);
-  for (std::size_t home = 0; home < totals.size(); ++home)
-  {
-    for (std::size_t i = 0; i < points[home].size(); ++i)
-    {
-      sums[points[home][i]] = totals[home][i];
-    }
+    sums[one.Point] += one.Sum;
   }
 }
 
@@ -321,47 +644,6 @@ void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBa
     wedges, [](const Wedge& a, const Wedge& b) { return a.Key == b.Key; },
     [&](Wedge* begin, Wedge* end) { areApart = areApart && AreApart(begin, end); });
   whole.StarsAreSimple = SumOverRanks(group, std::int64_t(areApart ? 0 : 1)) == 0;
-}
-
-Array<std::uint64_t> SumFans(
-  const TriangleMesh& mesh, const ThreadBackend& threads, unsigned char* used)
-{
-  Array<std::uint64_t> fans = threads.MakeArray<std::uint64_t>(mesh.Points.Count);
-  threads.ForEach(mesh.Points.Count, [&](std::int64_t i) { fans[i] = 0; });
-  threads.ForEach(mesh.Triangles.Count,
-    [&](std::int64_t t)
-    {
-      std::int64_t ids[3];
-      std::uint64_t bits[3];
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        ids[slot] = mesh.Triangles.Get(t, slot);
-        bits[slot] = ScatterBits(ids[slot]);
-      }
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        // Around a closed fan every neighbour is the next one once, and once the previous one.
-        __atomic_fetch_add(
-          &fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
-        AtomicStore<unsigned char>(&used[ids[slot]], 1);
-      }
-    });
-  return fans;
-}
-
-void SurveyStars(const TriangleMesh& mesh, const ThreadBackend& threads, PartSurvey& survey)
-{
-  PointKeys keys; // none is shared
-  keys.Closed.resize(mesh.Points.Count);
-  {
-    const Array<std::uint64_t> fans = SumFans(mesh, threads, keys.Closed.data());
-    threads.ForEach(mesh.Points.Count,
-      [&](std::int64_t i) { keys.Closed[i] = fans[i] == 0 ? keys.Closed[i] : 0; });
-  }
-  keys.Shared.resize(mesh.Points.Count);
-  keys.Keys.resize(mesh.Points.Count);
-  std::iota(keys.Keys.begin(), keys.Keys.end(), 0);
-  SurveyStars(mesh, keys, threads, *MakeSingleGroup(), survey);
 }
 
 }

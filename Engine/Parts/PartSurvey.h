@@ -42,12 +42,8 @@ struct PointKeys
 /// without triangles that is the end of a constraint counts as a border point. Two points with the
 /// same number that are inside their parts are found if each of them lies in the bounding box of
 /// the other one's rank.
-PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group);
-
-/// One number per point: 0 if its triangles form a closed fan, or closed fans, or it has none.
-/// @param used one flag per point; set to 1 where a triangle has it.
-Array<std::uint64_t> SumFans(
-  const TriangleMesh& mesh, const ThreadBackend& threads, unsigned char* used);
+PointKeys MatchPoints(
+  const MeshPiece& piece, PieceGroup& group, const ThreadBackend& threads = ThreadBackend(1));
 
 /// What is known of the whole mesh; the same on all ranks.
 struct PartSurvey : MeshSurvey
@@ -119,7 +115,7 @@ void CheckParts(const MeshPiece& piece, const FlipOptions& options, PieceGroup& 
 struct PartJob
 {
   const MeshPiece& Piece;
-  const FlipOptions& Options;
+  const FlipOptions& Options; ///< With the survey's geometry.
   const PartSurvey& Survey;
   PieceGroup& Group;
   const ProgressObserver& Progress;
@@ -132,9 +128,6 @@ struct PartJob
 /// @param keys of which only Keys, Shared and Closed matter.
 void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBackend& threads,
   PieceGroup& group, PartSurvey& survey);
-
-/// The same for a mesh of this process, which may be too large for a session.
-void SurveyStars(const TriangleMesh& mesh, const ThreadBackend& threads, PartSurvey& survey);
 
 }
 

@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Records.h"
 
+#include "FlipError.h"
+
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 
 namespace delaunayflip
@@ -29,67 +34,125 @@ constexpr std::int64_t EdgeCounts::*Kinds[] = { &EdgeCounts::Edges, &EdgeCounts:
   &EdgeCounts::Constraint, &EdgeCounts::Region, &EdgeCounts::Fixed };
 
 template <typename Report, typename Visit>
-void ForEachNumber(Report& report, const Visit& visit)
+void ForEachMember(Report& report, const Visit& visit)
 {
-  std::for_each(std::begin(Sums), std::end(Sums), [&](auto number) { visit(report.*number); });
-  std::for_each(std::begin(Kinds), std::end(Kinds), [&](auto kind) { visit(report.Edges.*kind); });
-  for (int i = 0; i < 2; ++i)
+  const auto visitAll = [&](auto& object, const auto& members)
   {
-    visit(report.*Smallest[i]);
-    visit(report.*Largest[i]);
-  }
+    for (const auto member : members)
+    {
+      visit(object.*member);
+    }
+  };
+  visitAll(report, Sums);
+  visitAll(report.Edges, Kinds);
+  visitAll(report, Smallest);
+  visitAll(report, Largest);
+  visitAll(report, Texts);
+  visit(report.Iterations);
 }
 
 /// The reports of all ranks, as far as they are joined.
 std::vector<FlipReport> GatherReports(const FlipReport& own, PieceGroup& group)
 {
-  std::vector<double> numbers; // exact for counts
-  std::string texts;
-  ForEachNumber(own, [&](auto number) { numbers.push_back(static_cast<double>(number)); });
-  for (const auto text : Texts)
-  {
-    texts += own.*text + '\0';
-  }
+  Message message;
+  ForEachMember(own, [&](const auto& member) { Put(message, member); });
   for (const Defect& defect : own.Defects)
   {
-    numbers.push_back(static_cast<double>(defect.Count));
-    texts += defect.What + '\0';
+    Put(message, defect.What);
+    Put(message, defect.Count);
   }
-  const RecordLists<double> allNumbers = GatherRecords(group, numbers);
-  const RecordLists<IterationRecord> iterations = GatherRecords(group, own.Iterations);
-  const std::vector<Message> allTexts = group.Gather(Message(texts.begin(), texts.end()));
-  std::vector<FlipReport> reports(allTexts.size());
-  for (std::size_t rank = 0; rank < reports.size(); ++rank)
+  std::vector<FlipReport> reports;
+  for (Message& one : group.Gather(message))
   {
-    reports[rank].Iterations = iterations[rank];
-    auto number = allNumbers[rank].begin();
-    ForEachNumber(
-      reports[rank], [&](auto& to) { to = static_cast<std::decay_t<decltype(to)>>(*number++); });
-    const char* next = allTexts[rank].data();
-    const auto takeText = [&next]()
+    MessageReader reader(std::move(one));
+    FlipReport& report = reports.emplace_back();
+    ForEachMember(report, [&](auto& member) { reader.Get(member); });
+    while (!reader.IsAtEnd())
     {
-      std::string text = next;
-      next += text.size() + 1;
-      return text;
-    };
-    for (const auto text : Texts)
-    {
-      reports[rank].*text = takeText();
-    }
-    for (; number != allNumbers[rank].end(); ++number)
-    {
-      reports[rank].Defects.push_back({ takeText(), static_cast<std::int64_t>(*number), {} });
+      Defect& defect = report.Defects.emplace_back();
+      reader.Get(defect.What);
+      reader.Get(defect.Count);
     }
   }
   return reports;
 }
 }
 
+namespace
+{
+std::string Write(bool value) { return value ? "on" : "off"; }
+
+std::string Write(double value)
+{
+  // GCC 10, which makes the wheel, has no std::to_chars for it.
+  const auto write = [value](int digits)
+  {
+    std::stringstream text;
+    text.imbue(std::locale::classic());
+    text << std::setprecision(digits) << value;
+    return text;
+  };
+  double read = 0.0;
+  const bool isShort = (write(15) >> read) && read == value;
+  return write(isShort ? 15 : 17).str();
+}
+}
+
+void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
+  const std::vector<std::pair<std::string, std::string>>& more)
+{
+  std::vector<std::pair<std::string, std::string>> all = {
+    { "Geometry", ToString(options.Geometry) },
+    { "Criterion", options.Criterion == CriterionKind::InCircle ? "in-circle" : "opposite-angles" },
+    { "TieRule", options.TieRule == TieRuleKind::Keep ? "keep" : "canonical" },
+    { "Tolerance", Write(options.Tolerance) },
+    { "FeatureAngle", Write(options.FeatureAngle) },
+    { "MaximumDeviation", Write(options.MaximumDeviation) },
+    { "MaximumIterations", std::to_string(options.MaximumIterations) },
+    { "TrackQuality", Write(options.TrackQuality) },
+  };
+  all.insert(all.end(), more.begin(), more.end());
+  Message own;
+  for (const auto& option : all)
+  {
+    Put(own, option.second);
+  }
+  std::vector<MessageReader> ranks;
+  for (Message& message : group.Gather(own))
+  {
+    ranks.emplace_back(std::move(message));
+  }
+  for (const auto& option : all)
+  {
+    const auto first = ranks[0].Get<std::string>();
+    for (std::size_t rank = 1; rank < ranks.size(); ++rank)
+    {
+      const auto value = ranks[rank].Get<std::string>();
+      if (value != first)
+      {
+        throw InvalidOptions(option.first + " is '" + first + "' on rank 0, but '" + value +
+          "' on rank " + std::to_string(rank) + "; set it to the same on all ranks");
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor)
 {
   for (const auto kind : Kinds)
   {
     sum.*kind += factor * part.*kind;
+  }
+}
+
+void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor)
+{
+  AddCounts(sum.Edges, part.Edges, factor);
+  for (const auto number : { &FlipReport::NonDelaunayAfter, &FlipReport::BlockedByShape,
+         &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge })
+  {
+    sum.*number += factor * part.*number;
   }
 }
 

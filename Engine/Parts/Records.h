@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -33,23 +32,13 @@ Message Pack(const std::vector<Record>& records)
 }
 
 template <typename Record>
-std::vector<Record> Unpack(const Message& message)
-{
-  std::vector<Record> records(message.size() / sizeof(Record));
-  if (!records.empty())
-  {
-    std::memcpy(static_cast<void*>(records.data()), message.data(), message.size());
-  }
-  return records;
-}
-
-template <typename Record>
-RecordLists<Record> UnpackAll(const std::vector<Message>& messages)
+RecordLists<Record> Unpack(const std::vector<Message>& messages)
 {
   RecordLists<Record> lists;
   for (const Message& message : messages)
   {
-    lists.push_back(Unpack<Record>(message));
+    lists.emplace_back(message.size() / sizeof(Record));
+    std::copy(message.begin(), message.end(), reinterpret_cast<char*>(lists.back().data()));
   }
   return lists;
 }
@@ -63,13 +52,13 @@ RecordLists<Record> ExchangeRecords(PieceGroup& group, const RecordLists<Record>
   {
     messages.push_back(Pack(records));
   }
-  return UnpackAll<Record>(group.Exchange(std::move(messages)));
+  return Unpack<Record>(group.Exchange(std::move(messages)));
 }
 
 template <typename Record>
 RecordLists<Record> GatherRecords(PieceGroup& group, const std::vector<Record>& records)
 {
-  return UnpackAll<Record>(group.Gather(Pack(records)));
+  return Unpack<Record>(group.Gather(Pack(records)));
 }
 
 /// Numbers for the items of all ranks: those of the first rank come first.
@@ -172,6 +161,14 @@ void CountIterations(FlipReport& report);
 
 /// @param factor 1 to add, -1 to subtract.
 void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor);
+
+/// The same for the edges that a report counts, by their kinds and after the last flip.
+///
+/// The sum over all parts counts seam edges wrongly: each is a boundary edge of several parts. To
+/// correct the sum, add the counts of triangles at seams, taken as one mesh, and subtract the
+/// counts of the same triangles, taken part by part. Then edges inside a part cancel out, and a
+/// seam edge is counted once.
+void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor);
 
 /// Adds a defect, or to the count of the same one. Ids mean nothing outside their rank or part.
 void AddDefect(const Defect& defect, std::vector<Defect>& defects);

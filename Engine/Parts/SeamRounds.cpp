@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -14,7 +13,7 @@ namespace delaunayflip
 {
 
 /// Brings the sides up to date.
-void SeamTester::Update(PartMesh& mesh, PieceGroup& group)
+void SeamTester::Update(PartMesh& mesh, const std::vector<std::int64_t>& changed, PieceGroup& group)
 {
   // What has changed, for the homes of the edges. One without a corner has lost its triangle here.
   constexpr std::int64_t HasNone = -1;
@@ -26,50 +25,45 @@ void SeamTester::Update(PartMesh& mesh, PieceGroup& group)
     SeamTriangle lost{};
     lost.Ends = ends;
     lost.Corner = HasNone;
+    lost.Rank = mesh.GetRank();
     tell(lost);
   }
-  for (const PartCorner& corner : mesh.TakeNewSeams())
+  for (const std::int64_t t : changed)
   {
-    tell(MakeSeamTriangle(mesh, corner.Triangle, corner.Slot));
-  }
-  const RecordLists<SeamTriangle> news = ExchangeRecords(group, toHome);
-
-  // Merges it with the sides that are known. One with a corner follows one without.
-  std::vector<SeamTriangle> sides;
-  auto side = this->Sides.begin();
-  for (const SeamTriangle& one : SortByEdge(news))
-  {
-    for (; side != this->Sides.end() && IsBefore(*side, one); ++side)
+    for (int slot = 0; slot < 3 && !mesh.Triangles[t].HasLeft; ++slot)
     {
-      sides.push_back(*side);
-    }
-    while (side != this->Sides.end() && !IsBefore(one, *side)) // what the rank has said before
-    {
-      ++side;
-    }
-    if (one.Corner != HasNone)
-    {
-      sides.push_back(one);
+      if (mesh.Triangles[t].Has(SeamMark, slot))
+      {
+        tell(MakeSeamTriangle(mesh, t, slot));
+      }
     }
   }
-  sides.insert(sides.end(), side, this->Sides.end());
-  this->Sides = std::move(sides);
+  for (const SeamTriangle& one : Join(ExchangeRecords(group, toHome)))
+  {
+    if (one.Corner == HasNone)
+    {
+      this->Sides.erase({ one.Ends, one.Rank });
+    }
+    else
+    {
+      this->Sides.insert_or_assign({ one.Ends, one.Rank }, one);
+    }
+  }
 }
 
-SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group)
+SeamTest SeamTester::Run(PartMesh& mesh, const std::vector<std::int64_t>& changed,
+  const QuadJudge& judge, PieceGroup& group)
 {
-  this->Update(mesh, group);
+  this->Update(mesh, changed, group);
   RecordLists<BadSeam> toRank(group.GetSize());
-  std::int64_t bad = 0;
-  std::int64_t blocked = 0;
-  std::int64_t deviating = 0;
+  SeamCounts counts;
   const auto test = [&](SeamTriangle& one, SeamTriangle& other)
   {
     const EdgeState state = judge.Judge(one.Side, other.Side);
     one.IsToTest = other.IsToTest = state != EdgeState::Good;
-    blocked += state != EdgeState::Good && state != EdgeState::Bad ? 1 : 0;
-    deviating += state == EdgeState::BlockedByDeviation ? 1 : 0;
-    bad += state == EdgeState::Bad ? 1 : 0;
+    counts.Blocked += state != EdgeState::Good && state != EdgeState::Bad ? 1 : 0;
+    counts.Deviating += state == EdgeState::BlockedByDeviation ? 1 : 0;
+    counts.Bad += state == EdgeState::Bad ? 1 : 0;
     for (int i = 0; i < 2 && state == EdgeState::Bad; ++i)
     {
       const SeamTriangle& own = i == 0 ? one : other;
@@ -82,23 +76,19 @@ SeamTest SeamTester::Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& gro
   DoTogether(group,
     [&]()
     {
-      for (std::size_t i = 1; i < this->Sides.size(); ++i)
+      SeamTriangle* last = nullptr;
+      for (auto& [key, side] : this->Sides)
       {
-        SeamTriangle& one = this->Sides[i - 1];
-        SeamTriangle& other = this->Sides[i];
-        if ((one.IsToTest || other.IsToTest) && one.Ends == other.Ends &&
-          one.Opposite != other.Opposite)
+        if (last && (last->IsToTest || side.IsToTest) && last->Ends == side.Ends &&
+          last->Opposite != side.Opposite)
         {
-          test(one, other);
+          test(*last, side);
         }
+        last = &side;
       }
     });
-  SeamTest result;
-  result.Bad = Join(ExchangeRecords(group, toRank));
-  result.BadOfAll = SumOverRanks(group, bad);
-  result.BlockedOfAll = SumOverRanks(group, blocked);
-  result.DeviatingOfAll = result.BlockedOfAll > 0 ? SumOverRanks(group, deviating) : 0;
-  return result;
+  std::vector<BadSeam> bad = Join(ExchangeRecords(group, toRank));
+  return { std::move(bad), SumOverRanks(group, counts) };
 }
 
 //------------------------------------------------------------------------------
@@ -295,7 +285,7 @@ EdgeState RoundFlips::Judge(const PartCorner& one, const PartCorner& other) cons
   const std::int32_t a = this->Mesh.Triangles[one.Triangle].Points[one.Slot];
   const std::int32_t b = this->Mesh.Triangles[other.Triangle].Points[other.Slot];
   const bool isForbidden = this->NeedsGuard && state == EdgeState::Bad &&
-    ((this->Mesh.IsShared(a) && this->Mesh.IsShared(b)) || this->Mesh.HasEdge({ a, b }));
+    ((this->Mesh.IsShared(a) && this->Mesh.IsShared(b)) || this->Mesh.HasEdge(a, b));
   return isForbidden ? EdgeState::BlockedByEdge : state;
 }
 
@@ -317,12 +307,12 @@ namespace
 {
 /// Of the inner edges of some triangles, those whose two opposite points are both shared, that are
 /// bad and whose flip would not fold the mesh over; in the order of the later of their triangles.
-std::vector<InnerQuad> FindWaiting(
+std::vector<WaitingFlip> FindWaiting(
   PartMesh& mesh, std::vector<std::int64_t> triangles, const QuadJudge& judge)
 {
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  std::vector<InnerQuad> quads;
+  std::vector<WaitingFlip> waiting;
   for (const std::int64_t t : triangles)
   {
     for (int slot = 0; slot < 3 && !mesh.Triangles[t].HasLeft; ++slot)
@@ -337,15 +327,18 @@ std::vector<InnerQuad> FindWaiting(
       if (isNew && mesh.IsShared(mesh.Triangles[mate.Triangle].Points[mate.Slot]) &&
         judge.Judge(mesh, corner, mate) == EdgeState::Bad)
       {
-        quads.push_back({ t < mate.Triangle ? corner : mate, t < mate.Triangle ? mate : corner });
+        const auto& [one, other] = std::minmax(corner, mate);
+        waiting.push_back({ { mesh.GetKeys(mesh.GetEdge(t, slot)),
+                              mesh.GetKeys({ mesh.Triangles[t].Points[slot],
+                                mesh.Triangles[mate.Triangle].Points[mate.Slot] }),
+                              false },
+          one, other });
       }
     }
   }
-  const auto place = [](const InnerQuad& quad)
-  { return 3 * quad.Other.Triangle + quad.Other.Slot; };
-  std::sort(quads.begin(), quads.end(),
-    [&](const InnerQuad& a, const InnerQuad& b) { return place(a) < place(b); });
-  return quads;
+  std::sort(waiting.begin(), waiting.end(),
+    [](const WaitingFlip& a, const WaitingFlip& b) { return a.Other < b.Other; });
+  return waiting;
 }
 
 /// The edges that may be made, and by the flip of which edge: of those that can flip now, or else
@@ -361,7 +354,7 @@ PairMap<PointPair> GrantFlips(
   {
     const std::int64_t a = mesh.FindPoint(question.Opposite[0]);
     const std::int64_t b = mesh.FindPoint(question.Opposite[1]);
-    exists.push_back(a >= 0 && b >= 0 && mesh.HasEdge({ a, b }) ? 1 : 0);
+    exists.push_back(a >= 0 && b >= 0 && mesh.HasEdge(a, b) ? 1 : 0);
   }
   exists = FindMaxima(group, std::move(exists));
   PairMap<PointPair> granted;
@@ -380,17 +373,13 @@ GuardRound AskForFlips(PartMesh& mesh, const QuadJudge& judge, std::vector<std::
   const SeamTest& test, PieceGroup& group)
 {
   GuardRound round;
-  DoTogether(group, [&]() { round.Quads = FindWaiting(mesh, std::move(waiting), judge); });
+  DoTogether(group, [&]() { round.Waiting = FindWaiting(mesh, std::move(waiting), judge); });
   waiting.clear();
-  for (const InnerQuad& quad : round.Quads)
+  for (const WaitingFlip& one : round.Waiting)
   {
-    waiting.insert(waiting.end(), { quad.One.Triangle, quad.Other.Triangle });
-    const PartTriangle& one = mesh.Triangles[quad.One.Triangle];
-    const PartTriangle& other = mesh.Triangles[quad.Other.Triangle];
-    round.Questions.push_back({ mesh.GetKeys(one.GetEdge(quad.One.Slot)),
-      mesh.GetKeys({ one.Points[quad.One.Slot], other.Points[quad.Other.Slot] }), false });
+    waiting.insert(waiting.end(), { one.One.Triangle, one.Other.Triangle });
   }
-  std::vector<FlipQuestion> questions = round.Questions;
+  std::vector<FlipQuestion> questions(round.Waiting.begin(), round.Waiting.end());
   for (const BadSeam& seam : test.Bad)
   {
     questions.push_back({ seam.Ends, seam.Opposite, true });
@@ -408,16 +397,15 @@ void GuardRound::Flip(PartMesh& mesh, SeamTest& test)
     return found != this->Granted.end() && found->second == ends;
   };
   std::unordered_set<std::int64_t> changed; // each triangle only once
-  for (std::size_t i = 0; i < this->Quads.size(); ++i)
+  for (const WaitingFlip& flip : this->Waiting)
   {
-    const auto& [one, other] = this->Quads[i];
-    if (changed.count(one.Triangle) == 0 && changed.count(other.Triangle) == 0 &&
-      isGranted(this->Questions[i].Ends, this->Questions[i].Opposite))
+    const std::int64_t one = flip.One.Triangle, other = flip.Other.Triangle;
+    if (changed.count(one) == 0 && changed.count(other) == 0 && isGranted(flip.Ends, flip.Opposite))
     {
-      this->Gone.push_back(mesh.Triangles[one.Triangle].GetEdge(one.Slot));
-      mesh.Flip(one, other);
-      this->Changed.insert(this->Changed.end(), { one.Triangle, other.Triangle });
-      changed.insert({ one.Triangle, other.Triangle });
+      this->Gone.push_back(mesh.GetEdge(one, flip.One.Slot));
+      mesh.Flip(flip.One, flip.Other);
+      this->Changed.insert(this->Changed.end(), { one, other });
+      changed.insert({ one, other });
     }
   }
   // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.

@@ -8,6 +8,8 @@
 #include "SeamSurvey.h"
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -28,13 +30,27 @@ struct BadSeam
   std::int32_t OtherRank;
 };
 
+/// How many seam edges may flip, as far as their shape tells, and how many may not.
+struct SeamCounts
+{
+  std::int64_t Bad = 0;
+  std::int64_t Blocked = 0; ///< Other ones, blocked by their shape or deviation.
+  std::int64_t Deviating = 0; ///< Of these, those blocked by deviation.
+
+  SeamCounts& operator+=(const SeamCounts& part)
+  {
+    this->Bad += part.Bad;
+    this->Blocked += part.Blocked;
+    this->Deviating += part.Deviating;
+    return *this;
+  }
+};
+
 /// The result of a test of all seam edges.
 struct SeamTest
 {
   std::vector<BadSeam> Bad; ///< Those of this rank. Each is in the lists of both of its ranks.
-  std::int64_t BadOfAll = 0; ///< The number of bad seam edges over all ranks, each counted once.
-  std::int64_t BlockedOfAll = 0; ///< Other ones, blocked by their shape or deviation.
-  std::int64_t DeviatingOfAll = 0; ///< Of these, those blocked by deviation.
+  SeamCounts OfAll; ///< Over all ranks, each edge counted once.
 };
 
 /// Finds the bad seam edges that may flip, as far as the shape of their quads tells. Keeps the seam
@@ -44,13 +60,16 @@ class SeamTester
 {
 public:
   /// All ranks must call this together, after BeginRounds.
-  SeamTest Run(PartMesh& mesh, const QuadJudge& judge, PieceGroup& group);
+  /// @param changed PartMesh::TakeChanged.
+  SeamTest Run(PartMesh& mesh, const std::vector<std::int64_t>& changed, const QuadJudge& judge,
+    PieceGroup& group);
 
 private:
-  void Update(PartMesh& mesh, PieceGroup& group);
+  void Update(PartMesh& mesh, const std::vector<std::int64_t>& changed, PieceGroup& group);
 
-  /// Sorted by edge, then by rank. An edge is tested if one of its triangles is to be tested.
-  std::vector<SeamTriangle> Sides;
+  /// By the keys of the edge's ends and by rank. An edge is tested if one of its triangles is to be
+  /// tested.
+  std::map<std::pair<PointPair, std::int32_t>, SeamTriangle> Sides;
 };
 
 /// Which of the two ranks of a bad seam edge gets its triangles: its receiver.
@@ -116,18 +135,18 @@ private:
   std::vector<std::int64_t> Next;
 };
 
-/// An inner edge of a rank, given by the two corners opposite to it.
-struct InnerQuad
-{
-  PartCorner One, Other;
-};
-
 /// An edge to flip, and the edge that this would make.
 struct FlipQuestion
 {
-  PointPair Ends; ///< Keys, as all here.
-  PointPair Opposite;
+  PointPair Ends; ///< Keys.
+  PointPair Opposite; ///< Keys.
   bool IsSeam; ///< Between ranks, so that it cannot flip now.
+};
+
+/// An inner edge of a rank that waits, with the two corners opposite to it.
+struct WaitingFlip : FlipQuestion
+{
+  PartCorner One, Other;
 };
 
 /// The guarded part of a round, on one rank.
@@ -147,8 +166,7 @@ struct GuardRound
   /// changed.
   void Flip(PartMesh& mesh, SeamTest& test);
 
-  std::vector<InnerQuad> Quads; ///< The edges that wait.
-  std::vector<FlipQuestion> Questions; ///< About these, in their order.
+  std::vector<WaitingFlip> Waiting;
   PairMap<PointPair> Granted; ///< The edges that may be made, and by the flip of which edge.
 };
 

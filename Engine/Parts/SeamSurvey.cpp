@@ -5,6 +5,7 @@
 #include "DelaunayFlip.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace delaunayflip
@@ -35,6 +36,8 @@ SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t t, int slot)
   seam.Ends = mesh.GetKeys({ first, second });
   seam.Opposite = mesh.GetKey(points[slot]);
   seam.Corner = 3 * t + slot;
+  seam.Rank = mesh.GetRank();
+  seam.IsToTest = true;
   seam.Side.RunsForward = mesh.GetKey(first) == seam.Ends[0];
   if (!seam.Side.RunsForward)
   {
@@ -44,24 +47,6 @@ SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t t, int slot)
   mesh.GetPosition(second, seam.Side.Ends[1]);
   mesh.GetPosition(points[slot], seam.Side.Opposite);
   return seam;
-}
-
-std::vector<SeamTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists)
-{
-  std::vector<SeamTriangle> all;
-  for (std::size_t rank = 0; rank < lists.size(); ++rank)
-  {
-    for (const SeamTriangle& seam : lists[rank])
-    {
-      all.push_back(seam);
-      all.back().Rank = static_cast<std::int32_t>(rank);
-      all.back().IsToTest = true;
-    }
-  }
-  std::sort(all.begin(), all.end(),
-    [](const SeamTriangle& a, const SeamTriangle& b)
-    { return std::tie(a.Ends, a.Rank, a.Corner) < std::tie(b.Ends, b.Rank, b.Corner); });
-  return all;
 }
 
 //------------------------------------------------------------------------------
@@ -112,15 +97,6 @@ EdgeState QuadJudge::Judge(
 }
 
 //------------------------------------------------------------------------------
-void EdgeTotals::Add(const FlipReport& report, std::int64_t factor)
-{
-  AddCounts(this->Edges, report.Edges, factor);
-  this->NonDelaunay += factor * report.NonDelaunayAfter;
-  this->BlockedByShape += factor * report.BlockedByShape;
-  this->BlockedByDeviation += factor * report.BlockedByDeviation;
-  this->BlockedByEdge += factor * report.BlockedByEdge;
-}
-
 namespace
 {
 /// What became of a constraint between shared points on a rank: one of these, or 1 + its Refusal.
@@ -184,10 +160,10 @@ public:
     return isFixed;
   }
 
-  void AddTo(EdgeTotals& totals, std::int64_t factor) const
+  void AddTo(FlipReport& totals, std::int64_t factor) const
   {
     this->Visit([&](const TriangleMesh& mesh, const FlipOptions& options)
-      { totals.Add(FlipSession(mesh, options).GetReport(), factor); });
+      { AddEdges(totals, FlipSession(mesh, options).GetReport(), factor); });
   }
 
 private:
@@ -226,67 +202,60 @@ private:
 };
 
 /// Decides about the edges that all ranks have sent to this one, their home.
-struct SeamJudge
+/// @param triangles of all ranks at these edges. @param seams receives the counts of the edges.
+/// @returns the answers for every rank.
+RecordLists<SeamAnswer> JudgeSeams(
+  const PartJob& job, std::vector<SeamTriangle> triangles, SeamSurvey& seams)
 {
-  explicit SeamJudge(PieceGroup& group)
-    : Answers(group.GetSize())
+  struct Edge
   {
-  }
-
-  void Judge(const PartJob& job, const RecordLists<SeamTriangle>& lists)
+    const SeamTriangle* Begin;
+    const SeamTriangle* End;
+    bool IsQuad; ///< It has two triangles with different opposite points.
+    std::int64_t Point;
+  };
+  std::vector<Edge> edges; // that have triangles on several ranks
+  LooseEdges together(job), alone(job);
+  std::sort(triangles.begin(), triangles.end(),
+    [](const SeamTriangle& a, const SeamTriangle& b)
+    { return std::tie(a.Ends, a.Rank, a.Corner) < std::tie(b.Ends, b.Rank, b.Corner); });
+  const auto add = [&](SeamTriangle* begin, SeamTriangle* end)
   {
-    struct Edge
+    if (begin->Rank == end[-1].Rank)
     {
-      const SeamTriangle* Begin;
-      const SeamTriangle* End;
-      bool IsQuad; ///< It has two triangles with different opposite points.
-      std::int64_t Point;
-    };
-    std::vector<Edge> edges; // that have triangles on several ranks
-    LooseEdges together(job), alone(job);
-    std::vector<SeamTriangle> triangles = SortByEdge(lists);
-    const auto add = [&](SeamTriangle* begin, SeamTriangle* end)
+      return;
+    }
+    const bool isPair = end - begin == 2;
+    const bool isQuad = isPair && begin[0].Opposite != begin[1].Opposite;
+    begin->Side.IsFrozen = begin->Side.IsFrozen || (isPair && !isQuad);
+    edges.push_back({ begin, end, isQuad, together.Add(begin, end, false) });
+    for (SeamTriangle* one = begin; one != end;)
     {
-      if (begin->Rank == end[-1].Rank)
-      {
-        return;
-      }
-      const bool isPair = end - begin == 2;
-      const bool isQuad = isPair && begin[0].Opposite != begin[1].Opposite;
-      begin->Side.IsFrozen = begin->Side.IsFrozen || (isPair && !isQuad);
-      edges.push_back({ begin, end, isQuad, together.Add(begin, end, false) });
-      for (SeamTriangle* one = begin; one != end;)
-      {
-        SeamTriangle* const next = std::find_if(
-          one, end, [=](const SeamTriangle& other) { return other.Rank != one->Rank; });
-        alone.Add(one, next, next - one == 2); // which the rank is told to fix
-        one = next;
-      }
-    };
-    ForEachRun(
-      triangles, [](const SeamTriangle& a, const SeamTriangle& b) { return a.Ends == b.Ends; },
-      add);
-    together.AddTo(this->Totals, 1);
-    alone.AddTo(this->Totals, -1);
-    const std::vector<bool> isFixed = together.FindFixed();
-    for (const Edge& edge : edges)
+      SeamTriangle* const next =
+        std::find_if(one, end, [=](const SeamTriangle& other) { return other.Rank != one->Rank; });
+      alone.Add(one, next, next - one == 2); // which the rank is told to fix
+      one = next;
+    }
+  };
+  ForEachRun(
+    triangles, [](const SeamTriangle& a, const SeamTriangle& b) { return a.Ends == b.Ends; }, add);
+  together.AddTo(seams.Totals, 1);
+  alone.AddTo(seams.Totals, -1);
+  const std::vector<bool> isFixed = together.FindFixed();
+  RecordLists<SeamAnswer> answers(job.Group.GetSize());
+  for (const Edge& edge : edges)
+  {
+    const bool isSeam = edge.IsQuad && !isFixed[edge.Point];
+    seams.Seams += isSeam ? 1 : 0;
+    for (const SeamTriangle* one = edge.Begin; one != edge.End; ++one)
     {
-      const bool isSeam = edge.IsQuad && !isFixed[edge.Point];
-      this->Seams += isSeam ? 1 : 0;
-      for (const SeamTriangle* one = edge.Begin; one != edge.End; ++one)
-      {
-        const auto here = std::count_if(
-          edge.Begin, edge.End, [=](const SeamTriangle& other) { return other.Rank == one->Rank; });
-        this->Answers[one->Rank].push_back(
-          { one->Corner, isSeam ? SeamMark : FixedMark, here == 2 });
-      }
+      const auto here = std::count_if(
+        edge.Begin, edge.End, [=](const SeamTriangle& other) { return other.Rank == one->Rank; });
+      answers[one->Rank].push_back({ one->Corner, isSeam ? SeamMark : FixedMark, here == 2 });
     }
   }
-
-  RecordLists<SeamAnswer> Answers; ///< For every rank.
-  EdgeTotals Totals;
-  std::int64_t Seams = 0;
-};
+  return answers;
+}
 
 /// The triangles of this rank at edges between two shared points, for the homes of the edges.
 /// @param fates of constraints, by keys; those that are edges are set to IsEdge, at least.
@@ -327,21 +296,20 @@ SeamSurvey SurveySeams(
 {
   PieceGroup& group = job.Group;
   SeamSurvey seams;
-  const RecordLists<SeamTriangle> lists =
-    ExchangeRecords(group, ListSeamTriangles(mesh, part, fates, group));
-  SeamJudge judge(group);
-  DoTogether(group, [&]() { judge.Judge(job, lists); });
-  for (const SeamAnswer& answer : Join(ExchangeRecords(group, judge.Answers)))
+  const std::vector<SeamTriangle> triangles =
+    Join(ExchangeRecords(group, ListSeamTriangles(mesh, part, fates, group)));
+  RecordLists<SeamAnswer> answers;
+  DoTogether(group, [&]() { answers = JudgeSeams(job, triangles, seams); });
+  for (const SeamAnswer& answer : Join(ExchangeRecords(group, answers)))
   {
     const PointPair edge = part.GetEdge(answer.Corner / 3, static_cast<int>(answer.Corner % 3));
-    seams.Marks.Add(edge, answer.Mark);
+    seams.Marks[edge] |= answer.Mark;
     if (answer.IsToFix)
     {
       seams.ToFix.insert(seams.ToFix.end(), edge.begin(), edge.end());
     }
   }
-  seams.Seams = SumOverRanks(group, judge.Seams);
-  seams.Totals = judge.Totals;
+  seams.Seams = SumOverRanks(group, seams.Seams);
   return seams;
 }
 
@@ -359,7 +327,7 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   this->Mesh.ConstraintsToInsert = this->ToInsert.data();
   this->Mesh.Whole = job.Survey.Whole;
   const bool isGuarded = job.Survey.NeedsGuard() && job.Group.GetSize() > 1;
-  this->Mesh.Whole.SharedPoints = isGuarded ? part.GetShared().data() : nullptr;
+  this->Mesh.Whole.SharedPoints = isGuarded ? part.GetPointKeys().Shared.data() : nullptr;
   this->Insert(job);
   this->FindFates(part);
   this->Mesh = this->Insertion.GetMesh(this->Mesh);
@@ -450,13 +418,11 @@ std::vector<PartConstraints::SharedConstraint> PartConstraints::List(
 /// Inserts what lies in this part, unless an observer of any rank stops it.
 void PartConstraints::Insert(const PartJob& job)
 {
-  FlipOptions options = job.Options;
-  options.Geometry = job.Survey.Geometry;
   const auto insert = [&]()
   {
     try
     {
-      this->Insertion = ConstraintInsertion(this->Mesh, options,
+      this->Insertion = ConstraintInsertion(this->Mesh, job.Options,
         [&](double share) { return !job.Progress || job.Progress(InsertionShare * share); });
     }
     catch (const RunAborted&)

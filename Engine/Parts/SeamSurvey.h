@@ -16,7 +16,6 @@
 #include "TriangleMesh.h"
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace delaunayflip
@@ -44,8 +43,8 @@ struct SeamTriangle
   std::int64_t Opposite; ///< Key of the point opposite to the edge.
   std::int64_t Corner; ///< 3 * triangle + slot of the opposite point, on its rank.
   SeamSide Side;
-  std::int32_t Rank; ///< The rank that has it, as SortByEdge sets it.
-  bool IsToTest; ///< For SeamTester.
+  std::int32_t Rank; ///< The rank that has it.
+  bool IsToTest; ///< For SeamTester: it has not been tested, or was not good.
 
   std::int64_t GetTriangle() const { return this->Corner / 3; }
   int GetSlot() const { return static_cast<int>(this->Corner % 3); }
@@ -53,15 +52,6 @@ struct SeamTriangle
 
 /// The triangle, for its edge opposite to corner `slot`. Takes it as not frozen and in no region.
 SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t triangle, int slot);
-
-/// Orders by edge, then by rank.
-inline bool IsBefore(const SeamTriangle& a, const SeamTriangle& b)
-{
-  return std::tie(a.Ends, a.Rank) < std::tie(b.Ends, b.Rank);
-}
-
-/// The triangles that all ranks have sent, by edge, then by rank. All are to be tested.
-std::vector<SeamTriangle> SortByEdge(const RecordLists<SeamTriangle>& lists);
 
 /// Judges single edges by the rules of the engine (FlipRules.h).
 class QuadJudge
@@ -84,22 +74,6 @@ private:
   RuleChoice Rule;
 };
 
-/// Counts of the edges of a mesh.
-///
-/// The sum over all parts counts seam edges wrongly: each is a boundary edge of several parts. To
-/// correct the sum, add the counts of triangles at seams, taken as one mesh, and subtract the
-/// counts of the same triangles, taken part by part. Then edges inside a part cancel out, and a
-/// seam edge is counted once.
-struct EdgeTotals
-{
-  EdgeCounts Edges;
-  std::int64_t NonDelaunay = 0, BlockedByShape = 0, BlockedByDeviation = 0, BlockedByEdge = 0;
-
-  /// @param report of a run without iterations.
-  /// @param factor 1 to add, -1 to subtract.
-  void Add(const FlipReport& report, std::int64_t factor);
-};
-
 /// What is known about the edges with triangles on several ranks before the first flip. Decided
 /// once for all ranks.
 struct SeamSurvey
@@ -107,7 +81,7 @@ struct SeamSurvey
   MarkedEdges Marks; ///< Of those that have triangles on this rank.
   /// Two ids for each of those that have two triangles here and are fixed because of others.
   std::vector<std::int64_t> ToFix;
-  EdgeTotals Totals; ///< To be added to the counts of this rank.
+  FlipReport Totals; ///< Edges to be added to the counts of this rank (AddEdges).
   std::int64_t Seams = 0; ///< Those that have triangles on two ranks and may flip, over all ranks.
 };
 

@@ -58,36 +58,26 @@ SubMesh::SubMesh(
   ForEachCorner(count, this->Engine,
     [&](std::int64_t i, int slot)
     { this->Ids[3 * i + slot] = this->PointIds.GetNumber(triangles.Get(this->Slots[i], slot)); });
-  const PointArray& points = this->Whole.Points;
   const std::int64_t size = this->PointIds.GetSize();
   this->PointOf = this->Engine.MakeArray<std::int64_t>(size);
-  this->Floats = this->Engine.MakeArray<float>(points.Floats ? 3 * size : 0);
-  this->Doubles = this->Engine.MakeArray<double>(points.Floats ? 0 : 3 * size);
-  this->PointIds.ForEach(this->Engine,
-    [&](std::int64_t point, std::int64_t number)
-    {
-      this->PointOf[number] = point;
-      if (points.Floats)
-      {
-        std::copy_n(points.Floats + 3 * point, 3, this->Floats.Data() + 3 * number);
-      }
-      else
-      {
-        std::copy_n(points.Doubles + 3 * point, 3, this->Doubles.Data() + 3 * number);
-      }
-    });
-  if (this->Whole.Regions)
-  {
-    this->Regions = this->Engine.MakeArray<std::int32_t>(count);
-    this->Engine.ForEach(
-      count, [&](std::int64_t i) { this->Regions[i] = this->Whole.Regions[this->Slots[i]]; });
-  }
-  if (this->Whole.FrozenTriangles)
-  {
-    this->Frozen = this->Engine.MakeArray<unsigned char>(count);
-    this->Engine.ForEach(count,
-      [&](std::int64_t i) { this->Frozen[i] = this->Whole.FrozenTriangles[this->Slots[i]]; });
-  }
+  this->PointIds.ForEach(
+    this->Engine, [&](std::int64_t point, std::int64_t number) { this->PointOf[number] = point; });
+  this->Take(mesh.Points.Floats, this->PointOf.Data(), size, 3, this->Floats);
+  this->Take(mesh.Points.Doubles, this->PointOf.Data(), size, 3, this->Doubles);
+  this->Take(mesh.Regions, this->Slots.data(), count, 1, this->Regions);
+  this->Take(mesh.FrozenTriangles, this->Slots.data(), count, 1, this->Frozen);
+}
+
+/// Copies tuples of the mesh.
+/// @param from may be null: then nothing is copied. @param ids of `count` tuples.
+template <typename T>
+void SubMesh::Take(
+  const T* from, const std::int64_t* ids, std::int64_t count, int components, Array<T>& to) const
+{
+  to = this->Engine.MakeArray<T>(from ? components * count : 0);
+  this->Engine.ForEach(from ? count : 0,
+    [&](std::int64_t i)
+    { std::copy_n(from + components * ids[i], components, to.Data() + components * i); });
 }
 
 void SubMesh::FixEdges(const std::vector<std::int64_t>& ends)

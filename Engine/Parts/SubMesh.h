@@ -89,20 +89,18 @@ template <typename IsIn>
 std::vector<std::int64_t> ListNumbers(
   std::int64_t size, const IsIn& isIn, const ThreadBackend& backend)
 {
-  constexpr std::int64_t Grain = 1 << 16;
-  RecordLists<std::int64_t> lists((size + Grain - 1) / Grain);
-  const auto list = [&](std::int64_t begin, std::int64_t end)
+  const auto count = [&](std::int64_t i) { return isIn(i) ? 1 : 0; };
+  const ThreadNumbering numbering = backend.Count(size, count);
+  std::vector<std::int64_t> numbers(numbering.Total);
+  const auto list = [&](std::int64_t i, std::int64_t number)
   {
-    for (std::int64_t i = begin; i < end; ++i)
+    if (isIn(i))
     {
-      if (isIn(i))
-      {
-        lists[begin / Grain].push_back(i);
-      }
+      numbers[number] = i;
     }
   };
-  backend.ForRange(size, list, Grain);
-  return Join(lists);
+  backend.ForEachNumbered(numbering, size, count, list);
+  return numbers;
 }
 
 /// Calls work(triangle, slot) for the corners of `count` triangles, in several threads.
@@ -173,6 +171,10 @@ public:
   }
 
 private:
+  template <typename T>
+  void Take(
+    const T* from, const std::int64_t* ids, std::int64_t count, int components, Array<T>& to) const;
+
   const TriangleMesh& Whole;
   const ThreadBackend& Engine;
   PointSet PointIds;

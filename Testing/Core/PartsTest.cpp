@@ -211,16 +211,6 @@ TEST_P(PartsTest, MeshesOfAllKinds)
   }
 }
 
-/// So few triangles that most points are at seams.
-TEST_P(PartsTest, SmallSurfaces)
-{
-  for (std::uint32_t seed = 0; seed < 20 / Reduction; ++seed)
-  {
-    const Mesh mesh = MakeBadSphere(6, 4, seed);
-    ExpectGood(mesh.View(), OnSurfaces(), FlipHere(mesh.View(), GetParam(), OnSurfaces()));
-  }
-}
-
 TEST_P(PartsTest, WhatIsFixed)
 {
   const Mesh owned = MakeRandomBadMeshDouble(800, 24);

@@ -325,7 +325,7 @@ TEST_P(RankInsertionTest, AllStopIfOneDoes)
   const ConstrainedMesh drawn = Draw(200, 1000, 5);
   const TriangleMesh mesh = drawn.View();
   const std::vector<OwnPiece> pieces = this->Divide(mesh);
-  for (const double limit : { -1.0, 0.1, 0.19, 0.22, 0.3, 0.7 })
+  for (const double limit : { -1.0, 0.1, 0.19, 0.22, 0.3, 0.7, GetParam() > 1 ? 0.85 : 0.7 })
   {
     std::vector<PiecesReport> reports(GetParam());
     std::atomic<std::int64_t> triangles{ 0 };

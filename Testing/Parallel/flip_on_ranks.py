@@ -13,14 +13,12 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
-import delaunayflip
 import rank_blocks
 import rank_constraints
 import rank_meshes
 import rank_seams
 from rank_runs import (
-    RANK, RANKS, WORLD, describe, flip_alone, flip_piece, gather_triangles, require, same,
-    set_options, start)
+    RANK, RANKS, WORLD, describe, flip_alone, flip_piece, gather_triangles, require, same, start)
 
 def run_same(maker, count, kind, ids, options, unique=True):
     points, triangles = getattr(rank_meshes, maker)(count)
@@ -43,9 +41,7 @@ def run_ghosts(count, wrong=None):
     facts = describe(flip, said)
     if RANK == 0:
         alone = flip_alone(points, triangles, {"TieRule": 1})
-        facts["same"] = bool(np.array_equal(
-            rank_meshes.as_set(after),
-            rank_meshes.as_set(rank_meshes.read_triangles(alone.GetOutput()))))
+        facts["same"] = rank_meshes.are_same(after, alone.GetOutput())
     return facts, said
 
 
@@ -73,65 +69,6 @@ def run_failure(rank, wrong):
     flip.UpdatePiece(RANK, RANKS, 0)
     facts["then"] = flip.GetStopReasonAsString()
     return facts, said
-
-
-def run_different(rank, name, values):
-    """One rank has another value of an option than the others."""
-    points, triangles = rank_meshes.make_random(200)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space")
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
-    flip, said = flip_piece(piece, {name: values[RANK == rank]})
-    errors = WORLD.allgather(flip.GetErrorMessage())
-    require(len(set(errors)) == 1, f"different messages: {errors}")
-    facts = describe(flip, said)
-    getattr(flip, "Set" + name)(values[0])
-    flip.Modified()  # on all ranks
-    flip.UpdatePiece(RANK, RANKS, 0)
-    facts["then"] = flip.GetStopReasonAsString()
-    return facts, said
-
-
-def run_abort(rank):
-    points, triangles = rank_meshes.make_random(2000)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space")
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
-    flip = set_options(delaunayflip.vtkPDelaunayFlip(), {"TieRule": 1})
-    flip.SetInputData(piece)
-    if RANK == rank:
-        flip.AddObserver("ProgressEvent", lambda *_: flip.SetAbortExecute(1))
-    flip.UpdatePiece(RANK, RANKS, 0)
-    reasons = WORLD.allgather(flip.GetStopReasonAsString())
-    cells = WORLD.allreduce(flip.GetOutput().GetNumberOfCells())
-    require(cells == len(triangles), f"{cells} triangles")
-    return {"reasons": reasons}, []
-
-
-def run_constraints(count, kind):
-    """Lines of the pieces and a second input, which only rank 0 has."""
-    points, triangles = rank_meshes.make_random(count)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space" if kind == "seams" else kind)
-    is_seam = kind == "seams"
-    chosen = rank_meshes.list_seams(triangles, owners) if is_seam else triangles[::7, :2]
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
-    options = {"TieRule": 1, "InsertConstraints": False}
-    flip = set_options(delaunayflip.vtkPDelaunayFlip(), options)
-    flip.SetInputData(piece)
-    whole = rank_meshes.make_lines(points, chosen)
-    flip.SetConstraintsData(whole if RANK == 0 else rank_meshes.vtkPolyData())
-    flip.UpdatePiece(RANK, RANKS, 0)
-    after, _ = gather_triangles(points, flip.GetOutput())
-    facts = describe(flip, [])
-    if RANK == 0:
-        alone = set_options(delaunayflip.vtkDelaunayFlip(), options)
-        alone.SetInputData(rank_meshes.make_poly_data(points, triangles))
-        alone.SetConstraintsData(whole)
-        alone.Update()
-        facts["same"] = bool(np.array_equal(
-            rank_meshes.as_set(after),
-            rank_meshes.as_set(rank_meshes.read_triangles(alone.GetOutput()))))
-        facts["constraints alone"] = alone.GetNumberOfConstraintEdges()
-        facts["unmatched alone"] = alone.GetNumberOfUnmatchedConstraintEdges()
-    return facts, []
 
 
 def main():

@@ -4,7 +4,7 @@
 have a piece."""
 import numpy as np
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkDataSetAttributes, vtkImageData, vtkMultiBlockDataSet,
+    vtkCompositeDataSet, vtkImageData, vtkMultiBlockDataSet,
     vtkPartitionedDataSet, vtkPartitionedDataSetCollection, vtkPolyData)
 
 import delaunayflip
@@ -121,13 +121,13 @@ def join_places(leaves):
     return {number: np.concatenate(parts) for number, parts in joined.items()}
 
 
-def is_same(number, corners, options):
+def is_same(number, corners, alone=None):
     """Whether the triangles of all ranks are those of one."""
     points, triangles = make_mesh(number)
     ids = {tuple(x): i for i, x in enumerate(points)}
     found = np.array([[ids[tuple(x)] for x in triangle] for triangle in corners])
-    alone = rank_meshes.read_triangles(flip_alone(points, triangles, options).GetOutput())
-    return bool(np.array_equal(rank_meshes.as_set(found), rank_meshes.as_set(alone)))
+    alone = alone or flip_alone(points, triangles, OPTIONS)
+    return rank_meshes.are_same(found, alone.GetOutput())
 
 
 def update(data, prepare=lambda flip: None):
@@ -153,7 +153,7 @@ def run_composite(kind):
     require([leaf.GetClassName() for leaf in leaves] == [leaf.GetClassName() for leaf in given],
             "other leaves")
     joined = join_places(leaves)
-    facts["same"] = [is_same(number, joined[number], OPTIONS) for number in sorted(joined)]
+    facts["same"] = [is_same(number, joined[number]) for number in sorted(joined)]
     if kind.endswith(" partitions"):
         for leaf in leaves:
             check_data(make_mesh(0)[0], leaf)
@@ -163,39 +163,6 @@ def run_composite(kind):
         [int(leaf.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetValue(0))
          for leaf in leaves if leaf.GetFieldData().GetArray("DelaunayFlip:TotalFlips")])))
     facts["rows"] = flip.GetIterations().GetNumberOfRows()
-    return facts, []
-
-
-def run_short_arrays(kind):
-    """On rank 1, an array of the cells and one of the points have too few tuples."""
-    data = MAKERS[kind]() if kind in MAKERS else cut(0)
-    leaf = list_leaves(data)[-1] if kind in MAKERS else data
-    if RANK == 1:
-        for attributes in (leaf.GetCellData(), leaf.GetPointData()):
-            rank_meshes.add_array(attributes, "Short", np.arange(2.0))
-    flip, facts = update(data)
-    output = flip.GetOutputDataObject(0)
-    leaf = list_leaves(output)[-1] if kind in MAKERS else output
-    require(not leaf.GetCellData().HasArray("Short"), "a short cell array")
-    require(not leaf.GetPointData().HasArray("Short"), "a short point array")
-    return facts, []
-
-
-def run_wrong_ghosts(kind):
-    """On rank 1, ghost types are of type int, and all hidden cells."""
-    data = MAKERS[kind]() if kind in MAKERS else cut(0)
-    leaf = list_leaves(data)[-1] if kind in MAKERS else data
-    number = vtkDataSetAttributes.HIDDENCELL if RANK == 1 else 0
-    ghosts = np.full(leaf.GetNumberOfCells(), number, np.int32 if RANK == 1 else np.uint8)
-    rank_meshes.add_array(leaf.GetCellData(), "vtkGhostType", ghosts)
-    flip, facts = update(data)
-    output = flip.GetOutputDataObject(0)
-    leaves = list_leaves(output) if kind in MAKERS else [output]
-    passed = leaves[-1].GetCellData().GetArray("vtkGhostType")
-    require(passed.GetDataType() == leaf.GetCellData().GetArray("vtkGhostType").GetDataType(),
-            "another type")
-    joined = join_places(leaves)
-    facts["same"] = is_same(0, joined[0], OPTIONS)
     return facts, []
 
 
@@ -215,21 +182,6 @@ def run_failing_block():
 def run_mixed_kinds():
     """One rank has composite data, the others a mesh."""
     return update(make_blocks() if RANK == 0 else cut(0))[1], []
-
-
-def run_aborted_blocks(rank):
-    """A rank stops the update in the first block. All triangles are still there."""
-    data = make_blocks()
-    given = {number: len(corners) for number, corners in join_places(list_leaves(data)).items()}
-
-    def prepare(flip):
-        if RANK == rank:
-            flip.AddObserver("ProgressEvent", lambda *_: flip.SetAbortExecute(1))
-
-    flip, facts = update(data, prepare)
-    left = join_places(list_leaves(flip.GetOutputDataObject(0)))
-    require({number: len(corners) for number, corners in left.items()} == given, "triangles lost")
-    return facts, []
 
 
 def run_constraints_of_blocks(kind):
@@ -254,9 +206,5 @@ def run_constraints_of_blocks(kind):
     alone.Update()
     facts["constraints alone"] = alone.GetNumberOfConstraintEdges()
     corners = join_places(list_leaves(flip.GetOutputDataObject(0)))[0]
-    ids = {tuple(x): i for i, x in enumerate(points)}
-    found = np.array([[ids[tuple(x)] for x in triangle] for triangle in corners])
-    facts["same"] = bool(np.array_equal(
-        rank_meshes.as_set(found),
-        rank_meshes.as_set(rank_meshes.read_triangles(alone.GetOutput()))))
+    facts["same"] = is_same(0, corners, alone)
     return facts, []

@@ -40,14 +40,6 @@ def draw_pairs(points, triangles, owners, count, are_within):
     return np.array(pairs, int).reshape(-1, 2)
 
 
-def make_lattice(side):
-    """Squares, all divided along the same diagonal."""
-    x, y = np.divmod(np.arange(side * side), side)
-    corners = np.argwhere((x < side - 1) & (y < side - 1)).ravel()[:, None]
-    triangles = np.r_[corners + [0, side, side + 1], corners + [0, side + 1, 1]]
-    return np.c_[x, y, np.zeros(side * side)].astype(float), triangles
-
-
 def describe_all(flip):
     return {**describe(flip, []), "inserted": flip.GetNumberOfInsertedConstraintEdges()}
 
@@ -69,7 +61,7 @@ def add_lines(piece, used, points, pairs):
     return whole, used
 
 
-def make_case(points, triangles, pairs, kind, given, ids, regions):
+def make_case(points, triangles, pairs, kind, given, ids):
     """This rank's filter with its piece and its constraints."""
     owners = rank_meshes.divide(points, triangles, RANKS, kind)
     slots = np.flatnonzero(owners == RANK)
@@ -89,24 +81,12 @@ def make_case(points, triangles, pairs, kind, given, ids, regions):
     if ids and len(slots):
         numbers = rank_meshes.numpy_to_vtkIdTypeArray(used.astype(np.int64), deep=1)
         piece.GetPointData().SetGlobalIds(numbers)
-    if regions and len(slots):
-        labels = regions_of(points, triangles)[slots]
-        if piece.GetNumberOfLines():
-            labels = np.r_[np.zeros(piece.GetNumberOfLines(), int), labels]
-        rank_meshes.add_array(piece.GetCellData(), "region", labels.astype(np.int32))
     flip.SetInputData(piece)
     return flip
 
 
-def regions_of(points, triangles):
-    middle = points[triangles].mean(1)[:, 1]
-    return (middle > np.median(middle)).astype(np.int32)
-
-
-def run_alone(points, triangles, pairs, options, regions):
+def run_alone(points, triangles, pairs, options):
     mesh = rank_meshes.make_poly_data(points, triangles)
-    if regions:
-        rank_meshes.add_array(mesh.GetCellData(), "region", regions_of(points, triangles))
     flip = set_options(delaunayflip.vtkDelaunayFlip(), options)
     flip.SetInputData(mesh)
     flip.SetConstraintsData(rank_meshes.make_lines(points, pairs))
@@ -114,12 +94,11 @@ def run_alone(points, triangles, pairs, options, regions):
     return flip
 
 
-def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, regions=False,
-                     across=()):
+def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, across=()):
     """Compares with a run of one process that has no constraints across ranks."""
-    options = {"TieRule": 1, "NumberOfThreads": 1, "RegionArray": "region" if regions else ""}
+    options = {"TieRule": 1, "NumberOfThreads": 1}
     whole = np.r_[pairs, across] if len(across) else pairs
-    flip = set_options(make_case(points, triangles, whole, kind, given, ids, regions), options)
+    flip = set_options(make_case(points, triangles, whole, kind, given, ids), options)
     said = listen(flip)
     flip.UpdatePiece(RANK, RANKS, 0)
     facts = describe_all(flip)
@@ -135,11 +114,9 @@ def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, r
     after, slots = gather_triangles(points, output)
     if RANK == 0:
         require(np.array_equal(np.sort(slots), np.arange(len(triangles))), "triangles are lost")
-        alone = run_alone(points, triangles, pairs, options, regions)
+        alone = run_alone(points, triangles, pairs, options)
         facts["alone"] = describe_all(alone)
-        facts["same"] = bool(np.array_equal(
-            rank_meshes.as_set(after),
-            rank_meshes.as_set(rank_meshes.read_triangles(alone.GetOutput()))))
+        facts["same"] = rank_meshes.are_same(after, alone.GetOutput())
         facts["crowded"] = rank_meshes.count_crowded_edges(after)
         facts["said"] = " ".join(said)
     return facts, said
@@ -154,12 +131,3 @@ def run_inserted(count, pairs, across, kind, **arguments):
     facts, said = compare_inserted(
         points, triangles, within, kind, across=between, **arguments)
     return {**facts, "across": len(between)}, said
-
-
-def run_lattice(side, pairs, kind, given="rank 0", across=()):
-    """Constraints of a lattice, as places in it: x, y, x, y."""
-    points, triangles = make_lattice(side)
-
-    def find(places):
-        return np.array([(side * x + y, side * u + v) for x, y, u, v in places])
-    return compare_inserted(points, triangles, find(pairs), kind, given, across=find(across))

@@ -56,31 +56,6 @@ def divide(points, triangles, ranks, kind):
     return owners
 
 
-def make_book(side):
-    """Three flat sheets of badly joined points, side x side each, that meet in a line of edges with
-    three triangles each. All of these edges are bad."""
-    x, y = np.divmod(np.arange(side * side), side)
-    jitter = np.random.default_rng(2).uniform(-0.1, 0.1, (2, len(x))) * (x > 0)
-    sheet = np.c_[0.25 * x + jitter[0], y - 0.5 * x + jitter[1], np.zeros(len(x))]
-    corners = np.argwhere((x < side - 1) & (y < side - 1)).ravel()[:, None]
-    triangles = np.r_[corners + [0, side, side + 1], corners + [0, side + 1, 1]]
-    pages = [sheet @ [[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [0, 0, 1]]
-             for angle in (0.0, 2.0, 4.0)]
-    cells = [np.where(triangles < side, triangles, triangles + page * len(x)) for page in range(3)]
-    return np.concatenate(pages), np.concatenate(cells)
-
-
-def list_seams(triangles, owners):
-    """The edges between triangles of different owners."""
-    known, seams = {}, []
-    for triangle, owner in zip(triangles, owners):
-        for i in range(3):
-            edge = frozenset((triangle[i - 1], triangle[i]))
-            if known.setdefault(edge, owner) != owner:
-                seams.append(sorted(edge))
-    return np.array(seams)
-
-
 def count_crowded_edges(triangles):
     """Edges with three triangles or more."""
     edges = np.sort(np.concatenate([triangles[:, [i - 1, i]] for i in range(3)]), axis=1)
@@ -141,6 +116,11 @@ def read_triangles(mesh):
 
 def read_points(mesh):
     return vtk_to_numpy(mesh.GetPoints().GetData()) if mesh.GetPoints() else np.zeros((0, 3))
+
+
+def are_same(triangles, mesh):
+    """Whether a mesh has these triangles, whatever their order and first corner."""
+    return bool(np.array_equal(as_set(triangles), as_set(read_triangles(mesh))))
 
 
 def as_set(triangles):

@@ -121,9 +121,7 @@ def compare(points, triangles, piece, options, unique):
         require(np.array_equal(np.sort(slots), np.arange(len(triangles))), "triangles are lost")
         alone = flip_alone(points, triangles, options)
         if unique:
-            expected = rank_meshes.read_triangles(alone.GetOutput())
-            facts["same"] = bool(np.array_equal(
-                rank_meshes.as_set(after), rank_meshes.as_set(expected)))
+            facts["same"] = rank_meshes.are_same(after, alone.GetOutput())
         again = flip_alone(points, after, {**options, "FeatureAngle": 180.0})
         facts["again"] = again.GetTotalFlips()
         facts["left again"] = again.GetNumberOfNonDelaunayEdges()

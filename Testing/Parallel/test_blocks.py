@@ -6,8 +6,6 @@ import unittest
 from RanksTesting import RanksTest, flip_on
 
 NO_SURFACE = "block 2: not a surface, passed unchanged"
-PLACES_ON_RANK_1 = (("partitions", "rank 1, block 2"), ("two partitions", "rank 1, block 3"),
-                    ("mesh", "rank 1"))
 
 
 class Blocks(RanksTest):
@@ -43,24 +41,6 @@ class Blocks(RanksTest):
                 self.assertEqual(facts["flips of leaves"], [facts["flips"]])
                 self.assertEqual((facts["partitions"], facts["rounds"] > 1), (count, ranks > 1))
 
-    def test_short_arrays_are_left_out(self):
-        for kind, place in PLACES_ON_RANK_1:
-            with self.subTest(kind):
-                facts = flip_on(2, "short_arrays", kind=kind)
-                self.assertEqual(len(facts["said"]), 1)
-                arrays = ('1 %s array with too few tuples left out: "Short"' % kind
-                          for kind in ("point", "cell"))
-                self.assertIn(f"{place}: " + "; ".join(arrays), facts["said"][0])
-
-    def test_wrong_ghosts_are_ignored(self):
-        for kind, place in PLACES_ON_RANK_1:
-            with self.subTest(kind):
-                facts = flip_on(2, "wrong_ghosts", kind=kind)
-                self.assertEqual((facts["same"], facts["left"]), (True, 0))
-                self.assertEqual(len(facts["said"]), 1)
-                self.assertIn(f"{place}: 1 ghost array that is not of type unsigned char ignored: "
-                              '"vtkGhostType"', facts["said"][0])
-
     def test_constraints(self):
         for kind, unmatched in (("shared", True), ("composite", False)):
             with self.subTest(kind):
@@ -83,11 +63,6 @@ class BlockFailures(RanksTest):
         self.assertEqual(facts["error"],
                          "rank 1: this rank has a single mesh, but others have composite datasets")
 
-    def test_any_rank_stops_all_blocks(self):
-        for rank in (0, 2):
-            with self.subTest(rank):
-                facts = flip_on(3, "aborted_blocks", rank=rank)
-                self.assertEqual((facts["stopped"], facts["rounds"]), ("aborted", 1))
 
 
 if __name__ == "__main__":

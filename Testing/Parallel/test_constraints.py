@@ -31,22 +31,6 @@ class Insertion(RanksTest):
                 self.assertEqual(facts["across"] > 0, kind != "one has all")
                 self.assertEqual("before the mesh is divided" in facts["said"], facts["across"] > 0)
 
-    def test_with_regions(self):
-        for ranks, given in ((2, "rank 0"), (4, "lines")):
-            with self.subTest(given):
-                facts = self.expect_same_as_alone(ranks, "inserted", count=200, pairs=40, across=0,
-                                                  kind="space", given=given, regions=True)
-                self.assertGreater(facts["inserted"], 5)
-                self.assertGreater(facts["unmatched"], 1)
-                self.assertEqual(facts["unmatched"], facts["alone"]["unmatched"])
-
-    def test_at_seams(self):
-        """Three ranks have columns of a lattice. Constraints begin at a seam, end at one, run from a
-        seam to itself and along it, or go through another rank."""
-        facts = self.expect_same_as_alone(
-            3, "lattice", side=10, kind="space", pairs=[(3, 0, 6, 1), (3, 5, 3, 9), (6, 4, 9, 5)],
-            across=[(0, 9, 9, 0), (4, 9, 7, 8)])
-        self.assertEqual((facts["inserted"], facts["unmatched"]), (3, 2))
 
 
 if __name__ == "__main__":

@@ -23,17 +23,6 @@ class Planar(RanksTest):
 
 
 class Surfaces(RanksTest):
-    def test_surface(self):
-        for ranks, angle in ((2, 180.0), (5, 20.0)):
-            with self.subTest(ranks):
-                facts = flip_on(
-                    ranks, "same", maker="make_bumps", count=400, kind="space", ids=True,
-                    options={"Geometry": 3, "FeatureAngle": angle, "NumberOfThreads": 1},
-                    unique=False)
-                self.assertEqual(facts["stopped"], "converged")
-                if angle == 180.0:
-                    self.expect_done(facts)
-
     def test_all_arrays(self):
         facts = flip_on(
             3, "same", maker="make_bumps", count=200, kind="space", ids=False,
@@ -62,14 +51,6 @@ class Pieces(RanksTest):
         self.assertIn('rank 1: 1 ghost array with several components ignored: "vtkGhostType"',
                       facts["said"][0])
 
-    def test_constraints(self):
-        for kind in ("space", "scattered", "seams"):
-            with self.subTest(kind):
-                facts = flip_on(3, "constraints", count=300, kind=kind)
-                self.assertTrue(facts["same"], facts)
-                self.assertEqual(facts["constraints"], facts["constraints alone"])
-                self.assertEqual(facts["unmatched"], facts["unmatched alone"])
-
 
 class Failures(RanksTest):
     def test_a_failure_is_that_of_all(self):
@@ -84,23 +65,6 @@ class Failures(RanksTest):
     def test_missing_regions(self):
         facts = flip_on(2, "failure", rank=0, wrong="regions")
         self.assertIn('no cell array named "missing"', facts["error"])
-
-    def test_options_that_differ(self):
-        for name, values in (("GenerateQuality", (0, 1)), ("RegionArray", ("", "slot")),
-                             ("Geometry", (0, 3)), ("Tolerance", (-1.0, 0.5)),
-                             ("MaximumIterations", (-1, 1))):
-            with self.subTest(name):
-                facts = flip_on(3, "different", rank=1, name=name, values=values)
-                self.assertTrue(facts["error"].startswith(f"rank 0: {name} is '"), facts)
-                self.assertIn("on rank 0, but '", facts["error"])
-                self.assertIn("on rank 1; ", facts["error"])
-                self.assertEqual((len(facts["said"]), facts["then"]), (1, "converged"))
-
-    def test_any_rank_stops_all(self):
-        for rank in (0, 2):
-            with self.subTest(rank):
-                facts = flip_on(3, "abort", rank=rank)
-                self.assertEqual(facts["reasons"], ["aborted"] * 3)
 
 
 if __name__ == "__main__":
