@@ -147,7 +147,7 @@ void vtkPDelaunayFlip::FlipBlock(
   const auto flip = [&](PieceGroup& told)
   {
     BlockMesh mesh(
-      block, [this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray, true);
+      block, [this](vtkDataObject* leaf) { return this->GetMesh(leaf); }, this->RegionArray, true);
     const auto edges = mesh.FindConstraints(constraints);
     const std::vector<Note> notes = ShareNotes(mesh.ListNotes(true), told);
     summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());
@@ -194,7 +194,7 @@ void vtkPDelaunayFlip::FlipBlock(
   }
   catch (...)
   {
-    summary.AddFailure(ExplainException(), block.Name);
+    summary.AddFailure(block.Name);
     for (BlockLeaf& leaf : block.Leaves)
     {
       leaf.Result = vtkSmartPointer<vtkPolyData>::New();

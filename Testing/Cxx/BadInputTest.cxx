@@ -4,8 +4,6 @@
 
 #include "FilterTestSupport.h"
 
-#include "FlipReport.h"
-
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -181,44 +179,6 @@ TEST(BadInput, DirtyCellsStayWithOneWarning)
   }
 }
 
-TEST(BadInput, TiesStayBitIdentical)
-{
-  Points circle; // 3-4-5: the points of a lattice at distance 5 from the origin
-  for (const auto& [x, y] : { std::pair<double, double>{ 5, 0 }, { 4, 3 }, { 3, 4 }, { 0, 5 },
-         { -3, 4 }, { -4, 3 }, { -5, 0 }, { -4, -3 }, { -3, -4 }, { 0, -5 }, { 3, -4 }, { 4, -3 } })
-  {
-    circle.push_back({ x, y, 0.0 });
-  }
-  Cells fan;
-  for (vtkIdType i = 1; i < 11; ++i)
-  {
-    fan.push_back({ 0, i, i + 1 });
-  }
-  for (const Mesh& mesh : { ToPolyData(delaunayflip::MakeGridMesh(8, 5)), MakeMesh(circle, fan) })
-  {
-    WatchedFilter filter(mesh);
-    EXPECT_EQ(GetCells(RunCleanly(filter)->GetPolys()), GetCells(mesh->GetPolys()));
-    EXPECT_EQ(filter->GetTotalFlips(), 0);
-  }
-}
-
-TEST(BadInput, ClockwiseInputStaysClockwise)
-{
-  auto mesh = MakeRhombus();
-  mesh->SetPolys(MakeCells({ { 2, 1, 0 }, { 3, 2, 0 } }));
-  WatchedFilter filter(mesh);
-  auto output = RunCleanly(filter);
-  EXPECT_TRUE(HasEdge(output, 1, 3));
-  for (const Cell& cell : GetCells(output->GetPolys()))
-  {
-    double a[3], b[3], c[3];
-    output->GetPoint(cell[0], a);
-    output->GetPoint(cell[1], b);
-    output->GetPoint(cell[2], c);
-    EXPECT_LT((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0.0);
-  }
-}
-
 TEST(BadInput, NonManifoldAndWronglyWoundEdgesStay)
 {
   auto wound = MakeRhombus();
@@ -230,24 +190,6 @@ TEST(BadInput, NonManifoldAndWronglyWoundEdgesStay)
     EXPECT_EQ(GetCells(filter.Run()->GetPolys()), GetCells(mesh->GetPolys()));
     EXPECT_EQ(GetTotal(filter->GetOutput(), "NonManifoldEdges"), mesh == wound ? 0.0 : 1.0);
   }
-}
-
-TEST(BadInput, MoebiusStripsAndBowTiesKeepTheirRims)
-{
-  // A second rhombus that hangs on point 2 of the first.
-  auto tie =
-    MakeRhombusAnd({ { 6, -1, 0 }, { 9, 0, 0 }, { 6, 1, 0 } }, { { 2, 4, 5 }, { 2, 5, 6 } });
-  WatchedFilter bow(tie);
-  auto output = RunCleanly(bow);
-  EXPECT_TRUE(HasEdge(output, 1, 3) && HasEdge(output, 4, 6));
-  EXPECT_EQ(FindRims(output), FindRims(tie));
-  auto strip = ToPolyData(delaunayflip::MakeMoebiusStrip(40, 6, 1));
-  WatchedFilter filter(strip);
-  filter->SetFeatureAngle(180.0);
-  EXPECT_EQ(FindRims(filter.Run()), FindRims(strip));
-  EXPECT_TRUE(filter.GetErrors().empty() && filter->GetConverged());
-  EXPECT_GT(filter->GetTotalFlips(), 0);
-  EXPECT_GT(filter->GetReport().Edges.WronglyWound, 0);
 }
 
 TEST(BadInput, UnstructuredGridIsATypeError)

@@ -249,21 +249,6 @@ class Errors(PluginTest):
                 self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
                 self.assertRegex(flip.StopReason, "^failed: .*" + word)
 
-    def test_ten(self):
-        flip = simple.DelaunayFlip(Input=simple.Sphere())
-        self.expect_alternating_errors(flip, lambda: refresh(flip))
-
-    def test_what_is_no_error(self):
-        nothing = make_fan(10)
-        nothing.SetPolys(vtkCellArray())
-        nothing.GetCellData().Initialize()
-        flip = self.flip(self.read(nothing))
-        self.assertEqual(fetch(flip).GetNumberOfPoints(), 10)
-        self.assertEqual(fetch(flip, 1).GetNumberOfRows(), 0)
-        flip = self.flip(self.read(make_fan(20), "fan.vtp"), MaximumIterations=2)
-        self.assertEqual(flip.StopReason, "iteration limit")
-        self.assertEqual(flip.NumberOfIterations, 2)
-        self.assertGreater(flip.NumberOfNonDelaunayEdges, 0)
 
 
 class ViewErrors(PluginTest):

@@ -120,43 +120,6 @@ class Outputs(PluginTest):
                 self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:" + name), name)
 
 
-class Progress(PluginTest):
-    """The events for observers of the filter's object, such as the client's progress bar."""
-
-    def test_progress_and_abort(self):
-        for last in (2.0, 0.5, 0.0):  # the progress at which the filter is stopped
-            flip = simple.DelaunayFlip(Input=self.read(make_fan(40)))
-            filter_object, seen = flip.SMProxy.GetClientSideObject(), []
-
-            def look(*_):
-                seen.append(filter_object.GetProgress())
-                filter_object.SetAbortExecute(seen[-1] >= last)
-
-            filter_object.AddObserver("ProgressEvent", look)
-            refresh(flip)
-            self.assertEqual(seen, sorted(seen))
-            self.assertEqual(flip.StopReason, "converged" if last > 1.0 else "aborted")
-            self.assertEqual(len(seen) > 5, last > 0.0)
-            self.assertEqual(flip.NumberOfIterations > 0, last > 0.0)
-            self.assertEqual(len(get_triangles(fetch(flip))), 38)
-
-
-class Live(PluginTest):
-    def test_a_script_steps(self):
-        source = self.read(make_fan(20))
-        at_once = self.flip(source)
-        live = self.flip(source, LiveUpdate=1, IterationsPerUpdate=3)
-        self.assertEqual(live.NumberOfIterations, 3)
-        self.assertEqual(live.StopReason, "running")
-        steps = 1
-        while live.StopReason == "running" and steps < 100:
-            live.SMProxy.InvokeCommand("Advance")
-            refresh(live)
-            steps += 1
-        self.assertEqual(steps, -(-at_once.NumberOfIterations // 3))
-        self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
-
-
 @unittest.skipUnless(os.path.exists(COMMAND), f"skipped: no command {COMMAND}")
 class SameBits(PluginTest):
     def expect_same(self, path, options=(), **properties):
