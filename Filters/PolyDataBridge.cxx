@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <map>
-#include <type_traits>
 #include <utility>
 
 #if defined(__linux__)

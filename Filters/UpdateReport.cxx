@@ -8,6 +8,8 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkStringArray.h"
@@ -401,6 +403,17 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   addText("Tolerance", report.Tolerance);
   addText("Backend", report.Backend);
   AddIterationColumns(report, Prefix, data);
+#if defined(DELAUNAYFLIP_PARAVIEW)
+  // Its lists of arrays, such as Color By, leave out what has this key.
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array->GetName() && std::string(array->GetName()).rfind(Prefix, 0) == 0)
+    {
+      array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+    }
+  }
+#endif
 }
 
 void AddPointFieldData(const PointCounts& counts, vtkFieldData* data)

@@ -160,7 +160,6 @@ void vtkPDelaunayFlip::FlipBlock(
     vtkNew<vtkPolyData> empty, flipped;
     const PiecesReport report = FlipPieces(
       this->MakeRequest(mesh.GetMesh() ? mesh.GetMesh() : empty.Get(), edges), told, flipped);
-    AddFieldData(UpdateReport(report), flipped->GetFieldData());
     const auto addCount = [&](const char* name, std::int64_t count)
     {
       vtkNew<vtkIdTypeArray> array;
@@ -170,6 +169,7 @@ void vtkPDelaunayFlip::FlipBlock(
     };
     addCount("DelaunayFlip:Rounds", report.Rounds);
     addCount("DelaunayFlip:MovedTriangles", report.MovedTriangles);
+    AddFieldData(UpdateReport(report), flipped->GetFieldData());
     mesh.Store(flipped);
     this->NumberOfRounds = std::max<vtkIdType>(this->NumberOfRounds, report.Rounds);
     this->NumberOfMovedTriangles += report.MovedTriangles;

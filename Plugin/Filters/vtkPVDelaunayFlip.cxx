@@ -20,6 +20,7 @@
 #include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace delaunayflip;
 
@@ -39,26 +40,12 @@ enum Kind : unsigned char
 
 Kind GetKind(int cellType)
 {
-  switch (cellType)
-  {
-    case VTK_EMPTY_CELL:
-      return Blanked;
-    case VTK_VERTEX:
-    case VTK_POLY_VERTEX:
-      return Verts;
-    case VTK_LINE:
-    case VTK_POLY_LINE:
-      return Lines;
-    case VTK_TRIANGLE:
-    case VTK_QUAD:
-    case VTK_PIXEL:
-    case VTK_POLYGON:
-      return Polys;
-    case VTK_TRIANGLE_STRIP:
-      return Strips;
-    default:
-      return NoSurface;
-  }
+  // Of VTK_EMPTY_CELL, vertices, lines, triangle, strip, polygon, pixel and quad: 0 to 9.
+  constexpr Kind kinds[] = { Blanked, Verts, Verts, Lines, Lines, Polys, Strips, Polys, Polys,
+    Polys };
+  static_assert(
+    VTK_QUAD + 1 == sizeof(kinds) / sizeof(kinds[0]), "the numbers of VTK's cell types");
+  return cellType >= VTK_EMPTY_CELL && cellType <= VTK_QUAD ? kinds[cellType] : NoSurface;
 }
 
 vtkSmartPointer<vtkPoints> GetPoints(vtkDataSet* input)

@@ -104,10 +104,6 @@ class UnstructuredGrids(InputTest):
         self.assertEqual(mesh.GetNumberOfStrips(), 1)
         self.assertEqual(get_numbers(mesh), [3, 2, 0, 1, 5, 4])
 
-    def test_empty(self):
-        flip = self.flip(self.read_grid(make_grid(make_fan(5).GetPoints(), [])))
-        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
-
     def test_volume(self):
         for volume in (self.read_grid(make_volume()), simple.Wavelet(WholeExtent=[0, 3] * 3)):
             flip, text = self.flip_with_messages(volume)

@@ -41,16 +41,6 @@ class Inputs(PluginTest):
             flips = block.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0)
             self.assertEqual(flips, one.TotalFlips)
 
-    def test_time_series(self):
-        files = [self.save(make_fan(n), f"fan_{i}.vtp") for i, n in enumerate((10, 20, 30))]
-        series = simple.XMLPolyDataReader(FileName=files)
-        flip = self.flip(series)
-        for time, n in ((0, 10), (2, 30), (1, 20)):
-            flip.UpdatePipeline(time)
-            self.assertEqual(fetch(flip).GetNumberOfPoints(), n)
-            alone = self.flip(self.read(make_fan(n)))
-            self.assertEqual(get_triangles(fetch(flip)), get_triangles(fetch(alone)))
-
     def test_constraints(self):
         source, kept = self.read(make_fan(20)), frozenset((10, 19))
         flip = self.flip(source)

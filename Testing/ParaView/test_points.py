@@ -66,14 +66,6 @@ class Points(PluginTest):
         self.assertEqual(len(get_triangles(fetch(points))), 2)
         self.assertTrue(fetch(points, 1).IsA("vtkTable"))
 
-    def test_blocks(self):
-        group = simple.GroupDatasets(
-            Input=[self.read(make_cloud(n), f"{n}.vtp") for n in (50, 80)])
-        points, text = self.apply(group)
-        self.assertEqual(text, "")
-        alone = [self.apply(self.read(make_cloud(n), f"{n}.vtp"))[0] for n in (50, 80)]
-        self.assertEqual(points.TotalFlips, sum(one.TotalFlips for one in alone))
-
     def test_messages(self):
         line = make_data([(0, 0, 0), (1, 1, 0), (2, 2, 0)])
         _, text = self.apply(self.read(line))
