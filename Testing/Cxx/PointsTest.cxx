@@ -21,7 +21,6 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
-#include "vtkTriangle.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +73,9 @@ TriangleSet GetTriangles(vtkPolyData* mesh)
 TEST(FromPoints, OfAnyTypeAndLayout)
 {
   auto floats = ToMesh(MakeCloud(500)), doubles = ToMesh(MakeCloud(500)), separate = ToMesh({});
-  ReplacePoints<vtkFloatArray>(floats);
+  const auto flatten = [](double* x) { x[2] = 0.0; };
+  ReplacePoints<vtkFloatArray>(floats, flatten);
+  ReplacePoints<vtkDoubleArray>(doubles, flatten);
   separate->DeepCopy(floats);
   ReplacePoints<vtkSOADataArrayTemplate<float>>(separate);
   for (const Mesh& cloud : { floats, doubles, separate })
@@ -326,7 +327,7 @@ TEST(FromPoints, OutlinesAndHoles)
       mesh->GetPoint(cell[0], a);
       mesh->GetPoint(cell[1], b);
       mesh->GetPoint(cell[2], c);
-      area += vtkTriangle::TriangleArea(a, b, c);
+      area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]));
     }
     return area;
   };
