@@ -11,29 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 
 namespace delaunayflip
 {
-
-constexpr std::uint64_t HashFactor = 0x9E3779B97F4A7C15u; // 2^64 / golden ratio, odd
-
-std::size_t PointPlaces::Hash::operator()(const Place& place) const
-{
-  // Coordinates on a lattice differ only in a few high bits: multiply, then fold those down.
-  std::uint64_t hash = 0;
-  for (const double x : place)
-  {
-    std::uint64_t word = 0;
-    std::memcpy(&word, &x, sizeof(x));
-    hash = (hash ^ word) * HashFactor;
-    hash ^= hash >> 32;
-  }
-  return static_cast<std::size_t>(hash);
-}
 
 bool PointPlaces::Read(const PointArray& points, std::int64_t point, Place& place) const
 {
@@ -122,24 +105,13 @@ void AddAllPaths(vtkPolyData* others, vtkIdType numberOfPoints, const ProgressOb
   AddPaths(polygons, true, check, work, pairs);
 }
 
-struct HashPair
-{
-  std::size_t operator()(const PointPair& pair) const
-  {
-    const std::uint64_t hash =
-      (static_cast<std::uint64_t>(pair[0]) * HashFactor + static_cast<std::uint64_t>(pair[1])) *
-      HashFactor;
-    return static_cast<std::size_t>(hash ^ hash >> 32);
-  }
-};
-
 /// Keeps the first of equal pairs, with a flag that is set if that of any of them is.
 /// @throws RunAborted.
 void RemoveRepeated(std::vector<PointPair>& pairs, std::vector<unsigned char>& flags,
   const ProgressObserver& progress)
 {
   WorkProgress work(progress, static_cast<vtkIdType>(pairs.size()));
-  std::unordered_map<PointPair, std::size_t, HashPair> known; // never iterated over
+  std::unordered_map<PointPair, std::size_t, HashWords> known; // never iterated over
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -21,6 +22,25 @@ class vtkPolyData;
 
 namespace delaunayflip
 {
+
+/// A hash of ids or coordinates.
+struct HashWords
+{
+  template <typename Word, std::size_t Count>
+  std::size_t operator()(const std::array<Word, Count>& words) const
+  {
+    // Coordinates on a lattice differ only in a few high bits: multiply, then fold those down.
+    std::uint64_t hash = 0;
+    for (const Word& word : words)
+    {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &word, sizeof(word));
+      hash = (hash ^ bits) * 0x9E3779B97F4A7C15u; // 2^64 / golden ratio, odd
+      hash ^= hash >> 32;
+    }
+    return static_cast<std::size_t>(hash);
+  }
+};
 
 /// Numbers the distinct places of points. Coordinates must be equal; -0 equals 0.
 class DELAUNAYFLIP_EXPORT PointPlaces
@@ -45,17 +65,13 @@ public:
 
 private:
   using Place = std::array<double, 3>;
-  struct Hash
-  {
-    std::size_t operator()(const Place& place) const;
-  };
-
   /// @returns whether all coordinates are finite.
   bool Read(const PointArray& points, std::int64_t point, Place& place) const;
 
   bool AsFloats;
   std::int64_t NumberOfPlaces = 0;
-  std::unordered_map<Place, std::int64_t, Hash> Numbers; ///< Never iterated over: its order varies.
+  std::unordered_map<Place, std::int64_t, HashWords>
+    Numbers; ///< Never iterated over: its order varies.
 };
 
 using PointPair = std::array<std::int64_t, 2>;

@@ -9,8 +9,6 @@
 #include "TriangleAngles.h"
 #include "UpdateProgress.h"
 
-#include "vtkArrayDispatch.h"
-#include "vtkDataArrayRange.h"
 #include "vtkFieldData.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
@@ -22,7 +20,6 @@
 
 #include <algorithm>
 #include <map>
-#include <type_traits>
 #include <utility>
 
 #if defined(__linux__)
@@ -49,23 +46,6 @@ vtkSmartPointer<vtkCellArray> ShareCells(vtkCellArray* cells)
   return shared;
 }
 
-/// Appends the bytes of a number, in a form that is the same for all NaN, for 0 and -0, and for
-/// integers of all sizes.
-template <typename Value>
-void AppendValue(Value value, std::string& key)
-{
-  const auto append = [&key](auto number)
-  { key.append(reinterpret_cast<const char*>(&number), sizeof(number)); };
-  if constexpr (std::is_floating_point<Value>::value)
-  {
-    append(value == value ? static_cast<double>(value) + 0.0 : NaN);
-  }
-  else
-  {
-    append(static_cast<std::int64_t>(value));
-  }
-}
-
 /// E.g. "it has \"Side\", \"Material\"".
 std::string ListNames(vtkCellData* data)
 {
@@ -77,24 +57,6 @@ std::string ListNames(vtkCellData* data)
   }
   return names.empty() ? "it has none" : names;
 }
-
-struct VisitTuples
-{
-  template <typename ArrayT, typename Visit>
-  void operator()(ArrayT* array, const Visit& visit) const
-  {
-    std::string key;
-    for (const auto tuple : vtk::DataArrayTupleRange(array))
-    {
-      key.clear();
-      for (const vtk::GetAPIType<ArrayT> value : tuple)
-      {
-        AppendValue(value, key);
-      }
-      visit(key);
-    }
-  }
-};
 
 /// Hints to back new memory with pages of 2 MiB instead of 4 KiB, which are each allocated and
 /// cleared on first use: with it for the connectivity alone, an update of 5 M points on a GPU takes
@@ -216,9 +178,23 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
   };
   if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
   {
-    if (!vtkArrayDispatch::Dispatch::Execute(numbers, VisitTuples{}, label))
+    // As bytes, in a form that is the same for all NaN, for 0 and -0, and for integers of all
+    // sizes.
+    const bool areReal =
+      numbers->GetDataType() == VTK_FLOAT || numbers->GetDataType() == VTK_DOUBLE;
+    const auto wide = vtkSmartPointer<vtkDataArray>::Take(
+      vtkDataArray::CreateDataArray(areReal ? VTK_DOUBLE : VTK_TYPE_INT64));
+    wide->DeepCopy(numbers);
+    if (auto* reals = vtkDoubleArray::SafeDownCast(wide))
     {
-      VisitTuples{}(numbers, label);
+      std::transform(reals->Begin(), reals->End(), reals->Begin(),
+        [](double value) { return value == value ? value + 0.0 : NaN; });
+    }
+    const auto* bytes = static_cast<const char*>(wide->GetVoidPointer(0));
+    const std::size_t size = sizeof(double) * wide->GetNumberOfComponents();
+    for (vtkIdType cell = 0; cell < wide->GetNumberOfTuples(); ++cell)
+    {
+      label(std::string(bytes + cell * size, size));
     }
   }
   else

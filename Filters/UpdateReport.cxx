@@ -8,6 +8,8 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkStringArray.h"
@@ -151,38 +153,6 @@ const char* UpdateReport::GetGeometryName() const
 }
 
 //------------------------------------------------------------------------------
-FlipFailure ExplainException()
-{
-  try
-  {
-    throw;
-  }
-  catch (const InvalidOptions& error)
-  {
-    return { vtkDelaunayFlip::FAILURE_OPTIONS, error.what() };
-  }
-  catch (const BackendUnavailable& error)
-  {
-    return { vtkDelaunayFlip::FAILURE_BACKEND, error.what() };
-  }
-  catch (const FlipError& error)
-  {
-    return { vtkDelaunayFlip::FAILURE_MESH, error.what() };
-  }
-  catch (const std::bad_alloc&)
-  {
-    return { vtkDelaunayFlip::FAILURE_OTHER, "not enough memory" };
-  }
-  catch (const std::exception& error)
-  {
-    return { vtkDelaunayFlip::FAILURE_OTHER, error.what() };
-  }
-  catch (...)
-  {
-    return { vtkDelaunayFlip::FAILURE_OTHER, "an exception of unknown type" };
-  }
-}
-
 namespace
 {
 
@@ -223,10 +193,27 @@ std::string Describe(const std::vector<Note>& notes)
   return Join(texts, "; ");
 }
 
-void UpdateSummary::AddFailure(const FlipFailure& failure, const std::string& where)
+void UpdateSummary::AddFailure(const std::string& where)
 {
-  this->Failure = this->Failure == 0 ? failure.Kind : this->Failure;
-  this->Errors.push_back({ where, failure.Message });
+  int kind = vtkDelaunayFlip::FAILURE_OTHER;
+  std::string text = "an exception of unknown type";
+  try
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    kind = dynamic_cast<const InvalidOptions*>(&error)  ? vtkDelaunayFlip::FAILURE_OPTIONS
+      : dynamic_cast<const BackendUnavailable*>(&error) ? vtkDelaunayFlip::FAILURE_BACKEND
+      : dynamic_cast<const FlipError*>(&error)          ? vtkDelaunayFlip::FAILURE_MESH
+                                                        : kind;
+    text = dynamic_cast<const std::bad_alloc*>(&error) ? "not enough memory" : error.what();
+  }
+  catch (...)
+  {
+  }
+  this->Failure = this->Failure == 0 ? kind : this->Failure;
+  this->Errors.push_back({ where, text });
 }
 
 std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, bool hasTolerance)
@@ -416,6 +403,17 @@ void AddFieldData(const UpdateReport& report, vtkFieldData* data)
   addText("Tolerance", report.Tolerance);
   addText("Backend", report.Backend);
   AddIterationColumns(report, Prefix, data);
+#if defined(DELAUNAYFLIP_PARAVIEW)
+  // Its lists of arrays, such as Color By, leave out what has this key.
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array->GetName() && std::string(array->GetName()).rfind(Prefix, 0) == 0)
+    {
+      array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+    }
+  }
+#endif
 }
 
 void AddPointFieldData(const PointCounts& counts, vtkFieldData* data)

@@ -39,16 +39,6 @@ struct UpdateReport : FlipReport
   bool HasMixedGeometry = false; ///< GeometryUsed is then that of the first mesh.
 };
 
-/// Why a mesh could not be flipped.
-struct FlipFailure
-{
-  int Kind = 0; ///< One of vtkDelaunayFlip::FailureType; 0 is none.
-  std::string Message;
-};
-
-/// What the exception that is being handled means.
-DELAUNAYFLIP_EXPORT FlipFailure ExplainException();
-
 /// A message about a mesh.
 struct Note
 {
@@ -63,12 +53,13 @@ std::string Describe(const std::vector<Note>& notes);
 struct UpdateSummary
 {
   UpdateReport Report; ///< The sum over the meshes without a failure.
-  int Failure = 0; ///< The kind of the first one; 0: none.
+  int Failure = 0; ///< Of the first error, one of vtkDelaunayFlip::FailureType; 0: none.
   std::vector<Note> Errors;
   std::vector<Note> Warnings;
 
+  /// Adds the exception that is being handled.
   /// @param where what notes call the mesh; "" if it is the only one.
-  DELAUNAYFLIP_EXPORT void AddFailure(const FlipFailure& failure, const std::string& where);
+  DELAUNAYFLIP_EXPORT void AddFailure(const std::string& where);
 };
 
 /// What to warn the user of, or empty. Reaching a requested iteration limit is not worth a warning.

@@ -4,7 +4,6 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
-#include "FlipError.h"
 #include "FlipRun.h"
 #include "MeshBlocks.h"
 #include "UpdateReport.h"
@@ -13,7 +12,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <stdexcept>
 #include <string>
 
 using namespace delaunayflip;
@@ -90,18 +88,6 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::GetMesh(vtkDataObject* input)
   return vtkPolyData::SafeDownCast(input);
 }
 
-vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::ReadMesh(vtkDataObject* input)
-{
-  try
-  {
-    return this->GetMesh(input);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw InvalidMesh(error.what(), -1, -1);
-  }
-}
-
 //------------------------------------------------------------------------------
 FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints, bool isLive)
 {
@@ -129,7 +115,7 @@ void vtkDelaunayFlip::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
 {
   BlockMesh mesh(
-    block, [this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray);
+    block, [this](vtkDataObject* leaf) { return this->GetMesh(leaf); }, this->RegionArray);
   const auto edges = mesh.FindConstraints(constraints);
   const std::vector<Note> notes = mesh.ListNotes();
   summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());

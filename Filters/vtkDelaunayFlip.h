@@ -396,8 +396,8 @@ protected:
    * Returns an input, or a block of it, as a mesh; null if it is not a surface. Subclasses that
    * accept more than vtkPolyData override this. Returns the same object while the input is the
    * same.
-   * May throw std::invalid_argument if the input contradicts itself; the update then fails with
-   * its text.
+   * May throw delaunayflip::InvalidMesh if the input contradicts itself; the update then fails
+   * with its text.
    */
   virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
 
@@ -416,11 +416,6 @@ protected:
    */
   delaunayflip::FlipRequest MakeRequest(
     vtkPolyData* mesh, vtkPolyData* constraints, bool isLive = false);
-
-  /**
-   * GetMesh, with an error of the engine.
-   */
-  vtkSmartPointer<vtkPolyData> ReadMesh(vtkDataObject* input);
 #endif
 
   int Geometry = GEOMETRY_AUTO;

@@ -4,7 +4,6 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
-#include "FlipError.h"
 #include "FlipRun.h"
 #include "MeshBlocks.h"
 #include "UpdateReport.h"
@@ -152,7 +151,7 @@ int vtkDelaunayFlipAlgorithm::FillInputPortInformation(int port, vtkInformation*
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
-  this->Superclass::FillInputPortInformation(port, info);
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? this->InputType : "vtkPolyData");
   // Otherwise the executive would run the filter once per block, and no sums could be made.
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
@@ -345,7 +344,7 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     this->DiscardRun();
     output->Initialize();
     summary = UpdateSummary();
-    summary.AddFailure(ExplainException(), "");
+    summary.AddFailure("");
   }
   this->SetProgressShiftScale(0.0, 1.0);
   AddIterationColumns(this->IsSilent ? FlipReport() : summary.Report, "", table->GetRowData());
@@ -407,7 +406,7 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
   catch (...)
   {
     this->DiscardRun();
-    summary.AddFailure(ExplainException(), block.Name);
+    summary.AddFailure(block.Name);
     for (BlockLeaf& leaf : block.Leaves)
     {
       leaf.Result = vtkSmartPointer<vtkPolyData>::New();

@@ -340,6 +340,7 @@ protected:
   delaunayflip::UpdateReport& GetUpdateReport() const { return *this->Report; }
 #endif
 
+  const char* InputType = "vtkPolyData"; ///< Of the first input, unless it is composite.
   int SizeOfBlocks; ///< What it is measured by: vtkDataObject::CELL (default) or POINT.
   bool IsSilent = false; ///< Gives no messages and no rows of the table.
   int Backend = BACKEND_AUTO;

@@ -12,7 +12,6 @@
 #include "vtkAbstractTransform.h"
 #include "vtkDoubleArray.h"
 #include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkPlane.h"
@@ -23,7 +22,6 @@
 #include "vtkTransform.h"
 
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 using namespace delaunayflip;
@@ -67,40 +65,17 @@ struct CloudRequest
   vtkAbstractTransform* Transform; ///< Or null.
   bool FitsPlane;
   PointOptions Options;
-  std::vector<vtkMTimeType> Times; ///< When all of this was modified.
+  std::vector<double> Key; ///< When all of this was modified, and the values of its options.
   bool IsLive;
   ProgressObserver Progress;
 };
-
-bool AreSame(const PointOptions& a, const PointOptions& b)
-{
-  const auto tie = [](const PointOptions& o)
-  { return std::tie(o.PointTolerance, o.SplitCrossings, o.Outline, o.Alpha, o.LongestEdge); };
-  return static_cast<const FlipOptions&>(a) == b && tie(a) == tie(b);
-}
 
 /// Triangulates the points of a block.
 class CloudRun : public UpdateRun
 {
 public:
-  /// @param run null, or a CloudRun.
-  static bool ContinueOrStart(std::unique_ptr<UpdateRun>& run, const CloudRequest& request)
-  {
-    auto* last = static_cast<CloudRun*>(run.get());
-    const bool isSame =
-      last && last->Times == request.Times && AreSame(last->Options, request.Options);
-    if (isSame)
-    {
-      last->Stopped = false;
-      return true;
-    }
-    run.reset(); // its memory may be needed
-    run = std::make_unique<CloudRun>(request);
-    return false;
-  }
-
   explicit CloudRun(const CloudRequest& request)
-    : Times(request.Times),
+    : Key(request.Key),
       Options(request.Options),
       Plan(
         { false, false, request.Segments != nullptr, false, true, true, false }, request.Progress),
@@ -117,6 +92,9 @@ public:
     this->Session = std::make_unique<FlipSession>(this->Input, this->Options, this->GetProgress());
     this->Stopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
   }
+
+  /// For another update of the same.
+  void Continue() { this->Stopped = false; }
 
   FlipSession& GetSession() override { return *this->Session; }
   bool IsStopped() const override { return this->Stopped; }
@@ -335,8 +313,11 @@ private:
     }
   }
 
-  std::vector<vtkMTimeType> Times;
-  PointOptions Options;
+public:
+  const std::vector<double> Key;
+  const PointOptions Options;
+
+private:
   UpdatePlan Plan;
   vtkSmartPointer<vtkPolyData> Given; ///< The input.
   vtkSmartPointer<vtkPolyData> Cloud; ///< With the points of the segments.
@@ -355,7 +336,11 @@ vtkStandardNewMacro(vtkDelaunayFlipPoints);
 vtkCxxSetObjectMacro(vtkDelaunayFlipPoints, Transform, vtkAbstractTransform);
 
 //------------------------------------------------------------------------------
-vtkDelaunayFlipPoints::vtkDelaunayFlipPoints() { this->SizeOfBlocks = vtkDataObject::POINT; }
+vtkDelaunayFlipPoints::vtkDelaunayFlipPoints()
+{
+  this->InputType = "vtkPointSet";
+  this->SizeOfBlocks = vtkDataObject::POINT;
+}
 
 vtkDelaunayFlipPoints::~vtkDelaunayFlipPoints() { this->SetTransform(nullptr); }
 
@@ -370,25 +355,6 @@ vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
   return this->Transform ? std::max(own, this->Transform->GetMTime()) : own;
 }
 
-int vtkDelaunayFlipPoints::FillInputPortInformation(int port, vtkInformation* info)
-{
-  this->Superclass::FillInputPortInformation(port, info);
-  if (port == 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
-    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
-  }
-  return 1;
-}
-
-int vtkDelaunayFlipPoints::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkInformation* asked = outputVector->GetInformationObject(0);
-  this->IsOtherPiece = asked->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0;
-  return this->Superclass::RequestData(request, inputVector, outputVector);
-}
-
 //------------------------------------------------------------------------------
 void vtkDelaunayFlipPoints::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& segments, UpdateSummary& summary)
@@ -399,7 +365,8 @@ void vtkDelaunayFlipPoints::FlipLeaves(
                       "vtkAppendDataSets, or Merge Blocks in ParaView",
       -1, -1);
   }
-  if (this->IsOtherPiece && block.Size > 0.0)
+  using Asked = vtkStreamingDemandDrivenPipeline;
+  if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0 && block.Size > 0.0)
   {
     throw InvalidMesh("points are on several ranks; gather them on the first one, by "
                       "Redistribute DataSet with one partition in ParaView",
@@ -460,13 +427,23 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   options.Outline = static_cast<OutlineKind>(this->Outline);
   options.Alpha = this->Alpha;
   options.LongestEdge = this->LongestEdge;
-  const std::vector<vtkMTimeType> times{ this->TimeOfBlock,
-    static_cast<vtkMTimeType>(cloud->GetNumberOfPoints()), segments ? segments->GetMTime() : 0,
-    this->Transform ? this->Transform->GetMTime() : 0, static_cast<vtkMTimeType>(this->Projection),
-    this->LinesAsSegments };
-  return CloudRun::ContinueOrStart(run,
-    { cloud, segments, this->Transform, this->Projection == PROJECTION_BEST_FITTING_PLANE, options,
-      times, isLive, this->MakeProgress() });
+  const auto write = [](vtkMTimeType time) { return static_cast<double>(time); };
+  const std::vector<double> key{ write(this->TimeOfBlock), write(cloud->GetNumberOfPoints()),
+    write(segments ? segments->GetMTime() : 0),
+    write(this->Transform ? this->Transform->GetMTime() : 0), double(this->Projection),
+    double(this->LinesAsSegments), this->PointTolerance, double(this->SplitCrossings),
+    double(this->Outline), this->Alpha, this->LongestEdge };
+  auto* last = static_cast<CloudRun*>(run.get());
+  if (last && last->Key == key && last->Options == options)
+  {
+    last->Continue();
+    return true;
+  }
+  run.reset(); // its memory may be needed
+  run = std::make_unique<CloudRun>(CloudRequest{ cloud, segments, this->Transform,
+    this->Projection == PROJECTION_BEST_FITTING_PLANE, options, key, isLive,
+    this->MakeProgress() });
+  return false;
 }
 
 //------------------------------------------------------------------------------

@@ -203,10 +203,6 @@ protected:
   vtkDelaunayFlipPoints();
   ~vtkDelaunayFlipPoints() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-
 #ifndef __VTK_WRAP__
   void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& segments,
@@ -226,7 +222,6 @@ protected:
   bool LinesAsSegments = false;
 
 private:
-  bool IsOtherPiece = false; ///< In the update under way: not the first of several.
   vtkMTimeType TimeOfBlock = 0; ///< When the block at hand was modified.
 
   vtkDelaunayFlipPoints(const vtkDelaunayFlipPoints&) = delete;

@@ -139,7 +139,7 @@ void vtkPDelaunayFlip::FlipBlock(
   const auto flip = [&](PieceGroup& told)
   {
     BlockMesh mesh(
-      block, [this](vtkDataObject* leaf) { return this->ReadMesh(leaf); }, this->RegionArray, true);
+      block, [this](vtkDataObject* leaf) { return this->GetMesh(leaf); }, this->RegionArray, true);
     const auto edges = mesh.FindConstraints(constraints);
     const std::vector<Note> notes = ShareNotes(mesh.ListNotes(true), told);
     summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());
@@ -152,7 +152,6 @@ void vtkPDelaunayFlip::FlipBlock(
     vtkNew<vtkPolyData> empty, flipped;
     const PiecesReport report = FlipPieces(
       this->MakeRequest(mesh.GetMesh() ? mesh.GetMesh() : empty.Get(), edges), told, flipped);
-    AddFieldData(UpdateReport(report), flipped->GetFieldData());
     const auto addCount = [&](const char* name, std::int64_t count)
     {
       vtkNew<vtkIdTypeArray> array;
@@ -162,6 +161,7 @@ void vtkPDelaunayFlip::FlipBlock(
     };
     addCount("DelaunayFlip:Rounds", report.Rounds);
     addCount("DelaunayFlip:MovedTriangles", report.MovedTriangles);
+    AddFieldData(UpdateReport(report), flipped->GetFieldData());
     mesh.Store(flipped);
     this->NumberOfRounds = std::max<vtkIdType>(this->NumberOfRounds, report.Rounds);
     this->NumberOfMovedTriangles += report.MovedTriangles;
@@ -186,7 +186,7 @@ void vtkPDelaunayFlip::FlipBlock(
   }
   catch (...)
   {
-    summary.AddFailure(ExplainException(), block.Name);
+    summary.AddFailure(block.Name);
     for (BlockLeaf& leaf : block.Leaves)
     {
       leaf.Result = vtkSmartPointer<vtkPolyData>::New();

@@ -7,6 +7,7 @@
 #include "pqInputSelectorWidget.h"
 #include "pqPipelineSource.h"
 #include "pqPresetGroupsManager.h"
+#include "pqPropertyLinks.h"
 #include "pqPropertyWidget.h"
 #include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
@@ -19,11 +20,6 @@
 #include "vtkSMSettings.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionPresets.h"
-
-#if __has_include("vtkPVRepresentedArrayListSettings.h")
-#include "vtkPVRepresentedArrayListSettings.h"
-#define DELAUNAYFLIP_CAN_HIDE_ARRAYS
-#endif
 
 #include <QAbstractItemModel>
 #include <QAbstractScrollArea>
@@ -67,8 +63,6 @@ QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
 /// Apply.
 class LiveControls : public pqPropertyWidget
 {
-  Q_OBJECT
-
 public:
   LiveControls(vtkSMProxy* smproxy, QWidget* parentWidget)
     : pqPropertyWidget(smproxy, parentWidget)
@@ -79,7 +73,9 @@ public:
     this->Pause = this->addButton("Paused");
     this->Pause->setText("Pause");
     this->Pause->setCheckable(true);
-    QObject::connect(this->Pause, &QPushButton::toggled, this, &LiveControls::setPaused);
+    this->Links.setAutoUpdateVTKObjects(true);
+    this->Links.addPropertyLink(
+      this->Pause, "checked", SIGNAL(toggled(bool)), smproxy, smproxy->GetProperty("Paused"));
     QObject::connect(this->addButton("Step"), &QPushButton::clicked, this,
       [this]()
       {
@@ -88,16 +84,6 @@ public:
       });
     QObject::connect(this->addButton("Restart"), &QPushButton::clicked, this,
       [this]() { this->invoke("Restart"); });
-    pqCoreUtilities::connect(
-      smproxy->GetProperty("Paused"), vtkCommand::ModifiedEvent, this, SLOT(showState()));
-    this->showState();
-  }
-
-private Q_SLOTS:
-  void showState()
-  {
-    const QSignalBlocker blocker(this->Pause);
-    this->Pause->setChecked(vtkSMPropertyHelper(this->proxy(), "Paused").GetAsInt() != 0);
   }
 
 private:
@@ -110,13 +96,6 @@ private:
     return button;
   }
 
-  void setPaused(bool isPaused)
-  {
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
-    vtkSMPropertyHelper(this->proxy(), "Paused").Set(isPaused ? 1 : 0);
-    this->proxy()->UpdateVTKObjects();
-  }
-
   void invoke(const char* command)
   {
     SM_SCOPED_TRACE(CallMethod).arg("proxy", this->proxy()).arg("InvokeCommand").arg(command);
@@ -125,6 +104,7 @@ private:
   }
 
   QPushButton* Pause;
+  pqPropertyLinks Links;
 };
 
 /// What the last update did, as a table of text that can be selected and copied, but not edited.
@@ -278,40 +258,6 @@ void pqDelaunayFlipClient::startup()
         shown->getProxy()->UpdateVTKObjects();
       }
     });
-#ifdef DELAUNAYFLIP_CAN_HIDE_ARRAYS
-  // ParaView replaces all expressions when the user edits or loads settings.
-  this->Observer = vtkPVRepresentedArrayListSettings::GetInstance()->AddObserver(
-    vtkCommand::ModifiedEvent, this, &pqDelaunayFlipClient::hideArrays);
-  this->hideArrays();
-#endif
-}
-
-void pqDelaunayFlipClient::shutdown()
-{
-#ifdef DELAUNAYFLIP_CAN_HIDE_ARRAYS
-  vtkPVRepresentedArrayListSettings::GetInstance()->RemoveObserver(this->Observer);
-#endif
-}
-
-void pqDelaunayFlipClient::hideArrays()
-{
-#ifdef DELAUNAYFLIP_CAN_HIDE_ARRAYS
-  const std::string expression = "^DelaunayFlip:";
-  auto* settings = vtkPVRepresentedArrayListSettings::GetInstance();
-  const int last = settings->GetNumberOfFilterExpressions();
-  bool isThere = this->IsHiding;
-  for (int i = 0; i < last; ++i)
-  {
-    isThere = isThere || settings->GetFilterExpression(i) == expression;
-  }
-  if (!isThere)
-  {
-    this->IsHiding = true; // the following calls modify the settings, twice
-    settings->SetNumberOfFilterExpressions(last + 1);
-    settings->SetFilterExpression(last, expression.c_str());
-    this->IsHiding = false;
-  }
-#endif
 }
 
 void pqDelaunayFlipClient::refresh(pqPipelineSource* source)

@@ -10,8 +10,8 @@
 
 class pqPipelineSource;
 
-/// What the plugin adds to the Qt client: widgets of the Properties panel, hidden arrays, and what
-/// follows every update of its filters.
+/// What the plugin adds to the Qt client: widgets of the Properties panel, and what follows every
+/// update of its filters.
 ///
 /// Delaunay Flip: reads the group Last Update of the Properties panel again, because ParaView reads
 /// such properties when it applies the others, before the pipeline runs. It also renders the views
@@ -19,9 +19,6 @@ class pqPipelineSource;
 ///
 /// Plot Delaunay Flips: sets the axis of the chart to the scale, linear or logarithmic, for which
 /// the filter prepared the data.
-///
-/// The filter's field data, one array per column of its table, are kept out of the menu Color By by
-/// an expression beside the user's own. It is not written to the settings file.
 class pqDelaunayFlipClient
   : public QObject
   , public pqAutoStartInterface
@@ -37,7 +34,7 @@ public:
   }
 
   void startup() override;
-  void shutdown() override;
+  void shutdown() override {}
 
   pqPropertyWidget* createWidgetForProperty(
     vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent) override;
@@ -45,11 +42,7 @@ public:
     vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent) override;
 
 private:
-  void hideArrays();
   static void refresh(pqPipelineSource* source);
-
-  unsigned long Observer = 0;
-  bool IsHiding = false;
 };
 
 #endif

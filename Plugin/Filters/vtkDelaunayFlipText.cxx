@@ -10,7 +10,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
-#include <cstddef>
+#include <regex>
 #include <string>
 
 vtkStandardNewMacro(vtkDelaunayFlipText);
@@ -18,25 +18,11 @@ vtkStandardNewMacro(vtkDelaunayFlipText);
 namespace
 {
 
-/// Breaks long lines at blanks, for a view of usual width.
+/// Breaks lines longer than 60 characters at blanks, for a view of usual width.
 std::string Wrap(const std::string& text)
 {
-  constexpr std::size_t Width = 60;
-  std::string wrapped;
-  std::size_t column = 0, blank = std::string::npos;
-  for (const char letter : text)
-  {
-    wrapped += letter;
-    column = letter == '\n' ? 0 : column + 1;
-    blank = letter == ' ' ? wrapped.size() - 1 : (column == 0 ? std::string::npos : blank);
-    if (column > Width && blank != std::string::npos)
-    {
-      wrapped.replace(blank, 1, "\n    ");
-      column = wrapped.size() - blank - 1;
-      blank = std::string::npos;
-    }
-  }
-  return wrapped;
+  static const std::regex blank("(?=[^\\n]{61})([^\\n]{1,60}) ");
+  return std::regex_replace(text, blank, "$1\n    ");
 }
 
 std::string Describe(vtkFieldData* data)

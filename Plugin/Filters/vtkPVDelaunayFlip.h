@@ -32,10 +32,9 @@ public:
   vtkTypeMacro(vtkPVDelaunayFlip, vtkPDelaunayFlip);
 
 protected:
-  vtkPVDelaunayFlip() = default;
+  vtkPVDelaunayFlip();
   ~vtkPVDelaunayFlip() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input) override;
 
 private:

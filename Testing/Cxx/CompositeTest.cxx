@@ -186,15 +186,6 @@ TEST(Composite, ABlockThatFailsLeavesTheOthers)
   EXPECT_TRUE(filter->GetConverged());
 }
 
-TEST(Composite, OneErrorNamesTheFirstBlocks)
-{
-  auto broken = MakeBrokenMesh();
-  WatchedFilter errors(MakeBlocks({ broken, broken, broken, broken, broken }));
-  errors.Run();
-  ASSERT_EQ(errors.GetErrors().size(), 1u);
-  ExpectHolds(errors.GetErrors()[0], "block 1, block 2, block 3, and 2 more: Invalid mesh");
-}
-
 TEST(Composite, ProgressRisesOverBlocks)
 {
   auto blocks = MakeBlocks({ MakeWorstCase(20), MakeRhombus(), MakeWorstCase(20) });

@@ -11,7 +11,6 @@
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
 #include "vtkSOADataArrayTemplate.h"
@@ -228,17 +227,6 @@ TEST(MalformedArrays, PointsThatAreNoTriplesAreAnError)
   }
 }
 
-TEST(MalformedArrays, InALiveRunWarnOnce)
-{
-  auto mesh = MakeBadSphere();
-  mesh->GetCellData()->AddArray(MakeArray<vtkStringArray>("Short", 1));
-  SetNormals(mesh, 2);
-  LiveFilter filter(mesh);
-  EXPECT_GT(filter.RunToTheEnd(), 2);
-  EXPECT_EQ(filter.GetErrors().size(), 0u);
-  EXPECT_EQ(filter.GetWarnings().size(), 1u);
-}
-
 TEST(GhostArrays, FixTheEdgesOfGhostCells)
 {
   const std::pair<int, bool> flags[] = { { 0, true },
@@ -273,19 +261,6 @@ TEST(GhostArrays, OfAnotherKindAreIgnored)
     EXPECT_TRUE(IsFlipped(filter->GetOutput()));
     EXPECT_EQ(filter->GetOutput()->GetCellData()->GetAbstractArray(GhostName), ghosts);
   }
-}
-
-TEST(GhostArrays, OfBlocksAreNamed)
-{
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeRhombusWith(MakeGhosts<vtkUnsignedCharArray>(Hidden)));
-  blocks->SetBlock(1, MakeRhombusWith(MakeGhosts<vtkIntArray>(Hidden)));
-  blocks->SetBlock(3, vtkNew<vtkPolyData>());
-  WatchedFilter filter(blocks);
-  ExpectHolds(RunToWarning(filter), "block 2: " + WrongType);
-  EXPECT_FALSE(IsFlipped(filter.GetBlock(0)));
-  EXPECT_TRUE(IsFlipped(filter.GetBlock(1)));
-  EXPECT_NE(filter.GetBlock(3), nullptr);
 }
 
 TEST(GhostArrays, OfPartitionsAreNamed)

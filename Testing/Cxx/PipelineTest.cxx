@@ -7,7 +7,6 @@
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkTable.h"
 #include "vtkWeakPointer.h"
 
@@ -210,27 +209,6 @@ TEST(Growth, NoneOfUpdatesFiltersAndLiveRuns)
         live->Restart();
       }
     });
-}
-
-TEST(Growth, NoneOfBlocksAndErrors)
-{
-  auto wrong = MakeInput();
-  wrong->GetPolys()->InsertNextCell({ 0, 1, 1 << 20 });
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeInput());
-  blocks->SetBlock(2, wrong);
-  vtkNew<vtkDelaunayFlip> filter;
-  SetTestBackend(filter);
-  filter->SetInputDataObject(blocks);
-  vtkObject::GlobalWarningDisplayOff();
-  ExpectNoGrowth(
-    [&]()
-    {
-      filter->Modified();
-      filter->Update();
-    });
-  vtkObject::GlobalWarningDisplayOn();
-  EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
 }
 
 #endif

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// vtkDelaunayFlipPoints: from points and segments to a mesh.
 
-#include "DelaunayFlip.h"
 #include "FilterTestSupport.h"
 
 #include "vtkCellArray.h"
@@ -69,58 +68,24 @@ TriangleSet GetTriangles(vtkPolyData* mesh)
   return triangles;
 }
 
-/// What the engine makes of x and y, in its order.
-template <typename Real>
-Cells Triangulate(const std::vector<Real>& xyz)
+}
+
+TEST(FromPoints, OfAnyTypeAndLayout)
 {
-  delaunayflip::PointInput input;
-  input.Points = delaunayflip::PlaneArray(xyz.data(), static_cast<std::int64_t>(xyz.size() / 3), 3);
-  delaunayflip::FlipSession session(input, delaunayflip::PointOptions());
-  session.Advance();
-  const std::int64_t count = session.GetReport().Triangles;
-  std::vector<std::int64_t> ids(3 * count);
-  session.StoreTriangles(delaunayflip::MutableTriangleArray(ids.data(), count));
-  Cells cells;
-  for (std::size_t i = 0; i < ids.size(); i += 3)
+  auto floats = ToMesh(MakeCloud(500)), doubles = ToMesh(MakeCloud(500)), separate = ToMesh({});
+  const auto flatten = [](double* x) { x[2] = 0.0; };
+  ReplacePoints<vtkFloatArray>(floats, flatten);
+  ReplacePoints<vtkDoubleArray>(doubles, flatten);
+  separate->DeepCopy(floats);
+  ReplacePoints<vtkSOADataArrayTemplate<float>>(separate);
+  for (const Mesh& cloud : { floats, doubles, separate })
   {
-    cells.push_back({ ids[i], ids[i + 1], ids[i + 2] });
+    PointsFilter filter(cloud);
+    const auto output = RunCleanly(filter);
+    EXPECT_EQ(output->GetPoints(), cloud->GetPoints());
+    EXPECT_EQ(CountViolations(output), 0);
+    EXPECT_GT(output->GetNumberOfPolys(), 950);
   }
-  return cells;
-}
-
-template <typename Real>
-std::vector<Real> ListCoordinates(vtkPolyData* mesh)
-{
-  std::vector<Real> xyz;
-  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-  {
-    for (const double value : { mesh->GetPoint(i)[0], mesh->GetPoint(i)[1], mesh->GetPoint(i)[2] })
-    {
-      xyz.push_back(static_cast<Real>(value));
-    }
-  }
-  return xyz;
-}
-
-template <typename ArrayT>
-void ExpectSameAsEngine()
-{
-  auto cloud = ToMesh(MakeCloud(500));
-  ReplacePoints<ArrayT>(cloud);
-  PointsFilter filter(cloud);
-  const auto output = RunCleanly(filter);
-  using Real = typename ArrayT::ValueType;
-  EXPECT_EQ(filter.GetPolygons(), Triangulate(ListCoordinates<Real>(cloud)));
-  EXPECT_EQ(output->GetPoints(), cloud->GetPoints());
-}
-
-}
-
-TEST(FromPoints, TrianglesAreTheEngines)
-{
-  ExpectSameAsEngine<vtkFloatArray>();
-  ExpectSameAsEngine<vtkDoubleArray>();
-  ExpectSameAsEngine<vtkSOADataArrayTemplate<float>>();
 }
 
 TEST(FromPoints, WhatPassesAndWhatIsReported)
@@ -218,23 +183,6 @@ TEST(FromPoints, Projections)
   const vtkMTimeType before = moved->GetMTime();
   transform->RotateZ(30.0);
   EXPECT_GT(moved->GetMTime(), before);
-  // A tilted plane: the triangles are those before the tilt, and turn the same way seen from above.
-  vtkNew<vtkTransform> tilt;
-  tilt->RotateWXYZ(50.0, 1.0, 2.0, 0.0);
-  Points tilted = flat;
-  for (auto& point : tilted)
-  {
-    point[2] = 0.0;
-  }
-  PointsFilter level(ToMesh(tilted));
-  const TriangleSet expected = GetTriangles(RunCleanly(level));
-  for (auto& point : tilted)
-  {
-    tilt->TransformPoint(point.data(), point.data());
-  }
-  PointsFilter slope(ToMesh(tilted));
-  slope->SetProjectionToBestFittingPlane();
-  EXPECT_EQ(GetTriangles(RunCleanly(slope)), expected);
   // One point that is not finite must not spoil the plane.
   upright.push_back({ Inf, 0, 0 });
   PointsFilter other(ToMesh(upright));
@@ -473,35 +421,6 @@ TEST(FromPoints, PointsInPiecesAreAnError)
   ExpectHolds(piece.GetErrors()[0], "gather them on the first one");
 }
 
-TEST(FromPoints, Abort)
-{
-  const auto cloud = ToMesh(MakeCloud(20000));
-  cloud->SetLines(MakeCells({ { 0, 1 } }));
-  for (const double limit : { 0.0, 0.9 })
-  {
-    PointsFilter filter(cloud);
-    filter->LinesAsSegmentsOn();
-    auto abort = [&]()
-    {
-      if (filter->GetProgress() >= limit)
-      {
-        filter->AbortExecuteOn();
-      }
-    };
-    OnProgress(filter.Get(), abort);
-    const auto output = RunCleanly(filter);
-    EXPECT_STREQ(filter->GetStopReasonAsString(), "aborted");
-    EXPECT_EQ(output->GetPoints(), cloud->GetPoints());
-    EXPECT_EQ(output->GetNumberOfPolys() > 0, limit > 0.0);
-    EXPECT_EQ(output->GetNumberOfLines(), 0);
-    filter->RemoveAllObservers();
-    filter->SetAbortExecute(0); // which an event after the end has set again, from VTK 9.3 on
-    filter->Modified();
-    filter->Update();
-    EXPECT_TRUE(filter->GetConverged());
-  }
-}
-
 TEST(FromPoints, LiveUpdate)
 {
   auto cloud = ToMesh(MakeCloud(2000));
@@ -520,31 +439,4 @@ TEST(FromPoints, LiveUpdate)
   MovePoints(cloud, [](double* x) { x[0] *= 1.5; });
   live->Update();
   EXPECT_EQ(live->GetNumberOfIterations(), 1);
-}
-
-TEST(FromPoints, AnyOrderGivesTheSame)
-{
-  Points points = MakeCloud(500);
-  for (auto& point : points)
-  {
-    point = { std::floor(point[0]), std::floor(point[1]), 0.0 };
-  }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  PointsFilter forward(ToMesh(points));
-  const TriangleSet expected = GetTriangles(RunCleanly(forward));
-  std::reverse(points.begin(), points.end());
-  PointsFilter backward(ToMesh(points));
-  TriangleSet found;
-  const auto last = static_cast<vtkIdType>(points.size()) - 1;
-  for (const auto& triangle : GetTriangles(RunCleanly(backward)))
-  {
-    std::set<vtkIdType> ids;
-    for (const vtkIdType id : triangle)
-    {
-      ids.insert(last - id);
-    }
-    found.insert(ids);
-  }
-  EXPECT_EQ(found, expected);
 }

@@ -7,10 +7,8 @@
 #include "FlipReport.h"
 #include "TestBackend.h"
 
-#include "vtkAlgorithm.h"
 #include "vtkFieldData.h"
 #include "vtkMultiBlockDataSet.h"
-#include "vtkSphereSource.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -36,19 +34,6 @@ void AddText(vtkPolyData* mesh, const std::string& name)
 
 /// 6 triangles, whose iterations make 1, 2, 3, 2 and 1 flips.
 Mesh MakeWorstCase() { return ToPolyData(delaunayflip::MakeWorstCaseMesh(4)); }
-
-/// A sphere whose quads are divided along a diagonal; both diagonals are tied.
-Mesh MakeSphere(int precision, double x, double y)
-{
-  vtkNew<vtkSphereSource> source;
-  source->SetThetaResolution(300);
-  source->SetPhiResolution(100);
-  source->SetRadius(100.0);
-  source->SetCenter(x, y, 0.0);
-  source->SetOutputPointsPrecision(precision);
-  source->Update();
-  return source->GetOutput();
-}
 
 }
 
@@ -146,30 +131,6 @@ TEST(Report, FieldDataOfTheInputPass)
   EXPECT_EQ(GetTotal(output, "TotalFlips"), 9.0);
   EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 9);
   EXPECT_EQ(GetText(mesh, "TotalFlips"), "of the user");
-}
-
-TEST(Tolerance, LeavesTheSpheresOfVtkAsTheyAre)
-{
-  for (const int precision : { vtkAlgorithm::SINGLE_PRECISION, vtkAlgorithm::DOUBLE_PRECISION })
-  {
-    for (const double distance : { 0.0, 5e6 })
-    {
-      SCOPED_TRACE(testing::Message() << "precision " << precision << ", distance " << distance);
-      auto sphere = MakeSphere(precision, 0.1 * distance, distance);
-      WatchedFilter filter(sphere);
-      filter->SetGeometryToSurface();
-      // Far away, rounding to float leaves triangles without area at the poles, which gives a
-      // warning.
-      vtkPolyData* output = filter.Run();
-      EXPECT_TRUE(filter.GetErrors().empty());
-      EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
-      EXPECT_EQ(GetCells(output->GetPolys()), GetCells(sphere->GetPolys()));
-    }
-  }
-  WatchedFilter filter(MakeSphere(vtkAlgorithm::SINGLE_PRECISION, 0.0, 0.0));
-  filter->SetTolerance(1e-9);
-  RunCleanly(filter);
-  EXPECT_GT(filter->GetTotalFlips(), 10000); // which rounding made
 }
 
 /// Also if it is the same for several blocks, and in every step of a live run.

@@ -104,10 +104,6 @@ class UnstructuredGrids(InputTest):
         self.assertEqual(mesh.GetNumberOfStrips(), 1)
         self.assertEqual(get_numbers(mesh), [3, 2, 0, 1, 5, 4])
 
-    def test_empty(self):
-        flip = self.flip(self.read_grid(make_grid(make_fan(5).GetPoints(), [])))
-        self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
-
     def test_volume(self):
         for volume in (self.read_grid(make_volume()), simple.Wavelet(WholeExtent=[0, 3] * 3)):
             flip, text = self.flip_with_messages(volume)
@@ -249,21 +245,6 @@ class Errors(PluginTest):
                 self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
                 self.assertRegex(flip.StopReason, "^failed: .*" + word)
 
-    def test_ten(self):
-        flip = simple.DelaunayFlip(Input=simple.Sphere())
-        self.expect_alternating_errors(flip, lambda: refresh(flip))
-
-    def test_what_is_no_error(self):
-        nothing = make_fan(10)
-        nothing.SetPolys(vtkCellArray())
-        nothing.GetCellData().Initialize()
-        flip = self.flip(self.read(nothing))
-        self.assertEqual(fetch(flip).GetNumberOfPoints(), 10)
-        self.assertEqual(fetch(flip, 1).GetNumberOfRows(), 0)
-        flip = self.flip(self.read(make_fan(20), "fan.vtp"), MaximumIterations=2)
-        self.assertEqual(flip.StopReason, "iteration limit")
-        self.assertEqual(flip.NumberOfIterations, 2)
-        self.assertGreater(flip.NumberOfNonDelaunayEdges, 0)
 
 
 class ViewErrors(PluginTest):

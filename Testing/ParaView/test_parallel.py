@@ -182,17 +182,6 @@ class Example(PluginTest):
         """Sheared so far that edges between the pieces flip."""
         self.expect_pieces_of(self.save(make_lattice(20, shear=2.7)))
 
-    def test_wrong_usage(self):
-        printed, status = self.run_example()
-        self.assertNotEqual(status, 0)
-        self.assertIn("usage: mpirun", printed)
-
-    def test_coast(self):
-        mesh = os.path.join(os.environ.get("DELAUNAYFLIP_DATA_DIR", ""), "adcirc_alaska.vtk")
-        if not os.path.exists(mesh):
-            self.skipTest("no DELAUNAYFLIP_DATA_DIR")
-        self.expect_pieces_of(mesh)
-
 
 if __name__ == "__main__":
     main()

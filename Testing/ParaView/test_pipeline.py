@@ -41,16 +41,6 @@ class Inputs(PluginTest):
             flips = block.GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetTuple1(0)
             self.assertEqual(flips, one.TotalFlips)
 
-    def test_time_series(self):
-        files = [self.save(make_fan(n), f"fan_{i}.vtp") for i, n in enumerate((10, 20, 30))]
-        series = simple.XMLPolyDataReader(FileName=files)
-        flip = self.flip(series)
-        for time, n in ((0, 10), (2, 30), (1, 20)):
-            flip.UpdatePipeline(time)
-            self.assertEqual(fetch(flip).GetNumberOfPoints(), n)
-            alone = self.flip(self.read(make_fan(n)))
-            self.assertEqual(get_triangles(fetch(flip)), get_triangles(fetch(alone)))
-
     def test_constraints(self):
         source, kept = self.read(make_fan(20)), frozenset((10, 19))
         flip = self.flip(source)
@@ -118,43 +108,6 @@ class Outputs(PluginTest):
             arrays = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
             for name in ("Converged", "StopReason", "TotalFlips", "NonDelaunayEdges", "Backend"):
                 self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:" + name), name)
-
-
-class Progress(PluginTest):
-    """The events for observers of the filter's object, such as the client's progress bar."""
-
-    def test_progress_and_abort(self):
-        for last in (2.0, 0.5, 0.0):  # the progress at which the filter is stopped
-            flip = simple.DelaunayFlip(Input=self.read(make_fan(40)))
-            filter_object, seen = flip.SMProxy.GetClientSideObject(), []
-
-            def look(*_):
-                seen.append(filter_object.GetProgress())
-                filter_object.SetAbortExecute(seen[-1] >= last)
-
-            filter_object.AddObserver("ProgressEvent", look)
-            refresh(flip)
-            self.assertEqual(seen, sorted(seen))
-            self.assertEqual(flip.StopReason, "converged" if last > 1.0 else "aborted")
-            self.assertEqual(len(seen) > 5, last > 0.0)
-            self.assertEqual(flip.NumberOfIterations > 0, last > 0.0)
-            self.assertEqual(len(get_triangles(fetch(flip))), 38)
-
-
-class Live(PluginTest):
-    def test_a_script_steps(self):
-        source = self.read(make_fan(20))
-        at_once = self.flip(source)
-        live = self.flip(source, LiveUpdate=1, IterationsPerUpdate=3)
-        self.assertEqual(live.NumberOfIterations, 3)
-        self.assertEqual(live.StopReason, "running")
-        steps = 1
-        while live.StopReason == "running" and steps < 100:
-            live.SMProxy.InvokeCommand("Advance")
-            refresh(live)
-            steps += 1
-        self.assertEqual(steps, -(-at_once.NumberOfIterations // 3))
-        self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
 
 
 @unittest.skipUnless(os.path.exists(COMMAND), f"skipped: no command {COMMAND}")

@@ -14,7 +14,6 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from PluginTesting import (
     Messages, PluginTest, fetch, get_edges, get_triangles, main, make_cells, refresh)
-from test_proxy import describe_class, list_properties
 
 EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Examples",
                        "ParaView", "terrain_from_points.py")
@@ -67,14 +66,6 @@ class Points(PluginTest):
         self.assertEqual(len(get_triangles(fetch(points))), 2)
         self.assertTrue(fetch(points, 1).IsA("vtkTable"))
 
-    def test_blocks(self):
-        group = simple.GroupDatasets(
-            Input=[self.read(make_cloud(n), f"{n}.vtp") for n in (50, 80)])
-        points, text = self.apply(group)
-        self.assertEqual(text, "")
-        alone = [self.apply(self.read(make_cloud(n), f"{n}.vtp"))[0] for n in (50, 80)]
-        self.assertEqual(points.TotalFlips, sum(one.TotalFlips for one in alone))
-
     def test_messages(self):
         line = make_data([(0, 0, 0), (1, 1, 0), (2, 2, 0)])
         _, text = self.apply(self.read(line))
@@ -83,34 +74,6 @@ class Points(PluginTest):
         points, text = self.apply(self.read(make_data(KITE)), Segments=wrong)
         self.assertIn("ring 0", text)
         self.assertTrue(points.StopReason.startswith("failed: "))
-
-    def test_live_update(self):
-        """The strips become the Delaunay mesh."""
-        source = self.read(make_cloud())
-        at_once, live = self.apply(source)[0], self.apply(source, LiveUpdate=1)[0]
-        self.assertEqual((live.NumberOfIterations, live.StopReason), (1, "running"))
-        steps = 1
-        while live.StopReason == "running" and steps < 100:
-            live.SMProxy.InvokeCommand("Advance")
-            refresh(live)
-            steps += 1
-        self.assertGreater(steps, 3)
-        self.assertEqual(live.NumberOfIterations, at_once.NumberOfIterations)
-        self.assertEqual(get_triangles(fetch(live)), get_triangles(fetch(at_once)))
-
-    def test_proxy(self):
-        points, _ = self.apply(self.read(make_data(KITE)))
-        hints = points.SMProxy.GetHints()
-        self.assertIsNotNone(hints.FindNestedElementByName("LiveSource"))
-        self.assertEqual(hints.FindNestedElementByName("ShowInMenu").GetAttribute("category"),
-                         "Delaunay Flip")
-        for name in points.ListProperties():
-            text = points.SMProxy.GetProperty(name).GetDocumentation()
-            self.assertTrue(text and text.GetDescription().strip(), name)
-        defaults = describe_class("vtkDelaunayFlipPoints")
-        for name in list_properties("vtkDelaunayFlipPoints") - {"Transform"}:
-            value = points.SMProxy.GetProperty(name).GetElement(0)
-            self.assertEqual(type(value)(defaults[name]), value, name)
 
 
 class Example(PluginTest):

@@ -16,7 +16,7 @@ from PluginTesting import Messages, PluginTest, main, refresh
 FILTERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Filters")
 
 
-def list_properties(name="vtkDelaunayFlip"):
+def list_properties(name):
     """The properties with both a setter and a getter in the headers of the class and its base."""
     header = ""
     for each in (name, "vtkDelaunayFlipAlgorithm"):
@@ -30,7 +30,7 @@ def list_properties(name="vtkDelaunayFlip"):
     return list_accessors("Set") & list_accessors("Get")
 
 
-def describe_class(name="vtkDelaunayFlip"):
+def describe_class(name):
     """{property: value as text} of a new object of the class, without a proxy."""
     interpreter = vtkClientServerInterpreterInitializer.GetGlobalInterpreter()
     text = str(interpreter.NewInstance(name))
@@ -39,24 +39,31 @@ def describe_class(name="vtkDelaunayFlip"):
 
 
 class Proxy(PluginTest):
+    name, label = "DelaunayFlip", "Delaunay Flip"
+    vtk_class = "vtkDelaunayFlip"
+    choices = {"Geometry": ["Auto", "Planar", "Planar XY", "Surface"],
+               "Criterion": ["In-circle", "Opposite angles"],
+               "TieRule": ["Keep", "Canonical"],
+               "Backend": ["Auto", "CUDA", "Threads"]}
+
     def setUp(self):
         super().setUp()
-        self.proxy = simple.DelaunayFlip(Input=simple.Sphere())
+        self.proxy = getattr(simple, self.name)(Input=simple.Sphere())
+        self.of_class = list_properties(self.vtk_class) - {"Transform"}
 
     def property(self, name):
         return self.proxy.SMProxy.GetProperty(name)
 
     def own_properties(self):
         names = self.proxy.ListProperties()
-        return [name for name in names if name not in ("Input", "Constraints")]
+        return [name for name in names if name not in ("Input", "Constraints", "Segments")]
 
     def test_hints(self):
         """An entry in the menu, no view for the table, polling of live runs, movies."""
         hints = self.proxy.SMProxy.GetHints()
-        self.assertEqual(self.proxy.SMProxy.GetXMLLabel(), "Delaunay Flip")
+        self.assertEqual(self.proxy.SMProxy.GetXMLLabel(), self.label)
         menu = hints.FindNestedElementByName("ShowInMenu")
         self.assertEqual(menu.GetAttribute("category"), "Delaunay Flip")
-        self.assertTrue(menu.GetAttribute("icon").startswith(":/DelaunayFlip/"))
         view = hints.FindNestedElementByName("View")
         self.assertEqual((view.GetAttribute("type"), view.GetAttribute("port")), ("None", "1"))
         self.assertIsNotNone(hints.FindNestedElementByName("LiveSource"))
@@ -69,12 +76,12 @@ class Proxy(PluginTest):
             self.assertTrue(text and text.GetDescription().strip(), name)
 
     def test_every_property_of_the_class_is_there(self):
-        self.assertLessEqual({"Geometry", "RegionArray", "LiveUpdate"}, list_properties())
-        self.assertEqual(list_properties() - set(self.own_properties()), set())
+        self.assertLessEqual({*self.choices, "LiveUpdate"}, self.of_class)
+        self.assertEqual(self.of_class - set(self.own_properties()), set())
 
     def test_defaults_are_those_of_the_class(self):
-        defaults = describe_class()
-        for name in list_properties():
+        defaults = describe_class(self.vtk_class)
+        for name in self.of_class:
             value = self.property(name).GetElement(0)
             self.assertEqual(type(value)(defaults[name]), value, name)
 
@@ -88,12 +95,7 @@ class Proxy(PluginTest):
                 self.assertFalse(domains.IsAtEnd(), name)
 
     def test_choices(self):
-        for name, choices in {
-            "Geometry": ["Auto", "Planar", "Planar XY", "Surface"],
-            "Criterion": ["In-circle", "Opposite angles"],
-            "TieRule": ["Keep", "Canonical"],
-            "Backend": ["Auto", "CUDA", "Threads"],
-        }.items():
+        for name, choices in self.choices.items():
             domain = self.property(name).FindDomain("vtkSMEnumerationDomain")
             entries = [(domain.GetEntryText(i), domain.GetEntryValue(i))
                        for i in range(domain.GetNumberOfEntries())]
@@ -102,6 +104,12 @@ class Proxy(PluginTest):
     def test_ports(self):
         self.assertEqual([self.proxy.SMProxy.GetOutputPortName(i) for i in range(2)],
                          ["Mesh", "Iterations"])
+
+
+class PointsProxy(Proxy):
+    name, label = "DelaunayFromPoints", "Delaunay From Points"
+    vtk_class = "vtkDelaunayFlipPoints"
+    choices = {"Outline": ["Even-odd", "Orientation"], "Projection": ["XY", "Best-fitting plane"]}
 
 
 class PluginPath(unittest.TestCase):

@@ -5,8 +5,8 @@
 
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
 Engine/CMakeLists.txt gives both, with CUDA/ below the last room, then the other files at the root of
-Engine/. Above the engine: CInterface, Filters, FiltersParallel, Rendering and Command see its public headers, Plugin
-the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
+Engine/. Above the engine: CInterface, Filters, FiltersParallel, Rendering, Command and Plugin see its public headers, the
+latter four the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
 """
 
 import os
@@ -27,7 +27,7 @@ ABOVE = {
     "FiltersParallel": {PUBLIC, "Filters", "FiltersParallel"},
     "Rendering": {PUBLIC, "Filters", "Rendering"},
     "Command": {PUBLIC, "Filters", "Command"},
-    "Plugin": {"Filters", "FiltersParallel", "Plugin"},
+    "Plugin": {PUBLIC, "Filters", "FiltersParallel", "Plugin"},
     "Examples": {PUBLIC, "CInterface", "Filters", "FiltersParallel", "Rendering", "Examples"},
 }
 
