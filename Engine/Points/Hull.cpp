@@ -99,65 +99,42 @@ Boundary JoinPieces(const std::vector<BoundaryPart>& parts, const std::vector<La
   return boundary;
 }
 
-namespace
-{
-/// Cuts ears off paths. Vertices are numbers of the boundary's places.
-class HullFiller
-{
-public:
-  HullFiller(const std::vector<CoordinatePair<double>>& places, TriangleId firstTriangle)
-    : Next(firstTriangle)
-  {
-    this->Triangles.resize(places.size());
-    this->Chains.Places = places.data();
-    this->Chains.Triangles = this->Triangles.data();
-    this->Chains.FirstTriangle = firstTriangle;
-    this->Chains.Failed = &this->Failed;
-  }
-
-  /// Cuts the path from a vertex through all of Vertices, the last of which is its other end.
-  void Cut(VertexId left)
-  {
-    const auto inner = static_cast<std::uint32_t>(this->Vertices.size() - 1);
-    EarCutter<double> cutter{ this->Chains, { this->Vertices.data(), this->Labels.data(), 1 },
-      inner, left, this->Vertices.back(), this->Labels.back(), true, NoCorner, this->Next };
-    cutter.Cut();
-    this->Next = cutter.Next;
-    this->Vertices[cutter.Size] = cutter.Right;
-    this->Labels[cutter.Size] = cutter.LastLabel;
-    this->Vertices.resize(cutter.Size + 1);
-    this->Labels.resize(cutter.Size + 1);
-  }
-
-  std::vector<TriangleRecord> Triangles;
-  std::vector<VertexId> Vertices; ///< Of the path, without its first one,
-  std::vector<CornerId> Labels; ///< and the labels of the edges before them.
-  TriangleId Next;
-
-private:
-  ChainView<double> Chains{};
-  std::int32_t Failed = 0; ///< Never on the host.
-};
-}
-
 HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePair<double>>& places,
   TriangleId firstTriangle)
 {
-  HullFiller filler(places, firstTriangle);
-  std::vector<VertexId> vertices;
-  std::vector<CornerId> labels;
+  // Vertices are numbers of the boundary's places at first.
+  HullTriangles result{ std::vector<TriangleRecord>(places.size()) };
+  std::int32_t failed = 0; // stays so on the host
+  const ChainView<double> chains{ places.data(), nullptr, 0, 0, nullptr, result.Triangles.data(),
+    firstTriangle, nullptr, &failed };
+  TriangleId next = firstTriangle;
+  // Cuts a path that leads from `left` through all other vertices, and keeps what is left of it.
+  const auto cut = [&](
+                     VertexId left, std::vector<VertexId>& vertices, std::vector<CornerId>& labels)
+  {
+    EarCutter<double> cutter{ chains, { vertices.data(), labels.data(), 1 },
+      static_cast<std::uint32_t>(vertices.size() - 1), left, vertices.back(), labels.back(), true,
+      NoCorner, next };
+    cutter.Cut();
+    next = cutter.Next;
+    vertices.resize(cutter.Size);
+    vertices.push_back(cutter.Right);
+    labels.resize(cutter.Size);
+    labels.push_back(cutter.LastLabel);
+  };
+  std::vector<VertexId> vertices, ofPart;
+  std::vector<CornerId> labels, labelsOfPart;
   std::size_t begin = 0;
   for (const std::size_t end : boundary.PartEnds)
   {
     if (begin + 1 < end)
     {
-      filler.Vertices.resize(end - begin - 1);
-      std::iota(filler.Vertices.begin(), filler.Vertices.end(), static_cast<VertexId>(begin + 1));
-      filler.Labels.assign(boundary.Labels.begin() + static_cast<std::ptrdiff_t>(begin + 1),
-        boundary.Labels.begin() + static_cast<std::ptrdiff_t>(end));
-      filler.Cut(static_cast<VertexId>(begin));
-      vertices.insert(vertices.end(), filler.Vertices.begin(), filler.Vertices.end());
-      labels.insert(labels.end(), filler.Labels.begin(), filler.Labels.end());
+      ofPart.resize(end - begin - 1);
+      std::iota(ofPart.begin(), ofPart.end(), static_cast<VertexId>(begin + 1));
+      labelsOfPart.assign(&boundary.Labels[begin + 1], boundary.Labels.data() + end);
+      cut(static_cast<VertexId>(begin), ofPart, labelsOfPart);
+      vertices.insert(vertices.end(), ofPart.begin(), ofPart.end());
+      labels.insert(labels.end(), labelsOfPart.begin(), labelsOfPart.end());
     }
     begin = end;
   }
@@ -167,12 +144,9 @@ HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePai
     std::min_element(vertices.begin(), vertices.end(), isLower) - vertices.begin() + 1;
   std::rotate(vertices.begin(), vertices.begin() + lowest, vertices.end());
   std::rotate(labels.begin(), labels.begin() + lowest, labels.end());
-  filler.Vertices = std::move(vertices);
-  filler.Labels = std::move(labels);
-  filler.Cut(filler.Vertices.back());
-  HullTriangles result{ std::move(filler.Triangles),
-    static_cast<std::int64_t>(filler.Labels.size()) };
-  result.Triangles.resize(filler.Next - firstTriangle);
+  cut(vertices.back(), vertices, labels);
+  result.HullEdges = static_cast<std::int64_t>(labels.size());
+  result.Triangles.resize(next - firstTriangle);
   for (TriangleRecord& triangle : result.Triangles)
   {
     for (VertexId& vertex : triangle.Vertices)
