@@ -6,8 +6,8 @@
 #include "CudaBackend.cuh"
 #include "Strips.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <type_traits>
 
 namespace delaunayflip
 {
@@ -24,12 +24,12 @@ __device__ inline std::uint32_t OrderedBits(float number)
   return static_cast<std::uint32_t>(bits ^ ((bits >> 31) | (std::int32_t(1) << 31)));
 }
 
-/// Sorts all points by y, then by x, then by their strip; each sort keeps the order of equal keys.
+/// Sorts all points by their strip and as many bits of x as a key has room for. Points that these
+/// do not order are few as a rule, and one thread sorts them. Where they are many, all points are
+/// sorted by y, then by x, before; each sort keeps the order of equal keys.
 template <typename Real>
 struct StripSorter<Real, CudaBackend>
 {
-  using Key = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
-
   static StripPoints<Real> Sort(
     const PlaneArray& points, const StripBounds& bounds, const CudaBackend& backend)
   {
@@ -44,38 +44,69 @@ struct StripSorter<Real, CudaBackend>
     findStrip.Bounds = boundsHere.Data();
     findStrip.FirstOfCell = cellsHere.Data();
     const auto unused = static_cast<std::uint32_t>(strips); // not finite
-    Array<std::uint32_t> stripOfPoint = backend.MakeArray<std::uint32_t>(count);
-    std::uint32_t* stripOf = stripOfPoint.Data();
-    backend.ForEach(count,
-      [=] __device__(std::int64_t i)
-      { stripOf[i] = IsFinitePoint(points, i) ? findStrip(points.Get(i, 1)) : unused; });
-
-    StripPoints<Real> sorted;
-    sorted.Ids = backend.MakeIndices(count);
-    for (int axis = 1; axis >= 0; --axis)
-    {
-      backend.template SortBy<Key>(sorted.Ids, count, 8 * sizeof(Key),
-        [=] __device__(std::uint32_t i)
-        { return OrderedBits(static_cast<Real>(points.Get(i, axis))); });
-    }
     int stripBits = 1;
     while ((strips >> stripBits) > 0)
     {
       ++stripBits;
     }
-    backend.template SortBy<std::uint32_t>(
-      sorted.Ids, count, stripBits, [=] __device__(std::uint32_t i) { return stripOf[i]; });
+    constexpr int RealBits = 8 * sizeof(Real);
+    const int lost = std::max(0, RealBits + stripBits - 64);
+    const auto keyOf = [=] __device__(Real x, Real y)
+    {
+      const std::uint64_t strip = IsFinite(x) && IsFinite(y) ? findStrip(y) : unused;
+      return strip << (RealBits - lost) | OrderedBits(x) >> lost;
+    };
 
+    StripPoints<Real> sorted;
     sorted.Strips = strips;
+    sorted.Ids = backend.MakeIndices(count);
+    sorted.Coordinates = backend.MakeArray<Real>(2 * count);
+    CoordinatePair<Real>* places = sorted.Places();
+    for (const bool byAll : { false, true })
+    {
+      for (int axis = 1; axis >= 0 && byAll; --axis)
+      {
+        backend.template SortBy<std::uint64_t>(sorted.Ids, count, RealBits,
+          [=] __device__(std::uint32_t i)
+          { return std::uint64_t(OrderedBits(static_cast<Real>(points.Get(i, axis)))); });
+      }
+      backend.template SortBy<std::uint64_t>(sorted.Ids, count, RealBits - lost + stripBits,
+        [=] __device__(std::uint32_t i) {
+          return keyOf(static_cast<Real>(points.Get(i, 0)), static_cast<Real>(points.Get(i, 1)));
+        });
+      VertexId* ids = sorted.Ids.Data();
+      backend.ForEach(count,
+        [=] __device__(std::int64_t i)
+        {
+          places[i] = { static_cast<Real>(points.Get(ids[i], 0)),
+            static_cast<Real>(points.Get(ids[i], 1)) };
+        });
+      const auto keyAt = [=] __device__(std::int64_t i) { return keyOf(places[i].U, places[i].V); };
+      const std::int64_t unsorted = byAll
+        ? 0
+        : backend.template Sum<std::int64_t>(count,
+            [=] __device__(std::int64_t i, std::int64_t & sum)
+            { sum += SortEqualKeys(i, count, places, ids, keyAt) ? 0 : 1; });
+      if (unsorted == 0)
+      {
+        break;
+      }
+    }
     sorted.Starts = backend.MakeArray<std::uint32_t>(strips + 1);
     std::uint32_t* starts = sorted.Starts.Data();
-    const std::uint32_t* ids = sorted.Ids.Data();
+    const auto stripAt = [=] __device__(std::int64_t i)
+    {
+      return i < 0
+        ? std::int64_t(-1)
+        : (i < count
+              ? static_cast<std::int64_t>(keyOf(places[i].U, places[i].V) >> (RealBits - lost))
+              : strips);
+    };
     backend.ForEach(count + 1,
       [=] __device__(std::int64_t i)
       {
-        const std::int64_t before = i > 0 ? std::int64_t(stripOf[ids[i - 1]]) : -1;
-        const std::int64_t strip = i < count ? std::int64_t(stripOf[ids[i]]) : strips;
-        for (std::int64_t next = before + 1; next <= strip; ++next)
+        const std::int64_t strip = stripAt(i);
+        for (std::int64_t next = stripAt(i - 1) + 1; next <= strip; ++next)
         {
           starts[next] = static_cast<std::uint32_t>(i);
         }
@@ -83,15 +114,44 @@ struct StripSorter<Real, CudaBackend>
     std::uint32_t used = 0;
     backend.Download(starts + strips, 1, &used);
     sorted.Count = used;
-    sorted.Coordinates = backend.MakeArray<Real>(2 * sorted.Count);
-    CoordinatePair<Real>* places = sorted.Places();
-    backend.ForEach(sorted.Count,
-      [=] __device__(std::int64_t i)
-      {
-        places[i] = { static_cast<Real>(points.Get(ids[i], 0)),
-          static_cast<Real>(points.Get(ids[i], 1)) };
-      });
     return sorted;
+  }
+
+  /// Sorts the points of equal keys that begin at a place, if they do. Keys do not change by that,
+  /// so other threads may read them.
+  /// @returns false if the points are too many for one thread.
+  template <typename KeyAt>
+  __device__ static bool SortEqualKeys(std::int64_t first, std::int64_t count,
+    CoordinatePair<Real>* places, VertexId* ids, const KeyAt& keyAt)
+  {
+    constexpr std::int64_t Most = 64;
+    const auto continues = [&](std::int64_t i)
+    { return i > 0 && i < count && keyAt(i) == keyAt(i - 1); };
+    if (continues(first) || !continues(first + 1))
+    {
+      return true;
+    }
+    std::int64_t end = first + 2;
+    while (end - first <= Most && continues(end))
+    {
+      ++end;
+    }
+    for (std::int64_t i = first + 1; i < end; ++i)
+    {
+      const CoordinatePair<Real> place = places[i];
+      const VertexId id = ids[i];
+      std::int64_t to = i;
+      for (; to > first &&
+           (place.U != places[to - 1].U ? place.U < places[to - 1].U : place.V < places[to - 1].V);
+           --to)
+      {
+        places[to] = places[to - 1];
+        ids[to] = ids[to - 1];
+      }
+      places[to] = place;
+      ids[to] = id;
+    }
+    return end - first <= Most;
   }
 };
 

@@ -270,7 +270,7 @@ private:
     bool byDivision, const BuildProgress& progress)
   {
     constexpr GeometryKind Plane = GeometryKind::PlanarXY;
-    if constexpr (BackendT::IsOnHost) // a step may take seconds
+    if constexpr (BackendT::IsOnHost) // a step may take seconds, also of the loop
     {
       this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
     }
@@ -305,10 +305,6 @@ private:
       mesh = BuildPointMesh(std::move(sorted), this->Backend);
     }
     progress.Reach(Plane, BuildStep::Fixed);
-    if constexpr (BackendT::IsOnHost)
-    {
-      this->Backend.SetPoll(nullptr);
-    }
     const MeshSurvey survey = SurveyPlaces(mesh.Points, this->Backend);
     this->Mesh = std::move(mesh.Edges);
     this->Order.VertexOfRank = std::move(mesh.Points.Ids);

@@ -455,7 +455,7 @@ struct NumberStep
   }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, std::int64_t first) const
   {
-    TriangleRecord& triangle = this->Mesh.Triangles[t];
+    ConstTriangleAccess triangle = this->Mesh.Triangles[t];
     auto next = static_cast<EdgeId>(first);
     for (int slot = 0; slot < 3; ++slot)
     {
@@ -465,9 +465,8 @@ struct NumberStep
         this->Mesh.States[next] =
           role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
         const CornerId other = triangle.HalfEdges[slot];
-        this->Mesh.CornerOfHalfEdge[2 * next] = MakeCorner(static_cast<TriangleId>(t), slot);
-        this->Mesh.CornerOfHalfEdge[2 * next + 1] = other;
-        triangle.HalfEdges[slot] = 2 * next;
+        this->Mesh.SetCorners(next, { MakeCorner(static_cast<TriangleId>(t), slot), other });
+        this->Mesh.Triangles[t].HalfEdges[slot] = 2 * next;
         if (other != NoCorner)
         {
           this->Mesh.Triangles[TriangleOf(other)].HalfEdges[SlotOf(other)] = 2 * next + 1;

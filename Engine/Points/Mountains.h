@@ -24,12 +24,6 @@
 namespace delaunayflip
 {
 
-/// The label of an edge of a path that no triangle has yet.
-constexpr std::uint32_t OpenEdge = NoCorner;
-
-/// The triangles on both sides of an edge of a chain (below, above) or of a diagonal (left, right).
-using SideCorners = CornerPair;
-
 /// Where a gap's triangles are.
 struct Gap
 {
@@ -38,6 +32,19 @@ struct Gap
   std::int64_t FirstTriangle;
 };
 
+/// The label of an edge of a path is the corner of the triangle that has been cut off there. Where
+/// there is none yet, it names the edge, by a corner that no triangle has: edge i of a chain ends
+/// at place i, and diagonal i, between slots i - 1 and i, counts on from the number of places.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsOpen(CornerId label) { return SlotOf(label) == 3; }
+DELAUNAYFLIP_HOST_DEVICE inline CornerId LabelChainEdge(std::uint32_t place)
+{
+  return 4 * place + 3;
+}
+DELAUNAYFLIP_HOST_DEVICE inline CornerId LabelDiagonal(std::uint32_t places, std::int64_t slot)
+{
+  return 4 * (places + static_cast<std::uint32_t>(slot)) + 3;
+}
+
 /// What the functions of this file read and write, in the memory of a backend.
 template <typename Real>
 struct ChainView
@@ -45,15 +52,18 @@ struct ChainView
   const CoordinatePair<Real>* Places;
   const std::uint32_t* Starts; ///< Of every chain its first place, and the number of places.
   std::int64_t Chains;
+  std::uint32_t Count; ///< Of all places.
   const Gap* Gaps; ///< Of every chain but the last one.
   TriangleRecord* Triangles;
-  CornerId* SidesOfEdge; ///< Two per place: of the edge that ends there in its chain.
-  CornerId* SidesOfDiagonal; ///< Two per slot: of the diagonal between the slot before and it.
+  TriangleId FirstTriangle; ///< The number of Triangles[0].
+  CornerPair*
+    Sides; ///< Of every edge of a chain (below, above) and diagonal (left, right); or null.
   std::int32_t* Failed; ///< Set to 1 if a device cannot decide a turn.
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPoint(VertexId place) const
   {
-    return { this->Places[place].U, this->Places[place].V, 0.0 };
+    const CoordinatePair<Real> point = this->Places[place];
+    return { point.U, point.V, 0.0 };
   }
 
   DELAUNAYFLIP_HOST_DEVICE int Turn(VertexId a, VertexId b, VertexId c) const
@@ -77,21 +87,40 @@ struct ChainView
   {
     return std::int64_t(this->Starts[gap]) + this->Starts[gap + 1] - this->Starts[1];
   }
-  DELAUNAYFLIP_HOST_DEVICE std::int64_t CountSlots() const
+
+  DELAUNAYFLIP_HOST_DEVICE TriangleRecord& GetTriangle(TriangleId number) const
   {
-    return this->FirstSlot(this->Chains - 1) + this->Starts[0];
+    return this->Triangles[number - this->FirstTriangle];
   }
 
-  /// Joins two corners across their common edge. NoCorner: there is none on that side.
-  DELAUNAYFLIP_HOST_DEVICE void Join(CornerId a, CornerId b) const
+  /// Sets the corner of the triangle on one side of an edge, which leads from `from` to `to`.
+  DELAUNAYFLIP_HOST_DEVICE void Attach(
+    CornerId label, VertexId from, VertexId to, bool onRight, CornerId corner) const
   {
-    if (a != NoCorner)
+    if (!IsOpen(label))
     {
-      this->Triangles[TriangleOf(a)].HalfEdges[SlotOf(a)] = b;
+      if (TriangleOf(label) >= this->FirstTriangle)
+      {
+        this->GetTriangle(TriangleOf(label)).HalfEdges[SlotOf(label)] = corner;
+      }
     }
-    if (b != NoCorner)
+    else if (this->Sides && label != NoCorner)
     {
-      this->Triangles[TriangleOf(b)].HalfEdges[SlotOf(b)] = a;
+      // Edges of chains lead to the right where their places ascend, diagonals up.
+      const bool isDiagonal = label >> 2 >= this->Count;
+      const bool isSecond = ((from < to) == isDiagonal) == onRight;
+      (isSecond ? this->Sides[label >> 2].B : this->Sides[label >> 2].A) = corner;
+    }
+  }
+
+  /// Does so for all edges of a triangle, whose HalfEdges are their labels.
+  DELAUNAYFLIP_HOST_DEVICE void AttachTriangle(TriangleId number) const
+  {
+    const TriangleRecord triangle = this->GetTriangle(number);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Attach(triangle.HalfEdges[slot], triangle.Vertices[NextSlot(slot)],
+        triangle.Vertices[PreviousSlot(slot)], false, MakeCorner(number, slot));
     }
   }
 };
@@ -123,21 +152,27 @@ DELAUNAYFLIP_HOST_DEVICE Gap MeasureGap(const ChainView<Real>& chains, std::int6
     lowerAtEnd > 0, 0 };
 }
 
+/// The vertices of a path between its two ends, and the labels of the edges before them.
+struct EarPath
+{
+  VertexId* Vertices;
+  CornerId* Labels;
+  std::uint32_t Stride; ///< 1, or that of records of triangles that are made later.
+};
+
 /// A path of vertices from left to right of which ears are cut until only what is convex, or in a
-/// mountain its base, is left. The path between its two ends is kept in records of triangles that
-/// are made later: a vertex in InputTriangle, the label of the edge before it in Flips. A label is
-/// the corner of the triangle that has been cut off there, or says that there is none yet.
-template <typename Real, typename Open>
+/// mountain its base, is left.
+template <typename Real>
 struct EarCutter
 {
   const ChainView<Real>& Chains;
-  TriangleRecord* Path;
+  EarPath Path;
   std::uint32_t Size; ///< Of the path without its ends.
   VertexId Left, Right;
-  std::uint32_t LastLabel; ///< Of the edge before Right.
-  int Side; ///< 1: ears turn to the right (a run above its base); -1: to the left.
+  CornerId LastLabel; ///< Of the edge before Right.
+  bool IsOnRight; ///< Whether the triangles are right of the path (a run above its base).
+  CornerId Base; ///< The label of a mountain's base, NoCorner for other paths.
   TriangleId Next; ///< The number of the next triangle.
-  const Open& SetOpen; ///< SetOpen(label, first, last, corner): an open edge got a triangle.
 
   /// Rounds that cut every second ear, so that the triangles are balanced like a tournament: a
   /// stack alone makes fans, the worst start for flips along a convex curve. When a round cuts
@@ -154,66 +189,78 @@ struct EarCutter
   }
 
 private:
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(std::uint32_t i) const
+  {
+    return this->Path.Vertices[std::size_t(i) * this->Path.Stride];
+  }
+  DELAUNAYFLIP_HOST_DEVICE CornerId GetLabel(std::uint32_t i) const
+  {
+    return this->Path.Labels[std::size_t(i) * this->Path.Stride];
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Set(std::uint32_t i, VertexId vertex, CornerId label) const
+  {
+    this->Path.Vertices[std::size_t(i) * this->Path.Stride] = vertex;
+    this->Path.Labels[std::size_t(i) * this->Path.Stride] = label;
+  }
+
   DELAUNAYFLIP_HOST_DEVICE bool IsEar(VertexId a, VertexId b, VertexId c) const
   {
-    return this->Chains.Turn(a, b, c) == -this->Side;
+    return this->Chains.Turn(a, b, c) == (this->IsOnRight ? -1 : 1);
   }
 
   /// Makes a triangle of two consecutive edges. @returns the label of the edge that replaces them.
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Emit(
-    VertexId a, VertexId b, VertexId c, std::uint32_t first, std::uint32_t second)
+  DELAUNAYFLIP_HOST_DEVICE CornerId Emit(
+    VertexId a, VertexId b, VertexId c, CornerId first, CornerId second)
   {
-    const bool swaps = this->Side > 0;
-    TriangleRecord& made = this->Chains.Triangles[this->Next];
-    made.Vertices[0] = a;
-    made.Vertices[1] = swaps ? c : b;
-    made.Vertices[2] = swaps ? b : c;
-    this->Attach(first, a, b, MakeCorner(this->Next, swaps ? 1 : 2));
-    this->Attach(second, b, c, MakeCorner(this->Next, 0));
-    return MakeCorner(this->Next++, swaps ? 2 : 1);
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE void Attach(
-    std::uint32_t label, VertexId first, VertexId last, CornerId corner) const
-  {
-    if (this->SetOpen.IsOpen(label))
+    const bool swaps = this->IsOnRight;
+    const TriangleId number = this->Next++;
+    TriangleRecord& made = this->Chains.GetTriangle(number);
+    if (this->Path.Stride == 1)
     {
-      this->SetOpen(label, first, last, corner);
+      made = { { a, swaps ? c : b, swaps ? b : c }, number,
+        { second, swaps ? first : this->Base, swaps ? this->Base : first }, 0 };
     }
-    else
+    else // the rest of the record may be part of the path
     {
-      this->Chains.Join(label, corner);
+      made.Vertices[0] = a;
+      made.Vertices[1] = swaps ? c : b;
+      made.Vertices[2] = swaps ? b : c;
+      made.HalfEdges[0] = second;
+      made.HalfEdges[1] = swaps ? first : this->Base;
+      made.HalfEdges[2] = swaps ? this->Base : first;
     }
+    this->Chains.Attach(first, a, b, swaps, MakeCorner(number, swaps ? 1 : 2));
+    this->Chains.Attach(second, b, c, swaps, MakeCorner(number, 0));
+    return MakeCorner(number, swaps ? 2 : 1);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void CutRound()
   {
+    const bool isSure = this->Size == 1 && this->Base != NoCorner;
     std::uint32_t kept = 0;
     VertexId previous = this->Left;
     for (std::uint32_t i = 0; i < this->Size;)
     {
-      const VertexId here = this->Path[i].InputTriangle;
-      const std::uint32_t label = this->Path[i].Flips;
+      const VertexId here = this->GetVertex(i);
+      const CornerId label = this->GetLabel(i);
       const bool isLast = i + 1 == this->Size;
-      const VertexId next = isLast ? this->Right : this->Path[i + 1].InputTriangle;
-      if (!this->IsEar(previous, here, next))
+      const VertexId next = isLast ? this->Right : this->GetVertex(i + 1);
+      if (!isSure && !this->IsEar(previous, here, next))
       {
-        this->Path[kept].InputTriangle = here;
-        this->Path[kept++].Flips = label;
+        this->Set(kept++, here, label);
         previous = here;
         ++i;
         continue;
       }
-      const std::uint32_t nextLabel = isLast ? this->LastLabel : this->Path[i + 1].Flips;
-      const std::uint32_t made = this->Emit(previous, here, next, label, nextLabel);
+      const CornerId nextLabel = isLast ? this->LastLabel : this->GetLabel(i + 1);
+      const CornerId made = this->Emit(previous, here, next, label, nextLabel);
       if (isLast)
       {
         this->LastLabel = made;
       }
       else
       {
-        this->Path[kept].InputTriangle = next;
-        this->Path[kept++].Flips = made;
+        this->Set(kept++, next, made);
         previous = next;
       }
       i += 2;
@@ -227,17 +274,17 @@ private:
     for (std::uint32_t i = 0; i <= this->Size; ++i)
     {
       const bool isLast = i == this->Size;
-      const VertexId next = isLast ? this->Right : this->Path[i].InputTriangle;
-      std::uint32_t label = isLast ? this->LastLabel : this->Path[i].Flips;
+      const VertexId next = isLast ? this->Right : this->GetVertex(i);
+      CornerId label = isLast ? this->LastLabel : this->GetLabel(i);
       while (top > 0)
       {
-        const VertexId before = top > 1 ? this->Path[top - 2].InputTriangle : this->Left;
-        const VertexId here = this->Path[top - 1].InputTriangle;
+        const VertexId before = top > 1 ? this->GetVertex(top - 2) : this->Left;
+        const VertexId here = this->GetVertex(top - 1);
         if (!this->IsEar(before, here, next))
         {
           break;
         }
-        label = this->Emit(before, here, next, this->Path[top - 1].Flips, label);
+        label = this->Emit(before, here, next, this->GetLabel(top - 1), label);
         --top;
       }
       if (isLast)
@@ -245,39 +292,9 @@ private:
         this->LastLabel = label;
         break;
       }
-      this->Path[top].InputTriangle = next;
-      this->Path[top++].Flips = label;
+      this->Set(top++, next, label);
     }
     this->Size = top;
-  }
-};
-
-/// The open edges of a mountain: its two diagonals, and edges of its chain.
-struct MountainEdges
-{
-  CornerId* SidesOfEdge;
-  CornerId* SidesOfDiagonal; ///< Those of the mountain's first slot.
-  std::uint32_t Slots;
-  VertexId Left, Right;
-  bool IsAbove; ///< Whether the mountain's run lies above its base, so the mountain below the run.
-
-  DELAUNAYFLIP_HOST_DEVICE static bool IsOpen(std::uint32_t label) { return label == OpenEdge; }
-
-  DELAUNAYFLIP_HOST_DEVICE void operator()(
-    std::uint32_t, VertexId first, VertexId last, CornerId corner) const
-  {
-    if (first == this->Left)
-    {
-      this->SidesOfDiagonal[1] = corner;
-    }
-    else if (last == this->Right)
-    {
-      this->SidesOfDiagonal[std::size_t(2) * this->Slots] = corner;
-    }
-    else
-    {
-      this->SidesOfEdge[std::size_t(2) * last + (this->IsAbove ? 0 : 1)] = corner;
-    }
   }
 };
 
@@ -288,18 +305,90 @@ DELAUNAYFLIP_HOST_DEVICE void CutMountain(const ChainView<Real>& chains, std::ui
   std::uint32_t size, const std::uint32_t (&base)[2], bool isAbove, std::int64_t slot,
   TriangleId triangle)
 {
-  const MountainEdges open{ chains.SidesOfEdge, chains.SidesOfDiagonal + 2 * slot, size, base[0],
-    base[1], isAbove };
-  TriangleRecord* path = chains.Triangles + triangle;
+  // The records of the triangles hold long paths. A device would write these to memory often.
+  constexpr std::uint32_t LongestOwn = 8;
+  std::uint32_t own[2][LongestOwn];
+  TriangleRecord& record = chains.Triangles[triangle];
+  const bool isLong = size > LongestOwn;
+  const EarPath path{ isLong ? &record.InputTriangle : own[0], isLong ? &record.Flips : own[1],
+    isLong ? static_cast<std::uint32_t>(sizeof(record) / sizeof(VertexId)) : 1 };
   for (std::uint32_t i = 0; i < size; ++i)
   {
-    path[i].InputTriangle = first + i;
-    path[i].Flips = OpenEdge;
+    path.Vertices[i * path.Stride] = first + i;
+    path.Labels[i * path.Stride] =
+      i > 0 ? LabelChainEdge(first + i) : LabelDiagonal(chains.Count, slot);
   }
-  EarCutter<Real, MountainEdges> cutter{ chains, path, size, base[0], base[1], OpenEdge,
-    isAbove ? 1 : -1, triangle, open };
+  const CornerId baseLabel = LabelChainEdge(base[1]);
+  EarCutter<Real> cutter{ chains, path, size, base[0], base[1],
+    LabelDiagonal(chains.Count, slot + size), isAbove, baseLabel, triangle };
   cutter.Cut();
-  chains.SidesOfEdge[std::size_t(2) * base[1] + (isAbove ? 1 : 0)] = cutter.LastLabel;
+  chains.Attach(baseLabel, base[0], base[1], !isAbove, cutter.LastLabel);
+}
+
+/// A stretch of a chain on the outer boundary, of at least two places.
+struct BoundaryPiece
+{
+  std::uint32_t First, Size; ///< Places.
+  bool IsAbove; ///< Whether what is outside lies below it.
+  std::uint32_t Begin; ///< How many inner places the pieces before have.
+  std::uint32_t Made; ///< Triangles.
+  CornerId LastLabel;
+};
+
+/// What is left of a piece: a vertex, and the label of the edge before it. The last vertex of a
+/// piece comes last, the first one not at all.
+struct LabelledVertex
+{
+  VertexId Vertex;
+  CornerId Label;
+};
+
+/// Cuts ears off a piece alone.
+/// @param chains its triangles are of no mesh yet. The first of the piece's is number Begin.
+/// @param path what is left of the piece, from Begin on.
+template <typename Real>
+DELAUNAYFLIP_HOST_DEVICE void CutPiece(
+  const ChainView<Real>& chains, BoundaryPiece& piece, const EarPath& path)
+{
+  const std::uint32_t size = piece.Size - 2, last = piece.First + piece.Size - 1;
+  const EarPath own{ path.Vertices + piece.Begin, path.Labels + piece.Begin, 1 };
+  for (std::uint32_t i = 0; i < size; ++i)
+  {
+    own.Vertices[i] = piece.First + 1 + i;
+    own.Labels[i] = LabelChainEdge(piece.First + 1 + i);
+  }
+  EarCutter<Real> cutter{ chains, own, size, piece.First, last, LabelChainEdge(last), piece.IsAbove,
+    NoCorner, piece.Begin };
+  cutter.Cut();
+  piece.Made = cutter.Next - piece.Begin;
+  piece.LastLabel = cutter.LastLabel;
+}
+
+/// Makes the triangles of a piece part of the mesh.
+/// @param made the first of them, as made by CutPiece; path as there.
+/// @param left what is left of the piece (LabelledVertex).
+template <typename Real>
+DELAUNAYFLIP_HOST_DEVICE void MovePiece(const ChainView<Real>& chains, const BoundaryPiece& piece,
+  const EarPath& path, const TriangleRecord* made, TriangleId first, LabelledVertex* left)
+{
+  const auto renumber = [&](CornerId label)
+  { return IsOpen(label) ? label : label + 4 * (first - piece.Begin); };
+  for (std::uint32_t i = 0; i < piece.Made; ++i)
+  {
+    TriangleRecord triangle = made[i];
+    for (CornerId& label : triangle.HalfEdges)
+    {
+      label = renumber(label);
+    }
+    chains.Triangles[first + i] = triangle;
+    chains.AttachTriangle(first + i);
+  }
+  const std::uint32_t size = piece.Size - 2 - piece.Made;
+  for (std::uint32_t i = 0; i < size; ++i)
+  {
+    left[i] = { path.Vertices[piece.Begin + i], renumber(path.Labels[piece.Begin + i]) };
+  }
+  left[size] = { piece.First + piece.Size - 1, renumber(piece.LastLabel) };
 }
 
 /// Triangulates all mountains that begin in a range of slots.

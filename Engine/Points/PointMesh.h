@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -45,29 +46,40 @@ void RequireComplete(const PointMesh<Real>& mesh)
 }
 
 /// Numbers the edges, as BuildEdgeMesh does, of triangles whose HalfEdges hold the other corner of
-/// each edge. Edges with one triangle are fixed.
+/// each edge, or a label that says where it is. Edges with one triangle are fixed.
+/// @param sidesOfEdges ChainView::Sides; freed.
 template <typename Backend>
-void NumberJoinedEdges(EdgeMesh& edges, const Backend& backend)
+void NumberJoinedEdges(EdgeMesh& edges, Array<CornerPair> sidesOfEdges, const Backend& backend)
 {
   TriangleRecord* triangles = edges.Triangles.Data();
+  const CornerPair* sides = sidesOfEdges.Data();
   EdgeMeshResult result;
   result.Edges = std::move(edges);
   const typename Backend::Numbering numbering = backend.Count(result.Edges.NumberOfTriangles,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
     {
-      TriangleRecord& triangle = triangles[t];
+      TriangleRecord triangle = triangles[t];
       triangle.InputTriangle = static_cast<TriangleId>(t);
       triangle.Flips = 0;
       for (int slot = 0; slot < 3; ++slot)
       {
-        const CornerId other = GetAt(triangle.HalfEdges, slot);
-        const CornerRole role = other == NoCorner                ? CornerRole::Alone
-          : MakeCorner(static_cast<TriangleId>(t), slot) < other ? CornerRole::Leader
-                                                                 : CornerRole::Follower;
+        const CornerId own = MakeCorner(static_cast<TriangleId>(t), slot);
+        CornerId other = triangle.HalfEdges[slot];
+        if (other != NoCorner && IsOpen(other))
+        {
+          const CornerPair pair = sides[other >> 2];
+          other = pair.A == own ? pair.B : pair.A;
+          triangle.HalfEdges[slot] = other;
+        }
+        const CornerRole role = other == NoCorner ? CornerRole::Alone
+          : own < other                           ? CornerRole::Leader
+                                                  : CornerRole::Follower;
         triangle.Flips |= static_cast<std::uint32_t>(role) << (2 * slot);
       }
+      triangles[t] = triangle;
       return CountLeaders(triangle);
     });
+  sidesOfEdges = Array<CornerPair>(); // frees its memory
   NumberEdges(result, numbering, backend);
   edges = std::move(result.Edges);
 }
@@ -109,15 +121,29 @@ struct PointMeshBuilder
   Array<Gap> Gaps;
   std::vector<Gap> HostGaps;
   std::vector<std::uint32_t> HostStarts;
-  Array<CornerId> SidesOfEdge, SidesOfDiagonal;
+  Array<CornerPair> Sides;
   Array<std::int32_t> Failed;
 
   ChainView<Real> View()
   {
     StripPoints<Real>& points = this->Mesh.Points;
-    return { points.Places(), points.Starts.Data(), points.Strips, this->Gaps.Data(),
-      this->Mesh.Edges.Triangles.Data(), this->SidesOfEdge.Data(), this->SidesOfDiagonal.Data(),
-      this->Failed.Data() };
+    return { points.Places(), points.Starts.Data(), points.Strips,
+      static_cast<std::uint32_t>(points.Count), this->Gaps.Data(),
+      this->Mesh.Edges.Triangles.Data(), 0, this->Sides.Data(), this->Failed.Data() };
+  }
+
+  /// Calls work(i) for i = 0 .. count - 1, each of which may be long.
+  template <typename Work>
+  void ForTasks(std::int64_t count, const Work& work) const
+  {
+    if constexpr (Backend::IsOnHost)
+    {
+      this->Device.ForTasks(count, work);
+    }
+    else
+    {
+      this->Device.ForEach(count, work);
+    }
   }
 
   /// @returns the number of triangles in all mountains.
@@ -144,6 +170,71 @@ struct PointMeshBuilder
     return triangles;
   }
 
+  std::int64_t CountSlots() const
+  {
+    const auto& starts = this->HostStarts;
+    return starts.size() > 2 ? std::int64_t(starts[starts.size() - 2]) + starts.back() - starts[1]
+                             : 0;
+  }
+
+  void MakeArrays(std::int64_t mostTriangles)
+  {
+    this->Mesh.Edges.Triangles = this->Device.template MakeArray<TriangleRecord>(mostTriangles);
+    const std::int64_t edges = this->Mesh.Points.Count + this->CountSlots() + 1;
+    this->Sides = this->Device.template MakeArray<CornerPair>(edges);
+    CornerPair* sides = this->Sides.Data();
+    this->Device.ForEach(edges,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) {
+        sides[i] = { NoCorner, NoCorner };
+      });
+  }
+
+  /// Fills the pieces of the outer boundary, each alone.
+  /// @param firstTriangle the number of the first triangle to make; then of the next.
+  /// @returns what is left of them.
+  std::vector<LabelledVertex> FillPieces(
+    std::vector<BoundaryPiece> pieces, std::int64_t& firstTriangle)
+  {
+    const auto count = static_cast<std::int64_t>(pieces.size());
+    const std::int64_t inner =
+      count > 0 ? std::int64_t(pieces.back().Begin) + pieces.back().Size - 2 : 0;
+    Array<BoundaryPiece> local = this->Device.template MakeArray<BoundaryPiece>(count);
+    Array<TriangleRecord> made = this->Device.template MakeArray<TriangleRecord>(inner);
+    Array<VertexId> vertices = this->Device.template MakeArray<VertexId>(inner);
+    Array<CornerId> labels = this->Device.template MakeArray<CornerId>(inner);
+    this->Device.Upload(pieces.data(), count, local.Data());
+    BoundaryPiece* piece = local.Data();
+    const EarPath path{ vertices.Data(), labels.Data(), 1 };
+    ChainView<Real> alone = this->View();
+    alone.Triangles = made.Data();
+    alone.Sides = nullptr;
+    this->ForTasks(
+      count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { CutPiece(alone, piece[i], path); });
+    const auto countMade = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    { return static_cast<int>(piece[i].Made); };
+    const typename Backend::Numbering numbering = this->Device.Count(count, countMade);
+    Array<std::uint32_t> numbers = this->Device.template MakeArray<std::uint32_t>(count);
+    std::uint32_t* firstOf = numbers.Data();
+    this->Device.ForEachNumbered(numbering, count, countMade,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t first)
+      { firstOf[i] = static_cast<std::uint32_t>(first); });
+    const std::int64_t rest = inner - numbering.Total + count;
+    Array<LabelledVertex> left = this->Device.template MakeArray<LabelledVertex>(rest);
+    LabelledVertex* leftOf = left.Data();
+    const ChainView<Real> chains = this->View();
+    const auto base = static_cast<TriangleId>(firstTriangle);
+    this->ForTasks(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        MovePiece(chains, piece[i], path, alone.Triangles + piece[i].Begin, base + firstOf[i],
+          leftOf + (piece[i].Begin - firstOf[i] + i));
+      });
+    std::vector<LabelledVertex> onHost(rest);
+    this->Device.Download(left.Data(), rest, onHost.data());
+    firstTriangle += numbering.Total;
+    return onHost;
+  }
+
   /// The coordinates of the boundary's places.
   std::vector<CoordinatePair<double>> FetchPlaces(const Boundary& boundary)
   {
@@ -164,84 +255,30 @@ struct PointMeshBuilder
     return coordinates;
   }
 
-  void MakeArrays(std::int64_t mostTriangles)
-  {
-    this->Mesh.Edges.Triangles = this->Device.template MakeArray<TriangleRecord>(mostTriangles);
-    const std::int64_t places = this->Mesh.Points.Count;
-    const std::int64_t slots = this->View().Chains > 1 ? this->CountSlots() : 0;
-    this->SidesOfEdge = this->Device.template MakeArray<CornerId>(2 * places);
-    this->SidesOfDiagonal = this->Device.template MakeArray<CornerId>(2 * slots + 2);
-    CornerId* ofEdge = this->SidesOfEdge.Data();
-    CornerId* ofDiagonal = this->SidesOfDiagonal.Data();
-    this->Device.ForEach(
-      2 * places, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofEdge[i] = NoCorner; });
-    this->Device.ForEach(
-      2 * slots + 2, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ofDiagonal[i] = NoCorner; });
-  }
-
-  std::int64_t CountSlots() const
-  {
-    const auto& starts = this->HostStarts;
-    return std::int64_t(starts[starts.size() - 2]) + starts.back() - starts[1];
-  }
-
-  void StoreHull(const HullTriangles& hull, std::int64_t firstTriangle)
-  {
-    this->Mesh.HullEdges = hull.HullEdges;
-    this->Mesh.Edges.NumberOfTriangles =
-      firstTriangle + static_cast<std::int64_t>(hull.Triangles.size());
-    this->Device.Upload(hull.Triangles.data(), static_cast<std::int64_t>(hull.Triangles.size()),
-      this->Mesh.Edges.Triangles.Data() + firstTriangle);
-    const auto size = static_cast<std::int64_t>(hull.Sides.size());
-    Array<SideWord> words = this->Device.template MakeArray<SideWord>(size);
-    Array<CornerId> corners = this->Device.template MakeArray<CornerId>(size);
-    this->Device.Upload(hull.Sides.data(), size, words.Data());
-    this->Device.Upload(hull.Corners.data(), size, corners.Data());
-    const ChainView<Real> chains = this->View();
-    const SideWord* word = words.Data();
-    const CornerId* corner = corners.Data();
-    this->Device.ForEach(size,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      {
-        CornerId& side =
-          word[i] < 0 ? chains.SidesOfDiagonal[~word[i]] : chains.SidesOfEdge[word[i]];
-        side = corner[i];
-      });
-  }
-
   void CutAllMountains()
   {
     const ChainView<Real> chains = this->View();
     const std::int64_t slots = this->CountSlots();
     constexpr std::int64_t Grain = Backend::IsOnHost ? 4096 : 8;
-    const auto cut = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t task)
-    {
-      const std::int64_t end = (task + 1) * Grain;
-      CutMountains(chains, task * Grain, end < slots ? end : slots);
-    };
-    if constexpr (Backend::IsOnHost)
-    {
-      this->Device.ForTasks((slots + Grain - 1) / Grain, cut);
-    }
-    else
-    {
-      this->Device.ForEach((slots + Grain - 1) / Grain, cut);
-    }
+    this->ForTasks((slots + Grain - 1) / Grain,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t task)
+      {
+        const std::int64_t end = (task + 1) * Grain;
+        CutMountains(chains, task * Grain, end < slots ? end : slots);
+      });
   }
 
-  /// Joins the triangles on both sides of all edges of chains and of all diagonals.
-  void JoinSides()
+  void StoreHull(const HullTriangles& hull, std::int64_t firstTriangle)
   {
+    const auto size = static_cast<std::int64_t>(hull.Triangles.size());
+    this->Mesh.HullEdges = hull.HullEdges;
+    this->Mesh.Edges.NumberOfTriangles = firstTriangle + size;
+    this->Device.Upload(
+      hull.Triangles.data(), size, this->Mesh.Edges.Triangles.Data() + firstTriangle);
     const ChainView<Real> chains = this->View();
-    this->Device.ForEach(this->Mesh.Points.Count,
+    this->Device.ForEach(size,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { chains.Join(chains.SidesOfEdge[2 * i], chains.SidesOfEdge[2 * i + 1]); });
-    const std::int64_t slots = this->View().Chains > 1 ? this->CountSlots() : 0;
-    this->Device.ForEach(slots + 1,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { chains.Join(chains.SidesOfDiagonal[2 * i], chains.SidesOfDiagonal[2 * i + 1]); });
-    this->SidesOfEdge = Array<CornerId>();
-    this->SidesOfDiagonal = Array<CornerId>();
+      { chains.AttachTriangle(static_cast<TriangleId>(firstTriangle + i)); });
   }
 };
 
@@ -269,7 +306,7 @@ PointMesh<Real> BuildDividedMesh(StripPoints<Real> strips, const Backend& backen
   edges.Triangles = backend.template MakeArray<TriangleRecord>(edges.NumberOfTriangles);
   backend.Upload(divided.Triangles.data(), edges.NumberOfTriangles, edges.Triangles.Data());
   RequireComplete(mesh);
-  NumberJoinedEdges(edges, backend);
+  NumberJoinedEdges(edges, {}, backend);
   return mesh;
 }
 
@@ -282,34 +319,32 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
 {
   PointMesh<Real> mesh;
   mesh.Points = std::move(strips);
-  PointMeshBuilder<Real, Backend> builder{ mesh, backend, {}, {}, {}, {}, {}, {} };
+  PointMeshBuilder<Real, Backend> builder{ mesh, backend, {}, {}, {}, {}, {} };
   builder.Failed = backend.template MakeArray<std::int32_t>(1);
   std::int32_t failed = 0;
   backend.Upload(&failed, 1, builder.Failed.Data());
-  const std::int64_t inMountains = builder.MeasureGaps();
-  const Boundary boundary = ListBoundary(builder.HostStarts, builder.HostGaps);
+  std::int64_t triangles = builder.MeasureGaps();
+  const std::vector<BoundaryPart> parts = ListBoundary(builder.HostStarts, builder.HostGaps);
+  const std::int64_t onBoundary = std::accumulate(parts.begin(), parts.end(), std::int64_t(0),
+    [](std::int64_t sum, const BoundaryPart& part) { return sum + part.Last - part.First + 2; });
   constexpr std::int64_t SmallestCurve = 10000; // below, flips take milliseconds
-  const auto boundaryPoints = static_cast<std::int64_t>(boundary.Places.size());
-  if (mesh.Points.Count >= SmallestCurve && boundaryPoints >= mesh.Points.Count / 10 * 9)
+  if (mesh.Points.Count >= SmallestCurve && onBoundary >= mesh.Points.Count / 10 * 9)
   {
     return BuildDividedMesh(std::move(mesh.Points), backend);
   }
+  builder.MakeArrays(triangles + onBoundary);
+  const Boundary boundary = JoinPieces(parts, builder.FillPieces(CutIntoPieces(parts), triangles));
   const std::vector<CoordinatePair<double>> places = builder.FetchPlaces(boundary);
-  builder.MakeArrays(inMountains + boundaryPoints);
-  if (mesh.Points.Strips > 1)
-  {
-    builder.CutAllMountains();
-  }
+  builder.CutAllMountains();
   // A device still cuts mountains meanwhile.
-  builder.StoreHull(FillHull(boundary, places, inMountains), inMountains);
+  builder.StoreHull(FillHull(boundary, places, static_cast<TriangleId>(triangles)), triangles);
   backend.Download(builder.Failed.Data(), 1, &failed);
   if (failed != 0)
   {
     throw BeyondDevice();
   }
-  builder.JoinSides();
   RequireComplete(mesh);
-  NumberJoinedEdges(mesh.Edges, backend);
+  NumberJoinedEdges(mesh.Edges, std::move(builder.Sides), backend);
   return mesh;
 }
 

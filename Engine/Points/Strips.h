@@ -186,22 +186,23 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
 {
   constexpr std::int64_t SmallestSample = 1 << 14;
   constexpr std::int64_t SamplesPerStrip = 16;
+  const std::vector<double> xs = SampleAxis(points, 0, SmallestSample, backend);
+  if (xs.empty())
+  {
+    return StripBounds({});
+  }
   std::vector<double> ys;
-  std::int64_t strips = 1;
-  for (std::int64_t size = 0; size < std::max(SmallestSample, SamplesPerStrip * strips);)
+  // As many as a square has; where that does not suffice, the second sample does.
+  auto strips = static_cast<std::int64_t>(std::sqrt(static_cast<double>(points.Count)));
+  for (std::int64_t size = 0; size < std::min(points.Count, SamplesPerStrip * strips);)
   {
     size = std::max(SmallestSample, SamplesPerStrip * strips);
-    const std::vector<double> xs = SampleAxis(points, 0, size, backend);
     ys = SampleAxis(points, 1, size, backend);
     if (ys.empty())
     {
       return StripBounds({});
     }
     strips = CountStrips(points.Count, FindSpread(xs), FindSpread(ys));
-    if (size >= points.Count)
-    {
-      break;
-    }
   }
   std::vector<double> bounds;
   for (std::int64_t strip = 1; strip < strips; ++strip)

@@ -9,28 +9,6 @@
 namespace delaunayflip
 {
 
-namespace
-{
-/// Gives a variable another value for as long as this lives.
-template <typename Value>
-class TemporaryValue
-{
-public:
-  TemporaryValue(Value& variable, const Value& value)
-    : Variable(variable),
-      Before(std::exchange(variable, value))
-  {
-  }
-  ~TemporaryValue() { this->Variable = std::move(this->Before); }
-  TemporaryValue(const TemporaryValue&) = delete;
-  TemporaryValue& operator=(const TemporaryValue&) = delete;
-
-private:
-  Value& Variable;
-  Value Before;
-};
-}
-
 FlipSession::FlipSession(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
   : Own(std::make_unique<Work>(CallerMesh(mesh), options, progress))
@@ -83,6 +61,8 @@ try
     const std::int64_t most = std::min(limit, work.GetIterationLimit()) - first;
     const AdvancePlan plan{ observer || progress ? std::min(most, work.Progress.GetBatch()) : most,
       first == 0, work.Options.TrackQuality };
+    // The first iterations within chunks are one batch, which takes long for many points.
+    const TemporaryValue<bool> stoppable(work.MayStop, first == 0);
     const std::vector<IterationCounts> made =
       work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
     work.IsMeasured = false;

@@ -83,7 +83,9 @@ void FlipSession::Work::Build()
 try
 {
   const StopWatch watch;
-  const auto tell = [this](double share) { return this->Progress.Tell(this->Observer, share); };
+  const TemporaryValue<bool> stoppable(this->MayStop, true);
+  const auto tell = [this](double share)
+  { return !this->MayStop || this->Progress.Tell(this->Observer, share); };
   this->Insertion = ConstraintInsertion();
   this->Start = this->Mesh;
   if (this->Cloud)
@@ -189,6 +191,7 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
     throw;
   }
   this->Fallback = error.what();
+  const TemporaryValue<bool> stoppable(this->MayStop, true);
   const bool hadSegments = this->Cloud && this->Cloud->AreInserted();
   this->Loaded.reset();
   this->Loaded = this->LoadOn(BackendKind::Threads);
@@ -291,6 +294,7 @@ void FlipSession::Work::DivideIfLong()
     this->Report.TotalExcluded -= made.back().Excluded;
     this->Report.TotalBlocked -= made.back().Blocked;
   }
+  const TemporaryValue<bool> stoppable(this->MayStop, true);
   this->ByDivision = true;
   this->IterationsBeforeDivision = this->CountIterations();
   this->HasDetected = false;

@@ -21,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -34,6 +35,25 @@ struct DeviceArray
   Value* Values;
   std::int64_t Size;
   DeviceStream Stream;
+};
+
+/// Gives a variable another value for as long as this lives.
+template <typename Value>
+class TemporaryValue
+{
+public:
+  TemporaryValue(Value& variable, const Value& value)
+    : Variable(variable),
+      Before(std::exchange(variable, value))
+  {
+  }
+  ~TemporaryValue() { this->Variable = std::move(this->Before); }
+  TemporaryValue(const TemporaryValue&) = delete;
+  TemporaryValue& operator=(const TemporaryValue&) = delete;
+
+private:
+  Value& Variable;
+  Value Before;
 };
 
 /// The progress of a run that its observer is told, and how many iterations to make before it is
@@ -239,6 +259,7 @@ struct FlipSession::Work
   std::int64_t IterationsBeforeInsertion = 0; ///< Of segments, if they are inserted.
   FlipOptions Options;
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
+  bool MayStop = false; ///< Whether the observer may stop what is under way, all of which is lost.
   FlipReport Report;
   std::unique_ptr<DividedSession>
     Divided; ///< Null unless in several parts. Then only this is used.

@@ -23,8 +23,12 @@ arithmetic  no mesh: as many processes as threads each add numbers. Its speed-up
             is what the machine has to give.
 meshlib     MeshLib: a mesh of arrays, and flips until none is left, at most 100 for an edge
 libigl      intrinsic_delaunay_triangulation, which needs the lengths of edges. One thread.
-cgal        CGAL's Delaunay_triangulation_2 of the points, where all z are equal. One thread. Time
-            to take Python's points is included; delaunay-flip-benchmark measures without it.
+triangulate delaunayflip.triangulate() of the points, where all z are equal; so the next three,
+            which have one thread
+cgal        CGAL's Delaunay_triangulation_2. Time to take Python's points is included;
+            delaunay-flip-benchmark measures without it.
+scipy       SciPy's Delaunay, by Qhull
+triangle    Triangle
 
 What is not installed, or not built, is left out and named.
 """
@@ -85,9 +89,10 @@ class Ours:
     """Programs of this project, for a number of threads or "cuda". They return the flips."""
 
     def __init__(self, points, triangles):
-        from delaunayflip import _arrays, _library, _options, flip
+        from delaunayflip import _arrays, _library, _options, flip, triangulate
         self.mesh, self.points, self.triangles = _arrays.Mesh(points, triangles), points, triangles
         self.library, self.options, self.flip = _library, _options, flip
+        self.from_points = triangulate
         self.result, self.filter = triangles.copy(), None
 
     def choose(self, threads):
@@ -108,6 +113,9 @@ class Ours:
 
     def numpy(self, threads):
         return self.flip(self.points, self.triangles, **self.choose(threads)).report.total_flips
+
+    def triangulate(self, threads):
+        return self.from_points(self.points[:, :2], **self.choose(threads)).report.total_flips
 
     def update(self, threads):
         from delaunayflip import vtkDelaunayFlip
@@ -156,6 +164,14 @@ class Others:
         self.places = self.places or [Point_2(*point) for point in self.points[:, :2].tolist()]
         Delaunay_triangulation_2().insert(self.places)
 
+    def scipy(self):
+        from scipy.spatial import Delaunay
+        Delaunay(self.points[:, :2])
+
+    def triangle(self):
+        import triangle
+        triangle.triangulate({"vertices": self.points[:, :2]})
+
 
 def add_numbers(count):
     total = 0
@@ -202,8 +218,9 @@ class Server:
 def list_programs(ours, python, path, threads, has_cuda):
     """Functions that return what `measure` does, by program and threads."""
     programs = {}
+    is_plane = numpy.ptp(ours.points[:, 2]) == 0
     for count in [*threads, "cuda"] if has_cuda else threads:
-        for name in ("arrays", "update", "numpy"):
+        for name in ("arrays", "update", "numpy", "triangulate")[:3 + is_plane]:
             programs[name, count] = functools.partial(measure, getattr(ours, name), count)
         if count != "cuda":
             pool = multiprocessing.Pool(count)
@@ -211,7 +228,7 @@ def list_programs(ours, python, path, threads, has_cuda):
                 measure, pool.map, add_numbers, [400_000] * count, 1)
     for count in threads if python else ():
         server = Server(python, path, count)
-        alone = ["libigl"] if numpy.ptp(ours.points[:, 2]) else ["libigl", "cgal"]
+        alone = ["libigl", "cgal", "scipy", "triangle"][:4 if is_plane else 1]
         for name in ["meshlib", *(alone if count == 1 else [])]:
             programs[name, count] = functools.partial(server, name)
     return programs

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -226,16 +227,23 @@ const NamedPoints Sets[] = { { "Uniform",
     [](double u, double, std::uint32_t) {
       return std::array<double, 2>{ 10 * u + 0.1, 1 / (10 * u + 0.1) };
     } },
-  { "TwoCircles",
-    [](double u, double, std::uint32_t i) {
-      return std::array<double, 2>{ std::cos(2 * Pi * u), std::sin(2 * Pi * u) + 2.0 * (i % 2) };
-    } },
   { "Offset",
     [](double u, double v, std::uint32_t)
     {
       return std::array<double, 2>{ 500000 + std::round(1e6 * u) / 1e3,
         5.4e6 + std::round(1e6 * v) / 1e3 };
-    } } };
+    } },
+  { "TwoCircles",
+    [](double u, double, std::uint32_t i) {
+      return std::array<double, 2>{ std::cos(2 * Pi * u), std::sin(2 * Pi * u) + 2.0 * (i % 2) };
+    } },
+  { "LineAndPoint",
+    [](double u, double, std::uint32_t i) {
+      return i == 7 ? std::array<double, 2>{ 0.5, 1.0 } : std::array<double, 2>{ u, 0.0 };
+    } },
+  { "TwoRows", [](double u, double, std::uint32_t i) {
+     return i < 20 ? std::array<double, 2>{ i / 19.0, 1.0 } : std::array<double, 2>{ u, 0.0 };
+   } } };
 
 class PointSetsTest : public testing::TestWithParam<NamedPoints>
 {
@@ -297,6 +305,27 @@ TEST_P(PointSetsTest, DependOnThePointsAlone)
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, PointSetsTest, testing::ValuesIn(Sets),
+  [](const auto& info) { return std::string(info.param.Name); });
+
+/// The last three sets, on which flips or cutting ears may take quadratic time.
+class HardPointSetsTest : public PointSetsTest
+{
+};
+
+TEST_P(HardPointSetsTest, WorkGrowsWithThePoints)
+{
+  const auto work = [](std::uint32_t count)
+  {
+    const FlipReport report = Triangulate(Draw(count)).Report;
+    constexpr std::int64_t FlipsPerIteration = 256; // that take as long as one
+    return report.TotalFlips +
+      FlipsPerIteration * static_cast<std::int64_t>(report.Iterations.size()) + count;
+  };
+  EXPECT_LE(2 * work(40000 / Reduction), 5 * work(20000 / Reduction));
+}
+
+INSTANTIATE_TEST_SUITE_P(Hard, HardPointSetsTest,
+  testing::ValuesIn(std::end(Sets) - 3, std::end(Sets)),
   [](const auto& info) { return std::string(info.param.Name); });
 
 /// Ties are decided as by flips of any other triangulation.
