@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -57,6 +58,26 @@ struct HostTriangles
   }
 };
 
+/// A side of an edge that a segment has become.
+struct SegmentSide
+{
+  HalfEdgeId Side; ///< One that has a triangle.
+  std::uint32_t IsOnLeft; ///< Whether it is to the left of the segment.
+};
+
+/// What consecutive segments have become.
+struct InsertedSegments
+{
+  static constexpr std::int32_t Refused = -1;
+
+  std::vector<std::int32_t> NumberOfEdges; ///< Of each segment; or it is Refused.
+  std::vector<SegmentSide> Sides; ///< Of all these edges, in order.
+  std::int64_t Flips = 0;
+};
+
+/// @returns whether to go on.
+using SegmentObserver = std::function<bool(const InsertedSegments&)>;
+
 /// A mesh that is loaded onto a backend, ready to flip: what a session needs of a backend.
 /// MeshOnBackend.h makes one.
 class LoadedMesh
@@ -83,9 +104,12 @@ public:
   using HostView = std::function<void(const PointMeshView&)>;
   virtual void ViewOnHost(const HostView& view) = 0;
 
-  /// The same, and keeps what `edit` has changed: triangles, corners of half-edges, and the states
-  /// of edges that it makes Fixed or Candidate. FlipLoop::Restart must follow.
-  virtual void EditOnHost(const HostView& edit) = 0;
+  /// Of a mesh from points: inserts segments one after the other, as far as they cross none before
+  /// them. FlipLoop::Detect must follow.
+  /// @param ends pairs of points. @param onBatch is told of some segments at a time, in their
+  /// order.
+  virtual void InsertSegments(
+    const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) = 0;
 
   /// The same into device memory. @returns false, and writes nothing, if the backend's device
   /// cannot write it.

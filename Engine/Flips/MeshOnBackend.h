@@ -13,6 +13,7 @@
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
 #include "PointMesh.h"
+#include "SegmentInsertion.h"
 #include "SmallestAngle.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
@@ -207,8 +208,50 @@ public:
     }
   }
 
-  void ViewOnHost(const HostView& view) override { this->UseOnHost(view, false); }
-  void EditOnHost(const HostView& edit) override { this->UseOnHost(edit, true); }
+  void InsertSegments(
+    const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) override
+  {
+    const Array<VertexId> placeOf = this->ListPlaces();
+    SegmentInsertion<BackendT>(this->Mesh, this->Places, placeOf.Data(), this->Backend)
+      .Insert(ends, onBatch);
+    this->Loop->Restart();
+  }
+
+  void ViewOnHost(const HostView& use) override
+  {
+    EdgeMesh& mesh = this->Mesh;
+    PointMeshView view;
+    view.NumberOfTriangles = mesh.NumberOfTriangles;
+    view.NumberOfEdges = mesh.NumberOfEdges;
+    view.NumberOfPlaces = this->Points.Count;
+    if constexpr (BackendT::IsOnHost)
+    {
+      view.Edges = mesh.View();
+      view.Places = this->Places;
+      view.Ids = this->Order.VertexOfRank.Data();
+      use(view);
+      return;
+    }
+    const auto fetch = [&](const auto* values, std::int64_t size)
+    {
+      std::vector<std::remove_const_t<std::remove_pointer_t<decltype(values)>>> copy(size);
+      this->Backend.Download(values, size, copy.data());
+      return copy;
+    };
+    auto triangles = fetch(mesh.Triangles.Data(), mesh.NumberOfTriangles);
+    auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
+    auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
+    const auto ids = fetch(this->Order.VertexOfRank.Data(), this->Points.Count);
+    const auto floats =
+      fetch(this->Places.Floats, this->Places.Floats ? 2 * this->Points.Count : 0);
+    const auto doubles =
+      fetch(this->Places.Doubles, this->Places.Doubles ? 2 * this->Points.Count : 0);
+    view.Edges = { triangles.data(), corners.data(), states.data() };
+    view.Places = this->Places.Floats ? PlaneArray(floats.data(), this->Points.Count, 2)
+                                      : PlaneArray(doubles.data(), this->Points.Count, 2);
+    view.Ids = ids.data();
+    use(view);
+  }
 
   HostTriangles ViewHostTriangles() const override
   {
@@ -233,6 +276,29 @@ public:
   }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
+
+  /// Of a mesh from points: by point the place at which it is, or NoVertex. Public for the same
+  /// reason as the next.
+  Array<VertexId> ListPlaces() const
+  {
+    Array<VertexId> places = this->Backend.template MakeArray<VertexId>(this->Report.Points);
+    VertexId* placeOf = places.Data();
+    const VertexId* ids = this->Order.VertexOfRank.Data();
+    this->Backend.ForEach(this->Points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t place)
+      { placeOf[ids[place]] = static_cast<VertexId>(place); });
+    // Repeated points are not the used one, so what is read here is not written.
+    const VertexId* used = this->UsedPoint.Data();
+    this->Backend.ForEach(static_cast<std::int64_t>(this->UsedPoint.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (used[i] != i)
+        {
+          placeOf[i] = used[i] == NoVertex ? NoVertex : placeOf[used[i]];
+        }
+      });
+    return places;
+  }
 
   /// WholeMesh::SharedPoints in the order of vertices; empty if there are none. Public because
   /// device lambdas require it.
@@ -336,52 +402,6 @@ private:
     using PlaneLoop = typename LoopOf<BackendT, Rule>::Type;
     this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, survey.FiltersApply },
       survey.Range, EdgeGuard(), this->Backend));
-  }
-
-  void UseOnHost(const HostView& use, bool keep)
-  {
-    EdgeMesh& mesh = this->Mesh;
-    PointMeshView view;
-    view.NumberOfTriangles = mesh.NumberOfTriangles;
-    view.NumberOfEdges = mesh.NumberOfEdges;
-    view.NumberOfPlaces = this->Points.Count;
-    if constexpr (BackendT::IsOnHost)
-    {
-      view.Edges = mesh.View();
-      view.Places = this->Places;
-      view.Ids = this->Order.VertexOfRank.Data();
-      use(view);
-      return;
-    }
-    const auto fetch = [&](const auto* values, std::int64_t size)
-    {
-      std::vector<std::remove_const_t<std::remove_pointer_t<decltype(values)>>> copy(size);
-      this->Backend.Download(values, size, copy.data());
-      return copy;
-    };
-    auto triangles = fetch(mesh.Triangles.Data(), mesh.NumberOfTriangles);
-    auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
-    auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
-    for (EdgeState& state : states)
-    {
-      state = state == EdgeState::Fixed ? state : EdgeState::Good;
-    }
-    const auto ids = fetch(this->Order.VertexOfRank.Data(), this->Points.Count);
-    const auto floats =
-      fetch(this->Places.Floats, this->Places.Floats ? 2 * this->Points.Count : 0);
-    const auto doubles =
-      fetch(this->Places.Doubles, this->Places.Doubles ? 2 * this->Points.Count : 0);
-    view.Edges = { triangles.data(), corners.data(), states.data() };
-    view.Places = this->Places.Floats ? PlaneArray(floats.data(), this->Points.Count, 2)
-                                      : PlaneArray(doubles.data(), this->Points.Count, 2);
-    view.Ids = ids.data();
-    use(view);
-    if (keep)
-    {
-      this->Backend.Upload(triangles.data(), mesh.NumberOfTriangles, mesh.Triangles.Data());
-      this->Backend.Upload(corners.data(), 2 * mesh.NumberOfEdges, mesh.CornerOfHalfEdge.Data());
-      this->Backend.Upload(states.data(), mesh.NumberOfEdges, mesh.States.Data());
-    }
   }
 
   /// After this the caller's points are not needed any more.

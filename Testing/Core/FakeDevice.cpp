@@ -110,7 +110,11 @@ public:
     return true;
   }
   void ViewOnHost(const HostView& view) override { this->Engine->ViewOnHost(view); }
-  void EditOnHost(const HostView& edit) override { this->Engine->EditOnHost(edit); }
+  void InsertSegments(
+    const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) override
+  {
+    this->Engine->InsertSegments(ends, onBatch);
+  }
   HostTriangles ViewHostTriangles() const override { return {}; }
   Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
   bool KeepsSliver() override { return this->Engine->KeepsSliver(); }
