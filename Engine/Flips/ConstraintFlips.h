@@ -207,6 +207,8 @@ private:
     CornerId Through = NoCorner; ///< Across the edge opposite this corner.
     int Triangles = 0; ///< That it can go through.
     TriangleId Bar = NoTriangle;
+    VertexId Seen = NoTriangle; ///< The last vertex whose side was found, and its side.
+    int Side = 0;
   };
 
   /// To which side of the constraint a vertex lies; 0: on its line.
@@ -242,7 +244,9 @@ private:
       [&](CornerId corner)
       {
         this->AddExits(corner, exits);
-        return exits.Along != NoHalfEdge && exits.End == this->To;
+        const bool hasOne = exits.Along != NoHalfEdge || exits.Triangles > 0;
+        return this->Mesh.IsTriangulation ? hasOne
+                                          : exits.Along != NoHalfEdge && exits.End == this->To;
       });
     if (exits.Along != NoHalfEdge)
     {
@@ -265,12 +269,15 @@ private:
     const VertexId at = this->Mesh.GetVertex(corner);
     const VertexId next = this->Mesh.GetVertex(PlaneMesh::Next(corner));
     const VertexId previous = this->Mesh.GetVertex(PlaneMesh::Previous(corner));
-    if (!this->Mesh.IsFinite(next) || !this->Mesh.IsFinite(previous))
+    if (!this->Mesh.IsTriangulation &&
+      !(this->Mesh.IsFinite(next) && this->Mesh.IsFinite(previous)))
     {
       return;
     }
-    const int nextSide = this->FindSide(next);
+    const int nextSide = next == exits.Seen ? exits.Side : this->FindSide(next);
     const int previousSide = this->FindSide(previous);
+    exits.Seen = previous;
+    exits.Side = previousSide;
     this->AddEdge(at, next, nextSide, PlaneMesh::Previous(corner), exits);
     this->AddEdge(at, previous, previousSide, PlaneMesh::Next(corner), exits);
     if (nextSide * previousSide < 0)
@@ -425,7 +432,7 @@ private:
   DELAUNAYFLIP_HOST_DEVICE bool IsConvex(const Quad& quad) const
   {
     int side = 1;
-    if (!this->Mesh.TurnsLeft)
+    if (!this->Mesh.IsTriangulation)
     {
       const int upper = this->Mesh.FindTurn(quad.A, quad.P, quad.Q);
       const int lower = this->Mesh.FindTurn(quad.B, quad.Q, quad.P);

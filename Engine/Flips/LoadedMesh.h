@@ -104,6 +104,11 @@ public:
   using HostView = std::function<void(const PointMeshView&)>;
   virtual void ViewOnHost(const HostView& view) = 0;
 
+  /// Of a mesh from points: triangulates them again, by divide and conquer on the host, after which
+  /// no edge is bad. FlipLoop::Detect must follow.
+  /// @throws RunAborted.
+  virtual void Divide(const BuildProgress& progress) = 0;
+
   /// Of a mesh from points: inserts segments one after the other, as far as they cross none before
   /// them. FlipLoop::Detect must follow.
   /// @param ends pairs of points. @param onBatch is told of some segments at a time, in their
@@ -139,9 +144,8 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
 /// Triangulates points in the plane.
-/// @param byDivision as MeshOnBackend's.
-std::unique_ptr<LoadedMesh> LoadOnThreads(const PlaneArray& points, const FlipOptions& options,
-  bool byDivision, const BuildProgress& progress);
+std::unique_ptr<LoadedMesh> LoadOnThreads(
+  const PlaneArray& points, const FlipOptions& options, const BuildProgress& progress);
 
 /// @throws RunAborted.
 /// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
@@ -154,8 +158,8 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
 /// For points in the host's memory, or in that of FlipOptions::Device.
-std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptions& options,
-  bool byDivision, const BuildProgress& progress);
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const PointInput& points, const FlipOptions& options, const BuildProgress& progress);
 
 }
 

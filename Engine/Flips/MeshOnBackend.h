@@ -163,16 +163,13 @@ public:
 
   /// Triangulates points in the plane instead.
   /// @param isLocal whether they are in the memory of the backend.
-  /// @param byDivision divide and conquer, after which no edge is bad, instead of strips. On the
-  /// host.
   /// @throws RunAborted.
-  MeshOnBackend(const PlaneArray& points, bool isLocal, const FlipOptions& options, bool byDivision,
+  MeshOnBackend(const PlaneArray& points, bool isLocal, const FlipOptions& options,
     BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
-    points.Floats
-      ? this->Triangulate<float>(points, isLocal, points.Floats, options, byDivision, progress)
-      : this->Triangulate<double>(points, isLocal, points.Doubles, options, byDivision, progress);
+    points.Floats ? this->Triangulate<float>(points, isLocal, points.Floats, options, progress)
+                  : this->Triangulate<double>(points, isLocal, points.Doubles, options, progress);
   }
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
@@ -205,6 +202,19 @@ public:
     for (std::int64_t i = 0; i < count; ++i)
     {
       ids[i] = used.empty() ? i : (used[i] == NoVertex ? -1 : std::int64_t(used[i]));
+    }
+  }
+
+  void Divide(const BuildProgress& progress) override
+  {
+    if constexpr (BackendT::IsOnHost)
+    {
+      this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
+    }
+    this->Places.Floats ? this->Divide(this->Places.Floats) : this->Divide(this->Places.Doubles);
+    if constexpr (BackendT::IsOnHost)
+    {
+      this->Backend.SetPoll(nullptr);
     }
   }
 
@@ -333,7 +343,7 @@ protected:
 private:
   template <typename Real>
   void Triangulate(PlaneArray points, bool isLocal, const Real* values, const FlipOptions& options,
-    bool byDivision, const BuildProgress& progress)
+    const BuildProgress& progress)
   {
     constexpr GeometryKind Plane = GeometryKind::PlanarXY;
     if constexpr (BackendT::IsOnHost) // a step may take seconds
@@ -361,10 +371,6 @@ private:
     if (places < 3)
     {
       mesh.Points = std::move(sorted);
-    }
-    else if (byDivision)
-    {
-      mesh = BuildDividedMesh(std::move(sorted), this->Backend);
     }
     else
     {
@@ -398,10 +404,27 @@ private:
     report.FromPoints.NotFinite = points.Count - finite;
     report.FromPoints.Repeated = finite - places;
     // All triangles turn to the left and none overlap, so that flips need no guard.
+    this->Range = survey.Range;
+    this->FiltersApply = survey.FiltersApply;
+    this->MakePlaneLoop(coordinates);
+  }
+
+  template <typename Real>
+  void MakePlaneLoop(const Real* coordinates)
+  {
     using Rule = PlanarRule<Real, 2>;
     using PlaneLoop = typename LoopOf<BackendT, Rule>::Type;
-    this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, survey.FiltersApply },
-      survey.Range, EdgeGuard(), this->Backend));
+    this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, this->FiltersApply },
+      this->Range, EdgeGuard(), this->Backend));
+  }
+
+  template <typename Real>
+  void Divide(const Real* coordinates)
+  {
+    std::int64_t hullEdges = 0; // the same as before
+    this->Mesh = DividePlaces(reinterpret_cast<const CoordinatePair<Real>*>(coordinates),
+      this->Points.Count, this->Backend, hullEdges);
+    this->MakePlaneLoop(coordinates);
   }
 
   /// After this the caller's points are not needed any more.
@@ -417,7 +440,8 @@ private:
   SpatialOrder Order;
   EdgeMesh Mesh;
   PackedPoints Points;
-  CoordinateRange Range = CoordinateRange::Usual; ///< Of a mesh from triangles.
+  CoordinateRange Range = CoordinateRange::Usual;
+  bool FiltersApply = false; ///< Of a mesh from points: whether the rule's do.
   PlaneArray Places; ///< Of a mesh from points: views Points.
   Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
   TurnCounts Turns;

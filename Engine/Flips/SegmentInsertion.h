@@ -136,6 +136,46 @@ private:
   }
 };
 
+/// What is done to the items of a list in a round, step by step.
+struct SegmentRound
+{
+  enum StepKind
+  {
+    Claim,
+    Decide,
+    Flip,
+    Fix
+  };
+
+  SegmentClaims Claims;
+  SegmentItem* Items;
+  const std::uint32_t* List;
+  std::uint32_t FirstClaim; ///< Of the first item.
+  StepKind Step = Claim;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t& flips) const
+  {
+    SegmentItem& item = this->Items[this->List[i]];
+    const std::uint32_t claim = this->FirstClaim + this->List[i];
+    if (this->Step == Claim)
+    {
+      this->Claims.Claim(item, claim);
+    }
+    else if (this->Step == Decide && item.State == SegmentItem::Waiting)
+    {
+      this->Claims.Decide(item, claim);
+    }
+    else if (this->Step == Flip && item.State == SegmentItem::Winning)
+    {
+      this->Claims.Flip(item, flips);
+    }
+    else if (this->Step == Fix && item.State == SegmentItem::Winning)
+    {
+      this->Claims.Fix(item);
+    }
+  }
+};
+
 /// Inserts segments into a triangulation of points, many at a time, as if each were inserted after
 /// those before it.
 ///
@@ -169,7 +209,10 @@ struct SegmentInsertion
   {
     this->Prepare();
     const auto size = static_cast<std::int64_t>(ends.size() / 2);
-    std::int64_t batch = 1 << 14;
+    // As many as take about a tenth of a second. The more, the nearer they are to each other.
+    constexpr std::int64_t Fewest = 1 << 12, Most = 1 << 20;
+    constexpr double SecondsPerBatch = 0.1;
+    std::int64_t batch = Fewest;
     bool goesOn = true;
     for (std::int64_t begin = 0; begin < size && goesOn;)
     {
@@ -177,9 +220,10 @@ struct SegmentInsertion
       const std::int64_t count = std::min(batch, size - begin);
       goesOn = onBatch(this->InsertBatch(ends.data() + 2 * begin, count));
       begin += count;
-      const bool wasShort =
-        std::chrono::steady_clock::now() - start < std::chrono::milliseconds(50);
-      batch = wasShort ? 2 * batch : batch;
+      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+      const double next = SecondsPerBatch / std::max(taken.count(), 1e-6);
+      batch = static_cast<std::int64_t>(
+        std::clamp(next * static_cast<double>(count), double(Fewest), double(Most)));
     }
   }
 
@@ -245,19 +289,17 @@ struct SegmentInsertion
           : static_cast<std::uint32_t>((std::uint64_t(items[i].From) << SortKeyBits) / places);
       });
     std::int64_t count = size;
-    std::int64_t before = 2 * count;
-    constexpr std::int64_t Few = 64;
-    while (count > 0 &&
-      (!Backend::IsOnHost || before == 2 * size || (count > Few && count <= before / 4 * 3)))
+    all = this->ListWaiting(all.Data(), count);
+    constexpr std::int64_t Few = Backend::IsOnHost ? 64 : 0;
+    for (std::int64_t before = 2 * count;
+         count > Few && (!Backend::IsOnHost || count <= before / 4 * 3);)
     {
       before = count;
-      Array<std::uint32_t> left = this->ListWaiting(all.Data(), count);
-      all = std::move(left);
       this->RunRound(all.Data(), count, size);
+      all = this->ListWaiting(all.Data(), count);
     }
     if constexpr (Backend::IsOnHost)
     {
-      all = this->ListWaiting(all.Data(), count);
       std::sort(all.Data(), all.Data() + count);
       for (std::int64_t i = 0; i < count; ++i)
       {
@@ -290,49 +332,22 @@ struct SegmentInsertion
   /// @param list `count` of all `size` items that wait.
   void RunRound(const std::uint32_t* list, std::int64_t count, std::int64_t size)
   {
-    if (count == 0)
-    {
-      return;
-    }
-    const SegmentClaims claims = this->Claims;
-    const std::uint32_t firstClaim = this->StartClaims(size);
-    SegmentItem* items = this->Items.Data();
-    this->ForItems(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t&)
-      { claims.Claim(items[list[i]], firstClaim + list[i]); });
+    SegmentRound round{ this->Claims, this->Items.Data(), list, this->StartClaims(size) };
+    this->ForItems(count, round);
     const auto countOf = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    { return static_cast<int>(items[list[i]].NumberOfEdges); };
+    { return static_cast<int>(round.Items[list[i]].NumberOfEdges); };
     const typename Backend::Numbering numbering = this->Device.Count(count, countOf);
     this->Paths.push_back(
       this->Device.template MakeArray<ConstraintPath::Segment>(numbering.Total));
     ConstraintPath::Segment* paths = this->Paths.back().Data();
     this->Device.ForEachNumbered(numbering, count, countOf,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
-      { items[list[i]].Path = paths + number; });
-    this->ForItems(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t&)
-      {
-        if (items[list[i]].State == SegmentItem::Waiting)
-        {
-          claims.Decide(items[list[i]], firstClaim + list[i]);
-        }
-      });
-    this->Flips += this->ForItems(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & flips)
-      {
-        if (items[list[i]].State == SegmentItem::Winning)
-        {
-          claims.Flip(items[list[i]], flips);
-        }
-      });
-    this->ForItems(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t&)
-      {
-        if (items[list[i]].State == SegmentItem::Winning)
-        {
-          claims.Fix(items[list[i]]);
-        }
-      });
+      { round.Items[list[i]].Path = paths + number; });
+    for (const auto step : { SegmentRound::Decide, SegmentRound::Flip, SegmentRound::Fix })
+    {
+      round.Step = step;
+      this->Flips += this->ForItems(count, round);
+    }
   }
 
   /// The claim of the first item. Claims are less than those of all rounds before, so that nobody

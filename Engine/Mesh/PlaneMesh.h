@@ -17,7 +17,8 @@ struct PlaneMesh
 {
   EdgeMeshView Edges;
   PlaneArray Places;
-  bool TurnsLeft = false; ///< Whether all triangles are known to turn to the left.
+  /// Whether it is known to be a triangulation: all triangles turn to the left, and none overlap.
+  bool IsTriangulation = false;
   std::int32_t* Failed = nullptr; ///< Set to 1 where a device cannot decide a turn.
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPoint(VertexId vertex) const
@@ -58,9 +59,10 @@ struct PlaneMesh
   }
   DELAUNAYFLIP_HOST_DEVICE int FindTurnAt(CornerId corner) const
   {
-    return this->TurnsLeft ? 1
-                           : this->FindTurn(this->GetVertex(corner), this->GetVertex(Next(corner)),
-                               this->GetVertex(Previous(corner)));
+    return this->IsTriangulation
+      ? 1
+      : this->FindTurn(this->GetVertex(corner), this->GetVertex(Next(corner)),
+          this->GetVertex(Previous(corner)));
   }
 
   /// The triangle's side of the edge opposite a corner; it runs from the next vertex to the
@@ -84,6 +86,10 @@ struct PlaneMesh
   DELAUNAYFLIP_HOST_DEVICE CornerId FindAcross(HalfEdgeId halfEdge) const
   {
     const CornerId across = this->Edges.CornerOfHalfEdge[halfEdge ^ 1u];
+    if (this->IsTriangulation)
+    {
+      return across;
+    }
     const bool isPair = across != NoCorner &&
       this->GetVertex(Next(across)) == this->GetEnd(halfEdge) &&
       this->GetVertex(Previous(across)) == this->GetStart(halfEdge);
