@@ -5,6 +5,7 @@
 
 #include "delaunayflip_c.h"
 
+#include "CudaDevice.h"
 #include "DelaunayFlip.h"
 
 #include <algorithm>
@@ -13,6 +14,8 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 /// @file
 /// Converts the structs of a C program to the engine's types, and reports of the engine to structs.
@@ -61,52 +64,274 @@ Struct Complete(const Struct* given, void (*initialize)(Struct*))
   return complete;
 }
 
+// Both enumerations have the same order.
+static_assert(static_cast<int>(StopReasonKind::Running) == DELAUNAYFLIP_RUNNING, "");
+static_assert(static_cast<int>(StopReasonKind::Aborted) == DELAUNAYFLIP_ABORTED, "");
+
+template <typename Enumeration>
+Enumeration ToEnumeration(std::int32_t value, Enumeration last, const std::string& name)
+{
+  Require(value >= 0 && value <= static_cast<std::int32_t>(last),
+    (name + " is no delaunayflip_" + name).c_str());
+  return static_cast<Enumeration>(value);
+}
+
+/// The points as `Array`. Its constructors take the components too, if they are given.
+template <typename Array, typename Struct, typename... Components>
+Array ToPoints(const Struct& c, Components... components)
+{
+  Require(c.number_of_points >= 0, "number_of_points is negative");
+  Require(c.points || c.number_of_points == 0, "points is null");
+  Require(c.point_type == DELAUNAYFLIP_FLOAT32 || c.point_type == DELAUNAYFLIP_FLOAT64,
+    "point_type is neither DELAUNAYFLIP_FLOAT32 nor DELAUNAYFLIP_FLOAT64");
+  return c.point_type == DELAUNAYFLIP_FLOAT32
+    ? Array(static_cast<const float*>(c.points), c.number_of_points, components...)
+    : Array(static_cast<const double*>(c.points), c.number_of_points, components...);
+}
+
+inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c)
+{
+  Require(c.number_of_constraint_edges >= 0, "number_of_constraint_edges is negative");
+  Require(c.constraint_edges || c.number_of_constraint_edges == 0, "constraint_edges is null");
+  return { c.constraint_edges, c.number_of_constraint_edges, c.constraints_to_insert, c.regions,
+    c.frozen_triangles };
+}
+
+/// A view of the caller's integers as `Array`, whose 32-bit ids are Id32 and 64-bit ids Id64.
+template <typename Array, typename Id32, typename Id64, typename Void>
+Array ToIds(Void* ids, std::int64_t triangles, std::int32_t type)
+{
+  Require(triangles >= 0, "number_of_triangles is negative");
+  Require(ids || triangles == 0, "triangles is null");
+  Require(type == DELAUNAYFLIP_INT32 || type == DELAUNAYFLIP_INT64,
+    "id_type is neither DELAUNAYFLIP_INT32 nor DELAUNAYFLIP_INT64");
+  return type == DELAUNAYFLIP_INT32 ? Array(static_cast<Id32*>(ids), triangles)
+                                    : Array(static_cast<Id64*>(ids), triangles);
+}
+
+inline TriangleArray ToTriangles(const delaunayflip_mesh& c)
+{
+  return ToIds<TriangleArray, const std::int32_t, const std::int64_t>(
+    c.triangles, c.number_of_triangles, c.id_type);
+}
+
 /// The polygons with all members that this library knows.
-delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given);
-
-/// Views of the arrays of a mesh in the host's memory.
-TriangleMesh ToMesh(const delaunayflip_mesh* given);
-
-/// Views of the points and segments to triangulate.
-PointInput ToPointInput(const delaunayflip_points& points);
-
-/// @param options of the run.
-PointOptions ToPointOptions(const delaunayflip_points& points, const FlipOptions& options);
-
-/// Views of the arrays of a complete mesh in device memory.
-DeviceMesh ToDeviceMesh(const delaunayflip_mesh& mesh);
+inline delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given)
+{
+  const delaunayflip_polygons c = Complete(given, delaunayflip_polygons_init);
+  Require(c.number_of_polygons >= 0, "number_of_polygons is negative");
+  Require(c.offsets || c.number_of_polygons == 0, "offsets is null");
+  Require(c.corners || c.number_of_polygons == 0 || c.offsets[0] == c.offsets[c.number_of_polygons],
+    "corners is null");
+  return c;
+}
 
 /// Whether `memory`, a delaunayflip_memory, is that of a device.
-bool IsOnDevice(std::int32_t memory);
+inline bool IsOnDevice(std::int32_t memory)
+{
+  Require(memory == DELAUNAYFLIP_HOST || memory == DELAUNAYFLIP_CUDA,
+    "memory is neither DELAUNAYFLIP_HOST nor DELAUNAYFLIP_CUDA");
+  return memory == DELAUNAYFLIP_CUDA;
+}
+
+/// Views of the arrays of a mesh in the host's memory.
+inline TriangleMesh ToMesh(const delaunayflip_mesh* given)
+{
+  const delaunayflip_mesh c = Complete(given, delaunayflip_mesh_init);
+  Require(!IsOnDevice(c.memory), "this function needs a mesh in the host's memory");
+  TriangleMesh mesh;
+  static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
+  Require(c.point_components == 3, "point_components must be 3 for points in the host's memory");
+  mesh.Points = ToPoints<PointArray>(c);
+  mesh.Triangles = ToTriangles(c);
+  return mesh;
+}
+
+/// Views of the points and segments to triangulate.
+inline PointInput ToPointInput(const delaunayflip_points& c)
+{
+  Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
+  Require(c.number_of_segments >= 0, "number_of_segments is negative");
+  Require(c.segments || c.number_of_segments == 0, "segments is null");
+  Require(c.number_of_hole_seeds >= 0, "number_of_hole_seeds is negative");
+  Require(c.hole_seeds || c.number_of_hole_seeds == 0, "hole_seeds is null");
+  PointInput input{ ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments,
+    c.rings, c.hole_seeds, c.number_of_hole_seeds };
+  input.OnDevice = IsOnDevice(c.memory);
+  input.Stream.Handle = c.stream;
+  return input;
+}
+
+/// @param options of the run.
+inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
+{
+  PointOptions points{ options };
+  points.PointTolerance = c.point_tolerance;
+  points.SplitCrossings = c.split_crossings != 0;
+  points.Outline = ToEnumeration(c.outline, OutlineKind::Orientation, "outline");
+  points.Alpha = c.alpha;
+  points.LongestEdge = c.longest_edge;
+  return points;
+}
+
+/// Views of the arrays of a complete mesh in device memory.
+inline DeviceMesh ToDeviceMesh(const delaunayflip_mesh& c)
+{
+  DeviceMesh mesh;
+  static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
+  Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
+  mesh.Points = ToPoints<DevicePointArray>(c, c.point_components);
+  mesh.Triangles = ToTriangles(c);
+  mesh.Stream.Handle = c.stream;
+  return mesh;
+}
 
 /// A view of an array for three ids per triangle, of a delaunayflip_type.
-MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int32_t type);
+inline MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int32_t type)
+{
+  return ToIds<MutableTriangleArray, std::int32_t, std::int64_t>(ids, triangles, type);
+}
 
-GeometryKind ToGeometry(std::int32_t value);
+inline GeometryKind ToGeometry(std::int32_t value)
+{
+  return ToEnumeration(value, GeometryKind::Surface, "geometry");
+}
 
 /// The engine's defaults where `given` is null.
-FlipOptions ToOptions(const delaunayflip_options* given);
+inline FlipOptions ToOptions(const delaunayflip_options* given)
+{
+  FlipOptions options;
+  if (!given)
+  {
+    return options;
+  }
+  const delaunayflip_options c = Complete(given, delaunayflip_options_init);
+  options.Geometry = ToGeometry(c.geometry);
+  options.Criterion = ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion");
+  options.TieRule = ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
+  options.Backend = ToEnumeration(c.backend, BackendKind::Threads, "backend");
+  options.Tolerance = c.tolerance;
+  options.FeatureAngle = c.feature_angle;
+  options.MaximumDeviation = c.maximum_deviation;
+  options.MaximumIterations = c.maximum_iterations;
+  options.NumberOfThreads = c.number_of_threads;
+  options.Device = c.device;
+  options.Devices = ParseDevices(c.devices ? c.devices : "");
+  options.NumberOfPieces = c.number_of_pieces;
+  options.TrackQuality = c.track_quality != 0;
+  return options;
+}
+
+inline delaunayflip_iteration ToC(const IterationRecord& record)
+{
+  return { record.Iteration, record.Tested, record.NonDelaunay, record.Flipped, record.Excluded,
+    record.Blocked, record.MinimumAngle, record.Seconds };
+}
 
 /// The engine's observers that call the caller's functions, if there are any.
 struct Observers
 {
-  explicit Observers(const delaunayflip_callbacks* given);
+  explicit Observers(const delaunayflip_callbacks* given)
+  {
+    if (!given)
+    {
+      return;
+    }
+    const delaunayflip_callbacks c = Complete(given, delaunayflip_callbacks_init);
+    if (c.progress)
+    {
+      this->Progress = [c](double share) { return c.progress(share, c.user) != 0; };
+    }
+    if (c.iteration)
+    {
+      this->Iteration = [c](const IterationRecord& record)
+      {
+        const delaunayflip_iteration copy = ToC(record);
+        return c.iteration(&copy, c.user) != 0;
+      };
+    }
+  }
 
   ProgressObserver Progress;
   FlipObserver Iteration;
 };
-
-delaunayflip_iteration ToC(const IterationRecord& record);
 
 /// A report, kept for the C struct that points to its strings.
 class KeptReport
 {
 public:
   /// @param numbers the numbers by which the report names triangles; null: their indices.
-  KeptReport(FlipReport report, const std::int64_t* numbers);
+  KeptReport(FlipReport report, const std::int64_t* numbers)
+    : Report(std::move(report))
+  {
+    for (Defect& defect : this->Report.Defects)
+    {
+      if (numbers && defect.Ids == DefectIds::Triangles)
+      {
+        std::vector<std::int64_t>& ids = defect.FirstIds;
+        for (std::int64_t& id : ids)
+        {
+          id = numbers[id];
+        }
+        ids.erase(std::unique(ids.begin(), ids.end()), ids.end()); // name each cell once
+      }
+    }
+    this->Defects = DescribeDefects(this->Report.Defects);
+  }
 
   /// Fills as many bytes of `target` as target.size says.
-  void Fill(delaunayflip_report& target) const;
+  void Fill(delaunayflip_report& target) const
+  {
+    const FlipReport& report = this->Report;
+    delaunayflip_report c;
+    delaunayflip_report_init(&c);
+    c.geometry_used = static_cast<std::int32_t>(report.GeometryUsed);
+    c.geometry_reason = report.GeometryReason.c_str();
+    c.backend = report.Backend.c_str();
+    c.fallback = report.Fallback.c_str();
+    c.tolerance = report.Tolerance.c_str();
+    c.defects = this->Defects.c_str();
+    c.stop_reason = static_cast<std::int32_t>(report.StopReason);
+    c.number_of_iterations = static_cast<std::int64_t>(report.Iterations.size());
+    c.total_flips = report.TotalFlips;
+    c.total_excluded = report.TotalExcluded;
+    c.total_blocked = report.TotalBlocked;
+    c.non_delaunay_before = report.NonDelaunayBefore;
+    c.non_delaunay_after = report.NonDelaunayAfter;
+    c.blocked_by_shape = report.BlockedByShape;
+    c.blocked_by_edge = report.BlockedByEdge;
+    c.minimum_angle_before = report.MinimumAngleBefore;
+    c.minimum_angle_after = report.MinimumAngleAfter;
+    c.build_seconds = report.BuildSeconds;
+    c.flip_seconds = report.FlipSeconds;
+    c.number_of_points = report.Points;
+    c.number_of_triangles = report.Triangles;
+    c.edges = report.Edges.Edges;
+    c.boundary_edges = report.Edges.Boundary;
+    c.non_manifold_edges = report.Edges.NonManifold;
+    c.wrongly_wound_edges = report.Edges.WronglyWound;
+    c.feature_edges = report.Edges.Feature;
+    c.constraint_edges = report.Edges.Constraint;
+    c.region_edges = report.Edges.Region;
+    c.fixed_edges = report.Edges.Fixed;
+    c.unmatched_constraints = report.UnmatchedConstraints;
+    c.inserted_constraints = report.InsertedConstraints;
+    c.constraint_flips = report.ConstraintFlips;
+    c.euler_characteristic = report.EulerCharacteristic;
+    c.points_not_finite = report.FromPoints.NotFinite;
+    c.points_repeated = report.FromPoints.Repeated;
+    c.points_too_near = report.FromPoints.TooNear;
+    c.segment_edges = report.FromPoints.SegmentEdges;
+    c.segments_refused = report.FromPoints.RefusedSegments;
+    c.crossings = report.FromPoints.Crossings;
+    c.largest_shift = report.FromPoints.LargestShift;
+    c.triangles_outside = report.FromPoints.OutsideTriangles;
+    c.triangles_large = report.FromPoints.LargeTriangles;
+    c.keeps_sliver = report.KeepsSliver ? 1 : 0;
+    c.blocked_by_deviation = report.BlockedByDeviation;
+    c.size = target.size;
+    std::memcpy(&target, &c, std::min(sizeof(c), static_cast<std::size_t>(target.size)));
+  }
 
 private:
   FlipReport Report;

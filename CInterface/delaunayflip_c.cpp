@@ -48,32 +48,27 @@ delaunayflip_status Fail(
   return status;
 }
 
-/// Stores the message of the exception being handled as the last error, and returns its status.
-delaunayflip_status FailByException()
+delaunayflip_status StatusOf(const std::exception& error)
+{
+  return dynamic_cast<const InvalidCall*>(&error)     ? DELAUNAYFLIP_INVALID_CALL
+    : dynamic_cast<const InvalidOptions*>(&error)     ? DELAUNAYFLIP_INVALID_OPTIONS
+    : dynamic_cast<const MeshTooLarge*>(&error)       ? DELAUNAYFLIP_MESH_TOO_LARGE
+    : dynamic_cast<const BackendUnavailable*>(&error) ? DELAUNAYFLIP_BACKEND_UNAVAILABLE
+                                                      : DELAUNAYFLIP_FAILED;
+}
+
+/// Does the work. No exception may leave a C function: its message becomes the last error.
+template <typename Work>
+delaunayflip_status Try(const Work& work)
 {
   try
   {
-    throw;
-  }
-  catch (const InvalidCall& error)
-  {
-    return Fail(DELAUNAYFLIP_INVALID_CALL, error.what());
+    work();
+    return DELAUNAYFLIP_OK;
   }
   catch (const InvalidMesh& error)
   {
     return Fail(DELAUNAYFLIP_INVALID_MESH, error.what(), error.Cell, error.Point);
-  }
-  catch (const InvalidOptions& error)
-  {
-    return Fail(DELAUNAYFLIP_INVALID_OPTIONS, error.what());
-  }
-  catch (const MeshTooLarge& error)
-  {
-    return Fail(DELAUNAYFLIP_MESH_TOO_LARGE, error.what());
-  }
-  catch (const BackendUnavailable& error)
-  {
-    return Fail(DELAUNAYFLIP_BACKEND_UNAVAILABLE, error.what());
   }
   catch (const RunAborted&)
   {
@@ -85,26 +80,11 @@ delaunayflip_status FailByException()
   }
   catch (const std::exception& error)
   {
-    return Fail(DELAUNAYFLIP_FAILED, error.what());
+    return Fail(StatusOf(error), error.what());
   }
   catch (...)
   {
     return Fail(DELAUNAYFLIP_FAILED, "an exception of an unknown type");
-  }
-}
-
-/// Does the work. No exception may leave a C function.
-template <typename Work>
-delaunayflip_status Try(const Work& work)
-{
-  try
-  {
-    work();
-    return DELAUNAYFLIP_OK;
-  }
-  catch (...)
-  {
-    return FailByException();
   }
 }
 
@@ -217,6 +197,31 @@ delaunayflip_status TryWithPoints(
 }
 
 std::int64_t CountTriangles(const FlipReport& report) { return report.Triangles; }
+
+/// To the host's memory; with a stream to that of a GPU. Likewise below.
+template <typename... Stream>
+delaunayflip_status StoreTriangles(
+  delaunayflip_session* session, void* triangles, std::int32_t type, Stream... stream)
+{
+  return TryWith(session,
+    [=]()
+    {
+      session->Session.StoreTriangles(
+        ToOutput(triangles, session->CountTriangles(), type), DeviceStream{ stream }...);
+    });
+}
+
+template <typename... Stream>
+delaunayflip_status StoreFlipCounts(
+  delaunayflip_session* session, std::int32_t* counts, Stream... stream)
+{
+  return TryWith(session,
+    [=]()
+    {
+      Require(counts || session->CountTriangles() == 0, "counts is null");
+      session->Session.StoreFlipCounts(counts, DeviceStream{ stream }...);
+    });
+}
 }
 
 extern "C"
@@ -405,43 +410,25 @@ extern "C"
   delaunayflip_status delaunayflip_store_triangles(
     delaunayflip_session* session, void* triangles, std::int32_t id_type)
   {
-    return TryWith(session,
-      [=]() {
-        session->Session.StoreTriangles(ToOutput(triangles, session->CountTriangles(), id_type));
-      });
+    return StoreTriangles(session, triangles, id_type);
   }
 
   delaunayflip_status delaunayflip_store_flip_counts(
     delaunayflip_session* session, std::int32_t* counts)
   {
-    return TryWith(session,
-      [=]()
-      {
-        Require(counts || session->CountTriangles() == 0, "counts is null");
-        session->Session.StoreFlipCounts(counts);
-      });
+    return StoreFlipCounts(session, counts);
   }
 
   delaunayflip_status delaunayflip_store_triangles_on_device(
     delaunayflip_session* session, void* triangles, std::int32_t id_type, void* stream)
   {
-    return TryWith(session,
-      [=]()
-      {
-        session->Session.StoreTriangles(
-          ToOutput(triangles, session->CountTriangles(), id_type), DeviceStream{ stream });
-      });
+    return StoreTriangles(session, triangles, id_type, stream);
   }
 
   delaunayflip_status delaunayflip_store_flip_counts_on_device(
     delaunayflip_session* session, std::int32_t* counts, void* stream)
   {
-    return TryWith(session,
-      [=]()
-      {
-        Require(counts || session->CountTriangles() == 0, "counts is null");
-        session->Session.StoreFlipCounts(counts, DeviceStream{ stream });
-      });
+    return StoreFlipCounts(session, counts, stream);
   }
 
   void delaunayflip_close(delaunayflip_session* session) { delete session; }

@@ -83,13 +83,23 @@ Resource Register(unsigned int buffer)
     });
 }
 
+using Numbers = std::shared_ptr<std::int32_t>;
+
+Numbers MakeNumbers(std::int64_t count)
+{
+  void* memory = nullptr;
+  Require(cudaMalloc(&memory, 4 * static_cast<std::size_t>(count)), "allocate memory");
+  return Numbers(static_cast<std::int32_t*>(memory), [](std::int32_t* made) { cudaFree(made); });
+}
+
 class CudaFiller : public BufferFiller
 {
 public:
   CudaFiller(int device, const TriangleBuffer& buffer)
     : Device(device),
       Count(buffer.Count),
-      Buffer(Register(buffer.Name))
+      Buffer(Register(buffer.Name)),
+      Written(MakeNumbers(buffer.Count))
   {
   }
   ~CudaFiller() override
@@ -119,7 +129,7 @@ public:
     }
   }
 
-  void Fill(const FlipSession& session) override
+  void Fill(const FlipSession& session, bool isNew) override
   {
     if (!IsOnGpu(session.GetReport().Backend))
     {
@@ -135,8 +145,14 @@ public:
     {
       throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
     }
-    session.StoreTriangles(
-      MutableTriangleArray(static_cast<std::int32_t*>(memory), this->Count), { this->Queue.get() });
+    if (isNew)
+    {
+      Require(cudaMemsetAsync(this->Written.get(), -1, 4 * static_cast<std::size_t>(this->Count),
+                this->Queue.get()),
+        "set memory");
+    }
+    session.StoreTriangles(MutableTriangleArray(static_cast<std::int32_t*>(memory), this->Count),
+      { this->Queue.get() }, this->Written.get());
     this->Unmap();
   }
 
@@ -153,6 +169,7 @@ private:
   std::int64_t Count;
   Stream Queue = MakeStream();
   Resource Buffer;
+  Numbers Written; ///< For FlipSession::StoreTriangles.
   bool IsMapped = false;
 };
 

@@ -298,6 +298,7 @@ struct vtkDelaunayFlipMapper::Parts
   std::unique_ptr<BufferFiller> Filler; ///< Null: the host fills.
   bool MayTryDevice = true;
   bool IsBehind = true; ///< The buffers hold an earlier mesh.
+  bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
   bool HasCounts = false; ///< Flip counts are those of the triangles.
   bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
@@ -324,25 +325,25 @@ struct vtkDelaunayFlipMapper::Parts
       doubles->DeepCopy(this->Points);
       this->Points = doubles;
     }
-    const PointArray places = ViewPoints(this->Points);
+    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Points->GetNumberOfTuples()));
     const TriangleArray triangles = ViewTriangles(this->Faces);
-    std::vector<char> areUsed(static_cast<std::size_t>(places.Count));
-    for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
+    const auto mark = [&](const auto* ids)
     {
-      const std::int64_t id = triangles.Get(i / 3, static_cast<int>(i % 3));
-      if (id >= 0 && id < places.Count)
+      for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
       {
-        areUsed[id] = 1;
+        const auto id = static_cast<std::size_t>(ids[i]); // large if negative
+        if (id < areUsed.size())
+        {
+          areUsed[id] = 1;
+        }
       }
-    }
-    this->Box.Reset();
-    for (std::int64_t i = 0; i < places.Count; ++i)
-    {
-      if (areUsed[i])
-      {
-        this->Box.AddPoint(places.Get(i, 0), places.Get(i, 1), places.Get(i, 2));
-      }
-    }
+    };
+    triangles.Ids32 ? mark(triangles.Ids32) : mark(triangles.Ids64);
+    vtkNew<vtkPoints> places;
+    places->SetData(this->Points);
+    double bounds[6];
+    vtkBoundingBox::ComputeBounds(places, areUsed.data(), bounds);
+    this->Box.SetBounds(bounds);
     const vtkMTimeType time = points ? points->GetMTime() : 0;
     if (std::exchange(this->PointsTime, time) != time && this->Box.IsValid())
     {
@@ -461,6 +462,7 @@ struct vtkDelaunayFlipMapper::Parts
           { static_cast<unsigned int>(this->Buffers[Corners]->GetHandle()), this->Count });
         this->Obstacle.clear();
         this->IsBehind = true;
+        this->IsNew = true;
       }
       catch (const std::exception& error)
       {
@@ -487,7 +489,8 @@ struct vtkDelaunayFlipMapper::Parts
     }
     else if (this->IsBehind)
     {
-      this->Filler ? this->Filler->Fill(*session) : this->UploadTriangles(session);
+      this->Filler ? this->Filler->Fill(*session, std::exchange(this->IsNew, false))
+                   : this->UploadTriangles(session);
       this->SmallestAngle = session ? session->GetReport().MinimumAngleAfter : -1.0;
       this->HasCounts = false;
       this->IsBehind = false;
@@ -698,6 +701,7 @@ void vtkDelaunayFlipMapper::ReadInput()
     this->Own->Faces = MakeFaces(input);
     this->Own->ReadPoints();
     this->Own->MayTryDevice = true;
+    this->Own->IsNew = true;
     this->EndStep();
   }
 }

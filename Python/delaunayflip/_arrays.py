@@ -109,29 +109,30 @@ class Mesh:
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
                  insert_constraints=True, triangle_numbers=None):
-        self.struct = _library.make(_library.Mesh)
+        self.struct, self._kept = _library.make(_library.Mesh), []
         self._take(points, triangles)
         edges = as_ids("constraints", [] if constraints is None else constraints, 2)
         flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
         if constraints is not None:
-            self.constraints = _convert(edges, numpy.int64)
-            self.struct.constraint_edges = address(self.constraints)
             self.struct.number_of_constraint_edges = len(edges)
-            self.to_insert = numpy.full(len(edges), flags, dtype=numpy.uint8)
-            self.struct.constraints_to_insert = address(self.to_insert)
+            self._keep("constraint_edges", _convert(edges, numpy.int64))
+            self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
         count = self.struct.number_of_triangles
         for name, ids in (("triangles", self.triangles), ("constraints", edges)):
             if len(ids) and self.struct.number_of_points == 0:
                 raise InvalidMesh(f"{name} name points, but there are no points", 0, int(ids[0, 0]))
         if regions is not None:
-            self.regions = _per_triangle("regions", regions, numpy.int32, count)
-            self.struct.regions = address(self.regions)
+            self._keep("regions", _per_triangle("regions", regions, numpy.int32, count))
         if frozen is not None:
-            self.frozen = as_flags("frozen", frozen, (count,)).astype(numpy.uint8)
-            self.struct.frozen_triangles = address(self.frozen)
+            self._keep("frozen_triangles", as_flags("frozen", frozen, (count,)).astype(numpy.uint8))
         if triangle_numbers is not None:
-            self.numbers = _per_triangle("triangle_numbers", triangle_numbers, numpy.int64, count)
-            self.struct.triangle_numbers = address(self.numbers)
+            self._keep("triangle_numbers",
+                       _per_triangle("triangle_numbers", triangle_numbers, numpy.int64, count))
+
+    def _keep(self, member, array):
+        """Sets a pointer of the struct to an array, which lives as long."""
+        self._kept.append(array)
+        setattr(self.struct, member, address(array))
 
     def make_triangles(self):
         """Room for the triangles."""

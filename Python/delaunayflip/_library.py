@@ -48,11 +48,7 @@ LIBRARY = f"libdelaunayflip.so.{INTERFACE_VERSION}"
 TYPES = {"float32": 0, "float64": 1, "int32": 2, "int64": 3}
 CUDA = 1  # a memory
 
-# In the order of the enumerations of the header.
-GEOMETRIES = ("auto", "planar", "planar-xy", "surface")
-CRITERIA = ("in-circle", "opposite-angles")
-TIE_RULES = ("keep", "canonical")
-BACKENDS = ("auto", "cuda", "threads")
+#: In the order of the header, like the choices of _options.
 STOP_REASONS = ("not started", "converged", "iteration limit", "aborted", "running")
 
 
@@ -102,23 +98,6 @@ class Iteration(ctypes.Structure):
     ]
 
 
-class Report(ctypes.Structure):
-    _fields_ = [
-        *_of(c_int64, "size"), *_of(c_int32, "stop_reason geometry_used"),
-        *_of(c_char_p, "geometry_reason backend fallback tolerance defects"),
-        *_of(c_int64, """number_of_iterations total_flips total_excluded total_blocked
-             non_delaunay_before non_delaunay_after blocked_by_shape blocked_by_edge edges
-             boundary_edges non_manifold_edges wrongly_wound_edges feature_edges constraint_edges
-             region_edges fixed_edges unmatched_constraints inserted_constraints constraint_flips
-             euler_characteristic"""),
-        *_of(c_double, "minimum_angle_before minimum_angle_after build_seconds flip_seconds"),
-        *_of(c_int64, """number_of_points number_of_triangles points_not_finite points_repeated
-             points_too_near segment_edges segments_refused crossings"""),
-        *_of(c_double, "largest_shift"), *_of(c_int64, """triangles_outside triangles_large keeps_sliver
-             blocked_by_deviation"""),
-    ]
-
-
 ProgressFunction = ctypes.CFUNCTYPE(c_int32, c_double, c_void_p)
 IterationFunction = ctypes.CFUNCTYPE(c_int32, ctypes.POINTER(Iteration), c_void_p)
 
@@ -134,7 +113,7 @@ class Callbacks(ctypes.Structure):
 
 @functools.lru_cache(maxsize=None)
 def library():
-    """The loaded library, with the types of its functions. It is in the package (a wheel or a build),
+    """The loaded library. It is in the package (a wheel or a build),
     in the lib folder under which the package was installed, or where the system searches.
 
     Raises:
@@ -145,41 +124,19 @@ def library():
     loaded = ctypes.CDLL(str(next(filter(pathlib.Path.exists, places), LIBRARY)))
     if loaded.delaunayflip_interface_version() != INTERFACE_VERSION:
         raise ImportError(f"{loaded._name} has another interface than this Python package")
-    pointer = ctypes.POINTER
-    for name, result, arguments in (
-        ("version", c_char_p, []),
-        ("error_message", c_char_p, []),
-        ("error_cell", c_int64, []),
-        ("error_point", c_int64, []),
-        *((f"{kind.__name__.lower()}_init", None, [pointer(kind)])
-          for kind in (Mesh, Points, Options, Report, Callbacks, Polygons)),
-        ("open", c_int32, [pointer(Mesh), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
-        ("open_points", c_int32,
-         [pointer(Points), pointer(Options), pointer(Callbacks), pointer(c_void_p)]),
-        ("store_neighbors", c_int32, [c_void_p, c_void_p]),
-        ("store_neighbors_on_device", c_int32, [c_void_p, c_void_p, c_void_p]),
-        ("store_used_points", c_int32, [c_void_p, c_void_p]),
-        ("store_added_points", c_int32, [c_void_p, c_void_p, c_void_p, c_void_p]),
-        ("store_segment_edges", c_int32, [c_void_p, c_void_p]),
-        ("advance", c_int32, [c_void_p, c_int64, pointer(Callbacks), pointer(c_int32)]),
-        ("get_report", c_int32, [c_void_p, pointer(Report)]),
-        ("get_iterations", c_int32, [c_void_p, c_int64, c_int64, c_void_p, c_int64]),
-        ("store_triangles", c_int32, [c_void_p, c_void_p, c_int32]),
-        ("store_flip_counts", c_int32, [c_void_p, c_void_p]),
-        ("store_triangles_on_device", c_int32, [c_void_p, c_void_p, c_int32, c_void_p]),
-        ("store_flip_counts_on_device", c_int32, [c_void_p, c_void_p, c_void_p]),
-        ("close", None, [c_void_p]),
-        ("triangle_angles", c_int32, [pointer(Mesh), c_int32, c_void_p]),
-        ("triangle_normals", c_int32, [pointer(Mesh), c_void_p]),
-        ("split_polygons", c_int32,
-         [pointer(Mesh), pointer(Polygons), pointer(Callbacks), c_void_p]),
-        ("has_cuda_device", c_int32, []),
-        ("release_cuda_memory", None, []),
-    ):
-        function = getattr(loaded, f"delaunayflip_{name}")
-        function.restype = result
-        function.argtypes = arguments
+    for name in ("version", "error_message"):
+        getattr(loaded, f"delaunayflip_{name}").restype = c_char_p
+    for name in ("error_cell", "error_point"):
+        getattr(loaded, f"delaunayflip_{name}").restype = c_int64
     return loaded
+
+
+def run(name, *arguments):
+    """Calls delaunayflip_<name>. Structs are passed by their addresses, and numbers, which may be
+    addresses, in 64 bits, of which a function may use the lower half."""
+    return getattr(library(), f"delaunayflip_{name}")(*(
+        ctypes.byref(value) if isinstance(value, ctypes.Structure)
+        else c_int64(value) if isinstance(value, int) else value for value in arguments))
 
 
 _EXCEPTIONS = {2: InvalidOptions, 3: MeshTooLarge, 4: BackendUnavailable, 5: MemoryError,
@@ -189,32 +146,31 @@ _EXCEPTIONS = {2: InvalidOptions, 3: MeshTooLarge, 4: BackendUnavailable, 5: Mem
 def make(kind):
     """A struct with its size and the defaults."""
     struct = kind()
-    getattr(library(), f"delaunayflip_{kind.__name__.lower()}_init")(struct)
+    run(f"{kind.__name__.lower()}_init", struct)
     return struct
 
 
 def call(name, *arguments):
-    """Calls delaunayflip_<name> and raises the exception that belongs to its status."""
-    status = getattr(library(), f"delaunayflip_{name}")(*arguments)
+    """The same as run, but raises the exception that belongs to the status that is returned."""
+    status = run(name, *arguments)
     if status == 0:
         return
-    message = library().delaunayflip_error_message().decode(errors="replace")
+    message = run("error_message").decode(errors="replace")
     if status == 1:
-        place = library().delaunayflip_error_cell(), library().delaunayflip_error_point()
-        raise InvalidMesh(message, *place)
+        raise InvalidMesh(message, run("error_cell"), run("error_point"))
     raise _EXCEPTIONS.get(status, FlipError)(message)
 
 
 def version() -> str:
     """The release of the engine, e.g. "0.1.0"."""
-    return library().delaunayflip_version().decode()
+    return run("version").decode()
 
 
 def has_cuda_device() -> bool:
     """Whether there is a GPU that the engine can use."""
-    return bool(library().delaunayflip_has_cuda_device())
+    return bool(run("has_cuda_device"))
 
 
 def release_cuda_memory() -> None:
     """Frees the memory that the CUDA backend keeps between runs."""
-    library().delaunayflip_release_cuda_memory()
+    run("release_cuda_memory")

@@ -31,6 +31,7 @@ class ByDlpack(typing.Protocol):
 
 Numbers = typing.Union[numpy.typing.ArrayLike, OnDevice, ByDlpack]
 Array = numpy.typing.NDArray[typing.Any]
+# In the order of the enumerations of the header.
 Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
 Criterion = typing.Literal["in-circle", "opposite-angles"]
 TieRule = typing.Literal["keep", "canonical"]
@@ -60,8 +61,8 @@ class Options(typing.TypedDict, total=False):
     track_quality: bool
 
 
-CHOICES = {"geometry": _library.GEOMETRIES, "criterion": _library.CRITERIA,
-           "tie_rule": _library.TIE_RULES, "backend": _library.BACKENDS}
+CHOICES = {name: typing.get_args(Options.__annotations__[name])
+           for name in ("geometry", "criterion", "tie_rule", "backend")}
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
 _RANGES = {"maximum_iterations": (-1, 2**63 - 1), "threads": (0, 2**31 - 1),
            "device": (-1, 2**31 - 1), "pieces": (0, 255)}

@@ -95,16 +95,16 @@ def triangulate(
                            maximum_iterations=maximum_iterations)
     handle = ctypes.c_void_p()
     with Observers(progress).raising() as callbacks:
-        _library.call("open_points", struct, options, callbacks, handle)
+        _library.call("open_points", struct, options, callbacks, ctypes.byref(handle))
     try:
-        report = _read_report(handle)
+        report = _report.read(handle)
         if report.stop_reason != "aborted":
             with Observers(progress, on_iteration).raising() as callbacks:
                 _library.call("advance", handle, -1, callbacks, None)
-            report = _read_report(handle)
+            report = _report.read(handle)
         return given.store(handle, report)
     finally:
-        _library.library().delaunayflip_close(handle)
+        _library.run("close", handle)
 
 
 class Input:
@@ -241,9 +241,3 @@ def _list_rings(given, name):
         if len(ring) < 3:
             raise ValueError(f"{name} has a ring of fewer than three points")
     return given
-
-
-def _read_report(handle):
-    struct = _library.make(_library.Report)
-    _library.call("get_report", handle, struct)
-    return _report.from_struct(struct)

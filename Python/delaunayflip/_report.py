@@ -6,8 +6,10 @@ import dataclasses
 import typing
 
 import numpy
+import numpy.typing
 
 from . import _library
+from ._options import CHOICES
 
 #: The columns of an iteration, as a NumPy structure.
 ITERATION = numpy.dtype(
@@ -95,15 +97,35 @@ class Report:
         return self.stop_reason == "converged"
 
 
-def from_struct(struct: _library.Report) -> Report:
-    """The Report for a _library.Report."""
+_TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
+#: delaunayflip_report: the members of Report, of which the first two are numbers there.
+Struct = type("Report", (ctypes.Structure,), {"_fields_": [
+    ("size", ctypes.c_int64), ("stop_reason", ctypes.c_int32), ("geometry_used", ctypes.c_int32),
+    *((field.name, _TYPES[field.type]) for field in dataclasses.fields(Report)[2:])]})
+
+
+def read(handle: ctypes.c_void_p) -> Report:
+    """The Report of a session."""
+    struct = _library.make(Struct)
+    _library.call("get_report", handle, struct)
+    return _from_struct(struct)
+
+
+def read_iterations(handle: ctypes.c_void_p, count: int) -> numpy.typing.NDArray[typing.Any]:
+    """The first rows of a session's iterations."""
+    rows = numpy.empty(count, dtype=ITERATION)
+    _library.call("get_iterations", handle, 0, count, rows.ctypes.data, ITERATION.itemsize)
+    return rows
+
+
+def _from_struct(struct: ctypes.Structure) -> Report:
     values: typing.Dict[str, typing.Any] = {}
     for name, _ in struct._fields_[1:]:
         value = getattr(struct, name)
         is_text = value is None or isinstance(value, bytes)
         values[name] = (value or b"").decode(errors="replace") if is_text else value
     values["stop_reason"] = _library.STOP_REASONS[struct.stop_reason]
-    values["geometry_used"] = _library.GEOMETRIES[struct.geometry_used]
+    values["geometry_used"] = CHOICES["geometry"][struct.geometry_used]
     if values["stop_reason"] == "aborted" and struct.edges == 0:  # while they were being found
         values["non_delaunay_before"] = values["non_delaunay_after"] = -1
     return Report(**values)
@@ -114,7 +136,7 @@ class Totals:
     "mixed"; and the rows of its iterations."""
 
     def __init__(self, stop_reason="not started"):
-        self.report = dataclasses.replace(from_struct(_library.Report()), stop_reason=stop_reason,
+        self.report = dataclasses.replace(_from_struct(Struct()), stop_reason=stop_reason,
                                           minimum_angle_before=numpy.nan, minimum_angle_after=numpy.nan)
         self.iterations = numpy.empty(0, dtype=ITERATION)
 

@@ -14,7 +14,7 @@ from . import _arrays, _device, _library, _report
 from ._options import (
     Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule,
     check_integer, choose, make_options)
-from ._report import ITERATION, Report
+from ._report import Report
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -128,7 +128,7 @@ class Session:
                                        insert_constraints, triangle_numbers)
         chosen = make_options(**options)
         with Observers(progress).raising() as callbacks:
-            _library.call("open", self._mesh.struct, chosen, callbacks, self._handle)
+            _library.call("open", self._mesh.struct, chosen, callbacks, ctypes.byref(self._handle))
 
     def __enter__(self) -> "Session":
         return self
@@ -145,7 +145,7 @@ class Session:
         with self._at_work():
             handle, self._handle = self._handle, None
             if handle:
-                _library.library().delaunayflip_close(handle)
+                _library.run("close", handle)
 
     def __reduce__(self) -> Any:
         raise TypeError("a session cannot be copied or pickled")
@@ -168,26 +168,22 @@ class Session:
         running = ctypes.c_int32()
         observers = Observers(progress, on_iteration)
         with self._open() as handle, observers.raising() as callbacks:
-            _library.call("advance", handle, iterations, callbacks, running)
+            _library.call("advance", handle, iterations, callbacks, ctypes.byref(running))
         return bool(running.value)
 
     @property
     def report(self) -> Report:
         """The `Report` on the run so far."""
-        struct = _library.make(_library.Report)
         with self._open() as handle:
-            _library.call("get_report", handle, struct)
-            return _report.from_struct(struct)
+            return _report.read(handle)
 
     @property
     def iterations(self) -> Array:
         """A structured array with a row per iteration: iteration, tested, non_delaunay, flipped,
         excluded, blocked, minimum_angle (degrees; NaN where it was not computed) and seconds."""
-        rows = numpy.empty(self.report.number_of_iterations, dtype=ITERATION)
+        count = self.report.number_of_iterations
         with self._open() as handle:
-            _library.call("get_iterations", handle, 0, len(rows), _arrays.address(rows),
-                          ITERATION.itemsize)
-        return rows
+            return _report.read_iterations(handle, count)
 
     @property
     def triangles(self) -> Array:

@@ -3,10 +3,9 @@
 """Converts points and segments of any VTK to arrays for `triangulate`, and the result back."""
 import numpy
 
-from . import _library
 from ._arrays import address
 from ._points import Input
-from ._report import FIELD_PREFIX, ITERATION, Totals
+from ._report import FIELD_PREFIX, Totals, read_iterations
 from ._surface import list_pairs, number_places
 from ._vtk_mesh import demote_global_ids, describe_short, vtk_of
 
@@ -66,9 +65,7 @@ class Cloud(Input):
         return ids
 
     def store(self, handle, report):
-        self.iterations = numpy.empty(report.number_of_iterations, dtype=ITERATION)
-        _library.call("get_iterations", handle, 0, len(self.iterations), address(self.iterations),
-                      ITERATION.itemsize)
+        self.iterations = read_iterations(handle, report.number_of_iterations)
         return super().store(handle, report)
 
     def sum_up(self, report):

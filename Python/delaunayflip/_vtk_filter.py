@@ -14,6 +14,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
+from ._options import CHOICES
 from ._vtk_mesh import vtk_of
 from ._vtk_update import Failure, Update, explain
 
@@ -48,6 +49,13 @@ class Property:
         value = float(value) if isinstance(self.default, float) else operator.index(value)
         return value if self.low is None else min(max(value, self.low), self.high)
 
+    def store(self, filter_, value):
+        value = self.convert(value)
+        if value != filter_._values[self.name]:
+            filter_._values[self.name] = value
+            if self.modifies:
+                filter_.Modified()
+
 
 #: Those of every filter.
 COMMON_PROPERTIES = (
@@ -76,33 +84,15 @@ _PROPERTIES = (
 )
 
 
-def _accessors(item):
-    def get(self):
-        return self._values[item.name]
-
-    def set_(self, value):
-        value = item.convert(value)
-        if value != self._values[item.name]:
-            self._values[item.name] = value
-            if item.modifies:
-                self.Modified()
-
-    return get, set_
-
-
 def add_properties(cls, properties):
-    """Adds the constants to a class, and for each property the methods that VTK's macros make."""
-    constants = {item.name: item.choices for item in properties if item.choices}
-    for group, names in constants.items():
-        for value, name in enumerate(names):
-            name = to_snake_case(f"{group}_{name.replace(' ', '_')}").upper()
-            setattr(cls, name, value)
+    """Adds to a class, for each property, its constants and the methods that VTK's macros make."""
     cls.properties = (*cls.properties, *properties)
     for item in properties:
-        get, set_ = _accessors(item)
-        setattr(cls, "Get" + item.name, get)
+        def set_(self, value, item=item):
+            item.store(self, value)
+
+        setattr(cls, "Get" + item.name, lambda self, item=item: self._values[item.name])
         setattr(cls, "Set" + item.name, set_)
-        setattr(cls, item.key, property(get, set_))
         if item.low is not None:
             for limit, value in (("Min", item.low), ("Max", item.high)):
                 setattr(cls, f"Get{item.name}{limit}Value", lambda self, value=value: value)
@@ -110,6 +100,7 @@ def add_properties(cls, properties):
             setattr(cls, item.name + "On", lambda self, set_=set_: set_(self, True))
             setattr(cls, item.name + "Off", lambda self, set_=set_: set_(self, False))
         for value, choice in enumerate(item.choices):
+            setattr(cls, to_snake_case(f"{item.name}_{choice}").upper(), value)
             setattr(cls, f"Set{item.name}To{choice}",
                     lambda self, set_=set_, value=value: set_(self, value))
 
@@ -256,11 +247,6 @@ class Filter(VTKPythonAlgorithmBase):
         _library.release_cuda_memory()
 
 
-def _get_stop_reason(update):
-    return ("failed: " + update.error_message if update.failure
-            else update.totals.report.stop_reason)
-
-
 def count_answers(**names):
     """Methods that return counts of the update's report."""
     return {"Get" + name: lambda update, count=count: getattr(update.totals.report, count)
@@ -276,7 +262,8 @@ _COMMON_ANSWERS = {
     "GetConverged": lambda update: not update.failure and update.totals.report.converged,
     "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
     else _library.STOP_REASONS.index(update.totals.report.stop_reason),
-    "GetStopReasonAsString": _get_stop_reason,
+    "GetStopReasonAsString": lambda update: "failed: " + update.error_message if update.failure
+    else update.totals.report.stop_reason,
     "GetSummary": lambda update: f"failed: {update.error_message}\n" if update.failure
     else update.totals.summarize(),
     "GetBackendUsed": lambda update: update.totals.report.backend,
@@ -341,9 +328,8 @@ class vtkDelaunayFlip(Filter):
 
 
 _ANSWERS = {
-    **_COMMON_ANSWERS,
     "GetGeometryUsed":
-    lambda update: (*_library.GEOMETRIES, "mixed").index(update.totals.report.geometry_used),
+    lambda update: (*CHOICES["geometry"], "mixed").index(update.totals.report.geometry_used),
     "GetGeometryUsedAsString": lambda update: update.totals.report.geometry_used,
     "GetGeometryReason": lambda update: update.totals.report.geometry_reason,
     **count_answers(NumberOfConstraintEdges="constraint_edges",

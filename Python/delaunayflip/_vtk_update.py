@@ -82,18 +82,17 @@ class Update:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def _flip_mesh(self, source, constraints, output):
-        trouble = Failure.MESH, "the input is not a surface; apply Extract Surface first"
         try:
             mesh = self._filter.get_mesh(source)
+            if mesh is None:
+                raise _library.InvalidMesh("the input is not a surface; apply Extract Surface first")
+            if not isinstance(constraints, (vtkPolyData, type(None))):
+                raise _library.InvalidOptions(self._filter.no_composite)
         except Exception as error:
-            mesh, trouble = None, explain(error)
-        if constraints is not None and not isinstance(constraints, vtkPolyData) and mesh is not None:
-            mesh, trouble = None, (Failure.OPTIONS, self._filter.no_composite)
-        if mesh is None:
-            self.fail(trouble)
+            self.fail(explain(error))
             output.Initialize()
-        else:
-            self._try_to_flip(mesh, constraints, output)
+            return
+        self._try_to_flip(mesh, constraints, output)
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.change(stop_reason="converged")  # the result for an input without blocks

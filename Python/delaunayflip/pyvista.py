@@ -13,6 +13,7 @@ first argument: `delaunayflip.pyvista.flip(mesh)`.
 
 Meshes go to the engine as arrays, so it does not matter which VTK PyVista uses (vtk or cvista).
 """
+import functools
 import typing
 import warnings
 
@@ -216,24 +217,17 @@ class DelaunayAccessor:
     def __init__(self, mesh: "pyvista.PolyData") -> None:
         self._mesh = mesh
 
-    def flip(self, **arguments: typing.Any) -> "pyvista.PolyData":
-        return flip(self._mesh, **arguments)
 
-    def triangulate(self, *arguments: typing.Any, **options: typing.Any) -> "pyvista.PolyData":
-        return triangulate(self._mesh, *arguments, **options)
+def _make_method(function):
+    @functools.wraps(function)
+    def method(self, *arguments, **options):
+        return function(self._mesh, *arguments, **options)
 
-    def smallest_angles(self) -> Array:
-        return smallest_angles(self._mesh)
+    return method
 
-    def plot_quality(self, **arguments: typing.Any) -> typing.Any:
-        return plot_quality(self._mesh, **arguments)
 
-    def animate(self, filename: str, **arguments: typing.Any) -> "pyvista.PolyData":
-        return animate(self._mesh, filename, **arguments)
-
-    for _function in (flip, triangulate, smallest_angles, plot_quality, animate):
-        locals()[_function.__name__].__doc__ = _function.__doc__
-
+for _function in (flip, triangulate, smallest_angles, plot_quality, animate):
+    setattr(DelaunayAccessor, _function.__name__, _make_method(_function))
 
 if hasattr(pyvista, "register_dataset_accessor"):
     pyvista.register_dataset_accessor("delaunay", pyvista.PolyData)(DelaunayAccessor)

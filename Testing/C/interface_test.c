@@ -149,29 +149,6 @@ static void TestSteps(void)
   CHECK(memcmp(LatticeTriangles, whole, sizeof(whole)) == 0);
 }
 
-static void TestConstraints(void)
-{
-  const int64_t diagonal[] = { 2, 0 };
-  const int32_t regions[] = { 7, 8 };
-  const unsigned char frozen[] = { 0, 1 };
-  delaunayflip_mesh meshes[] = { MakeMesh(), MakeMesh(), MakeMesh() };
-  int i;
-  meshes[0].constraint_edges = diagonal;
-  meshes[0].number_of_constraint_edges = 1;
-  meshes[1].regions = regions;
-  meshes[2].frozen_triangles = frozen;
-  for (i = 0; i < 3; ++i)
-  {
-    int64_t triangles[6];
-    delaunayflip_report report;
-    delaunayflip_report_init(&report);
-    CHECK(delaunayflip_flip(&meshes[i], NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
-    CHECK(memcmp(triangles, LongDiagonal, sizeof(triangles)) == 0);
-    CHECK(report.constraint_edges == (i == 0) && report.region_edges == (i == 1));
-    CHECK(report.total_flips == 0);
-  }
-}
-
 typedef struct
 {
   int64_t calls;
@@ -185,39 +162,6 @@ static int32_t LogProgress(double share, void* user)
   CHECK(share >= log->share && share <= 1.0);
   log->share = share;
   return ++log->calls != log->last_call;
-}
-
-static void TestProgressAborts(void)
-{
-  const delaunayflip_mesh mesh = MakeLattice();
-  int64_t triangles[LatticeIds];
-  Log whole = { 0, 0, 0.0 };
-  Log aborted = { 0, 1, 0.0 };
-  delaunayflip_callbacks callbacks;
-  delaunayflip_report report;
-  delaunayflip_report_init(&report);
-  delaunayflip_callbacks_init(&callbacks);
-  callbacks.progress = LogProgress;
-  callbacks.user = &whole;
-  CHECK(delaunayflip_flip(&mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(whole.calls > 1 && whole.share == 1.0);
-  callbacks.user = &aborted;
-  CHECK(delaunayflip_flip(&mesh, NULL, &callbacks, triangles, &report) == DELAUNAYFLIP_OK);
-  CHECK(aborted.calls == 1);
-  CHECK(report.stop_reason == DELAUNAYFLIP_ABORTED && report.total_flips == 0);
-  CHECK(memcmp(triangles, LatticeTriangles, sizeof(triangles)) == 0);
-}
-
-static void TestInvalidMesh(void)
-{
-  const int64_t wrong[] = { 0, 1, 2, 0, 2, 4 };
-  delaunayflip_mesh mesh = MakeMesh();
-  int64_t triangles[6] = { -1, -1, -1, -1, -1, -1 };
-  mesh.triangles = wrong;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_MESH);
-  CHECK(delaunayflip_error_cell() == 1 && delaunayflip_error_point() == 4);
-  CHECK(strstr(delaunayflip_error_message(), "4") != NULL);
-  CHECK(triangles[0] == -1);
 }
 
 static void TestInvalidOptions(void)
@@ -333,38 +277,6 @@ static void TestNewerProgram(void)
   CHECK(newer.unknown == 42);
 }
 
-static void TestEmptyMesh(void)
-{
-  delaunayflip_mesh mesh;
-  delaunayflip_report report;
-  delaunayflip_report_init(&report);
-  delaunayflip_mesh_init(&mesh);
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, NULL, &report) == DELAUNAYFLIP_OK);
-  CHECK(report.total_flips == 0 && report.edges == 0);
-  CHECK(isnan(report.minimum_angle_before));
-}
-
-static void TestIterations(void)
-{
-  const delaunayflip_mesh mesh = MakeLattice();
-  delaunayflip_session* session;
-  delaunayflip_iteration records[3];
-  delaunayflip_report report;
-  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
-  CHECK(delaunayflip_advance(session, 3, NULL, NULL) == DELAUNAYFLIP_OK);
-  report = GetReport(session);
-  CHECK(report.number_of_iterations == 3);
-  CHECK(delaunayflip_get_iterations(session, 0, 3, records, sizeof(records[0])) == DELAUNAYFLIP_OK);
-  CHECK(records[0].iteration == 1 && records[2].iteration == 3);
-  CHECK(records[0].flipped + records[1].flipped + records[2].flipped == report.total_flips);
-  CHECK(delaunayflip_get_iterations(session, 1, 3, records, sizeof(records[0])) ==
-    DELAUNAYFLIP_INVALID_CALL);
-  CHECK(delaunayflip_get_iterations(session, -1, 1, records, sizeof(records[0])) ==
-    DELAUNAYFLIP_INVALID_CALL);
-  CHECK(delaunayflip_get_iterations(session, 3, 0, NULL, sizeof(records[0])) == DELAUNAYFLIP_OK);
-  delaunayflip_close(session);
-}
-
 /* device_test.c has what needs a GPU. */
 static void TestDeviceMemory(void)
 {
@@ -437,36 +349,6 @@ static void TestPolygons(void)
   CHECK(delaunayflip_error_cell() == 2 && delaunayflip_error_point() == 5);
 }
 
-/* Triangle 1 repeats a point; the report calls it 7. */
-static void TestTriangleNumbers(void)
-{
-  const int64_t triangles[] = { 0, 1, 2, 3, 3, 0 };
-  const int64_t numbers[] = { 5, 7 };
-  int64_t result[6];
-  delaunayflip_mesh mesh = MakeMesh();
-  delaunayflip_report report;
-  delaunayflip_report_init(&report);
-  mesh.triangles = triangles;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, result, &report) == DELAUNAYFLIP_OK);
-  CHECK(strstr(report.defects, "(first: 1)") != NULL);
-  mesh.triangle_numbers = numbers;
-  CHECK(delaunayflip_flip(&mesh, NULL, NULL, result, &report) == DELAUNAYFLIP_OK);
-  CHECK(strstr(report.defects, "(first: 7)") != NULL);
-}
-
-static void TestNormals(void)
-{
-  double normals[6];
-  const int64_t flat[] = { 0, 1, 2, 2, 2, 3 };
-  delaunayflip_mesh mesh = MakeMesh();
-  mesh.triangles = flat;
-  CHECK(delaunayflip_triangle_normals(&mesh, normals) == DELAUNAYFLIP_OK);
-  CHECK(normals[0] == 0 && normals[1] == 0 && normals[2] == 1);
-  CHECK(normals[3] == 0 && normals[4] == 0 && normals[5] == 0);
-  mesh.number_of_points = 3;
-  CHECK(delaunayflip_triangle_normals(&mesh, normals) == DELAUNAYFLIP_INVALID_MESH);
-}
-
 /* The rhombus is planar, and its constraint is its only fixed edge with two triangles. */
 static void TestWarmStart(void)
 {
@@ -491,21 +373,14 @@ int main(void)
   TestFlipsSquare();
   TestAllTypes();
   TestSteps();
-  TestConstraints();
-  TestProgressAborts();
-  TestInvalidMesh();
   TestInvalidOptions();
   TestMaximumDeviation();
   TestNullPointers();
   TestUnsetSizes();
   TestOldProgram();
   TestNewerProgram();
-  TestEmptyMesh();
-  TestIterations();
   TestDeviceMemory();
   TestPolygons();
-  TestTriangleNumbers();
   TestWarmStart();
-  TestNormals();
   return 0;
 }

@@ -8,7 +8,7 @@ import unittest
 
 from delaunayflip import vtkDelaunayFlip as CxxFilter, vtkDelaunayFlipPoints as CxxPoints
 from delaunayflip._vtk_filter import (
-    _ANSWERS, vtkDelaunayFlip as PythonFilter)
+    _ANSWERS, _COMMON_ANSWERS, vtkDelaunayFlip as PythonFilter)
 from delaunayflip._vtk_points import vtkDelaunayFlipPoints as PythonPoints
 
 import numpy
@@ -142,7 +142,7 @@ def join(parts):
     return data
 
 
-ANSWERS = sorted(_ANSWERS.keys() - {"Advance", "Step", "GetNeedsUpdate"})
+ANSWERS = sorted({*_COMMON_ANSWERS, *_ANSWERS} - {"Advance", "Step", "GetNeedsUpdate"})
 
 
 def run(kind, data, prepare=lambda flip: None):
@@ -159,25 +159,33 @@ def run(kind, data, prepare=lambda flip: None):
                     for name in ANSWERS if hasattr(kind, name)}}
 
 
-class Same(unittest.TestCase):
+class Pair:
+    """A class in C++ and that in Python."""
+
+    kinds = CxxFilter, PythonFilter
+    maxDiff = 2000
 
     def expect_same(self, data, prepare=lambda flip: None):
-        self.maxDiff = 2000
-        cxx, python = (run(kind, data, prepare) for kind in (CxxFilter, PythonFilter))
+        cxx, python = (run(kind, data, prepare) for kind in self.kinds)
         for key in cxx:
             self.assertEqual(cxx[key], python[key], key)
         return cxx
 
     def test_interface(self):
-        """All methods and constants of the C++ class, but the types of its enumerators."""
-        own = {name for name in set(dir(CxxFilter)) - set(dir(vtkObject))
-               if name[0] != "_" and not name.endswith("Type") and name != "SetOutput"}
-        self.assertEqual(own - set(dir(PythonFilter)), set())
-        self.assertIsNot(CxxFilter, PythonFilter)
+        """All methods and constants of the C++ class, but the types of its enumerators and what is for
+        projections."""
+        cxx, python = self.kinds
+        own = {name for name in set(dir(cxx)) - set(dir(vtkObject))
+               if not re.search("^_|Type$|^SetOutput$|(?i:projection|transform)", name)}
+        self.assertEqual(own - set(dir(python)), set())
+        self.assertIsNot(cxx, python)
         for name in own:
-            value = getattr(CxxFilter, name)
+            value = getattr(cxx, name)
             if isinstance(value, int):
-                self.assertEqual(getattr(PythonFilter, name), value, name)
+                self.assertEqual(getattr(python, name), value, name)
+
+
+class Same(Pair, unittest.TestCase):
 
     def test_defaults_and_limits(self):
         cxx, python = CxxFilter(), PythonFilter()
@@ -326,23 +334,9 @@ def make_segments(cloud, kind):
     return segments
 
 
-class SamePoints(unittest.TestCase):
-    """vtkDelaunayFlipPoints in C++ and in Python."""
+class SamePoints(Pair, unittest.TestCase):
 
-    def expect_same(self, data, prepare=lambda points: None):
-        self.maxDiff = 2000
-        cxx, python = (run(kind, data, prepare) for kind in (CxxPoints, PythonPoints))
-        for key in cxx:
-            self.assertEqual(cxx[key], python[key], key)
-        return cxx
-
-    def test_interface(self):
-        """All methods and constants but those of projections."""
-        own = {name for name in set(dir(CxxPoints)) - set(dir(vtkObject))
-               if name[0] != "_" and not name.endswith("Type") and name != "SetOutput"}
-        left_out = {name for name in own - set(dir(PythonPoints))
-                    if not re.search("(?i)projection|transform", name)}
-        self.assertEqual(left_out, set())
+    kinds = CxxPoints, PythonPoints
 
     def test_points(self):
         for kind in (numpy.float32, numpy.float64):

@@ -36,20 +36,13 @@ def as_set(faces):
 
 class Docstrings(unittest.TestCase):
 
-    def check(self, other):
-        load(other)
-        results = doctest.testmod(importlib.import_module(f"delaunayflip.{other}"))
-        self.assertGreater(results.attempted, 0)
-        self.assertEqual(results.failed, 0)
-
-    def test_pyvista(self):
-        self.check("pyvista")
-
-    def test_trimesh(self):
-        self.check("trimesh")
-
-    def test_meshio(self):
-        self.check("meshio")
+    def test_docstrings(self):
+        for other in ("pyvista", "trimesh", "meshio"):
+            with self.subTest(other):
+                load(other)
+                results = doctest.testmod(importlib.import_module(f"delaunayflip.{other}"))
+                self.assertGreater(results.attempted, 0)
+                self.assertEqual(results.failed, 0)
 
 
 class MeshIO(unittest.TestCase):

@@ -15,7 +15,7 @@ from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipPoints
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
-    vtkBitArray, vtkIdList, vtkIntArray, vtkPoints, vtkStringArray, vtkVariantArray, vtkVersion)
+    vtkIdList, vtkPoints, vtkStringArray, vtkVersion)
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkStructuredGrid, vtkTable,
     vtkUnstructuredGrid)
@@ -238,21 +238,6 @@ class Faults(unittest.TestCase):
             self.assertEqual(len(watched.errors), 1)
             self.assertIn(text, watched.errors[0])
 
-    def test_short_arrays(self):
-        points = [(-3, 0, 0), (0, -1, 0), (3, 0, 0), (0, 1, 0)]
-        for kind in (vtkIntArray, vtkStringArray, vtkVariantArray, vtkBitArray):
-            array = kind()
-            array.SetName("Short")
-            for mesh, fate, kept in ((make_mesh(points, [(0, 1, 2, 3)]), "left out", None),
-                                     (make_rhombus(), "passed unchanged", array)):
-                mesh.GetCellData().AddArray(array)
-                watched = Watched(mesh)
-                output = watched.run()
-                self.assertEqual((len(watched.errors), len(watched.warnings)), (0, 1))
-                self.assertIn(fate + ': "Short"', watched.warnings[0])
-                self.assertIn(FLIPPED, get_edges(output))
-                self.assertIs(output.GetCellData().GetAbstractArray("Short"), kept)
-
 
 class Observers(unittest.TestCase):
 
@@ -302,26 +287,6 @@ class Observers(unittest.TestCase):
 
 
 class Blocks(unittest.TestCase):
-
-    def test_sums_and_errors(self):
-        broken = make_rhombus()
-        broken.SetPolys(make_cells([(0, 1, 44)]))
-        blocks = vtkMultiBlockDataSet()
-        for i, mesh in enumerate((broken, make_rhombus(), make_bad_mesh())):
-            blocks.SetBlock(i, mesh)
-        watched = Watched(blocks)
-        watched.filter.Update()
-        output = watched.filter.GetOutputDataObject(0)
-        self.assertEqual(output.GetBlock(0).GetNumberOfCells(), 0)
-        self.assertIn(FLIPPED, get_edges(output.GetBlock(1)))
-        self.assertEqual(count_violations(output.GetBlock(2)), 0)
-        self.assertEqual(len(watched.errors), 1)
-        self.assertIn("block 1: ", watched.filter.GetErrorMessage())
-        flips = [output.GetBlock(i).GetFieldData().GetArray("DelaunayFlip:TotalFlips").GetValue(0)
-                 for i in (1, 2)]
-        self.assertEqual(watched.filter.GetTotalFlips(), sum(flips))
-        table = watched.filter.GetOutputDataObject(1)
-        self.assertEqual(sum(vtk_to_numpy(table.GetRowData().GetArray("Flipped"))), sum(flips))
 
     def test_amr_holds_no_meshes(self):
         pulse = vtkAMRGaussianPulseSource()
