@@ -149,8 +149,8 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   return Load(mesh, view, { options.Device }, options, progress);
 }
 
-std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptions& options,
-  bool byDivision, const BuildProgress& progress)
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const PointInput& points, const FlipOptions& options, const BuildProgress& progress)
 {
   try
   {
@@ -160,8 +160,8 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptio
     {
       backend.WaitFor(points.Stream);
     }
-    return std::unique_ptr<LoadedMesh>(new CudaMesh(
-      points.Points, points.OnDevice, options, byDivision, std::move(backend), progress));
+    return std::unique_ptr<LoadedMesh>(
+      new CudaMesh(points.Points, points.OnDevice, options, std::move(backend), progress));
   }
   catch (const BeyondDevice& error)
   {

@@ -4,74 +4,90 @@
 #define DELAUNAYFLIP_CONSTRAINTFLIPS_H
 
 #include "Atomics.h"
+#include "EdgeFlip.h"
 #include "EdgeTable.h"
+#include "FlipRules.h"
 #include "PlaneMesh.h"
 
 #include <cstdint>
-#include <map>
-#include <utility>
-#include <vector>
+
+/// @file
+/// Makes constraints edges of a mesh, by flips of the edges that cross them
+/// (Documentation/method.md). For both backends; nothing here needs memory of its own.
 
 namespace delaunayflip
 {
 
 /// From vertices to their triangles. A fan is what can be reached around a vertex from triangle to
-/// triangle; most vertices have one. Of each fan a half-edge is known that leaves the vertex: of an
-/// open one the first edge, which has nothing on its other side, so that no flip takes it away.
-class VertexFans
+/// triangle; most vertices have one.
+struct VertexFans
 {
-public:
-  /// @param mesh must outlive this.
-  VertexFans(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles);
-
-  /// @param first where every vertex has one fan at most: a half-edge of each, as described.
-  VertexFans(const PlaneMesh& mesh, std::vector<HalfEdgeId> first)
-    : Mesh(mesh),
-      First(std::move(first))
-  {
-  }
+  CornerId* First; ///< Of every fan a corner of its vertex, or NoCorner. Fan v is one of vertex v.
+  const std::uint32_t* Others = nullptr; ///< Of every fan another one of its vertex; 0: none. Or
+                                         ///< null: no vertex has several.
 
   /// Calls visit(corner) for the corners of a vertex until it returns true.
   template <typename Visit>
-  void Search(VertexId vertex, const Visit& visit) const
+  DELAUNAYFLIP_HOST_DEVICE void Search(
+    const PlaneMesh& mesh, VertexId vertex, const Visit& visit) const
   {
-    const HalfEdgeId first = this->First[vertex];
-    if (first == NoHalfEdge || this->SearchFan(first, visit))
+    std::uint32_t fan = vertex;
+    while (!SearchFan(mesh, AtomicLoad(&this->First[fan]), visit) && this->FindOther(fan) != 0)
     {
-      return;
-    }
-    const auto [begin, end] = this->Others.equal_range(vertex);
-    for (auto other = begin; other != end && !this->SearchFan(other->second, visit);)
-    {
-      ++other;
+      fan = this->FindOther(fan);
     }
   }
 
-  /// Must hear of every flip.
-  /// @param quad as it was. @param fromP, fromQ half-edges that leave P and Q now, other than the
-  /// flipped one.
-  void NoteFlip(EdgeId edge, const Quad& quad, HalfEdgeId fromP, HalfEdgeId fromQ);
-
-private:
+  /// The same for the fan of one corner: first what follows it, then what comes before it.
+  /// @returns whether a visit returned true.
   template <typename Visit>
-  bool SearchFan(HalfEdgeId first, const Visit& visit) const
+  DELAUNAYFLIP_HOST_DEVICE static bool SearchFan(
+    const PlaneMesh& mesh, CornerId first, const Visit& visit)
   {
-    const CornerId start = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[first]);
-    CornerId corner = start;
+    if (first == NoCorner)
+    {
+      return false;
+    }
+    CornerId corner = first;
     do
     {
       if (visit(corner))
       {
         return true;
       }
-      corner = this->Mesh.FindNextAround(corner);
-    } while (corner != NoCorner && corner != start);
-    return false;
+      corner = mesh.FindNextAround(corner);
+    } while (corner != NoCorner && corner != first);
+    if (corner == first)
+    {
+      return false;
+    }
+    for (corner = mesh.FindPreviousAround(first); corner != NoCorner && !visit(corner);)
+    {
+      corner = mesh.FindPreviousAround(corner);
+    }
+    return corner != NoCorner;
   }
 
-  const PlaneMesh& Mesh;
-  std::vector<HalfEdgeId> First; ///< One a vertex, or NoHalfEdge.
-  std::multimap<VertexId, HalfEdgeId> Others;
+  /// A flip has taken a corner from a vertex and left it another one of the same fan. Flips
+  /// elsewhere may read meanwhile, but only one of them has this corner.
+  DELAUNAYFLIP_HOST_DEVICE void Replace(VertexId vertex, CornerId old, CornerId now) const
+  {
+    std::uint32_t fan = vertex;
+    do
+    {
+      if (AtomicLoad(&this->First[fan]) == old)
+      {
+        AtomicStore(&this->First[fan], now);
+      }
+      fan = this->FindOther(fan);
+    } while (fan != 0);
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindOther(std::uint32_t fan) const
+  {
+    return this->Others ? this->Others[fan] : 0;
+  }
 };
 
 enum class PathResult
@@ -85,80 +101,346 @@ enum class PathResult
 
 /// The way that a constraint takes through a mesh, vertex by vertex: it begins at one, and wherever
 /// it meets another, a segment of it ends.
-struct ConstraintPath
-{
-  /// The left or right rim, depending on how triangles run, of the triangles that a segment
-  /// crosses: half-edges of these triangles, in order, each of which runs towards the segment's
-  /// start. Of a segment that is an edge, either side of it.
-  using Rim = std::vector<HalfEdgeId>;
-
-  PathResult Result = PathResult::Found;
-  std::vector<Rim> Segments; ///< Where it was found.
-  std::vector<HalfEdgeId> Crossed; ///< Edges that it crosses.
-  TriangleId Bar = NoTriangle; ///< Where it IsBarred.
-};
-
-/// Makes constraints edges of a mesh, by flips of the edges that cross them.
 ///
 /// Each flip turns two triangles into two that turn to the same side, and makes no edge that
 /// exists. So whatever the mesh, it stays what it was; and where a constraint cannot be inserted,
-/// flips made for it do no harm.
-class ConstraintFlips
+/// flips made for it do no harm. Several threads may flip at a time for paths that have no triangle
+/// in common.
+struct ConstraintPath
 {
-public:
-  /// @param table of the vertex pairs of all edges.
-  ConstraintFlips(
-    const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles, EdgeTableView* table)
-    : Mesh(mesh),
-      Table(table),
-      Fans(mesh, vertices, triangles)
+  const PlaneMesh& Mesh;
+  VertexFans Fans;
+  const EdgeTableView* Table; ///< The vertex pairs of all edges; null if no flip can make one.
+  VertexId From, To;
+  std::int64_t Flips = 0;
+  TriangleId Bar = NoTriangle; ///< Where the path IsBarred.
+
+  /// A part of the path from a vertex to the next one on it.
+  struct Segment
   {
+    PathResult Result;
+    VertexId Start = 0, End = 0;
+    /// A side of the edge that it is; or if it crosses triangles, the first edge of their left or
+    /// right rim, depending on how they turn. That is a half-edge of the first triangle, and runs
+    /// towards the segment's start, as all of a rim do.
+    HalfEdgeId Side = NoHalfEdge;
+    bool IsEdge = false;
+  };
+
+  /// Calls see(segment) for the segments of the path from start to end, and before that
+  /// cross(half-edge) for the edges that one crosses. Changes nothing.
+  template <typename See, typename Cross>
+  DELAUNAYFLIP_HOST_DEVICE PathResult Walk(const See& see, const Cross& cross)
+  {
+    VertexId at = this->From;
+    while (at != this->To)
+    {
+      const Segment segment = this->FindSegment(at, cross);
+      if (segment.Result != PathResult::Found)
+      {
+        return segment.Result;
+      }
+      see(segment);
+      at = segment.End;
+    }
+    return PathResult::Found;
   }
 
-  /// For a triangulation, in which no flip can make an edge that exists.
-  /// @param first as VertexFans takes it.
-  ConstraintFlips(const PlaneMesh& mesh, std::vector<HalfEdgeId> first)
-    : Mesh(mesh),
-      Table(nullptr),
-      Fans(mesh, std::move(first))
+  /// Makes a segment one edge, of which `Side` is then a side.
+  /// @returns false where triangles overlap so that it cannot.
+  DELAUNAYFLIP_HOST_DEVICE bool Flip(Segment& segment)
   {
+    return segment.IsEdge || this->Straighten(segment);
   }
 
-  /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
-  PathResult Insert(VertexId from, VertexId to);
-
-  // The same in steps. Several threads may flip at a time for paths that have no triangle in
-  // common.
-
-  /// Finds the path of the constraint between two vertices. Changes nothing.
-  ConstraintPath Find(VertexId from, VertexId to) const;
-  /// Makes each segment of a path one edge. @returns false where triangles overlap.
-  bool Flip(ConstraintPath& path);
-  /// Fixes the edges of a path, and adds them to GetSegments.
-  void Fix(const ConstraintPath& path);
-
-  /// A side of each of the edges that constraints have become, in the order of insertion and from
-  /// start to end. Flips do not change it.
-  const std::vector<HalfEdgeId>& GetSegments() const { return this->Segments; }
-
-  std::int64_t GetNumberOfFlips() const { return AtomicLoad(&this->Flips); }
+  /// Flips an edge if that is possible.
+  DELAUNAYFLIP_HOST_DEVICE bool TryFlip(EdgeId edge)
+  {
+    const EdgeMeshView& edges = this->Mesh.Edges;
+    if (AtomicLoad(&edges.States[edge]) == EdgeState::Fixed)
+    {
+      return false;
+    }
+    const Quad quad = edges.GetQuad(edge);
+    if (!this->IsConvex(quad))
+    {
+      return false;
+    }
+    if (this->Table)
+    {
+      const std::uint64_t key = EdgeKey(quad.A, quad.B);
+      bool fresh = false;
+      if (this->Table->Find(key) != EdgeTableView::NoSlot || !this->Table->InsertNew(key, fresh))
+      {
+        return false;
+      }
+      this->Table->Remove(EdgeKey(quad.P, quad.Q));
+    }
+    const TriangleId triangles[2] = { TriangleOf(quad.CornerA), TriangleOf(quad.CornerB) };
+    const OuterHalfEdges outer =
+      FlipEdge(edges, edge, quad, edges.Triangles[triangles[0]], edges.Triangles[triangles[1]],
+        [&](int, TriangleId triangle, const TriangleRecord& record)
+        { edges.Triangles[triangle] = record; });
+    this->Fans.Replace(quad.P, PlaneMesh::Previous(quad.CornerB), PlaneMesh::Next(quad.CornerA));
+    this->Fans.Replace(quad.Q, PlaneMesh::Previous(quad.CornerA), PlaneMesh::Next(quad.CornerB));
+    for (const HalfEdgeId side : { 2 * edge, outer.AP, outer.QA, outer.PB, outer.BQ })
+    {
+      EdgeState* state = &edges.States[EdgeOf(side)]; // others may make it a candidate, too
+      if (AtomicLoad(state) != EdgeState::Fixed)
+      {
+        AtomicStore(state, EdgeState::Candidate);
+      }
+    }
+    ++this->Flips;
+    return true;
+  }
 
 private:
-  using Rim = ConstraintPath::Rim;
+  //----------------------------------------------------------------------------
+  // The path.
 
-  bool Straighten(Rim& rim);
-  bool IsEar(HalfEdgeId first, HalfEdgeId second) const;
-  bool CutEar(HalfEdgeId first, HalfEdgeId second);
-  bool RemoveBar(TriangleId bar);
-  HalfEdgeId GetLongSide(TriangleId flat) const;
-  bool TryFlip(EdgeId edge);
-  bool IsConvex(const Quad& quad) const;
+  /// How a path can leave a vertex.
+  struct Exits
+  {
+    HalfEdgeId Along = NoHalfEdge; ///< An edge, to End.
+    VertexId End = 0;
+    CornerId Through = NoCorner; ///< Across the edge opposite this corner.
+    int Triangles = 0; ///< That it can go through.
+    TriangleId Bar = NoTriangle;
+    VertexId Seen = NoTriangle; ///< The last vertex whose side was found, and its side.
+    int Side = 0;
+  };
 
-  const PlaneMesh& Mesh;
-  EdgeTableView* Table;
-  VertexFans Fans;
-  std::vector<HalfEdgeId> Segments;
-  std::int64_t Flips = 0;
+  /// To which side of the constraint a vertex lies; 0: on its line.
+  DELAUNAYFLIP_HOST_DEVICE int FindSide(VertexId vertex) const
+  {
+    return vertex == this->From || vertex == this->To
+      ? 0
+      : this->Mesh.FindTurn(this->From, this->To, vertex);
+  }
+
+  /// Of two vertices on the line, whether `b` lies further on, but not beyond the end.
+  DELAUNAYFLIP_HOST_DEVICE bool IsAhead(VertexId a, VertexId b) const
+  {
+    const PlanePoint p = this->Mesh.GetPoint(a);
+    const PlanePoint q = this->Mesh.GetPoint(b);
+    const PlanePoint end = this->Mesh.GetPoint(this->To);
+    return IsLexicographicallyLess(this->Mesh.GetPoint(this->From), end)
+      ? IsLexicographicallyLess(p, q) && !IsLexicographicallyLess(end, q)
+      : IsLexicographicallyLess(q, p) && !IsLexicographicallyLess(q, end);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE Segment Fail(PathResult result, TriangleId bar = NoTriangle)
+  {
+    this->Bar = bar;
+    return { result };
+  }
+
+  template <typename Cross>
+  DELAUNAYFLIP_HOST_DEVICE Segment FindSegment(VertexId at, const Cross& cross)
+  {
+    Exits exits;
+    this->Fans.Search(this->Mesh, at,
+      [&](CornerId corner)
+      {
+        this->AddExits(corner, exits);
+        const bool hasOne = exits.Along != NoHalfEdge || exits.Triangles > 0;
+        return this->Mesh.IsTriangulation ? hasOne
+                                          : exits.Along != NoHalfEdge && exits.End == this->To;
+      });
+    if (exits.Along != NoHalfEdge)
+    {
+      return { PathResult::Found, at, exits.End, exits.Along, true };
+    }
+    if (exits.Triangles == 1)
+    {
+      return this->CrossTriangles(at, exits.Through, cross);
+    }
+    if (exits.Triangles > 1)
+    {
+      return this->Fail(PathResult::Overlaps);
+    }
+    return exits.Bar == NoTriangle ? this->Fail(PathResult::LeavesMesh)
+                                   : this->Fail(PathResult::IsBarred, exits.Bar);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void AddExits(CornerId corner, Exits& exits) const
+  {
+    const VertexId at = this->Mesh.GetVertex(corner);
+    const VertexId next = this->Mesh.GetVertex(PlaneMesh::Next(corner));
+    const VertexId previous = this->Mesh.GetVertex(PlaneMesh::Previous(corner));
+    if (!this->Mesh.IsTriangulation &&
+      !(this->Mesh.IsFinite(next) && this->Mesh.IsFinite(previous)))
+    {
+      return;
+    }
+    const int nextSide = next == exits.Seen ? exits.Side : this->FindSide(next);
+    const int previousSide = this->FindSide(previous);
+    exits.Seen = previous;
+    exits.Side = previousSide;
+    this->AddEdge(at, next, nextSide, PlaneMesh::Previous(corner), exits);
+    this->AddEdge(at, previous, previousSide, PlaneMesh::Next(corner), exits);
+    if (nextSide * previousSide < 0)
+    {
+      const int turn = this->Mesh.FindTurnAt(corner);
+      const bool leads = turn * previousSide > 0;
+      exits.Through = leads ? corner : exits.Through;
+      exits.Triangles += leads ? 1 : 0;
+      exits.Bar = turn == 0 ? TriangleOf(corner) : exits.Bar;
+    }
+  }
+
+  /// Takes the edge to `end` if it leads along the constraint, and no other one to a nearer vertex.
+  DELAUNAYFLIP_HOST_DEVICE void AddEdge(
+    VertexId at, VertexId end, int side, CornerId opposite, Exits& exits) const
+  {
+    const bool leads = side == 0 && (end == this->To || this->IsAhead(at, end));
+    if (leads && (exits.Along == NoHalfEdge || end == this->To || this->IsAhead(end, exits.End)))
+    {
+      exits.Along = this->Mesh.GetHalfEdge(opposite);
+      exits.End = end;
+    }
+  }
+
+  /// From a vertex through the triangle at its corner to the next vertex on the line.
+  template <typename Cross>
+  DELAUNAYFLIP_HOST_DEVICE Segment CrossTriangles(VertexId at, CornerId corner, const Cross& cross)
+  {
+    const int turn = this->Mesh.FindTurnAt(corner);
+    HalfEdgeId crossed = this->Mesh.GetHalfEdge(corner);
+    while (true)
+    {
+      if (this->Mesh.IsFixed(crossed))
+      {
+        const bool isRim = this->Mesh.Edges.CornerOfHalfEdge[crossed ^ 1u] == NoCorner;
+        return this->Fail(isRim ? PathResult::LeavesMesh : PathResult::CrossesFixedEdge);
+      }
+      cross(crossed);
+      const CornerId across = this->Mesh.FindAcross(crossed);
+      const int turnAcross = this->Mesh.FindTurnAt(across);
+      if (turnAcross != turn)
+      {
+        return turnAcross == 0 ? this->Fail(PathResult::IsBarred, TriangleOf(across))
+                               : this->Fail(PathResult::Overlaps);
+      }
+      const VertexId vertex = this->Mesh.GetVertex(across);
+      const int side = turn * this->FindSide(vertex);
+      if (side == 0)
+      {
+        // Or it has passed its end in another layer.
+        return vertex == this->To || this->IsAhead(at, vertex) ? Segment{ PathResult::Found, at,
+          vertex, this->Mesh.GetHalfEdge(PlaneMesh::Next(corner)) }
+                                                               : this->Fail(PathResult::Overlaps);
+      }
+      crossed =
+        this->Mesh.GetHalfEdge(side > 0 ? PlaneMesh::Next(across) : PlaneMesh::Previous(across));
+    }
+  }
+
+  //----------------------------------------------------------------------------
+  // The flips.
+
+  /// Cuts ears off the triangles that a segment crosses until their rim is that segment. A rim that
+  /// is not straight always has an ear (Documentation/method.md).
+  /// @returns false where triangles overlap so that there is none.
+  DELAUNAYFLIP_HOST_DEVICE bool Straighten(Segment& segment)
+  {
+    const int turn = this->Mesh.FindTurnAt(this->Mesh.Edges.CornerOfHalfEdge[segment.Side]);
+    HalfEdgeId& last = segment.Side;
+    while (this->Mesh.GetStart(last) != segment.End)
+    {
+      HalfEdgeId next = this->FindNextOfRim(last, turn);
+      bool hasBefore = true;
+      while (hasBefore && this->IsEar(last, next, turn))
+      {
+        if (!this->CutEar(last, next))
+        {
+          return false;
+        }
+        // Of the ear, the third side; of what is left, its other side.
+        const CornerId corner = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[last]);
+        next = this->Mesh.GetHalfEdge(corner) ^ 1u;
+        hasBefore = this->Mesh.GetEnd(next) != segment.Start;
+        last = hasBefore ? this->FindPreviousOfRim(next, turn) : last;
+      }
+      last = next;
+    }
+    return this->Mesh.GetEnd(last) == segment.Start;
+  }
+
+  /// The half-edge of the rim that ends where another one starts: around that vertex, the first
+  /// edge that does not lead across the segment.
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId FindNextOfRim(HalfEdgeId side, int turn) const
+  {
+    CornerId corner = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[side]);
+    while (turn * this->FindSide(this->Mesh.GetVertex(PlaneMesh::Previous(corner))) < 0)
+    {
+      corner = this->Mesh.FindNextAround(corner);
+    }
+    return this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
+  }
+
+  /// The one that starts where another one ends.
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId FindPreviousOfRim(HalfEdgeId side, int turn) const
+  {
+    CornerId corner = PlaneMesh::Previous(this->Mesh.Edges.CornerOfHalfEdge[side]);
+    while (turn * this->FindSide(this->Mesh.GetVertex(PlaneMesh::Next(corner))) < 0)
+    {
+      corner = this->Mesh.FindPreviousAround(corner);
+    }
+    return this->Mesh.GetHalfEdge(PlaneMesh::Previous(corner));
+  }
+
+  /// Whether the triangles at the vertex between two half-edges of a rim cover less than half a
+  /// turn.
+  DELAUNAYFLIP_HOST_DEVICE bool IsEar(HalfEdgeId first, HalfEdgeId second, int turn) const
+  {
+    return this->Mesh.FindTurn(this->Mesh.GetEnd(first), this->Mesh.GetStart(first),
+             this->Mesh.GetStart(second)) == -turn;
+  }
+
+  /// Flips edges away from the vertex between two half-edges of a rim, until one triangle is left
+  /// there that has both. After a flip the edge before it is tried again.
+  DELAUNAYFLIP_HOST_DEVICE bool CutEar(HalfEdgeId first, HalfEdgeId second)
+  {
+    const auto getStart = [&] { return PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[first]); };
+    CornerId corner = getStart();
+    HalfEdgeId side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
+    while (side != second)
+    {
+      const CornerId before =
+        corner == getStart() ? NoCorner : this->Mesh.FindPreviousAround(corner);
+      if (this->TryFlip(EdgeOf(side)))
+      {
+        corner = before == NoCorner ? getStart() : before;
+      }
+      else
+      {
+        corner = this->Mesh.FindNextAround(corner);
+        if (corner == NoCorner || corner == getStart())
+        {
+          return false;
+        }
+      }
+      side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
+    }
+    return corner == getStart();
+  }
+
+  /// Whether both triangles have the same side after the flip, strictly, and before it, at least
+  /// one.
+  DELAUNAYFLIP_HOST_DEVICE bool IsConvex(const Quad& quad) const
+  {
+    int side = 1;
+    if (!this->Mesh.IsTriangulation)
+    {
+      const int upper = this->Mesh.FindTurn(quad.A, quad.P, quad.Q);
+      const int lower = this->Mesh.FindTurn(quad.B, quad.Q, quad.P);
+      side = upper * lower < 0 ? 0 : (upper != 0 ? upper : lower);
+    }
+    return side != 0 && this->Mesh.FindTurn(quad.A, quad.P, quad.B) == side &&
+      this->Mesh.FindTurn(quad.B, quad.Q, quad.A) == side;
+  }
 };
 
 }

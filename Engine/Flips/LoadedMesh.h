@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -57,6 +58,26 @@ struct HostTriangles
   }
 };
 
+/// A side of an edge that a segment has become.
+struct SegmentSide
+{
+  HalfEdgeId Side; ///< One that has a triangle.
+  std::uint32_t IsOnLeft; ///< Whether it is to the left of the segment.
+};
+
+/// What consecutive segments have become.
+struct InsertedSegments
+{
+  static constexpr std::int32_t Refused = -1;
+
+  std::vector<std::int32_t> NumberOfEdges; ///< Of each segment; or it is Refused.
+  std::vector<SegmentSide> Sides; ///< Of all these edges, in order.
+  std::int64_t Flips = 0;
+};
+
+/// @returns whether to go on.
+using SegmentObserver = std::function<bool(const InsertedSegments&)>;
+
 /// A mesh that is loaded onto a backend, ready to flip: what a session needs of a backend.
 /// MeshOnBackend.h makes one.
 class LoadedMesh
@@ -83,9 +104,17 @@ public:
   using HostView = std::function<void(const PointMeshView&)>;
   virtual void ViewOnHost(const HostView& view) = 0;
 
-  /// The same, and keeps what `edit` has changed: triangles, corners of half-edges, and the states
-  /// of edges that it makes Fixed or Candidate. FlipLoop::Restart must follow.
-  virtual void EditOnHost(const HostView& edit) = 0;
+  /// Of a mesh from points: triangulates them again, by divide and conquer on the host, after which
+  /// no edge is bad. FlipLoop::Detect must follow.
+  /// @throws RunAborted.
+  virtual void Divide(const BuildProgress& progress) = 0;
+
+  /// Of a mesh from points: inserts segments one after the other, as far as they cross none before
+  /// them. FlipLoop::Detect must follow.
+  /// @param ends pairs of points. @param onBatch is told of some segments at a time, in their
+  /// order.
+  virtual void InsertSegments(
+    const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) = 0;
 
   /// The same into device memory. @returns false, and writes nothing, if the backend's device
   /// cannot write it.
@@ -116,9 +145,8 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
 /// Triangulates points in the plane.
-/// @param byDivision as MeshOnBackend's.
-std::unique_ptr<LoadedMesh> LoadOnThreads(const PlaneArray& points, const FlipOptions& options,
-  bool byDivision, const BuildProgress& progress);
+std::unique_ptr<LoadedMesh> LoadOnThreads(
+  const PlaneArray& points, const FlipOptions& options, const BuildProgress& progress);
 
 /// @throws RunAborted.
 /// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
@@ -131,8 +159,8 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress);
 
 /// For points in the host's memory, or in that of FlipOptions::Device.
-std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptions& options,
-  bool byDivision, const BuildProgress& progress);
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const PointInput& points, const FlipOptions& options, const BuildProgress& progress);
 
 }
 

@@ -13,6 +13,7 @@
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
 #include "PointMesh.h"
+#include "SegmentInsertion.h"
 #include "SmallestAngle.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
@@ -162,16 +163,13 @@ public:
 
   /// Triangulates points in the plane instead.
   /// @param isLocal whether they are in the memory of the backend.
-  /// @param byDivision divide and conquer, after which no edge is bad, instead of strips. On the
-  /// host.
   /// @throws RunAborted.
-  MeshOnBackend(const PlaneArray& points, bool isLocal, const FlipOptions& options, bool byDivision,
+  MeshOnBackend(const PlaneArray& points, bool isLocal, const FlipOptions& options,
     BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
-    points.Floats
-      ? this->Triangulate<float>(points, isLocal, points.Floats, options, byDivision, progress)
-      : this->Triangulate<double>(points, isLocal, points.Doubles, options, byDivision, progress);
+    points.Floats ? this->Triangulate<float>(points, isLocal, points.Floats, options, progress)
+                  : this->Triangulate<double>(points, isLocal, points.Doubles, options, progress);
   }
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
@@ -207,8 +205,63 @@ public:
     }
   }
 
-  void ViewOnHost(const HostView& view) override { this->UseOnHost(view, false); }
-  void EditOnHost(const HostView& edit) override { this->UseOnHost(edit, true); }
+  void Divide(const BuildProgress& progress) override
+  {
+    if constexpr (BackendT::IsOnHost)
+    {
+      this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
+    }
+    this->Places.Floats ? this->Divide(this->Places.Floats) : this->Divide(this->Places.Doubles);
+    if constexpr (BackendT::IsOnHost)
+    {
+      this->Backend.SetPoll(nullptr);
+    }
+  }
+
+  void InsertSegments(
+    const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) override
+  {
+    const Array<VertexId> placeOf = this->ListPlaces();
+    SegmentInsertion<BackendT>(this->Mesh, this->Places, placeOf.Data(), this->Backend)
+      .Insert(ends, onBatch);
+    this->Loop->Restart();
+  }
+
+  void ViewOnHost(const HostView& use) override
+  {
+    EdgeMesh& mesh = this->Mesh;
+    PointMeshView view;
+    view.NumberOfTriangles = mesh.NumberOfTriangles;
+    view.NumberOfEdges = mesh.NumberOfEdges;
+    view.NumberOfPlaces = this->Points.Count;
+    if constexpr (BackendT::IsOnHost)
+    {
+      view.Edges = mesh.View();
+      view.Places = this->Places;
+      view.Ids = this->Order.VertexOfRank.Data();
+      use(view);
+      return;
+    }
+    const auto fetch = [&](const auto* values, std::int64_t size)
+    {
+      std::vector<std::remove_const_t<std::remove_pointer_t<decltype(values)>>> copy(size);
+      this->Backend.Download(values, size, copy.data());
+      return copy;
+    };
+    auto triangles = fetch(mesh.Triangles.Data(), mesh.NumberOfTriangles);
+    auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
+    auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
+    const auto ids = fetch(this->Order.VertexOfRank.Data(), this->Points.Count);
+    const auto floats =
+      fetch(this->Places.Floats, this->Places.Floats ? 2 * this->Points.Count : 0);
+    const auto doubles =
+      fetch(this->Places.Doubles, this->Places.Doubles ? 2 * this->Points.Count : 0);
+    view.Edges = { triangles.data(), corners.data(), states.data() };
+    view.Places = this->Places.Floats ? PlaneArray(floats.data(), this->Points.Count, 2)
+                                      : PlaneArray(doubles.data(), this->Points.Count, 2);
+    view.Ids = ids.data();
+    use(view);
+  }
 
   HostTriangles ViewHostTriangles() const override
   {
@@ -233,6 +286,29 @@ public:
   }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
+
+  /// Of a mesh from points: by point the place at which it is, or NoVertex. Public for the same
+  /// reason as the next.
+  Array<VertexId> ListPlaces() const
+  {
+    Array<VertexId> places = this->Backend.template MakeArray<VertexId>(this->Report.Points);
+    VertexId* placeOf = places.Data();
+    const VertexId* ids = this->Order.VertexOfRank.Data();
+    this->Backend.ForEach(this->Points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t place)
+      { placeOf[ids[place]] = static_cast<VertexId>(place); });
+    // Repeated points are not the used one, so what is read here is not written.
+    const VertexId* used = this->UsedPoint.Data();
+    this->Backend.ForEach(static_cast<std::int64_t>(this->UsedPoint.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (used[i] != i)
+        {
+          placeOf[i] = used[i] == NoVertex ? NoVertex : placeOf[used[i]];
+        }
+      });
+    return places;
+  }
 
   /// WholeMesh::SharedPoints in the order of vertices; empty if there are none. Public because
   /// device lambdas require it.
@@ -267,7 +343,7 @@ protected:
 private:
   template <typename Real>
   void Triangulate(PlaneArray points, bool isLocal, const Real* values, const FlipOptions& options,
-    bool byDivision, const BuildProgress& progress)
+    const BuildProgress& progress)
   {
     constexpr GeometryKind Plane = GeometryKind::PlanarXY;
     if constexpr (BackendT::IsOnHost) // a step may take seconds, also of the loop
@@ -295,10 +371,6 @@ private:
     if (places < 3)
     {
       mesh.Points = std::move(sorted);
-    }
-    else if (byDivision)
-    {
-      mesh = BuildDividedMesh(std::move(sorted), this->Backend);
     }
     else
     {
@@ -328,56 +400,27 @@ private:
     report.FromPoints.NotFinite = points.Count - finite;
     report.FromPoints.Repeated = finite - places;
     // All triangles turn to the left and none overlap, so that flips need no guard.
-    using Rule = PlanarRule<Real, 2>;
-    using PlaneLoop = typename LoopOf<BackendT, Rule>::Type;
-    this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, survey.FiltersApply },
-      survey.Range, EdgeGuard(), this->Backend));
+    this->Range = survey.Range;
+    this->FiltersApply = survey.FiltersApply;
+    this->MakePlaneLoop(coordinates);
   }
 
-  void UseOnHost(const HostView& use, bool keep)
+  template <typename Real>
+  void MakePlaneLoop(const Real* coordinates)
   {
-    EdgeMesh& mesh = this->Mesh;
-    PointMeshView view;
-    view.NumberOfTriangles = mesh.NumberOfTriangles;
-    view.NumberOfEdges = mesh.NumberOfEdges;
-    view.NumberOfPlaces = this->Points.Count;
-    if constexpr (BackendT::IsOnHost)
-    {
-      view.Edges = mesh.View();
-      view.Places = this->Places;
-      view.Ids = this->Order.VertexOfRank.Data();
-      use(view);
-      return;
-    }
-    const auto fetch = [&](const auto* values, std::int64_t size)
-    {
-      std::vector<std::remove_const_t<std::remove_pointer_t<decltype(values)>>> copy(size);
-      this->Backend.Download(values, size, copy.data());
-      return copy;
-    };
-    auto triangles = fetch(mesh.Triangles.Data(), mesh.NumberOfTriangles);
-    auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
-    auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
-    for (EdgeState& state : states)
-    {
-      state = state == EdgeState::Fixed ? state : EdgeState::Good;
-    }
-    const auto ids = fetch(this->Order.VertexOfRank.Data(), this->Points.Count);
-    const auto floats =
-      fetch(this->Places.Floats, this->Places.Floats ? 2 * this->Points.Count : 0);
-    const auto doubles =
-      fetch(this->Places.Doubles, this->Places.Doubles ? 2 * this->Points.Count : 0);
-    view.Edges = { triangles.data(), corners.data(), states.data() };
-    view.Places = this->Places.Floats ? PlaneArray(floats.data(), this->Points.Count, 2)
-                                      : PlaneArray(doubles.data(), this->Points.Count, 2);
-    view.Ids = ids.data();
-    use(view);
-    if (keep)
-    {
-      this->Backend.Upload(triangles.data(), mesh.NumberOfTriangles, mesh.Triangles.Data());
-      this->Backend.Upload(corners.data(), 2 * mesh.NumberOfEdges, mesh.CornerOfHalfEdge.Data());
-      this->Backend.Upload(states.data(), mesh.NumberOfEdges, mesh.States.Data());
-    }
+    using Rule = PlanarRule<Real, 2>;
+    using PlaneLoop = typename LoopOf<BackendT, Rule>::Type;
+    this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, this->FiltersApply },
+      this->Range, EdgeGuard(), this->Backend));
+  }
+
+  template <typename Real>
+  void Divide(const Real* coordinates)
+  {
+    std::int64_t hullEdges = 0; // the same as before
+    this->Mesh = DividePlaces(reinterpret_cast<const CoordinatePair<Real>*>(coordinates),
+      this->Points.Count, this->Backend, hullEdges);
+    this->MakePlaneLoop(coordinates);
   }
 
   /// After this the caller's points are not needed any more.
@@ -393,7 +436,8 @@ private:
   SpatialOrder Order;
   EdgeMesh Mesh;
   PackedPoints Points;
-  CoordinateRange Range = CoordinateRange::Usual; ///< Of a mesh from triangles.
+  CoordinateRange Range = CoordinateRange::Usual;
+  bool FiltersApply = false; ///< Of a mesh from points: whether the rule's do.
   PlaneArray Places; ///< Of a mesh from points: views Points.
   Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
   TurnCounts Turns;

@@ -17,59 +17,79 @@ struct PlaneMesh
 {
   EdgeMeshView Edges;
   PlaneArray Places;
+  /// Whether it is known to be a triangulation: all triangles turn to the left, and none overlap.
+  bool IsTriangulation = false;
+  std::int32_t* Failed = nullptr; ///< Set to 1 where a device cannot decide a turn.
 
-  PlanePoint GetPoint(VertexId vertex) const
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPoint(VertexId vertex) const
   {
     return { this->Places.Get(vertex, 0), this->Places.Get(vertex, 1), 0.0 };
   }
-  bool IsFinite(VertexId vertex) const { return delaunayflip::IsFinite(this->GetPoint(vertex)); }
-
-  /// Turn of a, b, c, exactly: 1, 0 or -1. Of finite points.
-  int FindTurn(VertexId a, VertexId b, VertexId c) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsFinite(VertexId vertex) const
   {
-    return FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
+    return delaunayflip::IsFinite(this->GetPoint(vertex));
   }
 
-  VertexId GetVertex(CornerId corner) const
+  /// Turn of a, b, c, exactly: 1, 0 or -1. Of finite points.
+  DELAUNAYFLIP_HOST_DEVICE int FindTurn(VertexId a, VertexId b, VertexId c) const
+  {
+    const int turn = FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
+#if DELAUNAYFLIP_ON_DEVICE
+    if (turn == UncertainSign)
+    {
+      *this->Failed = 1;
+      return 0;
+    }
+#endif
+    return turn;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(CornerId corner) const
   {
     return this->Edges.Triangles[TriangleOf(corner)].Vertices[SlotOf(corner)];
   }
   /// The corner after, or before, in its triangle.
-  static CornerId Next(CornerId corner)
+  DELAUNAYFLIP_HOST_DEVICE static CornerId Next(CornerId corner)
   {
     return MakeCorner(TriangleOf(corner), NextSlot(SlotOf(corner)));
   }
-  static CornerId Previous(CornerId corner)
+  DELAUNAYFLIP_HOST_DEVICE static CornerId Previous(CornerId corner)
   {
     return MakeCorner(TriangleOf(corner), PreviousSlot(SlotOf(corner)));
   }
-  int FindTurnAt(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE int FindTurnAt(CornerId corner) const
   {
-    return this->FindTurn(
-      this->GetVertex(corner), this->GetVertex(Next(corner)), this->GetVertex(Previous(corner)));
+    return this->IsTriangulation
+      ? 1
+      : this->FindTurn(this->GetVertex(corner), this->GetVertex(Next(corner)),
+          this->GetVertex(Previous(corner)));
   }
 
   /// The triangle's side of the edge opposite a corner; it runs from the next vertex to the
   /// previous one.
-  HalfEdgeId GetHalfEdge(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId GetHalfEdge(CornerId corner) const
   {
     return this->Edges.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)];
   }
   /// Where a half-edge runs from, and to.
-  VertexId GetStart(HalfEdgeId halfEdge) const
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetStart(HalfEdgeId halfEdge) const
   {
     return this->GetVertex(Next(this->Edges.CornerOfHalfEdge[halfEdge]));
   }
-  VertexId GetEnd(HalfEdgeId halfEdge) const
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetEnd(HalfEdgeId halfEdge) const
   {
     return this->GetVertex(Previous(this->Edges.CornerOfHalfEdge[halfEdge]));
   }
 
   /// The corner opposite a half-edge on its other side; NoCorner where there is no triangle, or one
   /// that runs through the edge the same way.
-  CornerId FindAcross(HalfEdgeId halfEdge) const
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindAcross(HalfEdgeId halfEdge) const
   {
     const CornerId across = this->Edges.CornerOfHalfEdge[halfEdge ^ 1u];
+    if (this->IsTriangulation)
+    {
+      return across;
+    }
     const bool isPair = across != NoCorner &&
       this->GetVertex(Next(across)) == this->GetEnd(halfEdge) &&
       this->GetVertex(Previous(across)) == this->GetStart(halfEdge);
@@ -77,13 +97,19 @@ struct PlaneMesh
   }
 
   /// The next corner of the same vertex, in the direction in which triangles run; or NoCorner.
-  CornerId FindNextAround(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindNextAround(CornerId corner) const
   {
     const CornerId across = this->FindAcross(this->GetHalfEdge(Next(corner)));
     return across == NoCorner ? NoCorner : Next(across);
   }
+  /// The one before.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindPreviousAround(CornerId corner) const
+  {
+    const CornerId across = this->FindAcross(this->GetHalfEdge(Previous(corner)));
+    return across == NoCorner ? NoCorner : Previous(across);
+  }
 
-  bool IsFixed(HalfEdgeId halfEdge) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsFixed(HalfEdgeId halfEdge) const
   {
     return this->Edges.States[EdgeOf(halfEdge)] == EdgeState::Fixed;
   }

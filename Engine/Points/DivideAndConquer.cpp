@@ -5,7 +5,6 @@
 #include "ExactPredicates.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace delaunayflip
@@ -16,12 +15,31 @@ namespace
 using Edge = std::uint32_t; ///< A directed edge; e ^ 1 runs the other way.
 constexpr Edge None = ~Edge(0);
 
-/// Of a set of points, hull edges that leave its first point counter-clockwise and its last point
-/// clockwise, and the edges that are not used.
+struct Place
+{
+  double U, V;
+  std::uint32_t Number;
+};
+
+/// One side of an edge.
+struct Side
+{
+  std::uint32_t Origin; ///< A place.
+  Edge Next, Previous; ///< Around the origin, counter-clockwise and clockwise.
+};
+
+/// A point of a hull, and the edge of the hull that leaves it counter-clockwise.
+struct HullPoint
+{
+  std::uint32_t At;
+  Edge Leaving;
+};
+
+/// A set of points.
 struct Part
 {
-  Edge First, Last;
-  Edge FreeHead = None, FreeTail = None; ///< Linked by Next.
+  HullPoint Ends[2][2]; ///< By axis, the first and the last point.
+  Edge FreeHead = None, FreeTail = None; ///< The edges that are not used, linked by Next.
 };
 
 class Divider
@@ -29,22 +47,20 @@ class Divider
 public:
   Divider(const std::vector<CoordinatePair<double>>& places, const TaskRunner& run)
     : Run(run),
-      Order(places.size()),
       Places(places.size()),
-      Origin(6 * places.size()),
-      Next(6 * places.size()),
-      Previous(6 * places.size())
+      Sides(6 * places.size())
   {
-    std::iota(this->Order.begin(), this->Order.end(), 0u);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
-      this->Places[i] = { places[i].U, places[i].V, 0.0 };
+      const auto [u, v] = places[i];
+      this->Places[i] = { u, v, static_cast<std::uint32_t>(i) };
+      this->FiltersApply = this->FiltersApply && IsInFilterRange({ u, v, 0.0 });
     }
   }
 
   DividedPoints Solve()
   {
-    const auto size = static_cast<std::uint32_t>(this->Order.size());
+    const auto size = static_cast<std::uint32_t>(this->Places.size());
     // The top of the recursion is level by level, so that the parts of a level run side by side.
     std::vector<std::vector<std::uint32_t>> levels{ { 0, size } };
     constexpr std::uint32_t SmallestTask = 1 << 13;
@@ -80,69 +96,78 @@ public:
 
 private:
   /// By (x, y), or by (y, -x): the same order turned by a quarter.
-  bool IsBefore(std::uint32_t a, std::uint32_t b, int axis) const
+  static bool IsBefore(const Place& p, const Place& q, int axis)
   {
-    const PlanePoint& p = this->Places[a];
-    const PlanePoint& q = this->Places[b];
     return axis == 0 ? (p.U != q.U ? p.U < q.U : p.V < q.V) : (p.V != q.V ? p.V < q.V : p.U > q.U);
   }
 
+  /// Sorts places so far that the lower half of a range is before the rest. @returns the middle.
   std::uint32_t Cut(std::uint32_t begin, std::uint32_t end, int axis)
   {
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(this->Order.begin() + begin, this->Order.begin() + middle,
-      this->Order.begin() + end,
-      [&](std::uint32_t a, std::uint32_t b) { return this->IsBefore(a, b, axis); });
+    std::nth_element(this->Places.begin() + begin, this->Places.begin() + middle,
+      this->Places.begin() + end,
+      [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); });
     return middle;
   }
 
-  std::uint32_t Destination(Edge e) const { return this->Origin[e ^ 1]; }
+  std::uint32_t Origin(Edge e) const { return this->Sides[e].Origin; }
+  std::uint32_t Destination(Edge e) const { return this->Sides[e ^ 1].Origin; }
+  Edge Next(Edge e) const { return this->Sides[e].Next; }
+  Edge Previous(Edge e) const { return this->Sides[e].Previous; }
+  /// The next edge around the left face.
+  Edge NextLeft(Edge e) const { return this->Previous(e ^ 1); }
+
+  PlanePoint GetPoint(std::uint32_t place) const
+  {
+    return { this->Places[place].U, this->Places[place].V, 0.0 };
+  }
 
   int Turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
   {
-    return FindOrientation(this->Places[a], this->Places[b], this->Places[c]);
+    const PlanePoint points[3] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c) };
+    const int sign = FilteredOrientation(points[0], points[1], points[2]);
+    return sign != UncertainSign && this->FiltersApply
+      ? sign
+      : ExactOrientation(points[0], points[1], points[2]);
   }
   bool IsLeftOf(std::uint32_t point, Edge e) const
   {
-    return this->Turn(point, this->Origin[e], this->Destination(e)) > 0;
+    return this->Turn(point, this->Origin(e), this->Destination(e)) > 0;
   }
   bool IsRightOf(std::uint32_t point, Edge e) const
   {
-    return this->Turn(point, this->Destination(e), this->Origin[e]) > 0;
+    return this->Turn(point, this->Destination(e), this->Origin(e)) > 0;
   }
 
   bool IsInCircle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const
   {
-    const PlanePoint points[4] = { this->Places[a], this->Places[b], this->Places[c],
-      this->Places[d] };
+    const PlanePoint points[4] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c),
+      this->GetPoint(d) };
     const int sign = FilteredInCircle(points[0], points[1], points[2], points[3]);
-    const bool certain = sign != UncertainSign && IsInFilterRange(points[0]) &&
-      IsInFilterRange(points[1]) && IsInFilterRange(points[2]) && IsInFilterRange(points[3]);
-    return (certain ? sign : ExactInCircle(points, false)) > 0;
+    return (sign != UncertainSign && this->FiltersApply ? sign : ExactInCircle(points, false)) > 0;
   }
 
   //----------------------------------------------------------------------------
   void Link(Edge e, Edge next)
   {
-    this->Next[e] = next;
-    this->Previous[next] = e;
+    this->Sides[e].Next = next;
+    this->Sides[next].Previous = e;
   }
 
   Edge MakeEdge(Part& part, std::uint32_t from, std::uint32_t to)
   {
     const Edge e = part.FreeHead;
-    part.FreeHead = this->Next[e];
-    this->Origin[e] = from;
-    this->Origin[e ^ 1] = to;
-    this->Link(e, e);
-    this->Link(e ^ 1, e ^ 1);
+    part.FreeHead = this->Next(e);
+    this->Sides[e] = { from, e, e };
+    this->Sides[e ^ 1] = { to, e ^ 1, e ^ 1 };
     return e;
   }
 
   /// Joins or separates the rings of edges around the origins of two edges.
   void Splice(Edge a, Edge b)
   {
-    const Edge afterA = this->Next[a], afterB = this->Next[b];
+    const Edge afterA = this->Next(a), afterB = this->Next(b);
     this->Link(a, afterB);
     this->Link(b, afterA);
   }
@@ -150,7 +175,7 @@ private:
   /// A new edge from the destination of `a` to the origin of `b`, left of both.
   Edge Connect(Part& part, Edge a, Edge b)
   {
-    const Edge e = this->MakeEdge(part, this->Destination(a), this->Origin[b]);
+    const Edge e = this->MakeEdge(part, this->Destination(a), this->Origin(b));
     this->Splice(e, this->NextLeft(a));
     this->Splice(e ^ 1, b);
     return e;
@@ -158,16 +183,13 @@ private:
 
   void Delete(Part& part, Edge e)
   {
-    this->Splice(e, this->Previous[e]);
-    this->Splice(e ^ 1, this->Previous[e ^ 1]);
+    this->Splice(e, this->Previous(e));
+    this->Splice(e ^ 1, this->Previous(e ^ 1));
     e &= ~Edge(1);
-    this->Next[e] = part.FreeHead;
+    this->Sides[e].Next = part.FreeHead;
     part.FreeTail = part.FreeHead == None ? e : part.FreeTail;
     part.FreeHead = e;
   }
-
-  /// The next edge around the left face.
-  Edge NextLeft(Edge e) const { return this->Previous[e ^ 1]; }
 
   //----------------------------------------------------------------------------
   Part Solve(std::uint32_t begin, std::uint32_t end, int axis)
@@ -184,79 +206,72 @@ private:
 
   Part SolveFew(std::uint32_t begin, std::uint32_t end, int axis)
   {
-    std::sort(this->Order.begin() + begin, this->Order.begin() + end,
-      [&](std::uint32_t a, std::uint32_t b) { return this->IsBefore(a, b, axis); });
-    Part part{ None, None, 6 * begin, 6 * end - 2 };
+    std::sort(this->Places.begin() + begin, this->Places.begin() + end,
+      [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); });
+    Part part{ {}, 6 * begin, 6 * end - 2 };
     for (Edge e = part.FreeHead; e < part.FreeTail; e += 2)
     {
-      this->Next[e] = e + 2;
+      this->Sides[e].Next = e + 2;
     }
-    this->Next[part.FreeTail] = None;
-    const std::uint32_t* p = &this->Order[begin];
-    const Edge a = this->MakeEdge(part, p[0], p[1]);
-    part.First = a;
-    part.Last = a ^ 1;
+    this->Sides[part.FreeTail].Next = None;
+    const Edge a = this->MakeEdge(part, begin, begin + 1);
+    Edge leaving[3] = { a, a ^ 1, None }; // hull edges, of each point
     if (end - begin == 3)
     {
-      const Edge b = this->MakeEdge(part, p[1], p[2]);
+      const Edge b = this->MakeEdge(part, begin + 1, begin + 2);
       this->Splice(a ^ 1, b);
-      part.Last = b ^ 1;
-      const int turn = this->Turn(p[0], p[1], p[2]);
-      if (turn != 0)
+      const int turn = this->Turn(begin, begin + 1, begin + 2);
+      const Edge c = turn != 0 ? this->Connect(part, b, a) : b ^ 1;
+      leaving[0] = turn < 0 ? c ^ 1 : a;
+      leaving[1] = turn < 0 ? a ^ 1 : b;
+      leaving[2] = turn < 0 ? b ^ 1 : c;
+    }
+    for (int i = 0; i < 2; ++i)
+    {
+      part.Ends[i][0] = part.Ends[i][1] = { begin, leaving[0] };
+      for (std::uint32_t k = 1; k < end - begin; ++k)
       {
-        const Edge c = this->Connect(part, b, a);
-        part.First = turn > 0 ? a : c ^ 1;
-        part.Last = turn > 0 ? b ^ 1 : c;
+        const HullPoint point{ begin + k, leaving[k] };
+        this->TakeEnds(i, { point, point }, part);
       }
     }
     return part;
   }
 
-  /// Moves the hull edges to the first and the last point along an axis.
-  void TurnTo(Part& part, int axis) const
+  /// Replaces the ends of a part by others that are further out.
+  void TakeEnds(int axis, const HullPoint (&ends)[2], Part& part) const
   {
-    // The hull is the right face of First: its edges counter-clockwise are First, then those that
-    // follow around it.
-    Edge first = part.First, last = part.First;
-    Edge e = part.First;
-    do
-    {
-      first = this->IsBefore(this->Origin[e], this->Origin[first], axis) ? e : first;
-      last = this->IsBefore(this->Origin[last], this->Origin[e], axis) ? e : last;
-      e = this->Next[e ^ 1];
-    } while (e != part.First);
-    part.First = first;
-    // Clockwise out of the last point: back along the edge that arrives there.
-    part.Last = this->Previous[last];
+    const auto isBefore = [&](const HullPoint& a, const HullPoint& b)
+    { return IsBefore(this->Places[a.At], this->Places[b.At], axis); };
+    HullPoint(&own)[2] = part.Ends[axis];
+    own[0] = isBefore(ends[0], own[0]) ? ends[0] : own[0];
+    own[1] = isBefore(own[1], ends[1]) ? ends[1] : own[1];
   }
 
-  Part Merge(Part left, Part right, int axis)
+  Part Merge(const Part& left, const Part& right, int axis)
   {
-    this->TurnTo(left, axis);
-    this->TurnTo(right, axis);
-    Part part{ left.First, right.Last, left.FreeHead, right.FreeTail };
-    if (left.FreeHead == None)
+    Part part = left;
+    for (int i = 0; i < 2; ++i)
     {
-      part.FreeHead = right.FreeHead;
+      this->TakeEnds(i, right.Ends[i], part);
     }
-    else if (right.FreeHead == None)
+    part.FreeHead = left.FreeHead == None ? right.FreeHead : left.FreeHead;
+    part.FreeTail = right.FreeHead == None ? left.FreeTail : right.FreeTail;
+    if (left.FreeHead != None && right.FreeHead != None)
     {
-      part.FreeTail = left.FreeTail;
+      this->Sides[left.FreeTail].Next = right.FreeHead;
     }
-    else
-    {
-      this->Next[left.FreeTail] = right.FreeHead;
-    }
-    Edge l = left.Last, r = right.First;
+    // Out of the last point clockwise: the edge before the one counter-clockwise.
+    Edge l = this->Previous(left.Ends[axis][1].Leaving), r = right.Ends[axis][0].Leaving;
     for (;;) // the lower common tangent
     {
-      if (this->IsLeftOf(this->Origin[r], l))
+      if (this->IsLeftOf(this->Origin(r), l))
       {
         l = this->NextLeft(l);
       }
-      else if (this->IsRightOf(this->Origin[l], r))
+      else if (this->IsRightOf(this->Origin(l), r))
       {
-        r = this->Next[r ^ 1];
+        r = this->Next(r ^ 1);
       }
       else
       {
@@ -264,22 +279,34 @@ private:
       }
     }
     Edge base = this->Connect(part, r ^ 1, l);
-    part.First = this->Origin[l] == this->Origin[part.First] ? base ^ 1 : part.First;
-    part.Last = this->Origin[r] == this->Origin[part.Last] ? base : part.Last;
+    this->ReplaceEnds(base ^ 1, part);
     for (;;)
     {
       const Edge leftCandidate = this->FindCandidate(part, base, true);
       const Edge rightCandidate = this->FindCandidate(part, base, false);
       if (leftCandidate == None && rightCandidate == None)
       {
+        this->ReplaceEnds(base, part); // now the upper tangent
         return part;
       }
       const bool takesRight = leftCandidate == None ||
         (rightCandidate != None &&
-          this->IsInCircle(this->Destination(leftCandidate), this->Origin[leftCandidate],
-            this->Origin[rightCandidate], this->Destination(rightCandidate)));
+          this->IsInCircle(this->Destination(leftCandidate), this->Origin(leftCandidate),
+            this->Origin(rightCandidate), this->Destination(rightCandidate)));
       base = takesRight ? this->Connect(part, rightCandidate, base ^ 1)
                         : this->Connect(part, base ^ 1, leftCandidate ^ 1);
+    }
+  }
+
+  /// Takes a new edge of the hull into the ends.
+  void ReplaceEnds(Edge made, Part& part) const
+  {
+    for (auto& ends : part.Ends)
+    {
+      for (HullPoint& end : ends)
+      {
+        end.Leaving = end.At == this->Origin(made) ? made : end.Leaving;
+      }
     }
   }
 
@@ -287,13 +314,13 @@ private:
   /// been deleted; None if there is none above it.
   Edge FindCandidate(Part& part, Edge base, bool isLeft)
   {
-    const auto step = [&](Edge e) { return isLeft ? this->Next[e] : this->Previous[e]; };
-    Edge candidate = isLeft ? this->Next[base ^ 1] : this->Previous[base];
+    const auto step = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
+    Edge candidate = isLeft ? this->Next(base ^ 1) : this->Previous(base);
     if (!this->IsRightOf(this->Destination(candidate), base))
     {
       return None;
     }
-    for (Edge next = step(candidate); this->IsInCircle(this->Destination(base), this->Origin[base],
+    for (Edge next = step(candidate); this->IsInCircle(this->Destination(base), this->Origin(base),
            this->Destination(candidate), this->Destination(next));
          next = step(candidate))
     {
@@ -307,40 +334,43 @@ private:
   DividedPoints Collect(const Part& whole)
   {
     DividedPoints result;
-    std::vector<bool> isUsed(this->Next.size() / 2, true);
-    for (Edge e = whole.FreeHead; e != None; e = this->Next[e])
+    const auto sides = static_cast<Edge>(this->Sides.size());
+    // Of the triangle on the left, if there is one.
+    constexpr CornerId Unknown = NoCorner - 1;
+    std::vector<CornerId> cornerOf(sides, Unknown);
+    for (Edge e = whole.FreeHead; e != None; e = this->Next(e))
     {
-      isUsed[e / 2] = false;
+      cornerOf[e] = cornerOf[e ^ 1] = NoCorner;
     }
-    std::vector<CornerId> cornerOf(this->Next.size(), NoCorner); // of the triangle on the left
-    Edge e = whole.First;
-    std::vector<bool> isOutside(this->Next.size(), false);
+    const Edge hull = whole.Ends[0][0].Leaving;
+    Edge e = hull;
     do
     {
-      isOutside[e ^ 1] = true;
+      cornerOf[e ^ 1] = NoCorner;
       ++result.HullEdges;
-      e = this->Next[e ^ 1];
-    } while (e != whole.First);
-    for (Edge first = 0; first < this->Next.size(); ++first)
+      e = this->Next(e ^ 1);
+    } while (e != hull);
+    result.Triangles.reserve(2 * this->Places.size());
+    for (Edge first = 0; first < sides; ++first)
     {
-      if (!isUsed[first / 2] || isOutside[first] || cornerOf[first] != NoCorner)
+      if (cornerOf[first] != Unknown)
       {
         continue;
       }
       const Edge second = this->NextLeft(first), third = this->NextLeft(second);
       const auto number = static_cast<TriangleId>(result.Triangles.size());
       TriangleRecord triangle{};
-      triangle.Vertices[0] = this->Origin[first];
-      triangle.Vertices[1] = this->Origin[second];
-      triangle.Vertices[2] = this->Origin[third];
+      triangle.Vertices[0] = this->Places[this->Origin(first)].Number;
+      triangle.Vertices[1] = this->Places[this->Origin(second)].Number;
+      triangle.Vertices[2] = this->Places[this->Origin(third)].Number;
       cornerOf[first] = MakeCorner(number, 2);
       cornerOf[second] = MakeCorner(number, 0);
       cornerOf[third] = MakeCorner(number, 1);
       result.Triangles.push_back(triangle);
     }
-    for (Edge half = 0; half < this->Next.size(); ++half)
+    for (Edge half = 0; half < sides; ++half)
     {
-      if (isUsed[half / 2] && cornerOf[half] != NoCorner)
+      if (cornerOf[half] != NoCorner)
       {
         TriangleRecord& triangle = result.Triangles[TriangleOf(cornerOf[half])];
         triangle.HalfEdges[SlotOf(cornerOf[half])] = cornerOf[half ^ 1];
@@ -350,10 +380,9 @@ private:
   }
 
   const TaskRunner& Run;
-  std::vector<std::uint32_t> Order;
-  std::vector<PlanePoint> Places;
-  std::vector<std::uint32_t> Origin;
-  std::vector<Edge> Next, Previous; ///< Around the origin, counter-clockwise and clockwise.
+  std::vector<Place> Places; ///< In the order of the parts.
+  std::vector<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
+  bool FiltersApply = true;
 };
 }
 

@@ -36,10 +36,9 @@ struct PointMesh
 };
 
 /// A triangulation of n places with h of them on the hull's boundary has 2 n - 2 - h triangles.
-template <typename Real>
-void RequireComplete(const PointMesh<Real>& mesh)
+inline void RequireComplete(const EdgeMesh& edges, std::int64_t places, std::int64_t hullEdges)
 {
-  if (mesh.Edges.NumberOfTriangles != 2 * mesh.Points.Count - 2 - mesh.HullEdges)
+  if (edges.NumberOfTriangles != 2 * places - 2 - hullEdges)
   {
     throw std::logic_error("a triangulation of points is incomplete; please report the points");
   }
@@ -282,32 +281,31 @@ struct PointMeshBuilder
   }
 };
 
-/// Triangulates the places of points by divide and conquer, on the host.
-/// @param strips at least three points, merged by MergePlaces.
+/// Triangulates at least three places by divide and conquer, on the host. No edge is bad then.
+/// @param hullEdges receives their number.
 template <typename Real, typename Backend>
-PointMesh<Real> BuildDividedMesh(StripPoints<Real> strips, const Backend& backend)
+EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
+  const Backend& backend, std::int64_t& hullEdges)
 {
-  const std::int64_t count = strips.Count;
-  std::vector<CoordinatePair<Real>> places(count);
-  backend.Download(strips.Places(), count, places.data());
-  std::vector<CoordinatePair<double>> exact(count);
-  std::transform(places.begin(), places.end(), exact.begin(),
-    [](const CoordinatePair<Real>& p) {
-      return CoordinatePair<double>{ p.U, p.V };
-    });
+  std::vector<CoordinatePair<Real>> onHost(count);
+  backend.Download(places, count, onHost.data());
+  std::vector<CoordinatePair<double>> exact;
+  exact.reserve(count);
+  for (const CoordinatePair<Real>& place : onHost)
+  {
+    exact.push_back({ place.U, place.V });
+  }
   const DividedPoints divided = DivideAndConquer(exact,
     [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
     { backend.ForTasks(tasks, work); });
-  PointMesh<Real> mesh;
-  mesh.Points = std::move(strips);
-  mesh.HullEdges = divided.HullEdges;
-  EdgeMesh& edges = mesh.Edges;
+  hullEdges = divided.HullEdges;
+  EdgeMesh edges;
   edges.NumberOfTriangles = static_cast<std::int64_t>(divided.Triangles.size());
   edges.Triangles = backend.template MakeArray<TriangleRecord>(edges.NumberOfTriangles);
   backend.Upload(divided.Triangles.data(), edges.NumberOfTriangles, edges.Triangles.Data());
-  RequireComplete(mesh);
+  RequireComplete(edges, count, hullEdges);
   NumberJoinedEdges(edges, {}, backend);
-  return mesh;
+  return edges;
 }
 
 /// Triangulates the places of points by strips; or by divide and conquer if nearly all points are
@@ -330,7 +328,8 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   constexpr std::int64_t SmallestCurve = 10000; // below, flips take milliseconds
   if (mesh.Points.Count >= SmallestCurve && onBoundary >= mesh.Points.Count / 10 * 9)
   {
-    return BuildDividedMesh(std::move(mesh.Points), backend);
+    mesh.Edges = DividePlaces(mesh.Points.Places(), mesh.Points.Count, backend, mesh.HullEdges);
+    return mesh;
   }
   builder.MakeArrays(triangles + onBoundary);
   const Boundary boundary = JoinPieces(parts, builder.FillPieces(CutIntoPieces(parts), triangles));
@@ -343,7 +342,7 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   {
     throw BeyondDevice();
   }
-  RequireComplete(mesh);
+  RequireComplete(mesh.Edges, mesh.Points.Count, mesh.HullEdges);
   NumberJoinedEdges(mesh.Edges, std::move(builder.Sides), backend);
   return mesh;
 }

@@ -5,7 +5,6 @@
 #include "CallerMesh.h"
 #include "FlipError.h"
 #include "InputChecks.h"
-#include "SegmentInsertion.h"
 #include "Strips.h"
 
 #include <cmath>
@@ -238,41 +237,26 @@ void PointRun::CopyCoordinates(std::vector<Real>& copy)
 }
 
 //------------------------------------------------------------------------------
-/// By point the place at which it is, or NoVertex.
-std::vector<VertexId> PointRun::ListPlaces(
-  const PointMeshView& view, const LoadedMesh& mesh, const ThreadBackend& backend) const
+void PointRun::RequireClosedRings(const LoadedMesh& mesh) const
 {
+  if (!this->Prepared.Rings)
+  {
+    return;
+  }
   std::vector<std::int64_t> used(this->Prepared.Points.Count);
   mesh.StoreUsedPoints(used.data());
-  std::vector<VertexId> placeOf(used.size(), NoVertex);
-  backend.ForEach(view.NumberOfPlaces,
-    [&](std::int64_t place) { placeOf[view.Ids[place]] = static_cast<VertexId>(place); });
-  // Repeated points are not the used one, so what is read here is not written.
-  backend.ForEach(static_cast<std::int64_t>(used.size()),
-    [&](std::int64_t i)
-    {
-      if (used[i] != i)
-      {
-        placeOf[i] = used[i] < 0 ? NoVertex : placeOf[used[i]];
-      }
-    });
-  return placeOf;
-}
-
-void PointRun::RequireClosedRings(const std::vector<VertexId>& placeOf) const
-{
-  std::map<std::pair<std::int32_t, VertexId>, std::int64_t> ends; // segments out minus in
+  std::map<std::pair<std::int32_t, std::int64_t>, std::int64_t> ends; // segments out minus in
   for (const Segment& segment : this->Segments)
   {
     if (segment.Ring >= 0)
     {
-      ends[{ segment.Ring, placeOf[segment.From] }] += 1;
-      ends[{ segment.Ring, placeOf[segment.To] }] -= 1;
+      ends[{ segment.Ring, used[segment.From] }] += 1;
+      ends[{ segment.Ring, used[segment.To] }] -= 1;
     }
   }
   for (const Segment& segment : this->Segments)
   {
-    const bool isOpen = segment.Ring >= 0 && ends[{ segment.Ring, placeOf[segment.From] }] != 0;
+    const bool isOpen = segment.Ring >= 0 && ends[{ segment.Ring, used[segment.From] }] != 0;
     if (isOpen)
     {
       throw InvalidMesh("ring " + std::to_string(segment.Ring) + " is not closed at point " +
@@ -284,76 +268,54 @@ void PointRun::RequireClosedRings(const std::vector<VertexId>& placeOf) const
 
 bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
 {
-  bool isComplete = true;
-  const auto insert = [&](const PointMeshView& view)
+  this->RequireClosedRings(mesh);
+  std::vector<std::uint32_t> ends;
+  for (std::size_t i = this->Taken; i < this->Segments.size(); ++i)
   {
-    const ThreadBackend backend(this->Options.NumberOfThreads);
-    const std::vector<VertexId> placeOf = this->ListPlaces(view, mesh, backend);
-    this->RequireClosedRings(placeOf);
-    SegmentInsertion insertion(view, backend);
-    while (this->Taken < this->Segments.size() && isComplete)
+    ends.push_back(static_cast<std::uint32_t>(this->Segments[i].From));
+    ends.push_back(static_cast<std::uint32_t>(this->Segments[i].To));
+  }
+  bool isComplete = true;
+  mesh.InsertSegments(ends,
+    [&](const InsertedSegments& made)
     {
-      constexpr std::size_t SegmentsPerCall = 2048;
-      const std::size_t end = std::min(this->Segments.size(), this->Taken + SegmentsPerCall);
-      this->InsertBatch(view, placeOf, end, insertion);
+      this->Take(made);
       isComplete = !observer || observer(0.0);
-    }
-    this->Flips += insertion.GetNumberOfFlips();
-  };
-  mesh.EditOnHost(insert);
-  mesh.GetLoop().Restart();
+      return isComplete;
+    });
   std::sort(this->Refused.begin(), this->Refused.end(),
     [](const Segment& a, const Segment& b) { return a.Number < b.Number; });
   const auto ofRing = std::find_if(this->Refused.begin(), this->Refused.end(),
     [](const Segment& segment) { return segment.Ring >= 0; });
   if (ofRing != this->Refused.end())
   {
-    const std::int64_t* ends = this->Caller.Segments + 2 * ofRing->Number;
+    const std::int64_t* pair = this->Caller.Segments + 2 * ofRing->Number;
     throw InvalidMesh("the segment of ring " + std::to_string(ofRing->Ring) + " from point " +
-        std::to_string(ends[0]) + " to point " + std::to_string(ends[1]) +
+        std::to_string(pair[0]) + " to point " + std::to_string(pair[1]) +
         " cannot be inserted: it crosses an earlier segment, or a coordinate is not finite",
-      ofRing->Number, ends[0]);
+      ofRing->Number, pair[0]);
   }
   this->Inserted = isComplete;
   return isComplete;
 }
 
-/// Inserts the segments from Taken to `end`.
-void PointRun::InsertBatch(const PointMeshView& view, const std::vector<VertexId>& placeOf,
-  std::size_t end, SegmentInsertion& insertion)
+/// Keeps what the segments from Taken on have become.
+void PointRun::Take(const InsertedSegments& made)
 {
-  std::vector<SegmentInsertion::Item> items;
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = this->Taken; i < end; ++i)
+  auto side = made.Sides.begin();
+  for (const std::int32_t edges : made.NumberOfEdges)
   {
-    const VertexId from = placeOf[this->Segments[i].From], to = placeOf[this->Segments[i].To];
-    if (from == NoVertex || to == NoVertex || view.NumberOfTriangles == 0)
-    {
-      this->Refused.push_back(this->Segments[i]);
-    }
-    else if (from != to)
-    {
-      items.push_back({ from, to });
-      numbers.push_back(i);
-    }
-  }
-  this->Taken = end;
-  insertion.Insert(items);
-  for (std::size_t i = 0; i < items.size(); ++i)
-  {
-    const Segment& segment = this->Segments[numbers[i]];
-    if (!items[i].IsIn)
+    const Segment& segment = this->Segments[this->Taken++];
+    if (edges == InsertedSegments::Refused)
     {
       this->Refused.push_back(segment);
     }
-    VertexId at = items[i].From;
-    for (const HalfEdgeId side : items[i].Sides)
+    for (std::int32_t i = 0; i < edges; ++i, ++side)
     {
-      const bool isOnLeft = view.GetStart(side) == at;
-      at = isOnLeft ? view.GetEnd(side) : view.GetStart(side);
-      this->Edges.push_back({ side, segment.Ring, isOnLeft });
+      this->Edges.push_back({ side->Side, segment.Ring, side->IsOnLeft != 0 });
     }
   }
+  this->Flips += made.Flips;
 }
 
 void PointRun::Finish(LoadedMesh& mesh)

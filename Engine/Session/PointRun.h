@@ -16,9 +16,6 @@
 namespace delaunayflip
 {
 
-class SegmentInsertion;
-class ThreadBackend;
-
 /// What a session from points does beside flips: it prepares points and segments, inserts segments,
 /// and removes triangles in the end.
 class PointRun
@@ -91,11 +88,8 @@ private:
   void FindNearPoints(const ProgressObserver& observer);
   template <typename Real>
   void CopyCoordinates(std::vector<Real>& copy);
-  void RequireClosedRings(const std::vector<VertexId>& placeOf) const;
-  void InsertBatch(const PointMeshView& view, const std::vector<VertexId>& placeOf, std::size_t end,
-    SegmentInsertion& insertion);
-  std::vector<VertexId> ListPlaces(
-    const PointMeshView& view, const LoadedMesh& mesh, const ThreadBackend& backend) const;
+  void RequireClosedRings(const LoadedMesh& mesh) const;
+  void Take(const InsertedSegments& made);
 
   PointInput Caller;
   PointOptions Options;

@@ -145,9 +145,8 @@ std::unique_ptr<LoadedMesh> FlipSession::Work::LoadOn(BackendKind backend)
   if (this->Cloud)
   {
     this->Cloud->Reset();
-    return onCuda
-      ? LoadOnCuda(this->Cloud->GetPoints(), options, this->ByDivision, this->Building)
-      : LoadOnThreads(this->Cloud->GetOnHost(), options, this->ByDivision, this->Building);
+    return onCuda ? LoadOnCuda(this->Cloud->GetPoints(), options, this->Building)
+                  : LoadOnThreads(this->Cloud->GetOnHost(), options, this->Building);
   }
   const DeviceMesh* device = this->Start->GetOnDevice();
   if (onCuda)
@@ -195,6 +194,10 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
   const bool hadSegments = this->Cloud && this->Cloud->AreInserted();
   this->Loaded.reset();
   this->Loaded = this->LoadOn(BackendKind::Threads);
+  if (this->ByDivision)
+  {
+    this->Loaded->Divide(this->Building);
+  }
   if (!this->HasDetected)
   {
     return;
@@ -295,11 +298,10 @@ void FlipSession::Work::DivideIfLong()
     this->Report.TotalBlocked -= made.back().Blocked;
   }
   const TemporaryValue<bool> stoppable(this->MayStop, true);
-  this->ByDivision = true;
   this->IterationsBeforeDivision = this->CountIterations();
   this->HasDetected = false;
-  this->Loaded.reset();
-  this->Load();
+  this->OnBackend([this](LoadedMesh& mesh) { mesh.Divide(this->Building); });
+  this->ByDivision = true;
   this->Detect();
   this->Resume();
 }

@@ -139,6 +139,155 @@ static std::vector<CoordinatePair<double>> ListPlaces(
   return places;
 }
 
+namespace
+{
+/// Inserts constraints into any planar mesh, one after the other.
+class Inserter
+{
+public:
+  /// @param table of the vertex pairs of all edges.
+  Inserter(const PlaneMesh& mesh, std::int64_t vertices, std::int64_t triangles,
+    const EdgeTableView& table)
+    : Mesh(mesh),
+      Table(table),
+      First(vertices, NoCorner),
+      Others(vertices, 0)
+  {
+    std::vector<bool> isKnown(4 * triangles, false);
+    for (std::int64_t i = 0; i < 3 * triangles; ++i)
+    {
+      const CornerId corner = MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3));
+      if (!isKnown[corner])
+      {
+        this->AddFan(mesh.GetVertex(corner), corner);
+        VertexFans::SearchFan(mesh, corner,
+          [&](CornerId known)
+          {
+            isKnown[known] = true;
+            return false;
+          });
+      }
+    }
+  }
+
+  /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
+  PathResult Insert(VertexId from, VertexId to)
+  {
+    if (!this->Mesh.IsFinite(from) || !this->Mesh.IsFinite(to))
+    {
+      return PathResult::LeavesMesh;
+    }
+    const PlanePoint a = this->Mesh.GetPoint(from), b = this->Mesh.GetPoint(to);
+    if (!IsLexicographicallyLess(a, b) && !IsLexicographicallyLess(b, a))
+    {
+      return PathResult::Overlaps;
+    }
+    ConstraintPath path{ this->Mesh, { this->First.data(), this->Others.data() }, &this->Table,
+      from, to };
+    const PathResult result = this->Insert(path);
+    this->Flips += path.Flips;
+    return result;
+  }
+
+  /// The vertices at the ends of the edges that constraints have become, in the order of insertion
+  /// and from start to end.
+  const std::vector<std::pair<VertexId, VertexId>>& GetEdges() const { return this->Edges; }
+  std::int64_t GetNumberOfFlips() const { return this->Flips; }
+
+private:
+  void AddFan(VertexId vertex, CornerId corner)
+  {
+    if (this->First[vertex] == NoCorner)
+    {
+      this->First[vertex] = corner;
+      return;
+    }
+    const auto added = static_cast<std::uint32_t>(this->First.size());
+    this->First.push_back(corner);
+    this->Others.push_back(std::exchange(this->Others[vertex], added));
+  }
+
+  PathResult Insert(ConstraintPath& path)
+  {
+    std::vector<ConstraintPath::Segment> segments;
+    PathResult result = PathResult::IsBarred;
+    while (result == PathResult::IsBarred)
+    {
+      segments.clear();
+      result =
+        path.Walk([&](const ConstraintPath::Segment& segment) { segments.push_back(segment); },
+          [](HalfEdgeId) {});
+      if (result == PathResult::IsBarred && !this->RemoveBar(path))
+      {
+        return PathResult::Overlaps;
+      }
+    }
+    if (result != PathResult::Found)
+    {
+      return result;
+    }
+    if (!std::all_of(segments.begin(), segments.end(),
+          [&](ConstraintPath::Segment& segment) { return path.Flip(segment); }))
+    {
+      return PathResult::Overlaps;
+    }
+    for (const ConstraintPath::Segment& segment : segments)
+    {
+      this->Mesh.Edges.States[EdgeOf(segment.Side)] = EdgeState::Fixed;
+      this->Edges.emplace_back(this->Mesh.GetStart(segment.Side), this->Mesh.GetEnd(segment.Side));
+    }
+    return result;
+  }
+
+  /// Flips a triangle without area away, and before it others on which it leans with its long side:
+  /// the next one's is longer, so that there is a last one.
+  bool RemoveBar(ConstraintPath& path) const
+  {
+    std::vector<EdgeId> sides;
+    for (TriangleId flat = path.Bar; this->Mesh.FindTurnAt(MakeCorner(flat, 0)) == 0;)
+    {
+      const HalfEdgeId side = this->GetLongSide(flat);
+      if (side == NoHalfEdge || this->Mesh.IsFixed(side) ||
+        (!sides.empty() && sides.back() == EdgeOf(side)))
+      {
+        return false;
+      }
+      sides.push_back(EdgeOf(side));
+      flat = TriangleOf(this->Mesh.FindAcross(side));
+    }
+    return std::all_of(
+      sides.rbegin(), sides.rend(), [&](EdgeId side) { return path.TryFlip(side); });
+  }
+
+  /// Of a triangle without area, the side that holds all three points; NoHalfEdge where two
+  /// coincide.
+  HalfEdgeId GetLongSide(TriangleId flat) const
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const CornerId corner = MakeCorner(flat, slot);
+      const PlanePoint at = this->Mesh.GetPoint(this->Mesh.GetVertex(corner));
+      const PlanePoint next = this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Next(corner)));
+      const PlanePoint previous =
+        this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Previous(corner)));
+      if ((IsLexicographicallyLess(next, at) && IsLexicographicallyLess(at, previous)) ||
+        (IsLexicographicallyLess(previous, at) && IsLexicographicallyLess(at, next)))
+      {
+        return this->Mesh.GetHalfEdge(corner);
+      }
+    }
+    return NoHalfEdge;
+  }
+
+  const PlaneMesh& Mesh;
+  const EdgeTableView Table;
+  std::vector<CornerId> First; ///< As VertexFans has them.
+  std::vector<std::uint32_t> Others;
+  std::vector<std::pair<VertexId, VertexId>> Edges;
+  std::int64_t Flips = 0;
+};
+}
+
 ConstraintInsertion::ConstraintInsertion(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer)
 {
@@ -188,8 +337,7 @@ ConstraintInsertion::ConstraintInsertion(
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, building);
   const std::vector<CoordinatePair<double>> places = ListPlaces(mesh, ranks, survey.Projection);
   const PlaneMesh plane{ built.Edges.View(), PlaneArray(&places.data()->U, mesh.Points.Count, 2) };
-  EdgeTableView table = built.Table.View();
-  ConstraintFlips flips(plane, mesh.Points.Count, mesh.Triangles.Count, &table);
+  Inserter flips(plane, mesh.Points.Count, mesh.Triangles.Count, built.Table.View());
   for (std::size_t i = 0; i < missing.First.size(); ++i)
   {
     constexpr std::size_t ConstraintsPerCall = 64; // a few milliseconds
@@ -206,10 +354,9 @@ ConstraintInsertion::ConstraintInsertion(
     }
   }
   this->Inserted = static_cast<std::int64_t>(missing.First.size() - this->Refused.size());
-  for (const HalfEdgeId segment : flips.GetSegments())
+  for (const auto& [start, end] : flips.GetEdges())
   {
-    this->Edges.insert(this->Edges.end(),
-      { ranks.GetVertex(plane.GetStart(segment)), ranks.GetVertex(plane.GetEnd(segment)) });
+    this->Edges.insert(this->Edges.end(), { ranks.GetVertex(start), ranks.GetVertex(end) });
   }
   this->Flips = flips.GetNumberOfFlips();
   if (this->Flips > 0)

@@ -21,11 +21,11 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
     new MeshOnBackend<ThreadBackend>(mesh, local, options, std::move(backend), progress));
 }
 
-std::unique_ptr<LoadedMesh> LoadOnThreads(const PlaneArray& points, const FlipOptions& options,
-  bool byDivision, const BuildProgress& progress)
+std::unique_ptr<LoadedMesh> LoadOnThreads(
+  const PlaneArray& points, const FlipOptions& options, const BuildProgress& progress)
 {
   return std::unique_ptr<LoadedMesh>(new MeshOnBackend<ThreadBackend>(
-    points, true, options, byDivision, ThreadBackend(options.NumberOfThreads), progress));
+    points, true, options, ThreadBackend(options.NumberOfThreads), progress));
 }
 
 std::vector<std::int64_t> FindFixedEdges(

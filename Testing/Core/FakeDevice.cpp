@@ -110,7 +110,12 @@ public:
     return true;
   }
   void ViewOnHost(const HostView& view) override { this->Engine->ViewOnHost(view); }
-  void EditOnHost(const HostView& edit) override { this->Engine->EditOnHost(edit); }
+  void Divide(const BuildProgress& progress) override { this->Engine->Divide(progress); }
+  void InsertSegments(
+    const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) override
+  {
+    this->Engine->InsertSegments(ends, onBatch);
+  }
   HostTriangles ViewHostTriangles() const override { return {}; }
   Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
   bool KeepsSliver() override { return this->Engine->KeepsSliver(); }
@@ -134,11 +139,11 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   return LoadOnCuda(WidePoints(mesh).View, options, progress);
 }
 
-std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput& points, const FlipOptions& options,
-  bool byDivision, const BuildProgress& progress)
+std::unique_ptr<LoadedMesh> LoadOnCuda(
+  const PointInput& points, const FlipOptions& options, const BuildProgress& progress)
 {
   return std::unique_ptr<LoadedMesh>(
-    new FakeEngine(LoadOnThreads(points.Points, options, byDivision, progress)));
+    new FakeEngine(LoadOnThreads(points.Points, options, progress)));
 }
 
 bool HasCudaDevice() { return true; }
