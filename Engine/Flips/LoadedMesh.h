@@ -118,8 +118,7 @@ public:
 
   /// The same into device memory. @returns false, and writes nothing, if the backend's device
   /// cannot write it.
-  virtual bool StoreTrianglesOnDevice(
-    const MutableTriangleArray&, const DeviceStream&, std::int32_t*) const
+  virtual bool StoreTrianglesOnDevice(const MutableTriangleArray&, const DeviceStream&) const
   {
     return false;
   }
