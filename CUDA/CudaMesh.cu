@@ -30,21 +30,45 @@ struct StoreIdStep
   }
 };
 
+/// Stores the triangles that flips have changed since the last time. A thread has one triangle and
+/// its number in `Written`, so that a triangle that stays costs two reads and no write.
+struct StoreChangedStep
+{
+  StoreStep Triangles;
+  std::int32_t* Written;
+
+  __device__ void operator()(std::int64_t t, const MutableTriangleArray& target) const
+  {
+    const auto flips = static_cast<std::int32_t>(this->Triangles.Triangles[t].Flips / OneFlip);
+    if (this->Written[t] != flips)
+    {
+      this->Written[t] = flips;
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        this->Triangles.StoreId(t, slot, target);
+      }
+    }
+  }
+};
+
 /// Also stores into arrays in the memory of its device.
 class CudaMesh : public MeshOnBackend<CudaBackend>
 {
 public:
   using MeshOnBackend::MeshOnBackend;
 
-  bool StoreTrianglesOnDevice(
-    const MutableTriangleArray& triangles, const DeviceStream& stream) const override
+  bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream,
+    std::int32_t* written) const override
   {
     if (triangles.Count > 0 && !this->IsHere(triangles.Data()))
     {
       return false;
     }
-    this->GetBackend().StoreOnDevice(
-      3 * triangles.Count, triangles, stream, StoreIdStep{ this->GetStoreStep() });
+    const StoreStep all = this->GetStoreStep();
+    const CudaBackend& backend = this->GetBackend();
+    written
+      ? backend.StoreOnDevice(triangles.Count, triangles, stream, StoreChangedStep{ all, written })
+      : backend.StoreOnDevice(3 * triangles.Count, triangles, stream, StoreIdStep{ all });
     return true;
   }
 

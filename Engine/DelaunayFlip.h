@@ -113,8 +113,13 @@ public:
   /// The same into arrays in the memory of a GPU, for any session: from the engine's GPU to arrays
   /// of the same GPU without a copy through the host. An array of the mesh itself may be written
   /// once there is nothing more to do.
+  /// @param written null, or one number per triangle in the memory of the engine's GPU: all -1
+  /// before the first call for an array of triangles, and then what that session's last call has
+  /// left there. Then only triangles that flips have changed since need be written, which takes a
+  /// sixth of the time where these are few.
   /// @throws InvalidOptions if the array is not in the memory of a GPU; BackendUnavailable.
-  void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream) const;
+  void StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream,
+    std::int32_t* written = nullptr) const;
   void StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const;
   void StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const;
 

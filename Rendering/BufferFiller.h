@@ -35,8 +35,10 @@ public:
 
   /// Writes the triangles and gives the buffer back to OpenGL.
   /// @param session of as many triangles as the buffer.
+  /// @param isNew whether it may be another session than the last time. If not, only triangles that
+  /// have changed need be written.
   /// @throws std::exception.
-  virtual void Fill(const FlipSession& session) = 0;
+  virtual void Fill(const FlipSession& session, bool isNew) = 0;
 };
 
 /// Makes a filler of a buffer of the current context, by OpenGL's name of it, for sessions of a

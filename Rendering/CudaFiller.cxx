@@ -98,7 +98,7 @@ public:
     }
   }
 
-  void Fill(const FlipSession& session) override
+  void Fill(const FlipSession& session, bool isNew) override
   {
     if (!IsOnGpu(session.GetReport().Backend))
     {
@@ -110,14 +110,26 @@ public:
     std::size_t size = 0;
     Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, this->Buffer),
       "find the memory of a buffer of OpenGL");
-    auto* ids = static_cast<std::int32_t*>(memory);
-    session.StoreTriangles(MutableTriangleArray(ids, session.GetReport().Triangles), {});
+    const MutableTriangleArray triangles(
+      static_cast<std::int32_t*>(memory), session.GetReport().Triangles);
+    size = 4 * static_cast<std::size_t>(triangles.Count);
+    if (!this->Written)
+    {
+      Require(cudaMalloc(&memory, size), "allocate memory");
+      this->Written.reset(static_cast<std::int32_t*>(memory), cudaFree);
+    }
+    if (isNew)
+    {
+      Require(cudaMemset(this->Written.get(), -1, size), "set memory");
+    }
+    session.StoreTriangles(triangles, {}, this->Written.get());
     this->Unmap();
   }
 
 private:
   int Device;
   cudaGraphicsResource_t Buffer = nullptr;
+  std::shared_ptr<std::int32_t> Written; ///< For FlipSession::StoreTriangles.
   bool IsMapped = false;
 };
 

@@ -103,9 +103,8 @@ void vtkDelaunayFlipLiveView::LookAtMesh()
     axis = box.GetLength(flat) < 1e-3 * box.GetMaxLength() ? flat : axis;
   }
   vtkCamera* camera = this->Renderer->GetActiveCamera();
-  double position[3] = { 0.0, 0.0, 0.0 };
-  position[axis] = axis == 1 ? -1.0 : 1.0; // so that x points to the right
-  camera->SetPosition(position);
+  // From below in y, so that x points to the right.
+  camera->SetPosition(axis == 0 ? 1.0 : 0.0, axis == 1 ? -1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
   camera->SetViewUp(0.0, axis == 2 ? 1.0 : 0.0, axis == 2 ? 0.0 : 1.0);
   this->Renderer->ResetCamera();
 }

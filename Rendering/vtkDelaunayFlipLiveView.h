@@ -23,7 +23,8 @@
  * (quads, polygons and strips as triangles; no lines or verts), a colour scale and two texts, and
  * removes them when it is deleted. If the window has no renderer, the view makes one with a white
  * background. A renderer without a camera gets one that looks at the mesh from +z, or at a flat
- * mesh along the axis in which it has no extent.
+ * mesh along the axis in which it has no extent. Colours, edges and texts that are chosen appear in
+ * the next frame or with Render().
  *
  * The filter: Start() restarts it and turns on LiveUpdate and GenerateFlipCount, which stay on. Do
  * not update the filter elsewhere in the meantime: an update between two steps, for example by
@@ -103,7 +104,6 @@ public:
   ///@{
   /**
    * What the colour of a triangle shows, as vtkDelaunayFlipMapper says; default SMALLEST_ANGLE.
-   * Takes effect at the next frame or Render().
    */
   enum ColorByType
   {
@@ -120,8 +120,7 @@ public:
 
   ///@{
   /**
-   * Whether the edges of triangles are drawn. AUTO (default): if there are fewer than 20,000
-   * triangles. Takes effect at the next frame or Render().
+   * Whether edges are drawn. AUTO (default): if there are fewer than 20,000 triangles.
    */
   enum EdgeVisibilityType
   {
@@ -138,16 +137,13 @@ public:
 
   ///@{
   /**
-   * Which texts are drawn, from the next frame or Render() on.
-   *
-   * ShowStatistics (default on): three lines in the upper left corner: the iteration and whether
-   * the run continues; the flips so far and the bad edges left, or the number of triangles of the
-   * input; the smallest angle in degrees, in space or, after a step with PLANAR_XY, in the
-   * projection. A failure is always shown, instead of them.
-   *
-   * ShowDrawing (default off): GetDrawing(), as their last line.
-   *
-   * ShowKeys (default on): what the keys do, at the bottom. Never drawn in an off-screen window.
+   * Which texts are drawn:
+   * - ShowStatistics (default on): three lines in the upper left corner: the iteration and whether
+   *   the run continues; the flips so far and the bad edges left, or the number of triangles of the
+   *   input; the smallest angle in degrees, in space or, after a step with PLANAR_XY, in the
+   *   projection. A failure is always shown, instead of them.
+   * - ShowDrawing (default off): GetDrawing(), as their last line.
+   * - ShowKeys (default on): what the keys do, at the bottom; never in an off-screen window.
    */
   vtkSetMacro(ShowStatistics, bool);
   vtkGetMacro(ShowStatistics, bool);

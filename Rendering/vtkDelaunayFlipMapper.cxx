@@ -217,6 +217,7 @@ struct vtkDelaunayFlipMapper::Parts
   std::string Obstacle = NoRun; ///< Why the host fills.
   bool MayUseDevice = true; ///< It has not failed since the host has got a mesh.
   bool IsBehind = true; ///< The buffers hold an earlier mesh.
+  bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
   bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
   double TableKind = -1.0; ///< What the table was filled for: a largest count, or -1 for angles.
@@ -340,8 +341,9 @@ struct vtkDelaunayFlipMapper::Parts
     this->Places.Values->Upload(places, Buffer::ArrayBuffer);
   }
 
-  /// If the filter fails, its session is gone, but the mesh in the buffers stays.
-  void ChooseFiller(const FlipSession* session, bool allowsDevice)
+  /// Brings the buffers of triangles and, if colours show them, of flip counts up to date. If the
+  /// filter has failed, its session is gone, but the mesh in the buffers stays.
+  void Fill(const FlipSession* session, bool allowsDevice)
   {
     if (!session || !allowsDevice)
     {
@@ -352,24 +354,12 @@ struct vtkDelaunayFlipMapper::Parts
     {
       this->Filler = DeviceFillerMaker(
         this->Filter, static_cast<unsigned int>(this->Corners.Values->GetHandle()));
+      this->IsNew = true;
     }
-  }
-
-  /// Does without the device, which has failed.
-  void Abandon(const std::exception& error)
-  {
-    this->Filler.reset();
-    this->Obstacle = error.what();
-    this->MayUseDevice = false;
-    this->IsBehind = true;
-  }
-
-  /// Brings the buffers of triangles and, if colours show them, of flip counts up to date.
-  void Fill(const FlipSession* session)
-  {
     if (this->IsBehind)
     {
-      this->Filler ? this->Filler->Fill(*session) : this->UploadTriangles(session);
+      this->Filler ? this->Filler->Fill(*session, std::exchange(this->IsNew, false))
+                   : this->UploadTriangles(session);
       if (this->ByFlipCount)
       {
         this->UploadFlipCounts(session);
@@ -380,6 +370,15 @@ struct vtkDelaunayFlipMapper::Parts
     {
       this->Filler->Unmap();
     }
+  }
+
+  /// Does without the device, which has failed.
+  void Abandon(const std::exception& error)
+  {
+    this->Filler.reset();
+    this->Obstacle = error.what();
+    this->MayUseDevice = false;
+    this->IsBehind = true;
   }
 
   void UploadTriangles(const FlipSession* session)
@@ -451,6 +450,7 @@ vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper()
 void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
 {
   this->Own->Filter = filter;
+  this->Own->IsNew = true;
   this->EndStep();
   this->Modified();
 }
@@ -521,6 +521,7 @@ void vtkDelaunayFlipMapper::ReadInput()
   {
     own.ReadFaces(input);
     own.MayUseDevice = true;
+    own.IsNew = true;
     this->EndStep();
   }
 }
@@ -553,8 +554,7 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
   }
   try
   {
-    own.ChooseFiller(session, this->ZeroCopy);
-    own.Fill(session);
+    own.Fill(session, this->ZeroCopy);
     // The table changes only if it must, since VTK then makes the scale anew.
     const double kind = own.ByFlipCount ? own.LargestCount : -1.0;
     if (std::exchange(own.TableKind, kind) != kind)
@@ -600,16 +600,14 @@ void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   {
     return;
   }
-  vtkShaderProgram* program =
-    window->GetShaderCache()->ReadyShaderProgram(VertexShader, FragmentShader, "");
-  if (!program)
+  // Null, and VTK gives an error, if OpenGL does not compile it.
+  if (auto* program =
+        window->GetShaderCache()->ReadyShaderProgram(VertexShader, FragmentShader, ""))
   {
-    vtkErrorMacro("OpenGL does not compile the shader.");
-    return;
+    this->SetPlaces(program, renderer, actor->GetMatrix());
+    this->SetColors(program, actor->GetProperty());
+    this->Own->Draw(program);
   }
-  this->SetPlaces(program, renderer, actor->GetMatrix());
-  this->SetColors(program, actor->GetProperty());
-  this->Own->Draw(program);
 }
 
 /// Where the triangles are drawn, and where they are cut off.

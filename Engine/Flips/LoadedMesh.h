@@ -118,7 +118,8 @@ public:
 
   /// The same into device memory. @returns false, and writes nothing, if the backend's device
   /// cannot write it.
-  virtual bool StoreTrianglesOnDevice(const MutableTriangleArray&, const DeviceStream&) const
+  virtual bool StoreTrianglesOnDevice(
+    const MutableTriangleArray&, const DeviceStream&, std::int32_t*) const
   {
     return false;
   }

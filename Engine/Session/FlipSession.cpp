@@ -223,14 +223,15 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 }
 
 void FlipSession::StoreTriangles(
-  const MutableTriangleArray& triangles, const DeviceStream& stream) const
+  const MutableTriangleArray& triangles, const DeviceStream& stream, std::int32_t* written) const
 {
   const auto write = [&](auto* ids)
   {
     this->Own->StoreOnDevice(
       DeviceArray<std::remove_pointer_t<decltype(ids)>>{ ids, 3 * triangles.Count, stream },
       "the array for triangles is",
-      [&](const LoadedMesh& mesh) { return mesh.StoreTrianglesOnDevice(triangles, stream); },
+      [&](const LoadedMesh& mesh)
+      { return mesh.StoreTrianglesOnDevice(triangles, stream, written); },
       [&](auto* host) { this->StoreTriangles(MutableTriangleArray(host, triangles.Count)); });
   };
   triangles.Ids32 ? write(triangles.Ids32) : write(triangles.Ids64);

@@ -94,7 +94,7 @@ public:
   }
   void StoreUsedPoints(std::int64_t* ids) const override { this->Engine->StoreUsedPoints(ids); }
   bool StoreTrianglesOnDevice(
-    const MutableTriangleArray& triangles, const DeviceStream&) const override
+    const MutableTriangleArray& triangles, const DeviceStream&, std::int32_t*) const override
   {
     this->Engine->StoreTriangles(triangles);
     return true;

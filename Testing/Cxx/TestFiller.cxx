@@ -62,12 +62,12 @@ public:
       }
     }
   }
-  void Fill(const FlipSession& session) override
+  void Fill(const FlipSession& session, bool isNew) override
   {
     this->Map();
     Count(Plan.Fills, Plan.FailingFill, "no filling");
     LastCount = session.GetReport().Triangles;
-    this->Own ? this->Own->Fill(session) : FillFromHost(session);
+    this->Own ? this->Own->Fill(session, isNew) : FillFromHost(session);
     Plan.AreMapped = false;
     Count(Plan.Unmaps, Plan.FailingUnmap, "no unmapping");
   }

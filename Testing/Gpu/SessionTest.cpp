@@ -149,6 +149,27 @@ protected:
   OwnedMesh<double> Mesh = MakeWorstCaseMesh(400);
 };
 
+TEST_F(BatchTest, OnlyChangedTrianglesAreWritten)
+{
+  FlipSession session = this->Start();
+  const std::int64_t count = this->Mesh.NumberOfTriangles();
+  const std::vector<std::int32_t> none(3 * static_cast<std::size_t>(count), -1);
+  const DeviceValues<std::int32_t> triangles(none);
+  const DeviceValues<std::int32_t> written(std::vector<std::int32_t>(count, -1));
+  const auto store = [&]
+  {
+    session.StoreTriangles(MutableTriangleArray(triangles.Data(), count), {}, written.Data());
+    return triangles.Get();
+  };
+  for (const std::int64_t iterations : { 0, 1, 300, -1 })
+  {
+    session.Advance(iterations);
+    EXPECT_EQ(this->Store(session), store());
+  }
+  triangles.Set(none);
+  EXPECT_EQ(none, store());
+}
+
 TEST_F(BatchTest, AnAbortActsAtItsEnd)
 {
   FlipSession session = this->Start();
