@@ -237,12 +237,17 @@ private:
   class IdleTime
   {
   public:
-    /// Lets another thread run, but not at once: to come back may take longer than a range.
+    /// Lets other threads run, but not at once: to come back may take longer than a range. Linux
+    /// hardly heeds a yield since 6.6, so that where threads share cores only sleep helps.
     Microseconds Pause() const
     {
-      constexpr Microseconds LongestSpin{ 20.0 };
+      constexpr Microseconds LongestSpin{ 20.0 }, LongestYield{ 100.0 };
       const Microseconds idle = std::chrono::steady_clock::now() - this->Start;
-      if (idle > LongestSpin)
+      if (idle > LongestYield)
+      {
+        std::this_thread::sleep_for(LongestSpin);
+      }
+      else if (idle > LongestSpin)
       {
         std::this_thread::yield();
       }
