@@ -141,6 +141,28 @@ struct EdgeGuardView
   EdgeClaims Claims;
 };
 
+/// Enters an edge into a guard's table.
+struct EnterEdgeStep
+{
+  EdgeMeshView Mesh;
+  EdgeTableView Table;
+
+  DELAUNAYFLIP_HOST_DEVICE std::uint64_t GetKey(std::int64_t edge) const
+  {
+    const CornerId corner = this->Mesh.CornerOfHalfEdge[2 * edge];
+    return KeyOpposite(this->Mesh.Triangles[TriangleOf(corner)], SlotOf(corner));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t edge) const
+  {
+    this->Table.PrefetchKey(this->GetKey(edge));
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t edge) const
+  {
+    bool inserted = false;
+    this->Table.FindOrInsert(this->GetKey(edge), inserted);
+  }
+};
+
 /// The table of all edges, if flips could make an edge that exists; empty if they provably cannot.
 class EdgeGuard
 {
@@ -207,18 +229,7 @@ public:
     this->Table = EdgeTable();
     this->Table = EdgeTable(
       mesh.NumberOfEdges, { 0, static_cast<VertexId>(this->NumberOfVertices) }, false, backend);
-    const EdgeTableView table = this->Table.View();
-    const EdgeMeshView view = mesh.View();
-    backend.ForEach(mesh.NumberOfEdges,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e)
-      {
-        const CornerId corner = view.CornerOfHalfEdge[2 * e];
-        const TriangleRecord& triangle = view.Triangles[TriangleOf(corner)];
-        bool inserted = false;
-        table.FindOrInsert(EdgeKey(triangle.Vertices[NextSlot(SlotOf(corner))],
-                             triangle.Vertices[PreviousSlot(SlotOf(corner))]),
-          inserted);
-      });
+    backend.ForEach(mesh.NumberOfEdges, EnterEdgeStep{ mesh.View(), this->Table.View() });
     this->UsedSlots = mesh.NumberOfEdges;
   }
 

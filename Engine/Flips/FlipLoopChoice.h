@@ -57,6 +57,7 @@ struct FlipLoopInput
 struct FlipLoopResult
 {
   std::unique_ptr<FlipLoop> Loop;
+  double SquaredCotangent; ///< FlipLoop::FindLargestSquaredCotangent.
   std::vector<Defect> Defects; ///< Triangles without area or turned over.
 };
 
@@ -120,11 +121,7 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   FlipLoopResult result;
   bool needsGuard = true;
   int uniformSide = 0;
-  if (survey.Geometry == GeometryKind::Surface)
-  {
-    result.Defects = { FindZeroAreaTriangles(input.Mesh, input.Points, backend) };
-  }
-  else
+  if (survey.Geometry != GeometryKind::Surface)
   {
     const EdgeCounts& edges = input.Counts.Edges;
     const bool brokenFans =
@@ -158,6 +155,11 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   result.Loop = RuleChoice(survey, input.Options)
                   .Visit(isFloat ? input.Points.Floats.Data() : nullptr,
                     input.Points.Doubles.Data(), uniformSide, make);
+  result.SquaredCotangent = result.Loop->FindLargestSquaredCotangent();
+  if (survey.Geometry == GeometryKind::Surface && result.SquaredCotangent == INFINITY)
+  {
+    result.Defects = { FindZeroAreaTriangles(input.Mesh, input.Points, backend) };
+  }
   return result;
 }
 

@@ -152,6 +152,7 @@ public:
       { this->Points, survey, options, this->Report, this->Mesh, mesh.Whole, shared },
       std::move(built.Table), this->Backend);
     this->Loop = std::move(made.Loop);
+    report.MinimumAngleBefore = ToDegrees(made.SquaredCotangent);
     std::vector<Defect> defects{ survey.NonFinitePoints, survey.RepeatedIds,
       survey.NearlyHeightField, built.DuplicateTriangles,
       { "constraint edges that are not edges of the mesh", built.MissingConstraints, {},
@@ -403,6 +404,7 @@ private:
     this->Range = survey.Range;
     this->FiltersApply = survey.FiltersApply;
     this->MakePlaneLoop(coordinates);
+    report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestSquaredCotangent());
   }
 
   template <typename Real>

@@ -19,8 +19,7 @@ enum class BuildStep
   Paired,
   Numbered,
   Fixed,
-  Prepared, ///< The loop is made.
-  Measured, ///< The smallest angle is known.
+  Measured, ///< The loop is made, and the smallest angle is known.
   Tested ///< All edges have been tested; the loop can begin.
 };
 
@@ -41,8 +40,8 @@ public:
   /// @throws RunAborted.
   void Reach(GeometryKind geometry, BuildStep step) const
   {
-    constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.43, 0.45, 0.50 };
-    constexpr double OfSurfaces[] = { 0.02, 0.11, 0.14, 0.24, 0.28, 0.39, 0.54, 0.56, 0.65 };
+    constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.45, 0.50 };
+    constexpr double OfSurfaces[] = { 0.02, 0.11, 0.14, 0.24, 0.28, 0.39, 0.56, 0.65 };
     const auto i = static_cast<int>(step);
     this->Tell(geometry == GeometryKind::Surface ? OfSurfaces[i] : OfPlanes[i]);
   }

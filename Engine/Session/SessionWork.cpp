@@ -107,8 +107,6 @@ try
   this->Insertion.AddTo(this->Report);
   this->ListDefects();
   const GeometryKind geometry = this->Report.GeometryUsed;
-  this->Building.Reach(geometry, BuildStep::Prepared);
-  this->Report.MinimumAngleBefore = this->MeasureAngle();
   this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
   this->Report.BuildSeconds = watch.GetSeconds();
   this->Building.Reach(geometry, BuildStep::Measured);

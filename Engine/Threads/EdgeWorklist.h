@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 /// @file
@@ -98,37 +99,60 @@ public:
   }
 
   /// Removes edges for which the step returns false from the lists.
-  template <typename Step>
-  void Filter(const ThreadBackend& backend, const Step& step)
+  void Choose(const ThreadBackend& backend, const ChooseStep& step)
   {
     this->ForTasks(backend, this->Listed,
       [&](Task& task)
       {
-        EdgeId* edges = task.Edges.data();
-        std::int64_t kept = 0;
-        ForEdges(step, edges, task.Size,
-          [&](std::int64_t i, const auto& item)
-          {
-            const EdgeId edge = edges[i];
-            edges[kept] = edge;
-            kept += step(edge, item) ? 1 : 0;
-          });
-        task.Size = kept;
+        ChooseIn(task, step, [](std::int64_t, std::int64_t) {});
         return StepCounts();
       });
   }
 
-  /// Runs a step on the edges of the lists. @returns its counts.
+  /// The same, and the winners claim their new edges.
+  void ChooseAndClaim(const ThreadBackend& backend, const ChooseAndClaimStep& step)
+  {
+    this->ForTasks(backend, this->Listed,
+      [&](Task& task)
+      {
+        task.Slots.resize(task.Size);
+        ChooseIn(task, step,
+          [&](std::int64_t begin, std::int64_t end)
+          {
+            for (std::int64_t i = begin; i < end; ++i)
+            {
+              step.PrefetchClaim(task.Edges[i]);
+            }
+            for (std::int64_t i = begin; i < end; ++i)
+            {
+              task.Slots[i] = step.Claim(task.Edges[i]);
+            }
+          });
+        return StepCounts();
+      });
+  }
+
+  /// Flips the edges of the lists; of those with claims, the ones that hold them.
+  /// @returns the step's counts.
   template <typename Step>
-  StepCounts Run(const ThreadBackend& backend, const Step& step)
+  StepCounts Flip(const ThreadBackend& backend, const Step& step)
   {
     return this->ForTasks(backend, this->Listed,
       [&](Task& task)
       {
         StepCounts counts;
-        const EdgeId* edges = task.Edges.data();
         ForEdges(step, task.Edges.data(), task.Size,
-          [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
+          [&](std::int64_t i, const Quad& quad)
+          {
+            if constexpr (std::is_same_v<Step, ConfirmAndFlipStep>)
+            {
+              step(task.Edges[i], quad, task.Slots[i], counts);
+            }
+            else
+            {
+              step(task.Edges[i], quad, counts);
+            }
+          });
         return counts;
       });
   }
@@ -184,6 +208,7 @@ private:
   {
     std::int64_t Begin, End;
     std::vector<EdgeId> Edges; ///< In order, and Padding.
+    std::vector<std::uint32_t> Slots; ///< Of the winners' claims.
     std::int64_t Size = 0; ///< Without padding.
   };
 
@@ -221,7 +246,7 @@ private:
   template <typename Work>
   StepCounts ForTasks(const ThreadBackend& backend, std::int64_t edges, const Work& work)
   {
-    constexpr std::int64_t FewestShared = 2048;
+    constexpr std::int64_t FewestShared = 512;
     if (edges < FewestShared)
     {
       StepCounts counts;
@@ -234,6 +259,29 @@ private:
     return backend.SumRanges<StepCounts>(
       static_cast<std::int64_t>(this->Tasks.size()),
       [&](std::int64_t task, std::int64_t) { return work(this->Tasks[task]); }, 1);
+  }
+
+  /// Keeps the edges that the step chooses. Calls settle(begin, end) for every few of them, so that
+  /// what the choice has read is still in the cache.
+  template <typename Step, typename Settle>
+  static void ChooseIn(Task& task, const Step& step, const Settle& settle)
+  {
+    EdgeId* edges = task.Edges.data();
+    std::int64_t kept = 0, settled = 0;
+    ForEdges(step, edges, task.Size,
+      [&](std::int64_t i, const OuterHalfEdges& outer)
+      {
+        const EdgeId edge = edges[i];
+        edges[kept] = edge;
+        kept += step(edge, outer) ? 1 : 0;
+        if (kept == settled + ChoicesAtOnce)
+        {
+          settle(settled, kept);
+          settled = kept;
+        }
+      });
+    settle(settled, kept);
+    task.Size = kept;
   }
 
   template <typename... Steps>
@@ -336,21 +384,25 @@ private:
     }
   }
 
-  /// Lists and counts the bad edges of a unit.
+  /// Lists the bad edges of a unit, and counts these and the blocked ones.
   void ListBad(std::int64_t unit, std::vector<EdgeId>& list, StepCounts& counts)
   {
     EdgeId edges[UnitSize];
-    const std::int64_t bad = this->Find({ EdgeState::Bad, EdgeState::Bad }, unit, edges);
+    const std::int64_t found =
+      this->Find({ EdgeState::BlockedByDeviation, EdgeState::Bad }, unit, edges);
+    std::int64_t bad = this->MayBlock ? 0 : found, byEdge = 0;
+    for (std::int64_t i = 0; i < found && this->MayBlock; ++i)
+    {
+      const EdgeState state = this->States[edges[i]];
+      edges[bad] = edges[i];
+      bad += state == EdgeState::Bad ? 1 : 0;
+      byEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
+    }
     list.insert(list.end(), edges, edges + bad);
-    const auto count = [&](StateRange states)
-    { return this->MayBlock ? this->Find(states, unit, edges) : 0; };
-    const std::int64_t byShape =
-      count({ EdgeState::BlockedByDeviation, EdgeState::BlockedByShape });
-    const std::int64_t byEdge = count({ EdgeState::BlockedByEdge, EdgeState::BlockedByEdge });
     counts.Bad += bad;
-    counts.BlockedByShape += byShape;
     counts.BlockedByEdge += byEdge;
-    this->Flags[unit - this->FirstUnit] = bad + byShape + byEdge > 0;
+    counts.BlockedByShape += found - bad - byEdge;
+    this->Flags[unit - this->FirstUnit] = found > 0;
   }
 
   /// Calls Find for the gathered units [begin, end).

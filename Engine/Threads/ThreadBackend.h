@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <type_traits>
@@ -323,7 +324,7 @@ private:
     const DigitOf& digitOf, const Put& put, std::uint32_t most = ~std::uint32_t(0)) const
   {
     // A piece has a count of every digit.
-    constexpr std::int64_t Fewest = 1 << 14, Most = 1 << 17, WantedPieces = 16;
+    constexpr std::int64_t Fewest = 1 << 12, Most = 1 << 17, WantedPieces = 16;
     const std::int64_t grain = std::clamp(size / WantedPieces, Fewest, Most);
     const std::int64_t pieces = (size + grain - 1) / grain;
     std::vector<std::uint32_t> starts(pieces * digits, 0);
@@ -336,21 +337,27 @@ private:
       }
     };
     this->ForRange(size, count, grain);
-    std::vector<std::uint32_t> firsts(1, 0);
-    for (std::uint32_t digit = 0; digit < digits; ++digit)
+    // Row by row, which is fast: columns would be a power of two apart.
+    std::vector<std::uint32_t> firsts(digits + 1, 0);
+    for (std::int64_t piece = 0; piece < pieces; ++piece)
     {
-      std::uint32_t start = firsts.back();
-      for (std::int64_t piece = 0; piece < pieces; ++piece)
+      for (std::uint32_t digit = 0; digit < digits; ++digit)
       {
-        const std::uint32_t items = starts[piece * digits + digit];
-        starts[piece * digits + digit] = start;
-        start += items;
+        firsts[digit + 1] += starts[piece * digits + digit];
       }
-      if (start - firsts.back() > most)
+    }
+    if (*std::max_element(firsts.begin(), firsts.end()) > most)
+    {
+      return {};
+    }
+    std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+    std::vector<std::uint32_t> running(firsts.begin(), firsts.end() - 1);
+    for (std::int64_t piece = 0; piece < pieces; ++piece)
+    {
+      for (std::uint32_t digit = 0; digit < digits; ++digit)
       {
-        return {};
+        running[digit] += std::exchange(starts[piece * digits + digit], running[digit]);
       }
-      firsts.push_back(start);
     }
     const auto place = [&](std::int64_t begin, std::int64_t end)
     {

@@ -80,18 +80,20 @@ protected:
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
   {
     const EdgeMeshView mesh = this->Mesh.View();
-    const EdgeGuardView guard = this->Guard.View();
-    this->Worklist.Filter(this->Backend, ChooseStep{ mesh }); // pass 4
-    if (guard.Active) // pass 5
+    const FlipStep flip{ { mesh }, this->Worklist.GetFlags() };
+    StepCounts flips;
+    if (this->Guard.IsActive())
     {
-      this->Worklist.Run(this->Backend, ClaimStep{ { mesh }, guard.Claims });
-      this->Worklist.Filter(this->Backend, ConfirmStep{ { mesh }, guard.Claims });
-    }
-    const StepCounts flips = this->Worklist.Run(
-      this->Backend, FlipStep{ { mesh }, guard, this->Worklist.GetFlags() }); // pass 6
-    if (guard.Active)
-    {
+      const EdgeGuardView guard = this->Guard.View();
+      // Passes 4 and 5, then 5 and 6.
+      this->Worklist.ChooseAndClaim(this->Backend, { { mesh }, guard.Claims });
+      flips = this->Worklist.Flip(this->Backend, ConfirmAndFlipStep{ flip, guard });
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
+    }
+    else
+    {
+      this->Worklist.Choose(this->Backend, { mesh }); // pass 4
+      flips = this->Worklist.Flip(this->Backend, flip); // pass 6
     }
     const double angle =
       plan.MeasureFirst || plan.MeasureAll ? this->FindLargestSquaredCotangent() : -INFINITY;
@@ -156,7 +158,7 @@ private:
     const EdgeMeshView mesh = this->Mesh.View();
     const AngleSurvey<Rule> angles = this->Angles();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge, Rule::MayBlock);
-    const ChooseAndFlipStep flip{ { { mesh }, EdgeGuardView{}, worklist.GetFlags() } };
+    const ChooseAndFlipStep flip{ { { mesh }, worklist.GetFlags() } };
     StepCounts found = worklist.Detect();
     std::vector<IterationCounts> counts(plan.Iterations);
     for (std::int64_t i = 0; i < plan.Iterations; ++i)

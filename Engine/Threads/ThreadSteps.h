@@ -142,28 +142,22 @@ private:
   }
 };
 
-/// Pass 5: winners claim the edge that they would make (EdgeGuard.h).
-struct ClaimStep : QuadStep
+/// Passes 4 and 5 with a guard: the same, and winners claim the edge that they would make
+/// (EdgeGuard.h).
+struct ChooseAndClaimStep : ChooseStep
 {
   EdgeClaims Claims;
 
-  void Prefetch(const Quad& quad) const { this->Claims.Prefetch(quad.A, quad.B); }
-  void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
+  void PrefetchClaim(EdgeId edge) const
   {
-    this->Claims.Claim(quad.A, quad.B, Priority(edge));
+    const Quad quad = this->Mesh.GetQuad(edge);
+    this->Claims.Prefetch(quad.A, quad.B);
   }
-};
-
-/// Pass 5: winners that do not hold their claim wait, and stay bad.
-struct ConfirmStep : QuadStep
-{
-  EdgeClaims Claims;
-
-  void Prefetch(const Quad& quad) const { this->Claims.Prefetch(quad.A, quad.B); }
-  /// @returns whether the edge still wins.
-  bool operator()(EdgeId edge, const Quad& quad) const
+  /// @returns the slot of the claim.
+  std::uint32_t Claim(EdgeId edge) const
   {
-    return this->Claims.Holds(quad.A, quad.B, Priority(edge));
+    const Quad quad = this->Mesh.GetQuad(edge);
+    return this->Claims.Claim(quad.A, quad.B, Priority(edge));
   }
 };
 
@@ -172,18 +166,11 @@ struct ConfirmStep : QuadStep
 /// state.
 struct FlipStep : QuadStep
 {
-  EdgeGuardView Guard;
   UnitFlags Active;
 
   void Prefetch(const Quad& quad) const
   {
     this->PrefetchOuter(GetOuterHalfEdges(this->Mesh, quad.CornerA, quad.CornerB));
-    if (this->Guard.Active)
-    {
-      this->Guard.Claims.Prefetch(quad.A, quad.B);
-      this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.A, quad.B));
-      this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.P, quad.Q));
-    }
   }
   void operator()(EdgeId edge, const Quad& quad, StepCounts& counts) const
   {
@@ -207,11 +194,6 @@ protected:
       FlipEdge(this->Mesh, edge, quad, triangles[TriangleOf(quad.CornerA)],
         triangles[TriangleOf(quad.CornerB)], [](int, TriangleId, const TriangleRecord&) {});
     ++counts.Flipped;
-    if (this->Guard.Active)
-    {
-      this->Guard.Claims.Release(quad.A, quad.B, Priority(edge));
-      UpdateGuard(this->Guard.Edges, quad, counts);
-    }
     AtomicStore(&this->Mesh.States[edge], EdgeState::Good);
     this->Mark(EdgeOf(outer.AP), excluded);
     this->Mark(EdgeOf(outer.QA), excluded);
@@ -231,6 +213,31 @@ private:
     // A store costs less than a branch that cannot be predicted.
     AtomicStore(state, WasBad(seen) ? excluded : EdgeState::Candidate);
     this->Active.Set(edge);
+  }
+};
+
+/// Passes 5 and 6 with a guard: of the winners with the same new edge only the holder of the claim
+/// flips. The others wait, and stay bad.
+struct ConfirmAndFlipStep : FlipStep
+{
+  EdgeGuardView Guard;
+
+  void Prefetch(const Quad& quad) const
+  {
+    this->FlipStep::Prefetch(quad);
+    this->Guard.Claims.Prefetch(quad.A, quad.B);
+    this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.A, quad.B));
+    this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.P, quad.Q));
+  }
+  /// @param slot of the edge's claim.
+  void operator()(EdgeId edge, const Quad& quad, std::uint32_t slot, StepCounts& counts) const
+  {
+    if (this->Guard.Claims.HoldsSlot(slot, quad.A, quad.B, Priority(edge)))
+    {
+      this->FlipAndMark(edge, quad, counts, EdgeState::Candidate);
+      this->Guard.Claims.ReleaseSlot(slot);
+      UpdateGuard(this->Guard.Edges, quad, counts);
+    }
   }
 };
 

@@ -89,9 +89,10 @@ class Ours:
     """Programs of this project, for a number of threads or "cuda". They return the flips."""
 
     def __init__(self, points, triangles):
-        from delaunayflip import _arrays, _library, _options, flip, triangulate
+        from delaunayflip import _arrays, _library, _options, _report, flip, triangulate
         self.mesh, self.points, self.triangles = _arrays.Mesh(points, triangles), points, triangles
-        self.library, self.options, self.flip = _library, _options, flip
+        self.library, self.options, self.read_report = _library, _options, _report.read
+        self.flip = flip
         self.from_points = triangulate
         self.result, self.filter = triangles.copy(), None
 
@@ -103,13 +104,12 @@ class Ours:
         import ctypes
         call, handle, running = self.library.call, ctypes.c_void_p(), ctypes.c_int32()
         options = self.options.make_options(**self.choose(threads))
-        call("open", self.mesh.struct, options, None, handle)
-        call("advance", handle, -1, None, running)
+        call("open", self.mesh.struct, options, None, ctypes.byref(handle))
+        call("advance", handle, -1, None, ctypes.byref(running))
         call("store_triangles", handle, self.result.ctypes.data, self.library.TYPES["int64"])
-        report = self.library.make(self.library.Report)
-        call("get_report", handle, report)
-        self.library.library().delaunayflip_close(handle)
-        return report.total_flips
+        flips = self.read_report(handle).total_flips
+        self.library.run("close", handle)
+        return flips
 
     def numpy(self, threads):
         return self.flip(self.points, self.triangles, **self.choose(threads)).report.total_flips
