@@ -165,8 +165,7 @@ void vtkDelaunayFlipLiveView::Render()
   this->IsBusy = false;
 }
 
-/// The keys take as many lines as the width of the renderer needs. The scale is above them, and as
-/// high as its labels need.
+/// The keys take as many lines as the width of the renderer needs. The scale is above them.
 void vtkDelaunayFlipLiveView::ArrangeTexts()
 {
   constexpr double characterWidth = 6.5; // pixels

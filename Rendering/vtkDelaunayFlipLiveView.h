@@ -166,9 +166,7 @@ public:
   vtkBooleanMacro(ZeroCopy, bool);
   ///@}
 
-  /**
-   * How the mesh is drawn: "drawn without copies", or "drawn from copies: " and the reason.
-   */
+  /// How the mesh is drawn: "drawn without copies", or "drawn from copies: " and the reason.
   std::string GetDrawing() const;
 
   ///@{
@@ -204,9 +202,7 @@ public:
    */
   void Run();
 
-  /**
-   * Stops the timer.
-   */
+  /// Stops the timer.
   void Pause();
 
   /**
@@ -222,19 +218,13 @@ public:
    */
   void Restart();
 
-  /**
-   * Draws the window again with the current properties. Makes no step and writes no frame.
-   */
+  /// Draws the window again with the current properties. Makes no step and writes no frame.
   void Render();
 
-  /**
-   * Whether the timer runs.
-   */
+  /// Whether the timer runs.
   bool IsRunning() const;
 
-  /**
-   * Whether the mesh that is shown is the one to which the filter converged.
-   */
+  /// Whether the mesh that is shown is the one to which the filter converged.
   bool GetConverged() const;
 
   /**
@@ -242,9 +232,7 @@ public:
    */
   vtkGetMacro(FrameNumber, int);
 
-  /**
-   * The renderer that the view draws into, for its camera and background; null before Start().
-   */
+  /// The renderer that the view draws into, for its camera and background; null before Start().
   vtkRenderer* GetRenderer() const;
 
 protected:

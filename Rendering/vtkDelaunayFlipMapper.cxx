@@ -252,17 +252,20 @@ struct vtkDelaunayFlipMapper::Parts
     }
     this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
     this->Box.Reset();
-    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
-    for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
+    const std::int32_t* ids = this->Ids->GetPointer(0);
+    const vtkIdType count = this->Ids->GetNumberOfValues();
+    const auto points = static_cast<std::size_t>(this->Faces->GetNumberOfPoints());
+    std::vector<unsigned char> areUsed(points);
+    for (vtkIdType i = 0; i < count; ++i)
     {
-      const auto id = static_cast<std::size_t>(this->Ids->GetValue(i)); // large if negative
-      if (id >= areUsed.size())
+      const auto id = static_cast<std::size_t>(ids[i]); // large if negative
+      if (id >= points)
       {
         return;
       }
       areUsed[id] = 1;
     }
-    if (this->Ids->GetNumberOfValues() > 0)
+    if (count > 0)
     {
       double bounds[6];
       vtkBoundingBox::ComputeBounds(this->Faces->GetPoints(), areUsed.data(), bounds);

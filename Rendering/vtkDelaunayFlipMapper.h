@@ -89,9 +89,7 @@ public:
   vtkBooleanMacro(ZeroCopy, bool);
   ///@}
 
-  /**
-   * Whether the filter's run is drawn, so that steps need not be put out.
-   */
+  /// Whether the filter's run is drawn, so that steps need not be put out.
   bool DrawsRun();
 
   ///@{
@@ -109,14 +107,10 @@ public:
    */
   double GetSmallestAngle();
 
-  /**
-   * The number of triangles of the input.
-   */
+  /// The number of triangles of the input.
   vtkIdType GetNumberOfTriangles();
 
-  /**
-   * How a run is drawn: "drawn without copies", or "drawn from copies: " and the reason.
-   */
+  /// How a run is drawn: "drawn without copies", or "drawn from copies: " and the reason.
   std::string GetDrawing() const;
 
   void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
