@@ -15,6 +15,7 @@
 #include <new>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #if !defined(DELAUNAYFLIP_STD_THREADS)
 #include <tbb/global_control.h>
@@ -62,6 +63,14 @@ int CountStartable(int most)
     thread.join();
   }
   return static_cast<int>(threads.size());
+}
+
+void RunHere(std::int64_t count, const std::function<void(std::int64_t)>& work)
+{
+  for (std::int64_t task = 0; task < count; ++task)
+  {
+    work(task);
+  }
 }
 
 /// As many threads as this have been started at once in this process.
@@ -187,11 +196,16 @@ class Crew
 public:
   using Work = std::function<void(std::int64_t)>;
 
-  /// Calls work(task) for task = 0 .. count - 1. Rethrows an exception of a call.
+  /// Calls work(task) for task = 0 .. count - 1. Rethrows an exception of a call. While the crew
+  /// has a range, a task or another thread that comes with one works alone.
   void Run(std::int64_t count, const Work& work)
   {
+    if (this->IsBusy.exchange(true))
+    {
+      RunHere(count, work);
+      return;
+    }
     // The ticket is closed, so that no helper takes a task while this changes.
-    this->Error = nullptr;
     this->HasFailed = false;
     this->Done = 0;
     this->Current = &work;
@@ -204,9 +218,11 @@ public:
       idle.Pause();
     }
     this->Ticket = this->Range + Closed;
-    if (this->Error)
+    const std::exception_ptr error = std::exchange(this->Error, nullptr);
+    this->IsBusy = false;
+    if (error)
     {
-      std::rethrow_exception(this->Error);
+      std::rethrow_exception(error);
     }
   }
 
@@ -296,7 +312,7 @@ private:
   alignas(64) std::atomic<std::uint64_t> Ticket{ Closed };
   std::atomic<std::int64_t> Count{ 0 };
   std::atomic<const Work*> Current{ nullptr };
-  std::atomic<bool> HasFailed{ false };
+  std::atomic<bool> IsBusy{ false }, HasFailed{ false };
   alignas(64) std::atomic<std::int64_t> Done{ 0 };
   std::uint64_t Range = 0;
   std::mutex Mutex;
@@ -384,17 +400,6 @@ ThreadBackend& ThreadBackend::operator=(ThreadBackend&&) noexcept = default;
 std::string ThreadBackend::GetName() const
 {
   return "Threads: " + std::to_string(this->Threads->Size);
-}
-
-namespace
-{
-void RunHere(std::int64_t count, const std::function<void(std::int64_t)>& work)
-{
-  for (std::int64_t task = 0; task < count; ++task)
-  {
-    work(task);
-  }
-}
 }
 
 void ThreadBackend::SetPoll(std::function<void()> poll)

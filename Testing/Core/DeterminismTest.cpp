@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
 #include "TestBackend.h"
+#include "ThreadBackend.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -121,6 +124,26 @@ INSTANTIATE_TEST_SUITE_P(Meshes, DeterminismTest,
     NamedMesh{ "MoebiusStrip", MakeStrip, GeometryKind::Auto },
     NamedMesh{ "DirtySphere", MakeDirtySurface, GeometryKind::Auto }),
   [](const auto& test) { return std::string(test.param.Name); });
+
+TEST(ThreadBackend, TasksMayHaveTasksAndFail)
+{
+  const ThreadBackend backend(4);
+  for (int round = 0; round < 200; ++round)
+  {
+    std::atomic<int> calls{ 0 };
+    backend.ForTasks(8, [&](std::int64_t) { backend.ForTasks(8, [&](std::int64_t) { ++calls; }); });
+    ASSERT_EQ(64, calls);
+    ASSERT_THROW(backend.ForTasks(8,
+                   [&](std::int64_t task)
+                   {
+                     if (task == 5)
+                     {
+                       throw std::runtime_error("of a task");
+                     }
+                   }),
+      std::runtime_error);
+  }
+}
 
 }
 }
