@@ -283,7 +283,8 @@ public:
 
   bool KeepsSliver() override
   {
-    return KeepsWorstSliver(this->Mesh, this->Points, this->Range, this->Backend);
+    return KeepsWorstSliver(this->Mesh, this->Points, this->Range,
+      this->Loop->FindLargestSquaredCotangent(), this->Backend);
   }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }

@@ -130,18 +130,20 @@ private:
 
 /// Whether one of the ten triangles with the smallest angles is a sliver that a fixed edge keeps:
 /// it has an angle below five degrees, and an edge that would flip if it were free.
+/// @param largest the largest squared cotangent of all triangles.
 template <typename Backend>
-bool KeepsWorstSliver(
-  EdgeMesh& mesh, const PackedPoints& points, CoordinateRange range, const Backend& backend)
+bool KeepsWorstSliver(EdgeMesh& mesh, const PackedPoints& points, CoordinateRange range,
+  double largest, const Backend& backend)
 {
   constexpr std::int64_t Worst = 10;
   constexpr double SliverAngle = 5.0;
   const KeptEdgeSurvey survey{ mesh.View(), points.View(), range };
   const double kept = backend.template Sum<LargestValue>(mesh.NumberOfEdges, survey).Value;
   return ToDegrees(kept) < SliverAngle &&
-    backend.template Sum<std::int64_t>(mesh.NumberOfTriangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & worse)
-      { worse += survey.Measure(t) > kept ? 1 : 0; }) < Worst;
+    (kept == largest ||
+      backend.template Sum<std::int64_t>(mesh.NumberOfTriangles,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & worse)
+        { worse += survey.Measure(t) > kept ? 1 : 0; }) < Worst);
 }
 
 /// The angle between two edges from a corner, in degrees.

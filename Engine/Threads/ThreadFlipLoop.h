@@ -43,10 +43,28 @@ public:
     return CountDeviating(this->Mesh, this->Decision, this->Backend);
   }
 
+  /// In most meshes no flip changes the worst triangle, because of a fixed edge. While that is so,
+  /// only triangles that flips have changed can be worse.
   double FindLargestSquaredCotangent() const override
   {
-    return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, this->Angles())
-      .Value;
+    const WorstSurvey survey{ this->Angles() };
+    const std::int64_t size = this->Mesh.NumberOfTriangles;
+    if (this->Worst.Value > -INFINITY && !survey.IsChanged(this->Worst.Triangle))
+    {
+      this->Worst += this->Backend.template Sum<WorstTriangle>(size,
+        [&](std::int64_t triangle, WorstTriangle& sum)
+        {
+          if (survey.IsChanged(triangle))
+          {
+            survey(triangle, sum);
+          }
+        });
+    }
+    else
+    {
+      this->Worst = this->Backend.template Sum<WorstTriangle>(size, survey);
+    }
+    return this->Worst.Value;
   }
 
   double FindLargestSquaredCotangentWithout(const unsigned char* omitted) const override
@@ -75,7 +93,11 @@ protected:
       : this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve());
   }
 
-  void TakeStates() override { this->Worklist.ActivateAll(); }
+  void TakeStates() override
+  {
+    this->Worklist.ActivateAll();
+    this->Worst = WorstTriangle();
+  }
 
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
   {
@@ -129,6 +151,32 @@ private:
     std::int64_t FirstTriangle, LastTriangle;
     std::int64_t FirstEdge, LastEdge;
     std::int64_t Tested; ///< Edges judged since the last choice.
+  };
+
+  struct WorstTriangle
+  {
+    double Value = -INFINITY; ///< Its squared cotangent.
+    std::int64_t Triangle = 0;
+
+    WorstTriangle& operator+=(const WorstTriangle& other)
+    {
+      *this = other.Value > this->Value ? other : *this;
+      return *this;
+    }
+  };
+
+  struct WorstSurvey : AngleSurvey<Rule>
+  {
+    bool IsChanged(std::int64_t triangle) const
+    {
+      return this->Triangles[triangle].Flips >= OneFlip;
+    }
+    void operator()(std::int64_t triangle, WorstTriangle& sum) const
+    {
+      LargestValue own;
+      AngleSurvey<Rule>::operator()(triangle, own);
+      sum += { own.Value, triangle };
+    }
   };
 
   JudgeStep<Rule> Judge() const { return { { this->Mesh.View() }, this->Decision }; }
@@ -216,6 +264,7 @@ private:
   const ThreadBackend& Backend;
   EdgeWorklist Worklist;
   std::vector<Chunk> Chunks;
+  mutable WorstTriangle Worst; ///< When it was last searched for.
 };
 
 template <typename Rule>
