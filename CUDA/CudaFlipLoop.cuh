@@ -437,7 +437,7 @@ private:
   /// Waits for the kernel. @throws BeyondDevice.
   const Results& FetchResults()
   {
-    auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0].Memory.Get());
+    auto* results = static_cast<Results*>(this->Backend.GetContext().GetBuffer(0).Memory.Get());
     this->Backend.Download(this->DeviceResults.Data(), 1, results);
     for (const IterationSums& iteration : results->Sums)
     {
