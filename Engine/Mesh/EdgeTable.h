@@ -186,9 +186,8 @@ public:
     : Slice(slice)
   {
     // Share of slots in use when all expected edges are in: a compromise between short searches and
-    // little memory. With 0.35 a torus of 100,000 points whose edges all flip takes 85 % of the
-    // time that it takes with 0.6.
-    constexpr double FillFactor = Backend::MemoryIsScarce ? 0.6 : 0.35;
+    // little memory.
+    constexpr double FillFactor = 0.6;
     const std::int64_t wanted =
       static_cast<std::int64_t>(static_cast<double>(edges) / FillFactor) + 64;
     const std::int64_t capacity = std::min<std::int64_t>(wanted, EdgeTableView::NoSlot);
