@@ -575,7 +575,7 @@ private:
       const std::int64_t begin = FindPart(turn, parts, parts, devices) * Step;
       if (begin >= 0)
       {
-        const StagingBuffer& buffer = this->GetBuffer(turn);
+        const StagingBuffer& buffer = this->Context->GetBuffer(turn);
         const std::int64_t count = std::min(Step, size - begin);
         auto* values = static_cast<T*>(buffer.Memory.Get());
         WaitForCopy(buffer);
@@ -593,14 +593,15 @@ private:
   void DownloadSlices(std::int64_t size, const Fill& fill, const Put& put) const
   {
     using Value = std::uint32_t;
-    constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(Value);
-    constexpr std::int64_t Slices = 8; // about
-    const std::int64_t parts = (size + Step - 1) / Step;
+    constexpr std::int64_t LargestStep = CudaContext::StagingBytes / sizeof(Value);
+    constexpr std::int64_t SmallestStep = std::int64_t(1) << 18;
+    constexpr std::int64_t Slices = 8; // about; half as many of a small mesh
+    const std::int64_t step = std::clamp(2 * size / Slices + 1, SmallestStep, LargestStep);
+    const std::int64_t parts = (size + step - 1) / step;
     const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts + Slices - 1) / Slices);
-    const std::int64_t sliceSize = partsPerSlice * Step;
+    const std::int64_t sliceSize = partsPerSlice * step;
     Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
-    const auto ahead = // copied while one is converted
-      static_cast<std::int64_t>(this->Context->Staging.size()) - 1;
+    const std::int64_t ahead = this->Context->CountBuffers() - 1; // copied while one is converted
     const std::int64_t devices = this->CountDevices();
     const std::int64_t turnsPerSlice = (partsPerSlice + devices - 1) / devices * devices;
     const std::int64_t turns = (parts + partsPerSlice - 1) / partsPerSlice * turnsPerSlice;
@@ -619,27 +620,22 @@ private:
       }
       if (fetched >= 0)
       {
-        const StagingBuffer& buffer = this->GetBuffer(turn);
-        const std::int64_t begin = fetched * Step;
+        const StagingBuffer& buffer = this->Context->GetBuffer(turn);
+        const std::int64_t begin = fetched * step;
         StartCopy(buffer, buffer.Memory, values.Data() + begin % sliceSize,
-          std::min(Step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
+          std::min(step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
       }
       if (drained >= 0)
       {
-        const StagingBuffer& buffer = this->GetBuffer(turn - ahead);
+        const StagingBuffer& buffer = this->Context->GetBuffer(turn - ahead);
         const auto* staged = static_cast<const Value*>(buffer.Memory.Get());
-        const std::int64_t begin = drained * Step;
+        const std::int64_t begin = drained * step;
         WaitForCopy(buffer);
         this->Threads.ForEach(
-          std::min(Step, size - begin), [&](std::int64_t i) { put(begin + i, staged[i]); });
+          std::min(step, size - begin), [&](std::int64_t i) { put(begin + i, staged[i]); });
       }
     }
     this->Context->Join();
-  }
-
-  const StagingBuffer& GetBuffer(std::int64_t turn) const
-  {
-    return this->Context->Staging[turn % this->Context->Staging.size()];
   }
 
   static void StartCopy(

@@ -177,12 +177,8 @@ CudaContext::CudaContext(const std::vector<int>& devices)
   {
     const std::size_t device = slot % devices.size();
     const CurrentDevice owner(devices[device]);
-    void* memory = nullptr;
-    CallCuda("allocate page-locked memory",
-      [&] { return cudaHostAlloc(&memory, StagingBytes, cudaHostAllocPortable); });
-    PageLocked buffer(memory);
-    this->Staging.push_back({ device == 0 ? this->Stream : this->Others[device - 1].Stream,
-      std::move(buffer), MakeEvent() });
+    this->Staging.push_back(
+      { device == 0 ? this->Stream : this->Others[device - 1].Stream, PageLocked(), MakeEvent() });
   }
 }
 
@@ -192,6 +188,19 @@ CudaContext::~CudaContext()
   {
     cudaStreamSynchronize(other.Stream); // it may still use the memory
   }
+}
+
+const StagingBuffer& CudaContext::GetBuffer(std::int64_t turn)
+{
+  StagingBuffer& buffer = this->Staging[turn % this->Staging.size()];
+  if (!buffer.Memory)
+  {
+    void* memory = nullptr;
+    CallCuda("allocate page-locked memory",
+      [&] { return cudaHostAlloc(&memory, StagingBytes, cudaHostAllocPortable); });
+    buffer.Memory = PageLocked(memory);
+  }
+  return buffer;
 }
 
 Memory& CudaContext::GetMemory() const

@@ -92,7 +92,7 @@ struct DeviceStreams
 struct StagingBuffer
 {
   cudaStream_t Stream;
-  PageLocked Memory;
+  PageLocked Memory; ///< None before it is used.
   CudaEvent Done; ///< The last copy.
 };
 
@@ -113,6 +113,11 @@ public:
   ~CudaContext();
   CudaContext(const CudaContext&) = delete;
   CudaContext& operator=(const CudaContext&) = delete;
+
+  /// The buffers in turn. Their memory is allocated when it is needed, because that takes
+  /// milliseconds.
+  const StagingBuffer& GetBuffer(std::int64_t turn);
+  std::int64_t CountBuffers() const { return static_cast<std::int64_t>(this->Staging.size()); }
 
   /// Where arrays are.
   Memory& GetMemory() const;
@@ -142,6 +147,8 @@ public:
   std::vector<DeviceStreams> Others; ///< The other GPUs; empty if there is one.
   std::unique_ptr<DeviceMemory> Pool;
   std::unique_ptr<SharedMemory> Shared; ///< Null if there is one GPU.
+
+private:
   std::vector<StagingBuffer> Staging; ///< The GPUs have them in turn.
 };
 

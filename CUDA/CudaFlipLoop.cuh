@@ -31,13 +31,12 @@ inline std::int64_t GetSum(const IterationSums& iteration, IterationSum sum)
 }
 
 /// The counts after an iteration that began with `edges`.
-inline StepCounts Follow(const StepCounts& edges, const IterationSums& iteration, bool hasGuard)
+inline StepCounts Follow(const StepCounts& edges, const IterationSums& iteration)
 {
   StepCounts next;
   next.Tested = GetSum(iteration, IterationSum::Tested);
-  next.Bad = hasGuard ? GetSum(iteration, IterationSum::AllBad)
-                      : edges.Bad - GetSum(iteration, IterationSum::Flipped) -
-      GetSum(iteration, IterationSum::WasBad) + GetSum(iteration, IterationSum::IsBad);
+  next.Bad = edges.Bad - GetSum(iteration, IterationSum::Flipped) -
+    GetSum(iteration, IterationSum::WasBad) + GetSum(iteration, IterationSum::IsBad);
   next.BlockedByShape = edges.BlockedByShape - GetSum(iteration, IterationSum::WasBlockedByShape) +
     GetSum(iteration, IterationSum::IsBlockedByShape);
   next.BlockedByEdge = GetSum(iteration, IterationSum::AllBlockedByEdge);
@@ -243,7 +242,7 @@ public:
 protected:
   StepCounts DetectAll() override
   {
-    const Results& results = this->LaunchOnMesh(DetectAllKernel<Rule>);
+    const Results& results = this->LaunchOnMesh(this->GetDetectKernel());
     const IterationSums& all = results.Sums[1];
     StepCounts found;
     found.Tested = GetSum(results.Sums[0], IterationSum::Tested);
@@ -263,9 +262,9 @@ protected:
     const std::int64_t freshSlots =
       this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
     const IterationLimits limits{ static_cast<int>(most), this->Found.Bad,
-      static_cast<unsigned long long>(freshSlots) };
+      static_cast<long long>(freshSlots) };
     std::vector<IterationCounts> iterations =
-      this->ReadIterations(this->LaunchOnMesh(IterateKernel<Rule>, limits), freshSlots);
+      this->ReadIterations(this->LaunchOnMesh(this->GetIterateKernel(), limits), freshSlots);
     if (measure)
     {
       iterations.back().SquaredCotangent = this->FindLargestSquaredCotangent();
@@ -306,6 +305,29 @@ private:
   /// With fewer edges one GPU makes iterations on the whole mesh: waits of several take longer.
   static constexpr std::int64_t SmallestShared = std::int64_t(1) << 20;
 
+  auto* GetDetectKernel() const
+  {
+    if constexpr (Rule::AlwaysGuarded)
+    {
+      return DetectAllKernel<Rule, true>;
+    }
+    else
+    {
+      return this->Guard.IsActive() ? DetectAllKernel<Rule, true> : DetectAllKernel<Rule, false>;
+    }
+  }
+  auto* GetIterateKernel() const
+  {
+    if constexpr (Rule::AlwaysGuarded)
+    {
+      return IterateKernel<Rule, true>;
+    }
+    else
+    {
+      return this->Guard.IsActive() ? IterateKernel<Rule, true> : IterateKernel<Rule, false>;
+    }
+  }
+
   /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also
   /// loads the kernel there: that must not happen while blocks wait for those of another GPU.
   template <typename Kernel>
@@ -334,9 +356,9 @@ private:
   void PlanGrid()
   {
     this->Parts = this->Mesh.NumberOfEdges < SmallestShared ? 1 : this->Backend.CountDevices();
-    const std::int64_t blocks =
-      std::min({ MostIterateBlocks / this->Parts, this->CountResidentBlocks(IterateKernel<Rule>),
-        this->CountResidentBlocks(DetectAllKernel<Rule>) });
+    const std::int64_t blocks = std::min(
+      { MostIterateBlocks / this->Parts, this->CountResidentBlocks(this->GetIterateKernel()),
+        this->CountResidentBlocks(this->GetDetectKernel()) });
     std::int64_t parts = this->Bits.CountUnits();
     for (; this->Splits < EdgeUnits::MostSplits && 2 * parts <= blocks * LoopWarps; parts *= 2)
     {
@@ -349,7 +371,11 @@ private:
 
   void PlanTeams()
   {
-    const int blocks = this->CountResidentBlocks(RunChunksKernel<Rule>);
+    int blocks = 1;
+    if constexpr (!Rule::AlwaysGuarded) // else there are no chunks
+    {
+      blocks = this->CountResidentBlocks(RunChunksKernel<Rule>);
+    }
     const auto teams = static_cast<int>(this->Backend.GetContext().CacheBytes / ChunkBytes);
     const int devices = this->Backend.CountDevices();
     const auto chunks = static_cast<int>((this->NumberOfChunks + devices - 1) / devices);
@@ -437,7 +463,7 @@ private:
   /// Waits for the kernel. @throws BeyondDevice.
   const Results& FetchResults()
   {
-    auto* results = static_cast<Results*>(this->Backend.GetContext().Staging[0].Memory.Get());
+    auto* results = static_cast<Results*>(this->Backend.GetContext().GetBuffer(0).Memory.Get());
     this->Backend.Download(this->DeviceResults.Data(), 1, results);
     for (const IterationSums& iteration : results->Sums)
     {
@@ -457,14 +483,15 @@ private:
     {
       const IterationSums& iteration = results.Sums[i];
       iterations.push_back(ToIteration(this->Found, iteration));
-      this->Found = Follow(this->Found, iteration, this->Guard.IsActive());
+      this->Found = Follow(this->Found, iteration);
       flips.FreshSlots += GetSum(iteration, IterationSum::FreshSlots);
+      flips.FreedSlots += GetSum(iteration, IterationSum::FreedSlots);
       flips.LostInserts += GetSum(iteration, IterationSum::LostInserts);
     }
     if (this->Guard.IsActive())
     {
       this->Guard.Maintain(flips, this->Mesh, this->Backend);
-      if (flips.FreshSlots > freshSlots || flips.LostInserts > 0)
+      if (flips.FreshSlots - flips.FreedSlots > freshSlots || flips.LostInserts > 0)
       {
         const std::int64_t tested = this->Found.Tested;
         this->Detect(); // again, now that the table holds all edges
@@ -482,8 +509,12 @@ private:
     this->Backend.LaunchOnEach(parts,
       [&](cudaStream_t stream, int part)
       {
-        LaunchTogether(stream, this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>,
-          this->View(part, parts, part * this->CountTeamStates()), this->BlocksOfTeam, iterations);
+        if constexpr (!Rule::AlwaysGuarded)
+        {
+          LaunchTogether(stream, this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>,
+            this->View(part, parts, part * this->CountTeamStates()), this->BlocksOfTeam,
+            iterations);
+        }
       });
     const Results& results = this->FetchResults();
     const IterationSums& sums = results.Sums[iterations];
@@ -494,7 +525,7 @@ private:
     for (int i = 0; i < iterations; ++i)
     {
       total.push_back(ToIteration(edges, results.Sums[i]));
-      edges = Follow(edges, results.Sums[i], false);
+      edges = Follow(edges, results.Sums[i]);
     }
     this->TestedInChunks = edges.Tested;
   }

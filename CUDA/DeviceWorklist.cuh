@@ -89,8 +89,8 @@ public:
 
   /// Edges [first, last).
   /// @param splits 2^splits warps share a unit, at most 8.
-  /// @param isSpread whether neighbouring units go to different blocks, so that all blocks have
-  /// work where edges crowd.
+  /// @param isSpread whether neighbouring edges go to different blocks, so that all blocks have
+  /// equal work where edges crowd: a warp takes each word of a unit from another place.
   __device__ EdgeUnits(EdgeId first, EdgeId last, int splits = 0, bool isSpread = false)
     : First(first),
       Last(last),
@@ -104,14 +104,14 @@ protected:
   {
     const unsigned lane = threadIdx.x % WarpSize;
     const unsigned unit = part >> this->Splits;
-    const EdgeId edge = unit * UnitSize + 8 * lane;
+    const EdgeId edge = this->IsSpread ? this->FindSpread(unit) : unit * UnitSize + 8 * lane;
     const unsigned lanesOfPart = WarpSize >> this->Splits;
     unsigned mask = lane / lanesOfPart == (part & ((1u << this->Splits) - 1)) ? 0xFF : 0;
     mask &=
       edge < this->First ? (this->First - edge < 8 ? 0xFFu << (this->First - edge) : 0) : mask;
     mask &=
       edge + 8 > this->Last ? (this->Last > edge ? 0xFFu >> (edge + 8 - this->Last) : 0) : mask;
-    return { unit * WarpSize + lane, mask & 0xFF };
+    return { edge / 8, mask & 0xFF };
   }
 
   /// The position of a warp in its units, or in parts of them.
@@ -123,7 +123,7 @@ protected:
   __device__ UnitCursor StartUnits(const Team& team) const
   {
     const unsigned first = this->First >> UnitBits;
-    const unsigned end = this->First < this->Last ? ((this->Last - 1) >> UnitBits) + 1 : first;
+    const unsigned end = first + this->CountUnits();
     const unsigned warp = this->IsSpread ? team.GetSpreadWarp() : team.GetThread() / WarpSize;
     return { (first << this->Splits) + warp, end << this->Splits,
       team.GetNumberOfThreads() / WarpSize };
@@ -180,6 +180,23 @@ protected:
   }
 
 private:
+  __device__ unsigned CountUnits() const
+  {
+    const unsigned first = this->First >> UnitBits;
+    return this->First < this->Last ? ((this->Last - 1) >> UnitBits) + 1 - first : 0;
+  }
+
+  /// The first edge of this lane.
+  __device__ EdgeId FindSpread(unsigned unit) const
+  {
+    constexpr unsigned LanesOfWord = 4;
+    const unsigned lane = threadIdx.x % WarpSize;
+    const unsigned first = this->First >> UnitBits;
+    const unsigned word =
+      first * (UnitSize / 32) + lane / LanesOfWord * this->CountUnits() + unit - first;
+    return 32 * word + 8 * (lane % LanesOfWord);
+  }
+
   EdgeId First, Last;
   int Splits;
   bool IsSpread;
@@ -190,7 +207,6 @@ class WarpWorklist : public EdgeUnits
 {
 public:
   using EdgeUnits::EdgeUnits;
-  static constexpr bool MayGuard = true; ///< Whether flips may have a guard.
 
   /// Calls look(byte) for every lane of every unit, which returns the bits of the edges to work on,
   /// then work(edge, corners) for these edges; several units may be looked at before. All lanes of
@@ -233,7 +249,6 @@ class BlockWorklist : public EdgeUnits
 {
 public:
   using EdgeUnits::EdgeUnits;
-  static constexpr bool MayGuard = false;
 
   /// The same as WarpWorklist::Run.
   template <typename Look, typename Work>
@@ -307,8 +322,7 @@ struct LoopView
   {
     return { this->FirstEdge, this->LastEdge, this->Splits };
   }
-  /// The same edges, for blocks.
-  __device__ BlockWorklist GetSpreadWorklist() const
+  __device__ WarpWorklist GetSpreadWorklist() const
   {
     return { this->FirstEdge, this->LastEdge, this->Splits, true };
   }
@@ -317,12 +331,6 @@ struct LoopView
     return { chunk.FirstEdge, chunk.LastEdge };
   }
 };
-
-template <typename Worklist, typename Rule>
-__device__ bool HasGuard(const LoopView<Rule>& loop)
-{
-  return Worklist::MayGuard && loop.Guard.Active;
-}
 
 }
 

@@ -24,9 +24,8 @@ class BadList
 {
 public:
   __device__ static BadEdge& Get(int i) { return GetTeamMemory().Listed[i]; }
-  __device__ static ListedClaim& GetClaim(int i) { return GetTeamMemory().Claims[i]; }
+  __device__ static std::uint32_t& GetClaim(int i) { return GetTeamMemory().Claims[i]; }
   __device__ static int GetSize() { return GetTeamMemory().NumberListed; }
-  __device__ static bool HasOverflown() { return GetSize() > MostListed; }
 
   /// Empties the list, before a barrier.
   __device__ static void Clear()
@@ -37,9 +36,9 @@ public:
     }
   }
 
-  /// Adds the bad edges among those of the warp's lanes, as long as there is room.
-  /// @returns where, or -1.
-  __device__ static int Add(bool isBad, const BadEdge& edge)
+  /// Adds the bad edges among those of the warp's lanes, as long as there is room for them.
+  /// @returns where, or -1: then a bad edge found no room.
+  __device__ static int Add(bool isBad, const BadEdge& edge, int room)
   {
     const unsigned bad = __ballot_sync(WholeWarp, isBad);
     if (bad == 0)
@@ -49,7 +48,7 @@ public:
     const unsigned lane = threadIdx.x % WarpSize;
     int place = lane == 0 ? atomicAdd(&GetTeamMemory().NumberListed, __popc(bad)) : 0;
     place = __shfl_sync(WholeWarp, place, 0) + __popc(bad & ((1u << lane) - 1));
-    if (!isBad || place >= MostListed)
+    if (!isBad || place >= room)
     {
       return -1;
     }
@@ -58,18 +57,32 @@ public:
   }
 };
 
-/// The same as RunDetection, but also lists the bad edges, and warns if the list is too short. Bad
-/// edges that are not candidates are judged again to be listed; they do not count as tested.
-template <bool HasGuard, typename Rule>
-__device__ void DetectAndList(
-  const LoopView<Rule>& loop, const BlockWorklist& worklist, const Team& team)
+/// The most edges that a block lists. With a guard they all claim their new edges, so that there
+/// must be room for the claims of all blocks.
+template <bool IsGuarded, typename Rule>
+__device__ int GetMostListed(const LoopView<Rule>& loop, const Team& team)
 {
+  const unsigned blocks = team.GetNumberOfThreads() / LoopThreads * loop.Parts;
+  const int claims = static_cast<int>(loop.Guard.Claims.Size / blocks);
+  return IsGuarded && claims < MostListed ? claims : MostListed;
+}
+
+/// The same as RunDetection, but also lists the bad edges. Bad edges that are not candidates are
+/// judged again to be listed; they do not count as tested. With a guard all of them claim their new
+/// edges already. Warns if the list is too short or a claim is contested.
+template <bool IsGuarded, typename Rule>
+__device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
+{
+  const WarpWorklist worklist = IsGuarded ? loop.GetSpreadWorklist() : loop.GetWorklist();
   DetectionCounts counts;
-  unsigned blockedByEdge = 0;
+  const int room = GetMostListed<IsGuarded>(loop, team);
+  unsigned blockedByEdge = 0, contested = 0;
+  bool isShort = false;
   BadList::Clear();
+  __syncthreads();
   worklist.Run(
     team, loop.Mesh,
-    [&](const EdgeByte& byte) { return TakeCandidates(loop, byte, true, HasGuard, counts); },
+    [&](const EdgeByte& byte) { return TakeCandidates<IsGuarded>(loop, byte, true, counts); },
     [&](EdgeId edge, const CornerPair& corners)
     {
       BadEdge found{ edge, corners, {} };
@@ -79,76 +92,56 @@ __device__ void DetectAndList(
       {
         found.Outer = GetOuterHalfEdges(loop.Mesh, corners.A, corners.B);
         quad = loop.Mesh.GetQuad(corners);
-        state = JudgeAndNote(loop, edge, quad, HasGuard, counts);
+        state = JudgeAndNote(loop, edge, quad, IsGuarded, counts);
         blockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
       }
-      const int place = BadList::Add(state == EdgeState::Bad, found);
-      if (HasGuard && place >= 0)
+      const int place = BadList::Add(state == EdgeState::Bad, found, room);
+      isShort = isShort || (state == EdgeState::Bad && place < 0);
+      if (IsGuarded && place >= 0)
       {
-        BadList::GetClaim(place) = { quad.A, quad.B, NoClaim };
+        bool isContested = false;
+        BadList::GetClaim(place) =
+          loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge), isContested);
+        contested += isContested ? 1 : 0;
       }
     });
   counts.AddTo<Rule>(team);
-  team.Warn(counts.Uncertain || BadList::HasOverflown());
+  team.Warn(counts.Uncertain || isShort || contested > 0);
   if constexpr (Rule::MayBeUncertain)
   {
     if (worklist.IsAny(counts.Uncertain))
     {
       ResolveUncertain(loop, worklist, team);
-      if (HasGuard)
+      if (IsGuarded)
       {
         GuardBadEdges(loop, worklist, team);
       }
       return;
     }
   }
-  if (HasGuard)
+  if (IsGuarded)
   {
-    team.Add(IterationSum::AllBad, counts.IsBad);
     team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
+    team.Add(IterationSum::Contested, contested);
   }
 }
 
-/// Chooses among the bad edges, all of which are in the lists of the blocks; winners claim their
-/// new edges. This and the other functions of lists with a guard are not inlined, so that
-/// iterations without one keep their registers.
+/// Releases the claims of the listed edges, which are not made then.
 template <typename Rule>
-__device__ __noinline__ void ClaimListed(const LoopView<Rule>& loop)
+__device__ void ReleaseListed(const LoopView<Rule>& loop, const Team& team)
 {
-  for (int i = threadIdx.x; i < BadList::GetSize(); i += LoopThreads)
+  const int size = min(BadList::GetSize(), GetMostListed<true>(loop, team));
+  for (int i = threadIdx.x; i < size; i += LoopThreads)
   {
-    const BadEdge& bad = BadList::Get(i);
-    if (Wins(loop, bad.Edge, bad.Outer))
-    {
-      ListedClaim& claim = BadList::GetClaim(i);
-      claim.Slot = loop.Guard.Claims.Claim(claim.A, claim.B, Priority(bad.Edge));
-    }
+    loop.Guard.Claims.ReleaseSlot(BadList::GetClaim(i));
   }
 }
 
-/// Whether a listed edge flips. With a guard it has made its claim, and releases it here if it
-/// holds it.
-template <bool HasGuard, typename Rule>
-__device__ bool MayFlipListed(const LoopView<Rule>& loop, const BadEdge& bad, int i)
-{
-  if (!HasGuard)
-  {
-    return Wins(loop, bad.Edge, bad.Outer);
-  }
-  const ListedClaim& claim = BadList::GetClaim(i);
-  const bool holds = claim.Slot != NoClaim &&
-    loop.Guard.Claims.HoldsSlot(claim.Slot, claim.A, claim.B, Priority(bad.Edge));
-  if (holds)
-  {
-    loop.Guard.Claims.ReleaseSlot(claim.Slot);
-  }
-  return holds;
-}
-
-/// Flips those of the listed edges that win, without a guard, or that hold their claims. They stay
-/// marked as bad until the next DetectAndList, because other choices depend on it.
-template <bool HasGuard, typename Rule>
-__device__ void FlipListed(const LoopView<Rule>& loop, const Team& team)
+/// Flips those of the listed edges that win; with a guard no two of them have claimed the same
+/// edge. They stay marked as bad until the next DetectAndList, because other choices depend on it.
+/// @returns whether a new edge found no room in the guard's table.
+template <bool IsGuarded, typename Rule>
+__device__ bool FlipListed(const LoopView<Rule>& loop, const Team& team)
 {
   StepCounts counts;
   const int size = BadList::GetSize();
@@ -164,7 +157,11 @@ __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team)
     {
       bad = BadList::Get(i);
       const RecordPair records(loop.Mesh, bad.Corners);
-      flips = MayFlipListed<HasGuard>(loop, bad, i);
+      flips = Wins(loop, bad.Edge, bad.Outer);
+      if (IsGuarded)
+      {
+        loop.Guard.Claims.ReleaseSlot(BadList::GetClaim(i));
+      }
       if (flips)
       {
         quad = records.GetQuad();
@@ -177,32 +174,21 @@ __device__ void FlipListed(const LoopView<Rule>& loop, const Team& team)
       ++counts.Flipped;
       EdgeBits::Set(loop.Bits.Winners, bad.Edge);
       MarkOuter(loop, bad.Outer);
-      if (HasGuard)
+      if (IsGuarded)
       {
-        UpdateGuard(loop.Guard.Edges, quad, counts);
+        UpdateGuard(loop.Guard.Edges, bad.Edge, quad, counts);
       }
     }
   }
-  AddFlips(loop, team, counts);
-}
-
-template <typename Rule>
-__device__ __noinline__ void FlipListedWithGuard(const LoopView<Rule>& loop, Team team)
-{
-  FlipListed<true>(loop, team);
-}
-
-template <typename Rule>
-__device__ __noinline__ void DetectAndListWithGuard(
-  const LoopView<Rule>& loop, BlockWorklist worklist, Team team)
-{
-  DetectAndList<true>(loop, worklist, team);
+  AddFlips<IsGuarded>(team, counts);
+  return counts.LostInserts > 0;
 }
 
 //------------------------------------------------------------------------------
 
-/// The most waits per iteration: three in RunFlips, with a guard, and one in RunDetection.
-constexpr int MostWaits = 4;
+/// The most waits per iteration: three in RunFlips, with a guard, one in RunDetection, and one for
+/// lists that are not used.
+constexpr int MostWaits = 5;
 
 /// The most iterations per launch of IterateKernel: few enough for an observer to be called and to
 /// stop the run in time.
@@ -214,30 +200,31 @@ static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at t
 static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");
 
 /// Passes 4 to 6.
-template <typename Rule, typename Worklist>
+template <bool IsGuarded, typename Rule, typename Worklist>
 __device__ void RunFlips(const LoopView<Rule>& loop, const Worklist& worklist, Team& team)
 {
-  if (!HasGuard<Worklist>(loop))
+  if constexpr (!IsGuarded)
   {
     ChooseAndFlip(loop, worklist, team);
-    team.Wait();
-    return;
   }
-  ChooseAndClaim(loop, worklist, team);
-  team.Wait();
-  Confirm(loop, worklist, team);
-  team.Wait();
-  FlipWinners(loop, worklist, team);
+  else
+  {
+    ChooseAndClaim(loop, worklist, team);
+    team.Wait();
+    Confirm(loop, worklist, team);
+    team.Wait();
+    FlipWinners(loop, worklist, team);
+  }
   team.Wait();
 }
 
 /// Passes 1 to 3.
-template <typename Rule, typename Worklist>
+template <bool IsGuarded, typename Rule, typename Worklist>
 __device__ void RunDetection(
   const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
 {
-  Detect(loop, worklist, team);
-  if (HasGuard<Worklist>(loop))
+  delaunayflip::Detect<IsGuarded>(loop, worklist, team);
+  if (IsGuarded)
   {
     // A warp guards the units that it judged.
     __syncwarp();
@@ -248,7 +235,7 @@ __device__ void RunDetection(
 
 /// A detection on the whole mesh, counted in Sums[0], and a count of all bad and blocked edges, in
 /// Sums[1].
-template <typename Rule>
+template <typename Rule, bool IsGuarded>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   DetectAllKernel(const __grid_constant__ LoopView<Rule> loop)
 {
@@ -258,7 +245,7 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
     return;
   }
   const WarpWorklist worklist = loop.GetWorklist();
-  RunDetection(loop, worklist, team, &loop.Sums[0]);
+  RunDetection<IsGuarded>(loop, worklist, team, &loop.Sums[0]);
   CountAll(loop, worklist, team);
   team.Wait(&loop.Sums[1]);
   if (team.IsFirstThread())
@@ -272,7 +259,7 @@ struct IterationLimits
 {
   int Iterations; ///< The most iterations.
   long long Bad; ///< The number of bad edges at the start.
-  unsigned long long FreshSlots; ///< The most slots of the guard table that may come into use.
+  long long FreshSlots; ///< The most slots of the guard table that may come into use.
 };
 
 __device__ inline long long LoadSum(const IterationSums& iteration, IterationSum sum)
@@ -281,7 +268,7 @@ __device__ inline long long LoadSum(const IterationSums& iteration, IterationSum
 }
 
 /// Iterations on the whole mesh, as one thread runs them.
-template <typename Rule>
+template <typename Rule, bool IsGuarded>
 class Iterations
 {
 public:
@@ -307,6 +294,10 @@ public:
       isRunning = this->Bad > 0 && done < this->Limits.Iterations && this->HasRoom &&
         !this->IsUncertain(iteration);
     }
+    if (IsGuarded && this->IsListed)
+    {
+      ReleaseListed(this->Loop, this->Members);
+    }
     return done;
   }
 
@@ -317,19 +308,10 @@ private:
   {
     if (!this->IsListed)
     {
-      RunFlips(this->Loop, this->Loop.GetWorklist(), this->Members);
+      RunFlips<IsGuarded>(this->Loop, this->Loop.GetWorklist(), this->Members);
       return;
     }
-    if (this->Loop.Guard.Active)
-    {
-      ClaimListed(this->Loop);
-      this->Members.Wait();
-      FlipListedWithGuard(this->Loop, this->Members);
-    }
-    else
-    {
-      FlipListed<false>(this->Loop, this->Members);
-    }
+    this->HasLost = FlipListed<IsGuarded>(this->Loop, this->Members);
     this->Members.Wait();
   }
 
@@ -339,51 +321,61 @@ private:
     const bool list = this->IsListed || this->Bad <= this->MostToList;
     if (list)
     {
-      const BlockWorklist worklist = this->Loop.GetSpreadWorklist();
-      this->Loop.Guard.Active ? DetectAndListWithGuard(this->Loop, worklist, this->Members)
-                              : DetectAndList<false>(this->Loop, worklist, this->Members);
+      this->Members.Warn(this->HasLost);
+      DetectAndList<IsGuarded>(this->Loop, this->Members);
       this->Members.Wait(iteration);
-      this->IsListed = !this->Members.IsWarned();
+      this->IsWarned = this->Members.IsWarned();
+      this->IsListed = !this->IsWarned;
+      if (IsGuarded && !this->IsListed)
+      {
+        ReleaseListed(this->Loop, this->Members);
+        this->Members.Wait();
+      }
     }
     else
     {
-      RunDetection(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
+      RunDetection<IsGuarded>(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
+      this->IsWarned = this->Members.IsWarned();
     }
     this->Bad = this->Limits.Bad + this->Members.GetBadChange();
-    if (this->Loop.Guard.Active)
+    bool isShort = list && !this->IsListed;
+    if (IsGuarded && !this->IsListed)
     {
-      this->Bad = LoadSum(*iteration, IterationSum::AllBad);
-      this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots);
+      this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots) -
+        LoadSum(*iteration, IterationSum::FreedSlots);
       this->HasRoom = this->FreshSlots <= this->Limits.FreshSlots &&
         LoadSum(*iteration, IterationSum::LostInserts) == 0;
+      isShort = isShort && LoadSum(*iteration, IterationSum::Contested) == 0;
     }
     // After a list was too short, lists are tried again when there are half as many bad edges.
-    this->MostToList = list && !this->IsListed ? this->Bad / 2 : this->MostToList;
+    this->MostToList = isShort ? this->Bad / 2 : this->MostToList;
   }
 
   /// Whether there is an edge that a device cannot decide. The thread that found it has warned.
   __device__ bool IsUncertain(const IterationSums* iteration) const
   {
-    return this->Members.IsWarned() && LoadSum(*iteration, IterationSum::Uncertain) > 0;
+    return this->IsWarned && LoadSum(*iteration, IterationSum::Uncertain) > 0;
   }
 
   const LoopView<Rule>& Loop;
   const IterationLimits& Limits;
   Team Members;
   bool IsListed = false; ///< Whether the lists of all blocks hold all bad edges.
+  bool IsWarned = false; ///< In the last detection.
   long long Bad; ///< Edges.
   long long MostToList; ///< Up to this many bad edges, detections make lists.
-  unsigned long long FreshSlots = 0;
+  long long FreshSlots = 0;
   bool HasRoom = true; ///< False if the guard's table must be rebuilt.
+  bool HasLost = false; ///< Whether this thread has just made an edge that found no room in it.
 };
 
 /// Iterations on the whole mesh after a detection, each counted in an entry of Sums. If the guard's
 /// table must be rebuilt, the last detection may have missed edges that found no room in it.
-template <typename Rule>
+template <typename Rule, bool IsGuarded>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationLimits limits)
 {
-  Iterations<Rule> iterations(loop, limits);
+  Iterations<Rule, IsGuarded> iterations(loop, limits);
   const int done = iterations.Run();
   if (iterations.IsFirstThread())
   {
@@ -407,8 +399,8 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
     team.Wait(&loop.Sums[iterations]);
     for (int i = 0; i < iterations; ++i)
     {
-      RunFlips(loop, worklist, team);
-      RunDetection(loop, worklist, team, &loop.Sums[i]);
+      RunFlips<false>(loop, worklist, team);
+      RunDetection<false>(loop, worklist, team, &loop.Sums[i]);
     }
   }
 }

@@ -252,7 +252,8 @@ __device__ void ChooseAndClaim(
       if (edge != NoEdge && Wins(loop, edge, GetOuterHalfEdges(loop.Mesh, corners.A, corners.B)))
       {
         const Quad quad = loop.Mesh.GetQuad(corners);
-        loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge));
+        bool isContested = false;
+        loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge), isContested);
         EdgeBits::Set(loop.Bits.Winners, edge);
       }
     });
@@ -278,18 +279,19 @@ __device__ void Confirm(const LoopView<Rule>& loop, const Worklist& worklist, co
     });
 }
 
-template <typename Rule>
-__device__ void AddFlips(const LoopView<Rule>& loop, const Team& team, const StepCounts& counts)
+template <bool IsGuarded>
+__device__ void AddFlips(const Team& team, const StepCounts& counts)
 {
   team.Add(IterationSum::Flipped, static_cast<unsigned>(counts.Flipped));
-  if (loop.Guard.Active)
+  if (IsGuarded)
   {
     team.Add(IterationSum::FreshSlots, static_cast<unsigned>(counts.FreshSlots));
+    team.Add(IterationSum::FreedSlots, static_cast<unsigned>(counts.FreedSlots));
     team.Add(IterationSum::LostInserts, static_cast<unsigned>(counts.LostInserts));
   }
 }
 
-/// Flips the winners and makes their outer edges candidates.
+/// Flips the winners of a Confirm and makes their outer edges candidates.
 template <typename Rule, typename Worklist>
 __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
@@ -318,15 +320,12 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
       if (edge != NoEdge)
       {
         ++counts.Flipped;
-        if (HasGuard<Worklist>(loop))
-        {
-          loop.Guard.Claims.Release(quad.A, quad.B, Priority(edge));
-          UpdateGuard(loop.Guard.Edges, quad, counts);
-        }
+        loop.Guard.Claims.Release(quad.A, quad.B, Priority(edge));
+        UpdateGuard(loop.Guard.Edges, edge, quad, counts);
         MarkOuter(loop, outer);
       }
     });
-  AddFlips(loop, team, counts);
+  AddFlips<true>(team, counts);
 }
 
 //------------------------------------------------------------------------------
@@ -416,7 +415,7 @@ __device__ EdgeState JudgeAndNote(const LoopView<Rule>& loop, EdgeId edge, const
   EdgeState state = loop.Decision.Judge(quad);
   if (asksGuard && state == EdgeState::Bad)
   {
-    state = DecideByGuard(loop.Guard.Edges, quad);
+    state = DecideByGuard(loop.Guard.Edges, loop.Mesh, quad);
   }
   if (state == EdgeState::Uncertain)
   {
@@ -430,9 +429,9 @@ __device__ EdgeState JudgeAndNote(const LoopView<Rule>& loop, EdgeId edge, const
 /// Takes the edges to judge from a byte and clears their bits: its candidates and, with takeBad,
 /// the other bad edges and those that the guard blocks. Edges that have flipped since the last
 /// detection are no longer bad.
-template <typename Rule>
-__device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& byte, bool takeBad,
-  bool hasGuard, DetectionCounts& counts)
+template <bool IsGuarded, typename Rule>
+__device__ unsigned TakeCandidates(
+  const LoopView<Rule>& loop, const EdgeByte& byte, bool takeBad, DetectionCounts& counts)
 {
   // All loads are issued before any result is used.
   const EdgeBits& bits = loop.Bits;
@@ -441,7 +440,7 @@ __device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& b
   const unsigned winners = byte.Load(bits.Winners);
   const unsigned seenBad = byte.Load(bits.Bad);
   const unsigned blockedByShape = Rule::MayBlock ? byte.Load(bits.BlockedByShape) : 0;
-  const unsigned blockedByEdge = hasGuard ? byte.Load(bits.BlockedByEdge) : 0;
+  const unsigned blockedByEdge = IsGuarded ? byte.Load(bits.BlockedByEdge) : 0;
   const unsigned candidates = marked & ~fixedOrDeferred;
   const unsigned bad = seenBad & ~winners;
   byte.Clear(bits.Candidates, marked, marked);
@@ -457,14 +456,13 @@ __device__ unsigned TakeCandidates(const LoopView<Rule>& loop, const EdgeByte& b
 }
 
 /// Judges the candidates.
-template <typename Rule, typename Worklist>
+template <bool IsGuarded, typename Rule, typename Worklist>
 __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
   DetectionCounts counts;
   worklist.Run(
     team, loop.Mesh,
-    [&](const EdgeByte& byte)
-    { return TakeCandidates(loop, byte, false, HasGuard<Worklist>(loop), counts); },
+    [&](const EdgeByte& byte) { return TakeCandidates<IsGuarded>(loop, byte, false, counts); },
     [&](EdgeId edge, const CornerPair& corners)
     {
       if (edge != NoEdge)
@@ -488,7 +486,7 @@ __device__ void GuardBadEdges(
   const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
   const EdgeBits& bits = loop.Bits;
-  unsigned allBad = 0, allBlockedByEdge = 0;
+  unsigned wasBad = 0, allBad = 0, allBlockedByEdge = 0;
   worklist.Run(
     team, loop.Mesh,
     [&](const EdgeByte& byte)
@@ -497,6 +495,7 @@ __device__ void GuardBadEdges(
       const unsigned blockedByEdge = byte.Load(bits.BlockedByEdge);
       byte.Clear(bits.Bad, bad, bad);
       byte.Clear(bits.BlockedByEdge, blockedByEdge, blockedByEdge);
+      wasBad += __popc(bad);
       return bad | blockedByEdge;
     },
     [&](EdgeId edge, const CornerPair& corners)
@@ -505,12 +504,14 @@ __device__ void GuardBadEdges(
       {
         return;
       }
-      const bool isBad = DecideByGuard(loop.Guard.Edges, loop.Mesh.GetQuad(edge)) == EdgeState::Bad;
+      const bool isBad =
+        DecideByGuard(loop.Guard.Edges, loop.Mesh, loop.Mesh.GetQuad(corners)) == EdgeState::Bad;
       EdgeBits::Set(isBad ? bits.Bad : bits.BlockedByEdge, edge);
       allBad += isBad ? 1 : 0;
       allBlockedByEdge += isBad ? 0 : 1;
     });
-  team.Add(IterationSum::AllBad, allBad);
+  team.Add(IterationSum::WasBad, wasBad);
+  team.Add(IterationSum::IsBad, allBad);
   team.Add(IterationSum::AllBlockedByEdge, allBlockedByEdge);
 }
 

@@ -15,7 +15,8 @@ namespace delaunayflip
 enum class IterationSum
 {
   Flipped,
-  FreshSlots, ///< Slots of the guard table used for the first time.
+  FreshSlots, ///< Slots of the guard table that were empty.
+  FreedSlots, ///< Those that are empty now.
   LostInserts, ///< New edges that found no room in the guard table.
   Tested,
   Uncertain, ///< Edges that a device cannot decide.
@@ -23,7 +24,8 @@ enum class IterationSum
   IsBad,
   WasBlockedByShape,
   IsBlockedByShape,
-  AllBad, ///< All bad edges; counted with a guard, and in the first detection.
+  Contested, ///< New edges of two listed edges.
+  AllBad, ///< All bad edges, in the first detection.
   AllBlockedByEdge, ///< All edges that the guard blocks.
   AllBlockedByShape, ///< All of EdgeState::BlockedByShape, in the first detection.
   Count
@@ -107,13 +109,6 @@ struct BadEdge
   CornerPair Corners;
   OuterHalfEdges Outer;
 };
-/// The claim of a bad edge, with a guard.
-struct ListedClaim
-{
-  VertexId A, B; ///< Of the edge that would replace it.
-  std::uint32_t Slot; ///< Of EdgeClaims; NoClaim if the edge does not win.
-};
-constexpr std::uint32_t NoClaim = 0xFFFFFFFFu;
 /// Room for the bad edges that a block lists where there are few.
 constexpr int MostListed = 48 * LoopWarps;
 
@@ -123,7 +118,7 @@ struct TeamMemory
   EdgeId Lists[LoopWarps][WarpListSize];
   int SizeOfList; ///< Of all lists as one.
   BadEdge Listed[MostListed];
-  ListedClaim Claims[MostListed]; ///< Of the listed edges.
+  std::uint32_t Claims[MostListed]; ///< With a guard: the slots of EdgeClaims of the listed edges.
   int NumberListed; ///< Bad edges, also those that found no room.
   unsigned int Sums[NumberOfIterationSums];
   unsigned int Expected; ///< Arrivals up to and including the last wait.

@@ -169,8 +169,7 @@ struct ConstraintPath
     if (this->Table)
     {
       const std::uint64_t key = EdgeKey(quad.A, quad.B);
-      bool fresh = false;
-      if (this->Table->Find(key) != EdgeTableView::NoSlot || !this->Table->InsertNew(key, fresh))
+      if (this->Table->Find(key) != EdgeTableView::NoSlot || !this->Table->InsertNew(key))
       {
         return false;
       }

@@ -5,7 +5,6 @@
 
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
-#include "EdgeTable.h"
 #include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
@@ -112,10 +111,8 @@ struct RuleChoice
 };
 
 /// Makes the loop that suits a mesh. The backend must live as long as the loop.
-/// @param table the vertex pairs of all edges, or empty; kept if flips could make an edge that
-/// exists.
 template <typename Backend>
-FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const Backend& backend)
+FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, const Backend& backend)
 {
   const MeshSurvey& survey = input.Survey;
   FlipLoopResult result;
@@ -136,15 +133,8 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, EdgeTable table, const
   EdgeGuard guard;
   if (needsGuard)
   {
-    const bool isMissing = table.IsEmpty();
-    guard = EdgeGuard(std::move(table), input.Counts.Edges.Edges, input.Counts.Points, backend,
-      std::move(input.SharedVertices));
-    if (isMissing)
-    {
-      guard.Rebuild(input.Mesh, backend);
-    }
+    guard = EdgeGuard(input.Mesh, input.Counts.Points, backend, std::move(input.SharedVertices));
   }
-  table = EdgeTable(); // frees its memory
   const auto make = [&](const auto& rule)
   {
     using Loop = typename LoopOf<Backend, std::decay_t<decltype(rule)>>::Type;

@@ -119,6 +119,7 @@ struct PlanarRule
   static constexpr bool MayBlock = Tilted; ///< Whether an edge may be BlockedByShape.
   static constexpr bool MayDeviate = false; ///< Whether an edge may be BlockedByDeviation.
   static constexpr bool MayBeUncertain = true; ///< Whether Judge may leave it to JudgeExactly.
+  static constexpr bool AlwaysGuarded = false; ///< Whether flips always have a guard.
   static constexpr bool Flat = !Tilted; ///< Whether all points have W = 0, or Z = 0.
 
   const Real* Coordinates; ///< Components numbers per vertex.
@@ -251,6 +252,7 @@ struct PlanarAngleRule : AnglePoints<double>
   static constexpr bool MayBlock = true;
   static constexpr bool MayDeviate = false;
   static constexpr bool MayBeUncertain = true;
+  static constexpr bool AlwaysGuarded = false;
   static constexpr bool Flat = false;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
@@ -283,6 +285,7 @@ struct SurfaceRule : AnglePoints<Real>
   static constexpr bool MayBlock = true;
   static constexpr bool MayDeviate = true;
   static constexpr bool MayBeUncertain = false;
+  static constexpr bool AlwaysGuarded = true;
   static constexpr bool Flat = false;
 
   double MaximumDeviation = INFINITY; ///< None.

@@ -20,9 +20,10 @@ namespace delaunayflip
 
 /// Pass 2: the new state of an edge that is bad or was blocked by the guard. The guard table does
 /// not change meanwhile.
-DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(const GuardedEdges& edges, const Quad& quad)
+DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(
+  const GuardedEdges& edges, const EdgeMeshView& mesh, const Quad& quad)
 {
-  return edges.Forbid(quad.A, quad.B) ? EdgeState::BlockedByEdge : EdgeState::Bad;
+  return edges.Forbid(mesh, quad.A, quad.B) ? EdgeState::BlockedByEdge : EdgeState::Bad;
 }
 
 /// Counts the edges of EdgeState::BlockedByDeviation, which the passes count with BlockedByShape.
@@ -67,12 +68,15 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
 
 /// Pass 6, after a flip with a guard: replaces the old vertex pair by the new one.
 DELAUNAYFLIP_HOST_DEVICE inline void UpdateGuard(
-  const GuardedEdges& edges, const Quad& quad, StepCounts& counts)
+  const GuardedEdges& edges, EdgeId edge, const Quad& quad, StepCounts& counts)
 {
-  bool fresh = false;
-  edges.Table.Remove(EdgeKey(quad.P, quad.Q));
-  counts.LostInserts += edges.Table.InsertNew(EdgeKey(quad.A, quad.B), fresh) ? 0 : 1;
-  counts.FreshSlots += fresh ? 1 : 0;
+  // Both searches begin before either ends.
+  const GuardTableView::Path from = edges.Table.Find(quad.P, quad.Q);
+  GuardTableView::Path to = edges.Table.Find(quad.A, quad.B);
+  counts.FreedSlots += edges.Table.Remove(edge, from);
+  const int used = edges.Table.Insert(edge, to);
+  counts.FreshSlots += used > 0 ? 1 : 0;
+  counts.LostInserts += used < 0 ? 1 : 0;
 }
 
 }

@@ -101,17 +101,12 @@ public:
     this->Order = OrderMesh(input, survey, this->Backend);
     progress.Reach(survey.Geometry, BuildStep::Ordered);
     const bool isSurface = survey.Geometry == GeometryKind::Surface;
-    // To find feature edges takes the caller's points, or the packed ones, which are nearer.
-    const bool packsLate = isSurface && BackendT::MemoryIsScarce;
     EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
-    if (!packsLate)
-    {
-      this->PackPoints(local, survey, options.Criterion);
-      const PackedPointsView packed = this->Points.View();
-      const std::int64_t count = isSurface ? mesh.Points.Count : 0;
-      edges.Packed =
-        packed.Floats ? PointArray(packed.Floats, count) : PointArray(packed.Doubles, count);
-    }
+    this->PackPoints(local, survey, options.Criterion);
+    const PackedPointsView packed = this->Points.View();
+    const std::int64_t count = isSurface ? mesh.Points.Count : 0;
+    edges.Packed =
+      packed.Floats ? PointArray(packed.Floats, count) : PointArray(packed.Doubles, count);
     // This is the peak of memory use, with the caller's triangles and the engine's. So a device
     // first frees what can be recomputed.
     if (BackendT::MemoryIsScarce)
@@ -129,13 +124,10 @@ public:
     progress.Reach(survey.Geometry, BuildStep::Loaded);
     EdgeMeshResult built = BuildEdgeMesh(edges, std::move(loaded), this->Backend, progress);
     progress.Reach(survey.Geometry, BuildStep::Fixed);
-    if (packsLate)
-    {
-      this->PackPoints(local, survey, options.Criterion);
-    }
     local.DropRegions();
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
+    built.Table = EdgeTable(); // frees its memory
     this->Turns = survey.Turns;
     FlipReport& report = this->Report;
     report.Points = mesh.Points.Count;
@@ -150,7 +142,7 @@ public:
     Array<unsigned char> shared = this->RankSharedPoints(mesh);
     FlipLoopResult made = ChooseFlipLoop(
       { this->Points, survey, options, this->Report, this->Mesh, mesh.Whole, shared },
-      std::move(built.Table), this->Backend);
+      this->Backend);
     this->Loop = std::move(made.Loop);
     report.MinimumAngleBefore = ToDegrees(made.SquaredCotangent);
     std::vector<Defect> defects{ survey.NonFinitePoints, survey.RepeatedIds,

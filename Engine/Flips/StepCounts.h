@@ -19,7 +19,8 @@ struct StepCounts
   std::int64_t BlockedByShape = 0; ///< Or by their deviation.
   std::int64_t BlockedByEdge = 0;
   std::int64_t Flipped = 0;
-  std::int64_t FreshSlots = 0; ///< Slots of the guard table used for the first time.
+  std::int64_t FreshSlots = 0; ///< Slots of the guard table that were empty.
+  std::int64_t FreedSlots = 0; ///< Those that are empty now.
   std::int64_t LostInserts = 0; ///< New edges that found no room in the guard table.
 
   std::int64_t GetBlocked() const { return this->BlockedByShape + this->BlockedByEdge; }
@@ -33,6 +34,7 @@ struct StepCounts
     this->BlockedByEdge += other.BlockedByEdge;
     this->Flipped += other.Flipped;
     this->FreshSlots += other.FreshSlots;
+    this->FreedSlots += other.FreedSlots;
     this->LostInserts += other.LostInserts;
     return *this;
   }

@@ -625,9 +625,15 @@ typename Backend::Numbering PairCorners(
     result.Counts.NonManifold = sums.NonManifold;
     return numbering;
   }
-  constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20; // triangles
-  const bool inSlices = result.Edges.NumberOfTriangles >= SmallestSliced;
-  numbering = PairByTable(input, result, inSlices ? backend.CountTableSlices() : 1, backend);
+  // In triangles. Slices take time, which matters in small meshes; but surfaces take most memory.
+  constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20;
+  constexpr std::int64_t SmallestHalved = std::int64_t(1) << 17;
+  const std::int64_t triangles = result.Edges.NumberOfTriangles;
+  const bool isHalved =
+    input.Survey.Geometry == GeometryKind::Surface && triangles >= SmallestHalved;
+  const int most = backend.CountTableSlices();
+  const int slices = triangles >= SmallestSliced ? most : std::min(most, isHalved ? 2 : 1);
+  numbering = PairByTable(input, result, slices, backend);
   if (Backend::MemoryIsScarce)
   {
     result.Table = EdgeTable(); // frees its memory for the rest of the mesh

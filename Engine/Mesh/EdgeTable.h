@@ -13,8 +13,8 @@
 
 /// @file
 /// A hash set of edges by their vertex pair, shared by all threads: it pairs the triangles of an
-/// edge when the edge mesh is built, guards against duplicate edges while edges flip, and holds the
-/// claims on new edges of one iteration. Membership never depends on the order of insertions.
+/// edge when the edge mesh is built, and guards against duplicate edges while constraints are
+/// inserted. Membership never depends on the order of insertions.
 
 namespace delaunayflip
 {
@@ -67,7 +67,6 @@ struct EdgeTableView
   static constexpr std::uint32_t NearProbes = 8;
   static constexpr std::uint32_t FarSlots = 1u << 12;
   static constexpr int StrideBits = 24;
-  static constexpr int BatchSize = DELAUNAYFLIP_ON_DEVICE ? 4 : 1;
 
   std::uint64_t* Keys;
   std::uint32_t* First; ///< Two words per key, for the user of the table.
@@ -85,58 +84,41 @@ struct EdgeTableView
   }
 
   /// Calls visit(slot, key there) for the slots at which `key` may be, in the order of search,
-  /// until it returns true. Keys are loaded several at a time, so that a device waits less often;
-  /// with Batch = 0 they are not loaded. @returns that slot, or NoSlot.
-  template <int Batch, typename Visit>
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Search(std::uint64_t key, const Visit& visit) const
+  /// until it returns true. @param loads if false, the keys are not loaded. @returns that slot, or
+  /// NoSlot.
+  template <typename Visit>
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Search(
+    std::uint64_t key, bool loads, const Visit& visit) const
   {
-    constexpr std::uint32_t Step = Batch > 0 ? Batch : 1;
-    static_assert(NearProbes % Step == 0 && FarSlots % Step == 0, "whole batches");
     const VertexId smaller = static_cast<VertexId>(key >> 32);
     std::uint32_t scattered = Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller));
     const std::uint32_t near = this->NearSlot(smaller, scattered);
-    for (std::uint32_t first = 0; first < NearProbes + FarSlots; first += Step)
+    for (std::uint32_t probe = 0; probe < NearProbes + FarSlots; ++probe)
     {
-      std::uint32_t slots[Step];
-      std::uint64_t keys[Step];
-      for (std::uint32_t i = 0; i < Step; ++i)
+      std::uint64_t slot = std::uint64_t(near) + probe;
+      slot = slot < this->Capacity ? slot : slot - this->Capacity;
+      if (probe >= NearProbes)
       {
-        std::uint64_t slot = near + first + i;
-        slot = slot < this->Capacity ? slot : slot - this->Capacity;
-        if (first >= NearProbes)
-        {
-          // Scattered, because vertices with many edges fill thousands of consecutive slots.
-          scattered = Scatter(scattered + 0x9e3779b9u);
-          slot = (std::uint64_t(scattered) * this->Capacity) >> 32;
-        }
-        slots[i] = static_cast<std::uint32_t>(slot);
-        keys[i] = Batch > 0 ? AtomicLoad(&this->Keys[slots[i]]) : Empty;
+        // Scattered, because vertices with many edges fill thousands of consecutive slots.
+        scattered = Scatter(scattered + 0x9e3779b9u);
+        slot = (std::uint64_t(scattered) * this->Capacity) >> 32;
       }
-      for (std::uint32_t i = 0; i < Step; ++i)
+      const auto found = static_cast<std::uint32_t>(slot);
+      if (visit(found, loads ? AtomicLoad(&this->Keys[found]) : Empty))
       {
-        if (visit(slots[i], keys[i]))
-        {
-          return slots[i];
-        }
+        return found;
       }
     }
     return NoSlot;
   }
 
-  /// Prefetches the slot at which a search for `key` begins. @returns it.
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t PrefetchKey(std::uint64_t key) const
+  /// Prefetches the slot at which a search for `key` begins, and its words.
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::uint64_t key) const
   {
     const VertexId smaller = static_cast<VertexId>(key >> 32);
     const std::uint32_t slot =
       this->NearSlot(smaller, Scatter(static_cast<std::uint32_t>(key) + Scatter(smaller)));
     delaunayflip::Prefetch(&this->Keys[slot]);
-    return slot;
-  }
-
-  /// The same with its words.
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::uint64_t key) const
-  {
-    const std::uint32_t slot = this->PrefetchKey(key);
     delaunayflip::Prefetch(&this->First[slot]);
     delaunayflip::Prefetch(&this->Second[slot]);
   }
@@ -145,7 +127,7 @@ struct EdgeTableView
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t Find(std::uint64_t key) const
   {
     std::uint64_t seen = Empty;
-    const std::uint32_t slot = this->Search<BatchSize>(key,
+    const std::uint32_t slot = this->Search(key, true,
       [&](std::uint32_t, std::uint64_t there)
       {
         seen = there;
@@ -160,28 +142,23 @@ struct EdgeTableView
   {
     inserted = false;
     // On a device a single access to memory, whether the key is there or not.
-    return this->Search < DELAUNAYFLIP_ON_DEVICE
-      ? 0
-      : 1 > (key,
-              [&](std::uint32_t candidate, std::uint64_t seen)
-              {
-                if (seen == Empty)
-                {
-                  seen = AtomicCompareExchange(&this->Keys[candidate], Empty, key);
-                  inserted = seen == Empty;
-                }
-                return inserted || seen == key;
-              });
-  }
-
-  /// Uses the first free slot for a `key` that is not in the table. @returns whether there was one;
-  /// `fresh` receives whether the slot had never been used.
-  DELAUNAYFLIP_HOST_DEVICE bool InsertNew(std::uint64_t key, bool& fresh) const
-  {
-    const std::uint32_t slot = this->Search<BatchSize>(key,
+    return this->Search(key, !DELAUNAYFLIP_ON_DEVICE,
       [&](std::uint32_t candidate, std::uint64_t seen)
       {
-        fresh = seen == Empty;
+        if (seen == Empty)
+        {
+          seen = AtomicCompareExchange(&this->Keys[candidate], Empty, key);
+          inserted = seen == Empty;
+        }
+        return inserted || seen == key;
+      });
+  }
+
+  /// Uses the first free slot for a `key` that is not in the table. @returns whether there was one.
+  DELAUNAYFLIP_HOST_DEVICE bool InsertNew(std::uint64_t key) const
+  {
+    const std::uint32_t slot = this->Search(key, true,
+      [&](std::uint32_t candidate, std::uint64_t seen) {
         return seen >= Removed && AtomicCompareExchange(&this->Keys[candidate], seen, key) == seen;
       });
     return slot != NoSlot;
@@ -209,9 +186,8 @@ public:
     : Slice(slice)
   {
     // Share of slots in use when all expected edges are in: a compromise between short searches and
-    // little memory. With 0.3 a torus of 100,000 points whose edges all flip takes 85 % of the
-    // time that it takes with 0.6.
-    constexpr double FillFactor = Backend::MemoryIsScarce ? 0.6 : 0.3;
+    // little memory.
+    constexpr double FillFactor = 0.6;
     const std::int64_t wanted =
       static_cast<std::int64_t>(static_cast<double>(edges) / FillFactor) + 64;
     const std::int64_t capacity = std::min<std::int64_t>(wanted, EdgeTableView::NoSlot);

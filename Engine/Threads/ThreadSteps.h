@@ -99,10 +99,10 @@ struct GuardStep : QuadStep
   GuardedEdges Edges;
 
   static constexpr StateRange Wanted{ EdgeState::BlockedByEdge, EdgeState::Bad };
-  void Prefetch(const Quad& quad) const { this->Edges.Table.PrefetchKey(EdgeKey(quad.A, quad.B)); }
+  void Prefetch(const Quad& quad) const { this->Edges.Table.Prefetch(quad.A, quad.B); }
   void operator()(EdgeId edge, const Quad& quad, StepCounts&) const
   {
-    AtomicStore(&this->Mesh.States[edge], DecideByGuard(this->Edges, quad));
+    AtomicStore(&this->Mesh.States[edge], DecideByGuard(this->Edges, this->Mesh, quad));
   }
 };
 
@@ -157,7 +157,8 @@ struct ChooseAndClaimStep : ChooseStep
   std::uint32_t Claim(EdgeId edge) const
   {
     const Quad quad = this->Mesh.GetQuad(edge);
-    return this->Claims.Claim(quad.A, quad.B, Priority(edge));
+    bool isContested = false;
+    return this->Claims.Claim(quad.A, quad.B, Priority(edge), isContested);
   }
 };
 
@@ -226,8 +227,8 @@ struct ConfirmAndFlipStep : FlipStep
   {
     this->FlipStep::Prefetch(quad);
     this->Guard.Claims.Prefetch(quad.A, quad.B);
-    this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.A, quad.B));
-    this->Guard.Edges.Table.PrefetchKey(EdgeKey(quad.P, quad.Q));
+    this->Guard.Edges.Table.Prefetch(quad.A, quad.B);
+    this->Guard.Edges.Table.Prefetch(quad.P, quad.Q);
   }
   /// @param slot of the edge's claim.
   void operator()(EdgeId edge, const Quad& quad, std::uint32_t slot, StepCounts& counts) const
@@ -236,7 +237,7 @@ struct ConfirmAndFlipStep : FlipStep
     {
       this->FlipAndMark(edge, quad, counts, EdgeState::Candidate);
       this->Guard.Claims.ReleaseSlot(slot);
-      UpdateGuard(this->Guard.Edges, quad, counts);
+      UpdateGuard(this->Guard.Edges, edge, quad, counts);
     }
   }
 };

@@ -243,21 +243,88 @@ TEST(EdgeTable, HoldsAsManyKeysAsItHasSlots)
   }
 }
 
+/// A guard of a mesh, and its table.
+struct Guarded
+{
+  explicit Guarded(const TriangleMesh& mesh)
+    : Edges(std::move(Build(mesh, Backend).Result.Edges)),
+      Guard(Edges, mesh.Points.Count, Backend)
+  {
+  }
+
+  GuardTableView Table() { return this->Guard.View().Edges.Table; }
+  bool Has(EdgeId edge)
+  {
+    const Quad quad = this->Edges.View().GetQuad(edge);
+    return this->Table().Has(this->Edges.View(), quad.Q, quad.P);
+  }
+  int Remove(EdgeId edge)
+  {
+    const Quad quad = this->Edges.View().GetQuad(edge);
+    const GuardTableView table = this->Table();
+    return table.Remove(edge, table.Find(quad.P, quad.Q));
+  }
+
+  const ThreadBackend Backend{ 1 };
+  EdgeMesh Edges;
+  EdgeGuard Guard;
+};
+
+/// Two vertices have most edges, so that the groups near them do not suffice.
+TEST(EdgeGuard, FindsEdgesAlsoAfterOthersHaveGone)
+{
+  Guarded mesh(MakeWorstCaseMesh(2000).View());
+  const auto edges = static_cast<EdgeId>(mesh.Edges.NumberOfEdges);
+  int emptied = 0, removed = 0;
+  for (EdgeId edge = 0; edge < edges; edge += 2)
+  {
+    if (mesh.Edges.States[edge] != EdgeState::Fixed)
+    {
+      EXPECT_TRUE(mesh.Has(edge));
+      emptied += mesh.Remove(edge);
+      ++removed;
+      EXPECT_FALSE(mesh.Has(edge));
+    }
+  }
+  EXPECT_GT(emptied, 0);
+  EXPECT_LT(emptied, removed); // some groups had no empty slot
+  for (EdgeId edge = 1; edge < edges; edge += 2)
+  {
+    if (mesh.Edges.States[edge] != EdgeState::Fixed)
+    {
+      const EdgeMeshView view = mesh.Edges.View();
+      const Quad quad = view.GetQuad(edge);
+      EXPECT_TRUE(mesh.Has(edge));
+      EXPECT_FALSE(mesh.Table().Has(view, quad.A, quad.B));
+    }
+  }
+}
+
+TEST(EdgeGuard, HoldsAsManyEdgesAsItHasSlots)
+{
+  Guarded mesh(RoundToFloat(MakeGridMesh(8, 8)).View());
+  const GuardTableView table = mesh.Table();
+  const std::int64_t slots = std::int64_t(8) * table.Groups;
+  VertexId other = 1000;
+  for (std::int64_t i = mesh.Edges.NumberOfEdges; i < slots; ++i)
+  {
+    EXPECT_EQ(1, table.Insert(0, table.Find(7, ++other)));
+  }
+  EXPECT_EQ(-1, table.Insert(0, table.Find(7, 8000)));
+  EXPECT_EQ(0, mesh.Remove(5)); // its group has no empty slot
+  EXPECT_EQ(0, table.Insert(0, table.Find(7, 8000))); // uses it again
+}
+
 TEST(EdgeGuard, RenewsItsTableInTime)
 {
-  const ThreadBackend backend(1);
-  EdgeMesh edges = std::move(Build(RoundToFloat(MakeGridMesh(8, 8)).View(), backend).Result.Edges);
-  EdgeGuard guard(
-    EdgeTable(edges.NumberOfEdges, { 0, 81 }, false, backend), edges.NumberOfEdges, 81, backend);
-  guard.Rebuild(edges, backend);
-  const Quad quad = edges.View().GetQuad(5);
-  const std::uint64_t key = EdgeKey(quad.P, quad.Q);
-  // Only a table made anew from the mesh has the key again.
+  Guarded mesh(RoundToFloat(MakeGridMesh(8, 8)).View());
+  EdgeGuard& guard = mesh.Guard;
+  // Only a table made anew from the mesh has the edge again.
   const auto isRenewedAfter = [&](const StepCounts& counts)
   {
-    guard.View().Edges.Table.Remove(key);
-    guard.Maintain(counts, edges, backend);
-    return guard.View().Edges.Table.Find(key) != EdgeTableView::NoSlot;
+    mesh.Remove(5);
+    guard.Maintain(counts, mesh.Edges, mesh.Backend);
+    return mesh.Has(5);
   };
   EXPECT_FALSE(isRenewedAfter(StepCounts()));
   StepCounts lost;
@@ -266,9 +333,10 @@ TEST(EdgeGuard, RenewsItsTableInTime)
   const std::int64_t left = guard.GetFreshSlotsLeft();
   EXPECT_GT(left, 0);
   StepCounts used;
-  used.FreshSlots = left;
+  used.FreshSlots = left + 1;
+  used.FreedSlots = 1;
   EXPECT_FALSE(isRenewedAfter(used));
-  used.FreshSlots = 1; // too many slots were used
+  used.FreshSlots = 2; // too many slots are used
   EXPECT_TRUE(isRenewedAfter(used));
   EXPECT_EQ(left, guard.GetFreshSlotsLeft());
 }

@@ -258,6 +258,37 @@ TEST_F(SmallMeshTest, Surfaces)
   ExpectGpuAgrees(MakeMoebiusStrip(60, 4, 65).View(), options);
 }
 
+/// Bipyramids over triangles: the three edges at the waist of one are all bad, and would all become
+/// the edge between its tips.
+OwnedMesh<double> MakeBipyramids(int count)
+{
+  constexpr double Height = 0.6;
+  OwnedMesh<double> mesh;
+  for (int i = 0; i < count; ++i)
+  {
+    const std::int32_t first = 5 * i;
+    const double x = 3.0 * i;
+    mesh.Points.insert(mesh.Points.end(),
+      { x, 0.0, Height, x, 0.0, -Height, x + 1.0, 0.0, 0.0, x - 0.5, 0.875, 0.0, x - 0.5, -0.875,
+        0.0 });
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t p = first + 2 + k, q = first + 2 + (k + 1) % 3;
+      mesh.Triangles.insert(mesh.Triangles.end(), { first, p, q, first + 1, q, p });
+    }
+  }
+  return mesh;
+}
+
+TEST_F(SmallMeshTest, EdgesThatWouldBecomeTheSame)
+{
+  constexpr int Count = 200;
+  const FlipReport report =
+    ExpectGpuAgrees(MakeBipyramids(Count).View(), MakeOptions(BackendKind::CUDA)).Report;
+  EXPECT_EQ(Count, report.TotalFlips);
+  EXPECT_EQ(2 * Count, report.BlockedByEdge);
+}
+
 TEST_F(SmallMeshTest, Messes) { ExpectMessesAgree(5001, 5012); }
 
 }

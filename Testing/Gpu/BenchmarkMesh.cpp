@@ -12,8 +12,10 @@
 #include "vtkPoints.h"
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <random>
 #include <utility>
 
 namespace delaunayflip
@@ -79,6 +81,36 @@ BenchmarkMesh MakeLatticeMesh(std::int64_t points)
 BenchmarkMesh MakeChainMesh(std::int32_t triangles)
 {
   return Convert("chain of Fig. 6", MakeWorstCaseMesh(triangles / 2 + 1));
+}
+
+BenchmarkMesh MoveSomePoints(const BenchmarkMesh& mesh)
+{
+  constexpr std::size_t Step = 100;
+  BenchmarkMesh moved = mesh;
+  moved.Name = "Delaunay, 1 % of points moved";
+  moved.EndsDelaunay = false;
+  double extent[2]; // of the box
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    float lowest = mesh.Floats[axis], highest = lowest;
+    for (std::size_t i = axis; i < mesh.Floats.size(); i += 3)
+    {
+      lowest = std::min(lowest, mesh.Floats[i]);
+      highest = std::max(highest, mesh.Floats[i]);
+    }
+    extent[axis] = highest - lowest;
+  }
+  const double spacing = std::sqrt(extent[0] * extent[1] / static_cast<double>(mesh.CountPoints()));
+  std::minstd_rand random(Seed);
+  for (std::size_t i = 0; i < mesh.Floats.size(); i += 3 * Step)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      const double share = static_cast<double>(random()) / std::minstd_rand::max() - 0.5;
+      moved.Floats[i + axis] += static_cast<float>(0.2 * share * spacing);
+    }
+  }
+  return moved;
 }
 
 std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder)

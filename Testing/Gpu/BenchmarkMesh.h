@@ -53,6 +53,10 @@ BenchmarkMesh MakeLatticeMesh(std::int64_t points);
 /// iteration.
 BenchmarkMesh MakeChainMesh(std::int32_t triangles);
 
+/// The mesh after every hundredth point has moved in x and y, by up to a tenth of the mean distance
+/// between neighbours.
+BenchmarkMesh MoveSomePoints(const BenchmarkMesh& mesh);
+
 /// The real meshes of a folder that are large enough to time, height fields both by x and y and in
 /// space.
 std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder);
