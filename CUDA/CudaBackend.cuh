@@ -389,14 +389,26 @@ public:
   }
 
   template <typename Store>
-  void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
+  void StoreTriangles(
+    const MutableTriangleArray& triangles, const Store& store, bool areInOrder) const
   {
-    const auto fill = [&](const OutputSlice& ids) {
-      this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, IdSlice{ ids }); });
+    const auto fill = [&](const OutputSlice& ids)
+    {
+      const std::int64_t first = areInOrder ? ids.First / 3 : 0;
+      const std::int64_t last = areInOrder ? (ids.Last + 2) / 3 : triangles.Count;
+      this->ForEach(
+        last - first, [=] __device__(std::int64_t i) { store(first + i, IdSlice{ ids }); });
     };
+    Slicing slicing;
+    if (areInOrder) // then a slice takes only its own triangles, so that there can be many
+    {
+      constexpr std::int64_t Slices = 16;
+      slicing.Most = std::numeric_limits<std::int64_t>::max();
+      slicing.Step = std::clamp(3 * triangles.Count / Slices, slicing.Step / 16, slicing.Step);
+    }
     const auto download = [&](auto* ids)
     {
-      this->DownloadSlices(3 * triangles.Count, fill,
+      this->DownloadSlices(3 * triangles.Count, slicing, fill,
         [ids](std::int64_t i, std::uint32_t id)
         { ids[i] = static_cast<std::remove_pointer_t<decltype(ids)>>(id); });
     };
@@ -407,7 +419,7 @@ public:
   void StoreValues(std::int64_t size, std::int32_t* values, const Store& store) const
   {
     this->DownloadSlices(
-      size,
+      size, {},
       [&](const OutputSlice& slice)
       { this->ForEach(size, [=] __device__(std::int64_t i) { store(i, slice); }); },
       [=](std::int64_t i, std::uint32_t value) { values[i] = static_cast<std::int32_t>(value); });
@@ -586,18 +598,25 @@ private:
     this->Context->Join();
   }
 
+  /// How many of these the host fetches at a time, and in how many slices at most, about.
+  struct Slicing
+  {
+    std::int64_t Step = CudaContext::StagingBytes / sizeof(std::uint32_t);
+    std::int64_t Most = 8;
+  };
+
   /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
   /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one
   /// slice, while the host still converts the slice before it.
   template <typename Fill, typename Put>
-  void DownloadSlices(std::int64_t size, const Fill& fill, const Put& put) const
+  void DownloadSlices(
+    std::int64_t size, const Slicing& slicing, const Fill& fill, const Put& put) const
   {
     using Value = std::uint32_t;
-    constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(Value);
-    constexpr std::int64_t Slices = 8; // about
-    const std::int64_t parts = (size + Step - 1) / Step;
-    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts + Slices - 1) / Slices);
-    const std::int64_t sliceSize = partsPerSlice * Step;
+    const std::int64_t step = slicing.Step;
+    const std::int64_t parts = (size + step - 1) / step;
+    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts - 1) / slicing.Most + 1);
+    const std::int64_t sliceSize = partsPerSlice * step;
     Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
     const auto ahead = // copied while one is converted
       static_cast<std::int64_t>(this->Context->Staging.size()) - 1;
@@ -620,18 +639,18 @@ private:
       if (fetched >= 0)
       {
         const StagingBuffer& buffer = this->GetBuffer(turn);
-        const std::int64_t begin = fetched * Step;
+        const std::int64_t begin = fetched * step;
         StartCopy(buffer, buffer.Memory, values.Data() + begin % sliceSize,
-          std::min(Step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
+          std::min(step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
       }
       if (drained >= 0)
       {
         const StagingBuffer& buffer = this->GetBuffer(turn - ahead);
         const auto* staged = static_cast<const Value*>(buffer.Memory.Get());
-        const std::int64_t begin = drained * Step;
+        const std::int64_t begin = drained * step;
         WaitForCopy(buffer);
         this->Threads.ForEach(
-          std::min(Step, size - begin), [&](std::int64_t i) { put(begin + i, staged[i]); });
+          std::min(step, size - begin), [&](std::int64_t i) { put(begin + i, staged[i]); });
       }
     }
     this->Context->Join();
