@@ -208,7 +208,10 @@ class Points(RealDataTest):
         mesh = read_mesh(self.path("out.vtk"))
         places = {mesh.GetPoint(i)[:2] for i in range(mesh.GetNumberOfPoints())}
         triangles = triangles_of(mesh)
-        edges, boundary, non_manifold = edge_counts(triangles)
+        if len({y for _, y in places}) == 1:  # gc_lego.ply stands upright
+            self.assertEqual(triangles, [])
+            return
+        _, boundary, non_manifold = edge_counts(triangles)
         self.assertEqual(len(triangles), 2 * len(places) - 2 - boundary)
         self.assertEqual(non_manifold, 0)
         again = self.report("out.vtk", "again.vtk", *XY, "--tie-rule", "canonical")
