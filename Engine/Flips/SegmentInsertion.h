@@ -29,10 +29,13 @@ struct SegmentItem
     Refused
   };
 
+  static constexpr std::uint32_t MostHints = 4;
+
   VertexId From, To;
   StateKind State;
   std::uint32_t Beaten; ///< The number of the last round that it cannot win; 0: none.
   std::uint32_t NumberOfEdges; ///< Of its path.
+  TriangleId Crossed[MostHints]; ///< The first ones that the path crosses, to prefetch.
   ConstraintPath::Segment First; ///< Of the path.
   ConstraintPath::Segment* Others; ///< All of it, if it has several.
 
@@ -67,11 +70,18 @@ struct SegmentRound
   /// other and who is beaten.
   DELAUNAYFLIP_HOST_DEVICE void Claim(SegmentItem& item, std::uint32_t claim) const
   {
-    std::uint32_t edges = 0;
+    std::uint32_t edges = 0, crossed = 0;
+    TriangleId last = NoTriangle;
     const auto claimTriangle = [&](HalfEdgeId side)
     {
-      std::uint32_t& best = this->Claims[TriangleOf(this->Mesh.Edges.CornerOfHalfEdge[side])];
-      const std::uint32_t before = AtomicMin(&best, claim);
+      const TriangleId triangle = TriangleOf(this->Mesh.Edges.CornerOfHalfEdge[side]);
+      if (triangle == last)
+      {
+        return;
+      }
+      last = triangle;
+      item.Crossed[crossed++ % SegmentItem::MostHints] = triangle;
+      const std::uint32_t before = AtomicMin(&this->Claims[triangle], claim);
       if (before != claim)
       {
         this->Beat(before < claim ? claim : before);
@@ -158,6 +168,55 @@ struct SegmentRound
     item.State = SegmentItem::Inserted;
   }
 
+  /// Requests what Claim will read of an item, the later stages what those before lead to.
+  void Prefetch(std::int64_t i, int stage) const
+  {
+    const SegmentItem& item = this->Items[this->List[i]];
+    const CornerId* first = &this->Fans.First[item.From];
+    const TriangleRecord* triangles = this->Mesh.Edges.Triangles;
+    if (stage == 0)
+    {
+      delaunayflip::Prefetch(&item);
+    }
+    else if (stage == 1)
+    {
+      delaunayflip::Prefetch(first);
+      this->Mesh.PrefetchPoint(item.From);
+      this->Mesh.PrefetchPoint(item.To);
+    }
+    else if (stage == 2)
+    {
+      delaunayflip::Prefetch(&triangles[TriangleOf(*first)]);
+    }
+    else
+    {
+      for (const HalfEdgeId side : triangles[TriangleOf(*first)].HalfEdges)
+      {
+        const CornerId* across = &this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+        delaunayflip::Prefetch(
+          stage == 3 ? static_cast<const void*>(across) : &triangles[TriangleOf(*across)]);
+      }
+    }
+  }
+
+  /// The same for Flip, of which other threads may be changing what it leads to.
+  void PrefetchFlip(std::int64_t i, int stage) const
+  {
+    const SegmentItem& item = this->Items[this->List[i]];
+    if (stage == 0)
+    {
+      delaunayflip::Prefetch(&item);
+    }
+    else if (stage == 1 && this->IsWinner(item))
+    {
+      delaunayflip::Prefetch(&this->Mesh.Edges.CornerOfHalfEdge[item.First.Side]);
+      for (const TriangleId triangle : item.Crossed)
+      {
+        delaunayflip::Prefetch(&this->Mesh.Edges.Triangles[triangle]);
+      }
+    }
+  }
+
 private:
   DELAUNAYFLIP_HOST_DEVICE void Beat(std::uint32_t claim) const
   {
@@ -181,6 +240,12 @@ struct SegmentStep
 
   SegmentRound Round;
   StepKind Step;
+
+  /// Requests what an item that is to come reads, the later stages what those before lead to.
+  void Prefetch(std::int64_t i, int stage) const
+  {
+    this->Step == Claim ? this->Round.Prefetch(i, stage) : this->Round.PrefetchFlip(i, stage);
+  }
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t& flips) const
   {
@@ -293,7 +358,7 @@ struct SegmentInsertion
           isRefused      ? SegmentItem::Refused
             : from == to ? SegmentItem::Inserted
                          : SegmentItem::Waiting,
-          0, 0, {}, nullptr };
+          0, 0, {}, {}, nullptr };
       });
     this->RunRounds(size);
     return this->Fetch(size);
@@ -411,9 +476,22 @@ struct SegmentInsertion
         [&](std::int64_t begin, std::int64_t end)
         {
           std::int64_t sum = 0;
-          for (std::int64_t i = begin; i < end; ++i)
+          // What each item reads is far from what others do.
+          constexpr std::int64_t Ahead = 4, Stages = 5;
+          for (std::int64_t i = begin - Stages * Ahead; i < end; ++i)
           {
-            work(i, sum);
+            for (std::int64_t stage = 0; stage < Stages; ++stage)
+            {
+              const std::int64_t next = i + (Stages - stage) * Ahead;
+              if (next >= begin && next < end)
+              {
+                work.Prefetch(next, static_cast<int>(stage));
+              }
+            }
+            if (i >= begin)
+            {
+              work(i, sum);
+            }
           }
           return sum;
         },
@@ -429,7 +507,6 @@ struct SegmentInsertion
   InsertedSegments Fetch(std::int64_t size)
   {
     SegmentItem* items = this->Items.Data();
-    const PlaneMesh mesh = this->Round.Mesh;
     const auto countOf = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
     { return static_cast<int>(items[i].NumberOfEdges); };
     const typename Backend::Numbering numbering = this->Device.Count(size, countOf);
@@ -446,7 +523,8 @@ struct SegmentInsertion
         for (std::uint32_t j = 0; j < item.NumberOfEdges; ++j)
         {
           const ConstraintPath::Segment& made = item.GetPath()[j];
-          side[number + j] = { made.Side, mesh.GetStart(made.Side) == made.Start ? 1u : 0u };
+          // The side of a path across triangles runs towards its start.
+          side[number + j] = { made.Side, made.IsForward ? 1u : 0u };
         }
       });
     InsertedSegments result;
