@@ -389,14 +389,19 @@ public:
   }
 
   template <typename Store>
-  void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
+  void StoreTriangles(
+    const MutableTriangleArray& triangles, const Store& store, bool areInOrder) const
   {
-    const auto fill = [&](const OutputSlice& ids) {
-      this->ForEach(triangles.Count, [=] __device__(std::int64_t t) { store(t, IdSlice{ ids }); });
+    const auto fill = [&](const OutputSlice& ids)
+    {
+      const std::int64_t first = areInOrder ? ids.First / 3 : 0;
+      const std::int64_t last = areInOrder ? (ids.Last + 2) / 3 : triangles.Count;
+      this->ForEach(
+        last - first, [=] __device__(std::int64_t i) { store(first + i, IdSlice{ ids }); });
     };
     const auto download = [&](auto* ids)
     {
-      this->DownloadSlices(3 * triangles.Count, fill,
+      this->DownloadSlices(3 * triangles.Count, areInOrder, fill,
         [ids](std::int64_t i, std::uint32_t id)
         { ids[i] = static_cast<std::remove_pointer_t<decltype(ids)>>(id); });
     };
@@ -407,7 +412,7 @@ public:
   void StoreValues(std::int64_t size, std::int32_t* values, const Store& store) const
   {
     this->DownloadSlices(
-      size,
+      size, false,
       [&](const OutputSlice& slice)
       { this->ForEach(size, [=] __device__(std::int64_t i) { store(i, slice); }); },
       [=](std::int64_t i, std::uint32_t value) { values[i] = static_cast<std::int32_t>(value); });
@@ -589,16 +594,18 @@ private:
   /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
   /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one
   /// slice, while the host still converts the slice before it.
+  /// @param areInOrder whether a slice takes only its own triangles, so that there can be many.
   template <typename Fill, typename Put>
-  void DownloadSlices(std::int64_t size, const Fill& fill, const Put& put) const
+  void DownloadSlices(std::int64_t size, bool areInOrder, const Fill& fill, const Put& put) const
   {
     using Value = std::uint32_t;
     constexpr std::int64_t LargestStep = CudaContext::StagingBytes / sizeof(Value);
-    constexpr std::int64_t SmallestStep = std::int64_t(1) << 18;
-    constexpr std::int64_t Slices = 8; // about; half as many of a small mesh
-    const std::int64_t step = std::clamp(2 * size / Slices + 1, SmallestStep, LargestStep);
+    constexpr std::int64_t SmallestStep = LargestStep / 16;
+    const std::int64_t steps = areInOrder ? 16 : 4; // about
+    const std::int64_t most = areInOrder ? std::numeric_limits<std::int64_t>::max() : 8; // slices
+    const std::int64_t step = std::clamp(size / steps + 1, SmallestStep, LargestStep);
     const std::int64_t parts = (size + step - 1) / step;
-    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts + Slices - 1) / Slices);
+    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts - 1) / most + 1);
     const std::int64_t sliceSize = partsPerSlice * step;
     Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
     const std::int64_t ahead = this->Context->CountBuffers() - 1; // copied while one is converted

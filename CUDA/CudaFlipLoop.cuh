@@ -54,20 +54,23 @@ inline IterationCounts ToIteration(const StepCounts& edges, const IterationSums&
 class DeviceEdgeBits
 {
 public:
-  DeviceEdgeBits(EdgeMesh& mesh, const CudaBackend& backend)
+  /// @param mayBlock Rule::MayBlock.
+  DeviceEdgeBits(EdgeMesh& mesh, bool mayBlock, const CudaBackend& backend)
     : Backend(backend)
   {
     const std::int64_t units =
       (mesh.NumberOfEdges + EdgeUnits::UnitSize - 1) >> EdgeUnits::UnitBits;
     this->NumberOfWords = units * EdgeUnits::UnitSize / 32;
-    std::uint32_t** const kinds[EdgeBits::Kinds] = { &this->Bits.Fixed, &this->Bits.FixedOrDeferred,
-      &this->Bits.Candidates, &this->Bits.Bad, &this->Bits.Winners, &this->Bits.BlockedByShape,
-      &this->Bits.BlockedByEdge };
-    for (int kind = 0; kind < EdgeBits::Kinds; ++kind)
+    std::uint32_t** const kinds[EdgeBits::Kinds] = { &this->Bits.FixedOrDeferred,
+      &this->Bits.Candidates, &this->Bits.Bad, &this->Bits.Winners, &this->Bits.BlockedByEdge,
+      &this->Bits.BlockedByShape };
+    const int own = mayBlock ? EdgeBits::Kinds : EdgeBits::Kinds - 1;
+    for (int kind = 0; kind < own; ++kind)
     {
       this->Words[kind] = backend.MakeArray<std::uint32_t>(this->NumberOfWords);
       *kinds[kind] = this->Words[kind].Data();
     }
+    this->Bits.BlockedByShape = this->Words[own - 1].Data();
     this->LoadStates(mesh);
   }
 
@@ -81,6 +84,7 @@ public:
   {
     const EdgeBits bits = this->Bits;
     const EdgeState* states = mesh.States.Data();
+    const CornerId* corners = mesh.CornerOfHalfEdge.Data();
     const std::int64_t edges = mesh.NumberOfEdges;
     this->Backend.ForEach(this->NumberOfWords,
       [=] __device__(std::int64_t word)
@@ -89,9 +93,10 @@ public:
         for (int i = 0; i < 32; ++i)
         {
           const std::int64_t edge = 32 * word + i;
-          fixed |= edge >= edges || states[edge] == EdgeState::Fixed ? 1u << i : 0;
+          const bool isFixed = edge >= edges ||
+            (states ? states[edge] == EdgeState::Fixed : corners[2 * edge + 1] == NoCorner);
+          fixed |= isFixed ? 1u << i : 0;
         }
-        bits.Fixed[word] = fixed;
         bits.FixedOrDeferred[word] = fixed;
         bits.Candidates[word] = ~fixed;
         bits.Bad[word] = bits.Winners[word] = bits.BlockedByShape[word] = bits.BlockedByEdge[word] =
@@ -108,16 +113,16 @@ public:
     this->Backend.ForEach(this->NumberOfWords,
       [=] __device__(std::int64_t word)
       {
-        std::uint32_t candidates = 0;
+        std::uint32_t fixed = bits.FixedOrDeferred[word], candidates = 0;
         for (int i = 0; i < 32 && 32 * word + i < edges; ++i)
         {
           const EdgeState state = states[32 * word + i];
-          bits.Fixed[word] |= state == EdgeState::Fixed ? 1u << i : 0;
+          fixed |= state == EdgeState::Fixed ? 1u << i : 0;
           candidates |= state == EdgeState::Candidate ? 1u << i : 0;
         }
-        bits.FixedOrDeferred[word] = bits.Fixed[word];
+        bits.FixedOrDeferred[word] = fixed;
         bits.Candidates[word] = candidates;
-        const std::uint32_t others = ~(bits.Fixed[word] | candidates);
+        const std::uint32_t others = ~(fixed | candidates);
         bits.Bad[word] &= others;
         bits.BlockedByShape[word] &= others;
         bits.BlockedByEdge[word] &= others;
@@ -135,7 +140,7 @@ public:
       [=] __device__(std::int64_t e)
       {
         bool between = false;
-        if (e < edges && !EdgeBits::Has(bits.Fixed, static_cast<EdgeId>(e)))
+        if (e < edges && !EdgeBits::Has(bits.FixedOrDeferred, static_cast<EdgeId>(e)))
         {
           const CornerPair corners = mesh.GetCorners(static_cast<EdgeId>(e));
           between = (TriangleOf(corners.A) ^ TriangleOf(corners.B)) >> chunkBits != 0;
@@ -146,6 +151,7 @@ public:
           bits.FixedOrDeferred[e / 32] |= deferred;
           bits.Bad[e / 32] &= ~deferred;
           bits.BlockedByShape[e / 32] &= ~deferred;
+          bits.BlockedByEdge[e / 32] = deferred;
         }
       });
   }
@@ -156,8 +162,9 @@ public:
     this->Backend.ForEach(this->NumberOfWords,
       [=] __device__(std::int64_t word)
       {
-        bits.Candidates[word] = bits.FixedOrDeferred[word] & ~bits.Fixed[word];
-        bits.FixedOrDeferred[word] = bits.Fixed[word];
+        bits.Candidates[word] = bits.BlockedByEdge[word];
+        bits.FixedOrDeferred[word] &= ~bits.BlockedByEdge[word];
+        bits.BlockedByEdge[word] = 0;
       });
   }
 
@@ -181,7 +188,7 @@ public:
       Range(range),
       Guard(std::move(guard)),
       Backend(backend),
-      Bits(mesh, backend)
+      Bits(mesh, Rule::MayBlock, backend)
   {
     this->Chunks = backend.MakeArray<DeviceChunk>(this->NumberOfChunks);
     this->DeviceResults = backend.MakeArray<Results>(1);

@@ -22,15 +22,17 @@ namespace delaunayflip
 /// and state, so that all of them fit into the second-level cache of a GPU.
 struct EdgeBits
 {
-  std::uint32_t* Fixed; ///< EdgeState::Fixed, and the bits after the last edge.
-  std::uint32_t* FixedOrDeferred; ///< Edges whose bits in Candidates are ignored.
+  /// EdgeState::Fixed, and the bits after the last edge; or Deferred. Bits in Candidates are
+  /// ignored there.
+  std::uint32_t* FixedOrDeferred;
   std::uint32_t* Candidates;
   std::uint32_t* Bad;
   std::uint32_t* Winners; ///< Bad edges that flip in this iteration.
-  std::uint32_t* BlockedByShape; ///< Or by their deviation.
-  std::uint32_t* BlockedByEdge;
+  std::uint32_t* BlockedByEdge; ///< Or Deferred, while iterations run within chunks: no guard then.
+  /// Or by their deviation. Of a rule that does not block it is the same array as before.
+  std::uint32_t* BlockedByShape;
 
-  static constexpr int Kinds = 7;
+  static constexpr int Kinds = 6;
 
   DELAUNAYFLIP_HOST_DEVICE static void Set(std::uint32_t* bits, EdgeId edge)
   {

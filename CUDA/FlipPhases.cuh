@@ -525,7 +525,7 @@ __device__ void CountAll(const LoopView<Rule>& loop, const Worklist& worklist, c
     [&](const EdgeByte& byte)
     {
       bad += __popc(byte.Load(loop.Bits.Bad));
-      blockedByShape += __popc(byte.Load(loop.Bits.BlockedByShape));
+      blockedByShape += Rule::MayBlock ? __popc(byte.Load(loop.Bits.BlockedByShape)) : 0;
       blockedByEdge += __popc(byte.Load(loop.Bits.BlockedByEdge));
       return 0u;
     },

@@ -125,6 +125,7 @@ struct ConstraintPath
     /// towards the segment's start, as all of a rim do.
     HalfEdgeId Side = NoHalfEdge;
     bool IsEdge = false;
+    bool IsForward = false; ///< Whether Side is that of an edge and runs along the path.
   };
 
   /// Calls see(segment) for the segments of the path from start to end, and before that
@@ -203,6 +204,7 @@ private:
   {
     HalfEdgeId Along = NoHalfEdge; ///< An edge, to End.
     VertexId End = 0;
+    bool IsForward = false;
     CornerId Through = NoCorner; ///< Across the edge opposite this corner.
     int Triangles = 0; ///< That it can go through.
     TriangleId Bar = NoTriangle;
@@ -249,7 +251,7 @@ private:
       });
     if (exits.Along != NoHalfEdge)
     {
-      return { PathResult::Found, at, exits.End, exits.Along, true };
+      return { PathResult::Found, at, exits.End, exits.Along, true, exits.IsForward };
     }
     if (exits.Triangles == 1)
     {
@@ -298,6 +300,7 @@ private:
     {
       exits.Along = this->Mesh.GetHalfEdge(opposite);
       exits.End = end;
+      exits.IsForward = this->Mesh.GetVertex(PlaneMesh::Next(opposite)) == at;
     }
   }
 

@@ -81,6 +81,9 @@ public:
   /// The counts of the last detection.
   const StepCounts& GetFound() const { return this->Found; }
 
+  /// How many of the next iterations are within chunks: together they are the fastest.
+  std::int64_t CountChunkIterations() const { return this->ChunkIterationsLeft; }
+
   /// Runs one or more iterations, at most as many as planned, after a detection that found bad
   /// edges, and detects again. @returns the iterations.
   std::vector<IterationCounts> Advance(const AdvancePlan& plan);

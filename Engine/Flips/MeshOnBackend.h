@@ -173,7 +173,8 @@ public:
 
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
-    this->Backend.StoreTriangles(triangles, this->GetStoreStep());
+    const bool isFromPoints = this->Places.Count > 0;
+    this->Backend.StoreTriangles(triangles, this->GetStoreStep(), isFromPoints);
   }
 
   void StoreFlipCounts(std::int32_t* counts) const override
@@ -214,6 +215,7 @@ public:
   void InsertSegments(
     const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) override
   {
+    this->RequireStates();
     const Array<VertexId> placeOf = this->ListPlaces();
     SegmentInsertion<BackendT>(this->Mesh, this->Places, placeOf.Data(), this->Backend)
       .Insert(ends, onBatch);
@@ -241,6 +243,7 @@ public:
       this->Backend.Download(values, size, copy.data());
       return copy;
     };
+    this->RequireStates();
     auto triangles = fetch(mesh.Triangles.Data(), mesh.NumberOfTriangles);
     auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
     auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
@@ -302,6 +305,22 @@ public:
         }
       });
     return places;
+  }
+
+  /// Makes the states of edges if there are none.
+  void RequireStates()
+  {
+    if (this->Mesh.States.Size() == 0)
+    {
+      MakeStates(this->Mesh, this->Backend);
+      const EdgeMeshView edges = this->Mesh.View();
+      this->Backend.ForEach(this->Mesh.NumberOfEdges,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e)
+        {
+          const bool isFixed = edges.CornerOfHalfEdge[2 * e + 1] == NoCorner;
+          edges.States[e] = isFixed ? EdgeState::Fixed : EdgeState::Good;
+        });
+    }
   }
 
   /// WholeMesh::SharedPoints in the order of vertices; empty if there are none. Public because

@@ -25,79 +25,126 @@ struct SegmentItem
   enum StateKind : std::uint32_t
   {
     Waiting,
-    Winning,
     Inserted,
     Refused
   };
 
+  static constexpr std::uint32_t MostHints = 4;
+
   VertexId From, To;
   StateKind State;
+  std::uint32_t Beaten; ///< The number of the last round that it cannot win; 0: none.
   std::uint32_t NumberOfEdges; ///< Of its path.
-  ConstraintPath::Segment* Path;
+  TriangleId Crossed[MostHints]; ///< The first ones that the path crosses, to prefetch.
+  ConstraintPath::Segment First; ///< Of the path.
+  ConstraintPath::Segment* Others; ///< All of it, if it has several.
+
+  DELAUNAYFLIP_HOST_DEVICE ConstraintPath::Segment* GetPath()
+  {
+    return this->NumberOfEdges > 1 ? this->Others : &this->First;
+  }
 };
 
-/// Segments that are inserted into a triangulation of points, and what those that are under way
-/// claim.
-struct SegmentClaims
+/// What is done to the items of a list in a round, step by step. All segments that are left find
+/// their paths and claim the triangles that these cross. One of several claims on a triangle wins;
+/// the others are beaten. A path that runs along an edge shares it with others that do, but not
+/// with one that crosses it. The first of all items is never beaten.
+struct SegmentRound
 {
-  static constexpr std::uint32_t None = 0xFFFFFFFFu;
-
   PlaneMesh Mesh;
   VertexFans Fans;
-  std::uint32_t *Triangles, *Edges; ///< The smallest claim of each in the current round, or more.
+  std::uint32_t* Claims; ///< Of every triangle the smallest claim on it.
+  SegmentItem* Items = nullptr;
+  const std::uint32_t* List = nullptr;
+  std::uint32_t Number = 0; ///< The first round has 1.
+  std::uint32_t FirstClaim = 0; ///< Of the first item.
+  std::uint32_t EndClaim = 0; ///< Behind that of the last one. Those of other rounds are not less.
 
   DELAUNAYFLIP_HOST_DEVICE ConstraintPath StartPath(const SegmentItem& item) const
   {
     return { this->Mesh, this->Fans, nullptr, item.From, item.To };
   }
 
-  /// Finds the path of a segment, and claims the triangles that it crosses and the edges that it
-  /// runs along. A segment that crosses a fixed edge is refused: that edge will stay.
+  /// Finds the path of a segment, and claims the triangles that it crosses. A segment that crosses
+  /// a fixed edge is refused: that edge will stay. Of two claims, the one that comes later sees the
+  /// other and who is beaten.
   DELAUNAYFLIP_HOST_DEVICE void Claim(SegmentItem& item, std::uint32_t claim) const
   {
-    item.NumberOfEdges = 0;
+    std::uint32_t edges = 0, crossed = 0;
+    TriangleId last = NoTriangle;
+    const auto claimTriangle = [&](HalfEdgeId side)
+    {
+      const TriangleId triangle = TriangleOf(this->Mesh.Edges.CornerOfHalfEdge[side]);
+      if (triangle == last)
+      {
+        return;
+      }
+      last = triangle;
+      item.Crossed[crossed++ % SegmentItem::MostHints] = triangle;
+      const std::uint32_t before = AtomicMin(&this->Claims[triangle], claim);
+      if (before != claim)
+      {
+        this->Beat(before < claim ? claim : before);
+      }
+    };
     const PathResult result = this->StartPath(item).Walk(
       [&](const ConstraintPath::Segment& segment)
       {
-        ++item.NumberOfEdges;
-        if (segment.IsEdge)
-        {
-          AtomicMin(&this->Edges[EdgeOf(segment.Side)], claim);
-        }
-      },
-      [&](HalfEdgeId side) {
-        this->VisitTriangles(side, [&](std::uint32_t* triangle) { AtomicMin(triangle, claim); });
-      });
-    if (result != PathResult::Found)
-    {
-      item.State = SegmentItem::Refused;
-      item.NumberOfEdges = 0;
-    }
-  }
-
-  /// Stores the path of a segment, which wins unless an earlier one has a claim in its way. A path
-  /// that crosses triangles needs them for itself, and may take no edge that an earlier one runs
-  /// along. Paths that run along an edge may share it, but no earlier one may cross it.
-  DELAUNAYFLIP_HOST_DEVICE void Decide(SegmentItem& item, std::uint32_t claim) const
-  {
-    bool isFirst = true;
-    const auto see = [&](std::uint32_t* other) { isFirst = isFirst && AtomicLoad(other) >= claim; };
-    ConstraintPath::Segment* next = item.Path;
-    this->StartPath(item).Walk(
-      [&](const ConstraintPath::Segment& segment)
-      {
-        *next++ = segment;
-        if (segment.IsEdge)
-        {
-          this->VisitTriangles(segment.Side, see);
-        }
+        item.First = edges == 0 ? segment : item.First;
+        ++edges;
       },
       [&](HalfEdgeId side)
       {
-        this->VisitTriangles(side, see);
-        see(&this->Edges[EdgeOf(side)]);
+        claimTriangle(side);
+        claimTriangle(side ^ 1u);
       });
-    item.State = isFirst ? SegmentItem::Winning : SegmentItem::Waiting;
+    item.NumberOfEdges = result == PathResult::Found ? edges : 0;
+    item.State = result == PathResult::Found ? SegmentItem::Waiting : SegmentItem::Refused;
+  }
+
+  /// Stores the path of a segment. Where it runs along an edge, an earlier segment in one of the
+  /// triangles there may cross it, and beats it. One that comes later and crosses it has both
+  /// triangles or is beaten.
+  DELAUNAYFLIP_HOST_DEVICE void Decide(SegmentItem& item, std::uint32_t claim) const
+  {
+    const auto see = [&](const ConstraintPath::Segment& segment)
+    {
+      const CornerId corners[2] = { this->Mesh.Edges.CornerOfHalfEdge[segment.Side],
+        this->Mesh.Edges.CornerOfHalfEdge[segment.Side ^ 1u] };
+      if (segment.IsEdge && corners[0] != NoCorner && corners[1] != NoCorner)
+      {
+        const std::uint32_t left = this->Claims[TriangleOf(corners[0])];
+        const std::uint32_t right = this->Claims[TriangleOf(corners[1])];
+        if (left < claim || right < claim)
+        {
+          this->Beat(claim);
+        }
+        else if (left == right && left != claim)
+        {
+          this->Beat(left);
+        }
+      }
+    };
+    if (item.NumberOfEdges == 1)
+    {
+      see(item.First);
+    }
+    else if (item.NumberOfEdges > 1)
+    {
+      ConstraintPath::Segment* next = item.Others;
+      this->StartPath(item).Walk(
+        [&](const ConstraintPath::Segment& segment)
+        {
+          see(segment);
+          *next++ = segment;
+        },
+        [](HalfEdgeId) {});
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsWinner(const SegmentItem& item) const
+  {
+    return item.State == SegmentItem::Waiting && item.Beaten != this->Number;
   }
 
   /// Makes the path of a winner edges.
@@ -106,7 +153,7 @@ struct SegmentClaims
     ConstraintPath path = this->StartPath(item);
     for (std::uint32_t i = 0; i < item.NumberOfEdges; ++i)
     {
-      path.Flip(item.Path[i]);
+      path.Flip(item.GetPath()[i]);
     }
     flips += path.Flips;
   }
@@ -116,28 +163,72 @@ struct SegmentClaims
   {
     for (std::uint32_t i = 0; i < item.NumberOfEdges; ++i)
     {
-      AtomicStore(&this->Mesh.Edges.States[EdgeOf(item.Path[i].Side)], EdgeState::Fixed);
+      AtomicStore(&this->Mesh.Edges.States[EdgeOf(item.GetPath()[i].Side)], EdgeState::Fixed);
     }
     item.State = SegmentItem::Inserted;
   }
 
-private:
-  template <typename Visit>
-  DELAUNAYFLIP_HOST_DEVICE void VisitTriangles(HalfEdgeId side, const Visit& visit) const
+  /// Requests what Claim will read of an item, the later stages what those before lead to.
+  void Prefetch(std::int64_t i, int stage) const
   {
-    for (const HalfEdgeId both : { side, side ^ 1u })
+    const SegmentItem& item = this->Items[this->List[i]];
+    const CornerId* first = &this->Fans.First[item.From];
+    const TriangleRecord* triangles = this->Mesh.Edges.Triangles;
+    if (stage == 0)
     {
-      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[both];
-      if (corner != NoCorner)
+      delaunayflip::Prefetch(&item);
+    }
+    else if (stage == 1)
+    {
+      delaunayflip::Prefetch(first);
+      this->Mesh.PrefetchPoint(item.From);
+      this->Mesh.PrefetchPoint(item.To);
+    }
+    else if (stage == 2)
+    {
+      delaunayflip::Prefetch(&triangles[TriangleOf(*first)]);
+    }
+    else
+    {
+      for (const HalfEdgeId side : triangles[TriangleOf(*first)].HalfEdges)
       {
-        visit(&this->Triangles[TriangleOf(corner)]);
+        const CornerId* across = &this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+        delaunayflip::Prefetch(
+          stage == 3 ? static_cast<const void*>(across) : &triangles[TriangleOf(*across)]);
       }
+    }
+  }
+
+  /// The same for Flip, of which other threads may be changing what it leads to.
+  void PrefetchFlip(std::int64_t i, int stage) const
+  {
+    const SegmentItem& item = this->Items[this->List[i]];
+    if (stage == 0)
+    {
+      delaunayflip::Prefetch(&item);
+    }
+    else if (stage == 1 && this->IsWinner(item))
+    {
+      delaunayflip::Prefetch(&this->Mesh.Edges.CornerOfHalfEdge[item.First.Side]);
+      for (const TriangleId triangle : item.Crossed)
+      {
+        delaunayflip::Prefetch(&this->Mesh.Edges.Triangles[triangle]);
+      }
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE void Beat(std::uint32_t claim) const
+  {
+    if (claim < this->EndClaim)
+    {
+      AtomicStore(&this->Items[claim - this->FirstClaim].Beaten, this->Number);
     }
   }
 };
 
-/// What is done to the items of a list in a round, step by step.
-struct SegmentRound
+/// A step of a round.
+struct SegmentStep
 {
   enum StepKind
   {
@@ -147,31 +238,30 @@ struct SegmentRound
     Fix
   };
 
-  SegmentClaims Claims;
-  SegmentItem* Items;
-  const std::uint32_t* List;
-  std::uint32_t FirstClaim; ///< Of the first item.
-  StepKind Step = Claim;
+  SegmentRound Round;
+  StepKind Step;
+
+  /// Requests what an item that is to come reads, the later stages what those before lead to.
+  void Prefetch(std::int64_t i, int stage) const
+  {
+    this->Step == Claim ? this->Round.Prefetch(i, stage) : this->Round.PrefetchFlip(i, stage);
+  }
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t& flips) const
   {
-    SegmentItem& item = this->Items[this->List[i]];
-    const std::uint32_t claim = this->FirstClaim + this->List[i];
+    SegmentItem& item = this->Round.Items[this->Round.List[i]];
+    const std::uint32_t claim = this->Round.FirstClaim + this->Round.List[i];
     if (this->Step == Claim)
     {
-      this->Claims.Claim(item, claim);
+      this->Round.Claim(item, claim);
     }
-    else if (this->Step == Decide && item.State == SegmentItem::Waiting)
+    else if (this->Step == Decide)
     {
-      this->Claims.Decide(item, claim);
+      this->Round.Decide(item, claim);
     }
-    else if (this->Step == Flip && item.State == SegmentItem::Winning)
+    else if (this->Round.IsWinner(item))
     {
-      this->Claims.Flip(item, flips);
-    }
-    else if (this->Step == Fix && item.State == SegmentItem::Winning)
-    {
-      this->Claims.Fix(item);
+      this->Step == Flip ? this->Round.Flip(item, flips) : this->Round.Fix(item);
     }
   }
 };
@@ -179,10 +269,9 @@ struct SegmentRound
 /// Inserts segments into a triangulation of points, many at a time, as if each were inserted after
 /// those before it.
 ///
-/// In a round, all segments that are left find their paths and claim the triangles that they cross
-/// and the edges that they run along. Then those flip that have no claim of an earlier one in their
-/// way. Two segments that cross claim a common triangle, so the later one waits until it finds the
-/// earlier one. When few can flip at a time, threads insert the others one by one.
+/// In every round those flip that no earlier one beats. Two segments that cross claim a common
+/// triangle, so the later one waits until it finds the earlier one. When few can flip at a time,
+/// threads insert the others one by one.
 template <typename Backend>
 struct SegmentInsertion
 {
@@ -194,11 +283,10 @@ struct SegmentInsertion
       PlaceOf(placeOf),
       Size{ edges.NumberOfTriangles, edges.NumberOfEdges },
       Corners(backend.template MakeArray<CornerId>(places.Count)),
-      TriangleClaims(backend.template MakeArray<std::uint32_t>(this->Size[0])),
-      EdgeClaims(backend.template MakeArray<std::uint32_t>(this->Size[1])),
+      Claims(backend.template MakeArray<std::uint32_t>(this->Size[0])),
       Failed(backend.template MakeArray<std::int32_t>(1)),
-      Claims{ { edges.View(), places, true, this->Failed.Data() }, { this->Corners.Data() },
-        this->TriangleClaims.Data(), this->EdgeClaims.Data() }
+      Round{ { edges.View(), places, true, this->Failed.Data() }, { this->Corners.Data() },
+        this->Claims.Data() }
   {
   }
 
@@ -232,7 +320,7 @@ struct SegmentInsertion
     const std::int32_t none = 0;
     this->Device.Upload(&none, 1, this->Failed.Data());
     // Any corner of a vertex will do: a path does not depend on where the search for it begins.
-    const EdgeMeshView edges = this->Claims.Mesh.Edges;
+    const EdgeMeshView edges = this->Round.Mesh.Edges;
     CornerId* corners = this->Corners.Data();
     this->Device.ForEach(this->Size[0],
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
@@ -270,7 +358,7 @@ struct SegmentInsertion
           isRefused      ? SegmentItem::Refused
             : from == to ? SegmentItem::Inserted
                          : SegmentItem::Waiting,
-          0, nullptr };
+          0, 0, {}, {}, nullptr };
       });
     this->RunRounds(size);
     return this->Fetch(size);
@@ -332,46 +420,54 @@ struct SegmentInsertion
   /// @param list `count` of all `size` items that wait.
   void RunRound(const std::uint32_t* list, std::int64_t count, std::int64_t size)
   {
-    SegmentRound round{ this->Claims, this->Items.Data(), list, this->StartClaims(size) };
-    this->ForItems(count, round);
+    this->StartClaims(size);
+    SegmentRound& round = this->Round;
+    round.Items = this->Items.Data();
+    round.List = list;
+    SegmentItem* items = round.Items;
+    this->RunStep(SegmentStep::Claim, count);
     const auto countOf = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    { return static_cast<int>(round.Items[list[i]].NumberOfEdges); };
+    {
+      const std::uint32_t edges = items[list[i]].NumberOfEdges;
+      return edges > 1 ? static_cast<int>(edges) : 0;
+    };
     const typename Backend::Numbering numbering = this->Device.Count(count, countOf);
-    this->Paths.push_back(
-      this->Device.template MakeArray<ConstraintPath::Segment>(numbering.Total));
-    ConstraintPath::Segment* paths = this->Paths.back().Data();
-    this->Device.ForEachNumbered(numbering, count, countOf,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
-      { round.Items[list[i]].Path = paths + number; });
-    for (const auto step : { SegmentRound::Decide, SegmentRound::Flip, SegmentRound::Fix })
+    if (numbering.Total > 0)
     {
-      round.Step = step;
-      this->Flips += this->ForItems(count, round);
+      this->Paths.push_back(
+        this->Device.template MakeArray<ConstraintPath::Segment>(numbering.Total));
+      ConstraintPath::Segment* paths = this->Paths.back().Data();
+      this->Device.ForEachNumbered(numbering, count, countOf,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
+        { items[list[i]].Others = paths + number; });
+    }
+    for (const auto step : { SegmentStep::Decide, SegmentStep::Flip, SegmentStep::Fix })
+    {
+      this->Flips += this->RunStep(step, count);
     }
   }
 
-  /// The claim of the first item. Claims are less than those of all rounds before, so that nobody
-  /// has to withdraw them.
-  std::uint32_t StartClaims(std::int64_t size)
+  /// Claims are less than those of all rounds before, so that nobody has to withdraw them.
+  void StartClaims(std::int64_t size)
   {
-    if (this->FirstClaim < size)
+    SegmentRound& round = this->Round;
+    ++round.Number;
+    if (round.FirstClaim < size)
     {
-      this->FirstClaim = SegmentClaims::None;
-      for (int i = 0; i < 2; ++i)
-      {
-        std::uint32_t* claims = i == 0 ? this->TriangleClaims.Data() : this->EdgeClaims.Data();
-        this->Device.ForEach(this->Size[i],
-          [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t j) { claims[j] = SegmentClaims::None; });
-      }
+      constexpr std::uint32_t None = 0xFFFFFFFFu;
+      round.FirstClaim = None;
+      std::uint32_t* claims = this->Claims.Data();
+      this->Device.ForEach(
+        this->Size[0], [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { claims[i] = None; });
     }
-    this->FirstClaim -= size;
-    return static_cast<std::uint32_t>(this->FirstClaim);
+    round.EndClaim = round.FirstClaim;
+    round.FirstClaim -= static_cast<std::uint32_t>(size);
   }
 
-  /// Calls work(i, sum) for i = 0 .. count - 1, which may each take long. @returns the sum.
-  template <typename Work>
-  std::int64_t ForItems(std::int64_t count, const Work& work)
+  /// Does a step to `count` items, each of which may take long. @returns the number of flips.
+  std::int64_t RunStep(SegmentStep::StepKind step, std::int64_t count)
   {
+    const SegmentStep work{ this->Round, step };
     if constexpr (Backend::IsOnHost)
     {
       constexpr std::int64_t Grain = 64;
@@ -380,9 +476,22 @@ struct SegmentInsertion
         [&](std::int64_t begin, std::int64_t end)
         {
           std::int64_t sum = 0;
-          for (std::int64_t i = begin; i < end; ++i)
+          // What each item reads is far from what others do.
+          constexpr std::int64_t Ahead = 4, Stages = 5;
+          for (std::int64_t i = begin - Stages * Ahead; i < end; ++i)
           {
-            work(i, sum);
+            for (std::int64_t stage = 0; stage < Stages; ++stage)
+            {
+              const std::int64_t next = i + (Stages - stage) * Ahead;
+              if (next >= begin && next < end)
+              {
+                work.Prefetch(next, static_cast<int>(stage));
+              }
+            }
+            if (i >= begin)
+            {
+              work(i, sum);
+            }
           }
           return sum;
         },
@@ -397,8 +506,7 @@ struct SegmentInsertion
   /// What the items have become.
   InsertedSegments Fetch(std::int64_t size)
   {
-    const SegmentItem* items = this->Items.Data();
-    const PlaneMesh mesh = this->Claims.Mesh;
+    SegmentItem* items = this->Items.Data();
     const auto countOf = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
     { return static_cast<int>(items[i].NumberOfEdges); };
     const typename Backend::Numbering numbering = this->Device.Count(size, countOf);
@@ -409,13 +517,14 @@ struct SegmentInsertion
     this->Device.ForEachNumbered(numbering, size, countOf,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
-        const SegmentItem& item = items[i];
+        SegmentItem& item = items[i];
         count[i] = item.State == SegmentItem::Refused ? InsertedSegments::Refused
                                                       : static_cast<int>(item.NumberOfEdges);
         for (std::uint32_t j = 0; j < item.NumberOfEdges; ++j)
         {
-          const ConstraintPath::Segment& made = item.Path[j];
-          side[number + j] = { made.Side, mesh.GetStart(made.Side) == made.Start ? 1u : 0u };
+          const ConstraintPath::Segment& made = item.GetPath()[j];
+          // The side of a path across triangles runs towards its start.
+          side[number + j] = { made.Side, made.IsForward ? 1u : 0u };
         }
       });
     InsertedSegments result;
@@ -437,10 +546,9 @@ struct SegmentInsertion
   const VertexId* PlaceOf;
   const std::int64_t Size[2]; ///< Numbers of triangles and edges.
   Array<CornerId> Corners; ///< One of every place.
-  Array<std::uint32_t> TriangleClaims, EdgeClaims;
+  Array<std::uint32_t> Claims;
   Array<std::int32_t> Failed;
-  const SegmentClaims Claims;
-  std::int64_t FirstClaim = 0;
+  SegmentRound Round;
   Array<SegmentItem> Items;
   std::vector<Array<ConstraintPath::Segment>> Paths; ///< Of a round each.
   std::int64_t Flips = 0;

@@ -106,12 +106,13 @@ DELAUNAYFLIP_HOST_DEVICE inline void AtomicAnd(std::uint32_t* address, std::uint
 #endif
 }
 
+/// @returns what was there before.
 template <typename T>
-DELAUNAYFLIP_HOST_DEVICE inline void AtomicMin(T* address, T value)
+DELAUNAYFLIP_HOST_DEVICE inline T AtomicMin(T* address, T value)
 {
 #if DELAUNAYFLIP_ON_DEVICE
   using Word = DeviceWordOf<T>;
-  atomicMin_system(reinterpret_cast<Word*>(address), static_cast<Word>(value));
+  return atomicMin_system(reinterpret_cast<Word*>(address), static_cast<Word>(value));
 #else
   T seen = AtomicLoad(address);
   while (value < seen)
@@ -119,10 +120,11 @@ DELAUNAYFLIP_HOST_DEVICE inline void AtomicMin(T* address, T value)
     const T before = AtomicCompareExchange(address, seen, value);
     if (before == seen)
     {
-      return;
+      break;
     }
     seen = before;
   }
+  return seen;
 #endif
 }
 

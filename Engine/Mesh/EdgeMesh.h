@@ -213,7 +213,9 @@ struct EdgeMesh
   std::int64_t NumberOfEdges = 0;
   Array<TriangleRecord> Triangles;
   Array<CornerId> CornerOfHalfEdge;
-  Array<EdgeState> States; ///< Padded with Fixed to a multiple of StatePadding.
+  /// Padded with Fixed to a multiple of StatePadding. Empty for points on a device, unless segments
+  /// are inserted: the edges with one triangle are Fixed.
+  Array<EdgeState> States;
 
   EdgeMeshView View()
   {
@@ -236,7 +238,7 @@ struct AuditStep
   {
     const CornerId* corners = &this->CornerOfHalfEdge[2 * e];
     const int sides = corners[1] == NoCorner ? 1 : 2;
-    const bool isFixed = this->States[e] == EdgeState::Fixed;
+    const bool isFixed = this->States ? this->States[e] == EdgeState::Fixed : sides == 1;
     bool isSound = sides == 2 || isFixed;
     VertexId found[2][3]; // the opposite vertex, and the ends in the direction of the triangle
     for (int side = 0; side < sides && isSound; ++side)

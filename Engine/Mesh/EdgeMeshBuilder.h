@@ -462,8 +462,11 @@ struct NumberStep
       const CornerRole role = GetRole(triangle, slot);
       if (role != CornerRole::Follower)
       {
-        this->Mesh.States[next] =
-          role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
+        if (this->Mesh.States)
+        {
+          this->Mesh.States[next] =
+            role == CornerRole::Leader ? EdgeState::Candidate : EdgeState::Fixed;
+        }
         const CornerId other = triangle.HalfEdges[slot];
         this->Mesh.SetCorners(next, { MakeCorner(static_cast<TriangleId>(t), slot), other });
         this->Mesh.Triangles[t].HalfEdges[slot] = 2 * next;
@@ -641,22 +644,33 @@ typename Backend::Numbering PairCorners(
   return numbering;
 }
 
+/// Makes the array of states, and sets those after the last edge.
 template <typename Backend>
-void NumberEdges(
-  EdgeMeshResult& result, const typename Backend::Numbering& numbering, const Backend& backend)
+void MakeStates(EdgeMesh& edges, const Backend& backend)
+{
+  const std::int64_t numberOfEdges = edges.NumberOfEdges;
+  const std::int64_t padded =
+    (numberOfEdges + EdgeMesh::StatePadding - 1) / EdgeMesh::StatePadding * EdgeMesh::StatePadding;
+  edges.States = backend.template MakeArray<EdgeState>(padded);
+  EdgeState* states = edges.States.Data();
+  backend.ForEach(padded - numberOfEdges,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { states[numberOfEdges + i] = EdgeState::Fixed; });
+}
+
+/// @param hasStates whether edges have states; else those with one triangle are fixed.
+template <typename Backend>
+void NumberEdges(EdgeMeshResult& result, const typename Backend::Numbering& numbering,
+  const Backend& backend, bool hasStates = true)
 {
   EdgeMesh& edges = result.Edges;
   const std::int64_t size = edges.NumberOfTriangles;
   edges.NumberOfEdges = numbering.Total;
-  const std::int64_t padded = (edges.NumberOfEdges + EdgeMesh::StatePadding - 1) /
-    EdgeMesh::StatePadding * EdgeMesh::StatePadding;
   edges.CornerOfHalfEdge = backend.template MakeArray<CornerId>(2 * edges.NumberOfEdges);
-  edges.States = backend.template MakeArray<EdgeState>(padded);
+  if (hasStates)
+  {
+    MakeStates(edges, backend);
+  }
   const EdgeMeshView mesh = edges.View();
-  const std::int64_t numberOfEdges = edges.NumberOfEdges;
-  backend.ForEach(padded - numberOfEdges,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    { mesh.States[numberOfEdges + i] = EdgeState::Fixed; });
   backend.ForEachNumbered(
     numbering, size,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { return CountLeaders(mesh.Triangles[t]); },

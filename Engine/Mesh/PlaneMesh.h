@@ -25,6 +25,12 @@ struct PlaneMesh
   {
     return { this->Places.Get(vertex, 0), this->Places.Get(vertex, 1), 0.0 };
   }
+  void PrefetchPoint(VertexId vertex) const
+  {
+    const std::int64_t i = this->Places.Stride * vertex;
+    Prefetch(this->Places.Floats ? static_cast<const void*>(this->Places.Floats + i)
+                                 : this->Places.Doubles + i);
+  }
   DELAUNAYFLIP_HOST_DEVICE bool IsFinite(VertexId vertex) const
   {
     return delaunayflip::IsFinite(this->GetPoint(vertex));

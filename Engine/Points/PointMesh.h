@@ -79,7 +79,7 @@ void NumberJoinedEdges(EdgeMesh& edges, Array<CornerPair> sidesOfEdges, const Ba
       return CountLeaders(triangle);
     });
   sidesOfEdges = Array<CornerPair>(); // frees its memory
-  NumberEdges(result, numbering, backend);
+  NumberEdges(result, numbering, backend, !Backend::MemoryIsScarce);
   edges = std::move(result.Edges);
 }
 
@@ -198,14 +198,17 @@ struct PointMeshBuilder
     const std::int64_t inner =
       count > 0 ? std::int64_t(pieces.back().Begin) + pieces.back().Size - 2 : 0;
     Array<BoundaryPiece> local = this->Device.template MakeArray<BoundaryPiece>(count);
-    Array<TriangleRecord> made = this->Device.template MakeArray<TriangleRecord>(inner);
-    Array<VertexId> vertices = this->Device.template MakeArray<VertexId>(inner);
-    Array<CornerId> labels = this->Device.template MakeArray<CornerId>(inner);
+    // Mountains are cut later, so there is room where their triangles will be, as a rule.
+    const std::int64_t needed = inner + (inner + 3) / 4;
+    Array<TriangleRecord> own =
+      this->Device.template MakeArray<TriangleRecord>(needed > firstTriangle ? needed : 0);
+    ChainView<Real> alone = this->View();
+    alone.Triangles = needed > firstTriangle ? own.Data() : alone.Triangles;
+    static_assert(sizeof(TriangleRecord) == 8 * sizeof(VertexId), "two arrays in a fourth");
+    auto* const vertices = reinterpret_cast<VertexId*>(alone.Triangles + inner);
     this->Device.Upload(pieces.data(), count, local.Data());
     BoundaryPiece* piece = local.Data();
-    const EarPath path{ vertices.Data(), labels.Data(), 1 };
-    ChainView<Real> alone = this->View();
-    alone.Triangles = made.Data();
+    const EarPath path{ vertices, vertices + inner, 1 };
     alone.Sides = nullptr;
     this->ForTasks(
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { CutPiece(alone, piece[i], path); });

@@ -59,9 +59,8 @@ try
     const StopWatch batchWatch;
     const std::int64_t first = work.CountIterations();
     const std::int64_t most = std::min(limit, work.GetIterationLimit()) - first;
-    const AdvancePlan plan{ observer || progress ? std::min(most, work.Progress.GetBatch()) : most,
+    const AdvancePlan plan{ observer || progress ? std::min(most, work.GetBatch()) : most,
       first == 0, work.Options.TrackQuality };
-    // The first iterations within chunks are one batch, which takes long for many points.
     const TemporaryValue<bool> stoppable(work.MayStop, first == 0);
     const std::vector<IterationCounts> made =
       work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });

@@ -337,6 +337,15 @@ std::int64_t FlipSession::Work::GetIterationLimit() const
   return mayCycle ? this->Report.Triangles + SafetyMargin : NoLimit;
 }
 
+/// How many iterations observers can wait for. Of points, those within chunks are one batch: the
+/// observer may stop it, and then all is lost.
+std::int64_t FlipSession::Work::GetBatch() const
+{
+  const bool mayStop = this->Cloud && this->CountIterations() == 0;
+  const std::int64_t fewest = mayStop ? this->Loaded->GetLoop().CountChunkIterations() : 1;
+  return std::max(fewest, this->Progress.GetBatch());
+}
+
 /// Continues, even after an abort, unless there is nothing to do or no iteration is left.
 void FlipSession::Work::Resume()
 {

@@ -244,6 +244,7 @@ struct FlipSession::Work
     return static_cast<std::int64_t>(this->Report.Iterations.size());
   }
   std::int64_t GetIterationLimit() const;
+  std::int64_t GetBatch() const;
   void Resume();
   void KeepFound(const StepCounts& found);
   void Keep(const IterationCounts& counts, double seconds);

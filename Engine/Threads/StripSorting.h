@@ -74,6 +74,19 @@ struct StripSorter<Real, ThreadBackend>
     sorted.Count = start;
 
     Array<Item> items = backend.MakeArray<Item>(start);
+    // The points of a range go to places all over the array. So that not the first ranges wait for
+    // all of its memory, and an observer for them, it is touched before.
+    constexpr std::int64_t ItemsPerPage = 4096 / sizeof(Item);
+    backend.ForRange(
+      start / ItemsPerPage,
+      [&](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t page = begin; page < end; ++page)
+        {
+          items[page * ItemsPerPage].Id = 0;
+        }
+      },
+      64);
     backend.ForRange(
       points.Count,
       [&](std::int64_t begin, std::int64_t end)

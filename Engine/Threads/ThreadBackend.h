@@ -256,8 +256,10 @@ public:
 
   /// Calls store(t, target) for every triangle, to set its ids in the caller's slot. On a device, a
   /// target may include only some of them.
+  /// @param areInOrder whether the slots have the numbers of the triangles.
   template <typename Store>
-  void StoreTriangles(const MutableTriangleArray& triangles, const Store& store) const
+  void StoreTriangles(
+    const MutableTriangleArray& triangles, const Store& store, bool /*areInOrder*/ = false) const
   {
     this->ForEach(triangles.Count, [&](std::int64_t t) { store(t, triangles); });
   }

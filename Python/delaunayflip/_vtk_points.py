@@ -3,6 +3,7 @@
 """vtkDelaunayFlipPoints for every VTK with Python, on `triangulate`."""
 from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX
 from vtkmodules.vtkCommonDataModel import vtkPointSet, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 from ._library import InvalidMesh
 from ._options import CHOICES
@@ -13,6 +14,8 @@ from ._vtk_update import Failure, Update
 
 _IN_PARTITIONS = ("the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
                   "Blocks in ParaView")
+_ON_RANKS = ("points are on several ranks; gather them on the first one, by Redistribute DataSet with one "
+             "partition in ParaView")
 
 
 class _PointUpdate(Update):
@@ -38,8 +41,9 @@ class _PointUpdate(Update):
 
     def _flip(self, data, segments, output):
         filter_ = self._filter
-        if self._pieces > 1 and data.GetNumberOfPoints():
-            raise InvalidMesh("points on several ranks; gather them on one process first")
+        piece = vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()
+        if filter_.GetOutputInformation(0).Get(piece) > 0 and data.GetNumberOfPoints():
+            raise InvalidMesh(_ON_RANKS)
         if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
             self._pass_after_abort(data, output)
             self.totals.change(stop_reason="aborted" if data.GetNumberOfPoints() else "converged")

@@ -353,7 +353,9 @@ struct Plan
   bool HasCgal = true;
 };
 
-void RunSet(const PointSet& set, std::int64_t count, const Plan& plan)
+/// @returns the medians of the engine's rows.
+std::vector<std::pair<std::string, double>> RunSet(
+  const PointSet& set, std::int64_t count, const Plan& plan)
 {
   const Places places = MakePlaces(set, count);
   std::vector<std::int64_t> segments;
@@ -377,9 +379,12 @@ void RunSet(const PointSet& set, std::int64_t count, const Plan& plan)
   const double cgal = plan.HasCgal ? PrintRow("CGAL, 1 thread", std::min(plan.Repetitions, 3), 0.0,
                                        [&] { return TimeCgal(input); })
                                    : 0.0;
+  std::vector<std::pair<std::string, double>> medians;
+  const auto print = [&](const std::string& name, const std::function<Result()>& run)
+  { medians.emplace_back(name, PrintRow(name, plan.Repetitions, cgal, run)); };
   for (const int threads : plan.Threads)
   {
-    PrintRow(std::to_string(threads) + " threads", plan.Repetitions, cgal,
+    print(std::to_string(threads) + " threads",
       [&] { return TimeEngine(input, BackendKind::Threads, threads); });
   }
   if (HasCudaDevice())
@@ -387,15 +392,32 @@ void RunSet(const PointSet& set, std::int64_t count, const Plan& plan)
     TakePeakCudaMemory();
     TimeEngine(input, BackendKind::CUDA, 0); // the first use of a GPU takes longer
     std::printf("| GPU, host to host | %s | | | | |\n", DescribeMemory(input).c_str());
-    PrintRow("GPU, host to host", plan.Repetitions, cgal,
-      [&] { return TimeEngine(input, BackendKind::CUDA, 0); });
+    print("GPU, host to host", [&] { return TimeEngine(input, BackendKind::CUDA, 0); });
 #if defined(DELAUNAYFLIP_HAS_CUDA)
-    PrintRow("GPU, device memory", plan.Repetitions, cgal, [&] { return TimeOnDevice(input); });
+    print("GPU, device memory", [&] { return TimeOnDevice(input); });
 #endif
   }
   else
   {
     std::printf("| GPU | skipped: there is none | | | | |\n");
+  }
+  return medians;
+}
+
+/// Times a set whose time may grow faster than its size with twice as many points, too.
+void RunTwice(const PointSet& set, std::int64_t count, const Plan& plan)
+{
+  const auto once = RunSet(set, count, plan);
+  if (set.IsHard)
+  {
+    const auto twice = RunSet(set, 2 * count, plan);
+    std::printf("\nTime with twice as many points:");
+    for (std::size_t i = 0; i < once.size(); ++i)
+    {
+      std::printf("%s %.2f times (%s)", i > 0 ? "," : "", twice[i].second / once[i].second,
+        once[i].first.c_str());
+    }
+    std::printf("\n");
   }
 }
 
@@ -422,11 +444,7 @@ int main(int argc, char* argv[])
       const auto& names = plan.Names;
       if (names.empty() || std::find(names.begin(), names.end(), set.Name) != names.end())
       {
-        RunSet(set, count, plan);
-        if (set.IsHard)
-        {
-          RunSet(set, 2 * count, plan);
-        }
+        RunTwice(set, count, plan);
       }
     }
   }

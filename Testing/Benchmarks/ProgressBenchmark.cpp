@@ -8,15 +8,16 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
 #include <vector>
 
 /// @file
 /// delaunay-flip-progress: measures how accurate the engine's progress is, and how long an abort
-/// may have to wait. Usage: delaunay-flip-progress [TRIANGLES], by default 1,000,000. For several
-/// meshes of about that many triangles, on one thread and on two, it prints the longest time
-/// between two calls of a progress observer, and the progress when one tenth, two tenths, ... of
-/// the time have passed.
+/// may have to wait. Usage: delaunay-flip-progress [TRIANGLES [points]], by default 1,000,000. For
+/// several meshes of about that many triangles, on one thread and on two, or for points alone, it
+/// prints the longest time between two calls of a progress observer, and the progress when one
+/// tenth, two tenths, ... of the time have passed.
 
 using namespace delaunayflip;
 
@@ -36,13 +37,14 @@ struct Call
   double Fraction;
 };
 
+using Run = std::function<void(const FlipOptions& options, const ProgressObserver& progress)>;
+
 /// The calls of a run, and its begin and end.
-std::vector<Call> WatchRun(const TriangleMesh& mesh, const FlipOptions& options)
+std::vector<Call> WatchRun(const Run& run, const FlipOptions& options)
 {
-  std::vector<std::int32_t> result(static_cast<std::size_t>(3 * mesh.Triangles.Count));
   std::vector<Call> calls{ { 0.0, 0.0 } };
   const auto start = Clock::now();
-  FlipToDelaunay(mesh, options, MutableTriangleArray(result.data(), mesh.Triangles.Count), {},
+  run(options,
     [&](double fraction)
     {
       calls.push_back({ SecondsSince(start), fraction });
@@ -85,20 +87,19 @@ double MeasureAccuracy(const std::vector<Call>& calls)
   return static_cast<double>(accurate) / Samples;
 }
 
-void Print(const char* name, const OwnedMesh<double>& mesh, GeometryKind geometry)
+void Print(const char* name, const Run& run)
 {
   constexpr int Runs = 5;
   for (const int threads : { 1, 2 })
   {
     FlipOptions options;
-    options.Geometry = geometry;
     options.Backend = BackendKind::Threads;
     options.NumberOfThreads = threads;
     // Other programs may slow the machine, so the run whose longest wait is the shortest counts.
-    std::vector<Call> calls = WatchRun(mesh.View(), options);
-    for (int run = 1; run < Runs; ++run)
+    std::vector<Call> calls = WatchRun(run, options);
+    for (int i = 1; i < Runs; ++i)
     {
-      std::vector<Call> others = WatchRun(mesh.View(), options);
+      std::vector<Call> others = WatchRun(run, options);
       calls = FindLongestWait(others) < FindLongestWait(calls) ? std::move(others) : calls;
     }
     std::printf("| %s | %d | %.0f | %zu | %.0f | %.0f %% |", name, threads,
@@ -111,6 +112,33 @@ void Print(const char* name, const OwnedMesh<double>& mesh, GeometryKind geometr
     std::printf("\n");
     std::fflush(stdout);
   }
+}
+
+void Print(const char* name, const OwnedMesh<double>& mesh, GeometryKind geometry)
+{
+  std::vector<std::int32_t> result(mesh.Triangles.size());
+  Print(name,
+    [&](FlipOptions options, const ProgressObserver& progress)
+    {
+      options.Geometry = geometry;
+      FlipToDelaunay(mesh.View(), options,
+        MutableTriangleArray(result.data(), mesh.NumberOfTriangles()), {}, progress);
+    });
+}
+
+/// Triangulates the points of a mesh.
+void PrintPoints(const OwnedMesh<double>& mesh)
+{
+  std::vector<std::int32_t> result(6 * mesh.Points.size());
+  PointInput input;
+  input.Points = PlaneArray(mesh.Points.data(), mesh.NumberOfPoints(), 3);
+  Print("points of it",
+    [&](const FlipOptions& options, const ProgressObserver& progress)
+    {
+      FlipSession session(input, PointOptions{ options }, progress);
+      session.Advance(-1, {}, progress);
+      session.StoreTriangles(MutableTriangleArray(result.data(), session.GetReport().Triangles));
+    });
 }
 
 /// A Delaunay mesh whose points have been moved by up to `share` of their mean distance.
@@ -148,6 +176,11 @@ int main(int argc, char** argv)
               "| 10 %% | 20 %% | 30 %% | 40 %% | 50 %% | 60 %% | 70 %% | 80 %% | 90 %% |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   const OwnedMesh<double> bad = MakeRandomBadMeshDouble(triangles / 2, 1);
+  PrintPoints(bad);
+  if (argc > 2)
+  {
+    return 0;
+  }
   const OwnedMesh<double> moved = MoveDelaunayPoints(bad, 0.3);
   const auto side = static_cast<std::int32_t>(std::sqrt(0.5 * static_cast<double>(triangles)));
   Print("random bad mesh", bad, GeometryKind::Planar);

@@ -342,6 +342,41 @@ static void TestWarmStart(void)
   CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, NULL) == DELAUNAYFLIP_INVALID_CALL);
 }
 
+/* The quad without its triangles, then with the long diagonal as a segment. */
+static void TestPoints(void)
+{
+  const int64_t diagonal[] = { 2, 0 };
+  int64_t triangles[6], edge[2];
+  int32_t neighbors[6];
+  delaunayflip_points points;
+  delaunayflip_options options;
+  delaunayflip_session* session = NULL;
+  int i;
+  delaunayflip_points_init(&points);
+  points.points = Points;
+  points.number_of_points = 4;
+  points.point_components = 3;
+  for (i = 0; i < 2; ++i)
+  {
+    points.segments = diagonal;
+    points.number_of_segments = i;
+    CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+    CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+    CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
+    CHECK(HasShortDiagonal(triangles) == (i == 0));
+    CHECK(delaunayflip_store_neighbors(session, neighbors) == DELAUNAYFLIP_OK);
+    CHECK(neighbors[0] + neighbors[1] + neighbors[2] == -1);
+    CHECK(delaunayflip_store_segment_edges(session, edge) == DELAUNAYFLIP_OK);
+    CHECK(i == 0 || (edge[0] == 2 && edge[1] == 0));
+    delaunayflip_close(session);
+  }
+  delaunayflip_options_init(&options);
+  options.number_of_pieces = 2;
+  CHECK(
+    delaunayflip_open_points(&points, &options, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);
+  CHECK(strstr(delaunayflip_error_message(), "gather them first") != NULL);
+}
+
 int main(void)
 {
   TestFlipsSquare();
@@ -355,5 +390,6 @@ int main(void)
   TestDeviceMemory();
   TestPolygons();
   TestWarmStart();
+  TestPoints();
   return 0;
 }

@@ -186,5 +186,37 @@ class Surfaces(RealDataTest):
         self.assertEqual(report["non_manifold_edges"], 2534)
 
 
+class Points(RealDataTest):
+    def test_every_file(self):
+        """All edges are Delaunay, and their number is that of all places: so none is left out."""
+        for folder in (FOLDER, os.path.join(FOLDER, "small")):
+            for name in sorted(os.listdir(folder)):
+                path = os.path.join(folder, name)
+                if name.endswith((".obj", ".ply", ".stl")) or self.is_poly_data(path):
+                    with self.subTest(name):
+                        self.check(path)
+
+    def is_poly_data(self, path):
+        if not path.endswith(".vtk"):
+            return False
+        with open(path, "rb") as file:
+            return b"DATASET POLYDATA" in file.read(1000)
+
+    def check(self, path):
+        report = self.report(path, "out.vtk", "--from-points")
+        self.assertTrue(report["converged"])
+        mesh = read_mesh(self.path("out.vtk"))
+        places = {mesh.GetPoint(i)[:2] for i in range(mesh.GetNumberOfPoints())}
+        triangles = triangles_of(mesh)
+        if len({y for _, y in places}) == 1:  # gc_lego.ply stands upright
+            self.assertEqual(triangles, [])
+            return
+        _, boundary, non_manifold = edge_counts(triangles)
+        self.assertEqual(len(triangles), 2 * len(places) - 2 - boundary)
+        self.assertEqual(non_manifold, 0)
+        again = self.report("out.vtk", "again.vtk", *XY, "--tie-rule", "canonical")
+        self.assertEqual(again["non_delaunay_before"], 0)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -473,13 +473,15 @@ namespace
 
 using Row = std::vector<double>;
 
-/// The numbers of the lines that begin with some.
-std::vector<Row> ReadRows(const std::string& path)
+/// The numbers of the lines that begin with some, or of the innermost lists of JSON.
+std::vector<Row> ReadRows(const std::filesystem::path& path)
 {
   std::ifstream file(path);
   std::vector<Row> rows;
-  for (std::string line; std::getline(file, line);)
+  for (std::string line; std::getline(file, line, path.extension() == ".json" ? ']' : '\n');)
   {
+    std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '[' || c == ','; }, ' ');
     std::istringstream text(line.substr(0, line.find('#')));
     const Row row{ std::istream_iterator<double>(text), {} };
     if (!row.empty())
@@ -517,14 +519,15 @@ ConstrainedMesh MakeDrawing(
   return drawing;
 }
 
-/// Reads Triangle's .poly (and the .node beside it), CDT's .txt, and poly2tri's .dat, the closed
-/// polygon of its points.
+/// Reads Triangle's .poly (and the .node beside it) and .node, CDT's .txt, poly2tri's .dat, the
+/// closed polygon of its points, and Delaunator's .json, points alone.
 ConstrainedMesh ReadDrawing(const std::filesystem::path& path)
 {
   std::vector<Row> rows = ReadRows(path);
-  const bool isPoly = path.extension() == ".poly", isPolygon = path.extension() == ".dat";
-  const std::size_t header = isPolygon ? 0 : 1; // lines before the points
-  std::size_t count = isPolygon ? rows.size() : static_cast<std::size_t>(rows.at(0).at(0));
+  const std::string kind = path.extension();
+  const bool isPoly = kind == ".poly", isPolygon = kind == ".dat";
+  const std::size_t header = isPolygon || kind == ".json" ? 0 : 1; // lines before the points
+  std::size_t count = header == 0 ? rows.size() : static_cast<std::size_t>(rows.at(0).at(0));
   if (isPoly && count == 0)
   {
     std::vector<Row> nodes = ReadRows(std::filesystem::path(path).replace_extension(".node"));
@@ -533,7 +536,7 @@ ConstrainedMesh ReadDrawing(const std::filesystem::path& path)
     rows.erase(rows.begin());
     rows.insert(rows.begin(), nodes.begin(), nodes.end());
   }
-  const std::size_t skipped = isPoly ? 1 : 0; // numbers of the line itself
+  const std::size_t skipped = isPoly || kind == ".node" ? 1 : 0; // numbers of the line itself
   std::vector<std::array<double, 2>> points;
   for (std::size_t i = header; i < header + count; ++i)
   {
@@ -544,7 +547,7 @@ ConstrainedMesh ReadDrawing(const std::filesystem::path& path)
   {
     segments.emplace_back(i, (i + 1) % count);
   }
-  if (!isPolygon)
+  if (isPoly || kind == ".txt")
   {
     const std::size_t first = header + count + skipped; // line of a segment
     const double all = isPoly ? rows.at(first - 1).at(0) : rows[0].at(1);
@@ -569,11 +572,6 @@ TEST(Pslg, GivesCgalsConstrainedDelaunayMesh)
   for (const auto& file :
     std::filesystem::directory_iterator(std::string(folder ? folder : "") + "/pslg", error))
   {
-    const std::string extension = file.path().extension();
-    if (extension != ".poly" && extension != ".txt" && extension != ".dat")
-    {
-      continue;
-    }
     SCOPED_TRACE(file.path());
     ConstrainedMesh drawing = ReadDrawing(file.path());
     const FlipResult result = Flip(drawing.View(), options);

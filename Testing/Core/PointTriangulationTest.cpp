@@ -431,5 +431,24 @@ TEST(PointTriangulation, TooManyPoints)
   EXPECT_THROW(FlipSession(points, PointOptions()), MeshTooLarge);
 }
 
+TEST(PointTriangulation, InPiecesIsAnError)
+{
+  const Places points = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
+  PointOptions options;
+  options.NumberOfPieces = 1;
+  EXPECT_EQ(3u, Triangulate(PointInput{ View(points) }, options).Triangles.size());
+  options.NumberOfPieces = 2;
+  try
+  {
+    FlipSession(PointInput{ View(points) }, options);
+    ADD_FAILURE() << "several pieces";
+  }
+  catch (const InvalidOptions& error)
+  {
+    EXPECT_STREQ(
+      "points cannot be triangulated in several pieces: gather them first", error.what());
+  }
+}
+
 }
 }

@@ -395,6 +395,11 @@ class SamePoints(Pair, unittest.TestCase):
             told = Watched(join([make_cloud(9), make_cloud(8)]), kind)
             told.filter.Update()
             self.assertIn("in several partitions; join them first", told.errors[0])
+            for piece in range(2):  # gathered on the first rank, or not
+                told = Watched(make_cloud(9), kind)
+                told.filter.UpdatePiece(piece, 2, 0)
+                self.assertEqual(len(told.errors), piece)
+            self.assertIn("on several ranks; gather them on the first one, by", told.errors[0])
 
 
 class OnlyInCxx(unittest.TestCase):
