@@ -449,12 +449,12 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
 //------------------------------------------------------------------------------
 vtkIdType vtkDelaunayFlipPoints::GetNumberOfSegmentEdges() const
 {
-  return this->GetUpdateReport().FromPoints.SegmentEdges;
+  return this->GetReport().FromPoints.SegmentEdges;
 }
 
 vtkIdType vtkDelaunayFlipPoints::GetNumberOfRefusedSegments() const
 {
-  return this->GetUpdateReport().FromPoints.RefusedSegments;
+  return this->GetReport().FromPoints.RefusedSegments;
 }
 
 void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
