@@ -92,21 +92,29 @@ struct StripSorter<Real, CudaBackend>
         break;
       }
     }
+    FindStarts(
+      sorted, count,
+      [=] __device__(std::int64_t i)
+      { return static_cast<std::int64_t>(keyOf(places[i].U, places[i].V) >> (RealBits - lost)); },
+      backend);
+    return sorted;
+  }
+
+  /// Finds where strips begin among the sorted points. Those that are not finite come after the
+  /// last strip, and count no more.
+  /// @param stripOf the strip of a sorted point
+  template <typename StripOf>
+  static void FindStarts(StripPoints<Real>& sorted, std::int64_t count, const StripOf& stripOf,
+    const CudaBackend& backend)
+  {
+    const std::int64_t strips = sorted.Strips;
     sorted.Starts = backend.MakeArray<std::uint32_t>(strips + 1);
     std::uint32_t* starts = sorted.Starts.Data();
-    const auto stripAt = [=] __device__(std::int64_t i)
-    {
-      return i < 0
-        ? std::int64_t(-1)
-        : (i < count
-              ? static_cast<std::int64_t>(keyOf(places[i].U, places[i].V) >> (RealBits - lost))
-              : strips);
-    };
     backend.ForEach(count + 1,
       [=] __device__(std::int64_t i)
       {
-        const std::int64_t strip = stripAt(i);
-        for (std::int64_t next = stripAt(i - 1) + 1; next <= strip; ++next)
+        const std::int64_t strip = i < count ? stripOf(i) : strips;
+        for (std::int64_t next = i > 0 ? stripOf(i - 1) + 1 : 0; next <= strip; ++next)
         {
           starts[next] = static_cast<std::uint32_t>(i);
         }
@@ -114,7 +122,6 @@ struct StripSorter<Real, CudaBackend>
     std::uint32_t used = 0;
     backend.Download(starts + strips, 1, &used);
     sorted.Count = used;
-    return sorted;
   }
 
   /// Sorts the points of equal keys that begin at a place, if they do. Keys do not change by that,

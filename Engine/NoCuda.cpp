@@ -28,8 +28,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(const DeviceMesh&, const FlipOptions&, co
   throw BackendUnavailable(NoArrays);
 }
 
-std::unique_ptr<LoadedMesh> LoadOnCuda(
-  const PointInput&, const FlipOptions&, bool, const BuildProgress&)
+std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput&, const FlipOptions&, const BuildProgress&)
 {
   throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
 }
