@@ -6,7 +6,6 @@
 #include "EngineExport.h"
 #include "FlipReport.h"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -12,8 +12,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <string>
-
 using namespace delaunayflip;
 
 // The enumerators of the engine and of this class have the same values.

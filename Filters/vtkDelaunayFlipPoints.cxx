@@ -22,7 +22,6 @@
 #include "vtkTransform.h"
 
 #include <cmath>
-#include <utility>
 
 using namespace delaunayflip;
 

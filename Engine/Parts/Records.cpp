@@ -4,7 +4,6 @@
 
 #include "FlipError.h"
 
-#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
