@@ -120,7 +120,7 @@ vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
 vtkDelaunayFlipAlgorithm::~vtkDelaunayFlipAlgorithm()
 {
   this->Run.reset();
-  if (this->HasExecuted)
+  if (this->GetStopReason() != STOP_REASON_NOT_STARTED) // it may have memory of a GPU
   {
     this->ReleaseDeviceMemory();
   }
@@ -304,7 +304,6 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     bool& IsUnderWay;
     ~Work() { this->IsUnderWay = false; }
   } work{ this->IsAtWork = true };
-  this->HasExecuted = true;
   UpdateSummary summary;
   try
   {

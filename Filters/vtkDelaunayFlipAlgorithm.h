@@ -365,18 +365,24 @@ private:
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
   std::string Summary;
-  // What the next update does, by the state of a live run:
+  // The states of a filter, beside its options and what it tells of the last update:
   //
-  //   Run   Next          the next update
-  //   null  StepAndStore  begins a run
-  //   set   StepAndStore  makes a step, if the run can go on, and puts the mesh out
-  //   set   Step          only within AdvanceSession(): makes a step and puts nothing out
-  //   set   Store         puts the mesh of the last AdvanceSession() out, without a step
-  bool HasExecuted = false;
-  bool IsAtWork = false; ///< An update is running.
+  //   IsAtWork  Run   Next          CanContinue  what happens
+  //   true      any   any           any          an update is running; another one is refused
+  //   false     null  StepAndStore  true         new or restarted: the next update begins a run
+  //   false     null  StepAndStore  false        after a failure or without LiveUpdate: the same,
+  //                                              but Advance() asks for none
+  //   false     set   StepAndStore  true         the next update makes a step and puts the mesh out
+  //   false     set   StepAndStore  false        at the end: it puts the mesh out
+  //   false     any   Step          any          only within AdvanceSession(): a set Run makes a
+  //                                              step and puts nothing out
+  //   false     set   Store         any          after that: it puts the mesh out, without a step
+  //
+  // A change of the input or of an option begins a run, whatever the state.
+  bool IsAtWork = false;
   bool CanContinue = true; ///< Whether another step can change the mesh.
   NextUpdate Next = NextUpdate::StepAndStore;
-  std::unique_ptr<delaunayflip::UpdateRun> Run; ///< Null without LiveUpdate.
+  std::unique_ptr<delaunayflip::UpdateRun> Run; ///< Of LiveUpdate.
   /// During an update that of the current mesh, afterwards the sum over all meshes.
   std::unique_ptr<delaunayflip::FlipReport> Report;
 

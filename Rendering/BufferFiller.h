@@ -5,7 +5,6 @@
 
 #include "vtkDelaunayFlipRenderingModule.h" // For export macro
 
-#include <cstdint>
 #include <memory>
 
 class vtkDelaunayFlip;
@@ -43,15 +42,13 @@ public:
 };
 
 /// Makes a filler of a buffer of the current context, by OpenGL's name of it, for sessions of a
-/// filter with so many triangles. The buffer's memory
-/// must stay as it is as long as the filler exists.
+/// filter. The buffer's memory must stay as it is as long as the filler exists.
 /// @throws std::exception that says why it cannot fill it.
-using FillerMaker = std::unique_ptr<BufferFiller> (*)(
-  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles);
+using FillerMaker = std::unique_ptr<BufferFiller> (*)(vtkDelaunayFlip* filter, unsigned int buffer);
 
 /// By CUDA, for sessions on the GPU that draws.
 VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller(
-  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles);
+  vtkDelaunayFlip* filter, unsigned int buffer);
 
 /// What mappers use where they need not fill from the host: MakeCudaFiller, or what a test has put
 /// in its place.

@@ -40,61 +40,52 @@ void Require(cudaError_t error, const char* action)
 
 bool IsOnGpu(const std::string& backend) { return backend.rfind("CUDA", 0) == 0; }
 
-/// Makes a device current in this thread for as long as it lives.
+/// Makes a device current in this thread for as long as it lives. Where that fails, so does what
+/// follows.
 class CurrentGpu
 {
 public:
   explicit CurrentGpu(int device)
   {
-    Require(cudaGetDevice(&this->Previous), "ask for the current device");
-    Require(cudaSetDevice(device), "use the device");
+    cudaGetDevice(&this->Previous);
+    cudaSetDevice(device);
   }
   ~CurrentGpu() { cudaSetDevice(this->Previous); }
   CurrentGpu(const CurrentGpu&) = delete;
   CurrentGpu& operator=(const CurrentGpu&) = delete;
 
 private:
-  int Previous = -1;
+  int Previous = 0;
 };
 
 class CudaFiller : public BufferFiller
 {
 public:
-  /// The buffer keeps what is not written. Of a context that is gone nothing can be released; that
-  /// is no error.
-  CudaFiller(int device, unsigned int buffer, std::int64_t triangles)
-    : Device(device),
-      Count(triangles)
+  CudaFiller(int device, unsigned int buffer)
+    : Device(device)
   {
-    cudaGraphicsResource_t resource = nullptr;
-    Require(cudaGraphicsGLRegisterBuffer(&resource, buffer, cudaGraphicsRegisterFlagsNone),
+    const CurrentGpu current(device);
+    Require(cudaGraphicsGLRegisterBuffer(&this->Buffer, buffer, cudaGraphicsRegisterFlagsNone),
       "register a buffer of OpenGL");
-    this->Buffer.reset(resource,
-      [](cudaGraphicsResource_t registered)
-      {
-        cudaGraphicsUnregisterResource(registered);
-        cudaGetLastError();
-      });
-    void* memory = nullptr;
-    Require(cudaMalloc(&memory, 4 * static_cast<std::size_t>(this->Count)), "allocate memory");
-    this->Written.reset(static_cast<std::int32_t*>(memory), cudaFree);
   }
+  /// Of a context that is gone nothing can be released; that is no error.
   ~CudaFiller() override
   {
-    try
+    const CurrentGpu current(this->Device);
+    if (this->IsMapped)
     {
-      this->Unmap();
+      cudaGraphicsUnmapResources(1, &this->Buffer, nullptr);
     }
-    catch (const std::exception&)
-    {
-    }
+    cudaGraphicsUnregisterResource(this->Buffer);
+    cudaGetLastError();
   }
 
   void Map() override
   {
     if (!std::exchange(this->IsMapped, true))
     {
-      this->Call(cudaGraphicsMapResources, "map a buffer of OpenGL");
+      const CurrentGpu current(this->Device);
+      Require(cudaGraphicsMapResources(1, &this->Buffer, nullptr), "map a buffer of OpenGL");
     }
   }
 
@@ -102,7 +93,8 @@ public:
   {
     if (std::exchange(this->IsMapped, false))
     {
-      this->Call(cudaGraphicsUnmapResources, "return a buffer to OpenGL");
+      const CurrentGpu current(this->Device);
+      Require(cudaGraphicsUnmapResources(1, &this->Buffer, nullptr), "return a buffer to OpenGL");
     }
   }
 
@@ -112,39 +104,31 @@ public:
     {
       throw std::runtime_error("the filter no longer works on the GPU");
     }
-    const CurrentGpu current(this->Device);
     this->Map();
+    const CurrentGpu current(this->Device);
     void* memory = nullptr;
     std::size_t size = 0;
-    Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, this->Buffer.get()),
+    Require(cudaGraphicsResourceGetMappedPointer(&memory, &size, this->Buffer),
       "find the memory of a buffer of OpenGL");
-    if (size < 12 * static_cast<std::size_t>(this->Count))
+    const MutableTriangleArray triangles(
+      static_cast<std::int32_t*>(memory), session.GetReport().Triangles);
+    size = 4 * static_cast<std::size_t>(triangles.Count);
+    if (!this->Written)
     {
-      throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
+      Require(cudaMalloc(&memory, size), "allocate memory");
+      this->Written.reset(static_cast<std::int32_t*>(memory), cudaFree);
     }
     if (isNew)
     {
-      Require(cudaMemset(this->Written.get(), -1, 4 * static_cast<std::size_t>(this->Count)),
-        "set memory");
+      Require(cudaMemset(this->Written.get(), -1, size), "set memory");
     }
-    session.StoreTriangles(MutableTriangleArray(static_cast<std::int32_t*>(memory), this->Count),
-      {}, this->Written.get());
+    session.StoreTriangles(triangles, {}, this->Written.get());
     this->Unmap();
   }
 
 private:
-  /// Maps or unmaps the buffer, in the default stream.
-  template <typename Function>
-  void Call(Function function, const char* action) const
-  {
-    const CurrentGpu current(this->Device);
-    cudaGraphicsResource_t buffer = this->Buffer.get();
-    Require(function(1, &buffer, nullptr), action);
-  }
-
   int Device;
-  std::int64_t Count;
-  std::shared_ptr<cudaGraphicsResource> Buffer;
+  cudaGraphicsResource_t Buffer = nullptr;
   std::shared_ptr<std::int32_t> Written; ///< For FlipSession::StoreTriangles.
   bool IsMapped = false;
 };
@@ -156,8 +140,7 @@ private:
 FillerMaker DeviceFillerMaker = &MakeCudaFiller;
 
 #ifdef DELAUNAYFLIP_HAS_CUDA
-std::unique_ptr<BufferFiller> MakeCudaFiller(
-  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, unsigned int buffer)
 {
   if (!IsOnGpu(filter->GetBackendUsed()))
   {
@@ -177,11 +160,10 @@ std::unique_ptr<BufferFiller> MakeCudaFiller(
   {
     throw std::runtime_error("OpenGL does not draw on the GPU of the filter");
   }
-  const CurrentGpu current(device);
-  return std::make_unique<CudaFiller>(device, buffer, triangles);
+  return std::make_unique<CudaFiller>(device, buffer);
 }
 #else
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, unsigned int, std::int64_t)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, unsigned int)
 {
   throw std::runtime_error("this build has no CUDA backend");
 }

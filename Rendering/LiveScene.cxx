@@ -13,17 +13,16 @@
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkRendererCollection.h"
 #include "vtkScalarBarActor.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -37,8 +36,8 @@ namespace
 constexpr int FontSize = 14;
 constexpr vtkIdType SmallMesh = 20000; // triangles, up to which edges can be told apart
 
-constexpr std::array<double, 3> DarkInk = { 0.13, 0.19, 0.25 }, LightInk = { 0.92, 0.94, 0.96 };
-constexpr std::array<double, 3> DarkRed = { 0.75, 0.05, 0.1 }, LightRed = { 1.0, 0.6, 0.55 };
+constexpr double DarkInk[] = { 0.13, 0.19, 0.25 }, LightInk[] = { 0.92, 0.94, 0.96 };
+constexpr double Red[] = { 0.85, 0.2, 0.2 };
 
 constexpr const char* KeyHelp = "space: run/pause, n: next step, b: begin again, "
                                 "k: colours, g: edges, i: statistics, d: drawing, q: quit";
@@ -60,8 +59,9 @@ std::string Wrap(const std::string& text, std::size_t width = 60)
 
 }
 
-/// What does not change.
-void vtkDelaunayFlipLiveView::MakeScene()
+vtkStandardNewMacro(vtkDelaunayFlipLiveView);
+
+vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
 {
   this->Actor->SetMapper(this->Mapper);
   this->Actor->PickableOff(); // see vtkDelaunayFlipMapper
@@ -89,36 +89,6 @@ void vtkDelaunayFlipLiveView::MakeScene()
   this->Scale->SetWidth(0.6);
 }
 
-/// In the first renderer of the window, or in a new one if it has none.
-void vtkDelaunayFlipLiveView::EnterWindow()
-{
-  this->Renderer = this->Window->GetRenderers()->GetFirstRenderer();
-  if (!this->Renderer)
-  {
-    vtkNew<vtkRenderer> renderer;
-    renderer->SetBackground(1.0, 1.0, 1.0);
-    this->Window->AddRenderer(renderer);
-    this->Renderer = renderer;
-  }
-  this->Renderer->AddViewProp(this->Actor);
-  this->Renderer->AddViewProp(this->Scale);
-  this->Renderer->AddViewProp(this->Status);
-  this->Renderer->AddViewProp(this->Keys);
-}
-
-void vtkDelaunayFlipLiveView::LeaveWindow()
-{
-  if (this->Renderer)
-  {
-    this->Renderer->RemoveViewProp(this->Actor);
-    this->Renderer->RemoveViewProp(this->Scale);
-    this->Renderer->RemoveViewProp(this->Status);
-    this->Renderer->RemoveViewProp(this->Keys);
-  }
-  this->Renderer = nullptr;
-  this->Window = nullptr;
-}
-
 /// Along the axis in which the mesh is flat, else along z.
 void vtkDelaunayFlipLiveView::LookAtMesh()
 {
@@ -133,10 +103,8 @@ void vtkDelaunayFlipLiveView::LookAtMesh()
     axis = box.GetLength(flat) < 1e-3 * box.GetMaxLength() ? flat : axis;
   }
   vtkCamera* camera = this->Renderer->GetActiveCamera();
-  double position[3] = { 0.0, 0.0, 0.0 };
-  position[axis] = axis == 1 ? -1.0 : 1.0; // so that x points to the right
-  camera->SetPosition(position);
-  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  // From below in y, so that x points to the right.
+  camera->SetPosition(axis == 0 ? 1.0 : 0.0, axis == 1 ? -1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
   camera->SetViewUp(0.0, axis == 2 ? 1.0 : 0.0, axis == 2 ? 0.0 : 1.0);
   this->Renderer->ResetCamera();
 }
@@ -144,16 +112,17 @@ void vtkDelaunayFlipLiveView::LookAtMesh()
 /// A mesh, or all blocks of a composite one.
 void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
 {
+  const auto blocks = vtkCompositeDataSet::GetDataSets<vtkPolyData>(mesh);
   vtkNew<vtkPolyData> shown;
-  if (vtkPolyData::SafeDownCast(mesh))
+  if (blocks.size() == 1)
   {
-    shown->ShallowCopy(mesh);
+    shown->ShallowCopy(blocks.front());
   }
-  else if (mesh)
+  else
   {
     vtkNew<vtkAppendPolyData> append;
     append->AddInputData(shown); // so that there is one
-    for (vtkPolyData* block : vtkCompositeDataSet::GetDataSets<vtkPolyData>(mesh))
+    for (vtkPolyData* block : blocks)
     {
       append->AddInputData(block);
     }
@@ -163,32 +132,37 @@ void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
   this->Mapper->SetInputDataObject(shown);
 }
 
-void vtkDelaunayFlipLiveView::Draw()
+void vtkDelaunayFlipLiveView::Render()
 {
   const vtkSmartPointer<vtkRenderWindow> window = this->Window.Get();
-  const std::string drawing = this->GetDrawing();
+  if (this->IsBusy || !window || !this->Renderer)
+  {
+    return;
+  }
+  this->IsBusy = true;
   const bool isOffScreen = window->GetOffScreenRendering(); // there are no keys, and no timer
   const bool isSmall = this->Mapper->GetNumberOfTriangles() < SmallMesh;
   this->Mapper->SetColorBy(this->ColorBy);
   this->Actor->GetProperty()->SetEdgeVisibility(this->EdgeVisibility == EDGE_VISIBILITY_ON ||
     (this->EdgeVisibility == EDGE_VISIBILITY_AUTO && isSmall));
   this->Keys->SetVisibility(this->ShowKeys && !isOffScreen);
-  this->Status->SetVisibility(
-    this->ShowStatistics || this->State == vtkDelaunayFlip::STOP_REASON_FAILED);
-  if (this->Status->GetVisibility())
-  {
-    this->Status->SetInput(this->DescribeStatus(this->IsRunning() || isOffScreen).c_str());
-  }
+  this->Status->SetVisibility(this->ShowStatistics || this->HasFailed);
   this->Scale->SetVisibility(this->ColorBy != COLOR_BY_SOLID);
   this->Scale->SetTitle(
     this->ColorBy == COLOR_BY_FLIP_COUNT ? "flips of a triangle" : "smallest angle (degrees)");
   this->ArrangeTexts();
   this->Renderer->ResetCameraClippingRange();
-  window->Render();
-  if (this->ShowDrawing && this->GetDrawing() != drawing)
+  std::string drawing;
+  do // again if the mapper has chosen another way, so that the text is right
   {
-    this->Draw(); // with the text that is right only now
-  }
+    drawing = this->GetDrawing();
+    if (this->Status->GetVisibility())
+    {
+      this->Status->SetInput(this->DescribeStatus(this->IsRunning() || isOffScreen).c_str());
+    }
+    window->Render();
+  } while (this->ShowDrawing && this->GetDrawing() != drawing);
+  this->IsBusy = false;
 }
 
 /// The keys take as many lines as the width of the renderer needs. The scale is above them, and as
@@ -197,37 +171,36 @@ void vtkDelaunayFlipLiveView::ArrangeTexts()
 {
   constexpr double characterWidth = 6.5; // pixels
   const int* size = this->Renderer->GetSize();
-  this->Keys->SetInput(Wrap(KeyHelp, static_cast<std::size_t>(size[0] / characterWidth)).c_str());
-  const std::string keys = this->Keys->GetVisibility() ? this->Keys->GetInput() : "";
+  const std::string keys = Wrap(KeyHelp, static_cast<std::size_t>(size[0] / characterWidth));
   const double more = 1.2 * static_cast<double>(std::count(keys.begin(), keys.end(), '\n'));
   const double unit = static_cast<double>(FontSize) / std::max(1, size[1]);
-  this->Scale->SetPosition(0.2, unit * (keys.empty() ? 0.4 : 2.0 + more));
+  this->Keys->SetInput(keys.c_str());
+  this->Scale->SetPosition(0.2, unit * (this->Keys->GetVisibility() ? 2.0 + more : 0.4));
   this->Scale->SetHeight(3.6 * unit);
-
   const double* rgb = this->Renderer->GetBackground();
   const bool isDark = 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2] < 0.5;
-  const std::array<double, 3> ink = isDark ? LightInk : DarkInk, red = isDark ? LightRed : DarkRed;
-  const bool hasFailed = this->State == vtkDelaunayFlip::STOP_REASON_FAILED;
-  this->Keys->GetTextProperty()->SetColor(ink.data());
-  this->Status->GetTextProperty()->SetColor((hasFailed ? red : ink).data());
+  const double* ink = isDark ? LightInk : DarkInk;
+  this->Keys->GetTextProperty()->SetColor(ink);
+  this->Status->GetTextProperty()->SetColor(this->HasFailed ? Red : ink);
 }
 
 /// Two or three lines. A failure, and how the mesh is drawn, take as many as their reasons need.
 std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
 {
   const std::string drawing = this->ShowDrawing ? "\n" + Wrap(this->GetDrawing()) : "";
-  if (this->State == vtkDelaunayFlip::STOP_REASON_FAILED)
+  if (this->HasFailed)
   {
     // The filter has no counts now, and no message if it was its source that failed.
     const std::string reason = this->Filter->GetErrorMessage();
     return Wrap("failed: " + (reason.empty() ? "no input" : reason)) + "\nthe mesh of frame " +
       Count(this->FrameNumber) + drawing;
   }
-  const std::string state = this->State != vtkDelaunayFlip::STOP_REASON_RUNNING
-    ? this->Filter->GetStopReasonAsString()
-    : isRunning ? "running"
-                : "paused";
   const bool isInput = this->FrameNumber == 0;
+  const bool mayGoOn =
+    isInput || this->Filter->GetStopReason() == vtkDelaunayFlip::STOP_REASON_RUNNING;
+  const std::string state = !mayGoOn ? this->Filter->GetStopReasonAsString()
+    : isRunning                      ? "running"
+                                     : "paused";
   const bool isOne = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)) != nullptr;
   const std::string mesh = isInput ? "input"
     : isOne                        ? "iteration " + Count(this->Filter->GetNumberOfIterations())
@@ -235,7 +208,10 @@ std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
   const std::string counts = isInput ? Count(this->Mapper->GetNumberOfTriangles(), "triangle")
                                      : Count(this->Filter->GetTotalFlips(), "flip") + ", " +
       Count(this->Filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
-  const double angle = this->Mapper->GetSmallestAngle();
+  const FlipReport& report = this->Filter->GetReport();
+  const double angle = isInput ? this->Mapper->GetSmallestAngle()
+    : report.Triangles > 0     ? report.MinimumAngleAfter
+                               : std::nan("");
   char line[64] = "";
   if (!std::isnan(angle))
   {

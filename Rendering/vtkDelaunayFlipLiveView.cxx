@@ -6,17 +6,15 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
 #include "vtkCompositeDataSet.h"
-#include "vtkDataObject.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipMapper.h"
 #include "vtkExecutive.h"
-#include "vtkNew.h"
-#include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
 #include "vtkScalarBarActor.h"
 #include "vtkTextActor.h"
 #include "vtkUnsignedCharArray.h"
@@ -45,7 +43,7 @@ bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  if (!bytes || bytes->GetNumberOfValues() == 0)
+  if (!bytes)
   {
     return false;
   }
@@ -56,14 +54,6 @@ bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
   return file.good();
 }
 
-}
-
-vtkStandardNewMacro(vtkDelaunayFlipLiveView);
-
-vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
-  : State(vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
-{
-  this->MakeScene();
 }
 
 vtkDelaunayFlipLiveView::~vtkDelaunayFlipLiveView() { this->Detach(); }
@@ -104,43 +94,56 @@ void vtkDelaunayFlipLiveView::SetFramePrefix(const char* prefix)
 
 void vtkDelaunayFlipLiveView::Start()
 {
-  if (!this->IsBusy && this->IsReady())
+  if (this->IsBusy)
   {
-    this->Detach();
-    this->Attach();
-    this->ShowInput();
+    return;
   }
-}
-
-bool vtkDelaunayFlipLiveView::IsReady()
-{
   const bool hasInput = this->Filter && this->Filter->GetNumberOfInputConnections(0) > 0;
-  const bool isReady = hasInput && this->Interactor && this->Interactor->GetRenderWindow();
-  if (!isReady)
+  if (!hasInput || !this->Interactor || !this->Interactor->GetRenderWindow())
   {
     vtkErrorMacro("A filter with an input and an interactor with a render window are needed.");
+    return;
   }
-  return isReady;
-}
-
-bool vtkDelaunayFlipLiveView::HasStarted() const
-{
-  return this->State != vtkDelaunayFlip::STOP_REASON_NOT_STARTED && this->Window;
+  this->Detach();
+  this->Attach();
+  vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
+  source->GetProducer()->Update(source->GetIndex());
+  vtkDataObject* input = this->Filter->GetInputDataObject(0, 0);
+  this->Filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(input));
+  this->Filter->GenerateFlipCountOn();
+  this->Filter->Restart();
+  this->HasFailed = false;
+  this->Mapper->SetFilter(nullptr);
+  this->ShowMesh(input);
+  this->LookAtMesh();
+  this->ShowFrame(0);
 }
 
 bool vtkDelaunayFlipLiveView::BeginIfNeeded()
 {
-  if (!this->HasStarted())
+  if (!this->Window)
   {
     this->Start();
   }
-  return !this->IsBusy && this->HasStarted();
+  return !this->IsBusy && this->Window;
 }
 
+/// Draws in the first renderer of the window, or in a new one if it has none.
 void vtkDelaunayFlipLiveView::Attach()
 {
   this->Window = this->Interactor->GetRenderWindow();
-  this->EnterWindow();
+  this->Renderer = this->Window->GetRenderers()->GetFirstRenderer();
+  if (!this->Renderer)
+  {
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetBackground(1.0, 1.0, 1.0);
+    this->Window->AddRenderer(renderer);
+    this->Renderer = renderer;
+  }
+  this->Renderer->AddViewProp(this->Actor);
+  this->Renderer->AddViewProp(this->Scale);
+  this->Renderer->AddViewProp(this->Status);
+  this->Renderer->AddViewProp(this->Keys);
   // Called before the interactor styles, which do not receive events handled here.
   constexpr float priority = 1.0f;
   using Self = vtkDelaunayFlipLiveView;
@@ -153,7 +156,6 @@ void vtkDelaunayFlipLiveView::Attach()
 
 void vtkDelaunayFlipLiveView::Detach()
 {
-  this->TimerId = 0;
   if (this->Interactor)
   {
     for (const unsigned long observer : this->Observers)
@@ -161,27 +163,20 @@ void vtkDelaunayFlipLiveView::Detach()
       this->Interactor->RemoveObserver(observer);
     }
   }
+  if (this->Renderer)
+  {
+    this->Renderer->RemoveViewProp(this->Actor);
+    this->Renderer->RemoveViewProp(this->Scale);
+    this->Renderer->RemoveViewProp(this->Status);
+    this->Renderer->RemoveViewProp(this->Keys);
+  }
   this->Observers.clear();
-  this->LeaveWindow();
-  this->State = vtkDelaunayFlip::STOP_REASON_NOT_STARTED;
+  this->Renderer = nullptr;
+  this->Window = nullptr;
+  this->TimerId = 0;
   this->FrameNumber = -1;
   this->IsMeantToRun = false;
   this->CanWrite = true;
-}
-
-void vtkDelaunayFlipLiveView::ShowInput()
-{
-  vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
-  source->GetProducer()->Update(source->GetIndex());
-  vtkDataObject* input = this->Filter->GetInputDataObject(0, 0);
-  this->Filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(input));
-  this->Filter->GenerateFlipCountOn();
-  this->Filter->Restart();
-  this->State = vtkDelaunayFlip::STOP_REASON_RUNNING;
-  this->Mapper->SetFilter(nullptr);
-  this->ShowMesh(input);
-  this->LookAtMesh();
-  this->ShowFrame(0);
 }
 
 void vtkDelaunayFlipLiveView::Run()
@@ -189,7 +184,11 @@ void vtkDelaunayFlipLiveView::Run()
   if (this->BeginIfNeeded())
   {
     this->IsMeantToRun = true;
-    this->StartTimer();
+    if (!this->IsRunning() && this->AwaitStep())
+    {
+      this->Render();
+      this->InvokeEvent(vtkCommand::StartEvent);
+    }
   }
 }
 
@@ -209,24 +208,16 @@ bool vtkDelaunayFlipLiveView::Step()
 
 void vtkDelaunayFlipLiveView::Restart()
 {
-  if (!this->HasStarted())
+  const bool wasMeantToRun = this->IsMeantToRun;
+  this->Start();
+  if (wasMeantToRun)
   {
-    this->Start();
-  }
-  else if (!this->IsBusy && this->IsReady())
-  {
-    this->TimerId = 0;
-    this->ShowInput();
-    if (this->IsMeantToRun)
-    {
-      this->StartTimer();
-    }
+    this->Run();
   }
 }
 
-/// Makes a step without putting the mesh out, if the mapper can do without. An update follows the
-/// last step, so that the output is then the final mesh. An update that is caused only by a change
-/// of the input or of an option is a step too.
+/// Makes a step, and puts the mesh out if the mapper cannot do without or the step is the last. An
+/// update that is caused only by a change of the input or of an option is a step too.
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
@@ -235,33 +226,24 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   this->IsBusy = true;
   this->Mapper->SetZeroCopy(this->ZeroCopy);
   this->Mapper->BeginStep();
-  bool works = true;
-  if (this->Mapper->DrawsRun())
-  {
-    works = filter->AdvanceSession();
-  }
-  else
-  {
-    filter->Advance();
-    works = filter->GetExecutive()->Update(0) != 0;
-  }
+  const bool works = filter->AdvanceSession();
   const int state = works ? filter->GetStopReason() : vtkDelaunayFlip::STOP_REASON_FAILED;
   const bool hasFailed = state == vtkDelaunayFlip::STOP_REASON_FAILED;
   const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
-  const bool isUnderWay = state == vtkDelaunayFlip::STOP_REASON_RUNNING;
-  const bool goesOn = isNew && (isUnderWay || state == vtkDelaunayFlip::STOP_REASON_ABORTED);
-  if (!goesOn && !hasFailed)
+  const bool isUnderWay = isNew && state == vtkDelaunayFlip::STOP_REASON_RUNNING;
+  const bool goesOn = isUnderWay || (isNew && state == vtkDelaunayFlip::STOP_REASON_ABORTED);
+  if (!hasFailed && !(goesOn && this->Mapper->DrawsRun()))
   {
     filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
   }
   this->IsBusy = false;
-  if (this->State == vtkDelaunayFlip::STOP_REASON_NOT_STARTED)
+  if (!this->Window)
   {
     return false; // An observer of the filter has ended the run.
   }
   const bool isEnd = !goesOn && (isNew || hasFailed || this->IsRunning());
-  this->TimerId = isNew && isUnderWay ? this->TimerId : 0;
-  this->State = isNew || hasFailed ? state : this->State;
+  this->TimerId = isUnderWay ? this->TimerId : 0;
+  this->HasFailed = hasFailed;
   if (isNew && !hasFailed)
   {
     if (!filter->GetMeshIsWithheld())
@@ -291,9 +273,7 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
   {
     char name[32];
     std::snprintf(name, sizeof(name), "%04d.png", number);
-    this->IsBusy = true;
     this->CanWrite = WriteFrame(this->Window, this->FramePrefix + name);
-    this->IsBusy = false;
     if (!this->CanWrite)
     {
       vtkErrorMacro(
@@ -303,41 +283,21 @@ void vtkDelaunayFlipLiveView::ShowFrame(int number)
   this->InvokeEvent(vtkCommand::UpdateEvent);
 }
 
-void vtkDelaunayFlipLiveView::Render()
-{
-  if (!this->IsBusy && this->Window && this->Renderer)
-  {
-    this->IsBusy = true;
-    this->Draw();
-    this->IsBusy = false;
-  }
-}
-
 std::string vtkDelaunayFlipLiveView::GetDrawing() const { return this->Mapper->GetDrawing(); }
 
 bool vtkDelaunayFlipLiveView::GetConverged() const
 {
-  return this->State == vtkDelaunayFlip::STOP_REASON_CONVERGED;
+  return this->FrameNumber > 0 && !this->HasFailed && this->Filter->GetConverged();
 }
 
 vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Renderer; }
-
-void vtkDelaunayFlipLiveView::StartTimer()
-{
-  if (!this->IsRunning() && this->AwaitStep())
-  {
-    this->Render();
-    this->InvokeEvent(vtkCommand::StartEvent);
-  }
-}
 
 /// Uses one-shot timers, so that none has to be destroyed: VTK 9.1 crashes if a timer is destroyed
 /// while timers fire.
 bool vtkDelaunayFlipLiveView::AwaitStep()
 {
-  this->TimerId = this->Interactor
-    ? this->Interactor->CreateOneShotTimer(static_cast<unsigned long>(this->FrameInterval))
-    : 0;
+  const auto interval = static_cast<unsigned long>(this->FrameInterval);
+  this->TimerId = this->Interactor ? this->Interactor->CreateOneShotTimer(interval) : 0;
   if (this->TimerId == 0)
   {
     vtkErrorMacro("The interactor has no timer.");

@@ -23,7 +23,8 @@
  * (quads, polygons and strips as triangles; no lines or verts), a colour scale and two texts, and
  * removes them when it is deleted. If the window has no renderer, the view makes one with a white
  * background. A renderer without a camera gets one that looks at the mesh from +z, or at a flat
- * mesh along the axis in which it has no extent.
+ * mesh along the axis in which it has no extent. Colours, edges and texts that are chosen appear in
+ * the next frame or with Render().
  *
  * The filter: Start() restarts it and turns on LiveUpdate and GenerateFlipCount, which stay on. Do
  * not update the filter elsewhere in the meantime: an update between two steps, for example by
@@ -44,12 +45,8 @@
  * Observers may call any method. While the filter executes or the window is drawn, Step(), Run(),
  * Start() and Restart() do nothing.
  *
- * Between the steps of a run the filter's output stays as it was. It is brought up to date when it
- * is updated, which makes no step, and at the end of a run. A program that reads the output after a
- * step of the view calls Update() of the filter first.
- *
- * Cost per step: a step of the filter, and a pass over the triangles, on the GPU if CUDA writes
- * what is drawn. No timer runs after the end of a run.
+ * Between the steps of a run the filter's output stays as it was, until the end of the run. A
+ * program that reads it earlier calls Update() of the filter first, which makes no step.
  *
  * The view keeps the filter alive, but not the interactor and the window, which may be deleted in
  * any order.
@@ -107,7 +104,6 @@ public:
   ///@{
   /**
    * What the colour of a triangle shows, as vtkDelaunayFlipMapper says; default SMALLEST_ANGLE.
-   * Takes effect at the next frame or Render().
    */
   enum ColorByType
   {
@@ -124,8 +120,7 @@ public:
 
   ///@{
   /**
-   * Whether the edges of triangles are drawn. AUTO (default): if there are fewer than 20,000
-   * triangles. Takes effect at the next frame or Render().
+   * Whether edges are drawn. AUTO (default): if there are fewer than 20,000 triangles.
    */
   enum EdgeVisibilityType
   {
@@ -142,22 +137,20 @@ public:
 
   ///@{
   /**
-   * Whether three lines of statistics are drawn in the upper left corner: the iteration and whether
-   * the run continues; the flips so far and the bad edges left, or the number of triangles of the
-   * input; the smallest angle in degrees, in space or, after a step with PLANAR_XY, in the
-   * projection. Default on. A failure is always shown, instead of them. Takes effect at the next
-   * frame or Render().
+   * Which texts are drawn:
+   * - ShowStatistics (default on): three lines in the upper left corner: the iteration and whether
+   *   the run continues; the flips so far and the bad edges left, or the number of triangles of the
+   *   input; the smallest angle in degrees, in space or, after a step with PLANAR_XY, in the
+   *   projection. A failure is always shown, instead of them.
+   * - ShowDrawing (default off): GetDrawing(), as their last line.
+   * - ShowKeys (default on): what the keys do, at the bottom; never in an off-screen window.
    */
   vtkSetMacro(ShowStatistics, bool);
   vtkGetMacro(ShowStatistics, bool);
   vtkBooleanMacro(ShowStatistics, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Whether a line at the bottom of the window explains the keys. Default on. Never drawn in an
-   * off-screen window.
-   */
+  vtkSetMacro(ShowDrawing, bool);
+  vtkGetMacro(ShowDrawing, bool);
+  vtkBooleanMacro(ShowDrawing, bool);
   vtkSetMacro(ShowKeys, bool);
   vtkGetMacro(ShowKeys, bool);
   vtkBooleanMacro(ShowKeys, bool);
@@ -177,16 +170,6 @@ public:
    * How the mesh is drawn: "drawn without copies", or "drawn from copies: " and the reason.
    */
   std::string GetDrawing() const;
-
-  ///@{
-  /**
-   * Whether the statistics have a last line with GetDrawing(). Default off. Takes effect at the
-   * next frame or Render().
-   */
-  vtkSetMacro(ShowDrawing, bool);
-  vtkGetMacro(ShowDrawing, bool);
-  vtkBooleanMacro(ShowDrawing, bool);
-  ///@}
 
   ///@{
   /**
@@ -217,7 +200,7 @@ public:
 
   /**
    * Makes a step whenever the interactor's timer fires, in its event loop, until the end of the run
-   * or Pause(). Gives an error if the interactor has no timer.
+   * or Pause(). No timer runs after that. Gives an error if the interactor has no timer.
    */
   void Run();
 
@@ -278,23 +261,15 @@ protected:
   std::string FramePrefix;
 
 private:
-  void MakeScene();
-  void EnterWindow();
-  void LeaveWindow();
   void LookAtMesh();
   void ShowMesh(vtkDataObject* mesh);
-  void Draw();
   void ArrangeTexts();
   std::string DescribeStatus(bool isRunning);
-  bool IsReady();
-  bool HasStarted() const;
   bool BeginIfNeeded();
   void Attach();
   void Detach();
-  void ShowInput();
   bool TakeStep();
   void ShowFrame(int number);
-  void StartTimer();
   bool AwaitStep();
   void OnTimer(vtkObject* caller, unsigned long event, void* id);
   bool OnKey(vtkObject* caller, unsigned long event, void* data);
@@ -308,10 +283,10 @@ private:
   vtkNew<vtkScalarBarActor> Scale;
   vtkNew<vtkTextActor> Status;
   vtkNew<vtkTextActor> Keys;
-  int State; ///< Of the mesh that is shown: one of vtkDelaunayFlip::StopReasonType.
   int FrameNumber = -1;
   int TimerId = 0; ///< The timer that makes the next step; 0: none. Others still fire: ignored.
   std::vector<unsigned long> Observers; ///< Tags of the observers of the interactor.
+  bool HasFailed = false; ///< The filter, or its source, in the last step.
   bool IsMeantToRun = false; ///< Run() was called, and no Pause() or Step() since.
   bool IsBusy = false; ///< The filter is executing, or the window is being drawn.
   bool CanWrite = true; ///< False once a frame could not be written.

@@ -18,7 +18,6 @@
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -37,7 +36,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -49,17 +47,18 @@ namespace
 
 constexpr int MostPlanes = 6; ///< As in VTK's own mapper.
 constexpr int Bands = 12; ///< Of colours.
-constexpr const char* NoRun = "there is no live run of one mesh";
+constexpr const char* NoRun = "there is no live run of one mesh of triangles";
 
 /// Places are relative to the centre of the mesh, in units of half its diagonal.
 constexpr const char* VertexShader = R"(//VTK::System::Dec
 in vec3 place;
-uniform mat4 placeToClip;
+uniform mat4 placeToView;
+uniform mat4 viewToClip;
 out vec3 drawnPlace;
 void main()
 {
   drawnPlace = place;
-  gl_Position = placeToClip * vec4(place, 1.0);
+  gl_Position = viewToClip * (placeToView * vec4(place, 1.0));
 }
 )";
 
@@ -68,7 +67,7 @@ void main()
 constexpr const char* FragmentShader = R"(//VTK::System::Dec
 //VTK::Output::Dec
 in vec3 drawnPlace;
-uniform mat4 dataToView;
+uniform mat4 placeToView;
 uniform samplerBuffer places;
 uniform isamplerBuffer corners;
 uniform isamplerBuffer counts;
@@ -76,8 +75,7 @@ uniform int colorBy;     // as in vtkDelaunayFlipMapper
 uniform vec3 plainColor;
 uniform vec3 bands[12];  // colours
 uniform float bandsPerUnit;
-uniform int numberOfPlanes;
-uniform vec4 planes[6];
+uniform vec4 planes[6];  // 0: cuts nothing off
 uniform vec2 light;      // ambient, diffuse
 uniform vec3 edgeColor;
 uniform float edgeWidth; // half of it, in pixels; 0: no edges
@@ -115,9 +113,9 @@ void main()
 {
   vec3 right = dFdx(drawnPlace);
   vec3 up = dFdy(drawnPlace);
-  vec3 normal = cross(mat3(dataToView) * right, mat3(dataToView) * up);
+  vec3 normal = cross(mat3(placeToView) * right, mat3(placeToView) * up);
   float size = length(normal);
-  for (int i = 0; i < numberOfPlanes; ++i)
+  for (int i = 0; i < 6; ++i)
   {
     if (dot(planes[i], vec4(drawnPlace, 1.0)) < 0.0)
     {
@@ -169,15 +167,6 @@ void FillTable(vtkLookupTable* table, double largestCount)
   table->SetRange(0.0, isOfAngles ? 60.0 : 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0));
 }
 
-/// OpenGL has the columns of a matrix one after the other.
-void SetProduct(vtkShaderProgram* program, const char* name, vtkMatrix4x4* a, vtkMatrix4x4* b)
-{
-  vtkNew<vtkMatrix4x4> product;
-  vtkMatrix4x4::Multiply4x4(a, b, product);
-  product->Transpose();
-  program->SetUniformMatrix(name, product);
-}
-
 /// Values of four bytes, which the shader reads as a texture.
 struct ShaderBuffer
 {
@@ -213,9 +202,8 @@ struct vtkDelaunayFlipMapper::Parts
   vtkSmartPointer<vtkDelaunayFlip> Filter;
   vtkMTimeType InputTime = 0;
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< Of the input.
-  vtkNew<vtkTypeInt32Array> Ids; ///< Of the corners of the faces.
+  vtkNew<vtkTypeInt32Array> Ids; ///< Of the corners of the triangles that the host has last had.
   vtkBoundingBox Box; ///< Of the points that triangles use; not valid if nothing can be drawn.
-  double SmallestAngle = -1.0; ///< Of the faces; less than 0: not measured yet.
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That of the buffers.
   ShaderBuffer Places, Corners, Counts;
@@ -227,7 +215,7 @@ struct vtkDelaunayFlipMapper::Parts
 
   std::unique_ptr<BufferFiller> Filler; ///< Null: the host fills.
   std::string Obstacle = NoRun; ///< Why the host fills.
-  bool MayTryDevice = true;
+  bool MayUseDevice = true; ///< It has not failed since the host has got a mesh.
   bool IsBehind = true; ///< The buffers hold an earlier mesh.
   bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
   bool ByFlipCount = false; ///< What colours show.
@@ -244,7 +232,9 @@ struct vtkDelaunayFlipMapper::Parts
   }
 
   /// The faces are a copy of the mesh, which shares arrays, if its polygons are triangles, as in
-  /// outputs of the filter. Otherwise polygons and strips are split into triangles.
+  /// outputs of the filter. Otherwise polygons and strips are split into triangles. Nothing can be
+  /// drawn if one names a point that does not exist: the mesh may be one that no filter has
+  /// checked.
   void ReadFaces(vtkPolyData* mesh)
   {
     this->Faces = vtkSmartPointer<vtkPolyData>::New();
@@ -261,13 +251,6 @@ struct vtkDelaunayFlipMapper::Parts
       this->Faces = split->GetOutput();
     }
     this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
-    this->FindBounds();
-  }
-
-  /// There are none if a triangle names a point that does not exist: the mesh may be one that no
-  /// filter has checked.
-  void FindBounds()
-  {
     this->Box.Reset();
     std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
     for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
@@ -326,10 +309,8 @@ struct vtkDelaunayFlipMapper::Parts
       buffer->Release(window);
     }
     this->Array->ReleaseGraphicsResources();
-    this->Obstacle = NoRun;
     this->PointsTime = 0;
     this->IsBehind = true;
-    this->MayTryDevice = true;
   }
 
   void UploadPoints()
@@ -360,45 +341,21 @@ struct vtkDelaunayFlipMapper::Parts
     this->Places.Values->Upload(places, Buffer::ArrayBuffer);
   }
 
-  /// CUDA is tried once for every mesh that the host has got. If the filter fails, its session is
-  /// gone, but the mesh in the buffers stays.
-  void ChooseFiller(const FlipSession* session, bool allowsDevice)
+  /// Brings the buffers of triangles and, if colours show them, of flip counts up to date. If the
+  /// filter has failed, its session is gone, but the mesh in the buffers stays.
+  void Fill(const FlipSession* session, bool allowsDevice)
   {
     if (!session || !allowsDevice)
     {
-      const bool hasOther = this->Filter && this->Filter->GetSession();
-      this->Obstacle = session ? "ZeroCopy is off"
-        : hasOther             ? "the mesh has other cells than triangles"
-                               : NoRun;
-      this->MayTryDevice = true;
       this->Filler.reset();
+      this->Obstacle = session ? "ZeroCopy is off" : NoRun;
     }
-    else if (!this->Filler && std::exchange(this->MayTryDevice, false))
+    else if (!this->Filler && this->MayUseDevice)
     {
-      try
-      {
-        this->Filler = DeviceFillerMaker(
-          this->Filter, static_cast<unsigned int>(this->Corners.Values->GetHandle()), this->Count);
-        this->IsNew = true;
-      }
-      catch (const std::exception& error)
-      {
-        this->Obstacle = error.what();
-      }
+      this->Filler = DeviceFillerMaker(
+        this->Filter, static_cast<unsigned int>(this->Corners.Values->GetHandle()));
+      this->IsNew = true;
     }
-  }
-
-  /// Does without the filler that has failed.
-  void Abandon(const std::exception& error)
-  {
-    this->Filler.reset();
-    this->Obstacle = error.what();
-    this->IsBehind = true;
-  }
-
-  /// Brings the buffers of triangles and, if colours show them, of flip counts up to date.
-  void Fill(const FlipSession* session)
-  {
     if (this->IsBehind)
     {
       this->Filler ? this->Filler->Fill(*session, std::exchange(this->IsNew, false))
@@ -415,17 +372,23 @@ struct vtkDelaunayFlipMapper::Parts
     }
   }
 
+  /// Does without the device, which has failed.
+  void Abandon(const std::exception& error)
+  {
+    this->Filler.reset();
+    this->Obstacle = error.what();
+    this->MayUseDevice = false;
+    this->IsBehind = true;
+  }
+
   void UploadTriangles(const FlipSession* session)
   {
-    vtkNew<vtkTypeInt32Array> ids;
     if (session)
     {
-      ids->SetNumberOfValues(3 * this->Count);
-      session->StoreTriangles(MutableTriangleArray(ids->GetPointer(0), this->Count));
+      session->StoreTriangles(MutableTriangleArray(this->Ids->GetPointer(0), this->Count));
     }
-    const std::int32_t* first = session ? ids->GetPointer(0) : this->Ids->GetPointer(0);
-    this->Corners.Values->Upload(
-      first, static_cast<std::size_t>(3 * this->Count), Buffer::ElementArrayBuffer);
+    this->Corners.Values->Upload(this->Ids->GetPointer(0),
+      static_cast<std::size_t>(3 * this->Count), Buffer::ElementArrayBuffer);
   }
 
   void UploadFlipCounts(const FlipSession* session)
@@ -486,13 +449,10 @@ vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper()
 
 void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
 {
-  if (this->Own->Filter != filter)
-  {
-    this->Own->Filter = filter;
-    this->Own->IsNew = true;
-    this->EndStep();
-    this->Modified();
-  }
+  this->Own->Filter = filter;
+  this->Own->IsNew = true;
+  this->EndStep();
+  this->Modified();
 }
 
 vtkDelaunayFlip* vtkDelaunayFlipMapper::GetFilter() const { return this->Own->Filter; }
@@ -512,21 +472,16 @@ vtkIdType vtkDelaunayFlipMapper::GetNumberOfTriangles()
 double vtkDelaunayFlipMapper::GetSmallestAngle()
 {
   this->ReadInput();
-  if (const FlipSession* session = this->Own->FindSession())
+  vtkNew<vtkDoubleArray> coordinates;
+  TriangleMesh mesh;
+  if (this->Own->Box.IsValid())
   {
-    return session->GetReport().MinimumAngleAfter;
-  }
-  if (this->Own->SmallestAngle < 0.0)
-  {
-    vtkNew<vtkDoubleArray> coordinates;
     coordinates->DeepCopy(this->Own->Faces->GetPoints()->GetData());
-    TriangleMesh mesh;
     mesh.Points = PointArray(coordinates->GetPointer(0), coordinates->GetNumberOfTuples());
     mesh.Triangles =
       TriangleArray(this->Own->Ids->GetPointer(0), this->Own->Faces->GetNumberOfPolys());
-    this->Own->SmallestAngle = MinimumAngle(mesh, GeometryKind::Surface);
   }
-  return this->Own->SmallestAngle;
+  return MinimumAngle(mesh, GeometryKind::Surface);
 }
 
 std::string vtkDelaunayFlipMapper::GetDrawing() const
@@ -538,17 +493,16 @@ std::string vtkDelaunayFlipMapper::GetDrawing() const
 void vtkDelaunayFlipMapper::BeginStep()
 {
   const vtkSmartPointer<vtkOpenGLRenderWindow> window = this->Own->Window.Get();
-  if (!this->Own->Filler || !window)
-  {
-    return;
-  }
   try
   {
-    if (!window->IsCurrent()) // else a context may be flushed for nothing
+    if (this->Own->Filler && window)
     {
-      window->MakeCurrent();
+      if (!window->IsCurrent()) // else a context may be flushed for nothing
+      {
+        window->MakeCurrent();
+      }
+      this->Own->Filler->Map();
     }
-    this->Own->Filler->Map();
   }
   catch (const std::exception& error)
   {
@@ -566,8 +520,7 @@ void vtkDelaunayFlipMapper::ReadInput()
   if (std::exchange(own.InputTime, time) != time)
   {
     own.ReadFaces(input);
-    own.SmallestAngle = own.Box.IsValid() ? -1.0 : std::numeric_limits<double>::quiet_NaN();
-    own.MayTryDevice = true;
+    own.MayUseDevice = true;
     own.IsNew = true;
     this->EndStep();
   }
@@ -601,8 +554,7 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
   }
   try
   {
-    own.ChooseFiller(session, this->ZeroCopy);
-    own.Fill(session);
+    own.Fill(session, this->ZeroCopy);
     // The table changes only if it must, since VTK then makes the scale anew.
     const double kind = own.ByFlipCount ? own.LargestCount : -1.0;
     if (std::exchange(own.TableKind, kind) != kind)
@@ -613,7 +565,7 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
   }
   catch (const std::exception& error)
   {
-    const bool wasOnDevice = own.Filler != nullptr;
+    const bool wasOnDevice = own.MayUseDevice;
     own.Abandon(error);
     return wasOnDevice && this->Prepare(window); // from the host
   }
@@ -648,16 +600,14 @@ void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   {
     return;
   }
-  vtkShaderProgram* program =
-    window->GetShaderCache()->ReadyShaderProgram(VertexShader, FragmentShader, "");
-  if (!program)
+  // Null, and VTK gives an error, if OpenGL does not compile it.
+  if (auto* program =
+        window->GetShaderCache()->ReadyShaderProgram(VertexShader, FragmentShader, ""))
   {
-    vtkErrorMacro("OpenGL does not compile the shader.");
-    return;
+    this->SetPlaces(program, renderer, actor->GetMatrix());
+    this->SetColors(program, actor->GetProperty());
+    this->Own->Draw(program);
   }
-  this->SetPlaces(program, renderer, actor->GetMatrix());
-  this->SetColors(program, actor->GetProperty());
-  this->Own->Draw(program);
 }
 
 /// Where the triangles are drawn, and where they are cut off.
@@ -665,18 +615,20 @@ void vtkDelaunayFlipMapper::SetPlaces(
   vtkShaderProgram* program, vtkRenderer* renderer, vtkMatrix4x4* dataToWorld)
 {
   vtkCamera* camera = renderer->GetActiveCamera();
-  vtkMatrix4x4* worldToView = camera->GetModelViewTransformMatrix();
-  vtkNew<vtkMatrix4x4> placeToWorld, placeToView;
+  vtkNew<vtkMatrix4x4> placeToWorld, placeToView, viewToClip;
   for (int axis = 0; axis < 3; ++axis)
   {
     placeToWorld->SetElement(axis, axis, this->Own->Unit);
     placeToWorld->SetElement(axis, 3, this->Own->Center[axis]);
   }
   vtkMatrix4x4::Multiply4x4(dataToWorld, placeToWorld, placeToWorld);
-  vtkMatrix4x4::Multiply4x4(worldToView, placeToWorld, placeToView);
-  SetProduct(program, "dataToView", worldToView, dataToWorld);
-  SetProduct(program, "placeToClip",
-    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0), placeToView);
+  vtkMatrix4x4::Multiply4x4(camera->GetModelViewTransformMatrix(), placeToWorld, placeToView);
+  viewToClip->DeepCopy(
+    camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  placeToView->Transpose(); // OpenGL has the columns of a matrix one after the other
+  viewToClip->Transpose();
+  program->SetUniformMatrix("placeToView", placeToView);
+  program->SetUniformMatrix("viewToClip", viewToClip);
   float planes[MostPlanes][4] = {};
   const int count = std::min(MostPlanes, this->GetNumberOfClippingPlanes());
   for (int i = 0; i < count; ++i)
@@ -685,7 +637,6 @@ void vtkDelaunayFlipMapper::SetPlaces(
     this->GetClippingPlaneInDataCoords(placeToWorld, i, plane);
     std::copy_n(plane, 4, planes[i]);
   }
-  program->SetUniformi("numberOfPlanes", count);
   program->SetUniform4fv("planes", MostPlanes, planes);
 }
 
@@ -703,9 +654,8 @@ void vtkDelaunayFlipMapper::SetColors(vtkShaderProgram* program, vtkProperty* pr
   }
   program->SetUniform3fv("bands", Bands, bands);
   program->SetUniformf("bandsPerUnit", static_cast<float>(Bands / table->GetRange()[1]));
-  const int colorBy = this->Own->ByFlipCount ? COLOR_BY_FLIP_COUNT
-    : this->ColorBy == COLOR_BY_SOLID        ? COLOR_BY_SOLID
-                                             : COLOR_BY_SMALLEST_ANGLE;
+  const int colorBy =
+    this->Own->ByFlipCount ? COLOR_BY_FLIP_COUNT : std::min<int>(this->ColorBy, 1);
   program->SetUniformi("colorBy", isReadable ? colorBy : COLOR_BY_SOLID);
   program->SetUniform3f("plainColor", property->GetColor());
   const bool isLit = property->GetLighting();

@@ -104,8 +104,8 @@ public:
   ///@}
 
   /**
-   * The smallest angle of the mesh, in degrees; NaN if there is none. It is measured in space, but
-   * that of a run with PLANAR_XY in the projection.
+   * The smallest angle in space, in degrees, of the triangles that the host has last had: those of
+   * the input, or of a run drawn from copies. NaN if there are none. Every call measures it.
    */
   double GetSmallestAngle();
 
@@ -140,9 +140,6 @@ private:
 
   struct Parts;
   std::unique_ptr<Parts> Own;
-
-  vtkDelaunayFlipMapper(const vtkDelaunayFlipMapper&) = delete;
-  void operator=(const vtkDelaunayFlipMapper&) = delete;
 };
 
 #endif

@@ -17,7 +17,7 @@ namespace
 
 TestFiller Plan;
 unsigned int LastBuffer = 0; ///< Of the last filler, as is the count.
-std::int64_t LastCount = 0; ///< Of triangles.
+std::int64_t LastCount = 0; ///< Of triangles that it has written.
 
 /// Counts a call, and lets it fail as planned.
 void Count(int& calls, int failing, const char* message)
@@ -66,6 +66,7 @@ public:
   {
     this->Map();
     Count(Plan.Fills, Plan.FailingFill, "no filling");
+    LastCount = session.GetReport().Triangles;
     this->Own ? this->Own->Fill(session, isNew) : FillFromHost(session);
     Plan.AreMapped = false;
     Count(Plan.Unmaps, Plan.FailingUnmap, "no unmapping");
@@ -84,18 +85,16 @@ private:
   std::unique_ptr<BufferFiller> Own;
 };
 
-std::unique_ptr<BufferFiller> MakeWatchedFiller(
-  vtkDelaunayFlip* filter, unsigned int buffer, std::int64_t triangles)
+std::unique_ptr<BufferFiller> MakeWatchedFiller(vtkDelaunayFlip* filter, unsigned int buffer)
 {
   if (!Plan.Obstacle.empty())
   {
     throw std::runtime_error(Plan.Obstacle);
   }
   LastBuffer = buffer;
-  LastCount = triangles;
   Plan.AreMapped = false;
   return std::make_unique<WatchedFiller>(
-    IsTestBackendCuda() ? MakeCudaFiller(filter, buffer, triangles) : nullptr);
+    IsTestBackendCuda() ? MakeCudaFiller(filter, buffer) : nullptr);
 }
 
 }

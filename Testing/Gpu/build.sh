@@ -2,13 +2,19 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: build.sh BUILD_FOLDER [TARGET...] - used by run.sh and bundle.sh: builds the engine, its
-# tests, the GPU benchmark and more targets; if there is VTK, also the tests of the filter, and the
-# benchmark times it. Writes the real meshes in DELAUNAYFLIP_DATA_DIR (default: as CMake's) to
-# BUILD_FOLDER/meshes, if they and VTK's Python package exist. JOBS: the number of compilers at a
-# time; CUDA_ARCHITECTURES: CMake's list of them.
+# Usage: build.sh [--only] BUILD_FOLDER [TARGET...] - used by run.sh and bundle.sh: builds the
+# engine, its tests, the GPU benchmark and more targets; if there is VTK, also the tests of the
+# filter, and the benchmark times it. Writes the real meshes in DELAUNAYFLIP_DATA_DIR (default: as
+# CMake's) to BUILD_FOLDER/meshes, if they and VTK's Python package exist. With --only builds the
+# GPU benchmark and the targets alone. JOBS: the number of compilers at a time; CUDA_ARCHITECTURES:
+# CMake's list of them.
 set -euo pipefail
 
+only=no
+if [ "$1" = --only ]; then
+  only=yes
+  shift
+fi
 build=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -29,7 +35,9 @@ else
   echo "no VTK found: only the engine will be tested and benchmarked"
   cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=OFF
 fi
+if [ "$only" = yes ]; then targets=(delaunay-flip-gpu-benchmark "${@:2}"); fi
 cmake --build "$build" --parallel "${JOBS:-2}" --target "${targets[@]}"
+if [ "$only" = yes ]; then exit; fi
 
 data=${DELAUNAYFLIP_DATA_DIR:-$(sed -n 's/^DELAUNAYFLIP_DATA_DIR:PATH=//p' "$build/CMakeCache.txt")}
 if [ ! -d "$data" ]; then

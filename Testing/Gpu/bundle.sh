@@ -8,27 +8,29 @@
 # packages: programs, shared libraries that not every Linux has, and real meshes. With --window also
 # what run.sh --window needs, with the neutral part of EGL; with --loader for run.sh --window only,
 # with the C library and its loader too, so that a Debian with a newer VTK can make it for a machine
-# with an older system. Unpack it there and run delaunay-flip-gpu/run.sh. The machine needs an NVIDIA driver, without --loader a C++ runtime
-# not older than this one's, and python3; compute-sanitizer is used if installed. CUDA_ARCHITECTURES chooses other GPUs
-# than the project's default, JOBS the number of compilers at a time.
+# with an older system. Unpack it there and run delaunay-flip-gpu/run.sh. The machine needs an NVIDIA
+# driver, without --loader a C++ runtime not older than this one's, and python3; compute-sanitizer is
+# used if installed. CUDA_ARCHITECTURES chooses other GPUs than the project's default, JOBS the number
+# of compilers at a time.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=$root/build-gpu
-window=() loader=no
+window=() only=()
 if [ "${1:-}" = --window ]; then
   window=(DelaunayFlipWindowTests delaunay-flip-window-benchmark SwellingSurface)
   shift
 fi
 if [ "${1:-}" = --loader ]; then
-  loader=yes
+  only=(--only)
   shift
 fi
 output=${1:-delaunay-flip-gpu.tar.gz}
 programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
   delaunay-flip-point-benchmark delaunay-flip-fuzz-points
   delaunayflip-c-device-test "${window[@]}")
+if [ ${#only[@]} -gt 0 ]; then programs=(delaunay-flip-gpu-benchmark "${window[@]}"); fi
 
 # Usage: carry_loader FOLDER - in place of every program a script that runs it by this machine's
 # loader, with this machine's libraries. They are not in libs/, where the shell would find them.
@@ -71,14 +73,18 @@ fill()
   } | while read -r library; do
     strip -o "$folder/libs/$(basename "$library")" "$(readlink -f "$library")"
   done
-  cp "$here/run.sh" "$here/summarize.py" "$here/test_device_arrays.py" \
-    "$here/../Python/lattice.py" "$here/../Benchmarks/compare.py" "$root/LICENSE" "$folder/"
-  cp -r "$root/Python/delaunayflip" "$folder/"
-  cp -L "$build/lib/libdelaunayflip.so.1" "$folder/delaunayflip/"
-  if [ -d "$build/meshes" ]; then
-    cp -r "$build/meshes" "$folder/"
+  cp "$here/run.sh" "$here/summarize.py" "$root/LICENSE" "$folder/"
+  if [ ${#only[@]} -gt 0 ]; then
+    carry_loader "$folder"
+  else
+    cp "$here/test_device_arrays.py" "$here/../Python/lattice.py" "$here/../Benchmarks/compare.py" \
+      "$folder/"
+    cp -r "$root/Python/delaunayflip" "$folder/"
+    cp -L "$build/lib/libdelaunayflip.so.1" "$folder/delaunayflip/"
+    if [ -d "$build/meshes" ]; then
+      cp -r "$build/meshes" "$folder/"
+    fi
   fi
-  if [ "$loader" = yes ]; then carry_loader "$folder"; fi
   cat >"$folder/BUILD.txt" <<END
 commit: $(git -C "$root" describe --always --dirty 2>/dev/null || echo unknown)
 built: $(date -u +%Y-%m-%dT%H:%MZ) with $(c++ --version | head -n 1)
@@ -86,11 +92,11 @@ CUDA architectures: $architectures
 END
 }
 
-"$here/build.sh" "$build" "${window[@]}"
+"$here/build.sh" "${only[@]}" "$build" "${window[@]}"
 # Not in the cache if it is the project's default.
 architectures=$(sed -n 's/^CMAKE_CUDA_ARCHITECTURES:[A-Z]*=//p' "$build/CMakeCache.txt")
 architectures=${architectures:-the default of the project}
-if [ -x "$build/bin/DelaunayFlipCxxTests" ]; then
+if [ ${#only[@]} -eq 0 ] && [ -x "$build/bin/DelaunayFlipCxxTests" ]; then
   programs+=(DelaunayFlipCxxTests)
 fi
 

@@ -62,18 +62,19 @@ output=$(cd "$output" && pwd)
     gpus-in-turn.* sanitizer-*.log points-*.log {c,python}-device-arrays.log window-*.{json,log}
 )
 
-if [ -x "$here/DelaunayFlipGpuTests" ]; then
+if [ -e "$here/BUILD.txt" ]; then
   programs=$here
   package=$here
   meshes=$here/meshes
   export LD_LIBRARY_PATH=$here/libs${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 else
   build=$(cd "$here/../.." && pwd)/build-gpu
-  more=()
   if [ "$window" = yes ]; then
-    more=(DelaunayFlipWindowTests delaunay-flip-window-benchmark SwellingSurface)
+    "$here/build.sh" --only "$build" DelaunayFlipWindowTests delaunay-flip-window-benchmark \
+      SwellingSurface
+  else
+    "$here/build.sh" "$build"
   fi
-  "$here/build.sh" "$build" "${more[@]}"
   programs=$build/bin
   package=$(dirname "$(find "$build" -path '*/dist-packages/delaunayflip' -print -quit)"):$here/../Python
   meshes=$build/meshes
