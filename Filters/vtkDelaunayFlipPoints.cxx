@@ -367,7 +367,7 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   using Asked = vtkStreamingDemandDrivenPipeline;
   if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0 && block.Size > 0.0)
   {
-    throw InvalidMesh("points are on several ranks; gather them on the first one, by "
+    throw InvalidMesh("points are in several pieces; gather them in the first one, by "
                       "Redistribute DataSet with one partition in ParaView",
       -1, -1);
   }
