@@ -14,6 +14,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -256,6 +257,63 @@ struct Observers
   FlipObserver Iteration;
 };
 
+/// Calls visit(member, the report's) for the numbers that a C struct and a report have in common.
+template <typename Struct, typename Report, typename Visit>
+void ForEachNumber(Struct& c, Report& report, const Visit& visit)
+{
+  visit(c.total_flips, report.TotalFlips);
+  visit(c.total_excluded, report.TotalExcluded);
+  visit(c.total_blocked, report.TotalBlocked);
+  visit(c.non_delaunay_before, report.NonDelaunayBefore);
+  visit(c.non_delaunay_after, report.NonDelaunayAfter);
+  visit(c.blocked_by_shape, report.BlockedByShape);
+  visit(c.blocked_by_edge, report.BlockedByEdge);
+  visit(c.minimum_angle_before, report.MinimumAngleBefore);
+  visit(c.minimum_angle_after, report.MinimumAngleAfter);
+  visit(c.build_seconds, report.BuildSeconds);
+  visit(c.flip_seconds, report.FlipSeconds);
+  visit(c.number_of_points, report.Points);
+  visit(c.number_of_triangles, report.Triangles);
+  visit(c.edges, report.Edges.Edges);
+  visit(c.boundary_edges, report.Edges.Boundary);
+  visit(c.non_manifold_edges, report.Edges.NonManifold);
+  visit(c.wrongly_wound_edges, report.Edges.WronglyWound);
+  visit(c.feature_edges, report.Edges.Feature);
+  visit(c.constraint_edges, report.Edges.Constraint);
+  visit(c.region_edges, report.Edges.Region);
+  visit(c.fixed_edges, report.Edges.Fixed);
+  visit(c.unmatched_constraints, report.UnmatchedConstraints);
+  visit(c.inserted_constraints, report.InsertedConstraints);
+  visit(c.constraint_flips, report.ConstraintFlips);
+  visit(c.euler_characteristic, report.EulerCharacteristic);
+  visit(c.points_not_finite, report.FromPoints.NotFinite);
+  visit(c.points_repeated, report.FromPoints.Repeated);
+  visit(c.points_too_near, report.FromPoints.TooNear);
+  visit(c.segment_edges, report.FromPoints.SegmentEdges);
+  visit(c.segments_refused, report.FromPoints.RefusedSegments);
+  visit(c.crossings, report.FromPoints.Crossings);
+  visit(c.largest_shift, report.FromPoints.LargestShift);
+  visit(c.triangles_outside, report.FromPoints.OutsideTriangles);
+  visit(c.triangles_large, report.FromPoints.LargeTriangles);
+  visit(c.keeps_sliver, report.KeepsSliver);
+  visit(c.blocked_by_deviation, report.BlockedByDeviation);
+}
+
+/// A report with the numbers of a C struct, for Summarize.
+inline FlipReport ToReport(const delaunayflip_report* given)
+{
+  const delaunayflip_report c = Complete(given, delaunayflip_report_init);
+  FlipReport report;
+  ForEachNumber(c, report,
+    [](const auto& number, auto& known)
+    { known = static_cast<std::decay_t<decltype(known)>>(number); });
+  report.GeometryUsed = ToEnumeration(c.geometry_used, GeometryKind::Mixed, "geometry");
+  report.GeometryReason = c.geometry_reason ? c.geometry_reason : "";
+  report.StopReason = ToEnumeration(c.stop_reason, StopReasonKind::Running, "stop_reason");
+  report.Iterations.resize(c.number_of_iterations);
+  return report;
+}
+
 /// A report, kept for the C struct that points to its strings.
 class KeptReport
 {
@@ -285,6 +343,7 @@ public:
     const FlipReport& report = this->Report;
     delaunayflip_report c;
     delaunayflip_report_init(&c);
+    ForEachNumber(c, report, [](auto& number, const auto& known) { number = known; });
     c.geometry_used = static_cast<std::int32_t>(report.GeometryUsed);
     c.geometry_reason = report.GeometryReason.c_str();
     c.backend = report.Backend.c_str();
@@ -293,42 +352,6 @@ public:
     c.defects = this->Defects.c_str();
     c.stop_reason = static_cast<std::int32_t>(report.StopReason);
     c.number_of_iterations = static_cast<std::int64_t>(report.Iterations.size());
-    c.total_flips = report.TotalFlips;
-    c.total_excluded = report.TotalExcluded;
-    c.total_blocked = report.TotalBlocked;
-    c.non_delaunay_before = report.NonDelaunayBefore;
-    c.non_delaunay_after = report.NonDelaunayAfter;
-    c.blocked_by_shape = report.BlockedByShape;
-    c.blocked_by_edge = report.BlockedByEdge;
-    c.minimum_angle_before = report.MinimumAngleBefore;
-    c.minimum_angle_after = report.MinimumAngleAfter;
-    c.build_seconds = report.BuildSeconds;
-    c.flip_seconds = report.FlipSeconds;
-    c.number_of_points = report.Points;
-    c.number_of_triangles = report.Triangles;
-    c.edges = report.Edges.Edges;
-    c.boundary_edges = report.Edges.Boundary;
-    c.non_manifold_edges = report.Edges.NonManifold;
-    c.wrongly_wound_edges = report.Edges.WronglyWound;
-    c.feature_edges = report.Edges.Feature;
-    c.constraint_edges = report.Edges.Constraint;
-    c.region_edges = report.Edges.Region;
-    c.fixed_edges = report.Edges.Fixed;
-    c.unmatched_constraints = report.UnmatchedConstraints;
-    c.inserted_constraints = report.InsertedConstraints;
-    c.constraint_flips = report.ConstraintFlips;
-    c.euler_characteristic = report.EulerCharacteristic;
-    c.points_not_finite = report.FromPoints.NotFinite;
-    c.points_repeated = report.FromPoints.Repeated;
-    c.points_too_near = report.FromPoints.TooNear;
-    c.segment_edges = report.FromPoints.SegmentEdges;
-    c.segments_refused = report.FromPoints.RefusedSegments;
-    c.crossings = report.FromPoints.Crossings;
-    c.largest_shift = report.FromPoints.LargestShift;
-    c.triangles_outside = report.FromPoints.OutsideTriangles;
-    c.triangles_large = report.FromPoints.LargeTriangles;
-    c.keeps_sliver = report.KeepsSliver ? 1 : 0;
-    c.blocked_by_deviation = report.BlockedByDeviation;
     c.size = target.size;
     std::memcpy(&target, &c, std::min(sizeof(c), static_cast<std::size_t>(target.size)));
   }

@@ -385,6 +385,18 @@ extern "C"
       });
   }
 
+  delaunayflip_status delaunayflip_summarize(const delaunayflip_report* report, const char** text)
+  {
+    return Try(
+      [=]()
+      {
+        Require(text, "text is null");
+        thread_local std::string kept;
+        kept = Summarize(ToReport(report));
+        *text = kept.c_str();
+      });
+  }
+
   delaunayflip_status delaunayflip_get_iterations(delaunayflip_session* session, std::int64_t first,
     std::int64_t count, delaunayflip_iteration* records, std::int64_t record_size)
   {
@@ -482,33 +494,6 @@ extern "C"
             view.Triangles.Get(t, 2) };
           TriangleNormal(view.Points, ids, normals + 3 * t);
         }
-      });
-  }
-
-  delaunayflip_status delaunayflip_find_geometry(
-    const delaunayflip_mesh* mesh, const delaunayflip_options* options, std::int32_t* geometry)
-  {
-    return Try(
-      [=]()
-      {
-        Require(geometry, "geometry is null");
-        *geometry = static_cast<std::int32_t>(FindGeometry(ToMesh(mesh), ToOptions(options)));
-      });
-  }
-
-  delaunayflip_status delaunayflip_find_fixed_edges(const delaunayflip_mesh* mesh,
-    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
-    std::int64_t* pairs, std::int64_t* count)
-  {
-    return Try(
-      [=]()
-      {
-        Require(count, "count is null");
-        const std::vector<std::int64_t> ids =
-          FindFixedEdges(ToMesh(mesh), ToOptions(options), Observers(callbacks).Progress);
-        Require(pairs || ids.empty(), "pairs is null");
-        std::copy(ids.begin(), ids.end(), pairs);
-        *count = static_cast<std::int64_t>(ids.size()) / 2;
       });
   }
 

@@ -118,7 +118,8 @@ extern "C"
     DELAUNAYFLIP_GEOMETRY_AUTO = 0, /**< Planar, else planar-xy for terrain, else surface. */
     DELAUNAYFLIP_GEOMETRY_PLANAR = 1, /**< In the plane of the points; an error if there is none. */
     DELAUNAYFLIP_GEOMETRY_PLANAR_XY = 2, /**< By x and y; z has no effect. */
-    DELAUNAYFLIP_GEOMETRY_SURFACE = 3 /**< In space. */
+    DELAUNAYFLIP_GEOMETRY_SURFACE = 3, /**< In space. */
+    DELAUNAYFLIP_GEOMETRY_MIXED = 4 /**< For delaunayflip_summarize; no option. */
   } delaunayflip_geometry;
 
   typedef enum
@@ -349,6 +350,11 @@ extern "C"
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_get_report(
     delaunayflip_session* session, delaunayflip_report* report);
 
+  /** What was done, in lines of a title, ": " and a text; "" without triangles. `report` may be a
+   * sum over several meshes. `*text` is valid until this thread's next call. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_summarize(
+    const delaunayflip_report* report, const char** text);
+
   /** Copies the records of iterations first + 1 .. first + count to `records`, which has room for
    * `count` of them, each of `record_size` bytes: sizeof(delaunayflip_iteration). `first` + `count`
    * must not exceed the report's number_of_iterations. */
@@ -395,21 +401,6 @@ extern "C"
    * numbers; 0, 0, 0 for a triangle without area. */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_triangle_normals(
     const delaunayflip_mesh* mesh, double* normals);
-
-  /** The geometry in which a run with these options judges edges, to `*geometry`:
-   * options->geometry, or what AUTO chooses. `options` may be null. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_find_geometry(
-    const delaunayflip_mesh* mesh, const delaunayflip_options* options, int32_t* geometry);
-
-  /** Finds the edges with two triangles that never flip in a run with these options, and writes
-   * them as pairs of point ids to `pairs`, which has room for 3 * number_of_triangles integers; how
-   * many there are to `*count`. To keep exactly these edges after points have been moved, pass them
-   * as constraint edges, with a feature angle of 180, to a run over the same or the flipped
-   * triangles. If `progress` of `callbacks` returns 0 the call fails with DELAUNAYFLIP_STOPPED.
-   * `options` and `callbacks` may be null. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_find_fixed_edges(const delaunayflip_mesh* mesh,
-    const delaunayflip_options* options, const delaunayflip_callbacks* callbacks, int64_t* pairs,
-    int64_t* count);
 
   /** Polygon i has the corners corners[offsets[i]] .. corners[offsets[i + 1] - 1], ids of points.
    */

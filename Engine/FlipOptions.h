@@ -28,7 +28,8 @@ enum class GeometryKind
   Auto,
   Planar, ///< In the plane of the points, in any orientation; an error if there is none.
   PlanarXY, ///< By x and y alone, for terrain.
-  Surface ///< In space, by opposite-angle sums.
+  Surface, ///< In space, by opposite-angle sums.
+  Mixed ///< Of several meshes (AddReport); no option.
 };
 
 /// How an edge is judged.

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipReport.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -31,7 +34,7 @@ const char* ToString(StopReasonKind reason)
 
 const char* ToString(GeometryKind geometry)
 {
-  constexpr const char* Names[] = { "auto", "planar", "planar-xy", "surface" };
+  constexpr const char* Names[] = { "auto", "planar", "planar-xy", "surface", "mixed" };
   return GetName(Names, geometry);
 }
 
@@ -104,6 +107,239 @@ std::string DescribeDefects(const std::vector<Defect>& defects)
     text += defect.FirstIds.empty() ? "" : ")";
   }
   return text;
+}
+
+//------------------------------------------------------------------------------
+void AddDefect(const Defect& defect, std::vector<Defect>& defects)
+{
+  const auto known = std::find_if(
+    defects.begin(), defects.end(), [&](const Defect& other) { return other.What == defect.What; });
+  if (known != defects.end())
+  {
+    known->Count += defect.Count;
+  }
+  else if (defect.Count > 0)
+  {
+    defects.push_back(defect);
+  }
+}
+
+void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor)
+{
+  for (const auto kind : EdgeKinds)
+  {
+    sum.*kind += factor * part.*kind;
+  }
+}
+
+void AddTotals(FlipReport& sum, const FlipReport& part)
+{
+  for (const auto total : ReportTotals)
+  {
+    sum.*total += part.*total;
+  }
+  AddCounts(sum.Edges, part.Edges, 1);
+  if (part.Triangles > 0)
+  {
+    sum.MinimumAngleBefore = std::fmin(sum.MinimumAngleBefore, part.MinimumAngleBefore);
+    sum.MinimumAngleAfter = std::fmin(sum.MinimumAngleAfter, part.MinimumAngleAfter);
+  }
+  for (const auto text : ReportTexts)
+  {
+    const std::string listed = ", " + sum.*text + ", ";
+    if (!(part.*text).empty() && listed.find(", " + part.*text + ", ") == std::string::npos)
+    {
+      sum.*text += ((sum.*text).empty() ? "" : ", ") + part.*text;
+    }
+  }
+  for (const Defect& defect : part.Defects)
+  {
+    AddDefect({ defect.What, defect.Count, {} }, sum.Defects);
+  }
+}
+
+namespace
+{
+
+/// Whether a mesh has a smallest angle: some triangle has no coordinate that is NaN.
+bool HasAngles(const FlipReport& report)
+{
+  return report.Triangles > 0 && !std::isnan(report.MinimumAngleBefore);
+}
+
+std::vector<IterationRecord> JoinIterations(const FlipReport& a, const FlipReport& b)
+{
+  using Row = IterationRecord;
+  std::vector<Row> rows(std::max(a.Iterations.size(), b.Iterations.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    rows[i].Iteration = static_cast<std::int64_t>(i) + 1;
+    rows[i].MinimumAngle = std::numeric_limits<double>::infinity();
+    for (const FlipReport* report : { &a, &b })
+    {
+      const bool isMade = i < report->Iterations.size();
+      if (isMade)
+      {
+        for (const auto count :
+          { &Row::Tested, &Row::NonDelaunay, &Row::Flipped, &Row::Excluded, &Row::Blocked })
+        {
+          rows[i].*count += report->Iterations[i].*count;
+        }
+        rows[i].Seconds += report->Iterations[i].Seconds;
+      }
+      if (HasAngles(*report))
+      {
+        // A mesh that made fewer iterations keeps its last angle. NaN stands for unknown.
+        const double angle =
+          isMade ? report->Iterations[i].MinimumAngle : report->MinimumAngleAfter;
+        const double least = rows[i].MinimumAngle;
+        rows[i].MinimumAngle =
+          std::isnan(angle) || std::isnan(least) ? angle + least : std::min(angle, least);
+      }
+    }
+  }
+  return rows;
+}
+
+}
+
+void AddReport(FlipReport& sum, const FlipReport& other)
+{
+  sum.Iterations = JoinIterations(sum, other);
+  if (sum.Triangles == 0)
+  {
+    sum.MinimumAngleBefore = sum.MinimumAngleAfter = std::numeric_limits<double>::quiet_NaN();
+  }
+  AddTotals(sum, other);
+  sum.BuildSeconds += other.BuildSeconds;
+  sum.FlipSeconds += other.FlipSeconds;
+  sum.KeepsSliver = sum.KeepsSliver || other.KeepsSliver;
+  if (sum.GeometryUsed == GeometryKind::Auto)
+  {
+    sum.GeometryUsed = other.GeometryUsed;
+  }
+  else if (other.GeometryUsed != GeometryKind::Auto && other.GeometryUsed != sum.GeometryUsed)
+  {
+    sum.GeometryUsed = GeometryKind::Mixed;
+  }
+  using Found = PointCounts;
+  for (const auto count : { &Found::NotFinite, &Found::Repeated, &Found::TooNear,
+         &Found::SegmentEdges, &Found::RefusedSegments, &Found::Crossings, &Found::OutsideTriangles,
+         &Found::LargeTriangles })
+  {
+    sum.FromPoints.*count += other.FromPoints.*count;
+  }
+  sum.FromPoints.LargestShift =
+    std::max(sum.FromPoints.LargestShift, other.FromPoints.LargestShift);
+  using Reason = StopReasonKind;
+  for (const Reason worse :
+    { Reason::Aborted, Reason::IterationLimit, Reason::Running, Reason::Converged })
+  {
+    if (sum.StopReason == worse || other.StopReason == worse)
+    {
+      sum.StopReason = worse;
+      break;
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+std::string Count(std::int64_t number, const std::string& singular)
+{
+  std::string text = std::to_string(number);
+  for (std::size_t end = text.size(); end > 3; end -= 3)
+  {
+    text.insert(end - 3, ",");
+  }
+  return text + (singular.empty() ? "" : " ") + singular +
+    (number == 1 || singular.empty() ? "" : "s");
+}
+
+namespace
+{
+
+std::string Degrees(double angle)
+{
+  std::ostringstream text;
+  text << std::setprecision(4) << angle;
+  return angle == angle ? text.str() : "none";
+}
+
+/// " (1,000 boundary, 6 constraints)"; kinds of which there are none are left out.
+std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kinds)
+{
+  std::string text;
+  for (const auto& [kind, count] : kinds)
+  {
+    text += count > 0 ? (text.empty() ? " (" : ", ") + Count(count, "") + " " + kind : "";
+  }
+  return text + (text.empty() ? "" : ")");
+}
+
+/// What to change if more than a tenth of the inner edges, or one of the worst slivers, stay
+/// because the user wants it so.
+std::string Advise(const FlipReport& report)
+{
+  const EdgeCounts& edges = report.Edges;
+  const std::int64_t inner = edges.Edges - edges.Boundary;
+  const std::int64_t kept = edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound;
+  const bool isFromPoints = report.GeometryReason.rfind("points are triangulated", 0) == 0;
+  if ((10 * kept <= inner && !report.KeepsSliver) || isFromPoints)
+  {
+    return "";
+  }
+  const std::pair<std::int64_t, const char*> remedies[] = { { edges.Region, "fewer regions" },
+    { edges.Feature, "a larger feature angle" }, { edges.Constraint, "fewer constraints" } };
+  const auto most = std::max_element(std::begin(remedies), std::end(remedies),
+    [](const auto& one, const auto& other) { return one.first < other.first; });
+  const std::string what = 10 * kept > inner
+    ? std::to_string(100 * kept / inner) + " % of the inner edges are kept; with "
+    : "an edge is kept at one of the ten triangles with the smallest angles; with ";
+  return "hint: " + what + most->second + " more can flip\n";
+}
+
+/// A line, or nothing if there are no constraints.
+std::string DescribeConstraints(const FlipReport& flip)
+{
+  if (flip.Edges.Constraint + flip.UnmatchedConstraints == 0)
+  {
+    return {};
+  }
+  std::string text = "constraints: " + Count(flip.Edges.Constraint, "edge") + " kept";
+  if (flip.InsertedConstraints > 0)
+  {
+    text += ", " + Count(flip.InsertedConstraints, "") + " inserted by " +
+      Count(flip.ConstraintFlips, "flip");
+  }
+  return text + ", " + Count(flip.UnmatchedConstraints, "") + " not in the mesh\n";
+}
+
+}
+
+std::string Summarize(const FlipReport& report)
+{
+  if (report.Triangles == 0)
+  {
+    return "";
+  }
+  const EdgeCounts& edges = report.Edges;
+  const std::string& reason = report.GeometryReason;
+  return "mesh: " + Count(report.Points, "point") + ", " + Count(report.Triangles, "triangle") +
+    ", " + Count(edges.Edges, "edge") + "\nkept edges: " + Count(edges.Fixed, "") +
+    List({ { "boundary", edges.Boundary }, { "non-manifold", edges.NonManifold },
+      { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
+      { "constraints", edges.Constraint }, { "regions", edges.Region } }) +
+    "\n" + Advise(report) + "geometry: " + ToString(report.GeometryUsed) +
+    (reason.empty() ? "" : ": ") + reason + "\n" + DescribeConstraints(report) +
+    "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " +
+    Count(report.NonDelaunayAfter, "") +
+    List({ { "blocked: would duplicate an edge", report.BlockedByEdge },
+      { "blocked: would fold", report.BlockedByShape },
+      { "blocked: would deviate", report.BlockedByDeviation } }) +
+    "\nsmallest angle: " + Degrees(report.MinimumAngleBefore) + " -> " +
+    Degrees(report.MinimumAngleAfter) + " degrees\nflips: " + Count(report.TotalFlips, "") +
+    " in " + Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +
+    ToString(report.StopReason) + "\n";
 }
 
 }

@@ -121,6 +121,21 @@ struct FlipReport
   std::vector<Defect> Defects;
 };
 
+// The members that are summed when reports are joined, and the texts that are listed.
+
+constexpr std::int64_t EdgeCounts::*EdgeKinds[] = { &EdgeCounts::Edges, &EdgeCounts::Boundary,
+  &EdgeCounts::NonManifold, &EdgeCounts::WronglyWound, &EdgeCounts::Feature,
+  &EdgeCounts::Constraint, &EdgeCounts::Region, &EdgeCounts::Fixed };
+
+constexpr std::int64_t FlipReport::*ReportTotals[] = { &FlipReport::Points, &FlipReport::Triangles,
+  &FlipReport::UnmatchedConstraints, &FlipReport::InsertedConstraints, &FlipReport::ConstraintFlips,
+  &FlipReport::EulerCharacteristic, &FlipReport::TotalFlips, &FlipReport::TotalExcluded,
+  &FlipReport::TotalBlocked, &FlipReport::NonDelaunayBefore, &FlipReport::NonDelaunayAfter,
+  &FlipReport::BlockedByShape, &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge };
+
+constexpr std::string FlipReport::*ReportTexts[] = { &FlipReport::GeometryReason,
+  &FlipReport::Tolerance, &FlipReport::Backend, &FlipReport::Fallback };
+
 /// Called on the calling thread for every iteration; returning false aborts the run. Some
 /// iterations run in batches: the first 12 of large planar meshes, and on a GPU up to 128, but no
 /// more than fit into a tenth of a second. The calls for a batch follow at its end, and an abort
@@ -141,7 +156,7 @@ struct RunAborted
 /// "converged", "iteration limit", "aborted", "running" or "not started".
 DELAUNAYFLIP_EXPORT const char* ToString(StopReasonKind reason);
 
-/// "auto", "planar", "planar-xy" or "surface".
+/// "auto", "planar", "planar-xy", "surface" or "mixed".
 DELAUNAYFLIP_EXPORT const char* ToString(GeometryKind geometry);
 
 /// FlipReport::Tolerance of a run with these options in that geometry.
@@ -150,6 +165,28 @@ DELAUNAYFLIP_EXPORT std::string DescribeTolerance(const FlipOptions& options, Ge
 /// The defects as one sentence, e.g. "12 zero-area triangles (first: 3, 8, 11); ..."; empty if
 /// none.
 DELAUNAYFLIP_EXPORT std::string DescribeDefects(const std::vector<Defect>& defects);
+
+/// What was done, in lines of a title, ": " and a text; "" without triangles.
+DELAUNAYFLIP_EXPORT std::string Summarize(const FlipReport& report);
+
+/// E.g. "1,234,567 points"; the number alone without a noun.
+DELAUNAYFLIP_EXPORT std::string Count(std::int64_t number, const std::string& singular = "");
+
+//------------------------------------------------------------------------------
+/// Adds the report of another mesh, flipped after this one. Counts are summed, those of iterations
+/// row by row; the stop reason is the worse of the two, and angles are the smaller ones. Ids of
+/// defects are dropped: they mean nothing outside their mesh.
+DELAUNAYFLIP_EXPORT void AddReport(FlipReport& sum, const FlipReport& other);
+
+/// The same for the members above, the smallest angles and the defects. An angle that is NaN does
+/// not count.
+void AddTotals(FlipReport& sum, const FlipReport& part);
+
+/// @param factor 1 to add, -1 to subtract.
+void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor);
+
+/// Adds a defect, or to the count of the same one. Ids mean nothing outside their rank or part.
+void AddDefect(const Defect& defect, std::vector<Defect>& defects);
 
 }
 

@@ -7,7 +7,6 @@
 #include "ThreadBackend.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 namespace delaunayflip

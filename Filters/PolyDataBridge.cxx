@@ -286,50 +286,6 @@ vtkSmartPointer<vtkCellArray> BuildPolygons(
   return cells;
 }
 
-/// Recomputes the active cell normals of `output` for the triangles that flips have changed. A
-/// normal that pointed against the winding of the old triangle points against that of the new one.
-/// Normals with too few tuples stay as they are.
-void RenewNormals(const PointArray& points, const TriangleSlots& slots, vtkPolyData* output)
-{
-  const vtkSmartPointer<vtkDataArray> normals = CopyNormals(output);
-  if (!normals)
-  {
-    return;
-  }
-  const auto exists = [&](std::int64_t id) { return id >= 0 && id < points.Count; };
-  vtkSMPTools::For(0, slots.GetNumberOfPolygons(),
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      vtkNew<vtkIdList> cell;
-      for (vtkIdType polygon = begin; polygon < end; ++polygon)
-      {
-        const vtkIdType triangle = slots.GetTriangle(polygon);
-        if (triangle == TriangleSlots::None)
-        {
-          continue;
-        }
-        output->GetPolys()->GetCellAtId(polygon, cell);
-        const TriangleArray& old = slots.Triangles;
-        const std::int64_t ids[3] = { cell->GetId(0), cell->GetId(1), cell->GetId(2) };
-        const std::int64_t oldIds[3] = { old.Get(triangle, 0), old.Get(triangle, 1),
-          old.Get(triangle, 2) };
-        // The ids of the input may have been changed.
-        if (!std::all_of(oldIds, oldIds + 3, exists) || std::equal(ids, ids + 3, oldIds))
-        {
-          continue;
-        }
-        double oldNormal[3], normal[3];
-        TriangleNormal(points, oldIds, oldNormal);
-        normals->GetTuple(slots.FirstPolygon + polygon, normal);
-        const double side = vtkMath::Dot(oldNormal, normal) < 0.0 ? -1.0 : 1.0;
-        TriangleNormal(points, ids, normal);
-        vtkMath::MultiplyScalar(normal, side);
-        normals->SetTuple(slots.FirstPolygon + polygon, normal);
-      }
-    });
-  output->GetCellData()->SetNormals(normals);
-}
-
 }
 
 void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output) const
@@ -365,7 +321,15 @@ void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* mesh, vtkPol
       DemoteGlobalIds(data);
     }
   }
-  RenewNormals(this->Points, slots, output);
+  RenewNormals(output,
+    [&slots](vtkIdType polygon, const std::int64_t ids[3])
+    {
+      const vtkIdType triangle = slots.GetTriangle(polygon);
+      const TriangleArray& old = slots.Triangles;
+      return triangle != TriangleSlots::None &&
+        !(old.Get(triangle, 0) == ids[0] && old.Get(triangle, 1) == ids[1] &&
+          old.Get(triangle, 2) == ids[2]);
+    });
 }
 
 void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const
@@ -440,19 +404,42 @@ void DemoteGlobalIds(vtkDataSetAttributes* data)
   }
 }
 
-vtkSmartPointer<vtkDataArray> CopyNormals(vtkPolyData* output)
+void RenewNormals(vtkPolyData* output, const HasChanged& hasChanged)
 {
   vtkDataArray* shared = output->GetCellData()->GetNormals();
   if (!shared || shared->GetNumberOfComponents() != 3 ||
     shared->GetNumberOfTuples() < output->GetNumberOfCells())
   {
-    return nullptr;
+    return;
   }
   // Not its NewInstance, which cannot be written where values are computed.
-  auto normals =
+  const auto normals =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shared->GetDataType()));
   normals->DeepCopy(shared);
-  return normals;
+  std::vector<double> storage;
+  const PointArray points = ViewPoints(output, storage);
+  const vtkIdType first = output->GetNumberOfVerts() + output->GetNumberOfLines();
+  vtkSMPTools::For(0, output->GetNumberOfPolys(),
+    [&](vtkIdType begin, vtkIdType end)
+    {
+      vtkNew<vtkIdList> cell;
+      for (vtkIdType polygon = begin; polygon < end; ++polygon)
+      {
+        output->GetPolys()->GetCellAtId(polygon, cell);
+        std::int64_t ids[3] = { -1, -1, -1 };
+        std::copy_n(cell->begin(), std::min<vtkIdType>(cell->GetNumberOfIds(), 3), ids);
+        const auto exists = [&](std::int64_t id) { return id >= 0 && id < points.Count; };
+        if (std::all_of(ids, ids + 3, exists) && hasChanged(polygon, ids))
+        {
+          double old[3], normal[3];
+          normals->GetTuple(first + polygon, old);
+          TriangleNormal(points, ids, normal);
+          vtkMath::MultiplyScalar(normal, vtkMath::Dot(old, normal) < 0.0 ? -1.0 : 1.0);
+          normals->SetTuple(first + polygon, normal);
+        }
+      }
+    });
+  output->GetCellData()->SetNormals(normals);
 }
 
 }

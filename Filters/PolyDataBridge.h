@@ -17,6 +17,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <tuple>
@@ -129,8 +130,12 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkCellArray> BuildStrips(
 /// If there are pedigree ids already, the array is no attribute any more.
 DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
 
-/// A copy of the active cell normals, to be changed; null if there are none, or too few.
-DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkDataArray> CopyNormals(vtkPolyData* output);
+/// Whether flips have made this polygon of an output, a triangle with these points.
+using HasChanged = std::function<bool(vtkIdType polygon, const std::int64_t ids[3])>;
+
+/// Recomputes the active cell normals of changed triangles. A normal stays on the side of the mesh
+/// to which it pointed. Normals with too few tuples stay as they are.
+DELAUNAYFLIP_EXPORT void RenewNormals(vtkPolyData* output, const HasChanged& hasChanged);
 
 /// Adds a cell array to an output: vtkIntArray for integers, else vtkDoubleArray.
 /// @param values one per triangle. @param elsewhere the value for cells that are not triangles.

@@ -12,12 +12,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <string>
-
 using namespace delaunayflip;
 
 // The enumerators of the engine and of this class have the same values.
-static_assert(static_cast<int>(GeometryKind::Surface) == vtkDelaunayFlip::GEOMETRY_SURFACE, "");
+static_assert(static_cast<int>(GeometryKind::Mixed) == vtkDelaunayFlip::GEOMETRY_MIXED, "");
 static_assert(
   static_cast<int>(CriterionKind::OppositeAngles) == vtkDelaunayFlip::CRITERION_OPPOSITE_ANGLES,
   "");
@@ -33,54 +31,52 @@ void vtkDelaunayFlip::SetConstraintsData(vtkPolyData* constraints)
 
 vtkIdType vtkDelaunayFlip::GetNumberOfConstraintEdges() const
 {
-  return this->GetUpdateReport().Edges.Constraint;
+  return this->GetReport().Edges.Constraint;
 }
 
 vtkIdType vtkDelaunayFlip::GetNumberOfUnmatchedConstraintEdges() const
 {
-  return this->GetUpdateReport().UnmatchedConstraints;
+  return this->GetReport().UnmatchedConstraints;
 }
 
 vtkIdType vtkDelaunayFlip::GetNumberOfInsertedConstraintEdges() const
 {
-  return this->GetUpdateReport().InsertedConstraints;
+  return this->GetReport().InsertedConstraints;
 }
 
 vtkIdType vtkDelaunayFlip::GetNumberOfConstraintFlips() const
 {
-  return this->GetUpdateReport().ConstraintFlips;
+  return this->GetReport().ConstraintFlips;
 }
 
 vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByShape() const
 {
-  return this->GetUpdateReport().BlockedByShape;
+  return this->GetReport().BlockedByShape;
 }
 
 vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByDeviation() const
 {
-  return this->GetUpdateReport().BlockedByDeviation;
+  return this->GetReport().BlockedByDeviation;
 }
 
 vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByEdge() const
 {
-  return this->GetUpdateReport().BlockedByEdge;
+  return this->GetReport().BlockedByEdge;
 }
 
 int vtkDelaunayFlip::GetGeometryUsed() const
 {
-  return this->GetUpdateReport().HasMixedGeometry
-    ? static_cast<int>(GEOMETRY_MIXED)
-    : static_cast<int>(this->GetUpdateReport().GeometryUsed);
+  return static_cast<int>(this->GetReport().GeometryUsed);
 }
 
 const char* vtkDelaunayFlip::GetGeometryUsedAsString() const
 {
-  return this->GetUpdateReport().GetGeometryName();
+  return ToString(this->GetReport().GeometryUsed);
 }
 
 const char* vtkDelaunayFlip::GetGeometryReason() const
 {
-  return this->GetUpdateReport().GeometryReason.c_str();
+  return this->GetReport().GeometryReason.c_str();
 }
 
 vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::GetMesh(vtkDataObject* input)

@@ -111,7 +111,7 @@ vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
 //------------------------------------------------------------------------------
 vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
   : SizeOfBlocks(vtkDataObject::CELL),
-    Report(new UpdateReport)
+    Report(new FlipReport)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -361,7 +361,7 @@ void vtkDelaunayFlipAlgorithm::DiscardRun()
   this->Run.reset();
   this->CanContinue = false;
   this->Next = NextUpdate::StepAndStore;
-  *this->Report = UpdateReport();
+  *this->Report = FlipReport();
 }
 
 void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
@@ -397,7 +397,7 @@ std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(vtkDataObject* input
 void vtkDelaunayFlipAlgorithm::FlipBlock(
   MeshBlock& block, const std::vector<MeshBlock>& others, UpdateSummary& summary)
 {
-  *this->Report = UpdateReport();
+  *this->Report = FlipReport();
   try
   {
     this->FlipLeaves(block, others, summary);
@@ -422,7 +422,7 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
   {
     this->Run->Warning = trouble;
   }
-  summary.Report.Add(*this->Report);
+  AddReport(summary.Report, *this->Report);
 }
 
 //------------------------------------------------------------------------------
@@ -445,7 +445,7 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
   vtkPolyData* mesh, vtkPolyData* others, bool isLive, vtkPolyData* output)
 {
   std::unique_ptr<UpdateRun> run = std::move(this->Run); // which observers may reset
-  *this->Report = UpdateReport();
+  *this->Report = FlipReport();
   const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
   const bool couldContinue = std::exchange(this->CanContinue, false);
   if (!this->HasWork(mesh))
@@ -465,7 +465,7 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
       throw RunAborted(); // in another block
     }
     const bool isSame = this->ContinueOrStart(run, mesh, others, isLive);
-    *this->Report = UpdateReport(run->GetReport());
+    *this->Report = run->GetReport();
     const bool storesOnly = isSame && asked == NextUpdate::Store;
     bool isRunning = storesOnly && couldContinue;
     if (!storesOnly && !run->IsStopped())
@@ -486,7 +486,7 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
     this->Next = isWithheld ? NextUpdate::Store : NextUpdate::StepAndStore;
     const bool isWhole = isWithheld || run->Store(output);
     // Not before: a GPU may fail while its result is fetched.
-    *this->Report = UpdateReport(run->GetReport());
+    *this->Report = run->GetReport();
     this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
     AddFieldData(*this->Report, output->GetFieldData());
     this->CanContinue =

@@ -29,7 +29,6 @@ class FlipSession;
 class UpdateRun;
 struct FlipReport;
 struct MeshBlock;
-struct UpdateReport;
 struct UpdateSummary;
 }
 
@@ -336,8 +335,6 @@ protected:
    * Tells of progress, and returns whether to go on.
    */
   std::function<bool(double)> MakeProgress();
-
-  delaunayflip::UpdateReport& GetUpdateReport() const { return *this->Report; }
 #endif
 
   const char* InputType = "vtkPolyData"; ///< Of the first input, unless it is composite.
@@ -387,7 +384,7 @@ private:
   NextUpdate Next = NextUpdate::StepAndStore;
   std::unique_ptr<delaunayflip::UpdateRun> Run; ///< Of LiveUpdate.
   /// During an update that of the current mesh, afterwards the sum over all meshes.
-  std::unique_ptr<delaunayflip::UpdateReport> Report;
+  std::unique_ptr<delaunayflip::FlipReport> Report;
 
   vtkDelaunayFlipAlgorithm(const vtkDelaunayFlipAlgorithm&) = delete;
   void operator=(const vtkDelaunayFlipAlgorithm&) = delete;

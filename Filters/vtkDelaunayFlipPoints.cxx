@@ -22,7 +22,6 @@
 #include "vtkTransform.h"
 
 #include <cmath>
-#include <utility>
 
 using namespace delaunayflip;
 
@@ -368,7 +367,7 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   using Asked = vtkStreamingDemandDrivenPipeline;
   if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0 && block.Size > 0.0)
   {
-    throw InvalidMesh("points are on several ranks; gather them on the first one, by "
+    throw InvalidMesh("points are in several pieces; gather them in the first one, by "
                       "Redistribute DataSet with one partition in ParaView",
       -1, -1);
   }
@@ -449,12 +448,12 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
 //------------------------------------------------------------------------------
 vtkIdType vtkDelaunayFlipPoints::GetNumberOfSegmentEdges() const
 {
-  return this->GetUpdateReport().FromPoints.SegmentEdges;
+  return this->GetReport().FromPoints.SegmentEdges;
 }
 
 vtkIdType vtkDelaunayFlipPoints::GetNumberOfRefusedSegments() const
 {
-  return this->GetUpdateReport().FromPoints.RefusedSegments;
+  return this->GetReport().FromPoints.RefusedSegments;
 }
 
 void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)

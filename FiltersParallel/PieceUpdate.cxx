@@ -9,10 +9,8 @@
 #include "TriangleAngles.h"
 
 #include "vtkFieldData.h"
-#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkTriangle.h"
 
 #include <algorithm>
 #include <set>
@@ -209,7 +207,12 @@ public:
         marks->SetComponent(this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon), 0, -1.0);
       }
     }
-    this->RenewNormals(output);
+    RenewNormals(output,
+      [this](vtkIdType polygon, const std::int64_t*)
+      {
+        const vtkIdType triangle = this->Triangles[polygon];
+        return triangle >= 0 && this->Flipped.FlipCounts[triangle] > 0;
+      });
   }
 
   template <typename Value>
@@ -299,38 +302,6 @@ private:
       }
     }
     return polygons;
-  }
-
-  /// Recomputes the active normals of triangles that took part in a flip, on the side on which they
-  /// have been.
-  void RenewNormals(vtkPolyData* output) const
-  {
-    const vtkSmartPointer<vtkDataArray> normals = CopyNormals(output);
-    for (std::size_t polygon = 0; normals && polygon < this->Triangles.size(); ++polygon)
-    {
-      const vtkIdType triangle = this->Triangles[polygon];
-      if (triangle < 0 || this->Flipped.FlipCounts[triangle] == 0)
-      {
-        continue;
-      }
-      double corners[3][3], old[3], normal[3];
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        output->GetPoint(this->Flipped.Triangles[3 * triangle + slot], corners[slot]);
-      }
-      vtkTriangle::ComputeNormal(corners[0], corners[1], corners[2], normal);
-      const vtkIdType cell = this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon);
-      normals->GetTuple(cell, old);
-      if (vtkMath::Dot(old, normal) < 0.0)
-      {
-        vtkMath::MultiplyScalar(normal, -1.0);
-      }
-      normals->SetTuple(cell, normal);
-    }
-    if (normals)
-    {
-      output->GetCellData()->SetNormals(normals);
-    }
   }
 
   vtkPolyData* Mesh;

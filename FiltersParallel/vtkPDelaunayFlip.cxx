@@ -161,11 +161,11 @@ void vtkPDelaunayFlip::FlipBlock(
     };
     addCount("DelaunayFlip:Rounds", report.Rounds);
     addCount("DelaunayFlip:MovedTriangles", report.MovedTriangles);
-    AddFieldData(UpdateReport(report), flipped->GetFieldData());
+    AddFieldData(report, flipped->GetFieldData());
     mesh.Store(flipped);
     this->NumberOfRounds = std::max<vtkIdType>(this->NumberOfRounds, report.Rounds);
     this->NumberOfMovedTriangles += report.MovedTriangles;
-    summary.Report.Add(UpdateReport(report));
+    AddReport(summary.Report, report);
     const std::string trouble =
       DescribeTrouble(report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
     if (!trouble.empty())

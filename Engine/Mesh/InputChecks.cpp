@@ -32,6 +32,7 @@ void Require(bool isValid, const std::string& message)
 
 void CheckOptions(const FlipOptions& options)
 {
+  Require(options.Geometry != GeometryKind::Mixed, "a mesh has one geometry");
   Require(options.Tolerance == -1.0 || (options.Tolerance >= 0.0 && options.Tolerance < 1.0),
     "the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
   Require(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0,

@@ -82,7 +82,6 @@ struct PartTriangle
     this->Marks = static_cast<unsigned char>(others | (marks << slot));
   }
   bool Has(EdgeMark mark, int slot) const { return (this->GetMarks(slot) & mark) != 0; }
-  bool HasSeam() const { return this->Marks >= SeamMark; }
 
   /// The ends of the edge opposite to a corner, in the direction in which the triangle runs.
   std::int32_t GetStart(int slot) const { return this->Points[(slot + 1) % 3]; }

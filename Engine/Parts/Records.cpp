@@ -4,10 +4,8 @@
 
 #include "FlipError.h"
 
-#include <cmath>
 #include <iomanip>
 #include <limits>
-#include <locale>
 #include <sstream>
 #include <string>
 
@@ -18,20 +16,10 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-// What is joined, and how.
-constexpr std::int64_t FlipReport::*Sums[] = { &FlipReport::Points, &FlipReport::Triangles,
-  &FlipReport::UnmatchedConstraints, &FlipReport::InsertedConstraints, &FlipReport::ConstraintFlips,
-  &FlipReport::EulerCharacteristic, &FlipReport::NonDelaunayBefore, &FlipReport::NonDelaunayAfter,
-  &FlipReport::BlockedByShape, &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge };
+// What is joined beside the members of AddTotals.
 constexpr double FlipReport::*Smallest[] = { &FlipReport::MinimumAngleBefore,
   &FlipReport::MinimumAngleAfter };
 constexpr double FlipReport::*Largest[] = { &FlipReport::BuildSeconds, &FlipReport::FlipSeconds };
-constexpr std::string FlipReport::*Texts[] = { &FlipReport::Tolerance, &FlipReport::Backend,
-  &FlipReport::Fallback };
-
-constexpr std::int64_t EdgeCounts::*Kinds[] = { &EdgeCounts::Edges, &EdgeCounts::Boundary,
-  &EdgeCounts::NonManifold, &EdgeCounts::WronglyWound, &EdgeCounts::Feature,
-  &EdgeCounts::Constraint, &EdgeCounts::Region, &EdgeCounts::Fixed };
 
 template <typename Report, typename Visit>
 void ForEachMember(Report& report, const Visit& visit)
@@ -43,11 +31,11 @@ void ForEachMember(Report& report, const Visit& visit)
       visit(object.*member);
     }
   };
-  visitAll(report, Sums);
-  visitAll(report.Edges, Kinds);
+  visitAll(report, ReportTotals);
+  visitAll(report.Edges, EdgeKinds);
   visitAll(report, Smallest);
   visitAll(report, Largest);
-  visitAll(report, Texts);
+  visitAll(report, ReportTexts);
   visit(report.Iterations);
 }
 
@@ -84,17 +72,9 @@ std::string Write(bool value) { return value ? "on" : "off"; }
 
 std::string Write(double value)
 {
-  // GCC 10, which makes the wheel, has no std::to_chars for it.
-  const auto write = [value](int digits)
-  {
-    std::stringstream text;
-    text.imbue(std::locale::classic());
-    text << std::setprecision(digits) << value;
-    return text;
-  };
-  double read = 0.0;
-  const bool isShort = (write(15) >> read) && read == value;
-  return write(isShort ? 15 : 17).str();
+  std::ostringstream text;
+  text << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
+  return text.str();
 }
 }
 
@@ -138,14 +118,6 @@ void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
 }
 
 //------------------------------------------------------------------------------
-void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor)
-{
-  for (const auto kind : Kinds)
-  {
-    sum.*kind += factor * part.*kind;
-  }
-}
-
 void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor)
 {
   AddCounts(sum.Edges, part.Edges, factor);
@@ -153,20 +125,6 @@ void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor)
          &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge })
   {
     sum.*number += factor * part.*number;
-  }
-}
-
-void AddDefect(const Defect& defect, std::vector<Defect>& defects)
-{
-  const auto known = std::find_if(
-    defects.begin(), defects.end(), [&](const Defect& other) { return other.What == defect.What; });
-  if (known != defects.end())
-  {
-    known->Count += defect.Count;
-  }
-  else if (defect.Count > 0)
-  {
-    defects.push_back(defect);
   }
 }
 
@@ -187,27 +145,10 @@ FlipReport JoinReports(const std::vector<FlipReport>& reports)
   sum.MinimumAngleBefore = sum.MinimumAngleAfter = NaN;
   for (const FlipReport& report : reports)
   {
-    for (const auto number : Sums)
+    AddTotals(sum, report);
+    for (const auto seconds : Largest)
     {
-      sum.*number += report.*number;
-    }
-    AddCounts(sum.Edges, report.Edges, 1);
-    for (int i = 0; i < 2; ++i)
-    {
-      sum.*Smallest[i] = std::fmin(sum.*Smallest[i], report.*Smallest[i]);
-      sum.*Largest[i] = std::max(sum.*Largest[i], report.*Largest[i]);
-    }
-    for (const auto text : Texts)
-    {
-      const std::string listed = ", " + sum.*text + ", ";
-      if (!(report.*text).empty() && listed.find(", " + report.*text + ", ") == std::string::npos)
-      {
-        sum.*text += ((sum.*text).empty() ? "" : ", ") + report.*text;
-      }
-    }
-    for (const Defect& defect : report.Defects)
-    {
-      AddDefect({ defect.What, defect.Count, {} }, sum.Defects);
+      sum.*seconds = std::max(sum.*seconds, report.*seconds);
     }
     for (const IterationRecord& row : report.Iterations)
     {

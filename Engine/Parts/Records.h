@@ -159,19 +159,14 @@ FlipReport JoinReports(const std::vector<FlipReport>& reports);
 /// Sums the iterations of a report.
 void CountIterations(FlipReport& report);
 
+/// Adds the edges that a report counts, by their kinds and after the last flip.
 /// @param factor 1 to add, -1 to subtract.
-void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor);
-
-/// The same for the edges that a report counts, by their kinds and after the last flip.
 ///
 /// The sum over all parts counts seam edges wrongly: each is a boundary edge of several parts. To
 /// correct the sum, add the counts of triangles at seams, taken as one mesh, and subtract the
 /// counts of the same triangles, taken part by part. Then edges inside a part cancel out, and a
 /// seam edge is counted once.
 void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor);
-
-/// Adds a defect, or to the count of the same one. Ids mean nothing outside their rank or part.
-void AddDefect(const Defect& defect, std::vector<Defect>& defects);
 
 }
 

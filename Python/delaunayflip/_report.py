@@ -25,15 +25,10 @@ COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "ConstraintEdges": "constraint_edges",
           "UnmatchedConstraintEdges": "unmatched_constraints",
           "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
-#: Kinds of kept edges, in words.
-_KINDS = {"boundary": "boundary_edges", "non-manifold": "non_manifold_edges",
-          "wrongly wound": "wrongly_wound_edges", "feature angle": "feature_edges",
-          "constraints": "constraint_edges", "regions": "region_edges"}
-_BLOCKED = {"blocked: would duplicate an edge": "blocked_by_edge",
-            "blocked: would fold": "blocked_by_shape",
-            "blocked: would deviate": "blocked_by_deviation"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
+#: In the order of the header.
+GEOMETRIES = (*CHOICES["geometry"], "mixed")
 _FROM_BEST_TO_WORST = ("not started", "converged", "running", "iteration limit", "aborted")
 _MOST = 3  # places named per text, and texts
 
@@ -172,52 +167,15 @@ class Totals:
 
     def summarize(self):
         """What was done, in lines of a title, ": " and a text; "" without triangles."""
-        n, iterations = self.report, len(self.iterations)
-        if not n.number_of_triangles:
-            return ""
-        angles = ["none" if numpy.isnan(angle) else f"{angle:.4g}"
-                  for angle in (n.minimum_angle_before, n.minimum_angle_after)]
-        lines = [
-            f"mesh: {_count(n.number_of_points, 'point')}, "
-            f"{_count(n.number_of_triangles, 'triangle')}, {_count(n.edges, 'edge')}",
-            f"kept edges: {n.fixed_edges:,}" + self._list(_KINDS),
-            self._advise(),
-            f"geometry: {n.geometry_used}" + (f": {n.geometry_reason}" if n.geometry_reason else ""),
-            self._describe_constraints(),
-            f"bad edges: {n.non_delaunay_before:,} -> {n.non_delaunay_after:,}"
-            + self._list(_BLOCKED),
-            f"smallest angle: {angles[0]} -> {angles[1]} degrees",
-            f"flips: {n.total_flips:,} in {_count(iterations, 'iteration')}, {n.stop_reason}"]
-        return "".join(line + "\n" for line in lines if line)
-
-    def _list(self, kinds):
-        """" (1,000 boundary, 6 constraints)"; kinds of which there are none are left out."""
-        counts = {kind: getattr(self.report, name) for kind, name in kinds.items()}
-        texts = [f"{count:,} {kind}" for kind, count in counts.items() if count]
-        return f" ({', '.join(texts)})" if texts else ""
-
-    def _advise(self):
-        n = self.report
-        inner = n.edges - n.boundary_edges
-        kept = n.fixed_edges + inner - n.edges - n.non_manifold_edges - n.wrongly_wound_edges
-        is_from_points = n.geometry_reason.startswith("points are triangulated")
-        if (10 * kept <= inner and not n.keeps_sliver) or is_from_points:
-            return ""
-        remedies = {"region_edges": "fewer regions", "feature_edges": "a larger feature angle",
-                    "constraint_edges": "fewer constraints"}
-        what = (f"{100 * kept // inner} % of the inner edges are kept" if 10 * kept > inner else
-                "an edge is kept at one of the ten triangles with the smallest angles")
-        return f"hint: {what}; with {remedies[max(remedies, key=vars(n).get)]} more can flip"
-
-    def _describe_constraints(self):
-        n = self.report
-        if n.constraint_edges + n.unmatched_constraints == 0:
-            return ""
-        inserted = n.inserted_constraints
-        return (f"constraints: {_count(n.constraint_edges, 'edge')} kept"
-                + (f", {inserted:,} inserted by {_count(n.constraint_flips, 'flip')}"
-                   if inserted else "")
-                + f", {n.unmatched_constraints:,} not in the mesh")
+        struct, text = _library.make(Struct), ctypes.c_char_p()
+        for name, kind in Struct._fields_[3:]:
+            value = getattr(self.report, name)
+            setattr(struct, name, value.encode() if kind is ctypes.c_char_p else value)
+        struct.stop_reason = _library.STOP_REASONS.index(self.report.stop_reason)
+        struct.geometry_used = GEOMETRIES.index(self.report.geometry_used)
+        struct.number_of_iterations = len(self.iterations)
+        _library.call("summarize", struct, ctypes.byref(text))
+        return text.value.decode()
 
     def list_columns(self):
         """(name, values) with a value per iteration."""
@@ -236,10 +194,6 @@ class Totals:
         for name, text in TEXTS.items():
             yield name, getattr(self.report, text)
         yield from self.list_columns()
-
-
-def _count(number, singular):
-    return f"{number:,} {singular}" + ("" if number == 1 else "s")
 
 
 def _join_iterations(a, b):

@@ -14,7 +14,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._options import CHOICES
+from ._report import GEOMETRIES
 from ._vtk_mesh import vtk_of
 from ._vtk_update import Failure, Update, explain
 
@@ -326,8 +326,7 @@ class vtkDelaunayFlip(Filter):
 
 
 _ANSWERS = {
-    "GetGeometryUsed":
-    lambda update: (*CHOICES["geometry"], "mixed").index(update.totals.report.geometry_used),
+    "GetGeometryUsed": lambda update: GEOMETRIES.index(update.totals.report.geometry_used),
     "GetGeometryUsedAsString": lambda update: update.totals.report.geometry_used,
     "GetGeometryReason": lambda update: update.totals.report.geometry_reason,
     **count_answers(NumberOfConstraintEdges="constraint_edges",

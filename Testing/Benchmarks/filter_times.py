@@ -4,7 +4,7 @@
 """Prints times of the filter, without judging them.
 
     PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Benchmarks/filter_times.py \\
-      abort|live|threads [TRIANGLES [CASE...]]
+      abort|live [TRIANGLES [CASE...]]
 
 abort: how long an update continues after a request to abort. Each row is a mesh or an option.
 `update` is the time of a whole update, `events` the number of its progress events. Then the update
@@ -17,13 +17,8 @@ wall-clock time, for a quiet machine. The best of RUNS (1) runs counts.
 live: what an update of a live run costs beyond its iterations, of which there is one per update. A
 row has the time of the first update, which builds the edges, and the median and the slowest of the
 others, in milliseconds; `rest` is the time outside the iterations.
-
-threads: whether VTK's threads and the engine's disturb each other in one process. Runs a threaded
-filter of VTK and vtkDelaunayFlip, each alone and then in turns. Prints the time of each, the
-processor time of all threads, the number of threads in the process, and its copies of oneTBB.
 """
 import os
-import re
 import statistics
 import sys
 import time
@@ -31,10 +26,8 @@ import time
 import numpy
 from delaunayflip import vtkDelaunayFlip
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkObject, vtkPoints, vtkSMPTools, vtkVersion
+from vtkmodules.vtkCommonCore import vtkObject, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
-from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 
 RUNS = int(os.environ.get("RUNS", "1"))
 THREADS = int(os.environ.get("THREADS", "1"))
@@ -227,42 +220,8 @@ def time_live_run(triangles, names):
               f"{statistics.median(rest[1:]):8.1f}{max(rest[1:]):9.1f}")
 
 
-def time_threads(triangles, _):
-    def measure(algorithm):
-        """Wall-clock and processor time of an update, in ms."""
-        algorithm.Modified()
-        wall, cpu = time.perf_counter(), time.process_time()
-        algorithm.Update()
-        return 1e3 * (time.perf_counter() - wall), 1e3 * (time.process_time() - cpu)
-
-    source = vtkRTAnalyticSource()
-    source.SetWholeExtent(-60, 60, -60, 60, -60, 60)
-    source.Update()
-    contour, flip = vtkFlyingEdges3D(), vtkDelaunayFlip()
-    contour.SetInputData(source.GetOutput())
-    contour.SetValue(0, 150)
-    flip.SetInputData(Cases(triangles).plain(flip))
-    times = {"contour alone": [], "contour, in turns with flips": [], "flip alone": [],
-             "flip, in turns with contours": []}
-    for algorithm in (contour, flip):  # threads start here
-        measure(algorithm)
-    for _ in range(21):  # so that slow periods of the machine affect all of them
-        times["contour alone"] += [measure(contour) for _ in range(5)]
-        times["flip alone"] += [measure(flip) for _ in range(5)]
-        for _ in range(5):
-            times["contour, in turns with flips"].append(measure(contour))
-            times["flip, in turns with contours"].append(measure(flip))
-    for what, rows in times.items():
-        wall, cpu = (statistics.median(column) for column in zip(*rows))
-        print(f"{what:34} {wall:8.1f} ms {cpu:8.1f} ms of processor time")
-    with open("/proc/self/maps", encoding="utf-8") as maps:
-        libraries = sorted(set(re.findall(r"\S*/(libtbb[^/\s]*\.so\S*)", maps.read())))
-    print(f"{len(os.listdir('/proc/self/task'))} threads on {os.cpu_count()} cores; {libraries}; "
-          f"VTK {vtkVersion.GetVTKVersion()}, SMP backend {vtkSMPTools.GetBackend()}")
-
-
 if __name__ == "__main__":
-    MODES = {"abort": time_aborts, "live": time_live_run, "threads": time_threads}
+    MODES = {"abort": time_aborts, "live": time_live_run}
     if len(sys.argv) < 2 or sys.argv[1] not in MODES:
         sys.exit(__doc__)
     vtkObject.GlobalWarningDisplayOff()

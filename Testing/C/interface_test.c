@@ -323,25 +323,6 @@ static void TestPolygons(void)
   CHECK(delaunayflip_error_cell() == 2 && delaunayflip_error_point() == 5);
 }
 
-/* The rhombus is planar, and its constraint is its only fixed edge with two triangles. */
-static void TestWarmStart(void)
-{
-  const int64_t diagonal[] = { 2, 0 };
-  int64_t pairs[6];
-  int64_t count = -1;
-  int32_t geometry = -1;
-  delaunayflip_mesh mesh = MakeMesh();
-  CHECK(delaunayflip_find_geometry(&mesh, NULL, &geometry) == DELAUNAYFLIP_OK);
-  CHECK(geometry == DELAUNAYFLIP_GEOMETRY_PLANAR);
-  CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, &count) == DELAUNAYFLIP_OK);
-  CHECK(count == 0);
-  mesh.constraint_edges = diagonal;
-  mesh.number_of_constraint_edges = 1;
-  CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, &count) == DELAUNAYFLIP_OK);
-  CHECK(count == 1 && pairs[0] + pairs[1] == 2 && pairs[0] * pairs[1] == 0);
-  CHECK(delaunayflip_find_fixed_edges(&mesh, NULL, NULL, pairs, NULL) == DELAUNAYFLIP_INVALID_CALL);
-}
-
 /* The quad without its triangles, then with the long diagonal as a segment. */
 static void TestPoints(void)
 {
@@ -389,7 +370,6 @@ int main(void)
   TestNewerProgram();
   TestDeviceMemory();
   TestPolygons();
-  TestWarmStart();
   TestPoints();
   return 0;
 }

@@ -375,23 +375,5 @@ TEST(Overlap, InvertedTrianglesAreReportedAndSurvived)
   EXPECT_EQ(inverted, defects[0].FirstIds);
 }
 
-/// Thousands of small meshes with every kind of defect, under random options.
-TEST(RandomMess, StaysAsSoundAsItWas)
-{
-  for (std::uint32_t seed = 1; seed <= 5000 / Reduction && !testing::Test::HasFailure(); ++seed)
-  {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    const RandomMess mess = MakeRandomMess(seed);
-    const FlipResult result = Flip(mess.View(), mess.Options);
-    EXPECT_TRUE(result.Report.Converged());
-    ExpectSameTopology(mess.View().Triangles, result.Triangles, result.Report);
-    ExpectConsistentStatistics(result.Report);
-    for (const IterationRecord& row : result.Report.Iterations)
-    {
-      EXPECT_GT(row.Flipped, 0);
-    }
-  }
-}
-
 }
 }

@@ -193,7 +193,7 @@ TEST_P(RanksTest, NeedTheSameOptions)
         o.Geometry = GeometryKind::Surface;
         o.Tolerance = 0.5; // the first difference counts
       } },
-    { "FeatureAngle is '30' on rank 0, but '0.1'", [](FlipOptions& o) { o.FeatureAngle = 0.1; } },
+    { "FeatureAngle is '30' on rank 0, but '0.5'", [](FlipOptions& o) { o.FeatureAngle = 0.5; } },
     { "TrackQuality is 'off' on rank 0, but 'on'", [](FlipOptions& o) { o.TrackQuality = true; } },
   };
   const std::string end =

@@ -418,7 +418,7 @@ TEST(FromPoints, PointsInPiecesAreAnError)
   PointsFilter piece(ToMesh(MakeCloud(10)));
   piece->UpdatePiece(1, 2, 0);
   ASSERT_EQ(piece.GetErrors().size(), 1u);
-  ExpectHolds(piece.GetErrors()[0], "gather them on the first one");
+  ExpectHolds(piece.GetErrors()[0], "gather them in the first one");
 }
 
 TEST(FromPoints, LiveUpdate)

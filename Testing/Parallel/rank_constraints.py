@@ -117,7 +117,6 @@ def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, a
         alone = run_alone(points, triangles, pairs, options)
         facts["alone"] = describe_all(alone)
         facts["same"] = rank_meshes.are_same(after, alone.GetOutput())
-        facts["crowded"] = rank_meshes.count_crowded_edges(after)
         facts["said"] = " ".join(said)
     return facts, said
 

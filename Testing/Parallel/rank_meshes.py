@@ -56,12 +56,6 @@ def divide(points, triangles, ranks, kind):
     return owners
 
 
-def count_crowded_edges(triangles):
-    """Edges with three triangles or more."""
-    edges = np.sort(np.concatenate([triangles[:, [i - 1, i]] for i in range(3)]), axis=1)
-    return int((np.unique(edges, axis=0, return_counts=True)[1] > 2).sum())
-
-
 def make_poly_data(points, triangles):
     mesh, at, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
     at.SetData(numpy_to_vtk(points, deep=1))

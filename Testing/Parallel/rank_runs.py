@@ -126,6 +126,4 @@ def compare(points, triangles, piece, options, unique):
         facts["again"] = again.GetTotalFlips()
         facts["left again"] = again.GetNumberOfNonDelaunayEdges()
         facts["geometry alone"] = alone.GetGeometryUsedAsString()
-        facts["crowded"] = rank_meshes.count_crowded_edges(after)
-        facts["crowded before"] = rank_meshes.count_crowded_edges(triangles)
     return facts, said

@@ -51,6 +51,14 @@ class Pieces(RanksTest):
         self.assertIn('rank 1: 1 ghost array with several components ignored: "vtkGhostType"',
                       facts["said"][0])
 
+    def test_points_that_coincide(self):
+        said = flip_on(2, "slit", ids=False)["said"]
+        self.assertIn("3 points at the borders of pieces coincide with others of the same piece",
+                      said[0])
+        self.assertIn("vtkGlobalPointIds", said[0])
+        (said,) = flip_on(2, "slit", ids=True)["said"]  # by the process with all of it
+        self.assertIn("no two share an edge", said)
+
 
 class Failures(RanksTest):
     def test_a_failure_is_that_of_all(self):

@@ -486,7 +486,9 @@ class Header(unittest.TestCase):
                     self.assertIs(field[1], self.TYPES.get(kind, wanted), f"{name}.{member}")
 
     def test_enumerations(self):
-        for name, words in (*_options.CHOICES.items(), ("stop_reason", _library.STOP_REASONS)):
+        enumerations = {**_options.CHOICES, "geometry": _report.GEOMETRIES,
+                        "stop_reason": _library.STOP_REASONS}
+        for name, words in enumerations.items():
             body = re.search(rf"typedef enum\s*\{{([^}}]*)\}} delaunayflip_{name};", self.HEADER)
             values = re.findall(r"DELAUNAYFLIP_(\w+) = (\d+)", body.group(1))
             self.assertEqual(len(values), len(words))
