@@ -106,39 +106,21 @@ int ResolveThreads(int wanted)
 }
 }
 
+namespace
+{
 #if defined(DELAUNAYFLIP_STD_THREADS)
 
-class ThreadBackend::Pool
+/// A thread for every helper: what ThreadSanitizer can follow.
+class HelperThreads
 {
 public:
-  explicit Pool(int threads)
-    : Size(threads)
-  {
-  }
+  explicit HelperThreads(int) {}
 
-  void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
+  template <typename Help>
+  void Start(const Help& help)
   {
-    std::atomic<std::int64_t> next{ 0 };
-    const auto drain = [&]()
-    {
-      for (std::int64_t task = next++; task < count; task = next++)
-      {
-        work(task);
-      }
-    };
-    std::vector<std::future<void>> helpers; // their destructors wait, too
-    for (std::int64_t i = 1; i < std::min<std::int64_t>(this->Size, count); ++i)
-    {
-      helpers.push_back(std::async(std::launch::async, drain));
-    }
-    drain();
-    for (std::future<void>& helper : helpers)
-    {
-      helper.get();
-    }
+    std::thread(help).detach();
   }
-
-  int Size;
 };
 
 #else
@@ -186,8 +168,38 @@ private:
   std::array<std::unique_ptr<tbb::task_arena>, 8> Arenas; ///< Null where there is room.
 };
 
-namespace
+/// Threads of oneTBB.
+class HelperThreads
 {
+public:
+  explicit HelperThreads(int threads)
+    : Arena(IdleArenas::Take(threads))
+  {
+    if (threads > 1)
+    {
+      constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
+      this->Allowance.emplace(parallelism,
+        std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
+    }
+  }
+
+  ~HelperThreads() { IdleArenas::Return(std::move(this->Arena)); }
+  HelperThreads(const HelperThreads&) = delete;
+  HelperThreads& operator=(const HelperThreads&) = delete;
+
+  template <typename Help>
+  void Start(const Help& help)
+  {
+    this->Arena->enqueue(help);
+  }
+
+private:
+  std::optional<tbb::global_control> Allowance; // allows more threads than cores
+  std::unique_ptr<tbb::task_arena> Arena;
+};
+
+#endif
+
 /// The calling thread and helpers, which stay for the next range for a while: with 16 threads,
 /// oneTBB takes 20 to 40 us for each range to wake them and to divide it, a crew 3 us. A surface of
 /// 50,000 points has about a hundred ranges in 8 ms.
@@ -325,15 +337,8 @@ class ThreadBackend::Pool
 public:
   explicit Pool(int threads)
     : Size(threads),
-      Arena(IdleArenas::Take(threads))
+      Threads(threads)
   {
-    if (threads == 1)
-    {
-      return; // and oneTBB is not used
-    }
-    constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
-    this->Allowance.emplace(
-      parallelism, std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
     if (threads > mostStarted)
     {
       mostStarted = threads;
@@ -341,11 +346,7 @@ public:
     }
   }
 
-  ~Pool()
-  {
-    this->Members->IsOver = true;
-    IdleArenas::Return(std::move(this->Arena));
-  }
+  ~Pool() { this->Members->IsOver = true; }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 
@@ -353,7 +354,7 @@ public:
   {
     while (this->Members->Helpers < std::min<std::int64_t>(this->Size, count) - 1)
     {
-      this->Arena->enqueue([members = this->Members]() { members->Help(); });
+      this->Threads.Start([members = this->Members]() { members->Help(); });
       ++this->Members->Helpers;
     }
     this->Members->Run(count, work);
@@ -380,12 +381,9 @@ private:
       });
   }
 
-  std::optional<tbb::global_control> Allowance; // allows more threads than cores
-  std::unique_ptr<tbb::task_arena> Arena;
+  HelperThreads Threads;
   std::shared_ptr<Crew> Members = std::make_shared<Crew>(); ///< Helpers may outlive the pool.
 };
-
-#endif
 
 ThreadBackend::ThreadBackend(int threads)
   : Threads(new Pool(ResolveThreads(threads))),
