@@ -244,6 +244,25 @@ void CheckDistinct(const std::string& first, const std::string& second)
   }
 }
 
+/// "; did you mean --geometry?" if a word that is no option begins like one.
+std::string SuggestOption(const CLI::App& app)
+{
+  constexpr std::ptrdiff_t Alike = 5; // letters, with the two dashes
+  for (const std::string& word : app.remaining())
+  {
+    for (const CLI::Option* option : app.get_options())
+    {
+      const std::string name = option->get_name();
+      const auto end = std::mismatch(word.begin(), word.end(), name.begin(), name.end()).first;
+      if (name.rfind("--", 0) == 0 && end - word.begin() >= Alike)
+      {
+        return "; did you mean " + name + "?";
+      }
+    }
+  }
+  return "";
+}
+
 /// Checks that files can be read or written as what they are given for.
 void CheckFormats(Arguments& arguments)
 {
@@ -325,7 +344,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   }
   catch (const CLI::ParseError& error)
   {
-    PrintError(error.what() + std::string(" (delaunay-flip --help shows the usage)"));
+    PrintError(error.what() + SuggestOption(app) + " (delaunay-flip --help shows the usage)");
     return static_cast<int>(ExitCode::WrongUsage);
   }
   return std::nullopt;

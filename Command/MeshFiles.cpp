@@ -24,6 +24,7 @@
 #include <iterator>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -136,6 +137,14 @@ bool IsEnded(const std::string& path, MeshFormat format)
   return (format != MeshFormat::VTK && format != MeshFormat::OBJ) || file.get() == '\n';
 }
 
+using Place = std::array<double, 3>;
+
+std::int64_t CountDistinct(std::vector<Place> places)
+{
+  std::sort(places.begin(), places.end());
+  return std::unique(places.begin(), places.end()) - places.begin();
+}
+
 /// What a .stl loses of the points.
 struct PointLosses
 {
@@ -149,20 +158,32 @@ struct PointLosses
         { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
     }
     this->Unused = std::count(isUsed.begin(), isUsed.end(), false);
+    std::vector<Place> places;
+    std::vector<Place> roundedPlaces;
     for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
     {
-      double place[3];
-      mesh->GetPoint(point, place);
-      for (int axis = 0; axis < 3 && isUsed[point]; ++axis)
+      Place place;
+      Place rounded;
+      mesh->GetPoint(point, place.data());
+      for (std::size_t axis = 0; axis < 3 && isUsed[point]; ++axis)
       {
-        const double move = std::abs(static_cast<float>(place[axis]) - place[axis]);
-        this->LargestMove = std::fmax(this->LargestMove, move); // infinity and NaN do not move
+        place[axis] = std::isnan(place[axis]) ? 0.0 : place[axis]; // it has no order
+        rounded[axis] = static_cast<float>(place[axis]);
+        const double move = std::abs(rounded[axis] - place[axis]);
+        this->LargestMove = std::fmax(this->LargestMove, move); // infinity does not move
+      }
+      if (isUsed[point])
+      {
+        places.push_back(place);
+        roundedPlaces.push_back(rounded);
       }
     }
+    this->Fallen = CountDistinct(std::move(places)) - CountDistinct(std::move(roundedPlaces));
   }
 
   std::int64_t Unused = 0; ///< Points of no polygon.
   double LargestMove = 0.0; ///< By how much a coordinate changes at most when it becomes float.
+  std::int64_t Fallen = 0; ///< How many different places become the same as others.
 };
 
 /// On cells with fewer points than their kind needs, VTK's .vtp writer crashes, and files of other
@@ -329,7 +350,8 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
       std::array<char, 32> move{};
       std::snprintf(move.data(), move.size(), "%.2g", points.LargestMove);
       add("double precision of the points (coordinates change by up to " +
-        std::string(move.data()) + ")");
+        std::string(move.data()) +
+        (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
     }
   }
   add(LostArrays("point data", mesh->GetPointData(), ofPoints));

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <new>
 
@@ -18,25 +19,34 @@ namespace delaunayflip
 {
 
 InputFile::InputFile(const std::string& path)
-  : Name(path)
+  : Name(path),
+    Path(path),
+    Descriptor(open(path.c_str(), O_RDONLY | O_CLOEXEC))
 {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); // else a pipe would wait
   struct stat status = {};
-  if (file < 0 || fstat(file, &status) != 0)
+  if (this->Descriptor < 0 || fstat(this->Descriptor, &status) != 0)
   {
     this->FailToRead();
   }
+  if (S_ISDIR(status.st_mode))
+  {
+    this->Fail("is a folder");
+  }
   if (!S_ISREG(status.st_mode))
   {
-    this->Fail(S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
+    this->CopyPipe();
+    fstat(this->Descriptor, &status);
   }
   const auto size = static_cast<std::size_t>(status.st_size);
-  void* const bytes = size > 0 ? mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : nullptr;
+  if (size == 0)
+  {
+    return; // nothing to map
+  }
+  void* const bytes = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, this->Descriptor, 0);
   if (bytes == MAP_FAILED)
   {
     this->FailToRead();
   }
-  close(file);
   this->Bytes = { static_cast<const char*>(bytes), size };
 }
 
@@ -46,6 +56,37 @@ InputFile::~InputFile()
   {
     munmap(const_cast<char*>(this->Bytes.data()), this->Bytes.size());
   }
+  close(this->Descriptor);
+}
+
+/// Puts a temporary file, which has no name, in the place of the pipe.
+void InputFile::CopyPipe()
+{
+  const std::size_t most = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+    static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  std::FILE* const temporary = std::tmpfile();
+  const int copy = temporary ? fcntl(fileno(temporary), F_DUPFD_CLOEXEC, 0) : -1;
+  std::vector<char> buffer(1 << 20);
+  std::size_t total = 0;
+  ssize_t size = copy < 0 ? -1 : 1;
+  while (size > 0 && total <= most)
+  {
+    size = read(this->Descriptor, buffer.data(), buffer.size());
+    const auto bytes = static_cast<std::size_t>(std::max<ssize_t>(size, 0));
+    total += bytes;
+    size = std::fwrite(buffer.data(), 1, bytes, temporary) == bytes ? size : -1;
+  }
+  if (size < 0 || std::fclose(temporary) != 0)
+  {
+    this->FailToRead();
+  }
+  if (size > 0)
+  {
+    this->Fail("is a pipe that does not end, or that delivers more bytes than fit into memory");
+  }
+  close(this->Descriptor);
+  this->Descriptor = copy;
+  this->Path = "/dev/fd/" + std::to_string(copy);
 }
 
 /// After a system call that failed.

@@ -28,7 +28,7 @@ std::errc ReadNumber(std::string_view word, T& value)
   return last == end ? error : std::errc::invalid_argument;
 }
 
-/// The bytes of a file, in memory as long as this object lives.
+/// The bytes of a file, in memory as long as this object lives. A pipe is read to its end first.
 class InputFile
 {
 public:
@@ -40,15 +40,22 @@ public:
 
   std::string_view GetBytes() const { return this->Bytes; }
 
+  /// The name that the user gave.
   const std::string& GetName() const { return this->Name; }
+
+  /// A path that VTK's readers can open: for a pipe, a copy of its contents.
+  const std::string& GetPath() const { return this->Path; }
 
   /// @throws CommandError (BadFile): the name and the reason.
   [[noreturn]] void Fail(const std::string& reason) const;
 
 private:
+  void CopyPipe();
   [[noreturn]] void FailToRead() const;
 
   std::string Name;
+  std::string Path;
+  int Descriptor = -1;
   std::string_view Bytes;
 };
 

@@ -24,7 +24,9 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <fcntl.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -51,12 +53,40 @@ namespace
     "Extract Surface (vtkDataSetSurfaceFilter) extracts one");
 }
 
+/// Discards what is written to stderr while it lives: the output of a crashing reader helps nobody.
+class MutedStandardError
+{
+public:
+  MutedStandardError()
+    : Saved(dup(STDERR_FILENO))
+  {
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+
+  ~MutedStandardError()
+  {
+    dup2(this->Saved, STDERR_FILENO);
+    close(this->Saved);
+  }
+
+  MutedStandardError(const MutedStandardError&) = delete;
+  MutedStandardError& operator=(const MutedStandardError&) = delete;
+
+private:
+  int Saved;
+};
+
 /// Runs a reader. Any message of its means that a part of the file is missing.
 template <typename Reader>
 FileMesh Run(Reader* reader, const InputFile& file)
 {
-  reader->SetFileName(file.GetName().c_str());
-  reader->Update();
+  reader->SetFileName(file.GetPath().c_str());
+  {
+    const MutedStandardError muted;
+    reader->Update();
+  }
   const std::string problems = TakeVTKProblems();
   FileMesh result;
   result.Mesh = reader->GetOutput();
@@ -346,7 +376,7 @@ FileMesh ReadLegacy(const InputFile& file)
 FileMesh ReadXml(const InputFile& file)
 {
   vtkNew<vtkXMLFileReadTester> tester;
-  tester->SetFileName(file.GetName().c_str());
+  tester->SetFileName(file.GetPath().c_str());
   const char* const type = tester->TestReadFile() ? tester->GetFileDataType() : nullptr;
   if (!type)
   {

@@ -39,6 +39,8 @@ class WrongUsage(CommandTest):
 
     def test_unknown_option(self):
         self.refuse("--fast", "--fast")
+        self.refuse("did you mean --geometry?", "--geomtry", "planar")
+        self.refuse("did you mean --quiet?", "--quite=1")
 
     def test_unknown_extension(self):
         known = [".vtk", ".vtp", ".ply", ".stl", ".obj"]

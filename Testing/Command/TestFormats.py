@@ -109,12 +109,14 @@ class Lost(CommandTest):
                 self.assertIn(word, line)
 
     def test_points_of_an_stl(self):
+        """Two of the three points are the same as float."""
 
         def triangle(x):
             return make_mesh([(x, 0, 0), (x + 2**-10, 0, 0), (x, 1, 0), (1e300, 0, 0)], [(0, 1, 2)])
 
         line = self.losses(triangle(2.0**20 + 2**-10), "out.stl")
-        self.assertIn("double precision of the points (coordinates change by up to 0.002)", line)
+        self.assertIn("double precision of the points (coordinates change by up to 0.002, 1 point", line)
+        self.assertIn("fall on others)", line)
         line = self.losses(triangle(0.1), "out.stl")
         self.assertRegex(line, r"the points \(coordinates change by up to \S+e-09\)")
 

@@ -1,12 +1,20 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Small files that ask for much memory, and files that are pipes."""
+"""Small files that ask for much memory, and pipes as files."""
 
 import os
 import resource
+import threading
 import unittest
 
-from CommandTesting import BadFileTest
+from CommandTesting import (
+    FORMATS,
+    BadFileTest,
+    bumpy_grid,
+    read_mesh,
+    triangles_of,
+    write_mesh,
+)
 from TestNumbers import TRIANGLE, as_text
 
 MOST_MEMORY = 3 << 30  # for refusing a file of a few hundred bytes
@@ -103,10 +111,30 @@ class ExcessiveSizes(BadFileTest):
 
 
 class Pipes(BadFileTest):
-    def test_is_refused(self):
-        os.mkfifo(self.path("pipe.obj"))
-        self.refuse("pipe.obj", "is not a regular file")
+    def test_every_format(self):
+        mesh = bumpy_grid(20, 0)
+        for extension in FORMATS:
+            path = write_mesh(mesh, self.path("in" + extension))
+            self.succeed(path, "expected.stl")
+            with open(path, "rb") as file:
+                content = file.read()
+            os.mkfifo(self.path("pipe" + extension))
+            writer = threading.Thread(target=self.write, args=("pipe" + extension, content))
+            writer.start()
+            self.succeed("pipe" + extension, "out.stl")
+            writer.join()
+            self.assertEqual(
+                triangles_of(read_mesh(self.path("out.stl"))),
+                triangles_of(read_mesh(self.path("expected.stl"))),
+                extension,
+            )
 
+    def test_errors_name_the_pipe(self):
+        os.mkfifo(self.path("pipe.obj"))
+        writer = threading.Thread(target=self.write, args=("pipe.obj", "v 0 0 x\n"))
+        writer.start()
+        self.fail_with(3, "pipe.obj", "out.vtk", naming=["pipe.obj: line 1: 'x'"])
+        writer.join()
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
