@@ -14,8 +14,8 @@ from ._vtk_update import Failure, Update
 
 _IN_PARTITIONS = ("the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
                   "Blocks in ParaView")
-_ON_RANKS = ("points are on several ranks; gather them on the first one, by Redistribute DataSet with one "
-             "partition in ParaView")
+_IN_PIECES = ("points are in several pieces; gather them in the first one, by Redistribute DataSet with one "
+              "partition in ParaView")
 
 
 class _PointUpdate(Update):
@@ -43,7 +43,7 @@ class _PointUpdate(Update):
         filter_ = self._filter
         piece = vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()
         if filter_.GetOutputInformation(0).Get(piece) > 0 and data.GetNumberOfPoints():
-            raise InvalidMesh(_ON_RANKS)
+            raise InvalidMesh(_IN_PIECES)
         if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
             self._pass_after_abort(data, output)
             self.totals.change(stop_reason="aborted" if data.GetNumberOfPoints() else "converged")

@@ -399,7 +399,7 @@ class SamePoints(Pair, unittest.TestCase):
                 told = Watched(make_cloud(9), kind)
                 told.filter.UpdatePiece(piece, 2, 0)
                 self.assertEqual(len(told.errors), piece)
-            self.assertIn("on several ranks; gather them on the first one, by", told.errors[0])
+            self.assertIn("in several pieces; gather them in the first one, by", told.errors[0])
 
 
 class OnlyInCxx(unittest.TestCase):
