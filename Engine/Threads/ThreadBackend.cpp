@@ -108,98 +108,6 @@ int ResolveThreads(int wanted)
 
 namespace
 {
-#if defined(DELAUNAYFLIP_STD_THREADS)
-
-/// A thread for every helper: what ThreadSanitizer can follow.
-class HelperThreads
-{
-public:
-  explicit HelperThreads(int) {}
-
-  template <typename Help>
-  void Start(const Help& help)
-  {
-    std::thread(help).detach();
-  }
-};
-
-#else
-
-/// Arenas that no backend uses. oneTBB 2021 may never free an arena that ends before its threads
-/// have come, as on busy cores, so they are kept for the next backends.
-class IdleArenas
-{
-public:
-  static std::unique_ptr<tbb::task_arena> Take(int threads)
-  {
-    const std::lock_guard<std::mutex> lock(Get().Mutex);
-    for (std::unique_ptr<tbb::task_arena>& arena : Get().Arenas)
-    {
-      if (arena && arena->max_concurrency() == threads)
-      {
-        return std::move(arena);
-      }
-    }
-    return std::make_unique<tbb::task_arena>(threads);
-  }
-
-  static void Return(std::unique_ptr<tbb::task_arena> arena)
-  {
-    const std::lock_guard<std::mutex> lock(Get().Mutex);
-    for (std::unique_ptr<tbb::task_arena>& place : Get().Arenas)
-    {
-      if (!place)
-      {
-        place = std::move(arena);
-        return;
-      }
-    }
-  }
-
-private:
-  /// Lives as long as the process: oneTBB may end before static objects do.
-  static IdleArenas& Get()
-  {
-    static auto* idle = new IdleArenas;
-    return *idle;
-  }
-
-  std::mutex Mutex;
-  std::array<std::unique_ptr<tbb::task_arena>, 8> Arenas; ///< Null where there is room.
-};
-
-/// Threads of oneTBB.
-class HelperThreads
-{
-public:
-  explicit HelperThreads(int threads)
-    : Arena(IdleArenas::Take(threads))
-  {
-    if (threads > 1)
-    {
-      constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
-      this->Allowance.emplace(parallelism,
-        std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
-    }
-  }
-
-  ~HelperThreads() { IdleArenas::Return(std::move(this->Arena)); }
-  HelperThreads(const HelperThreads&) = delete;
-  HelperThreads& operator=(const HelperThreads&) = delete;
-
-  template <typename Help>
-  void Start(const Help& help)
-  {
-    this->Arena->enqueue(help);
-  }
-
-private:
-  std::optional<tbb::global_control> Allowance; // allows more threads than cores
-  std::unique_ptr<tbb::task_arena> Arena;
-};
-
-#endif
-
 /// The calling thread and helpers, which stay for the next range for a while: with 16 threads,
 /// oneTBB takes 20 to 40 us for each range to wake them and to divide it, a crew 3 us. A surface of
 /// 50,000 points has about a hundred ranges in 8 ms.
@@ -330,6 +238,113 @@ private:
   std::mutex Mutex;
   std::exception_ptr Error;
 };
+
+#if defined(DELAUNAYFLIP_STD_THREADS)
+
+/// A crew with a thread for every helper: what ThreadSanitizer can follow.
+class Team
+{
+public:
+  explicit Team(int) {}
+  ~Team() { this->Members->IsOver = true; }
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  Crew& GetCrew() const { return *this->Members; }
+
+  void StartHelper()
+  {
+    std::thread([members = this->Members]() { members->Help(); }).detach();
+  }
+
+private:
+  std::shared_ptr<Crew> Members = std::make_shared<Crew>(); ///< Helpers may outlive the team.
+};
+
+#else
+
+/// An arena of oneTBB, and a crew whose helpers are its threads.
+struct CrewInArena
+{
+  std::unique_ptr<tbb::task_arena> Arena;
+  std::shared_ptr<Crew> Members; ///< Helpers may come after the last use.
+};
+
+/// Arenas that no backend uses. oneTBB 2021 may never free an arena that ends before its threads
+/// have come, as on busy cores, so they are kept for the next backends.
+class IdleArenas
+{
+public:
+  static CrewInArena Take(int threads)
+  {
+    const std::lock_guard<std::mutex> lock(Get().Mutex);
+    for (CrewInArena& idle : Get().Arenas)
+    {
+      if (idle.Arena && idle.Arena->max_concurrency() == threads)
+      {
+        return std::move(idle);
+      }
+    }
+    return { std::make_unique<tbb::task_arena>(threads), std::make_shared<Crew>() };
+  }
+
+  static void Return(CrewInArena used)
+  {
+    const std::lock_guard<std::mutex> lock(Get().Mutex);
+    for (CrewInArena& place : Get().Arenas)
+    {
+      if (!place.Arena)
+      {
+        place = std::move(used);
+        return;
+      }
+    }
+  }
+
+private:
+  /// Lives as long as the process: oneTBB may end before static objects do.
+  static IdleArenas& Get()
+  {
+    static auto* idle = new IdleArenas;
+    return *idle;
+  }
+
+  std::mutex Mutex;
+  std::array<CrewInArena, 8> Arenas; ///< Null where there is room.
+};
+
+/// A crew whose helpers are threads of oneTBB.
+class Team
+{
+public:
+  explicit Team(int threads)
+    : Own(IdleArenas::Take(threads))
+  {
+    if (threads > 1)
+    {
+      constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
+      this->Allowance.emplace(parallelism,
+        std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
+    }
+  }
+
+  ~Team() { IdleArenas::Return(std::move(this->Own)); }
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  Crew& GetCrew() const { return *this->Own.Members; }
+
+  void StartHelper()
+  {
+    this->Own.Arena->enqueue([members = this->Own.Members]() { members->Help(); });
+  }
+
+private:
+  std::optional<tbb::global_control> Allowance; // allows more threads than cores
+  CrewInArena Own;
+};
+
+#endif
 }
 
 class ThreadBackend::Pool
@@ -337,7 +352,7 @@ class ThreadBackend::Pool
 public:
   explicit Pool(int threads)
     : Size(threads),
-      Threads(threads)
+      Members(threads)
   {
     if (threads > mostStarted)
     {
@@ -346,18 +361,15 @@ public:
     }
   }
 
-  ~Pool() { this->Members->IsOver = true; }
-  Pool(const Pool&) = delete;
-  Pool& operator=(const Pool&) = delete;
-
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
-    while (this->Members->Helpers < std::min<std::int64_t>(this->Size, count) - 1)
+    Crew& crew = this->Members.GetCrew();
+    while (crew.Helpers < std::min<std::int64_t>(this->Size, count) - 1)
     {
-      this->Threads.Start([members = this->Members]() { members->Help(); });
-      ++this->Members->Helpers;
+      this->Members.StartHelper();
+      ++crew.Helpers;
     }
-    this->Members->Run(count, work);
+    crew.Run(count, work);
   }
 
   int Size;
@@ -381,8 +393,7 @@ private:
       });
   }
 
-  HelperThreads Threads;
-  std::shared_ptr<Crew> Members = std::make_shared<Crew>(); ///< Helpers may outlive the pool.
+  Team Members;
 };
 
 ThreadBackend::ThreadBackend(int threads)
