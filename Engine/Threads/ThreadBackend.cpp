@@ -8,17 +8,16 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
 #include <thread>
-#include <utility>
 
 #if !defined(DELAUNAYFLIP_STD_THREADS)
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -65,14 +64,6 @@ int CountStartable(int most)
   return static_cast<int>(threads.size());
 }
 
-void RunHere(std::int64_t count, const std::function<void(std::int64_t)>& work)
-{
-  for (std::int64_t task = 0; task < count; ++task)
-  {
-    work(task);
-  }
-}
-
 /// As many threads as this have been started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
@@ -106,196 +97,69 @@ int ResolveThreads(int wanted)
 }
 }
 
-namespace
-{
-/// The calling thread and helpers, which stay for the next range for a while: with 16 threads,
-/// oneTBB takes 20 to 40 us for each range to wake them and to divide it, a crew 3 us. A surface of
-/// 50,000 points has about a hundred ranges in 8 ms.
-class Crew
-{
-public:
-  using Work = std::function<void(std::int64_t)>;
-
-  /// Calls work(task) for task = 0 .. count - 1. Rethrows an exception of a call. While the crew
-  /// has a range, a task or another thread that comes with one works alone.
-  void Run(std::int64_t count, const Work& work)
-  {
-    if (this->IsBusy.exchange(true))
-    {
-      RunHere(count, work);
-      return;
-    }
-    // The ticket is closed, so that no helper takes a task while this changes.
-    this->HasFailed = false;
-    this->Done = 0;
-    this->Current = &work;
-    this->Count = count;
-    this->Range += OneRange;
-    this->Ticket = this->Range;
-    this->TakeTasks();
-    for (const IdleTime idle; this->Done < count;)
-    {
-      idle.Pause();
-    }
-    this->Ticket = this->Range + Closed;
-    const std::exception_ptr error = std::exchange(this->Error, nullptr);
-    this->IsBusy = false;
-    if (error)
-    {
-      std::rethrow_exception(error);
-    }
-  }
-
-  /// What a helper does. It leaves when there has been nothing to do for a while.
-  void Help()
-  {
-    IdleTime idle;
-    while (!this->IsOver && idle.Pause() < LongestIdle)
-    {
-      if (this->TakeTasks())
-      {
-        idle = IdleTime();
-      }
-    }
-    --this->Helpers;
-  }
-
-  std::atomic<int> Helpers{ 0 };
-  std::atomic<bool> IsOver{ false };
-
-private:
-  using Microseconds = std::chrono::duration<double, std::micro>;
-  static constexpr Microseconds LongestIdle{ 300.0 };
-  static constexpr std::uint64_t OneRange = std::uint64_t(1) << 32;
-  static constexpr std::uint64_t Closed = OneRange - 1;
-
-  /// How long a thread has had nothing to do.
-  class IdleTime
-  {
-  public:
-    /// Lets other threads run, but not at once: to come back may take longer than a range. Linux
-    /// hardly heeds a yield since 6.6, so that where threads share cores only sleep helps.
-    Microseconds Pause() const
-    {
-      constexpr Microseconds LongestSpin{ 20.0 }, LongestYield{ 100.0 };
-      const Microseconds idle = std::chrono::steady_clock::now() - this->Start;
-      if (idle > LongestYield)
-      {
-        std::this_thread::sleep_for(LongestSpin);
-      }
-      else if (idle > LongestSpin)
-      {
-        std::this_thread::yield();
-      }
-      return idle;
-    }
-
-  private:
-    std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-  };
-
-  /// @returns whether there was one.
-  bool TakeTasks()
-  {
-    for (bool any = false;; any = true)
-    {
-      std::uint64_t ticket = this->Ticket;
-      std::int64_t task;
-      const Work* work;
-      do
-      {
-        task = static_cast<std::int64_t>(ticket % OneRange);
-        work = this->Current;
-        if (task >= this->Count)
-        {
-          return any;
-        }
-      } while (!this->Ticket.compare_exchange_weak(ticket, ticket + 1));
-      try
-      {
-        if (!this->HasFailed)
-        {
-          (*work)(task);
-        }
-      }
-      catch (...)
-      {
-        const std::lock_guard<std::mutex> lock(this->Mutex);
-        this->Error = std::current_exception();
-        this->HasFailed = true;
-      }
-      ++this->Done;
-    }
-  }
-
-  /// The number of the range, and below it that of its next task, or Closed.
-  alignas(64) std::atomic<std::uint64_t> Ticket{ Closed };
-  std::atomic<std::int64_t> Count{ 0 };
-  std::atomic<const Work*> Current{ nullptr };
-  std::atomic<bool> IsBusy{ false }, HasFailed{ false };
-  alignas(64) std::atomic<std::int64_t> Done{ 0 };
-  std::uint64_t Range = 0;
-  std::mutex Mutex;
-  std::exception_ptr Error;
-};
-
 #if defined(DELAUNAYFLIP_STD_THREADS)
 
-/// A crew with a thread for every helper: what ThreadSanitizer can follow.
-class Team
+class ThreadBackend::Pool
 {
 public:
-  explicit Team(int) {}
-  ~Team() { this->Members->IsOver = true; }
-  Team(const Team&) = delete;
-  Team& operator=(const Team&) = delete;
-
-  Crew& GetCrew() const { return *this->Members; }
-
-  void StartHelper()
+  explicit Pool(int threads)
+    : Size(threads)
   {
-    std::thread([members = this->Members]() { members->Help(); }).detach();
   }
 
-private:
-  std::shared_ptr<Crew> Members = std::make_shared<Crew>(); ///< Helpers may outlive the team.
+  void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
+  {
+    std::atomic<std::int64_t> next{ 0 };
+    const auto drain = [&]()
+    {
+      for (std::int64_t task = next++; task < count; task = next++)
+      {
+        work(task);
+      }
+    };
+    std::vector<std::future<void>> helpers; // their destructors wait, too
+    for (std::int64_t i = 1; i < std::min<std::int64_t>(this->Size, count); ++i)
+    {
+      helpers.push_back(std::async(std::launch::async, drain));
+    }
+    drain();
+    for (std::future<void>& helper : helpers)
+    {
+      helper.get();
+    }
+  }
+
+  int Size;
 };
 
 #else
-
-/// An arena of oneTBB, and a crew whose helpers are its threads.
-struct CrewInArena
-{
-  std::unique_ptr<tbb::task_arena> Arena;
-  std::shared_ptr<Crew> Members; ///< Helpers may come after the last use.
-};
 
 /// Arenas that no backend uses. oneTBB 2021 may never free an arena that ends before its threads
 /// have come, as on busy cores, so they are kept for the next backends.
 class IdleArenas
 {
 public:
-  static CrewInArena Take(int threads)
+  static std::unique_ptr<tbb::task_arena> Take(int threads)
   {
     const std::lock_guard<std::mutex> lock(Get().Mutex);
-    for (CrewInArena& idle : Get().Arenas)
+    for (std::unique_ptr<tbb::task_arena>& arena : Get().Arenas)
     {
-      if (idle.Arena && idle.Arena->max_concurrency() == threads)
+      if (arena && arena->max_concurrency() == threads)
       {
-        return std::move(idle);
+        return std::move(arena);
       }
     }
-    return { std::make_unique<tbb::task_arena>(threads), std::make_shared<Crew>() };
+    return std::make_unique<tbb::task_arena>(threads);
   }
 
-  static void Return(CrewInArena used)
+  static void Return(std::unique_ptr<tbb::task_arena> arena)
   {
     const std::lock_guard<std::mutex> lock(Get().Mutex);
-    for (CrewInArena& place : Get().Arenas)
+    for (std::unique_ptr<tbb::task_arena>& place : Get().Arenas)
     {
-      if (!place.Arena)
+      if (!place)
       {
-        place = std::move(used);
+        place = std::move(arena);
         return;
       }
     }
@@ -310,50 +174,23 @@ private:
   }
 
   std::mutex Mutex;
-  std::array<CrewInArena, 8> Arenas; ///< Null where there is room.
+  std::array<std::unique_ptr<tbb::task_arena>, 8> Arenas; ///< Null where there is room.
 };
-
-/// A crew whose helpers are threads of oneTBB.
-class Team
-{
-public:
-  explicit Team(int threads)
-    : Own(IdleArenas::Take(threads))
-  {
-    if (threads > 1)
-    {
-      constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
-      this->Allowance.emplace(parallelism,
-        std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
-    }
-  }
-
-  ~Team() { IdleArenas::Return(std::move(this->Own)); }
-  Team(const Team&) = delete;
-  Team& operator=(const Team&) = delete;
-
-  Crew& GetCrew() const { return *this->Own.Members; }
-
-  void StartHelper()
-  {
-    this->Own.Arena->enqueue([members = this->Own.Members]() { members->Help(); });
-  }
-
-private:
-  std::optional<tbb::global_control> Allowance; // allows more threads than cores
-  CrewInArena Own;
-};
-
-#endif
-}
 
 class ThreadBackend::Pool
 {
 public:
   explicit Pool(int threads)
     : Size(threads),
-      Members(threads)
+      Arena(IdleArenas::Take(threads))
   {
+    if (threads == 1)
+    {
+      return; // and oneTBB is not used
+    }
+    constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
+    this->Allowance.emplace(
+      parallelism, std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
     if (threads > mostStarted)
     {
       mostStarted = threads;
@@ -361,15 +198,14 @@ public:
     }
   }
 
+  ~Pool() { IdleArenas::Return(std::move(this->Arena)); }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
   void Run(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
-    Crew& crew = this->Members.GetCrew();
-    while (crew.Helpers < std::min<std::int64_t>(this->Size, count) - 1)
-    {
-      this->Members.StartHelper();
-      ++crew.Helpers;
-    }
-    crew.Run(count, work);
+    this->Arena->execute(
+      [&]() { tbb::parallel_for(std::int64_t(0), count, [&](std::int64_t task) { work(task); }); });
   }
 
   int Size;
@@ -393,8 +229,11 @@ private:
       });
   }
 
-  Team Members;
+  std::optional<tbb::global_control> Allowance; // allows more threads than cores
+  std::unique_ptr<tbb::task_arena> Arena;
 };
+
+#endif
 
 ThreadBackend::ThreadBackend(int threads)
   : Threads(new Pool(ResolveThreads(threads))),
@@ -409,6 +248,17 @@ ThreadBackend& ThreadBackend::operator=(ThreadBackend&&) noexcept = default;
 std::string ThreadBackend::GetName() const
 {
   return "Threads: " + std::to_string(this->Threads->Size);
+}
+
+namespace
+{
+void RunHere(std::int64_t count, const std::function<void(std::int64_t)>& work)
+{
+  for (std::int64_t task = 0; task < count; ++task)
+  {
+    work(task);
+  }
+}
 }
 
 void ThreadBackend::SetPoll(std::function<void()> poll)
