@@ -322,13 +322,14 @@ void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* mesh, vtkPol
     }
   }
   RenewNormals(output,
-    [&slots](vtkIdType polygon, const std::int64_t ids[3])
+    [&slots](vtkIdType polygon, const std::int64_t ids[3], std::int64_t before[3])
     {
       const vtkIdType triangle = slots.GetTriangle(polygon);
-      const TriangleArray& old = slots.Triangles;
-      return triangle != TriangleSlots::None &&
-        !(old.Get(triangle, 0) == ids[0] && old.Get(triangle, 1) == ids[1] &&
-          old.Get(triangle, 2) == ids[2]);
+      for (int slot = 0; slot < 3 && triangle != TriangleSlots::None; ++slot)
+      {
+        before[slot] = slots.Triangles.Get(triangle, slot);
+      }
+      return !std::equal(ids, ids + 3, before);
     });
 }
 
@@ -404,7 +405,7 @@ void DemoteGlobalIds(vtkDataSetAttributes* data)
   }
 }
 
-void RenewNormals(vtkPolyData* output, const HasChanged& hasChanged)
+void RenewNormals(vtkPolyData* output, const FindChange& findChange)
 {
   vtkDataArray* shared = output->GetCellData()->GetNormals();
   if (!shared || shared->GetNumberOfComponents() != 3 ||
@@ -428,13 +429,18 @@ void RenewNormals(vtkPolyData* output, const HasChanged& hasChanged)
         output->GetPolys()->GetCellAtId(polygon, cell);
         std::int64_t ids[3] = { -1, -1, -1 };
         std::copy_n(cell->begin(), std::min<vtkIdType>(cell->GetNumberOfIds(), 3), ids);
+        std::int64_t before[3] = { ids[0], ids[1], ids[2] };
         const auto exists = [&](std::int64_t id) { return id >= 0 && id < points.Count; };
-        if (std::all_of(ids, ids + 3, exists) && hasChanged(polygon, ids))
+        // The ids of the input may have been changed.
+        if (std::all_of(ids, ids + 3, exists) && findChange(polygon, ids, before) &&
+          std::all_of(before, before + 3, exists))
         {
-          double old[3], normal[3];
-          normals->GetTuple(first + polygon, old);
+          double normal[3], winding[3];
+          TriangleNormal(points, before, winding);
+          normals->GetTuple(first + polygon, normal);
+          const double side = vtkMath::Dot(winding, normal) < 0.0 ? -1.0 : 1.0;
           TriangleNormal(points, ids, normal);
-          vtkMath::MultiplyScalar(normal, vtkMath::Dot(old, normal) < 0.0 ? -1.0 : 1.0);
+          vtkMath::MultiplyScalar(normal, side);
           normals->SetTuple(first + polygon, normal);
         }
       }

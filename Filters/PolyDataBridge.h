@@ -130,12 +130,15 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkCellArray> BuildStrips(
 /// If there are pedigree ids already, the array is no attribute any more.
 DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
 
-/// Whether flips have made this polygon of an output, a triangle with these points.
-using HasChanged = std::function<bool(vtkIdType polygon, const std::int64_t ids[3])>;
+/// Whether flips have changed this polygon of an output, a triangle. @param ids its points.
+/// @param before receives what its points were; they stay `ids` if that is not known.
+using FindChange =
+  std::function<bool(vtkIdType polygon, const std::int64_t ids[3], std::int64_t before[3])>;
 
-/// Recomputes the active cell normals of changed triangles. A normal stays on the side of the mesh
-/// to which it pointed. Normals with too few tuples stay as they are.
-DELAUNAYFLIP_EXPORT void RenewNormals(vtkPolyData* output, const HasChanged& hasChanged);
+/// Recomputes the active cell normals of changed triangles. A normal that pointed against the
+/// winding of the triangle before points against that of the new one. Normals with too few tuples
+/// stay as they are.
+DELAUNAYFLIP_EXPORT void RenewNormals(vtkPolyData* output, const FindChange& findChange);
 
 /// Adds a cell array to an output: vtkIntArray for integers, else vtkDoubleArray.
 /// @param values one per triangle. @param elsewhere the value for cells that are not triangles.

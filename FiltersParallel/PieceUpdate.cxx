@@ -157,12 +157,14 @@ public:
       {
         this->Sources.push_back(this->Slots.GetCellOfPolygon(polygon));
         this->Triangles.push_back(place);
+        this->Origins.push_back(slot);
       }
     }
     for (std::size_t i = 0; i < flipped.ReceivedTriangles.size(); ++i)
     {
       this->Sources.push_back(-1 - static_cast<vtkIdType>(i));
       this->Triangles.push_back(kept++);
+      this->Origins.push_back(TriangleSlots::None);
     }
   }
 
@@ -208,9 +210,14 @@ public:
       }
     }
     RenewNormals(output,
-      [this](vtkIdType polygon, const std::int64_t*)
+      [this](vtkIdType polygon, const std::int64_t*, std::int64_t before[3])
       {
         const vtkIdType triangle = this->Triangles[polygon];
+        const vtkIdType slot = this->Origins[polygon];
+        for (int i = 0; i < 3 && slot != TriangleSlots::None; ++i)
+        {
+          before[i] = this->Slots.Triangles.Get(slot, i);
+        }
         return triangle >= 0 && this->Flipped.FlipCounts[triangle] > 0;
       });
   }
@@ -312,6 +319,7 @@ private:
   // Of each polygon of the output:
   std::vector<vtkIdType> Sources; ///< The cell of the mesh; -1 - i: that of received triangle i.
   std::vector<vtkIdType> Triangles; ///< The triangle of the flipped piece, or -1.
+  std::vector<vtkIdType> Origins; ///< The triangle of the mesh, or None.
 };
 
 }

@@ -263,16 +263,21 @@ class MeshInput:
         corners[~of_triangle] = slots.polygons.gather(whole)
 
     def renew_normals(self, values, triangles):
-        """Writes the normals of changed triangles to those of all output cells. They stay on the side
-        of the mesh to which they pointed."""
+        """Writes the normals of changed triangles to those of all output cells. Normals that pointed
+        against the winding still do."""
         polygons, chosen = self.slots.list_triangles()
         changed = (self.slots.triangles[chosen] != triangles[chosen]).any(axis=1)
-        cells = self.slots.first_polygon + polygons[changed]
-        mesh = _arrays.Mesh(self.points, triangles[chosen[changed]])
-        normals = numpy.empty((len(cells), 3))
+        cells, chosen = self.slots.first_polygon + polygons[changed], chosen[changed]
+        old, new = (self._find_normals(some[chosen]) for some in (self.slots.triangles, triangles))
+        against = (old * values[cells]).sum(axis=1) < 0
+        values[cells] = new * numpy.where(against, -1.0, 1.0)[:, None]
+
+    def _find_normals(self, triangles):
+        """Unit normals by the right-hand rule; 0 for triangles without area."""
+        mesh = _arrays.Mesh(self.points, triangles)
+        normals = numpy.empty((len(triangles), 3))
         _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
-        against = (normals * values[cells]).sum(axis=1) < 0
-        values[cells] = normals * numpy.where(against, -1.0, 1.0)[:, None]
+        return normals
 
     def list_numbers(self, session, counts, angles):
         """(name, values per output cell) of the requested cell arrays."""

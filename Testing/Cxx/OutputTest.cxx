@@ -13,9 +13,11 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
+#include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkSOADataArrayTemplate.h"
 #include "vtkStringArray.h"
+#include "vtkTriangle.h"
 #include "vtkVariantArray.h"
 
 #include <gtest/gtest.h>
@@ -157,6 +159,55 @@ TEST(Output, NormalsOfChangedTrianglesAreRenewed)
   EXPECT_DOUBLE_EQ(mesh->GetCellData()->GetNormals()->GetComponent(0, 2), 0.5);
   WatchedFilter against(SetCellNormals(MakeRhombus(), -1.0)); // the winding
   EXPECT_DOUBLE_EQ(RunCleanly(against)->GetCellData()->GetNormals()->GetComponent(1, 2), -1.0);
+}
+
+TEST(Output, CellNormalsFollowTheWindingWhereTrianglesTurn)
+{
+  // A plane bent by most of a turn. Its triangles turn with the flips, many by more than 90
+  // degrees.
+  auto mesh = MakeBadMesh<vtkDoubleArray>();
+  double bounds[6];
+  mesh->GetBounds(bounds);
+  ReplacePoints<vtkDoubleArray>(mesh,
+    [&](double* x)
+    {
+      const double angle = 5.0 * (x[0] - bounds[0]) / (bounds[1] - bounds[0]);
+      x[0] = 0.2 * (bounds[1] - bounds[0]) * std::cos(angle);
+      x[2] = 0.2 * (bounds[1] - bounds[0]) * std::sin(angle);
+    });
+  SetCellNormals(mesh, 0.0);
+  const auto findNormal = [](vtkPolyData* of, vtkIdType cell)
+  {
+    const Cell ids = GetCell(of, cell);
+    Points::value_type corners[3], normal;
+    for (int i = 0; i < 3; ++i)
+    {
+      of->GetPoint(ids[i], corners[i].data());
+    }
+    vtkTriangle::ComputeNormal(
+      corners[0].data(), corners[1].data(), corners[2].data(), normal.data());
+    return normal;
+  };
+  vtkDataArray* given = mesh->GetCellData()->GetNormals();
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    given->SetTuple(cell, findNormal(mesh, cell).data());
+  }
+  WatchedFilter filter(mesh);
+  filter->SetGeometryToSurface();
+  filter->SetFeatureAngle(180.0);
+  auto output = RunCleanly(filter);
+  std::size_t turned = 0;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    const auto normal = findNormal(output, cell);
+    double before[3], after[3];
+    given->GetTuple(cell, before);
+    output->GetCellData()->GetNormals()->GetTuple(cell, after);
+    turned += vtkMath::Dot(before, normal.data()) < 0.0 ? 1 : 0;
+    EXPECT_LT(0.999, vtkMath::Dot(normal.data(), after)) << "cell " << cell;
+  }
+  EXPECT_LT(10u, turned);
 }
 
 TEST(Output, AnglesPerTriangle)
