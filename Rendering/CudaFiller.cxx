@@ -112,7 +112,11 @@ public:
       "find the memory of a buffer of OpenGL");
     const MutableTriangleArray triangles(
       static_cast<std::int32_t*>(memory), session.GetReport().Triangles);
-    size = 4 * static_cast<std::size_t>(triangles.Count);
+    if (size < 12 * static_cast<std::size_t>(triangles.Count))
+    {
+      throw std::runtime_error("a buffer of OpenGL is smaller than the mesh");
+    }
+    size /= 3; // from three ids of a triangle to one
     if (!this->Written)
     {
       Require(cudaMalloc(&memory, size), "allocate memory");
