@@ -142,9 +142,10 @@ struct SegmentRound
     }
   }
 
+  /// For sure only when all have decided. Prefetches ask earlier, while others are being beaten.
   DELAUNAYFLIP_HOST_DEVICE bool IsWinner(const SegmentItem& item) const
   {
-    return item.State == SegmentItem::Waiting && item.Beaten != this->Number;
+    return item.State == SegmentItem::Waiting && AtomicLoad(&item.Beaten) != this->Number;
   }
 
   /// Makes the path of a winner edges.
