@@ -30,6 +30,7 @@ class Triangulation:
     used_points: Array
     #: (k, 2) int64: the edges that segments have become, in their order and direction.
     segments: Array
+    iterations: Array  #: Of the flips, structured; see Session.iterations.
     report: Report
 
 
@@ -191,7 +192,8 @@ class Input:
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
             used = numpy.concatenate([used, numpy.arange(len(used), len(points))])
-        return Triangulation(points, triangles, neighbors, used, edges, report)
+        iterations = _report.read_iterations(handle, report.number_of_iterations)
+        return Triangulation(points, triangles, neighbors, used, edges, iterations, report)
 
     def _add_crossings(self, handle, count):
         """The points, with those at crossings behind them."""
