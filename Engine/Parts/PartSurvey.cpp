@@ -425,10 +425,7 @@ void CheckParts(const MeshPiece& piece, const FlipOptions& options, PieceGroup& 
       {
         throw MeshTooLarge("a piece has more than 2^31 points: divide the mesh among more ranks");
       }
-      for (std::int64_t i = 0; i < 2 * piece.Mesh.NumberOfConstraintEdges; ++i)
-      {
-        CheckConstraint(piece.Mesh, i / 2, static_cast<int>(i % 2));
-      }
+      CheckConstraints(piece.Mesh);
       RequireValidIds(piece.Mesh);
     });
 }
