@@ -177,6 +177,65 @@ DELAUNAYFLIP_HOST_DEVICE inline bool MayBeRepeated(const EdgeMeshView& mesh, std
   return may;
 }
 
+/// The vertices of a triangle, ascending, and the caller's slot of it.
+struct SortedTriangle
+{
+  std::uint32_t Vertices[3];
+  std::uint32_t Slot;
+
+  DELAUNAYFLIP_HOST_DEVICE explicit SortedTriangle(const TriangleRecord& triangle)
+    : Slot(triangle.InputTriangle)
+  {
+    const std::uint32_t* v = triangle.Vertices;
+    const std::uint32_t low = v[0] < v[1] ? v[0] : v[1];
+    const std::uint32_t high = v[0] < v[1] ? v[1] : v[0];
+    this->Vertices[0] = v[2] < low ? v[2] : low;
+    this->Vertices[1] = v[2] < low ? low : (v[2] < high ? v[2] : high);
+    this->Vertices[2] = v[2] < high ? high : v[2];
+  }
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetHash() const
+  {
+    return Scatter(this->Vertices[0] + Scatter(this->Vertices[1] + Scatter(this->Vertices[2])));
+  }
+  DELAUNAYFLIP_HOST_DEVICE bool HasVerticesOf(const SortedTriangle& other) const
+  {
+    return this->Vertices[0] == other.Vertices[0] && this->Vertices[1] == other.Vertices[1] &&
+      this->Vertices[2] == other.Vertices[2];
+  }
+};
+
+/// Those of the `suspects` whose vertices are those of one in a smaller slot.
+template <typename Backend>
+IdSample FindRepeated(const SortedTriangle* suspects, std::int64_t count, const Backend& backend)
+{
+  constexpr int KeyBits = 32;
+  const Array<std::uint32_t> bySlot = backend.template SortIndices<KeyBits>(
+    count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return suspects[i].Slot; });
+  const std::uint32_t* suspectOf = bySlot.Data();
+  // Equal triangles become neighbours, and those in smaller slots come first.
+  const Array<std::uint32_t> byHash = backend.template SortIndices<KeyBits>(count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return suspects[suspectOf[i]].GetHash(); });
+  const std::uint32_t* rankOf = byHash.Data();
+  return backend.template Sum<IdSample>(count,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
+    {
+      const SortedTriangle own = suspects[suspectOf[rankOf[i]]];
+      for (std::int64_t j = i - 1; j >= 0; --j)
+      {
+        const SortedTriangle& before = suspects[suspectOf[rankOf[j]]];
+        if (before.HasVerticesOf(own))
+        {
+          sum.Note(own.Slot);
+          return;
+        }
+        if (before.GetHash() != own.GetHash())
+        {
+          return;
+        }
+      }
+    });
+}
+
 /// The triangles with the same points as one in a smaller slot.
 template <typename Backend>
 Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
@@ -188,9 +247,9 @@ Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
   IdSample repeated; // none in a clean mesh
   if (count > 0)
   {
-    Array<TriangleRecord> found = backend.template MakeArray<TriangleRecord>(count);
+    Array<SortedTriangle> found = backend.template MakeArray<SortedTriangle>(count);
     Array<std::uint32_t> cursor = backend.template MakeArray<std::uint32_t>(1);
-    TriangleRecord* suspects = found.Data();
+    SortedTriangle* suspects = found.Data();
     std::uint32_t* next = cursor.Data();
     backend.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *next = 0; });
     backend.ForEach(edges.NumberOfTriangles,
@@ -198,26 +257,10 @@ Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
       {
         if (MayBeRepeated(mesh, t))
         {
-          suspects[AtomicAdd(next, 1u)] = mesh.Triangles[t];
+          suspects[AtomicAdd(next, 1u)] = SortedTriangle(mesh.Triangles[t]);
         }
       });
-    std::vector<TriangleRecord> onHost(count);
-    backend.Download(suspects, count, onHost.data());
-    std::vector<std::array<std::uint32_t, 4>> keys; // vertices, ascending, and the slot
-    for (const TriangleRecord& triangle : onHost)
-    {
-      const VertexId* v = triangle.Vertices;
-      keys.push_back({ v[0], v[1], v[2], triangle.InputTriangle });
-      std::sort(keys.back().begin(), keys.back().begin() + 3);
-    }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 1; i < keys.size(); ++i)
-    {
-      if (std::equal(keys[i].begin(), keys[i].begin() + 3, keys[i - 1].begin()))
-      {
-        repeated.Note(keys[i][3]);
-      }
-    }
+    repeated = FindRepeated(suspects, count, backend);
   }
   return MakeDefect("triangles that repeat another one's points", repeated);
 }

@@ -396,6 +396,11 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
 //------------------------------------------------------------------------------
 void PointRun::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
 {
+  if (this->Prepared.Points.Count == this->Caller.Points.Count && this->NearPoint.empty())
+  {
+    mesh.StoreUsedPoints(ids);
+    return;
+  }
   std::vector<std::int64_t> used(this->Prepared.Points.Count);
   mesh.StoreUsedPoints(used.data());
   for (std::int64_t i = 0; i < this->Caller.Points.Count; ++i)
@@ -407,6 +412,10 @@ void PointRun::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
 std::vector<std::int64_t> PointRun::ListSegmentEdges(LoadedMesh& mesh) const
 {
   std::vector<std::int64_t> pairs;
+  if (this->Edges.empty())
+  {
+    return pairs; // without a copy of a mesh that is on a GPU
+  }
   mesh.ViewOnHost(
     [&](const PointMeshView& view)
     {
