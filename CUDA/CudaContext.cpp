@@ -107,7 +107,8 @@ CudaEvent MakeEvent()
 }
 
 CudaContext::CudaContext(const std::vector<int>& devices)
-  : Device(devices.front())
+  : Devices(devices),
+    Device(devices.front())
 {
   cudaGetLastError(); // clears errors of other code
   const CurrentDevice current(this->Device); // streams and events belong to it
@@ -166,16 +167,6 @@ Memory& CudaContext::GetMemory() const
   return this->Shared ? static_cast<Memory&>(*this->Shared) : *this->Pool;
 }
 
-std::vector<int> CudaContext::ListDevices() const
-{
-  std::vector<int> devices{ this->Device };
-  for (const DeviceStreams& other : this->Others)
-  {
-    devices.push_back(other.Device);
-  }
-  return devices;
-}
-
 std::size_t CudaContext::TakePeak()
 {
   return this->Pool->TakePeak() + (this->Shared ? this->Shared->TakePeak() : 0);
@@ -224,7 +215,7 @@ ContextLease LeaseContext(const std::vector<int>& devices)
     [&](auto& contexts)
     {
       const auto found = std::find_if(contexts.begin(), contexts.end(),
-        [&](const auto& context) { return context->ListDevices() == devices; });
+        [&](const auto& context) { return context->Devices == devices; });
       ContextLease taken(found == contexts.end() ? nullptr : found->release());
       contexts.erase(found, found == contexts.end() ? found : found + 1);
       return taken;

@@ -320,9 +320,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
 {
   TriangleMesh view;
   static_cast<FixedEdges&>(view) = mesh;
-  view.Points.Floats = mesh.Points.Floats;
-  view.Points.Doubles = mesh.Points.Doubles;
-  view.Points.Count = mesh.Points.Count;
+  static_cast<CoordinateArray&>(view.Points) = mesh.Points;
   view.Triangles = mesh.Triangles;
   return Load(mesh, view, { options.Device }, options, progress);
 }

@@ -446,7 +446,7 @@ private:
   bool FiltersApply = false; ///< Of a mesh from points: whether the rule's do.
   PlaneArray Places; ///< Of a mesh from points: views Points.
   Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
-  TurnCounts Turns;
+  TurnSample Turns;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;
 };

@@ -277,6 +277,15 @@ inline std::int64_t CheckConstraint(const TriangleMesh& mesh, std::int64_t const
   return point;
 }
 
+/// @throws InvalidMesh.
+inline void CheckConstraints(const TriangleMesh& mesh)
+{
+  for (std::int64_t i = 0; i < 2 * mesh.NumberOfConstraintEdges; ++i)
+  {
+    CheckConstraint(mesh, i / 2, static_cast<int>(i % 2));
+  }
+}
+
 struct ConstraintSums
 {
   std::int64_t Found = 0, Missing = 0, NewlyFixed = 0;

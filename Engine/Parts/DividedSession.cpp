@@ -78,10 +78,7 @@ struct DividedSession::Run : MeshInParts
     this->Mesh = this->Insertion.GetMesh(mesh);
     this->Constraints.assign(this->Mesh.ConstraintEdges,
       this->Mesh.ConstraintEdges + 2 * this->Mesh.NumberOfConstraintEdges);
-    for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
-    {
-      CheckConstraint(this->Mesh, i / 2, static_cast<int>(i % 2));
-    }
+    CheckConstraints(this->Mesh);
     this->Survey = PartSurvey(
       BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, this->Options.Geometry, this->Threads),
       this->Mesh.Points.Floats != nullptr);

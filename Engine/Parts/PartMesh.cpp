@@ -148,8 +148,6 @@ double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
 void PartMesh::BeginRounds(const MarkedEdges& marks)
 {
   const std::size_t count = this->Triangles.size();
-  this->Mates.reserve(3 * this->Triangles.capacity());
-  this->Mates.resize(3 * count, Unknown);
   this->Stars.Begin(static_cast<std::int64_t>(count),
     static_cast<std::int64_t>(this->Triangles.capacity()), this->GetNumberOfPoints());
   for (auto t = static_cast<std::int64_t>(count); t-- > 0;) // lists begin with the first triangle
@@ -203,11 +201,6 @@ void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
   s.Points[p] = t.Points[a];
   this->Stars.Add({ one.Triangle, q }, t.Points[q]);
   this->Stars.Add({ other.Triangle, p }, s.Points[p]);
-  const std::size_t toPB = 3 * other.Triangle + (b + 1) % 3; // the slots of t and s that turn away
-  const std::size_t toQA = 3 * one.Triangle + (a + 1) % 3;
-  this->Join(GetNumber(one), this->Mates[toPB]);
-  this->Join(GetNumber(other), this->Mates[toQA]);
-  this->Join(toPB, static_cast<std::uint32_t>(toQA));
   const unsigned char pb = s.GetMarks((b + 1) % 3);
   const unsigned char qa = t.GetMarks((a + 1) % 3);
   t.SetMarks(a, pb);
@@ -226,7 +219,6 @@ void PartMesh::SetSeam(const PartCorner& corner)
   PartTriangle& triangle = this->Triangles[corner.Triangle];
   triangle.SetMarks(
     corner.Slot, static_cast<unsigned char>(triangle.GetMarks(corner.Slot) | SeamMark));
-  this->Mates[GetNumber(corner)] = Unknown;
   this->NoteChange(corner.Triangle);
 }
 
@@ -234,7 +226,6 @@ void PartMesh::ClearSeam(const PartCorner& corner)
 {
   PartTriangle& triangle = this->Triangles[corner.Triangle];
   triangle.SetMarks(corner.Slot, triangle.Has(FixedMark, corner.Slot) ? FixedMark : 0);
-  this->Mates[GetNumber(corner)] = Unknown;
   this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
 }
 
@@ -275,44 +266,17 @@ PartCorner PartMesh::FindEdge(std::int32_t start, std::int32_t end, std::int64_t
   return found;
 }
 
-PartCorner PartMesh::FindOpenMate(const PartCorner& corner)
+PartCorner PartMesh::FindOpenMate(const PartCorner& corner) const
 {
-  const PartTriangle& triangle = this->Triangles[corner.Triangle];
-  if (triangle.Has(FixedMark, corner.Slot) || triangle.Has(SeamMark, corner.Slot))
-  {
-    return { -1, 0 };
-  }
-  const std::uint32_t& known = this->Mates[GetNumber(corner)];
-  if (known == Unknown)
-  {
-    const PartCorner mate = this->FindMate(corner);
-    this->Join(
-      GetNumber(corner), mate.Triangle < 0 ? NoMate : static_cast<std::uint32_t>(GetNumber(mate)));
-  }
-  return known == NoMate ? PartCorner{ -1, 0 }
-                         : PartCorner{ known / 3, static_cast<int>(known % 3) };
-}
-
-/// Makes two corners each other's mates.
-void PartMesh::Join(std::size_t one, std::uint32_t other)
-{
-  this->Mates[one] = other;
-  if (other < NoMate)
-  {
-    this->Mates[other] = static_cast<std::uint32_t>(one);
-  }
+  const bool isOpen = this->Triangles[corner.Triangle].GetMarks(corner.Slot) == 0;
+  return isOpen ? this->FindMate(corner) : PartCorner{ -1, 0 };
 }
 
 void PartMesh::PrefetchPoints(std::int64_t triangle) const
 {
-  for (int slot = 0; slot < 3; ++slot)
+  for (const std::int32_t point : this->Triangles[triangle].Points)
   {
-    this->PrefetchPoint(this->Triangles[triangle].Points[slot]);
-    const std::uint32_t mate = this->Mates[3 * triangle + slot];
-    if (mate < NoMate)
-    {
-      this->PrefetchPoint(this->Triangles[mate / 3].Points[mate % 3]);
-    }
+    this->PrefetchPoint(point);
   }
 }
 
@@ -354,7 +318,6 @@ std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
   }
   const auto t = static_cast<std::int64_t>(this->Triangles.size());
   this->Triangles.push_back({});
-  this->Mates.resize(this->Mates.size() + 3, Unknown);
   PartTriangle& triangle = this->Triangles[t];
   for (int slot = 0; slot < 3; ++slot)
   {

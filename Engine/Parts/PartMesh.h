@@ -124,6 +124,7 @@ public:
   /// Begins with empty lists. More triangles and points may be added later.
   /// @param capacity the number of triangles to reserve memory for.
   void Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points);
+  bool HasBegun() const { return this->First.capacity() > 0; }
   /// Adds a corner that is in no list.
   void Add(const PartCorner& corner, std::int32_t point);
 
@@ -204,7 +205,7 @@ public:
   /// find triangles without a pass over all. From now on only the functions below may change
   /// triangles.
   void BeginRounds(const MarkedEdges& marks);
-  bool HasBegunRounds() const { return !this->Mates.empty(); }
+  bool HasBegunRounds() const { return this->Stars.HasBegun(); }
   /// Flips the edge opposite to two corners.
   void Flip(const PartCorner& one, const PartCorner& other);
   /// Marks the edge opposite to a corner as a seam edge.
@@ -226,8 +227,8 @@ public:
   /// The mate of a corner: the corner of another triangle here that is opposite to the same edge.
   PartCorner FindMate(const PartCorner& corner) const;
   /// The same, but none if the edge is a fixed edge or a seam edge.
-  PartCorner FindOpenMate(const PartCorner& corner);
-  /// Prefetches the points of a triangle and those opposite to it.
+  PartCorner FindOpenMate(const PartCorner& corner) const;
+  /// Prefetches the points of a triangle.
   void PrefetchPoints(std::int64_t triangle) const;
   /// Whether a triangle here has an edge between these points.
   bool HasEdge(std::int64_t a, std::int64_t b) const
@@ -288,16 +289,7 @@ private:
   void NoteChange(std::int64_t triangle);
   void NoteChangesAt(std::int32_t point);
 
-  static constexpr std::uint32_t Unknown = 0xFFFFFFFFu, NoMate = Unknown - 1;
-  static std::size_t GetNumber(const PartCorner& corner)
-  {
-    return static_cast<std::size_t>(3 * corner.Triangle + corner.Slot);
-  }
-  void Join(std::size_t one, std::uint32_t other);
-
   PointStars Stars; ///< Empty before the rounds.
-  /// By corner, 3 * triangle + slot: its mate (FindMate), or Unknown until it is searched for.
-  HostVector<std::uint32_t> Mates;
   std::vector<std::int64_t> Changed; ///< For TakeChanged (PartTriangle::IsNoted).
   std::vector<PointPair> LostSeams;
   std::vector<std::int32_t> SharedPoints;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SessionWork.h"
 
+#include "SubMesh.h"
+#include "ThreadBackend.h"
+
 #include <type_traits>
 #include <vector>
 
@@ -154,12 +157,7 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
   {
     return;
   }
-  const TriangleArray& input = work.Mesh.GetOnHost().Triangles;
-  for (std::int64_t id = 0; id < 3 * triangles.Count; ++id)
-  {
-    const int slot = static_cast<int>(id % 3);
-    triangles.Set(id / 3, slot, input.Get(id / 3, slot));
-  }
+  CopyTriangles(work.Mesh.GetOnHost().Triangles, triangles, ThreadBackend(1));
 }
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors) const

@@ -151,9 +151,7 @@ FlipSession::Work::Work(
   CheckMeshSize(2 * points.Points.Count, points.Points.Count, "");
   if (points.OnDevice)
   {
-    const PlaneArray& plane = points.Points;
-    const void* values = plane.Floats ? static_cast<const void*>(plane.Floats) : plane.Doubles;
-    const int device = RequireOnDevice(values, plane.Count, "the points are");
+    const int device = RequireOnDevice(points.Points.Data(), points.Points.Count, "the points are");
     this->Options.Device = device >= 0 ? device : options.Device;
   }
   this->Options.Geometry = GeometryKind::PlanarXY;
