@@ -314,25 +314,13 @@ private:
 
   auto* GetDetectKernel() const
   {
-    if constexpr (Rule::AlwaysGuarded)
-    {
-      return DetectAllKernel<Rule, true>;
-    }
-    else
-    {
-      return this->Guard.IsActive() ? DetectAllKernel<Rule, true> : DetectAllKernel<Rule, false>;
-    }
+    return this->Guard.IsActive() ? DetectAllKernel<Rule, true>
+                                  : DetectAllKernel<Rule, Rule::AlwaysGuarded>;
   }
   auto* GetIterateKernel() const
   {
-    if constexpr (Rule::AlwaysGuarded)
-    {
-      return IterateKernel<Rule, true>;
-    }
-    else
-    {
-      return this->Guard.IsActive() ? IterateKernel<Rule, true> : IterateKernel<Rule, false>;
-    }
+    return this->Guard.IsActive() ? IterateKernel<Rule, true>
+                                  : IterateKernel<Rule, Rule::AlwaysGuarded>;
   }
 
   /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also

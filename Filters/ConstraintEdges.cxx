@@ -74,19 +74,11 @@ void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs)
 void AddPaths(vtkCellArray* cells, bool areClosed, const PointIdCheck& check,
   WorkProgress& progress, std::vector<PointPair>& pairs)
 {
-  VisitCells(cells, check,
-    [&](vtkIdType, vtkIdList* ids)
+  VisitEdges(cells, areClosed, check,
+    [&](vtkIdType, vtkIdType from, vtkIdType to, bool)
     {
-      const vtkIdType count = ids->GetNumberOfIds();
-      for (vtkIdType i = 1; i < count; ++i)
-      {
-        AddPair(ids->GetId(i - 1), ids->GetId(i), pairs);
-      }
-      if (areClosed && count > 2)
-      {
-        AddPair(ids->GetId(count - 1), ids->GetId(0), pairs);
-      }
-      progress.Add(count);
+      AddPair(from, to, pairs);
+      progress.Add();
     });
 }
 

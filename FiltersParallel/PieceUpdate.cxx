@@ -181,33 +181,23 @@ public:
     BringTuples(
       this->Flipped.ReceivedTriangles, data,
       [this](std::int64_t slot) { return this->Slots.GetCell(slot); }, this->Group, received);
-    if (this->Slots.InPlace && this->Flipped.ReceivedTriangles.empty() &&
-      this->Flipped.GoneTriangles.empty())
+    const auto sources = MakeRange(0, this->Slots.FirstPolygon);
+    const auto count = static_cast<vtkIdType>(this->Flipped.ReceivedTriangles.size());
+    std::for_each(this->Sources.begin(), this->Sources.end() - count,
+      [&](vtkIdType source) { sources->InsertNextId(source); });
+    const vtkIdType first = sources->GetNumberOfIds(); // the cells received are before the strips
+    const auto places = MakeRange(0, first);
+    for (const vtkIdType strip : this->Slots.Strips)
     {
-      output->GetCellData()->ShallowCopy(data);
+      places->InsertNextId(sources->InsertNextId(strip) + count);
     }
-    else
-    {
-      const auto sources = MakeRange(0, this->Slots.FirstPolygon);
-      std::for_each(this->Sources.begin(), this->Sources.end(),
-        [&](vtkIdType source) { sources->InsertNextId(source); });
-      std::for_each(this->Slots.Strips.begin(), this->Slots.Strips.end(),
-        [&](vtkIdType strip) { sources->InsertNextId(strip); });
-      JoinTuples(data, received, sources, output->GetCellData());
-    }
+    const vtkIdType size = sources->GetNumberOfIds() + count;
+    AddTuples(data, sources, places, size, output->GetCellData());
+    AddTuples(received, MakeRange(0, count), MakeRange(first, count), size, output->GetCellData());
     // The ids are not unique if any rank has divided cells.
     if (IsOnAnyRank(this->Slots.AreDivided, this->Group))
     {
       DemoteGlobalIds(output->GetCellData());
-    }
-    // A received cell is in no partition of this rank.
-    vtkDataArray* marks = output->GetCellData()->GetArray(JoinedPartitions::MarkName);
-    for (std::size_t polygon = 0; marks && polygon < this->Sources.size(); ++polygon)
-    {
-      if (this->Sources[polygon] < 0)
-      {
-        marks->SetComponent(this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon), 0, -1.0);
-      }
     }
     RenewNormals(output,
       [this](vtkIdType polygon, const std::int64_t*, std::int64_t before[3])
@@ -280,14 +270,15 @@ private:
       points->SetDataType(this->Mesh->GetPoints()->GetDataType());
       points->InsertPoints(0, given, 0, this->Mesh->GetPoints());
     }
-    const auto sources = MakeRange(0, given);
     for (vtkIdType i = 0; i < count; ++i)
     {
       points->InsertNextPoint(this->Flipped.ReceivedCoordinates.data() + 3 * i);
-      sources->InsertNextId(-1 - i);
     }
     output->SetPoints(points);
-    JoinTuples(data, received, sources, output->GetPointData());
+    const auto own = MakeRange(0, given);
+    AddTuples(data, own, own, given + count, output->GetPointData());
+    AddTuples(received, MakeRange(0, count), MakeRange(given, count), given + count,
+      output->GetPointData());
   }
 
   vtkSmartPointer<vtkCellArray> BuildPolygons() const

@@ -138,8 +138,7 @@ void vtkPDelaunayFlip::FlipBlock(
   }
   const auto flip = [&](PieceGroup& told)
   {
-    BlockMesh mesh(
-      block, [this](vtkDataObject* leaf) { return this->GetMesh(leaf); }, this->RegionArray, true);
+    BlockMesh mesh(block, this->RegionArray, true);
     const auto edges = mesh.FindConstraints(constraints);
     const std::vector<Note> notes = ShareNotes(mesh.ListNotes(true), told);
     summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());

@@ -259,14 +259,6 @@ public:
     use(view);
   }
 
-  HostTriangles ViewHostTriangles() const override
-  {
-    return BackendT::IsOnHost ? HostTriangles{ this->Mesh.Triangles.Data(),
-      this->Mesh.CornerOfHalfEdge.Data(), this->Order.View(), this->Mesh.NumberOfTriangles,
-      this->Mesh.NumberOfEdges, this->Loop.get() }
-                              : HostTriangles();
-  }
-
   Defect FindTurnedTriangles() const override
   {
     const bool wasHeightField =

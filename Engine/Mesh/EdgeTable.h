@@ -180,9 +180,9 @@ class EdgeTable
 public:
   EdgeTable() = default;
 
-  /// An empty table with room for `edges` edges, with or without the two words per key.
+  /// An empty table with room for `edges` edges.
   template <typename Backend>
-  EdgeTable(std::int64_t edges, const VertexSlice& slice, bool withWords, const Backend& backend)
+  EdgeTable(std::int64_t edges, const VertexSlice& slice, const Backend& backend)
     : Slice(slice)
   {
     // Share of slots in use when all expected edges are in: a compromise between short searches and
@@ -192,9 +192,9 @@ public:
       static_cast<std::int64_t>(static_cast<double>(edges) / FillFactor) + 64;
     const std::int64_t capacity = std::min<std::int64_t>(wanted, EdgeTableView::NoSlot);
     this->Keys = backend.template MakeArray<std::uint64_t>(capacity);
-    this->First = backend.template MakeArray<std::uint32_t>(withWords ? capacity : 0);
-    this->Second = backend.template MakeArray<std::uint32_t>(withWords ? capacity : 0);
-    Clear(this->View(), withWords, backend);
+    this->First = backend.template MakeArray<std::uint32_t>(capacity);
+    this->Second = backend.template MakeArray<std::uint32_t>(capacity);
+    Clear(this->View(), backend);
   }
 
   EdgeTableView View()
@@ -205,31 +205,19 @@ public:
       (capacity << EdgeTableView::StrideBits) /
         std::max<std::uint64_t>(1, this->Slice.Last - this->Slice.First) };
   }
-  bool IsEmpty() const { return this->Keys.Size() == 0; }
   std::int64_t GetCapacity() const { return static_cast<std::int64_t>(this->Keys.Size()); }
-
-  /// Frees the memory of the words; the keys stay.
-  void DropWords()
-  {
-    this->First = Array<std::uint32_t>();
-    this->Second = Array<std::uint32_t>();
-  }
 
   /// Removes all keys; words become NoCorner. Public because device lambdas ask for it.
   template <typename Backend>
-  static void Clear(const EdgeTableView& table, bool withWords, const Backend& backend)
+  static void Clear(const EdgeTableView& table, const Backend& backend)
   {
     backend.ForEach(table.Capacity,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { table.Keys[i] = EdgeTableView::Empty; });
-    if (withWords)
-    {
-      backend.ForEach(table.Capacity,
-        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-        {
-          table.First[i] = NoCorner;
-          table.Second[i] = NoCorner;
-        });
-    }
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        table.Keys[i] = EdgeTableView::Empty;
+        table.First[i] = NoCorner;
+        table.Second[i] = NoCorner;
+      });
   }
 
 private:

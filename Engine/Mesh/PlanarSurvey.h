@@ -14,7 +14,6 @@
 #include "SpatialOrder.h"
 #include "WideAngles.h"
 
-#include <cmath>
 #include <cstdint>
 
 /// @file

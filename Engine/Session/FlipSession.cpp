@@ -3,7 +3,6 @@
 #include "SessionWork.h"
 
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -255,14 +254,6 @@ void FlipSession::StoreNeighbors(std::int32_t* neighbors, const DeviceStream& st
     "the array for neighbours is",
     [&](const LoadedMesh& mesh) { return mesh.StoreNeighborsOnDevice(neighbors, stream); },
     [this](std::int32_t* host) { this->StoreNeighbors(host); });
-}
-
-/// None if constraints were inserted: those flips would be missing.
-HostTriangles FlipSession::ViewHostTriangles() const
-{
-  return this->Own->Loaded && !this->Own->Insertion.HasFlips()
-    ? this->Own->Loaded->ViewHostTriangles()
-    : HostTriangles();
 }
 
 //------------------------------------------------------------------------------

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointRun.h"
 
-#include "CallerMesh.h"
+#include "Array.h"
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "Strips.h"
 
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -146,7 +147,7 @@ PlaneArray PointRun::GetOnHost()
     const auto copy = [&](const auto* values, auto& copied)
     {
       copied.resize(numbers);
-      CopyFromDevice(values, numbers * static_cast<std::int64_t>(sizeof(*values)), copied.data(),
+      CopyMemory(values, numbers * static_cast<std::int64_t>(sizeof(*values)), copied.data(),
         this->Caller.Stream);
       return PlaneArray(copied.data(), points.Count, points.Stride);
     };
@@ -360,10 +361,11 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   {
     mesh.StoreUsedPoints(used.data());
   }
-  const auto listFirst = [&](const auto& isListed)
+  const auto listFirst = [&](const auto& isListed, std::int64_t count)
   {
     std::vector<std::int64_t> first;
-    for (std::int64_t i = 0; i < this->Caller.Points.Count && first.size() < 3; ++i)
+    const std::int64_t end = count > 0 ? this->Caller.Points.Count : 0;
+    for (std::int64_t i = 0; i < end && first.size() < 3; ++i)
     {
       if (isListed(i))
       {
@@ -374,40 +376,31 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   };
   const auto isMerged = [&](std::int64_t i)
   { return !this->NearPoint.empty() && this->NearPoint[i] != i; };
-  const auto add = [&](const char* what, std::int64_t count, const auto& list, DefectIds kind)
-  {
-    if (count > 0)
-    {
-      report.Defects.push_back({ what, count, list(), kind });
-    }
+  const auto isNotFinite = [&](std::int64_t i) { return used[i] < 0 && !isMerged(i); };
+  const auto isRepeated = [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; };
+  const Defect defects[] = {
+    { "points with NaN or infinite coordinates", notFinite, listFirst(isNotFinite, notFinite),
+      DefectIds::Points },
+    { "points at the place of another one", repeated,
+      merged > 0 ? this->FirstRepeated : listFirst(isRepeated, repeated), DefectIds::Points },
+    { "points nearer than the tolerance to one with a lower id", counts.TooNear, this->FirstNear,
+      DefectIds::Points },
+    { "segments that cross an earlier one or end at a point that is not finite",
+      counts.RefusedSegments, ListFirstEnds(this->Caller, this->Refused), DefectIds::PointPairs },
+    { "hole seeds outside of all triangles", this->Kept.SeedsOutside, {}, DefectIds::Points },
   };
-  add(
-    "points with NaN or infinite coordinates", notFinite,
-    [&] { return listFirst([&](std::int64_t i) { return used[i] < 0 && !isMerged(i); }); },
-    DefectIds::Points);
-  add(
-    "points at the place of another one", repeated,
-    [&]
-    {
-      return merged > 0 ? this->FirstRepeated
-                        : listFirst([&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
-    },
-    DefectIds::Points);
-  add(
-    "points nearer than the tolerance to one with a lower id", counts.TooNear,
-    [&] { return this->FirstNear; }, DefectIds::Points);
-  add(
-    "segments that cross an earlier one or end at a point that is not finite",
-    counts.RefusedSegments, [&] { return ListFirstEnds(this->Caller, this->Refused); },
-    DefectIds::PointPairs);
-  add(
-    "hole seeds outside of all triangles", this->Kept.SeedsOutside,
-    [] { return std::vector<std::int64_t>(); }, DefectIds::Points);
+  std::copy_if(std::begin(defects), std::end(defects), std::back_inserter(report.Defects),
+    [](const Defect& defect) { return defect.Count > 0; });
 }
 
 //------------------------------------------------------------------------------
 void PointRun::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
 {
+  if (this->Prepared.Points.Count == this->Caller.Points.Count && this->NearPoint.empty())
+  {
+    mesh.StoreUsedPoints(ids);
+    return;
+  }
   std::vector<std::int64_t> used(this->Prepared.Points.Count);
   mesh.StoreUsedPoints(used.data());
   for (std::int64_t i = 0; i < this->Caller.Points.Count; ++i)
@@ -419,6 +412,10 @@ void PointRun::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
 std::vector<std::int64_t> PointRun::ListSegmentEdges(LoadedMesh& mesh) const
 {
   std::vector<std::int64_t> pairs;
+  if (this->Edges.empty())
+  {
+    return pairs; // without a copy of a mesh that is on a GPU
+  }
   mesh.ViewOnHost(
     [&](const PointMeshView& view)
     {

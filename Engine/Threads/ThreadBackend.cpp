@@ -87,7 +87,7 @@ int ResolveThreads(int wanted)
   HostMemory memory;
   try
   {
-    memory.Free(memory.AllocateSparse(room), room);
+    memory.Free(memory.Allocate(room), room);
     return threads;
   }
   catch (const std::bad_alloc&)
