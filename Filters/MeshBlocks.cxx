@@ -157,14 +157,12 @@ std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
   bool areAllSurfaces = true;
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
-    std::vector<Defect> defects;
-    if (this->Surfaces[i] && (this->IsJoined || ofArrays))
+    const bool isAsked = this->Surfaces[i] && (this->IsJoined || ofArrays);
+    const std::string text =
+      isAsked ? DescribeDefects(ListMalformedArrays(this->Surfaces[i], false, false)) : "";
+    if (!text.empty())
     {
-      defects = ListMalformedArrays(this->Surfaces[i], false, false);
-    }
-    if (!defects.empty())
-    {
-      notes.push_back({ this->Block.Leaves[i].Name, DescribeDefects(defects) });
+      notes.push_back({ this->Block.Leaves[i].Name, text });
     }
     areAllSurfaces = areAllSurfaces && this->Surfaces[i];
   }
