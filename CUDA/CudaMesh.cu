@@ -30,22 +30,36 @@ struct StoreIdStep
   }
 };
 
-/// Stores the triangles that flips have changed since the last time. A thread has one triangle and
-/// its number in `Written`, so that a triangle that stays costs two reads and no write.
+/// Stores the triangles that flips have changed since the last time, of which `Written` has the
+/// numbers of flips. A triangle that stays costs two reads and no write. The lanes of a warp have
+/// neighbouring triangles, and share the ids of those that have changed, so that the three of a
+/// triangle go to memory together.
 struct StoreChangedStep
 {
+  static constexpr int Lanes = 32;
   StoreStep Triangles;
   std::int32_t* Written;
 
+  /// @param t where all lanes of the warp are in the call, up to the next multiple of their number.
   __device__ void operator()(std::int64_t t, const MutableTriangleArray& target) const
   {
-    const auto flips = static_cast<std::int32_t>(this->Triangles.Triangles[t].Flips / OneFlip);
-    if (this->Written[t] != flips)
+    const int lane = static_cast<int>(t % Lanes);
+    bool hasChanged = false;
+    if (t < target.Count)
     {
-      this->Written[t] = flips;
-      for (int slot = 0; slot < 3; ++slot)
+      const auto flips = static_cast<std::int32_t>(this->Triangles.Triangles[t].Flips / OneFlip);
+      hasChanged = this->Written[t] != flips;
+      if (hasChanged)
       {
-        this->Triangles.StoreId(t, slot, target);
+        this->Written[t] = flips;
+      }
+    }
+    const unsigned changed = __ballot_sync(~0u, hasChanged);
+    for (int id = lane; id < 3 * Lanes; id += Lanes)
+    {
+      if (changed >> (id / 3) & 1u)
+      {
+        this->Triangles.StoreId(t - lane + id / 3, id % 3, target);
       }
     }
   }
@@ -66,9 +80,16 @@ public:
     }
     const StoreStep all = this->GetStoreStep();
     const CudaBackend& backend = this->GetBackend();
-    written
-      ? backend.StoreOnDevice(triangles.Count, triangles, stream, StoreChangedStep{ all, written })
-      : backend.StoreOnDevice(3 * triangles.Count, triangles, stream, StoreIdStep{ all });
+    if (written)
+    {
+      constexpr std::int64_t lanes = StoreChangedStep::Lanes;
+      const std::int64_t full = (triangles.Count + lanes - 1) / lanes * lanes;
+      backend.StoreOnDevice(full, triangles, stream, StoreChangedStep{ all, written });
+    }
+    else
+    {
+      backend.StoreOnDevice(3 * triangles.Count, triangles, stream, StoreIdStep{ all });
+    }
     return true;
   }
 
