@@ -5,6 +5,8 @@
 #include "ExactPredicates.h"
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 namespace delaunayflip
@@ -24,7 +26,7 @@ struct Place
 /// One side of an edge.
 struct Side
 {
-  std::uint32_t Origin; ///< A place.
+  std::uint32_t Origin; ///< A place; None: the edge is not used.
   Edge Next, Previous; ///< Around the origin, counter-clockwise and clockwise.
 };
 
@@ -48,7 +50,7 @@ public:
   Divider(const std::vector<CoordinatePair<double>>& places, const TaskRunner& run)
     : Run(run),
       Places(places.size()),
-      Sides(6 * places.size())
+      Sides(new Side[6 * places.size()])
   {
     for (std::size_t i = 0; i < places.size(); ++i)
     {
@@ -145,7 +147,7 @@ private:
     this->Splice(e, this->Previous(e));
     this->Splice(e ^ 1, this->Previous(e ^ 1));
     e &= ~Edge(1);
-    this->Sides[e].Next = part.FreeHead;
+    this->Sides[e] = { None, part.FreeHead, None };
     part.FreeTail = part.FreeHead == None ? e : part.FreeTail;
     part.FreeHead = e;
   }
@@ -196,9 +198,9 @@ private:
     Part part{ {}, 6 * begin, 6 * end - 2 };
     for (Edge e = part.FreeHead; e < part.FreeTail; e += 2)
     {
-      this->Sides[e].Next = e + 2;
+      this->Sides[e] = { None, e + 2, None };
     }
-    this->Sides[part.FreeTail].Next = None;
+    this->Sides[part.FreeTail] = { None, None, None };
     const Edge a = this->MakeEdge(part, begin, begin + 1);
     Edge leaving[3] = { a, a ^ 1, None }; // hull edges, of each point
     if (end - begin == 3)
@@ -318,54 +320,94 @@ private:
   }
 
   //----------------------------------------------------------------------------
-  DividedPoints Collect(const Part& whole)
+  /// Calls work(piece, first, end) for pieces of [0, size), on threads.
+  template <typename Work>
+  void ForPieces(std::size_t size, const Work& work) const
   {
-    DividedPoints result;
-    const auto sides = static_cast<Edge>(this->Sides.size());
+    this->Run(static_cast<std::int64_t>((size + Piece - 1) / Piece),
+      [&](std::int64_t i) { work(i, i * Piece, std::min(size, (i + 1) * Piece)); });
+  }
+
+  DividedPoints Collect(const Part& whole) const
+  {
+    const auto sides = static_cast<Edge>(6 * this->Places.size());
     // Of the triangle on the left, if there is one.
-    constexpr CornerId Unknown = NoCorner - 1;
-    std::vector<CornerId> cornerOf(sides, Unknown);
-    for (Edge e = whole.FreeHead; e != None; e = this->Next(e))
+    const std::unique_ptr<CornerId[]> cornerOf(new CornerId[sides]);
+    const std::unique_ptr<bool[]> isLeading(new bool[sides]);
+    const Edge outside = whole.Ends[0][0].Leaving ^ 1u;
+    const auto isUsed = [&](Edge e) { return this->Origin(e & ~Edge(1)) != None; };
+    // Whether a side comes first of those of a triangle.
+    const auto leads = [&](Edge e)
     {
-      cornerOf[e] = cornerOf[e ^ 1] = NoCorner;
+      const Edge second = this->NextLeft(e), third = this->NextLeft(second);
+      return e < second && e < third && this->NextLeft(third) == e && e != outside &&
+        second != outside && third != outside;
+    };
+    std::vector<std::int64_t> usedOf(sides / Piece + 1, 0), firstOf(sides / Piece + 2, 0);
+    this->ForPieces(sides,
+      [&](std::size_t piece, std::size_t first, std::size_t end)
+      {
+        for (std::size_t i = first; i < end; ++i)
+        {
+          const auto e = static_cast<Edge>(i);
+          cornerOf[e] = NoCorner;
+          usedOf[piece] += isUsed(e) ? 1 : 0;
+          isLeading[e] = isUsed(e) && leads(e);
+          firstOf[piece + 1] += isLeading[e] ? 1 : 0;
+        }
+      });
+    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
+    DividedPoints result;
+    const auto triangles = static_cast<std::size_t>(firstOf.back());
+    result.HullEdges =
+      std::accumulate(usedOf.begin(), usedOf.end(), std::int64_t(0)) - 3 * firstOf.back();
+    result.Triangles.reserve(triangles);
+    while (result.Triangles.size() < triangles) // bit by bit, because memory may be new
+    {
+      this->Run(1,
+        [&](std::int64_t)
+        { result.Triangles.resize(std::min(triangles, result.Triangles.size() + Piece)); });
     }
-    const Edge hull = whole.Ends[0][0].Leaving;
-    Edge e = hull;
-    do
-    {
-      cornerOf[e ^ 1] = NoCorner;
-      ++result.HullEdges;
-      e = this->Next(e ^ 1);
-    } while (e != hull);
-    result.Triangles.reserve(2 * this->Places.size());
     const auto placeOf = [&](Edge side) { return this->Places[this->Origin(side)].Number; };
-    for (Edge first = 0; first < sides; ++first)
-    {
-      if (cornerOf[first] != Unknown)
+    this->ForPieces(sides,
+      [&](std::size_t piece, std::size_t begin, std::size_t end)
       {
-        continue;
-      }
-      const Edge second = this->NextLeft(first), third = this->NextLeft(second);
-      const auto number = static_cast<TriangleId>(result.Triangles.size());
-      cornerOf[first] = MakeCorner(number, 2);
-      cornerOf[second] = MakeCorner(number, 0);
-      cornerOf[third] = MakeCorner(number, 1);
-      result.Triangles.push_back({ { placeOf(first), placeOf(second), placeOf(third) }, number,
-        { second ^ 1, third ^ 1, first ^ 1 }, 0 });
-    }
-    for (TriangleRecord& triangle : result.Triangles)
-    {
-      for (CornerId& other : triangle.HalfEdges)
+        auto number = static_cast<TriangleId>(firstOf[piece]);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const auto first = static_cast<Edge>(i);
+          if (isLeading[first])
+          {
+            const Edge second = this->NextLeft(first), third = this->NextLeft(second);
+            cornerOf[first] = MakeCorner(number, 2);
+            cornerOf[second] = MakeCorner(number, 0);
+            cornerOf[third] = MakeCorner(number, 1);
+            result.Triangles[number] = { { placeOf(first), placeOf(second), placeOf(third) },
+              number, { second ^ 1u, third ^ 1u, first ^ 1u }, 0 };
+            ++number;
+          }
+        }
+      });
+    this->ForPieces(triangles,
+      [&](std::size_t, std::size_t begin, std::size_t end)
       {
-        other = cornerOf[other];
-      }
-    }
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          for (CornerId& other : result.Triangles[i].HalfEdges)
+          {
+            other = cornerOf[other];
+          }
+        }
+      });
     return result;
   }
 
+  /// How many sides or triangles a task has.
+  static constexpr std::size_t Piece = std::size_t(1) << 16;
+
   const TaskRunner& Run;
   std::vector<Place> Places; ///< In the order of the parts.
-  std::vector<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
+  std::unique_ptr<Side[]> Sides; ///< Of edge e; e ^ 1 is its other side.
   bool FiltersApply = true;
 };
 }
