@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace delaunayflip
 {
@@ -229,19 +230,11 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     "that is more. The result does not depend on it [0]");
   app.add_flag("--quality", arguments.Quality,
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
-    "(.vtk, .vtp and .ply)");
+    "(.vtk and .vtp)");
   AddFile(app, "--statistics", arguments.Statistics, "Write a table of the iterations (CSV)");
   AddFile(app, "--report", arguments.Report, "Write a summary of the run (JSON)");
   app.add_flag("--quiet", arguments.Quiet,
     "No summary, notes or progress bar; warnings and errors still appear");
-}
-
-void CheckDistinct(const std::string& first, const std::string& second)
-{
-  if (!first.empty() && !second.empty() && FollowLinks(first) == FollowLinks(second))
-  {
-    throw CommandError(ExitCode::WrongUsage, second + ": the same file is given for two purposes");
-  }
 }
 
 /// "; did you mean --geometry?" if a word that is no option begins like one.
@@ -293,21 +286,25 @@ void CheckTogether(Arguments& arguments)
   }
   CheckFormats(arguments);
   const bool holdsCellData =
-    arguments.OutputFormat != MeshFormat::STL && arguments.OutputFormat != MeshFormat::OBJ;
+    arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
   if (arguments.Quality && !holdsCellData)
   {
     throw CommandError(
-      ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk, .vtp or .ply file");
+      ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk or .vtp file");
   }
   // What is read may be one file. The input may also be the output.
-  const std::string files[] = { arguments.Input, arguments.Constraints, arguments.Outline,
-    arguments.Holes, arguments.Output, arguments.Statistics, arguments.Report };
-  for (std::size_t i = 0; i < std::size(files); ++i)
+  std::set<std::filesystem::path> used;
+  for (const std::string& file : { arguments.Constraints, arguments.Outline, arguments.Holes })
   {
-    for (std::size_t j = i == 0 ? 5 : std::max<std::size_t>(i + 1, 4); j < std::size(files); ++j)
+    used.insert(FollowLinks(file));
+  }
+  for (const std::string& file : { arguments.Output, arguments.Statistics, arguments.Report })
+  {
+    if (!file.empty() && !used.insert(FollowLinks(file)).second)
     {
-      CheckDistinct(files[i], files[j]);
+      throw CommandError(ExitCode::WrongUsage, file + ": the same file is given for two purposes");
     }
+    used.insert(FollowLinks(arguments.Input));
   }
 }
 

@@ -12,22 +12,13 @@
 #include <sys/prctl.h>
 #endif
 
-#include <atomic>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <exception>
 #include <iostream>
 #include <new>
 
 namespace delaunayflip
 {
-
-struct ChildProcess::SharedPhase
-{
-  std::atomic<Phase> Value{ Phase::Reading };
-  std::atomic<bool> LacksMemory{ false };
-};
 
 namespace
 {
@@ -35,40 +26,17 @@ namespace
 /// The signals by which a user or the system ends a program.
 constexpr int Endings[] = { SIGINT, SIGTERM, SIGHUP };
 
-/// In the child; null in the parent.
-std::atomic<bool>* lacksMemory = nullptr;
-
-/// Instead of std::terminate: oneTBB may throw in its own threads, where nobody can catch it.
-[[noreturn]] void EndChild()
-{
-  try
-  {
-    if (const std::exception_ptr error = std::current_exception())
-    {
-      std::rethrow_exception(error);
-    }
-  }
-  catch (const std::exception& error)
-  {
-    *lacksMemory = IsLackOfMemory(error);
-  }
-  catch (...)
-  {
-  }
-  std::abort();
-}
-
 }
 
 ChildProcess::ChildProcess()
 {
   void* memory =
-    mmap(nullptr, sizeof(SharedPhase), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    mmap(nullptr, sizeof(*this->Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED)
   {
     throw CommandError(ExitCode::BadFile, std::string("no memory: ") + std::strerror(errno));
   }
-  this->Shared = new (memory) SharedPhase;
+  this->Shared = new (memory) std::atomic<Phase>(Phase::Reading);
   // A closed pipe or a file size limit must give an error code instead of killing the process.
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
@@ -90,7 +58,7 @@ ChildProcess::ChildProcess()
 ChildProcess::~ChildProcess()
 {
   sigprocmask(SIG_SETMASK, &this->Before, nullptr);
-  munmap(this->Shared, sizeof(SharedPhase));
+  munmap(this->Shared, sizeof(*this->Shared));
 }
 
 ChildOutcome ChildProcess::Run(const std::function<int()>& work)
@@ -109,9 +77,9 @@ ChildOutcome ChildProcess::Run(const std::function<int()>& work)
   return this->Wait(child);
 }
 
-void ChildProcess::Enter(Phase phase) { this->Shared->Value = phase; }
+void ChildProcess::Enter(Phase phase) { *this->Shared = phase; }
 
-Phase ChildProcess::GetPhase() const { return this->Shared->Value; }
+Phase ChildProcess::GetPhase() const { return *this->Shared; }
 
 void ChildProcess::Work(const std::function<int()>& work, int parent)
 {
@@ -121,8 +89,6 @@ void ChildProcess::Work(const std::function<int()>& work, int parent)
     signal(ending, SIG_IGN);
   }
   sigprocmask(SIG_SETMASK, &this->Before, nullptr);
-  lacksMemory = &this->Shared->LacksMemory;
-  std::set_terminate(EndChild);
   // A reader that crashes on a corrupt file must not leave a core file in the user's folder.
   const rlimit none = {};
   setrlimit(RLIMIT_CORE, &none);
@@ -156,8 +122,7 @@ ChildOutcome ChildProcess::Wait(int child)
   }
   outcome.ExitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   outcome.KilledBy = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  outcome.LastPhase = this->Shared->Value;
-  outcome.LacksMemory = this->Shared->LacksMemory;
+  outcome.LastPhase = *this->Shared;
   return outcome;
 }
 

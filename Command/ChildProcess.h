@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_CHILDPROCESS_H
 #define DELAUNAYFLIP_CHILDPROCESS_H
 
+#include <atomic>
 #include <csignal>
 #include <functional>
 
@@ -27,7 +28,6 @@ struct ChildOutcome
   int ExitCode = 0; ///< What the work returned, if it was not killed.
   int KilledBy = 0; ///< The signal that killed the child, or 0.
   int InterruptedBy = 0; ///< The signal that made this process kill the child, or 0.
-  bool LacksMemory = false; ///< That is why it was killed.
   Phase LastPhase = Phase::Reading;
 };
 
@@ -55,8 +55,7 @@ private:
   [[noreturn]] void Work(const std::function<int()>& work, int parent);
   ChildOutcome Wait(int child);
 
-  struct SharedPhase;
-  SharedPhase* Shared; ///< In memory shared by both processes.
+  std::atomic<Phase>* Shared; ///< In memory shared by both processes.
   sigset_t Watched;
   sigset_t Before;
 };

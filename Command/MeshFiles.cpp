@@ -137,14 +137,6 @@ bool IsEnded(const std::string& path, MeshFormat format)
   return (format != MeshFormat::VTK && format != MeshFormat::OBJ) || file.get() == '\n';
 }
 
-using Place = std::array<double, 3>;
-
-std::int64_t CountDistinct(std::vector<Place> places)
-{
-  std::sort(places.begin(), places.end());
-  return std::unique(places.begin(), places.end()) - places.begin();
-}
-
 /// What a .stl loses of the points.
 struct PointLosses
 {
@@ -158,27 +150,32 @@ struct PointLosses
         { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
     }
     this->Unused = std::count(isUsed.begin(), isUsed.end(), false);
-    std::vector<Place> places;
-    std::vector<Place> roundedPlaces;
+    std::vector<std::array<double, 3>> places;
     for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
     {
-      Place place;
-      Place rounded;
-      mesh->GetPoint(point, place.data());
-      for (std::size_t axis = 0; axis < 3 && isUsed[point]; ++axis)
-      {
-        place[axis] = std::isnan(place[axis]) ? 0.0 : place[axis]; // it has no order
-        rounded[axis] = static_cast<float>(place[axis]);
-        const double move = std::abs(rounded[axis] - place[axis]);
-        this->LargestMove = std::fmax(this->LargestMove, move); // infinity does not move
-      }
       if (isUsed[point])
       {
-        places.push_back(place);
-        roundedPlaces.push_back(rounded);
+        mesh->GetPoint(point, places.emplace_back().data());
+        std::replace_if( // NaN has no order
+          places.back().begin(), places.back().end(), [](double x) { return std::isnan(x); }, 0.0);
       }
     }
-    this->Fallen = CountDistinct(std::move(places)) - CountDistinct(std::move(roundedPlaces));
+    const auto countDistinct = [&places]
+    {
+      std::sort(places.begin(), places.end());
+      return std::unique(places.begin(), places.end()) - places.begin();
+    };
+    this->Fallen = countDistinct();
+    for (std::array<double, 3>& place : places)
+    {
+      for (double& x : place)
+      {
+        const double rounded = static_cast<float>(x);
+        this->LargestMove = std::fmax(this->LargestMove, std::abs(rounded - x)); // not of infinity
+        x = rounded;
+      }
+    }
+    this->Fallen -= countDistinct();
   }
 
   std::int64_t Unused = 0; ///< Points of no polygon.
@@ -222,11 +219,6 @@ std::string LostArrays(
     }
   }
   return names.empty() ? names : what + " (" + names + ")";
-}
-
-std::string LostCount(const std::string& what, std::int64_t count)
-{
-  return count > 0 ? what + " (" + std::to_string(count) + ")" : "";
 }
 
 /// A file format, by one of its extensions.
@@ -309,7 +301,8 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format)
     const vtkSmartPointer<vtkPolyData> written = ReadMesh(path, format).Mesh;
     if (IsEnded(path, format) && mesh->GetNumberOfPolys() == written->GetNumberOfPolys() &&
       (format == MeshFormat::STL || mesh->GetNumberOfPoints() == written->GetNumberOfPoints()) &&
-      (format != MeshFormat::VTK || mesh->GetNumberOfCells() == written->GetNumberOfCells()))
+      ((format != MeshFormat::VTK && format != MeshFormat::OBJ) ||
+        mesh->GetNumberOfCells() == written->GetNumberOfCells()))
     {
       return;
     }
@@ -330,21 +323,29 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
   {
     return {};
   }
-  const bool isPly = format == MeshFormat::PLY;
-  const bool isObj = format == MeshFormat::OBJ;
-  const bool isStl = format == MeshFormat::STL;
-  using Arrays = std::vector<vtkAbstractArray*>;
-  const Arrays ofPoints = isPly ? ArraysOfPly(mesh, true) : isObj ? ArraysOfObj(mesh) : Arrays();
-  const Arrays ofCells = isPly ? ArraysOfPly(mesh, false) : Arrays();
+  std::vector<vtkAbstractArray*> kept;
   std::string list;
   const auto add = [&list](const std::string& loss)
   { list += (list.empty() || loss.empty() ? "" : ", ") + loss; };
-  add(LostCount("lines", isStl ? mesh->GetNumberOfLines() : 0));
-  add(LostCount("verts", isObj ? 0 : mesh->GetNumberOfVerts()));
-  if (isStl)
+  const auto addCount = [&add](const std::string& what, std::int64_t count)
+  { add(count > 0 ? what + " (" + std::to_string(count) + ")" : ""); };
+  if (format == MeshFormat::PLY)
+  {
+    kept = ArraysOfPly(mesh);
+  }
+  else if (format == MeshFormat::OBJ)
+  {
+    kept = ArraysOfObj(mesh);
+  }
+  else
+  {
+    addCount("lines", mesh->GetNumberOfLines());
+  }
+  addCount("verts", format == MeshFormat::OBJ ? 0 : mesh->GetNumberOfVerts());
+  if (format == MeshFormat::STL)
   {
     const PointLosses points(mesh);
-    add(LostCount("unused points", points.Unused));
+    addCount("unused points", points.Unused);
     if (points.LargestMove > 0.0)
     {
       std::array<char, 32> move{};
@@ -354,12 +355,8 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
         (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
     }
   }
-  add(LostArrays("point data", mesh->GetPointData(), ofPoints));
-  add(LostArrays("cell data", mesh->GetCellData(), ofCells));
-  if (isPly && mesh->GetNumberOfLines() > 0 && mesh->GetCellData()->GetNumberOfArrays() > 0)
-  {
-    add("cell data of lines");
-  }
+  add(LostArrays("point data", mesh->GetPointData(), kept));
+  add(LostArrays("cell data", mesh->GetCellData(), {}));
   add(LostArrays("field data", mesh->GetFieldData(), {}));
   return list;
 }

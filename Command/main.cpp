@@ -60,10 +60,6 @@ std::string ExplainDeath(
 {
   const std::string death = std::string(" (") + strsignal(outcome.KilledBy) + ")";
   const std::string work = DescribeWork(arguments, outcome.LastPhase);
-  if (outcome.LacksMemory)
-  {
-    return work + "not enough memory; nothing was written";
-  }
   switch (outcome.LastPhase)
   {
     case Phase::Reading:

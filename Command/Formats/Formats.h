@@ -35,8 +35,8 @@ void WriteStl(vtkPolyData* mesh, const std::string& path);
 void WritePly(vtkPolyData* mesh, const std::string& path);
 void WriteObj(vtkPolyData* mesh, const std::string& path);
 
-/// The arrays of the points (or of all cells) that a .ply holds, and those that an .obj holds.
-std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh, bool ofPoints);
+/// The arrays of the points that a .ply and an .obj hold.
+std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh);
 std::vector<vtkAbstractArray*> ArraysOfObj(vtkPolyData* mesh);
 
 /// Calls `visit(size, points)` for every cell.

@@ -4,18 +4,13 @@
 #include "Formats.h"
 #include "InputFile.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
-#include <limits>
-#include <utility>
+#include <sstream>
 
 /// @file
 /// .ply: a header lists elements (vertex, face, edge) with their number and properties; their
@@ -37,8 +32,6 @@ constexpr std::pair<const char*, int> Types[] = { { "char", VTK_SIGNED_CHAR },
 
 using Names = std::vector<std::string>;
 
-constexpr int NoAttribute = -1;
-
 /// Properties that together are an array.
 struct PlyGroup
 {
@@ -47,13 +40,12 @@ struct PlyGroup
   int Attribute; ///< What the array is for VTK.
 };
 
-const char* const PointsName = "x y z"; // no property can have these two names
-const char* const EdgesName = "vertex1 vertex2";
+/// No property can have this name. What the array is for VTK has no effect, since no array of the
+/// points stays.
+const PlyGroup Coordinates = { "x y z", { "x", "y", "z" }, vtkDataSetAttributes::VECTORS };
 
 /// Larger groups first.
 const PlyGroup Groups[] = {
-  { PointsName, { "x", "y", "z" }, NoAttribute },
-  { EdgesName, { "vertex1", "vertex2" }, NoAttribute },
   { "Normals", { "nx", "ny", "nz" }, vtkDataSetAttributes::NORMALS },
   { "RGBA", { "red", "green", "blue", "alpha" }, vtkDataSetAttributes::SCALARS },
   { "RGB", { "red", "green", "blue" }, vtkDataSetAttributes::SCALARS },
@@ -67,75 +59,55 @@ struct PlyProperty
 {
   std::string Name;
   int Type;
-  vtkDataArray* Array = nullptr; ///< Has the values of a scalar property.
+  vtkDataArray* Array = nullptr; ///< Has the numbers of vertices.
   int Component = 0;
   int CountType = VTK_VOID; ///< Of a list, the type of its length.
-
-  bool IsList() const { return this->CountType != VTK_VOID; }
+  bool IsOfCell = false; ///< Whether its values are points of a face or an edge.
 };
 
 struct PlyElement
 {
   std::string Name;
-  std::int64_t Count;
+  std::uint64_t Count;
   std::vector<PlyProperty> Properties;
 };
 
 template <typename Thing>
-Thing* Find(std::vector<Thing>& things, const std::string& name)
+const Thing* Find(const std::vector<Thing>& things, const std::string& name)
 {
   const auto found = std::find_if(
     things.begin(), things.end(), [&name](const Thing& thing) { return thing.Name == name; });
   return found != things.end() ? &*found : nullptr;
 }
 
-/// Makes arrays of `size` tuples for the scalar properties of an element: one for each group that
-/// is complete, and one for each other property.
-void AddArrays(PlyElement& element, std::int64_t size, vtkDataSetAttributes* data)
+/// Makes one array of those of a group, if all are there and no other has its name.
+void Join(vtkDataSetAttributes* data, const PlyGroup& group)
 {
-  std::vector<PlyGroup> groups(std::begin(Groups), std::end(Groups));
-  for (const PlyProperty& property : element.Properties)
+  const auto find = [data](const std::string& name) { return data->GetArray(name.c_str()); };
+  const Names& names = group.Properties;
+  if (find(group.Array) || !std::all_of(names.begin(), names.end(), find))
   {
-    groups.push_back({ property.Name, { property.Name }, NoAttribute });
+    return;
   }
-  for (const PlyGroup& group : groups)
+  const int type = find(names[0])->GetDataType();
+  const bool keepsType = std::all_of(names.begin(), names.end(),
+    [&](const std::string& name)
+    {
+      return find(name)->GetDataType() == type &&
+        (type == VTK_FLOAT || group.Array != Coordinates.Array);
+    });
+  const auto joined =
+    vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(keepsType ? type : VTK_DOUBLE));
+  joined->SetName(group.Array.c_str());
+  joined->SetNumberOfComponents(static_cast<int>(names.size()));
+  joined->SetNumberOfTuples(find(names[0])->GetNumberOfTuples());
+  for (std::size_t i = 0; i < names.size(); ++i)
   {
-    std::vector<PlyProperty*> parts;
-    for (const std::string& name : group.Properties)
-    {
-      PlyProperty* const property = Find(element.Properties, name);
-      if (property && !property->Array && !property->IsList())
-      {
-        parts.push_back(property);
-      }
-    }
-    const bool isTaken = group.Properties.size() > 1 &&
-      (Find(element.Properties, group.Array) || data->HasArray(group.Array.c_str()));
-    if (isTaken || parts.size() < group.Properties.size())
-    {
-      continue;
-    }
-    const int type = parts.front()->Type;
-    const bool isUniform = std::all_of(
-      parts.begin(), parts.end(), [type](const PlyProperty* part) { return part->Type == type; });
-    const bool keepsType = isUniform && (group.Array != PointsName || type == VTK_FLOAT);
-    const auto array =
-      vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(keepsType ? type : VTK_DOUBLE));
-    array->SetName(group.Array.c_str());
-    array->SetNumberOfComponents(static_cast<int>(parts.size()));
-    array->SetNumberOfTuples(size);
-    array->Fill(0.0);
-    data->AddArray(array);
-    for (std::size_t i = 0; i < parts.size(); ++i)
-    {
-      parts[i]->Array = array;
-      parts[i]->Component = static_cast<int>(i);
-    }
-    if (group.Attribute != NoAttribute)
-    {
-      data->SetActiveAttribute(group.Array.c_str(), group.Attribute);
-    }
+    joined->CopyComponent(static_cast<int>(i), find(names[i]), 0);
+    data->RemoveArray(names[i].c_str());
   }
+  data->AddArray(joined);
+  data->SetActiveAttribute(group.Array.c_str(), group.Attribute);
 }
 
 class PlyReader
@@ -160,8 +132,7 @@ public:
     const std::size_t rest = this->Lines.Rest.size();
     if (rest > 0 && (!this->IsText || this->Lines.Next()))
     {
-      this->Warn(
-        "left out " + Counted(static_cast<std::int64_t>(rest), "byte") + " after its last element");
+      this->Warn(Counted(static_cast<std::int64_t>(rest), "byte") + " after its last element");
     }
     if (!this->Result.Mesh->GetPoints())
     {
@@ -173,54 +144,46 @@ public:
 private:
   void ReadHeader()
   {
-    if (!this->Lines.Next() || this->Lines.Words[0] != "ply")
+    if (!this->Lines.Next() || this->Word(0) != "ply")
     {
       this->File.Fail("not a PLY file (it does not start with 'ply')");
     }
     std::string format;
-    for (std::string keyword; keyword != "end_header";)
+    while (this->Lines.Next() && this->Word(0) != "end_header")
     {
-      if (!this->Lines.Next())
-      {
-        this->File.Fail("its header has no end (truncated or corrupt)");
-      }
-      keyword = this->Lines.Words[0];
+      const std::string keyword = this->Word(0);
+      const bool isList = this->Word(1) == "list";
+      bool isRight = keyword == "comment" || keyword == "obj_info" ||
+        keyword == "Created"; // by Open Asset Import Library
       if (keyword == "format")
       {
         format = this->Word(1);
+        isRight = true;
       }
       else if (keyword == "element")
       {
-        const auto count = this->Lines.Number<std::int64_t>(2);
-        if (count < 0 || Find(this->Elements, this->Word(1)))
-        {
-          this->Lines.Fail("a negative number of elements, or a second definition of them");
-        }
-        this->Elements.push_back({ this->Word(1), count, {} });
+        isRight = !Find(this->Elements, this->Word(1));
+        this->Elements.push_back({ this->Word(1), this->Lines.Number<std::uint64_t>(2), {} });
       }
       else if (keyword == "property" && !this->Elements.empty())
       {
-        const bool isList = this->Word(1) == "list";
-        const std::size_t type = isList ? 3 : 1;
-        const int countType = isList ? this->TypeAt(2) : VTK_VOID;
-        auto& properties = this->Elements.back().Properties;
-        if (countType >= VTK_FLOAT || Find(properties, this->Word(type + 1)))
-        {
-          this->Lines.Fail("a list whose length is no integer, or a second property of this name");
-        }
-        properties.push_back({ this->Word(type + 1), this->TypeAt(type), nullptr, 0, countType });
+        std::vector<PlyProperty>& properties = this->Elements.back().Properties;
+        PlyProperty property{ this->Word(isList ? 4 : 2), this->TypeAt(isList ? 3 : 1) };
+        property.CountType = isList ? this->TypeAt(2) : VTK_VOID;
+        isRight = property.CountType < VTK_FLOAT && !Find(properties, property.Name);
+        properties.push_back(property);
       }
-      else if (keyword != "comment" && keyword != "obj_info" && keyword != "end_header" &&
-        keyword != "Created") // by Open Asset Import Library
+      if (!isRight)
       {
-        this->Lines.Fail("not a line of a PLY header");
+        this->Lines.Fail("not a line of a PLY header, or a name that an earlier line has");
       }
     }
     this->IsText = format == "ascii";
     this->IsSwapped = format == "binary_big_endian";
-    if (!this->IsText && !this->IsSwapped && format != "binary_little_endian")
+    const bool isKnown = this->IsText || this->IsSwapped || format == "binary_little_endian";
+    if (!isKnown || this->Word(0).empty())
     {
-      this->File.Fail("unknown format '" + format + "' in its header");
+      this->File.Fail("its header has no end, or an unknown format '" + format + "'");
     }
   }
 
@@ -231,143 +194,111 @@ private:
 
   int TypeAt(std::size_t place) const
   {
-    const std::string name = this->Word(place);
-    for (const auto& [known, type] : Types)
+    const auto* const found = std::find_if(std::begin(Types), std::end(Types),
+      [name = this->Word(place)](const auto& type) { return name == type.first; });
+    if (found == std::end(Types))
     {
-      if (name == known)
-      {
-        return type;
-      }
+      this->Lines.Fail("unknown type of a property");
     }
-    this->Lines.Fail("unknown type of a property");
+    return found->second;
   }
 
   void ReadElement(PlyElement& element)
   {
-    // A value takes a byte at least.
-    const std::size_t values = std::max<std::size_t>(element.Properties.size(), 1);
-    if (static_cast<std::size_t>(element.Count) > this->Lines.Rest.size() / values)
-    {
-      this->File.Fail("its header says 'element " + element.Name + " " +
-        std::to_string(element.Count) + "', too many for the " +
-        Counted(static_cast<std::int64_t>(this->Lines.Rest.size()), "byte") +
-        " left (truncated or corrupt)");
-    }
+    const bool isVertex = element.Name == "vertex";
     const bool isFace = element.Name == "face";
-    const bool isKnown = isFace || element.Name == "vertex" || element.Name == "edge";
-    const PlyProperty* corners = nullptr;
-    for (const PlyProperty& property : element.Properties)
+    const bool isEdge = element.Name == "edge";
+    vtkPolyData* const mesh = this->Result.Mesh;
+    vtkPointData* const data = mesh->GetPointData();
+    int found = 0; // properties that are of a cell
+    std::string others;
+    for (PlyProperty& property : element.Properties)
     {
-      if (property.IsList() && !isKnown)
+      const std::string& name = property.Name;
+      const bool isList = property.CountType != VTK_VOID;
+      property.IsOfCell = property.Type < VTK_FLOAT &&
+        (isList ? isFace && (name == "vertex_indices" || name == "vertex_index")
+                : isEdge && (name == "vertex1" || name == "vertex2"));
+      found += property.IsOfCell ? 1 : 0;
+      if (isVertex && !isList)
+      {
+        property.Array = vtkDataArray::CreateDataArray(property.Type);
+        property.Array->SetName(name.c_str());
+        data->AddArray(vtk::TakeSmartPointer(property.Array));
+      }
+      else if (isList && !isVertex && !isFace && !isEdge)
       {
         this->File.Fail("holds '" + element.Name +
           "', which may hold polygons; known elements are vertex, face and edge");
       }
-      if (isFace && property.IsList() && property.Type < VTK_FLOAT && !corners &&
-        (property.Name == "vertex_indices" || property.Name == "vertex_index"))
+      else if (!property.IsOfCell)
       {
-        corners = &property;
-      }
-      else if (property.IsList())
-      {
-        this->Warn("left out the lists " + property.Name + " of the element " + element.Name);
+        others += (others.empty() ? "" : ", ") + name;
       }
     }
-    if (isFace && !corners)
+    if (found != (isFace ? 1 : isEdge ? 2 : 0))
     {
-      this->File.Fail("its element face needs a list of vertex_indices");
+      this->File.Fail("its element " + element.Name + " needs " +
+        (isFace ? "one list of vertex_indices" : "vertex1 and vertex2"));
     }
-    if (!isKnown)
+    const vtkNew<vtkCellArray> cells;
+    for (std::uint64_t row = 0; row < element.Count && !element.Properties.empty(); ++row)
     {
-      this->Warn("left out " + Counted(element.Count, "element") + " of the unknown type '" +
-        element.Name + "'");
-    }
-    const PlyElement* const edges = isFace ? Find(this->Elements, "edge") : nullptr;
-    const std::int64_t before = edges ? edges->Count : 0; // cell data begin with lines
-    const vtkNew<vtkCellData> data;
-    AddArrays(element, before + element.Count, data);
-    for (std::int64_t row = 0; row < element.Count; ++row)
-    {
-      this->Place = 0;
-      if (this->IsText)
+      this->ReadRow(element, static_cast<vtkIdType>(row));
+      if (found > 0)
       {
-        this->Lines.Next(); // without words where the file ends
+        cells->InsertNextCell(static_cast<vtkIdType>(this->Cell.size()), this->Cell.data());
       }
-      for (const PlyProperty& property : element.Properties)
+    }
+    if (isVertex)
+    {
+      Join(data, Coordinates);
+      std::for_each(
+        std::begin(Groups), std::end(Groups), [data](const PlyGroup& group) { Join(data, group); });
+      if (vtkDataArray* const points = data->GetArray(Coordinates.Array.c_str()))
       {
+        mesh->SetPoints(vtkNew<vtkPoints>());
+        mesh->GetPoints()->SetData(points);
+        data->RemoveArray(Coordinates.Array.c_str());
+      }
+    }
+    else if (found > 0)
+    {
+      (isFace ? mesh->SetPolys(cells) : mesh->SetLines(cells));
+    }
+    if (!others.empty())
+    {
+      this->Warn(others + " of the element " + element.Name);
+    }
+  }
+
+  void ReadRow(const PlyElement& element, vtkIdType row)
+  {
+    this->Place = 0;
+    this->Cell.clear();
+    if (this->IsText)
+    {
+      this->Lines.Next(); // without words where the file ends
+    }
+    for (const PlyProperty& property : element.Properties)
+    {
+      const double length = property.CountType != VTK_VOID ? this->Next(property.CountType) : 1.0;
+      for (double i = 0.0; i != length; ++i) // the file ends before a wrong length is reached
+      {
+        const double value = this->Next(property.Type);
         if (property.Array)
         {
-          property.Array->SetComponent(before + row, property.Component, this->Next(property.Type));
+          property.Array->InsertComponent(row, 0, value);
         }
-        else
+        else if (property.IsOfCell)
         {
-          this->ReadList(property, &property == corners);
+          this->Cell.push_back(static_cast<vtkIdType>(value));
         }
       }
-      if (this->IsText && this->Place < this->Lines.Words.size())
-      {
-        this->Lines.Fail("more values than the header says");
-      }
     }
-    this->Take(element.Name, data);
-  }
-
-  void ReadList(const PlyProperty& list, bool isPolygon)
-  {
-    const auto length = static_cast<std::int64_t>(this->Next(list.CountType));
-    if (static_cast<std::uint64_t>(length) > this->File.GetBytes().size())
+    if (this->IsText && this->Place < this->Lines.Words.size())
     {
-      this->File.Fail("a list of length " + std::to_string(length) + " (corrupt)");
-    }
-    if (isPolygon)
-    {
-      this->Polygons->InsertNextCell(static_cast<int>(length));
-    }
-    for (std::int64_t i = 0; i < length; ++i)
-    {
-      const double item = this->Next(list.Type);
-      if (isPolygon)
-      {
-        this->Polygons->InsertCellPoint(static_cast<vtkIdType>(item));
-      }
-    }
-  }
-
-  /// Takes an element that has been read.
-  void Take(const std::string& name, vtkDataSetAttributes* data)
-  {
-    vtkPolyData* const mesh = this->Result.Mesh;
-    if (name == "vertex" && data->HasArray(PointsName))
-    {
-      const vtkNew<vtkPoints> points;
-      points->SetData(data->GetArray(PointsName));
-      mesh->SetPoints(points);
-      data->RemoveArray(PointsName);
-      mesh->GetPointData()->ShallowCopy(data);
-    }
-    else if (name == "face")
-    {
-      mesh->SetPolys(this->Polygons);
-      mesh->GetCellData()->ShallowCopy(data);
-    }
-    else if (name == "edge")
-    {
-      vtkDataArray* const ends = data->GetArray(EdgesName);
-      if (!ends)
-      {
-        this->File.Fail("its edges have no vertex1 and vertex2");
-      }
-      const vtkNew<vtkCellArray> lines;
-      for (vtkIdType edge = 0; edge < ends->GetNumberOfTuples(); ++edge)
-      {
-        lines->InsertNextCell({ static_cast<vtkIdType>(ends->GetComponent(edge, 0)),
-          static_cast<vtkIdType>(ends->GetComponent(edge, 1)) });
-      }
-      mesh->SetLines(lines);
-      if (data->GetNumberOfArrays() > 1)
-      {
-        this->Warn("left out the other properties of its edges");
-      }
+      this->Lines.Fail("more values than the header says");
     }
   }
 
@@ -389,24 +320,19 @@ private:
       return this->Lines.Number<T>(this->Place++);
     }
     T value;
-    char bytes[sizeof(T)];
-    if (this->Lines.Rest.size() < sizeof(T))
+    char* const bytes = reinterpret_cast<char*>(&value);
+    if (this->Lines.Rest.copy(bytes, sizeof(T)) < sizeof(T))
     {
       this->File.Fail("ends before its last value (truncated or corrupt)");
     }
-    std::memcpy(bytes, this->Lines.Rest.data(), sizeof(T));
     this->Lines.Rest.remove_prefix(sizeof(T));
-    if (this->IsSwapped)
-    {
-      std::reverse(bytes, bytes + sizeof(T));
-    }
-    std::memcpy(&value, bytes, sizeof(T));
+    std::reverse(bytes, this->IsSwapped ? bytes + sizeof(T) : bytes);
     return value;
   }
 
-  void Warn(const std::string& warning)
+  void Warn(const std::string& what)
   {
-    this->Result.Warnings.push_back(this->File.GetName() + ": " + warning);
+    this->Result.Warnings.push_back(this->File.GetName() + ": left out " + what);
   }
 
   const InputFile& File;
@@ -414,8 +340,8 @@ private:
   bool IsText = false;
   bool IsSwapped = false;
   std::vector<PlyElement> Elements;
-  vtkNew<vtkCellArray> Polygons;
   std::size_t Place = 0; ///< Of the next word in a line of values.
+  std::vector<vtkIdType> Cell; ///< The points of a face or an edge.
   FileMesh Result;
 };
 
@@ -429,17 +355,12 @@ const char* NameOf(int type)
 /// The type of a .ply that holds all values of an array; VTK_VOID if none does.
 int TypeFor(vtkDataArray* array)
 {
-  const int type = array->GetDataType() == VTK_CHAR ? VTK_SIGNED_CHAR
-    : array->GetDataType() == VTK_BIT               ? VTK_UNSIGNED_CHAR
-                                                    : array->GetDataType();
-  bool isExact = true;
-  for (int component = 0; component < array->GetNumberOfComponents() && !NameOf(type); ++component)
+  if (NameOf(array->GetDataType()))
   {
-    double range[2];
-    array->GetRange(range, component);
-    isExact = isExact && std::max(-range[0], range[1]) < 9007199254740992.0; // 2^53
+    return array->GetDataType();
   }
-  return NameOf(type) ? type : isExact ? VTK_DOUBLE : VTK_VOID;
+  const double* const range = array->GetRange(-1); // of the lengths, if there are components
+  return std::max(-range[0], range[1]) < std::ldexp(1.0, 53) ? VTK_DOUBLE : VTK_VOID;
 }
 
 /// The names by which other programs know an array, else its own, as one word.
@@ -450,8 +371,7 @@ Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
   for (const PlyGroup& group : Groups)
   {
     const bool isColor = group.Attribute == vtkDataSetAttributes::SCALARS;
-    const bool isActive = group.Attribute != NoAttribute &&
-      array == data->GetAbstractAttribute(group.Attribute) &&
+    const bool isActive = array == data->GetAbstractAttribute(group.Attribute) &&
       (!isColor || array->GetDataType() == VTK_UNSIGNED_CHAR);
     if (group.Properties.size() == components && (isActive || (isColor && name == group.Array)))
     {
@@ -461,69 +381,43 @@ Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
   std::replace_if(
     name.begin(), name.end(), [](unsigned char c) { return std::isspace(c) || std::iscntrl(c); },
     '_');
-  Names names;
-  for (std::size_t component = 0; component < components; ++component)
+  Names names(components, name);
+  for (std::size_t component = 0; component < components && components > 1; ++component)
   {
-    names.push_back(components == 1 ? name : name + "_" + std::to_string(component));
+    names[component] += "_" + std::to_string(component);
   }
   return names;
 }
 
-/// The properties of vertices or faces. Leaves out arrays that a .ply cannot hold: strings, too
-/// large integers, and those whose names are used by an earlier array, coordinates or indices.
-std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh, bool ofPoints)
+/// The properties of vertices. Leaves out arrays that a .ply cannot hold: strings, too large
+/// integers, and those whose names are used by the coordinates or by an earlier array.
+std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh)
 {
-  std::vector<PlyProperty> columns;
-  Names taken = ofPoints ? Names{ "x", "y", "z" } : Names{ "vertex_indices", "vertex_index" };
-  vtkDataArray* const coordinates = mesh->GetPoints()->GetData();
-  const int real = coordinates->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
-  for (int axis = 0; axis < 3 && ofPoints; ++axis)
-  {
-    columns.push_back({ taken[static_cast<std::size_t>(axis)], real, coordinates, axis });
-  }
-  vtkDataSetAttributes* const data =
-    mesh->GetAttributes(ofPoints ? vtkPolyData::POINT : vtkPolyData::CELL);
+  vtkDataArray* const points = mesh->GetPoints()->GetData();
+  const int real = points->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
+  std::vector<PlyProperty> columns = { { "x", real, points, 0 }, { "y", real, points, 1 },
+    { "z", real, points, 2 } };
+  vtkPointData* const data = mesh->GetPointData();
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
     vtkDataArray* const array = data->GetArray(index);
-    const vtkIdType size = ofPoints ? mesh->GetNumberOfPoints() : mesh->GetNumberOfCells();
-    const int type = array && array->GetNumberOfTuples() >= size ? TypeFor(array) : VTK_VOID;
+    const bool isWhole = array && array->GetNumberOfTuples() >= mesh->GetNumberOfPoints();
+    const int type = isWhole ? TypeFor(array) : VTK_VOID;
     const Names names = type == VTK_VOID ? Names() : PropertyNames(data, array);
-    const bool isTaken =
-      std::find_first_of(names.begin(), names.end(), taken.begin(), taken.end()) != names.end();
+    const bool isTaken = std::any_of(names.begin(), names.end(),
+      [&columns](const std::string& name) { return Find(columns, name); });
     for (std::size_t component = 0; component < names.size() && !isTaken; ++component)
     {
       columns.push_back({ names[component], type, array, static_cast<int>(component) });
-      taken.push_back(names[component]);
     }
   }
   return columns;
-}
-
-void WriteProperties(std::ostream& out, const std::vector<PlyProperty>& columns)
-{
-  for (const PlyProperty& column : columns)
-  {
-    out << "property " << NameOf(column.Type) << ' ' << column.Name << '\n';
-  }
 }
 
 template <typename T>
 void WriteNumber(std::ostream& out, T number)
 {
   out.write(reinterpret_cast<const char*>(&number), sizeof(number));
-}
-
-void WriteValues(std::ostream& out, const std::vector<PlyProperty>& columns, vtkIdType tuple)
-{
-  for (const PlyProperty& column : columns)
-  {
-    const double value = column.Array->GetComponent(tuple, column.Component);
-    switch (column.Type)
-    {
-      vtkTemplateMacro(WriteNumber(out, static_cast<VTK_TT>(value)));
-    }
-  }
 }
 
 }
@@ -533,41 +427,48 @@ FileMesh ReadPly(const InputFile& file) { return PlyReader(file).Read(); }
 void WritePly(vtkPolyData* mesh, const std::string& path)
 {
   const vtkIdType size = mesh->GetNumberOfPoints();
-  if (size > std::numeric_limits<std::int32_t>::max())
+  if (size > VTK_INT_MAX)
   {
     throw CommandError(ExitCode::BadFile, "more points than this file format can number");
   }
-  const std::vector<PlyProperty> vertices = PlanColumns(mesh, true);
-  const std::vector<PlyProperty> faces = PlanColumns(mesh, false);
+  const std::vector<PlyProperty> columns = PlanColumns(mesh);
   const bool isShort = mesh->GetPolys()->GetMaxCellSize() < 256;
-  std::vector<std::int32_t> edges; // two points each
+  std::ostringstream edges;
   ForEachCell(mesh->GetLines(),
     [&edges](vtkIdType count, const vtkIdType* points)
     {
       for (vtkIdType end = 1; end < count; ++end)
       {
-        edges.push_back(static_cast<std::int32_t>(points[end - 1]));
-        edges.push_back(static_cast<std::int32_t>(points[end]));
+        WriteNumber(edges, static_cast<std::int32_t>(points[end - 1]));
+        WriteNumber(edges, static_cast<std::int32_t>(points[end]));
       }
     });
 
   std::ofstream out(path, std::ios::binary);
   out << "ply\nformat binary_little_endian 1.0\ncomment written by delaunay-flip\nelement vertex "
       << size << '\n';
-  WriteProperties(out, vertices);
+  for (const PlyProperty& column : columns)
+  {
+    out << "property " << NameOf(column.Type) << ' ' << column.Name << '\n';
+  }
   out << "element face " << mesh->GetNumberOfPolys() << "\nproperty list "
       << (isShort ? "uchar" : "int") << " int vertex_indices\n";
-  WriteProperties(out, faces);
-  if (!edges.empty())
+  if (const std::size_t bytes = edges.str().size())
   {
-    out << "element edge " << edges.size() / 2 << "\nproperty int vertex1\nproperty int vertex2\n";
+    out << "element edge " << bytes / 8 << "\nproperty int vertex1\nproperty int vertex2\n";
   }
   out << "end_header\n";
   for (vtkIdType point = 0; point < size; ++point)
   {
-    WriteValues(out, vertices, point);
+    for (const PlyProperty& column : columns)
+    {
+      const double value = column.Array->GetComponent(point, column.Component);
+      switch (column.Type)
+      {
+        vtkTemplateMacro(WriteNumber(out, static_cast<VTK_TT>(value)));
+      }
+    }
   }
-  vtkIdType cell = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
   ForEachCell(mesh->GetPolys(),
     [&](vtkIdType count, const vtkIdType* points)
     {
@@ -575,21 +476,14 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
               : WriteNumber(out, static_cast<std::int32_t>(count));
       std::for_each(points, points + count,
         [&out](vtkIdType point) { WriteNumber(out, static_cast<std::int32_t>(point)); });
-      WriteValues(out, faces, cell++);
     });
-  out.write(reinterpret_cast<const char*>(edges.data()),
-    static_cast<std::streamsize>(edges.size() * sizeof(edges[0])));
-  out.close();
-  if (!out)
-  {
-    throw CommandError(ExitCode::BadFile, "the file is incomplete");
-  }
+  out << edges.str();
 }
 
-std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh, bool ofPoints)
+std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh)
 {
   std::vector<vtkAbstractArray*> arrays;
-  for (const PlyProperty& column : PlanColumns(mesh, ofPoints))
+  for (const PlyProperty& column : PlanColumns(mesh))
   {
     arrays.push_back(column.Array);
   }

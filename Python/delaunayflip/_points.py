@@ -182,7 +182,7 @@ class Input:
             way, stream = "_on_device", [self.struct.stream]
         else:
             triangles, neighbors = (numpy.empty(shape, dtype=numpy.int32) for _ in range(2))
-        used = numpy.full(len(self.points), -1)
+        used = numpy.empty(len(self.points), dtype=numpy.int64)
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
         _library.call(f"store_triangles{way}", handle, address(triangles), _library.TYPES["int32"], *stream)
         _library.call(f"store_neighbors{way}", handle, address(neighbors), *stream)

@@ -100,7 +100,7 @@ class Lost(CommandTest):
     def test_losses_are_named_in_one_line(self):
         arrays = ["point data (depth)", "cell data (region)"]
         for extension, words in {
-            ".ply": ["cannot store: cell data of lines"],
+            ".ply": ["cannot store: cell data (region)"],
             ".stl": arrays + ["lines (1)", "double precision", "unused points (1)"],
             ".obj": arrays,
         }.items():
