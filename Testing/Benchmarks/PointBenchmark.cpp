@@ -3,6 +3,7 @@
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "Machine.h"
+#include "PointSets.h"
 #if defined(DELAUNAYFLIP_HAS_CUDA)
 #include "TestDevice.h"
 #endif
@@ -13,9 +14,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <random>
@@ -35,124 +33,6 @@ namespace delaunayflip
 namespace
 {
 
-using Place = std::array<double, 2>;
-using Places = std::vector<Place>;
-using Random = std::mt19937_64;
-constexpr double Pi = 3.14159265358979323846;
-
-double Draw(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-Place AtAngle(double radiusX, double radiusY, double turns)
-{
-  return { radiusX * std::cos(2 * Pi * turns), radiusY * std::sin(2 * Pi * turns) };
-}
-
-Place DrawContour(Random& random)
-{
-  const double level = 1.0 + static_cast<double>(random() % 40);
-  const double turns = Draw(random);
-  const double radius =
-    level * (1 + 0.25 * std::sin(6 * Pi * turns + 0.1 * level) + 0.1 * std::sin(14 * Pi * turns));
-  return AtAngle(radius, 0.7 * radius, turns);
-}
-
-struct PointSet
-{
-  const char* Name;
-  std::function<Place(Random& random, double i, double n)> Make;
-  bool IsHard =
-    false; ///< Without care it takes quadratic time: twice as many points are timed too.
-};
-
-/// On which triangulations differ in cost.
-const PointSet Sets[] = {
-  { "uniform",
-    [](Random& r, double, double) {
-      return Place{ Draw(r), Draw(r) };
-    } },
-  { "clusters",
-    [](Random& r, double i, double)
-    {
-      Random centre(static_cast<std::uint64_t>(i) % 30);
-      const double size = std::pow(10.0, -1 - 3 * Draw(centre));
-      const double x = Draw(centre), y = Draw(centre);
-      const double distance = size * std::sqrt(-2 * std::log(1 - Draw(r)));
-      const Place offset = AtAngle(distance, distance, Draw(r));
-      return Place{ x + offset[0], y + offset[1] };
-    } },
-  { "lines",
-    [](Random& r, double, double) {
-      return Place{ Draw(r), static_cast<double>(r() % 100) / 100 + 1e-4 * Draw(r) };
-    } },
-  { "ring",
-    [](Random& r, double, double)
-    {
-      const double radius = 1 + 1e-3 * Draw(r);
-      return AtAngle(radius, radius, Draw(r));
-    } },
-  { "power",
-    [](Random& r, double, double)
-    {
-      const double radius = std::pow(Draw(r), 4);
-      return AtAngle(radius, radius, Draw(r));
-    } },
-  { "outlier",
-    [](Random& r, double i, double) {
-      return i == 0 ? Place{ 0.5, 1e4 } : Place{ Draw(r), Draw(r) };
-    } },
-  { "lattice",
-    [](Random&, double i, double n)
-    {
-      const double side = std::ceil(std::sqrt(n));
-      return Place{ std::fmod(i, side), std::floor(i / side) };
-    } },
-  { "contours40", [](Random& r, double, double) { return DrawContour(r); } },
-  { "ellipse", [](Random& r, double, double) { return AtAngle(1000, 1, Draw(r)); } },
-  { "parabola",
-    [](Random& r, double, double)
-    {
-      const double x = Draw(r);
-      return Place{ x, x * x };
-    } },
-  { "hyperbola",
-    [](Random& r, double, double)
-    {
-      const double x = 10 * Draw(r) + 0.1;
-      return Place{ x, 1 / x };
-    } },
-  { "spiral",
-    [](Random&, double i, double) { return AtAngle(i + 0.5, i + 0.5, 0.001 * i / (2 * Pi)); } },
-  { "two_circles",
-    [](Random& r, double i, double)
-    {
-      const Place place = AtAngle(1, 1, Draw(r));
-      return Place{ place[0], place[1] + 2 * std::fmod(i, 2) };
-    },
-    true },
-  { "line_and_point",
-    [](Random& r, double i, double) {
-      return i == 0 ? Place{ 0.5, 1 } : Place{ Draw(r), 0 };
-    },
-    true },
-  { "two_rows",
-    [](Random& r, double i, double) {
-      return i < 20 ? Place{ i / 19, 1 } : Place{ Draw(r), 0 };
-    },
-    true },
-};
-
-Places MakePlaces(const PointSet& set, std::int64_t count)
-{
-  Random random(5);
-  Places places;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    places.push_back(set.Make(random, static_cast<double>(i), static_cast<double>(count)));
-  }
-  std::shuffle(places.begin(), places.end(), random);
-  return places;
-}
-
 /// Segments from points to others that are a few triangles away.
 std::vector<std::int64_t> DrawSegments(
   const std::vector<std::int32_t>& triangles, std::int64_t points, std::int64_t count)
@@ -163,7 +43,7 @@ std::vector<std::int64_t> DrawSegments(
   {
     triangleOf[triangles[i]] = static_cast<std::int64_t>(i / 3);
   }
-  Random random(6);
+  std::mt19937_64 random(6);
   std::vector<std::int64_t> segments;
   for (std::int64_t i = 0; i < count; ++i)
   {
@@ -210,19 +90,6 @@ struct Result
   std::string Note;
 };
 
-class StopWatch
-{
-public:
-  double GetMilliseconds() const
-  {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - this->Start)
-      .count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
-
 PointInput View(const Places& places, const std::vector<std::int64_t>& segments)
 {
   PointInput input;
@@ -238,19 +105,19 @@ Result TimeEngine(const PointInput& input, BackendKind backend, int threads)
   options.Backend = backend;
   options.NumberOfThreads = threads;
   std::vector<std::int32_t> triangles(6 * input.Points.Count);
-  const StopWatch watch;
+  const Clock::time_point start = Clock::now();
   FlipSession session(input, options);
-  const double build = watch.GetMilliseconds();
+  const double build = MillisecondsSince(start);
   session.Advance();
   const std::int64_t count = session.GetReport().Triangles;
-  const double flips = watch.GetMilliseconds() - build;
+  const double flips = MillisecondsSince(start) - build;
   session.StoreTriangles(MutableTriangleArray(triangles.data(), count));
   const FlipReport& report = session.GetReport();
   char note[128];
   std::snprintf(note, sizeof note, "build %.1f, flips %.1f; %.2f flips per point, %zu iterations",
     build, flips, static_cast<double>(report.TotalFlips) / static_cast<double>(input.Points.Count),
     report.Iterations.size());
-  return { watch.GetMilliseconds(), count, note };
+  return { MillisecondsSince(start), count, note };
 }
 
 /// The most device memory since the last call of TakePeakCudaMemory.
@@ -276,12 +143,12 @@ Result TimeOnDevice(const PointInput& host)
   std::int64_t count = 0;
   TakePeakCudaMemory(); // of earlier runs
   {
-    const StopWatch watch;
+    const Clock::time_point start = Clock::now();
     FlipSession session(input, PointOptions());
     session.Advance();
     count = session.GetReport().Triangles;
     session.StoreTriangles(MutableTriangleArray(triangles.Data(), count), DeviceStream());
-    milliseconds = watch.GetMilliseconds();
+    milliseconds = MillisecondsSince(start);
   } // its memory is measured when it is free
   return { milliseconds, count, DescribeMemory(host) };
 }
@@ -296,28 +163,28 @@ Result TimeCgal(const PointInput& input)
   {
     points.emplace_back(input.Points.Get(i, 0), input.Points.Get(i, 1));
   }
-  const StopWatch watch;
+  const Clock::time_point start = Clock::now();
   if (input.NumberOfSegments == 0)
   {
     CGAL::Delaunay_triangulation_2<Kernel> triangulation(points.begin(), points.end());
-    return { watch.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
+    return { MillisecondsSince(start), static_cast<std::int64_t>(triangulation.number_of_faces()),
       "" };
   }
   CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_predicates_tag>
     triangulation;
   triangulation.insert(points.begin(), points.end());
-  const double before = watch.GetMilliseconds();
+  const double before = MillisecondsSince(start);
   std::vector<std::pair<std::size_t, std::size_t>> pairs; // CGAL's fastest way, by indices
   for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
   {
     pairs.emplace_back(input.Segments[2 * i], input.Segments[2 * i + 1]);
   }
-  const StopWatch all;
+  const Clock::time_point again = Clock::now();
   triangulation.clear();
   triangulation.insert_constraints(points.begin(), points.end(), pairs.begin(), pairs.end());
   char note[64];
   std::snprintf(note, sizeof note, "%.1f without segments", before);
-  return { all.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
+  return { MillisecondsSince(again), static_cast<std::int64_t>(triangulation.number_of_faces()),
     note };
 }
 
@@ -438,7 +305,7 @@ int main(int argc, char* argv[])
   std::printf("%s\n", DescribeMachine().c_str());
   for (const std::int64_t count : plan.Sizes)
   {
-    for (const PointSet& set : Sets)
+    for (const PointSet& set : ListPointSets())
     {
       const auto& names = plan.Names;
       if (names.empty() || std::find(names.begin(), names.end(), set.Name) != names.end())

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_POINTTESTSUPPORT_H
 
 #include "FlipTestSupport.h"
+#include "PointSets.h"
 #include "References.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,6 @@
 namespace delaunayflip
 {
 
-using Places = std::vector<std::array<double, 2>>;
 using Pairs = std::vector<std::array<std::int64_t, 2>>;
 
 /// Points and segments that belong to a test.
