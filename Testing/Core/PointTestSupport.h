@@ -4,7 +4,6 @@
 #define DELAUNAYFLIP_POINTTESTSUPPORT_H
 
 #include "FlipTestSupport.h"
-#include "PointSets.h"
 #include "References.h"
 
 #include <gtest/gtest.h>
@@ -21,6 +20,7 @@
 namespace delaunayflip
 {
 
+using Places = std::vector<std::array<double, 2>>;
 using Pairs = std::vector<std::array<std::int64_t, 2>>;
 
 /// Points and segments that belong to a test.
