@@ -453,7 +453,7 @@ public:
       });
   }
 
-  int CountDevices() const { return 1 + static_cast<int>(this->Context->Others.size()); }
+  int CountDevices() const { return static_cast<int>(this->Context->Devices.size()); }
 
   /// Calls launch(stream, part), which launches a kernel, on each of the first `parts` GPUs.
   template <typename LaunchPart>

@@ -79,58 +79,16 @@ struct IdleContexts
 {
   std::mutex Mutex;
   std::vector<std::unique_ptr<CudaContext>> Contexts;
-
-  static IdleContexts& Get()
-  {
-    static IdleContexts* contexts = new IdleContexts;
-    return *contexts;
-  }
-
-  std::unique_ptr<CudaContext> Take(const std::vector<int>& devices)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    const auto found = std::find_if(this->Contexts.begin(), this->Contexts.end(),
-      [&](const std::unique_ptr<CudaContext>& context)
-      { return context->ListDevices() == devices; });
-    if (found == this->Contexts.end())
-    {
-      return nullptr;
-    }
-    std::unique_ptr<CudaContext> context = std::move(*found);
-    this->Contexts.erase(found);
-    return context;
-  }
-
-  /// Keeps a context; destroys it if there is no memory for the list, as a destructor calls this.
-  void Give(std::unique_ptr<CudaContext> context) noexcept
-  {
-    try
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->Contexts.push_back(std::move(context));
-    }
-    catch (const std::bad_alloc&)
-    {
-    }
-  }
-
-  std::size_t TakePeak()
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    std::size_t peak = 0;
-    for (const std::unique_ptr<CudaContext>& context : this->Contexts)
-    {
-      peak = std::max(peak, context->TakePeak());
-    }
-    return peak;
-  }
-
-  std::vector<std::unique_ptr<CudaContext>> TakeAll()
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    return std::move(this->Contexts);
-  }
 };
+
+/// Calls use(contexts) while no other thread does.
+template <typename Use>
+auto WithIdleContexts(const Use& use)
+{
+  static IdleContexts* idle = new IdleContexts;
+  const std::lock_guard<std::mutex> lock(idle->Mutex);
+  return use(idle->Contexts);
+}
 
 CudaStream MakeStream()
 {
@@ -149,7 +107,8 @@ CudaEvent MakeEvent()
 }
 
 CudaContext::CudaContext(const std::vector<int>& devices)
-  : Device(devices.front())
+  : Devices(devices),
+    Device(devices.front())
 {
   cudaGetLastError(); // clears errors of other code
   const CurrentDevice current(this->Device); // streams and events belong to it
@@ -208,16 +167,6 @@ Memory& CudaContext::GetMemory() const
   return this->Shared ? static_cast<Memory&>(*this->Shared) : *this->Pool;
 }
 
-std::vector<int> CudaContext::ListDevices() const
-{
-  std::vector<int> devices{ this->Device };
-  for (const DeviceStreams& other : this->Others)
-  {
-    devices.push_back(other.Device);
-  }
-  return devices;
-}
-
 std::size_t CudaContext::TakePeak()
 {
   return this->Pool->TakePeak() + (this->Shared ? this->Shared->TakePeak() : 0);
@@ -262,8 +211,16 @@ CurrentDevice::~CurrentDevice()
 
 ContextLease LeaseContext(const std::vector<int>& devices)
 {
-  std::unique_ptr<CudaContext> idle = IdleContexts::Get().Take(devices);
-  return ContextLease(idle ? idle.release() : new CudaContext(devices));
+  ContextLease idle = WithIdleContexts(
+    [&](auto& contexts)
+    {
+      const auto found = std::find_if(contexts.begin(), contexts.end(),
+        [&](const auto& context) { return context->Devices == devices; });
+      ContextLease taken(found == contexts.end() ? nullptr : found->release());
+      contexts.erase(found, found == contexts.end() ? found : found + 1);
+      return taken;
+    });
+  return idle ? std::move(idle) : ContextLease(new CudaContext(devices));
 }
 
 void ContextReturn::operator()(CudaContext* context) const noexcept
@@ -274,9 +231,13 @@ void ContextReturn::operator()(CudaContext* context) const noexcept
   {
     isGood = cudaStreamSynchronize(other.Stream) == cudaSuccess && isGood;
   }
-  if (isGood)
+  try
   {
-    IdleContexts::Get().Give(std::move(returned));
+    WithIdleContexts([&](auto& contexts)
+      { isGood ? contexts.push_back(std::move(returned)) : static_cast<void>(0); });
+  }
+  catch (const std::bad_alloc&) // no memory for the list
+  {
   }
 }
 
@@ -306,21 +267,23 @@ int CountCudaDevices()
 
 void ReleaseCudaMemory() { ReleaseIdleMemory(); }
 
-bool ReleaseIdleMemory() { return !IdleContexts::Get().TakeAll().empty(); }
-
-std::size_t TakePeakCudaMemory() { return IdleContexts::Get().TakePeak(); }
-
-namespace
+bool ReleaseIdleMemory()
 {
-/// @param device the side of the copy that is in device memory.
-void Copy(void* to, const void* from, std::int64_t bytes, const void* device, DeviceStream stream)
-{
-  const CurrentDevice current(FindDeviceOf(device)); // which the default stream belongs to
-  const auto handle = static_cast<cudaStream_t>(stream.Handle);
-  CallCuda(
-    "copy between host and GPU", cudaMemcpyAsync, to, from, bytes, cudaMemcpyDefault, handle);
-  CallCuda("finish a copy", cudaStreamSynchronize, handle);
+  return !WithIdleContexts([](auto& contexts) { return std::move(contexts); }).empty();
 }
+
+std::size_t TakePeakCudaMemory()
+{
+  return WithIdleContexts(
+    [](auto& contexts)
+    {
+      std::size_t peak = 0;
+      for (const auto& context : contexts)
+      {
+        peak = std::max(peak, context->TakePeak());
+      }
+      return peak;
+    });
 }
 
 int FindDeviceOf(const void* memory)
@@ -332,14 +295,18 @@ int FindDeviceOf(const void* memory)
   return isOnDevice ? attributes.device : -1;
 }
 
-void CopyFromDevice(const void* device, std::int64_t bytes, void* host, const DeviceStream& stream)
+void CopyMemory(const void* from, std::int64_t bytes, void* to, const DeviceStream& stream)
 {
-  Copy(host, device, bytes, device, stream);
-}
-
-void CopyToDevice(const void* host, std::int64_t bytes, void* device, const DeviceStream& stream)
-{
-  Copy(device, host, bytes, device, stream);
+  if (bytes == 0)
+  {
+    return;
+  }
+  // The device that the default stream belongs to.
+  const CurrentDevice current(std::max(FindDeviceOf(from), FindDeviceOf(to)));
+  const auto handle = static_cast<cudaStream_t>(stream.Handle);
+  CallCuda(
+    "copy between host and GPU", cudaMemcpyAsync, to, from, bytes, cudaMemcpyDefault, handle);
+  CallCuda("finish a copy", cudaStreamSynchronize, handle);
 }
 
 }

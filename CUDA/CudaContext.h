@@ -122,9 +122,6 @@ public:
   /// Where arrays are.
   Memory& GetMemory() const;
 
-  /// The GPUs, in order.
-  std::vector<int> ListDevices() const;
-
   /// The most bytes that were in use on the devices at any time since the last call.
   std::size_t TakePeak();
 
@@ -137,6 +134,7 @@ public:
   /// Lets the stream wait for the other GPUs.
   void Join() const;
 
+  std::vector<int> Devices; ///< The GPUs, in order.
   int Device; ///< The first one.
   std::string Name; ///< E.g. "NVIDIA H200" or "2 x NVIDIA H200".
   int Multiprocessors = 0;

@@ -71,7 +71,7 @@ public:
       *kinds[kind] = this->Words[kind].Data();
     }
     this->Bits.BlockedByShape = this->Words[own - 1].Data();
-    this->LoadStates(mesh);
+    this->TakeStates(mesh, true);
   }
 
   const EdgeBits& View() const { return this->Bits; }
@@ -79,8 +79,9 @@ public:
 
   // Public because device lambdas require it.
 
-  /// Converts the initial states into bits. Bits after the last edge are fixed.
-  void LoadStates(const EdgeMesh& mesh)
+  /// Takes over the states that are Fixed or Candidate, and at first all. Bits after the last edge
+  /// are fixed.
+  void TakeStates(const EdgeMesh& mesh, bool isFirst)
   {
     const EdgeBits bits = this->Bits;
     const EdgeState* states = mesh.States.Data();
@@ -89,43 +90,24 @@ public:
     this->Backend.ForEach(this->NumberOfWords,
       [=] __device__(std::int64_t word)
       {
-        std::uint32_t fixed = 0;
+        std::uint32_t fixed = isFirst ? 0 : bits.FixedOrDeferred[word], candidates = 0;
         for (int i = 0; i < 32; ++i)
         {
           const std::int64_t edge = 32 * word + i;
-          const bool isFixed = edge >= edges ||
-            (states ? states[edge] == EdgeState::Fixed : corners[2 * edge + 1] == NoCorner);
-          fixed |= isFixed ? 1u << i : 0;
-        }
-        bits.FixedOrDeferred[word] = fixed;
-        bits.Candidates[word] = ~fixed;
-        bits.Bad[word] = bits.Winners[word] = bits.BlockedByShape[word] = bits.BlockedByEdge[word] =
-          0;
-      });
-  }
-
-  /// Takes over the states that are Fixed or Candidate, after LoadStates.
-  void TakeStates(const EdgeMesh& mesh)
-  {
-    const EdgeBits bits = this->Bits;
-    const EdgeState* states = mesh.States.Data();
-    const std::int64_t edges = mesh.NumberOfEdges;
-    this->Backend.ForEach(this->NumberOfWords,
-      [=] __device__(std::int64_t word)
-      {
-        std::uint32_t fixed = bits.FixedOrDeferred[word], candidates = 0;
-        for (int i = 0; i < 32 && 32 * word + i < edges; ++i)
-        {
-          const EdgeState state = states[32 * word + i];
+          const bool isInside = edge < edges && (states || corners[2 * edge + 1] != NoCorner);
+          const EdgeState without = isInside ? EdgeState::Candidate : EdgeState::Fixed;
+          const EdgeState state = isInside && states ? states[edge] : without;
           fixed |= state == EdgeState::Fixed ? 1u << i : 0;
           candidates |= state == EdgeState::Candidate ? 1u << i : 0;
         }
         bits.FixedOrDeferred[word] = fixed;
         bits.Candidates[word] = candidates;
-        const std::uint32_t others = ~(fixed | candidates);
-        bits.Bad[word] &= others;
-        bits.BlockedByShape[word] &= others;
-        bits.BlockedByEdge[word] &= others;
+        const auto keep = [&](std::uint32_t* kind)
+        { kind[word] = isFirst ? 0 : kind[word] & ~(fixed | candidates); };
+        keep(bits.Bad);
+        keep(bits.Winners);
+        keep(bits.BlockedByShape);
+        keep(bits.BlockedByEdge);
       });
   }
 
@@ -259,7 +241,7 @@ protected:
     return found;
   }
 
-  void TakeStates() override { this->Bits.TakeStates(this->Mesh); }
+  void TakeStates() override { this->Bits.TakeStates(this->Mesh, false); }
 
   /// A launch of iterations on the whole mesh.
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
@@ -314,25 +296,13 @@ private:
 
   auto* GetDetectKernel() const
   {
-    if constexpr (Rule::AlwaysGuarded)
-    {
-      return DetectAllKernel<Rule, true>;
-    }
-    else
-    {
-      return this->Guard.IsActive() ? DetectAllKernel<Rule, true> : DetectAllKernel<Rule, false>;
-    }
+    return this->Guard.IsActive() ? DetectAllKernel<Rule, true>
+                                  : DetectAllKernel<Rule, Rule::AlwaysGuarded>;
   }
   auto* GetIterateKernel() const
   {
-    if constexpr (Rule::AlwaysGuarded)
-    {
-      return IterateKernel<Rule, true>;
-    }
-    else
-    {
-      return this->Guard.IsActive() ? IterateKernel<Rule, true> : IterateKernel<Rule, false>;
-    }
+    return this->Guard.IsActive() ? IterateKernel<Rule, true>
+                                  : IterateKernel<Rule, Rule::AlwaysGuarded>;
   }
 
   /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also
@@ -341,7 +311,7 @@ private:
   int CountResidentBlocks(Kernel kernel) const
   {
     int fewest = std::numeric_limits<int>::max();
-    for (const int device : this->Backend.GetContext().ListDevices())
+    for (const int device : this->Backend.GetContext().Devices)
     {
       const CurrentDevice current(device);
       int perMultiprocessor = 0;

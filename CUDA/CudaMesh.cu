@@ -3,9 +3,9 @@
 #include "Array.h"
 #include "CudaBackend.cuh"
 #include "CudaFlipLoop.cuh"
-#include "DeviceStripSorting.cuh"
 #include "FlipError.h"
 #include "MeshOnBackend.h"
+#include "Strips.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,6 +15,157 @@
 namespace delaunayflip
 {
 
+/// Bits that order as the number does.
+__device__ inline std::uint64_t OrderedBits(double number)
+{
+  const std::int64_t bits = __double_as_longlong(number);
+  return static_cast<std::uint64_t>(bits ^ ((bits >> 63) | (std::int64_t(1) << 63)));
+}
+__device__ inline std::uint32_t OrderedBits(float number)
+{
+  const std::int32_t bits = __float_as_int(number);
+  return static_cast<std::uint32_t>(bits ^ ((bits >> 31) | (std::int32_t(1) << 31)));
+}
+
+/// Sorts all points by their strip and as many bits of x as a key has room for. Points that these
+/// do not order are few as a rule, and one thread sorts them. Where they are many, all points are
+/// sorted by y, then by x, before; each sort keeps the order of equal keys.
+template <typename Real>
+struct StripSorter<Real, CudaBackend>
+{
+  static StripPoints<Real> Sort(
+    const PlaneArray& points, const StripBounds& bounds, const CudaBackend& backend)
+  {
+    const std::int64_t count = points.Count;
+    const std::int64_t strips = bounds.CountStrips();
+    const auto cells = static_cast<std::int64_t>(bounds.FirstOfCell.size());
+    Array<double> boundsHere = backend.MakeArray<double>(strips - 1);
+    Array<std::uint32_t> cellsHere = backend.MakeArray<std::uint32_t>(cells);
+    backend.Upload(bounds.Bounds.data(), strips - 1, boundsHere.Data());
+    backend.Upload(bounds.FirstOfCell.data(), cells, cellsHere.Data());
+    StripFinder findStrip = bounds.View();
+    findStrip.Bounds = boundsHere.Data();
+    findStrip.FirstOfCell = cellsHere.Data();
+    const auto unused = static_cast<std::uint32_t>(strips); // not finite
+    int stripBits = 1;
+    while ((strips >> stripBits) > 0)
+    {
+      ++stripBits;
+    }
+    constexpr int RealBits = 8 * sizeof(Real);
+    const int lost = std::max(0, RealBits + stripBits - 64);
+    const auto keyOf = [=] __device__(Real x, Real y)
+    {
+      const std::uint64_t strip = IsFinite(x) && IsFinite(y) ? findStrip(y) : unused;
+      return strip << (RealBits - lost) | OrderedBits(x) >> lost;
+    };
+
+    StripPoints<Real> sorted;
+    sorted.Strips = strips;
+    sorted.Ids = backend.MakeIndices(count);
+    sorted.Coordinates = backend.MakeArray<Real>(2 * count);
+    CoordinatePair<Real>* places = sorted.Places();
+    for (const bool byAll : { false, true })
+    {
+      for (int axis = 1; axis >= 0 && byAll; --axis)
+      {
+        backend.template SortBy<std::uint64_t>(sorted.Ids, count, RealBits,
+          [=] __device__(std::uint32_t i)
+          { return std::uint64_t(OrderedBits(static_cast<Real>(points.Get(i, axis)))); });
+      }
+      backend.template SortBy<std::uint64_t>(sorted.Ids, count, RealBits - lost + stripBits,
+        [=] __device__(std::uint32_t i) {
+          return keyOf(static_cast<Real>(points.Get(i, 0)), static_cast<Real>(points.Get(i, 1)));
+        });
+      VertexId* ids = sorted.Ids.Data();
+      backend.ForEach(count,
+        [=] __device__(std::int64_t i)
+        {
+          places[i] = { static_cast<Real>(points.Get(ids[i], 0)),
+            static_cast<Real>(points.Get(ids[i], 1)) };
+        });
+      const auto keyAt = [=] __device__(std::int64_t i) { return keyOf(places[i].U, places[i].V); };
+      const std::int64_t unsorted = byAll
+        ? 0
+        : backend.template Sum<std::int64_t>(count,
+            [=] __device__(std::int64_t i, std::int64_t & sum)
+            { sum += SortEqualKeys(i, count, places, ids, keyAt) ? 0 : 1; });
+      if (unsorted == 0)
+      {
+        break;
+      }
+    }
+    FindStarts(
+      sorted, count,
+      [=] __device__(std::int64_t i)
+      { return static_cast<std::int64_t>(keyOf(places[i].U, places[i].V) >> (RealBits - lost)); },
+      backend);
+    return sorted;
+  }
+
+  /// Finds where strips begin among the sorted points. Those that are not finite come after the
+  /// last strip, and count no more.
+  /// @param stripOf the strip of a sorted point
+  template <typename StripOf>
+  static void FindStarts(StripPoints<Real>& sorted, std::int64_t count, const StripOf& stripOf,
+    const CudaBackend& backend)
+  {
+    const std::int64_t strips = sorted.Strips;
+    sorted.Starts = backend.MakeArray<std::uint32_t>(strips + 1);
+    std::uint32_t* starts = sorted.Starts.Data();
+    backend.ForEach(count + 1,
+      [=] __device__(std::int64_t i)
+      {
+        const std::int64_t strip = i < count ? stripOf(i) : strips;
+        for (std::int64_t next = i > 0 ? stripOf(i - 1) + 1 : 0; next <= strip; ++next)
+        {
+          starts[next] = static_cast<std::uint32_t>(i);
+        }
+      });
+    std::uint32_t used = 0;
+    backend.Download(starts + strips, 1, &used);
+    sorted.Count = used;
+  }
+
+  /// Sorts the points of equal keys that begin at a place, if they do. Keys do not change by that,
+  /// so other threads may read them.
+  /// @returns false if the points are too many for one thread.
+  template <typename KeyAt>
+  __device__ static bool SortEqualKeys(std::int64_t first, std::int64_t count,
+    CoordinatePair<Real>* places, VertexId* ids, const KeyAt& keyAt)
+  {
+    constexpr std::int64_t Most = 64;
+    const auto continues = [&](std::int64_t i)
+    { return i > 0 && i < count && keyAt(i) == keyAt(i - 1); };
+    if (continues(first) || !continues(first + 1))
+    {
+      return true;
+    }
+    std::int64_t end = first + 2;
+    while (end - first <= Most && continues(end))
+    {
+      ++end;
+    }
+    for (std::int64_t i = first + 1; i < end; ++i)
+    {
+      const CoordinatePair<Real> place = places[i];
+      const VertexId id = ids[i];
+      std::int64_t to = i;
+      for (; to > first &&
+           (place.U != places[to - 1].U ? place.U < places[to - 1].U : place.V < places[to - 1].V);
+           --to)
+      {
+        places[to] = places[to - 1];
+        ids[to] = ids[to - 1];
+      }
+      places[to] = place;
+      ids[to] = id;
+    }
+    return end - first <= Most;
+  }
+};
+
+//------------------------------------------------------------------------------
 namespace
 {
 /// Stores id i of all triangles. Neighbouring threads have the ids of one triangle, so that these
@@ -74,73 +225,79 @@ public:
   bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream,
     std::int32_t* written) const override
   {
-    if (triangles.Count > 0 && !this->IsHere(triangles.Data()))
-    {
-      return false;
-    }
     const StoreStep all = this->GetStoreStep();
-    const CudaBackend& backend = this->GetBackend();
-    if (written)
-    {
-      constexpr std::int64_t lanes = StoreChangedStep::Lanes;
-      const std::int64_t full = (triangles.Count + lanes - 1) / lanes * lanes;
-      backend.StoreOnDevice(full, triangles, stream, StoreChangedStep{ all, written });
-    }
-    else
-    {
-      backend.StoreOnDevice(3 * triangles.Count, triangles, stream, StoreIdStep{ all });
-    }
-    return true;
+    constexpr std::int64_t lanes = StoreChangedStep::Lanes;
+    const std::int64_t full = (triangles.Count + lanes - 1) / lanes * lanes;
+    return written
+      ? this->StoreHere(triangles.Data(), full, triangles, stream, StoreChangedStep{ all, written })
+      : this->StoreHere(
+          triangles.Data(), 3 * triangles.Count, triangles, stream, StoreIdStep{ all });
   }
 
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) const override
   {
-    const std::int64_t size = this->GetInputReport().Triangles;
-    if (size > 0 && !this->IsHere(counts))
-    {
-      return false;
-    }
-    const OutputSlice all{ reinterpret_cast<std::uint32_t*>(counts), 0, size };
-    this->GetBackend().StoreOnDevice(size, all, stream, this->GetFlipCountStep());
-    return true;
+    return this->StoreHere(
+      counts, this->GetInputReport().Triangles, stream, this->GetFlipCountStep());
   }
 
   bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream) const override
   {
-    const std::int64_t size = 3 * this->GetInputReport().Triangles;
-    if (size > 0 && !this->IsHere(neighbors))
-    {
-      return false;
-    }
-    const OutputSlice all{ reinterpret_cast<std::uint32_t*>(neighbors), 0, size };
-    this->GetBackend().StoreOnDevice(size, all, stream, this->GetNeighborStep());
-    return true;
+    return this->StoreHere(
+      neighbors, 3 * this->GetInputReport().Triangles, stream, this->GetNeighborStep());
   }
 
 private:
-  bool IsHere(const void* memory) const
+  /// Stores if the memory is that of the device. @returns whether it is.
+  template <typename Target, typename Store>
+  bool StoreHere(const void* memory, std::int64_t size, const Target& target,
+    const DeviceStream& stream, const Store& store) const
   {
-    return FindDeviceOf(memory) == this->GetBackend().GetContext().Device;
+    const CudaBackend& backend = this->GetBackend();
+    const bool isHere = size == 0 || FindDeviceOf(memory) == backend.GetContext().Device;
+    if (isHere)
+    {
+      backend.StoreOnDevice(size, target, stream, store);
+    }
+    return isHere;
+  }
+  template <typename Store>
+  bool StoreHere(
+    std::int32_t* values, std::int64_t size, const DeviceStream& stream, const Store& store) const
+  {
+    const OutputSlice all{ reinterpret_cast<std::uint32_t*>(values), 0, size };
+    return this->StoreHere(values, size, all, stream, store);
   }
 };
+
+/// Calls make(backend), with the first device as the current one.
+template <typename Make>
+std::unique_ptr<LoadedMesh> Load(
+  const std::vector<int>& devices, const FlipOptions& options, const Make& make)
+{
+  try
+  {
+    CudaBackend backend(devices, options.NumberOfThreads);
+    const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+    return make(std::move(backend));
+  }
+  catch (const BeyondDevice& error)
+  {
+    throw BackendUnavailable(error.what());
+  }
+}
 
 /// @param view the caller's arrays, wherever they are.
 template <typename Mesh>
 std::unique_ptr<LoadedMesh> Load(const Mesh& mesh, const TriangleMesh& view,
   const std::vector<int>& devices, const FlipOptions& options, const BuildProgress& progress)
 {
-  try
-  {
-    CudaBackend backend(devices, options.NumberOfThreads);
-    const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-    LocalDeviceMesh local = backend.Localize(mesh);
-    return std::unique_ptr<LoadedMesh>(
-      new CudaMesh(view, std::move(local), options, std::move(backend), progress));
-  }
-  catch (const BeyondDevice& error)
-  {
-    throw BackendUnavailable(error.what());
-  }
+  return Load(devices, options,
+    [&](CudaBackend&& backend)
+    {
+      LocalDeviceMesh local = backend.Localize(mesh);
+      return std::make_unique<CudaMesh>(
+        view, std::move(local), options, std::move(backend), progress);
+    });
 }
 }
 
@@ -163,9 +320,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
 {
   TriangleMesh view;
   static_cast<FixedEdges&>(view) = mesh;
-  view.Points.Floats = mesh.Points.Floats;
-  view.Points.Doubles = mesh.Points.Doubles;
-  view.Points.Count = mesh.Points.Count;
+  static_cast<CoordinateArray&>(view.Points) = mesh.Points;
   view.Triangles = mesh.Triangles;
   return Load(mesh, view, { options.Device }, options, progress);
 }
@@ -173,21 +328,16 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const PointInput& points, const FlipOptions& options, const BuildProgress& progress)
 {
-  try
-  {
-    CudaBackend backend({ options.Device }, options.NumberOfThreads);
-    const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-    if (points.OnDevice)
+  return Load({ options.Device }, options,
+    [&](CudaBackend&& backend)
     {
-      backend.WaitFor(points.Stream);
-    }
-    return std::unique_ptr<LoadedMesh>(
-      new CudaMesh(points.Points, points.OnDevice, options, std::move(backend), progress));
-  }
-  catch (const BeyondDevice& error)
-  {
-    throw BackendUnavailable(error.what());
-  }
+      if (points.OnDevice)
+      {
+        backend.WaitFor(points.Stream);
+      }
+      return std::make_unique<CudaMesh>(
+        points.Points, points.OnDevice, options, std::move(backend), progress);
+    });
 }
 
 }

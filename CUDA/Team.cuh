@@ -6,7 +6,6 @@
 #include "Atomics.h"
 #include "EdgeFlip.h"
 #include "EdgeMesh.h"
-#include "HostDevice.h"
 
 namespace delaunayflip
 {

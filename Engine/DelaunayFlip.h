@@ -21,8 +21,6 @@
 namespace delaunayflip
 {
 
-struct HostTriangles;
-
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
 /// iterations, and can be read at any time between them. With BackendKind::Auto, with several
 /// pieces, and if a progress observer stopped the constructor, the caller's arrays must stay
@@ -124,9 +122,6 @@ public:
   void StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const;
 
 private:
-  friend class PartRun;
-  HostTriangles ViewHostTriangles() const;
-
   struct Work;
   std::unique_ptr<Work> Own;
 };

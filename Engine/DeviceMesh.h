@@ -25,30 +25,17 @@ struct DeviceStream
 
 /// Coordinates of points in device memory: Components * Count numbers, x, y and z (3 components) or
 /// x and y (2; z is 0) of each point.
-struct DevicePointArray
+struct DevicePointArray : CoordinateArray
 {
   DevicePointArray() = default;
-  DevicePointArray(const float* coordinates, std::int64_t count, int components = 3)
-    : Floats(coordinates),
-      Count(count),
-      Components(components)
-  {
-  }
-  DevicePointArray(const double* coordinates, std::int64_t count, int components = 3)
-    : Doubles(coordinates),
-      Count(count),
+  /// @param coordinates floats or doubles.
+  template <typename Real>
+  DevicePointArray(const Real* coordinates, std::int64_t count, int components = 3)
+    : CoordinateArray(coordinates, count),
       Components(components)
   {
   }
 
-  const void* Data() const
-  {
-    return this->Floats ? static_cast<const void*>(this->Floats) : this->Doubles;
-  }
-
-  const float* Floats = nullptr;
-  const double* Doubles = nullptr;
-  std::int64_t Count = 0;
   int Components = 3; ///< 2 or 3.
 };
 

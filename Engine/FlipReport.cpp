@@ -169,8 +169,7 @@ bool HasAngles(const FlipReport& report)
 
 std::vector<IterationRecord> JoinIterations(const FlipReport& a, const FlipReport& b)
 {
-  using Row = IterationRecord;
-  std::vector<Row> rows(std::max(a.Iterations.size(), b.Iterations.size()));
+  std::vector<IterationRecord> rows(std::max(a.Iterations.size(), b.Iterations.size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
     rows[i].Iteration = static_cast<std::int64_t>(i) + 1;
@@ -180,8 +179,7 @@ std::vector<IterationRecord> JoinIterations(const FlipReport& a, const FlipRepor
       const bool isMade = i < report->Iterations.size();
       if (isMade)
       {
-        for (const auto count :
-          { &Row::Tested, &Row::NonDelaunay, &Row::Flipped, &Row::Excluded, &Row::Blocked })
+        for (const auto count : IterationTotals)
         {
           rows[i].*count += report->Iterations[i].*count;
         }

@@ -127,6 +127,10 @@ constexpr std::int64_t EdgeCounts::*EdgeKinds[] = { &EdgeCounts::Edges, &EdgeCou
   &EdgeCounts::NonManifold, &EdgeCounts::WronglyWound, &EdgeCounts::Feature,
   &EdgeCounts::Constraint, &EdgeCounts::Region, &EdgeCounts::Fixed };
 
+constexpr std::int64_t IterationRecord::*IterationTotals[] = { &IterationRecord::Tested,
+  &IterationRecord::NonDelaunay, &IterationRecord::Flipped, &IterationRecord::Excluded,
+  &IterationRecord::Blocked };
+
 constexpr std::int64_t FlipReport::*ReportTotals[] = { &FlipReport::Points, &FlipReport::Triangles,
   &FlipReport::UnmatchedConstraints, &FlipReport::InsertedConstraints, &FlipReport::ConstraintFlips,
   &FlipReport::EulerCharacteristic, &FlipReport::TotalFlips, &FlipReport::TotalExcluded,

@@ -15,19 +15,13 @@
 
 /// For small functions in the hottest loops that return a struct: a call would store the struct
 /// word by word and load it as vectors, which stalls, since store buffers cannot forward that.
-#if defined(__GNUC__)
 #define DELAUNAYFLIP_ALWAYS_INLINE inline __attribute__((always_inline))
-#else
-#define DELAUNAYFLIP_ALWAYS_INLINE inline
-#endif
 
 /// For large functions that are called seldom and would bloat every kernel that calls them.
 #if defined(__CUDACC__)
 #define DELAUNAYFLIP_NO_INLINE __noinline__
-#elif defined(__GNUC__)
-#define DELAUNAYFLIP_NO_INLINE __attribute__((noinline))
 #else
-#define DELAUNAYFLIP_NO_INLINE
+#define DELAUNAYFLIP_NO_INLINE __attribute__((noinline))
 #endif
 
 #if defined(__CUDA_ARCH__)
@@ -43,7 +37,7 @@ namespace delaunayflip
 /// outstanding requests than the first. Has no effect on results.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void Prefetch(const void* address)
 {
-#if defined(__GNUC__) && !DELAUNAYFLIP_ON_DEVICE
+#if !DELAUNAYFLIP_ON_DEVICE
   __builtin_prefetch(address, 0, 2);
   // Without this, the compiler removes calls of functions that only prefetch, because they have
   // no effect.

@@ -35,19 +35,14 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput&, const FlipOptions&, co
 
 int FindDeviceOf(const void*) { throw BackendUnavailable(NoArrays); }
 
-void CopyFromDevice(const void*, std::int64_t, void*, const DeviceStream&)
-{
-  throw BackendUnavailable(NoArrays);
-}
-
-void CopyToDevice(const void*, std::int64_t, void*, const DeviceStream&)
+void CopyMemory(const void*, std::int64_t, void*, const DeviceStream&)
 {
   throw BackendUnavailable(NoArrays);
 }
 
 bool HasCudaDevice() { return false; }
 
-int CountCudaDevices() { return HasCudaDevice() ? 1 : 0; }
+int CountCudaDevices() { return 0; }
 
 void ReleaseCudaMemory() {}
 

@@ -13,20 +13,36 @@
 namespace delaunayflip
 {
 
-/// Coordinates of points: x, y, z interleaved, 3 * Count numbers of type float or double.
-struct PointArray
+/// Numbers of type float or double, for `Count` points.
+struct CoordinateArray
 {
-  PointArray() = default;
-  PointArray(const float* xyz, std::int64_t count)
-    : Floats(xyz),
+  CoordinateArray() = default;
+  CoordinateArray(const float* values, std::int64_t count)
+    : Floats(values),
       Count(count)
   {
   }
-  PointArray(const double* xyz, std::int64_t count)
-    : Doubles(xyz),
+  CoordinateArray(const double* values, std::int64_t count)
+    : Doubles(values),
       Count(count)
   {
   }
+
+  /// The array, of whichever type; null if there is none.
+  const void* Data() const
+  {
+    return this->Floats ? static_cast<const void*>(this->Floats) : this->Doubles;
+  }
+
+  const float* Floats = nullptr;
+  const double* Doubles = nullptr; ///< If Floats is null.
+  std::int64_t Count = 0;
+};
+
+/// Coordinates of points: x, y, z interleaved, 3 * Count numbers.
+struct PointArray : CoordinateArray
+{
+  using CoordinateArray::CoordinateArray;
 
   /// Coordinate `axis` (0, 1, 2) of point `point` (0 .. Count - 1).
   DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
@@ -42,33 +58,21 @@ struct PointArray
     delaunayflip::Prefetch(this->Floats ? static_cast<const void*>(this->Floats + i)
                                         : static_cast<const void*>(this->Doubles + i));
   }
-
-  const float* Floats = nullptr;
-  const double* Doubles = nullptr;
-  std::int64_t Count = 0;
 };
 
 /// Points in the plane: x and y are the first two of `Stride` numbers per point.
-struct PlaneArray
+struct PlaneArray : CoordinateArray
 {
-  const float* Floats = nullptr;
-  const double* Doubles = nullptr; ///< If Floats is null.
-  std::int64_t Count = 0;
-  std::int64_t Stride = 2;
-
   PlaneArray() = default;
-  PlaneArray(const float* values, std::int64_t count, std::int64_t stride)
-    : Floats(values),
-      Count(count),
+  /// @param values floats or doubles.
+  template <typename Real>
+  PlaneArray(const Real* values, std::int64_t count, std::int64_t stride)
+    : CoordinateArray(values, count),
       Stride(stride)
   {
   }
-  PlaneArray(const double* values, std::int64_t count, std::int64_t stride)
-    : Doubles(values),
-      Count(count),
-      Stride(stride)
-  {
-  }
+
+  std::int64_t Stride = 2;
 
   /// A coordinate, 0 (x) or 1 (y). -0.0 becomes 0.0, so that equal places have equal bits.
   DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const

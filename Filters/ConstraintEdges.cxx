@@ -74,19 +74,11 @@ void AddPair(std::int64_t a, std::int64_t b, std::vector<PointPair>& pairs)
 void AddPaths(vtkCellArray* cells, bool areClosed, const PointIdCheck& check,
   WorkProgress& progress, std::vector<PointPair>& pairs)
 {
-  VisitCells(cells, check,
-    [&](vtkIdType, vtkIdList* ids)
+  VisitEdges(cells, areClosed, check,
+    [&](vtkIdType, vtkIdType from, vtkIdType to, bool)
     {
-      const vtkIdType count = ids->GetNumberOfIds();
-      for (vtkIdType i = 1; i < count; ++i)
-      {
-        AddPair(ids->GetId(i - 1), ids->GetId(i), pairs);
-      }
-      if (areClosed && count > 2)
-      {
-        AddPair(ids->GetId(count - 1), ids->GetId(0), pairs);
-      }
-      progress.Add(count);
+      AddPair(from, to, pairs);
+      progress.Add();
     });
 }
 
@@ -228,6 +220,11 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
     }
   }
 
+  for (const PointPair& pair : pairs)
+  {
+    edges.AreHere.push_back(
+      pointsAt[placeOfOther[pair[0]]] > 0 && pointsAt[placeOfOther[pair[1]]] > 0 ? 1 : 0);
+  }
   std::vector<PointPair> crowded;
   for (const PointPair& pair : wanted)
   {
@@ -270,7 +267,9 @@ ConstraintEdges FindConstraintEdges(
     const PointArray points = ViewPoints(source.Others, storage);
     if (points.Count == 0 || HaveSameBits(points, source.Points))
     {
+      const std::size_t before = edges.Pairs.size();
       AddAllPaths(source.Others, source.Points.Count, MakePart(progress, 0.0, 0.7), edges.Pairs);
+      edges.AreHere.assign(edges.Pairs.size() - before, 1);
     }
     else
     {

@@ -3,9 +3,11 @@
 #include "DataArrays.h"
 
 #include "FlipError.h"
+#include "UpdateReport.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellData.h"
+#include "vtkLookupTable.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -101,24 +103,6 @@ vtkSmartPointer<vtkUnsignedCharArray> FindGhosts(vtkPolyData* mesh)
   return ghosts;
 }
 
-namespace
-{
-
-/// The names in quotes, as many as fit into a warning.
-std::string List(const std::vector<std::string>& names)
-{
-  constexpr std::size_t Most = 3;
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < Most; ++i)
-  {
-    text += (i == 0 ? "\"" : ", \"") + names[i] + "\"";
-  }
-  return names.size() > Most ? text + ", and " + std::to_string(names.size() - Most) + " more"
-                             : text;
-}
-
-}
-
 std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool cellsPass)
 {
   std::vector<Defect> defects;
@@ -131,14 +115,15 @@ std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool
       vtkAbstractArray* array = data->GetAbstractArray(i);
       if (array->GetNumberOfTuples() < tuples)
       {
-        names.emplace_back(array->GetName() ? array->GetName() : "");
+        names.push_back(std::string("\"") + (array->GetName() ? array->GetName() : "") + '"');
       }
     }
     if (!names.empty())
     {
-      defects.push_back({ kind + (names.size() == 1 ? " array" : " arrays") +
-          " with too few tuples " + (pass ? "passed unchanged" : "left out") + ": " + List(names),
-        static_cast<std::int64_t>(names.size()), {} });
+      defects.push_back(
+        { kind + (names.size() == 1 ? " array" : " arrays") + " with too few tuples " +
+            (pass ? "passed unchanged" : "left out") + ": " + Join(names, ", "),
+          static_cast<std::int64_t>(names.size()), {} });
     }
   };
   addShort("point", mesh->GetPointData(), mesh->GetNumberOfPoints(), pointsPass);
@@ -150,7 +135,7 @@ std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool
     const std::string fault = ghosts->GetDataType() != VTK_UNSIGNED_CHAR
       ? "ghost array that is not of type unsigned char ignored"
       : "ghost array with several components ignored";
-    defects.push_back({ fault + ": " + List({ name }), 1, {} });
+    defects.push_back({ fault + ": \"" + name + '"', 1, {} });
   }
   return defects;
 }
@@ -168,80 +153,48 @@ vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tu
 {
   auto array =
     vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(like->GetDataType()));
-  if (array)
-  {
-    array->SetName(like->GetName());
-    array->SetNumberOfComponents(like->GetNumberOfComponents());
-    array->SetNumberOfTuples(tuples);
-  }
+  array->SetName(like->GetName());
+  array->SetNumberOfComponents(like->GetNumberOfComponents());
+  array->SetNumberOfTuples(tuples);
+  array->CopyComponentNames(like);
+  array->CopyInformation(like->GetInformation());
   if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
   {
     numbers->Fill(0.0);
+    numbers->SetLookupTable(vtkArrayDownCast<vtkDataArray>(like)->GetLookupTable());
   }
   return array;
 }
 
-vtkSmartPointer<vtkAbstractArray> ExtendArray(
-  vtkAbstractArray* array, vtkIdType count, vtkAbstractArray* others, vtkIdList* places)
+void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places, vtkIdType size,
+  vtkDataSetAttributes* data)
 {
-  auto made = MakeZeros(array, count + places->GetNumberOfIds());
-  if (made)
+  for (int i = 0; i < own->GetNumberOfArrays(); ++i)
   {
-    made->CopyInformation(array->GetInformation());
-    made->InsertTuples(0, count, 0, array);
-  }
-  if (made && others)
-  {
-    made->InsertTuples(MakeRange(count, places->GetNumberOfIds()), places, others);
-  }
-  return made;
-}
-
-void AddArrayAs(int attribute, vtkAbstractArray* array, vtkDataSetAttributes* data)
-{
-  const int index = data->AddArray(array);
-  if (attribute >= 0 && !data->GetAbstractAttribute(attribute))
-  {
-    data->SetActiveAttribute(index, attribute);
-  }
-}
-
-bool IsSameKind(vtkAbstractArray* a, vtkAbstractArray* b)
-{
-  return a->GetDataType() == b->GetDataType() &&
-    a->GetNumberOfComponents() == b->GetNumberOfComponents();
-}
-
-void JoinTuples(vtkDataSetAttributes* own, vtkDataSetAttributes* more, vtkIdList* sources,
-  vtkDataSetAttributes* result)
-{
-  vtkNew<vtkIdList> ownIds, ownPlaces, otherIds, otherPlaces;
-  for (vtkIdType i = 0; i < sources->GetNumberOfIds(); ++i)
-  {
-    const vtkIdType source = sources->GetId(i);
-    (source >= 0 ? ownIds : otherIds)->InsertNextId(source >= 0 ? source : -1 - source);
-    (source >= 0 ? ownPlaces : otherPlaces)->InsertNextId(i);
-  }
-  if (more && own->GetNumberOfArrays() == 0)
-  {
-    if (ownIds->GetNumberOfIds() == 0)
+    vtkAbstractArray* array = own->GetAbstractArray(i);
+    std::string name = array->GetName() ? array->GetName() : "";
+    const auto find = [&]()
+    { return name.empty() ? nullptr : data->GetAbstractArray(name.c_str()); };
+    vtkSmartPointer<vtkAbstractArray> target = find();
+    while (target &&
+      (target->GetDataType() != array->GetDataType() ||
+        target->GetNumberOfComponents() != array->GetNumberOfComponents()))
     {
-      result->ShallowCopy(more);
+      name += " (2)";
+      target = find();
     }
-    return;
-  }
-  result->CopyAllOn();
-  result->CopyAllocate(own, sources->GetNumberOfIds());
-  result->CopyData(own, ownIds, ownPlaces);
-  for (int i = 0; more && i < result->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* target = result->GetAbstractArray(i);
-    const char* name = target->GetName();
-    vtkAbstractArray* source = more->GetAbstractArray(name ? name : "");
-    if (source)
+    if (!target)
     {
-      target->InsertTuples(otherPlaces, otherIds, source);
+      target = MakeZeros(array, size);
+      target->SetName(array->GetName() ? name.c_str() : nullptr);
+      const int index = data->AddArray(target);
+      const int attribute = own->IsArrayAnAttribute(i);
+      if (attribute >= 0 && !data->GetAbstractAttribute(attribute))
+      {
+        data->SetActiveAttribute(index, attribute);
+      }
     }
+    target->InsertTuples(places, sources, array);
   }
 }
 

@@ -72,6 +72,24 @@ void VisitCells(vtkCellArray* cells, const PointIdCheck& check, const Visit& vis
   }
 }
 
+/// Calls visit(cell, from, to, isClosed) for the edges along cells, after checks. If `areClosed`,
+/// cells of three and more points are closed: the last edge joins the last point and the first one.
+/// @throws InvalidMesh.
+template <typename Visit>
+void VisitEdges(vtkCellArray* cells, bool areClosed, const PointIdCheck& check, const Visit& visit)
+{
+  VisitCells(cells, check,
+    [&](vtkIdType cell, vtkIdList* ids)
+    {
+      const vtkIdType count = ids->GetNumberOfIds();
+      const bool isClosed = areClosed && count > 2;
+      for (vtkIdType i = 0; i < (isClosed ? count : count - 1); ++i)
+      {
+        visit(cell, ids->GetId(i), ids->GetId((i + 1) % count), isClosed);
+      }
+    });
+}
+
 //------------------------------------------------------------------------------
 /// A shallow copy without the arrays that have fewer than `tuples` tuples: they would be read past
 /// their end.
@@ -108,30 +126,17 @@ DELAUNAYFLIP_EXPORT std::vector<Defect> ListMalformedArrays(
 /// The numbers from `first` on.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdType count);
 
-/// An array of the same kind, of zeros or empty texts; null if there is no such kind.
+/// An array of the same kind, of zeros or empty texts.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> MakeZeros(
   vtkAbstractArray* like, vtkIdType tuples);
 
-/// An array of the same kind: its first `count` tuples, then tuples of another array.
-/// @param others the array whose tuples `places` follow; null: as many zeros or empty texts.
-/// @returns null if there is no such kind.
-DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> ExtendArray(
-  vtkAbstractArray* array, vtkIdType count, vtkAbstractArray* others, vtkIdList* places);
-
-/// Adds an array to data, as an attribute (vtkDataSetAttributes::SCALARS and so on) that they do
-/// not have yet, or -1: as none.
-DELAUNAYFLIP_EXPORT void AddArrayAs(
-  int attribute, vtkAbstractArray* array, vtkDataSetAttributes* data);
-
-/// Whether values may be copied from one to the other.
-DELAUNAYFLIP_EXPORT bool IsSameKind(vtkAbstractArray* a, vtkAbstractArray* b);
-
-/// Gives `result` the arrays of `own`. Tuple i is tuple sources[i] of `own`, or, if that is
-/// negative, tuple -1 - sources[i] of the array of the same name in `more`.
-/// @param more may be null. If `own` has no arrays and no tuple is its, `result` gets those of
-/// `more`.
-DELAUNAYFLIP_EXPORT void JoinTuples(vtkDataSetAttributes* own, vtkDataSetAttributes* more,
-  vtkIdList* sources, vtkDataSetAttributes* result);
+/// Copies the tuples `sources` of all arrays of `own` to the tuples `places` of `data`. An array
+/// that `data` does not have yet is added, with zeros or empty texts for its other tuples, and as
+/// the attribute that it is, unless `data` has one. One that differs from that of the same name in
+/// type or number of components is added under another name.
+/// @param size how many tuples the arrays of `data` have.
+DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
+  vtkIdType size, vtkDataSetAttributes* data);
 
 }
 

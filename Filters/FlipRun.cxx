@@ -18,13 +18,11 @@ void Stamp(vtkObject* object, std::vector<vtkMTimeType>& stamps)
   stamps.push_back(object ? object->GetMTime() : 0);
 }
 
-/// Cells grow in place without being marked as modified: how many values, and where.
-void StampPlace(vtkDataArray* array, std::vector<vtkMTimeType>& stamps)
+/// Also how many values there are: cells grow in place without being marked as modified.
+void StampArray(vtkDataArray* array, std::vector<vtkMTimeType>& stamps)
 {
   Stamp(array, stamps);
-  const void* place = array->HasStandardMemoryLayout() ? array->GetVoidPointer(0) : nullptr;
   stamps.push_back(static_cast<vtkMTimeType>(array->GetNumberOfValues()));
-  stamps.push_back(static_cast<vtkMTimeType>(reinterpret_cast<std::uintptr_t>(place)));
 }
 
 std::vector<vtkMTimeType> StampPoints(vtkPolyData* mesh)
@@ -33,7 +31,7 @@ std::vector<vtkMTimeType> StampPoints(vtkPolyData* mesh)
   Stamp(mesh->GetPoints(), stamps);
   if (mesh->GetPoints())
   {
-    StampPlace(mesh->GetPoints()->GetData(), stamps);
+    StampArray(mesh->GetPoints()->GetData(), stamps);
   }
   return stamps;
 }
@@ -58,12 +56,9 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
   mesh->ShallowCopy(input);
   if (vtkPoints* points = input->GetPoints())
   {
-    // Not vtkPoints::DeepCopy, which rounds to the precision of the copy.
-    auto data =
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(points->GetDataType()));
-    data->DeepCopy(points->GetData());
     vtkNew<vtkPoints> copy;
-    copy->SetData(data);
+    copy->SetDataType(points->GetDataType()); // to which DeepCopy rounds
+    copy->DeepCopy(points);
     mesh->SetPoints(copy);
   }
   return mesh;
@@ -88,8 +83,8 @@ FlipRun::Stamps FlipRun::StampEdges(const FlipRequest& request)
   const auto stampCells = [&stamps](vtkCellArray* cells)
   {
     Stamp(cells, stamps);
-    StampPlace(cells->GetOffsetsArray(), stamps);
-    StampPlace(cells->GetConnectivityArray(), stamps);
+    StampArray(cells->GetOffsetsArray(), stamps);
+    StampArray(cells->GetConnectivityArray(), stamps);
   };
   stampCells(request.Input->GetPolys());
   stampCells(request.Input->GetStrips());
@@ -219,10 +214,10 @@ FlipReport FlipRun::GetReport() const
     report.InsertedConstraints = first.InsertedConstraints;
     report.ConstraintFlips = first.ConstraintFlips;
   }
-  else if (const std::int64_t count = bridge.GetNumberOfUnmatchedConstraints())
+  else if (const std::int64_t count = bridge.GetConstraints().Unmatched)
   {
     report.UnmatchedConstraints += count;
-    const std::string& stranger = bridge.GetFirstStranger();
+    const std::string& stranger = bridge.GetConstraints().FirstStranger;
     report.Defects.push_back({ "constraint edges of the second input that the mesh does not have" +
         (stranger.empty()
             ? ""

@@ -80,7 +80,7 @@ public:
   bool Store(vtkPolyData* output) const override;
 
 private:
-  /// Modification times, of which no two objects ever have the same one, and places of arrays.
+  /// Modification times, of which no two objects ever have the same one, and sizes of arrays.
   using Stamps = std::vector<vtkMTimeType>;
 
   /// The mesh that the session reads, and the attributes for the output.

@@ -6,6 +6,7 @@
 #include "DataArrays.h"
 #include "FlipError.h"
 
+#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
@@ -23,6 +24,9 @@ namespace delaunayflip
 {
 namespace
 {
+
+/// The cell array by which a joined mesh is divided again.
+constexpr const char* OwnerName = "vtkDelaunayFlipPartition";
 
 /// The leaves of AMR, which is a tree from VTK 9.6 on, are grids.
 vtkDataObjectTree* GetTree(vtkDataObject* data)
@@ -118,58 +122,61 @@ void StoreResults(const std::vector<MeshBlock>& blocks, vtkDataObject* input, vt
 }
 
 //------------------------------------------------------------------------------
-BlockMesh::BlockMesh(
-  MeshBlock& block, const Reader& read, const std::string& regions, bool dropsDuplicates)
+BlockMesh::BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDuplicates)
   : Block(block)
 {
-  for (std::size_t i = 0; i < block.Leaves.size(); ++i)
+  MeshList meshes;
+  for (const BlockLeaf& leaf : block.Leaves)
   {
-    if (const vtkSmartPointer<vtkPolyData> mesh = read(block.Leaves[i].Data))
+    this->Surfaces.emplace_back(vtkPolyData::SafeDownCast(leaf.Data));
+    if (this->Surfaces.back())
     {
-      this->Meshes.push_back(mesh);
-      this->Leaves.push_back(i);
-    }
-    else if (block.Place.empty())
-    {
-      throw InvalidMesh("the input is not a surface; apply Extract Surface first", -1, -1);
+      meshes.push_back(this->Surfaces.back());
     }
   }
-  if (this->Meshes.size() > 1 ||
-    (dropsDuplicates && !this->Meshes.empty() && HasDuplicateCells(this->Meshes.front())))
+  this->IsJoined = meshes.size() > 1;
+  if (this->IsJoined)
   {
-    this->Joined.reset(new JoinedPartitions(this->Meshes, regions));
+    this->Joined = JoinPartitions(meshes, regions);
+    this->Mesh = this->Joined.Mesh;
+    if (!dropsDuplicates)
+    {
+      this->Joined.Owners->SetName(OwnerName);
+      this->Mesh->GetCellData()->AddArray(this->Joined.Owners);
+    }
+  }
+  else if (!meshes.empty())
+  {
+    this->Mesh = dropsDuplicates ? DropDuplicateCells(meshes.front()) : meshes.front();
   }
 }
 
 std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
 {
   std::vector<Note> notes;
-  for (std::size_t i = 0; i < this->Meshes.size() && (this->Joined || ofArrays); ++i)
+  bool areAllSurfaces = true;
+  for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
-    const std::vector<Defect> defects = ListMalformedArrays(this->Meshes[i], false, false);
-    if (!defects.empty())
+    const bool isAsked = this->Surfaces[i] && (this->IsJoined || ofArrays);
+    const std::string text =
+      isAsked ? DescribeDefects(ListMalformedArrays(this->Surfaces[i], false, false)) : "";
+    if (!text.empty())
     {
-      notes.push_back({ this->Block.Leaves[this->Leaves[i]].Name, DescribeDefects(defects) });
+      notes.push_back({ this->Block.Leaves[i].Name, text });
     }
+    areAllSurfaces = areAllSurfaces && this->Surfaces[i];
   }
-  if (this->Leaves.size() < this->Block.Leaves.size() && this->Block.Size > 0.0)
+  if (!areAllSurfaces && this->Block.Size > 0.0)
   {
     notes.push_back({ this->Block.Name, "not a surface, passed unchanged" });
   }
-  if (this->Joined && this->Joined->CountAmbiguousPoints() > 0)
+  if (this->Joined.Ambiguous > 0)
   {
     notes.push_back({ this->Block.Name,
       "points of some partitions coincide with others of the same partition, and edges there "
       "stayed; number the points of the mesh before it is cut, as vtkGlobalPointIds" });
   }
   return notes;
-}
-
-vtkPolyData* BlockMesh::GetMesh() const
-{
-  return this->Joined      ? this->Joined->GetMesh()
-    : this->Meshes.empty() ? nullptr
-                           : this->Meshes.front().Get();
 }
 
 vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
@@ -186,24 +193,26 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
     for (const BlockLeaf& leaf : block.Leaves)
     {
       auto* edges = vtkPolyData::SafeDownCast(leaf.Data);
-      if (edges && areOfAll && (!this->Joined || edges->GetNumberOfPoints() > 0))
+      if (edges && areOfAll && (!this->IsJoined || edges->GetNumberOfPoints() > 0))
       {
         return edges;
       }
-      for (std::size_t i = 0; edges && areOfAll && i < this->Meshes.size(); ++i)
+      vtkPolyData* own = nullptr; // at the same place
+      for (std::size_t i = 0; edges && i < this->Surfaces.size(); ++i)
       {
-        sources.emplace_back(edges, this->Meshes[i]);
+        if (areOfAll && this->Surfaces[i])
+        {
+          sources.emplace_back(edges, this->Surfaces[i]);
+        }
+        own = this->Block.Leaves[i].Number == leaf.Number ? this->Surfaces[i].Get() : own;
       }
       if (edges && !areOfAll && block.Place == this->Block.Place)
       {
-        const auto own = std::find_if(this->Leaves.begin(), this->Leaves.end(),
-          [&](std::size_t i) { return this->Block.Leaves[i].Number == leaf.Number; });
-        sources.emplace_back(
-          edges, own == this->Leaves.end() ? nullptr : this->Meshes[own - this->Leaves.begin()]);
+        sources.emplace_back(edges, own);
       }
     }
   }
-  if (!this->Joined && sources.size() == 1)
+  if (!this->IsJoined && sources.size() == 1)
   {
     return sources.front().first;
   }
@@ -212,19 +221,34 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
 
 void BlockMesh::Store(vtkPolyData* flipped)
 {
-  for (BlockLeaf& leaf : this->Block.Leaves)
+  MeshList results(this->Surfaces.size());
+  vtkCellData* data = flipped ? flipped->GetCellData() : nullptr;
+  const vtkSmartPointer<vtkIntArray> owners =
+    data ? vtkIntArray::SafeDownCast(data->GetAbstractArray(OwnerName)) : nullptr;
+  if (this->IsJoined && owners)
   {
-    leaf.Result = vtkSmartPointer<vtkDataObject>::Take(leaf.Data->NewInstance());
-    leaf.Result->ShallowCopy(leaf.Data);
+    data->RemoveArray(OwnerName);
+    MeshList given = this->Surfaces;
+    given.erase(std::remove(given.begin(), given.end(), nullptr), given.end());
+    results = DividePartitions(flipped, owners, given, this->Joined.Points);
   }
-  if (flipped && !this->Leaves.empty())
+  else
   {
-    const std::vector<vtkSmartPointer<vtkPolyData>> partitions = this->Joined
-      ? this->Joined->Divide(flipped)
-      : std::vector<vtkSmartPointer<vtkPolyData>>{ flipped };
-    for (std::size_t i = 0; i < partitions.size(); ++i)
+    results.front() = flipped;
+  }
+  auto next = results.begin();
+  for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
+  {
+    BlockLeaf& leaf = this->Block.Leaves[i];
+    if (flipped && this->Surfaces[i])
     {
-      this->Block.Leaves[this->Leaves[i]].Result = partitions[i];
+      leaf.Result = *next ? *next : vtkSmartPointer<vtkPolyData>::New();
+      ++next;
+    }
+    else
+    {
+      leaf.Result = vtkSmartPointer<vtkDataObject>::Take(leaf.Data->NewInstance());
+      leaf.Result->ShallowCopy(leaf.Data);
     }
   }
 }

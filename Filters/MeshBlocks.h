@@ -7,12 +7,11 @@
 #include "JoinedPartitions.h"
 #include "UpdateReport.h"
 
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -55,14 +54,11 @@ void StoreResults(
 class DELAUNAYFLIP_EXPORT BlockMesh
 {
 public:
-  /// What turns a leaf into a mesh; null if it is not a surface.
-  using Reader = std::function<vtkSmartPointer<vtkPolyData>(vtkDataObject*)>;
-
-  /// @param block must live as long as this object. @param regions as in JoinedPartitions.
-  /// @param dropsDuplicates whether duplicate ghost cells are dropped also from a single leaf.
-  /// @throws what `read` and JoinedPartitions throw; InvalidMesh if all of the input is no surface.
-  BlockMesh(
-    MeshBlock& block, const Reader& read, const std::string& regions, bool dropsDuplicates = false);
+  /// @param block must live as long as this object. @param regions as in JoinPartitions.
+  /// @param dropsDuplicates whether duplicate ghost cells are dropped also from a single leaf, and
+  /// partitions stay joined.
+  /// @throws what JoinPartitions throws.
+  BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDuplicates = false);
   BlockMesh(const BlockMesh&) = delete;
   BlockMesh& operator=(const BlockMesh&) = delete;
 
@@ -72,22 +68,25 @@ public:
   std::vector<Note> ListNotes(bool ofArrays = false) const;
 
   /// Null if the block is none.
-  vtkPolyData* GetMesh() const;
+  vtkPolyData* GetMesh() const { return this->Mesh; }
 
   /// All of the second input, or its leaves at the same place; null if there are none.
   /// @param constraints the blocks of the second input.
   /// @throws InvalidOptions, InvalidMesh.
   vtkSmartPointer<vtkPolyData> FindConstraints(const std::vector<MeshBlock>& constraints) const;
 
-  /// Writes the results of the block's leaves.
-  /// @param flipped the mesh after the run; or null: the leaves of the input pass unchanged.
+  /// Writes the results of the block's leaves. Partitions that were joined are divided again; on
+  /// several ranks the mesh takes the place of the first one, and the others are empty. Leaves that
+  /// are no surfaces pass.
+  /// @param flipped the mesh after the run; or null: all leaves of the input pass unchanged.
   void Store(vtkPolyData* flipped);
 
 private:
   MeshBlock& Block;
-  std::vector<vtkSmartPointer<vtkPolyData>> Meshes; ///< The surfaces.
-  std::vector<std::size_t> Leaves; ///< Those of the surfaces, in the block.
-  std::unique_ptr<JoinedPartitions> Joined;
+  std::vector<vtkSmartPointer<vtkPolyData>> Surfaces; ///< One per leaf; null if it is none.
+  vtkSmartPointer<vtkPolyData> Mesh;
+  bool IsJoined = false;
+  JoinedMesh Joined; ///< Of partitions.
 };
 
 }

@@ -176,37 +176,32 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
     labels.push_back(found.first->second);
     progress.Add();
   };
-  if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
+  // Numbers as bytes, in a form that is the same for all NaN, for 0 and -0, and for integers of all
+  // sizes, of which a double does not have all bits.
+  auto* numbers = vtkArrayDownCast<vtkDataArray>(array);
+  const int type = array->GetDataType(), width = array->GetNumberOfComponents();
+  const bool areDoubles = type == VTK_FLOAT || type == VTK_DOUBLE || type == VTK_BIT;
+  std::string key;
+  const auto append = [&key](auto number)
+  { key.append(reinterpret_cast<const char*>(&number), sizeof(number)); };
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
   {
-    // As bytes, in a form that is the same for all NaN, for 0 and -0, and for integers of all
-    // sizes.
-    const bool areReal =
-      numbers->GetDataType() == VTK_FLOAT || numbers->GetDataType() == VTK_DOUBLE;
-    const auto wide = vtkSmartPointer<vtkDataArray>::Take(
-      vtkDataArray::CreateDataArray(areReal ? VTK_DOUBLE : VTK_TYPE_INT64));
-    wide->DeepCopy(numbers);
-    if (auto* reals = vtkDoubleArray::SafeDownCast(wide))
+    if (areDoubles)
     {
-      std::transform(reals->Begin(), reals->End(), reals->Begin(),
-        [](double value) { return value == value ? value + 0.0 : NaN; });
+      const double value = numbers->GetComponent(i / width, static_cast<int>(i % width));
+      append(vtkMath::IsNan(value) ? NaN : value + 0.0);
     }
-    const auto* bytes = static_cast<const char*>(wide->GetVoidPointer(0));
-    const std::size_t size = sizeof(double) * wide->GetNumberOfComponents();
-    for (vtkIdType cell = 0; cell < wide->GetNumberOfTuples(); ++cell)
+    else if (numbers)
     {
-      label(std::string(bytes + cell * size, size));
+      append(array->GetVariantValue(i).ToTypeInt64());
     }
-  }
-  else
-  {
-    std::string key;
-    for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
+    else
     {
-      key += array->GetVariantValue(value).ToString() + '\0';
-      if ((value + 1) % array->GetNumberOfComponents() == 0)
-      {
-        label(std::exchange(key, std::string()));
-      }
+      key += array->GetVariantValue(i).ToString() + '\0';
+    }
+    if ((i + 1) % width == 0)
+    {
+      label(std::exchange(key, std::string()));
     }
   }
   this->Regions.resize(this->Slots.Triangles.Count);
@@ -305,6 +300,7 @@ void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* mesh, vtkPol
   }
   else
   {
+    data->Initialize();
     const auto sources = MakeRange(0, slots.FirstPolygon);
     for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
     {
@@ -315,7 +311,8 @@ void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* mesh, vtkPol
       sources->InsertNextId(strip);
     }
     const auto whole = TakeWholeArrays(mesh->GetCellData(), mesh->GetNumberOfCells());
-    JoinTuples(whole, nullptr, sources, data);
+    const vtkIdType count = sources->GetNumberOfIds();
+    AddTuples(whole, sources, MakeRange(0, count), count, data);
     if (slots.AreDivided)
     {
       DemoteGlobalIds(data);

@@ -20,8 +20,6 @@
 
 namespace delaunayflip
 {
-namespace
-{
 
 std::string Join(const std::vector<std::string>& items, const char* separator)
 {
@@ -34,8 +32,6 @@ std::string Join(const std::vector<std::string>& items, const char* separator)
   return items.size() > Most
     ? text + separator + "and " + std::to_string(items.size() - Most) + " more"
     : text;
-}
-
 }
 
 std::string Describe(const std::vector<Note>& notes)

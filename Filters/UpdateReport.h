@@ -24,6 +24,9 @@ struct Note
   std::string Text;
 };
 
+/// Joins the first items, and says how many more there are.
+std::string Join(const std::vector<std::string>& items, const char* separator);
+
 /// Joins notes to one text. Each text appears once, with the first places to which it applies.
 std::string Describe(const std::vector<Note>& notes);
 

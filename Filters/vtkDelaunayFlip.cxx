@@ -79,11 +79,6 @@ const char* vtkDelaunayFlip::GetGeometryReason() const
   return this->GetReport().GeometryReason.c_str();
 }
 
-vtkSmartPointer<vtkPolyData> vtkDelaunayFlip::GetMesh(vtkDataObject* input)
-{
-  return vtkPolyData::SafeDownCast(input);
-}
-
 //------------------------------------------------------------------------------
 FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints, bool isLive)
 {
@@ -110,8 +105,7 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
 void vtkDelaunayFlip::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
 {
-  BlockMesh mesh(
-    block, [this](vtkDataObject* leaf) { return this->GetMesh(leaf); }, this->RegionArray);
+  BlockMesh mesh(block, this->RegionArray);
   const auto edges = mesh.FindConstraints(constraints);
   const std::vector<Note> notes = mesh.ListNotes();
   summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());

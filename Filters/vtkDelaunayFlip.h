@@ -69,9 +69,9 @@
  * coordinates and at least one of them is at the border of its partition. Where such a point
  * coincides with another one of its own partition, it is not known which of the two is meant; a
  * warning says so. Duplicate ghost cells (vtkGhostType) are dropped. Every triangle stays in its
- * partition, with its cell data. Points that a partition then lacks are added behind its own, with
- * their point data; arrays that they do not have are 0 or empty there. The field data of each
- * partition, and all results, are those of the whole mesh.
+ * partition, with its cell data. Points that a partition then lacks are added behind its own. Every
+ * partition gets the arrays of all; those that it lacked are 0 or empty there, but for points that
+ * another partition has, too. All results are those of the whole mesh.
  *
  * @par References
  * - C. Navarro, N. Hitschfeld, E. Scheihing: A GPU-based method for generating quasi-Delaunay
@@ -89,7 +89,6 @@
 
 #include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
-#include "vtkSmartPointer.h" // For meshes of inputs
 
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
@@ -391,15 +390,6 @@ public:
 protected:
   vtkDelaunayFlip() = default;
   ~vtkDelaunayFlip() override = default;
-
-  /**
-   * Returns an input, or a block of it, as a mesh; null if it is not a surface. Subclasses that
-   * accept more than vtkPolyData override this. Returns the same object while the input is the
-   * same.
-   * May throw delaunayflip::InvalidMesh if the input contradicts itself; the update then fails
-   * with its text.
-   */
-  virtual vtkSmartPointer<vtkPolyData> GetMesh(vtkDataObject* input);
 
 #ifndef __VTK_WRAP__
   void FlipLeaves(delaunayflip::MeshBlock& block,

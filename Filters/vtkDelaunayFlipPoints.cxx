@@ -10,7 +10,6 @@
 #include "UpdateReport.h"
 
 #include "vtkAbstractTransform.h"
-#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
@@ -106,14 +105,6 @@ public:
       !this->Session->GetAddedPoints().empty();
     const auto malformed = ListMalformedArrays(this->Given, !addsPoints, true);
     report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
-    const PointCounts& counts = report.FromPoints;
-    if (report.Triangles + counts.OutsideTriangles + counts.LargeTriangles == 0 &&
-      report.StopReason != StopReasonKind::Aborted)
-    {
-      report.Defects.push_back({ "points without a triangle: there are fewer than three places, or "
-                                 "all are on one line",
-        report.Points, {}, DefectIds::Points });
-    }
     return report;
   }
 
@@ -133,8 +124,6 @@ public:
   }
 
 private:
-  using Data = vtkDataSetAttributes;
-
   void AddSegments(vtkPolyData* others)
   {
     vtkPolyData* given = this->Given;
@@ -164,23 +153,17 @@ private:
   void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
     bool areRings)
   {
-    const auto add = [&](vtkIdType cell, vtkIdList* corners)
-    {
-      const vtkIdType count = corners->GetNumberOfIds();
-      const bool isRing = areRings && count > 2;
-      for (vtkIdType i = 0; i < (isRing ? count : count - 1); ++i)
+    VisitEdges(cells, areRings, check,
+      [&](vtkIdType cell, vtkIdType first, vtkIdType last, bool isRing)
       {
-        const vtkIdType ends[2] = { corners->GetId(i), corners->GetId((i + 1) % count) };
-        const vtkIdType from = ids.empty() ? ends[0] : ids[ends[0]];
-        const vtkIdType to = ids.empty() ? ends[1] : ids[ends[1]];
+        const vtkIdType from = ids.empty() ? first : ids[first];
+        const vtkIdType to = ids.empty() ? last : ids[last];
         if (from != to)
         {
           this->Segments.insert(this->Segments.end(), { from, to });
           this->Rings.push_back(isRing ? static_cast<std::int32_t>(check.FirstCell + cell) : -1);
         }
-      }
-    };
-    VisitCells(cells, check, add);
+      });
   }
 
   /// Adds the points of the segments to the cloud where they are new. @returns the id of each.
@@ -226,40 +209,24 @@ private:
   static void Extend(vtkPolyData* mesh, vtkIdList* added, vtkPolyData* others, vtkPolyData* result)
   {
     const vtkIdType count = mesh->GetNumberOfPoints();
-    vtkSmartPointer<vtkDataArray> xyz = mesh->GetPoints()->GetData();
-    if (xyz->GetDataType() != VTK_FLOAT && xyz->GetDataType() != VTK_DOUBLE)
-    {
-      const auto wide = vtkSmartPointer<vtkDoubleArray>::New(); // integers would cut what is added
-      wide->DeepCopy(xyz);
-      xyz = wide;
-    }
+    const vtkIdType size = count + added->GetNumberOfIds();
     vtkNew<vtkPoints> points;
-    points->SetData(vtkArrayDownCast<vtkDataArray>(
-      ExtendArray(xyz, count, others ? others->GetPoints()->GetData() : nullptr, added)));
-    result->SetPoints(points);
-    vtkNew<vtkPointData> nothing;
-    const auto own = TakeWholeArrays<Data>(mesh->GetPointData(), count);
-    const auto more = TakeWholeArrays<Data>(
-      others ? others->GetPointData() : nothing, others ? others->GetNumberOfPoints() : 0);
-    const auto find = [](Data* data, vtkAbstractArray* array)
-    { return array->GetName() ? data->GetAbstractArray(array->GetName()) : nullptr; };
-    Data* data = result->GetPointData();
-    data->Initialize();
-    for (int i = 0; i < own->GetNumberOfArrays(); ++i)
+    // Integers would cut what is added.
+    points->SetDataType(mesh->GetPoints()->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
+    points->InsertPoints(0, count, 0, mesh->GetPoints());
+    for (const vtkIdType id : *added)
     {
-      vtkAbstractArray* array = own->GetAbstractArray(i);
-      vtkAbstractArray* other = find(more, array);
-      const bool fits = other && IsSameKind(array, other);
-      AddArrayAs(
-        own->IsArrayAnAttribute(i), ExtendArray(array, count, fits ? other : nullptr, added), data);
+      others ? points->InsertNextPoint(others->GetPoint(id)) : points->InsertNextPoint(0, 0, 0);
     }
-    for (int i = 0; i < more->GetNumberOfArrays(); ++i)
+    result->SetPoints(points);
+    vtkDataSetAttributes* data = result->GetPointData();
+    data->Initialize();
+    const auto own = MakeRange(0, count);
+    AddTuples(TakeWholeArrays(mesh->GetPointData(), count), own, own, size, data);
+    if (others)
     {
-      vtkAbstractArray* other = more->GetAbstractArray(i);
-      if (!find(own, other))
-      {
-        data->AddArray(ExtendArray(MakeZeros(other, count), count, other, added));
-      }
+      AddTuples(TakeWholeArrays(others->GetPointData(), others->GetNumberOfPoints()), added,
+        MakeRange(count, size - count), size, data);
     }
     DemoteGlobalIds(data);
   }

@@ -66,31 +66,9 @@ vtkSmartPointer<vtkPolyData> GatherConstraints(
 }
 
 /// How many constraint edges have two ends that no rank has together; all ranks get the same.
-/// @param constraints those of all ranks. @param mesh this rank's.
-std::int64_t CountElsewhere(vtkPolyData* constraints, const TriangleMesh& mesh, PieceGroup& group)
+/// @param areHere by constraint, whether this rank has both ends.
+std::int64_t CountElsewhere(const std::vector<char>& areHere, PieceGroup& group)
 {
-  std::vector<double> storage;
-  const PointArray ends = ViewPoints(constraints, storage);
-  PointPlaces places(ends.Floats != nullptr || mesh.Points.Floats != nullptr);
-  std::vector<std::int64_t> placeOf;
-  for (std::int64_t i = 0; i < ends.Count; ++i)
-  {
-    placeOf.push_back(places.Add(ends, i));
-  }
-  std::vector<bool> isHere(places.GetNumberOfPlaces());
-  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
-  {
-    const std::int64_t place = places.Find(mesh.Points, point);
-    if (place != PointPlaces::None)
-    {
-      isHere[place] = true;
-    }
-  }
-  Message areHere; // one flag per constraint
-  for (std::int64_t i = 0; i < ends.Count; i += 2)
-  {
-    areHere.push_back(isHere[placeOf[i]] && isHere[placeOf[i + 1]] ? 1 : 0);
-  }
   const std::vector<Message> flags = group.Gather(areHere);
   std::int64_t elsewhere = 0;
   for (std::size_t i = 0; i < areHere.size(); ++i)
@@ -181,33 +159,23 @@ public:
     BringTuples(
       this->Flipped.ReceivedTriangles, data,
       [this](std::int64_t slot) { return this->Slots.GetCell(slot); }, this->Group, received);
-    if (this->Slots.InPlace && this->Flipped.ReceivedTriangles.empty() &&
-      this->Flipped.GoneTriangles.empty())
+    const auto sources = MakeRange(0, this->Slots.FirstPolygon);
+    const auto count = static_cast<vtkIdType>(this->Flipped.ReceivedTriangles.size());
+    std::for_each(this->Sources.begin(), this->Sources.end() - count,
+      [&](vtkIdType source) { sources->InsertNextId(source); });
+    const vtkIdType first = sources->GetNumberOfIds(); // the cells received are before the strips
+    const auto places = MakeRange(0, first);
+    for (const vtkIdType strip : this->Slots.Strips)
     {
-      output->GetCellData()->ShallowCopy(data);
+      places->InsertNextId(sources->InsertNextId(strip) + count);
     }
-    else
-    {
-      const auto sources = MakeRange(0, this->Slots.FirstPolygon);
-      std::for_each(this->Sources.begin(), this->Sources.end(),
-        [&](vtkIdType source) { sources->InsertNextId(source); });
-      std::for_each(this->Slots.Strips.begin(), this->Slots.Strips.end(),
-        [&](vtkIdType strip) { sources->InsertNextId(strip); });
-      JoinTuples(data, received, sources, output->GetCellData());
-    }
+    const vtkIdType size = sources->GetNumberOfIds() + count;
+    AddTuples(data, sources, places, size, output->GetCellData());
+    AddTuples(received, MakeRange(0, count), MakeRange(first, count), size, output->GetCellData());
     // The ids are not unique if any rank has divided cells.
     if (IsOnAnyRank(this->Slots.AreDivided, this->Group))
     {
       DemoteGlobalIds(output->GetCellData());
-    }
-    // A received cell is in no partition of this rank.
-    vtkDataArray* marks = output->GetCellData()->GetArray(JoinedPartitions::MarkName);
-    for (std::size_t polygon = 0; marks && polygon < this->Sources.size(); ++polygon)
-    {
-      if (this->Sources[polygon] < 0)
-      {
-        marks->SetComponent(this->Slots.FirstPolygon + static_cast<vtkIdType>(polygon), 0, -1.0);
-      }
     }
     RenewNormals(output,
       [this](vtkIdType polygon, const std::int64_t*, std::int64_t before[3])
@@ -280,14 +248,15 @@ private:
       points->SetDataType(this->Mesh->GetPoints()->GetDataType());
       points->InsertPoints(0, given, 0, this->Mesh->GetPoints());
     }
-    const auto sources = MakeRange(0, given);
     for (vtkIdType i = 0; i < count; ++i)
     {
       points->InsertNextPoint(this->Flipped.ReceivedCoordinates.data() + 3 * i);
-      sources->InsertNextId(-1 - i);
     }
     output->SetPoints(points);
-    JoinTuples(data, received, sources, output->GetPointData());
+    const auto own = MakeRange(0, given);
+    AddTuples(data, own, own, given + count, output->GetPointData());
+    AddTuples(received, MakeRange(0, count), MakeRange(given, count), given + count,
+      output->GetPointData());
   }
 
   vtkSmartPointer<vtkCellArray> BuildPolygons() const
@@ -349,7 +318,7 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
   }
   const std::vector<std::int64_t> numbers = ReadPointNumbers(mesh);
   const MeshPiece piece{ bridge.GetMesh(), numbers.empty() ? nullptr : numbers.data() };
-  const std::int64_t elsewhere = constraints ? CountElsewhere(constraints, piece.Mesh, group) : 0;
+  const std::int64_t elsewhere = CountElsewhere(bridge.GetConstraints().AreHere, group);
   FlippedPiece flipped;
   PiecesReport report = FlipPiece(piece, request.Options, group, flipped, request.Progress);
   if (elsewhere > 0)

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <new>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -80,49 +81,27 @@ public:
     return received;
   }
 
-  /// Short messages take one collective operation, longer ones three.
   std::vector<Message> Gather(const Message& message) override
   {
-    struct Slot
-    {
-      std::int64_t Size;
-      char Bytes[56]; ///< Of a message that is short.
-    };
-    const std::size_t ranks = static_cast<std::size_t>(this->GetSize());
-    std::vector<Slot> slots(ranks);
-    std::vector<Message> received(ranks);
-    Slot own{ static_cast<std::int64_t>(message.size()), {} };
-    std::copy_n(message.begin(), std::min(message.size(), sizeof(own.Bytes)), own.Bytes);
-    Require(this->Controller->AllGather(reinterpret_cast<const char*>(&own),
-      reinterpret_cast<char*>(slots.data()), static_cast<vtkIdType>(sizeof(own))));
-    std::vector<vtkIdType> sizes, offsets;
-    vtkIdType total = 0, longest = 0;
-    for (const Slot& slot : slots)
-    {
-      sizes.push_back(slot.Size);
-      offsets.push_back(total);
-      total += slot.Size;
-      longest = std::max<vtkIdType>(longest, slot.Size);
-    }
-    if (static_cast<std::size_t>(longest) <= sizeof(own.Bytes))
-    {
-      for (std::size_t rank = 0; rank < ranks; ++rank)
-      {
-        received[rank].assign(slots[rank].Bytes, slots[rank].Bytes + slots[rank].Size);
-      }
-      return received;
-    }
-    if (static_cast<std::size_t>(total) > LargestPart)
+    const int ranks = this->GetSize();
+    const auto own = static_cast<vtkIdType>(message.size());
+    std::vector<vtkIdType> sizes(ranks), offsets(ranks);
+    Require(this->Controller->AllGather(&own, sizes.data(), 1));
+    std::partial_sum(sizes.begin(), sizes.end() - 1, offsets.begin() + 1);
+    const auto total = static_cast<std::size_t>(offsets.back() + sizes.back());
+    if (total > LargestPart)
     {
       return this->Exchange(std::vector<Message>(ranks, message));
     }
     Message all;
-    this->AllocateTogether([&]() { all.resize(total); });
+    std::vector<Message> received(ranks);
+    this->AllocateTogether([&]() { all.resize(total + 1); }); // so that it has an address
     Require(this->Controller->AllGatherV(message.empty() ? all.data() : message.data(), all.data(),
-      static_cast<vtkIdType>(message.size()), sizes.data(), offsets.data()));
-    for (std::size_t rank = 0; rank < ranks; ++rank)
+      own, sizes.data(), offsets.data()));
+    for (int rank = 0; rank < ranks; ++rank)
     {
-      received[rank].assign(all.begin() + offsets[rank], all.begin() + offsets[rank] + sizes[rank]);
+      const char* bytes = all.data() + offsets[rank];
+      received[rank].assign(bytes, bytes + sizes[rank]);
     }
     return received;
   }
@@ -183,57 +162,63 @@ std::int64_t CountBytes(vtkDataArray* array)
                                          : array->GetNumberOfValues() * array->GetDataTypeSize();
 }
 
-/// Writes tuples of all arrays that have them.
+/// Writes tuples of all arrays.
 void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
 {
   const vtkIdType count = ids->GetNumberOfIds();
-  const vtkIdType last = count > 0 ? *std::max_element(ids->begin(), ids->end()) : 0;
-  for (int i = 0; i < data->GetNumberOfArrays() && count > 0; ++i)
+  vtkNew<vtkDataSetAttributes> taken;
+  AddTuples(data, ids, MakeRange(0, count), count, taken);
+  for (int i = 0; i < taken->GetNumberOfArrays() && count > 0; ++i)
   {
-    vtkAbstractArray* array = data->GetAbstractArray(i);
-    const auto taken = last < array->GetNumberOfTuples() ? MakeZeros(array, count) : nullptr;
-    if (!taken)
-    {
-      continue;
-    }
-    taken->InsertTuples(MakeRange(0, count), ids, array);
-    Put(message, std::string(taken->GetName() ? taken->GetName() : ""));
+    vtkAbstractArray* array = taken->GetAbstractArray(i);
+    Put(message, std::string(array->GetName() ? array->GetName() : ""));
     Put(message,
       std::array<int, 3>{
-        taken->GetDataType(), taken->GetNumberOfComponents(), data->IsArrayAnAttribute(i) });
-    if (auto* numbers = vtkArrayDownCast<vtkDataArray>(taken))
+        array->GetDataType(), array->GetNumberOfComponents(), taken->IsArrayAnAttribute(i) });
+    if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
     {
       const auto* bytes = static_cast<const char*>(numbers->GetVoidPointer(0));
       message.insert(message.end(), bytes, bytes + CountBytes(numbers));
       continue;
     }
-    for (vtkIdType value = 0; value < taken->GetNumberOfValues(); ++value)
+    for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
     {
-      Put(message, std::string(taken->GetVariantValue(value).ToString()));
+      Put(message, std::string(array->GetVariantValue(value).ToString()));
     }
   }
 }
 
-/// Reads an array of `count` tuples. @param attribute receives what it is, or -1.
-vtkSmartPointer<vtkAbstractArray> GetTuples(MessageReader& reader, vtkIdType count, int& attribute)
+/// Reads arrays of `count` tuples.
+vtkSmartPointer<vtkDataSetAttributes> GetTuples(Message message, vtkIdType count)
 {
-  const auto name = reader.Get<std::string>();
-  const auto [type, components, role] = reader.Get<std::array<int, 3>>();
-  const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
-  array->SetName(name.empty() ? nullptr : name.c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(count);
-  attribute = role;
-  if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
+  MessageReader reader(std::move(message));
+  auto data = vtkSmartPointer<vtkDataSetAttributes>::New();
+  while (!reader.IsAtEnd())
   {
-    reader.Read(static_cast<char*>(numbers->GetVoidPointer(0)), CountBytes(numbers));
-    return array;
+    const auto name = reader.Get<std::string>();
+    const auto [type, components, attribute] = reader.Get<std::array<int, 3>>();
+    const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
+    array->SetName(name.empty() ? nullptr : name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(count);
+    if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
+    {
+      reader.Read(static_cast<char*>(numbers->GetVoidPointer(0)), CountBytes(numbers));
+    }
+    else
+    {
+      for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
+      {
+        array->SetVariantValue(value, vtkVariant(reader.Get<std::string>()));
+      }
+    }
+    const int index = data->AddArray(array);
+    if (attribute >= 0)
+    {
+      data->SetActiveAttribute(index, attribute);
+    }
   }
-  for (vtkIdType value = 0; value < array->GetNumberOfValues(); ++value)
-  {
-    array->SetVariantValue(value, vtkVariant(reader.Get<std::string>()));
-  }
-  return array;
+  return data;
 }
 
 }
@@ -279,33 +264,12 @@ void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* 
     PutTuples(given, ids, answers.back());
   }
   std::vector<Message> received = group.Exchange(std::move(answers));
-  for (int i = 0; i < given->GetNumberOfArrays(); ++i)
-  {
-    if (const auto zeros = MakeZeros(given->GetAbstractArray(i), size))
-    {
-      result->AddArray(zeros);
-    }
-  }
+  AddTuples(given, vtkNew<vtkIdList>(), vtkNew<vtkIdList>(), size, result);
   for (int rank = 0; rank < group.GetSize(); ++rank)
   {
-    MessageReader reader(std::move(received[rank]));
     const vtkIdType count = places[rank]->GetNumberOfIds();
-    while (!reader.IsAtEnd())
-    {
-      int attribute = -1;
-      const auto values = GetTuples(reader, count, attribute);
-      const char* name = values->GetName() ? values->GetName() : "";
-      vtkSmartPointer<vtkAbstractArray> target = result->GetAbstractArray(name);
-      if (!target && given->GetNumberOfArrays() == 0 && *name)
-      {
-        target = MakeZeros(values, size);
-        AddArrayAs(attribute, target, result);
-      }
-      if (target && IsSameKind(target, values))
-      {
-        target->InsertTuples(places[rank], MakeRange(0, count), values);
-      }
-    }
+    AddTuples(
+      GetTuples(std::move(received[rank]), count), MakeRange(0, count), places[rank], size, result);
   }
 }
 

@@ -34,9 +34,8 @@ bool IsOnAnyRank(bool flag, PieceGroup& group);
 /// Brings the data of points or cells from the ranks that have them.
 /// @param origins what to bring. @param given the data of this rank.
 /// @param tupleOf the tuple of `given` for an id of an origin.
-/// @param result receives one tuple for each origin in every array that `given` has. Where `given`
-/// has no arrays at all, because the rank's piece is empty, it gets those of the others. Values
-/// that the other rank does not have are 0 or empty.
+/// @param result receives one tuple for each origin, in the arrays that `given` or one of the ranks
+/// has. Values that the rank of an origin does not have are 0 or empty.
 void BringTuples(const std::vector<PieceOrigin>& origins, vtkDataSetAttributes* given,
   const std::function<vtkIdType(std::int64_t)>& tupleOf, PieceGroup& group,
   vtkDataSetAttributes* result);

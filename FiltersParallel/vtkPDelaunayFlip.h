@@ -30,8 +30,7 @@
  * those that stayed come first, in their order, then those received. The points are those of the
  * input, the same vtkPoints object if none were received, else followed by received points with
  * their point data. Verts, lines and cells that are not flipped stay. If the process has several
- * partitions, triangles that stayed on it are in the partition that they came from. A received one
- * is in the first partition that has one of its points, or else in the first one.
+ * partitions, the first one has all of this, and the others are empty.
  *
  * All results (GetTotalFlips() and the like, the field data) are those of the whole mesh, the same
  * on every process; only rank 0 has the table of iterations and gives messages. GetNumberOfRounds()
@@ -102,7 +101,7 @@ protected:
   virtual std::unique_ptr<delaunayflip::PieceGroup> MakeGroup();
 
   std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input) override;
-  void FlipBlock(delaunayflip::MeshBlock& block,
+  void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& constraints,
     delaunayflip::UpdateSummary& summary) override;
 #endif

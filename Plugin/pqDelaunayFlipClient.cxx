@@ -11,7 +11,6 @@
 #include "pqPropertyWidget.h"
 #include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
-#include "pqView.h"
 #include "vtkCommand.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyGroup.h"
@@ -270,19 +269,6 @@ void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
     for (pqPipelineSource* consumer : source->getAllConsumers())
     {
       consumer->renderAllViews(); // later, from the event loop
-    }
-  }
-  else if (name == "PlotDelaunayFlips")
-  {
-    for (pqView* view : source->getViews())
-    {
-      if (view->getProxy()->GetProperty("LeftAxisLogScale"))
-      {
-        vtkSMPropertyHelper(view->getProxy(), "LeftAxisLogScale")
-          .Set(vtkSMPropertyHelper(proxy, "LogScale").GetAsInt());
-        view->getProxy()->UpdateVTKObjects();
-        view->render();
-      }
     }
   }
 }

@@ -13,12 +13,9 @@ class pqPipelineSource;
 /// What the plugin adds to the Qt client: widgets of the Properties panel, and what follows every
 /// update of its filters.
 ///
-/// Delaunay Flip: reads the group Last Update of the Properties panel again, because ParaView reads
+/// It reads the group Last Update of the Properties panel again, because ParaView reads
 /// such properties when it applies the others, before the pipeline runs. It also renders the views
 /// of downstream filters, because ParaView renders only those of the live source itself.
-///
-/// Plot Delaunay Flips: sets the axis of the chart to the scale, linear or logarithmic, for which
-/// the filter prepared the data.
 class pqDelaunayFlipClient
   : public QObject
   , public pqAutoStartInterface

@@ -66,9 +66,13 @@ def draw_chart(client, flip):
     """The table in the Pipeline Browser, its entry in the menu, Apply."""
     client.select("Iterations")
     yield idle(0.5)
-    client.choose("Delaunay Flip", "Plot Delaunay Flips")
-    yield lambda: simple.GetActiveSource().GetXMLName() == "PlotDelaunayFlips"
+    client.choose("Data Analysis", "Plot Data")
+    yield lambda: simple.GetActiveSource().GetXMLName() == "PlotAttributes"
     client.apply()
+    yield idle(0.5)
+    display = simple.GetDisplayProperties()
+    display.UseIndexForXAxis, display.XArrayName = 0, "Iteration"
+    display.SeriesVisibility = ["Flipped"]
     yield idle(0.5)
     simple.SetActiveSource(flip)
     yield idle(0.5)

@@ -3,7 +3,6 @@
 #include "FlipLoop.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace delaunayflip
 {
@@ -39,11 +38,6 @@ FlipLoop::FlipLoop(std::int64_t triangles, bool hasGuard)
       hasGuard || triangles <= SmallestChunkedMesh ? 0 : ((triangles - 1) >> this->ChunkBits) + 1),
     ChunkIterationsLeft(this->HasChunks() ? ChunkIterations : 0)
 {
-}
-
-double FlipLoop::FindLargestSquaredCotangentWithout(const unsigned char*) const
-{
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 const StepCounts& FlipLoop::Detect()

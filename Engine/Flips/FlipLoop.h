@@ -95,10 +95,6 @@ public:
   /// The largest LargestSquaredCotangent (SurfaceAngles.h) of all triangles.
   virtual double FindLargestSquaredCotangent() const = 0;
 
-  /// The same without some triangles; NaN if they are not in the memory of the host.
-  /// @param omitted one flag per triangle.
-  virtual double FindLargestSquaredCotangentWithout(const unsigned char* omitted) const;
-
 protected:
   /// @param hasGuard whether flips need a guard; then there are no chunks.
   FlipLoop(std::int64_t triangles, bool hasGuard);

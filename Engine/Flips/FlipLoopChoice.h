@@ -126,7 +126,7 @@ FlipLoopResult ChooseFlipLoop(const FlipLoopInput& input, const Backend& backend
     const bool areSimple = input.Whole.StarsAreSimple;
     const PlanarSurvey plane =
       SurveyPlane(input.Mesh, input.Points, brokenFans || areSimple, survey.UsedPoints, backend);
-    result.Defects = { plane.ZeroAreaTriangles, plane.GetInverted(input.Whole.Side) };
+    result.Defects = plane.ListDefects(input.Whole.Side);
     needsGuard = !(plane.StarsAreSimple || areSimple) || input.SharedVertices.Size() > 0;
     uniformSide = plane.UniformSide;
   }

@@ -30,7 +30,7 @@ struct FilteredSigns
   }
   DELAUNAYFLIP_HOST_DEVICE static int InCircle(const PlanePoint (&points)[4], bool tilted)
   {
-    return tilted ? FilteredInCircleTilted(points[0], points[1], points[2], points[3])
+    return tilted ? FilteredInCircle<true>(points[0], points[1], points[2], points[3])
                   : FilteredInCircle(points[0], points[1], points[2], points[3]);
   }
 };
@@ -120,7 +120,6 @@ struct PlanarRule
   static constexpr bool MayDeviate = false; ///< Whether an edge may be BlockedByDeviation.
   static constexpr bool MayBeUncertain = true; ///< Whether Judge may leave it to JudgeExactly.
   static constexpr bool AlwaysGuarded = false; ///< Whether flips always have a guard.
-  static constexpr bool Flat = !Tilted; ///< Whether all points have W = 0, or Z = 0.
 
   const Real* Coordinates; ///< Components numbers per vertex.
   int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
@@ -253,7 +252,6 @@ struct PlanarAngleRule : AnglePoints<double>
   static constexpr bool MayDeviate = false;
   static constexpr bool MayBeUncertain = true;
   static constexpr bool AlwaysGuarded = false;
-  static constexpr bool Flat = false;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
@@ -286,7 +284,6 @@ struct SurfaceRule : AnglePoints<Real>
   static constexpr bool MayDeviate = true;
   static constexpr bool MayBeUncertain = false;
   static constexpr bool AlwaysGuarded = true;
-  static constexpr bool Flat = false;
 
   double MaximumDeviation = INFINITY; ///< None.
 

@@ -28,36 +28,6 @@ public:
   virtual ~DeviceScope() = default;
 };
 
-/// The triangles of a loaded mesh in the memory of the host, to be read until the next flips.
-struct HostTriangles
-{
-  const TriangleRecord* Records = nullptr; ///< Null if they are not.
-  const CornerId* CornerOfHalfEdge = nullptr;
-  SpatialOrderView Order{};
-  std::int64_t Count = 0;
-  std::int64_t NumberOfEdges = 0; ///< Of half-edges twice as many.
-  const FlipLoop* Loop = nullptr; ///< That of the mesh.
-
-  /// Calls visit(corner) for every edge of one triangle.
-  template <typename Visit>
-  void ForEachAtBoundary(const Visit& visit) const
-  {
-    for (std::int64_t edge = 0; edge < this->NumberOfEdges; ++edge)
-    {
-      if (this->CornerOfHalfEdge[2 * edge + 1] == NoCorner)
-      {
-        visit(this->CornerOfHalfEdge[2 * edge]);
-      }
-    }
-  }
-
-  /// The corner on the other side of the edge opposite to a slot, or NoCorner.
-  CornerId GetOtherCorner(std::int64_t triangle, int slot) const
-  {
-    return this->CornerOfHalfEdge[this->Records[triangle].HalfEdges[slot] ^ 1u];
-  }
-};
-
 /// A side of an edge that a segment has become.
 struct SegmentSide
 {
@@ -125,9 +95,6 @@ public:
   }
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
   virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
-
-  /// The triangles as they are in the host's memory, if they are.
-  virtual HostTriangles ViewHostTriangles() const = 0;
 
   /// The triangles that flips have turned over in x and y, on a surface that was a height field or
   /// nearly one; else none.

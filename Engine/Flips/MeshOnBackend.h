@@ -259,14 +259,6 @@ public:
     use(view);
   }
 
-  HostTriangles ViewHostTriangles() const override
-  {
-    return BackendT::IsOnHost ? HostTriangles{ this->Mesh.Triangles.Data(),
-      this->Mesh.CornerOfHalfEdge.Data(), this->Order.View(), this->Mesh.NumberOfTriangles,
-      this->Mesh.NumberOfEdges, this->Loop.get() }
-                              : HostTriangles();
-  }
-
   Defect FindTurnedTriangles() const override
   {
     const bool wasHeightField =
@@ -454,7 +446,7 @@ private:
   bool FiltersApply = false; ///< Of a mesh from points: whether the rule's do.
   PlaneArray Places; ///< Of a mesh from points: views Points.
   Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
-  TurnCounts Turns;
+  TurnSample Turns;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;
 };

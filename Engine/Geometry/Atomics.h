@@ -5,7 +5,6 @@
 
 #include "HostDevice.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 

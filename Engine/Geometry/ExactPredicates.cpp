@@ -85,7 +85,7 @@ int DecideInCircle(const PlanePoint (&points)[4], bool tilted)
   }
   if (inRange)
   {
-    const auto filter = tilted ? FilteredInCircleTilted : FilteredInCircle;
+    const auto filter = tilted ? FilteredInCircle<true> : FilteredInCircle<false>;
     const int sign = filter(points[0], points[1], points[2], points[3]);
     if (sign != UncertainSign)
     {

@@ -185,6 +185,14 @@ private:
 class FixedPointUnit
 {
 public:
+  /// Of the coordinates of points; with `tilted` also W.
+  template <typename... Points>
+  DELAUNAYFLIP_HOST_DEVICE explicit FixedPointUnit(bool tilted, const Points&... points)
+  {
+    ((this->Include(points.U), this->Include(points.V), this->Include(tilted ? points.W : 0.0)),
+      ...);
+  }
+
   DELAUNAYFLIP_HOST_DEVICE void Include(double value)
   {
     const DoubleParts parts(value);
@@ -240,14 +248,6 @@ DELAUNAYFLIP_HOST_DEVICE auto MinorOf(
   return Multiply(first.U, second.V) - Multiply(second.U, first.V);
 }
 
-DELAUNAYFLIP_HOST_DEVICE inline void IncludePoint(
-  FixedPointUnit& unit, const PlanePoint& p, bool tilted)
-{
-  unit.Include(p.U);
-  unit.Include(p.V);
-  unit.Include(tilted ? p.W : 0.0);
-}
-
 /// Makes offsets from one origin, and remembers whether all of them fit. 64 bits hold offsets of at
 /// most 2^62. 128 bits hold those of all coordinates that convert: below 2^125, their differences
 /// and sums are below 2^126.
@@ -296,10 +296,7 @@ private:
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointOrientation(
   PlanePoint a, PlanePoint b, PlanePoint c)
 {
-  FixedPointUnit unit;
-  IncludePoint(unit, a, false);
-  IncludePoint(unit, b, false);
-  IncludePoint(unit, c, false);
+  const FixedPointUnit unit(false, a, b, c);
   FixedPointFrame<Integer128> frame(unit, c, false);
   const auto first = frame.OffsetOf(a);
   const auto second = frame.OffsetOf(b);
@@ -318,11 +315,7 @@ template <typename Integer>
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE int FixedPointInCircleIn(
   PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d, bool tilted)
 {
-  FixedPointUnit unit;
-  IncludePoint(unit, a, tilted);
-  IncludePoint(unit, b, tilted);
-  IncludePoint(unit, c, tilted);
-  IncludePoint(unit, d, tilted);
+  const FixedPointUnit unit(tilted, a, b, c, d);
   FixedPointFrame<Integer> frame(unit, d, tilted);
   const auto first = frame.OffsetOf(a);
   const auto second = frame.OffsetOf(b);

@@ -117,68 +117,42 @@ struct FilteredDeterminant
 {
   double Value = 0.0;
   double Permanent = 0.0;
-
-  /// Adds lift * (u1 v2 - u2 v1); `magnitude` bounds |lift| term by term.
-  DELAUNAYFLIP_HOST_DEVICE void AddTerm(double lift, double magnitude, double first, double second)
-  {
-    this->Value += lift * (first - second);
-    this->Permanent += magnitude * (std::fabs(first) + std::fabs(second));
-  }
 };
 
 /// The determinant of FilteredInCircle.
+template <bool Tilted = false>
 DELAUNAYFLIP_HOST_DEVICE inline FilteredDeterminant InCircleDeterminant(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
 {
   const double au = a.U - d.U, av = a.V - d.V;
   const double bu = b.U - d.U, bv = b.V - d.V;
   const double cu = c.U - d.U, cv = c.V - d.V;
-  const double aLift = au * au + av * av;
-  const double bLift = bu * bu + bv * bv;
-  const double cLift = cu * cu + cv * cv;
   FilteredDeterminant determinant;
-  determinant.AddTerm(aLift, aLift, bu * cv, cu * bv);
-  determinant.AddTerm(bLift, bLift, cu * av, au * cv);
-  determinant.AddTerm(cLift, cLift, au * bv, bu * av);
+  const auto addTerm = [&](double u, double v, double atP, double first, double second)
+  {
+    const double square = u * u + v * v;
+    const double w = (atP - d.W) * (atP + d.W);
+    const double lift = Tilted ? square + w : square;
+    const double magnitude = Tilted ? square + std::fabs(w) : square;
+    determinant.Value += lift * (first - second);
+    determinant.Permanent += magnitude * (std::fabs(first) + std::fabs(second));
+  };
+  addTerm(au, av, a.W, bu * cv, cu * bv);
+  addTerm(bu, bv, b.W, cu * av, au * cv);
+  addTerm(cu, cv, c.W, au * bv, bu * av);
   return determinant;
 }
 
 /// Sign of the in-circle determinant of a, b, c, d in (u, v), or UncertainSign.
+/// @tparam Tilted whether W belongs to the lift: the difference of squared lengths, up to what is
+/// linear in u and v.
+template <bool Tilted = false>
 DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
 {
-  const FilteredDeterminant determinant = InCircleDeterminant(a, b, c, d);
-  return CertifiedSign(determinant.Value, InCircleBound * determinant.Permanent);
-}
-
-/// Lift of a point of a tilted plane relative to `d`: the difference of squared lengths, up to what
-/// is linear in u and v. `magnitude` receives the sum of the terms' magnitudes.
-DELAUNAYFLIP_HOST_DEVICE inline double TiltedLift(
-  const PlanePoint& p, const PlanePoint& d, double& magnitude)
-{
-  const double u = p.U - d.U;
-  const double v = p.V - d.V;
-  const double w = (p.W - d.W) * (p.W + d.W);
-  magnitude = u * u + v * v + std::fabs(w);
-  return u * u + v * v + w;
-}
-
-/// FilteredInCircle with the lift of tilted planes.
-DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircleTilted(
-  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
-{
-  const double au = a.U - d.U, av = a.V - d.V;
-  const double bu = b.U - d.U, bv = b.V - d.V;
-  const double cu = c.U - d.U, cv = c.V - d.V;
-  double magnitude = 0.0;
-  FilteredDeterminant determinant;
-  const double aLift = TiltedLift(a, d, magnitude);
-  determinant.AddTerm(aLift, magnitude, bu * cv, cu * bv);
-  const double bLift = TiltedLift(b, d, magnitude);
-  determinant.AddTerm(bLift, magnitude, cu * av, au * cv);
-  const double cLift = TiltedLift(c, d, magnitude);
-  determinant.AddTerm(cLift, magnitude, au * bv, bu * av);
-  return CertifiedSign(determinant.Value, TiltedInCircleBound * determinant.Permanent);
+  const FilteredDeterminant determinant = InCircleDeterminant<Tilted>(a, b, c, d);
+  return CertifiedSign(
+    determinant.Value, (Tilted ? TiltedInCircleBound : InCircleBound) * determinant.Permanent);
 }
 
 }

@@ -94,18 +94,6 @@ DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangent(
   return LargestSquaredCotangent(Dot(ab, ac), -Dot(ab, bc), Dot(ac, bc), Dot(normal, normal));
 }
 
-/// The same for triangles with Z = 0, with the same bits.
-DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangentFlat(
-  const Vector3& a, const Vector3& b, const Vector3& c)
-{
-  const double abX = b.X - a.X, abY = b.Y - a.Y;
-  const double acX = c.X - a.X, acY = c.Y - a.Y;
-  const double bcX = c.X - b.X, bcY = c.Y - b.Y;
-  const double area = abX * acY - abY * acX;
-  return LargestSquaredCotangent(
-    abX * acX + abY * acY, -(abX * bcX + abY * bcY), acX * bcX + acY * bcY, area * area);
-}
-
 /// The angle in degrees of a LargestSquaredCotangent; NaN if there is none.
 inline double ToDegrees(double squaredCotangent)
 {

@@ -124,9 +124,8 @@ DELAUNAYFLIP_HOST_DEVICE inline bool HasTriangle(const MutableTriangleArray&, st
 /// CUDA's number of the GPU that has this memory; -1 if none has.
 int FindDeviceOf(const void* memory);
 
-/// Copies after all that is in the caller's stream, and waits.
-void CopyFromDevice(const void* device, std::int64_t bytes, void* host, const DeviceStream& stream);
-void CopyToDevice(const void* host, std::int64_t bytes, void* device, const DeviceStream& stream);
+/// Copies to or from a device, after all that is in the caller's stream, and waits.
+void CopyMemory(const void* from, std::int64_t bytes, void* to, const DeviceStream& stream);
 
 /// Calls store(values), which sets `size` values in the host's memory, and copies them to a device.
 template <typename T, typename Store>
@@ -136,7 +135,7 @@ void StoreThroughHost(T* device, std::int64_t size, const DeviceStream& stream, 
   store(values.data());
   if (size > 0)
   {
-    CopyToDevice(values.data(), size * static_cast<std::int64_t>(sizeof(T)), device, stream);
+    CopyMemory(values.data(), size * static_cast<std::int64_t>(sizeof(T)), device, stream);
   }
 }
 

@@ -46,7 +46,7 @@ struct EdgeMeshInput
 struct EdgeMeshResult
 {
   EdgeMesh Edges;
-  EdgeTable Table; ///< Vertex pairs of all edges, without words; or empty.
+  EdgeTable Table; ///< Vertex pairs of all edges; or empty.
   EdgeCounts Counts;
   Defect DuplicateTriangles;
   std::int64_t MissingConstraints = 0;
@@ -275,6 +275,15 @@ inline std::int64_t CheckConstraint(const TriangleMesh& mesh, std::int64_t const
       constraint, point);
   }
   return point;
+}
+
+/// @throws InvalidMesh.
+inline void CheckConstraints(const TriangleMesh& mesh)
+{
+  for (std::int64_t i = 0; i < 2 * mesh.NumberOfConstraintEdges; ++i)
+  {
+    CheckConstraint(mesh, i / 2, static_cast<int>(i % 2));
+  }
 }
 
 struct ConstraintSums
@@ -559,7 +568,7 @@ bool TryPairSlices(EdgeMeshResult& result, std::int64_t vertices, std::int64_t s
     const VertexSlice slice{ static_cast<VertexId>(vertices * i / slices),
       static_cast<VertexId>(vertices * (i + 1) / slices) };
     result.Table = EdgeTable(); // frees the memory first
-    result.Table = EdgeTable(expected / slices, slice, true, backend);
+    result.Table = EdgeTable(expected / slices, slice, backend);
     const PairSums sums =
       backend.template Sum<PairSums>(3 * triangles, PairStep{ result.Table.View(), records });
     result.Counts.Edges += sums.Edges;
@@ -701,7 +710,6 @@ EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const 
     result.DuplicateTriangles = FindDuplicates(result.Edges, backend);
   }
   FixConstraints(input, result, backend);
-  result.Table.DropWords();
   return result;
 }
 

@@ -180,9 +180,9 @@ class EdgeTable
 public:
   EdgeTable() = default;
 
-  /// An empty table with room for `edges` edges, with or without the two words per key.
+  /// An empty table with room for `edges` edges.
   template <typename Backend>
-  EdgeTable(std::int64_t edges, const VertexSlice& slice, bool withWords, const Backend& backend)
+  EdgeTable(std::int64_t edges, const VertexSlice& slice, const Backend& backend)
     : Slice(slice)
   {
     // Share of slots in use when all expected edges are in: a compromise between short searches and
@@ -192,9 +192,9 @@ public:
       static_cast<std::int64_t>(static_cast<double>(edges) / FillFactor) + 64;
     const std::int64_t capacity = std::min<std::int64_t>(wanted, EdgeTableView::NoSlot);
     this->Keys = backend.template MakeArray<std::uint64_t>(capacity);
-    this->First = backend.template MakeArray<std::uint32_t>(withWords ? capacity : 0);
-    this->Second = backend.template MakeArray<std::uint32_t>(withWords ? capacity : 0);
-    Clear(this->View(), withWords, backend);
+    this->First = backend.template MakeArray<std::uint32_t>(capacity);
+    this->Second = backend.template MakeArray<std::uint32_t>(capacity);
+    Clear(this->View(), backend);
   }
 
   EdgeTableView View()
@@ -205,31 +205,19 @@ public:
       (capacity << EdgeTableView::StrideBits) /
         std::max<std::uint64_t>(1, this->Slice.Last - this->Slice.First) };
   }
-  bool IsEmpty() const { return this->Keys.Size() == 0; }
   std::int64_t GetCapacity() const { return static_cast<std::int64_t>(this->Keys.Size()); }
-
-  /// Frees the memory of the words; the keys stay.
-  void DropWords()
-  {
-    this->First = Array<std::uint32_t>();
-    this->Second = Array<std::uint32_t>();
-  }
 
   /// Removes all keys; words become NoCorner. Public because device lambdas ask for it.
   template <typename Backend>
-  static void Clear(const EdgeTableView& table, bool withWords, const Backend& backend)
+  static void Clear(const EdgeTableView& table, const Backend& backend)
   {
     backend.ForEach(table.Capacity,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { table.Keys[i] = EdgeTableView::Empty; });
-    if (withWords)
-    {
-      backend.ForEach(table.Capacity,
-        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-        {
-          table.First[i] = NoCorner;
-          table.Second[i] = NoCorner;
-        });
-    }
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        table.Keys[i] = EdgeTableView::Empty;
+        table.First[i] = NoCorner;
+        table.Second[i] = NoCorner;
+      });
   }
 
 private:
@@ -297,6 +285,27 @@ DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
     leaders += GetRole(triangle, slot) == CornerRole::Follower ? 0 : 1;
   }
   return leaders;
+}
+
+/// Writes the roles of the corners of triangle `t` into Flips. HalfEdges hold the edges' other
+/// corners: NoCorner for a boundary edge, and for a non-manifold one ManyCorners, which becomes
+/// NoCorner.
+/// @returns the number of edges that the triangle leads.
+DELAUNAYFLIP_HOST_DEVICE inline int SetRoles(TriangleRecord& triangle, std::int64_t t)
+{
+  static_assert(static_cast<int>(CornerRole::Follower) == 0 &&
+      static_cast<int>(CornerRole::Leader) == 1 && static_cast<int>(CornerRole::Alone) == 2 &&
+      static_cast<int>(CornerRole::OneOfMany) == 3,
+    "without branches, the two special ids being larger than any corner");
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const CornerId other = triangle.HalfEdges[slot];
+    const std::uint32_t role = (MakeCorner(static_cast<TriangleId>(t), slot) < other ? 1 : 0) +
+      (other == NoCorner ? 1 : 0) + (other == ManyCorners ? 2 : 0);
+    triangle.Flips |= role << (2 * slot);
+    triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
+  }
+  return CountLeaders(triangle);
 }
 
 }

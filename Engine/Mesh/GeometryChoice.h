@@ -313,29 +313,17 @@ inline bool IsHigherThanWide(const BoundingBox& box, double times = 1.0)
   return extent(2) > times * extent(0) && extent(2) > times * extent(1);
 }
 
-inline TurnCounts CountTurns(const TurnSample& turns)
-{
-  const std::int64_t left = turns.Left.Count;
-  const std::int64_t right = turns.Right.Count;
-  TurnCounts counts;
-  counts.Side = left + right == 0 ? 0 : (left >= right ? 1 : -1);
-  counts.Triangles = left + right + turns.Flat.Count;
-  counts.Others = left >= right ? right : left;
-  counts.Flat = turns.Flat.Count;
-  return counts;
-}
-
 /// "12 of 30000 triangles turn the other way and 7 have no area".
-inline std::string DescribeStrays(const TurnCounts& turns)
+inline std::string DescribeStrays(const TurnSample& turns)
 {
-  const std::string all = " of " + std::to_string(turns.Triangles) + " triangles";
-  const std::string flat = std::to_string(turns.Flat);
-  if (turns.Others == 0)
+  const std::string all = " of " + std::to_string(turns.Count()) + " triangles";
+  const std::string flat = std::to_string(turns.Flat.Count);
+  if (turns.GetOthers().Count == 0)
   {
     return flat + all + " have no area";
   }
-  return std::to_string(turns.Others) + all + " turn the other way" +
-    (turns.Flat > 0 ? " and " + flat + " have no area" : "");
+  return std::to_string(turns.GetOthers().Count) + all + " turn the other way" +
+    (turns.Flat.Count > 0 ? " and " + flat + " have no area" : "");
 }
 
 /// Sets a survey's geometry, the reason, and what depends on the geometry.
@@ -360,7 +348,7 @@ public:
       this->Take(requested, AsRequested);
       if (requested == GeometryKind::Surface)
       {
-        this->Survey.Turns = CountTurns(this->SumTurns().Turns);
+        this->Survey.Turns = this->SumTurns().Turns;
       }
     }
     else if (!this->TakePlane(requested))
@@ -442,7 +430,7 @@ public:
   {
     // At both ends of an open fan, directions are rounded.
     constexpr std::int64_t Slack = 8;
-    const int side = this->Survey.Turns.Side;
+    const int side = this->Survey.Turns.GetSide();
     const std::int64_t points = this->Input.Local.Points.Count;
     Array<std::uint32_t> angles = this->Backend.template MakeArray<std::uint32_t>(points);
     std::uint32_t* angleOfPoint = angles.Data();
@@ -517,8 +505,7 @@ private:
   void TakeSpace()
   {
     const TurnSums sums = this->SumTurns();
-    this->Survey.Turns = CountTurns(sums.Turns);
-    const TurnCounts& turns = this->Survey.Turns;
+    const TurnSample& turns = this->Survey.Turns = sums.Turns;
     const bool isHigh = IsHigherThanWide(this->Survey.Box);
     // Only mixed units extend like that, of a globe, say, cut where x jumps from 180 to -180.
     const bool mayStray = IsHigherThanWide(this->Survey.Box, 10.0) && turns.AreNearlyUniform();
@@ -528,8 +515,8 @@ private:
     const bool suits = isHigh || gentle >= MostlyGentle;
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
     const std::string field = "a height field over x and y" +
-      (turns.GetStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
-    if (turns.Side == 0)
+      (turns.CountStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
+    if (turns.GetSide() == 0)
     {
       this->Take(GeometryKind::Surface, "no triangle has area in x and y");
     }
@@ -537,12 +524,12 @@ private:
     {
       this->Take(GeometryKind::Surface,
         "in x and y " + DescribeStrays(turns) + (turns.AreNearlyUniform() ? Advice : ""));
-      this->WarnOfStrays(sums.Turns);
+      this->WarnOfStrays();
     }
     else if (!suits)
     {
       this->Take(GeometryKind::Surface, field + ", but only " + slopes + Advice);
-      this->WarnOfStrays(sums.Turns);
+      this->WarnOfStrays();
     }
     else if (!this->RefuseOverlaps())
     {
@@ -552,22 +539,22 @@ private:
   }
 
   /// Where they are few, and all that keeps the mesh from being a height field.
-  void WarnOfStrays(const TurnSample& sample)
+  void WarnOfStrays()
   {
-    const TurnCounts& turns = this->Survey.Turns;
-    if (turns.GetStrays() > 0 && turns.AreNearlyUniform())
+    const TurnSample& turns = this->Survey.Turns;
+    if (turns.CountStrays() > 0 && turns.AreNearlyUniform())
     {
-      const bool areTurned = turns.Others > 0;
+      const bool areTurned = turns.GetOthers().Count > 0;
       std::string what = areTurned ? "triangles that turn the other way in x and y"
                                    : "triangles that have no area in x and y";
-      if (areTurned && turns.Flat > 0)
+      if (areTurned && turns.Flat.Count > 0)
       {
-        what += ", and " + std::to_string(turns.Flat) + " that have no area there";
+        what += ", and " + std::to_string(turns.Flat.Count) + " that have no area there";
       }
       this->Survey.NearlyHeightField = MakeDefect(what +
           ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
           "planar-xy",
-        !areTurned ? sample.Flat : (turns.Side > 0 ? sample.Right : sample.Left));
+        areTurned ? turns.GetOthers() : turns.Flat);
     }
   }
 
@@ -612,11 +599,11 @@ struct TurnedSums
 /// @param points the points in space.
 template <typename Backend>
 Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
-  const TurnCounts& before, const Backend& backend)
+  const TurnSample& before, const Backend& backend)
 {
   const TriangleRecord* triangles = mesh.Triangles.Data();
   const PackedPointsView packed = points.View();
-  const int side = before.Side; // to which most triangles turned at first
+  const int side = before.GetSide(); // to which most triangles turned at first
   const TurnedSums sums = backend.template Sum<TurnedSums>(mesh.NumberOfTriangles,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, TurnedSums & sum)
     {
@@ -642,7 +629,7 @@ Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
                              "the input was a height field or nearly one; if it is terrain, use "
                              "planar-xy",
     sums.Flipped);
-  defect.Count = std::max<std::int64_t>(0, sums.All - before.Others);
+  defect.Count = std::max<std::int64_t>(0, sums.All - before.GetOthers().Count);
   defect.FirstIds.resize(std::min<std::size_t>(defect.FirstIds.size(), defect.Count));
   return defect;
 }

@@ -73,10 +73,10 @@ private:
   }
 };
 
-/// Triangles by the side to which they turn.
+/// Triangles by the side to which they turn when seen along an axis.
 struct TurnSample
 {
-  IdSample Left, Right, Flat;
+  IdSample Left, Right, Flat; ///< Flat: without area.
 
   /// @param turn positive: to the left.
   DELAUNAYFLIP_HOST_DEVICE void Note(int turn, std::int64_t triangle)
@@ -90,6 +90,29 @@ struct TurnSample
     this->Right += part.Right;
     this->Flat += part.Flat;
     return *this;
+  }
+
+  /// The side to which most turn: 1 or -1; 0 if no triangle has area.
+  int GetSide() const
+  {
+    const bool hasArea = this->Left.Count + this->Right.Count > 0;
+    return !hasArea ? 0 : (this->Left.Count >= this->Right.Count ? 1 : -1);
+  }
+  /// Those that turn to the other side.
+  const IdSample& GetOthers() const { return this->GetSide() < 0 ? this->Left : this->Right; }
+  std::int64_t Count() const { return this->Left.Count + this->Right.Count + this->Flat.Count; }
+  std::int64_t CountStrays() const { return this->GetOthers().Count + this->Flat.Count; }
+  /// Whether all triangles, except at most one in 1,000, turn to one side.
+  bool AreUniform() const
+  {
+    return this->GetSide() != 0 && 1000 * this->CountStrays() <= this->Count();
+  }
+  /// Whether all with area do, except at most one in 100; at most one in five has none.
+  bool AreNearlyUniform() const
+  {
+    return this->GetSide() != 0 &&
+      100 * this->GetOthers().Count <= this->Count() - this->Flat.Count &&
+      5 * this->Flat.Count <= this->Count();
   }
 };
 
@@ -144,30 +167,11 @@ struct BoundingBox
   double Upper[3] = { 0.0, 0.0, 0.0 };
 };
 
-/// How the finite triangles of a mesh turn when seen along z.
-struct TurnCounts
-{
-  int Side = 0; ///< The side to which most turn: 1 or -1; 0 if no triangle has area in x and y.
-  std::int64_t Triangles = 0;
-  std::int64_t Others = 0; ///< Turned to the other side.
-  std::int64_t Flat = 0; ///< Without area in x and y.
-
-  /// Whether all triangles, except at most one in 1,000, turn to one side.
-  bool AreUniform() const { return this->Side != 0 && 1000 * this->GetStrays() <= this->Triangles; }
-  /// Whether all with area do, except at most one in 100; at most one in five has none.
-  bool AreNearlyUniform() const
-  {
-    return this->Side != 0 && 100 * this->Others <= this->Triangles - this->Flat &&
-      5 * this->Flat <= this->Triangles;
-  }
-  std::int64_t GetStrays() const { return this->Others + this->Flat; }
-};
-
 struct MeshSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
   std::string GeometryReason; ///< As FlipReport's.
-  TurnCounts Turns; ///< For surfaces, and if Auto needed them.
+  TurnSample Turns; ///< In x and y, of the finite triangles of surfaces, and if Auto needed them.
   PlaneProjection Projection; ///< For the planar kinds.
   Array<PointUse> Uses; ///< One per point, in the backend's memory.
   std::int64_t UsedPoints = 0;

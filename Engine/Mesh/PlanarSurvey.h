@@ -14,8 +14,8 @@
 #include "SpatialOrder.h"
 #include "WideAngles.h"
 
-#include <cmath>
 #include <cstdint>
+#include <vector>
 
 /// @file
 /// Properties of a planar mesh before the first flip, from exact orientations.
@@ -178,15 +178,16 @@ struct PlanarSurvey
   /// Flips do not change this, because they keep the angle around a vertex.
   bool StarsAreSimple = false;
 
-  Defect ZeroAreaTriangles;
-  Defect LeftTriangles, RightTriangles; ///< By the side to which they turn.
+  TurnSample Turns;
 
-  /// The triangles that turn to the less common side, unless `side` says which side is common.
-  const Defect& GetInverted(int side) const
+  /// Triangles without area, and those that turn to the less common side, unless `side` says which
+  /// side is common.
+  std::vector<Defect> ListDefects(int side) const
   {
-    const bool areMostlyLeft =
-      side == 0 ? this->LeftTriangles.Count >= this->RightTriangles.Count : side > 0;
-    return areMostlyLeft ? this->RightTriangles : this->LeftTriangles;
+    const int common = side != 0 ? side : this->Turns.GetSide();
+    return { MakeDefect("triangles without area", this->Turns.Flat),
+      MakeDefect("triangles that turn the other way than most",
+        common < 0 ? this->Turns.Left : this->Turns.Right) };
   }
 };
 
@@ -219,10 +220,7 @@ PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool skipSt
     throw BeyondDevice();
   }
   PlanarSurvey survey;
-  const char* what = "triangles that turn the other way than most";
-  survey.LeftTriangles = MakeDefect(what, turns.Left);
-  survey.RightTriangles = MakeDefect(what, turns.Right);
-  survey.ZeroAreaTriangles = MakeDefect("triangles without area", turns.Flat);
+  survey.Turns = turns;
   if (uniform)
   {
     survey.UniformSide = turns.Right.Count == 0 ? 1 : -1;

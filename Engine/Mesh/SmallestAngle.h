@@ -36,12 +36,11 @@ struct LargestValue
   }
 };
 
-/// LargestSquaredCotangent (SurfaceAngles.h) of a triangle in space or, if `isFlat`, over x and y.
+/// LargestSquaredCotangent (SurfaceAngles.h) of a triangle.
 DELAUNAYFLIP_HOST_DEVICE inline double MeasureSquaredCotangent(
-  const Vector3& a, const Vector3& b, const Vector3& c, bool isFlat, CoordinateRange range)
+  const Vector3& a, const Vector3& b, const Vector3& c, CoordinateRange range)
 {
-  const double largest =
-    isFlat ? LargestSquaredCotangentFlat(a, b, c) : LargestSquaredCotangent(a, b, c);
+  const double largest = LargestSquaredCotangent(a, b, c);
   // A triangle seems to have no area also if the squares of its lengths vanish.
   return largest == INFINITY || IsWide(range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
                                                        : largest;
@@ -68,7 +67,7 @@ struct AngleSurvey
     const Vector3 a = ToPosition(this->Decision.Get(v[0]));
     const Vector3 b = ToPosition(this->Decision.Get(v[1]));
     const Vector3 c = ToPosition(this->Decision.Get(v[2]));
-    sum += { MeasureSquaredCotangent(a, b, c, Rule::Flat, this->Range) };
+    sum += { MeasureSquaredCotangent(a, b, c, this->Range) };
   }
 
 private:
@@ -117,7 +116,7 @@ struct KeptEdgeSurvey
   {
     const TriangleRecord& triangle = this->Mesh.Triangles[t];
     return MeasureSquaredCotangent(this->Get(triangle.Vertices[0]), this->Get(triangle.Vertices[1]),
-      this->Get(triangle.Vertices[2]), this->Points.Components == 2, this->Range);
+      this->Get(triangle.Vertices[2]), this->Range);
   }
 
 private:

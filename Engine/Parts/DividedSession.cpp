@@ -78,10 +78,7 @@ struct DividedSession::Run : MeshInParts
     this->Mesh = this->Insertion.GetMesh(mesh);
     this->Constraints.assign(this->Mesh.ConstraintEdges,
       this->Mesh.ConstraintEdges + 2 * this->Mesh.NumberOfConstraintEdges);
-    for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
-    {
-      CheckConstraint(this->Mesh, i / 2, static_cast<int>(i % 2));
-    }
+    CheckConstraints(this->Mesh);
     this->Survey = PartSurvey(
       BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, this->Options.Geometry, this->Threads),
       this->Mesh.Points.Floats != nullptr);
@@ -113,7 +110,7 @@ struct DividedSession::Run : MeshInParts
     this->Insertion.AddTo(this->Report);
   }
 
-  /// @param flipCounts is set to the number of flips of each triangle slot; or null.
+  /// @param flipCounts the flips of each triangle slot are added; or null.
   void FlipAll(std::int32_t* flipCounts, const ProgressObserver& progress)
   {
     const double begin = this->Insertion.GetShare();
@@ -121,11 +118,6 @@ struct DividedSession::Run : MeshInParts
     this->Progress = [&progress, begin](double share)
     { return !progress || progress(begin + (1.0 - begin) * share); };
     this->Seam = this->FindSeamPoints();
-    if (this->FlipCounts)
-    {
-      this->Threads.ForEach(
-        this->Mesh.Triangles.Count, [this](std::int64_t t) { this->FlipCounts[t] = 0; });
-    }
     this->ExamineSeams();
     this->FlipParts();
     this->JoinParts();
@@ -512,6 +504,7 @@ DividedSession::DividedSession(const TriangleMesh& mesh, const FlipOptions& opti
     Triangles(triangles)
 {
   const std::int64_t count = mesh.Triangles.Count;
+  this->FlipCounts.resize(triangles.Data() ? 0 : count);
   if (!triangles.Data() && mesh.Triangles.Ids32)
   {
     this->Ids32 = this->Threads.MakeArray<std::int32_t>(3 * count);
@@ -532,7 +525,7 @@ DividedSession::~DividedSession() = default;
 bool DividedSession::Prepare(const ProgressObserver& progress)
 {
   this->Own.reset();
-  this->FlipCounts = {};
+  std::fill(this->FlipCounts.begin(), this->FlipCounts.end(), 0);
   this->Report = PiecesReport();
   try
   {
@@ -565,10 +558,8 @@ bool DividedSession::Advance(
   {
     return false;
   }
-  const bool isCopy = this->Ids32.Size() + this->Ids64.Size() > 0; // else they are not asked for
-  this->FlipCounts = this->Threads.MakeArray<std::int32_t>(isCopy ? this->Triangles.Count : 0);
   const std::unique_ptr<Run> run = std::move(this->Own); // its triangles change
-  run->FlipAll(isCopy ? this->FlipCounts.Data() : nullptr, progress);
+  run->FlipAll(this->FlipCounts.empty() ? nullptr : this->FlipCounts.data(), progress);
   this->Report = run->Report;
   for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
   {
@@ -588,9 +579,7 @@ void DividedSession::StoreTriangles(const MutableTriangleArray& triangles) const
 
 void DividedSession::StoreFlipCounts(std::int32_t* counts) const
 {
-  const bool areKnown = this->FlipCounts.Size() > 0;
-  this->Threads.ForEach(this->Mesh.Triangles.Count,
-    [&](std::int64_t t) { counts[t] = areKnown ? this->FlipCounts[t] : 0; });
+  std::copy(this->FlipCounts.begin(), this->FlipCounts.end(), counts);
 }
 
 PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -42,7 +43,7 @@ private:
   Array<std::int32_t> Ids32; ///< Three per triangle, if the caller's ids have 32 bits.
   Array<std::int64_t> Ids64; ///< If they have 64 bits.
   MutableTriangleArray Triangles; ///< These, or the array that was given.
-  Array<std::int32_t> FlipCounts; ///< Empty before a run.
+  std::vector<std::int32_t> FlipCounts; ///< Empty if an array was given.
   std::unique_ptr<Run> Own; ///< None before the mesh is divided and after a run.
   PiecesReport Report;
 };

@@ -4,7 +4,6 @@
 
 #include "DelaunayFlip.h"
 #include "FlipError.h"
-#include "FlipLoop.h"
 #include "SmallestAngle.h"
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
@@ -81,9 +80,7 @@ void PointStars::Remove(const PartCorner& corner, std::int32_t point)
 
 //------------------------------------------------------------------------------
 PartMesh::PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin)
-  : Caller(piece.Mesh.Triangles),
-    FirstOrigin(firstOrigin),
-    Given(piece.Mesh.Points),
+  : Given(piece.Mesh.Points),
     Points(std::move(keys)),
     Rank(rank),
     FirstOwnKey(Points.Owners.Firsts[rank])
@@ -101,9 +98,25 @@ PartMesh::PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_
     }
   }
   constexpr std::int64_t PartToReceive = 16; // so that the first arrival does not copy all
-  this->Triangles.reserve(this->Caller.Count + this->Caller.Count / PartToReceive);
-  this->Triangles.resize(this->Caller.Count);
-  this->Listed.resize(this->Caller.Count);
+  const std::int64_t count = piece.Mesh.Triangles.Count;
+  this->Triangles.reserve(count + count / PartToReceive);
+  this->Triangles.resize(count);
+  for (std::int64_t t = 0; t < count; ++t)
+  {
+    this->Triangles[t].Origin = firstOrigin + t;
+  }
+  this->Take(piece.Mesh.Triangles);
+}
+
+void PartMesh::Take(const TriangleArray& triangles)
+{
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Triangles[t].Points[slot] = static_cast<std::int32_t>(triangles.Get(t, slot));
+    }
+  }
 }
 
 std::int64_t PartMesh::FindPoint(std::int64_t key) const
@@ -118,125 +131,45 @@ std::int64_t PartMesh::FindPoint(std::int64_t key) const
 }
 
 //------------------------------------------------------------------------------
-std::vector<std::int64_t> PartMesh::FindListed() const
-{
-  std::vector<std::int64_t> listed;
-  listed.reserve(this->NumberListed);
-  for (std::size_t t = 0; t < this->Listed.size(); ++t)
-  {
-    if (this->Listed[t])
-    {
-      listed.push_back(static_cast<std::int64_t>(t));
-    }
-  }
-  return listed;
-}
-
-void PartMesh::ListAll()
-{
-  for (std::size_t t = 0; t < this->Triangles.size() && !this->AreAllListed(); ++t)
-  {
-    this->List(static_cast<std::int64_t>(t));
-  }
-}
-
-void PartMesh::GetPoints(std::int64_t t, std::int32_t (&points)[3]) const
-{
-  for (int slot = 0; slot < 3; ++slot)
-  {
-    points[slot] = this->IsListed(t) ? this->Triangles[t].Points[slot]
-      : this->Made.Records
-      ? static_cast<std::int32_t>(this->Made.Order.GetVertex(this->Made.Records[t].Vertices[slot]))
-      : static_cast<std::int32_t>(this->Caller.Get(t, slot));
-  }
-}
-
 double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
 {
-  const std::vector<std::int64_t> listed = this->FindListed();
-  double largest =
-    FindLargestCotangent(static_cast<std::int64_t>(listed.size()), survey, ThreadBackend(threads),
-      [&](std::int64_t i, double(&x)[3][3])
+  return ToDegrees(FindLargestCotangent(static_cast<std::int64_t>(this->Triangles.size()), survey,
+    ThreadBackend(threads),
+    [&](std::int64_t t, double(&x)[3][3])
+    {
+      for (int slot = 0; slot < 3; ++slot)
       {
-        const PartTriangle& triangle = this->Triangles[listed[i]];
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          this->GetPosition(triangle.Points[slot], x[slot]);
-        }
-        return !triangle.HasLeft;
-      });
-  if (!this->AreAllListed())
-  {
-    largest =
-      std::max(largest, this->Made.Loop->FindLargestSquaredCotangentWithout(this->Listed.data()));
-  }
-  return ToDegrees(largest);
-}
-
-void PartMesh::MakeTriangle(std::int64_t t)
-{
-  PartTriangle& triangle = this->Triangles[t];
-  triangle = PartTriangle{};
-  this->GetPoints(t, triangle.Points);
-  const TriangleRecord* const record = this->Made.Records ? this->Made.Records + t : nullptr;
-  const std::int64_t slot = record ? record->InputTriangle : t;
-  triangle.Origin = this->FirstOrigin + slot;
-  triangle.Flips = (record ? static_cast<std::int32_t>(record->Flips / OneFlip) : 0) +
-    (this->PastFlips.empty() ? 0 : this->PastFlips[slot]);
-  for (int corner = 0; corner < 3; ++corner)
-  {
-    triangle.SetMarks(corner, this->FindMarks(triangle.GetEdge(corner)));
-    if (record)
-    {
-      const CornerId other = this->Made.GetOtherCorner(t, corner);
-      this->Mates[GetNumber({ t, corner })] = other == NoCorner
-        ? NoMate
-        : static_cast<std::uint32_t>(GetNumber({ TriangleOf(other), SlotOf(other) }));
-    }
-    if (this->HasStars)
-    {
-      this->Stars.Add({ t, corner }, triangle.Points[corner]);
-    }
-  }
-  this->Listed[t] = 1;
-  ++this->NumberListed;
-}
-
-void PartMesh::TakeTriangles(const HostTriangles& made, MarkedEdges marks)
-{
-  this->Made = made;
-  this->Marks = std::move(marks);
-  if (!made.Records)
-  {
-    this->ListAll();
-    return;
-  }
-  this->Mates.reserve(3 * this->Triangles.capacity());
-  this->Mates.resize(3 * this->Triangles.size());
-  made.ForEachAtBoundary(
-    [&](CornerId corner)
-    {
-      if (this->FindMarks(this->GetEdge(TriangleOf(corner), SlotOf(corner))) != 0)
-      {
-        this->List(TriangleOf(corner));
+        this->GetPosition(this->Triangles[t].Points[slot], x[slot]);
       }
-    });
+      return !this->Triangles[t].HasLeft;
+    }));
 }
 
-void PartMesh::BeginRounds()
+void PartMesh::BeginRounds(const MarkedEdges& marks)
 {
   const std::size_t count = this->Triangles.size();
-  this->Mates.reserve(3 * this->Triangles.capacity());
-  this->Mates.resize(3 * count, Unknown);
   this->Stars.Begin(static_cast<std::int64_t>(count),
     static_cast<std::int64_t>(this->Triangles.capacity()), this->GetNumberOfPoints());
-  this->HasStars = true;
   for (auto t = static_cast<std::int64_t>(count); t-- > 0;) // lists begin with the first triangle
   {
-    for (int slot = 0; slot < 3 && this->IsListed(t); ++slot)
+    for (int slot = 0; slot < 3; ++slot)
     {
       this->Stars.Add({ t, slot }, this->Triangles[t].Points[slot]);
     }
+  }
+  for (const auto& [ends, mark] : marks) // in any order
+  {
+    const auto a = static_cast<std::int32_t>(ends[0]), b = static_cast<std::int32_t>(ends[1]);
+    const auto visit = [&, mark = mark](const PartCorner& at)
+    {
+      PartTriangle& triangle = this->Triangles[at.Triangle];
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        triangle.SetMarks(slot, triangle.HasEdge(slot, a, b) ? mark : triangle.GetMarks(slot));
+      }
+      return false;
+    };
+    this->Stars.FindAtEither(a, b, visit);
   }
   for (const std::int32_t point : this->SharedPoints)
   {
@@ -256,17 +189,6 @@ void PartMesh::NoteChange(std::int64_t t)
 /// (b, q, a).
 void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
 {
-  for (const std::int64_t changing : { one.Triangle, other.Triangle })
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const std::uint32_t mate = this->Mates[3 * changing + slot];
-      if (mate < NoMate)
-      {
-        this->List(mate / 3); // before its mate changes
-      }
-    }
-  }
   PartTriangle& t = this->Triangles[one.Triangle];
   PartTriangle& s = this->Triangles[other.Triangle];
   const int a = one.Slot;
@@ -279,11 +201,6 @@ void PartMesh::Flip(const PartCorner& one, const PartCorner& other)
   s.Points[p] = t.Points[a];
   this->Stars.Add({ one.Triangle, q }, t.Points[q]);
   this->Stars.Add({ other.Triangle, p }, s.Points[p]);
-  const std::size_t toPB = 3 * other.Triangle + (b + 1) % 3; // the slots of t and s that turn away
-  const std::size_t toQA = 3 * one.Triangle + (a + 1) % 3;
-  this->Join(GetNumber(one), this->Mates[toPB]);
-  this->Join(GetNumber(other), this->Mates[toQA]);
-  this->Join(toPB, static_cast<std::uint32_t>(toQA));
   const unsigned char pb = s.GetMarks((b + 1) % 3);
   const unsigned char qa = t.GetMarks((a + 1) % 3);
   t.SetMarks(a, pb);
@@ -302,7 +219,6 @@ void PartMesh::SetSeam(const PartCorner& corner)
   PartTriangle& triangle = this->Triangles[corner.Triangle];
   triangle.SetMarks(
     corner.Slot, static_cast<unsigned char>(triangle.GetMarks(corner.Slot) | SeamMark));
-  this->Mates[GetNumber(corner)] = Unknown;
   this->NoteChange(corner.Triangle);
 }
 
@@ -310,7 +226,6 @@ void PartMesh::ClearSeam(const PartCorner& corner)
 {
   PartTriangle& triangle = this->Triangles[corner.Triangle];
   triangle.SetMarks(corner.Slot, triangle.Has(FixedMark, corner.Slot) ? FixedMark : 0);
-  this->Mates[GetNumber(corner)] = Unknown;
   this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
 }
 
@@ -351,48 +266,17 @@ PartCorner PartMesh::FindEdge(std::int32_t start, std::int32_t end, std::int64_t
   return found;
 }
 
-PartCorner PartMesh::FindOpenMate(const PartCorner& corner)
+PartCorner PartMesh::FindOpenMate(const PartCorner& corner) const
 {
-  const PartTriangle& triangle = this->Triangles[corner.Triangle];
-  if (triangle.Has(FixedMark, corner.Slot) || triangle.Has(SeamMark, corner.Slot))
-  {
-    return { -1, 0 };
-  }
-  const std::uint32_t& known = this->Mates[GetNumber(corner)];
-  if (known == Unknown)
-  {
-    const PartCorner mate = this->FindMate(corner);
-    this->Join(
-      GetNumber(corner), mate.Triangle < 0 ? NoMate : static_cast<std::uint32_t>(GetNumber(mate)));
-  }
-  if (known == NoMate)
-  {
-    return { -1, 0 };
-  }
-  this->List(known / 3);
-  return { known / 3, static_cast<int>(known % 3) };
-}
-
-/// Makes two corners each other's mates.
-void PartMesh::Join(std::size_t one, std::uint32_t other)
-{
-  this->Mates[one] = other;
-  if (other < NoMate)
-  {
-    this->Mates[other] = static_cast<std::uint32_t>(one);
-  }
+  const bool isOpen = this->Triangles[corner.Triangle].GetMarks(corner.Slot) == 0;
+  return isOpen ? this->FindMate(corner) : PartCorner{ -1, 0 };
 }
 
 void PartMesh::PrefetchPoints(std::int64_t triangle) const
 {
-  for (int slot = 0; slot < 3; ++slot)
+  for (const std::int32_t point : this->Triangles[triangle].Points)
   {
-    this->PrefetchPoint(this->Triangles[triangle].Points[slot]);
-    const std::uint32_t mate = this->Mates[3 * triangle + slot];
-    if (mate < NoMate && this->IsListed(mate / 3))
-    {
-      this->PrefetchPoint(this->Triangles[mate / 3].Points[mate % 3]);
-    }
+    this->PrefetchPoint(point);
   }
 }
 
@@ -434,9 +318,6 @@ std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
   }
   const auto t = static_cast<std::int64_t>(this->Triangles.size());
   this->Triangles.push_back({});
-  this->Listed.push_back(1);
-  ++this->NumberListed;
-  this->Mates.resize(this->Mates.size() + 3, Unknown);
   PartTriangle& triangle = this->Triangles[t];
   for (int slot = 0; slot < 3; ++slot)
   {

@@ -6,13 +6,11 @@
 #include "FlipOptions.h"
 #include "FlipReport.h"
 #include "HostMemory.h"
-#include "LoadedMesh.h"
 #include "PartSurvey.h"
 #include "PieceFlip.h"
 #include "Records.h"
 #include "TriangleMesh.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -96,7 +94,7 @@ struct PartTriangle
   }
 };
 
-using PartTriangles = RawVector<PartTriangle>;
+using PartTriangles = HostVector<PartTriangle>;
 
 /// A triangle of a rank and one of its corners.
 struct PartCorner
@@ -126,6 +124,7 @@ public:
   /// Begins with empty lists. More triangles and points may be added later.
   /// @param capacity the number of triangles to reserve memory for.
   void Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points);
+  bool HasBegun() const { return this->First.capacity() > 0; }
   /// Adds a corner that is in no list.
   void Add(const PartCorner& corner, std::int32_t point);
 
@@ -175,7 +174,7 @@ private:
   }
 
   HostVector<std::uint32_t> First; ///< By point: the number of a corner, 3 * triangle + slot.
-  RawVector<Link> Links; ///< By that number.
+  HostVector<Link> Links; ///< By that number.
 };
 
 /// A triangle as it is sent to another rank.
@@ -189,60 +188,24 @@ struct TravellingTriangle
 };
 
 /// The triangles that a rank has at the moment, and all points that it has ever had.
-///
-/// Most triangles are never touched by a round. So a triangle is *listed*, that is copied to its
-/// place in Triangles, only when it is needed. Until then it stays in the arrays of the caller or
-/// of the engine of the first flips. Before a triangle changes or goes to another rank, all
-/// triangles that share an edge with it are listed.
 class PartMesh
 {
 public:
-  /// Starts with the triangles of the caller, none of them listed.
+  /// Starts with the triangles of the caller, in their slots.
   /// @param firstOrigin the number of the first of them among the triangles of all ranks.
   PartMesh(const MeshPiece& piece, PointKeys keys, int rank, std::int64_t firstOrigin);
-  /// Starts with others in their slots, which flips have made.
-  /// @param flips how many, by triangle. It adds up with those of the engine (TakeTriangles).
-  void Begin(const TriangleArray& triangles, std::vector<std::int32_t> flips)
-  {
-    this->Caller = triangles;
-    this->PastFlips = std::move(flips);
-  }
+  /// Takes what flips have made of the triangles, in the same slots.
+  void Take(const TriangleArray& triangles);
 
-  PartTriangles Triangles; ///< A place may be empty (HasLeft), or not listed.
+  PartTriangles Triangles; ///< A place may be empty (HasLeft).
 
-  bool IsListed(std::int64_t t) const { return this->Listed[t] != 0; }
-  bool AreAllListed() const { return this->NumberListed == this->Triangles.size(); }
-  /// The numbers of the listed triangles, ascending.
-  std::vector<std::int64_t> FindListed() const;
-  void List(std::int64_t t)
-  {
-    if (!this->IsListed(t))
-    {
-      this->MakeTriangle(t);
-    }
-  }
-  void ListAll();
-  /// The point ids of a triangle, listed or not.
-  void GetPoints(std::int64_t t, std::int32_t (&points)[3]) const;
-  /// The ends of the edge opposite to a corner of a triangle, listed or not.
-  PointPair GetEdge(std::int64_t t, int slot) const
-  {
-    std::int32_t points[3];
-    this->GetPoints(t, points);
-    return MakePair(points[(slot + 1) % 3], points[(slot + 2) % 3]);
-  }
-  /// The smallest angle of all triangles, in degrees; NaN if there is none. The engine of the first
-  /// flips measures the triangles that are not listed, which takes less time.
+  /// The smallest angle of all triangles, in degrees; NaN if there is none.
   double FindSmallestAngle(const PartSurvey& survey, int threads) const;
-  /// Takes the result of the first flips, in the order of the engine: triangles near each other in
-  /// the mesh are near each other in memory. Lists the triangles at marked boundary edges. Where
-  /// the engine's triangles are not on the host, takes those of Begin, and lists all.
-  /// @param made must not change as long as there are triangles that are not listed.
-  void TakeTriangles(const HostTriangles& made, MarkedEdges marks);
-  /// Begins the lists of corners at every point (PointStars), with which rounds find triangles
-  /// without a pass over all. From now on only the functions below may change triangles.
-  void BeginRounds();
-  bool HasBegunRounds() const { return this->HasStars; }
+  /// Marks edges, and begins the lists of corners at every point (PointStars), with which rounds
+  /// find triangles without a pass over all. From now on only the functions below may change
+  /// triangles.
+  void BeginRounds(const MarkedEdges& marks);
+  bool HasBegunRounds() const { return this->Stars.HasBegun(); }
   /// Flips the edge opposite to two corners.
   void Flip(const PartCorner& one, const PartCorner& other);
   /// Marks the edge opposite to a corner as a seam edge.
@@ -264,8 +227,8 @@ public:
   /// The mate of a corner: the corner of another triangle here that is opposite to the same edge.
   PartCorner FindMate(const PartCorner& corner) const;
   /// The same, but none if the edge is a fixed edge or a seam edge.
-  PartCorner FindOpenMate(const PartCorner& corner);
-  /// Prefetches the points of a triangle and those opposite to it.
+  PartCorner FindOpenMate(const PartCorner& corner) const;
+  /// Prefetches the points of a triangle.
   void PrefetchPoints(std::int64_t triangle) const;
   /// Whether a triangle here has an edge between these points.
   bool HasEdge(std::int64_t a, std::int64_t b) const
@@ -320,39 +283,13 @@ public:
   std::int64_t GetFirstReceived() const { return this->Given.Count; }
 
 private:
-  void MakeTriangle(std::int64_t t);
-  unsigned char FindMarks(const PointPair& edge) const
-  {
-    const auto found = this->Marks.find(edge);
-    return found != this->Marks.end() ? found->second : 0;
-  }
   PartCorner FindEdge(std::int32_t start, std::int32_t end, std::int64_t except = -1) const;
   std::int32_t FindOrAddPoint(std::int64_t key, const double (&x)[3]);
   void SharePoint(std::int32_t point);
   void NoteChange(std::int64_t triangle);
   void NoteChangesAt(std::int32_t point);
 
-  static constexpr std::uint32_t Unknown = 0xFFFFFFFFu, NoMate = Unknown - 1;
-  static std::size_t GetNumber(const PartCorner& corner)
-  {
-    return static_cast<std::size_t>(3 * corner.Triangle + corner.Slot);
-  }
-  void Join(std::size_t one, std::uint32_t other);
-
-  // Where the triangles are that are not listed: in Made if it has records, otherwise in Caller.
-  TriangleArray Caller;
-  HostTriangles Made;
-  std::int64_t FirstOrigin;
-  std::vector<std::int32_t>
-    PastFlips; ///< By slot: before the first flips. Empty if there were none.
-  MarkedEdges Marks;
-  std::vector<unsigned char> Listed; ///< One flag per triangle.
-  std::size_t NumberListed = 0;
-  bool HasStars = false;
-
-  PointStars Stars; ///< Of the listed triangles.
-  /// By corner, 3 * triangle + slot: its mate (FindMate), or Unknown until it is searched for.
-  RawVector<std::uint32_t> Mates;
+  PointStars Stars; ///< Empty before the rounds.
   std::vector<std::int64_t> Changed; ///< For TakeChanged (PartTriangle::IsNoted).
   std::vector<PointPair> LostSeams;
   std::vector<std::int32_t> SharedPoints;

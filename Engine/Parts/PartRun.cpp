@@ -13,7 +13,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <memory>
+#include <iterator>
 #include <utility>
 
 /// @file
@@ -34,20 +34,6 @@ constexpr std::int64_t MostRounds = 1000;
 /// Nor that those of a round end, so it takes at most so many iterations more than the rank has
 /// triangles.
 constexpr std::int64_t SafetyMargin = 1000;
-
-/// Removes items of `size` values by their numbers, which ascend.
-template <typename T>
-void RemoveItems(const std::vector<std::int64_t>& gone, std::int64_t size, std::vector<T>& values)
-{
-  auto to = values.begin() + (gone.empty() ? values.size() : size * gone.front());
-  for (std::size_t i = 0; i < gone.size(); ++i)
-  {
-    const auto end = i + 1 < gone.size() ? values.begin() + size * gone[i + 1] : values.end();
-    to = std::move(values.begin() + size * (gone[i] + 1), end, to);
-  }
-  values.erase(to, values.end());
-}
-
 }
 
 /// What a rank does in a run.
@@ -89,22 +75,24 @@ public:
     const std::int64_t count = this->Job.Piece.Mesh.Triangles.Count;
     flipped.Clear();
     flipped.AreFloats = this->Job.Survey.IsFloat;
-    // With room for the triangles that have come: to append them would else copy the whole arrays.
-    flipped.Triangles.reserve(3 * triangles.size());
-    flipped.FlipCounts.reserve(triangles.size());
-    flipped.Triangles.resize(3 * count);
-    flipped.FlipCounts.resize(count);
-    if (this->First)
+    constexpr std::uint32_t Gone = 0xFFFFFFFFu;
+    HostVector<std::uint32_t> own(count, Gone); // by slot; some have come back
+    std::vector<std::int64_t> others;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
     {
-      this->First->StoreTriangles(MutableTriangleArray(flipped.Triangles.data(), count));
-      this->First->StoreFlipCounts(flipped.FlipCounts.data());
-      this->Constraints.AddFlipCounts(flipped.FlipCounts.data());
+      const std::int64_t slot = triangles[t].Origin - first;
+      if (slot >= 0 && slot < count && !triangles[t].HasLeft)
+      {
+        own[slot] = static_cast<std::uint32_t>(t);
+      }
+      else if (!triangles[t].HasLeft)
+      {
+        others.push_back(static_cast<std::int64_t>(t));
+      }
     }
-    std::vector<std::int64_t> own, others;
-    this->FindTriangles(flipped.GoneTriangles, own, others);
+    std::sort(others.begin(), others.end(),
+      [&](std::int64_t a, std::int64_t b) { return triangles[a].Origin < triangles[b].Origin; });
 
-    // Overwrites the slots of listed triangles, closes those of gone ones, and adds those of
-    // others.
     std::vector<std::int32_t> idOfReceived(
       this->Mesh.GetNumberOfPoints() - this->Mesh.GetFirstReceived(), -1);
     const auto storePoint = [&](std::int32_t point)
@@ -126,75 +114,34 @@ public:
       }
       return id;
     };
-    for (std::size_t i = 0; i < own.size(); ++i)
+    const auto store = [&](const PartTriangle& triangle)
     {
-      constexpr std::size_t PrefetchDistance = 16;
-      Prefetch(&triangles[own[std::min(i + PrefetchDistance, own.size() - 1)]]);
-      const PartTriangle& triangle = triangles[own[i]];
-      const std::int64_t slot = triangle.Origin - first;
-      flipped.FlipCounts[slot] = triangle.Flips;
+      flipped.FlipCounts.push_back(triangle.Flips);
       std::transform(
-        triangle.Points, triangle.Points + 3, flipped.Triangles.begin() + 3 * slot, storePoint);
+        triangle.Points, triangle.Points + 3, std::back_inserter(flipped.Triangles), storePoint);
+    };
+    const std::size_t size = count + others.size(); // at most
+    flipped.Triangles.reserve(3 * size);
+    flipped.FlipCounts.reserve(size);
+    for (std::int64_t slot = 0; slot < count; ++slot)
+    {
+      if (own[slot] == Gone)
+      {
+        flipped.GoneTriangles.push_back(slot);
+      }
+      else
+      {
+        store(triangles[own[slot]]);
+      }
     }
-    RemoveItems(flipped.GoneTriangles, 3, flipped.Triangles);
-    RemoveItems(flipped.GoneTriangles, 1, flipped.FlipCounts);
     for (const std::int64_t t : others)
     {
       flipped.ReceivedTriangles.push_back(this->Origins.Find(triangles[t].Origin));
-      flipped.FlipCounts.push_back(triangles[t].Flips);
-      std::transform(triangles[t].Points, triangles[t].Points + 3,
-        std::back_inserter(flipped.Triangles), storePoint);
+      store(triangles[t]);
     }
   }
 
 private:
-  /// Finds the listed triangles that are here: the rank's own, and others by their origins.
-  /// @param gone receives the slots of own ones that have left.
-  void FindTriangles(std::vector<std::int64_t>& gone, std::vector<std::int64_t>& own,
-    std::vector<std::int64_t>& others) const
-  {
-    const PartTriangles& triangles = this->Mesh.Triangles;
-    const std::int64_t first = this->Origins.Firsts[this->Job.Group.GetRank()];
-    const std::int64_t count = this->Job.Piece.Mesh.Triangles.Count;
-    constexpr std::uint32_t Unlisted = 0xFFFFFFFFu, Gone = Unlisted - 1;
-    HostVector<std::uint32_t> places(count, this->First ? Unlisted : Gone);
-    for (const std::int64_t t : this->Mesh.FindListed())
-    {
-      const std::int64_t slot = triangles[t].Origin - first;
-      const bool isOwn = slot >= 0 && slot < count;
-      if (isOwn && triangles[t].HasLeft)
-      {
-        places[slot] = places[slot] == Unlisted ? Gone : places[slot]; // or it has come back
-      }
-      else if (isOwn)
-      {
-        places[slot] = static_cast<std::uint32_t>(t);
-        own.push_back(t);
-      }
-      else if (!triangles[t].HasLeft)
-      {
-        others.push_back(t);
-      }
-    }
-    if (!this->First)
-    {
-      own.clear(); // the order of slots is faster
-    }
-    for (std::int64_t slot = 0; slot < count; ++slot)
-    {
-      if (places[slot] == Gone)
-      {
-        gone.push_back(slot);
-      }
-      else if (!this->First)
-      {
-        own.push_back(places[slot]);
-      }
-    }
-    std::sort(others.begin(), others.end(),
-      [&](std::int64_t a, std::int64_t b) { return triangles[a].Origin < triangles[b].Origin; });
-  }
-
   /// Calls the observer of this rank. @returns whether to go on.
   bool Tell(double share) const
   {
@@ -211,61 +158,43 @@ private:
     const double begin = this->Constraints.Share;
     const ProgressObserver progress = [=](double share)
     { return this->Tell(begin + (FirstShare - begin) * share); };
-    this->First = std::make_unique<FlipSession>(mesh, this->Job.Options, progress);
-    if (this->First->GetReport().StopReason != StopReasonKind::Aborted)
+    FlipSession session(mesh, this->Job.Options, progress);
+    if (session.GetReport().StopReason != StopReasonKind::Aborted)
     {
-      this->First->Advance(-1, {}, progress);
+      session.Advance(-1, {}, progress);
     }
-    this->Own = this->First->GetReport();
+    this->Own = session.GetReport();
     this->Constraints.AddTo(this->Own);
     this->HasBlocked = this->Own.NonDelaunayAfter > 0;
     this->StopReason = this->Constraints.IsAborted ? StopReasonKind::Aborted : this->Own.StopReason;
-    this->TakeFirst(mesh);
-  }
-
-  /// Takes the triangles of the first flips.
-  /// @param mesh what they started from.
-  void TakeFirst(const TriangleMesh& mesh)
-  {
-    const HostTriangles made = this->First->ViewHostTriangles();
-    RawVector<std::int32_t> ids; // in the order of slots, if they are on a GPU
-    if (!made.Records)
+    const std::int64_t count = mesh.Triangles.Count;
+    HostVector<std::int32_t> ids(3 * count), flips(count);
+    session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+    session.StoreFlipCounts(flips.data());
+    this->Constraints.AddFlipCounts(flips.data());
+    this->Mesh.Take(TriangleArray(ids.data(), count));
+    for (std::int64_t t = 0; t < count; ++t)
     {
-      const std::int64_t count = mesh.Triangles.Count;
-      ids.resize(3 * count);
-      std::vector<std::int32_t> flips(count);
-      this->First->StoreTriangles(MutableTriangleArray(ids.data(), count));
-      this->First->StoreFlipCounts(flips.data());
-      this->Constraints.AddFlipCounts(flips.data());
-      this->Mesh.Begin(TriangleArray(ids.data(), count), std::move(flips));
-    }
-    this->Mesh.TakeTriangles(made, this->MarkEdges(mesh));
-    if (this->Job.Survey.NeedsGuard())
-    {
-      this->Mesh.ListAll();
-    }
-    if (this->Mesh.AreAllListed())
-    {
-      this->First.reset();
+      this->Mesh.Triangles[t].Flips = flips[t];
     }
     if (this->Job.Group.GetSize() > 1)
     {
-      this->Mesh.BeginRounds();
+      this->BeginRounds();
     }
   }
 
   /// Finds the edges that need marks. Of a fixed edge with one triangle only those are marked that
   /// have others on other ranks.
-  MarkedEdges MarkEdges(const TriangleMesh& mesh)
+  void BeginRounds()
   {
     MarkedEdges edges = std::move(this->Constraints.Seams.Marks);
     const std::vector<std::int64_t> fixed =
-      ListFixedEdges(mesh, this->Job.Options, this->Own.Edges);
+      ListFixedEdges(this->Constraints.Mesh, this->Job.Options, this->Own.Edges);
     for (std::size_t i = 0; i < fixed.size(); i += 2)
     {
       edges[MakePair(fixed[i], fixed[i + 1])] |= FixedMark;
     }
-    return edges;
+    this->Mesh.BeginRounds(edges);
   }
 
   //------------------------------------------------------------------------------
@@ -420,10 +349,9 @@ private:
   /// The bad edges that are left on this rank.
   void CountBad()
   {
-    this->Mesh.ListAll();
     if (!this->Mesh.HasBegunRounds())
     {
-      this->Mesh.BeginRounds(); // which finds the mates of corners
+      this->BeginRounds(); // which finds the mates of corners
     }
     const RoundFlips flips(this->Mesh, this->Judge, this->Job.Survey.NeedsGuard());
     const auto count = static_cast<std::int64_t>(this->Mesh.Triangles.size());
@@ -484,8 +412,6 @@ private:
 
   // Of this rank:
   FlipReport Own; ///< Starts as the report of the first flips. Has the iterations of all rounds.
-  /// The session of the first flips. Keeps the triangles that are not listed (PartMesh), if any.
-  std::unique_ptr<FlipSession> First;
   StopReasonKind StopReason = StopReasonKind::Converged;
   std::int64_t EarlierRows = 0; ///< Iterations of this rank in earlier rounds.
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.

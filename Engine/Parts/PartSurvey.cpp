@@ -425,10 +425,7 @@ void CheckParts(const MeshPiece& piece, const FlipOptions& options, PieceGroup& 
       {
         throw MeshTooLarge("a piece has more than 2^31 points: divide the mesh among more ranks");
       }
-      for (std::int64_t i = 0; i < 2 * piece.Mesh.NumberOfConstraintEdges; ++i)
-      {
-        CheckConstraint(piece.Mesh, i / 2, static_cast<int>(i % 2));
-      }
+      CheckConstraints(piece.Mesh);
       RequireValidIds(piece.Mesh);
     });
 }
@@ -479,24 +476,9 @@ PartSurvey SurveyParts(
 //------------------------------------------------------------------------------
 namespace
 {
-/// The orientations of triangles in the plane, and a measure of the stars of points.
-struct StarTurns
-{
-  std::int64_t Left = 0, Right = 0, None = 0; ///< Triangles that turn left, right, or have no area.
-  /// How many corners at closed points cover the direction +u. The triangles around a closed point
-  /// turn around it a whole number of times. If its star is simple, +u is covered once.
-  std::int64_t Covers = 0;
-
-  StarTurns& operator+=(const StarTurns& part)
-  {
-    this->Left += part.Left;
-    this->Right += part.Right;
-    this->None += part.None;
-    this->Covers += part.Covers;
-    return *this;
-  }
-};
-
+/// Counts how a triangle turns, and which of its corners at closed points cover the direction +u.
+/// The triangles around a closed point turn around it a whole number of times. If its star is
+/// simple, +u is covered once.
 struct StarTurnStep
 {
   const TriangleMesh& Mesh;
@@ -511,7 +493,7 @@ struct StarTurnStep
     }
   }
 
-  void operator()(std::int64_t t, StarTurns& sums) const
+  void operator()(std::int64_t t, PlaneSums& sums) const
   {
     PlanePoint p[3];
     bool isFinite = true;
@@ -522,9 +504,7 @@ struct StarTurnStep
       isFinite = isFinite && IsFinite(p[slot]);
     }
     const int side = isFinite ? FindOrientation(p[0], p[1], p[2]) : 0;
-    sums.Left += side > 0 ? 1 : 0;
-    sums.Right += side < 0 ? 1 : 0;
-    sums.None += side == 0 ? 1 : 0;
+    sums.Turns.Note(side, t);
     const int up = (StarSurvey::IsUpper(p[0], p[1]) ? 1 : 0) |
       (StarSurvey::IsUpper(p[1], p[2]) ? 2 : 0) | (StarSurvey::IsUpper(p[2], p[0]) ? 4 : 0);
     // Where a left turn covers +u, the edges to and from the corner go down; a right turn, up. No
@@ -625,13 +605,13 @@ void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBa
   PieceGroup& group, PartSurvey& survey)
 {
   WholeMesh& whole = survey.Whole;
-  StarTurns turns = threads.Sum<StarTurns>(
+  PlaneSums sums = threads.Sum<PlaneSums>(
     mesh.Triangles.Count, StarTurnStep{ mesh, survey.Projection, keys.Closed.data() });
-  turns.Covers -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
-  turns = SumOverRanks(group, turns);
-  whole.Side = turns.Left >= turns.Right ? 1 : -1;
+  sums.Covers -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
+  sums = SumOverRanks(group, sums);
+  whole.Side = sums.Turns.GetSide() < 0 ? -1 : 1;
   whole.StarsAreSimple = false;
-  if (turns.None != 0 || (turns.Left != 0 && turns.Right != 0) || turns.Covers != 0)
+  if (sums.Turns.CountStrays() != 0 || sums.Covers != 0)
   {
     return;
   }

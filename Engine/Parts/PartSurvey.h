@@ -78,7 +78,7 @@ double FindLargestCotangent(
     };
     if (get(i, x))
     {
-      sum += { MeasureSquaredCotangent(corner(0), corner(1), corner(2), isFlat, survey.Range) };
+      sum += { MeasureSquaredCotangent(corner(0), corner(1), corner(2), survey.Range) };
     }
   };
   return threads.Sum<LargestValue>(count, measure).Value;

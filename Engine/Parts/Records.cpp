@@ -156,11 +156,10 @@ FlipReport JoinReports(const std::vector<FlipReport>& reports)
       sum.Iterations.resize(std::max(sum.Iterations.size(), number));
       IterationRecord& joined = sum.Iterations[number - 1];
       joined.Iteration = row.Iteration;
-      joined.Tested += row.Tested;
-      joined.NonDelaunay += row.NonDelaunay;
-      joined.Flipped += row.Flipped;
-      joined.Excluded += row.Excluded;
-      joined.Blocked += row.Blocked;
+      for (const auto count : IterationTotals)
+      {
+        joined.*count += row.*count;
+      }
       joined.MinimumAngle = NaN;
       joined.Seconds = std::max(joined.Seconds, row.Seconds);
     }

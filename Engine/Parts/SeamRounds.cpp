@@ -328,7 +328,7 @@ std::vector<WaitingFlip> FindWaiting(
         judge.Judge(mesh, corner, mate) == EdgeState::Bad)
       {
         const auto& [one, other] = std::minmax(corner, mate);
-        waiting.push_back({ { mesh.GetKeys(mesh.GetEdge(t, slot)),
+        waiting.push_back({ { mesh.GetKeys(mesh.Triangles[t].GetEdge(slot)),
                               mesh.GetKeys({ mesh.Triangles[t].Points[slot],
                                 mesh.Triangles[mate.Triangle].Points[mate.Slot] }),
                               false },
@@ -402,7 +402,7 @@ void GuardRound::Flip(PartMesh& mesh, SeamTest& test)
     const std::int64_t one = flip.One.Triangle, other = flip.Other.Triangle;
     if (changed.count(one) == 0 && changed.count(other) == 0 && isGranted(flip.Ends, flip.Opposite))
     {
-      this->Gone.push_back(mesh.GetEdge(one, flip.One.Slot));
+      this->Gone.push_back(mesh.Triangles[one].GetEdge(flip.One.Slot));
       mesh.Flip(flip.One, flip.Other);
       this->Changed.insert(this->Changed.end(), { one, other });
       changed.insert({ one, other });

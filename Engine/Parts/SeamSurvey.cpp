@@ -28,8 +28,7 @@ FlipOptions GetPartOptions(const PartSurvey& survey, const FlipOptions& options)
 //------------------------------------------------------------------------------
 SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t t, int slot)
 {
-  std::int32_t points[3];
-  mesh.GetPoints(t, points);
+  const auto& points = mesh.Triangles[t].Points;
   std::int32_t first = points[(slot + 1) % 3];
   std::int32_t second = points[(slot + 2) % 3];
   SeamTriangle seam{};
@@ -265,8 +264,7 @@ RecordLists<SeamTriangle> ListSeamTriangles(
   RecordLists<SeamTriangle> toHome(group.GetSize());
   for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
   {
-    std::int32_t p[3];
-    part.GetPoints(t, p);
+    const auto& p = part.Triangles[t].Points;
     for (int slot = 0; slot < 3; ++slot)
     {
       const std::int32_t start = p[(slot + 1) % 3];
@@ -302,7 +300,8 @@ SeamSurvey SurveySeams(
   DoTogether(group, [&]() { answers = JudgeSeams(job, triangles, seams); });
   for (const SeamAnswer& answer : Join(ExchangeRecords(group, answers)))
   {
-    const PointPair edge = part.GetEdge(answer.Corner / 3, static_cast<int>(answer.Corner % 3));
+    const PointPair edge =
+      part.Triangles[answer.Corner / 3].GetEdge(static_cast<int>(answer.Corner % 3));
     seams.Marks[edge] |= answer.Mark;
     if (answer.IsToFix)
     {
@@ -333,9 +332,7 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   this->Mesh = this->Insertion.GetMesh(this->Mesh);
   if (this->Insertion.HasFlips())
   {
-    std::vector<std::int32_t> flips(this->Mesh.Triangles.Count);
-    this->Insertion.AddFlipCounts(flips.data());
-    part.Begin(this->Mesh.Triangles, std::move(flips));
+    part.Take(this->Mesh.Triangles);
   }
   std::vector<char*> fates; // of the constraints between shared points that Mesh has, else null
   for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)

@@ -12,7 +12,6 @@
 #include "PartSurvey.h"
 #include "Records.h"
 #include "SpatialOrder.h"
-#include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>

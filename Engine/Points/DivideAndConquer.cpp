@@ -60,38 +60,7 @@ public:
 
   DividedPoints Solve()
   {
-    const auto size = static_cast<std::uint32_t>(this->Places.size());
-    // The top of the recursion is level by level, so that the parts of a level run side by side.
-    std::vector<std::vector<std::uint32_t>> levels{ { 0, size } };
-    constexpr std::uint32_t SmallestTask = 1 << 13;
-    while (size >> (levels.size() - 1) > SmallestTask)
-    {
-      const std::vector<std::uint32_t>& cuts = levels.back();
-      std::vector<std::uint32_t> finer(2 * cuts.size() - 1);
-      const int axis = static_cast<int>(levels.size() - 1) % 2;
-      this->Run(static_cast<std::int64_t>(cuts.size()) - 1,
-        [&](std::int64_t i)
-        {
-          finer[2 * i] = cuts[i];
-          finer[2 * i + 1] = this->Cut(cuts[i], cuts[i + 1], axis);
-        });
-      finer.back() = size;
-      levels.push_back(finer);
-    }
-    std::vector<Part> parts(levels.back().size() - 1);
-    int axis = static_cast<int>(levels.size() - 1) % 2;
-    this->Run(static_cast<std::int64_t>(parts.size()),
-      [&](std::int64_t i)
-      { parts[i] = this->Solve(levels.back()[i], levels.back()[i + 1], axis); });
-    while (parts.size() > 1)
-    {
-      axis = 1 - axis;
-      std::vector<Part> merged(parts.size() / 2);
-      this->Run(static_cast<std::int64_t>(merged.size()),
-        [&](std::int64_t i) { merged[i] = this->Merge(parts[2 * i], parts[2 * i + 1], axis); });
-      parts = std::move(merged);
-    }
-    return this->Collect(parts.front());
+    return this->Collect(this->Solve(0, static_cast<std::uint32_t>(this->Places.size()), 0, false));
   }
 
 private:
@@ -99,16 +68,6 @@ private:
   static bool IsBefore(const Place& p, const Place& q, int axis)
   {
     return axis == 0 ? (p.U != q.U ? p.U < q.U : p.V < q.V) : (p.V != q.V ? p.V < q.V : p.U > q.U);
-  }
-
-  /// Sorts places so far that the lower half of a range is before the rest. @returns the middle.
-  std::uint32_t Cut(std::uint32_t begin, std::uint32_t end, int axis)
-  {
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(this->Places.begin() + begin, this->Places.begin() + middle,
-      this->Places.begin() + end,
-      [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); });
-    return middle;
   }
 
   std::uint32_t Origin(Edge e) const { return this->Sides[e].Origin; }
@@ -192,22 +151,48 @@ private:
   }
 
   //----------------------------------------------------------------------------
-  Part Solve(std::uint32_t begin, std::uint32_t end, int axis)
+  /// Triangulates a range of places. Cuts alternate between the axes down to a few places; these
+  /// are sorted along one axis and cut across it only, which takes less time.
+  Part Solve(std::uint32_t begin, std::uint32_t end, int axis, bool isSorted)
   {
-    if (end - begin <= 3)
+    constexpr std::uint32_t SmallestAlternating = 32, SmallestShared = 1 << 13;
+    const std::uint32_t size = end - begin, middle = begin + size / 2;
+    const auto place = [&](std::uint32_t i) { return this->Places.begin() + i; };
+    const auto isBefore = [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); };
+    if (!isSorted && size > SmallestAlternating)
     {
-      return this->SolveFew(begin, end, axis);
+      std::nth_element(place(begin), place(middle), place(end), isBefore);
     }
-    const std::uint32_t middle = this->Cut(begin, end, axis);
-    const Part left = this->Solve(begin, middle, 1 - axis);
-    const Part right = this->Solve(middle, end, 1 - axis);
-    return this->Merge(left, right, axis);
+    else if (!isSorted)
+    {
+      std::sort(place(begin), place(end), isBefore);
+      isSorted = true;
+    }
+    if (size <= 3)
+    {
+      return this->SolveFew(begin, end);
+    }
+    Part halves[2];
+    const auto solve = [&](std::int64_t i)
+    {
+      halves[i] = this->Solve(
+        i == 0 ? begin : middle, i == 0 ? middle : end, isSorted ? axis : 1 - axis, isSorted);
+    };
+    if (size > SmallestShared)
+    {
+      this->Run(2, solve);
+    }
+    else
+    {
+      solve(0);
+      solve(1);
+    }
+    return this->Merge(halves[0], halves[1], axis);
   }
 
-  Part SolveFew(std::uint32_t begin, std::uint32_t end, int axis)
+  /// Two or three sorted places.
+  Part SolveFew(std::uint32_t begin, std::uint32_t end)
   {
-    std::sort(this->Places.begin() + begin, this->Places.begin() + end,
-      [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); });
     Part part{ {}, 6 * begin, 6 * end - 2 };
     for (Edge e = part.FreeHead; e < part.FreeTail; e += 2)
     {
@@ -315,13 +300,15 @@ private:
   Edge FindCandidate(Part& part, Edge base, bool isLeft)
   {
     const auto step = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
-    Edge candidate = isLeft ? this->Next(base ^ 1) : this->Previous(base);
+    const Edge last = isLeft ? base ^ 1 : base; // which comes round again
+    Edge candidate = step(last);
     if (!this->IsRightOf(this->Destination(candidate), base))
     {
       return None;
     }
-    for (Edge next = step(candidate); this->IsInCircle(this->Destination(base), this->Origin(base),
-           this->Destination(candidate), this->Destination(next));
+    for (Edge next = step(candidate); next != last &&
+         this->IsInCircle(this->Destination(base), this->Origin(base), this->Destination(candidate),
+           this->Destination(next));
          next = step(candidate))
     {
       this->Delete(part, candidate);
@@ -351,6 +338,7 @@ private:
       e = this->Next(e ^ 1);
     } while (e != hull);
     result.Triangles.reserve(2 * this->Places.size());
+    const auto placeOf = [&](Edge side) { return this->Places[this->Origin(side)].Number; };
     for (Edge first = 0; first < sides; ++first)
     {
       if (cornerOf[first] != Unknown)
@@ -359,21 +347,17 @@ private:
       }
       const Edge second = this->NextLeft(first), third = this->NextLeft(second);
       const auto number = static_cast<TriangleId>(result.Triangles.size());
-      TriangleRecord triangle{};
-      triangle.Vertices[0] = this->Places[this->Origin(first)].Number;
-      triangle.Vertices[1] = this->Places[this->Origin(second)].Number;
-      triangle.Vertices[2] = this->Places[this->Origin(third)].Number;
       cornerOf[first] = MakeCorner(number, 2);
       cornerOf[second] = MakeCorner(number, 0);
       cornerOf[third] = MakeCorner(number, 1);
-      result.Triangles.push_back(triangle);
+      result.Triangles.push_back({ { placeOf(first), placeOf(second), placeOf(third) }, number,
+        { second ^ 1, third ^ 1, first ^ 1 }, 0 });
     }
-    for (Edge half = 0; half < sides; ++half)
+    for (TriangleRecord& triangle : result.Triangles)
     {
-      if (cornerOf[half] != NoCorner)
+      for (CornerId& other : triangle.HalfEdges)
       {
-        TriangleRecord& triangle = result.Triangles[TriangleOf(cornerOf[half])];
-        triangle.HalfEdges[SlotOf(cornerOf[half])] = cornerOf[half ^ 1];
+        other = cornerOf[other];
       }
     }
     return result;

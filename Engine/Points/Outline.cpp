@@ -138,7 +138,7 @@ public:
       {
         const std::array<Vector3, 3> corners = this->GetCorners(triangle);
         kept.SquaredCotangent = std::max(
-          kept.SquaredCotangent, LargestSquaredCotangentFlat(corners[0], corners[1], corners[2]));
+          kept.SquaredCotangent, LargestSquaredCotangent(corners[0], corners[1], corners[2]));
         for (const VertexId vertex : triangle.Vertices)
         {
           isUsed[vertex] = 1;

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SessionWork.h"
 
+#include "SubMesh.h"
+#include "ThreadBackend.h"
+
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -155,12 +157,7 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
   {
     return;
   }
-  const TriangleArray& input = work.Mesh.GetOnHost().Triangles;
-  for (std::int64_t id = 0; id < 3 * triangles.Count; ++id)
-  {
-    const int slot = static_cast<int>(id % 3);
-    triangles.Set(id / 3, slot, input.Get(id / 3, slot));
-  }
+  CopyTriangles(work.Mesh.GetOnHost().Triangles, triangles, ThreadBackend(1));
 }
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
@@ -255,14 +252,6 @@ void FlipSession::StoreNeighbors(std::int32_t* neighbors, const DeviceStream& st
     "the array for neighbours is",
     [&](const LoadedMesh& mesh) { return mesh.StoreNeighborsOnDevice(neighbors, stream); },
     [this](std::int32_t* host) { this->StoreNeighbors(host); });
-}
-
-/// None if constraints were inserted: those flips would be missing.
-HostTriangles FlipSession::ViewHostTriangles() const
-{
-  return this->Own->Loaded && !this->Own->Insertion.HasFlips()
-    ? this->Own->Loaded->ViewHostTriangles()
-    : HostTriangles();
 }
 
 //------------------------------------------------------------------------------

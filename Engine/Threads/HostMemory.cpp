@@ -14,16 +14,13 @@
 namespace delaunayflip
 {
 
-namespace
-{
-
 #if defined(DELAUNAYFLIP_MAPS_MEMORY)
 /// Smaller arrays come from the heap, which gives the pages of freed ones to the next: to have them
 /// from the system takes a fifth of the time of 100,000 points on two threads.
 constexpr std::size_t SmallestMapped = std::size_t(16) << 20;
 #endif
 
-void* AllocateAny(std::size_t bytes, [[maybe_unused]] bool usesHugePages)
+void* HostMemory::Allocate(std::size_t bytes)
 {
   constexpr std::size_t CacheLine = 64;
   void* memory = nullptr;
@@ -35,7 +32,7 @@ void* AllocateAny(std::size_t bytes, [[maybe_unused]] bool usesHugePages)
     {
       throw std::bad_alloc();
     }
-    madvise(memory, bytes, usesHugePages ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
+    madvise(memory, bytes, MADV_HUGEPAGE);
     return memory;
   }
 #endif
@@ -45,12 +42,6 @@ void* AllocateAny(std::size_t bytes, [[maybe_unused]] bool usesHugePages)
   }
   return memory;
 }
-
-}
-
-void* HostMemory::Allocate(std::size_t bytes) { return AllocateAny(bytes, true); }
-
-void* HostMemory::AllocateSparse(std::size_t bytes) { return AllocateAny(bytes, false); }
 
 void HostMemory::Free(void* memory, [[maybe_unused]] std::size_t bytes) noexcept
 {

@@ -6,7 +6,6 @@
 #include "Array.h"
 
 #include <cstddef>
-#include <new>
 #include <vector>
 
 namespace delaunayflip
@@ -19,9 +18,6 @@ class HostMemory : public Memory
 {
 public:
   void* Allocate(std::size_t bytes) override;
-  /// Memory of which little will be used, and only that is taken from the system. Its bytes are
-  /// not initialized.
-  void* AllocateSparse(std::size_t bytes);
   void Free(void* memory, std::size_t bytes) noexcept override;
 };
 
@@ -52,27 +48,6 @@ struct HostAllocator
 /// A vector in HostMemory, which takes huge pages if it is large.
 template <typename T>
 using HostVector = std::vector<T, HostAllocator<T>>;
-
-template <typename T>
-struct RawAllocator : HostAllocator<T>
-{
-  RawAllocator() = default;
-  template <typename Other>
-  explicit RawAllocator(const RawAllocator<Other>&)
-  {
-  }
-
-  T* allocate(std::size_t count)
-  {
-    return static_cast<T*>(HostMemory().AllocateSparse(count * sizeof(T)));
-  }
-  void construct(T* value) noexcept { ::new (static_cast<void*>(value)) T; }
-};
-
-/// The same, but resize leaves what it adds as it is, so that this takes no time, and no memory
-/// where nothing is ever written. It takes small pages.
-template <typename T>
-using RawVector = std::vector<T, RawAllocator<T>>;
 
 }
 

@@ -67,21 +67,6 @@ public:
     return this->Worst.Value;
   }
 
-  double FindLargestSquaredCotangentWithout(const unsigned char* omitted) const override
-  {
-    const AngleSurvey<Rule> survey = this->Angles();
-    return this->Backend
-      .template Sum<LargestValue>(this->Mesh.NumberOfTriangles,
-        [&](std::int64_t triangle, LargestValue& sum)
-        {
-          if (omitted[triangle] == 0)
-          {
-            survey(triangle, sum);
-          }
-        })
-      .Value;
-  }
-
 protected:
   /// Passes 1 to 3.
   StepCounts DetectAll() override

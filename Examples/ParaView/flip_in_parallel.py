@@ -19,7 +19,7 @@ def main():
     if len(sys.argv) != 3 + is_terrain:
         sys.exit(__doc__)
     mesh = simple.OpenDataFile(sys.argv[1])
-    pieces = simple.RedistributeDataSet(Input=mesh)
+    pieces = simple.ExtractSurface(Input=simple.RedistributeDataSet(Input=mesh))
     flip = simple.DelaunayFlip(Input=pieces, Geometry="Planar XY" if is_terrain else "Auto")
     flip.UpdatePipeline()
     flip.SMProxy.UpdatePipelineInformation()

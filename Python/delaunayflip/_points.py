@@ -30,6 +30,7 @@ class Triangulation:
     used_points: Array
     #: (k, 2) int64: the edges that segments have become, in their order and direction.
     segments: Array
+    iterations: Array  #: Of the flips, structured; see Session.iterations.
     report: Report
 
 
@@ -181,7 +182,7 @@ class Input:
             way, stream = "_on_device", [self.struct.stream]
         else:
             triangles, neighbors = (numpy.empty(shape, dtype=numpy.int32) for _ in range(2))
-        used = numpy.full(len(self.points), -1)
+        used = numpy.empty(len(self.points), dtype=numpy.int64)
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
         _library.call(f"store_triangles{way}", handle, address(triangles), _library.TYPES["int32"], *stream)
         _library.call(f"store_neighbors{way}", handle, address(neighbors), *stream)
@@ -191,7 +192,8 @@ class Input:
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
             used = numpy.concatenate([used, numpy.arange(len(used), len(points))])
-        return Triangulation(points, triangles, neighbors, used, edges, report)
+        iterations = _report.read_iterations(handle, report.number_of_iterations)
+        return Triangulation(points, triangles, neighbors, used, edges, iterations, report)
 
     def _add_crossings(self, handle, count):
         """The points, with those at crossings behind them."""

@@ -25,6 +25,11 @@ COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "ConstraintEdges": "constraint_edges",
           "UnmatchedConstraintEdges": "unmatched_constraints",
           "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
+POINT_COUNTS = {"PointsNotFinite": "points_not_finite", "RepeatedPoints": "points_repeated",
+                "PointsTooNear": "points_too_near", "SegmentEdges": "segment_edges",
+                "RefusedSegments": "segments_refused", "CrossingPoints": "crossings",
+                "OutsideTriangles": "triangles_outside", "LargeTriangles": "triangles_large",
+                "LargestShift": "largest_shift"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
 #: In the order of the header.
@@ -214,6 +219,21 @@ def _join_iterations(a, b):
     return rows
 
 
+def describe_trouble(report, maximum_iterations=-1, tolerance=-1.0, **_):
+    """Texts of a warning about a run with these options. Reaching a limit that the user has set gives
+    no warning."""
+    texts = []
+    if report.stop_reason == "iteration limit" and maximum_iterations < 0:
+        texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
+                     f"with {report.non_delaunay_after} edges left that are not Delaunay")
+    if tolerance >= 0 and report.tolerance == "none":
+        texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
+                     "opposite angles")
+    if report.fallback:
+        texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
+    return texts
+
+
 def describe(notes):
     """Joins pairs (place, text) to one text. Each text appears once, with its first places."""
     places = {}
@@ -221,11 +241,11 @@ def describe(notes):
         places.setdefault(text, []).append(where)
     texts = []
     for text, where in places.items():
-        named = _join(where, ", ")
+        named = join(where, ", ")
         texts.append(f"{named}: {text}" if named else text)
-    return _join(texts, "; ")
+    return join(texts, "; ")
 
 
-def _join(items, separator):
+def join(items, separator):
     more = [f"and {len(items) - _MOST} more"] if len(items) > _MOST else []
     return separator.join(items[:_MOST] + more)

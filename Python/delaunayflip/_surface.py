@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A vtkPolyData of any VTK as arrays: its triangles, and the edges along lines that must stay. Nothing
 here imports VTK."""
-import dataclasses
-
 import numpy
 
 from . import _arrays, _library
@@ -11,17 +9,6 @@ from ._library import InvalidMesh
 from ._session import Observers
 
 NONE = -1
-
-
-@dataclasses.dataclass(frozen=True)
-class Settings:
-    """The properties that decide which edges exist and which stay."""
-
-    triangulate: bool = True
-    lines_as_constraints: bool = True
-    insert_lines: bool = False
-    insert_constraints: bool = True
-    region_array: str = ""
 
 
 class Cells:
@@ -196,18 +183,18 @@ class Constraints:
         first_stranger: where the first of them is that ends at no point of the mesh; "" if none.
     """
 
-    def __init__(self, surface, others, settings, triangles):
+    def __init__(self, surface, others, triangles, keeps_lines, insert_lines, insert_others):
         pairs, flags, points = [], [], surface.points
         self.unmatched, self.first_stranger = 0, ""
-        if settings.lines_as_constraints:
+        if keeps_lines:
             lines = surface.read("Lines", "line, cell")
             lines.require_points(len(points))
             pairs.append(_drop_points(list_pairs(lines, False)))
-            flags.append(numpy.full(len(pairs[-1]), settings.insert_lines))
+            flags.append(numpy.full(len(pairs[-1]), insert_lines))
         if others is not None:
             found, self.unmatched, self.first_stranger = _find_others(others, points, triangles)
             pairs.append(found)
-            flags.append(numpy.full(len(found), settings.insert_constraints))
+            flags.append(numpy.full(len(found), insert_others))
         self.pairs, self.to_insert = _unite(pairs, flags, max(len(points), 1))
 
 

@@ -5,15 +5,10 @@ import numpy
 
 from ._arrays import address
 from ._points import Input
-from ._report import FIELD_PREFIX, Totals, read_iterations
+from ._report import FIELD_PREFIX, POINT_COUNTS, Totals
 from ._surface import list_pairs, number_places
 from ._vtk_mesh import demote_global_ids, describe_short, vtk_of
 
-_COUNTS = {"PointsNotFinite": "points_not_finite", "RepeatedPoints": "points_repeated",
-           "PointsTooNear": "points_too_near", "SegmentEdges": "segment_edges",
-           "RefusedSegments": "segments_refused", "CrossingPoints": "crossings",
-           "OutsideTriangles": "triangles_outside", "LargeTriangles": "triangles_large",
-           "LargestShift": "largest_shift"}
 OUTLINES = ("even-odd", "orientation")
 
 
@@ -29,7 +24,7 @@ class Cloud(Input):
             mesh.SetLines(data.GetLines())
         own = self.vtk.read(mesh)
         self._own, self._sources, self._pairs, self._numbers = own.points, [], [], []
-        self._others = others.GetPointData() if others is not None else self.vtk.model.vtkPointData()
+        self._others = others
         self._add_cells(own.read("Lines", "line, cell"), numpy.arange(len(own.points)))
         if others is not None:
             theirs = self.vtk.read(others)
@@ -64,14 +59,6 @@ class Cloud(Input):
         self._own = numpy.concatenate([own, others[self._sources].astype(own.dtype)])
         return ids
 
-    def store(self, handle, report):
-        self.iterations = read_iterations(handle, report.number_of_iterations)
-        return super().store(handle, report)
-
-    def sum_up(self, report):
-        """The Totals of a run."""
-        return Totals.of_run(report, self.iterations)
-
     def write(self, result, output):
         """Writes the mesh, with its data and its counts. Returns the text of a warning, or ""."""
         data, vtk, report = self.data, self.vtk, result.report
@@ -87,49 +74,24 @@ class Cloud(Input):
             points.SetData(vtk.support.numpy_to_vtk(result.points, deep=True))
             output.SetPoints(points)
             self._extend_data(output.GetPointData(), count)
-        counts = [(name, getattr(report, field)) for name, field in _COUNTS.items()]
+        counts = [(name, getattr(report, field)) for name, field in POINT_COUNTS.items()]
         vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX,
-                       [*counts, *self.sum_up(report).list_fields()])
+                       [*counts, *Totals.of_run(report, result.iterations).list_fields()])
         texts = [report.defects] if report.defects else []
-        removed = report.triangles_outside + report.triangles_large
-        if len(result.triangles) + removed == 0 and report.stop_reason != "aborted":
-            texts.append(f"{len(self.points)} point{'s' * (len(self.points) > 1)} without a triangle: "
-                         "there are fewer than three places, or all are on one line")
         texts += describe_short(data.GetPointData(), count, "point",
                                 "left out" if is_grown else "passed unchanged")
         return "; ".join(texts)
 
-    def _extend_data(self, result, count):
+    def _extend_data(self, data, count):
         """The point data, extended by those of added points."""
-        own, others = self.data.GetPointData(), self._others
-        result.Initialize()
-        arrays = [own.GetAbstractArray(i) for i in range(own.GetNumberOfArrays())]
-        for i, array in enumerate(arrays):
-            if array.GetNumberOfTuples() >= count:
-                number = result.AddArray(self._extend(
-                    array, array, others.GetAbstractArray(array.GetName() or ""), count))
-                if own.IsArrayAnAttribute(i) >= 0:
-                    result.SetActiveAttribute(number, own.IsArrayAnAttribute(i))
-        for i in range(others.GetNumberOfArrays() if len(self._sources) else 0):
-            array = others.GetAbstractArray(i)
-            if not own.HasArray(array.GetName() or ""):
-                result.AddArray(self._extend(array, None, array, count))
-        demote_global_ids(result)
-
-    def _extend(self, like, own, other, count):
-        """An array like `like`: tuples of `own`, or 0 or empty; then those of added points."""
-        made = self.vtk.core.vtkAbstractArray.CreateArray(like.GetDataType())
-        made.SetName(like.GetName())
-        made.SetNumberOfComponents(like.GetNumberOfComponents())
-        made.SetNumberOfTuples(count + len(self._sources) + len(self.ends))
-        if hasattr(made, "Fill"):
-            made.Fill(0)
-        if own is not None:
-            made.InsertTuples(0, count, 0, own)
-        if other is not None and (other.GetDataType(), other.GetNumberOfComponents()) == (
-                made.GetDataType(), made.GetNumberOfComponents()):
-            for place, source in enumerate(self._sources, count):
-                made.SetTuple(place, int(source), other)
-        for place, (start, end, share) in enumerate(self.ends, count + len(self._sources)):
-            made.InterpolateTuple(place, int(start), made, int(end), made, share)
-        return made
+        first, size = count + len(self._sources), count + len(self._sources) + len(self.ends)
+        data.Initialize()
+        self.vtk.add_tuples(self.data.GetPointData(), count, range(count), 0, size, data)
+        if len(self._sources):
+            others = self._others
+            self.vtk.add_tuples(
+                others.GetPointData(), others.GetNumberOfPoints(), self._sources, count, size, data)
+        for array in [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]:
+            for place, (start, end, share) in enumerate(self.ends, first):
+                array.InterpolateTuple(place, int(start), array, int(end), array, share)
+        demote_global_ids(data)

@@ -1,22 +1,20 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkDelaunayFlip for every VTK with Python: the interface of the C++ class, on libdelaunayflip."""
-import dataclasses
+import collections
 import operator
 import re
-import typing
 
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import (
     VTK_DOUBLE_MAX, VTK_ID_MAX, VTK_INT_MAX, vtkObject, vtkOutputWindow)
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkPolyData, vtkTable
-from vtkmodules.vtkCommonExecutionModel import (
-    vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkDemandDrivenPipeline
 
 from . import _library
-from ._report import GEOMETRIES
+from ._report import GEOMETRIES, describe
 from ._vtk_mesh import vtk_of
-from ._vtk_update import Failure, Update, explain
+from ._vtk_update import FAILURES, Update
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
 
@@ -25,20 +23,13 @@ def to_snake_case(name):
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).lower()
 
 
-@dataclasses.dataclass(frozen=True)
-class Property:
-    """One property. The meaning of each is documented in the headers of the classes in C++."""
+class Property(
+        collections.namedtuple("Property", "name default low high choices", defaults=(None, None, ()))):
+    """One property. The meaning of each is documented in the headers of the classes in C++.
 
-    name: str
-    default: typing.Any
-    low: typing.Any = None  #: Numbers are clamped to low .. high; None: no limit.
-    high: typing.Any = None
-    choices: typing.Tuple[str, ...] = ()  #: SetXTo... methods and X_... constants.
-    modifies: bool = True
-
-    @property
-    def key(self):
-        return to_snake_case(self.name)
+    Numbers are clamped to low .. high; None: no limit. For `choices` there are SetXTo... methods and
+    X_... constants.
+    """
 
     def convert(self, value):
         """The value that a setter stores."""
@@ -49,13 +40,6 @@ class Property:
         value = float(value) if isinstance(self.default, float) else operator.index(value)
         return value if self.low is None else min(max(value, self.low), self.high)
 
-    def store(self, filter_, value):
-        value = self.convert(value)
-        if value != filter_._values[self.name]:
-            filter_._values[self.name] = value
-            if self.modifies:
-                filter_.Modified()
-
 
 #: Those of every filter.
 COMMON_PROPERTIES = (
@@ -65,7 +49,7 @@ COMMON_PROPERTIES = (
     Property("MaximumIterations", -1, -1, VTK_ID_MAX),
     Property("LiveUpdate", False),
     Property("IterationsPerUpdate", 1, 0, VTK_ID_MAX),
-    Property("Paused", False, modifies=False),
+    Property("Paused", False),
 )
 
 _PROPERTIES = (
@@ -84,27 +68,6 @@ _PROPERTIES = (
 )
 
 
-def add_properties(cls, properties):
-    """Adds to a class, for each property, its constants and the methods that VTK's macros make."""
-    cls.properties = (*cls.properties, *properties)
-    for item in properties:
-        def set_(self, value, item=item):
-            item.store(self, value)
-
-        setattr(cls, "Get" + item.name, lambda self, item=item: self._values[item.name])
-        setattr(cls, "Set" + item.name, set_)
-        if item.low is not None:
-            for limit, value in (("Min", item.low), ("Max", item.high)):
-                setattr(cls, f"Get{item.name}{limit}Value", lambda self, value=value: value)
-        if isinstance(item.default, bool):
-            setattr(cls, item.name + "On", lambda self, set_=set_: set_(self, True))
-            setattr(cls, item.name + "Off", lambda self, set_=set_: set_(self, False))
-        for value, choice in enumerate(item.choices):
-            setattr(cls, to_snake_case(f"{item.name}_{choice}").upper(), value)
-            setattr(cls, f"Set{item.name}To{choice}",
-                    lambda self, set_=set_, value=value: set_(self, value))
-
-
 class Filter(VTKPythonAlgorithmBase):
     """What the filters have in common.
 
@@ -112,21 +75,20 @@ class Filter(VTKPythonAlgorithmBase):
     """
 
     name = "vtkDelaunayFlip"  #: The class in C++.
-    input_type = "vtkPolyData"
+    kind = vtkPolyData  #: What is processed.
     no_mesh = "not a surface, passed unchanged"
     no_composite = "the constraints of a single mesh cannot be a composite dataset"
     properties = ()
-    answers = ()  #: What a print-out says of the last update.
     update_type = Update
 
     def __init__(self, **properties):
-        super().__init__(nInputPorts=2, nOutputPorts=2, inputType=self.input_type)
+        super().__init__(nInputPorts=2, nOutputPorts=2, inputType=self.kind.__name__)
         self._values = {item.name: item.default for item in self.properties}
         self._is_at_work = False
         self._interrupt = None
         self._update = self.update_type(self)
         for name, value in properties.items():
-            if name not in {item.key for item in self.properties}:
+            if not hasattr(type(self), name):
                 raise TypeError(f"{self.name} has no property {name!r}")
             setattr(self, name, value)
 
@@ -136,32 +98,23 @@ class Filter(VTKPythonAlgorithmBase):
         return self.name
 
     def __str__(self):
-        values = ((item.name, self._values[item.name]) for item in self.properties)
         lines = [f"  {name}: {int(value) if isinstance(value, bool) else value}"
-                 for name, value in values]
+                 for name, value in self._values.items()]
         lines += ["  Summary:", *self.GetSummary().splitlines()]
-        lines += [f"  {name.replace('AsString', '')}: {getattr(self, 'Get' + name)()}"
-                  for name in self.answers]
         return super().__str__().rstrip("\n") + "\n" + "\n".join(lines) + "\n"
 
-    def SetInputData(self, *port_and_data):
-        """SetInputData(data) or SetInputData(port, data)."""
-        self.SetInputDataObject(*port_and_data)
-
-    def AddInputData(self, *port_and_data):
-        self.AddInputDataObject(*port_and_data)
+    SetInputData = VTKPythonAlgorithmBase.SetInputDataObject
+    AddInputData = VTKPythonAlgorithmBase.AddInputDataObject
 
     def GetInput(self, port=0):
         return self.GetInputDataObject(port, 0)
 
     def GetPolyDataInput(self, port=0):
-        data = self.GetInput(port)
-        return data if isinstance(data, vtkPolyData) else None
+        return vtkPolyData.SafeDownCast(self.GetInput(port))
 
     def GetOutput(self, port=0):
         """The mesh; None if the output is composite (see GetOutputDataObject)."""
-        output = self.GetOutputDataObject(port)
-        return output if isinstance(output, vtkPolyData) else None
+        return vtkPolyData.SafeDownCast(self.GetOutputDataObject(port))
 
     def Update(self, *arguments):
         status = super().Update(*arguments)
@@ -174,7 +127,7 @@ class Filter(VTKPythonAlgorithmBase):
         if port == 1:
             info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)
         info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(),
-                 self.input_type if port == 0 else "vtkPolyData")
+                 self.kind.__name__ if port == 0 else "vtkPolyData")
         # Otherwise the executive would run the filter once per block, and it could not sum over them.
         info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
         return 1
@@ -205,23 +158,23 @@ class Filter(VTKPythonAlgorithmBase):
         return 1
 
     def RequestData(self, request, inInfo, outInfo):
-        info = outInfo.GetInformationObject(0)
-        pieces = info.Get(vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES()) or 1
         data = [vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo)]
         table = vtkDataObject.GetData(outInfo, 1)
         self._is_at_work = True
-        update = self.update_type(self, pieces)
+        update = self.update_type(self)
         try:
             update.flip(*data)
         except Exception as error:
             update = self.update_type(self)
-            update.fail(explain(error))
+            update.fail(error)
             data[-1].Initialize()
         finally:
             self._is_at_work = False
         self._update = update
         vtk_of(table).add_arrays(table.GetRowData(), "", update.totals.list_columns())
-        update.tell(self._tell)
+        for event, notes in (("ErrorEvent", update.errors), ("WarningEvent", update.warnings)):
+            if notes:
+                self._tell(event, describe(notes))
         self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
         return 1
 
@@ -270,17 +223,37 @@ _COMMON_ANSWERS = {
     "GetSummary": lambda update: f"failed: {update.error_message}\n" if update.failure
     else update.totals.summarize(),
     "GetBackendUsed": lambda update: update.totals.report.backend,
-    "GetFailure": lambda update: int(update.failure),
+    "GetFailure": lambda update: update.failure,
     "GetErrorMessage": lambda update: update.error_message,
-    "GetErrorCode": lambda update: int(update.failure and _USER_ERROR + update.failure),
+    "GetErrorCode": lambda update: update.failure and _USER_ERROR + update.failure,
     **count_answers(TotalFlips="total_flips", NumberOfNonDelaunayEdges="non_delaunay_after"),
 }
 
 
 def finish(cls, properties, answers):
-    """Adds to a class its properties, its answers about the last update and, as VTK 9.6 does, a
-    Python property for every getter and setter."""
-    add_properties(cls, properties)
+    """Adds to a class, for each property, its constants and the methods that VTK's macros make; its
+    answers about the last update; and, as VTK 9.6 does, a Python property for every getter and
+    setter."""
+    cls.properties = (*cls.properties, *properties)
+    for item in properties:
+        def set_(self, value, item=item):
+            value = item.convert(value)
+            if value != self._values[item.name]:
+                self._values[item.name] = value
+                self.Modified()
+
+        setattr(cls, "Get" + item.name, lambda self, item=item: self._values[item.name])
+        setattr(cls, "Set" + item.name, set_)
+        if item.low is not None:
+            for limit, value in (("Min", item.low), ("Max", item.high)):
+                setattr(cls, f"Get{item.name}{limit}Value", lambda self, value=value: value)
+        if isinstance(item.default, bool):
+            setattr(cls, item.name + "On", lambda self, set_=set_: set_(self, True))
+            setattr(cls, item.name + "Off", lambda self, set_=set_: set_(self, False))
+        for value, choice in enumerate(item.choices):
+            setattr(cls, to_snake_case(f"{item.name}_{choice}").upper(), value)
+            setattr(cls, f"Set{item.name}To{choice}",
+                    lambda self, set_=set_, value=value: set_(self, value))
     for name, answer in answers.items():
         setattr(cls, name, lambda self, answer=answer: answer(self._update))
     methods = dict(vars(cls))
@@ -291,7 +264,7 @@ def finish(cls, properties, answers):
 
 
 for _group, _names in (("STOP_REASON", (*_library.STOP_REASONS, "failed")),
-                       ("FAILURE", [_failure.name for _failure in Failure])):
+                       ("FAILURE", FAILURES)):
     for _value, _name in enumerate(_names):
         setattr(Filter, f"{_group}_{_name.replace(' ', '_')}".upper(), _value)
 finish(Filter, COMMON_PROPERTIES, _COMMON_ANSWERS)
@@ -310,13 +283,6 @@ class vtkDelaunayFlip(Filter):
     """
 
     GEOMETRY_MIXED = 4
-    answers = ("NumberOfEdgesBlockedByShape", "NumberOfEdgesBlockedByDeviation",
-               "NumberOfEdgesBlockedByEdge", "GeometryUsedAsString", "GeometryReason")
-
-    def get_mesh(self, data):
-        """An input, or a block of it, as a mesh; None if it is not a surface. Subclasses that accept
-        more than vtkPolyData override this."""
-        return data if isinstance(data, vtkPolyData) else None
 
     def SetConstraintsConnection(self, port):
         self.SetInputConnection(1, port)

@@ -8,10 +8,12 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._report import FIELD_PREFIX, Totals
+from ._report import FIELD_PREFIX, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
 from ._surface import NONE, Constraints, Slots, Surface, name_out_of_range, number_tuples
 
+#: Keywords of MeshInput.
+SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints", "region_array")
 _GHOSTS = "vtkGhostType"
 _GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
@@ -37,19 +39,35 @@ class Vtk:
             array.SetName(prefix + name)
             data.AddArray(array)
 
-    def copy_cell_data(self, mesh, sources, target):
-        """Copies the tuples of the source cells. Returns the arrays that are too short for that, and
-        are left out."""
-        whole, short = self.model.vtkDataSetAttributes(), []
-        whole.ShallowCopy(mesh.GetCellData())
-        for i in reversed(range(whole.GetNumberOfArrays())):
-            if whole.GetAbstractArray(i).GetNumberOfTuples() < mesh.GetNumberOfCells():
-                short.append(whole.GetAbstractArray(i))
-                whole.RemoveArray(i)
-        target.CopyAllOn()
-        target.CopyAllocate(whole, len(sources))
-        target.CopyData(whole, self._make_ids(sources), self._make_ids(range(len(sources))))
-        return short
+    def add_tuples(self, own, count, sources, first, size, data):
+        """Copies the tuples `sources` of the arrays of `own` that have at least `count` to those of
+        `data`, which have `size` tuples, from `first` on, as AddTuples does in C++."""
+        ids, places = self.core.vtkIdList(), self.core.vtkIdList()
+        for place, source in enumerate(sources, first):
+            ids.InsertNextId(int(source))
+            places.InsertNextId(place)
+        for i in range(own.GetNumberOfArrays()):
+            array, name = own.GetAbstractArray(i), own.GetAbstractArray(i).GetName()
+            if array.GetNumberOfTuples() < count:
+                continue
+            target = data.GetAbstractArray(name) if name else None
+            if target is not None and (target.GetDataType() != array.GetDataType()
+                                       or target.GetNumberOfComponents() != array.GetNumberOfComponents()):
+                target, name = None, name + " (2)"
+            if target is None:
+                target = self.core.vtkAbstractArray.CreateArray(array.GetDataType())
+                target.SetName(name)
+                target.SetNumberOfComponents(array.GetNumberOfComponents())
+                target.SetNumberOfTuples(size)
+                target.CopyComponentNames(array)
+                target.CopyInformation(array.GetInformation())
+                if hasattr(target, "Fill"):
+                    target.Fill(0)
+                    target.SetLookupTable(array.GetLookupTable())
+                number, attribute = data.AddArray(target), own.IsArrayAnAttribute(i)
+                if attribute >= 0 and data.GetAbstractAttribute(attribute) is None:
+                    data.SetActiveAttribute(number, attribute)
+            target.InsertTuples(places, ids, array)
 
     def read(self, mesh):
         """A Surface. Its arrays are copies: observers may change the input during the run."""
@@ -75,11 +93,10 @@ class Vtk:
     def make_cells(self, sizes, is_wide):
         """A vtkCellArray for cells of these sizes, and a view of its connectivity to be filled in."""
         kind = self.core.vtkTypeInt64Array if is_wide else self.core.vtkTypeInt32Array
-        offsets, corners, ends = kind(), kind(), numpy.cumsum(sizes)
-        offsets.SetNumberOfValues(len(sizes) + 1)
-        self.view(offsets)[0] = 0
-        self.view(offsets)[1:] = ends
-        corners.SetNumberOfValues(int(ends[-1]) if len(ends) else 0)
+        offsets, corners, ends = kind(), kind(), numpy.append(0, numpy.cumsum(sizes))
+        offsets.SetNumberOfValues(len(ends))
+        self.view(offsets)[:] = ends
+        corners.SetNumberOfValues(int(ends[-1]))
         cells = self.model.vtkCellArray()
         cells.SetData(offsets, corners)
         return cells, self.view(cells.GetConnectivityArray())
@@ -105,13 +122,6 @@ class Vtk:
         texts = [array.GetVariantValue(i).ToString() for i in range(array.GetNumberOfValues())]
         return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
 
-    def _make_ids(self, values):
-        ids = self.core.vtkIdList()
-        ids.SetNumberOfIds(len(values))
-        for place, value in enumerate(values):
-            ids.SetId(place, int(value))
-        return ids
-
 
 _load = functools.lru_cache(maxsize=None)(Vtk)
 
@@ -123,31 +133,30 @@ def vtk_of(data):
 
 
 class MeshInput:
-    """What a Session gets of a mesh, and the way back. `others`: the second input, or None."""
+    """What a Session gets of a mesh, and the way back. `others`: the second input, or None. The
+    keywords are properties of the filter."""
 
-    def __init__(self, mesh, others, settings, progress=None):
+    def __init__(self, mesh, others, progress=None, *, triangulate=True, lines_as_constraints=True,
+                 insert_lines=False, insert_constraints=True, region_array=""):
         self.vtk = vtk_of(mesh)
         self.mesh = self.vtk.model.vtkPolyData()
         self.mesh.ShallowCopy(mesh)
         others = self.vtk.read(others) if others is not None else None
         surface = self.vtk.read(mesh)
         self.points = surface.points
-        self.slots = Slots(surface, settings.triangulate, progress)
-        self.constraints = Constraints(surface, others, settings, self.slots.triangles)
+        self.slots = Slots(surface, triangulate, progress)
+        self.constraints = Constraints(surface, others, self.slots.triangles, lines_as_constraints,
+                                       insert_lines, insert_constraints)
         self._regions, self._frozen = None, self.slots.frozen
-        if settings.region_array:
-            self._regions = self.vtk.label_cells(mesh, settings.region_array)[self.slots.cells]
+        if region_array:
+            self._regions = self.vtk.label_cells(mesh, region_array)[self.slots.cells]
         ghosts = self.mesh.GetCellData().GetArray(_GHOSTS)
         if ghosts is not None and not _find_ghost_fault(ghosts):
-            self._freeze(self.vtk.view(ghosts))
-
-    def _freeze(self, ghosts):
-        """The edges of ghost cells stay. `ghosts`: VTK's types of the cells, of which there may be
-        too few."""
-        padded = numpy.zeros(max(self.slots.cells.max(initial=-1) + 1, len(ghosts)), numpy.uint8)
-        padded[:len(ghosts)] = ghosts
-        are_ghosts = (padded[self.slots.cells] & _GHOST) != 0
-        self._frozen = are_ghosts if self._frozen is None else are_ghosts | self._frozen
+            types = self.vtk.view(ghosts)  # of the cells, of which there may be too few
+            padded = numpy.zeros(max(self.slots.cells.max(initial=-1) + 1, len(types)), numpy.uint8)
+            padded[:len(types)] = types
+            are_ghosts = (padded[self.slots.cells] & _GHOST) != 0
+            self._frozen = are_ghosts if self._frozen is None else are_ghosts | self._frozen
 
     def open(self, **arguments):
         """A Session. Errors name the cell, not the triangle."""
@@ -162,107 +171,86 @@ class MeshInput:
             raise name_out_of_range(
                 "cell", int(self.slots.cells[error.cell]), error.point, len(self.points)) from None
 
-    def _list_defects(self):
-        """Texts of a warning about the input's constraints and arrays."""
-        mesh, passed, count = self.mesh, "passed unchanged", self.constraints.unmatched
-        stranger = self.constraints.first_stranger
-        texts = [f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the "
-                 "mesh does not have" + (stranger and ": ends are not points of the mesh (coordinates "
-                                         f"must be equal, not just close), first {stranger}")
-                 ] if count else []
-        texts += describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
-        texts += describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
-                                 passed if self.slots.in_place else "left out")
-        ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
-        fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
-        return texts + ([f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else [])
-
     def sum_up(self, session):
         """The Totals of a run."""
         return Totals.of_run(session.report, session.iterations, self.constraints.unmatched)
 
     def report(self, session, output, options, totals):
-        """Adds the numbers of the run to the output's field data. Returns the text of a warning, or "".
-        Reaching a limit that the user has set gives no warning."""
+        """Adds the numbers of the run to the output's field data. Returns the text of a warning, or ""."""
         self.vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX, totals.list_fields())
-        report = session.report
-        texts = ([report.defects] if report.defects else []) + self._list_defects()
-        if report.stop_reason == "iteration limit" and options["maximum_iterations"] < 0:
-            texts.append(f"stopped by the safety limit of {report.number_of_iterations} iterations "
-                         f"with {report.non_delaunay_after} edges left that are not Delaunay")
-        if options["tolerance"] >= 0 and report.tolerance == "none":
-            texts.append("Tolerance has no effect on the in-circle criterion, which is exact; it is for "
-                         "opposite angles")
-        if report.fallback:
-            texts.append(f"the GPU could not be used, the CPU did the work: {report.fallback}")
-        return "; ".join(texts)
+        report, mesh, passed = session.report, self.mesh, "passed unchanged"
+        texts = [report.defects] if report.defects else []
+        if self.constraints.unmatched:
+            stranger, count = self.constraints.first_stranger, self.constraints.unmatched
+            texts.append(
+                f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the mesh "
+                "does not have" + (stranger and ": ends are not points of the mesh (coordinates must be "
+                                   f"equal, not just close), first {stranger}"))
+        texts += describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
+        texts += describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
+                                passed if self.slots.in_place else "left out")
+        ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
+        fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
+        texts += [f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else []
+        return "; ".join(texts + describe_trouble(report, **options))
 
     def store(self, session, output, counts, angles):
         """Writes the current mesh, with the requested cell arrays."""
         mesh, slots = self.mesh, self.slots
         given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
         is_wide = _is_wide(given) or 3 * len(slots.triangles) > self.vtk.core.VTK_INT_MAX
-        polygons, corners = self.vtk.make_cells(self.polygon_sizes, is_wide)
-        self.fill_polygons(session, corners)
         chosen = slots.kept_strips - slots.strips.first
         strips, corners = self.vtk.make_cells(slots.strips.sizes[chosen], _is_wide(mesh.GetStrips()))
         corners[:] = slots.strips.gather(chosen)
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
         output.SetLines(mesh.GetLines())
-        output.SetPolys(polygons)
+        output.SetPolys(self._make_polygons(session, is_wide))
         output.SetStrips(strips)
         output.GetPointData().ShallowCopy(mesh.GetPointData())
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
         self._pass_cell_data(session, output)
-        self.vtk.add_arrays(output.GetCellData(), "", self.list_numbers(session, counts, angles))
+        polygons, chosen = slots.list_triangles()
+        for name, elsewhere, values in self._list_numbers(session, counts, angles):
+            of_cells = numpy.full(output.GetNumberOfCells(), elsewhere, dtype=values.dtype)
+            of_cells[slots.first_polygon + polygons] = values[chosen]
+            self.vtk.add_arrays(output.GetCellData(), "", [(name, of_cells)])
+
+    def _make_polygons(self, session, is_wide):
+        slots = self.slots
+        is_triangle = slots.polygon_triangles != NONE
+        whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
+        sizes = numpy.full(len(is_triangle), 3)
+        sizes[~is_triangle] = slots.polygons.sizes[whole]
+        cells, corners = self.vtk.make_cells(sizes, is_wide)
+        if len(whole) == 0 and len(sizes) == len(slots.triangles):
+            session.store_triangles(corners.reshape(-1, 3))
+        else:
+            of_triangle = numpy.repeat(is_triangle, sizes)
+            corners[of_triangle] = session.triangles[slots.polygon_triangles[is_triangle]].ravel()
+            corners[~of_triangle] = slots.polygons.gather(whole)
+        return cells
 
     def _pass_cell_data(self, session, output):
-        data, slots = output.GetCellData(), self.slots
+        mesh, data, slots = self.mesh, output.GetCellData(), self.slots
         data.Initialize()
         if slots.in_place:
-            data.ShallowCopy(self.mesh.GetCellData())
+            data.ShallowCopy(mesh.GetCellData())
         else:
-            self.vtk.copy_cell_data(self.mesh, self.cell_sources, data)
+            sources = numpy.concatenate(
+                [numpy.arange(slots.first_polygon), slots.polygon_cells, slots.kept_strips])
+            self.vtk.add_tuples(
+                mesh.GetCellData(), mesh.GetNumberOfCells(), sources, 0, len(sources), data)
         if slots.divides_cells:
             demote_global_ids(data)
         shared = data.GetNormals()
         if (shared is not None and shared.GetNumberOfComponents() == 3
                 and shared.GetNumberOfTuples() >= output.GetNumberOfCells()):
             normals = self.vtk.copy_array(shared)
-            self.renew_normals(self.vtk.view(normals), session.triangles)
+            self._renew_normals(self.vtk.view(normals), session.triangles)
             data.SetNormals(normals)
 
-    @property
-    def cell_sources(self):
-        """The cell of the input from which each cell of the output is made."""
-        return numpy.concatenate([numpy.arange(self.slots.first_polygon), self.slots.polygon_cells,
-                                  self.slots.kept_strips])
-
-    @property
-    def polygon_sizes(self):
-        """How many corners the polygons of the output have."""
-        slots = self.slots
-        sizes = numpy.full(len(slots.polygon_cells), 3)
-        whole = slots.polygon_triangles == NONE
-        if whole.any():
-            sizes[whole] = slots.polygons.sizes[slots.polygon_cells[whole] - slots.first_polygon]
-        return sizes
-
-    def fill_polygons(self, session, corners):
-        """Writes the corners of the output's polygons."""
-        slots = self.slots
-        polygons, chosen = slots.list_triangles()
-        if len(polygons) == len(slots.polygon_cells) == len(slots.triangles):
-            session.store_triangles(corners.reshape(-1, 3))
-            return
-        is_triangle = slots.polygon_triangles != NONE
-        of_triangle = numpy.repeat(is_triangle, self.polygon_sizes)
-        corners[of_triangle] = session.triangles[chosen].ravel()
-        whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
-        corners[~of_triangle] = slots.polygons.gather(whole)
-
-    def renew_normals(self, values, triangles):
+    def _renew_normals(self, values, triangles):
         """Writes the normals of changed triangles to those of all output cells. Normals that pointed
         against the winding still do."""
         polygons, chosen = self.slots.list_triangles()
@@ -279,21 +267,15 @@ class MeshInput:
         _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
         return normals
 
-    def list_numbers(self, session, counts, angles):
-        """(name, values per output cell) of the requested cell arrays."""
+    def _list_numbers(self, session, counts, angles):
+        """(name, value elsewhere, values per triangle) of the requested cell arrays."""
         if counts:
-            yield "vtkDelaunayFlipCount", self._spread(session.flip_counts, 0)
+            yield "vtkDelaunayFlipCount", 0, session.flip_counts
         if angles:
             used = session.report.geometry_used
             for when, triangles in (("before", self.slots.triangles), ("after", session.triangles)):
-                yield f"Smallest angle {when} (degrees)", self._spread(
-                    smallest_angles(self.points, triangles, geometry=used), numpy.nan)
-
-    def _spread(self, values, elsewhere):
-        of_cells = numpy.full(len(self.cell_sources), elsewhere, dtype=values.dtype)
-        polygons, chosen = self.slots.list_triangles()
-        of_cells[self.slots.first_polygon + polygons] = values[chosen]
-        return of_cells
+                yield f"Smallest angle {when} (degrees)", numpy.nan, smallest_angles(
+                    self.points, triangles, geometry=used)
 
 
 def demote_global_ids(data):
@@ -321,7 +303,6 @@ def describe_short(data, tuples, kind, fate):
     names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]
     if not names:
         return []
-    listed = ", ".join(f'"{name}"' for name in names[:3])
-    more = f", and {len(names) - 3} more" if len(names) > 3 else ""
+    listed = join([f'"{name}"' for name in names], ", ")
     word = "array" if len(names) == 1 else "arrays"
-    return [f"{len(names)} {kind} {word} with too few tuples {fate}: {listed}{more}"]
+    return [f"{len(names)} {kind} {word} with too few tuples {fate}: {listed}"]

@@ -8,32 +8,20 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from ._library import InvalidMesh
 from ._options import CHOICES
 from ._points import triangulate
+from ._report import Totals
 from ._vtk_cloud import OUTLINES, Cloud
 from ._vtk_filter import Filter, Property, count_answers, finish
-from ._vtk_update import Failure, Update
-
-_IN_PARTITIONS = ("the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
-                  "Blocks in ParaView")
-_IN_PIECES = ("points are in several pieces; gather them in the first one, by Redistribute DataSet with one "
-              "partition in ParaView")
+from ._vtk_update import Update
 
 
 class _PointUpdate(Update):
 
-    def __init__(self, filter_, pieces=1):
-        super().__init__(filter_, pieces)
-        self._datasets = set()  #: Places of those in partitions.
+    def _judge_partitions(self):
+        raise InvalidMesh("the points are in several partitions; join them first, by vtkAppendDataSets, or "
+                          "Merge Blocks in ParaView")
 
-    def _flip_leaf(self, leaf, segments):
-        if leaf.is_partition and leaf.data.GetNumberOfPoints():
-            if leaf.place[:-1] in self._datasets:
-                self.fail((Failure.MESH, _IN_PARTITIONS), leaf.name)
-                return vtkPolyData()
-            self._datasets.add(leaf.place[:-1])
-        return super()._flip_leaf(leaf, segments)
-
-    def _pass_after_abort(self, data, output):
-        super()._pass_after_abort(vtkPolyData(), output)
+    def _pass(self, data, output, stop_reason):
+        super()._pass(vtkPolyData(), output, stop_reason)
         output.SetPoints(data.GetPoints())
         output.GetPointData().ShallowCopy(data.GetPointData())
         output.GetFieldData().ShallowCopy(data.GetFieldData())
@@ -43,19 +31,18 @@ class _PointUpdate(Update):
         filter_ = self._filter
         piece = vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()
         if filter_.GetOutputInformation(0).Get(piece) > 0 and data.GetNumberOfPoints():
-            raise InvalidMesh(_IN_PIECES)
+            raise InvalidMesh("points are in several pieces; gather them in the first one, by Redistribute "
+                              "DataSet with one partition in ParaView")
         if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
-            self._pass_after_abort(data, output)
-            self.totals.change(stop_reason="aborted" if data.GetNumberOfPoints() else "converged")
-            return ""
+            return self._pass(data, output, "aborted" if data.GetNumberOfPoints() else "converged")
         cloud = Cloud(data, segments, filter_.lines_as_segments, OUTLINES[filter_.outline])
         keywords = {name: getattr(filter_, name) for name in (
             "alpha", "longest_edge", "point_tolerance", "split_crossings", "maximum_iterations")}
         result = triangulate(
             cloud, backend=CHOICES["backend"][filter_.backend], threads=filter_.number_of_threads,
-            device=filter_.device_id, progress=self._observe_part(0.0, 1.0),
+            device=filter_.device_id, progress=self._observe_part(1.0),
             on_iteration=self._observe, **keywords)
-        self.totals = cloud.sum_up(result.report)
+        self.totals = Totals.of_run(result.report, result.iterations)
         return cloud.write(result, output)
 
 
@@ -68,13 +55,10 @@ class vtkDelaunayFlipPoints(Filter):
     """
 
     name = "vtkDelaunayFlipPoints"
-    input_type = "vtkPointSet"
+    kind = vtkPointSet
     update_type = _PointUpdate
     no_mesh = "has no points of its own, passed unchanged"
     no_composite = "the segments of a single dataset cannot be a composite dataset"
-
-    def get_mesh(self, data):
-        return data if isinstance(data, vtkPointSet) else None
 
     def SetSegmentsConnection(self, port):
         self.SetInputConnection(1, port)

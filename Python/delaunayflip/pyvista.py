@@ -25,14 +25,13 @@ from ._session import smallest_angles as _angles_of_arrays
 from ._options import Array, check_integer
 from ._options import Options as _Options
 from ._points import triangulate as _triangulate_arrays
-from ._surface import Settings, Slots
+from ._surface import Slots
 from ._vtk_cloud import Cloud
-from ._vtk_mesh import MeshInput, vtk_of
+from ._vtk_mesh import SETTINGS, MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
 _LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": "RdYlBu", "show_edges": True,
          "scalar_bar_args": {"title": "Smallest angle (degrees)\n", "fmt": "%.0f"}}  # \n: above the labels
-_FLAGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints")
 
 
 class Options(_Options, total=False):
@@ -252,14 +251,14 @@ class _Run:
             if keyword not in Options.__annotations__:
                 raise TypeError(f"{keyword!r} is not an option")
         flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
-                 for name in _FLAGS if name in options}
+                 for name in SETTINGS[:-1] if name in options}
         regions = options.pop("region_array", None) or ""
         if regions and regions not in mesh.cell_data:
             listed = ", ".join(map(repr, mesh.cell_data)) or "none"
             raise InvalidOptions(
                 f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
-        self._input = MeshInput(mesh, constraints, Settings(**flags, region_array=regions))
-        self._options = {"maximum_iterations": -1, "tolerance": -1.0, **options}
+        self._input = MeshInput(mesh, constraints, **flags, region_array=regions)
+        self._options = options
         self.session = self._input.open(**options)
 
     def show(self):

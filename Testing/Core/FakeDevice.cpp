@@ -116,7 +116,6 @@ public:
   {
     this->Engine->InsertSegments(ends, onBatch);
   }
-  HostTriangles ViewHostTriangles() const override { return {}; }
   Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
   bool KeepsSliver() override { return this->Engine->KeepsSliver(); }
   void Audit() const override { this->Engine->Audit(); }
@@ -148,7 +147,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
 
 bool HasCudaDevice() { return true; }
 
-int CountCudaDevices() { return HasCudaDevice() ? 1 : 0; }
+int CountCudaDevices() { return 1; }
 void ReleaseCudaMemory() {}
 std::size_t TakePeakCudaMemory() { return 0; }
 
@@ -159,15 +158,9 @@ int FindDeviceOf(const void* memory)
   return after != Allocations.begin() && address < std::prev(after)->second ? 0 : -1;
 }
 
-void CopyFromDevice(const void* device, std::int64_t bytes, void* host, const DeviceStream&)
+void CopyMemory(const void* from, std::int64_t bytes, void* to, const DeviceStream&)
 {
-  std::memcpy(host, device, static_cast<std::size_t>(bytes));
-  CopiedBytes += bytes;
-}
-
-void CopyToDevice(const void* host, std::int64_t bytes, void* device, const DeviceStream&)
-{
-  std::memcpy(device, host, static_cast<std::size_t>(bytes));
+  std::memcpy(to, from, static_cast<std::size_t>(bytes));
   CopiedBytes += bytes;
 }
 

@@ -236,6 +236,12 @@ const NamedPoints Sets[] = { { "Uniform",
     [](double u, double, std::uint32_t) {
       return std::array<double, 2>{ 10 * u + 0.1, 1 / (10 * u + 0.1) };
     } },
+  { "ScanLines",
+    [](double u, double v, std::uint32_t i)
+    {
+      const double along = i % 200 + 0.1 * u, across = 10.0 * (i / 200) + 0.1 * v;
+      return std::array<double, 2>{ 0.8 * along - 0.6 * across, 0.6 * along + 0.8 * across };
+    } },
   { "Offset",
     [](double u, double v, std::uint32_t)
     {
@@ -316,6 +322,15 @@ TEST_P(PointSetsTest, DependOnThePointsAlone)
 INSTANTIATE_TEST_SUITE_P(Sets, PointSetsTest, testing::ValuesIn(Sets),
   [](const auto& info) { return std::string(info.param.Name); });
 
+/// Where flips would be a long chain, or strips have few points, there are none.
+TEST_P(PointSetsTest, OnlySomeTakeFlips)
+{
+  const FlipReport report = Triangulate(Draw(20000)).Report;
+  static const std::set<std::string> divided = { "Tall", "Ellipse", "Hyperbola", "ScanLines",
+    "TwoCircles", "LineAndPoint", "TwoRows" };
+  EXPECT_EQ(divided.count(GetParam().Name) > 0, report.TotalFlips == 0) << report.TotalFlips;
+}
+
 /// The last three sets, on which flips or cutting ears may take quadratic time.
 class HardPointSetsTest : public PointSetsTest
 {
@@ -383,6 +398,8 @@ TEST(PointTriangulation, OfNothing)
     const Triangulation result = Triangulate(points);
     EXPECT_EQ(0, result.Report.Triangles);
     EXPECT_EQ(StopReasonKind::Converged, result.Report.StopReason);
+    const std::string why = DescribeDefects(result.Report.Defects);
+    EXPECT_EQ(!points.empty(), why.find("without a triangle") != std::string::npos) << why;
   }
 }
 

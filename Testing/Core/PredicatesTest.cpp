@@ -4,9 +4,9 @@
 #include "ExactPredicates.h"
 #include "FilteredPredicates.h"
 #include "FlipRules.h"
-#include "HilbertCurve.h"
 #include "RandomInputs.h"
 #include "References.h"
+#include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 
 #include <gtest/gtest.h>

@@ -41,12 +41,12 @@ public:
 
   void Set(const std::vector<T>& values) const
   {
-    CopyToDevice(values.data(), this->CountBytes(), this->Memory, {});
+    CopyMemory(values.data(), this->CountBytes(), this->Memory, {});
   }
   std::vector<T> Get() const
   {
     std::vector<T> values(this->Count);
-    CopyFromDevice(this->Memory, this->CountBytes(), values.data(), {});
+    CopyMemory(this->Memory, this->CountBytes(), values.data(), {});
     return values;
   }
 

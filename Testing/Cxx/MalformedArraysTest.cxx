@@ -292,8 +292,8 @@ TEST(GhostArrays, ThatAreIgnoredLeaveOthersInForce)
     ExpectHolds(RunToWarning(both), "block " + std::to_string(first + 1) + ": " + WrongType);
     EXPECT_TRUE(IsFlipped(GetPartition(both, first)));
     EXPECT_FALSE(IsFlipped(GetPartition(both, 1 - first)));
-    vtkDataArray* passed = GetPartition(both, first)->GetCellData()->GetArray(GhostName);
-    ASSERT_NE(vtkIntArray::SafeDownCast(passed), nullptr);
-    EXPECT_EQ(passed->GetTuple1(1), 7.0);
+    vtkDataArray* passed = GetPartition(both, 1 - first)->GetCellData()->GetArray(GhostName);
+    ASSERT_NE(vtkUnsignedCharArray::SafeDownCast(passed), nullptr);
+    EXPECT_EQ(passed->GetTuple1(0), Hidden);
   }
 }

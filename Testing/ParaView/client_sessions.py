@@ -245,52 +245,6 @@ def use_panel(client):
     read_results(panel, flip)
 
 
-def open_chart(client):
-    """Chooses Plot Delaunay Flips. Returns the chart."""
-    client.select("Iterations")
-    yield idle(0.3)
-    client.choose("Delaunay Flip", "Plot Delaunay Flips")
-    yield lambda: simple.GetActiveSource().GetXMLName() == "PlotDelaunayFlips"
-    client.apply()
-    yield lambda: simple.GetActiveView().GetXMLName() == "DelaunayFlipChartView"
-    return simple.GetActiveView().SMProxy.GetContextItem()
-
-
-def count_points(chart):
-    """[iterations that the line Flipped shows]."""
-    lines = map(chart.GetPlot, range(chart.GetNumberOfPlots()))
-    return [line.GetInput().GetNumberOfRows() for line in lines
-            if line.GetVisible() and line.GetLabel() == "Flipped"]
-
-
-def use_chart(client):
-    """Plot Delaunay Flips follows a live run, and has the axis for which its filter made the data."""
-    client.window.resize(1500, 900)
-    flip = yield from start_filter(client, read_mesh("long.vtp"))
-    flip.MaximumIterations = 1
-    client.apply()
-    yield lambda: flip.NumberOfIterations == 1
-    chart = yield from open_chart(client)
-    yield lambda: count_points(chart) == [2]  # a single point is not a line
-    client.select("DelaunayFlip1")
-    yield idle(0.3)
-    Panel(client).write("MaximumIterations", "-1")
-    Panel(client).click("LiveUpdate")
-    client.apply()
-    yield lambda: 3 < count_points(chart)[0] < 12
-    yield has_converged(flip)
-    yield lambda: count_points(chart) == [flip.NumberOfIterations]
-    client.select("PlotDelaunayFlips1")
-    yield idle(0.3)
-    for is_log in (True, False):
-        Panel(client).click("LogScale")
-        client.apply()
-        yield lambda: chart.GetAxis(0).GetLogScaleActive() == is_log
-    titles = [chart.GetAxis(axis).GetTitle() for axis in (0, 1, 2)]
-    expect(titles == ["Edges", "Iteration", "Smallest angle (degrees)"], titles)
-    client.save_picture("chart.png")
-
-
 def read_view():
     """All texts that the render view shows."""
     view = simple.GetActiveView().SMProxy.GetClientSideObject()
@@ -308,7 +262,7 @@ def expect_text(flip):
 
 
 def use_statistics(client):
-    """Delaunay Flip Statistics: a text in the render view, which follows a live run, and the chart."""
+    """Delaunay Flip Statistics: a text in the render view, which follows a live run."""
     client.window.resize(1500, 800)
     mesh = read_mesh("long.vtp")
     flip = yield from start_filter(client, mesh)
@@ -322,9 +276,6 @@ def use_statistics(client):
     expect(simple.GetDisplayProperties(statistics).Justification == "Left", "lines are centred")
     expect(len(simple.GetViews()) == 1, "another view was opened")
     expect_text(flip)
-    view = simple.GetActiveView()
-    chart = yield from open_chart(client)
-    simple.SetActiveView(view)
     flip.LiveUpdate = 1
     client.application.processEvents()
     simple.Render()
@@ -334,7 +285,6 @@ def use_statistics(client):
         yield idle(0.5)
         expect(flip.StopReason == "running", flip.StopReason)
         expect_text(flip)
-        expect(count_points(chart) == [flip.NumberOfIterations], "the chart is out of step")
         client.save_picture("statistics.png")
         flip.Paused = 0
     yield has_converged(flip)

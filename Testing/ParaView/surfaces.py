@@ -7,7 +7,7 @@ import json
 import os
 
 from vtkmodules.vtkCommonCore import vtkIdList, vtkIntArray, vtkPoints
-from vtkmodules.vtkCommonDataModel import VTK_TRIANGLE, vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 
 def make_cells(cells):
@@ -86,11 +86,7 @@ def make_piece(output, size, broken):
     mesh = cut(make_fan(size), rank, ranks)
     if broken and rank == ranks - 1:
         mesh.SetPolys(make_cells([(0, 1, 77)]))
-    if output.IsA("vtkUnstructuredGrid"):
-        output.SetPoints(mesh.GetPoints())
-        output.SetCells(VTK_TRIANGLE, mesh.GetPolys())
-    else:
-        output.ShallowCopy(mesh)
+    output.ShallowCopy(mesh)
 
 
 def write_rank(mesh, folder):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin in ParaView's Qt client: menu, Apply, panel, live runs and charts.
+"""The plugin in ParaView's Qt client: menu, Apply, panel and live runs.
 
 The sessions of client_sessions.py run inside it. Pictures stay in the folder DELAUNAYFLIP_PICTURES.
 """
@@ -57,8 +57,7 @@ class Client(PluginTest):
         return client.stdout
 
     def test_sessions(self):
-        for session in ("use_filter", "use_panel", "use_chart", "use_statistics",
-                        "use_points"):
+        for session in ("use_filter", "use_panel", "use_statistics", "use_points"):
             with self.subTest(session):
                 self.assertNotRegex(self.play(session), "ERR[|]|WARN[|]|warning:")
 

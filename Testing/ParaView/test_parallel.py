@@ -109,7 +109,7 @@ class Parallel:
         cls.said = cls.server(cls.ranks)
 
     def test_all_is_that_of_one_process(self):
-        for case in ("pieces", "unstructured pieces"):
+        for case in ("pieces", "other pieces"):
             with self.subTest(case):
                 said, alone = self.said[case], self.alone[case]
                 self.assertEqual((len(said["ranks"]), len(alone["ranks"])), (self.ranks, 1))

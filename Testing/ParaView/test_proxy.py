@@ -132,7 +132,7 @@ class Refuses(PluginTest):
         self.assertIn("The plugin DelaunayFlip in C++ is loaded already", told.getvalue())
         manager = servermanager.ProxyManager()
         prototype = manager.GetPrototypeProxy("filters", "DelaunayFlip")
-        self.assertEqual(prototype.GetVTKClassName(), "vtkPVDelaunayFlip")
+        self.assertEqual(prototype.GetVTKClassName(), "vtkPDelaunayFlip")
 
 
 if __name__ == "__main__":

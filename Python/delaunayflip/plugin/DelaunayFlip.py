@@ -8,15 +8,14 @@ and this file, or in pvpython
     from paraview.simple import LoadPlugin
     LoadPlugin(".../delaunayflip/plugin/DelaunayFlip.py", remote=False, ns=globals())
 
-It has the properties of the plugin in C++, but not its chart, its text in the view, its live updates
-and the projection of points: all flips are made at once. Partitions of a dataset, and the pieces of a
+It has the properties of the plugin in C++, but not its text in the view, its live updates and the
+projection of points: all flips are made at once. Partitions of a dataset, and the pieces of a
 server with several processes, are flipped one by one: edges between them stay, with a warning, and
 the statistics of pieces are those of the first process. The plugin in C++ flips them as one mesh.
 Each plugin can read the state files of the other, but only one of the two can be loaded.
 
 It has a folder of its own, because ParaView loads all files of a folder in PV_PLUGIN_PATH.
 """
-import itertools
 import json
 import pathlib
 import sys
@@ -32,15 +31,8 @@ from paraview.modules.vtkRemotingServerManager import vtkSMProxyManager, vtkSMSe
 from paraview.modules.vtkRemotingViews import vtkSMTransferFunctionPresets
 from paraview.util.vtkAlgorithm import smproperty, smproxy
 
-from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkVersion
-from vtkmodules.vtkCommonDataModel import (
-    VTK_EMPTY_CELL, VTK_LINE, VTK_PIXEL, VTK_POLY_LINE, VTK_POLY_VERTEX, VTK_POLYGON, VTK_QUAD,
-    VTK_TRIANGLE, VTK_TRIANGLE_STRIP, VTK_VERTEX, vtkCellArray, vtkDataSet, vtkPointSet, vtkPolyData,
-    vtkUnstructuredGrid)
-
 import delaunayflip
 from delaunayflip._vtk_filter import vtkDelaunayFlip
-from delaunayflip._vtk_mesh import vtk_of
 from delaunayflip._vtk_points import vtkDelaunayFlipPoints
 
 paraview_plugin_name = "DelaunayFlipPython"
@@ -51,7 +43,7 @@ def _require_no_other():
     """Raises RuntimeError if the plugin in C++ is loaded."""
     manager = vtkSMProxyManager.GetProxyManager().GetActiveSessionProxyManager()
     known = manager.GetPrototypeProxy("filters", "DelaunayFlip") if manager else None
-    if known is not None and known.GetVTKClassName() == "vtkPVDelaunayFlip":
+    if known is not None and known.GetVTKClassName() == "vtkPDelaunayFlip":
         raise RuntimeError(
             "The plugin DelaunayFlip in C++ is loaded already, with the same filter. Use that one, or "
             "start ParaView without it to use this one in Python.")
@@ -90,82 +82,6 @@ def _add_colors():
         presets.AddPreset(name, colors)
 
 
-#: The kinds of cells of a vtkPolyData, and the types of cells that become such.
-_KINDS = {
-    "Verts": (VTK_VERTEX, VTK_POLY_VERTEX),
-    "Lines": (VTK_LINE, VTK_POLY_LINE),
-    "Polys": (VTK_TRIANGLE, VTK_QUAD, VTK_PIXEL, VTK_POLYGON),
-    "Strips": (VTK_TRIANGLE_STRIP,),
-}
-
-
-def _to_poly_data(data):
-    """The same points and cells, but without blanked cells; None if a cell is not a surface cell.
-
-    Raises:
-        InvalidMesh: The arrays of the cells contradict each other.
-    """
-    if isinstance(data, vtkPolyData):
-        return data
-    if not isinstance(data, vtkDataSet):
-        return None
-    _require_whole_cells(data)
-    types = [data.GetCellType(cell) for cell in range(data.GetNumberOfCells())]
-    if not set(types) <= {VTK_EMPTY_CELL, *itertools.chain(*_KINDS.values())}:
-        return None
-    output, sources = vtkPolyData(), []
-    output.SetPoints(_get_points(data))
-    output.GetPointData().PassData(data.GetPointData())
-    output.GetFieldData().PassData(data.GetFieldData())
-    for kind, wanted in _KINDS.items():
-        cells, chosen = vtkCellArray(), [i for i, one in enumerate(types) if one in wanted]
-        for cell in chosen:
-            cells.InsertNextCell(_get_corners(data, cell))
-        getattr(output, "Set" + kind)(cells)
-        sources += chosen
-    for array in vtk_of(data).copy_cell_data(data, sources, output.GetCellData()):
-        empty = array.NewInstance()  # the filter warns of it
-        empty.SetName(array.GetName())
-        output.GetCellData().AddArray(empty)
-    return output
-
-
-def _require_whole_cells(data):
-    if not isinstance(data, vtkUnstructuredGrid) or data.GetCells() is None:
-        return
-    version = vtkVersion.GetVTKMajorVersion(), vtkVersion.GetVTKMinorVersion()
-    cells = data.GetCells()
-    types = data.GetCellTypes() if version >= (9, 6) else data.GetCellTypesArray()
-    if (not cells.IsValid() or types is None
-            or types.GetNumberOfValues() < cells.GetNumberOfCells()):
-        raise delaunayflip.InvalidMesh(
-            "The offsets, the connectivity and the types of the cells contradict each other.")
-
-
-def _get_points(data):
-    if isinstance(data, vtkPointSet):
-        return data.GetPoints()
-    points = vtkPoints()
-    points.SetDataTypeToDouble()
-    for point in range(data.GetNumberOfPoints()):
-        points.InsertNextPoint(data.GetPoint(point))
-    return points
-
-
-def _get_corners(data, cell):
-    """The points of a cell; those of a pixel, which come row by row, in the order of a quad."""
-    ids = vtkIdList()
-    data.GetCellPoints(cell, ids)
-    if data.GetCellType(cell) == VTK_PIXEL:
-        if ids.GetNumberOfIds() != 4:
-            raise delaunayflip.InvalidMesh(
-                f"Cell {cell} is a pixel, but has {ids.GetNumberOfIds()} points, not 4.")
-        third, fourth = ids.GetId(2), ids.GetId(3)
-        ids.SetId(2, fourth)
-        ids.SetId(3, third)
-    return ids
-
-
 _require_no_other()
 _add_colors()
 
@@ -173,17 +89,7 @@ _add_colors()
 @smproxy.filter(name="DelaunayFlip", label="Delaunay Flip", support_reload=False)
 @smproperty.xml(_read_properties("DelaunayFlip"))
 class DelaunayFlip(vtkDelaunayFlip):
-    """vtkDelaunayFlip for ParaView, which accepts any surface."""
-
-    def FillInputPortInformation(self, port, info):
-        result = super().FillInputPortInformation(port, info)
-        if port == 0:
-            info.Set(self.INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet")
-            info.Append(self.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
-        return result
-
-    def get_mesh(self, data):
-        return _to_poly_data(data)
+    """vtkDelaunayFlip for ParaView."""
 
     def GetNumberOfRounds(self):
         return 0  # of ranks, whose pieces only the plugin in C++ flips as one mesh
