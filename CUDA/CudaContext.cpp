@@ -79,15 +79,21 @@ struct IdleContexts
 {
   std::mutex Mutex;
   std::vector<std::unique_ptr<CudaContext>> Contexts;
+
+  static IdleContexts& Get()
+  {
+    static IdleContexts* idle = new IdleContexts;
+    return *idle;
+  }
 };
 
 /// Calls use(contexts) while no other thread does.
 template <typename Use>
 auto WithIdleContexts(const Use& use)
 {
-  static IdleContexts* idle = new IdleContexts;
-  const std::lock_guard<std::mutex> lock(idle->Mutex);
-  return use(idle->Contexts);
+  IdleContexts& idle = IdleContexts::Get();
+  const std::lock_guard<std::mutex> lock(idle.Mutex);
+  return use(idle.Contexts);
 }
 
 CudaStream MakeStream()

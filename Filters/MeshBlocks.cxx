@@ -221,7 +221,7 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
 
 void BlockMesh::Store(vtkPolyData* flipped)
 {
-  MeshList results(this->Surfaces.size());
+  MeshList results(this->Surfaces.size() + 1); // a rank may have none
   vtkCellData* data = flipped ? flipped->GetCellData() : nullptr;
   const vtkSmartPointer<vtkIntArray> owners =
     data ? vtkIntArray::SafeDownCast(data->GetAbstractArray(OwnerName)) : nullptr;
