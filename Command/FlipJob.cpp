@@ -30,6 +30,7 @@
 #include <limits>
 #include <map>
 #include <regex>
+#include <stdexcept>
 #include <vector>
 
 namespace delaunayflip
@@ -118,20 +119,6 @@ void Configure(vtkDelaunayFlipPoints* filter, const Arguments& arguments)
   filter->SetLongestEdge(points.LongestEdge);
   filter->SetPointTolerance(points.PointTolerance);
   filter->SetOutlineToOrientation();
-}
-
-/// The exit code for a vtkDelaunayFlip::FailureType.
-ExitCode ToExitCode(int failure)
-{
-  switch (failure)
-  {
-    case vtkDelaunayFlip::FAILURE_OPTIONS:
-      return ExitCode::WrongUsage;
-    case vtkDelaunayFlip::FAILURE_BACKEND:
-      return ExitCode::NoBackend;
-    default:
-      return ExitCode::BadFile;
-  }
 }
 
 /// The filter's message with options of the command for properties of the filter.
@@ -421,12 +408,16 @@ private:
     }
     if (!errors.empty())
     {
+      const std::string text = WithOptions(errors, this->Settings.MergePoints);
       const int failure = this->Filter->GetFailure();
-      const char* const work = failure != vtkDelaunayFlip::FAILURE_OTHER ? ": "
-        : this->Settings.FromPoints ? ": cannot be triangulated: "
-                                    : ": cannot be flipped: ";
-      throw CommandError(ToExitCode(failure),
-        this->Settings.Input + work + WithOptions(errors, this->Settings.MergePoints));
+      if (failure == vtkDelaunayFlip::FAILURE_OTHER)
+      {
+        throw std::runtime_error(text); // main says of which file, and what was being done
+      }
+      throw CommandError(failure == vtkDelaunayFlip::FAILURE_OPTIONS ? ExitCode::WrongUsage
+          : failure == vtkDelaunayFlip::FAILURE_BACKEND              ? ExitCode::NoBackend
+                                                                     : ExitCode::BadFile,
+        this->Settings.Input + ": " + text);
     }
   }
 

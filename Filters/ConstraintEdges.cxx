@@ -220,6 +220,11 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
     }
   }
 
+  for (const PointPair& pair : pairs)
+  {
+    edges.AreHere.push_back(
+      pointsAt[placeOfOther[pair[0]]] > 0 && pointsAt[placeOfOther[pair[1]]] > 0 ? 1 : 0);
+  }
   std::vector<PointPair> crowded;
   for (const PointPair& pair : wanted)
   {
@@ -262,7 +267,9 @@ ConstraintEdges FindConstraintEdges(
     const PointArray points = ViewPoints(source.Others, storage);
     if (points.Count == 0 || HaveSameBits(points, source.Points))
     {
+      const std::size_t before = edges.Pairs.size();
       AddAllPaths(source.Others, source.Points.Count, MakePart(progress, 0.0, 0.7), edges.Pairs);
+      edges.AreHere.assign(edges.Pairs.size() - before, 1);
     }
     else
     {

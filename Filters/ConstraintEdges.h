@@ -82,6 +82,7 @@ struct ConstraintEdges
   std::vector<PointPair> Pairs; ///< Unique, in the order given, the smaller id of each pair first.
   std::vector<unsigned char> ToInsert; ///< One flag per pair, as in TriangleMesh.
   std::int64_t Unmatched = 0; ///< How many edges of the second input the mesh does not have.
+  std::vector<char> AreHere; ///< By edge of the second input, whether the mesh has both ends.
   std::string FirstStranger; ///< The first of them with an end that is no point of the mesh: where.
 };
 

@@ -214,10 +214,10 @@ FlipReport FlipRun::GetReport() const
     report.InsertedConstraints = first.InsertedConstraints;
     report.ConstraintFlips = first.ConstraintFlips;
   }
-  else if (const std::int64_t count = bridge.GetNumberOfUnmatchedConstraints())
+  else if (const std::int64_t count = bridge.GetConstraints().Unmatched)
   {
     report.UnmatchedConstraints += count;
-    const std::string& stranger = bridge.GetFirstStranger();
+    const std::string& stranger = bridge.GetConstraints().FirstStranger;
     report.Defects.push_back({ "constraint edges of the second input that the mesh does not have" +
         (stranger.empty()
             ? ""

@@ -43,6 +43,18 @@ public:
   {
     const auto ghosts = FindGhosts(mesh);
     const vtkIdType known = ghosts ? ghosts->GetNumberOfValues() : 0;
+    this->Add(
+      mesh,
+      [&](vtkIdType cell) {
+        return cell >= known || (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) == 0;
+      },
+      [&](vtkIdType id) { return points->GetId(id); });
+  }
+
+  /// Adds cells of a mesh. @param isKept whether a cell is among them. @param newId of a point.
+  template <typename IsKept, typename NewId>
+  void Add(vtkPolyData* mesh, const IsKept& isKept, const NewId& newId)
+  {
     vtkCellArray* arrays[] = { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(),
       mesh->GetStrips() };
     PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
@@ -52,11 +64,9 @@ public:
       const auto add = [&](vtkIdType place, vtkIdList* ids)
       {
         const vtkIdType cell = check.FirstCell + place;
-        const int ghost = cell < known ? ghosts->GetValue(cell) : 0;
-        if ((ghost & vtkDataSetAttributes::DUPLICATECELL) == 0)
+        if (isKept(cell))
         {
-          std::transform(ids->begin(), ids->end(), ids->begin(),
-            [&](vtkIdType id) { return points->GetId(id); });
+          std::transform(ids->begin(), ids->end(), ids->begin(), newId);
           this->Cells[kind]->InsertNextCell(ids);
           this->Sources.back()[kind]->InsertNextId(cell);
         }
@@ -67,8 +77,10 @@ public:
   }
 
   /// Writes the cells, and the data of those that are kept. @param meshes as they were added.
-  void Store(const MeshList& meshes, vtkPolyData* joined) const
+  /// @returns for each cell which of them it is from.
+  vtkSmartPointer<vtkIntArray> Store(const MeshList& meshes, vtkPolyData* joined) const
   {
+    auto owners = vtkSmartPointer<vtkIntArray>::New();
     joined->SetVerts(this->Cells[0]);
     joined->SetLines(this->Cells[1]);
     joined->SetPolys(this->Cells[2]);
@@ -90,8 +102,13 @@ public:
         AddTuples(own, sources, MakeRange(next, sources->GetNumberOfIds()),
           joined->GetNumberOfCells(), data);
         next += sources->GetNumberOfIds();
+        while (owners->GetNumberOfValues() < next)
+        {
+          owners->InsertNextValue(static_cast<int>(k));
+        }
       }
     }
+    return owners;
   }
 
 private:
@@ -167,8 +184,7 @@ void RequireRegions(const MeshList& partitions, const std::string& name)
 
 }
 
-vtkSmartPointer<vtkPolyData> JoinPartitions(
-  const MeshList& partitions, const std::string& regions, vtkIdType& ambiguous)
+JoinedMesh JoinPartitions(const MeshList& partitions, const std::string& regions)
 {
   MeshList meshes;
   bool areWide = false;
@@ -181,16 +197,66 @@ vtkSmartPointer<vtkPolyData> JoinPartitions(
   {
     RequireRegions(meshes, regions);
   }
-  auto joined = vtkSmartPointer<vtkPolyData>::New();
-  const auto points = AddPoints(meshes, joined, ambiguous);
+  JoinedMesh joined{ vtkSmartPointer<vtkPolyData>::New(), {}, nullptr };
+  joined.Points = AddPoints(meshes, joined.Mesh, joined.Ambiguous);
   CellCollector cells(areWide);
   for (std::size_t k = 0; k < meshes.size(); ++k)
   {
-    cells.Add(meshes[k], points[k]);
+    cells.Add(meshes[k], joined.Points[k]);
   }
-  cells.Store(meshes, joined);
-  joined->GetFieldData()->ShallowCopy(partitions.front()->GetFieldData());
+  joined.Owners = cells.Store(meshes, joined.Mesh);
+  joined.Mesh->GetFieldData()->ShallowCopy(partitions.front()->GetFieldData());
   return joined;
+}
+
+MeshList DividePartitions(vtkPolyData* flipped, vtkIntArray* owners, const MeshList& partitions,
+  const std::vector<vtkSmartPointer<vtkIdList>>& points)
+{
+  constexpr vtkIdType None = -1;
+  MeshList divided;
+  std::vector<vtkIdType> local(flipped->GetNumberOfPoints(), None);
+  for (std::size_t k = 0; k < partitions.size(); ++k)
+  {
+    vtkPolyData* own = partitions[k];
+    vtkNew<vtkIdList> ids; // of its points in the joined mesh
+    const auto take = [&](vtkIdType id)
+    { return local[id] != None ? local[id] : local[id] = ids->InsertNextId(id); };
+    for (const vtkIdType id : *points[k])
+    {
+      local[id] = ids->InsertNextId(id);
+    }
+    CellCollector cells(UsesWideIds(own));
+    cells.Add(
+      flipped, [&](vtkIdType cell) { return owners->GetValue(cell) == static_cast<int>(k); }, take);
+    divided.push_back(vtkSmartPointer<vtkPolyData>::New());
+    vtkPolyData* made = divided.back();
+    const vtkIdType count = ids->GetNumberOfIds();
+    vtkSmartPointer<vtkPoints> all = own->GetPoints();
+    if (count > own->GetNumberOfPoints())
+    {
+      all = vtkSmartPointer<vtkPoints>::New();
+      all->SetDataType(own->GetPoints()->GetDataType());
+      flipped->GetPoints()->GetPoints(ids, all);
+    }
+    made->SetPoints(all);
+    AddTuples(flipped->GetPointData(), ids, MakeRange(0, count), count, made->GetPointData());
+    cells.Store({ flipped }, made);
+    made->GetFieldData()->ShallowCopy(own->GetFieldData());
+    vtkFieldData* first = partitions.front()->GetFieldData();
+    for (int i = 0; i < flipped->GetFieldData()->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = flipped->GetFieldData()->GetAbstractArray(i);
+      if (!array->GetName() || first->GetAbstractArray(array->GetName()) != array)
+      {
+        made->GetFieldData()->AddArray(array); // a result, not of the first partition
+      }
+    }
+    for (const vtkIdType id : *ids)
+    {
+      local[id] = None;
+    }
+  }
+  return divided;
 }
 
 vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)

@@ -5,8 +5,8 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "FlipError.h"
-#include "JoinedPartitions.h"
 
+#include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObjectTree.h"
 #include "vtkDataObjectTreeIterator.h"
@@ -24,6 +24,9 @@ namespace delaunayflip
 {
 namespace
 {
+
+/// The cell array by which a joined mesh is divided again.
+constexpr const char* OwnerName = "vtkDelaunayFlipPartition";
 
 /// The leaves of AMR, which is a tree from VTK 9.6 on, are grids.
 vtkDataObjectTree* GetTree(vtkDataObject* data)
@@ -134,7 +137,13 @@ BlockMesh::BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDup
   this->IsJoined = meshes.size() > 1;
   if (this->IsJoined)
   {
-    this->Mesh = JoinPartitions(meshes, regions, this->Ambiguous);
+    this->Joined = JoinPartitions(meshes, regions);
+    this->Mesh = this->Joined.Mesh;
+    if (!dropsDuplicates)
+    {
+      this->Joined.Owners->SetName(OwnerName);
+      this->Mesh->GetCellData()->AddArray(this->Joined.Owners);
+    }
   }
   else if (!meshes.empty())
   {
@@ -148,14 +157,12 @@ std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
   bool areAllSurfaces = true;
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
-    std::vector<Defect> defects;
-    if (this->Surfaces[i] && (this->IsJoined || ofArrays))
+    const bool isAsked = this->Surfaces[i] && (this->IsJoined || ofArrays);
+    const std::string text =
+      isAsked ? DescribeDefects(ListMalformedArrays(this->Surfaces[i], false, false)) : "";
+    if (!text.empty())
     {
-      defects = ListMalformedArrays(this->Surfaces[i], false, false);
-    }
-    if (!defects.empty())
-    {
-      notes.push_back({ this->Block.Leaves[i].Name, DescribeDefects(defects) });
+      notes.push_back({ this->Block.Leaves[i].Name, text });
     }
     areAllSurfaces = areAllSurfaces && this->Surfaces[i];
   }
@@ -163,7 +170,7 @@ std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
   {
     notes.push_back({ this->Block.Name, "not a surface, passed unchanged" });
   }
-  if (this->Ambiguous > 0)
+  if (this->Joined.Ambiguous > 0)
   {
     notes.push_back({ this->Block.Name,
       "points of some partitions coincide with others of the same partition, and edges there "
@@ -214,14 +221,29 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
 
 void BlockMesh::Store(vtkPolyData* flipped)
 {
-  vtkSmartPointer<vtkPolyData> next = flipped;
+  MeshList results(this->Surfaces.size());
+  vtkCellData* data = flipped ? flipped->GetCellData() : nullptr;
+  const vtkSmartPointer<vtkIntArray> owners =
+    data ? vtkIntArray::SafeDownCast(data->GetAbstractArray(OwnerName)) : nullptr;
+  if (this->IsJoined && owners)
+  {
+    data->RemoveArray(OwnerName);
+    MeshList given = this->Surfaces;
+    given.erase(std::remove(given.begin(), given.end(), nullptr), given.end());
+    results = DividePartitions(flipped, owners, given, this->Joined.Points);
+  }
+  else
+  {
+    results.front() = flipped;
+  }
+  auto next = results.begin();
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
     BlockLeaf& leaf = this->Block.Leaves[i];
     if (flipped && this->Surfaces[i])
     {
-      leaf.Result = next;
-      next = vtkSmartPointer<vtkPolyData>::New();
+      leaf.Result = *next ? *next : vtkSmartPointer<vtkPolyData>::New();
+      ++next;
     }
     else
     {

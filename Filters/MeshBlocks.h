@@ -4,6 +4,7 @@
 #define MeshBlocks_h
 
 #include "EngineExport.h"
+#include "JoinedPartitions.h"
 #include "UpdateReport.h"
 
 #include "vtkPolyData.h"
@@ -54,7 +55,8 @@ class DELAUNAYFLIP_EXPORT BlockMesh
 {
 public:
   /// @param block must live as long as this object. @param regions as in JoinPartitions.
-  /// @param dropsDuplicates whether duplicate ghost cells are dropped also from a single leaf.
+  /// @param dropsDuplicates whether duplicate ghost cells are dropped also from a single leaf, and
+  /// partitions stay joined.
   /// @throws what JoinPartitions throws.
   BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDuplicates = false);
   BlockMesh(const BlockMesh&) = delete;
@@ -73,8 +75,9 @@ public:
   /// @throws InvalidOptions, InvalidMesh.
   vtkSmartPointer<vtkPolyData> FindConstraints(const std::vector<MeshBlock>& constraints) const;
 
-  /// Writes the results of the block's leaves: the mesh in place of the first surface, and empty
-  /// meshes in place of others. Leaves that are no surfaces pass.
+  /// Writes the results of the block's leaves. Partitions that were joined are divided again; on
+  /// several ranks the mesh takes the place of the first one, and the others are empty. Leaves that
+  /// are no surfaces pass.
   /// @param flipped the mesh after the run; or null: all leaves of the input pass unchanged.
   void Store(vtkPolyData* flipped);
 
@@ -83,7 +86,7 @@ private:
   std::vector<vtkSmartPointer<vtkPolyData>> Surfaces; ///< One per leaf; null if it is none.
   vtkSmartPointer<vtkPolyData> Mesh;
   bool IsJoined = false;
-  vtkIdType Ambiguous = 0; ///< Points that coincide with others of their partition.
+  JoinedMesh Joined; ///< Of partitions.
 };
 
 }

@@ -68,12 +68,8 @@ public:
   /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
   void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }
 
-  /// How many edges of the second input have an end where the mesh has no point. GetMesh() may hold
-  /// more edges that are unmatched.
-  std::int64_t GetNumberOfUnmatchedConstraints() const { return this->Constraints.Unmatched; }
-
-  /// See ConstraintEdges.
-  const std::string& GetFirstStranger() const { return this->Constraints.FirstStranger; }
+  /// GetMesh() may hold more edges that are unmatched.
+  const ConstraintEdges& GetConstraints() const { return this->Constraints; }
 
   /// Views of arrays of the mesh or of this bridge, never of an output.
   TriangleMesh GetMesh() const;

@@ -68,10 +68,10 @@
  * (active global ids of the point data, in all partitions) or, without global ids, equal
  * coordinates and at least one of them is at the border of its partition. Where such a point
  * coincides with another one of its own partition, it is not known which of the two is meant; a
- * warning says so. Duplicate ghost cells (vtkGhostType) are dropped. The output has the whole mesh
- * in place of the first partition that is not empty, and empty ones in place of the others: points
- * and cells in the order of the partitions, with the data of all; an array that a partition lacks
- * is 0 or empty there. To divide the mesh again, number the partitions in a cell array before.
+ * warning says so. Duplicate ghost cells (vtkGhostType) are dropped. Every triangle stays in its
+ * partition, with its cell data. Points that a partition then lacks are added behind its own. Every
+ * partition gets the arrays of all; those that it lacked are 0 or empty there, but for points that
+ * another partition has, too. All results are those of the whole mesh.
  *
  * @par References
  * - C. Navarro, N. Hitschfeld, E. Scheihing: A GPU-based method for generating quasi-Delaunay

@@ -110,8 +110,8 @@ vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
 
 //------------------------------------------------------------------------------
 vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
-  : SizeOfBlocks(vtkDataObject::CELL),
-    Report(new FlipReport)
+  : Report(new FlipReport),
+    SizeOfBlocks(vtkDataObject::CELL)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);

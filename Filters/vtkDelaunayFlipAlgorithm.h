@@ -299,14 +299,9 @@ protected:
   virtual std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input);
 
   /**
-   * Flips a block, stores its results, and adds what is to be told. Must not throw.
+   * Flips a block by FlipMesh, stores its results, and adds warnings beside those of the report.
+   * May throw.
    * @param others the blocks of the second input.
-   */
-  virtual void FlipBlock(delaunayflip::MeshBlock& block,
-    const std::vector<delaunayflip::MeshBlock>& others, delaunayflip::UpdateSummary& summary);
-
-  /**
-   * The same by FlipMesh, except for errors and what the report tells. May throw.
    */
   virtual void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& others, delaunayflip::UpdateSummary& summary) = 0;
@@ -335,6 +330,9 @@ protected:
    * Tells of progress, and returns whether to go on.
    */
   std::function<bool(double)> MakeProgress();
+
+  /// During an update that of the current mesh, afterwards the sum over all meshes.
+  std::unique_ptr<delaunayflip::FlipReport> Report;
 #endif
 
   const char* InputType = "vtkPolyData"; ///< Of the first input, unless it is composite.
@@ -353,6 +351,8 @@ private:
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   void DiscardRun();
+  void FlipBlock(delaunayflip::MeshBlock& block, const std::vector<delaunayflip::MeshBlock>& others,
+    delaunayflip::UpdateSummary& summary);
   void Publish(const delaunayflip::UpdateSummary& summary);
 
   enum class NextUpdate
@@ -383,8 +383,6 @@ private:
   bool CanContinue = true; ///< Whether another step can change the mesh.
   NextUpdate Next = NextUpdate::StepAndStore;
   std::unique_ptr<delaunayflip::UpdateRun> Run; ///< Of LiveUpdate.
-  /// During an update that of the current mesh, afterwards the sum over all meshes.
-  std::unique_ptr<delaunayflip::FlipReport> Report;
 
   vtkDelaunayFlipAlgorithm(const vtkDelaunayFlipAlgorithm&) = delete;
   void operator=(const vtkDelaunayFlipAlgorithm&) = delete;

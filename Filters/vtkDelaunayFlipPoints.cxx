@@ -105,14 +105,6 @@ public:
       !this->Session->GetAddedPoints().empty();
     const auto malformed = ListMalformedArrays(this->Given, !addsPoints, true);
     report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
-    const PointCounts& counts = report.FromPoints;
-    if (report.Triangles + counts.OutsideTriangles + counts.LargeTriangles == 0 &&
-      report.StopReason != StopReasonKind::Aborted)
-    {
-      report.Defects.push_back({ "points without a triangle: there are fewer than three places, or "
-                                 "all are on one line",
-        report.Points, {}, DefectIds::Points });
-    }
     return report;
   }
 

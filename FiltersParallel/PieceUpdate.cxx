@@ -66,31 +66,9 @@ vtkSmartPointer<vtkPolyData> GatherConstraints(
 }
 
 /// How many constraint edges have two ends that no rank has together; all ranks get the same.
-/// @param constraints those of all ranks. @param mesh this rank's.
-std::int64_t CountElsewhere(vtkPolyData* constraints, const TriangleMesh& mesh, PieceGroup& group)
+/// @param areHere by constraint, whether this rank has both ends.
+std::int64_t CountElsewhere(const std::vector<char>& areHere, PieceGroup& group)
 {
-  std::vector<double> storage;
-  const PointArray ends = ViewPoints(constraints, storage);
-  PointPlaces places(ends.Floats != nullptr || mesh.Points.Floats != nullptr);
-  std::vector<std::int64_t> placeOf;
-  for (std::int64_t i = 0; i < ends.Count; ++i)
-  {
-    placeOf.push_back(places.Add(ends, i));
-  }
-  std::vector<bool> isHere(places.GetNumberOfPlaces());
-  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
-  {
-    const std::int64_t place = places.Find(mesh.Points, point);
-    if (place != PointPlaces::None)
-    {
-      isHere[place] = true;
-    }
-  }
-  Message areHere; // one flag per constraint
-  for (std::int64_t i = 0; i < ends.Count; i += 2)
-  {
-    areHere.push_back(isHere[placeOf[i]] && isHere[placeOf[i + 1]] ? 1 : 0);
-  }
   const std::vector<Message> flags = group.Gather(areHere);
   std::int64_t elsewhere = 0;
   for (std::size_t i = 0; i < areHere.size(); ++i)
@@ -340,7 +318,7 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
   }
   const std::vector<std::int64_t> numbers = ReadPointNumbers(mesh);
   const MeshPiece piece{ bridge.GetMesh(), numbers.empty() ? nullptr : numbers.data() };
-  const std::int64_t elsewhere = constraints ? CountElsewhere(constraints, piece.Mesh, group) : 0;
+  const std::int64_t elsewhere = CountElsewhere(bridge.GetConstraints().AreHere, group);
   FlippedPiece flipped;
   PiecesReport report = FlipPiece(piece, request.Options, group, flipped, request.Progress);
   if (elsewhere > 0)

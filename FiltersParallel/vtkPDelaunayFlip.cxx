@@ -128,12 +128,12 @@ std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(vtkDataObject* input)
 }
 
 /// Whatever fails on a rank, all ranks fail.
-void vtkPDelaunayFlip::FlipBlock(
+void vtkPDelaunayFlip::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
 {
   if (!this->Group)
   {
-    this->Superclass::FlipBlock(block, constraints, summary);
+    this->Superclass::FlipLeaves(block, constraints, summary);
     return;
   }
   const auto flip = [&](PieceGroup& told)
@@ -164,13 +164,7 @@ void vtkPDelaunayFlip::FlipBlock(
     mesh.Store(flipped);
     this->NumberOfRounds = std::max<vtkIdType>(this->NumberOfRounds, report.Rounds);
     this->NumberOfMovedTriangles += report.MovedTriangles;
-    AddReport(summary.Report, report);
-    const std::string trouble =
-      DescribeTrouble(report, this->MaximumIterations >= 0, this->Tolerance >= 0.0);
-    if (!trouble.empty())
-    {
-      summary.Warnings.push_back({ block.Name, trouble });
-    }
+    *this->Report = report;
     if (report.AmbiguousPoints > 0)
     {
       summary.Warnings.push_back({ block.Name,
@@ -179,18 +173,7 @@ void vtkPDelaunayFlip::FlipBlock(
           "there stayed; number the points of the mesh before it is cut, as vtkGlobalPointIds" });
     }
   };
-  try
-  {
-    RunTogether(*this->Group, std::ref(flip));
-  }
-  catch (...)
-  {
-    summary.AddFailure(block.Name);
-    for (BlockLeaf& leaf : block.Leaves)
-    {
-      leaf.Result = vtkSmartPointer<vtkPolyData>::New();
-    }
-  }
+  RunTogether(*this->Group, std::ref(flip));
 }
 
 //------------------------------------------------------------------------------

@@ -101,7 +101,7 @@ protected:
   virtual std::unique_ptr<delaunayflip::PieceGroup> MakeGroup();
 
   std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input) override;
-  void FlipBlock(delaunayflip::MeshBlock& block,
+  void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& constraints,
     delaunayflip::UpdateSummary& summary) override;
 #endif

@@ -39,23 +39,17 @@ namespace
 
 pqServerManagerModel* GetModel() { return pqApplicationCore::instance()->getServerManagerModel(); }
 
-/// A filter and everything downstream of it.
-QSet<pqPipelineSource*> FindDownstream(pqPipelineSource* first)
+/// Adds a filter and everything downstream of it.
+void AddDownstream(pqPipelineSource* source, QSet<pqPipelineSource*>& found)
 {
-  QSet<pqPipelineSource*> found{ first };
-  QList<pqPipelineSource*> next{ first };
-  while (!next.isEmpty())
+  if (source && !found.contains(source))
   {
-    for (pqPipelineSource* consumer : next.takeFirst()->getAllConsumers())
+    found.insert(source);
+    for (pqPipelineSource* consumer : source->getAllConsumers())
     {
-      if (!found.contains(consumer))
-      {
-        found.insert(consumer);
-        next.append(consumer);
-      }
+      AddDownstream(consumer, found);
     }
   }
-  return found;
 }
 
 /// Buttons that pause a live run, make one step of it, and restart it. They act at once, without
@@ -196,9 +190,10 @@ public:
 private:
   void omitLoops()
   {
-    auto* filter = GetModel()->findItem<pqPipelineSource*>(this->proxy());
+    QSet<pqPipelineSource*> sources;
+    AddDownstream(GetModel()->findItem<pqPipelineSource*>(this->proxy()), sources);
     const QSignalBlocker blocker(this->Choices);
-    for (pqPipelineSource* source : filter ? FindDownstream(filter) : QSet<pqPipelineSource*>())
+    for (pqPipelineSource* source : sources)
     {
       for (int i = this->Choices->count() - 1; i >= 0; --i)
       {

@@ -70,10 +70,9 @@ def draw_chart(client, flip):
     yield lambda: simple.GetActiveSource().GetXMLName() == "PlotAttributes"
     client.apply()
     yield idle(0.5)
-    display = simple.GetDisplayProperties()
-    display.UseIndexForXAxis, display.XArrayName = 0, "Iteration"
-    display.SeriesVisibility = ["Flipped"]
-    yield idle(0.5)
+    lines = simple.GetDisplayProperties()
+    lines.UseIndexForXAxis, lines.XArrayName, lines.SeriesVisibility = 0, "Iteration", ["Flipped"]
+    simple.Render()
     simple.SetActiveSource(flip)
     yield idle(0.5)
 

@@ -5,6 +5,8 @@
 #include "ExactPredicates.h"
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 namespace delaunayflip
@@ -24,7 +26,7 @@ struct Place
 /// One side of an edge.
 struct Side
 {
-  std::uint32_t Origin; ///< A place.
+  std::uint32_t Origin; ///< A place; None: the edge is not used.
   Edge Next, Previous; ///< Around the origin, counter-clockwise and clockwise.
 };
 
@@ -48,7 +50,7 @@ public:
   Divider(const std::vector<CoordinatePair<double>>& places, const TaskRunner& run)
     : Run(run),
       Places(places.size()),
-      Sides(6 * places.size())
+      Sides(new Side[6 * places.size()])
   {
     for (std::size_t i = 0; i < places.size(); ++i)
     {
@@ -60,38 +62,7 @@ public:
 
   DividedPoints Solve()
   {
-    const auto size = static_cast<std::uint32_t>(this->Places.size());
-    // The top of the recursion is level by level, so that the parts of a level run side by side.
-    std::vector<std::vector<std::uint32_t>> levels{ { 0, size } };
-    constexpr std::uint32_t SmallestTask = 1 << 13;
-    while (size >> (levels.size() - 1) > SmallestTask)
-    {
-      const std::vector<std::uint32_t>& cuts = levels.back();
-      std::vector<std::uint32_t> finer(2 * cuts.size() - 1);
-      const int axis = static_cast<int>(levels.size() - 1) % 2;
-      this->Run(static_cast<std::int64_t>(cuts.size()) - 1,
-        [&](std::int64_t i)
-        {
-          finer[2 * i] = cuts[i];
-          finer[2 * i + 1] = this->Cut(cuts[i], cuts[i + 1], axis);
-        });
-      finer.back() = size;
-      levels.push_back(finer);
-    }
-    std::vector<Part> parts(levels.back().size() - 1);
-    int axis = static_cast<int>(levels.size() - 1) % 2;
-    this->Run(static_cast<std::int64_t>(parts.size()),
-      [&](std::int64_t i)
-      { parts[i] = this->Solve(levels.back()[i], levels.back()[i + 1], axis); });
-    while (parts.size() > 1)
-    {
-      axis = 1 - axis;
-      std::vector<Part> merged(parts.size() / 2);
-      this->Run(static_cast<std::int64_t>(merged.size()),
-        [&](std::int64_t i) { merged[i] = this->Merge(parts[2 * i], parts[2 * i + 1], axis); });
-      parts = std::move(merged);
-    }
-    return this->Collect(parts.front());
+    return this->Collect(this->Solve(0, static_cast<std::uint32_t>(this->Places.size()), 0, false));
   }
 
 private:
@@ -99,16 +70,6 @@ private:
   static bool IsBefore(const Place& p, const Place& q, int axis)
   {
     return axis == 0 ? (p.U != q.U ? p.U < q.U : p.V < q.V) : (p.V != q.V ? p.V < q.V : p.U > q.U);
-  }
-
-  /// Sorts places so far that the lower half of a range is before the rest. @returns the middle.
-  std::uint32_t Cut(std::uint32_t begin, std::uint32_t end, int axis)
-  {
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(this->Places.begin() + begin, this->Places.begin() + middle,
-      this->Places.begin() + end,
-      [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); });
-    return middle;
   }
 
   std::uint32_t Origin(Edge e) const { return this->Sides[e].Origin; }
@@ -186,34 +147,60 @@ private:
     this->Splice(e, this->Previous(e));
     this->Splice(e ^ 1, this->Previous(e ^ 1));
     e &= ~Edge(1);
-    this->Sides[e].Next = part.FreeHead;
+    this->Sides[e] = { None, part.FreeHead, None };
     part.FreeTail = part.FreeHead == None ? e : part.FreeTail;
     part.FreeHead = e;
   }
 
   //----------------------------------------------------------------------------
-  Part Solve(std::uint32_t begin, std::uint32_t end, int axis)
+  /// Triangulates a range of places. Cuts alternate between the axes down to a few places; these
+  /// are sorted along one axis and cut across it only, which takes less time.
+  Part Solve(std::uint32_t begin, std::uint32_t end, int axis, bool isSorted)
   {
-    if (end - begin <= 3)
+    constexpr std::uint32_t SmallestAlternating = 32, SmallestShared = 1 << 13;
+    const std::uint32_t size = end - begin, middle = begin + size / 2;
+    const auto place = [&](std::uint32_t i) { return this->Places.begin() + i; };
+    const auto isBefore = [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); };
+    if (!isSorted && size > SmallestAlternating)
     {
-      return this->SolveFew(begin, end, axis);
+      std::nth_element(place(begin), place(middle), place(end), isBefore);
     }
-    const std::uint32_t middle = this->Cut(begin, end, axis);
-    const Part left = this->Solve(begin, middle, 1 - axis);
-    const Part right = this->Solve(middle, end, 1 - axis);
-    return this->Merge(left, right, axis);
+    else if (!isSorted)
+    {
+      std::sort(place(begin), place(end), isBefore);
+      isSorted = true;
+    }
+    if (size <= 3)
+    {
+      return this->SolveFew(begin, end);
+    }
+    Part halves[2];
+    const auto solve = [&](std::int64_t i)
+    {
+      halves[i] = this->Solve(
+        i == 0 ? begin : middle, i == 0 ? middle : end, isSorted ? axis : 1 - axis, isSorted);
+    };
+    if (size > SmallestShared)
+    {
+      this->Run(2, solve);
+    }
+    else
+    {
+      solve(0);
+      solve(1);
+    }
+    return this->Merge(halves[0], halves[1], axis);
   }
 
-  Part SolveFew(std::uint32_t begin, std::uint32_t end, int axis)
+  /// Two or three sorted places.
+  Part SolveFew(std::uint32_t begin, std::uint32_t end)
   {
-    std::sort(this->Places.begin() + begin, this->Places.begin() + end,
-      [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); });
     Part part{ {}, 6 * begin, 6 * end - 2 };
     for (Edge e = part.FreeHead; e < part.FreeTail; e += 2)
     {
-      this->Sides[e].Next = e + 2;
+      this->Sides[e] = { None, e + 2, None };
     }
-    this->Sides[part.FreeTail].Next = None;
+    this->Sides[part.FreeTail] = { None, None, None };
     const Edge a = this->MakeEdge(part, begin, begin + 1);
     Edge leaving[3] = { a, a ^ 1, None }; // hull edges, of each point
     if (end - begin == 3)
@@ -315,13 +302,15 @@ private:
   Edge FindCandidate(Part& part, Edge base, bool isLeft)
   {
     const auto step = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
-    Edge candidate = isLeft ? this->Next(base ^ 1) : this->Previous(base);
+    const Edge last = isLeft ? base ^ 1 : base; // which comes round again
+    Edge candidate = step(last);
     if (!this->IsRightOf(this->Destination(candidate), base))
     {
       return None;
     }
-    for (Edge next = step(candidate); this->IsInCircle(this->Destination(base), this->Origin(base),
-           this->Destination(candidate), this->Destination(next));
+    for (Edge next = step(candidate); next != last &&
+         this->IsInCircle(this->Destination(base), this->Origin(base), this->Destination(candidate),
+           this->Destination(next));
          next = step(candidate))
     {
       this->Delete(part, candidate);
@@ -331,57 +320,94 @@ private:
   }
 
   //----------------------------------------------------------------------------
-  DividedPoints Collect(const Part& whole)
+  /// Calls work(piece, first, end) for pieces of [0, size), on threads.
+  template <typename Work>
+  void ForPieces(std::size_t size, const Work& work) const
   {
-    DividedPoints result;
-    const auto sides = static_cast<Edge>(this->Sides.size());
+    this->Run(static_cast<std::int64_t>((size + Piece - 1) / Piece),
+      [&](std::int64_t i) { work(i, i * Piece, std::min(size, (i + 1) * Piece)); });
+  }
+
+  DividedPoints Collect(const Part& whole) const
+  {
+    const auto sides = static_cast<Edge>(6 * this->Places.size());
     // Of the triangle on the left, if there is one.
-    constexpr CornerId Unknown = NoCorner - 1;
-    std::vector<CornerId> cornerOf(sides, Unknown);
-    for (Edge e = whole.FreeHead; e != None; e = this->Next(e))
+    const std::unique_ptr<CornerId[]> cornerOf(new CornerId[sides]);
+    const std::unique_ptr<bool[]> isLeading(new bool[sides]);
+    const Edge outside = whole.Ends[0][0].Leaving ^ 1u;
+    const auto isUsed = [&](Edge e) { return this->Origin(e & ~Edge(1)) != None; };
+    // Whether a side comes first of those of a triangle.
+    const auto leads = [&](Edge e)
     {
-      cornerOf[e] = cornerOf[e ^ 1] = NoCorner;
-    }
-    const Edge hull = whole.Ends[0][0].Leaving;
-    Edge e = hull;
-    do
-    {
-      cornerOf[e ^ 1] = NoCorner;
-      ++result.HullEdges;
-      e = this->Next(e ^ 1);
-    } while (e != hull);
-    result.Triangles.reserve(2 * this->Places.size());
-    for (Edge first = 0; first < sides; ++first)
-    {
-      if (cornerOf[first] != Unknown)
+      const Edge second = this->NextLeft(e), third = this->NextLeft(second);
+      return e < second && e < third && this->NextLeft(third) == e && e != outside &&
+        second != outside && third != outside;
+    };
+    std::vector<std::int64_t> usedOf(sides / Piece + 1, 0), firstOf(sides / Piece + 2, 0);
+    this->ForPieces(sides,
+      [&](std::size_t piece, std::size_t first, std::size_t end)
       {
-        continue;
-      }
-      const Edge second = this->NextLeft(first), third = this->NextLeft(second);
-      const auto number = static_cast<TriangleId>(result.Triangles.size());
-      TriangleRecord triangle{};
-      triangle.Vertices[0] = this->Places[this->Origin(first)].Number;
-      triangle.Vertices[1] = this->Places[this->Origin(second)].Number;
-      triangle.Vertices[2] = this->Places[this->Origin(third)].Number;
-      cornerOf[first] = MakeCorner(number, 2);
-      cornerOf[second] = MakeCorner(number, 0);
-      cornerOf[third] = MakeCorner(number, 1);
-      result.Triangles.push_back(triangle);
-    }
-    for (Edge half = 0; half < sides; ++half)
+        for (std::size_t i = first; i < end; ++i)
+        {
+          const auto e = static_cast<Edge>(i);
+          cornerOf[e] = NoCorner;
+          usedOf[piece] += isUsed(e) ? 1 : 0;
+          isLeading[e] = isUsed(e) && leads(e);
+          firstOf[piece + 1] += isLeading[e] ? 1 : 0;
+        }
+      });
+    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
+    DividedPoints result;
+    const auto triangles = static_cast<std::size_t>(firstOf.back());
+    result.HullEdges =
+      std::accumulate(usedOf.begin(), usedOf.end(), std::int64_t(0)) - 3 * firstOf.back();
+    result.Triangles.reserve(triangles);
+    while (result.Triangles.size() < triangles) // bit by bit, because memory may be new
     {
-      if (cornerOf[half] != NoCorner)
-      {
-        TriangleRecord& triangle = result.Triangles[TriangleOf(cornerOf[half])];
-        triangle.HalfEdges[SlotOf(cornerOf[half])] = cornerOf[half ^ 1];
-      }
+      this->Run(1,
+        [&](std::int64_t)
+        { result.Triangles.resize(std::min(triangles, result.Triangles.size() + Piece)); });
     }
+    const auto placeOf = [&](Edge side) { return this->Places[this->Origin(side)].Number; };
+    this->ForPieces(sides,
+      [&](std::size_t piece, std::size_t begin, std::size_t end)
+      {
+        auto number = static_cast<TriangleId>(firstOf[piece]);
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const auto first = static_cast<Edge>(i);
+          if (isLeading[first])
+          {
+            const Edge second = this->NextLeft(first), third = this->NextLeft(second);
+            cornerOf[first] = MakeCorner(number, 2);
+            cornerOf[second] = MakeCorner(number, 0);
+            cornerOf[third] = MakeCorner(number, 1);
+            result.Triangles[number] = { { placeOf(first), placeOf(second), placeOf(third) },
+              number, { second ^ 1u, third ^ 1u, first ^ 1u }, 0 };
+            ++number;
+          }
+        }
+      });
+    this->ForPieces(triangles,
+      [&](std::size_t, std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          for (CornerId& other : result.Triangles[i].HalfEdges)
+          {
+            other = cornerOf[other];
+          }
+        }
+      });
     return result;
   }
 
+  /// How many sides or triangles a task has.
+  static constexpr std::size_t Piece = std::size_t(1) << 16;
+
   const TaskRunner& Run;
   std::vector<Place> Places; ///< In the order of the parts.
-  std::vector<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
+  std::unique_ptr<Side[]> Sides; ///< Of edge e; e ^ 1 is its other side.
   bool FiltersApply = true;
 };
 }

@@ -62,21 +62,17 @@ void NumberJoinedEdges(EdgeMesh& edges, Array<CornerPair> sidesOfEdges, const Ba
       triangle.Flips = 0;
       for (int slot = 0; slot < 3; ++slot)
       {
-        const CornerId own = MakeCorner(static_cast<TriangleId>(t), slot);
-        CornerId other = triangle.HalfEdges[slot];
+        const CornerId other = triangle.HalfEdges[slot];
         if (other != NoCorner && IsOpen(other))
         {
           const CornerPair pair = sides[other >> 2];
-          other = pair.A == own ? pair.B : pair.A;
-          triangle.HalfEdges[slot] = other;
+          triangle.HalfEdges[slot] =
+            pair.A == MakeCorner(static_cast<TriangleId>(t), slot) ? pair.B : pair.A;
         }
-        const CornerRole role = other == NoCorner ? CornerRole::Alone
-          : own < other                           ? CornerRole::Leader
-                                                  : CornerRole::Follower;
-        triangle.Flips |= static_cast<std::uint32_t>(role) << (2 * slot);
       }
+      const int leaders = SetRoles(triangle, t);
       triangles[t] = triangle;
-      return CountLeaders(triangle);
+      return leaders;
     });
   sidesOfEdges = Array<CornerPair>(); // frees its memory
   NumberEdges(result, numbering, backend, !Backend::MemoryIsScarce);
@@ -109,6 +105,27 @@ MeshSurvey SurveyPlaces(StripPoints<Real>& points, const Backend& backend)
   }
   ResolveRange(survey);
   return survey;
+}
+
+/// The coordinates of the first `size` places, or of those that are listed.
+template <typename Real, typename Backend>
+std::vector<CoordinatePair<double>> FetchPlaces(const CoordinatePair<Real>* places,
+  const std::uint32_t* listOnHost, std::int64_t size, const Backend& backend)
+{
+  Array<std::uint32_t> listed = backend.template MakeArray<std::uint32_t>(listOnHost ? size : 0);
+  backend.Upload(listOnHost, listOnHost ? size : 0, listed.Data());
+  Array<CoordinatePair<double>> gathered = backend.template MakeArray<CoordinatePair<double>>(size);
+  const std::uint32_t* list = listOnHost ? listed.Data() : nullptr;
+  CoordinatePair<double>* to = gathered.Data();
+  backend.ForEach(size,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    {
+      const CoordinatePair<Real> place = places[list ? list[i] : i];
+      to[i] = { place.U, place.V };
+    });
+  std::vector<CoordinatePair<double>> coordinates(size);
+  backend.Download(to, size, coordinates.data());
+  return coordinates;
 }
 
 /// The steps of BuildPointMesh, and the arrays that they share.
@@ -167,6 +184,32 @@ struct PointMeshBuilder
     }
     this->Device.Upload(this->HostGaps.data(), strips - 1, gaps);
     return triangles;
+  }
+
+  /// Whether runs are long, by a sample of neighbours in a chain: how many have no place of another
+  /// chain between them. Half of them where points are spread at random or along the strips, two of
+  /// three on a lattice 10 times as wide as high, three of four and more on contours, spirals, scan
+  /// lines and rows across the strips, from which flips make no fewer flips for a long time.
+  bool HasLongRuns()
+  {
+    constexpr std::int64_t Samples = 1 << 12, Most = Samples * 71 / 100;
+    const ChainView<Real> chains = this->View();
+    const std::int64_t alone = this->Device.template Sum<std::int64_t>(Samples,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+      {
+        const auto place = static_cast<std::uint32_t>(PickSample(i, chains.Count - 1));
+        const std::int64_t end = FindEnd(std::int64_t(1), chains.Chains,
+          [&](std::int64_t chain) { return chains.Starts[chain] <= place; });
+        const std::int64_t other = end < chains.Chains ? end : end - 2;
+        const auto countBefore = [&](std::uint32_t own)
+        {
+          return FindEnd(chains.Starts[other], chains.Starts[other + 1],
+            [&](std::uint32_t next) { return chains.IsBefore(next, own); });
+        };
+        const bool isSame = place + 1 < chains.Starts[end];
+        sum += isSame && countBefore(place) == countBefore(place + 1) ? 1 : 0;
+      });
+    return alone > Most;
   }
 
   std::int64_t CountSlots() const
@@ -237,26 +280,6 @@ struct PointMeshBuilder
     return onHost;
   }
 
-  /// The coordinates of the boundary's places.
-  std::vector<CoordinatePair<double>> FetchPlaces(const Boundary& boundary)
-  {
-    const auto size = static_cast<std::int64_t>(boundary.Places.size());
-    Array<std::uint32_t> listed = this->Device.template MakeArray<std::uint32_t>(size);
-    this->Device.Upload(boundary.Places.data(), size, listed.Data());
-    Array<CoordinatePair<double>> gathered =
-      this->Device.template MakeArray<CoordinatePair<double>>(size);
-    const std::uint32_t* list = listed.Data();
-    CoordinatePair<double>* to = gathered.Data();
-    const CoordinatePair<Real>* places = this->Mesh.Points.Places();
-    this->Device.ForEach(size,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) {
-        to[i] = { places[list[i]].U, places[list[i]].V };
-      });
-    std::vector<CoordinatePair<double>> coordinates(size);
-    this->Device.Download(to, size, coordinates.data());
-    return coordinates;
-  }
-
   void CutAllMountains()
   {
     const ChainView<Real> chains = this->View();
@@ -290,15 +313,7 @@ template <typename Real, typename Backend>
 EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
   const Backend& backend, std::int64_t& hullEdges)
 {
-  std::vector<CoordinatePair<Real>> onHost(count);
-  backend.Download(places, count, onHost.data());
-  std::vector<CoordinatePair<double>> exact;
-  exact.reserve(count);
-  for (const CoordinatePair<Real>& place : onHost)
-  {
-    exact.push_back({ place.U, place.V });
-  }
-  const DividedPoints divided = DivideAndConquer(exact,
+  const DividedPoints divided = DivideAndConquer(FetchPlaces(places, nullptr, count, backend),
     [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
     { backend.ForTasks(tasks, work); });
   hullEdges = divided.HullEdges;
@@ -311,9 +326,9 @@ EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
   return edges;
 }
 
-/// Triangulates the places of points by strips; or by divide and conquer if nearly all points are
-/// on the boundary of the strips, as where they lie along one curve. From there flips would be a
-/// long chain.
+/// Triangulates the places of points by strips; or by divide and conquer where flips from there
+/// would be a long chain: if nearly all points are on the boundary of the strips, as where they lie
+/// along one curve, or if few are and runs are long.
 /// @param strips as above.
 template <typename Real, typename Backend>
 PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
@@ -329,14 +344,17 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   const std::int64_t onBoundary = std::accumulate(parts.begin(), parts.end(), std::int64_t(0),
     [](std::int64_t sum, const BoundaryPart& part) { return sum + part.Last - part.First + 2; });
   constexpr std::int64_t SmallestCurve = 10000; // below, flips take milliseconds
-  if (mesh.Points.Count >= SmallestCurve && onBoundary >= mesh.Points.Count / 10 * 9)
+  const std::int64_t tenth = mesh.Points.Count / 10;
+  if (mesh.Points.Count >= SmallestCurve &&
+    (onBoundary >= 9 * tenth || (onBoundary < 2 * tenth && builder.HasLongRuns())))
   {
     mesh.Edges = DividePlaces(mesh.Points.Places(), mesh.Points.Count, backend, mesh.HullEdges);
     return mesh;
   }
   builder.MakeArrays(triangles + onBoundary);
   const Boundary boundary = JoinPieces(parts, builder.FillPieces(CutIntoPieces(parts), triangles));
-  const std::vector<CoordinatePair<double>> places = builder.FetchPlaces(boundary);
+  const std::vector<CoordinatePair<double>> places = FetchPlaces(mesh.Points.Places(),
+    boundary.Places.data(), static_cast<std::int64_t>(boundary.Places.size()), backend);
   builder.CutAllMountains();
   // A device still cuts mountains meanwhile.
   builder.StoreHull(FillHull(boundary, places, static_cast<TriangleId>(triangles)), triangles);

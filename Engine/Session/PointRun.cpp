@@ -93,14 +93,12 @@ void PointRun::Prepare(const ProgressObserver& observer)
     return;
   }
   const PointInput& input = this->Caller;
-  this->Counts = PointCounts();
-  this->FirstRepeated.clear();
-  this->FirstNear.clear();
   this->Segments.clear();
-  if (this->Options.PointTolerance > 0.0)
+  if (this->Options.PointTolerance > 0.0 && this->NearPoint.empty())
   {
     this->GetOnHost();
     this->FindNearPoints(observer);
+    this->CopyPoints(); // so that no crossing uses a point that is not used
   }
   for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
   {
@@ -118,11 +116,7 @@ void PointRun::Prepare(const ProgressObserver& observer)
     this->Added = std::move(split.Added);
     this->Counts.Crossings = static_cast<std::int64_t>(this->Added.size());
     this->Counts.LargestShift = split.LargestShift;
-  }
-  if (!this->Added.empty() || this->Counts.TooNear + this->Counts.Repeated > 0)
-  {
-    input.Points.Floats ? this->CopyCoordinates(this->Floats)
-                        : this->CopyCoordinates(this->Doubles);
+    this->CopyPoints();
   }
   this->IsPrepared = true;
 }
@@ -159,7 +153,8 @@ PlaneArray PointRun::GetOnHost()
 }
 
 /// Finds for every point the one that is used instead of it: the first with a lower id that is used
-/// and nearer than the tolerance. A grid of cells as wide as the tolerance limits the search.
+/// and nearer than the tolerance, but not at the same place, because these are merged anyway. A
+/// grid of cells as wide as the tolerance limits the search.
 void PointRun::FindNearPoints(const ProgressObserver& observer)
 {
   const PlaneArray points = this->Prepared.Points;
@@ -174,14 +169,15 @@ void PointRun::FindNearPoints(const ProgressObserver& observer)
   };
   std::unordered_map<std::pair<double, double>, std::int64_t, Hash> lastIn; // used point of a cell
   std::vector<std::int64_t> before(points.Count, -1); // the used point of the same cell before
-  this->NearPoint.resize(points.Count);
+  std::vector<std::int64_t> nearPoint(points.Count);
+  std::int64_t tooNear = 0;
   for (std::int64_t i = 0; i < points.Count; ++i)
   {
     if (i % Batch == 0)
     {
       Tell(observer);
     }
-    this->NearPoint[i] = i;
+    nearPoint[i] = i;
     if (!IsFinitePoint(points, i))
     {
       continue;
@@ -195,32 +191,44 @@ void PointRun::FindNearPoints(const ProgressObserver& observer)
       {
         if (std::hypot(points.Get(j, 0) - x, points.Get(j, 1) - y) < tolerance)
         {
-          this->NearPoint[i] = std::min(this->NearPoint[i], j);
+          nearPoint[i] = std::min(nearPoint[i], j);
         }
       }
     }
-    if (this->NearPoint[i] == i)
+    if (nearPoint[i] == i)
     {
       std::int64_t& last = lastIn.emplace(std::pair(column, row), -1).first->second;
       before[i] = std::exchange(last, i);
     }
+    else if (points.Get(nearPoint[i], 0) == x && points.Get(nearPoint[i], 1) == y)
+    {
+      nearPoint[i] = i;
+    }
     else
     {
-      const std::int64_t near = this->NearPoint[i];
-      const bool isThere = points.Get(near, 0) == x && points.Get(near, 1) == y;
-      ++(isThere ? this->Counts.Repeated : this->Counts.TooNear);
-      std::vector<std::int64_t>& first = isThere ? this->FirstRepeated : this->FirstNear;
-      first.resize(std::min<std::size_t>(first.size() + 1, 3), i);
+      ++tooNear;
     }
+  }
+  this->NearPoint = std::move(nearPoint);
+  this->Counts.TooNear = tooNear;
+}
+
+/// Makes the points to triangulate, if they are not those of the caller.
+void PointRun::CopyPoints()
+{
+  if (!this->Added.empty() || this->Counts.TooNear > 0)
+  {
+    this->Caller.Points.Floats ? this->CopyCoordinates(this->Floats)
+                               : this->CopyCoordinates(this->Doubles);
   }
 }
 
-/// Makes the points to triangulate: those that are too near become NaN, so that they are not used.
+/// Points that are too near become NaN, so that they are not used.
 template <typename Real>
 void PointRun::CopyCoordinates(std::vector<Real>& copy)
 {
   const PlaneArray points = this->Prepared.Points;
-  const std::int64_t added = this->Counts.Crossings;
+  const auto added = static_cast<std::int64_t>(this->Added.size());
   std::vector<Real> made(2 * (points.Count + added));
   for (std::int64_t i = 0; i < points.Count; ++i)
   {
@@ -331,9 +339,8 @@ void PointRun::Finish(LoadedMesh& mesh)
 void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
 {
   PointCounts& counts = report.FromPoints;
-  const std::int64_t merged = this->Counts.TooNear + this->Counts.Repeated; // before
-  const std::int64_t notFinite = counts.NotFinite - merged;
-  const std::int64_t repeated = counts.Repeated + this->Counts.Repeated;
+  const std::int64_t notFinite = counts.NotFinite - this->Counts.TooNear;
+  const std::int64_t repeated = counts.Repeated;
   counts = this->Counts;
   counts.NotFinite = notFinite;
   counts.Repeated = repeated;
@@ -361,36 +368,36 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   {
     mesh.StoreUsedPoints(used.data());
   }
-  const auto listFirst = [&](const auto& isListed, std::int64_t count)
+  const auto isNear = [&](std::int64_t i)
+  { return !this->NearPoint.empty() && this->NearPoint[i] != i; };
+  const auto add = [&](const char* what, std::int64_t count, const auto& isListed)
   {
-    std::vector<std::int64_t> first;
-    const std::int64_t end = count > 0 ? this->Caller.Points.Count : 0;
-    for (std::int64_t i = 0; i < end && first.size() < 3; ++i)
+    Defect defect{ what, count, {}, DefectIds::Points };
+    for (std::int64_t i = 0; count > 0 && defect.FirstIds.size() < 3 && i < report.Points; ++i)
     {
       if (isListed(i))
       {
-        first.push_back(i);
+        defect.FirstIds.push_back(i);
       }
     }
-    return first;
+    AddDefect(defect, report.Defects);
   };
-  const auto isMerged = [&](std::int64_t i)
-  { return !this->NearPoint.empty() && this->NearPoint[i] != i; };
-  const auto isNotFinite = [&](std::int64_t i) { return used[i] < 0 && !isMerged(i); };
-  const auto isRepeated = [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; };
-  const Defect defects[] = {
-    { "points with NaN or infinite coordinates", notFinite, listFirst(isNotFinite, notFinite),
-      DefectIds::Points },
-    { "points at the place of another one", repeated,
-      merged > 0 ? this->FirstRepeated : listFirst(isRepeated, repeated), DefectIds::Points },
-    { "points nearer than the tolerance to one with a lower id", counts.TooNear, this->FirstNear,
-      DefectIds::Points },
-    { "segments that cross an earlier one or end at a point that is not finite",
-      counts.RefusedSegments, ListFirstEnds(this->Caller, this->Refused), DefectIds::PointPairs },
-    { "hole seeds outside of all triangles", this->Kept.SeedsOutside, {}, DefectIds::Points },
-  };
-  std::copy_if(std::begin(defects), std::end(defects), std::back_inserter(report.Defects),
-    [](const Defect& defect) { return defect.Count > 0; });
+  add("points with NaN or infinite coordinates", notFinite,
+    [&](std::int64_t i) { return used[i] < 0 && !isNear(i); });
+  add("points at the place of another one", repeated,
+    [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
+  add("points nearer than the tolerance to one with a lower id", counts.TooNear, isNear);
+  const bool isMesh = report.Triangles + this->Kept.Outside + this->Kept.Large > 0;
+  for (const Defect& defect :
+    { Defect{ "segments that cross an earlier one or end at a point that is "
+              "not finite",
+        counts.RefusedSegments, ListFirstEnds(this->Caller, this->Refused), DefectIds::PointPairs },
+      { "hole seeds outside of all triangles", this->Kept.SeedsOutside, {}, DefectIds::Points },
+      { "points without a triangle: there are fewer than three places, or all are on one line",
+        isMesh ? 0 : report.Points, {}, DefectIds::Points } })
+  {
+    AddDefect(defect, report.Defects);
+  }
 }
 
 //------------------------------------------------------------------------------

@@ -86,6 +86,7 @@ public:
 
 private:
   void FindNearPoints(const ProgressObserver& observer);
+  void CopyPoints();
   template <typename Real>
   void CopyCoordinates(std::vector<Real>& copy);
   void RequireClosedRings(const LoadedMesh& mesh) const;
@@ -97,7 +98,6 @@ private:
   std::vector<float> Floats;
   std::vector<double> Doubles;
   std::vector<std::int64_t> NearPoint; ///< By point: itself, or the one that it is too near to.
-  std::vector<std::int64_t> FirstRepeated, FirstNear; ///< Three of those that are merged before.
   std::vector<AddedPoint> Added;
   std::vector<Segment> Segments;
   PointCounts Counts;

@@ -362,20 +362,13 @@ void FlipSession::Work::DivideIfLong()
   }
   const std::int64_t points = this->Cloud->GetPoints().Points.Count;
   std::vector<IterationRecord>& made = this->Report.Iterations;
-  // Or if flips do not become fewer. In iteration 12 there are at most 0.5 times as many as in
-  // iteration 4, also for points on rings and lines; on contours and spirals 0.7 to 1.2 times.
-  const auto isSteady = [&](std::size_t iteration)
-  {
-    return iteration == 12 && points >= Least / 10 && made[11].Flipped > points / 7 &&
-      made[11].Flipped > made[3].Flipped / 10 * 7;
-  };
   std::int64_t done = 0;
   std::size_t iterations = 0;
   bool isDue = false;
   while (iterations < made.size() && !isDue)
   {
     done += made[iterations++].Flipped + FlipsPerIteration;
-    isDue = done >= FlipsPerPoint * points + Least || isSteady(iterations);
+    isDue = done >= FlipsPerPoint * points + Least;
   }
   if (!isDue || (iterations == made.size() && !this->IsRunning()))
   {

@@ -363,20 +363,17 @@ ConstraintInsertion::ConstraintInsertion(
   {
     this->Geometry = survey.Geometry;
     this->GeometryReason = survey.GeometryReason;
-    this->Store(mesh, built.Edges, ranks, backend);
+    this->Store(built.Edges, ranks, backend);
   }
 }
 
-/// Keeps the triangles, with ids as wide as the caller's.
-void ConstraintInsertion::Store(const TriangleMesh& mesh, const EdgeMesh& edges,
-  const SpatialOrderView& order, const ThreadBackend& backend)
+/// Keeps the triangles.
+void ConstraintInsertion::Store(
+  const EdgeMesh& edges, const SpatialOrderView& order, const ThreadBackend& backend)
 {
   const std::int64_t count = edges.NumberOfTriangles;
-  const bool isNarrow = mesh.Triangles.Ids32 != nullptr;
-  this->Ids32.resize(isNarrow ? 3 * count : 0);
-  this->Ids64.resize(isNarrow ? 0 : 3 * count);
-  backend.StoreTriangles(isNarrow ? MutableTriangleArray(this->Ids32.data(), count)
-                                  : MutableTriangleArray(this->Ids64.data(), count),
+  this->Triangles.resize(3 * count);
+  backend.StoreTriangles(MutableTriangleArray(this->Triangles.data(), count),
     StoreStep{ edges.Triangles.Data(), order });
   for (std::int64_t t = 0; t < count; ++t)
   {
@@ -398,13 +395,9 @@ TriangleMesh ConstraintInsertion::GetMesh(const TriangleMesh& caller) const
     mesh.ConstraintEdges = this->Edges.data();
     mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Edges.size()) / 2;
   }
-  if (!this->Ids32.empty())
+  if (!this->Triangles.empty())
   {
-    mesh.Triangles = TriangleArray(this->Ids32.data(), caller.Triangles.Count);
-  }
-  if (!this->Ids64.empty())
-  {
-    mesh.Triangles = TriangleArray(this->Ids64.data(), caller.Triangles.Count);
+    mesh.Triangles = TriangleArray(this->Triangles.data(), caller.Triangles.Count);
   }
   return mesh;
 }

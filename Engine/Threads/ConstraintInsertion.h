@@ -57,7 +57,6 @@ public:
   ConstraintInsertion(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer);
 
-  std::int64_t GetNumberInserted() const { return this->Inserted; }
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
   /// The numbers of the constraints that were no edges, ascending; of equal ones the first.
   const std::vector<std::int64_t>& GetTried() const { return this->Tried; }
@@ -87,11 +86,9 @@ public:
   void AddFlipCounts(std::int32_t* counts) const;
 
 private:
-  void Store(const TriangleMesh& mesh, const EdgeMesh& edges, const SpatialOrderView& order,
-    const ThreadBackend& backend);
+  void Store(const EdgeMesh& edges, const SpatialOrderView& order, const ThreadBackend& backend);
 
-  std::vector<std::int32_t> Ids32; ///< Triangles, if the caller's ids have 32 bits and one changed.
-  std::vector<std::int64_t> Ids64; ///< If they have 64 bits.
+  std::vector<std::int64_t> Triangles; ///< Ids, if one has changed.
   std::vector<std::pair<std::int64_t, std::int32_t>> FlipCounts; ///< Of triangle slots.
   bool HasEdges = false; ///< Whether Edges replace the caller's constraints.
   std::vector<std::int64_t> Edges; ///< Pairs of vertex ids.

@@ -23,34 +23,6 @@
 namespace delaunayflip
 {
 
-/// Writes the roles of a triangle's corners into Flips. HalfEdges hold the edges' other corners:
-/// NoCorner for a boundary edge, and for a non-manifold one ManyCorners, which becomes NoCorner.
-/// @returns the number of edges that the triangle leads.
-struct OtherCornerStep
-{
-  TriangleRecord* Triangles;
-
-  int operator()(std::int64_t t) const
-  {
-    TriangleRecord& triangle = this->Triangles[t];
-    std::uint32_t roles = 0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const CornerId other = triangle.HalfEdges[slot];
-      static_assert(static_cast<int>(CornerRole::Follower) == 0 &&
-          static_cast<int>(CornerRole::Leader) == 1 && static_cast<int>(CornerRole::Alone) == 2 &&
-          static_cast<int>(CornerRole::OneOfMany) == 3,
-        "without branches, the two special ids being larger than any corner");
-      const std::uint32_t role = (MakeCorner(static_cast<TriangleId>(t), slot) < other ? 1 : 0) +
-        (other == NoCorner ? 1 : 0) + (other == ManyCorners ? 2 : 0);
-      roles |= role << (2 * slot);
-      triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
-    }
-    triangle.Flips |= roles;
-    return CountLeaders(triangle);
-  }
-};
-
 class CornerPairing
 {
 public:
@@ -60,7 +32,7 @@ public:
   {
   }
 
-  /// Sets HalfEdges to the other corners, as OtherCornerStep expects.
+  /// Sets HalfEdges to the other corners, as SetRoles expects.
   /// @param corners by their buckets. Their order in one does not affect the result.
   /// @param starts where buckets begin in these, and the end.
   PairSums Run(const Array<CornerId>& corners, const std::vector<std::uint32_t>& starts) const

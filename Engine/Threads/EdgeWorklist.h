@@ -246,7 +246,7 @@ private:
   template <typename Work>
   StepCounts ForTasks(const ThreadBackend& backend, std::int64_t edges, const Work& work)
   {
-    constexpr std::int64_t FewestShared = 2048;
+    constexpr std::int64_t FewestShared = 512;
     if (edges < FewestShared)
     {
       StepCounts counts;

@@ -32,53 +32,20 @@ struct StripSorter<Real, ThreadBackend>
   static StripPoints<Real> Sort(
     const PlaneArray& points, const StripBounds& bounds, const ThreadBackend& backend)
   {
-    const std::int64_t strips = bounds.CountStrips();
-    // So that there are not more counters than points, however many strips there are.
-    const std::int64_t grain = std::max<std::int64_t>(1 << 16, strips);
-    const std::int64_t pieces = (points.Count + grain - 1) / grain;
-    const StripFinder findStrip = bounds.View();
-    const std::uint32_t unused = static_cast<std::uint32_t>(strips); // not finite
-    Array<std::uint32_t> stripOf = backend.MakeArray<std::uint32_t>(points.Count);
-    std::vector<std::uint32_t> next(pieces * strips, 0);
-    backend.ForRange(
-      points.Count,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        std::uint32_t* counts = &next[begin / grain * strips];
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          stripOf[i] = IsFinitePoint(points, i) ? findStrip(points.Get(i, 1)) : unused;
-          if (stripOf[i] != unused)
-          {
-            ++counts[stripOf[i]];
-          }
-        }
-      },
-      grain);
-
     StripPoints<Real> sorted;
-    sorted.Starts = backend.MakeArray<std::uint32_t>(strips + 1);
-    std::uint32_t start = 0;
-    for (std::int64_t strip = 0; strip < strips; ++strip)
-    {
-      sorted.Starts[strip] = start;
-      for (std::int64_t piece = 0; piece < pieces; ++piece)
-      {
-        const std::uint32_t items = next[piece * strips + strip];
-        next[piece * strips + strip] = start;
-        start += items;
-      }
-    }
-    sorted.Starts[strips] = start;
-    sorted.Strips = strips;
-    sorted.Count = start;
-
-    Array<Item> items = backend.MakeArray<Item>(start);
+    sorted.Strips = bounds.CountStrips();
+    const StripFinder findStrip = bounds.View();
+    const auto unused = static_cast<std::uint32_t>(sorted.Strips); // not finite
+    Array<std::uint32_t> stripOf = backend.MakeArray<std::uint32_t>(points.Count);
+    backend.ForEach(points.Count,
+      [&](std::int64_t i)
+      { stripOf[i] = IsFinitePoint(points, i) ? findStrip(points.Get(i, 1)) : unused; });
+    Array<Item> items = backend.MakeArray<Item>(points.Count);
     // The points of a range go to places all over the array. So that not the first ranges wait for
     // all of its memory, and an observer for them, it is touched before.
     constexpr std::int64_t ItemsPerPage = 4096 / sizeof(Item);
     backend.ForRange(
-      start / ItemsPerPage,
+      points.Count / ItemsPerPage,
       [&](std::int64_t begin, std::int64_t end)
       {
         for (std::int64_t page = begin; page < end; ++page)
@@ -87,29 +54,16 @@ struct StripSorter<Real, ThreadBackend>
         }
       },
       64);
-    backend.ForRange(
-      points.Count,
-      [&](std::int64_t begin, std::int64_t end)
+    const std::vector<std::uint32_t> starts = backend.PlaceByDigit(
+      points.Count, unused + 1, [&](std::int64_t i) { return stripOf[i]; },
+      [&](std::int64_t i, std::uint32_t place)
       {
-        std::uint32_t* places = &next[begin / grain * strips];
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          if (stripOf[i] != unused)
-          {
-            items[places[stripOf[i]]++] = { static_cast<Real>(points.Get(i, 0)),
-              static_cast<Real>(points.Get(i, 1)), static_cast<VertexId>(i) };
-          }
-        }
-      },
-      grain);
-    SortStrips(items, sorted, backend);
-    return sorted;
-  }
-
-private:
-  static void SortStrips(
-    Array<Item>& items, StripPoints<Real>& sorted, const ThreadBackend& backend)
-  {
+        items[place] = { static_cast<Real>(points.Get(i, 0)), static_cast<Real>(points.Get(i, 1)),
+          static_cast<VertexId>(i) };
+      });
+    sorted.Count = starts[unused];
+    sorted.Starts = backend.MakeArray<std::uint32_t>(sorted.Strips + 1);
+    std::copy_n(starts.begin(), sorted.Strips + 1, sorted.Starts.Data());
     sorted.Coordinates = backend.MakeArray<Real>(2 * sorted.Count);
     CoordinatePair<Real>* sortedPlaces = sorted.Places();
     sorted.Ids = backend.MakeArray<VertexId>(sorted.Count);
@@ -130,6 +84,7 @@ private:
         }
       },
       stripGrain);
+    return sorted;
   }
 };
 

@@ -309,7 +309,7 @@ bool ThreadBackend::PairCorners(
   {
     ++bucketBits;
   }
-  const TriangleRecord* triangles = mesh.Triangles.Data();
+  TriangleRecord* triangles = mesh.Triangles.Data();
   const std::int64_t size = 3 * mesh.NumberOfTriangles;
   Array<CornerId> corners = this->MakeArray<CornerId>(size);
   const std::vector<std::uint32_t> starts = this->PlaceByDigit(
@@ -328,7 +328,8 @@ bool ThreadBackend::PairCorners(
     return false;
   }
   sums = CornerPairing(mesh, *this).Run(corners, starts);
-  numbering = this->Count(mesh.NumberOfTriangles, OtherCornerStep{ mesh.Triangles.Data() });
+  numbering =
+    this->Count(mesh.NumberOfTriangles, [=](std::int64_t t) { return SetRoles(triangles[t], t); });
   return true;
 }
 

@@ -189,6 +189,63 @@ public:
     std::sort(numbers.Data(), numbers.Data() + size);
   }
 
+  /// One pass of a stable radix sort: calls put(i, place) for i = 0 .. size - 1, with the place of
+  /// i by digitOf(i), below `digits`.
+  /// @param most of one digit; if there are more, nothing is put.
+  /// @returns the first place of each digit, and the end; or nothing.
+  template <typename DigitOf, typename Put>
+  std::vector<std::uint32_t> PlaceByDigit(std::int64_t size, std::uint32_t digits,
+    const DigitOf& digitOf, const Put& put, std::uint32_t most = ~std::uint32_t(0)) const
+  {
+    // A piece has a count of every digit, so there are not more counts than items.
+    constexpr std::int64_t Fewest = 1 << 12, Most = 1 << 17, WantedPieces = 16;
+    const std::int64_t grain =
+      std::max<std::int64_t>(std::clamp(size / WantedPieces, Fewest, Most), digits);
+    const std::int64_t pieces = (size + grain - 1) / grain;
+    std::vector<std::uint32_t> starts(pieces * digits, 0);
+    const auto count = [&](std::int64_t begin, std::int64_t end)
+    {
+      std::uint32_t* counts = &starts[begin / grain * digits];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        ++counts[digitOf(i)];
+      }
+    };
+    this->ForRange(size, count, grain);
+    // Row by row, which is fast: columns would be a power of two apart.
+    std::vector<std::uint32_t> firsts(digits + 1, 0);
+    for (std::int64_t piece = 0; piece < pieces; ++piece)
+    {
+      for (std::uint32_t digit = 0; digit < digits; ++digit)
+      {
+        firsts[digit + 1] += starts[piece * digits + digit];
+      }
+    }
+    if (*std::max_element(firsts.begin(), firsts.end()) > most)
+    {
+      return {};
+    }
+    std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+    std::vector<std::uint32_t> running(firsts.begin(), firsts.end() - 1);
+    for (std::int64_t piece = 0; piece < pieces; ++piece)
+    {
+      for (std::uint32_t digit = 0; digit < digits; ++digit)
+      {
+        running[digit] += std::exchange(starts[piece * digits + digit], running[digit]);
+      }
+    }
+    const auto place = [&](std::int64_t begin, std::int64_t end)
+    {
+      std::uint32_t* next = &starts[begin / grain * digits];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        put(i, next[digitOf(i)]++);
+      }
+    };
+    this->ForRange(size, place, grain);
+    return firsts;
+  }
+
   /// 0 .. size - 1 by keyOf(i), a number of KeyBits bits; equal keys keep their order.
   template <int KeyBits, typename KeyOf>
   Array<std::uint32_t> SortIndices(std::int64_t size, const KeyOf& keyOf) const
@@ -315,62 +372,6 @@ private:
       Request(work, std::min(i + PrefetchDistance, end - 1), 0);
       call(i);
     }
-  }
-
-  /// One pass of a stable radix sort: calls put(i, place) for i = 0 .. size - 1, with the place of
-  /// i by digitOf(i), below `digits`.
-  /// @param most of one digit; if there are more, nothing is put.
-  /// @returns the first place of each digit, and the end; or nothing.
-  template <typename DigitOf, typename Put>
-  std::vector<std::uint32_t> PlaceByDigit(std::int64_t size, std::uint32_t digits,
-    const DigitOf& digitOf, const Put& put, std::uint32_t most = ~std::uint32_t(0)) const
-  {
-    // A piece has a count of every digit.
-    constexpr std::int64_t Fewest = 1 << 12, Most = 1 << 17, WantedPieces = 16;
-    const std::int64_t grain = std::clamp(size / WantedPieces, Fewest, Most);
-    const std::int64_t pieces = (size + grain - 1) / grain;
-    std::vector<std::uint32_t> starts(pieces * digits, 0);
-    const auto count = [&](std::int64_t begin, std::int64_t end)
-    {
-      std::uint32_t* counts = &starts[begin / grain * digits];
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        ++counts[digitOf(i)];
-      }
-    };
-    this->ForRange(size, count, grain);
-    // Row by row, which is fast: columns would be a power of two apart.
-    std::vector<std::uint32_t> firsts(digits + 1, 0);
-    for (std::int64_t piece = 0; piece < pieces; ++piece)
-    {
-      for (std::uint32_t digit = 0; digit < digits; ++digit)
-      {
-        firsts[digit + 1] += starts[piece * digits + digit];
-      }
-    }
-    if (*std::max_element(firsts.begin(), firsts.end()) > most)
-    {
-      return {};
-    }
-    std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
-    std::vector<std::uint32_t> running(firsts.begin(), firsts.end() - 1);
-    for (std::int64_t piece = 0; piece < pieces; ++piece)
-    {
-      for (std::uint32_t digit = 0; digit < digits; ++digit)
-      {
-        running[digit] += std::exchange(starts[piece * digits + digit], running[digit]);
-      }
-    }
-    const auto place = [&](std::int64_t begin, std::int64_t end)
-    {
-      std::uint32_t* next = &starts[begin / grain * digits];
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        put(i, next[digitOf(i)]++);
-      }
-    };
-    this->ForRange(size, place, grain);
-    return firsts;
   }
 
   class Pool;

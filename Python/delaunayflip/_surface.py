@@ -200,16 +200,11 @@ class Constraints:
 
 def list_pairs(cells, are_closed):
     """(k, 2) consecutive points of each cell; of closed ones also the last and the first."""
-    corners, offsets = cells.corners.astype(numpy.int64), cells.offsets
-    following = numpy.arange(1, len(corners) + 1)
-    ends = offsets[1:][cells.sizes > 0] - 1  # the last corner of each cell
-    is_last = numpy.zeros(len(corners), dtype=bool)
-    is_last[ends] = True
-    following[ends] = offsets[:-1][cells.sizes > 0]
-    kept = ~is_last
-    if are_closed:
-        kept[offsets[1:][cells.sizes > 2] - 1] = True
-    return numpy.stack([corners[kept], corners[following[kept]]], axis=1)
+    corners, sizes = cells.corners.astype(numpy.int64), cells.sizes
+    counts = numpy.maximum(sizes - ~(are_closed & (sizes > 2)), 0)
+    first, steps = numpy.repeat(cells.offsets[:-1], counts), _count_up(counts)
+    following = (steps + 1) % numpy.repeat(sizes, counts)
+    return numpy.stack([corners[first + steps], corners[first + following]], axis=1)
 
 
 def _drop_points(pairs):

@@ -78,10 +78,6 @@ class Cloud(Input):
         vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX,
                        [*counts, *Totals.of_run(report, result.iterations).list_fields()])
         texts = [report.defects] if report.defects else []
-        removed = report.triangles_outside + report.triangles_large
-        if len(result.triangles) + removed == 0 and report.stop_reason != "aborted":
-            texts.append(f"{len(self.points)} point{'s' * (len(self.points) > 1)} without a triangle: "
-                         "there are fewer than three places, or all are on one line")
         texts += describe_short(data.GetPointData(), count, "point",
                                 "left out" if is_grown else "passed unchanged")
         return "; ".join(texts)

@@ -12,8 +12,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -28,13 +26,6 @@ namespace delaunayflip
 {
 namespace
 {
-
-using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 const OwnedMesh<float>& GetMesh(std::int64_t points)
 {
@@ -110,20 +101,7 @@ void BenchmarkLawson(benchmark::State& state)
   }
 }
 
-/// A "Name:   123 kB" line of /proc/self/status, in bytes.
-double ReadStatus(const std::string& name)
-{
-  std::ifstream file("/proc/self/status");
-  double kilobytes = 0.0;
-  for (std::string word; file >> word;)
-  {
-    if (word == name + ":" && file >> kilobytes)
-    {
-      return 1024.0 * kilobytes;
-    }
-  }
-  throw std::runtime_error("no " + name + " in /proc/self/status");
-}
+double ReadStatus(const char* name) { return ReadBytes("/proc/self/status", name, 0.0); }
 
 /// The peak resident memory of a whole run beyond its input and output arrays, in bytes.
 ///

@@ -3,12 +3,38 @@
 #ifndef DELAUNAYFLIP_MACHINE_H
 #define DELAUNAYFLIP_MACHINE_H
 
+#include <chrono>
 #include <fstream>
 #include <string>
 #include <thread>
 
 namespace delaunayflip
 {
+
+using Clock = std::chrono::steady_clock;
+
+inline double SecondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+inline double MillisecondsSince(Clock::time_point start) { return 1e3 * SecondsSince(start); }
+
+/// The number behind a word of a file like /proc/meminfo, in kB, as bytes; `missing` if it is not
+/// there.
+inline double ReadBytes(const char* path, const std::string& name, double missing)
+{
+  std::ifstream file(path);
+  for (std::string word; file >> word;)
+  {
+    double kilobytes = 0.0;
+    if (word == name + ":" && file >> kilobytes)
+    {
+      return 1024.0 * kilobytes;
+    }
+  }
+  return missing;
+}
 
 /// Describes CPU, cores, compiler and build type in one line.
 inline std::string DescribeMachine()

@@ -13,7 +13,6 @@
 #endif
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -56,13 +55,7 @@ using namespace delaunayflip;
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
 using Settings = std::map<std::string, std::string>;
-
-double SecondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 Settings ReadSettings(int argc, char** argv)
 {

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -210,19 +209,6 @@ struct Result
   std::string Note;
 };
 
-class StopWatch
-{
-public:
-  double GetMilliseconds() const
-  {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - this->Start)
-      .count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
-};
-
 PointInput View(const Places& places, const std::vector<std::int64_t>& segments)
 {
   PointInput input;
@@ -238,19 +224,19 @@ Result TimeEngine(const PointInput& input, BackendKind backend, int threads)
   options.Backend = backend;
   options.NumberOfThreads = threads;
   std::vector<std::int32_t> triangles(6 * input.Points.Count);
-  const StopWatch watch;
+  const Clock::time_point start = Clock::now();
   FlipSession session(input, options);
-  const double build = watch.GetMilliseconds();
+  const double build = MillisecondsSince(start);
   session.Advance();
   const std::int64_t count = session.GetReport().Triangles;
-  const double flips = watch.GetMilliseconds() - build;
+  const double flips = MillisecondsSince(start) - build;
   session.StoreTriangles(MutableTriangleArray(triangles.data(), count));
   const FlipReport& report = session.GetReport();
   char note[128];
   std::snprintf(note, sizeof note, "build %.1f, flips %.1f; %.2f flips per point, %zu iterations",
     build, flips, static_cast<double>(report.TotalFlips) / static_cast<double>(input.Points.Count),
     report.Iterations.size());
-  return { watch.GetMilliseconds(), count, note };
+  return { MillisecondsSince(start), count, note };
 }
 
 /// The most device memory since the last call of TakePeakCudaMemory.
@@ -276,12 +262,12 @@ Result TimeOnDevice(const PointInput& host)
   std::int64_t count = 0;
   TakePeakCudaMemory(); // of earlier runs
   {
-    const StopWatch watch;
+    const Clock::time_point start = Clock::now();
     FlipSession session(input, PointOptions());
     session.Advance();
     count = session.GetReport().Triangles;
     session.StoreTriangles(MutableTriangleArray(triangles.Data(), count), DeviceStream());
-    milliseconds = watch.GetMilliseconds();
+    milliseconds = MillisecondsSince(start);
   } // its memory is measured when it is free
   return { milliseconds, count, DescribeMemory(host) };
 }
@@ -296,28 +282,28 @@ Result TimeCgal(const PointInput& input)
   {
     points.emplace_back(input.Points.Get(i, 0), input.Points.Get(i, 1));
   }
-  const StopWatch watch;
+  const Clock::time_point start = Clock::now();
   if (input.NumberOfSegments == 0)
   {
     CGAL::Delaunay_triangulation_2<Kernel> triangulation(points.begin(), points.end());
-    return { watch.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
+    return { MillisecondsSince(start), static_cast<std::int64_t>(triangulation.number_of_faces()),
       "" };
   }
   CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default, CGAL::Exact_predicates_tag>
     triangulation;
   triangulation.insert(points.begin(), points.end());
-  const double before = watch.GetMilliseconds();
+  const double before = MillisecondsSince(start);
   std::vector<std::pair<std::size_t, std::size_t>> pairs; // CGAL's fastest way, by indices
   for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
   {
     pairs.emplace_back(input.Segments[2 * i], input.Segments[2 * i + 1]);
   }
-  const StopWatch all;
+  const Clock::time_point again = Clock::now();
   triangulation.clear();
   triangulation.insert_constraints(points.begin(), points.end(), pairs.begin(), pairs.end());
   char note[64];
   std::snprintf(note, sizeof note, "%.1f without segments", before);
-  return { all.GetMilliseconds(), static_cast<std::int64_t>(triangulation.number_of_faces()),
+  return { MillisecondsSince(again), static_cast<std::int64_t>(triangulation.number_of_faces()),
     note };
 }
 

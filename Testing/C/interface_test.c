@@ -90,6 +90,26 @@ static void TestFlipsSquare(void)
   CHECK(strcmp(report.defects, "") == 0);
 }
 
+/* A sum over meshes adds up what it was given; without triangles there is nothing to say. */
+static void TestSummary(void)
+{
+  const delaunayflip_mesh mesh = MakeMesh();
+  int64_t triangles[6];
+  const char* text = NULL;
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  CHECK(delaunayflip_summarize(&report, &text) == DELAUNAYFLIP_OK && strcmp(text, "") == 0);
+  CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, &report) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_summarize(&report, &text) == DELAUNAYFLIP_OK);
+  CHECK(strncmp(text, "mesh: 4 points, 2 triangles", 27) == 0);
+  CHECK(strstr(text, "\nflips: 1 in 1 iteration, converged\n") != NULL);
+  report.total_flips = 2345;
+  CHECK(delaunayflip_summarize(&report, &text) == DELAUNAYFLIP_OK);
+  CHECK(strstr(text, "\nflips: 2,345 in 1 iteration") != NULL);
+  CHECK(delaunayflip_summarize(&report, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_summarize(NULL, &text) != DELAUNAYFLIP_OK);
+}
+
 static void TestAllTypes(void)
 {
   const float floats[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
@@ -361,6 +381,7 @@ static void TestPoints(void)
 int main(void)
 {
   TestFlipsSquare();
+  TestSummary();
   TestAllTypes();
   TestSteps();
   TestInvalidOptions();

@@ -150,26 +150,12 @@ def bumpy_grid(columns, height, seed=7):
     return make_mesh(points, triangles)
 
 
-def random_insertion(count, seed=3):
-    """A square of two triangles; every further random point splits the triangle around it."""
-    generator = random.Random(seed)
-    points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
-    triangles = [(0, 1, 2), (0, 2, 3)]
-
-    def is_left(a, b, p):
-        (ax, ay, _), (bx, by, _) = points[a], points[b]
-        return (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0
-
-    while len(points) < count:
-        point = (generator.random(), generator.random(), 0.0)
-        for place, (a, b, c) in enumerate(triangles):
-            if is_left(a, b, point) and is_left(b, c, point) and is_left(c, a, point):
-                new = len(points)
-                points.append(point)
-                triangles[place] = (a, b, new)
-                triangles += [(b, c, new), (c, a, new)]
-                break
-    return make_mesh(points, triangles)
+def bad_mesh(columns):
+    """A sheared grid, most of whose edges are bad."""
+    mesh = bumpy_grid(columns, 0)
+    for i, (x, y, z) in enumerate(points_of(mesh)):
+        mesh.GetPoints().SetPoint(i, x + 2.5 * y, y, z)
+    return mesh
 
 
 def write_mesh(mesh, path, **settings):

@@ -9,10 +9,10 @@ import unittest
 
 from CommandTesting import (
     CommandTest,
+    bad_mesh,
     bumpy_grid,
     make_mesh,
     points_of,
-    random_insertion,
     read_mesh,
     triangle_set,
     triangles_of,
@@ -174,7 +174,7 @@ class Options(CommandTest):
         self.assertEqual(self.report(flat, "out.vtk")["geometry"], "planar")
 
     def test_pieces(self):
-        path = write_mesh(random_insertion(500), self.path("in.vtk"))
+        path = write_mesh(bad_mesh(23), self.path("in.vtk"))
         meshes = []
         for pieces in (1, 5):
             report = self.report(path, "out.vtk", "--tie-rule", "canonical", "--pieces", pieces)
@@ -186,7 +186,7 @@ class Options(CommandTest):
 
 class ManyThreads(CommandTest):
     def test_more_than_there_is_memory_for(self):
-        path = write_mesh(random_insertion(5000), self.path("in.vtk"))
+        path = write_mesh(bad_mesh(71), self.path("in.vtk"))
         arguments = (path, "out.vtk", "--backend", "threads", "--threads")
         backend = self.report(*arguments, 65536)["backend"]
         self.assertLessEqual(int(backend.split()[1]), max(16, 2 * os.cpu_count()))

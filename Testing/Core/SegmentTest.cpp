@@ -261,6 +261,21 @@ TEST(SplitCrossings, LeavesNoCrossing)
   }
 }
 
+/// A point that is too near to another one is not used, also where segments cross.
+TEST(SplitCrossings, UsesNoPointThatIsNotUsed)
+{
+  Drawing drawing;
+  drawing.Points = { { 0, 0 }, { 2, 2 }, { 0, 2 }, { 2, 0 }, { 1.0625, 1 }, { 1, 1 } };
+  drawing.Segments = { { 0, 1 }, { 2, 3 } };
+  PointOptions options;
+  options.SplitCrossings = true;
+  options.PointTolerance = 0.125;
+  const Triangulation result = Triangulate(drawing, options);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 3, 4, 4 }), result.UsedPoints);
+  EXPECT_EQ(0, result.Report.FromPoints.RefusedSegments);
+  EXPECT_EQ((Pairs{ { 0, 6 }, { 6, 1 }, { 2, 6 }, { 6, 3 } }), result.Edges);
+}
+
 TEST(SplitCrossings, RoundsOnceAndUsesPointsThatAreThere)
 {
   PointOptions options;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BenchmarkMesh.h"
 
-#include "GeneratedMeshes.h"
+#include "BadPlane.h"
 #include "MeshFile.h"
 
 #if defined(DELAUNAYFLIP_HAS_VTK)
@@ -24,7 +24,6 @@ namespace
 {
 
 constexpr std::uint32_t Seed = 2013;
-constexpr std::int64_t LargestTile = 250000;
 constexpr std::int64_t SmallestRealMesh = 90000; ///< Triangles.
 
 template <typename Real>
@@ -63,13 +62,8 @@ bool BenchmarkMesh::IsPlane() const
 
 BenchmarkMesh MakeRandomMesh(std::int64_t points)
 {
-  if (points <= LargestUntiledMesh)
-  {
-    return Convert("random bad", MakeRandomBadMesh(points, Seed));
-  }
-  const double tiles = static_cast<double>(points) / static_cast<double>(LargestTile);
-  const auto tilesPerSide = static_cast<std::int32_t>(std::ceil(std::sqrt(tiles)));
-  return Convert("random bad, tiled", MakeTiledBadMesh(points, tilesPerSide, Seed));
+  return Convert(
+    points <= LargestUntiledMesh ? "random bad" : "random bad, tiled", MakePlaneMesh(points));
 }
 
 BenchmarkMesh MakeLatticeMesh(std::int64_t points)

@@ -41,9 +41,6 @@ struct BenchmarkMesh
   bool IsPlane() const;
 };
 
-/// The largest random bad mesh, in points, that is made in one piece; larger ones are tiled.
-constexpr std::int64_t LargestUntiledMesh = 5000000;
-
 BenchmarkMesh MakeRandomMesh(std::int64_t points);
 
 /// About `points` points of a square lattice: every edge is a tie or clearly good.

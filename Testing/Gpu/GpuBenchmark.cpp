@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BadPlane.h"
 #include "BenchmarkMesh.h"
 #include "CgalDelaunay.h"
 #include "CudaDevice.h"
@@ -17,7 +18,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -36,14 +36,8 @@ namespace delaunayflip
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 using Times = std::map<std::string, double>;
-
-double MillisecondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 double FindMedian(std::vector<double> values)
 {
@@ -119,21 +113,6 @@ Json Describe()
   return json;
 }
 
-/// The free memory of this machine in bytes; no limit if that is unknown.
-double GetFreeMemory()
-{
-  std::ifstream file("/proc/meminfo");
-  for (std::string word; file >> word;)
-  {
-    double kilobytes = 0.0;
-    if (word == "MemAvailable:" && file >> kilobytes)
-    {
-      return 1024.0 * kilobytes;
-    }
-  }
-  return INFINITY;
-}
-
 class GpuBenchmark
 {
 public:
@@ -180,7 +159,8 @@ public:
     {
       // The mesh as generated, as given to the program, and the result.
       constexpr double BytesPerPoint = 160.0;
-      const bool hasMemory = BytesPerPoint * static_cast<double>(size) <= GetFreeMemory();
+      const bool hasMemory = BytesPerPoint * static_cast<double>(size) <=
+        ReadBytes("/proc/meminfo", "MemAvailable", INFINITY);
       if (!hasMemory || (!this->HasGpu && !this->IsForCpu(size)))
       {
         BenchmarkMesh none;

@@ -17,7 +17,6 @@ import numpy
 
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
 BLUE, VERMILION, PURPLE = "#0072B2", "#D55E00", "#CC79A7"
-HATCHES = ("", "//", "..", "xx")
 
 # Name, colour, marker and line of every program.
 STYLES = {
@@ -37,7 +36,6 @@ STYLES = {
     "vtk": ("vtkDelaunay2D", ORANGE, ">", "-"),
     "meshlib": ("MeshLib", GREEN, "P", "-"),
 }
-SCHEDULES = ("ours-all", "ours-gpu", "no-chunks", "paper-all", "paper-gpu")
 
 plt.rcParams.update({
     "font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False,
@@ -52,8 +50,6 @@ def number(value):
         return str(value)
     if isinstance(value, int):
         return f"{value:,}"
-    if value == 0:
-        return "0"
     return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.3g}"
 
 
@@ -256,7 +252,7 @@ def fit_iterations(results, program):
 def fig9a(results):
     rows, measured = [], []
     with drawing(results, "fig9a", size=(6.5, 3.8)) as (axes,):
-        for program in SCHEDULES:
+        for program in ("ours-all", "ours-gpu", "no-chunks", "paper-all", "paper-gpu"):
             points, fit = fit_iterations(results, program)
             if not points:
                 continue
@@ -319,7 +315,7 @@ def bars(axes, groups, programs, get, color):
     for i, program in enumerate(programs):
         heights = [get(group, program) or 0 for group in groups]
         axes.bar([place + i * width for place in range(len(groups))], heights, width,
-                 color=color(i, program), hatch=HATCHES[i % 4], edgecolor="white",
+                 color=color(i, program), hatch=("", "//", "..", "xx")[i % 4], edgecolor="white",
                  label=STYLES[program][0] if program in STYLES else program)
     axes.set_xticks([place + 0.4 - width / 2 for place in range(len(groups))], groups, rotation=15)
 

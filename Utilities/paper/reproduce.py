@@ -204,8 +204,8 @@ def run_parts(arguments):
     left = [part for part in plan(
         scale, machine["gpu"], present, prepare_meshes(arguments, scale))
         if arguments.parts.search(part[0]) and "failed" in done.get(part[0], {"failed": ""})]
-    shared = {"Repetitions": scale["timing"][0], "Seconds": scale["timing"][1],
-              "HasTimes": not arguments.no_times, "OnGpu": machine["gpu"]}
+    shared = {"Repetitions": 0 if arguments.no_times else scale["timing"][0],
+              "Seconds": scale["timing"][1], "OnGpu": machine["gpu"]}
     for number, (name, program, experiment, settings) in enumerate(left):
         timeout = min(LONGEST, arguments.time_limit - (time.monotonic() - start))
         print(f"[{number + 1}/{len(left)}] {name}", flush=True)

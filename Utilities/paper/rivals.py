@@ -89,7 +89,7 @@ def repeat(settings, call):
     """A list of times of call(), and its last result."""
     times, result = [], None
     start = time.monotonic()
-    while not times or (settings["HasTimes"] and len(times) < settings["Repetitions"]
+    while not times or (len(times) < settings["Repetitions"]
                         and time.monotonic() - start < settings["Seconds"]):
         milliseconds, result = call()
         times.append(milliseconds)
@@ -137,7 +137,7 @@ def main():
         return
     settings = json.loads(sys.argv[2])
     row = run_meshlib(settings) if what == "meshlib" else run_from_points(what, settings)
-    if not settings["HasTimes"]:
+    if not settings["Repetitions"]:
         row = {name: value for name, value in row.items() if not name.endswith("_ms")}
     print(json.dumps({"rows": [row]}))
 

@@ -38,26 +38,16 @@ void RunPhase(const CudaBackend& backend, std::int64_t size, const Step& step)
   }
 }
 
-template <typename Point, typename Test>
-PaperResult RunPaperLoopOnGpu(
-  const PaperArrays<Point, PaperVector>& host, const Test& test, const PaperOptions& options)
+PaperLoop MakePaperLoopOnGpu(const TriangleMesh& mesh, const PaperOptions& options)
 {
-  const CudaBackend backend({ -1 }, static_cast<int>(std::thread::hardware_concurrency()));
-  const auto scope = backend.MakeCurrent();
-  return RunPaperLoop(host, test, options, backend);
+  const auto runOn = [](const auto& loop)
+  {
+    const CudaBackend backend({ -1 }, static_cast<int>(std::thread::hardware_concurrency()));
+    const auto scope = backend.MakeCurrent();
+    return loop(backend);
+  };
+  return options.InDouble ? ChooseLoop<double>(mesh, options, runOn)
+                          : ChooseLoop<float>(mesh, options, runOn);
 }
-
-template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<float, 2>, PaperVector>&,
-  const OppositeAngleTest<float>&, const PaperOptions&);
-template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<double, 2>, PaperVector>&,
-  const OppositeAngleTest<double>&, const PaperOptions&);
-template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<float, 2>, PaperVector>&,
-  const InCircleTest<float>&, const PaperOptions&);
-template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<double, 2>, PaperVector>&,
-  const InCircleTest<double>&, const PaperOptions&);
-template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<float, 3>, PaperVector>&,
-  const OppositeAngleTest<float>&, const PaperOptions&);
-template PaperResult RunPaperLoopOnGpu(const PaperArrays<PaperPoint<double, 3>, PaperVector>&,
-  const OppositeAngleTest<double>&, const PaperOptions&);
 
 }

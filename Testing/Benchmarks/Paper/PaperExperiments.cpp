@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BadPlane.h"
 #include "CgalDelaunay.h"
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -42,24 +42,11 @@ namespace delaunayflip
 namespace
 {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 using Ids = std::vector<std::int32_t>;
 
-/// The epsilon of eq. 5 for float angles, "experimentally estimated" like the paper's: with 5e-4
-/// the loop does not end on a random bad mesh of 1 M points. Near pi a change of the cosine's last
-/// bit changes acos by 3.5e-4.
-constexpr double FloatEpsilon = 1e-3;
-
 /// Of eq. 5, for sequential Lawson on surfaces, in double precision.
 constexpr double LawsonEpsilon = 1e-6;
-
-constexpr std::int64_t PaperLimit = 150; ///< Iterations of the paper's method.
-
-double MillisecondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 TriangleMesh WithTriangles(TriangleMesh mesh, const Ids& triangles)
 {
@@ -85,10 +72,8 @@ FlipOptions MakeOptions(GeometryKind geometry, bool onGpu, int threads = 0)
 PaperOptions MakePaperOptions(bool onGpu, int threads = 0)
 {
   PaperOptions options;
-  options.Epsilon = FloatEpsilon;
   options.OnGpu = onGpu;
   options.NumberOfThreads = threads;
-  options.MaximumIterations = PaperLimit;
   return options;
 }
 
@@ -133,20 +118,6 @@ std::int64_t CountTurnedOver(const TriangleMesh& mesh)
     turned += Orientation(corners[0], corners[1], corners[2]) <= 0;
   }
   return turned;
-}
-
-/// The mesh of section 5.1.
-OwnedMesh<float> MakePlaneMesh(std::int64_t points)
-{
-  constexpr std::uint32_t Seed = 2013;
-  constexpr std::int64_t LargestUntiledMesh = 5000000;
-  constexpr double PointsOfTile = 250000.0;
-  if (points <= LargestUntiledMesh)
-  {
-    return MakeRandomBadMesh(points, Seed);
-  }
-  const double tiles = static_cast<double>(points) / PointsOfTile;
-  return MakeTiledBadMesh(points, static_cast<std::int32_t>(std::ceil(std::sqrt(tiles))), Seed);
 }
 
 using EdgeSet = std::unordered_set<std::uint64_t>;
@@ -234,9 +205,8 @@ using Faces = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Faces::const_iterator>;
 
 /// A surface whose distances are asked for.
-class Surface
+struct Surface
 {
-public:
   Surface(const std::vector<double>& points, const std::vector<std::int32_t>& ids)
     : Points(points)
   {
@@ -279,17 +249,15 @@ public:
     return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   }
 
-  EdgeSet Edges;
-  double Volume = 0.0;
-
-private:
   Kernel::Point_3 At(std::size_t i) const
   {
     return { this->Points[3 * i], this->Points[3 * i + 1], this->Points[3 * i + 2] };
   }
 
   const std::vector<double>& Points;
-  Faces Nonempty;
+  EdgeSet Edges;
+  double Volume = 0.0;
+  Faces Nonempty; ///< Those with area.
   CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> Tree;
 };
 
@@ -297,58 +265,23 @@ private:
 ///
 /// "distance" is the largest one from the middle of an edge that only one of the surfaces has to
 /// the other surface, relative to the bounding box's diagonal. "volume_change" is relative, too.
-/// "left_fixed" counts bad edges of the result that are feature, non-manifold or boundary edges of
-/// the input. Of the others, "left_duplicate" are those whose flip would make an edge that exists,
-/// "left_fold" those whose flip would fold the surface over, and "left_other" the rest.
+/// "left_fixed" counts bad edges of the result that are feature edges of the input, and
+/// "left_other" those for which the report has no reason.
 /// @param options with which `before` was flipped.
 void DescribeChange(const OwnedMesh<double>& before, const std::vector<std::int32_t>& after,
   const FlipOptions& options, Json& row)
 {
-  constexpr double Tolerance = 1e-6; // radians
   const Surface old(before.Points, before.Triangles), current(before.Points, after);
   row["distance"] =
     std::sqrt(std::max(current.FindSquaredDistance(old), old.FindSquaredDistance(current))) /
     old.FindDiagonal();
   row["volume_change"] = (current.Volume - old.Volume) / old.Volume;
-  EdgeSet fixed;
-  const std::vector<std::int64_t> fixedIds = FindFixedEdges(before.View(), options);
-  for (std::size_t i = 0; i < fixedIds.size(); i += 2)
-  {
-    fixed.insert(CornerMesh::MakeEnds(fixedIds[i], fixedIds[i + 1]));
-  }
-  const CornerMesh mesh({ after.data(), before.NumberOfTriangles() });
-  const auto at = [&](std::int32_t corner)
-  {
-    const double* x = &before.Points[3 * std::size_t(after[corner])];
-    return PaperPoint<double, 3>{ x[0], x[1], x[2], 0.0 };
-  };
-  for (const char* reason : { "left_fixed", "left_duplicate", "left_fold", "left_other" })
-  {
-    row[reason] = 0;
-  }
-  for (std::int32_t corner = 0; corner < mesh.CountCorners(); ++corner)
-  {
-    if (!mesh.IsInterior(corner))
-    {
-      continue;
-    }
-    const std::int32_t twin = mesh.Twins[corner];
-    const auto a = at(corner), b = at(twin);
-    const auto p = at(CornerMesh::Next(corner)), q = at(CornerMesh::Previous(corner));
-    if (!OppositeAngleTest<double>{ Pi + Tolerance }.IsBad(p, q, a, b))
-    {
-      continue;
-    }
-    const auto quad = Cross(q - p, a - b);
-    const bool folds =
-      !(Dot(Cross(p - a, b - a), quad) > 0.0) || !(Dot(Cross(q - b, a - b), quad) > 0.0);
-    const bool exists = current.Edges.count(CornerMesh::MakeEnds(after[corner], after[twin])) != 0;
-    const char* reason = fixed.count(mesh.GetEnds(corner)) != 0 ? "left_fixed"
-      : exists                                                  ? "left_duplicate"
-      : folds                                                   ? "left_fold"
-                                                                : "left_other";
-    row[reason] = row[reason].get<std::int64_t>() + 1;
-  }
+  FlipOptions free = options;
+  free.FeatureAngle = 180.0;
+  const auto left = row["bad_left"].get<std::int64_t>();
+  row["left_fixed"] = CountNonDelaunayEdges(WithTriangles(before.View(), after), free) - left;
+  row["left_other"] =
+    left - row["left_duplicate"].get<std::int64_t>() - row["left_fold"].get<std::int64_t>();
 }
 
 std::vector<double> ListSmallestAngles(const TriangleMesh& mesh)
@@ -368,18 +301,15 @@ double FindMean(const std::vector<double>& values)
 class Experiments
 {
 public:
-  int Repetitions = 5; ///< Of each timed program, after one run to warm up.
+  int Repetitions = 5; ///< Of each timed program, after one run to warm up. 0: without times.
   double Seconds = 20.0; ///< No repetition begins after this time.
   bool OnGpu = false; ///< Whether to use the GPU, too.
-  bool HasTimes = true; ///< Without times every program runs once.
   std::string Mesh; ///< A file, or the name of a mesh.
   std::string Ruin; ///< How to ruin it: "flips", "splits", or not at all.
   std::int64_t Points = 100000;
   std::vector<std::int64_t> Triangles = { 6, 10, 100, 1000 };
   std::vector<double> Epsilons = { 1e-7, 1e-6, 1e-5, 1e-4, 1e-3 };
-  std::vector<double> FeatureAngles = { 20.0, 30.0, 60.0, 180.0 };
   std::string Program = "ours"; ///< "ours", "no-chunks", "paper", "lawson" or "cgal".
-  double Threshold = 30.0;
   Json Rows;
 
   /// Fig. 6: the worst case.
@@ -440,7 +370,7 @@ public:
   /// Fig. 8b: triangles that differ from CGAL's.
   void RunQuality()
   {
-    this->HasTimes = false;
+    this->Repetitions = 0;
     const OwnedMesh<float> mesh = MakePlaneMesh(this->Points);
     const Ids expected = MakeCgalTriangles(mesh);
     FlipOptions options = MakeOptions(GeometryKind::Auto, this->OnGpu);
@@ -479,7 +409,7 @@ public:
   {
     const FileMesh file = ReadMeshFile(this->Mesh);
     const TriangleMesh mesh = file.View();
-    for (const double degrees : { this->Threshold, 180.0 })
+    for (const double degrees : { 30.0, 180.0 })
     {
       const auto add = [&](Json row)
       {
@@ -546,7 +476,7 @@ public:
       this->Ruin == "flips" ? RuinByFlips(mesh, 6.0, Seed) : RuinBySplits(mesh, 0.1, Seed);
     }
     const std::vector<double> before = ListSmallestAngles(mesh.View());
-    for (const double featureAngle : this->FeatureAngles)
+    for (const double featureAngle : { 20.0, 30.0, 60.0, 180.0 })
     {
       FlipOptions options = MakeOptions(GeometryKind::Surface, this->OnGpu);
       options.FeatureAngle = featureAngle;
@@ -620,7 +550,7 @@ private:
   {
     const Clock::time_point start = Clock::now();
     std::vector<Json> runs{ run() };
-    if (!this->HasTimes)
+    if (this->Repetitions == 0)
     {
       return;
     }
@@ -662,6 +592,8 @@ private:
         row["iterations"] = report.Iterations.size();
         row["flips"] = report.TotalFlips;
         row["bad_left"] = report.NonDelaunayAfter;
+        row["left_duplicate"] = report.BlockedByEdge;
+        row["left_fold"] = report.BlockedByShape;
         row["stop"] = ToString(report.StopReason);
         row["flipped"] = row["excluded"] = Json::array();
         for (const IterationRecord& iteration : report.Iterations)
@@ -678,27 +610,29 @@ private:
   Json FlipAsPaper(
     const TriangleMesh& mesh, const PaperOptions& options, const std::string& program)
   {
-    PaperMethod method(mesh, options);
-    method.Options.CountsIterations = true;
-    const PaperResult result = method.Run();
+    const PaperLoop run = MakePaperLoop(mesh, options);
+    PaperOptions counting = options;
+    counting.CountsIterations = true;
+    const PaperResult result = run(counting);
     this->Result = result.Triangles;
     Json row = MakeRow(program, mesh);
     row["precision"] = options.InDouble ? "double" : "float";
     row["epsilon"] = options.Epsilon;
     row["backend"] = result.Backend;
     row["iterations"] = result.Iterations;
-    row["flips"] = result.CountFlips();
+    std::int64_t flips = 0;
     row["stop"] = result.Converged ? "converged" : "iteration limit";
     row["flipped"] = row["excluded"] = Json::array();
     for (const PaperIteration& iteration : result.Counts)
     {
       row["flipped"].push_back(iteration.Flipped);
       row["excluded"].push_back(iteration.Bad - iteration.Flipped);
+      flips += iteration.Flipped;
     }
-    method.Options.CountsIterations = false;
-    if (this->HasTimes)
+    row["flips"] = flips;
+    if (this->Repetitions > 0)
     {
-      this->Time(row, [&] { return Json{ { "flips_ms", 1e3 * method.Run().FlipSeconds } }; });
+      this->Time(row, [&] { return Json{ { "flips_ms", 1e3 * run(options).FlipSeconds } }; });
     }
     return row;
   }
@@ -781,7 +715,7 @@ private:
     // Shewchuk's bound on the rounding error: a larger determinant has the right sign.
     const double unit = 0.5 * std::numeric_limits<Real>::epsilon();
     const double bound = (10.0 + 96.0 * unit) * unit;
-    const double epsilon = sizeof(Real) == 4 ? FloatEpsilon : 1e-7;
+    const double epsilon = sizeof(Real) == 4 ? PaperOptions().Epsilon : 1e-7;
     for (const bool onGpu : this->ListPlaces())
     {
       PaperOptions options = MakePaperOptions(onGpu);
@@ -849,8 +783,8 @@ private:
   Ids Result; ///< The triangles that the last program has left.
 };
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(Experiments, Repetitions, Seconds, OnGpu, HasTimes,
-  Mesh, Ruin, Points, Triangles, Epsilons, FeatureAngles, Program, Threshold)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(
+  Experiments, Repetitions, Seconds, OnGpu, Mesh, Ruin, Points, Triangles, Epsilons, Program)
 
 }
 }

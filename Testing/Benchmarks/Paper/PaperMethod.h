@@ -6,6 +6,7 @@
 #include "Array.h"
 #include "Atomics.h"
 #include "HostDevice.h"
+#include "SequentialLawson.h"
 #include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -46,14 +48,17 @@ struct PaperOptions
   bool InDouble = false; ///< Coordinates and arithmetic in double; the paper uses float.
   int Dimension = 2; ///< 2: by x and y; 3: in space.
 
-  /// Of eq. 5, in radians; of InCircle, relative to the magnitude of the determinant's terms.
+  /// Of eq. 5, in radians; of InCircle, relative to the magnitude of the determinant's terms. For
+  /// float angles "experimentally estimated" like the paper's: with 5e-4 the loop does not end on a
+  /// random bad mesh of 1 M points. Near pi a change of the cosine's last bit changes acos
+  /// by 3.5e-4.
   double Epsilon = 1e-3;
 
   /// In space, an edge stays if the normals of its two triangles differ by more than this many
   /// degrees when it is tested; 180 turns this off.
   double NormalThreshold = 180.0;
 
-  std::int64_t MaximumIterations = 1000; ///< The paper has no limit.
+  std::int64_t MaximumIterations = 150; ///< The paper has no limit.
   bool OnGpu = false;
   int NumberOfThreads = 0; ///< 0: as many as the machine has.
   bool CountsIterations = false; ///< Fill PaperResult::Counts, which slows the loop.
@@ -73,36 +78,19 @@ struct PaperResult
   std::vector<PaperIteration> Counts; ///< By iteration, if asked for.
   std::string Backend; ///< E.g. "CUDA: NVIDIA H200".
   double FlipSeconds = 0.0; ///< For the loop, without copies.
-
-  std::int64_t CountFlips() const
-  {
-    std::int64_t flips = 0;
-    for (const PaperIteration& iteration : this->Counts)
-    {
-      flips += iteration.Flipped;
-    }
-    return flips;
-  }
 };
 
-/// The arrays of a mesh, ready to run the loop once or several times.
-class PaperMethod
-{
-public:
-  /// Builds the arrays on the host.
-  /// @param mesh with valid ids and fewer than 2^31 / 3 triangles; not used after the constructor.
-  PaperMethod(const TriangleMesh& mesh, const PaperOptions& options);
+/// Runs the loop on a copy of the arrays of a mesh. Of the options, Test, InDouble, Dimension,
+/// Epsilon, OnGpu and NumberOfThreads must be those with which it was made.
+using PaperLoop = std::function<PaperResult(const PaperOptions&)>;
 
-  /// Runs the loop on a copy of the arrays.
-  /// @throws BackendUnavailable if a GPU is requested and there is none.
-  PaperResult Run() const { return this->Loop(this->Options); }
+/// Builds the arrays on the host.
+/// @param mesh with valid ids and fewer than 2^31 / 3 triangles; not used later.
+/// @throws BackendUnavailable if a GPU is requested and the program has no CUDA.
+PaperLoop MakePaperLoop(const TriangleMesh& mesh, const PaperOptions& options);
 
-  /// Those of the next run. Test, InDouble, Dimension, Epsilon and NumberOfThreads are fixed.
-  PaperOptions Options;
-
-private:
-  std::function<PaperResult(const PaperOptions&)> Loop;
-};
+/// The same on the current GPU (PaperCuda.cu); the loop throws BackendUnavailable without one.
+PaperLoop MakePaperLoopOnGpu(const TriangleMesh& mesh, const PaperOptions& options);
 
 /// A position, loaded in one instruction: x, y as in the paper, or x, y, z and padding.
 template <typename Real, int Size>
@@ -184,23 +172,17 @@ struct InCircleTest
   DELAUNAYFLIP_HOST_DEVICE bool IsBad(
     const Point& p, const Point& q, const Point& a, const Point& b) const
   {
-    Real sum = 0;
-    Real magnitude = 0;
-    AddTerms(p - b, q - b, a - b, sum, magnitude);
-    AddTerms(q - b, a - b, p - b, sum, magnitude);
-    AddTerms(a - b, p - b, q - b, sum, magnitude);
+    const Point sides[] = { p - b, q - b, a - b };
+    Real sum = 0, magnitude = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Point &u = sides[i], &v = sides[(i + 1) % 3], &lifted = sides[(i + 2) % 3];
+      const Real left = u.Values[0] * v.Values[1], right = u.Values[1] * v.Values[0];
+      const Real lift = Dot(lifted, lifted);
+      sum += lift * (left - right);
+      magnitude += lift * (std::fabs(left) + std::fabs(right));
+    }
     return sum > this->Epsilon * magnitude;
-  }
-
-private:
-  DELAUNAYFLIP_HOST_DEVICE static void AddTerms(
-    const Point& u, const Point& v, const Point& lifted, Real& sum, Real& magnitude)
-  {
-    const Real left = u.Values[0] * v.Values[1];
-    const Real right = u.Values[1] * v.Values[0];
-    const Real lift = Dot(lifted, lifted);
-    sum += lift * (left - right);
-    magnitude += lift * (std::fabs(left) + std::fabs(right));
   }
 };
 
@@ -426,10 +408,64 @@ PaperResult RunPaperLoop(const PaperArrays<Point, PaperVector>& host, const Test
   return result;
 }
 
-/// The same on the current GPU (PaperCuda.cu). @throws BackendUnavailable.
-template <typename Point, typename Test>
-PaperResult RunPaperLoopOnGpu(
-  const PaperArrays<Point, PaperVector>& host, const Test& test, const PaperOptions& options);
+/// An edge that two triangles cannot share the same way, or more than two, becomes a boundary edge
+/// for each of its triangles, because ta and tb hold two triangles only.
+template <typename Point>
+PaperArrays<Point, PaperVector> MakePaperArrays(const TriangleMesh& mesh)
+{
+  PaperArrays<Point, PaperVector> arrays;
+  for (std::int64_t i = 0; i < mesh.Points.Count; ++i)
+  {
+    Point point{};
+    for (int axis = 0; axis < Point::Dimension; ++axis)
+    {
+      point.Values[axis] = static_cast<typename Point::Number>(mesh.Points.Get(i, axis));
+    }
+    arrays.Vertices.push_back(point);
+  }
+  const CornerMesh corners(mesh.Triangles);
+  for (std::int32_t a = 0; a < corners.CountCorners(); ++a)
+  {
+    const std::int32_t b = corners.Twins[a];
+    if (b < 0 || a < b)
+    {
+      const IndexPair places{ CornerMesh::Next(a), CornerMesh::Previous(a) };
+      arrays.Ends.push_back({ corners.Vertices[places.First], corners.Vertices[places.Second] });
+      arrays.TriangleA.push_back(places);
+      arrays.TriangleB.push_back(
+        b < 0 ? IndexPair{ -1, -1 } : IndexPair{ CornerMesh::Previous(b), CornerMesh::Next(b) });
+      arrays.Opposites.push_back({ a, b });
+    }
+  }
+  arrays.Triangles = corners.Vertices;
+  arrays.Flags.resize(mesh.Triangles.Count);
+  arrays.Rotations.resize(mesh.Triangles.Count);
+  return arrays;
+}
+
+/// @param runOn runOn(loop) calls loop(backend).
+template <typename Real, int Dimension, typename Test, typename RunOn>
+PaperLoop BindLoop(const TriangleMesh& mesh, const Test& test, const RunOn& runOn)
+{
+  using Arrays = PaperArrays<PaperPoint<Real, Dimension>, PaperVector>;
+  const auto arrays =
+    std::make_shared<const Arrays>(MakePaperArrays<PaperPoint<Real, Dimension>>(mesh));
+  return [=](const PaperOptions& options)
+  {
+    return runOn(
+      [&](const auto& backend) { return RunPaperLoop(*arrays, test, options, backend); });
+  };
+}
+
+template <typename Real, typename RunOn>
+PaperLoop ChooseLoop(const TriangleMesh& mesh, const PaperOptions& options, const RunOn& runOn)
+{
+  const OppositeAngleTest<Real> angles{ static_cast<Real>(Pi + options.Epsilon) };
+  const InCircleTest<Real> inCircle{ static_cast<Real>(options.Epsilon) };
+  return options.Dimension == 3                     ? BindLoop<Real, 3>(mesh, angles, runOn)
+    : options.Test == PaperTestKind::OppositeAngles ? BindLoop<Real, 2>(mesh, angles, runOn)
+                                                    : BindLoop<Real, 2>(mesh, inCircle, runOn);
+}
 
 }
 

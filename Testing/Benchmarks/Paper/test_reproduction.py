@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """A small reproduction of the paper: tests all results but times, and that the report has all of
-them. Usage: test_reproduction.py PROGRAM SOURCE_FOLDER [TEST...]"""
+them; and the published run. Usage: test_reproduction.py PROGRAM SOURCE_FOLDER [TEST...]"""
 
 import os
 import re
@@ -21,6 +21,7 @@ except ImportError as error:
     print(f"skipped: {error}")
     sys.exit(125)
 
+import document
 import reproduce
 
 
@@ -30,14 +31,10 @@ class Reproduction(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = cls.temporary.name
-        cls.first = cls.reproduce()
-        cls.results = reproduce.Results(cls.folder)
-
-    @classmethod
-    def reproduce(cls, *options, program=PROGRAM):
         command = [sys.executable, os.path.join(SCRIPTS, "reproduce.py"), cls.folder, "--scale",
-                   "test", "--program", program, *options]
-        return subprocess.run(command, capture_output=True, text=True, check=False)
+                   "test", "--program", PROGRAM]
+        cls.first = subprocess.run(command, capture_output=True, text=True, check=False)
+        cls.results = reproduce.Results(cls.folder)
 
     def rows(self, experiment, *programs):
         rows = [row for row in self.results.rows(experiment) if row["program"] in programs]
@@ -109,26 +106,19 @@ class Reproduction(unittest.TestCase):
         for image in images:
             self.assertGreater(os.path.getsize(os.path.join(self.folder, image)), 5000, image)
 
-    def test_goes_on_where_it_stopped(self):
-        os.remove(os.path.join(self.folder, "parts", "tests-grid.json"))
-        late = self.reproduce("--time-limit", "0")
-        self.assertEqual(3, late.returncode, late.stderr)
-        self.assertIn("1 parts are left", late.stdout)
-        again = self.reproduce("--parts", "^tests", "--run-only")
-        self.assertEqual((0, "[1/1] tests-grid\n"), (again.returncode, again.stdout))
 
-    def test_reports_why_a_part_failed(self):
-        path = os.path.join(self.folder, "parts", "tests-offset.json")
-        before = reproduce.read_json(path)
-        arguments = type("Arguments", (), {
-            "output": self.folder, "program": sys.executable, "rivals": None})
-        reproduce.run(arguments, "tests-offset", "paper", "-cimport sys; sys.exit('no memory')", {})
-        self.assertEqual([("tests-offset", "no memory")],
-                         reproduce.Results(self.folder).failures())
-        self.reproduce("--draw-only")
-        with open(os.path.join(self.folder, "report.md"), encoding="utf-8") as file:
-            self.assertIn("| tests-offset | no memory |", file.read())
-        reproduce.write_json(path, before)
+class Document(unittest.TestCase):
+    """The numbers in Documentation/notebook/paper.md are those of paper.json beside it."""
+
+    def test_numbers_are_those_of_the_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            expected = document.make_text(folder).splitlines()
+        self.assertEqual(expected, document.read_document()[1].strip().splitlines())
+
+    def test_pictures_are_there(self):
+        names = re.findall(r"\(\.\./images/paper/(\w+\.png)\)", document.read_document()[1])
+        self.assertEqual(8, len(names))
+        self.assertEqual(sorted(names), sorted(os.listdir(document.IMAGES)))
 
 
 if __name__ == "__main__":
