@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FakeDevice.h"
 #include "FlipTestSupport.h"
+#include "MeshDivision.h"
+#include "PieceFlip.h"
 #include "TestDevice.h"
 
 #include <gtest/gtest.h>
@@ -215,6 +217,34 @@ TEST_F(FallbackTest, AForcedGpuFails)
   FlipSession session(this->Mesh.View(), options);
   CallsToFailure = 1;
   EXPECT_THROW(session.Advance(), BackendUnavailable);
+}
+
+/// Pieces so large that the engine orders their triangles. On the device all calls succeed.
+TEST(RanksTest, MakeTheSameWhereverTheFirstFlipsAre)
+{
+  constexpr int Ranks = 2;
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(20000, 36);
+  const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), Ranks);
+  std::vector<FlippedPiece> onThreads(Ranks), onDevice(Ranks);
+  for (std::vector<FlippedPiece>* flipped : { &onThreads, &onDevice })
+  {
+    FlipOptions options;
+    options.Backend = flipped == &onDevice ? BackendKind::CUDA : BackendKind::Threads;
+    options.NumberOfThreads = 1;
+    RunInThreads(Ranks,
+      [&](PieceGroup& group)
+      {
+        const int rank = group.GetRank();
+        FlipPiece(pieces[rank].View(), options, group, (*flipped)[rank]);
+      });
+  }
+  for (int rank = 0; rank < Ranks; ++rank)
+  {
+    EXPECT_FALSE(onDevice[rank].ReceivedTriangles.empty());
+    EXPECT_TRUE(onThreads[rank].Triangles == onDevice[rank].Triangles);
+    EXPECT_TRUE(onThreads[rank].FlipCounts == onDevice[rank].FlipCounts);
+    EXPECT_TRUE(onThreads[rank].ReceivedCoordinates == onDevice[rank].ReceivedCoordinates);
+  }
 }
 
 }
