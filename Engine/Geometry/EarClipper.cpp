@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -30,8 +31,11 @@ bool HasSeparatingSide(
   return separates;
 }
 
-/// The vertices of a polygon that are left, and a search for one of them in a triangle: a k-d tree,
-/// balanced from the start, whose nodes have the bounding box of their vertices.
+/// The vertices of a polygon that are left, and a search for one of them in a triangle.
+///
+/// A k-d tree that is balanced from the start. A node has a rectangle around its vertices, along
+/// the line between two of them that are far apart: long thin triangles along thin chains would
+/// meet most boxes. It is fitted again as vertices are removed.
 class VertexTree
 {
 public:
@@ -42,7 +46,7 @@ public:
       PlaceOf(vertices.size(), Nobody)
   {
     double largest = 0.0;
-    for (std::int64_t v = 0; v < static_cast<std::int64_t>(vertices.size()); ++v)
+    for (std::int64_t v = 0; v < this->CountVertices(); ++v)
     {
       if (IsFinite(vertices[v][0]) && IsFinite(vertices[v][1]))
       {
@@ -50,10 +54,14 @@ public:
         largest = std::max({ largest, std::fabs(vertices[v][0]), std::fabs(vertices[v][1]) });
       }
     }
-    this->Broken = static_cast<std::int64_t>(vertices.size() - this->Order.size());
+    this->Broken = this->CountVertices() - static_cast<std::int64_t>(this->Order.size());
     // A power of two brings the largest coordinate to 1 .. 2. What underflows changes by less than
     // the filters allow for.
-    this->Exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+    const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+    for (const PlaneVector& v : vertices)
+    {
+      this->Scaled.push_back({ std::scalbn(v[0], exponent), std::scalbn(v[1], exponent), 0.0 });
+    }
     this->IsLeft.resize(this->Order.size(), true);
     std::size_t leaves = 1;
     for (std::size_t size = this->Order.size(); size > LeafSize; size = (size + 1) / 2)
@@ -68,6 +76,8 @@ public:
     }
   }
 
+  /// Fits leaves again, and other nodes when half of their vertices are gone: n log^2 n steps in
+  /// all.
   void Remove(std::int64_t vertex)
   {
     const std::int64_t place = this->PlaceOf[vertex];
@@ -77,7 +87,18 @@ public:
       return;
     }
     this->IsLeft[place] = false;
-    this->FitAbove(this->GetRoot(), place);
+    NodeRange range = this->GetRoot();
+    for (bool isLeaf = false; !isLeaf;)
+    {
+      Node& node = this->Nodes[range.Index];
+      isLeaf = range.IsLeaf();
+      --node.Left;
+      if (isLeaf || 2 * node.Left <= node.LeftAtFit)
+      {
+        this->Fit(range);
+      }
+      range = place < range.GetMiddle() ? range.GetLeft() : range.GetRight();
+    }
   }
 
   bool HasBroken() const { return this->Broken > 0; }
@@ -88,39 +109,24 @@ public:
   /// @param corners three vertices that turn left.
   std::int64_t FindInside(const std::array<std::int64_t, 3>& corners) const
   {
-    Triangle triangle{ corners, {}, {} };
-    for (int i = 0; i < 3; ++i)
-    {
-      triangle.Points[i] = this->Scale(this->Vertices[corners[i]]);
-      triangle.Around.Add({ this->Vertices[corners[i]], this->Vertices[corners[i]] });
-    }
-    return this->Search(this->GetRoot(), triangle);
+    const auto& [a, b, c] = corners;
+    return this->Search(
+      this->GetRoot(), { corners, { this->Scaled[a], this->Scaled[b], this->Scaled[c] } });
   }
 
   /// The number of nodes that all searches have visited, as a measure of time.
   std::int64_t GetVisits() const { return this->Visits; }
 
 private:
-  static constexpr std::int64_t LeafSize = 16;
+  static constexpr std::int64_t LeafSize = 8;
 
-  /// If it is empty, Lower exceeds Upper.
-  struct Box
+  struct Node
   {
-    PlaneVector Lower{ INFINITY, INFINITY }, Upper{ -INFINITY, -INFINITY };
-
-    void Add(const Box& other)
-    {
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        this->Lower[axis] = std::min(this->Lower[axis], other.Lower[axis]);
-        this->Upper[axis] = std::max(this->Upper[axis], other.Upper[axis]);
-      }
-    }
-    bool Meets(const Box& other) const
-    {
-      return this->Lower[0] <= other.Upper[0] && other.Lower[0] <= this->Upper[0] &&
-        this->Lower[1] <= other.Upper[1] && other.Lower[1] <= this->Upper[1];
-    }
+    std::array<PlanePoint, 4> Hull; ///< Counter-clockwise.
+    PlanePoint Direction; ///< Of its first side.
+    std::int64_t OnlyPlace; ///< A vertex, if all are at the same place; else Nobody.
+    std::int64_t Left; ///< Vertices.
+    std::int64_t LeftAtFit;
   };
 
   /// A node with its part of Order, [Begin, End). Its children are 2 * Index and 2 * Index + 1.
@@ -138,127 +144,165 @@ private:
   {
     std::array<std::int64_t, 3> Corners;
     std::array<PlanePoint, 3> Points;
-    Box Around;
   };
 
+  std::int64_t CountVertices() const { return static_cast<std::int64_t>(this->Vertices.size()); }
   NodeRange GetRoot() const { return { 1, 0, static_cast<std::int64_t>(this->Order.size()) }; }
 
-  PlanePoint Scale(const PlaneVector& v) const
+  static double Along(const PlanePoint& direction, const PlanePoint& p)
   {
-    return { std::scalbn(v[0], this->Exponent), std::scalbn(v[1], this->Exponent), 0.0 };
+    return direction.U * p.U + direction.V * p.V;
   }
 
-  /// Divides the vertices in halves along the longer axis, recursively.
+  /// Divides the vertices in halves along the hulls, recursively.
   void MakeNodes(const NodeRange& range)
   {
+    this->Nodes[range.Index].Left = range.End - range.Begin;
+    this->Fit(range);
     if (!range.IsLeaf())
     {
+      const PlanePoint direction = this->Nodes[range.Index].Direction;
       const auto begin = this->Order.begin();
-      Box box;
-      std::for_each(begin + range.Begin, begin + range.End,
-        [&](std::int64_t v) {
-          box.Add({ this->Vertices[v], this->Vertices[v] });
-        });
-      const int axis =
-        0.5 * box.Upper[1] - 0.5 * box.Lower[1] > 0.5 * box.Upper[0] - 0.5 * box.Lower[0] ? 1 : 0;
       std::nth_element(begin + range.Begin, begin + range.GetMiddle(), begin + range.End,
         [&](std::int64_t v, std::int64_t w)
-        { return this->Vertices[v][axis] < this->Vertices[w][axis]; });
+        { return Along(direction, this->Scaled[v]) < Along(direction, this->Scaled[w]); });
       this->MakeNodes(range.GetLeft());
       this->MakeNodes(range.GetRight());
     }
-    this->Fit(range);
   }
 
-  /// Finds the box of a node; those of its children are known.
+  /// Calls work(vertex) for the vertices of a node that are left.
+  template <typename Work>
+  void ForVertices(const NodeRange& range, const Work& work) const
+  {
+    for (std::int64_t place = range.Begin; place < range.End; ++place)
+    {
+      if (this->IsLeft[place])
+      {
+        work(this->Order[place]);
+      }
+    }
+  }
+
+  /// Along a direction: the extent of a node's vertices, and those at its ends.
+  struct Extent
+  {
+    double Lower = INFINITY, Upper = -INFINITY;
+    std::int64_t First = 0, Last = 0;
+
+    double GetLength() const { return this->Upper - this->Lower; }
+  };
+
+  Extent FindExtent(const NodeRange& range, const PlanePoint& direction) const
+  {
+    Extent extent;
+    this->ForVertices(range,
+      [&](std::int64_t vertex)
+      {
+        const double at = Along(direction, this->Scaled[vertex]);
+        extent.First = at < extent.Lower ? vertex : extent.First;
+        extent.Last = at > extent.Upper ? vertex : extent.Last;
+        extent.Lower = std::min(extent.Lower, at);
+        extent.Upper = std::max(extent.Upper, at);
+      });
+    return extent;
+  }
+
   void Fit(const NodeRange& range)
   {
-    Box& box = this->Nodes[range.Index] = {};
-    if (range.IsLeaf())
+    Node& node = this->Nodes[range.Index];
+    node.LeftAtFit = node.Left;
+    if (node.Left == 0)
     {
-      for (std::int64_t place = range.Begin; place < range.End; ++place)
-      {
-        if (this->IsLeft[place])
-        {
-          const PlaneVector& at = this->Vertices[this->Order[place]];
-          box.Add({ at, at });
-        }
-      }
       return;
     }
-    for (const std::int64_t child : { 2 * range.Index, 2 * range.Index + 1 })
-    {
-      box.Add(this->Nodes[child]);
-    }
+    const Extent u = this->FindExtent(range, { 1.0, 0.0, 0.0 });
+    const Extent v = this->FindExtent(range, { 0.0, 1.0, 0.0 });
+    const Extent& longer = v.GetLength() > u.GetLength() ? v : u;
+    const PlanePoint& first = this->Scaled[longer.First];
+    const PlanePoint& last = this->Scaled[longer.Last];
+    const double length = std::hypot(last.U - first.U, last.V - first.V);
+    const PlanePoint direction = length > 0.0
+      ? PlanePoint{ (last.U - first.U) / length, (last.V - first.V) / length, 0.0 }
+      : PlanePoint{ 1.0, 0.0, 0.0 };
+    const Extent along = this->FindExtent(range, direction);
+    const Extent across = this->FindExtent(range, { -direction.V, direction.U, 0.0 });
+    constexpr double Margin = 0x1p-47; // more than the rounding of all these numbers, below 4
+    const auto place = [&](double s, double t) {
+      return PlanePoint{ direction.U * s - direction.V * t, direction.V * s + direction.U * t,
+        0.0 };
+    };
+    node.Direction = direction;
+    node.Hull = { place(along.Lower - Margin, across.Lower - Margin),
+      place(along.Upper + Margin, across.Lower - Margin),
+      place(along.Upper + Margin, across.Upper + Margin),
+      place(along.Lower - Margin, across.Upper + Margin) };
+    node.OnlyPlace = u.First;
+    this->ForVertices(range,
+      [&](std::int64_t vertex)
+      {
+        const bool isThere = this->Vertices[vertex] == this->Vertices[u.First];
+        node.OnlyPlace = isThere ? node.OnlyPlace : Nobody;
+      });
   }
 
-  void FitAbove(const NodeRange& range, std::int64_t place)
+  std::uint64_t Scatter() const
   {
-    if (!range.IsLeaf())
-    {
-      this->FitAbove(place < range.GetMiddle() ? range.GetLeft() : range.GetRight(), place);
-    }
-    this->Fit(range);
+    return static_cast<std::uint64_t>(this->Visits) * 0x9E3779B97F4A7C15u;
   }
 
-  bool IsAtCorner(const PlaneVector& place, const Triangle& triangle) const
+  bool IsAtCorner(std::int64_t vertex, const Triangle& triangle) const
   {
     return std::any_of(triangle.Corners.begin(), triangle.Corners.end(),
-      [&](std::int64_t corner) { return this->Vertices[corner] == place; });
+      [&](std::int64_t corner) { return this->Vertices[corner] == this->Vertices[vertex]; });
   }
 
   /// Visits the children of a node in another order at every call.
   std::int64_t Search(const NodeRange& range, const Triangle& triangle) const
   {
     ++this->Visits;
-    const auto& [lower, upper] = this->Nodes[range.Index];
-    if (!this->Nodes[range.Index].Meets(triangle.Around) ||
-      HasSeparatingSide(triangle.Points,
-        std::array<PlanePoint, 4>{ this->Scale(lower), this->Scale({ upper[0], lower[1] }),
-          this->Scale(upper), this->Scale({ lower[0], upper[1] }) }) ||
-      (lower == upper && this->IsAtCorner(lower, triangle)))
+    const Node& node = this->Nodes[range.Index];
+    if (node.Left == 0 || HasSeparatingSide(triangle.Points, node.Hull) ||
+      HasSeparatingSide(node.Hull, triangle.Points) ||
+      (node.OnlyPlace != Nobody && this->IsAtCorner(node.OnlyPlace, triangle)))
     {
       return Nobody;
     }
-    std::int64_t found = Nobody;
     if (range.IsLeaf())
     {
-      for (std::int64_t place = range.Begin; place < range.End; ++place)
-      {
-        const std::int64_t v = this->Order[place];
-        found = this->IsLeft[place] && this->IsInside(v, triangle) ? v : found;
-      }
+      std::int64_t found = Nobody;
+      this->ForVertices(
+        range, [&](std::int64_t v) { found = this->IsInside(v, triangle) ? v : found; });
       return found;
     }
-    const bool right = (static_cast<std::uint64_t>(this->Visits) * 0x9E3779B97F4A7C15u) >> 63 != 0;
-    found = this->Search(right ? range.GetRight() : range.GetLeft(), triangle);
+    const bool right = this->Scatter() >> 63 != 0;
+    const std::int64_t found = this->Search(right ? range.GetRight() : range.GetLeft(), triangle);
     return found != Nobody ? found
                            : this->Search(right ? range.GetLeft() : range.GetRight(), triangle);
   }
 
   bool IsInside(std::int64_t vertex, const Triangle& triangle) const
   {
-    const PlaneVector& at = this->Vertices[vertex];
-    const std::array<PlanePoint, 1> scaled = { this->Scale(at) };
-    if (HasSeparatingSide(triangle.Points, scaled) || this->IsAtCorner(at, triangle))
+    const std::array<PlanePoint, 1> scaled = { this->Scaled[vertex] };
+    if (HasSeparatingSide(triangle.Points, scaled) || this->IsAtCorner(vertex, triangle))
     {
       return false;
     }
     const auto turn = [&](int from, int to)
     {
       return Orientation(this->Vertices[triangle.Corners[from]].data(),
-        this->Vertices[triangle.Corners[to]].data(), at.data());
+        this->Vertices[triangle.Corners[to]].data(), this->Vertices[vertex].data());
     };
     return turn(0, 1) >= 0 && turn(1, 2) >= 0 && turn(2, 0) >= 0;
   }
 
   const std::vector<PlaneVector>& Vertices;
-  int Exponent; ///< 2^Exponent brings them near 1, for filters.
+  std::vector<PlanePoint> Scaled; ///< The same near 1, for filters.
   std::vector<std::int64_t> Order; ///< The finite vertices, in the order of the leaves.
   std::vector<std::int64_t> PlaceOf; ///< Of every vertex in Order; or Nobody.
   std::vector<bool> IsLeft; ///< By place.
   std::int64_t Broken; ///< Vertices left with a NaN or infinite coordinate.
-  std::vector<Box> Nodes;
+  std::vector<Node> Nodes;
   mutable std::int64_t Visits = 0;
 };
 
