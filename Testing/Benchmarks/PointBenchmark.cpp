@@ -46,9 +46,10 @@ Place AtAngle(double radiusX, double radiusY, double turns)
   return { radiusX * std::cos(2 * Pi * turns), radiusY * std::sin(2 * Pi * turns) };
 }
 
-Place DrawContour(Random& random)
+/// On one of so many closed lines, each inside the next.
+Place DrawContour(Random& random, int levels)
 {
-  const double level = 1.0 + static_cast<double>(random() % 40);
+  const double level = 1.0 + static_cast<double>(random() % levels);
   const double turns = Draw(random);
   const double radius =
     level * (1 + 0.25 * std::sin(6 * Pi * turns + 0.1 * level) + 0.1 * std::sin(14 * Pi * turns));
@@ -105,7 +106,8 @@ const PointSet Sets[] = {
       const double side = std::ceil(std::sqrt(n));
       return Place{ std::fmod(i, side), std::floor(i / side) };
     } },
-  { "contours40", [](Random& r, double, double) { return DrawContour(r); } },
+  { "contours40", [](Random& r, double, double) { return DrawContour(r, 40); } },
+  { "contours400", [](Random& r, double, double) { return DrawContour(r, 400); } },
   { "ellipse", [](Random& r, double, double) { return AtAngle(1000, 1, Draw(r)); } },
   { "parabola",
     [](Random& r, double, double)
