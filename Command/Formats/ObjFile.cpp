@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CommandError.h"
 #include "Formats.h"
 #include "InputFile.h"
 
+#include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 
 #include <algorithm>
 #include <array>
@@ -14,8 +17,8 @@
 #include <map>
 
 /// @file
-/// .obj: a line of text for each vertex (v), polygon (f), line (l) and point (p). Of the corners of
-/// polygons only the vertex is taken, so points are never split along the seam of a texture.
+/// .obj: a line of text for each vertex (v), texture coordinate (vt), normal (vn), polygon (f),
+/// line (l) and point (p).
 
 namespace delaunayflip
 {
@@ -23,83 +26,130 @@ namespace delaunayflip
 namespace
 {
 
+/// The numbers of a vertex, its texture coordinates and its normal, from 0; -1 for none.
+using Corner = std::array<std::int64_t, 3>;
+
+/// The numbers of a line v, vt or vn.
+struct ObjVector
+{
+  const char* Keyword;
+  std::size_t Fewest; ///< How many there must be; the others are 0.
+  int Components;
+  const char* Others; ///< What more numbers are.
+};
+
+constexpr ObjVector Vectors[] = { { "v", 3, 3, "weights" },
+  { "vt", 1, 2, "third coordinates of vt" }, { "vn", 3, 3, "further coordinates of vn" } };
+
+vtkSmartPointer<vtkDoubleArray> MakeVectors(
+  const char* name, const std::vector<double>& values, int components)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
 class ObjReader
 {
 public:
   explicit ObjReader(const InputFile& file)
-    : Lines(file, true)
+    : File(file),
+      Lines(file, true)
   {
-    this->Points->SetNumberOfComponents(3);
-    this->Colors->SetNumberOfComponents(3);
-    this->Colors->SetName("Colors");
+    for (TextLines all(file, true); all.Next();) // indices may refer to later lines
+    {
+      for (std::size_t kind = 0; kind < this->Sizes.size(); ++kind)
+      {
+        this->Sizes[kind] += all.Words[0] == Vectors[kind].Keyword ? 1 : 0;
+      }
+    }
     while (this->Lines.Next())
     {
       this->ReadLine(std::string(this->Lines.Words[0]));
     }
   }
 
-  FileMesh Assemble(const std::string& name)
+  FileMesh Assemble()
   {
     FileMesh result;
-    result.Mesh->SetPoints(vtkNew<vtkPoints>());
-    result.Mesh->GetPoints()->SetData(this->Points);
+    const vtkNew<vtkPoints> points;
+    points->SetData(MakeVectors("Points", this->Values[0], 3));
+    result.Mesh->SetPoints(points);
     result.Mesh->SetVerts(this->Cells[0]);
     result.Mesh->SetLines(this->Cells[1]);
     result.Mesh->SetPolys(this->Cells[2]);
-    const vtkIdType colors = this->Colors->GetNumberOfTuples();
-    if (colors > 0 && colors == this->Points->GetNumberOfTuples())
+    vtkPointData* const data = result.Mesh->GetPointData();
+    if (!this->Colors.empty() && this->Colors.size() == this->Values[0].size())
     {
-      result.Mesh->GetPointData()->AddArray(this->Colors);
+      data->AddArray(MakeVectors("Colors", this->Colors, 3));
     }
-    else if (colors > 0)
+    else if (!this->Colors.empty())
     {
-      this->LeftOut["colors"] = colors;
+      this->LeftOut["colors"] = static_cast<std::int64_t>(this->Colors.size() / 3);
     }
+    data->SetTCoords(this->OfPoints(1, "TCoords"));
+    data->SetNormals(this->OfPoints(2, "Normals"));
     std::string list;
     for (const auto& [what, count] : this->LeftOut)
     {
       list += (list.empty() ? ": left out " : ", ") + what + " (" + std::to_string(count) + ")";
     }
-    result.Warnings.resize(list.empty() ? 0 : 1, name + list);
+    if (!list.empty())
+    {
+      result.Warnings.push_back(this->File.GetName() + list);
+    }
     return result;
   }
 
 private:
   void ReadLine(const std::string& keyword)
   {
-    if (keyword == "v")
+    for (std::size_t kind = 0; kind < this->Values.size(); ++kind)
     {
-      this->ReadVertex();
+      if (keyword == Vectors[kind].Keyword)
+      {
+        return this->ReadVector(Vectors[kind], this->Values[kind]);
+      }
     }
-    else if (keyword == "p" || keyword == "l" || keyword == "f")
+    if (keyword == "p" || keyword == "l" || keyword == "f")
     {
-      this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
+      return this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
     }
-    else if (std::all_of(keyword.begin(), keyword.end(),
-               [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; }))
-    {
-      ++this->LeftOut[keyword];
-    }
-    else
+    if (!std::all_of(keyword.begin(), keyword.end(),
+          [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; }))
     {
       this->Lines.Fail("not a line of an OBJ file");
     }
+    ++this->LeftOut[keyword];
   }
 
-  /// A vertex may have a color after its coordinates.
-  void ReadVertex()
+  /// A vertex may have a weight after its coordinates, and then a color.
+  void ReadVector(const ObjVector& kind, std::vector<double>& values)
   {
-    const std::size_t count = std::max<std::size_t>(this->Lines.Words.size() - 1, 3);
-    for (std::size_t i = 0; i < count; ++i)
+    const std::size_t count = this->Lines.Words.size() - 1;
+    const std::size_t components = static_cast<std::size_t>(kind.Components);
+    const bool isVertex = &values == &this->Values[0];
+    if (isVertex && (count == 5 || count > 7))
     {
-      const auto value = this->Lines.Number<double>(i + 1);
-      if (i < 3 || count == 6)
+      this->Lines.Fail("a vertex has three coordinates, perhaps a weight, and perhaps a color");
+    }
+    for (std::size_t i = 0; i < std::max(count, components); ++i)
+    {
+      const double value = i < count || i < kind.Fewest ? this->Lines.Number<double>(i + 1) : 0.0;
+      if (i < components)
       {
-        (i < 3 ? this->Points : this->Colors)->InsertNextValue(value);
+        values.push_back(value);
       }
-      else
+      else if (isVertex && count >= 6 && i + 3 >= count)
       {
-        ++this->LeftOut["weights"];
+        this->Colors.push_back(value);
+      }
+      else if (isVertex || value != 0.0)
+      {
+        ++this->LeftOut[kind.Others];
       }
     }
   }
@@ -111,98 +161,192 @@ private:
     {
       this->Lines.Fail("fewer than " + std::to_string(fewest) + " corners");
     }
-    this->Cells[fewest - 1]->InsertNextCell(static_cast<int>(corners));
+    vtkCellArray* const cells = this->Cells[fewest - 1];
+    cells->InsertNextCell(static_cast<int>(corners));
     for (std::size_t i = 1; i <= corners; ++i)
     {
-      this->Cells[fewest - 1]->InsertCellPoint(this->ReadCorner(this->Lines.Words[i]));
+      const Corner corner = this->ReadCorner(this->Lines.Words[i]);
+      cells->InsertCellPoint(corner[0]);
+      if (fewest == 3)
+      {
+        this->Corners.push_back(corner);
+      }
     }
   }
 
   /// vertex, vertex/texture, vertex/texture/normal or vertex//normal.
-  std::int64_t ReadCorner(std::string_view word) const
+  Corner ReadCorner(std::string_view word)
   {
-    std::int64_t index = 0;
-    if (ReadNumber(word.substr(0, word.find('/')), index) != std::errc() ||
-      word.find_first_not_of("+-0123456789/") != word.npos)
+    Corner corner = { -1, -1, -1 };
+    std::string_view rest = word;
+    for (std::size_t kind = 0; kind < corner.size(); ++kind)
     {
-      this->Lines.FailOn(word, " is not an index");
+      const std::string_view text = rest.substr(0, rest.find('/'));
+      const auto seen =
+        static_cast<std::int64_t>(this->Values[kind].size()) / Vectors[kind].Components;
+      std::int64_t index = 0;
+      if (kind == 0 || !text.empty())
+      {
+        if (ReadNumber(text, index) != std::errc())
+        {
+          break;
+        }
+        // In the file, index 1 is the first element, and -1 the last one before this line.
+        if (index == 0 || index < -seen || index > this->Sizes[kind])
+        {
+          this->Lines.Fail("index " + std::to_string(index) + " is out of range");
+        }
+        corner[kind] = index < 0 ? seen + index : index - 1;
+      }
+      if (text.size() == rest.size())
+      {
+        return corner;
+      }
+      rest.remove_prefix(text.size() + 1); // and the slash
     }
-    // In the file, index 1 is the first vertex, even of a later line, and -1 the last one so far.
-    const std::int64_t seen = this->Points->GetNumberOfTuples();
-    if (index == 0 || index < -seen)
-    {
-      this->Lines.Fail("index " + std::to_string(index) + " is out of range");
-    }
-    return index < 0 ? seen + index : index - 1;
+    this->Lines.FailOn(word, " is not an index");
   }
 
+  /// Adds the texture coordinates (kind 1) or normals (kind 2) to the points, zeros where no
+  /// polygon has the point. If a corner has none, or two at a point differ, all are left out.
+  vtkSmartPointer<vtkDoubleArray> OfPoints(std::size_t kind, const char* name)
+  {
+    const std::vector<double>& values = this->Values[kind];
+    const int size = Vectors[kind].Components;
+    const auto points = static_cast<std::size_t>(this->Sizes[0]);
+    std::vector<double> ofPoints(points * size);
+    std::vector<bool> isKnown(points);
+    bool agree = true;
+    for (std::size_t i = 0; i < this->Corners.size() && agree; ++i)
+    {
+      const Corner& corner = this->Corners[i];
+      const auto value = values.begin() + size * std::max<std::int64_t>(corner[kind], 0);
+      const auto place = ofPoints.begin() + size * corner[0];
+      agree = corner[kind] >= 0 && (!isKnown[corner[0]] || std::equal(value, value + size, place));
+      if (agree)
+      {
+        std::copy(value, value + size, place);
+        isKnown[corner[0]] = true;
+      }
+    }
+    if (!values.empty() && !agree)
+    {
+      this->LeftOut[kind == 1 ? "vt" : "vn"] = this->Sizes[kind];
+    }
+    return values.empty() || !agree ? nullptr : MakeVectors(name, ofPoints, size);
+  }
+
+  const InputFile& File;
   TextLines Lines;
-  vtkNew<vtkDoubleArray> Points;
-  vtkNew<vtkDoubleArray> Colors;
+  std::array<std::int64_t, 3> Sizes = {}; ///< How many v, vt and vn there are.
+  std::array<std::vector<double>, 3> Values; ///< Of v, vt and vn.
+  std::vector<double> Colors; ///< 3 each.
   std::array<vtkNew<vtkCellArray>, 3> Cells; ///< Of one, two, and more points.
+  std::vector<Corner> Corners; ///< Of polygons.
   std::map<std::string, std::int64_t> LeftOut;
 };
+
+vtkDataArray* WithComponents(vtkDataArray* array, int fewest, int most)
+{
+  const int components = array ? array->GetNumberOfComponents() : 0;
+  return components >= fewest && components <= most ? array : nullptr;
+}
 
 /// The colors of points: an array Colors, or three bytes.
 vtkDataArray* FindColors(vtkPointData* data)
 {
-  vtkDataArray* const named = data->GetArray("Colors");
-  for (vtkDataArray* array : { data->GetScalars(), data->GetArray("RGB"), named })
+  for (vtkDataArray* array : { data->GetScalars(), data->GetArray("RGB") })
   {
-    const bool isColor = array && array->GetNumberOfComponents() == 3;
-    if (isColor && (array == named || array->GetDataType() == VTK_UNSIGNED_CHAR))
+    if (WithComponents(array, 3, 3) && array->GetDataType() == VTK_UNSIGNED_CHAR)
     {
       return array;
     }
   }
-  return nullptr;
+  return WithComponents(data->GetArray("Colors"), 3, 3);
 }
 
 template <typename T>
-void PutNumber(std::ostream& out, T number)
+void PutNumber(std::ostream& out, T number, char before)
 {
-  char text[32] = { ' ' };
+  char text[32] = { before };
   const char* const end = std::to_chars(text + 1, text + sizeof(text), number).ptr;
   out.write(text, end - text);
 }
 
 }
 
-FileMesh ReadObj(const InputFile& file) { return ObjReader(file).Assemble(file.GetName()); }
+FileMesh ReadObj(const InputFile& file) { return ObjReader(file).Assemble(); }
 
 void WriteObj(vtkPolyData* mesh, const std::string& path)
 {
   std::ofstream out(path, std::ios::binary);
   out << "# written by delaunay-flip\n";
-  vtkDataArray* const colors = FindColors(mesh->GetPointData());
-  const double unit = colors && colors->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+  vtkPointData* const data = mesh->GetPointData();
+  vtkDataArray* const colors = FindColors(data);
+  const auto put = [&out](vtkDataArray* array, vtkIdType tuple)
+  {
+    const double scale = array->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+    for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+    {
+      PutNumber(out, array->GetComponent(tuple, component) / scale, ' ');
+    }
+  };
   for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
   {
     out << 'v';
-    for (int i = 0; i < (colors ? 6 : 3); ++i)
+    put(mesh->GetPoints()->GetData(), point);
+    if (colors)
     {
-      PutNumber(out, i < 3 ? mesh->GetPoint(point)[i] : colors->GetComponent(point, i - 3) / unit);
+      put(colors, point);
     }
     out << '\n';
   }
-  const std::pair<char, vtkCellArray*> kinds[] = { { 'p', mesh->GetVerts() },
-    { 'l', mesh->GetLines() }, { 'f', mesh->GetPolys() } };
-  for (const auto& [keyword, cells] : kinds)
+  vtkDataArray* const texture = WithComponents(data->GetTCoords(), 1, 3);
+  vtkDataArray* const normals = WithComponents(data->GetNormals(), 3, 3);
+  for (vtkDataArray* array : { texture, normals })
   {
+    for (vtkIdType tuple = 0; array && tuple < mesh->GetNumberOfPoints(); ++tuple)
+    {
+      out << (array == texture ? "vt" : "vn");
+      put(array, tuple);
+      out << '\n';
+    }
+  }
+  for (vtkCellArray* cells : { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys() })
+  {
+    const bool isPolygons = cells == mesh->GetPolys();
     ForEachCell(cells,
-      [&out, keyword = keyword](vtkIdType size, const vtkIdType* points)
+      [&](vtkIdType size, const vtkIdType* points)
       {
-        out << keyword;
-        std::for_each(
-          points, points + size, [&out](vtkIdType point) { PutNumber(out, point + 1); });
+        out << (isPolygons ? 'f' : cells == mesh->GetLines() ? 'l' : 'p');
+        for (vtkIdType i = 0; i < size; ++i)
+        {
+          PutNumber(out, points[i] + 1, ' ');
+          if (isPolygons && texture)
+          {
+            PutNumber(out, points[i] + 1, '/');
+          }
+          if (isPolygons && normals)
+          {
+            out << (texture ? "" : "/");
+            PutNumber(out, points[i] + 1, '/');
+          }
+        }
         out << '\n';
       });
+  }
+  out.close();
+  if (!out)
+  {
+    throw CommandError(ExitCode::BadFile, "the file is incomplete");
   }
 }
 
 std::vector<vtkAbstractArray*> ArraysOfObj(vtkPolyData* mesh)
 {
-  return { FindColors(mesh->GetPointData()) };
+  vtkPointData* const data = mesh->GetPointData();
+  return { FindColors(data), WithComponents(data->GetTCoords(), 1, 3),
+    WithComponents(data->GetNormals(), 3, 3) };
 }
 
 }

@@ -13,9 +13,12 @@ from CommandTesting import (
     read_mesh,
     triangles_of,
     tuples_of,
+    values_of,
 )
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+TEXTURE = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 1 1\n"
+NORMALS = "vn 0 0 1\nvn 0 1 1\nvn 0 0 1\n"
 
 
 class Obj(ArrayTest):
@@ -25,18 +28,30 @@ class Obj(ArrayTest):
         result = self.succeed("a.obj", "out.vtp")
         return read_mesh(self.path("out.vtp")), result.stderr
 
+    def test_texture_and_normals_of_points(self):
+        mesh, said = self.read(
+            SQUARE + TEXTURE + NORMALS + "f 1/1/1 2/2/2 3/3/1\nf 1/1/3 3/5/3 4/4/2 # comment\n")
+        data = mesh.GetPointData()
+        self.assertEqual(said, "")
+        self.assertEqual(tuples_of(data.GetTCoords()), [(0, 0), (1, 0), (1, 1), (0, 1)])
+        self.assertEqual(tuples_of(data.GetNormals()), [(0, 0, 1), (0, 1, 1), (0, 0, 1), (0, 1, 1)])
+
     def test_what_is_left_out_is_named(self):
         for text, said in (
             ("f 1 2 3\nvp 1\ncurv 0 1 1 2\nvp 2\n", "curv (1), vp (2)"),
             ("mtllib a b.mtl\nf 1 2 3\nusemtl red\ng one two\nf 1 3 4\nusemtl blue\n",
              "g (1), mtllib (1), usemtl (2)"),
-            ("vt 0 0\nvt 1 0\nvn 0 0 1\nf 1/1 2/2/1 3//1\n", "vn (1), vt (2)"),
+            (TEXTURE + "f 1/1 2/2 3/3\nf 1/2 3/3 4/4\n", "vt (5)"),  # a seam at point 1
+            (TEXTURE + "f 1/1 2/2 3\n", "vt (5)"),
+            (NORMALS + "f 1//1 2//2 3//1\nf 1//2 3//3 4//2\n", "vn (3)"),
             ("v 9 9 9 .1 .2 .3\nf 1 2 3\n", "colors (1)"),
             ("v 9 9 9 .5\nf 1 2 3\n", "weights (1)"),
+            ("vt 0 0 .5\nf 1/1 2/1 3/1\n", "third coordinates of vt (1)"),
         ):
             mesh, found = self.read(SQUARE + text)
             self.assertEqual(found, f"warning: a.obj: left out {said}\n")
-            self.assertEqual(mesh.GetPointData().GetNumberOfArrays(), 0)
+            if "third" not in said:
+                self.assertEqual(mesh.GetPointData().GetNumberOfArrays(), 0)
             self.assertIn((0, 1, 2), triangles_of(mesh))
 
     def test_closed_surface_of_seams_stays_closed(self):
@@ -68,27 +83,35 @@ class Obj(ArrayTest):
 
     def test_what_is_wrong_is_on_its_line(self):
         for text, line in (
-            ("v 0 0 0\n\x01\x02 1\n", 2), ("<html>\n", 1), ("v 1 2 3\nv 1 2\n", 2),
+            ("v 0 0 0\n\x01\x02 1\n", 2), ("<html>\n", 1), ("v 1 2 3 4 5 6 7 8\n", 1),
+            ("v 1 2 3 4 5\n", 1), ("v 1 2 3\nvn 1 2\n", 2),
         ):
             self.write("a.obj", text)
             self.refuse("a.obj", f"line {line}")
 
-    def test_colors_and_every_kind_of_cell(self):
-        mesh, said = self.read(
-            "v 0 0 0 .1 .2 .3\nv 1 0 0 1 0 .5\nv 1 .3333333333333333 0 0 0 0\nv 0 1 0 1 1 1\n"
-            "v 5 5 5 0 0 1\nf 1 2 3 4\nl 1 2 3\np 5\n")
-        self.assertEqual(said, "")
-        self.assertNotIn("cannot store", self.succeed("a.obj", "out.obj").stderr)
-        self.succeed("out.obj", "again.vtp")
-        again = read_mesh(self.path("again.vtp"))
-        self.assertEqual(points_of(again)[2], (1, 1 / 3, 0))
-        for out in (mesh, again):
-            self.assertEqual(cells_of(out.GetVerts()), [(4,)])
-            self.assertEqual(cells_of(out.GetLines()), [(0, 1, 2)])
-            self.assertEqual(len(triangles_of(out)), 2)
-            colors = out.GetPointData().GetArray("Colors")
-            self.assertEqual(tuples_of(colors)[:2], [(0.1, 0.2, 0.3), (1, 0, 0.5)])
-        self.assertEqual(read_mesh(self.path("out.obj")).GetNumberOfPolys(), 2)
+    def test_normals_texture_and_colors(self):
+        self.write("in.obj",
+            "v 0 0 0 .1 .2 .3\nv 1 0 0 1 0 .5\nv 1 1 0 0 0 0\nv 0 1 0 1 1 1\nv 5 5 5 0 0 1\n"
+            "vt 0 0\nvt 1 .5\nvt .3333333333333333 1\nvn 0 0 1\nvn 0 .1 1\n"
+            "f 1/1/1 2/2/2 3/3/1\nf 1/1/1 3/3/1 4/2/2\nl 1 2 3\np 5\n"
+        )
+        self.succeed("in.obj", "first.vtp")
+        self.assertNotIn("cannot store", self.succeed("in.obj", "out.obj").stderr)
+        self.succeed("out.obj", "second.vtp")
+        first, out = (read_mesh(self.path(name)) for name in ("first.vtp", "second.vtp"))
+        self.assertEqual(points_of(first), points_of(out))
+        for kind in ("GetVerts", "GetLines", "GetPolys"):
+            self.assertEqual(cells_of(getattr(first, kind)()), cells_of(getattr(out, kind)()))
+        data = out.GetPointData()
+        for name in ("Normals", "TCoords", "Colors"):
+            array = first.GetPointData().GetArray(name)
+            self.assert_array(data.GetArray(name), array.GetClassName(), values_of(array))
+        self.assertEqual(data.GetNormals().GetTuple(1), (0, 0.1, 1))
+        self.assertEqual(data.GetTCoords().GetTuple(2), (1 / 3, 1))
+        self.assertEqual(data.GetTCoords().GetTuple(4), (0, 0))  # of no polygon
+        self.assertEqual(data.GetArray("Colors").GetTuple(0), (0.1, 0.2, 0.3))
+        plain = read_mesh(self.path("out.obj"))
+        self.assertEqual(plain.GetNumberOfPolys(), 2)
 
     def test_colors_of_bytes(self):
         mesh = bumpy_grid(3, 0)
