@@ -4,12 +4,10 @@
 #define MapperShaders_h
 
 /// @file
-/// How OpenGL draws the triangles of vtkDelaunayFlipMapper, whose constants the sizes of arrays
-/// here repeat.
+/// How OpenGL draws triangles; the sizes of arrays are constants of vtkDelaunayFlipMapper.
 
 namespace delaunayflip
 {
-
 /// Places are relative to the centre of the mesh, in units of half its diagonal.
 constexpr const char* VertexShader = R"(//VTK::System::Dec
 in vec3 place;
@@ -104,7 +102,6 @@ void main()
   gl_FragData[0] = vec4(color, 1.0);
 }
 )";
-
 }
 
 #endif
