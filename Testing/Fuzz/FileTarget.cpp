@@ -13,6 +13,7 @@
 #endif
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -250,9 +251,11 @@ FileCounts CountInXml(const std::string& bytes)
   return { sum("Points"), sum("Verts"), sum("Lines"), sum("Strips") + sum("Polys") };
 }
 
-/// From version 5 on, the number of offsets, which is one more, follows the word.
-FileCounts CountInLegacy(const std::string& bytes)
+/// From version 5 on, the number of offsets, which is one more, follows the word. VTK ignores case.
+FileCounts CountInLegacy(std::string bytes)
 {
+  std::transform(bytes.begin(), bytes.end(), bytes.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::toupper(letter)); });
   const bool hasOffsets = bytes.find("OFFSETS") != std::string::npos;
   const auto count = [&](const char* kind)
   {
