@@ -237,10 +237,13 @@ void ContextReturn::operator()(CudaContext* context) const noexcept
   {
     isGood = cudaStreamSynchronize(other.Stream) == cudaSuccess && isGood;
   }
+  if (!isGood)
+  {
+    return;
+  }
   try
   {
-    WithIdleContexts([&](auto& contexts)
-      { isGood ? contexts.push_back(std::move(returned)) : static_cast<void>(0); });
+    WithIdleContexts([&](auto& contexts) { contexts.push_back(std::move(returned)); });
   }
   catch (const std::bad_alloc&) // no memory for the list
   {

@@ -221,7 +221,7 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
 
 void BlockMesh::Store(vtkPolyData* flipped)
 {
-  MeshList results(this->Surfaces.size() + 1); // a rank may have none
+  MeshList results{ flipped };
   vtkCellData* data = flipped ? flipped->GetCellData() : nullptr;
   const vtkSmartPointer<vtkIntArray> owners =
     data ? vtkIntArray::SafeDownCast(data->GetAbstractArray(OwnerName)) : nullptr;
@@ -232,18 +232,13 @@ void BlockMesh::Store(vtkPolyData* flipped)
     given.erase(std::remove(given.begin(), given.end(), nullptr), given.end());
     results = DividePartitions(flipped, owners, given, this->Joined.Points);
   }
-  else
-  {
-    results.front() = flipped;
-  }
   auto next = results.begin();
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
     BlockLeaf& leaf = this->Block.Leaves[i];
     if (flipped && this->Surfaces[i])
     {
-      leaf.Result = *next ? *next : vtkSmartPointer<vtkPolyData>::New();
-      ++next;
+      leaf.Result = next != results.end() ? *next++ : vtkSmartPointer<vtkPolyData>::New();
     }
     else
     {

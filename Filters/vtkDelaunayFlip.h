@@ -70,8 +70,9 @@
  * coincides with another one of its own partition, it is not known which of the two is meant; a
  * warning says so. Duplicate ghost cells (vtkGhostType) are dropped. Every triangle stays in its
  * partition, with its cell data. Points that a partition then lacks are added behind its own. Every
- * partition gets the arrays of all; those that it lacked are 0 or empty there, but for points that
- * another partition has, too. All results are those of the whole mesh.
+ * partition gets the arrays of all partitions. An array that it lacked is 0 or empty there, except
+ * at points that it shares with a partition that has the array. All results are those of the whole
+ * mesh.
  *
  * @par References
  * - C. Navarro, N. Hitschfeld, E. Scheihing: A GPU-based method for generating quasi-Delaunay
