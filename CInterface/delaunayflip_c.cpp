@@ -356,6 +356,17 @@ extern "C"
       });
   }
 
+  delaunayflip_status delaunayflip_expect(
+    delaunayflip_session* session, void* memory, std::int64_t bytes)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        Require(bytes >= 0 && (memory || bytes == 0), "memory is null, or bytes is negative");
+        session->Session.Expect(memory, bytes);
+      });
+  }
+
   delaunayflip_status delaunayflip_advance(delaunayflip_session* session, std::int64_t iterations,
     const delaunayflip_callbacks* callbacks, std::int32_t* is_running)
   {

@@ -346,6 +346,13 @@ extern "C"
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_advance(delaunayflip_session* session,
     int64_t iterations, const delaunayflip_callbacks* callbacks, int32_t* is_running);
 
+  /** Announces memory of the host that a store function will write after the next
+   * delaunayflip_advance, such as a new array for the result. Its contents are lost, and it must
+   * stay until that call returns. While a GPU flips, CPU threads touch its pages, which the system
+   * takes longer to provide than the result takes to be stored. */
+  DELAUNAYFLIP_API delaunayflip_status delaunayflip_expect(
+    delaunayflip_session* session, void* memory, int64_t bytes);
+
   /** Fills `report`, whose size must be set (delaunayflip_report_init). */
   DELAUNAYFLIP_API delaunayflip_status delaunayflip_get_report(
     delaunayflip_session* session, delaunayflip_report* report);

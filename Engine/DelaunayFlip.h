@@ -80,6 +80,12 @@ public:
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
     const ProgressObserver& progress = {});
 
+  /// Announces memory that a Store function will write after the next Advance, such as a new array
+  /// for the result. Its contents are lost, and it must stay until that Advance returns. While a
+  /// GPU flips, CPU threads touch its pages: the system takes longer to provide new ones than
+  /// storing takes.
+  void Expect(void* memory, std::int64_t bytes);
+
   /// What has happened so far. The first call after an Advance that did not finish computes the
   /// smallest angle, which takes a pass over the mesh.
   const FlipReport& GetReport() const;

@@ -4,6 +4,7 @@
 
 #include "DataArrays.h"
 
+#include "vtkCellArray.h"
 #include "vtkPoints.h"
 
 #include <utility>
@@ -113,8 +114,18 @@ FlipRun::FlipRun(
     Input(std::move(input)),
     Begin(std::move(start)),
     Session(this->MakeSession()),
-    Stopped(this->Session.GetReport().StopReason == StopReasonKind::Aborted)
+    Stopped(this->Session.GetReport().StopReason == StopReasonKind::Aborted),
+    Room(request.IsLive ? nullptr : this->Input->Bridge.MakeRoom())
 {
+  if (this->Room)
+  {
+    for (vtkDataArray* array :
+      { this->Room->GetOffsetsArray(), this->Room->GetConnectivityArray() })
+    {
+      this->Session.Expect(
+        array->GetVoidPointer(0), array->GetNumberOfValues() * array->GetDataTypeSize());
+    }
+  }
 }
 
 FlipSession FlipRun::MakeSession() const
@@ -235,7 +246,8 @@ FlipReport FlipRun::GetReport() const
 bool FlipRun::Store(vtkPolyData* output) const
 {
   const PolyDataBridge& bridge = this->Input->Bridge;
-  bridge.Store(this->Session, this->Input->Current, output);
+  bridge.Store(
+    this->Session, this->Room ? this->Room : bridge.MakeRoom(), this->Input->Current, output);
   if (this->Asked.WantsFlipCounts)
   {
     bridge.StoreFlipCounts(this->Session, output);

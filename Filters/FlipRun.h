@@ -120,6 +120,7 @@ private:
   Start Begin; ///< The session has views of its arrays, too.
   FlipSession Session;
   bool Stopped;
+  vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
 };
 
 }

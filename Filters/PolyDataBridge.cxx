@@ -76,19 +76,28 @@ void UseHugePages([[maybe_unused]] Value* values, [[maybe_unused]] vtkIdType cou
 #endif
 }
 
-/// Triangle cells, whose connectivity the session writes directly. Id is the engine's type for the
-/// values of ArrayT. Offsets are not shared with the input, whose cells may grow in place later:
+/// Room for triangles. Offsets are not shared with the input, whose cells may grow in place later:
 /// the output would then have more offsets than connectivity.
-template <typename ArrayT, typename Id>
-vtkSmartPointer<vtkCellArray> FillTriangles(const FlipSession& session, vtkIdType count)
+template <typename ArrayT>
+vtkSmartPointer<vtkCellArray> MakeRoom(vtkIdType count)
 {
-  using Value = typename ArrayT::ValueType;
   vtkNew<ArrayT> offsets, connectivity;
   offsets->SetNumberOfTuples(count + 1);
   connectivity->SetNumberOfTuples(3 * count);
   UseHugePages(offsets->GetPointer(0), count + 1);
   UseHugePages(connectivity->GetPointer(0), 3 * count);
-  Value* values = offsets->GetPointer(0);
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+/// Id is the engine's type for the values of ArrayT.
+template <typename ArrayT, typename Id>
+void Fill(const FlipSession& session, vtkCellArray* cells)
+{
+  using Value = typename ArrayT::ValueType;
+  const vtkIdType count = cells->GetNumberOfCells();
+  Value* values = static_cast<ArrayT*>(cells->GetOffsetsArray())->GetPointer(0);
   vtkSMPTools::For(0, count + 1,
     [values](vtkIdType begin, vtkIdType end)
     {
@@ -97,11 +106,9 @@ vtkSmartPointer<vtkCellArray> FillTriangles(const FlipSession& session, vtkIdTyp
         values[i] = static_cast<Value>(3 * i);
       }
     });
+  auto* connectivity = static_cast<ArrayT*>(cells->GetConnectivityArray());
   session.StoreTriangles(
     MutableTriangleArray(reinterpret_cast<Id*>(connectivity->GetPointer(0)), count));
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, connectivity);
-  return cells;
 }
 
 }
@@ -248,15 +255,16 @@ namespace
 
 /// The polygons of the output. Their ids are stored as wide as those of the mesh's polygons, or of
 /// its strips if it has no polygons.
-vtkSmartPointer<vtkCellArray> BuildPolygons(
-  const FlipSession& session, const TriangleSlots& slots, vtkPolyData* mesh)
+vtkSmartPointer<vtkCellArray> BuildPolygons(const FlipSession& session, const TriangleSlots& slots,
+  vtkPolyData* mesh, const vtkSmartPointer<vtkCellArray>& room)
 {
+  if (room)
+  {
+    FillTriangles(session, room);
+    return room;
+  }
   const vtkIdType count = slots.Triangles.Count;
   const bool areWide = UsesWideIds(mesh);
-  if (slots.ArePolygonsTriangles())
-  {
-    return BuildTriangles(session, count, areWide);
-  }
   std::vector<std::int64_t> storage(3 * count);
   const MutableTriangleArray triangles(storage.data(), count);
   session.StoreTriangles(triangles);
@@ -283,13 +291,21 @@ vtkSmartPointer<vtkCellArray> BuildPolygons(
 
 }
 
-void PolyDataBridge::Store(const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output) const
+vtkSmartPointer<vtkCellArray> PolyDataBridge::MakeRoom() const
+{
+  return this->Slots.ArePolygonsTriangles()
+    ? MakeRoomForTriangles(this->Slots.Triangles.Count, UsesWideIds(this->Mesh))
+    : nullptr;
+}
+
+void PolyDataBridge::Store(const FlipSession& session, const vtkSmartPointer<vtkCellArray>& room,
+  vtkPolyData* mesh, vtkPolyData* output) const
 {
   const TriangleSlots& slots = this->Slots;
   output->SetPoints(mesh->GetPoints());
   output->SetVerts(mesh->GetVerts());
   output->SetLines(mesh->GetLines());
-  output->SetPolys(BuildPolygons(session, slots, mesh));
+  output->SetPolys(BuildPolygons(session, slots, mesh, room));
   output->SetStrips(BuildStrips(slots, mesh));
   output->GetPointData()->ShallowCopy(mesh->GetPointData());
   output->GetFieldData()->ShallowCopy(mesh->GetFieldData());
@@ -357,13 +373,18 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkCellArray> BuildTriangles(
-  const FlipSession& session, vtkIdType count, bool areWide)
+vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide)
 {
   // There may be more connectivity than 32-bit offsets can number.
   return areWide || 3 * count > std::numeric_limits<std::int32_t>::max()
-    ? FillTriangles<vtkTypeInt64Array, std::int64_t>(session, count)
-    : FillTriangles<vtkTypeInt32Array, std::int32_t>(session, count);
+    ? MakeRoom<vtkTypeInt64Array>(count)
+    : MakeRoom<vtkTypeInt32Array>(count);
+}
+
+void FillTriangles(const FlipSession& session, vtkCellArray* room)
+{
+  room->IsStorage64Bit() ? Fill<vtkTypeInt64Array, std::int64_t>(session, room)
+                         : Fill<vtkTypeInt32Array, std::int32_t>(session, room);
 }
 
 bool UsesWideIds(vtkPolyData* mesh)

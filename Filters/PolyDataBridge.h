@@ -76,9 +76,14 @@ public:
 
   const TriangleSlots& GetSlots() const { return this->Slots; }
 
+  /// New cells for the polygons of an output; null unless they all are triangles of the session.
+  vtkSmartPointer<vtkCellArray> MakeRoom() const;
+
   /// Writes the session's triangles, and whatever passes from the mesh.
+  /// @param room what MakeRoom() has returned; it becomes part of the output.
   /// @param mesh the one that this bridge reads, perhaps with other attributes by now.
-  void Store(const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output) const;
+  void Store(const FlipSession& session, const vtkSmartPointer<vtkCellArray>& room,
+    vtkPolyData* mesh, vtkPolyData* output) const;
 
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
@@ -110,10 +115,12 @@ private:
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The session's triangles as cells.
+/// Room for triangles as cells.
 /// @param areWide whether ids have 64 bits, even where 32 would do.
-vtkSmartPointer<vtkCellArray> BuildTriangles(
-  const FlipSession& session, vtkIdType count, bool areWide);
+vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide);
+
+/// Writes the session's triangles to such cells.
+void FillTriangles(const FlipSession& session, vtkCellArray* room);
 
 /// Whether the ids of the polygons of a mesh, or of its strips if it has no polygons, have 64 bits.
 DELAUNAYFLIP_EXPORT bool UsesWideIds(vtkPolyData* mesh);

@@ -118,8 +118,10 @@ public:
     {
       this->AddCrossings(output);
     }
-    output->SetPolys(
-      BuildTriangles(*this->Session, this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8));
+    const auto triangles =
+      MakeRoomForTriangles(this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8);
+    FillTriangles(*this->Session, triangles);
+    output->SetPolys(triangles);
     return true;
   }
 

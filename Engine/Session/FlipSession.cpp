@@ -47,6 +47,7 @@ try
   {
     work.Build();
   }
+  const std::future<void> touching = work.TouchExpected();
   FlipReport& report = work.Report;
   const StopWatch watch;
   const double secondsBefore = report.FlipSeconds;
@@ -109,6 +110,11 @@ catch (const RunAborted&)
 {
   this->Own->Abort();
   return false;
+}
+
+void FlipSession::Expect(void* memory, std::int64_t bytes)
+{
+  this->Own->Expected.push_back({ static_cast<char*>(memory), bytes });
 }
 
 const FlipReport& FlipSession::GetReport() const

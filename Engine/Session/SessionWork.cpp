@@ -162,6 +162,42 @@ FlipSession::Work::Work(
 }
 
 //------------------------------------------------------------------------------
+std::future<void> FlipSession::Work::TouchExpected()
+{
+  std::vector<MemoryBlock> expected = std::exchange(this->Expected, {});
+  if (expected.empty() || !this->OnCuda)
+  {
+    return {};
+  }
+  const auto touch = [blocks = std::move(expected), threads = this->Options.NumberOfThreads]()
+  {
+    constexpr std::int64_t Page = 4096, PagesPerTask = 512;
+    const ThreadBackend backend(threads);
+    for (const MemoryBlock& block : blocks)
+    {
+      const std::int64_t pages = (block.Bytes + Page - 1) / Page;
+      backend.ForRange(
+        pages,
+        [&](std::int64_t begin, std::int64_t end)
+        {
+          for (std::int64_t page = begin; page < end; ++page)
+          {
+            block.First[page * Page] = 0;
+          }
+        },
+        PagesPerTask);
+    }
+  };
+  try
+  {
+    return std::async(std::launch::async, touch);
+  }
+  catch (const std::exception&) // there is no thread left
+  {
+    return {};
+  }
+}
+
 void FlipSession::Work::TryToBuild()
 {
   try
@@ -236,15 +272,15 @@ void FlipSession::Work::Detect()
 std::unique_ptr<LoadedMesh> FlipSession::Work::LoadOn(BackendKind backend)
 {
   const FlipOptions options = this->Insertion.GetOptions(this->Options);
-  const bool onCuda = backend == BackendKind::CUDA;
+  this->OnCuda = backend == BackendKind::CUDA;
   if (this->Cloud)
   {
     this->Cloud->Reset();
-    return onCuda ? LoadOnCuda(this->Cloud->GetPoints(), options, this->Building)
-                  : LoadOnThreads(this->Cloud->GetOnHost(), options, this->Building);
+    return this->OnCuda ? LoadOnCuda(this->Cloud->GetPoints(), options, this->Building)
+                        : LoadOnThreads(this->Cloud->GetOnHost(), options, this->Building);
   }
   const DeviceMesh* device = this->Start->GetOnDevice();
-  if (onCuda)
+  if (this->OnCuda)
   {
     return device ? LoadOnCuda(*device, options, this->Building)
                   : LoadOnCuda(this->Start->GetOnHost(), options, this->Building);

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <future>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -75,6 +76,13 @@ struct DeviceArray
   Value* Values;
   std::int64_t Size;
   DeviceStream Stream;
+};
+
+/// Memory of the caller.
+struct MemoryBlock
+{
+  char* First;
+  std::int64_t Bytes;
 };
 
 /// Gives a variable another value for as long as this lives.
@@ -219,6 +227,10 @@ struct FlipSession::Work
     return this->Loaded != nullptr;
   }
 
+  /// Begins to touch the pages of the memory that is expected, if a GPU flips. The result's
+  /// destructor waits for the end.
+  std::future<void> TouchExpected();
+
   /// Stores `width` values for every triangle by store(values), through an array of its own if
   /// triangles are removed, or if nothing may be written until all are known.
   template <typename Value, typename Store>
@@ -309,7 +321,9 @@ struct FlipSession::Work
   std::optional<CallerMesh> Start; ///< The mesh that iterations start from.
   BuildProgress Building; ///< Of the loading.
   std::unique_ptr<LoadedMesh> Loaded; ///< None if the build was aborted.
+  bool OnCuda = false; ///< Whether a GPU has it.
   std::string Fallback; ///< Why the CPU replaced a GPU that exists; else empty.
+  std::vector<MemoryBlock> Expected; ///< What FlipSession::Expect has announced.
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last detection.
   bool HasDetected = false; ///< Whether the first detection has been made.

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of CuPy, PyTorch and Numba in the memory of a GPU, and of other libraries by DLPack."""
+import ctypes
 import importlib
 import importlib.util
 import sys
@@ -137,6 +138,13 @@ def make_mesh(points, triangles, *others):
     if not _is_on_device(points) and not _is_on_device(triangles):
         return _arrays.Mesh(points, triangles, *others)
     return Mesh(points, triangles, *(to_host(values) for values in others))
+
+
+def expect(session, *arrays):
+    """Tells a session which new arrays its results will be written to."""
+    for array in arrays:
+        if isinstance(array, numpy.ndarray):
+            _library.call("expect", session, address(array), ctypes.c_int64(array.nbytes))
 
 
 def store_triangles(session, target, count):

@@ -292,9 +292,15 @@ def flip(
     arguments = dict(locals())
     del arguments["on_iteration"]
     with Session(**arguments) as session:
+        triangles, counts = session._mesh.make_triangles(), session._mesh.make_flip_counts()
         if session.report.stop_reason != "aborted":
+            with session._open() as handle:
+                _device.expect(handle, triangles, counts)
             session.advance(progress=progress, on_iteration=on_iteration)
-        return Result(session.triangles, session.flip_counts, session.iterations, session.report)
+        session.store_triangles(triangles)
+        with session._open() as handle:
+            _device.store_flip_counts(handle, counts)
+        return Result(triangles, counts, session.iterations, session.report)
 
 
 def smallest_angles(

@@ -125,6 +125,10 @@ static void TestAllTypes(void)
   mesh.id_type = DELAUNAYFLIP_INT32;
   CHECK(delaunayflip_flip(&mesh, NULL, NULL, result32, NULL) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_expect(session, NULL, 8) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_expect(session, result64, -1) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_expect(NULL, result64, sizeof(result64)) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_expect(session, result64, sizeof(result64)) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_store_triangles(session, result64, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
   CHECK(HasShortDiagonal(result64));

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 /// @file
 /// What happens where a GPU fails, without one.
@@ -75,6 +77,26 @@ TEST_F(FallbackTest, AnyCallMayFail)
       break;
     }
     EXPECT_EQ("as the test wants it", report.Fallback);
+  }
+}
+
+TEST_F(FallbackTest, PagesOfExpectedMemoryAreTouchedOnceAndOnlyForAGpu)
+{
+  constexpr std::int64_t Page = 4096, Pages = 1000, Bytes = Page * Pages + 1;
+  for (const BackendKind backend : { BackendKind::CUDA, BackendKind::Threads })
+  {
+    FlipOptions options;
+    options.Backend = backend;
+    FlipSession session(this->Mesh.View(), options);
+    std::vector<char> memory(Bytes, 'x');
+    session.Expect(memory.data(), Bytes);
+    session.Advance(1);
+    const std::int64_t expected = backend == BackendKind::CUDA ? Pages + 1 : 0;
+    EXPECT_EQ(expected, std::count(memory.begin(), memory.end(), 0));
+    EXPECT_EQ(expected > 0, memory.back() == 0);
+    std::fill(memory.begin(), memory.end(), 'x');
+    session.Advance(1);
+    EXPECT_EQ(0, std::count(memory.begin(), memory.end(), 0));
   }
 }
 
