@@ -4,7 +4,6 @@
 
 #include "DataArrays.h"
 
-#include "vtkCellArray.h"
 #include "vtkPoints.h"
 
 #include <utility>
@@ -119,12 +118,7 @@ FlipRun::FlipRun(
 {
   if (this->Room)
   {
-    for (vtkDataArray* array :
-      { this->Room->GetOffsetsArray(), this->Room->GetConnectivityArray() })
-    {
-      this->Session.Expect(
-        array->GetVoidPointer(0), array->GetNumberOfValues() * array->GetDataTypeSize());
-    }
+    ExpectTriangles(this->Session, this->Room);
   }
 }
 

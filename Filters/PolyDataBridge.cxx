@@ -381,6 +381,14 @@ vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide
     : MakeRoom<vtkTypeInt32Array>(count);
 }
 
+void ExpectTriangles(FlipSession& session, vtkCellArray* room)
+{
+  for (vtkDataArray* array : { room->GetOffsetsArray(), room->GetConnectivityArray() })
+  {
+    session.Expect(array->GetVoidPointer(0), array->GetNumberOfValues() * array->GetDataTypeSize());
+  }
+}
+
 void FillTriangles(const FlipSession& session, vtkCellArray* room)
 {
   room->IsStorage64Bit() ? Fill<vtkTypeInt64Array, std::int64_t>(session, room)

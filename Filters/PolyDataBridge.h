@@ -119,6 +119,9 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 /// @param areWide whether ids have 64 bits, even where 32 would do.
 vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide);
 
+/// Tells the session that its triangles will be written to such cells.
+void ExpectTriangles(FlipSession& session, vtkCellArray* room);
+
 /// Writes the session's triangles to such cells.
 void FillTriangles(const FlipSession& session, vtkCellArray* room);
 

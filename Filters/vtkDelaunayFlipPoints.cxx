@@ -89,6 +89,11 @@ public:
     this->Input.Rings = this->Rings.data();
     this->Session = std::make_unique<FlipSession>(this->Input, this->Options, this->GetProgress());
     this->Stopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
+    if (!request.IsLive)
+    {
+      this->Room = this->MakeRoom();
+      ExpectTriangles(*this->Session, this->Room);
+    }
   }
 
   /// For another update of the same.
@@ -118,14 +123,21 @@ public:
     {
       this->AddCrossings(output);
     }
-    const auto triangles =
-      MakeRoomForTriangles(this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8);
+    // Triangles may have been removed since.
+    const bool fits =
+      this->Room && this->Room->GetNumberOfCells() == this->Session->GetReport().Triangles;
+    const auto triangles = fits ? this->Room : this->MakeRoom();
     FillTriangles(*this->Session, triangles);
     output->SetPolys(triangles);
     return true;
   }
 
 private:
+  vtkSmartPointer<vtkCellArray> MakeRoom() const
+  {
+    return MakeRoomForTriangles(this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8);
+  }
+
   void AddSegments(vtkPolyData* others)
   {
     vtkPolyData* given = this->Given;
@@ -296,6 +308,7 @@ private:
   PointInput Input; ///< Views of these.
   std::unique_ptr<FlipSession> Session;
   bool Stopped = false;
+  vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
 };
 
 }

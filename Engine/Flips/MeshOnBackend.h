@@ -193,10 +193,15 @@ public:
     std::vector<VertexId> used(this->UsedPoint.Size());
     this->Backend.Download(
       this->UsedPoint.Data(), static_cast<std::int64_t>(used.size()), used.data());
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      ids[i] = used.empty() ? i : (used[i] == NoVertex ? -1 : std::int64_t(used[i]));
-    }
+    constexpr std::int64_t Piece = 65536;
+    this->Backend.ForTasks((count + Piece - 1) / Piece,
+      [&](std::int64_t piece)
+      {
+        for (std::int64_t i = piece * Piece; i < std::min(count, (piece + 1) * Piece); ++i)
+        {
+          ids[i] = used.empty() ? i : (used[i] == NoVertex ? -1 : std::int64_t(used[i]));
+        }
+      });
   }
 
   void Divide(const BuildProgress& progress) override

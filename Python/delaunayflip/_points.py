@@ -99,11 +99,13 @@ def triangulate(
         _library.call("open_points", struct, options, callbacks, ctypes.byref(handle))
     try:
         report = _report.read(handle)
+        room = given.make_room(report.number_of_triangles)
         if report.stop_reason != "aborted":
+            _device.expect(handle, *room)
             with Observers(progress, on_iteration).raising() as callbacks:
                 _library.call("advance", handle, -1, callbacks, None)
             report = _report.read(handle)
-        return given.store(handle, report)
+        return given.store(handle, report, room)
     finally:
         _library.run("close", handle)
 
@@ -172,17 +174,19 @@ class Input:
         self.rings.append(numpy.full(len(ids), self.number_of_rings, dtype=numpy.int32))
         self.number_of_rings += 1
 
-    def store(self, handle, report):
-        """The Triangulation of a session that has ended."""
-        shape = (report.number_of_triangles, 3)
-        way, stream = "", []
+    def make_room(self, count):
+        """Arrays for so many triangles, their neighbors, and the used points."""
+        used, shape = numpy.empty(len(self.points), dtype=numpy.int64), (count, 3)
         if self.library:
-            triangles = self.library.make_empty(self.points, shape, "int32")
-            neighbors = self.library.make_empty(self.points, shape, "int32")
-            way, stream = "_on_device", [self.struct.stream]
-        else:
-            triangles, neighbors = (numpy.empty(shape, dtype=numpy.int32) for _ in range(2))
-        used = numpy.empty(len(self.points), dtype=numpy.int64)
+            return *(self.library.make_empty(self.points, shape, "int32") for _ in range(2)), used
+        return *(numpy.empty(shape, dtype=numpy.int32) for _ in range(2)), used
+
+    def store(self, handle, report, room):
+        """The Triangulation of a session that has ended. `room`: from make_room."""
+        if len(room[0]) != report.number_of_triangles:
+            room = self.make_room(report.number_of_triangles)
+        triangles, neighbors, used = room
+        way, stream = ("_on_device", [self.struct.stream]) if self.library else ("", [])
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
         _library.call(f"store_triangles{way}", handle, address(triangles), _library.TYPES["int32"], *stream)
         _library.call(f"store_neighbors{way}", handle, address(neighbors), *stream)
