@@ -463,7 +463,7 @@ public:
     {
       this->Context->Fork();
     }
-    this->Launch([&](cudaStream_t stream) { launch(stream, 0); });
+    Launch(this->GetStream(), [&](cudaStream_t stream) { launch(stream, 0); });
     for (int part = 1; part < parts; ++part)
     {
       const DeviceStreams& other = this->Context->Others[part - 1];

@@ -406,12 +406,8 @@ private:
       [&](Parameters&... each)
       {
         void* addresses[] = { &each... };
-        CallCuda("start a cooperative kernel",
-          [&]
-          {
-            return cudaLaunchCooperativeKernel(
-              reinterpret_cast<const void*>(kernel), blocks, LoopThreads, addresses, 0, stream);
-          });
+        cudaLaunchCooperativeKernel( // CudaBackend::Launch sees whether this fails
+          reinterpret_cast<const void*>(kernel), blocks, LoopThreads, addresses, 0, stream);
       },
       values);
   }
