@@ -3,6 +3,7 @@
 #include "ConstraintEdges.h"
 
 #include "DataArrays.h"
+#include "PolyDataBridge.h"
 #include "UpdateProgress.h"
 
 #include "vtkPoints.h"
@@ -171,10 +172,9 @@ std::string DescribeEdge(const PointArray& points, std::int64_t from, std::int64
 /// Pairs with an end where the mesh has no point are counted as unmatched.
 /// @throws RunAborted.
 void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
-  const ConstraintSource& source, const ProgressObserver& progress, ConstraintEdges& edges)
+  const TriangleMesh& mesh, const ProgressObserver& progress, ConstraintEdges& edges)
 {
-  const PointArray& mesh = source.Points;
-  PointPlaces places(others.Floats != nullptr || mesh.Floats != nullptr);
+  PointPlaces places(others.Floats != nullptr || mesh.Points.Floats != nullptr);
   std::vector<std::int64_t> placeOfOther(others.Count, PointPlaces::None);
   std::vector<std::int64_t> otherAt; // the first at each place
   const auto number = [&](std::int64_t point)
@@ -195,24 +195,24 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   std::vector<unsigned char> noFlags(wanted.size());
   RemoveRepeated(wanted, noFlags, MakePart(progress, 0.32, 0.54));
 
-  std::vector<std::int64_t> placeOf(mesh.Count); // or None
-  WorkProgress finding(MakePart(progress, 0.54, 0.9), mesh.Count);
+  std::vector<std::int64_t> placeOf(mesh.Points.Count); // or None
+  WorkProgress finding(MakePart(progress, 0.54, 0.9), mesh.Points.Count);
   constexpr vtkIdType Chunk = 32768; // some milliseconds
-  for (vtkIdType chunk = 0; chunk < mesh.Count; chunk += Chunk)
+  for (vtkIdType chunk = 0; chunk < mesh.Points.Count; chunk += Chunk)
   {
-    vtkSMPTools::For(chunk, std::min<vtkIdType>(chunk + Chunk, mesh.Count),
+    vtkSMPTools::For(chunk, std::min<vtkIdType>(chunk + Chunk, mesh.Points.Count),
       [&](vtkIdType begin, vtkIdType end)
       {
         for (vtkIdType point = begin; point < end; ++point)
         {
-          placeOf[point] = places.Find(mesh, point);
+          placeOf[point] = places.Find(mesh.Points, point);
         }
       });
     finding.Add(Chunk);
   }
   std::vector<std::int64_t> pointsAt(places.GetNumberOfPlaces()); // how many
   std::vector<std::int64_t> firstAt(places.GetNumberOfPlaces());
-  for (std::int64_t point = 0; point < mesh.Count; ++point)
+  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
   {
     if (placeOf[point] != PointPlaces::None && pointsAt[placeOf[point]]++ == 0)
     {
@@ -243,81 +243,84 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
       crowded.push_back(pair);
     }
   }
-  AddCrowdedEdges(crowded, placeOf, source.Triangles, MakePart(progress, 0.9, 1.0), edges);
+  AddCrowdedEdges(crowded, placeOf, mesh.Triangles, MakePart(progress, 0.9, 1.0), edges);
 }
 
 }
 
-ConstraintEdges FindConstraintEdges(
-  const ConstraintSource& source, const ProgressObserver& progress)
+ConstraintEdges FindConstraintEdges(const TriangleMesh& mesh, vtkPolyData* input,
+  vtkPolyData* others, const BridgeSettings& settings, const ProgressObserver& progress)
 {
   ConstraintEdges edges;
-  if (source.Lines)
+  if (settings.LinesAsConstraints)
   {
-    vtkCellArray* lines = source.Lines->GetLines();
+    vtkCellArray* lines = input->GetLines();
     WorkProgress work(
-      MakePart(progress, 0.0, source.Others ? 0.0 : 0.5), lines->GetNumberOfConnectivityIds());
-    AddPaths(lines, false, { "line, cell", source.Lines->GetNumberOfVerts(), source.Points.Count },
-      work, edges.Pairs);
-    edges.ToInsert.resize(edges.Pairs.size(), source.InsertLines ? 1 : 0);
+      MakePart(progress, 0.0, others ? 0.0 : 0.5), lines->GetNumberOfConnectivityIds());
+    AddPaths(lines, false, { "line, cell", input->GetNumberOfVerts(), mesh.Points.Count }, work,
+      edges.Pairs);
+    edges.ToInsert.resize(edges.Pairs.size(), settings.InsertLines ? 1 : 0);
   }
-  if (source.Others)
+  if (others)
   {
     std::vector<double> storage;
-    const PointArray points = ViewPoints(source.Others, storage);
-    if (points.Count == 0 || HaveSameBits(points, source.Points))
+    const PointArray points = ViewPoints(others, storage);
+    if (points.Count == 0 || HaveSameBits(points, mesh.Points))
     {
       const std::size_t before = edges.Pairs.size();
-      AddAllPaths(source.Others, source.Points.Count, MakePart(progress, 0.0, 0.7), edges.Pairs);
+      AddAllPaths(others, mesh.Points.Count, MakePart(progress, 0.0, 0.7), edges.Pairs);
       edges.AreHere.assign(edges.Pairs.size() - before, 1);
     }
     else
     {
       std::vector<PointPair> pairs;
-      AddAllPaths(source.Others, points.Count, MakePart(progress, 0.0, 0.07), pairs);
-      MatchPlaces(points, pairs, source, MakePart(progress, 0.07, 0.7), edges);
+      AddAllPaths(others, points.Count, MakePart(progress, 0.0, 0.07), pairs);
+      MatchPlaces(points, pairs, mesh, MakePart(progress, 0.07, 0.7), edges);
     }
-    edges.ToInsert.resize(edges.Pairs.size(), source.InsertOthers ? 1 : 0);
+    edges.ToInsert.resize(edges.Pairs.size(), settings.InsertConstraints ? 1 : 0);
   }
   RemoveRepeated(edges.Pairs, edges.ToInsert, MakePart(progress, 0.7, 1.0));
   return edges;
 }
 
+vtkSmartPointer<vtkPolyData> MakeLines(
+  const std::vector<std::array<double, 3>>& ends, bool areFloats)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataType(areFloats ? VTK_FLOAT : VTK_DOUBLE);
+  vtkNew<vtkCellArray> lines;
+  for (std::size_t i = 0; i < ends.size(); i += 2)
+  {
+    lines->InsertNextCell(
+      { points->InsertNextPoint(ends[i].data()), points->InsertNextPoint(ends[i + 1].data()) });
+  }
+  auto made = vtkSmartPointer<vtkPolyData>::New();
+  made->SetPoints(points);
+  made->SetLines(lines);
+  return ends.empty() ? nullptr : made;
+}
+
 vtkSmartPointer<vtkPolyData> JoinConstraints(
   const std::vector<std::pair<vtkPolyData*, vtkPolyData*>>& sources)
 {
-  const auto getPoints = [](const std::pair<vtkPolyData*, vtkPolyData*>& source)
+  std::vector<std::array<double, 3>> ends;
+  bool areFloats = true;
+  for (const auto& [edges, mesh] : sources)
   {
-    const bool hasPoints = source.first->GetNumberOfPoints() > 0 || !source.second;
-    return (hasPoints ? source.first : source.second)->GetPoints();
-  };
-  auto joined = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> ends;
-  vtkNew<vtkCellArray> lines;
-  ends->SetDataType(std::all_of(sources.begin(), sources.end(),
-                      [&](const auto& source) {
-                        return !getPoints(source) || getPoints(source)->GetDataType() == VTK_FLOAT;
-                      })
-      ? VTK_FLOAT
-      : VTK_DOUBLE);
-  for (const auto& source : sources)
-  {
-    vtkPoints* points = getPoints(source);
-    if (!points && !source.second)
-    {
-      continue;
-    }
+    vtkPoints* points = (edges->GetNumberOfPoints() > 0 || !mesh ? edges : mesh)->GetPoints();
+    areFloats = areFloats && (!points || points->GetDataType() == VTK_FLOAT);
     std::vector<PointPair> pairs;
-    AddAllPaths(source.first, points ? points->GetNumberOfPoints() : 0, {}, pairs);
+    if (points || mesh)
+    {
+      AddAllPaths(edges, points ? points->GetNumberOfPoints() : 0, {}, pairs);
+    }
     for (const PointPair& pair : pairs)
     {
-      lines->InsertNextCell({ ends->InsertNextPoint(points->GetPoint(pair[0])),
-        ends->InsertNextPoint(points->GetPoint(pair[1])) });
+      points->GetPoint(pair[0], ends.emplace_back().data());
+      points->GetPoint(pair[1], ends.emplace_back().data());
     }
   }
-  joined->SetPoints(ends);
-  joined->SetLines(lines);
-  return ends->GetNumberOfPoints() > 0 ? joined : nullptr;
+  return MakeLines(ends, areFloats);
 }
 
 }

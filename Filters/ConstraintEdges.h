@@ -23,6 +23,8 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
+struct BridgeSettings;
+
 /// A hash of ids or coordinates.
 struct HashWords
 {
@@ -86,22 +88,17 @@ struct ConstraintEdges
   std::string FirstStranger; ///< The first of them with an end that is no point of the mesh: where.
 };
 
-struct ConstraintSource
-{
-  vtkPolyData* Lines; ///< The mesh, if the edges along its lines are constraints, else null.
-  vtkPolyData* Others; ///< The second input, whose lines and polygons are constraints, or null.
-  PointArray Points; ///< Of the mesh.
-  TriangleArray Triangles;
-  bool InsertLines; ///< Whether edges along the lines are inserted where the mesh lacks them.
-  bool InsertOthers; ///< The same for the others.
-};
-
 /// Finds the edges along the lines of the mesh and along the lines and polygons of the others. The
 /// ids of the others are those of the mesh if the others have no points or the same points as the
 /// mesh; otherwise edges are matched by the coordinates of their points.
+/// @param mesh the points and triangles of `input`. @param others the second input, or null.
 /// @throws InvalidMesh when a cell names a point that does not exist; RunAborted.
-ConstraintEdges FindConstraintEdges(
-  const ConstraintSource& source, const ProgressObserver& progress);
+ConstraintEdges FindConstraintEdges(const TriangleMesh& mesh, vtkPolyData* input,
+  vtkPolyData* others, const BridgeSettings& settings, const ProgressObserver& progress);
+
+/// Lines with points of their own, two in `ends` for each; null if there are none.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> MakeLines(
+  const std::vector<std::array<double, 3>>& ends, bool areFloats);
 
 /// The edges along the lines and polygons of several second inputs, as lines with points of their
 /// own; null if there are none.

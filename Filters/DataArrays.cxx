@@ -13,13 +13,43 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <string>
 
 namespace delaunayflip
 {
+
+namespace
+{
+
+/// Cells with arrays of their own, which share the memory of the others and know how much of it
+/// they use.
+vtkSmartPointer<vtkCellArray> ShareCells(vtkCellArray* cells)
+{
+  const auto share = [](vtkDataArray* array)
+  {
+    auto shared = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
+    shared->ShallowCopy(array);
+    return shared;
+  };
+  auto shared = vtkSmartPointer<vtkCellArray>::New();
+  shared->SetData(share(cells->GetOffsetsArray()), share(cells->GetConnectivityArray()));
+  return shared;
+}
+
+}
+
+vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh)
+{
+  auto shared = vtkSmartPointer<vtkPolyData>::New();
+  shared->ShallowCopy(mesh);
+  shared->SetVerts(ShareCells(mesh->GetVerts()));
+  shared->SetLines(ShareCells(mesh->GetLines()));
+  shared->SetPolys(ShareCells(mesh->GetPolys()));
+  shared->SetStrips(ShareCells(mesh->GetStrips()));
+  return shared;
+}
 
 PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage)
 {
@@ -80,6 +110,20 @@ void PointIdCheck::ThrowOutOfRange(vtkIdType cell, vtkIdType id) const
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkDataSetAttributes> TakeWholeArrays(vtkDataSetAttributes* data, vtkIdType tuples)
+{
+  auto whole = vtkSmartPointer<vtkDataSetAttributes>::New();
+  whole->ShallowCopy(data);
+  for (int i = whole->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    if (whole->GetAbstractArray(i)->GetNumberOfTuples() < tuples)
+    {
+      whole->RemoveArray(i);
+    }
+  }
+  return whole;
+}
+
 bool IsWrongGhostArray(vtkAbstractArray* array)
 {
   const char* name = array->GetName();
@@ -149,6 +193,10 @@ vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdType count)
   return range;
 }
 
+namespace
+{
+
+/// An array of the same kind, of zeros or empty texts.
 vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tuples)
 {
   auto array =
@@ -164,6 +212,8 @@ vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tu
     numbers->SetLookupTable(vtkArrayDownCast<vtkDataArray>(like)->GetLookupTable());
   }
   return array;
+}
+
 }
 
 void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places, vtkIdType size,
@@ -195,6 +245,45 @@ void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
       }
     }
     target->InsertTuples(places, sources, array);
+  }
+}
+
+void DemoteGlobalIds(vtkDataSetAttributes* data)
+{
+  vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
+  if (!ids)
+  {
+    return;
+  }
+  data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
+  if (!data->GetPedigreeIds())
+  {
+    data->SetPedigreeIds(ids);
+  }
+}
+
+void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids, vtkDataSetAttributes* data,
+  vtkPolyData* output)
+{
+  const vtkIdType given = mesh->GetNumberOfPoints();
+  const vtkIdType size = given + ids->GetNumberOfIds();
+  const auto own = MakeRange(0, given), places = MakeRange(given, size - given);
+  vtkPoints* typical = given > 0 ? mesh->GetPoints() : more;
+  vtkNew<vtkPoints> points;
+  // Integers would cut what is added.
+  points->SetDataType(typical->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
+  points->SetNumberOfPoints(size);
+  if (given > 0)
+  {
+    points->InsertPoints(0, given, 0, mesh->GetPoints());
+  }
+  points->InsertPoints(places, ids, more);
+  output->SetPoints(points);
+  output->GetPointData()->Initialize();
+  AddTuples(TakeWholeArrays(mesh->GetPointData(), given), own, own, size, output->GetPointData());
+  if (data)
+  {
+    AddTuples(data, ids, places, size, output->GetPointData());
   }
 }
 

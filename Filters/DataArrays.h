@@ -15,6 +15,7 @@
 
 #include <vector>
 
+class vtkPoints;
 class vtkPolyData;
 class vtkUnsignedCharArray;
 
@@ -23,6 +24,10 @@ class vtkUnsignedCharArray;
 
 namespace delaunayflip
 {
+
+/// A shallow copy that keeps as many cells as there are now, whatever observers of the filter
+/// append to the input's cell arrays.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh);
 
 /// A view of the points if the engine can read their layout, else of a copy in `storage`.
 /// @throws InvalidMesh if points do not have three coordinates.
@@ -93,20 +98,8 @@ void VisitEdges(vtkCellArray* cells, bool areClosed, const PointIdCheck& check, 
 //------------------------------------------------------------------------------
 /// A shallow copy without the arrays that have fewer than `tuples` tuples: they would be read past
 /// their end.
-template <typename Data>
-vtkSmartPointer<Data> TakeWholeArrays(Data* data, vtkIdType tuples)
-{
-  auto whole = vtkSmartPointer<Data>::New();
-  whole->ShallowCopy(data);
-  for (int i = whole->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    if (whole->GetAbstractArray(i)->GetNumberOfTuples() < tuples)
-    {
-      whole->RemoveArray(i);
-    }
-  }
-  return whole;
-}
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkDataSetAttributes> TakeWholeArrays(
+  vtkDataSetAttributes* data, vtkIdType tuples);
 
 /// Whether an array is named as ghost types are, but has not one number of type unsigned char for
 /// each tuple. Such an array is ignored.
@@ -126,10 +119,6 @@ DELAUNAYFLIP_EXPORT std::vector<Defect> ListMalformedArrays(
 /// The numbers from `first` on.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdType count);
 
-/// An array of the same kind, of zeros or empty texts.
-DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> MakeZeros(
-  vtkAbstractArray* like, vtkIdType tuples);
-
 /// Copies the tuples `sources` of all arrays of `own` to the tuples `places` of `data`. An array
 /// that `data` does not have yet is added, with zeros or empty texts for its other tuples, and as
 /// the attribute that it is, unless `data` has one. One that differs from that of the same name in
@@ -137,6 +126,15 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkAbstractArray> MakeZeros(
 /// @param size how many tuples the arrays of `data` have.
 DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
   vtkIdType size, vtkDataSetAttributes* data);
+
+/// Turns global ids into pedigree ids: when cells are divided or points added, several share an id.
+/// If there are pedigree ids already, the array is no attribute any more.
+DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
+
+/// Gives `output` the points of a mesh, then some of `more`, with their data.
+/// @param ids which of them. @param data of `more`; or null: zeros.
+DELAUNAYFLIP_EXPORT void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids,
+  vtkDataSetAttributes* data, vtkPolyData* output);
 
 }
 

@@ -13,26 +13,19 @@ namespace delaunayflip
 namespace
 {
 
+/// Of arrays also how many values there are: cells grow in place without being marked as modified.
 void Stamp(vtkObject* object, std::vector<vtkMTimeType>& stamps)
 {
+  auto* array = vtkAbstractArray::SafeDownCast(object);
   stamps.push_back(object ? object->GetMTime() : 0);
-}
-
-/// Also how many values there are: cells grow in place without being marked as modified.
-void StampArray(vtkDataArray* array, std::vector<vtkMTimeType>& stamps)
-{
-  Stamp(array, stamps);
-  stamps.push_back(static_cast<vtkMTimeType>(array->GetNumberOfValues()));
+  stamps.push_back(array ? static_cast<vtkMTimeType>(array->GetNumberOfValues()) : 0);
 }
 
 std::vector<vtkMTimeType> StampPoints(vtkPolyData* mesh)
 {
   std::vector<vtkMTimeType> stamps;
   Stamp(mesh->GetPoints(), stamps);
-  if (mesh->GetPoints())
-  {
-    StampArray(mesh->GetPoints()->GetData(), stamps);
-  }
+  Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
   return stamps;
 }
 
@@ -65,14 +58,16 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
 }
 
 //------------------------------------------------------------------------------
-FlipRun::Source::Source(const FlipRequest& request, const UpdatePlan& plan)
-  : Edges(StampEdges(request)),
+FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
+  : UpdateRun(std::move(plan)),
+    Asked(request),
+    Edges(StampEdges(request)),
     Points(StampPoints(request.Input)),
     Time(request.Input->GetMTime()),
     Current(ShareMesh(request.Input)),
     Constraints(request.Constraints ? ShareMesh(request.Constraints) : nullptr),
     Origin(request.IsLive ? CopyPoints(Current) : Current),
-    Bridge(Origin, Constraints, request.Settings, plan)
+    Bridge(Origin, Constraints, request.Settings, this->Plan)
 {
 }
 
@@ -83,8 +78,8 @@ FlipRun::Stamps FlipRun::StampEdges(const FlipRequest& request)
   const auto stampCells = [&stamps](vtkCellArray* cells)
   {
     Stamp(cells, stamps);
-    StampArray(cells->GetOffsetsArray(), stamps);
-    StampArray(cells->GetConnectivityArray(), stamps);
+    Stamp(cells->GetOffsetsArray(), stamps);
+    Stamp(cells->GetConnectivityArray(), stamps);
   };
   stampCells(request.Input->GetPolys());
   stampCells(request.Input->GetStrips());
@@ -106,41 +101,33 @@ FlipRun::Stamps FlipRun::StampEdges(const FlipRequest& request)
 }
 
 //------------------------------------------------------------------------------
-FlipRun::FlipRun(
-  const FlipRequest& request, UpdatePlan plan, std::unique_ptr<Source> input, Start start)
-  : Asked(request),
-    Plan(std::move(plan)),
-    Input(std::move(input)),
-    Begin(std::move(start)),
-    Session(this->MakeSession()),
-    Stopped(this->Session.GetReport().StopReason == StopReasonKind::Aborted),
-    Room(request.IsLive ? nullptr : this->Input->Bridge.MakeRoom())
+void FlipRun::OpenSession(Start start)
 {
-  if (this->Room)
-  {
-    ExpectTriangles(this->Session, this->Room);
-  }
-}
-
-FlipSession FlipRun::MakeSession() const
-{
+  this->Begin = std::move(start);
   FlipOptions options = this->Asked.Options;
   // A warm start finds no feature edges of its own: its fixed edges include them.
   options.FeatureAngle = this->IsWarm() ? 180.0 : options.FeatureAngle;
   try
   {
-    return FlipSession(GetMesh(*this->Input, this->Begin), options, this->GetProgress());
+    this->Session =
+      std::make_unique<FlipSession>(this->GetMesh(this->Begin), options, this->GetProgress());
   }
   catch (const InvalidMesh&)
   {
-    this->Input->Bridge.RequireValidIds(); // its error names the cell, not the triangle
+    this->Bridge.RequireValidIds(); // its error names the cell, not the triangle
     throw;
+  }
+  this->IsStopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
+  this->Room = this->Asked.IsLive ? nullptr : this->Bridge.MakeRoom();
+  if (this->Room)
+  {
+    ExpectTriangles(*this->Session, this->Room);
   }
 }
 
-TriangleMesh FlipRun::GetMesh(const Source& input, const Start& start)
+TriangleMesh FlipRun::GetMesh(const Start& start) const
 {
-  TriangleMesh mesh = input.Bridge.GetMesh();
+  TriangleMesh mesh = this->Bridge.GetMesh();
   if (!start.Triangles.empty())
   {
     mesh.Triangles = TriangleArray(start.Triangles.data(), mesh.Triangles.Count);
@@ -155,20 +142,20 @@ bool FlipRun::ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest
 {
   auto* last = static_cast<FlipRun*>(run.get());
   const bool fits = last && last->Asked.Options == request.Options &&
-    last->Asked.Settings == request.Settings && last->Input->Edges == StampEdges(request);
-  if (fits && last->Input->Points == StampPoints(request.Input))
+    last->Asked.Settings == request.Settings && last->Edges == StampEdges(request);
+  if (fits && last->Points == StampPoints(request.Input))
   {
-    if (last->Input->Time != request.Input->GetMTime())
+    if (last->Time != request.Input->GetMTime())
     {
-      last->Input->Time = request.Input->GetMTime();
-      last->Input->Current = ShareMesh(request.Input);
+      last->Time = request.Input->GetMTime();
+      last->Current = ShareMesh(request.Input);
     }
     last->Asked.WantsFlipCounts = request.WantsFlipCounts;
     last->Asked.WantsAngles = request.WantsAngles;
-    last->Stopped = false;
+    last->IsStopped = false;
     return true;
   }
-  const UpdatePlan plan = MakePlan(request, fits);
+  UpdatePlan plan = MakePlan(request, fits);
   Start start;
   if (fits)
   {
@@ -178,29 +165,30 @@ bool FlipRun::ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest
   {
     run.reset(); // its memory may be needed
   }
-  auto input = std::make_unique<Source>(request, plan);
+  std::unique_ptr<FlipRun> made(new FlipRun(request, std::move(plan)));
   // A warm start keeps its geometry, since a surface has feature edges that a plane does not have.
   // So Auto must choose this geometry both for the triangles that flips have made and, as it does
   // without LiveUpdate, for those of the input.
   const auto keepsGeometry = [&](const Start& begin)
-  { return FindGeometry(GetMesh(*input, begin), request.Options) == start.Geometry; };
+  { return FindGeometry(made->GetMesh(begin), request.Options) == start.Geometry; };
   if (fits && (!keepsGeometry(Start()) || !keepsGeometry(start)))
   {
     start = Start();
   }
   run.reset(); // its memory may be needed
-  run.reset(new FlipRun(request, plan, std::move(input), std::move(start)));
+  made->OpenSession(std::move(start));
+  run = std::move(made);
   return false;
 }
 
 FlipRun::Start FlipRun::GetEnd(const ProgressObserver& progress) const
 {
-  const TriangleMesh mesh = this->Input->Bridge.GetMesh();
+  const TriangleMesh mesh = this->Bridge.GetMesh();
   Start start;
   start.Report = this->GetReport();
   start.Geometry = this->IsWarm() ? this->Begin.Geometry : start.Report.GeometryUsed;
   start.Triangles.resize(3 * mesh.Triangles.Count);
-  this->Session.StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
+  this->Session->StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
   start.FixedEdges =
     this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Asked.Options, progress);
   return start;
@@ -209,8 +197,7 @@ FlipRun::Start FlipRun::GetEnd(const ProgressObserver& progress) const
 //------------------------------------------------------------------------------
 FlipReport FlipRun::GetReport() const
 {
-  FlipReport report = this->Session.GetReport();
-  const PolyDataBridge& bridge = this->Input->Bridge;
+  FlipReport report = this->Session->GetReport();
   if (this->IsWarm())
   {
     const FlipReport& first = this->Begin.Report;
@@ -219,10 +206,10 @@ FlipReport FlipRun::GetReport() const
     report.InsertedConstraints = first.InsertedConstraints;
     report.ConstraintFlips = first.ConstraintFlips;
   }
-  else if (const std::int64_t count = bridge.GetConstraints().Unmatched)
+  else if (const std::int64_t count = this->Bridge.GetConstraints().Unmatched)
   {
     report.UnmatchedConstraints += count;
-    const std::string& stranger = bridge.GetConstraints().FirstStranger;
+    const std::string& stranger = this->Bridge.GetConstraints().FirstStranger;
     report.Defects.push_back({ "constraint edges of the second input that the mesh does not have" +
         (stranger.empty()
             ? ""
@@ -231,26 +218,25 @@ FlipReport FlipRun::GetReport() const
               stranger),
       count, {}, DefectIds::Points });
   }
-  bridge.NumberCells(report.Defects);
-  const auto malformed = ListMalformedArrays(this->Input->Current, true, bridge.GetSlots().InPlace);
+  this->Bridge.NumberCells(report.Defects);
+  const auto malformed = ListMalformedArrays(this->Current, true, this->Bridge.GetSlots().InPlace);
   report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
   return report;
 }
 
 bool FlipRun::Store(vtkPolyData* output) const
 {
-  const PolyDataBridge& bridge = this->Input->Bridge;
-  bridge.Store(
-    this->Session, this->Room ? this->Room : bridge.MakeRoom(), this->Input->Current, output);
+  this->Bridge.Store(
+    *this->Session, this->Room ? this->Room : this->Bridge.MakeRoom(), this->Current, output);
   if (this->Asked.WantsFlipCounts)
   {
-    bridge.StoreFlipCounts(this->Session, output);
+    this->Bridge.StoreFlipCounts(*this->Session, output);
   }
   try
   {
     if (this->Asked.WantsAngles)
     {
-      bridge.StoreAngles(this->Session, this->Asked.Options.NumberOfThreads,
+      this->Bridge.StoreAngles(*this->Session, this->Asked.Options.NumberOfThreads,
         this->Plan.For(UpdatePlan::Angles), output);
     }
     return true;

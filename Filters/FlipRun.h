@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -32,15 +33,16 @@ struct FlipRequest
 class UpdateRun
 {
 public:
+  explicit UpdateRun(UpdatePlan plan)
+    : Plan(std::move(plan))
+  {
+  }
   virtual ~UpdateRun() = default;
-
-  virtual FlipSession& GetSession() = 0;
-
-  /// Whether the observer of this update stopped the run before its first iteration.
-  virtual bool IsStopped() const = 0;
+  UpdateRun(const UpdateRun&) = delete;
+  UpdateRun& operator=(const UpdateRun&) = delete;
 
   /// What to tell of the session's progress to.
-  virtual ProgressObserver GetProgress() const = 0;
+  ProgressObserver GetProgress() const { return this->Plan.For(UpdatePlan::Session); }
 
   /// What has happened so far. Its defects name cells of the input.
   virtual FlipReport GetReport() const = 0;
@@ -49,8 +51,13 @@ public:
   /// @returns false when the observer stopped it; then there are no angles.
   virtual bool Store(vtkPolyData* output) const = 0;
 
-  /// What the last warning said.
-  std::string Warning;
+  std::unique_ptr<FlipSession> Session;
+  vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
+  bool IsStopped = false; ///< The observer of this update stopped it before the first iteration.
+  std::string Warning; ///< What the last warning said.
+
+protected:
+  UpdatePlan Plan;
 };
 
 /// A shallow copy, but with points of its own.
@@ -60,9 +67,6 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input);
 class FlipRun : public UpdateRun
 {
 public:
-  FlipRun(const FlipRun&) = delete;
-  FlipRun& operator=(const FlipRun&) = delete;
-
   /// Makes `run` the run for this request. It stays itself if the request is the same, apart from
   /// attributes. If only points have been moved since, it becomes a warm start: a run that begins
   /// with the triangles of the last one and the edges that were fixed in it. Otherwise, or if it is
@@ -73,29 +77,12 @@ public:
   /// @param run null, or a FlipRun.
   static bool ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest& request);
 
-  FlipSession& GetSession() override { return this->Session; }
-  bool IsStopped() const override { return this->Stopped; }
-  ProgressObserver GetProgress() const override { return this->Plan.For(UpdatePlan::Session); }
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
 
 private:
   /// Modification times, of which no two objects ever have the same one, and sizes of arrays.
   using Stamps = std::vector<vtkMTimeType>;
-
-  /// The mesh that the session reads, and the attributes for the output.
-  struct Source
-  {
-    Source(const FlipRequest& request, const UpdatePlan& plan);
-
-    Stamps Edges; ///< Of all, points aside, that decides which edges exist and which are fixed.
-    Stamps Points;
-    vtkMTimeType Time;
-    vtkSmartPointer<vtkPolyData> Current; ///< The input as it was at the last update.
-    vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
-    vtkSmartPointer<vtkPolyData> Origin; ///< With points that no later update moves.
-    PolyDataBridge Bridge; ///< To the origin.
-  };
 
   /// Where a warm start begins; empty for other runs.
   struct Start
@@ -106,21 +93,23 @@ private:
     FlipReport Report; ///< Of the last run.
   };
 
-  FlipRun(const FlipRequest& request, UpdatePlan plan, std::unique_ptr<Source> input, Start start);
+  FlipRun(const FlipRequest& request, UpdatePlan plan);
 
   static Stamps StampEdges(const FlipRequest& request);
-  static TriangleMesh GetMesh(const Source& input, const Start& start);
+  TriangleMesh GetMesh(const Start& start) const;
+  void OpenSession(Start start);
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }
-  FlipSession MakeSession() const;
   Start GetEnd(const ProgressObserver& progress) const;
 
   FlipRequest Asked; ///< Its meshes may be gone.
-  UpdatePlan Plan;
-  std::unique_ptr<Source> Input; ///< The session has views of its arrays.
+  Stamps Edges; ///< Of all, points aside, that decides which edges exist and which are fixed.
+  Stamps Points;
+  vtkMTimeType Time; ///< Of the input.
+  vtkSmartPointer<vtkPolyData> Current; ///< The input as it was at the last update.
+  vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
+  vtkSmartPointer<vtkPolyData> Origin; ///< With points that no later update moves.
+  PolyDataBridge Bridge; ///< To the origin. The session has views of its arrays.
   Start Begin; ///< The session has views of its arrays, too.
-  FlipSession Session;
-  bool Stopped;
-  vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
 };
 
 }

@@ -5,6 +5,9 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "FlipError.h"
+#include "PieceFlip.h"
+#include "PolyDataBridge.h"
+#include "UpdateProgress.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -13,11 +16,18 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkPartitionedDataSet.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUniformGridAMR.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace delaunayflip
@@ -95,6 +105,37 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
   return blocks;
 }
 
+std::vector<BlockLeaf> ListOthers(
+  const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what)
+{
+  const bool isOfAll = others.size() == 1 && others.front().Place.empty();
+  if (!others.empty() && !isOfAll && block.Place.empty())
+  {
+    throw InvalidOptions(what + " cannot be a composite dataset");
+  }
+  std::vector<BlockLeaf> leaves;
+  for (const MeshBlock& other : others)
+  {
+    if (isOfAll || other.Place == block.Place)
+    {
+      std::copy_if(other.Leaves.begin(), other.Leaves.end(), std::back_inserter(leaves),
+        [](const BlockLeaf& leaf) { return vtkPolyData::SafeDownCast(leaf.Data) != nullptr; });
+    }
+  }
+  return leaves;
+}
+
+vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
+{
+  vtkSmartPointer<vtkDataObject> held;
+  if (data)
+  {
+    held.TakeReference(data->NewInstance());
+    held->ShallowCopy(data);
+  }
+  return held;
+}
+
 void StoreResults(const std::vector<MeshBlock>& blocks, vtkDataObject* input, vtkDataObject* output)
 {
   vtkDataObjectTree* given = GetTree(input);
@@ -122,32 +163,301 @@ void StoreResults(const std::vector<MeshBlock>& blocks, vtkDataObject* input, vt
 }
 
 //------------------------------------------------------------------------------
+namespace
+{
+
+/// Cells of several meshes by kind (verts, lines, polygons and strips, which is the order of cell
+/// ids), and which cells they were.
+class CellCollector
+{
+public:
+  /// @param areWide whether ids are stored in 64 bits.
+  explicit CellCollector(bool areWide)
+  {
+    for (auto& cells : this->Cells)
+    {
+      areWide ? cells->Use64BitStorage() : cells->Use32BitStorage();
+    }
+  }
+
+  /// Adds cells of a mesh. @param isKept whether a cell is among them. @param newId of a point.
+  /// @throws InvalidMesh when a cell names a point that does not exist.
+  template <typename IsKept, typename NewId>
+  void Add(vtkPolyData* mesh, const IsKept& isKept, const NewId& newId)
+  {
+    vtkCellArray* arrays[] = { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(),
+      mesh->GetStrips() };
+    PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
+    this->Sources.emplace_back();
+    for (std::size_t kind = 0; kind < this->Cells.size(); ++kind)
+    {
+      const auto add = [&](vtkIdType place, vtkIdList* ids)
+      {
+        const vtkIdType cell = check.FirstCell + place;
+        if (isKept(cell))
+        {
+          std::transform(ids->begin(), ids->end(), ids->begin(), newId);
+          this->Cells[kind]->InsertNextCell(ids);
+          this->Sources.back()[kind]->InsertNextId(cell);
+        }
+      };
+      VisitCells(arrays[kind], check, add);
+      check.FirstCell += arrays[kind]->GetNumberOfCells();
+    }
+  }
+
+  /// Writes the cells, and the data of those that are kept. @param meshes as they were added.
+  /// @returns for each cell which of them it is from.
+  vtkSmartPointer<vtkIntArray> Store(const MeshList& meshes, vtkPolyData* joined) const
+  {
+    auto owners = vtkSmartPointer<vtkIntArray>::New();
+    joined->SetVerts(this->Cells[0]);
+    joined->SetLines(this->Cells[1]);
+    joined->SetPolys(this->Cells[2]);
+    joined->SetStrips(this->Cells[3]);
+    vtkCellData* data = joined->GetCellData();
+    data->Initialize();
+    vtkIdType next = 0;
+    for (std::size_t kind = 0; kind < this->Cells.size(); ++kind)
+    {
+      for (std::size_t k = 0; k < meshes.size(); ++k)
+      {
+        vtkIdList* sources = this->Sources[k][kind];
+        const auto own = TakeWholeArrays(meshes[k]->GetCellData(), meshes[k]->GetNumberOfCells());
+        vtkAbstractArray* ghosts = own->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
+        if (ghosts && IsWrongGhostArray(ghosts))
+        {
+          own->RemoveArray(ghosts->GetName()); // else it would hide those of other partitions
+        }
+        AddTuples(own, sources, MakeRange(next, sources->GetNumberOfIds()),
+          joined->GetNumberOfCells(), data);
+        next += sources->GetNumberOfIds();
+        while (owners->GetNumberOfValues() < next)
+        {
+          owners->InsertNextValue(static_cast<int>(k));
+        }
+      }
+    }
+    return owners;
+  }
+
+private:
+  std::array<vtkNew<vtkCellArray>, 4> Cells;
+  std::vector<std::array<vtkNew<vtkIdList>, 4>> Sources; ///< By mesh and kind, the cells kept.
+};
+
+/// The points of all partitions. They are the same if they have the same global id or, if a
+/// partition has no global ids, equal coordinates, if at least one of them is at the border of its
+/// partition. Points without cells are not compared.
+/// @param joined receives each once, with its data: those of the first partition that has it.
+/// @returns for each partition the new ids of its points.
+std::vector<vtkSmartPointer<vtkIdList>> AddPoints(
+  const MeshList& partitions, vtkPolyData* joined, vtkIdType& ambiguous)
+{
+  std::vector<std::unique_ptr<PolyDataBridge>> bridges;
+  std::vector<std::vector<std::int64_t>> numbers;
+  std::vector<MeshPiece> pieces;
+  bool areDoubles = false;
+  for (const auto& mesh : partitions)
+  {
+    bridges.push_back(
+      std::make_unique<PolyDataBridge>(mesh, nullptr, BridgeSettings(), UpdatePlan({}, {})));
+    bridges.back()->RequireValidIds();
+    numbers.push_back(ReadPointNumbers(mesh));
+    pieces.push_back(
+      { bridges.back()->GetMesh(), numbers.back().empty() ? nullptr : numbers.back().data() });
+    areDoubles =
+      areDoubles || (mesh->GetPoints() && mesh->GetPoints()->GetDataType() == VTK_DOUBLE);
+  }
+  const JoinedPoints found = JoinPoints(pieces);
+  ambiguous = found.Ambiguous;
+  std::vector<vtkIdType> all; // of the points of all partitions, in the joined mesh
+  std::vector<vtkSmartPointer<vtkIdList>> ids;
+  vtkNew<vtkPoints> points;
+  points->SetDataType(areDoubles ? VTK_DOUBLE : VTK_FLOAT);
+  for (const auto& mesh : partitions)
+  {
+    ids.push_back(vtkSmartPointer<vtkIdList>::New());
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      const std::int64_t same = found.Same[all.size()];
+      const bool isKnown = same < static_cast<std::int64_t>(all.size());
+      all.push_back(isKnown ? all[same] : points->InsertNextPoint(mesh->GetPoint(i)));
+      ids.back()->InsertNextId(all.back());
+    }
+  }
+  joined->SetPoints(points);
+  for (std::size_t k = partitions.size(); k-- > 0;) // the first one's data count
+  {
+    const vtkIdType count = partitions[k]->GetNumberOfPoints();
+    AddTuples(TakeWholeArrays(partitions[k]->GetPointData(), count), MakeRange(0, count), ids[k],
+      points->GetNumberOfPoints(), joined->GetPointData());
+  }
+  return ids;
+}
+
+void RequireRegions(const MeshList& partitions, const std::string& name)
+{
+  vtkAbstractArray* first = partitions.front()->GetCellData()->GetAbstractArray(name.c_str());
+  for (const auto& mesh : partitions)
+  {
+    vtkAbstractArray* own = mesh->GetCellData()->GetAbstractArray(name.c_str());
+    if (!own || !first || own->GetDataType() != first->GetDataType() ||
+      own->GetNumberOfComponents() != first->GetNumberOfComponents() ||
+      own->GetNumberOfTuples() < mesh->GetNumberOfCells())
+    {
+      throw InvalidOptions("not all partitions have a cell array named \"" + name +
+        "\" of the same type, with a tuple for every cell");
+    }
+  }
+}
+
+/// A mesh without the cells that are marked as copies of cells of other meshes (vtkGhostType), on
+/// the same points.
+/// @throws InvalidMesh when a cell names a point that does not exist.
+vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
+{
+  const auto ghosts = FindGhosts(mesh);
+  const auto isDuplicate = [](unsigned char ghost)
+  { return (ghost & vtkDataSetAttributes::DUPLICATECELL) != 0; };
+  if (!ghosts || std::none_of(ghosts->Begin(), ghosts->End(), isDuplicate))
+  {
+    return mesh;
+  }
+  CellCollector cells(UsesWideIds(mesh));
+  const vtkIdType known = ghosts->GetNumberOfValues();
+  cells.Add(
+    mesh, [&](vtkIdType cell) { return cell >= known || !isDuplicate(ghosts->GetValue(cell)); },
+    [](vtkIdType id) { return id; });
+  const auto kept = ShareMesh(mesh);
+  cells.Store({ mesh }, kept);
+  return kept;
+}
+
+/// Joins the cells of all partitions but duplicate ghost cells, on points that each appear once,
+/// and their data, by AddTuples. There are no field data.
+/// @param partitions at least two. Ghost arrays that are ignored, and arrays with too few tuples,
+/// are left out.
+/// @param regions the name of a cell array that all must have, or empty.
+/// @throws InvalidMesh when a cell names a point that does not exist; InvalidOptions when a
+/// partition lacks the regions, or has them in another type.
+JoinedMesh JoinPartitions(const MeshList& partitions, const std::string& regions)
+{
+  MeshList meshes;
+  bool areWide = false;
+  for (const auto& mesh : partitions)
+  {
+    meshes.push_back(DropDuplicateCells(mesh));
+    areWide = areWide || UsesWideIds(mesh);
+  }
+  if (!regions.empty())
+  {
+    RequireRegions(meshes, regions);
+  }
+  JoinedMesh joined{ vtkSmartPointer<vtkPolyData>::New(), {}, nullptr };
+  joined.Points = AddPoints(meshes, joined.Mesh, joined.Ambiguous);
+  CellCollector cells(areWide);
+  for (std::size_t k = 0; k < meshes.size(); ++k)
+  {
+    cells.Add(
+      meshes[k], [](vtkIdType) { return true; },
+      [&](vtkIdType id) { return joined.Points[k]->GetId(id); });
+  }
+  joined.Owners = cells.Store(meshes, joined.Mesh);
+  return joined;
+}
+
+/// Divides a joined mesh after its flips. A partition has its own points first, then those that it
+/// lacks, with the arrays that the joined mesh has. Its field data come before those of that mesh.
+/// @param owners for each cell its partition.
+MeshList DividePartitions(vtkPolyData* flipped, vtkIntArray* owners, const MeshList& partitions,
+  const std::vector<vtkSmartPointer<vtkIdList>>& points)
+{
+  constexpr vtkIdType None = -1;
+  MeshList divided;
+  std::vector<vtkIdType> local(flipped->GetNumberOfPoints(), None);
+  for (std::size_t k = 0; k < partitions.size(); ++k)
+  {
+    vtkPolyData* own = partitions[k];
+    vtkNew<vtkIdList> ids; // of its points in the joined mesh
+    const auto take = [&](vtkIdType id)
+    { return local[id] != None ? local[id] : local[id] = ids->InsertNextId(id); };
+    for (const vtkIdType id : *points[k])
+    {
+      local[id] = ids->InsertNextId(id);
+    }
+    CellCollector cells(UsesWideIds(own));
+    cells.Add(
+      flipped, [&](vtkIdType cell) { return owners->GetValue(cell) == static_cast<int>(k); }, take);
+    divided.push_back(vtkSmartPointer<vtkPolyData>::New());
+    vtkPolyData* made = divided.back();
+    const vtkIdType count = ids->GetNumberOfIds();
+    vtkSmartPointer<vtkPoints> all = own->GetPoints();
+    if (count > own->GetNumberOfPoints())
+    {
+      all = vtkSmartPointer<vtkPoints>::New();
+      all->SetDataType(own->GetPoints()->GetDataType());
+      flipped->GetPoints()->GetPoints(ids, all);
+    }
+    made->SetPoints(all);
+    AddTuples(flipped->GetPointData(), ids, MakeRange(0, count), count, made->GetPointData());
+    cells.Store({ flipped }, made);
+    made->GetFieldData()->ShallowCopy(own->GetFieldData());
+    made->GetFieldData()->PassData(flipped->GetFieldData());
+    for (const vtkIdType id : *ids)
+    {
+      local[id] = None;
+    }
+  }
+  return divided;
+}
+
+}
+
+std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh)
+{
+  vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
+  std::vector<std::int64_t> numbers;
+  if (ids && ids->GetNumberOfComponents() == 1 &&
+    ids->GetNumberOfTuples() == mesh->GetNumberOfPoints())
+  {
+    for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i) // a double has not all bits of an id
+    {
+      numbers.push_back(ids->GetVariantValue(i).ToTypeInt64());
+    }
+  }
+  return numbers;
+}
+
+//------------------------------------------------------------------------------
 BlockMesh::BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDuplicates)
   : Block(block)
 {
-  MeshList meshes;
   for (const BlockLeaf& leaf : block.Leaves)
   {
     this->Surfaces.emplace_back(vtkPolyData::SafeDownCast(leaf.Data));
     if (this->Surfaces.back())
     {
-      meshes.push_back(this->Surfaces.back());
+      this->Meshes.push_back(this->Surfaces.back());
     }
   }
-  this->IsJoined = meshes.size() > 1;
-  if (this->IsJoined)
+  if (this->IsJoined())
   {
-    this->Joined = JoinPartitions(meshes, regions);
-    this->Mesh = this->Joined.Mesh;
-    if (!dropsDuplicates)
+    this->Joined = JoinPartitions(this->Meshes, regions);
+    if (dropsDuplicates)
+    {
+      this->Joined.Mesh->GetFieldData()->ShallowCopy(this->Meshes.front()->GetFieldData());
+    }
+    else
     {
       this->Joined.Owners->SetName(OwnerName);
-      this->Mesh->GetCellData()->AddArray(this->Joined.Owners);
+      this->Joined.Mesh->GetCellData()->AddArray(this->Joined.Owners);
     }
   }
-  else if (!meshes.empty())
+  else if (!this->Meshes.empty())
   {
-    this->Mesh = dropsDuplicates ? DropDuplicateCells(meshes.front()) : meshes.front();
+    this->Joined.Mesh =
+      dropsDuplicates ? DropDuplicateCells(this->Meshes.front()) : this->Meshes.front();
   }
 }
 
@@ -157,7 +467,7 @@ std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
   bool areAllSurfaces = true;
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
-    const bool isAsked = this->Surfaces[i] && (this->IsJoined || ofArrays);
+    const bool isAsked = this->Surfaces[i] && (this->IsJoined() || ofArrays);
     const std::string text =
       isAsked ? DescribeDefects(ListMalformedArrays(this->Surfaces[i], false, false)) : "";
     if (!text.empty())
@@ -182,39 +492,29 @@ std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
 vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
   const std::vector<MeshBlock>& constraints) const
 {
-  const bool areOfAll = constraints.size() == 1 && constraints.front().Place.empty();
-  if (!constraints.empty() && !areOfAll && this->Block.Place.empty())
-  {
-    throw InvalidOptions("the constraints of a single mesh cannot be a composite dataset");
-  }
+  const std::vector<BlockLeaf> leaves =
+    ListOthers(this->Block, constraints, "the constraints of a single mesh");
   std::vector<std::pair<vtkPolyData*, vtkPolyData*>> sources; // each with the mesh that it is for
-  for (const MeshBlock& block : constraints)
+  for (const BlockLeaf& leaf : leaves)
   {
-    for (const BlockLeaf& leaf : block.Leaves)
+    auto* edges = vtkPolyData::SafeDownCast(leaf.Data);
+    const bool isOfAll = leaf.Number == 0;
+    if (this->IsJoined() ? isOfAll && edges->GetNumberOfPoints() > 0 : leaves.size() == 1)
     {
-      auto* edges = vtkPolyData::SafeDownCast(leaf.Data);
-      if (edges && areOfAll && (!this->IsJoined || edges->GetNumberOfPoints() > 0))
+      return edges;
+    }
+    const std::size_t before = sources.size();
+    for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
+    {
+      if (this->Surfaces[i] && (isOfAll || this->Block.Leaves[i].Number == leaf.Number))
       {
-        return edges;
-      }
-      vtkPolyData* own = nullptr; // at the same place
-      for (std::size_t i = 0; edges && i < this->Surfaces.size(); ++i)
-      {
-        if (areOfAll && this->Surfaces[i])
-        {
-          sources.emplace_back(edges, this->Surfaces[i]);
-        }
-        own = this->Block.Leaves[i].Number == leaf.Number ? this->Surfaces[i].Get() : own;
-      }
-      if (edges && !areOfAll && block.Place == this->Block.Place)
-      {
-        sources.emplace_back(edges, own);
+        sources.emplace_back(edges, this->Surfaces[i]);
       }
     }
-  }
-  if (!this->IsJoined && sources.size() == 1)
-  {
-    return sources.front().first;
+    if (sources.size() == before)
+    {
+      sources.emplace_back(edges, nullptr);
+    }
   }
   return JoinConstraints(sources);
 }
@@ -225,12 +525,10 @@ void BlockMesh::Store(vtkPolyData* flipped)
   vtkCellData* data = flipped ? flipped->GetCellData() : nullptr;
   const vtkSmartPointer<vtkIntArray> owners =
     data ? vtkIntArray::SafeDownCast(data->GetAbstractArray(OwnerName)) : nullptr;
-  if (this->IsJoined && owners)
+  if (this->IsJoined() && owners)
   {
     data->RemoveArray(OwnerName);
-    MeshList given = this->Surfaces;
-    given.erase(std::remove(given.begin(), given.end(), nullptr), given.end());
-    results = DividePartitions(flipped, owners, given, this->Joined.Points);
+    results = DividePartitions(flipped, owners, this->Meshes, this->Joined.Points);
   }
   auto next = results.begin();
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
@@ -242,8 +540,7 @@ void BlockMesh::Store(vtkPolyData* flipped)
     }
     else
     {
-      leaf.Result = vtkSmartPointer<vtkDataObject>::Take(leaf.Data->NewInstance());
-      leaf.Result->ShallowCopy(leaf.Data);
+      leaf.Result = Hold(leaf.Data);
     }
   }
 }

@@ -4,13 +4,13 @@
 #define MeshBlocks_h
 
 #include "EngineExport.h"
-#include "JoinedPartitions.h"
 #include "UpdateReport.h"
 
+#include "vtkIdList.h"
+#include "vtkIntArray.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -45,19 +45,47 @@ struct MeshBlock
 /// are blocks of their own.
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
+/// The leaves of the second input, all polygonal, that are for a block: that of a single dataset,
+/// whose number is 0, or those at the same place.
+/// @param what begins the message if they cannot be composite.
+/// @throws InvalidOptions.
+std::vector<BlockLeaf> ListOthers(
+  const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what);
+
+/// A shallow copy, whose leaves and arrays observers cannot take away; null for null.
+vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data);
+
 /// Gives `output`, which is of the same type, the structure of `input` and the results of the
 /// blocks' leaves.
 void StoreResults(
   const std::vector<MeshBlock>& blocks, vtkDataObject* input, vtkDataObject* output);
 
+//------------------------------------------------------------------------------
+using MeshList = std::vector<vtkSmartPointer<vtkPolyData>>;
+
+/// The partitions of a dataset as one mesh.
+struct JoinedMesh
+{
+  vtkSmartPointer<vtkPolyData> Mesh;
+  std::vector<vtkSmartPointer<vtkIdList>> Points; ///< For each partition, its points in the mesh.
+  vtkSmartPointer<vtkIntArray> Owners; ///< For each cell of the mesh, its partition.
+
+  /// Points that coincide with others of their partition, and with one of another: it is not known
+  /// which of them are meant.
+  vtkIdType Ambiguous = 0;
+};
+
+/// The values of vtkGlobalPointIds, one per point; empty if the mesh has none.
+DELAUNAYFLIP_EXPORT std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh);
+
 /// The mesh of a block: its leaf or, if a dataset is in several partitions, all of them as one.
 class DELAUNAYFLIP_EXPORT BlockMesh
 {
 public:
-  /// @param block must live as long as this object. @param regions as in JoinPartitions.
-  /// @param dropsDuplicates whether duplicate ghost cells are dropped also from a single leaf, and
-  /// partitions stay joined.
-  /// @throws what JoinPartitions throws.
+  /// @param block must live as long as this object. @param regions the name of a cell array that
+  /// all partitions must have, or empty. @param dropsDuplicates whether duplicate ghost cells are
+  /// dropped also from a single leaf, and partitions stay joined.
+  /// @throws InvalidMesh, InvalidOptions.
   BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDuplicates = false);
   BlockMesh(const BlockMesh&) = delete;
   BlockMesh& operator=(const BlockMesh&) = delete;
@@ -68,7 +96,7 @@ public:
   std::vector<Note> ListNotes(bool ofArrays = false) const;
 
   /// Null if the block is none.
-  vtkPolyData* GetMesh() const { return this->Mesh; }
+  vtkPolyData* GetMesh() const { return this->Joined.Mesh; }
 
   /// All of the second input, or its leaves at the same place; null if there are none.
   /// @param constraints the blocks of the second input.
@@ -82,11 +110,12 @@ public:
   void Store(vtkPolyData* flipped);
 
 private:
+  bool IsJoined() const { return this->Meshes.size() > 1; }
+
   MeshBlock& Block;
-  std::vector<vtkSmartPointer<vtkPolyData>> Surfaces; ///< One per leaf; null if it is none.
-  vtkSmartPointer<vtkPolyData> Mesh;
-  bool IsJoined = false;
-  JoinedMesh Joined; ///< Of partitions.
+  MeshList Surfaces; ///< One per leaf; null if it is none.
+  MeshList Meshes; ///< Those that are.
+  JoinedMesh Joined; ///< All of them, or the only one.
 };
 
 }

@@ -9,6 +9,7 @@
 #include "TriangleAngles.h"
 #include "UpdateProgress.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkFieldData.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
@@ -19,6 +20,7 @@
 #include "vtkVariant.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <utility>
 
@@ -30,21 +32,6 @@ namespace delaunayflip
 {
 namespace
 {
-
-/// Cells with arrays of their own, which share the memory of the others and know how much of it
-/// they use.
-vtkSmartPointer<vtkCellArray> ShareCells(vtkCellArray* cells)
-{
-  const auto share = [](vtkDataArray* array)
-  {
-    auto shared = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
-    shared->ShallowCopy(array);
-    return shared;
-  };
-  auto shared = vtkSmartPointer<vtkCellArray>::New();
-  shared->SetData(share(cells->GetOffsetsArray()), share(cells->GetConnectivityArray()));
-  return shared;
-}
 
 /// E.g. "it has \"Side\", \"Material\"".
 std::string ListNames(vtkCellData* data)
@@ -113,15 +100,154 @@ void Fill(const FlipSession& session, vtkCellArray* cells)
 
 }
 
-vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh)
+//------------------------------------------------------------------------------
+namespace
 {
-  auto shared = vtkSmartPointer<vtkPolyData>::New();
-  shared->ShallowCopy(mesh);
-  shared->SetVerts(ShareCells(mesh->GetVerts()));
-  shared->SetLines(ShareCells(mesh->GetLines()));
-  shared->SetPolys(ShareCells(mesh->GetPolys()));
-  shared->SetStrips(ShareCells(mesh->GetStrips()));
-  return shared;
+
+/// Whether offsets are 0, 3, 6, ...; checked by all threads.
+template <typename Id>
+bool AreTriangleOffsets(const Id* offsets, vtkIdType count)
+{
+  std::atomic<bool> are{ true };
+  vtkSMPTools::For(0, count,
+    [&are, offsets](vtkIdType begin, vtkIdType end)
+    {
+      bool areTriangles = true;
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        areTriangles = areTriangles && offsets[i] == 3 * i;
+      }
+      if (!areTriangles)
+      {
+        are = false;
+      }
+    });
+  return are;
+}
+
+/// Views cells whose ids are of type VtkId, for the engine of type Id, if all are triangles.
+template <typename VtkId, typename Id>
+bool ViewTriangles(vtkCellArray* cells, TriangleArray& triangles)
+{
+  using ArrayT = vtkAOSDataArrayTemplate<VtkId>;
+  auto* ids = vtkArrayDownCast<ArrayT>(cells->GetConnectivityArray());
+  auto* offsets = vtkArrayDownCast<ArrayT>(cells->GetOffsetsArray());
+  if (!ids || ids->GetNumberOfValues() != 3 * cells->GetNumberOfCells() ||
+    !(offsets ? AreTriangleOffsets(offsets->GetPointer(0), offsets->GetNumberOfValues())
+              : cells->IsValid() && cells->IsHomogeneous() == 3))
+  {
+    return false;
+  }
+  // vtkTypeInt64 (long long) and std::int64_t (long) are distinct types of the same representation.
+  triangles =
+    TriangleArray(reinterpret_cast<const Id*>(ids->GetPointer(0)), cells->GetNumberOfCells());
+  return true;
+}
+
+}
+
+TriangleSlots::TriangleSlots(
+  vtkPolyData* mesh, const PointArray& points, bool triangulate, const ProgressObserver& progress)
+  : FirstPolygon(mesh->GetNumberOfVerts() + mesh->GetNumberOfLines()),
+    FirstStrip(FirstPolygon + mesh->GetNumberOfPolys())
+{
+  const auto check = [&](vtkIdType first) { return PointIdCheck{ "cell", first, points.Count }; };
+  check(0).RequireValid(mesh->GetVerts());
+  check(mesh->GetNumberOfVerts()).RequireValid(mesh->GetLines());
+  check(this->FirstStrip).RequireValid(mesh->GetStrips());
+  vtkCellArray* polygons = mesh->GetPolys();
+  this->InPlace = mesh->GetNumberOfStrips() == 0 &&
+    (ViewTriangles<vtkTypeInt32, std::int32_t>(polygons, this->Triangles) ||
+      ViewTriangles<vtkTypeInt64, std::int64_t>(polygons, this->Triangles));
+  if (this->InPlace)
+  {
+    return;
+  }
+  WorkProgress split(progress,
+    polygons->GetNumberOfConnectivityIds() + mesh->GetStrips()->GetNumberOfConnectivityIds());
+  VisitCells(polygons, check(this->FirstPolygon),
+    [&](vtkIdType polygon, vtkIdList* ids)
+    {
+      constexpr vtkIdType LargePolygon = 1000; // takes a while to split
+      const vtkIdType size = ids->GetNumberOfIds();
+      const bool stays = size < 3 || (size > 3 && !triangulate);
+      if (stays)
+      {
+        this->Polygons.push_back({ this->FirstPolygon + polygon, None });
+      }
+      if (size == 3)
+      {
+        this->Ids.insert(this->Ids.end(), ids->begin(), ids->end());
+      }
+      else if (size > 3)
+      {
+        const std::vector<std::int64_t> corners(ids->begin(), ids->end());
+        const ProgressObserver observer =
+          size < LargePolygon ? ProgressObserver() : split.ForNext(size);
+        if (!SplitPolygon(points, corners.data(), size, this->Ids, observer))
+        {
+          throw RunAborted();
+        }
+      }
+      this->AddTriangles(this->FirstPolygon + polygon, size - 2, stays);
+      split.Add(size);
+    });
+  VisitCells(mesh->GetStrips(), check(this->FirstStrip),
+    [&](vtkIdType strip, vtkIdList* ids)
+    {
+      const vtkIdType size = ids->GetNumberOfIds();
+      const bool stays = size < 3 || !triangulate;
+      if (stays)
+      {
+        this->Strips.push_back(this->FirstStrip + strip);
+      }
+      for (vtkIdType i = 0; i + 2 < size; ++i)
+      {
+        // Every other triangle of a strip is wound the other way.
+        const vtkIdType odd = i % 2;
+        this->Ids.insert(
+          this->Ids.end(), { ids->GetId(i + odd), ids->GetId(i + 1 - odd), ids->GetId(i + 2) });
+      }
+      this->AddTriangles(this->FirstStrip + strip, size - 2, stays);
+      split.Add(size);
+    });
+  this->Triangles = TriangleArray(static_cast<const std::int64_t*>(this->Ids.data()),
+    static_cast<std::int64_t>(this->Cells.size()));
+}
+
+/// @param count may be negative: none.
+void TriangleSlots::AddTriangles(vtkIdType cell, vtkIdType count, bool stays)
+{
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if (!stays)
+    {
+      this->Polygons.push_back({ cell, static_cast<vtkIdType>(this->Cells.size()) });
+    }
+    this->Cells.push_back(cell);
+    this->Frozen.push_back(stays ? 1 : 0);
+  }
+  this->AreDivided = this->AreDivided || (count > 1 && !stays);
+}
+
+bool TriangleSlots::ArePolygonsTriangles() const
+{
+  return this->InPlace ||
+    (this->Polygons.size() == this->Cells.size() &&
+      std::all_of(this->Polygons.begin(), this->Polygons.end(),
+        [](const OutputPolygon& polygon) { return polygon.Triangle != None; }));
+}
+
+void TriangleSlots::RequireValidIds(vtkIdType numberOfPoints) const
+{
+  const PointIdCheck check{ "cell", this->FirstPolygon, numberOfPoints };
+  for (vtkIdType triangle = 0; triangle < this->Triangles.Count; ++triangle)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      check.RequireInRange(triangle, this->Triangles.Get(triangle, slot));
+    }
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -129,12 +255,10 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   const BridgeSettings& settings, const UpdatePlan& plan)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
-    Slots(mesh, Points, settings.Triangulate, plan.For(UpdatePlan::Polygons)),
-    Constraints(
-      FindConstraintEdges({ settings.LinesAsConstraints ? mesh : nullptr, constraints, Points,
-                            Slots.Triangles, settings.InsertLines, settings.InsertConstraints },
-        plan.For(UpdatePlan::Constraints)))
+    Slots(mesh, Points, settings.Triangulate, plan.For(UpdatePlan::Polygons))
 {
+  this->Constraints = FindConstraintEdges(
+    this->GetMesh(), mesh, constraints, settings, plan.For(UpdatePlan::Constraints));
   if (const auto ghosts = FindGhosts(mesh))
   {
     const int ghost = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
@@ -250,47 +374,6 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
 }
 
 //------------------------------------------------------------------------------
-namespace
-{
-
-/// The polygons of the output. Their ids are stored as wide as those of the mesh's polygons, or of
-/// its strips if it has no polygons.
-vtkSmartPointer<vtkCellArray> BuildPolygons(const FlipSession& session, const TriangleSlots& slots,
-  vtkPolyData* mesh, const vtkSmartPointer<vtkCellArray>& room)
-{
-  if (room)
-  {
-    FillTriangles(session, room);
-    return room;
-  }
-  const vtkIdType count = slots.Triangles.Count;
-  const bool areWide = UsesWideIds(mesh);
-  std::vector<std::int64_t> storage(3 * count);
-  const MutableTriangleArray triangles(storage.data(), count);
-  session.StoreTriangles(triangles);
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  areWide ? cells->Use64BitStorage() : cells->Use32BitStorage();
-  cells->AllocateEstimate(slots.GetNumberOfPolygons(), 3);
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
-  {
-    const vtkIdType triangle = slots.GetTriangle(polygon);
-    if (triangle == TriangleSlots::None)
-    {
-      mesh->GetPolys()->GetCellAtId(slots.GetCellOfPolygon(polygon) - slots.FirstPolygon, ids);
-      cells->InsertNextCell(ids);
-    }
-    else
-    {
-      cells->InsertNextCell(
-        { triangles.Get(triangle, 0), triangles.Get(triangle, 1), triangles.Get(triangle, 2) });
-    }
-  }
-  return cells;
-}
-
-}
-
 vtkSmartPointer<vtkCellArray> PolyDataBridge::MakeRoom() const
 {
   return this->Slots.ArePolygonsTriangles()
@@ -303,41 +386,28 @@ void PolyDataBridge::Store(const FlipSession& session, const vtkSmartPointer<vtk
 {
   const TriangleSlots& slots = this->Slots;
   output->SetPoints(mesh->GetPoints());
-  output->SetVerts(mesh->GetVerts());
-  output->SetLines(mesh->GetLines());
-  output->SetPolys(BuildPolygons(session, slots, mesh, room));
-  output->SetStrips(BuildStrips(slots, mesh));
   output->GetPointData()->ShallowCopy(mesh->GetPointData());
-  output->GetFieldData()->ShallowCopy(mesh->GetFieldData());
-  vtkCellData* data = output->GetCellData();
-  if (slots.InPlace)
+  if (room)
   {
-    data->ShallowCopy(mesh->GetCellData());
+    FillTriangles(session, room);
+    output->SetPolys(room);
   }
   else
   {
-    data->Initialize();
-    const auto sources = MakeRange(0, slots.FirstPolygon);
-    for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
-    {
-      sources->InsertNextId(slots.GetCellOfPolygon(polygon));
-    }
-    for (const vtkIdType strip : slots.Strips)
-    {
-      sources->InsertNextId(strip);
-    }
-    const auto whole = TakeWholeArrays(mesh->GetCellData(), mesh->GetNumberOfCells());
-    const vtkIdType count = sources->GetNumberOfIds();
-    AddTuples(whole, sources, MakeRange(0, count), count, data);
-    if (slots.AreDivided)
-    {
-      DemoteGlobalIds(data);
-    }
+    const vtkIdType count = slots.Triangles.Count;
+    std::vector<std::int64_t> ids(3 * count);
+    session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+    output->SetPolys(BuildPolygons(slots.Polygons, { std::as_const(ids).data(), count }, mesh));
+  }
+  StoreCells(mesh, slots, slots.Polygons, nullptr, output);
+  if (slots.AreDivided)
+  {
+    DemoteGlobalIds(output->GetCellData());
   }
   RenewNormals(output,
     [&slots](vtkIdType polygon, const std::int64_t ids[3], std::int64_t before[3])
     {
-      const vtkIdType triangle = slots.GetTriangle(polygon);
+      const vtkIdType triangle = slots.GetPolygon(polygon).Triangle;
       for (int slot = 0; slot < 3 && triangle != TriangleSlots::None; ++slot)
       {
         before[slot] = slots.Triangles.Get(triangle, slot);
@@ -352,7 +422,7 @@ void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* ou
   session.StoreFlipCounts(counts.data());
   AddTriangleArray(
     "vtkDelaunayFlipCount", counts, 0,
-    [this](vtkIdType polygon) { return this->Slots.GetTriangle(polygon); }, output);
+    [this](vtkIdType polygon) { return this->Slots.GetPolygon(polygon).Triangle; }, output);
 }
 
 void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
@@ -367,7 +437,8 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
   mesh.Triangles =
     TriangleArray(static_cast<const std::int64_t*>(ids.data()), mesh.Triangles.Count);
   FindSmallestAngles(mesh, geometry, threads, after.data(), MakePart(progress, 0.5, 1.0));
-  const auto triangleOf = [this](vtkIdType polygon) { return this->Slots.GetTriangle(polygon); };
+  const auto triangleOf = [this](vtkIdType polygon)
+  { return this->Slots.GetPolygon(polygon).Triangle; };
   AddTriangleArray("Smallest angle before (degrees)", before, NaN, triangleOf, output);
   AddTriangleArray("Smallest angle after (degrees)", after, NaN, triangleOf, output);
 }
@@ -401,33 +472,76 @@ bool UsesWideIds(vtkPolyData* mesh)
   return cells->GetConnectivityArray()->GetDataTypeSize() == 8;
 }
 
-vtkSmartPointer<vtkCellArray> BuildStrips(const TriangleSlots& slots, vtkPolyData* mesh)
+vtkSmartPointer<vtkCellArray> BuildPolygons(
+  const std::vector<OutputPolygon>& polygons, const TriangleArray& triangles, vtkPolyData* mesh)
 {
-  if (static_cast<vtkIdType>(slots.Strips.size()) == mesh->GetNumberOfStrips())
-  {
-    return mesh->GetStrips();
-  }
+  const vtkIdType first = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
   auto cells = vtkSmartPointer<vtkCellArray>::New();
+  UsesWideIds(mesh) ? cells->Use64BitStorage() : cells->Use32BitStorage();
+  cells->AllocateEstimate(static_cast<vtkIdType>(polygons.size()), 3);
   vtkNew<vtkIdList> ids;
-  for (const vtkIdType cell : slots.Strips)
+  for (const OutputPolygon& polygon : polygons)
   {
-    mesh->GetStrips()->GetCellAtId(cell - slots.FirstStrip, ids);
-    cells->InsertNextCell(ids);
+    if (polygon.Triangle == TriangleSlots::None)
+    {
+      mesh->GetPolys()->GetCellAtId(polygon.Cell - first, ids);
+      cells->InsertNextCell(ids);
+    }
+    else
+    {
+      cells->InsertNextCell({ triangles.Get(polygon.Triangle, 0),
+        triangles.Get(polygon.Triangle, 1), triangles.Get(polygon.Triangle, 2) });
+    }
   }
   return cells;
 }
 
-void DemoteGlobalIds(vtkDataSetAttributes* data)
+void StoreCells(vtkPolyData* mesh, const TriangleSlots& slots,
+  const std::vector<OutputPolygon>& polygons, vtkDataSetAttributes* received, vtkPolyData* output)
 {
-  vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
-  if (!ids)
+  output->SetVerts(mesh->GetVerts());
+  output->SetLines(mesh->GetLines());
+  output->SetStrips(mesh->GetStrips());
+  output->GetFieldData()->ShallowCopy(mesh->GetFieldData());
+  vtkCellData* data = output->GetCellData();
+  if (slots.InPlace && !received)
   {
+    data->ShallowCopy(mesh->GetCellData());
     return;
   }
-  data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
-  if (!data->GetPedigreeIds())
+  if (static_cast<vtkIdType>(slots.Strips.size()) < mesh->GetNumberOfStrips())
   {
-    data->SetPedigreeIds(ids);
+    vtkNew<vtkCellArray> strips;
+    vtkNew<vtkIdList> ids;
+    for (const vtkIdType cell : slots.Strips)
+    {
+      mesh->GetStrips()->GetCellAtId(cell - slots.FirstStrip, ids);
+      strips->InsertNextCell(ids);
+    }
+    output->SetStrips(strips);
+  }
+  const auto sources = MakeRange(0, slots.FirstPolygon);
+  for (const OutputPolygon& polygon : polygons)
+  {
+    if (polygon.Cell != TriangleSlots::None)
+    {
+      sources->InsertNextId(polygon.Cell);
+    }
+  }
+  const vtkIdType first = sources->GetNumberOfIds(); // the cells received are before the strips
+  const vtkIdType count = slots.FirstPolygon + static_cast<vtkIdType>(polygons.size()) - first;
+  const auto places = MakeRange(0, first);
+  for (const vtkIdType strip : slots.Strips)
+  {
+    places->InsertNextId(sources->InsertNextId(strip) + count);
+  }
+  const vtkIdType size = sources->GetNumberOfIds() + count;
+  data->Initialize();
+  AddTuples(
+    TakeWholeArrays(mesh->GetCellData(), mesh->GetNumberOfCells()), sources, places, size, data);
+  if (received)
+  {
+    AddTuples(received, MakeRange(0, count), MakeRange(first, count), size, data);
   }
 }
 

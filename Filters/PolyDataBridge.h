@@ -7,7 +7,6 @@
 #include "EngineExport.h"
 #include "FlipReport.h"
 #include "TriangleMesh.h"
-#include "TriangleSlots.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -49,9 +48,70 @@ inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
   return tie(a) == tie(b);
 }
 
-/// A shallow copy that keeps as many cells as there are now, whatever observers of the filter
-/// append to the input's cell arrays.
-DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh);
+/// A polygon of an output: one of the triangles, or a cell of the mesh that stays as it is.
+struct OutputPolygon
+{
+  vtkIdType Cell; ///< The cell of the mesh from which it is made, or TriangleSlots::None.
+  vtkIdType Triangle; ///< Or TriangleSlots::None.
+};
+
+/// The triangles of a vtkPolyData: from which cell each is made, and which output cell it becomes.
+///
+/// If all polygons are triangles, they are viewed in place. Otherwise polygons and strips are
+/// copied as the triangles into which they split. The output has these triangles in place of the
+/// cell; with `triangulate` off it has the cell itself, and the triangles are frozen and not part
+/// of the output.
+class TriangleSlots
+{
+public:
+  static constexpr vtkIdType None = -1;
+
+  /// @throws InvalidMesh when offsets and connectivity contradict each other, or when a polygon
+  /// that is copied, or a strip, names a point outside `points`. Polygons viewed in place are
+  /// checked by the engine, which is much faster.
+  /// @param progress is told the share of cells that are copied.
+  /// @throws RunAborted.
+  TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate,
+    const ProgressObserver& progress);
+
+  /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
+  DELAUNAYFLIP_EXPORT void RequireValidIds(vtkIdType numberOfPoints) const;
+
+  /// The cell of the mesh from which `triangle` is made.
+  vtkIdType GetCell(vtkIdType triangle) const
+  {
+    return this->InPlace ? this->FirstPolygon + triangle : this->Cells[triangle];
+  }
+
+  vtkIdType GetNumberOfPolygons() const
+  {
+    return this->InPlace ? this->Triangles.Count : static_cast<vtkIdType>(this->Polygons.size());
+  }
+
+  OutputPolygon GetPolygon(vtkIdType polygon) const
+  {
+    return this->InPlace ? OutputPolygon{ this->FirstPolygon + polygon, polygon }
+                         : this->Polygons[polygon];
+  }
+
+  /// Whether output polygon i is triangle i for every i, and there are no others.
+  bool ArePolygonsTriangles() const;
+
+  bool InPlace = false; ///< The cells of the output correspond one to one to those of the mesh.
+  bool AreDivided = false; ///< Some cell is replaced by more than one.
+  vtkIdType FirstPolygon; ///< The cell id of the mesh's first polygon.
+  vtkIdType FirstStrip;
+  TriangleArray Triangles; ///< For the engine: a view of an array of this object or of the mesh.
+  std::vector<unsigned char> Frozen; ///< One flag per triangle: it stays. Or empty.
+  std::vector<vtkIdType> Strips; ///< The cells of the mesh that become the strips of the output.
+  std::vector<OutputPolygon> Polygons; ///< Empty if viewed in place, as the following ones.
+
+private:
+  void AddTriangles(vtkIdType cell, vtkIdType count, bool stays);
+
+  std::vector<std::int64_t> Ids; ///< Three per triangle.
+  std::vector<vtkIdType> Cells; ///< One per triangle.
+};
 
 /// Translates between vtkPolyData and the engine, in both directions; computes nothing. The mesh
 /// must outlive the bridge.
@@ -128,13 +188,16 @@ void FillTriangles(const FlipSession& session, vtkCellArray* room);
 /// Whether the ids of the polygons of a mesh, or of its strips if it has no polygons, have 64 bits.
 DELAUNAYFLIP_EXPORT bool UsesWideIds(vtkPolyData* mesh);
 
-/// The strips of the output: those of the mesh that were not split.
-DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkCellArray> BuildStrips(
-  const TriangleSlots& slots, vtkPolyData* mesh);
+/// Cells for the polygons of an output, with ids as wide as those of the mesh.
+/// @param triangles the ids of those that are triangles.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkCellArray> BuildPolygons(
+  const std::vector<OutputPolygon>& polygons, const TriangleArray& triangles, vtkPolyData* mesh);
 
-/// Turns global ids into pedigree ids: when cells are divided or points added, several share an id.
-/// If there are pedigree ids already, the array is no attribute any more.
-DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
+/// Writes the cells of an output, and their data, that are made from cells of the mesh: verts,
+/// lines, the data of polygons, and strips.
+/// @param received the data of as many polygons, the last ones, that are not of this mesh.
+DELAUNAYFLIP_EXPORT void StoreCells(vtkPolyData* mesh, const TriangleSlots& slots,
+  const std::vector<OutputPolygon>& polygons, vtkDataSetAttributes* received, vtkPolyData* output);
 
 /// Whether flips have changed this polygon of an output, a triangle. @param ids its points.
 /// @param before receives what its points were; they stay `ids` if that is not known.

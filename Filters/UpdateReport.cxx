@@ -141,12 +141,16 @@ void AddValue(const char* name, const Value& value, vtkFieldData* data)
 
 }
 
+void AddCount(const char* name, std::int64_t count, vtkFieldData* data)
+{
+  AddValue<vtkIdTypeArray>(name, count, data);
+}
+
 void AddFieldData(const FlipReport& report, vtkFieldData* data)
 {
   const auto addText = [&](const char* name, const std::string& text)
   { AddValue<vtkStringArray>(name, text, data); };
-  const auto addCount = [&](const char* name, std::int64_t count)
-  { AddValue<vtkIdTypeArray>(name, count, data); };
+  const auto addCount = [&](const char* name, std::int64_t count) { AddCount(name, count, data); };
   // The totals first: ParaView lists no field data when the first array is empty.
   AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0, data);
   addText("StopReason", ToString(report.StopReason));
@@ -182,8 +186,7 @@ void AddFieldData(const FlipReport& report, vtkFieldData* data)
 
 void AddPointFieldData(const PointCounts& counts, vtkFieldData* data)
 {
-  const auto add = [&](const char* name, std::int64_t count)
-  { AddValue<vtkIdTypeArray>(name, count, data); };
+  const auto add = [&](const char* name, std::int64_t count) { AddCount(name, count, data); };
   add("PointsNotFinite", counts.NotFinite);
   add("RepeatedPoints", counts.Repeated);
   add("PointsTooNear", counts.TooNear);

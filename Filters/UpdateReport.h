@@ -57,6 +57,9 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
 /// the prefix "DelaunayFlip:", since the user may have an array "Seconds" already.
 DELAUNAYFLIP_EXPORT void AddFieldData(const FlipReport& report, vtkFieldData* data);
 
+/// The same for a count.
+DELAUNAYFLIP_EXPORT void AddCount(const char* name, std::int64_t count, vtkFieldData* data);
+
 /// The same for what is known of points.
 void AddPointFieldData(const PointCounts& counts, vtkFieldData* data);
 

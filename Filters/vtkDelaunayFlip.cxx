@@ -24,11 +24,6 @@ static_assert(static_cast<int>(TieRuleKind::Canonical) == vtkDelaunayFlip::TIE_R
 vtkStandardNewMacro(vtkDelaunayFlip);
 
 //------------------------------------------------------------------------------
-void vtkDelaunayFlip::SetConstraintsData(vtkPolyData* constraints)
-{
-  this->SetInputData(1, constraints);
-}
-
 vtkIdType vtkDelaunayFlip::GetNumberOfConstraintEdges() const
 {
   return this->GetReport().Edges.Constraint;
@@ -123,11 +118,6 @@ bool vtkDelaunayFlip::ContinueOrStart(
   std::unique_ptr<UpdateRun>& run, vtkPolyData* mesh, vtkPolyData* constraints, bool isLive)
 {
   return FlipRun::ContinueOrStart(run, this->MakeRequest(mesh, constraints, isLive));
-}
-
-bool vtkDelaunayFlip::HasWork(vtkPolyData* mesh) const
-{
-  return mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0;
 }
 
 //------------------------------------------------------------------------------

@@ -91,10 +91,6 @@
 #include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
 
-#include <memory> // For std::unique_ptr
-#include <string> // For std::string
-#include <vector> // For std::vector
-
 namespace delaunayflip
 {
 struct FlipRequest;
@@ -343,7 +339,7 @@ public:
    * edge of the mesh and are not inserted are counted, and the update gives one warning.
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
-  void SetConstraintsData(vtkPolyData* constraints);
+  void SetConstraintsData(vtkPolyData* constraints) { this->SetInputData(1, constraints); }
   ///@}
 
   ///@{
@@ -398,7 +394,6 @@ protected:
     delaunayflip::UpdateSummary& summary) override;
   bool ContinueOrStart(std::unique_ptr<delaunayflip::UpdateRun>& run, vtkPolyData* mesh,
     vtkPolyData* constraints, bool isLive) override;
-  bool HasWork(vtkPolyData* mesh) const override;
   bool HasTolerance() const override { return this->Tolerance >= 0.0; }
 
   /**

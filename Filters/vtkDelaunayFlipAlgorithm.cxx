@@ -9,7 +9,6 @@
 #include "UpdateReport.h"
 
 #include "vtkCompositeDataSet.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
@@ -92,18 +91,6 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
     iterations = std::min(fitting, 2.0 * iterations);
   } while (isRunning && iterations >= 1.0);
   return isRunning;
-}
-
-/// A shallow copy, whose leaves and arrays observers cannot take away; null for null.
-vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
-{
-  vtkSmartPointer<vtkDataObject> held;
-  if (data)
-  {
-    held.TakeReference(data->NewInstance());
-    held->ShallowCopy(data);
-  }
-  return held;
 }
 
 }
@@ -233,7 +220,7 @@ bool vtkDelaunayFlipAlgorithm::AdvanceSession()
 
 const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const
 {
-  return this->Run ? &this->Run->GetSession() : nullptr;
+  return this->Run ? this->Run->Session.get() : nullptr;
 }
 
 void vtkDelaunayFlipAlgorithm::Restart()
@@ -316,13 +303,12 @@ int vtkDelaunayFlipAlgorithm::RequestData(
       others.resize(std::max<std::size_t>(1, others.size()), { { 0 }, "", 0.0, false, {} });
     }
     std::vector<MeshBlock> blocks = this->ListBlocks(input);
-    bool isLive = false;
     double size = 0.0;
     for (const MeshBlock& block : blocks)
     {
-      isLive = isLive || block.IsLive;
       size += block.Size;
     }
+    const bool isLive = blocks.size() == 1 && blocks.front().IsLive;
     if (this->LiveUpdate && !isLive && !IsBatchProgram())
     {
       summary.Warnings.push_back(
@@ -448,7 +434,10 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
   *this->Report = FlipReport();
   const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
   const bool couldContinue = std::exchange(this->CanContinue, false);
-  if (!this->HasWork(mesh))
+  const bool hasWork = this->SizeOfBlocks == vtkDataObject::POINT
+    ? mesh->GetNumberOfPoints() > 0
+    : mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0;
+  if (!hasWork)
   {
     this->Report->StopReason = StopReasonKind::Converged;
     output->ShallowCopy(mesh);
@@ -468,7 +457,7 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
     *this->Report = run->GetReport();
     const bool storesOnly = isSame && asked == NextUpdate::Store;
     bool isRunning = storesOnly && couldContinue;
-    if (!storesOnly && !run->IsStopped())
+    if (!storesOnly && !run->IsStopped)
     {
       const FlipObserver observer = [this](const IterationRecord& record)
       {
@@ -477,10 +466,10 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
         return true;
       };
       constexpr double Seconds = 0.05; // as documented in the header
-      FlipSession& session = run->GetSession();
       isRunning = isLive && this->IterationsPerUpdate == 0
-        ? AdvanceFor(session, Seconds, observer, run->GetProgress())
-        : session.Advance(isLive ? this->IterationsPerUpdate : -1, observer, run->GetProgress());
+        ? AdvanceFor(*run->Session, Seconds, observer, run->GetProgress())
+        : run->Session->Advance(
+            isLive ? this->IterationsPerUpdate : -1, observer, run->GetProgress());
     }
     const bool isWithheld = isSame && asked == NextUpdate::Step;
     this->Next = isWithheld ? NextUpdate::Store : NextUpdate::StepAndStore;

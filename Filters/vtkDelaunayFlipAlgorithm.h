@@ -315,11 +315,6 @@ protected:
     vtkPolyData* others, bool isLive) = 0;
 
   /**
-   * Whether a mesh has what can be flipped; if not, it passes.
-   */
-  virtual bool HasWork(vtkPolyData* mesh) const = 0;
-
-  /**
    * Whether the user has set a tolerance of angles.
    */
   virtual bool HasTolerance() const { return false; }

@@ -73,10 +73,9 @@ class CloudRun : public UpdateRun
 {
 public:
   explicit CloudRun(const CloudRequest& request)
-    : Key(request.Key),
-      Options(request.Options),
-      Plan(
-        { false, false, request.Segments != nullptr, false, true, true, false }, request.Progress),
+    : UpdateRun({ { false, false, request.Segments != nullptr, false, true, true, false },
+        request.Progress }),
+      Asked(request),
       Given(
         request.IsLive ? CopyPoints(request.Cloud) : vtkSmartPointer<vtkPolyData>(request.Cloud)),
       Cloud(vtkSmartPointer<vtkPolyData>::New())
@@ -87,21 +86,15 @@ public:
     this->Input.Segments = this->Segments.data();
     this->Input.NumberOfSegments = static_cast<std::int64_t>(this->Rings.size());
     this->Input.Rings = this->Rings.data();
-    this->Session = std::make_unique<FlipSession>(this->Input, this->Options, this->GetProgress());
-    this->Stopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
+    this->Session =
+      std::make_unique<FlipSession>(this->Input, request.Options, this->GetProgress());
+    this->IsStopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
     if (!request.IsLive)
     {
       this->Room = this->MakeRoom();
       ExpectTriangles(*this->Session, this->Room);
     }
   }
-
-  /// For another update of the same.
-  void Continue() { this->Stopped = false; }
-
-  FlipSession& GetSession() override { return *this->Session; }
-  bool IsStopped() const override { return this->Stopped; }
-  ProgressObserver GetProgress() const override { return this->Plan.For(UpdatePlan::Session); }
 
   FlipReport GetReport() const override
   {
@@ -213,36 +206,11 @@ private:
     }
     if (added->GetNumberOfIds() > 0)
     {
-      Extend(this->Given, added, segments, this->Cloud);
+      AppendPoints(this->Given, segments->GetPoints(), added,
+        TakeWholeArrays(segments->GetPointData(), otherPoints.Count), this->Cloud);
+      DemoteGlobalIds(this->Cloud->GetPointData());
     }
     return ids;
-  }
-
-  /// Gives `result` the points and point data of `mesh`, and of some points of `others`; zeros if
-  /// that is null.
-  static void Extend(vtkPolyData* mesh, vtkIdList* added, vtkPolyData* others, vtkPolyData* result)
-  {
-    const vtkIdType count = mesh->GetNumberOfPoints();
-    const vtkIdType size = count + added->GetNumberOfIds();
-    vtkNew<vtkPoints> points;
-    // Integers would cut what is added.
-    points->SetDataType(mesh->GetPoints()->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
-    points->InsertPoints(0, count, 0, mesh->GetPoints());
-    for (const vtkIdType id : *added)
-    {
-      others ? points->InsertNextPoint(others->GetPoint(id)) : points->InsertNextPoint(0, 0, 0);
-    }
-    result->SetPoints(points);
-    vtkDataSetAttributes* data = result->GetPointData();
-    data->Initialize();
-    const auto own = MakeRange(0, count);
-    AddTuples(TakeWholeArrays(mesh->GetPointData(), count), own, own, size, data);
-    if (others)
-    {
-      AddTuples(TakeWholeArrays(others->GetPointData(), others->GetNumberOfPoints()), added,
-        MakeRange(count, size - count), size, data);
-    }
-    DemoteGlobalIds(data);
   }
 
   /// A view of the points, or of a projection of them.
@@ -270,7 +238,11 @@ private:
     const std::vector<AddedPoint>& crossings = this->Session->GetAddedPoints();
     const vtkIdType count = this->Cloud->GetNumberOfPoints();
     const auto places = MakeRange(0, static_cast<vtkIdType>(crossings.size()));
-    Extend(this->Cloud, places, nullptr, output);
+    vtkNew<vtkPoints> zeros;
+    zeros->SetNumberOfPoints(places->GetNumberOfIds());
+    zeros->GetData()->Fill(0.0);
+    AppendPoints(this->Cloud, zeros, places, nullptr, output);
+    DemoteGlobalIds(output->GetPointData());
     const auto interpolate = [&](vtkAbstractArray* array)
     {
       for (const vtkIdType i : *places)
@@ -294,11 +266,9 @@ private:
   }
 
 public:
-  const std::vector<double> Key;
-  const PointOptions Options;
+  const CloudRequest Asked; ///< Its meshes may be gone.
 
 private:
-  UpdatePlan Plan;
   vtkSmartPointer<vtkPolyData> Given; ///< The input.
   vtkSmartPointer<vtkPolyData> Cloud; ///< With the points of the segments.
   std::vector<double> Storage; ///< Points that cannot be viewed in place.
@@ -306,9 +276,6 @@ private:
   std::vector<std::int64_t> Segments; ///< Pairs of ids.
   std::vector<std::int32_t> Rings; ///< One number per segment.
   PointInput Input; ///< Views of these.
-  std::unique_ptr<FlipSession> Session;
-  bool Stopped = false;
-  vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
 };
 
 }
@@ -324,11 +291,6 @@ vtkDelaunayFlipPoints::vtkDelaunayFlipPoints()
 }
 
 vtkDelaunayFlipPoints::~vtkDelaunayFlipPoints() { this->SetTransform(nullptr); }
-
-void vtkDelaunayFlipPoints::SetSegmentsData(vtkPolyData* segments)
-{
-  this->SetInputData(1, segments);
-}
 
 vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
 {
@@ -357,22 +319,11 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   auto* points = vtkPointSet::SafeDownCast(leaf.Data);
   if (!points)
   {
-    leaf.Result = vtkSmartPointer<vtkDataObject>::Take(leaf.Data->NewInstance());
-    leaf.Result->ShallowCopy(leaf.Data);
+    leaf.Result = Hold(leaf.Data);
     summary.Warnings.push_back({ block.Name, "has no points of its own, passed unchanged" });
     return;
   }
-  const bool areOfAll = segments.size() == 1 && segments.front().Place.empty();
-  if (!segments.empty() && !areOfAll && block.Place.empty())
-  {
-    throw InvalidOptions("the segments of a single dataset cannot be a composite dataset");
-  }
-  vtkPolyData* others = nullptr;
-  for (const MeshBlock& other : segments)
-  {
-    const bool isOfBlock = (areOfAll || other.Place == block.Place) && !other.Leaves.empty();
-    others = isOfBlock ? vtkPolyData::SafeDownCast(other.Leaves.front().Data) : others;
-  }
+  const auto others = ListOthers(block, segments, "the segments of a single dataset");
   vtkNew<vtkPolyData> cloud, output;
   cloud->SetPoints(points->GetPoints());
   cloud->GetPointData()->ShallowCopy(points->GetPointData());
@@ -384,15 +335,11 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     cloud->SetLines(mesh->GetLines());
   }
   this->TimeOfBlock = points->GetMTime();
-  this->FlipMesh(cloud, others, block.IsLive, output);
+  this->FlipMesh(cloud, others.empty() ? nullptr : vtkPolyData::SafeDownCast(others.front().Data),
+    block.IsLive, output);
   output->SetVerts(nullptr);
   output->SetLines(nullptr);
   leaf.Result = output;
-}
-
-bool vtkDelaunayFlipPoints::HasWork(vtkPolyData* cloud) const
-{
-  return cloud->GetNumberOfPoints() > 0;
 }
 
 bool vtkDelaunayFlipPoints::ContinueOrStart(
@@ -415,9 +362,9 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
     double(this->LinesAsSegments), this->PointTolerance, double(this->SplitCrossings),
     double(this->Outline), this->Alpha, this->LongestEdge };
   auto* last = static_cast<CloudRun*>(run.get());
-  if (last && last->Key == key && last->Options == options)
+  if (last && last->Asked.Key == key && last->Asked.Options == options)
   {
-    last->Continue();
+    last->IsStopped = false;
     return true;
   }
   run.reset(); // its memory may be needed

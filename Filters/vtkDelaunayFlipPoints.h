@@ -99,7 +99,7 @@ public:
    * The segments, optional: see above.
    */
   void SetSegmentsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
-  void SetSegmentsData(vtkPolyData* segments);
+  void SetSegmentsData(vtkPolyData* segments) { this->SetInputData(1, segments); }
   ///@}
 
   ///@{
@@ -209,7 +209,6 @@ protected:
     delaunayflip::UpdateSummary& summary) override;
   bool ContinueOrStart(std::unique_ptr<delaunayflip::UpdateRun>& run, vtkPolyData* cloud,
     vtkPolyData* segments, bool isLive) override;
-  bool HasWork(vtkPolyData* cloud) const override;
 #endif
 
   int Projection = PROJECTION_XY;

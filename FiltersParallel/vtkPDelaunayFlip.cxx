@@ -2,19 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPDelaunayFlip.h"
 
+#include "ConstraintEdges.h"
+#include "DataArrays.h"
 #include "FlipError.h"
+#include "FlipRun.h"
 #include "MeshBlocks.h"
-#include "PieceUpdate.h"
+#include "PieceFlip.h"
 #include "RankMessages.h"
+#include "TriangleAngles.h"
 #include "UpdateReport.h"
 
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 using namespace delaunayflip;
@@ -39,6 +46,265 @@ std::unique_ptr<PieceGroup> vtkPDelaunayFlip::MakeGroup()
 //------------------------------------------------------------------------------
 namespace
 {
+
+/// The constraints of all ranks as lines, each once: every rank may have all of them, or a part.
+/// Null if there are none.
+vtkSmartPointer<vtkPolyData> GatherConstraints(
+  vtkPolyData* constraints, vtkPolyData* mesh, PieceGroup& group)
+{
+  const auto own =
+    constraints ? JoinConstraints({ { constraints, mesh } }) : vtkSmartPointer<vtkPolyData>();
+  const bool areFloats = !IsOnAnyRank(own && own->GetPoints()->GetDataType() != VTK_FLOAT, group);
+  Message message;
+  for (vtkIdType i = 0; own && i < own->GetNumberOfPoints(); ++i)
+  {
+    const double* x = own->GetPoint(i);
+    Put(message, std::array<double, 3>{ x[0] + 0.0, x[1] + 0.0, x[2] + 0.0 }); // -0 becomes 0
+  }
+  std::vector<std::array<double, 3>> ends;
+  std::set<Message> known;
+  for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
+  {
+    const auto from = reader.Get<std::array<double, 3>>(), to = reader.Get<std::array<double, 3>>();
+    Message key; // of bytes, since coordinates may be NaN
+    Put(key, std::min(from, to));
+    Put(key, std::max(from, to));
+    if (from != to && known.insert(key).second)
+    {
+      ends.insert(ends.end(), { from, to });
+    }
+  }
+  return MakeLines(ends, areFloats);
+}
+
+/// How many constraint edges have two ends that no rank has together; all ranks get the same.
+/// @param areHere by constraint, whether this rank has both ends.
+std::int64_t CountElsewhere(const std::vector<char>& areHere, PieceGroup& group)
+{
+  const std::vector<Message> flags = group.Gather(areHere);
+  std::int64_t elsewhere = 0;
+  for (std::size_t i = 0; i < areHere.size(); ++i)
+  {
+    elsewhere +=
+      std::none_of(flags.begin(), flags.end(), [i](const Message& one) { return one[i] != 0; });
+  }
+  return elsewhere;
+}
+
+/// Gives regions the same labels on all ranks.
+void ShareRegionLabels(PolyDataBridge& bridge, PieceGroup& group)
+{
+  Message own;
+  for (const std::string& key : bridge.RegionKeys)
+  {
+    Put(own, key);
+  }
+  std::set<std::string> all;
+  for (MessageReader reader = GatherAll(own, group); !reader.IsAtEnd();)
+  {
+    all.insert(reader.Get<std::string>());
+  }
+  std::vector<std::int32_t> labels;
+  for (const std::string& key : bridge.RegionKeys)
+  {
+    labels.push_back(static_cast<std::int32_t>(std::distance(all.begin(), all.find(key))));
+  }
+  for (std::int32_t& label : bridge.Regions)
+  {
+    label = labels[label];
+  }
+}
+
+/// Writes the piece of a rank, with the data of what it has received.
+class PieceOutput
+{
+public:
+  /// All must live as long as this object.
+  PieceOutput(
+    vtkPolyData* mesh, const PolyDataBridge& bridge, const FlippedPiece& flipped, PieceGroup& group)
+    : Mesh(mesh),
+      Bridge(bridge),
+      Slots(bridge.GetSlots()),
+      Flipped(flipped),
+      Group(group)
+  {
+    // The polygons that stayed, in their order, then those received.
+    const std::vector<std::int64_t>& gone = flipped.GoneTriangles;
+    for (vtkIdType i = 0; i < this->Slots.GetNumberOfPolygons(); ++i)
+    {
+      const OutputPolygon polygon = this->Slots.GetPolygon(i);
+      const auto next = std::lower_bound(gone.begin(), gone.end(), polygon.Triangle);
+      if (next == gone.end() || *next != polygon.Triangle)
+      {
+        this->Polygons.push_back({ polygon.Cell, polygon.Triangle - (next - gone.begin()) });
+        this->Origins.push_back(polygon.Triangle);
+      }
+    }
+    const vtkIdType first = this->Slots.Triangles.Count - static_cast<vtkIdType>(gone.size());
+    for (std::size_t i = 0; i < flipped.ReceivedTriangles.size(); ++i)
+    {
+      this->Polygons.push_back({ TriangleSlots::None, first + static_cast<vtkIdType>(i) });
+      this->Origins.push_back(TriangleSlots::None);
+    }
+  }
+
+  void Store(vtkPolyData* output) const
+  {
+    this->StorePoints(output);
+    output->SetPolys(BuildPolygons(this->Polygons, this->GetTriangles(), this->Mesh));
+    const auto data = TakeWholeArrays(this->Mesh->GetCellData(), this->Mesh->GetNumberOfCells());
+    vtkNew<vtkCellData> received;
+    BringTuples(
+      this->Flipped.ReceivedTriangles, data,
+      [this](std::int64_t slot) { return this->Slots.GetCell(slot); }, this->Group, received);
+    StoreCells(this->Mesh, this->Slots, this->Polygons, received, output);
+    // The ids are not unique if any rank has divided cells.
+    if (IsOnAnyRank(this->Slots.AreDivided, this->Group))
+    {
+      DemoteGlobalIds(output->GetCellData());
+    }
+    RenewNormals(output,
+      [this](vtkIdType polygon, const std::int64_t*, std::int64_t before[3])
+      {
+        const vtkIdType triangle = this->Polygons[polygon].Triangle;
+        const vtkIdType slot = this->Origins[polygon];
+        for (int i = 0; i < 3 && slot != TriangleSlots::None; ++i)
+        {
+          before[i] = this->Slots.Triangles.Get(slot, i);
+        }
+        return triangle >= 0 && this->Flipped.FlipCounts[triangle] > 0;
+      });
+  }
+
+  template <typename Value>
+  void AddArray(
+    const char* name, const std::vector<Value>& values, Value elsewhere, vtkPolyData* output) const
+  {
+    AddTriangleArray(
+      name, values, elsewhere,
+      [this](vtkIdType polygon) { return this->Polygons[polygon].Triangle; }, output);
+  }
+
+  void AddAngles(GeometryKind geometry, int threads, vtkPolyData* output) const
+  {
+    TriangleMesh mesh = this->Bridge.GetMesh();
+    vtkNew<vtkDoubleArray> first; // of the slots that this rank had
+    first->SetName("Smallest angle before (degrees)");
+    first->SetNumberOfTuples(mesh.Triangles.Count);
+    FindSmallestAngles(mesh, geometry, threads, first->GetPointer(0), {});
+    vtkNew<vtkCellData> given, brought;
+    given->AddArray(first);
+    BringTuples(
+      ListOrigins(this->Flipped, this->Group.GetRank()), given,
+      [](std::int64_t slot) { return static_cast<vtkIdType>(slot); }, this->Group, brought);
+    const double* before =
+      vtkDoubleArray::SafeDownCast(brought->GetArray(first->GetName()))->GetPointer(0);
+    std::vector<double> angles(before, before + this->Flipped.FlipCounts.size());
+    this->AddArray(first->GetName(), angles, NaN, output);
+    std::vector<double> storage;
+    mesh = TriangleMesh();
+    mesh.Points = ViewPoints(output, storage);
+    mesh.Triangles = this->GetTriangles();
+    FindSmallestAngles(mesh, geometry, threads, angles.data(), {});
+    this->AddArray("Smallest angle after (degrees)", angles, NaN, output);
+  }
+
+private:
+  /// The points of the mesh, then those received, with their data.
+  void StorePoints(vtkPolyData* output) const
+  {
+    const vtkIdType given = this->Mesh->GetNumberOfPoints();
+    const auto count = static_cast<vtkIdType>(this->Flipped.ReceivedPoints.size());
+    const auto data = TakeWholeArrays(this->Mesh->GetPointData(), given);
+    vtkNew<vtkPointData> received;
+    BringTuples(
+      this->Flipped.ReceivedPoints, data,
+      [](std::int64_t point) { return static_cast<vtkIdType>(point); }, this->Group, received);
+    if (count == 0)
+    {
+      output->SetPoints(this->Mesh->GetPoints());
+      output->GetPointData()->ShallowCopy(data);
+      return;
+    }
+    vtkNew<vtkPoints> points;
+    points->SetDataType(this->Flipped.AreFloats ? VTK_FLOAT : VTK_DOUBLE);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      points->InsertNextPoint(this->Flipped.ReceivedCoordinates.data() + 3 * i);
+    }
+    AppendPoints(this->Mesh, points, MakeRange(0, count), received, output);
+  }
+
+  TriangleArray GetTriangles() const
+  {
+    return { this->Flipped.Triangles.data(),
+      static_cast<std::int64_t>(this->Flipped.FlipCounts.size()) };
+  }
+
+  vtkPolyData* Mesh;
+  const PolyDataBridge& Bridge;
+  const TriangleSlots& Slots;
+  const FlippedPiece& Flipped;
+  PieceGroup& Group;
+  // Of each polygon of the output:
+  std::vector<OutputPolygon> Polygons; ///< Its triangle is one of the flipped piece.
+  std::vector<vtkIdType> Origins; ///< The triangle of the mesh, or None.
+};
+
+/// Flips a mesh of which every rank of the group has a piece, and writes this rank's piece. All
+/// ranks must call this together, within RunTogether.
+/// @param request whose input may be empty.
+/// @returns the report of the whole mesh.
+/// @throws InvalidMesh, InvalidOptions and so on.
+PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyData* output)
+{
+  const auto mesh = ShareMesh(request.Input);
+  const bool isEmpty = mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0;
+  const auto constraints = GatherConstraints(request.Constraints, mesh, group);
+  BridgeSettings settings = request.Settings;
+  if (isEmpty)
+  {
+    settings.RegionArray.clear(); // an empty piece has no arrays
+  }
+  PolyDataBridge bridge(mesh, constraints, settings, UpdatePlan({}, {}));
+  bridge.RequireValidIds();
+  if (!request.Settings.RegionArray.empty())
+  {
+    ShareRegionLabels(bridge, group);
+  }
+  if (!IsOnAnyRank(!isEmpty, group))
+  {
+    output->ShallowCopy(mesh);
+    PiecesReport nothing;
+    nothing.StopReason = StopReasonKind::Converged;
+    return nothing;
+  }
+  const std::vector<std::int64_t> numbers = ReadPointNumbers(mesh);
+  const MeshPiece piece{ bridge.GetMesh(), numbers.empty() ? nullptr : numbers.data() };
+  const std::int64_t elsewhere = CountElsewhere(bridge.GetConstraints().AreHere, group);
+  FlippedPiece flipped;
+  PiecesReport report = FlipPiece(piece, request.Options, group, flipped, request.Progress);
+  if (elsewhere > 0)
+  {
+    report.UnmatchedConstraints += elsewhere;
+    report.Defects.push_back({ request.Settings.InsertConstraints && group.GetSize() > 1
+        ? "constraint edges of the second input whose two ends no rank has together: insert "
+          "constraints before the mesh is divided"
+        : "constraint edges of the second input that the mesh does not have",
+      elsewhere, {}, DefectIds::Points });
+  }
+  const PieceOutput writer(mesh, bridge, flipped, group);
+  writer.Store(output);
+  if (request.WantsFlipCounts)
+  {
+    writer.AddArray("vtkDelaunayFlipCount", flipped.FlipCounts, 0, output);
+  }
+  if (request.WantsAngles)
+  {
+    writer.AddAngles(report.GeometryUsed, request.Options.NumberOfThreads, output);
+  }
+  return report;
+}
 
 /// The blocks that any rank has, in the same order on all ranks, each with the leaves of this rank.
 std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup& group)
@@ -151,15 +417,8 @@ void vtkPDelaunayFlip::FlipLeaves(
     vtkNew<vtkPolyData> empty, flipped;
     const PiecesReport report = FlipPieces(
       this->MakeRequest(mesh.GetMesh() ? mesh.GetMesh() : empty.Get(), edges), told, flipped);
-    const auto addCount = [&](const char* name, std::int64_t count)
-    {
-      vtkNew<vtkIdTypeArray> array;
-      array->SetName(name);
-      array->InsertNextValue(count);
-      flipped->GetFieldData()->AddArray(array);
-    };
-    addCount("DelaunayFlip:Rounds", report.Rounds);
-    addCount("DelaunayFlip:MovedTriangles", report.MovedTriangles);
+    AddCount("Rounds", report.Rounds, flipped->GetFieldData());
+    AddCount("MovedTriangles", report.MovedTriangles, flipped->GetFieldData());
     AddFieldData(report, flipped->GetFieldData());
     mesh.Store(flipped);
     this->NumberOfRounds = std::max<vtkIdType>(this->NumberOfRounds, report.Rounds);

@@ -8,15 +8,15 @@
  * table with one string in a column Text, which ParaView draws in its render views: iterations,
  * flips, bad edges left, the smallest angle if it is known, and whether the run continues. During a
  * live run the text is updated with every frame. For another mesh the text says that there are no
- * statistics.
+ * statistics. Only a build for ParaView has this class.
  */
 #ifndef vtkDelaunayFlipText_h
 #define vtkDelaunayFlipText_h
 
-#include "vtkDelaunayFlipParaViewFiltersModule.h" // For export macro
+#include "vtkDelaunayFlipFiltersModule.h" // For export macro
 #include "vtkTableAlgorithm.h"
 
-class VTKDELAUNAYFLIPPARAVIEWFILTERS_EXPORT vtkDelaunayFlipText : public vtkTableAlgorithm
+class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlipText : public vtkTableAlgorithm
 {
 public:
   static vtkDelaunayFlipText* New();
