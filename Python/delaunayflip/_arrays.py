@@ -1,13 +1,185 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks the caller's arrays and converts them for the engine; arrays that already fit are not
-copied. What does not fit is a ValueError or TypeError that names the argument."""
+copied. What does not fit is a ValueError or TypeError that names the argument. Arrays of CuPy,
+PyTorch and Numba in the memory of a GPU, and of other libraries by DLPack, stay there."""
+import importlib
+import importlib.util
+import sys
+
 import numpy
 
 from . import _library
 from ._library import TYPES, InvalidMesh
 
 _CONVERSION_ERRORS = (TypeError, ValueError, OverflowError, RuntimeError, BufferError)
+
+
+# Each class has the functions of a library that the package needs; there are no objects of it.
+
+
+class _NumPy:
+    def make_empty(like, shape, dtype):
+        return numpy.empty(shape, dtype)
+
+    def get_stream(array):
+        return None
+
+    def to_host(array):
+        return array
+
+    def can_be_written(array):
+        return array.flags.carray
+
+
+class _OnDevice:
+    @classmethod
+    def can_be_written(cls, array):
+        """Whether it is contiguous, too."""
+        is_read_only = array.__cuda_array_interface__["data"][1]
+        return not is_read_only and address(cls.as_contiguous(array)) == address(array)
+
+
+class _CuPy(_OnDevice):
+    def as_contiguous(array):
+        return importlib.import_module("cupy").ascontiguousarray(array)
+
+    def make_empty(like, shape, dtype):
+        with like.device:
+            return importlib.import_module("cupy").empty(shape, dtype)
+
+    def get_stream(array):
+        with array.device:
+            return importlib.import_module("cupy").cuda.get_current_stream().ptr
+
+    def to_host(array):
+        return array.get()
+
+
+class _Torch(_OnDevice):
+    def as_contiguous(array):
+        return array.detach().contiguous()
+
+    def make_empty(like, shape, dtype):
+        torch = importlib.import_module("torch")
+        return torch.empty(shape, dtype=getattr(torch, dtype), device=like.device)
+
+    def get_stream(array):
+        return importlib.import_module("torch").cuda.current_stream(array.device).cuda_stream
+
+    def to_host(array):
+        return array.detach().cpu().numpy()
+
+
+class _Numba(_OnDevice):
+    def as_contiguous(array):
+        if not array.is_c_contiguous():
+            raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
+        return array
+
+    def make_empty(like, shape, dtype):
+        return importlib.import_module("numba.cuda").device_array(shape, dtype)
+
+    def get_stream(array):
+        return array.__cuda_array_interface__.get("stream") or 0
+
+    def to_host(array):
+        return array.copy_to_host()
+
+
+_ADAPTERS = {"cupy": _CuPy, "torch": _Torch, "numba": _Numba}
+_VIEWERS = ("cupy", "torch")  # can view arrays of other libraries
+_DLPACK_MEMORIES = (2, 13)  # DLPack's numbers for CUDA's memory, and for managed memory
+
+
+def _library_name(array):
+    return type(array).__module__.partition(".")[0]
+
+
+def _is_on_device(array):
+    if _library_name(array) == "torch":
+        return getattr(array, "is_cuda", False)
+    if hasattr(array, "__cuda_array_interface__"):
+        return True
+    return hasattr(array, "__dlpack__") and array.__dlpack_device__()[0] in _DLPACK_MEMORIES
+
+
+def _choose_library(arrays):
+    """The name of the library of the first array that is of a known one; else of one that is here,
+    if possible one that the process uses. `arrays`: by name."""
+    libraries = {name: _library_name(array) for name, array in arrays.items()}
+    for name, library in libraries.items():
+        if library not in _ADAPTERS and not hasattr(arrays[name], "__dlpack__"):
+            raise TypeError(f"{name} must be an array of CuPy, PyTorch or Numba, or have __dlpack__, "
+                            f"not of {library}")
+    known = [library for library in libraries.values() if library in _ADAPTERS]
+    known += [library for library in _VIEWERS if library in sys.modules]
+    for library in (*known, *_VIEWERS):
+        if library in known or importlib.util.find_spec(library):
+            return library
+    raise TypeError("arrays of other libraries on a GPU need CuPy or PyTorch, one of which views them "
+                    "without a copy, and makes the results")
+
+
+def _view(name, array, library):
+    """The array as one of the library: itself, or a view of its memory."""
+    own = _library_name(array)
+    if own == library:
+        return array
+    if library not in _VIEWERS or not hasattr(array, "__dlpack__"):
+        raise TypeError(f"{name} must be an array of {library}, as the other array is, not of {own}; "
+                        "cupy.asarray views both without a copy")
+    return importlib.import_module(library).from_dlpack(array)
+
+
+def _adapt(array):
+    """The functions for an array, and the array as they take it."""
+    if not _is_on_device(array):
+        return _NumPy, array
+    library = _choose_library({"the array": array})
+    return _ADAPTERS[library], _view("the array", array, library)
+
+
+def to_host(array):
+    """The array, or None, in the host's memory: a copy if it is on a GPU."""
+    functions, array = _adapt(array)
+    return functions.to_host(array)
+
+
+def make_empty(like, shape, dtype):
+    """A new array in the memory of another one, of its library."""
+    return _adapt(like)[0].make_empty(like, shape, dtype)
+
+
+def find_memory(array):
+    """Where an array is, and the stream that orders it, for the engine."""
+    functions, array = _adapt(array)
+    return _library.HOST if functions is _NumPy else _library.CUDA, functions.get_stream(array)
+
+
+def address(array):
+    """Of an array of NumPy, or of one on a GPU."""
+    if isinstance(array, numpy.ndarray):
+        return array.ctypes.data
+    return array.__cuda_array_interface__["data"][0]
+
+
+def type_of(array):
+    """NumPy's name for the type of the array's values, if these are in native byte order."""
+    kind = array.dtype
+    if _is_on_device(array):
+        kind = numpy.dtype(array.__cuda_array_interface__["typestr"])
+    return kind.name if kind.isnative else kind.str
+
+
+def _check(name, array, types, columns):
+    """Requires one of these types, and so many columns."""
+    found = type_of(array)
+    if found not in types:
+        raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {found}")
+    if len(array.shape) != 2 or array.shape[1] not in columns:
+        shapes = " or ".join(f"(n, {count})" for count in columns)
+        raise ValueError(f"{name} must have the shape {shapes}, not {tuple(array.shape)}")
 
 
 def _shape_error(name, array, wanted):
@@ -39,7 +211,13 @@ def _convert(array, kind):
 
 
 def as_plane(points):
-    """Points of shape (n, 2) or (n, 3), float32 or float64; other numbers become float64."""
+    """Points of shape (n, 2) or (n, 3), float32 or float64; other numbers become float64. Those on a
+    device stay there."""
+    functions, points = _adapt(points)
+    if functions is not _NumPy:
+        points = functions.as_contiguous(points)
+        _check("points", points, ("float32", "float64"), (2, 3))
+        return points
     points = _as_array("points", points)
     if points.size == 0 and points.ndim < 2:
         points = numpy.empty((0, 3))
@@ -105,22 +283,31 @@ def as_flags(name, values, *shapes):
 
 
 class Mesh:
-    """A mesh as C struct, and its arrays, which live as long."""
+    """A mesh as C struct, and its arrays, which live as long. Points and triangles are in one memory,
+    that of the host or of a GPU."""
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
                  insert_constraints=True, triangle_numbers=None):
         self.struct, self._kept = _library.make(_library.Mesh), []
-        self._take(points, triangles)
+        if _is_on_device(points) or _is_on_device(triangles):
+            self._take_from_device(points, triangles)
+        else:
+            self.points, self.triangles = as_points(points), as_ids("triangles", triangles, 3)
+        struct = self.struct
+        struct.points, struct.number_of_points = address(self.points), self.points.shape[0]
+        struct.triangles, struct.number_of_triangles = address(self.triangles), self.triangles.shape[0]
+        struct.point_type, struct.id_type = TYPES[type_of(self.points)], TYPES[type_of(self.triangles)]
+        struct.memory, struct.stream = find_memory(self.triangles)
+        struct.point_components = self.points.shape[1]
+        constraints, regions, frozen, insert_constraints, triangle_numbers = map(
+            to_host, (constraints, regions, frozen, insert_constraints, triangle_numbers))
         edges = as_ids("constraints", [] if constraints is None else constraints, 2)
         flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
         if constraints is not None:
-            self.struct.number_of_constraint_edges = len(edges)
+            struct.number_of_constraint_edges = len(edges)
             self._keep("constraint_edges", _convert(edges, numpy.int64))
             self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
-        count = self.struct.number_of_triangles
-        for name, ids in (("triangles", self.triangles), ("constraints", edges)):
-            if len(ids) and self.struct.number_of_points == 0:
-                raise InvalidMesh(f"{name} name points, but there are no points", 0, int(ids[0, 0]))
+        count = struct.number_of_triangles
         if regions is not None:
             self._keep("regions", _per_triangle("regions", regions, numpy.int32, count))
         if frozen is not None:
@@ -136,26 +323,52 @@ class Mesh:
 
     def make_triangles(self):
         """Room for the triangles."""
-        return numpy.empty_like(self.triangles)
+        return make_empty(self.triangles, self.triangles.shape, type_of(self.triangles))
 
     def make_flip_counts(self):
         """Room for a number per triangle."""
-        return numpy.empty(len(self.triangles), dtype=numpy.int32)
+        return make_empty(self.triangles, (self.struct.number_of_triangles,), "int32")
 
-    def _take(self, points, triangles):
-        self.points = as_points(points)
-        self.triangles = as_ids("triangles", triangles, 3)
-        self._set(self.points.dtype.name, self.triangles.dtype.name)
+    def _take_from_device(self, points, triangles):
+        for name, array in (("points", points), ("triangles", triangles)):
+            if not _is_on_device(array):
+                raise TypeError(f"{name} must be in the memory of the GPU, as the other array is")
+        library = _choose_library({"triangles": triangles, "points": points})
+        self.points, self.triangles = (
+            _ADAPTERS[library].as_contiguous(_view(name, array, library))
+            for name, array in (("points", points), ("triangles", triangles)))
+        _check("points", self.points, ("float32", "float64"), (3, 2))
+        _check("triangles", self.triangles, ("int32", "int64"), (3,))
 
-    def _set(self, point_type, id_type):
-        struct = self.struct
-        struct.points, struct.number_of_points = address(self.points), self.points.shape[0]
-        struct.triangles, struct.number_of_triangles = address(self.triangles), self.triangles.shape[0]
-        struct.point_type, struct.id_type = TYPES[point_type], TYPES[id_type]
+
+def expect(session, *arrays):
+    """Tells a session which new arrays its results will be written to."""
+    for array in arrays:
+        if isinstance(array, numpy.ndarray):
+            _library.call("expect", session, address(array), array.nbytes)
 
 
-def address(array):
-    """Of an array of NumPy, or of one on a GPU."""
-    if isinstance(array, numpy.ndarray):
-        return array.ctypes.data
-    return array.__cuda_array_interface__["data"][0]
+def store(name, session, target, *types):
+    """Writes what a function of the engine stores to an array that fits."""
+    functions, target = _adapt(target)
+    way, stream = ("", ()) if functions is _NumPy else ("_on_device", (functions.get_stream(target),))
+    _library.call(f"store_{name}{way}", session, address(target), *types, *stream)
+
+
+def store_triangles(session, target, count):
+    """Writes the `count` triangles of a session to an array in any memory.
+
+    Raises:
+        TypeError: The target is no plain array of NumPy, and not on a GPU.
+        ValueError: It is not a contiguous (m, 3) array of int32 or int64 that can be written.
+    """
+    functions, target = _adapt(target)
+    if functions is _NumPy and (
+            not isinstance(target, numpy.ndarray) or isinstance(target, numpy.ma.MaskedArray)):
+        raise TypeError(f"target must be an array of NumPy or on a GPU, not {type(target).__name__}")
+    fits = tuple(target.shape) == (count, 3) and functions.can_be_written(target)
+    kind = type_of(target) if fits else None
+    if kind not in ("int32", "int64"):
+        raise ValueError(f"target must be a contiguous ({count}, 3) array of int32 or int64 in native "
+                         "byte order that can be written")
+    store("triangles", session, target, TYPES[kind])

@@ -46,7 +46,7 @@ LIBRARY = f"libdelaunayflip.so.{INTERFACE_VERSION}"
 
 #: By NumPy's names.
 TYPES = {"float32": 0, "float64": 1, "int32": 2, "int64": 3}
-CUDA = 1  # a memory
+HOST, CUDA = 0, 1  # memories
 
 #: In the order of the header, like the choices of _options.
 STOP_REASONS = ("not started", "converged", "iteration limit", "aborted", "running")

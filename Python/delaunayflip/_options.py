@@ -132,14 +132,10 @@ def _to_number(name, value):
 def _list_devices(devices):
     """Numbers of GPUs, or a text of them, as the engine reads it."""
     if not isinstance(devices, str):
-        try:
-            ids = None if isinstance(devices, (bytes, bytearray)) else list(devices)
-        except TypeError:
-            ids = None
-        if ids is None:
+        if isinstance(devices, (bytes, bytearray)) or not numpy.iterable(devices):
             raise TypeError(f"devices must be numbers of GPUs, or a text of them, not {devices!r}")
         highest = _RANGES["device"][1]
-        devices = ",".join(str(check_integer("devices", one, 0, highest)) for one in ids)
+        devices = ",".join(str(check_integer("devices", one, 0, highest)) for one in devices)
     if "\0" in devices:
         raise InvalidOptions(f"devices must be numbers of GPUs, not {devices!r}")
     return devices.encode(errors="replace")

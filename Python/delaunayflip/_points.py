@@ -7,7 +7,7 @@ from typing import Optional, Sequence, Union
 
 import numpy
 
-from . import _arrays, _device, _library, _report
+from . import _arrays, _library, _report
 from ._arrays import address
 from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
 from ._report import Report
@@ -101,7 +101,7 @@ def triangulate(
         report = _report.read(handle)
         room = given.make_room(report.number_of_triangles)
         if report.stop_reason != "aborted":
-            _device.expect(handle, *room)
+            _arrays.expect(handle, *room)
             with Observers(progress, on_iteration).raising() as callbacks:
                 _library.call("advance", handle, -1, callbacks, None)
             report = _report.read(handle)
@@ -115,39 +115,29 @@ class Input:
 
     def __init__(self, points, segments, outline, holes):
         self.struct = _library.make(_library.Points)
-        self.library, points = _device.view_points(points)
-        if self.library is None:
-            points = _arrays.as_plane(points)
+        points = _arrays.as_plane(points)
         self.segments = [_arrays.as_ids("segments", [] if segments is None else segments, 2)]
         self.rings = [numpy.full(len(self.segments[0]), -1, dtype=numpy.int32)]
         self.new_points, self.ends = [], []
-        self.number_of_points = len(points)
-        self.number_of_rings = 0
-        seeds = numpy.empty((0, 2))
+        are_places = _is_list_of_places(holes)
         for ring in _list_rings(outline, "outline"):
             self._add_ring(ring, points, 1)
-        if _is_list_of_places(holes):
-            seeds = _arrays.as_plane(holes)
-        else:
-            for ring in _list_rings(holes, "holes"):
-                self._add_ring(ring, points, -1)
+        for ring in _list_rings(None if are_places else holes, "holes"):
+            self._add_ring(ring, points, -1)
         if self.new_points:
-            self.library, points = None, numpy.concatenate([_device.to_host(points), *self.new_points])
+            points = numpy.concatenate([_arrays.to_host(points), *self.new_points])
         self.points = points
+        seeds = _arrays.as_plane(holes) if are_places else numpy.empty((0, 2))
         self.seeds = numpy.ascontiguousarray(seeds[:, :2], dtype=numpy.float64)
         self.all_segments = numpy.concatenate(self.segments).astype(numpy.int64, order="C")
         self.all_rings = numpy.concatenate(self.rings)
-        self._fill()
-
-    def _fill(self):
         struct = self.struct
         struct.points, struct.number_of_points = address(self.points), len(self.points)
-        struct.point_type = _library.TYPES[_device.type_of(self.points)]
+        struct.point_type = _library.TYPES[_arrays.type_of(self.points)]
         struct.point_components = self.points.shape[1]
-        if self.library:
-            struct.memory, struct.stream = _library.CUDA, self.library.get_stream(self.points)
+        struct.memory, struct.stream = _arrays.find_memory(self.points)
         struct.segments, struct.number_of_segments = address(self.all_segments), len(self.all_segments)
-        struct.rings = address(self.all_rings) if self.number_of_rings else None
+        struct.rings = address(self.all_rings) if len(self.rings) > 1 else None
         struct.hole_seeds, struct.number_of_hole_seeds = address(self.seeds), len(self.seeds)
         struct.outline = _ORIENTATION
 
@@ -155,53 +145,48 @@ class Input:
         """Adds a ring that turns to the left (side 1) or to the right (-1)."""
         ring = numpy.asarray(ring)
         if ring.ndim == 2:
-            places = numpy.zeros((len(ring), points.shape[1]), dtype=_device.type_of(points))
+            places = numpy.zeros((len(ring), points.shape[1]), dtype=_arrays.type_of(points))
             columns = min(ring.shape[1], points.shape[1])
             places[:, :columns] = ring[:, :columns]
-            ids = self.number_of_points + numpy.arange(len(ring))
+            ids = len(points) + sum(map(len, self.new_points)) + numpy.arange(len(ring))
             self.new_points.append(places)
-            self.number_of_points += len(ring)
         else:
             ids = _arrays.as_ids("a ring", numpy.stack([ring, ring], axis=1), 2)[:, 0]
             inside = ids[(ids >= 0) & (ids < len(points))]  # the engine names the others
-            places = _device.to_host(points[inside])
+            places = _arrays.to_host(points[inside])
         if len(ids) > 1 and ids[0] == ids[-1]:
             ids, places = ids[:-1], places[:-1]
         x, y = (places[:, :2] - places[:1, :2]).astype(float).T
         area = x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)
         ids = ids if area * side >= 0 else ids[::-1]
         self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
-        self.rings.append(numpy.full(len(ids), self.number_of_rings, dtype=numpy.int32))
-        self.number_of_rings += 1
+        self.rings.append(numpy.full(len(ids), len(self.rings) - 1, dtype=numpy.int32))
 
     def make_room(self, count):
         """Arrays for so many triangles, their neighbors, and the used points."""
-        used, shape = numpy.empty(len(self.points), dtype=numpy.int64), (count, 3)
-        if self.library:
-            return *(self.library.make_empty(self.points, shape, "int32") for _ in range(2)), used
-        return *(numpy.empty(shape, dtype=numpy.int32) for _ in range(2)), used
+        ids = (_arrays.make_empty(self.points, (count, 3), "int32") for _ in range(2))
+        return *ids, numpy.empty(len(self.points), dtype=numpy.int64)
 
     def store(self, handle, report, room):
         """The Triangulation of a session that has ended. `room`: from make_room."""
         if len(room[0]) != report.number_of_triangles:
             room = self.make_room(report.number_of_triangles)
         triangles, neighbors, used = room
-        way, stream = ("_on_device", [self.struct.stream]) if self.library else ("", [])
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
-        _library.call(f"store_triangles{way}", handle, address(triangles), _library.TYPES["int32"], *stream)
-        _library.call(f"store_neighbors{way}", handle, address(neighbors), *stream)
+        _arrays.store("triangles", handle, triangles, _library.TYPES["int32"])
+        _arrays.store("neighbors", handle, neighbors)
         _library.call("store_used_points", handle, address(used))
         _library.call("store_segment_edges", handle, address(edges))
         points = self.points
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
             used = numpy.concatenate([used, numpy.arange(len(used), len(points))])
-        iterations = _report.read_iterations(handle, report.number_of_iterations)
+        iterations = _report.read_iterations(handle)
         return Triangulation(points, triangles, neighbors, used, edges, iterations, report)
 
     def _add_crossings(self, handle, count):
         """The points, with those at crossings behind them."""
-        points = _device.to_host(self.points)
+        points = _arrays.to_host(self.points)
         first = len(points)
         places, shares = numpy.empty((count, 2)), numpy.empty(count)
         ends = numpy.empty((count, 2), dtype=numpy.int64)

@@ -17,7 +17,6 @@ ITERATION = numpy.dtype(
 )
 # What VTK's field data and tables tell, by their names.
 FIELD_PREFIX = "DelaunayFlip:"
-COLUMNS = {name.title().replace("_", ""): name for name in ITERATION.names}
 COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "BlockedByShape": "blocked_by_shape", "BlockedByDeviation": "blocked_by_deviation",
           "BlockedByEdge": "blocked_by_edge",
@@ -111,8 +110,9 @@ def read(handle: ctypes.c_void_p) -> Report:
     return _from_struct(struct)
 
 
-def read_iterations(handle: ctypes.c_void_p, count: int) -> numpy.typing.NDArray[typing.Any]:
-    """The first rows of a session's iterations."""
+def read_iterations(handle: ctypes.c_void_p) -> numpy.typing.NDArray[typing.Any]:
+    """The rows of a session's iterations."""
+    count = read(handle).number_of_iterations
     rows = numpy.empty(count, dtype=ITERATION)
     _library.call("get_iterations", handle, 0, count, rows.ctypes.data, ITERATION.itemsize)
     return rows
@@ -184,8 +184,8 @@ class Totals:
 
     def list_columns(self):
         """(name, values) with a value per iteration."""
-        for name, field in COLUMNS.items():
-            yield name, numpy.ascontiguousarray(self.iterations[field])
+        for name in ITERATION.names:
+            yield name.title().replace("_", ""), numpy.ascontiguousarray(self.iterations[name])
 
     def list_fields(self):
         """(name, value) of VTK's field data: numbers, texts, then columns. ParaView lists no field data

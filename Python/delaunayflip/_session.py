@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy
 
-from . import _arrays, _device, _library, _report
+from . import _arrays, _library, _report
 from ._options import (
     Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule,
     check_integer, choose, make_options)
@@ -124,8 +124,8 @@ class Session:
     ) -> None:
         self._handle = ctypes.c_void_p()
         self._lock = threading.Lock()
-        self._mesh = _device.make_mesh(points, triangles, constraints, regions, frozen,
-                                       insert_constraints, triangle_numbers)
+        self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
+                                  insert_constraints, triangle_numbers)
         chosen = make_options(**options)
         with Observers(progress).raising() as callbacks:
             _library.call("open", self._mesh.struct, chosen, callbacks, ctypes.byref(self._handle))
@@ -181,9 +181,8 @@ class Session:
     def iterations(self) -> Array:
         """A structured array with a row per iteration: iteration, tested, non_delaunay, flipped,
         excluded, blocked, minimum_angle (degrees; NaN where it was not computed) and seconds."""
-        count = self.report.number_of_iterations
         with self._open() as handle:
-            return _report.read_iterations(handle, count)
+            return _report.read_iterations(handle)
 
     @property
     def triangles(self) -> Array:
@@ -196,14 +195,14 @@ class Session:
         """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3) that can
         be written, in the host's memory or on a GPU."""
         with self._open() as handle:
-            _device.store_triangles(handle, target, self._mesh.struct.number_of_triangles)
+            _arrays.store_triangles(handle, target, self._mesh.struct.number_of_triangles)
 
     @property
     def flip_counts(self) -> Array:
         """How many flips each triangle was part of, (m,) int32."""
         counts = self._mesh.make_flip_counts()
         with self._open() as handle:
-            _device.store_flip_counts(handle, counts)
+            _arrays.store("flip_counts", handle, counts)
         return counts
 
     @contextlib.contextmanager
@@ -295,11 +294,11 @@ def flip(
         triangles, counts = session._mesh.make_triangles(), session._mesh.make_flip_counts()
         if session.report.stop_reason != "aborted":
             with session._open() as handle:
-                _device.expect(handle, triangles, counts)
+                _arrays.expect(handle, triangles, counts)
             session.advance(progress=progress, on_iteration=on_iteration)
         session.store_triangles(triangles)
         with session._open() as handle:
-            _device.store_flip_counts(handle, counts)
+            _arrays.store("flip_counts", handle, counts)
         return Result(triangles, counts, session.iterations, session.report)
 
 
@@ -324,7 +323,7 @@ def smallest_angles(
         array([45.])
     """
     number = choose("geometry", geometry)
-    mesh = _arrays.Mesh(_device.to_host(points), _device.to_host(triangles))
+    mesh = _arrays.Mesh(_arrays.to_host(points), _arrays.to_host(triangles))
     angles = numpy.empty(len(mesh.triangles))
     _library.call("triangle_angles", mesh.struct, number, _arrays.address(angles))
     return angles

@@ -30,20 +30,16 @@ class Cells:
         """Raises InvalidMesh if a cell names a point that does not exist."""
         wrong = numpy.flatnonzero((self.corners < 0) | (self.corners >= count))
         if len(wrong):
-            cell = int(numpy.searchsorted(self.offsets, wrong[0], side="right")) - 1
-            raise name_out_of_range(
-                self.what, self.first + cell, int(self.corners[wrong[0]]), count)
+            cell = self.first + int(numpy.searchsorted(self.offsets, wrong[0], side="right")) - 1
+            point = int(self.corners[wrong[0]])
+            raise InvalidMesh(
+                f"Invalid mesh: {self.what} {cell} names point {point}, but there are {count} points, "
+                "numbered from 0.", cell, point)
 
     def gather(self, chosen):
         """The corners of the chosen cells, one after the other."""
         sizes = self.sizes[chosen]
         return self.corners[numpy.repeat(self.offsets[chosen], sizes) + _count_up(sizes)]
-
-
-def name_out_of_range(what, cell, point, count):
-    return InvalidMesh(
-        f"Invalid mesh: {what} {cell} names point {point}, but there are {count} points, numbered "
-        "from 0.", cell, point)
 
 
 class Surface:
@@ -248,11 +244,9 @@ def number_places(points, other_points):
     kind = numpy.float32 if single else numpy.float64
     with numpy.errstate(over="ignore"):
         joined = numpy.concatenate([points.astype(kind), other_points.astype(kind)])
-    joined += kind(0)  # -0 becomes 0
     finite = numpy.isfinite(joined).all(axis=1)
-    bits = numpy.ascontiguousarray(joined).view(numpy.dtype((numpy.void, 3 * joined.itemsize)))
     places = -1 - numpy.arange(len(joined))
-    places[finite] = numpy.unique(bits[finite].ravel(), return_inverse=True)[1].ravel()
+    places[finite] = number_tuples(joined[finite])
     return places[:len(points)], places[len(points):]
 
 

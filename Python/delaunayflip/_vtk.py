@@ -50,7 +50,6 @@ def __getattr__(name: str) -> typing.Any:
 if _is_built_for_this_vtk():
     from .vtkDelaunayFlipFilters import vtkDelaunayFlip, vtkDelaunayFlipPoints
 else:
-    from ._vtk_filter import vtkDelaunayFlip
-    from ._vtk_points import vtkDelaunayFlipPoints
+    from ._vtk_filter import vtkDelaunayFlip, vtkDelaunayFlipPoints
 
 __all__ = ["vtkDelaunayFlip", "vtkDelaunayFlipPoints"]

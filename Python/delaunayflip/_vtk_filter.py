@@ -1,22 +1,32 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkDelaunayFlip for every VTK with Python: the interface of the C++ class, on libdelaunayflip."""
+"""The filters for every VTK with Python: the interfaces of the C++ classes, on libdelaunayflip. They
+take a dataset, or the blocks of a composite one, one by one."""
 import collections
 import operator
 import re
 
+import numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import (
     VTK_DOUBLE_MAX, VTK_ID_MAX, VTK_INT_MAX, vtkObject, vtkOutputWindow)
-from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObject, vtkPolyData, vtkTable
-from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm, vtkDemandDrivenPipeline
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPartitionedDataSet, vtkPointSet,
+    vtkPolyData, vtkTable)
+from vtkmodules.vtkCommonExecutionModel import (
+    vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._report import GEOMETRIES, describe
-from ._vtk_mesh import vtk_of
-from ._vtk_update import FAILURES, Update
+from ._options import CHOICES
+from ._points import triangulate
+from ._report import COUNTS, GEOMETRIES, ITERATION, POINT_COUNTS, Totals, describe
+from ._vtk_mesh import OUTLINES, SETTINGS, Cloud, MeshInput, vtk_of
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
+#: vtkDelaunayFlip.FAILURE_...
+_FAILURES = ("NONE", "OPTIONS", "MESH", "BACKEND", "OTHER")
+_FAILURES_OF = {_library.InvalidOptions: "OPTIONS", _library.BackendUnavailable: "BACKEND",
+                _library.FlipError: "MESH", Exception: "OTHER"}  # the first that fits
 
 
 def to_snake_case(name):
@@ -79,14 +89,13 @@ class Filter(VTKPythonAlgorithmBase):
     no_mesh = "not a surface, passed unchanged"
     no_composite = "the constraints of a single mesh cannot be a composite dataset"
     properties = ()
-    update_type = Update
 
     def __init__(self, **properties):
         super().__init__(nInputPorts=2, nOutputPorts=2, inputType=self.kind.__name__)
         self._values = {item.name: item.default for item in self.properties}
         self._is_at_work = False
         self._interrupt = None
-        self._update = self.update_type(self)
+        self._forget()
         for name, value in properties.items():
             if not hasattr(type(self), name):
                 raise TypeError(f"{self.name} has no property {name!r}")
@@ -161,18 +170,17 @@ class Filter(VTKPythonAlgorithmBase):
         data = [vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo)]
         table = vtkDataObject.GetData(outInfo, 1)
         self._is_at_work = True
-        update = self.update_type(self)
+        self._forget()
         try:
-            update.flip(*data)
+            self._flip_all(*data)
         except Exception as error:
-            update = self.update_type(self)
-            update.fail(error)
+            self._forget()
+            self._fail(error)
             data[-1].Initialize()
         finally:
             self._is_at_work = False
-        self._update = update
-        vtk_of(table).add_arrays(table.GetRowData(), "", update.totals.list_columns())
-        for event, notes in (("ErrorEvent", update.errors), ("WarningEvent", update.warnings)):
+        vtk_of(table).add_arrays(table.GetRowData(), "", self._totals.list_columns())
+        for event, notes in (("ErrorEvent", self._errors), ("WarningEvent", self._warnings)):
             if notes:
                 self._tell(event, describe(notes))
         self.SetAbortExecute(0)  # from VTK 9.3 on the executive keeps it for later updates
@@ -202,31 +210,174 @@ class Filter(VTKPythonAlgorithmBase):
     def ReleaseDeviceMemory(self):
         _library.release_cuda_memory()
 
+    # An update.
 
-def count_answers(**names):
-    """Methods that return counts of the update's report."""
-    return {"Get" + name: lambda update, count=count: getattr(update.totals.report, count)
-            for name, count in names.items()}
+    def _forget(self):
+        """Forgets the last update. During an update `_totals` is the report on the current mesh so
+        far, afterwards the sum over all meshes."""
+        self._sum = self._totals = Totals()
+        self._errors, self._warnings, self._failure = [], [], 0
+        self._block = (0.0, 1.0)  # the share of the cells before the current block, and its own
+
+    def _fail(self, error, where=""):
+        failure = next(name for kind, name in _FAILURES_OF.items() if isinstance(error, kind))
+        self._failure = self._failure or _FAILURES.index(failure)
+        message = "not enough memory" if isinstance(error, MemoryError) else str(error)
+        self._errors.append((where, message or type(error).__name__))
+
+    def _flip_all(self, source, constraints, output):
+        """Flips the input, a mesh or blocks."""
+        if isinstance(source, vtkCompositeDataSet):
+            self._flip_blocks(source, constraints, output)
+        else:
+            self._try_to_flip(source, constraints, output)
+        self._totals = self._sum
+        if self.GetLiveUpdate():
+            self._warnings.append(
+                ("", "LiveUpdate needs the filter in C++; this one, in Python, makes all flips at once"))
+        pieces = self.GetOutputInformation(0).Get(
+            vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES()) or 1
+        if pieces > 1 and self._sum.report.number_of_triangles:
+            self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
+
+    def _flip_blocks(self, source, constraints, output):
+        self._sum.change(stop_reason="converged")  # the result for an input without blocks
+        blocks = _copy(source)  # observers may change the input meanwhile
+        if _count_partitions(blocks, self.kind) > 1:
+            self._judge_partitions()
+        output.CopyStructure(blocks)
+        output.GetFieldData().ShallowCopy(blocks.GetFieldData())
+        are_own = isinstance(constraints, vtkCompositeDataSet)
+        edges = {leaf.GetCurrentFlatIndex(): leaf.GetCurrentDataObject()
+                 for leaf in _iterate(constraints.NewIterator())} if are_own else {}
+        before, total = 0, max(blocks.GetNumberOfElements(vtkDataObject.CELL), 1)
+        for leaf in _iterate(blocks.NewIterator()):
+            data, name = leaf.GetCurrentDataObject(), _name_leaf(leaf)
+            cells = data.GetNumberOfElements(vtkDataObject.CELL)
+            self._block = (before / total, cells / total)
+            before += cells
+            is_mesh, result = isinstance(data, self.kind), _copy(data)
+            if not is_mesh and cells:
+                self._warnings.append((name, self.no_mesh))
+            if is_mesh and self._sum.report.stop_reason != "aborted":
+                others = edges.get(leaf.GetCurrentFlatIndex()) if are_own else constraints
+                result = vtkPolyData()
+                self._try_to_flip(data, others if isinstance(others, vtkPolyData) else None, result, name)
+            output.SetDataSet(leaf, result)
+
+    def _judge_partitions(self):
+        self._warnings.append(
+            ("", "partitions were flipped one by one; edges between them stayed as they were"))
+
+    def _try_to_flip(self, mesh, constraints, output, where=""):
+        self._totals = Totals()
+        try:
+            if isinstance(constraints, vtkCompositeDataSet):
+                raise _library.InvalidOptions(self.no_composite)
+            trouble = self._flip(mesh, constraints, output)
+        except Exception as error:
+            self._fail(error, where)
+            output.Initialize()
+            return
+        except KeyboardInterrupt as stop:
+            self._interrupt = stop  # raised when VTK is left
+            trouble = self._pass(mesh, output, "aborted")
+        self._sum.add(self._totals)
+        if trouble:
+            self._warnings.append((where, trouble))
+
+    def _pass(self, mesh, output, stop_reason):
+        self._totals = Totals(stop_reason)
+        output.ShallowCopy(mesh)
+        return ""
+
+    def _is_abort_requested(self):
+        """Whether an abort was requested: directly or, from VTK 9.3 on, through a filter upstream.
+        After a direct request the filter keeps its output, which the executive would otherwise
+        empty."""
+        if not hasattr(self, "CheckAbort"):
+            return bool(self.GetAbortExecute())
+        aborted = self.CheckAbort()
+        if self.GetAbortExecute():
+            self.SetAbortOutput(False)
+        return bool(aborted)
+
+    def _observe(self, record):
+        row = numpy.array([tuple(record[name] for name in ITERATION.names)], dtype=ITERATION)
+        self._totals.iterations = numpy.concatenate([self._totals.iterations, row])
+        self._totals.change(total_flips=self._totals.report.total_flips + record["flipped"])
+
+    def _observe_part(self, share):
+        """An observer of a part of the current block's update, which takes this share of its time."""
+        before, length = self._block
+
+        def observe(done):
+            progress = before + length * share * done
+            self.UpdateProgress(max(progress, self.GetProgress()))
+            return not self._is_abort_requested()
+
+        return observe
+
+
+def _iterate(iterator):
+    """Yields an iterator of VTK at each of its places."""
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        yield iterator
+        iterator.GoToNextItem()
+
+
+def _name_leaf(leaf):
+    """"block 3 (wing)", by VTK's flat index."""
+    about = leaf.GetCurrentMetaData() if leaf.HasCurrentMetaData() else None
+    name = about.Get(vtkCompositeDataSet.NAME()) if about is not None else None
+    return f"block {leaf.GetCurrentFlatIndex()}" + (f" ({name})" if name else "")
+
+
+def _count_partitions(blocks, kind):
+    """The most partitions, of this class and with points, that a dataset has."""
+    datasets = [blocks]
+    if isinstance(blocks, vtkDataObjectTree):
+        nodes = blocks.NewTreeIterator()
+        nodes.VisitOnlyLeavesOff()
+        datasets += [node.GetCurrentDataObject() for node in _iterate(nodes)]
+    counts = [0]
+    for dataset in filter(vtkPartitionedDataSet.SafeDownCast, datasets):
+        parts = [part.GetCurrentDataObject() for part in _iterate(dataset.NewIterator())]
+        counts.append(sum(isinstance(part, kind) and part.GetNumberOfPoints() > 0 for part in parts))
+    return max(counts)
+
+
+def _copy(source):
+    """A shallow copy."""
+    made = source.NewInstance()
+    made.ShallowCopy(source)
+    return made
+
+
+def count_answers(prefix, *names):
+    """Methods that return counts of the last update's report, by their names in the field data."""
+    fields = {**COUNTS, **POINT_COUNTS}
+    return {f"Get{prefix}{name}": lambda self, field=fields[name]: getattr(self._totals.report, field)
+            for name in names}
 
 
 # What the last update did, and what only classes in C++ have: live updates.
 _COMMON_ANSWERS = {
-    "Advance": lambda update: False,
-    "Step": lambda update: False,
-    "GetNeedsUpdate": lambda update: False,
-    "GetNumberOfIterations": lambda update: len(update.totals.iterations),
-    "GetConverged": lambda update: not update.failure and update.totals.report.converged,
-    "GetStopReason": lambda update: len(_library.STOP_REASONS) if update.failure
-    else _library.STOP_REASONS.index(update.totals.report.stop_reason),
-    "GetStopReasonAsString": lambda update: "failed: " + update.error_message if update.failure
-    else update.totals.report.stop_reason,
-    "GetSummary": lambda update: f"failed: {update.error_message}\n" if update.failure
-    else update.totals.summarize(),
-    "GetBackendUsed": lambda update: update.totals.report.backend,
-    "GetFailure": lambda update: update.failure,
-    "GetErrorMessage": lambda update: update.error_message,
-    "GetErrorCode": lambda update: update.failure and _USER_ERROR + update.failure,
-    **count_answers(TotalFlips="total_flips", NumberOfNonDelaunayEdges="non_delaunay_after"),
+    **dict.fromkeys(("Advance", "Step", "GetNeedsUpdate"), lambda self: False),
+    "GetNumberOfIterations": lambda self: len(self._totals.iterations),
+    "GetConverged": lambda self: not self._failure and self._totals.report.converged,
+    "GetStopReason": lambda self: len(_library.STOP_REASONS) if self._failure
+    else _library.STOP_REASONS.index(self._totals.report.stop_reason),
+    "GetStopReasonAsString": lambda self: "failed: " + self.GetErrorMessage() if self._failure
+    else self._totals.report.stop_reason,
+    "GetSummary": lambda self: f"failed: {self.GetErrorMessage()}\n" if self._failure
+    else self._totals.summarize(),
+    "GetBackendUsed": lambda self: self._totals.report.backend,
+    "GetFailure": lambda self: self._failure,
+    "GetErrorMessage": lambda self: describe(self._errors),
+    "GetErrorCode": lambda self: self._failure and _USER_ERROR + self._failure,
+    **count_answers("", "TotalFlips"), **count_answers("NumberOf", "NonDelaunayEdges"),
 }
 
 
@@ -255,7 +406,7 @@ def finish(cls, properties, answers):
             setattr(cls, f"Set{item.name}To{choice}",
                     lambda self, set_=set_, value=value: set_(self, value))
     for name, answer in answers.items():
-        setattr(cls, name, lambda self, answer=answer: answer(self._update))
+        setattr(cls, name, answer)
     methods = dict(vars(cls))
     for name in {name[3:] for name in methods if re.match("[GS]et[A-Z]", name)}:
         key = to_snake_case(name)
@@ -264,7 +415,7 @@ def finish(cls, properties, answers):
 
 
 for _group, _names in (("STOP_REASON", (*_library.STOP_REASONS, "failed")),
-                       ("FAILURE", FAILURES)):
+                       ("FAILURE", _FAILURES)):
     for _value, _name in enumerate(_names):
         setattr(Filter, f"{_group}_{_name.replace(' ', '_')}".upper(), _value)
 finish(Filter, COMMON_PROPERTIES, _COMMON_ANSWERS)
@@ -290,17 +441,103 @@ class vtkDelaunayFlip(Filter):
     def SetConstraintsData(self, constraints):
         self.SetInputDataObject(1, constraints)
 
+    def _flip(self, mesh, constraints, output):
+        """Returns the text of a warning, or ""."""
+        if mesh.GetNumberOfPolys() == 0 and mesh.GetNumberOfStrips() == 0:
+            return self._pass(mesh, output, "converged")
+        if self._is_abort_requested():
+            return self._pass(mesh, output, "aborted")
+        observe = self._observe_part(1.0)
+        try:
+            settings = {name: getattr(self, name) for name in SETTINGS}
+            data = MeshInput(mesh, constraints, self._observe_part(0.02), **settings)
+            session = data.open(progress=observe, **self._get_options())
+        except _library.Stopped:
+            return self._pass(mesh, output, "aborted")
+        with session:
+            self._totals = data.sum_up()
+            if session.report.stop_reason != "aborted":
+                session.advance(progress=observe, on_iteration=self._observe)
+            angles = self.GetGenerateQuality()
+            is_whole = not angles or observe(1.0)
+            data.store(output, self.GetGenerateFlipCount(), angles and is_whole)
+            self._totals = data.sum_up()
+            if not is_whole:
+                self._totals.change(stop_reason="aborted")
+            return data.report(output, self._totals)
+
+    def _get_options(self):
+        options = {name: words[getattr(self, name)] for name, words in CHOICES.items()}
+        for name in ("tolerance", "feature_angle", "maximum_deviation", "maximum_iterations", "devices",
+                     "track_quality"):
+            options[name] = getattr(self, name)
+        return {**options, "threads": self.GetNumberOfThreads(), "device": self.GetDeviceId(),
+                "pieces": self.GetNumberOfPieces()}
+
 
 _ANSWERS = {
-    "GetGeometryUsed": lambda update: GEOMETRIES.index(update.totals.report.geometry_used),
-    "GetGeometryUsedAsString": lambda update: update.totals.report.geometry_used,
-    "GetGeometryReason": lambda update: update.totals.report.geometry_reason,
-    **count_answers(NumberOfConstraintEdges="constraint_edges",
-                    NumberOfUnmatchedConstraintEdges="unmatched_constraints",
-                    NumberOfInsertedConstraintEdges="inserted_constraints",
-                    NumberOfConstraintFlips="constraint_flips",
-                    NumberOfEdgesBlockedByShape="blocked_by_shape",
-                    NumberOfEdgesBlockedByDeviation="blocked_by_deviation",
-                    NumberOfEdgesBlockedByEdge="blocked_by_edge"),
+    "GetGeometryUsed": lambda self: GEOMETRIES.index(self._totals.report.geometry_used),
+    "GetGeometryUsedAsString": lambda self: self._totals.report.geometry_used,
+    "GetGeometryReason": lambda self: self._totals.report.geometry_reason,
+    **count_answers("NumberOf", "ConstraintEdges", "UnmatchedConstraintEdges",
+                    "InsertedConstraintEdges", "ConstraintFlips"),
+    **count_answers("NumberOfEdges", "BlockedByShape", "BlockedByDeviation", "BlockedByEdge"),
 }
 finish(vtkDelaunayFlip, _PROPERTIES, _ANSWERS)
+
+
+class vtkDelaunayFlipPoints(Filter):
+    """Makes a Delaunay mesh from points, with or without segments.
+
+    This class has the methods, outputs, warnings and progress of the C++ class
+    vtkDelaunayFlipPoints, for a VTK that it was not built for; vtkDelaunayFlipPoints.h is its
+    manual. It leaves out live updates, with a warning, and projections: x and y alone decide.
+    """
+
+    name = "vtkDelaunayFlipPoints"
+    kind = vtkPointSet
+    no_mesh = "has no points of its own, passed unchanged"
+    no_composite = "the segments of a single dataset cannot be a composite dataset"
+
+    def SetSegmentsConnection(self, port):
+        self.SetInputConnection(1, port)
+
+    def SetSegmentsData(self, segments):
+        self.SetInputDataObject(1, segments)
+
+    def _judge_partitions(self):
+        raise _library.InvalidMesh(
+            "the points are in several partitions; join them first, by vtkAppendDataSets, or Merge Blocks "
+            "in ParaView")
+
+    def _pass(self, data, output, stop_reason):
+        super()._pass(vtkPolyData(), output, stop_reason)
+        output.SetPoints(data.GetPoints())
+        output.GetPointData().ShallowCopy(data.GetPointData())
+        output.GetFieldData().ShallowCopy(data.GetFieldData())
+        return ""
+
+    def _flip(self, data, segments, output):
+        piece = vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()
+        if self.GetOutputInformation(0).Get(piece) > 0 and data.GetNumberOfPoints():
+            raise _library.InvalidMesh(
+                "points are in several pieces; gather them in the first one, by Redistribute DataSet with "
+                "one partition in ParaView")
+        if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
+            return self._pass(data, output, "aborted" if data.GetNumberOfPoints() else "converged")
+        cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline])
+        keywords = {name: getattr(self, name) for name in (
+            "alpha", "longest_edge", "point_tolerance", "split_crossings", "maximum_iterations")}
+        result = triangulate(
+            cloud, backend=CHOICES["backend"][self.backend], threads=self.number_of_threads,
+            device=self.device_id, progress=self._observe_part(1.0),
+            on_iteration=self._observe, **keywords)
+        self._totals = Totals.of_run(result.report, result.iterations)
+        return cloud.write(result, output)
+
+
+finish(vtkDelaunayFlipPoints, (
+    *(Property(name, 0.0, 0.0, VTK_DOUBLE_MAX) for name in ("Alpha", "LongestEdge", "PointTolerance")),
+    *(Property(name, False) for name in ("SplitCrossings", "LinesAsSegments")),
+    Property("Outline", 0, 0, 1, ("EvenOdd", "Orientation")),
+), count_answers("NumberOf", "SegmentEdges", "RefusedSegments"))

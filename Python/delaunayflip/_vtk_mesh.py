@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Converts a vtkPolyData of any VTK to the engine's arrays, and back."""
+"""Converts meshes, points and segments of any VTK to the engine's arrays, and back."""
 import functools
 import importlib
 
@@ -8,12 +8,14 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._report import FIELD_PREFIX, Totals, describe_trouble, join
+from ._points import Input
+from ._report import FIELD_PREFIX, POINT_COUNTS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
-from ._surface import NONE, Constraints, Slots, Surface, name_out_of_range, number_tuples
+from ._surface import NONE, Constraints, Slots, Surface, list_pairs, number_places, number_tuples
 
 #: Keywords of MeshInput.
 SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints", "region_array")
+OUTLINES = ("even-odd", "orientation")
 _GHOSTS = "vtkGhostType"
 _GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
@@ -152,33 +154,33 @@ class MeshInput:
             self._regions = self.vtk.label_cells(mesh, region_array)[self.slots.cells]
         ghosts = self.mesh.GetCellData().GetArray(_GHOSTS)
         if ghosts is not None and not _find_ghost_fault(ghosts):
-            types = self.vtk.view(ghosts)  # of the cells, of which there may be too few
-            padded = numpy.zeros(max(self.slots.cells.max(initial=-1) + 1, len(types)), numpy.uint8)
-            padded[:len(types)] = types
-            are_ghosts = (padded[self.slots.cells] & _GHOST) != 0
+            missing = numpy.zeros(self.mesh.GetNumberOfCells(), numpy.uint8)  # there may be too few
+            types = numpy.append(self.vtk.view(ghosts), missing)
+            are_ghosts = (types[self.slots.cells] & _GHOST) != 0
             self._frozen = are_ghosts if self._frozen is None else are_ghosts | self._frozen
 
     def open(self, **arguments):
-        """A Session. Errors name the cell, not the triangle."""
-        pairs = self.constraints.pairs
+        """Begins a Session, and returns it. Errors name the cell, not the triangle."""
+        self._arguments = arguments
         try:
-            return Session(
+            self.session = Session(
                 self.points, self.slots.triangles, regions=self._regions, frozen=self._frozen,
-                constraints=pairs if len(pairs) else None,
-                insert_constraints=self.constraints.to_insert if len(pairs) else False,
+                constraints=self.constraints.pairs, insert_constraints=self.constraints.to_insert,
                 triangle_numbers=self.slots.cells, **arguments)
-        except InvalidMesh as error:
-            raise name_out_of_range(
-                "cell", int(self.slots.cells[error.cell]), error.point, len(self.points)) from None
+        except InvalidMesh:
+            self.slots.polygons.require_points(len(self.points))
+            raise
+        return self.session
 
-    def sum_up(self, session):
-        """The Totals of a run."""
-        return Totals.of_run(session.report, session.iterations, self.constraints.unmatched)
+    def sum_up(self):
+        """The Totals of the run."""
+        return Totals.of_run(
+            self.session.report, self.session.iterations, self.constraints.unmatched)
 
-    def report(self, session, output, options, totals):
+    def report(self, output, totals):
         """Adds the numbers of the run to the output's field data. Returns the text of a warning, or ""."""
         self.vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX, totals.list_fields())
-        report, mesh, passed = session.report, self.mesh, "passed unchanged"
+        report, mesh, passed = self.session.report, self.mesh, "passed unchanged"
         texts = [report.defects] if report.defects else []
         if self.constraints.unmatched:
             stranger, count = self.constraints.first_stranger, self.constraints.unmatched
@@ -186,15 +188,15 @@ class MeshInput:
                 f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the mesh "
                 "does not have" + (stranger and ": ends are not points of the mesh (coordinates must be "
                                    f"equal, not just close), first {stranger}"))
-        texts += describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
-        texts += describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
+        texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
+        texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
                                 passed if self.slots.in_place else "left out")
         ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
         fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
         texts += [f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else []
-        return "; ".join(texts + describe_trouble(report, **options))
+        return "; ".join(texts + describe_trouble(report, **self._arguments))
 
-    def store(self, session, output, counts, angles):
+    def store(self, output, counts, angles):
         """Writes the current mesh, with the requested cell arrays."""
         mesh, slots = self.mesh, self.slots
         given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
@@ -205,18 +207,18 @@ class MeshInput:
         output.SetPoints(mesh.GetPoints())
         output.SetVerts(mesh.GetVerts())
         output.SetLines(mesh.GetLines())
-        output.SetPolys(self._make_polygons(session, is_wide))
+        output.SetPolys(self._make_polygons(is_wide))
         output.SetStrips(strips)
         output.GetPointData().ShallowCopy(mesh.GetPointData())
         output.GetFieldData().ShallowCopy(mesh.GetFieldData())
-        self._pass_cell_data(session, output)
+        self._pass_cell_data(output)
         polygons, chosen = slots.list_triangles()
-        for name, elsewhere, values in self._list_numbers(session, counts, angles):
+        for name, elsewhere, values in self._list_numbers(counts, angles):
             of_cells = numpy.full(output.GetNumberOfCells(), elsewhere, dtype=values.dtype)
             of_cells[slots.first_polygon + polygons] = values[chosen]
             self.vtk.add_arrays(output.GetCellData(), "", [(name, of_cells)])
 
-    def _make_polygons(self, session, is_wide):
+    def _make_polygons(self, is_wide):
         slots = self.slots
         is_triangle = slots.polygon_triangles != NONE
         whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
@@ -224,14 +226,15 @@ class MeshInput:
         sizes[~is_triangle] = slots.polygons.sizes[whole]
         cells, corners = self.vtk.make_cells(sizes, is_wide)
         if len(whole) == 0 and len(sizes) == len(slots.triangles):
-            session.store_triangles(corners.reshape(-1, 3))
+            self.session.store_triangles(corners.reshape(-1, 3))
         else:
             of_triangle = numpy.repeat(is_triangle, sizes)
-            corners[of_triangle] = session.triangles[slots.polygon_triangles[is_triangle]].ravel()
+            triangles = self.session.triangles[slots.polygon_triangles[is_triangle]]
+            corners[of_triangle] = triangles.ravel()
             corners[~of_triangle] = slots.polygons.gather(whole)
         return cells
 
-    def _pass_cell_data(self, session, output):
+    def _pass_cell_data(self, output):
         mesh, data, slots = self.mesh, output.GetCellData(), self.slots
         data.Initialize()
         if slots.in_place:
@@ -242,12 +245,12 @@ class MeshInput:
             self.vtk.add_tuples(
                 mesh.GetCellData(), mesh.GetNumberOfCells(), sources, 0, len(sources), data)
         if slots.divides_cells:
-            demote_global_ids(data)
+            _demote_global_ids(data)
         shared = data.GetNormals()
         if (shared is not None and shared.GetNumberOfComponents() == 3
                 and shared.GetNumberOfTuples() >= output.GetNumberOfCells()):
             normals = self.vtk.copy_array(shared)
-            self._renew_normals(self.vtk.view(normals), session.triangles)
+            self._renew_normals(self.vtk.view(normals), self.session.triangles)
             data.SetNormals(normals)
 
     def _renew_normals(self, values, triangles):
@@ -267,18 +270,103 @@ class MeshInput:
         _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
         return normals
 
-    def _list_numbers(self, session, counts, angles):
+    def _list_numbers(self, counts, angles):
         """(name, value elsewhere, values per triangle) of the requested cell arrays."""
         if counts:
-            yield "vtkDelaunayFlipCount", 0, session.flip_counts
+            yield "vtkDelaunayFlipCount", 0, self.session.flip_counts
         if angles:
-            used = session.report.geometry_used
-            for when, triangles in (("before", self.slots.triangles), ("after", session.triangles)):
+            used, after = self.session.report.geometry_used, self.session.triangles
+            for when, triangles in (("before", self.slots.triangles), ("after", after)):
                 yield f"Smallest angle {when} (degrees)", numpy.nan, smallest_angles(
                     self.points, triangles, geometry=used)
 
 
-def demote_global_ids(data):
+class Cloud(Input):
+    """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
+
+    def __init__(self, data, others=None, lines_as_segments=False, outline="even-odd"):
+        self.vtk, self.data = vtk_of(data), data
+        mesh = self.vtk.model.vtkPolyData()
+        mesh.SetPoints(data.GetPoints())
+        if lines_as_segments and data.IsA("vtkPolyData"):
+            mesh.SetVerts(data.GetVerts())  # so that lines have their cell ids
+            mesh.SetLines(data.GetLines())
+        own = self.vtk.read(mesh)
+        self._own, self._sources, self._pairs, self._numbers = own.points, [], [], []
+        self._others = others
+        self._add_cells(own.read("Lines", "line, cell"), numpy.arange(len(own.points)))
+        if others is not None:
+            theirs = self.vtk.read(others)
+            ids = self._add_points(theirs.points)
+            self._add_cells(theirs.read("Lines", "segment cell"), ids)
+            self._add_cells(theirs.read("Polys", "segment cell"), ids, are_rings=True)
+        super().__init__(self._own, numpy.concatenate(self._pairs), None, None)
+        self._numbers = numpy.concatenate(self._numbers).astype(numpy.int32)
+        self.struct.rings, self.struct.outline = _arrays.address(self._numbers), OUTLINES.index(outline)
+
+    def _add_cells(self, cells, ids, are_rings=False):
+        cells.require_points(len(ids))
+        pairs = ids[list_pairs(cells, are_rings)]
+        is_ring = are_rings & (cells.sizes > 2)
+        numbers = numpy.where(is_ring, cells.first + numpy.arange(cells.count), -1)
+        numbers = numpy.repeat(numbers, numpy.maximum(cells.sizes - ~is_ring, 0))
+        kept = pairs[:, 0] != pairs[:, 1]
+        self._pairs.append(pairs[kept])
+        self._numbers.append(numbers[kept])
+
+    def _add_points(self, others):
+        """The ids of the points of the segments; those at new places are added."""
+        own = self._own
+        if len(others) == 0 or own.dtype == others.dtype and own.tobytes() == others.tobytes():
+            return numpy.arange(len(own))
+        places = numpy.concatenate(number_places(own, others))
+        _, first, place = numpy.unique(places, return_index=True, return_inverse=True)
+        ids = first[place.ravel()[len(own):]]
+        is_new = ids >= len(own)
+        self._sources, ranks = numpy.unique(ids[is_new] - len(own), return_inverse=True)
+        ids[is_new] = len(own) + ranks.ravel()
+        self._own = numpy.concatenate([own, others[self._sources].astype(own.dtype)])
+        return ids
+
+    def write(self, result, output):
+        """Writes the mesh, with its data and its counts. Returns the text of a warning, or ""."""
+        data, vtk, report = self.data, self.vtk, result.report
+        count, is_grown = data.GetNumberOfPoints(), len(result.points) > data.GetNumberOfPoints()
+        polygons, corners = vtk.make_cells(numpy.full(len(result.triangles), 3), is_wide=True)
+        corners[:] = result.triangles.ravel()
+        output.SetPolys(polygons)
+        output.SetPoints(data.GetPoints())
+        output.GetFieldData().ShallowCopy(data.GetFieldData())
+        output.GetPointData().ShallowCopy(data.GetPointData())
+        if is_grown:
+            points = vtk.core.vtkPoints()
+            points.SetData(vtk.support.numpy_to_vtk(result.points, deep=True))
+            output.SetPoints(points)
+            self._extend_data(output.GetPointData(), count)
+        counts = [(name, getattr(report, field)) for name, field in POINT_COUNTS.items()]
+        vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX,
+                       [*counts, *Totals.of_run(report, result.iterations).list_fields()])
+        texts = [report.defects] if report.defects else []
+        texts += _describe_short(data.GetPointData(), count, "point",
+                                "left out" if is_grown else "passed unchanged")
+        return "; ".join(texts)
+
+    def _extend_data(self, data, count):
+        """The point data, extended by those of added points."""
+        first, size = count + len(self._sources), count + len(self._sources) + len(self.ends)
+        data.Initialize()
+        self.vtk.add_tuples(self.data.GetPointData(), count, range(count), 0, size, data)
+        if len(self._sources):
+            others = self._others
+            self.vtk.add_tuples(
+                others.GetPointData(), others.GetNumberOfPoints(), self._sources, count, size, data)
+        for array in [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]:
+            for place, (start, end, share) in enumerate(self.ends, first):
+                array.InterpolateTuple(place, int(start), array, int(end), array, share)
+        _demote_global_ids(data)
+
+
+def _demote_global_ids(data):
     """Global ids become pedigree ids, because several cells or points now share one."""
     ids = data.GetGlobalIds()
     if ids is not None:
@@ -298,7 +386,7 @@ def _find_ghost_fault(ghosts):
     return "with several components" if ghosts.GetNumberOfComponents() != 1 else ""
 
 
-def describe_short(data, tuples, kind, fate):
+def _describe_short(data, tuples, kind, fate):
     arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
     names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]
     if not names:

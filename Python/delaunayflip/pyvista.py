@@ -26,8 +26,7 @@ from ._options import Array, check_integer
 from ._options import Options as _Options
 from ._points import triangulate as _triangulate_arrays
 from ._surface import Slots
-from ._vtk_cloud import Cloud
-from ._vtk_mesh import SETTINGS, MeshInput, vtk_of
+from ._vtk_mesh import SETTINGS, Cloud, MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
 _LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": "RdYlBu", "show_edges": True,
@@ -247,9 +246,6 @@ class _Run:
         self._mesh = _require_mesh("mesh", mesh)
         if constraints is not None:
             _require_mesh("constraints", constraints)
-        for keyword in options:
-            if keyword not in Options.__annotations__:
-                raise TypeError(f"{keyword!r} is not an option")
         flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
                  for name in SETTINGS[:-1] if name in options}
         regions = options.pop("region_array", None) or ""
@@ -258,7 +254,6 @@ class _Run:
             raise InvalidOptions(
                 f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
         self._input = MeshInput(mesh, constraints, **flags, region_array=regions)
-        self._options = options
         self.session = self._input.open(**options)
 
     def show(self):
@@ -270,9 +265,8 @@ class _Run:
         made = self._mesh.copy(deep=False)
         if len(self._input.slots.triangles) == 0:
             return made
-        self._input.store(self.session, made, flip_counts, quality)
-        trouble = self._input.report(
-            self.session, made, self._options, self._input.sum_up(self.session))
+        self._input.store(made, flip_counts, quality)
+        trouble = self._input.report(made, self._input.sum_up())
         if trouble:
             warnings.warn(trouble, stacklevel=3)
         return made

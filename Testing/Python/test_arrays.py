@@ -247,7 +247,7 @@ class Errors(unittest.TestCase):
             delaunayflip.flip(POINTS, numpy.array([[0, 1, 2], [0, 2, 2**64 - 1]], numpy.uint64))
         self.assertEqual((caught.exception.cell, caught.exception.point), (1, 2**64 - 1))
         for others in ({"triangles": TRIANGLES}, {"triangles": [], "constraints": [[0, 1]]}):
-            with self.assertRaisesRegex(delaunayflip.InvalidMesh, "there are no points"):
+            with self.assertRaisesRegex(delaunayflip.InvalidMesh, "has no points"):
                 delaunayflip.flip([], **others)
 
     @unittest.skipIf(delaunayflip.has_cuda_device(), "there is a GPU")

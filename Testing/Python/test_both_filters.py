@@ -8,8 +8,8 @@ import unittest
 
 from delaunayflip import vtkDelaunayFlip as CxxFilter, vtkDelaunayFlipPoints as CxxPoints
 from delaunayflip._vtk_filter import (
-    _ANSWERS, _COMMON_ANSWERS, vtkDelaunayFlip as PythonFilter)
-from delaunayflip._vtk_points import vtkDelaunayFlipPoints as PythonPoints
+    _ANSWERS, _COMMON_ANSWERS, vtkDelaunayFlip as PythonFilter,
+    vtkDelaunayFlipPoints as PythonPoints)
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy

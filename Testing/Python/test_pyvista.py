@@ -138,7 +138,7 @@ class PyVista(unittest.TestCase):
         self.assertGreater(int(made.field_data["DelaunayFlip:SegmentEdges"][0]), 0)
         same = delaunayflip.pyvista.triangulate(self.pyvista.PointSet(cloud.points))
         numpy.testing.assert_array_equal(same.faces, cloud.delaunay.triangulate().faces)
-        with self.assertWarnsRegex(UserWarning, "cross an earlier one"):
+        with self.assertWarnsRegex(UserWarning, "cross(es)? an earlier one"):
             cross = self.pyvista.Line((0.1, 0.8, 7), (0.9, 0.2, 7))
             cloud.delaunay.triangulate(segments.append_polydata(cross))
         with self.assertRaisesRegex(TypeError, "cloud must be a dataset with points, not list"):

@@ -32,8 +32,7 @@ from paraview.modules.vtkRemotingViews import vtkSMTransferFunctionPresets
 from paraview.util.vtkAlgorithm import smproperty, smproxy
 
 import delaunayflip
-from delaunayflip._vtk_filter import vtkDelaunayFlip
-from delaunayflip._vtk_points import vtkDelaunayFlipPoints
+from delaunayflip._vtk_filter import vtkDelaunayFlip, vtkDelaunayFlipPoints
 
 paraview_plugin_name = "DelaunayFlipPython"
 paraview_plugin_version = delaunayflip.__version__
