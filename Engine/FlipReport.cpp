@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <iomanip>
 #include <iterator>
-#include <limits>
 #include <sstream>
-#include <string>
 #include <utility>
 
 namespace delaunayflip
@@ -167,43 +165,45 @@ bool HasAngles(const FlipReport& report)
   return report.Triangles > 0 && !std::isnan(report.MinimumAngleBefore);
 }
 
-std::vector<IterationRecord> JoinIterations(const FlipReport& a, const FlipReport& b)
+void AddIterations(FlipReport& sum, const FlipReport& other)
 {
-  std::vector<IterationRecord> rows(std::max(a.Iterations.size(), b.Iterations.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  const std::size_t made = sum.Iterations.size();
+  for (const IterationRecord& row : other.Iterations)
   {
-    rows[i].Iteration = static_cast<std::int64_t>(i) + 1;
-    rows[i].MinimumAngle = std::numeric_limits<double>::infinity();
-    for (const FlipReport* report : { &a, &b })
-    {
-      const bool isMade = i < report->Iterations.size();
-      if (isMade)
-      {
-        for (const auto count : IterationTotals)
-        {
-          rows[i].*count += report->Iterations[i].*count;
-        }
-        rows[i].Seconds += report->Iterations[i].Seconds;
-      }
-      if (HasAngles(*report))
-      {
-        // A mesh that made fewer iterations keeps its last angle. NaN stands for unknown.
-        const double angle =
-          isMade ? report->Iterations[i].MinimumAngle : report->MinimumAngleAfter;
-        const double least = rows[i].MinimumAngle;
-        rows[i].MinimumAngle =
-          std::isnan(angle) || std::isnan(least) ? angle + least : std::min(angle, least);
-      }
-    }
+    AddIteration(sum, row).Seconds += row.Seconds;
   }
-  return rows;
+  for (std::size_t i = 0; i < sum.Iterations.size(); ++i)
+  {
+    // A mesh that made fewer iterations keeps its last angle. NaN stands for unknown.
+    const auto getAngle = [i](const FlipReport& report, std::size_t iterations)
+    {
+      return !HasAngles(report) ? std::numeric_limits<double>::infinity()
+        : i < iterations        ? report.Iterations[i].MinimumAngle
+                                : report.MinimumAngleAfter;
+    };
+    const double a = getAngle(sum, made), b = getAngle(other, other.Iterations.size());
+    sum.Iterations[i].MinimumAngle = std::isnan(a) || std::isnan(b) ? a + b : std::min(a, b);
+  }
 }
 
+}
+
+IterationRecord& AddIteration(FlipReport& sum, const IterationRecord& row)
+{
+  const auto number = static_cast<std::size_t>(row.Iteration);
+  sum.Iterations.resize(std::max(sum.Iterations.size(), number));
+  IterationRecord& joined = sum.Iterations[number - 1];
+  joined.Iteration = row.Iteration;
+  for (const auto count : IterationTotals)
+  {
+    joined.*count += row.*count;
+  }
+  return joined;
 }
 
 void AddReport(FlipReport& sum, const FlipReport& other)
 {
-  sum.Iterations = JoinIterations(sum, other);
+  AddIterations(sum, other);
   if (sum.Triangles == 0)
   {
     sum.MinimumAngleBefore = sum.MinimumAngleAfter = std::numeric_limits<double>::quiet_NaN();

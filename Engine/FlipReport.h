@@ -186,6 +186,9 @@ DELAUNAYFLIP_EXPORT void AddReport(FlipReport& sum, const FlipReport& other);
 /// not count.
 void AddTotals(FlipReport& sum, const FlipReport& part);
 
+/// Adds the counts of an iteration to those of the same number.
+IterationRecord& AddIteration(FlipReport& sum, const IterationRecord& row);
+
 /// @param factor 1 to add, -1 to subtract.
 void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor);
 

@@ -12,11 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
-#include <vector>
 
 namespace delaunayflip
 {

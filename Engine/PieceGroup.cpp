@@ -5,14 +5,11 @@
 #include "FlipError.h"
 #include "FlipReport.h"
 
-#include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <new>
-#include <string>
 #include <thread>
-#include <utility>
 
 /// @file
 /// Groups of one rank and of threads, and how a failure of one rank reaches the others.
@@ -190,19 +187,15 @@ enum FailureKind : char
 Message PackException()
 try
 {
-  const auto pack = [](FailureKind kind, const std::string& text)
-  {
-    Message message(text.begin(), text.end());
-    message.push_back(kind);
-    return message;
-  };
+  std::string text = "an exception of unknown type";
+  FailureKind kind = Other;
   try
   {
     throw;
   }
   catch (const RunAborted&)
   {
-    return pack(Abort, "");
+    kind = Abort;
   }
   catch (const std::bad_alloc&)
   {
@@ -210,17 +203,18 @@ try
   }
   catch (const std::exception& error)
   {
-    const FailureKind kind = dynamic_cast<const InvalidOptions*>(&error) ? Options
-      : dynamic_cast<const InvalidMesh*>(&error)                         ? Mesh
-      : dynamic_cast<const MeshTooLarge*>(&error)                        ? Size
-      : dynamic_cast<const BackendUnavailable*>(&error)                  ? Backend
-                                                                         : Other;
-    return pack(kind, error.what());
+    text = error.what();
+    kind = dynamic_cast<const InvalidOptions*>(&error)  ? Options
+      : dynamic_cast<const InvalidMesh*>(&error)        ? Mesh
+      : dynamic_cast<const MeshTooLarge*>(&error)       ? Size
+      : dynamic_cast<const BackendUnavailable*>(&error) ? Backend
+                                                        : Other;
   }
   catch (...)
   {
-    return pack(Other, "an exception of unknown type");
   }
+  text.push_back(kind);
+  return Message(text.begin(), text.end());
 }
 catch (const std::bad_alloc&)
 {

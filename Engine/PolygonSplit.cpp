@@ -36,13 +36,6 @@ SpaceVector AreaVector(const Offsets& offsets)
   return area;
 }
 
-SpaceVector AreaVector(const PointArray& points, const std::int64_t* ids, std::int64_t count)
-{
-  std::vector<SpaceVector> offsets(static_cast<std::size_t>(count));
-  LoadScaledOffsets(points, ids, count, 3, offsets);
-  return AreaVector(offsets);
-}
-
 int DominantAxis(const SpaceVector& vector)
 {
   const auto isSmaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
@@ -55,7 +48,9 @@ int DominantAxis(const SpaceVector& vector)
 std::vector<PlaneVector> Project(
   const PointArray& points, const std::int64_t* ids, std::int64_t count)
 {
-  const SpaceVector area = AreaVector(points, ids, count);
+  std::vector<SpaceVector> offsets(static_cast<std::size_t>(count));
+  LoadScaledOffsets(points, ids, count, 3, offsets);
+  const SpaceVector area = AreaVector(offsets);
   const int axis = DominantAxis(area);
   int u = (axis + 1) % 3;
   int v = (axis + 2) % 3;
@@ -97,25 +92,21 @@ int CompareNormals(const std::array<SpaceVector, 4>& quad, int first)
   return dot > 0.0 ? 1 : -1;
 }
 
-/// Whether the triangles of a quad fold if it is cut along 0-2, and do not if it is along 1-3.
-bool FoldsOnlyAlongFirst(const PointArray& points, const std::int64_t* ids)
-{
-  std::array<SpaceVector, 4> quad;
-  LoadScaledOffsets(points, ids, 4, 3, quad);
-  return CompareNormals(quad, 0) < 0 && CompareNormals(quad, 1) > 0;
-}
-
 int Turn(const std::vector<PlaneVector>& polygon, std::int64_t a, std::int64_t b, std::int64_t c)
 {
   return Orientation(polygon[a].data(), polygon[b].data(), polygon[c].data());
 }
 
 /// Whether to divide a quad along 1-3: if that is inside and 0-2 is not, or if only 0-2 folds.
-bool PrefersSecondDiagonal(const std::vector<PlaneVector>& quad, bool foldsAlongFirst)
+bool PrefersSecondDiagonal(
+  const PointArray& points, const std::int64_t* ids, const std::vector<PlaneVector>& quad)
 {
+  std::array<SpaceVector, 4> offsets;
+  LoadScaledOffsets(points, ids, 4, 3, offsets);
   const bool firstIsInside = Turn(quad, 0, 1, 2) > 0 && Turn(quad, 0, 2, 3) > 0;
   const bool secondIsInside = Turn(quad, 1, 2, 3) > 0 && Turn(quad, 1, 3, 0) > 0;
-  return foldsAlongFirst || (secondIsInside && !firstIsInside);
+  return (CompareNormals(offsets, 0) < 0 && CompareNormals(offsets, 1) > 0) ||
+    (secondIsInside && !firstIsInside);
 }
 
 /// Whether no corner turns right and no triangle of the fan is empty.
@@ -161,7 +152,7 @@ bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_
 {
   const std::vector<PlaneVector> polygon = Project(points, ids, count);
   Triples cut;
-  if (count == 4 && PrefersSecondDiagonal(polygon, FoldsOnlyAlongFirst(points, ids)))
+  if (count == 4 && PrefersSecondDiagonal(points, ids, polygon))
   {
     cut = { { 0, 1, 3 }, { 1, 2, 3 } };
   }

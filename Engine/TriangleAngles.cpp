@@ -7,7 +7,6 @@
 #include "ThreadBackend.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace delaunayflip
 {

@@ -28,11 +28,18 @@ struct CoordinateArray
   {
   }
 
-  /// The array, of whichever type; null if there is none.
-  const void* Data() const
+  /// Number i of the array, of whichever type.
+  DELAUNAYFLIP_HOST_DEVICE double GetNumber(std::int64_t i) const
   {
-    return this->Floats ? static_cast<const void*>(this->Floats) : this->Doubles;
+    return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
   }
+  /// Its address.
+  DELAUNAYFLIP_HOST_DEVICE const void* GetAddress(std::int64_t i) const
+  {
+    return this->Floats ? static_cast<const void*>(this->Floats + i) : this->Doubles + i;
+  }
+  /// The array; null if there is none.
+  const void* Data() const { return this->GetAddress(0); }
 
   const float* Floats = nullptr;
   const double* Doubles = nullptr; ///< If Floats is null.
@@ -47,16 +54,13 @@ struct PointArray : CoordinateArray
   /// Coordinate `axis` (0, 1, 2) of point `point` (0 .. Count - 1).
   DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
   {
-    const std::int64_t i = 3 * point + axis;
-    return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
+    return this->GetNumber(3 * point + axis);
   }
 
   /// Prefetches the coordinates of a point.
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t point) const
   {
-    const std::int64_t i = 3 * point;
-    delaunayflip::Prefetch(this->Floats ? static_cast<const void*>(this->Floats + i)
-                                        : static_cast<const void*>(this->Doubles + i));
+    delaunayflip::Prefetch(this->GetAddress(3 * point));
   }
 };
 
@@ -77,8 +81,7 @@ struct PlaneArray : CoordinateArray
   /// A coordinate, 0 (x) or 1 (y). -0.0 becomes 0.0, so that equal places have equal bits.
   DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t point, int axis) const
   {
-    const std::int64_t i = this->Stride * point + axis;
-    return (this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i]) + 0.0;
+    return this->GetNumber(this->Stride * point + axis) + 0.0;
   }
 };
 

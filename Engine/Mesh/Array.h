@@ -76,6 +76,13 @@ private:
   Memory* Owner = nullptr;
 };
 
+/// The size of a container, as ids count.
+template <typename Container>
+std::int64_t SizeOf(const Container& items)
+{
+  return static_cast<std::int64_t>(items.size());
+}
+
 //------------------------------------------------------------------------------
 // Where a backend writes results: the caller's whole array, or one slice of it at a time, to save
 // device memory.

@@ -16,7 +16,6 @@
 #include "WideAngles.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
@@ -241,26 +240,23 @@ template <typename Backend>
 Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
 {
   const EdgeMeshView mesh = edges.View();
-  const std::int64_t count = backend.template Sum<std::int64_t>(edges.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & sum)
-    { sum += MayBeRepeated(mesh, t) ? 1 : 0; });
+  const auto count = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+  { return MayBeRepeated(mesh, t) ? 1 : 0; };
+  const typename Backend::Numbering numbering = backend.Count(edges.NumberOfTriangles, count);
   IdSample repeated; // none in a clean mesh
-  if (count > 0)
+  if (numbering.Total > 0)
   {
-    Array<SortedTriangle> found = backend.template MakeArray<SortedTriangle>(count);
-    Array<std::uint32_t> cursor = backend.template MakeArray<std::uint32_t>(1);
+    Array<SortedTriangle> found = backend.template MakeArray<SortedTriangle>(numbering.Total);
     SortedTriangle* suspects = found.Data();
-    std::uint32_t* next = cursor.Data();
-    backend.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *next = 0; });
-    backend.ForEach(edges.NumberOfTriangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+    backend.ForEachNumbered(numbering, edges.NumberOfTriangles, count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t number)
       {
         if (MayBeRepeated(mesh, t))
         {
-          suspects[AtomicAdd(next, 1u)] = SortedTriangle(mesh.Triangles[t]);
+          suspects[number] = SortedTriangle(mesh.Triangles[t]);
         }
       });
-    repeated = FindRepeated(suspects, count, backend);
+    repeated = FindRepeated(suspects, numbering.Total, backend);
   }
   return MakeDefect("triangles that repeat another one's points", repeated);
 }
@@ -415,9 +411,8 @@ struct RoleStep
   {
     TriangleRecord& triangle = this->Triangles[t];
     // All three are read before anything is written, so that the loads overlap.
-    std::uint32_t roles = 0;
     bool known[3];
-    CornerId others[3];
+    CornerId others[3] = {};
     for (int slot = 0; slot < 3; ++slot)
     {
       known[slot] = this->Table.Slice.Holds(KeyOpposite(triangle, slot));
@@ -427,21 +422,16 @@ struct RoleStep
         const CornerId first = this->Table.First[triangle.HalfEdges[slot]];
         const CornerId second = this->Table.Second[triangle.HalfEdges[slot]];
         const bool isPair = second != NoCorner && second != ManyCorners;
-        others[slot] = isPair ? (first == corner ? second : first) : NoCorner;
-        const CornerRole ofPair = corner < others[slot] ? CornerRole::Leader : CornerRole::Follower;
-        const CornerRole role =
-          isPair ? ofPair : (second == NoCorner ? CornerRole::Alone : CornerRole::OneOfMany);
-        roles |= static_cast<std::uint32_t>(role) << (2 * slot);
+        others[slot] = isPair && first != corner ? first : second;
       }
     }
     for (int slot = 0; slot < 3; ++slot)
     {
       if (known[slot])
       {
-        triangle.HalfEdges[slot] = others[slot];
+        SetRole(triangle, t, slot, others[slot]);
       }
     }
-    triangle.Flips |= roles;
     return CountLeaders(triangle);
   }
 };

@@ -287,23 +287,30 @@ DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
   return leaders;
 }
 
-/// Writes the roles of the corners of triangle `t` into Flips. HalfEdges hold the edges' other
-/// corners: NoCorner for a boundary edge, and for a non-manifold one ManyCorners, which becomes
+/// Writes the role of a corner of triangle `t` into Flips, and the other corner of its edge into
+/// HalfEdges.
+/// @param other NoCorner for a boundary edge, and for a non-manifold one ManyCorners, which becomes
 /// NoCorner.
-/// @returns the number of edges that the triangle leads.
-DELAUNAYFLIP_HOST_DEVICE inline int SetRoles(TriangleRecord& triangle, std::int64_t t)
+DELAUNAYFLIP_HOST_DEVICE inline void SetRole(
+  TriangleRecord& triangle, std::int64_t t, int slot, CornerId other)
 {
   static_assert(static_cast<int>(CornerRole::Follower) == 0 &&
       static_cast<int>(CornerRole::Leader) == 1 && static_cast<int>(CornerRole::Alone) == 2 &&
       static_cast<int>(CornerRole::OneOfMany) == 3,
     "without branches, the two special ids being larger than any corner");
+  const std::uint32_t role = (MakeCorner(static_cast<TriangleId>(t), slot) < other ? 1 : 0) +
+    (other == NoCorner ? 1 : 0) + (other == ManyCorners ? 2 : 0);
+  triangle.Flips |= role << (2 * slot);
+  triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
+}
+
+/// The same for all corners, whose HalfEdges hold the other corners.
+/// @returns the number of edges that the triangle leads.
+DELAUNAYFLIP_HOST_DEVICE inline int SetRoles(TriangleRecord& triangle, std::int64_t t)
+{
   for (int slot = 0; slot < 3; ++slot)
   {
-    const CornerId other = triangle.HalfEdges[slot];
-    const std::uint32_t role = (MakeCorner(static_cast<TriangleId>(t), slot) < other ? 1 : 0) +
-      (other == NoCorner ? 1 : 0) + (other == ManyCorners ? 2 : 0);
-    triangle.Flips |= role << (2 * slot);
-    triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
+    SetRole(triangle, t, slot, triangle.HalfEdges[slot]);
   }
   return CountLeaders(triangle);
 }

@@ -122,37 +122,11 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsGentle(const Vector3 (&corners)[3], const
   return isSliver && areEdgesGentle;
 }
 
-/// A sum of areas in units of 2^-60, in two words so that a billion of them fit.
-struct AreaSum
-{
-  static constexpr int LowBits = 30;
-
-  std::int64_t High = 0;
-  std::int64_t Low = 0;
-
-  /// @param area below 4.
-  DELAUNAYFLIP_HOST_DEVICE void Add(double area)
-  {
-    constexpr double Units = 1152921504606846976.0; // 2^60
-    const auto units = static_cast<std::int64_t>(Units * area);
-    this->High += units >> LowBits;
-    this->Low += units & ((std::int64_t(1) << LowBits) - 1);
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE AreaSum& operator+=(const AreaSum& part)
-  {
-    this->High += part.High;
-    this->Low += part.Low;
-    return *this;
-  }
-
-  Integer128 Get() const { return (Integer128(this->High) << LowBits) + this->Low; }
-};
-
 struct TurnSums
 {
   TurnSample Turns; ///< In x and y.
-  AreaSum All, Gentle; ///< Area in space: of all, and of those that slope below 45 degrees.
+  /// Area in space, in units of 2^-60: of all triangles, and of those that slope below 45 degrees.
+  Integer128 All = 0, Gentle = 0;
 
   DELAUNAYFLIP_HOST_DEVICE TurnSums& operator+=(const TurnSums& part)
   {
@@ -210,12 +184,10 @@ struct TurnStep
       this->Triangles.GetCorner(t, 2) };
     sums.Turns.Note(FindTurn(corners[0], corners[1], corners[2]), t);
     const Vector3 normal = AreaVector(corners[0], corners[1], corners[2]);
-    const double area = Length(normal) * this->Factor * this->Factor;
-    sums.All.Add(area);
-    if (IsGentle(corners, normal))
-    {
-      sums.Gentle.Add(area);
-    }
+    const double area = Length(normal) * this->Factor * this->Factor; // below 4
+    const auto units = static_cast<std::int64_t>(0x1p60 * area);
+    sums.All += units;
+    sums.Gentle += IsGentle(corners, normal) ? units : 0;
   }
 };
 
@@ -509,9 +481,8 @@ private:
     const bool isHigh = IsHigherThanWide(this->Survey.Box);
     // Only mixed units extend like that, of a globe, say, cut where x jumps from 180 to -180.
     const bool mayStray = IsHigherThanWide(this->Survey.Box, 10.0) && turns.AreNearlyUniform();
-    const Integer128 area = sums.All.Get();
     const int gentle = // percent, rounded down
-      area > 0 ? static_cast<int>(100 * sums.Gentle.Get() / area) : 0;
+      sums.All > 0 ? static_cast<int>(100 * sums.Gentle / sums.All) : 0;
     const bool suits = isHigh || gentle >= MostlyGentle;
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
     const std::string field = "a height field over x and y" +

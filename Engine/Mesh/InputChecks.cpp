@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InputChecks.h"
 
+#include "CudaDevice.h"
 #include "FlipError.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include <numeric>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -94,6 +94,31 @@ void CheckMeshSize(std::int64_t triangles, std::int64_t points, const char* reme
       std::to_string(points) + " points; at most " + std::to_string(LargestMesh) +
       " triangles and " + std::to_string(MostPoints) + " points are supported " + remedy);
   }
+}
+
+std::vector<int> ParseDevices(const std::string& list)
+{
+  if (list == "all")
+  {
+    std::vector<int> devices(CountCudaDevices());
+    std::iota(devices.begin(), devices.end(), 0);
+    return devices;
+  }
+  std::vector<int> devices;
+  std::istringstream words(list + (list.empty() ? "" : ","));
+  for (std::string word; std::getline(words, word, ',');)
+  {
+    std::istringstream stream(word);
+    int device = -1;
+    const bool isNumber = (stream >> device) && (stream >> std::ws).eof();
+    if (!isNumber || device < 0)
+    {
+      throw InvalidOptions("'" + list +
+        "' is not a list of GPUs; give CUDA's numbers separated by commas (0,1), or all");
+    }
+    devices.push_back(device);
+  }
+  return devices;
 }
 
 }

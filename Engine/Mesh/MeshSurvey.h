@@ -161,10 +161,18 @@ enum class PointUse : std::uint8_t
   NotFinite ///< Used, and a coordinate that matters is NaN or infinite.
 };
 
+/// If it holds no point, Lower exceeds Upper.
 struct BoundingBox
 {
-  double Lower[3] = { 0.0, 0.0, 0.0 };
-  double Upper[3] = { 0.0, 0.0, 0.0 };
+  double Lower[3] = { INFINITY, INFINITY, INFINITY };
+  double Upper[3] = { -INFINITY, -INFINITY, -INFINITY };
+
+  /// NaN changes nothing.
+  DELAUNAYFLIP_HOST_DEVICE void Include(int axis, double lower, double upper)
+  {
+    this->Lower[axis] = lower < this->Lower[axis] ? lower : this->Lower[axis];
+    this->Upper[axis] = upper > this->Upper[axis] ? upper : this->Upper[axis];
+  }
 };
 
 struct MeshSurvey
@@ -175,7 +183,7 @@ struct MeshSurvey
   PlaneProjection Projection; ///< For the planar kinds.
   Array<PointUse> Uses; ///< One per point, in the backend's memory.
   std::int64_t UsedPoints = 0;
-  BoundingBox Box; ///< Of the used, finite points.
+  BoundingBox Box{ {}, {} }; ///< Of the used, finite points; all 0 without any.
   double SmallestMagnitude = INFINITY; ///< Of their coordinates that are not 0.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
   CoordinateRange Range = CoordinateRange::Usual; ///< Of the used, finite points.

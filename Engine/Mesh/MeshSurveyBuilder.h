@@ -48,19 +48,11 @@ struct IdSurvey
 };
 
 /// Bounding box and counts of the used points.
-struct PointSurvey
+struct PointSurvey : BoundingBox
 {
-  double Lower[3] = { INFINITY, INFINITY, INFINITY };
-  double Upper[3] = { -INFINITY, -INFINITY, -INFINITY };
   double Smallest = INFINITY; ///< Magnitude of a coordinate that is not 0.
   std::int64_t Used = 0;
   IdSample NonFinite;
-
-  DELAUNAYFLIP_HOST_DEVICE void Include(int axis, double lower, double upper)
-  {
-    this->Lower[axis] = lower < this->Lower[axis] ? lower : this->Lower[axis];
-    this->Upper[axis] = upper > this->Upper[axis] ? upper : this->Upper[axis];
-  }
 
   DELAUNAYFLIP_HOST_DEVICE void IncludeMagnitude(double magnitude)
   {
@@ -188,8 +180,7 @@ void SurveyPoints(
     MakeDefect("points with NaN or infinite coordinates", points.NonFinite, DefectIds::Points);
   if (points.Used > points.NonFinite.Count)
   {
-    std::copy_n(points.Lower, 3, survey.Box.Lower);
-    std::copy_n(points.Upper, 3, survey.Box.Upper);
+    survey.Box = points;
     survey.SmallestMagnitude = points.Smallest;
   }
 }

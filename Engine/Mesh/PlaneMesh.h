@@ -27,9 +27,7 @@ struct PlaneMesh
   }
   void PrefetchPoint(VertexId vertex) const
   {
-    const std::int64_t i = this->Places.Stride * vertex;
-    Prefetch(this->Places.Floats ? static_cast<const void*>(this->Places.Floats + i)
-                                 : this->Places.Doubles + i);
+    Prefetch(this->Places.GetAddress(this->Places.Stride * vertex));
   }
   DELAUNAYFLIP_HOST_DEVICE bool IsFinite(VertexId vertex) const
   {

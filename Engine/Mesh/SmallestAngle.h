@@ -145,31 +145,8 @@ bool KeepsWorstSliver(EdgeMesh& mesh, const PackedPoints& points, CoordinateRang
         { worse += survey.Measure(t) > kept ? 1 : 0; }) < Worst);
 }
 
-/// The angle between two edges from a corner, in degrees.
-DELAUNAYFLIP_HOST_DEVICE inline double AngleBetween(const Vector3& first, const Vector3& second)
-{
-  return std::atan2(Length(Cross(first, second)), Dot(first, second)) / DegreesToRadians;
-}
-
-/// The smallest angle of a triangle with these points, which must be finite, in degrees.
-DELAUNAYFLIP_HOST_DEVICE inline double MeasureSmallestAngle(
-  const PointArray& points, const std::int64_t* ids, int axes)
-{
-  double x[3][3] = {};
-  LoadScaledOffsets(points, ids, 3, axes, x);
-  const Vector3 a = { x[0][0], x[0][1], x[0][2] };
-  const Vector3 b = { x[1][0], x[1][1], x[1][2] };
-  const Vector3 c = { x[2][0], x[2][1], x[2][2] };
-  // Products of edges are cotangents times twice the area: the largest is at the smallest angle.
-  const double atA = Dot(b - a, c - a), atB = Dot(c - b, a - b), atC = Dot(a - c, b - c);
-  if (atA >= atB && atA >= atC)
-  {
-    return AngleBetween(b - a, c - a);
-  }
-  return atB >= atC ? AngleBetween(c - b, a - b) : AngleBetween(a - c, b - c);
-}
-
-/// The same for triangle t of a mesh; NaN if a coordinate is not finite or a point does not exist.
+/// The smallest angle of triangle t of a mesh, in degrees; NaN if a coordinate is not finite or a
+/// point does not exist.
 DELAUNAYFLIP_HOST_DEVICE inline double FindSmallestAngle(
   const TriangleMesh& mesh, GeometryKind geometry, std::int64_t t)
 {
@@ -182,7 +159,25 @@ DELAUNAYFLIP_HOST_DEVICE inline double FindSmallestAngle(
       return std::numeric_limits<double>::quiet_NaN();
     }
   }
-  return MeasureSmallestAngle(mesh.Points, ids, geometry == GeometryKind::PlanarXY ? 2 : 3);
+  double x[3][3] = {};
+  LoadScaledOffsets(mesh.Points, ids, 3, geometry == GeometryKind::PlanarXY ? 2 : 3, x);
+  // Products of edges are cotangents times twice the area: the largest is at the smallest angle.
+  double largest = -INFINITY;
+  Vector3 first, second; // the edges there
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const auto edgeTo = [&](int end) {
+      return Vector3{ x[end][0] - x[slot][0], x[end][1] - x[slot][1], x[end][2] - x[slot][2] };
+    };
+    const Vector3 next = edgeTo((slot + 1) % 3), last = edgeTo((slot + 2) % 3);
+    if (Dot(next, last) > largest)
+    {
+      largest = Dot(next, last);
+      first = next;
+      second = last;
+    }
+  }
+  return std::atan2(Length(Cross(first, second)), largest) / DegreesToRadians;
 }
 
 }

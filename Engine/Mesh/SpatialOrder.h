@@ -278,22 +278,18 @@ SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const B
 // precision.
 
 /// Plain pointers to PackedPoints, for functions of both backends.
-struct PackedPointsView
+struct PackedPointsView : CoordinateArray
 {
   int Components;
-  const float* Floats; ///< Or null, then Doubles.
-  const double* Doubles;
 
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE double Get(
     VertexId vertex, int component) const
   {
-    const std::size_t i = std::size_t(this->Components) * vertex + component;
-    return this->Floats ? static_cast<double>(this->Floats[i]) : this->Doubles[i];
+    return this->GetNumber(std::int64_t(this->Components) * vertex + component);
   }
   DELAUNAYFLIP_HOST_DEVICE const void* Address(VertexId vertex) const
   {
-    const std::size_t i = std::size_t(this->Components) * vertex;
-    return this->Floats ? static_cast<const void*>(this->Floats + i) : this->Doubles + i;
+    return this->GetAddress(std::int64_t(this->Components) * vertex);
   }
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE PlanePoint GetPlanePoint(
     VertexId vertex) const
@@ -322,8 +318,9 @@ struct PackedPoints
 
   PackedPointsView View() const
   {
-    return { this->Components, this->IsFloat() ? this->Floats.Data() : nullptr,
-      this->Doubles.Data() };
+    return { this->IsFloat() ? CoordinateArray(this->Floats.Data(), this->Count)
+                             : CoordinateArray(this->Doubles.Data(), this->Count),
+      this->Components };
   }
 };
 
@@ -348,13 +345,13 @@ struct PackingPlan
 };
 
 /// Packs the point of a rank.
+template <typename Real>
 struct PackStep
 {
   PointArray Points;
   SpatialOrderView Order;
   PackingPlan Plan;
-  float* Floats;
-  double* Doubles;
+  Real* Packed;
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t rank) const
   {
@@ -365,16 +362,8 @@ struct PackStep
     const VertexId point = this->Order.GetVertex(rank);
     for (int k = 0; k < this->Plan.Components; ++k)
     {
-      const std::size_t i = std::size_t(this->Plan.Components) * rank + k;
-      const double x = this->Plan.GetValue(this->Points, point, k);
-      if (this->Plan.AsFloat)
-      {
-        this->Floats[i] = static_cast<float>(x);
-      }
-      else
-      {
-        this->Doubles[i] = x;
-      }
+      this->Packed[this->Plan.Components * rank + k] =
+        static_cast<Real>(this->Plan.GetValue(this->Points, point, k));
     }
   }
 };
@@ -387,11 +376,13 @@ PackedPoints PackPoints(const PointArray& points, const SpatialOrderView& order,
   PackedPoints packed;
   packed.Components = plan.Components;
   packed.Count = points.Count;
-  const std::int64_t size = plan.Components * points.Count;
-  packed.Floats = backend.template MakeArray<float>(plan.AsFloat ? size : 0);
-  packed.Doubles = backend.template MakeArray<double>(plan.AsFloat ? 0 : size);
-  backend.ForEach(
-    points.Count, PackStep{ points, order, plan, packed.Floats.Data(), packed.Doubles.Data() });
+  const auto pack = [&](auto& array)
+  {
+    using Real = std::decay_t<decltype(array[0])>;
+    array = backend.template MakeArray<Real>(plan.Components * points.Count);
+    backend.ForEach(points.Count, PackStep<Real>{ points, order, plan, array.Data() });
+  };
+  plan.AsFloat ? pack(packed.Floats) : pack(packed.Doubles);
   return packed;
 }
 

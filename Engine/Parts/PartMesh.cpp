@@ -8,8 +8,6 @@
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
-#include <limits>
-
 namespace delaunayflip
 {
 
@@ -133,8 +131,7 @@ std::int64_t PartMesh::FindPoint(std::int64_t key) const
 //------------------------------------------------------------------------------
 double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
 {
-  return ToDegrees(FindLargestCotangent(static_cast<std::int64_t>(this->Triangles.size()), survey,
-    ThreadBackend(threads),
+  return ToDegrees(FindLargestCotangent(SizeOf(this->Triangles), survey, ThreadBackend(threads),
     [&](std::int64_t t, double(&x)[3][3])
     {
       for (int slot = 0; slot < 3; ++slot)
@@ -276,7 +273,7 @@ void PartMesh::PrefetchPoints(std::int64_t triangle) const
 {
   for (const std::int32_t point : this->Triangles[triangle].Points)
   {
-    this->PrefetchPoint(point);
+    this->Given.Prefetch(point < this->Given.Count ? point : 0);
   }
 }
 
@@ -288,6 +285,7 @@ std::vector<TravellingTriangle> PartMesh::Release(const std::vector<std::int64_t
   {
     PartTriangle& triangle = this->Triangles[t];
     TravellingTriangle& to = packed.emplace_back();
+    to.Triangle = triangle;
     for (int slot = 0; slot < 3; ++slot)
     {
       const std::int32_t point = triangle.Points[slot];
@@ -300,9 +298,6 @@ std::vector<TravellingTriangle> PartMesh::Release(const std::vector<std::int64_t
       this->Stars.Remove({ t, slot }, point);
       this->SharePoint(point);
     }
-    to.Origin = triangle.Origin;
-    to.Flips = triangle.Flips;
-    to.Marks = triangle.Marks;
     triangle.HasLeft = true;
   }
   return packed;
@@ -316,18 +311,17 @@ std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
   {
     throw MeshTooLarge("a piece has too many triangles: divide the mesh among more ranks");
   }
-  const auto t = static_cast<std::int64_t>(this->Triangles.size());
-  this->Triangles.push_back({});
+  const auto t = SizeOf(this->Triangles);
+  this->Triangles.push_back(packed.Triangle);
   PartTriangle& triangle = this->Triangles[t];
+  triangle.IsNoted = false;
+  triangle.Step = TriangleStep::None;
   for (int slot = 0; slot < 3; ++slot)
   {
     triangle.Points[slot] = this->FindOrAddPoint(packed.Keys[slot], packed.Coordinates[slot]);
     this->SharePoint(triangle.Points[slot]);
     this->Stars.Add({ t, slot }, triangle.Points[slot]);
   }
-  triangle.Origin = packed.Origin;
-  triangle.Flips = packed.Flips;
-  triangle.Marks = packed.Marks;
   this->NoteChange(t);
   return t;
 }

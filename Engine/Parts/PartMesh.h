@@ -180,11 +180,9 @@ private:
 /// A triangle as it is sent to another rank.
 struct TravellingTriangle
 {
+  PartTriangle Triangle; ///< With other ids there.
   std::int64_t Keys[3];
   double Coordinates[3][3];
-  std::int64_t Origin;
-  std::int32_t Flips;
-  unsigned char Marks;
 };
 
 /// The triangles that a rank has at the moment, and all points that it has ever had.
@@ -238,7 +236,7 @@ public:
 
   bool IsShared(std::int64_t point) const { return this->Points.Shared[point] != 0; }
   /// Whether two different points are shared.
-  bool AreShared(const std::int64_t* ends) const
+  bool AreShared(const PointPair& ends) const
   {
     return ends[0] != ends[1] && this->IsShared(ends[0]) && this->IsShared(ends[1]);
   }
@@ -247,10 +245,7 @@ public:
   const PointKeys& GetPointKeys() const { return this->Points; }
   std::int32_t GetRank() const { return this->Rank; }
 
-  std::int64_t GetNumberOfPoints() const
-  {
-    return static_cast<std::int64_t>(this->Points.Keys.size());
-  }
+  std::int64_t GetNumberOfPoints() const { return SizeOf(this->Points.Keys); }
   std::int64_t GetKey(std::int64_t point) const { return this->Points.Keys[point]; }
   /// The id of a key here, or -1.
   std::int64_t FindPoint(std::int64_t key) const;
@@ -260,13 +255,6 @@ public:
     for (int axis = 0; axis < 3; ++axis)
     {
       x[axis] = received < 0 ? this->Given.Get(point, axis) : this->Received[3 * received + axis];
-    }
-  }
-  void PrefetchPoint(std::int32_t point) const
-  {
-    if (point < this->Given.Count)
-    {
-      this->Given.Prefetch(point);
     }
   }
   PointPair GetKeys(const PointPair& pair) const

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <unordered_set>
 #include <utility>
 
 /// @file
@@ -34,6 +35,96 @@ constexpr std::int64_t MostRounds = 1000;
 /// Nor that those of a round end, so it takes at most so many iterations more than the rank has
 /// triangles.
 constexpr std::int64_t SafetyMargin = 1000;
+
+// The guard keeps a flip from making an edge that another rank has. Such an edge could only join
+// two shared points. So when ranks flip alone, they do not flip an edge whose flip would join two
+// shared points: the edge waits. Afterwards all ranks are asked whether the new edge exists. If it
+// does not, one rank may make it.
+
+/// An edge to flip, and the edge that this would make.
+struct FlipQuestion
+{
+  PointPair Ends; ///< Keys.
+  PointPair Opposite; ///< Keys.
+  bool IsSeam; ///< Between ranks, so that it cannot flip now.
+};
+
+/// An inner edge of a rank that waits, with the two corners opposite to it.
+struct WaitingFlip : FlipQuestion
+{
+  PartCorner One, Other;
+};
+
+/// What has become of waiting edges in a round, on one rank.
+struct WaitedFlips
+{
+  std::int64_t FreeOfAll = 0; ///< How many edges may flip, on all ranks and between them.
+  std::vector<std::int64_t> Changed; ///< The triangles of the edges that this rank has flipped.
+  std::vector<PointPair> Gone; ///< The ends of these edges before the flip.
+};
+
+/// Of the inner edges of some triangles, those whose two opposite points are both shared, that are
+/// bad and whose flip would not fold the mesh over; in the order of the later of their triangles.
+std::vector<WaitingFlip> FindWaiting(
+  PartMesh& mesh, std::vector<std::int64_t> triangles, const QuadJudge& judge)
+{
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  std::vector<WaitingFlip> waiting;
+  for (const std::int64_t t : triangles)
+  {
+    for (int slot = 0; slot < 3 && !mesh.Triangles[t].HasLeft; ++slot)
+    {
+      const PartCorner corner{ t, slot };
+      const PartCorner mate = mesh.IsShared(mesh.Triangles[t].Points[slot])
+        ? mesh.FindOpenMate(corner)
+        : PartCorner{ -1, 0 };
+      const bool isNew = mate.Triangle > t ||
+        (mate.Triangle >= 0 &&
+          !std::binary_search(triangles.begin(), triangles.end(), mate.Triangle));
+      if (isNew && mesh.IsShared(mesh.Triangles[mate.Triangle].Points[mate.Slot]) &&
+        judge.Judge(mesh, corner, mate) == EdgeState::Bad)
+      {
+        const auto& [one, other] = std::minmax(corner, mate);
+        waiting.push_back({ { mesh.GetKeys(mesh.Triangles[t].GetEdge(slot)),
+                              mesh.GetKeys({ mesh.Triangles[t].Points[slot],
+                                mesh.Triangles[mate.Triangle].Points[mate.Slot] }),
+                              false },
+          one, other });
+      }
+    }
+  }
+  std::sort(waiting.begin(), waiting.end(),
+    [](const WaitingFlip& a, const WaitingFlip& b) { return a.Other < b.Other; });
+  return waiting;
+}
+
+/// The edges that may be made, and by the flip of which edge: of those that can flip now, or else
+/// of the others, the first that asked. All ranks come to the same answers.
+PairMap<PointPair> GrantFlips(
+  const PartMesh& mesh, const std::vector<FlipQuestion>& own, PieceGroup& group)
+{
+  std::vector<FlipQuestion> all = Join(GatherRecords(group, own));
+  std::stable_partition(
+    all.begin(), all.end(), [](const FlipQuestion& one) { return !one.IsSeam; });
+  std::vector<unsigned char> exists; // the edge that the flip would make
+  for (const FlipQuestion& question : all)
+  {
+    const std::int64_t a = mesh.FindPoint(question.Opposite[0]);
+    const std::int64_t b = mesh.FindPoint(question.Opposite[1]);
+    exists.push_back(a >= 0 && b >= 0 && mesh.HasEdge(a, b) ? 1 : 0);
+  }
+  exists = FindMaxima(group, std::move(exists));
+  PairMap<PointPair> granted;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (exists[i] == 0)
+    {
+      granted.emplace(all[i].Opposite, all[i].Ends);
+    }
+  }
+  return granted;
+}
 }
 
 /// What a rank does in a run.
@@ -76,22 +167,18 @@ public:
     flipped.Clear();
     flipped.AreFloats = this->Job.Survey.IsFloat;
     constexpr std::uint32_t Gone = 0xFFFFFFFFu;
-    HostVector<std::uint32_t> own(count, Gone); // by slot; some have come back
-    std::vector<std::int64_t> others;
+    HostVector<std::uint32_t> order(count, Gone); // those of this rank by slot; some have come back
     for (std::size_t t = 0; t < triangles.size(); ++t)
     {
       const std::int64_t slot = triangles[t].Origin - first;
-      if (slot >= 0 && slot < count && !triangles[t].HasLeft)
+      const bool isOwn = slot >= 0 && slot < count;
+      if (!triangles[t].HasLeft)
       {
-        own[slot] = static_cast<std::uint32_t>(t);
-      }
-      else if (!triangles[t].HasLeft)
-      {
-        others.push_back(static_cast<std::int64_t>(t));
+        (isOwn ? order[slot] : order.emplace_back()) = static_cast<std::uint32_t>(t);
       }
     }
-    std::sort(others.begin(), others.end(),
-      [&](std::int64_t a, std::int64_t b) { return triangles[a].Origin < triangles[b].Origin; });
+    std::sort(order.begin() + count, order.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return triangles[a].Origin < triangles[b].Origin; });
 
     std::vector<std::int32_t> idOfReceived(
       this->Mesh.GetNumberOfPoints() - this->Mesh.GetFirstReceived(), -1);
@@ -114,30 +201,23 @@ public:
       }
       return id;
     };
-    const auto store = [&](const PartTriangle& triangle)
+    flipped.Triangles.reserve(3 * order.size());
+    flipped.FlipCounts.reserve(order.size());
+    for (std::int64_t i = 0; i < SizeOf(order); ++i)
     {
+      if (order[i] == Gone)
+      {
+        flipped.GoneTriangles.push_back(i);
+        continue;
+      }
+      const PartTriangle& triangle = triangles[order[i]];
+      if (i >= count)
+      {
+        flipped.ReceivedTriangles.push_back(this->Origins.Find(triangle.Origin));
+      }
       flipped.FlipCounts.push_back(triangle.Flips);
       std::transform(
         triangle.Points, triangle.Points + 3, std::back_inserter(flipped.Triangles), storePoint);
-    };
-    const std::size_t size = count + others.size(); // at most
-    flipped.Triangles.reserve(3 * size);
-    flipped.FlipCounts.reserve(size);
-    for (std::int64_t slot = 0; slot < count; ++slot)
-    {
-      if (own[slot] == Gone)
-      {
-        flipped.GoneTriangles.push_back(slot);
-      }
-      else
-      {
-        store(triangles[own[slot]]);
-      }
-    }
-    for (const std::int64_t t : others)
-    {
-      flipped.ReceivedTriangles.push_back(this->Origins.Find(triangles[t].Origin));
-      store(triangles[t]);
     }
   }
 
@@ -239,22 +319,11 @@ private:
     const std::vector<std::int64_t> changed = this->Mesh.TakeChanged();
     SeamTest test = this->Tester.Run(this->Mesh, changed, this->Judge, group);
     this->Seams = test.OfAll;
-    GuardRound waiting;
-    waiting.FreeOfAll = test.OfAll.Bad;
+    WaitedFlips waiting{ test.OfAll.Bad, {}, {} };
     if (needsGuard && mayGoOn)
     {
       this->Waiting.insert(this->Waiting.end(), changed.begin(), changed.end());
-      waiting = AskForFlips(this->Mesh, this->Judge, this->Waiting, test, group);
-      if (!this->IsAtLimit())
-      {
-        waiting.Flip(this->Mesh, test);
-      }
-      if (!waiting.Gone.empty()) // all at once
-      {
-        IterationRecord row;
-        row.Tested = row.NonDelaunay = row.Flipped = static_cast<std::int64_t>(waiting.Gone.size());
-        this->KeepRow(row);
-      }
+      waiting = this->FlipWaiting(test);
     }
     if (!mayGoOn || waiting.FreeOfAll == 0)
     {
@@ -287,13 +356,62 @@ private:
     return true;
   }
 
+  /// Flips waiting edges as far as the guard allows. Other edges can have become bad only where
+  /// triangles have changed. Removes from `test` the seam edges whose flip would make an edge that
+  /// exists or that another flip makes, and those whose triangle has just changed. All ranks must
+  /// call this together.
+  WaitedFlips FlipWaiting(SeamTest& test)
+  {
+    std::vector<WaitingFlip> flips;
+    DoTogether(this->Job.Group,
+      [&]() { flips = FindWaiting(this->Mesh, std::move(this->Waiting), this->Judge); });
+    std::vector<FlipQuestion> questions(flips.begin(), flips.end());
+    for (const BadSeam& seam : test.Bad)
+    {
+      questions.push_back({ seam.Ends, seam.Opposite, true });
+    }
+    const PairMap<PointPair> granted = GrantFlips(this->Mesh, questions, this->Job.Group);
+    const auto isGranted = [&](const PointPair& ends, const PointPair& opposite)
+    {
+      const auto found = granted.find(opposite);
+      return found != granted.end() && found->second == ends;
+    };
+    WaitedFlips waited{ SizeOf(granted), {}, {} };
+    std::unordered_set<std::int64_t> changed; // each triangle only once
+    this->Waiting.clear();
+    for (const WaitingFlip& flip : flips)
+    {
+      const std::int64_t one = flip.One.Triangle, other = flip.Other.Triangle;
+      this->Waiting.insert(this->Waiting.end(), { one, other });
+      if (!this->IsAtLimit() && changed.count(one) == 0 && changed.count(other) == 0 &&
+        isGranted(flip.Ends, flip.Opposite))
+      {
+        waited.Gone.push_back(this->Mesh.Triangles[one].GetEdge(flip.One.Slot));
+        this->Mesh.Flip(flip.One, flip.Other);
+        waited.Changed.insert(waited.Changed.end(), { one, other });
+        changed.insert({ one, other });
+      }
+    }
+    // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.
+    const auto mustStay = [&](const BadSeam& seam)
+    { return changed.count(seam.Triangle) > 0 || !isGranted(seam.Ends, seam.Opposite); };
+    test.Bad.erase(std::remove_if(test.Bad.begin(), test.Bad.end(), mustStay), test.Bad.end());
+    if (!waited.Gone.empty()) // all at once
+    {
+      IterationRecord row;
+      row.Tested = row.NonDelaunay = row.Flipped = SizeOf(waited.Gone);
+      this->KeepRow(row);
+    }
+    return waited;
+  }
+
   void Flip(RoundFlips& flips)
   {
     const StopWatch watch;
     const double rounds = static_cast<double>(this->Whole.Rounds);
     const std::int64_t limit = this->Job.Options.MaximumIterations >= 0
       ? this->EarlierRows + this->Job.Options.MaximumIterations - this->Iterations
-      : this->CountRows() + static_cast<std::int64_t>(this->Mesh.Triangles.size()) + SafetyMargin;
+      : this->CountRows() + SizeOf(this->Mesh.Triangles) + SafetyMargin;
     while (!flips.AreDone() && this->StopReason == StopReasonKind::Converged)
     {
       if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
@@ -318,7 +436,7 @@ private:
     this->Own.FlipSeconds += watch.GetSeconds();
   }
 
-  std::int64_t CountRows() const { return static_cast<std::int64_t>(this->Own.Iterations.size()); }
+  std::int64_t CountRows() const { return SizeOf(this->Own.Iterations); }
 
   /// Keeps an iteration of this rank. Those of all ranks with the same place in the same round are
   /// one iteration of the whole mesh.
@@ -354,7 +472,7 @@ private:
       this->BeginRounds(); // which finds the mates of corners
     }
     const RoundFlips flips(this->Mesh, this->Judge, this->Job.Survey.NeedsGuard());
-    const auto count = static_cast<std::int64_t>(this->Mesh.Triangles.size());
+    const auto count = SizeOf(this->Mesh.Triangles);
     for (std::int64_t t = 0; t < count; ++t)
     {
       for (int slot = 0; slot < 3 && !this->Mesh.Triangles[t].HasLeft; ++slot)
@@ -407,7 +525,7 @@ private:
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
-  std::vector<std::int64_t> Waiting; ///< Triangles of edges that may wait (AskForFlips).
+  std::vector<std::int64_t> Waiting; ///< Triangles of edges that are bad and may wait.
   PartConstraints Constraints;
 
   // Of this rank:

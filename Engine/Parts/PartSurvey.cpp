@@ -15,12 +15,6 @@
 #include "TriangleAngles.h"
 
 #include <array>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <numeric>
-#include <tuple>
-#include <utility>
 
 namespace delaunayflip
 {
@@ -36,30 +30,15 @@ std::uint64_t GetHash(const Place& place)
   return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
 }
 
-/// If it holds no point, Lower exceeds Upper.
-struct Box
+bool Holds(const BoundingBox& box, const double (&x)[3])
 {
-  static constexpr double Inf = std::numeric_limits<double>::infinity();
-  double Lower[3] = { Inf, Inf, Inf }, Upper[3] = { -Inf, -Inf, -Inf };
-
-  void Add(const double (&x)[3])
+  bool holds = true;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Lower[axis] = std::min(this->Lower[axis], x[axis]);
-      this->Upper[axis] = std::max(this->Upper[axis], x[axis]);
-    }
+    holds = holds && box.Lower[axis] <= x[axis] && x[axis] <= box.Upper[axis];
   }
-  bool Holds(const double (&x)[3]) const
-  {
-    bool holds = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      holds = holds && this->Lower[axis] <= x[axis] && x[axis] <= this->Upper[axis];
-    }
-    return holds;
-  }
-};
+  return holds;
+}
 
 /// A point of one rank that another may have, too.
 struct Candidate
@@ -71,34 +50,6 @@ struct Candidate
   bool IsInside; ///< It has no number and is not at the border of its part.
 };
 
-/// One number per point: 0 if its triangles form a closed fan, or closed fans, or it has none.
-/// @param used one flag per point; set to 1 where a triangle has it.
-Array<std::uint64_t> SumFans(
-  const TriangleMesh& mesh, const ThreadBackend& threads, unsigned char* used)
-{
-  Array<std::uint64_t> fans = threads.MakeArray<std::uint64_t>(mesh.Points.Count);
-  threads.ForEach(mesh.Points.Count, [&](std::int64_t i) { fans[i] = 0; });
-  threads.ForEach(mesh.Triangles.Count,
-    [&](std::int64_t t)
-    {
-      std::int64_t ids[3];
-      std::uint64_t bits[3];
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        ids[slot] = mesh.Triangles.Get(t, slot);
-        bits[slot] = ScatterBits(ids[slot]);
-      }
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        // Around a closed fan every neighbour is the next one once, and once the previous one.
-        __atomic_fetch_add(
-          &fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
-        AtomicStore<unsigned char>(&used[ids[slot]], 1);
-      }
-    });
-  return fans;
-}
-
 /// What is known of the points of a piece.
 class PiecePoints
 {
@@ -108,12 +59,31 @@ public:
     : Mesh(piece.Mesh),
       Used(Mesh.Points.Count, 0),
       Numbers(haveNumbers ? piece.PointNumbers : nullptr),
-      Fans(SumFans(Mesh, threads, Used.data())),
-      Ends(Mesh.Points.Count, 0)
+      Fans(threads.MakeArray<std::uint64_t>(Mesh.Points.Count))
   {
+    threads.ForEach(this->Mesh.Points.Count, [&](std::int64_t i) { this->Fans[i] = 0; });
+    threads.ForEach(this->Mesh.Triangles.Count,
+      [&](std::int64_t t)
+      {
+        std::int64_t ids[3];
+        std::uint64_t bits[3];
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          ids[slot] = this->Mesh.Triangles.Get(t, slot);
+          bits[slot] = ScatterBits(ids[slot]);
+        }
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          // Around a closed fan every neighbour is the next one once, and once the previous one.
+          __atomic_fetch_add(
+            &this->Fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
+          AtomicStore<unsigned char>(&this->Used[ids[slot]], 1);
+        }
+      });
     for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
     {
-      this->Ends[this->Mesh.ConstraintEdges[i]] = 1;
+      const std::int64_t end = this->Mesh.ConstraintEdges[i];
+      this->Fans[end] = this->Used[end] != 0 ? this->Fans[end] : 1;
     }
   }
 
@@ -123,17 +93,14 @@ public:
   {
     return this->Used[point] != 0 && this->Fans[point] == 0;
   }
+  /// Whether a point is at the border of the part: its triangles do not form a closed fan, or it
+  /// has none and is the end of a constraint. Also true where triangles are not wound consistently.
+  bool IsAtBorder(std::int64_t point) const { return this->Fans[point] != 0; }
   /// Whether a point must be matched with points of other ranks: a triangle has it, or it is the
   /// end of a constraint.
   bool IsWanted(std::int64_t point) const
   {
-    return this->Used[point] != 0 || this->Ends[point] != 0;
-  }
-  /// Whether a point is at the border of the part: its triangles do not form a closed fan, or it
-  /// has none and is the end of a constraint. Also true where triangles are not wound consistently.
-  bool IsAtBorder(std::int64_t point) const
-  {
-    return this->Fans[point] != 0 || (this->Used[point] == 0 && this->Ends[point] != 0);
+    return this->Used[point] != 0 || this->IsAtBorder(point);
   }
 
   /// @returns whether the coordinates are numbers.
@@ -181,8 +148,9 @@ public:
 
 private:
   const std::int64_t* Numbers; ///< Of the points, or null.
-  Array<std::uint64_t> Fans; ///< SumFans.
-  std::vector<unsigned char> Ends; ///< One flag per point: whether it is the end of a constraint.
+  /// One number per point: 0 if its triangles form a closed fan, or closed fans, or it has none and
+  /// is not the end of a constraint.
+  Array<std::uint64_t> Fans;
 };
 
 /// Calls visit(same) for the candidates at each place, if several ranks have it and one of them is
@@ -218,7 +186,7 @@ std::int64_t ForEachShared(std::vector<Candidate> all, const Visit& visit)
     }
     if (isRepeated)
     {
-      ambiguous += static_cast<std::int64_t>(list.size());
+      ambiguous += SizeOf(list);
       return;
     }
     visit(list);
@@ -239,17 +207,17 @@ RecordLists<std::uint64_t> AskForPoints(const PiecePoints& points, PieceGroup& g
   {
     return RecordLists<std::uint64_t>(1); // without a pass over all points
   }
-  Box used; // NaN changes nothing
+  BoundingBox used;
   double x[3];
   for (std::int64_t i = 0; i < points.Mesh.Points.Count; ++i)
   {
-    if (points.Used[i] != 0)
+    points.GetPosition(i, x);
+    for (int axis = 0; axis < 3 && points.Used[i] != 0; ++axis)
     {
-      points.GetPosition(i, x);
-      used.Add(x);
+      used.Include(axis, x[axis], x[axis]);
     }
   }
-  const RecordLists<Box> boxes = GatherRecords(group, std::vector<Box>{ used });
+  const RecordLists<BoundingBox> boxes = GatherRecords(group, std::vector<BoundingBox>{ used });
   RecordLists<std::uint64_t> questions(boxes.size());
   for (std::int64_t i = 0; i < points.Mesh.Points.Count; ++i)
   {
@@ -262,7 +230,7 @@ RecordLists<std::uint64_t> AskForPoints(const PiecePoints& points, PieceGroup& g
     const bool isSomewhere = points.GetPosition(i, x);
     for (int rank = 0; rank < group.GetSize(); ++rank)
     {
-      if (rank != group.GetRank() && (!isSomewhere || boxes[rank].front().Holds(x)))
+      if (rank != group.GetRank() && (!isSomewhere || Holds(boxes[rank].front(), x)))
       {
         questions[rank].push_back(GetHash(place));
       }
@@ -336,7 +304,7 @@ JoinedPoints JoinPoints(const std::vector<MeshPiece>& pieces)
   std::vector<Candidate> all;
   for (std::size_t number = 0; number < pieces.size(); ++number)
   {
-    const auto first = static_cast<std::int64_t>(joined.Same.size());
+    const auto first = SizeOf(joined.Same);
     PiecePoints(pieces[number], haveNumbers, threads)
       .List(
         first, static_cast<int>(number), [](const Place&) { return true; },
@@ -476,6 +444,15 @@ PartSurvey SurveyParts(
 //------------------------------------------------------------------------------
 namespace
 {
+/// The place of a corner in the plane.
+PlanePoint GetPlace(
+  const TriangleMesh& mesh, const PlaneProjection& plane, std::int64_t triangle, int slot)
+{
+  PlanePoint place = plane.Project(mesh.Points, mesh.Triangles.Get(triangle, slot));
+  place.W = 0.0;
+  return place;
+}
+
 /// Counts how a triangle turns, and which of its corners at closed points cover the direction +u.
 /// The triangles around a closed point turn around it a whole number of times. If its star is
 /// simple, +u is covered once.
@@ -499,8 +476,7 @@ struct StarTurnStep
     bool isFinite = true;
     for (int slot = 0; slot < 3; ++slot)
     {
-      p[slot] = this->Plane.Project(this->Mesh.Points, this->Mesh.Triangles.Get(t, slot));
-      p[slot].W = 0.0;
+      p[slot] = GetPlace(this->Mesh, this->Plane, t, slot);
       isFinite = isFinite && IsFinite(p[slot]);
     }
     const int side = isFinite ? FindOrientation(p[0], p[1], p[2]) : 0;
@@ -566,12 +542,7 @@ RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PartSurvey& survey
         continue;
       }
       const int first = (slot + (survey.Whole.Side > 0 ? 1 : 2)) % 3;
-      const auto place = [&](int corner)
-      {
-        PlanePoint p = survey.Projection.Project(mesh.Points, mesh.Triangles.Get(t, corner));
-        p.W = 0.0;
-        return p;
-      };
+      const auto place = [&](int corner) { return GetPlace(mesh, survey.Projection, t, corner); };
       const Wedge wedge{ keys.Keys[point], place(slot), place(first), place(3 - slot - first) };
       const int home =
         keys.Shared[point] ? GetHome(ScatterBits(wedge.Key), group) : group.GetRank();

@@ -56,7 +56,7 @@ struct PartSurvey : MeshSurvey
   PartSurvey(MeshSurvey found, bool isFloat);
 
   /// Whether a flip could make an edge that already exists on some rank. Then flips need a guard
-  /// (GuardRound).
+  /// (PartRun.cpp).
   bool NeedsGuard() const { return !this->Whole.StarsAreSimple; }
   /// Of ids and coordinates.
   std::vector<Defect> ListDefects() const;

@@ -5,9 +5,7 @@
 #include "FlipError.h"
 
 #include <iomanip>
-#include <limits>
 #include <sstream>
-#include <string>
 
 namespace delaunayflip
 {
@@ -152,14 +150,7 @@ FlipReport JoinReports(const std::vector<FlipReport>& reports)
     }
     for (const IterationRecord& row : report.Iterations)
     {
-      const auto number = static_cast<std::size_t>(row.Iteration);
-      sum.Iterations.resize(std::max(sum.Iterations.size(), number));
-      IterationRecord& joined = sum.Iterations[number - 1];
-      joined.Iteration = row.Iteration;
-      for (const auto count : IterationTotals)
-      {
-        joined.*count += row.*count;
-      }
+      IterationRecord& joined = AddIteration(sum, row);
       joined.MinimumAngle = NaN;
       joined.Seconds = std::max(joined.Seconds, row.Seconds);
     }

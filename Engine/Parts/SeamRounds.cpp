@@ -2,13 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SeamRounds.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <unordered_map>
-#include <unordered_set>
-#include <utility>
-
 namespace delaunayflip
 {
 
@@ -59,7 +52,7 @@ SeamTest SeamTester::Run(PartMesh& mesh, const std::vector<std::int64_t>& change
   SeamCounts counts;
   const auto test = [&](SeamTriangle& one, SeamTriangle& other)
   {
-    const EdgeState state = judge.Judge(one.Side, other.Side);
+    const EdgeState state = judge.Judge(one, other);
     one.IsToTest = other.IsToTest = state != EdgeState::Good;
     counts.Blocked += state != EdgeState::Good && state != EdgeState::Bad ? 1 : 0;
     counts.Deviating += state == EdgeState::BlockedByDeviation ? 1 : 0;
@@ -67,9 +60,9 @@ SeamTest SeamTester::Run(PartMesh& mesh, const std::vector<std::int64_t>& change
     for (int i = 0; i < 2 && state == EdgeState::Bad; ++i)
     {
       const SeamTriangle& own = i == 0 ? one : other;
-      BadSeam seam{ own.GetTriangle(), own.Ends, MakePair(one.Opposite, other.Opposite), {},
+      BadSeam seam{ own.Corner / 3, own.Ends, MakePair(one.Opposite, other.Opposite), {},
         i == 0 ? other.Rank : one.Rank };
-      std::copy_n(one.Side.Ends[0], 3, seam.Place);
+      std::copy_n(one.Places[0], 3, seam.Place);
       toRank[own.Rank].push_back(seam);
     }
   };
@@ -155,7 +148,7 @@ std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSea
   {
     (receiver == rank ? toJudge : leaving).push_back(triangle);
   }
-  moved = SumOverRanks(group, static_cast<std::int64_t>(leaving.size()));
+  moved = SumOverRanks(group, SizeOf(leaving));
 
   // Their inner edges become seam edges, on both sides.
   for (const std::int64_t t : leaving)
@@ -300,118 +293,6 @@ void RoundFlips::AddFreed(const PointPair& edge)
         this->Add(corner.Triangle);
       }
     });
-}
-
-//------------------------------------------------------------------------------
-namespace
-{
-/// Of the inner edges of some triangles, those whose two opposite points are both shared, that are
-/// bad and whose flip would not fold the mesh over; in the order of the later of their triangles.
-std::vector<WaitingFlip> FindWaiting(
-  PartMesh& mesh, std::vector<std::int64_t> triangles, const QuadJudge& judge)
-{
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  std::vector<WaitingFlip> waiting;
-  for (const std::int64_t t : triangles)
-  {
-    for (int slot = 0; slot < 3 && !mesh.Triangles[t].HasLeft; ++slot)
-    {
-      const PartCorner corner{ t, slot };
-      const PartCorner mate = mesh.IsShared(mesh.Triangles[t].Points[slot])
-        ? mesh.FindOpenMate(corner)
-        : PartCorner{ -1, 0 };
-      const bool isNew = mate.Triangle > t ||
-        (mate.Triangle >= 0 &&
-          !std::binary_search(triangles.begin(), triangles.end(), mate.Triangle));
-      if (isNew && mesh.IsShared(mesh.Triangles[mate.Triangle].Points[mate.Slot]) &&
-        judge.Judge(mesh, corner, mate) == EdgeState::Bad)
-      {
-        const auto& [one, other] = std::minmax(corner, mate);
-        waiting.push_back({ { mesh.GetKeys(mesh.Triangles[t].GetEdge(slot)),
-                              mesh.GetKeys({ mesh.Triangles[t].Points[slot],
-                                mesh.Triangles[mate.Triangle].Points[mate.Slot] }),
-                              false },
-          one, other });
-      }
-    }
-  }
-  std::sort(waiting.begin(), waiting.end(),
-    [](const WaitingFlip& a, const WaitingFlip& b) { return a.Other < b.Other; });
-  return waiting;
-}
-
-/// The edges that may be made, and by the flip of which edge: of those that can flip now, or else
-/// of the others, the first that asked. All ranks come to the same answers.
-PairMap<PointPair> GrantFlips(
-  const PartMesh& mesh, const std::vector<FlipQuestion>& own, PieceGroup& group)
-{
-  std::vector<FlipQuestion> all = Join(GatherRecords(group, own));
-  std::stable_partition(
-    all.begin(), all.end(), [](const FlipQuestion& one) { return !one.IsSeam; });
-  std::vector<unsigned char> exists; // the edge that the flip would make
-  for (const FlipQuestion& question : all)
-  {
-    const std::int64_t a = mesh.FindPoint(question.Opposite[0]);
-    const std::int64_t b = mesh.FindPoint(question.Opposite[1]);
-    exists.push_back(a >= 0 && b >= 0 && mesh.HasEdge(a, b) ? 1 : 0);
-  }
-  exists = FindMaxima(group, std::move(exists));
-  PairMap<PointPair> granted;
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    if (exists[i] == 0)
-    {
-      granted.emplace(all[i].Opposite, all[i].Ends);
-    }
-  }
-  return granted;
-}
-}
-
-GuardRound AskForFlips(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
-  const SeamTest& test, PieceGroup& group)
-{
-  GuardRound round;
-  DoTogether(group, [&]() { round.Waiting = FindWaiting(mesh, std::move(waiting), judge); });
-  waiting.clear();
-  for (const WaitingFlip& one : round.Waiting)
-  {
-    waiting.insert(waiting.end(), { one.One.Triangle, one.Other.Triangle });
-  }
-  std::vector<FlipQuestion> questions(round.Waiting.begin(), round.Waiting.end());
-  for (const BadSeam& seam : test.Bad)
-  {
-    questions.push_back({ seam.Ends, seam.Opposite, true });
-  }
-  round.Granted = GrantFlips(mesh, questions, group);
-  round.FreeOfAll = static_cast<std::int64_t>(round.Granted.size());
-  return round;
-}
-
-void GuardRound::Flip(PartMesh& mesh, SeamTest& test)
-{
-  const auto isGranted = [&](const PointPair& ends, const PointPair& opposite)
-  {
-    const auto found = this->Granted.find(opposite);
-    return found != this->Granted.end() && found->second == ends;
-  };
-  std::unordered_set<std::int64_t> changed; // each triangle only once
-  for (const WaitingFlip& flip : this->Waiting)
-  {
-    const std::int64_t one = flip.One.Triangle, other = flip.Other.Triangle;
-    if (changed.count(one) == 0 && changed.count(other) == 0 && isGranted(flip.Ends, flip.Opposite))
-    {
-      this->Gone.push_back(mesh.Triangles[one].GetEdge(flip.One.Slot));
-      mesh.Flip(flip.One, flip.Other);
-      this->Changed.insert(this->Changed.end(), { one, other });
-      changed.insert({ one, other });
-    }
-  }
-  // A changed triangle may have lost its bad edge to its neighbour; the next round will tell.
-  const auto mustStay = [&](const BadSeam& seam)
-  { return changed.count(seam.Triangle) > 0 || !isGranted(seam.Ends, seam.Opposite); };
-  test.Bad.erase(std::remove_if(test.Bad.begin(), test.Bad.end(), mustStay), test.Bad.end());
 }
 
 }

@@ -135,48 +135,6 @@ private:
   std::vector<std::int64_t> Next;
 };
 
-/// An edge to flip, and the edge that this would make.
-struct FlipQuestion
-{
-  PointPair Ends; ///< Keys.
-  PointPair Opposite; ///< Keys.
-  bool IsSeam; ///< Between ranks, so that it cannot flip now.
-};
-
-/// An inner edge of a rank that waits, with the two corners opposite to it.
-struct WaitingFlip : FlipQuestion
-{
-  PartCorner One, Other;
-};
-
-/// The guarded part of a round, on one rank.
-///
-/// The guard keeps a flip from making an edge that another rank has. Such an edge could only join
-/// two shared points. So when ranks flip alone, they do not flip an edge whose flip would join two
-/// shared points: the edge waits. Afterwards all ranks are asked whether the new edge exists. If it
-/// does not, one rank may make it.
-struct GuardRound
-{
-  std::int64_t FreeOfAll = 0; ///< How many edges may flip, on all ranks and between them.
-  std::vector<std::int64_t> Changed; ///< The triangles of the edges that this rank has flipped.
-  std::vector<PointPair> Gone; ///< The ends of these edges before the flip.
-
-  /// Flips waiting edges as far as the guard allows. Removes from `test` the seam edges whose flip
-  /// would make an edge that exists or that another flip makes, and those whose triangle has just
-  /// changed.
-  void Flip(PartMesh& mesh, SeamTest& test);
-
-  std::vector<WaitingFlip> Waiting;
-  PairMap<PointPair> Granted; ///< The edges that may be made, and by the flip of which edge.
-};
-
-/// Finds the waiting edges, and asks all ranks whether they may flip. All ranks must call this
-/// together.
-/// @param waiting the triangles of edges that are bad and may wait; replaced by those of edges that
-/// were bad now. Other edges can have become bad only where triangles have changed.
-GuardRound AskForFlips(PartMesh& mesh, const QuadJudge& judge, std::vector<std::int64_t>& waiting,
-  const SeamTest& test, PieceGroup& group);
-
 }
 
 #endif

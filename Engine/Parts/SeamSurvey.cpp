@@ -4,10 +4,6 @@
 
 #include "DelaunayFlip.h"
 
-#include <algorithm>
-#include <tuple>
-#include <utility>
-
 namespace delaunayflip
 {
 
@@ -28,23 +24,17 @@ FlipOptions GetPartOptions(const PartSurvey& survey, const FlipOptions& options)
 //------------------------------------------------------------------------------
 SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t t, int slot)
 {
-  const auto& points = mesh.Triangles[t].Points;
-  std::int32_t first = points[(slot + 1) % 3];
-  std::int32_t second = points[(slot + 2) % 3];
+  const PartTriangle& triangle = mesh.Triangles[t];
   SeamTriangle seam{};
-  seam.Ends = mesh.GetKeys({ first, second });
-  seam.Opposite = mesh.GetKey(points[slot]);
+  seam.Ends = mesh.GetKeys({ triangle.GetStart(slot), triangle.GetEnd(slot) });
+  seam.Opposite = mesh.GetKey(triangle.Points[slot]);
   seam.Corner = 3 * t + slot;
   seam.Rank = mesh.GetRank();
   seam.IsToTest = true;
-  seam.Side.RunsForward = mesh.GetKey(first) == seam.Ends[0];
-  if (!seam.Side.RunsForward)
-  {
-    std::swap(first, second);
-  }
-  mesh.GetPosition(first, seam.Side.Ends[0]);
-  mesh.GetPosition(second, seam.Side.Ends[1]);
-  mesh.GetPosition(points[slot], seam.Side.Opposite);
+  seam.RunsForward = mesh.GetKey(triangle.GetStart(slot)) == seam.Ends[0];
+  mesh.GetPosition(triangle.GetStart(slot), seam.Places[seam.RunsForward ? 0 : 1]);
+  mesh.GetPosition(triangle.GetEnd(slot), seam.Places[seam.RunsForward ? 1 : 0]);
+  mesh.GetPosition(triangle.Points[slot], seam.Places[2]);
   return seam;
 }
 
@@ -73,13 +63,13 @@ EdgeState QuadJudge::Judge(const double (&apqb)[4][3]) const
     });
 }
 
-EdgeState QuadJudge::Judge(const SeamSide& one, const SeamSide& other) const
+EdgeState QuadJudge::Judge(const SeamTriangle& one, const SeamTriangle& other) const
 {
   double apqb[4][3];
-  std::copy_n(one.Opposite, 3, apqb[0]);
-  std::copy_n(one.Ends[one.RunsForward ? 0 : 1], 3, apqb[1]);
-  std::copy_n(one.Ends[one.RunsForward ? 1 : 0], 3, apqb[2]);
-  std::copy_n(other.Opposite, 3, apqb[3]);
+  std::copy_n(one.Places[2], 3, apqb[0]);
+  std::copy_n(one.Places[one.RunsForward ? 0 : 1], 3, apqb[1]);
+  std::copy_n(one.Places[one.RunsForward ? 1 : 0], 3, apqb[2]);
+  std::copy_n(other.Places[2], 3, apqb[3]);
   return this->Judge(apqb);
 }
 
@@ -124,18 +114,17 @@ public:
   std::int64_t Add(const SeamTriangle* begin, const SeamTriangle* end, bool isConstraint)
   {
     const std::int64_t first = this->CountPoints();
-    this->Points.insert(this->Points.end(), begin->Side.Ends[0], begin->Side.Ends[0] + 3);
-    this->Points.insert(this->Points.end(), begin->Side.Ends[1], begin->Side.Ends[1] + 3);
+    this->AddPoint(begin->Places[0]);
+    this->AddPoint(begin->Places[1]);
     for (const SeamTriangle* one = begin; one != end; ++one)
     {
-      const SeamSide& side = one->Side;
-      const int start = side.RunsForward ? 0 : 1;
+      const int start = one->RunsForward ? 0 : 1;
       this->Triangles.insert(
         this->Triangles.end(), { first + start, first + 1 - start, this->CountPoints() });
-      this->Points.insert(this->Points.end(), side.Opposite, side.Opposite + 3);
-      this->Regions.push_back(side.Region);
-      this->Frozen.push_back(side.IsFrozen ? 1 : 0);
-      isConstraint = isConstraint || side.IsConstraint;
+      this->AddPoint(one->Places[2]);
+      this->Regions.push_back(one->Region);
+      this->Frozen.push_back(one->IsFrozen ? 1 : 0);
+      isConstraint = isConstraint || one->IsConstraint;
     }
     if (isConstraint)
     {
@@ -174,12 +163,11 @@ private:
     const std::vector<float> floats(this->Points.begin(), this->Points.end());
     mesh.Points = this->Job.Survey.IsFloat ? PointArray(floats.data(), this->CountPoints())
                                            : PointArray(this->Points.data(), this->CountPoints());
-    mesh.Triangles =
-      TriangleArray(this->Triangles.data(), static_cast<std::int64_t>(this->Triangles.size()) / 3);
+    mesh.Triangles = TriangleArray(this->Triangles.data(), SizeOf(this->Triangles) / 3);
     mesh.Regions = this->Regions.data();
     mesh.FrozenTriangles = this->Frozen.data();
     mesh.ConstraintEdges = this->Constraints.data();
-    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Constraints.size()) / 2;
+    mesh.NumberOfConstraintEdges = SizeOf(this->Constraints) / 2;
     mesh.Whole = this->Job.Survey.Whole;
     FlipOptions options = GetPartOptions(this->Job.Survey, this->Job.Options);
     options.FeatureAngle = this->Job.Options.FeatureAngle;
@@ -190,7 +178,8 @@ private:
     }
   }
 
-  std::int64_t CountPoints() const { return static_cast<std::int64_t>(this->Points.size()) / 3; }
+  void AddPoint(const double (&x)[3]) { this->Points.insert(this->Points.end(), x, x + 3); }
+  std::int64_t CountPoints() const { return SizeOf(this->Points) / 3; }
 
   const PartJob& Job;
   std::vector<double> Points;
@@ -226,7 +215,7 @@ RecordLists<SeamAnswer> JudgeSeams(
     }
     const bool isPair = end - begin == 2;
     const bool isQuad = isPair && begin[0].Opposite != begin[1].Opposite;
-    begin->Side.IsFrozen = begin->Side.IsFrozen || (isPair && !isQuad);
+    begin->IsFrozen = begin->IsFrozen || (isPair && !isQuad);
     edges.push_back({ begin, end, isQuad, together.Add(begin, end, false) });
     for (SeamTriangle* one = begin; one != end;)
     {
@@ -267,19 +256,17 @@ RecordLists<SeamTriangle> ListSeamTriangles(
     const auto& p = part.Triangles[t].Points;
     for (int slot = 0; slot < 3; ++slot)
     {
-      const std::int32_t start = p[(slot + 1) % 3];
-      const std::int32_t end = p[(slot + 2) % 3];
-      if (start != end && part.IsShared(start) && part.IsShared(end))
+      if (part.AreShared(part.Triangles[t].GetEdge(slot)))
       {
         SeamTriangle seam = MakeSeamTriangle(part, t, slot);
-        seam.Side.IsFrozen = (mesh.FrozenTriangles && mesh.FrozenTriangles[t] != 0) ||
-          p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
-        seam.Side.Region = mesh.Regions ? mesh.Regions[t] : 0;
+        seam.IsFrozen = (mesh.FrozenTriangles && mesh.FrozenTriangles[t] != 0) || p[0] == p[1] ||
+          p[1] == p[2] || p[2] == p[0];
+        seam.Region = mesh.Regions ? mesh.Regions[t] : 0;
         const auto constraint = fates.find(seam.Ends);
         if (constraint != fates.end())
         {
           constraint->second = std::max(constraint->second, IsEdge);
-          seam.Side.IsConstraint = true;
+          seam.IsConstraint = true;
         }
         toHome[GetHome(PairHash()(seam.Ends), group)].push_back(seam);
       }
@@ -322,7 +309,7 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
 {
   const std::vector<SharedConstraint> shared = this->List(job, part);
   this->Mesh.ConstraintEdges = this->Ends.data();
-  this->Mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->ToInsert.size());
+  this->Mesh.NumberOfConstraintEdges = SizeOf(this->ToInsert);
   this->Mesh.ConstraintsToInsert = this->ToInsert.data();
   this->Mesh.Whole = job.Survey.Whole;
   const bool isGuarded = job.Survey.NeedsGuard() && job.Group.GetSize() > 1;
@@ -334,23 +321,26 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   {
     part.Take(this->Mesh.Triangles);
   }
-  std::vector<char*> fates; // of the constraints between shared points that Mesh has, else null
+  const auto getFate = [&](std::int64_t constraint) // of one between shared points; else null
+  {
+    const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * constraint;
+    const bool areShared = part.AreShared({ ends[0], ends[1] });
+    return areShared ? &this->Fates[part.GetKeys({ ends[0], ends[1] })] : nullptr;
+  };
   for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
   {
-    const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * i;
-    fates.push_back(
-      part.AreShared(ends) ? &this->Fates[part.GetKeys({ ends[0], ends[1] })] : nullptr);
+    getFate(i); // so that the survey knows the constraint
   }
   this->Seams = SurveySeams(job, this->Mesh, part, this->Fates);
   this->Edges = this->Seams.ToFix;
   for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
   {
     const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * i;
-    const bool isHere = !fates[i] || *fates[i] >= IsEdge;
+    const bool isHere = !getFate(i) || *getFate(i) >= IsEdge;
     this->Edges.insert(this->Edges.end(), ends, isHere ? ends + 2 : ends);
   }
   this->Mesh.ConstraintEdges = this->Edges.data();
-  this->Mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Edges.size()) / 2;
+  this->Mesh.NumberOfConstraintEdges = SizeOf(this->Edges) / 2;
 
   std::vector<char> ofShared;
   for (const SharedConstraint& one : shared)
@@ -381,7 +371,7 @@ std::vector<PartConstraints::SharedConstraint> PartConstraints::List(
   {
     const std::int64_t* ends = caller.ConstraintEdges + 2 * i;
     const bool isToInsert = caller.ConstraintsToInsert && caller.ConstraintsToInsert[i] != 0;
-    if (part.AreShared(ends))
+    if (part.AreShared({ ends[0], ends[1] }))
     {
       own.push_back({ part.GetKeys({ ends[0], ends[1] }), isToInsert ? 1 : 0 });
     }
@@ -442,10 +432,10 @@ void PartConstraints::FindFates(const PartMesh& part)
 {
   for (const std::int64_t i : this->Insertion.GetTried())
   {
-    const std::int64_t* ends = this->Ends.data() + 2 * i;
+    const PointPair ends{ this->Ends[2 * i], this->Ends[2 * i + 1] };
     if (part.AreShared(ends))
     {
-      this->Fates[part.GetKeys({ ends[0], ends[1] })] = Inserted;
+      this->Fates[part.GetKeys(ends)] = Inserted;
     }
     else
     {
@@ -454,10 +444,10 @@ void PartConstraints::FindFates(const PartMesh& part)
   }
   for (const RefusedConstraint& one : this->Insertion.GetRefused())
   {
-    if (part.AreShared(one.Ends))
+    const PointPair ends{ one.Ends[0], one.Ends[1] };
+    if (part.AreShared(ends))
     {
-      this->Fates[part.GetKeys({ one.Ends[0], one.Ends[1] })] =
-        static_cast<char>(1 + static_cast<int>(one.Why));
+      this->Fates[part.GetKeys(ends)] = static_cast<char>(1 + static_cast<int>(one.Why));
     }
     else
     {
@@ -488,7 +478,7 @@ void PartConstraints::AddTo(FlipReport& report) const
 {
   report.InsertedConstraints += this->NumberInserted;
   report.ConstraintFlips += this->Insertion.GetNumberOfFlips();
-  report.UnmatchedConstraints += static_cast<std::int64_t>(this->Refused.size()) + this->Unmatched;
+  report.UnmatchedConstraints += SizeOf(this->Refused) + this->Unmatched;
   AddDefects(this->Refused, report.Defects);
   AddDefect(
     { "constraint edges that are not edges of the mesh", this->Unmatched, {}, DefectIds::Points },

@@ -10,7 +10,6 @@
 #include "FlipReport.h"
 #include "PartMesh.h"
 #include "PartSurvey.h"
-#include "Records.h"
 #include "SpatialOrder.h"
 #include "TriangleMesh.h"
 
@@ -20,33 +19,24 @@
 namespace delaunayflip
 {
 
-/// One of the two triangles of an edge, with all that decides whether the edge is fixed.
-struct SeamSide
-{
-  double Ends[2][3]; ///< Of the edge, in the same order for both triangles.
-  double Opposite[3];
-  bool RunsForward; ///< The triangle runs through the edge from the first end to the second.
-  bool IsFrozen;
-  bool IsConstraint; ///< Whether its rank knows of a constraint along the edge.
-  std::int32_t Region;
-};
-
 /// The options for flipping a part of the whole mesh. The geometry has been chosen for the whole
 /// mesh, and the fixed edges must be given.
 FlipOptions GetPartOptions(const PartSurvey& survey, const FlipOptions& options);
 
-/// A triangle at an edge between two shared points, as its rank sends it to the home of the edge.
+/// A triangle at an edge between two shared points, as its rank sends it to the home of the edge,
+/// with all that decides whether the edge is fixed.
 struct SeamTriangle
 {
   PointPair Ends; ///< Keys of the ends of the edge.
   std::int64_t Opposite; ///< Key of the point opposite to the edge.
   std::int64_t Corner; ///< 3 * triangle + slot of the opposite point, on its rank.
-  SeamSide Side;
+  double Places[3][3]; ///< Of both ends, in the same order for both triangles; of the opposite.
+  std::int32_t Region;
   std::int32_t Rank; ///< The rank that has it.
+  bool RunsForward; ///< It runs through the edge from the first end to the second.
+  bool IsFrozen;
+  bool IsConstraint; ///< Whether its rank knows of a constraint along the edge.
   bool IsToTest; ///< For SeamTester: it has not been tested, or was not good.
-
-  std::int64_t GetTriangle() const { return this->Corner / 3; }
-  int GetSlot() const { return static_cast<int>(this->Corner % 3); }
 };
 
 /// The triangle, for its edge opposite to corner `slot`. Takes it as not frozen and in no region.
@@ -63,7 +53,7 @@ public:
   EdgeState Judge(const double (&apqb)[4][3]) const;
 
   /// The same for the two triangles of an edge. They must run through it in opposite directions.
-  EdgeState Judge(const SeamSide& one, const SeamSide& other) const;
+  EdgeState Judge(const SeamTriangle& one, const SeamTriangle& other) const;
 
   /// The same for the edge that is opposite to both corners.
   EdgeState Judge(const PartMesh& mesh, const PartCorner& one, const PartCorner& other) const;

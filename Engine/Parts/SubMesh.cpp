@@ -6,11 +6,7 @@
 #include "InputChecks.h"
 #include "PartSurvey.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 namespace delaunayflip
 {
@@ -102,7 +98,7 @@ TriangleMesh SubMesh::View(bool withLabels) const
                                           : PointArray(this->Doubles.Data(), points);
   mesh.Triangles = TriangleArray(this->Ids.Data(), this->GetNumberOfTriangles());
   mesh.ConstraintEdges = this->Edges.data();
-  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Edges.size()) / 2;
+  mesh.NumberOfConstraintEdges = SizeOf(this->Edges) / 2;
   mesh.Whole = this->Whole.Whole;
   mesh.Whole.SharedPoints = this->Shared.Size() > 0 ? this->Shared.Data() : nullptr;
   mesh.Regions = withLabels && this->Whole.Regions ? this->Regions.Data() : nullptr;
@@ -222,66 +218,6 @@ Array<unsigned char> FindParts(
   threads.ForEach(mesh.Triangles.Count,
     [&](std::int64_t t) { partOf[t] = static_cast<unsigned char>(cuts.FindPart(mesh, t)); });
   return partOf;
-}
-
-SubMesh MeshInParts::GetPart(int number) const
-{
-  const auto isIn = [&](std::int64_t t) { return this->PartOf[t] == number; };
-  return SubMesh(
-    this->Mesh, ListNumbers(this->Mesh.Triangles.Count, isIn, this->Threads), this->Threads);
-}
-
-SubMesh MeshInParts::GetPartOf(const SubMesh& mesh, int number) const
-{
-  const auto isIn = [&](std::int64_t t) { return this->PartOf[mesh.GetSlot(t)] == number; };
-  std::vector<std::int64_t> slots = ListNumbers(mesh.GetNumberOfTriangles(), isIn, this->Threads);
-  this->Threads.ForEach(static_cast<std::int64_t>(slots.size()),
-    [&](std::int64_t i) { slots[i] = mesh.GetSlot(slots[i]); });
-  return SubMesh(this->Mesh, std::move(slots), this->Threads);
-}
-
-PointSet MeshInParts::FindSeamPoints() const
-{
-  const TriangleArray& triangles = this->Mesh.Triangles;
-  PointSet seam(this->Mesh.Points.Count, this->Threads);
-  Array<unsigned char> partOfPoint =
-    this->Threads.MakeArray<unsigned char>(this->Mesh.Points.Count);
-  // Whichever of its parts a point keeps, it differs from another one of them.
-  ForEachCorner(triangles.Count, this->Threads,
-    [&](std::int64_t t, int slot)
-    { AtomicStore(partOfPoint.Data() + triangles.Get(t, slot), this->PartOf[t]); });
-  ForEachCorner(triangles.Count, this->Threads,
-    [&](std::int64_t t, int slot)
-    {
-      const std::int64_t point = triangles.Get(t, slot);
-      if (partOfPoint[point] != this->PartOf[t])
-      {
-        seam.Add(point);
-      }
-    });
-  return seam;
-}
-
-SubMesh MeshInParts::GetTrianglesAt(const PointSet& points) const
-{
-  const TriangleArray& triangles = this->Mesh.Triangles;
-  const auto isIn = [&](std::int64_t t) { return points.Touches(triangles, t); };
-  return SubMesh(this->Mesh, ListNumbers(triangles.Count, isIn, this->Threads), this->Threads);
-}
-
-PointSet MeshInParts::FindPointsAround(const PointSet& points) const
-{
-  const TriangleArray& triangles = this->Mesh.Triangles;
-  PointSet around(this->Mesh.Points.Count, this->Threads);
-  ForEachCorner(triangles.Count, this->Threads,
-    [&](std::int64_t t, int slot)
-    {
-      if (points.Touches(triangles, t))
-      {
-        around.Add(triangles.Get(t, slot));
-      }
-    });
-  return around;
 }
 
 }

@@ -125,10 +125,7 @@ public:
   /// @param slots the triangles, ascending.
   SubMesh(const TriangleMesh& mesh, std::vector<std::int64_t> slots, const ThreadBackend& backend);
 
-  std::int64_t GetNumberOfTriangles() const
-  {
-    return static_cast<std::int64_t>(this->Slots.size());
-  }
+  std::int64_t GetNumberOfTriangles() const { return SizeOf(this->Slots); }
   /// The place of a triangle in the mesh.
   std::int64_t GetSlot(std::int64_t triangle) const { return this->Slots[triangle]; }
   /// The id in the mesh of a corner of a triangle.
@@ -207,29 +204,6 @@ void CopyTriangles(
 /// @returns the part of each triangle, 0 to parts - 1.
 Array<unsigned char> FindParts(
   const TriangleMesh& mesh, const std::vector<int>& axes, int parts, const ThreadBackend& threads);
-
-/// A mesh whose triangles are divided among parts, and which flips change in place.
-struct MeshInParts
-{
-  explicit MeshInParts(int threads)
-    : Threads(threads)
-  {
-  }
-
-  SubMesh GetPart(int number) const;
-  /// The points that triangles of several parts share at the moment.
-  PointSet FindSeamPoints() const;
-  /// The triangles that have one of these points.
-  SubMesh GetTrianglesAt(const PointSet& points) const;
-  /// The triangles of a sub-mesh that belong to one part.
-  SubMesh GetPartOf(const SubMesh& mesh, int number) const;
-  /// All points of the triangles that have one of these points.
-  PointSet FindPointsAround(const PointSet& points) const;
-
-  TriangleMesh Mesh;
-  ThreadBackend Threads;
-  Array<unsigned char> PartOf; ///< By triangle slot.
-};
 
 }
 

@@ -38,11 +38,11 @@ bool FlipSession::Advance(
 try
 {
   Work& work = *this->Own;
-  if (work.Divided)
-  {
-    return work.Divided->Advance(iterations, observer, progress);
-  }
   const TemporaryValue<ProgressObserver> told(work.Observer, progress);
+  if (work.IsDivided)
+  {
+    return work.FlipDivided(iterations, observer, progress);
+  }
   if (!work.Loaded)
   {
     work.Build();
@@ -120,22 +120,18 @@ void FlipSession::Expect(void* memory, std::int64_t bytes)
 const FlipReport& FlipSession::GetReport() const
 {
   Work& work = *this->Own;
-  if (work.Divided)
-  {
-    return work.Divided->GetReport();
-  }
   try
   {
-    work.MeasureEnd();
+    if (work.Loaded)
+    {
+      work.MeasureEnd();
+      work.Report.Backend = work.Loaded->GetInputReport().Backend;
+      work.Report.Fallback = work.Fallback;
+    }
   }
   catch (const RunAborted&)
   {
     work.Abort();
-  }
-  if (work.Loaded)
-  {
-    work.Report.Backend = work.Loaded->GetInputReport().Backend;
-    work.Report.Fallback = work.Fallback;
   }
   return work.Report;
 }
@@ -144,11 +140,6 @@ const FlipReport& FlipSession::GetReport() const
 void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 {
   Work& work = *this->Own;
-  if (work.Divided)
-  {
-    work.Divided->StoreTriangles(triangles);
-    return;
-  }
   const auto store = [&](const LoadedMesh& mesh)
   {
     const auto write = [&](auto* ids)
@@ -159,11 +150,11 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
     };
     triangles.Ids32 ? write(triangles.Ids32) : write(triangles.Ids64);
   };
-  if (work.TryOnBackend(store))
+  if (!work.TryOnBackend(store))
   {
-    return;
+    CopyTriangles(work.Divided ? AsConst(work.Divided->Triangles) : work.Mesh.GetOnHost().Triangles,
+      triangles, ThreadBackend(work.Options.NumberOfThreads));
   }
-  CopyTriangles(work.Mesh.GetOnHost().Triangles, triangles, ThreadBackend(1));
 }
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
@@ -185,8 +176,7 @@ void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
 void FlipSession::StoreUsedPoints(std::int64_t* ids) const
 {
   const PointRun& points = this->Own->RequirePoints();
-  const auto store = [&](const LoadedMesh& mesh) { points.StoreUsedPoints(mesh, ids); };
-  if (!this->Own->TryOnBackend(store))
+  if (!this->Own->TryOnBackend([&](const LoadedMesh& mesh) { points.StoreUsedPoints(mesh, ids); }))
   {
     std::fill_n(ids, this->Own->Report.Points, -1);
   }
@@ -210,13 +200,13 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts) const
   Work& work = *this->Own;
   const auto store = [&](const LoadedMesh& mesh)
   { work.StoreKept(1, counts, false, [&](std::int32_t* all) { mesh.StoreFlipCounts(all); }); };
-  if (work.Divided)
-  {
-    work.Divided->StoreFlipCounts(counts);
-  }
-  else if (work.TryOnBackend(store))
+  if (work.TryOnBackend(store))
   {
     work.Insertion.AddFlipCounts(counts);
+  }
+  else if (work.Divided)
+  {
+    std::copy(work.Divided->FlipCounts.begin(), work.Divided->FlipCounts.end(), counts);
   }
   else
   {

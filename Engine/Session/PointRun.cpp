@@ -7,12 +7,9 @@
 #include "InputChecks.h"
 #include "Strips.h"
 
-#include <cmath>
 #include <iterator>
 #include <map>
-#include <string>
 #include <unordered_map>
-#include <utility>
 
 namespace delaunayflip
 {
@@ -114,7 +111,7 @@ void PointRun::Prepare(const ProgressObserver& observer)
       SplitCrossings(this->GetOnHost(), std::move(this->Segments), [&] { Tell(observer); });
     this->Segments = std::move(split.Segments);
     this->Added = std::move(split.Added);
-    this->Counts.Crossings = static_cast<std::int64_t>(this->Added.size());
+    this->Counts.Crossings = SizeOf(this->Added);
     this->Counts.LargestShift = split.LargestShift;
     this->CopyPoints();
   }
@@ -228,7 +225,7 @@ template <typename Real>
 void PointRun::CopyCoordinates(std::vector<Real>& copy)
 {
   const PlaneArray points = this->Prepared.Points;
-  const auto added = static_cast<std::int64_t>(this->Added.size());
+  const auto added = SizeOf(this->Added);
   std::vector<Real> made(2 * (points.Count + added));
   for (std::int64_t i = 0; i < points.Count; ++i)
   {
@@ -344,8 +341,8 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   counts = this->Counts;
   counts.NotFinite = notFinite;
   counts.Repeated = repeated;
-  counts.SegmentEdges = static_cast<std::int64_t>(this->Edges.size());
-  counts.RefusedSegments = static_cast<std::int64_t>(this->Refused.size());
+  counts.SegmentEdges = SizeOf(this->Edges);
+  counts.RefusedSegments = SizeOf(this->Refused);
   counts.OutsideTriangles = this->Kept.Outside;
   counts.LargeTriangles = this->Kept.Large;
   report.Points = this->Caller.Points.Count;

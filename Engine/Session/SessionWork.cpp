@@ -7,27 +7,8 @@
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
-
 namespace delaunayflip
 {
-
-namespace
-{
-/// Iterations that a surface may take beyond its number of triangles before the loop gives up.
-constexpr std::int64_t SafetyMargin = 1000;
-}
-
-CallerMesh::CallerMesh(const TriangleMesh& mesh)
-  : Host(mesh)
-{
-}
 
 CallerMesh::CallerMesh(const DeviceMesh& mesh)
   : Device(mesh)
@@ -129,13 +110,12 @@ FlipSession::Work::Work(
   {
     throw InvalidOptions("a mesh in the memory of a GPU cannot be flipped in several pieces");
   }
-  if (!mesh.GetOnDevice() && CountPieces(options, mesh.CountTriangles()) > 1)
-  {
-    this->Divided = std::make_unique<DividedSession>(this->Mesh.GetOnHost(), options, progress);
-    return;
-  }
   CheckOptions(options);
-  CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
+  this->IsDivided = !mesh.GetOnDevice() && CountPieces(options, mesh.CountTriangles()) > 1;
+  if (!this->IsDivided)
+  {
+    CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
+  }
   this->Options.Device = mesh.ChooseDevice(options.Device);
   this->TryToBuild();
 }
@@ -215,6 +195,13 @@ void FlipSession::Work::TryToBuild()
 void FlipSession::Work::Build()
 try
 {
+  if (this->IsDivided)
+  {
+    this->Reset(); // frees the arrays of a run before
+    this->Divided = DivideMesh(this->Mesh.GetOnHost(), this->Options, this->Observer);
+    this->Report = this->Divided->Report;
+    return;
+  }
   const StopWatch watch;
   const TemporaryValue<bool> stoppable(this->MayStop, true);
   const auto tell = [this](double share)
@@ -259,6 +246,28 @@ catch (...)
 {
   this->Reset();
   throw;
+}
+
+/// As Advance, of a mesh in parts: all flips at once.
+bool FlipSession::Work::FlipDivided(
+  std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
+{
+  const bool isOver = this->Divided && this->Divided->IsOver();
+  if (iterations == 0 || isOver)
+  {
+    return !isOver;
+  }
+  if (!this->Divided || !this->Divided->IsFresh)
+  {
+    this->Build();
+  }
+  this->Divided->FlipAll(progress);
+  this->Report = this->Divided->Report;
+  for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
+  {
+    observer(this->Report.Iterations[i]);
+  }
+  return false;
 }
 
 /// Tests all edges.
@@ -358,6 +367,7 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
 
 void FlipSession::Work::Reset()
 {
+  this->Divided.reset();
   this->Loaded.reset();
   this->Start.reset();
   this->Fallback.clear();
@@ -454,6 +464,7 @@ std::int64_t FlipSession::Work::GetIterationLimit() const
   {
     return this->Options.MaximumIterations;
   }
+  constexpr std::int64_t SafetyMargin = 1000; // beyond the number of triangles
   const bool mayCycle = this->Report.GeometryUsed == GeometryKind::Surface ||
     this->Options.Criterion == CriterionKind::OppositeAngles;
   return mayCycle ? this->Report.Triangles + SafetyMargin : NoLimit;

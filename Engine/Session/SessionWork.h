@@ -8,7 +8,7 @@
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
 #include "DeviceMesh.h"
-#include "DividedSession.h"
+#include "DividedRun.h"
 #include "FlipError.h"
 #include "HostMemory.h"
 #include "LoadedMesh.h"
@@ -35,7 +35,10 @@ constexpr std::int64_t NoLimit = std::numeric_limits<std::int64_t>::max();
 class CallerMesh
 {
 public:
-  explicit CallerMesh(const TriangleMesh& mesh);
+  explicit CallerMesh(const TriangleMesh& mesh)
+    : Host(mesh)
+  {
+  }
   explicit CallerMesh(const DeviceMesh& mesh);
 
   std::int64_t CountPoints() const { return this->Host.Points.Count; }
@@ -280,6 +283,8 @@ struct FlipSession::Work
   }
 
   void TryToBuild();
+  bool FlipDivided(
+    std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress);
   void Build();
   void Detect();
   void Load();
@@ -291,10 +296,7 @@ struct FlipSession::Work
   void Abort();
 
   bool IsRunning() const { return this->Report.StopReason == StopReasonKind::Running; }
-  std::int64_t CountIterations() const
-  {
-    return static_cast<std::int64_t>(this->Report.Iterations.size());
-  }
+  std::int64_t CountIterations() const { return SizeOf(this->Report.Iterations); }
   std::int64_t GetIterationLimit() const;
   std::int64_t GetBatch() const;
   void Resume();
@@ -314,8 +316,8 @@ struct FlipSession::Work
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
   bool MayStop = false; ///< Whether the observer may stop what is under way, all of which is lost.
   FlipReport Report;
-  std::unique_ptr<DividedSession>
-    Divided; ///< Null unless in several parts. Then only this is used.
+  bool IsDivided = false; ///< Whether the mesh is flipped in several parts.
+  std::unique_ptr<DividedRun> Divided; ///< Of such a mesh, for which nothing is loaded.
 
   ConstraintInsertion Insertion; ///< The loaded mesh starts from its arrays.
   std::optional<CallerMesh> Start; ///< The mesh that iterations start from.

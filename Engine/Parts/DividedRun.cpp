@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DividedSession.h"
+#include "DividedRun.h"
 
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
@@ -14,12 +14,9 @@
 #include "SubMesh.h"
 #include "SurfaceAngles.h"
 
-#include <algorithm>
 #include <atomic>
-#include <limits>
 #include <mutex>
 #include <numeric>
-#include <utility>
 
 /// @file
 /// One mesh of this process, whose parts are flipped one after the other.
@@ -50,32 +47,26 @@ ConstraintInsertion InsertConstraints(
   return ConstraintInsertion(mesh, options,
     [&](double share) { return !progress || progress(ConstraintInsertion::ShareOfRun * share); });
 }
-}
 
-/// What is known of a divided mesh, and its run.
-///
 /// First each part is flipped by itself. The edges between parts, the seam edges, are treated as
 /// boundary edges and do not flip. Then the triangles around the points of seam edges, a region,
 /// are flipped as one mesh. If flips reach points at the border of the region, the triangles around
 /// these points are the next region. The run ends when no flip has reached a border. So every edge
 /// is judged after the last flip of a triangle next to it.
-struct DividedSession::Run : MeshInParts
+class PartsInTurn : public DividedRun
 {
-  /// Inserts the constraints, surveys the mesh as a whole, divides it, and copies its triangles.
-  /// @param triangles receives the copy, which flips change. May be the mesh's own array.
-  /// @throws as FlipInPieces; RunAborted. Then nothing has been copied.
-  Run(const TriangleMesh& mesh, const MutableTriangleArray& triangles, const FlipOptions& options,
-    const ProgressObserver& progress)
-    : MeshInParts(options.NumberOfThreads),
+public:
+  PartsInTurn(const TriangleMesh& mesh, const FlipOptions& options,
+    const ProgressObserver& progress, const MutableTriangleArray& triangles)
+    : Threads(options.NumberOfThreads),
       Insertion(InsertConstraints(mesh, options, progress)),
       Options(this->Insertion.GetOptions(options)),
-      Triangles(triangles),
+      Mesh(this->Insertion.GetMesh(mesh)),
       Parts(CountPieces(options, mesh.Triangles.Count)),
       Seam(0, Threads),
       Shares(Parts),
       Reports(Parts)
   {
-    this->Mesh = this->Insertion.GetMesh(mesh);
     this->Constraints.assign(this->Mesh.ConstraintEdges,
       this->Mesh.ConstraintEdges + 2 * this->Mesh.NumberOfConstraintEdges);
     CheckConstraints(this->Mesh);
@@ -99,8 +90,7 @@ struct DividedSession::Run : MeshInParts
     }
     this->Mesh.Whole = this->Survey.Whole;
     this->PartOf = FindParts(this->Mesh, axes, this->Parts, this->Threads);
-    CopyTriangles(this->Mesh.Triangles, triangles, this->Threads);
-    this->Mesh.Triangles = AsConst(triangles);
+    this->TakeArrays(mesh, triangles);
     this->Report.Points = this->Mesh.Points.Count;
     this->Report.Triangles = this->Mesh.Triangles.Count;
     this->Report.GeometryUsed = this->Survey.Geometry;
@@ -110,11 +100,10 @@ struct DividedSession::Run : MeshInParts
     this->Insertion.AddTo(this->Report);
   }
 
-  /// @param flipCounts the flips of each triangle slot are added; or null.
-  void FlipAll(std::int32_t* flipCounts, const ProgressObserver& progress)
+  void FlipAll(const ProgressObserver& progress) override
   {
     const double begin = this->Insertion.GetShare();
-    this->FlipCounts = flipCounts;
+    this->IsFresh = false;
     this->Progress = [&progress, begin](double share)
     { return !progress || progress(begin + (1.0 - begin) * share); };
     this->Seam = this->FindSeamPoints();
@@ -128,10 +117,82 @@ struct DividedSession::Run : MeshInParts
     this->CountRest();
     this->AddDefects();
     this->Insertion.AddTo(this->Report);
-    if (this->FlipCounts)
+    if (!this->FlipCounts.empty())
     {
-      this->Insertion.AddFlipCounts(this->FlipCounts);
+      this->Insertion.AddFlipCounts(this->FlipCounts.data());
     }
+    this->PartOf = Array<unsigned char>();
+    if (progress && this->IsOver())
+    {
+      progress(1.0);
+    }
+  }
+
+private:
+  /// Copies the triangles to where flips change them.
+  /// @param given or empty.
+  void TakeArrays(const TriangleMesh& mesh, const MutableTriangleArray& given)
+  {
+    const std::int64_t count = mesh.Triangles.Count;
+    this->Triangles = given;
+    if (!given.Data())
+    {
+      this->FlipCounts.resize(count);
+      this->Ids32 = this->Threads.MakeArray<std::int32_t>(mesh.Triangles.Ids32 ? 3 * count : 0);
+      this->Ids64 = this->Threads.MakeArray<std::int64_t>(mesh.Triangles.Ids32 ? 0 : 3 * count);
+      this->Triangles = mesh.Triangles.Ids32 ? MutableTriangleArray(this->Ids32.Data(), count)
+                                             : MutableTriangleArray(this->Ids64.Data(), count);
+    }
+    CopyTriangles(this->Mesh.Triangles, this->Triangles, this->Threads);
+    this->Mesh.Triangles = AsConst(this->Triangles);
+  }
+
+  SubMesh GetPart(int number) const
+  {
+    const auto isIn = [&](std::int64_t t) { return this->PartOf[t] == number; };
+    return SubMesh(
+      this->Mesh, ListNumbers(this->Mesh.Triangles.Count, isIn, this->Threads), this->Threads);
+  }
+
+  /// The triangles of a sub-mesh that belong to one part.
+  SubMesh GetPartOf(const SubMesh& mesh, int number) const
+  {
+    const auto isIn = [&](std::int64_t t) { return this->PartOf[mesh.GetSlot(t)] == number; };
+    std::vector<std::int64_t> slots = ListNumbers(mesh.GetNumberOfTriangles(), isIn, this->Threads);
+    this->Threads.ForEach(
+      SizeOf(slots), [&](std::int64_t i) { slots[i] = mesh.GetSlot(slots[i]); });
+    return SubMesh(this->Mesh, std::move(slots), this->Threads);
+  }
+
+  /// The points that triangles of several parts share at the moment.
+  PointSet FindSeamPoints() const
+  {
+    const TriangleArray& triangles = this->Mesh.Triangles;
+    PointSet seam(this->Mesh.Points.Count, this->Threads);
+    Array<unsigned char> partOfPoint =
+      this->Threads.MakeArray<unsigned char>(this->Mesh.Points.Count);
+    // Whichever of its parts a point keeps, it differs from another one of them.
+    ForEachCorner(triangles.Count, this->Threads,
+      [&](std::int64_t t, int slot)
+      { AtomicStore(partOfPoint.Data() + triangles.Get(t, slot), this->PartOf[t]); });
+    ForEachCorner(triangles.Count, this->Threads,
+      [&](std::int64_t t, int slot)
+      {
+        const std::int64_t point = triangles.Get(t, slot);
+        if (partOfPoint[point] != this->PartOf[t])
+        {
+          seam.Add(point);
+        }
+      });
+    return seam;
+  }
+
+  /// The triangles that have one of these points.
+  SubMesh GetTrianglesAt(const PointSet& points) const
+  {
+    const TriangleArray& triangles = this->Mesh.Triangles;
+    const auto isIn = [&](std::int64_t t) { return points.Touches(triangles, t); };
+    return SubMesh(this->Mesh, ListNumbers(triangles.Count, isIn, this->Threads), this->Threads);
   }
 
   //------------------------------------------------------------------------------
@@ -275,7 +336,7 @@ struct DividedSession::Run : MeshInParts
     const std::int64_t count = part.GetNumberOfTriangles();
     Array<std::int32_t> flips = this->Threads.MakeArray<std::int32_t>(count);
     session.StoreFlipCounts(flips.Data());
-    this->Threads.ForEach(this->FlipCounts ? count : 0,
+    this->Threads.ForEach(this->FlipCounts.empty() ? 0 : count,
       [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += flips[t]; });
     return flips;
   }
@@ -333,7 +394,16 @@ struct DividedSession::Run : MeshInParts
   /// of the two is reached.
   PointSet FlipRegion(const PointSet& active, const ProgressObserver& progress)
   {
-    const PointSet inner = this->FindPointsAround(active); // all of whose triangles belong to it
+    const TriangleArray& triangles = this->Mesh.Triangles;
+    PointSet inner(this->Mesh.Points.Count, this->Threads); // all of whose triangles belong to it
+    ForEachCorner(triangles.Count, this->Threads,
+      [&](std::int64_t t, int slot)
+      {
+        if (active.Touches(triangles, t))
+        {
+          inner.Add(triangles.Get(t, slot));
+        }
+      });
     SubMesh region = this->GetTrianglesAt(inner);
     region.FixEdges(this->Fixed);
     if (this->Survey.NeedsGuard())
@@ -341,7 +411,7 @@ struct DividedSession::Run : MeshInParts
       region.GuardPoints([&](std::int64_t point) { return !inner.Has(point); });
     }
     FlipOptions options = this->GetCountingOptions();
-    const auto made = static_cast<std::int64_t>(this->Report.Iterations.size());
+    const auto made = SizeOf(this->Report.Iterations);
     options.MaximumIterations = this->Options.MaximumIterations < 0
       ? -1
       : std::max<std::int64_t>(0, this->Options.MaximumIterations - made);
@@ -354,7 +424,7 @@ struct DividedSession::Run : MeshInParts
     const FlipReport& report = session.GetReport();
     for (IterationRecord row : report.Iterations)
     {
-      row.Iteration = static_cast<std::int64_t>(this->Report.Iterations.size()) + 1;
+      row.Iteration = SizeOf(this->Report.Iterations) + 1;
       row.MinimumAngle = NaN;
       this->Report.Iterations.push_back(row);
     }
@@ -470,12 +540,15 @@ struct DividedSession::Run : MeshInParts
     this->Report.Defects = defects;
   }
 
+  ThreadBackend Threads;
   ConstraintInsertion Insertion;
   FlipOptions Options; ///< With the geometry that was chosen before the insertion.
-  MutableTriangleArray Triangles;
+  TriangleMesh Mesh; ///< With the triangles as they are at the moment.
   int Parts;
   PartSurvey Survey;
-  std::int32_t* FlipCounts = nullptr; ///< Of the mesh; or null.
+  Array<unsigned char> PartOf; ///< By triangle slot.
+  Array<std::int32_t> Ids32; ///< Three per triangle, if the caller's ids have 32 bits.
+  Array<std::int64_t> Ids64; ///< If they have 64 bits.
   ProgressObserver Progress;
 
   std::vector<std::int64_t> Constraints; ///< Edges that the caller fixes: two ids for each.
@@ -490,107 +563,32 @@ struct DividedSession::Run : MeshInParts
   std::mutex Mutex; ///< Of what follows, while parts are flipped.
   std::vector<std::int64_t> Fixed; ///< All edges that stay, but boundary edges: two ids for each.
   std::vector<FlipReport> Reports; ///< Of the parts.
-
-  PiecesReport Report; ///< Of the whole mesh.
   bool HasBadEdges = false; ///< Whether a session has left some.
 };
+}
 
-//------------------------------------------------------------------------------
-DividedSession::DividedSession(const TriangleMesh& mesh, const FlipOptions& options,
+std::unique_ptr<DividedRun> DivideMesh(const TriangleMesh& mesh, const FlipOptions& options,
   const ProgressObserver& progress, const MutableTriangleArray& triangles)
-  : Mesh(mesh),
-    Options(options),
-    Threads(options.NumberOfThreads),
-    Triangles(triangles)
 {
-  const std::int64_t count = mesh.Triangles.Count;
-  this->FlipCounts.resize(triangles.Data() ? 0 : count);
-  if (!triangles.Data() && mesh.Triangles.Ids32)
-  {
-    this->Ids32 = this->Threads.MakeArray<std::int32_t>(3 * count);
-    this->Triangles = MutableTriangleArray(this->Ids32.Data(), count);
-  }
-  else if (!triangles.Data())
-  {
-    this->Ids64 = this->Threads.MakeArray<std::int64_t>(3 * count);
-    this->Triangles = MutableTriangleArray(this->Ids64.Data(), count);
-  }
-  this->Prepare(progress);
-}
-
-DividedSession::~DividedSession() = default;
-
-/// Begins at the triangles of the caller.
-/// @returns whether the observer did not stop it.
-bool DividedSession::Prepare(const ProgressObserver& progress)
-{
-  this->Own.reset();
-  std::fill(this->FlipCounts.begin(), this->FlipCounts.end(), 0);
-  this->Report = PiecesReport();
-  try
-  {
-    this->Own = std::make_unique<Run>(this->Mesh, this->Triangles, this->Options, progress);
-    this->Report = this->Own->Report;
-  }
-  catch (const RunAborted&)
-  {
-    CopyTriangles(this->Mesh.Triangles, this->Triangles, this->Threads);
-    this->Report.Points = this->Mesh.Points.Count;
-    this->Report.Triangles = this->Mesh.Triangles.Count;
-    this->Report.StopReason = StopReasonKind::Aborted;
-  }
-  return this->Own != nullptr;
-}
-
-bool DividedSession::Advance(
-  std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
-{
-  const auto isOver = [this]()
-  {
-    return this->Report.StopReason == StopReasonKind::Converged ||
-      this->Report.StopReason == StopReasonKind::IterationLimit;
-  };
-  if (iterations == 0 || isOver())
-  {
-    return !isOver();
-  }
-  if (!this->Own && !this->Prepare(progress))
-  {
-    return false;
-  }
-  const std::unique_ptr<Run> run = std::move(this->Own); // its triangles change
-  run->FlipAll(this->FlipCounts.empty() ? nullptr : this->FlipCounts.data(), progress);
-  this->Report = run->Report;
-  for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
-  {
-    observer(this->Report.Iterations[i]);
-  }
-  if (progress && isOver())
-  {
-    progress(1.0);
-  }
-  return false;
-}
-
-void DividedSession::StoreTriangles(const MutableTriangleArray& triangles) const
-{
-  CopyTriangles(AsConst(this->Triangles), triangles, this->Threads);
-}
-
-void DividedSession::StoreFlipCounts(std::int32_t* counts) const
-{
-  std::copy(this->FlipCounts.begin(), this->FlipCounts.end(), counts);
+  return std::make_unique<PartsInTurn>(mesh, options, progress, triangles);
 }
 
 PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const ProgressObserver& progress)
+try
 {
-  DividedSession session(mesh, options, progress, triangles);
-  if (session.GetReport().StopReason != StopReasonKind::Aborted)
-  {
-    session.Advance(-1, {}, progress);
-  }
-  return session.GetReport();
+  const std::unique_ptr<DividedRun> run = DivideMesh(mesh, options, progress, triangles);
+  run->FlipAll(progress);
+  return run->Report;
+}
+catch (const RunAborted&) // before the first flip
+{
+  CopyTriangles(mesh.Triangles, triangles, ThreadBackend(options.NumberOfThreads));
+  PiecesReport report;
+  report.Points = mesh.Points.Count;
+  report.Triangles = mesh.Triangles.Count;
+  report.StopReason = StopReasonKind::Aborted;
+  return report;
 }
 
 }
