@@ -116,17 +116,6 @@ inline TriangleArray ToTriangles(const delaunayflip_mesh& c)
     c.triangles, c.number_of_triangles, c.id_type);
 }
 
-/// The polygons with all members that this library knows.
-inline delaunayflip_polygons CompletePolygons(const delaunayflip_polygons* given)
-{
-  const delaunayflip_polygons c = Complete(given, delaunayflip_polygons_init);
-  Require(c.number_of_polygons >= 0, "number_of_polygons is negative");
-  Require(c.offsets || c.number_of_polygons == 0, "offsets is null");
-  Require(c.corners || c.number_of_polygons == 0 || c.offsets[0] == c.offsets[c.number_of_polygons],
-    "corners is null");
-  return c;
-}
-
 /// Whether `memory`, a delaunayflip_memory, is that of a device.
 inline bool IsOnDevice(std::int32_t memory)
 {
@@ -229,33 +218,30 @@ inline delaunayflip_iteration ToC(const IterationRecord& record)
     record.Blocked, record.MinimumAngle, record.Seconds };
 }
 
-/// The engine's observers that call the caller's functions, if there are any.
-struct Observers
+/// None if `given` is null.
+inline delaunayflip_callbacks ToCallbacks(const delaunayflip_callbacks* given)
 {
-  explicit Observers(const delaunayflip_callbacks* given)
-  {
-    if (!given)
-    {
-      return;
-    }
-    const delaunayflip_callbacks c = Complete(given, delaunayflip_callbacks_init);
-    if (c.progress)
-    {
-      this->Progress = [c](double share) { return c.progress(share, c.user) != 0; };
-    }
-    if (c.iteration)
-    {
-      this->Iteration = [c](const IterationRecord& record)
-      {
-        const delaunayflip_iteration copy = ToC(record);
-        return c.iteration(&copy, c.user) != 0;
-      };
-    }
-  }
+  return given ? Complete(given, delaunayflip_callbacks_init) : MakeEmpty<delaunayflip_callbacks>();
+}
 
-  ProgressObserver Progress;
-  FlipObserver Iteration;
-};
+/// An observer that calls the caller's function, if there is one.
+inline ProgressObserver ToProgress(const delaunayflip_callbacks* given)
+{
+  const delaunayflip_callbacks c = ToCallbacks(given);
+  const auto call = [c](double share) { return c.progress(share, c.user) != 0; };
+  return c.progress ? ProgressObserver(call) : nullptr;
+}
+
+inline FlipObserver ToObserver(const delaunayflip_callbacks* given)
+{
+  const delaunayflip_callbacks c = ToCallbacks(given);
+  const auto call = [c](const IterationRecord& record)
+  {
+    const delaunayflip_iteration copy = ToC(record);
+    return c.iteration(&copy, c.user) != 0;
+  };
+  return c.iteration ? FlipObserver(call) : nullptr;
+}
 
 /// Calls visit(member, the report's) for the numbers that a C struct and a report have in common.
 template <typename Struct, typename Report, typename Visit>

@@ -10,6 +10,8 @@
 #include "TriangleAngles.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <functional>
 #include <new>
 #include <optional>
 #include <string>
@@ -23,7 +25,7 @@ namespace
 /// The last error in a thread.
 struct LastError
 {
-  std::string Message;
+  char Message[1024] = ""; ///< Takes no memory that may be lacking; longer ones are cut off.
   std::int64_t Cell = -1;
   std::int64_t Point = -1;
 };
@@ -33,18 +35,9 @@ thread_local LastError TheLastError;
 delaunayflip_status Fail(
   delaunayflip_status status, const char* message, std::int64_t cell = -1, std::int64_t point = -1)
 {
-  LastError& error = TheLastError;
-  error.Cell = cell;
-  error.Point = point;
-  try
-  {
-    error.Message = message;
-  }
-  catch (const std::bad_alloc&)
-  {
-    error.Message.clear();
-    return DELAUNAYFLIP_OUT_OF_MEMORY;
-  }
+  std::snprintf(TheLastError.Message, sizeof(TheLastError.Message), "%s", message);
+  TheLastError.Cell = cell;
+  TheLastError.Point = point;
   return status;
 }
 
@@ -106,18 +99,15 @@ void RequireReport(const delaunayflip_report* report)
     "report is null, or its size is not set: call delaunayflip_report_init first");
 }
 
-FlipReport Flip(const delaunayflip_mesh& c, const FlipOptions& options,
-  const MutableTriangleArray& triangles, const Observers& observers)
-{
-  return IsOnDevice(c.memory)
-    ? FlipToDelaunay(ToDeviceMesh(c), options, triangles, observers.Iteration, observers.Progress)
-    : FlipToDelaunay(ToMesh(&c), options, triangles, observers.Iteration, observers.Progress);
-}
-
-/// Appends the triangles of all polygons.
+/// The triangles of all polygons.
 std::vector<std::int64_t> Split(
   const PointArray& points, const delaunayflip_polygons& polygons, const ProgressObserver& progress)
 {
+  Require(polygons.number_of_polygons >= 0, "number_of_polygons is negative");
+  Require(polygons.offsets || polygons.number_of_polygons == 0, "offsets is null");
+  Require(polygons.corners || polygons.number_of_polygons == 0 ||
+      polygons.offsets[0] == polygons.offsets[polygons.number_of_polygons],
+    "corners is null");
   constexpr std::int64_t PolygonsBetweenCalls = 4096;
   std::vector<std::int64_t> triangles;
   const auto all = static_cast<double>(polygons.number_of_polygons);
@@ -191,12 +181,10 @@ delaunayflip_status TryWithPoints(
     [&]()
     {
       Require(session->IsFromPoints, "the session is not from points");
-      Require(target || count(session->Session.GetReport()) == 0, "an array is null");
+      Require(target || std::invoke(count, session->Session.GetReport()) == 0, "an array is null");
       work();
     });
 }
-
-std::int64_t CountTriangles(const FlipReport& report) { return report.Triangles; }
 
 /// To the host's memory; with a stream to that of a GPU. Likewise below.
 template <typename... Stream>
@@ -231,7 +219,7 @@ extern "C"
 
   const char* delaunayflip_version(void) { return DELAUNAYFLIP_RELEASE; }
 
-  const char* delaunayflip_error_message(void) { return TheLastError.Message.c_str(); }
+  const char* delaunayflip_error_message(void) { return TheLastError.Message; }
 
   std::int64_t delaunayflip_error_cell(void) { return TheLastError.Cell; }
 
@@ -284,8 +272,8 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        *session = new delaunayflip_session(Complete(mesh, delaunayflip_mesh_init),
-          ToOptions(options), Observers(callbacks).Progress);
+        *session = new delaunayflip_session(
+          Complete(mesh, delaunayflip_mesh_init), ToOptions(options), ToProgress(callbacks));
       });
   }
 
@@ -297,22 +285,22 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        *session = new delaunayflip_session(Complete(points, delaunayflip_points_init),
-          ToOptions(options), Observers(callbacks).Progress);
+        *session = new delaunayflip_session(
+          Complete(points, delaunayflip_points_init), ToOptions(options), ToProgress(callbacks));
       });
   }
 
   delaunayflip_status delaunayflip_store_neighbors(
     delaunayflip_session* session, std::int32_t* neighbors)
   {
-    return TryWithPoints(
-      session, neighbors, CountTriangles, [=]() { session->Session.StoreNeighbors(neighbors); });
+    return TryWithPoints(session, neighbors, &FlipReport::Triangles,
+      [=]() { session->Session.StoreNeighbors(neighbors); });
   }
 
   delaunayflip_status delaunayflip_store_neighbors_on_device(
     delaunayflip_session* session, std::int32_t* neighbors, void* stream)
   {
-    return TryWithPoints(session, neighbors, CountTriangles,
+    return TryWithPoints(session, neighbors, &FlipReport::Triangles,
       [=]() { session->Session.StoreNeighbors(neighbors, DeviceStream{ stream }); });
   }
 
@@ -320,8 +308,7 @@ extern "C"
     delaunayflip_session* session, std::int64_t* ids)
   {
     return TryWithPoints(
-      session, ids, [](const FlipReport& report) { return report.Points; },
-      [=]() { session->Session.StoreUsedPoints(ids); });
+      session, ids, &FlipReport::Points, [=]() { session->Session.StoreUsedPoints(ids); });
   }
 
   delaunayflip_status delaunayflip_store_added_points(
@@ -374,9 +361,8 @@ extern "C"
       [=]()
       {
         Require(iterations >= -1, "iterations is less than -1");
-        const Observers observers(callbacks);
         const bool isRunning =
-          session->Session.Advance(iterations, observers.Iteration, observers.Progress);
+          session->Session.Advance(iterations, ToObserver(callbacks), ToProgress(callbacks));
         if (is_running)
         {
           *is_running = isRunning ? 1 : 0;
@@ -468,8 +454,13 @@ extern "C"
         {
           RequireReport(report);
         }
-        const FlipReport result = Flip(c, ToOptions(options),
-          ToOutput(triangles, c.number_of_triangles, c.id_type), Observers(callbacks));
+        const auto flip = [&](const auto& view)
+        {
+          return FlipToDelaunay(view, ToOptions(options),
+            ToOutput(triangles, c.number_of_triangles, c.id_type), ToObserver(callbacks),
+            ToProgress(callbacks));
+        };
+        const FlipReport result = IsOnDevice(c.memory) ? flip(ToDeviceMesh(c)) : flip(ToMesh(&c));
         if (report)
         {
           thread_local std::optional<KeptReport> kept;
@@ -522,7 +513,7 @@ extern "C"
       {
         const TriangleMesh view = ToMesh(mesh);
         const std::vector<std::int64_t> ids =
-          Split(view.Points, CompletePolygons(polygons), Observers(callbacks).Progress);
+          Split(view.Points, Complete(polygons, delaunayflip_polygons_init), ToProgress(callbacks));
         Require(triangles || ids.empty(), "triangles is null");
         std::copy(ids.begin(), ids.end(), triangles);
       });
