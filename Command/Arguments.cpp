@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -256,22 +255,25 @@ std::string SuggestOption(const CLI::App& app)
   return "";
 }
 
+[[noreturn]] void FailOnUsage(const std::string& message)
+{
+  throw CommandError(ExitCode::WrongUsage, message);
+}
+
 /// Checks that files can be read or written as what they are given for.
 void CheckFormats(Arguments& arguments)
 {
   arguments.OutputFormat = FormatOf(arguments.Output);
   if (FormatOf(arguments.Input) == MeshFormat::Points && !arguments.FromPoints)
   {
-    throw CommandError(ExitCode::WrongUsage,
-      arguments.Input + ": has points, but no triangles; --from-points makes them");
+    FailOnUsage(arguments.Input + ": has points, but no triangles; --from-points makes them");
   }
   for (const std::string& file :
     { arguments.Output, arguments.Constraints, arguments.Outline, arguments.Holes })
   {
     if (!file.empty() && FormatOf(file) == MeshFormat::Points)
     {
-      throw CommandError(ExitCode::WrongUsage,
-        file + ": such a file has points alone; give a .vtk, .vtp, .ply, .stl or .obj");
+      FailOnUsage(file + ": such a file has points alone; give a .vtk, .vtp, .ply, .stl or .obj");
     }
   }
 }
@@ -281,16 +283,14 @@ void CheckTogether(Arguments& arguments)
 {
   if (arguments.IgnoreLines && arguments.InsertLines)
   {
-    throw CommandError(ExitCode::WrongUsage,
-      "--insert-lines and --ignore-lines contradict each other; give one of them");
+    FailOnUsage("--insert-lines and --ignore-lines contradict each other; give one of them");
   }
   CheckFormats(arguments);
   const bool holdsCellData =
     arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
   if (arguments.Quality && !holdsCellData)
   {
-    throw CommandError(
-      ExitCode::WrongUsage, arguments.Output + ": --quality needs a .vtk or .vtp file");
+    FailOnUsage(arguments.Output + ": --quality needs a .vtk or .vtp file");
   }
   // What is read may be one file. The input may also be the output.
   std::set<std::filesystem::path> used;
@@ -302,7 +302,7 @@ void CheckTogether(Arguments& arguments)
   {
     if (!file.empty() && !used.insert(FollowLinks(file)).second)
     {
-      throw CommandError(ExitCode::WrongUsage, file + ": the same file is given for two purposes");
+      FailOnUsage(file + ": the same file is given for two purposes");
     }
     used.insert(FollowLinks(arguments.Input));
   }

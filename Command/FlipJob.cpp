@@ -124,14 +124,16 @@ void Configure(vtkDelaunayFlipPoints* filter, const Arguments& arguments)
 /// The filter's message with options of the command for properties of the filter.
 std::string WithOptions(const std::string& message, bool mergesPoints)
 {
-  static const std::regex region("\\bRegionArray\\b");
-  static const std::regex tolerance("\\bTolerance\\b");
-  static const std::regex merge("merge points that lie at the same place");
-  std::string text = std::regex_replace(message, region, "--region-array");
-  text = std::regex_replace(text, tolerance, "--tolerance");
-  return std::regex_replace(text, merge,
-    mergesPoints ? "no two edges lie at the same place, even after --merge-points"
-                 : "--merge-points joins those that lie at the same place");
+  std::string text = message;
+  for (const auto& [property, option] :
+    { std::pair("\\bRegionArray\\b", "--region-array"), std::pair("\\bTolerance\\b", "--tolerance"),
+      std::pair("merge points that lie at the same place",
+        mergesPoints ? "no two edges lie at the same place, even after --merge-points"
+                     : "--merge-points joins those that lie at the same place") })
+  {
+    text = std::regex_replace(text, std::regex(property), option);
+  }
+  return text;
 }
 
 enum class SegmentKind

@@ -22,9 +22,9 @@
 #include <ctime>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <stdexcept>
-#include <utility>
 
 namespace delaunayflip
 {
@@ -32,64 +32,28 @@ namespace delaunayflip
 namespace
 {
 
-/// Limits the memory and the processor time of this process while it lives, depending on the size
-/// of the file that is read. A file that asks for more then ends the process, or an allocation
-/// fails.
-class ReadingLimits
+/// The data segments and private mappings of this process in bytes, as the system counts them.
+double UsedMemory()
 {
-public:
-  explicit ReadingLimits(double bytes)
-    : Memory(Lower(RLIMIT_DATA, UsedMemory() + LeastMemory + MemoryPerByte * bytes)),
-      Time(Lower(RLIMIT_CPU, std::ceil(UsedSeconds() + LeastSeconds + SecondsPerByte * bytes)))
+  std::ifstream file("/proc/self/statm");
+  double pages[6] = {};
+  for (double& count : pages)
   {
+    file >> count;
   }
+  return pages[5] * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
 
-  ~ReadingLimits()
-  {
-    setrlimit(RLIMIT_DATA, &this->Memory);
-    setrlimit(RLIMIT_CPU, &this->Time);
-  }
-
-  ReadingLimits(const ReadingLimits&) = delete;
-  ReadingLimits& operator=(const ReadingLimits&) = delete;
-
-private:
-  // Text of one-digit numbers grows 16 times when every number becomes a few doubles. Compressed
-  // data can grow a thousand times, but only if they are nearly constant.
-  static constexpr double MemoryPerByte = 200;
-  static constexpr double LeastMemory = 1 << 30;
-  // The slowest readers take 0.2 microseconds per byte.
-  static constexpr double SecondsPerByte = 5e-6;
-  static constexpr double LeastSeconds = 30;
-
-  /// The data segments and private mappings of this process in bytes, as the system counts them.
-  static double UsedMemory()
-  {
-    std::ifstream file("/proc/self/statm");
-    double pages[6] = {};
-    for (double& count : pages)
-    {
-      file >> count;
-    }
-    return pages[5] * static_cast<double>(sysconf(_SC_PAGESIZE));
-  }
-
-  static double UsedSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-  /// Lowers a limit, returns what it was.
-  static rlimit Lower(int resource, double value)
-  {
-    rlimit before = {};
-    getrlimit(resource, &before);
-    rlimit lowered = before;
-    lowered.rlim_cur = std::min(before.rlim_cur, static_cast<rlim_t>(value));
-    setrlimit(resource, &lowered);
-    return before;
-  }
-
-  rlimit Memory;
-  rlimit Time;
-};
+/// Lowers a limit of this process for as long as the result lives.
+std::shared_ptr<void> LowerLimit(int resource, double value)
+{
+  rlimit before = {};
+  getrlimit(resource, &before);
+  rlimit lowered = before;
+  lowered.rlim_cur = std::min(before.rlim_cur, static_cast<rlim_t>(value));
+  setrlimit(resource, &lowered);
+  return { nullptr, [=](void*) { setrlimit(resource, &before); } };
+}
 
 void RequireSizes(vtkCellArray* cells, vtkIdType fewest, const std::string& what)
 {
@@ -269,7 +233,14 @@ MeshFormat FormatOf(const std::string& path)
 FileMesh ReadMesh(const std::string& path, MeshFormat format)
 {
   const InputFile file(path);
-  const ReadingLimits limits(static_cast<double>(file.GetBytes().size()));
+  const auto bytes = static_cast<double>(file.GetBytes().size());
+  const double seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  // A file that asks for more ends the process, or an allocation fails. Text of one-digit numbers
+  // grows 16 times when every number becomes a few doubles. Compressed data can grow a thousand
+  // times, but only if they are nearly constant. The slowest readers take 0.2 microseconds per
+  // byte.
+  const auto memory = LowerLimit(RLIMIT_DATA, UsedMemory() + (1 << 30) + 200.0 * bytes);
+  const auto time = LowerLimit(RLIMIT_CPU, std::ceil(seconds + 30.0 + 5e-6 * bytes));
   try
   {
     FileMesh read = RowOf(format).Read(file);
@@ -323,24 +294,12 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
   {
     return {};
   }
-  std::vector<vtkAbstractArray*> kept;
   std::string list;
   const auto add = [&list](const std::string& loss)
   { list += (list.empty() || loss.empty() ? "" : ", ") + loss; };
   const auto addCount = [&add](const std::string& what, std::int64_t count)
   { add(count > 0 ? what + " (" + std::to_string(count) + ")" : ""); };
-  if (format == MeshFormat::PLY)
-  {
-    kept = ArraysOfPly(mesh);
-  }
-  else if (format == MeshFormat::OBJ)
-  {
-    kept = ArraysOfObj(mesh);
-  }
-  else
-  {
-    addCount("lines", mesh->GetNumberOfLines());
-  }
+  addCount("lines", format == MeshFormat::STL ? mesh->GetNumberOfLines() : 0);
   addCount("verts", format == MeshFormat::OBJ ? 0 : mesh->GetNumberOfVerts());
   if (format == MeshFormat::STL)
   {
@@ -355,7 +314,10 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
         (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
     }
   }
-  add(LostArrays("point data", mesh->GetPointData(), kept));
+  add(LostArrays("point data", mesh->GetPointData(),
+    format == MeshFormat::PLY     ? ArraysOfPly(mesh)
+      : format == MeshFormat::OBJ ? ArraysOfObj(mesh)
+                                  : std::vector<vtkAbstractArray*>()));
   add(LostArrays("cell data", mesh->GetCellData(), {}));
   add(LostArrays("field data", mesh->GetFieldData(), {}));
   return list;

@@ -29,17 +29,17 @@ namespace
 /// The numbers of a vertex, its texture coordinates and its normal, from 0; -1 for none.
 using Corner = std::array<std::int64_t, 3>;
 
-/// The numbers of a line v, vt or vn.
-struct ObjVector
-{
-  const char* Keyword;
-  std::size_t Fewest; ///< How many there must be; the others are 0.
-  int Components;
-  const char* Others; ///< What more numbers are.
-};
+// The lines with numbers: how many of them are kept, and what the others are.
+constexpr const char* Keywords[] = { "v", "vt", "vn" };
+constexpr int Components[] = { 3, 2, 3 };
+constexpr const char* Others[] = { "weights", "third coordinates of vt",
+  "further coordinates of vn" };
 
-constexpr ObjVector Vectors[] = { { "v", 3, 3, "weights" },
-  { "vt", 1, 2, "third coordinates of vt" }, { "vn", 3, 3, "further coordinates of vn" } };
+/// The place of a word among the keywords; 3 for others.
+std::size_t FindKind(std::string_view word)
+{
+  return std::find(std::begin(Keywords), std::end(Keywords), word) - std::begin(Keywords);
+}
 
 vtkSmartPointer<vtkDoubleArray> MakeVectors(
   const char* name, const std::vector<double>& values, int components)
@@ -61,10 +61,7 @@ public:
   {
     for (TextLines all(file, true); all.Next();) // indices may refer to later lines
     {
-      for (std::size_t kind = 0; kind < this->Sizes.size(); ++kind)
-      {
-        this->Sizes[kind] += all.Words[0] == Vectors[kind].Keyword ? 1 : 0;
-      }
+      ++this->Sizes[FindKind(all.Words[0])];
     }
     while (this->Lines.Next())
     {
@@ -107,41 +104,44 @@ public:
 private:
   void ReadLine(const std::string& keyword)
   {
-    for (std::size_t kind = 0; kind < this->Values.size(); ++kind)
+    const std::size_t kind = FindKind(keyword);
+    if (kind < this->Values.size())
     {
-      if (keyword == Vectors[kind].Keyword)
-      {
-        return this->ReadVector(Vectors[kind], this->Values[kind]);
-      }
+      this->ReadVector(kind);
     }
-    if (keyword == "p" || keyword == "l" || keyword == "f")
+    else if (keyword == "p" || keyword == "l" || keyword == "f")
     {
-      return this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
+      this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
     }
-    if (!std::all_of(keyword.begin(), keyword.end(),
-          [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; }))
+    else if (std::all_of(keyword.begin(), keyword.end(),
+               [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; }))
+    {
+      ++this->LeftOut[keyword];
+    }
+    else
     {
       this->Lines.Fail("not a line of an OBJ file");
     }
-    ++this->LeftOut[keyword];
   }
 
-  /// A vertex may have a weight after its coordinates, and then a color.
-  void ReadVector(const ObjVector& kind, std::vector<double>& values)
+  /// A vertex may have a weight after its coordinates, and then a color. The second texture
+  /// coordinate may be missing.
+  void ReadVector(std::size_t kind)
   {
     const std::size_t count = this->Lines.Words.size() - 1;
-    const std::size_t components = static_cast<std::size_t>(kind.Components);
-    const bool isVertex = &values == &this->Values[0];
+    const std::size_t components = Components[kind];
+    const bool isVertex = kind == 0;
     if (isVertex && (count == 5 || count > 7))
     {
       this->Lines.Fail("a vertex has three coordinates, perhaps a weight, and perhaps a color");
     }
     for (std::size_t i = 0; i < std::max(count, components); ++i)
     {
-      const double value = i < count || i < kind.Fewest ? this->Lines.Number<double>(i + 1) : 0.0;
+      const bool isMissing = kind == 1 && i > 0 && i >= count;
+      const double value = isMissing ? 0.0 : this->Lines.Number<double>(i + 1);
       if (i < components)
       {
-        values.push_back(value);
+        this->Values[kind].push_back(value);
       }
       else if (isVertex && count >= 6 && i + 3 >= count)
       {
@@ -149,7 +149,7 @@ private:
       }
       else if (isVertex || value != 0.0)
       {
-        ++this->LeftOut[kind.Others];
+        ++this->LeftOut[Others[kind]];
       }
     }
   }
@@ -182,8 +182,7 @@ private:
     for (std::size_t kind = 0; kind < corner.size(); ++kind)
     {
       const std::string_view text = rest.substr(0, rest.find('/'));
-      const auto seen =
-        static_cast<std::int64_t>(this->Values[kind].size()) / Vectors[kind].Components;
+      const auto seen = static_cast<std::int64_t>(this->Values[kind].size()) / Components[kind];
       std::int64_t index = 0;
       if (kind == 0 || !text.empty())
       {
@@ -212,7 +211,7 @@ private:
   vtkSmartPointer<vtkDoubleArray> OfPoints(std::size_t kind, const char* name)
   {
     const std::vector<double>& values = this->Values[kind];
-    const int size = Vectors[kind].Components;
+    const int size = Components[kind];
     const auto points = static_cast<std::size_t>(this->Sizes[0]);
     std::vector<double> ofPoints(points * size);
     std::vector<bool> isKnown(points);
@@ -238,7 +237,7 @@ private:
 
   const InputFile& File;
   TextLines Lines;
-  std::array<std::int64_t, 3> Sizes = {}; ///< How many v, vt and vn there are.
+  std::array<std::int64_t, 4> Sizes = {}; ///< How many v, vt, vn and other lines there are.
   std::array<std::vector<double>, 3> Values; ///< Of v, vt and vn.
   std::vector<double> Colors; ///< 3 each.
   std::array<vtkNew<vtkCellArray>, 3> Cells; ///< Of one, two, and more points.

@@ -90,12 +90,9 @@ void Join(vtkDataSetAttributes* data, const PlyGroup& group)
     return;
   }
   const int type = find(names[0])->GetDataType();
-  const bool keepsType = std::all_of(names.begin(), names.end(),
-    [&](const std::string& name)
-    {
-      return find(name)->GetDataType() == type &&
-        (type == VTK_FLOAT || group.Array != Coordinates.Array);
-    });
+  const bool keepsType = (type == VTK_FLOAT || group.Array != Coordinates.Array) &&
+    std::all_of(names.begin(), names.end(),
+      [&](const std::string& name) { return find(name)->GetDataType() == type; });
   const auto joined =
     vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(keepsType ? type : VTK_DOUBLE));
   joined->SetName(group.Array.c_str());
@@ -117,10 +114,6 @@ public:
     : File(file),
       Lines(file)
   {
-  }
-
-  FileMesh Read()
-  {
     this->ReadHeader();
     for (PlyElement& element : this->Elements)
     {
@@ -138,8 +131,9 @@ public:
     {
       this->File.Fail("has no vertices x, y and z");
     }
-    return this->Result;
   }
+
+  FileMesh Result;
 
 private:
   void ReadHeader()
@@ -342,7 +336,6 @@ private:
   std::vector<PlyElement> Elements;
   std::size_t Place = 0; ///< Of the next word in a line of values.
   std::vector<vtkIdType> Cell; ///< The points of a face or an edge.
-  FileMesh Result;
 };
 
 const char* NameOf(int type)
@@ -422,7 +415,7 @@ void WriteNumber(std::ostream& out, T number)
 
 }
 
-FileMesh ReadPly(const InputFile& file) { return PlyReader(file).Read(); }
+FileMesh ReadPly(const InputFile& file) { return PlyReader(file).Result; }
 
 void WritePly(vtkPolyData* mesh, const std::string& path)
 {

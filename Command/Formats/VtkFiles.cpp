@@ -33,6 +33,7 @@
 #include <cstring>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <sstream>
 
 /// @file
@@ -53,30 +54,21 @@ namespace
     "Extract Surface (vtkDataSetSurfaceFilter) extracts one");
 }
 
-/// Discards what is written to stderr while it lives: the output of a crashing reader helps nobody.
-class MutedStandardError
+/// Discards what is written to stderr while the result lives: the output of a crashing reader helps
+/// nobody.
+std::shared_ptr<void> MuteStandardError()
 {
-public:
-  MutedStandardError()
-    : Saved(dup(STDERR_FILENO))
-  {
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nowhere, STDERR_FILENO);
-    close(nowhere);
-  }
-
-  ~MutedStandardError()
-  {
-    dup2(this->Saved, STDERR_FILENO);
-    close(this->Saved);
-  }
-
-  MutedStandardError(const MutedStandardError&) = delete;
-  MutedStandardError& operator=(const MutedStandardError&) = delete;
-
-private:
-  int Saved;
-};
+  const int saved = dup(STDERR_FILENO);
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDERR_FILENO);
+  close(nowhere);
+  return { nullptr,
+    [saved](void*)
+    {
+      dup2(saved, STDERR_FILENO);
+      close(saved);
+    } };
+}
 
 /// Runs a reader. Any message of its means that a part of the file is missing.
 template <typename Reader>
@@ -84,7 +76,7 @@ FileMesh Run(Reader* reader, const InputFile& file)
 {
   reader->SetFileName(file.GetPath().c_str());
   {
-    const MutedStandardError muted;
+    const auto muted = MuteStandardError();
     reader->Update();
   }
   const std::string problems = TakeVTKProblems();
