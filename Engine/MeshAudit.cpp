@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace delaunayflip
@@ -357,11 +358,8 @@ double MinimumAngle(const TriangleMesh& mesh, GeometryKind geometry)
 {
   std::vector<double> angles(mesh.Triangles.Count);
   FindSmallestAngles(mesh, geometry, 1, angles.data());
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const double angle : angles)
-  {
-    smallest = angle < smallest ? angle : smallest;
-  }
+  const double smallest = std::accumulate(angles.begin(), angles.end(),
+    std::numeric_limits<double>::infinity(), [](double a, double b) { return std::fmin(a, b); });
   return std::isfinite(smallest) ? smallest : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -113,9 +113,8 @@ struct BasicTriangleArray
   /// Prefetches the ids of a triangle.
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t triangle) const
   {
-    const std::int64_t i = 3 * triangle;
-    delaunayflip::Prefetch(this->Ids32 ? static_cast<const void*>(this->Ids32 + i)
-                                       : static_cast<const void*>(this->Ids64 + i));
+    delaunayflip::Prefetch(this->Ids32 ? static_cast<const void*>(this->Ids32 + 3 * triangle)
+                                       : this->Ids64 + 3 * triangle);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void Set(std::int64_t triangle, int slot, std::int64_t vertex) const

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace delaunayflip
 {
@@ -133,18 +132,6 @@ int FindDeviceOf(const void* memory);
 
 /// Copies to or from a device, after all that is in the caller's stream, and waits.
 void CopyMemory(const void* from, std::int64_t bytes, void* to, const DeviceStream& stream);
-
-/// Calls store(values), which sets `size` values in the host's memory, and copies them to a device.
-template <typename T, typename Store>
-void StoreThroughHost(T* device, std::int64_t size, const DeviceStream& stream, const Store& store)
-{
-  std::vector<T> values(size);
-  store(values.data());
-  if (size > 0)
-  {
-    CopyMemory(values.data(), size * static_cast<std::int64_t>(sizeof(T)), device, stream);
-  }
-}
 
 }
 

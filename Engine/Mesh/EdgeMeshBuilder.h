@@ -496,7 +496,10 @@ struct LoadStep
     for (int slot = 0; slot < 3; ++slot)
     {
       const std::int64_t vertex = this->Mesh.Triangles.Get(this->Order.GetTriangle(t), slot);
-      this->Order.PrefetchRank(vertex);
+      if (this->Order.RankOfVertex)
+      {
+        delaunayflip::Prefetch(&this->Order.RankOfVertex[vertex]);
+      }
       if (this->Uses)
       {
         delaunayflip::Prefetch(&this->Uses[vertex]);

@@ -39,14 +39,6 @@ struct SpatialOrderView
   {
     return this->RankOfVertex ? this->RankOfVertex[vertex] : static_cast<VertexId>(vertex);
   }
-  /// Prefetches the rank of a vertex.
-  DELAUNAYFLIP_HOST_DEVICE void PrefetchRank(std::int64_t vertex) const
-  {
-    if (this->RankOfVertex)
-    {
-      Prefetch(&this->RankOfVertex[vertex]);
-    }
-  }
   DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(std::int64_t rank) const
   {
     return this->VertexOfRank ? this->VertexOfRank[rank] : static_cast<VertexId>(rank);

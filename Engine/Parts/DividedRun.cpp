@@ -121,7 +121,10 @@ public:
     {
       this->Insertion.AddFlipCounts(this->FlipCounts.data());
     }
+    // Frees what is not needed any more.
+    this->Insertion = ConstraintInsertion();
     this->PartOf = Array<unsigned char>();
+    this->Fixed = std::vector<std::int64_t>();
     if (progress && this->IsOver())
     {
       progress(1.0);
@@ -456,17 +459,8 @@ private:
   void CountRest()
   {
     PiecesReport& report = this->Report;
-    if (this->AreCounted)
-    {
-      AddCounts(report.Edges, this->Seams.Edges, 1);
-      report.EulerCharacteristic = this->Survey.UsedPoints - report.Edges.Edges + report.Triangles;
-      report.NonDelaunayBefore += this->Seams.NonDelaunayAfter;
-    }
-    else
-    {
-      report.Edges = EdgeCounts();
-      report.EulerCharacteristic = 0;
-    }
+    AddCounts(report.Edges, this->Seams.Edges, 1);
+    report.NonDelaunayBefore += this->AreCounted ? this->Seams.NonDelaunayAfter : 0;
     if (report.Rounds > 1)
     {
       const TriangleMesh& mesh = this->Mesh;
@@ -485,11 +479,7 @@ private:
     {
       this->CountBadEdges();
     }
-    if (!report.Iterations.empty())
-    {
-      report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
-    }
-    CountIterations(report);
+    CompleteReport(report, this->Survey.UsedPoints, this->AreCounted);
   }
 
   /// Counts those that are left, whatever the reason.

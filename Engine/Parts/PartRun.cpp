@@ -496,14 +496,8 @@ private:
     this->Own.NonDelaunayBefore += seams.NonDelaunayAfter;
     PiecesReport report = this->Whole;
     static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Job.Group);
-    CountIterations(report);
+    CompleteReport(report, keys.UsedPoints, this->IsCounted);
     report.Points = keys.Owners.Firsts.back() - keys.Repeated;
-    report.EulerCharacteristic = keys.UsedPoints - report.Edges.Edges + report.Triangles;
-    if (!this->IsCounted)
-    {
-      report.Edges = EdgeCounts();
-      report.EulerCharacteristic = 0;
-    }
     report.NonDelaunayAfter += this->Seams.Bad + this->Seams.Blocked;
     report.BlockedByShape += this->Seams.Blocked - this->Seams.Deviating;
     report.BlockedByDeviation += this->Seams.Deviating;
@@ -512,10 +506,6 @@ private:
     report.GeometryUsed = this->Job.Survey.Geometry;
     report.GeometryReason = this->Job.Survey.GeometryReason;
     report.StopReason = this->WholeStopReason;
-    if (!report.Iterations.empty())
-    {
-      report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
-    }
     AddDefect(this->Job.Survey.NearlyHeightField, report.Defects);
     return report;
   }

@@ -126,8 +126,14 @@ void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor)
   }
 }
 
-void CountIterations(FlipReport& report)
+void CompleteReport(FlipReport& report, std::int64_t usedPoints, bool isCounted)
 {
+  report.Edges = isCounted ? report.Edges : EdgeCounts();
+  report.EulerCharacteristic = isCounted ? usedPoints - report.Edges.Edges + report.Triangles : 0;
+  if (!report.Iterations.empty())
+  {
+    report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
+  }
   report.TotalFlips = report.TotalExcluded = report.TotalBlocked = 0;
   for (const IterationRecord& row : report.Iterations)
   {

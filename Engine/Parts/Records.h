@@ -156,8 +156,9 @@ FlipReport JoinReports(const FlipReport& report, PieceGroup& group);
 /// The same for the parts of a mesh of one process. Each time is the largest of all parts.
 FlipReport JoinReports(const std::vector<FlipReport>& reports);
 
-/// Sums the iterations of a report.
-void CountIterations(FlipReport& report);
+/// Completes the report of the whole mesh once its edges and the smallest angle are known.
+/// @param isCounted whether all edges have been counted.
+void CompleteReport(FlipReport& report, std::int64_t usedPoints, bool isCounted);
 
 /// Adds the edges that a report counts, by their kinds and after the last flip.
 /// @param factor 1 to add, -1 to subtract.

@@ -266,9 +266,12 @@ struct FlipSession::Work
     {
       this->TryOnBackend([&](const LoadedMesh& mesh) { isStored = store(mesh); });
     }
-    if (!isStored)
+    std::vector<Value> all(isStored ? 0 : values.Size);
+    if (!all.empty())
     {
-      StoreThroughHost(values.Values, values.Size, values.Stream, storeOnHost);
+      storeOnHost(all.data());
+      CopyMemory(all.data(), values.Size * static_cast<std::int64_t>(sizeof(Value)), values.Values,
+        values.Stream);
     }
   }
 
