@@ -210,7 +210,8 @@ public:
     {
       this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
     }
-    this->Places.Floats ? this->Divide(this->Places.Floats) : this->Divide(this->Places.Doubles);
+    this->Places.Floats ? this->Divide(this->Places.Floats, progress)
+                        : this->Divide(this->Places.Doubles, progress);
     if constexpr (BackendT::IsOnHost)
     {
       this->Backend.SetPoll(nullptr);
@@ -384,7 +385,7 @@ private:
     }
     else
     {
-      mesh = BuildPointMesh(std::move(sorted), this->Backend);
+      mesh = BuildPointMesh(std::move(sorted), this->Backend, progress);
     }
     progress.Reach(Plane, BuildStep::Fixed);
     const MeshSurvey survey = SurveyPlaces(mesh.Points, this->Backend);
@@ -426,11 +427,11 @@ private:
   }
 
   template <typename Real>
-  void Divide(const Real* coordinates)
+  void Divide(const Real* coordinates, const BuildProgress& progress)
   {
     std::int64_t hullEdges = 0; // the same as before
     this->Mesh = DividePlaces(reinterpret_cast<const CoordinatePair<Real>*>(coordinates),
-      this->Points.Count, this->Backend, hullEdges);
+      this->Points.Count, this->Backend, progress, hullEdges);
     this->MakePlaneLoop(coordinates);
   }
 

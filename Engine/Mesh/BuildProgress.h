@@ -40,10 +40,16 @@ public:
   /// @throws RunAborted.
   void Reach(GeometryKind geometry, BuildStep step) const
   {
-    constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.45, 0.50 };
     constexpr double OfSurfaces[] = { 0.02, 0.11, 0.14, 0.24, 0.28, 0.39, 0.56, 0.65 };
     const auto i = static_cast<int>(step);
     this->Tell(geometry == GeometryKind::Surface ? OfSurfaces[i] : OfPlanes[i]);
+  }
+
+  /// The same in a plane after `part` of what follows a step up to another one.
+  void Reach(BuildStep step, BuildStep next, double part) const
+  {
+    const double done = OfPlanes[static_cast<int>(step)];
+    this->Tell(done + part * (OfPlanes[static_cast<int>(next)] - done));
   }
 
   /// @throws RunAborted.
@@ -56,6 +62,8 @@ public:
   }
 
 private:
+  static constexpr double OfPlanes[] = { 0.02, 0.11, 0.17, 0.30, 0.35, 0.39, 0.45, 0.50 };
+
   ProgressObserver Observer;
 };
 

@@ -3,9 +3,12 @@
 #include "DivideAndConquer.h"
 
 #include "ExactPredicates.h"
+#include "FlipReport.h"
 
 #include <algorithm>
-#include <memory>
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <numeric>
 #include <utility>
 
@@ -47,22 +50,37 @@ struct Part
 class Divider
 {
 public:
-  Divider(const std::vector<CoordinatePair<double>>& places, const TaskRunner& run)
-    : Run(run),
-      Places(places.size()),
-      Sides(new Side[6 * places.size()])
+  Divider(std::int64_t count, const Division& division)
+    : Caller(division),
+      Count(static_cast<std::uint32_t>(count)),
+      Places(count, division.Host),
+      Sides(6 * count, division.Host)
   {
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      const auto [u, v] = places[i];
-      this->Places[i] = { u, v, static_cast<std::uint32_t>(i) };
-      this->FiltersApply = this->FiltersApply && IsInFilterRange({ u, v, 0.0 });
-    }
   }
+
+  /// Ends Solve soon, by RunAborted.
+  void Stop() { this->IsStopped = true; }
+  /// About the share of Solve that is done.
+  double GetShare() const { return static_cast<double>(this->Solved) / this->Count; }
 
   DividedPoints Solve()
   {
-    return this->Collect(this->Solve(0, static_cast<std::uint32_t>(this->Places.size()), 0, false));
+    std::atomic<bool> filtersApply{ true };
+    this->ForPieces(this->Count,
+      [&](std::size_t, std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          const auto [u, v] = this->Caller.GetPlace(static_cast<std::int64_t>(i));
+          this->Places[i] = { u, v, static_cast<std::uint32_t>(i) };
+          if (!IsInFilterRange({ u, v, 0.0 }))
+          {
+            filtersApply = false;
+          }
+        }
+      });
+    this->FiltersApply = filtersApply;
+    return this->Collect(this->Solve(0, this->Count, false));
   }
 
 private:
@@ -71,6 +89,8 @@ private:
   {
     return axis == 0 ? (p.U != q.U ? p.U < q.U : p.V < q.V) : (p.V != q.V ? p.V < q.V : p.U > q.U);
   }
+
+  static bool IsLeftOf(const Place& p, const Place& q) { return IsBefore(p, q, 0); }
 
   std::uint32_t Origin(Edge e) const { return this->Sides[e].Origin; }
   std::uint32_t Destination(Edge e) const { return this->Sides[e ^ 1].Origin; }
@@ -92,11 +112,11 @@ private:
       ? sign
       : ExactOrientation(points[0], points[1], points[2]);
   }
-  bool IsLeftOf(std::uint32_t point, Edge e) const
+  bool IsLeftOfEdge(std::uint32_t point, Edge e) const
   {
     return this->Turn(point, this->Origin(e), this->Destination(e)) > 0;
   }
-  bool IsRightOf(std::uint32_t point, Edge e) const
+  bool IsRightOfEdge(std::uint32_t point, Edge e) const
   {
     return this->Turn(point, this->Destination(e), this->Origin(e)) > 0;
   }
@@ -153,32 +173,31 @@ private:
   }
 
   //----------------------------------------------------------------------------
-  /// Triangulates a range of places. Cuts alternate between the axes down to a few places; these
-  /// are sorted along one axis and cut across it only, which takes less time.
-  Part Solve(std::uint32_t begin, std::uint32_t end, int axis, bool isSorted)
+  /// Triangulates a range of places. It is cut where a strip begins, and a strip by x.
+  Part Solve(std::uint32_t begin, std::uint32_t end, bool isStrip)
   {
-    constexpr std::uint32_t SmallestAlternating = 32, SmallestShared = 1 << 13;
-    const std::uint32_t size = end - begin, middle = begin + size / 2;
-    const auto place = [&](std::uint32_t i) { return this->Places.begin() + i; };
-    const auto isBefore = [&](const Place& p, const Place& q) { return IsBefore(p, q, axis); };
-    if (!isSorted && size > SmallestAlternating)
-    {
-      std::nth_element(place(begin), place(middle), place(end), isBefore);
-    }
-    else if (!isSorted)
-    {
-      std::sort(place(begin), place(end), isBefore);
-      isSorted = true;
-    }
+    constexpr std::uint32_t SmallestShared = 1 << 13;
+    const auto place = [&](std::uint32_t i) { return this->Places.Data() + i; };
+    const std::uint32_t size = end - begin;
     if (size <= 3)
     {
+      std::sort(place(begin), place(end), IsLeftOf);
       return this->SolveFew(begin, end);
+    }
+    const std::uint32_t strip = isStrip ? None : this->FindStrip(begin, end);
+    const int axis = strip == None ? 0 : 1;
+    const std::uint32_t middle = strip == None ? begin + size / 2 : strip;
+    if (!isStrip && axis == 0) // of other strips there may be one place at both ends
+    {
+      std::inplace_merge(place(begin), place(begin + 1), place(end - 1), IsLeftOf);
+      std::inplace_merge(place(begin), place(end - 1), place(end), IsLeftOf);
     }
     Part halves[2];
     const auto solve = [&](std::int64_t i)
     {
-      halves[i] = this->Solve(
-        i == 0 ? begin : middle, i == 0 ? middle : end, isSorted ? axis : 1 - axis, isSorted);
+      const std::uint32_t first = i == 0 ? begin : middle, last = i == 0 ? middle : end;
+      halves[i] = this->Solve(first, last, axis == 0);
+      this->Solved += size > SmallestShared && last - first <= SmallestShared ? last - first : 0;
     };
     if (size > SmallestShared)
     {
@@ -190,6 +209,24 @@ private:
       solve(1);
     }
     return this->Merge(halves[0], halves[1], axis);
+  }
+
+  /// The place nearest to the middle of a range where a strip begins, with two places at least on
+  /// both sides; None if there is none.
+  std::uint32_t FindStrip(std::uint32_t begin, std::uint32_t end) const
+  {
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    for (std::uint32_t far = 0; far + 2 <= end - middle; ++far)
+    {
+      for (const std::uint32_t i : { middle - far, middle + far })
+      {
+        if (i >= begin + 2 && IsLeftOf(this->Places[i], this->Places[i - 1]))
+        {
+          return i;
+        }
+      }
+    }
+    return None;
   }
 
   /// Two or three sorted places.
@@ -252,11 +289,11 @@ private:
     Edge l = this->Previous(left.Ends[axis][1].Leaving), r = right.Ends[axis][0].Leaving;
     for (;;) // the lower common tangent
     {
-      if (this->IsLeftOf(this->Origin(r), l))
+      if (this->IsLeftOfEdge(this->Origin(r), l))
       {
         l = this->NextLeft(l);
       }
-      else if (this->IsRightOf(this->Origin(l), r))
+      else if (this->IsRightOfEdge(this->Origin(l), r))
       {
         r = this->Next(r ^ 1);
       }
@@ -269,6 +306,7 @@ private:
     this->ReplaceEnds(base ^ 1, part);
     for (;;)
     {
+      this->Check();
       const Edge leftCandidate = this->FindCandidate(part, base, true);
       const Edge rightCandidate = this->FindCandidate(part, base, false);
       if (leftCandidate == None && rightCandidate == None)
@@ -304,7 +342,7 @@ private:
     const auto step = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
     const Edge last = isLeft ? base ^ 1 : base; // which comes round again
     Edge candidate = step(last);
-    if (!this->IsRightOf(this->Destination(candidate), base))
+    if (!this->IsRightOfEdge(this->Destination(candidate), base))
     {
       return None;
     }
@@ -320,6 +358,26 @@ private:
   }
 
   //----------------------------------------------------------------------------
+  /// Calls work(task) for task = 0 .. count - 1, on threads.
+  template <typename Work>
+  void Run(std::int64_t count, const Work& work) const
+  {
+    this->Caller.Run(count,
+      [&](std::int64_t task)
+      {
+        this->Check();
+        work(task);
+      });
+  }
+
+  void Check() const
+  {
+    if (this->IsStopped)
+    {
+      throw RunAborted();
+    }
+  }
+
   /// Calls work(piece, first, end) for pieces of [0, size), on threads.
   template <typename Work>
   void ForPieces(std::size_t size, const Work& work) const
@@ -330,10 +388,10 @@ private:
 
   DividedPoints Collect(const Part& whole) const
   {
-    const auto sides = static_cast<Edge>(6 * this->Places.size());
+    const auto sides = static_cast<Edge>(6 * std::size_t(this->Count));
     // Of the triangle on the left, if there is one.
-    const std::unique_ptr<CornerId[]> cornerOf(new CornerId[sides]);
-    const std::unique_ptr<bool[]> isLeading(new bool[sides]);
+    Array<CornerId> cornerOf(sides, this->Caller.Host);
+    Array<bool> isLeading(sides, this->Caller.Host);
     const Edge outside = whole.Ends[0][0].Leaving ^ 1u;
     const auto isUsed = [&](Edge e) { return this->Origin(e & ~Edge(1)) != None; };
     // Whether a side comes first of those of a triangle.
@@ -357,17 +415,9 @@ private:
         }
       });
     std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
-    DividedPoints result;
     const auto triangles = static_cast<std::size_t>(firstOf.back());
-    result.HullEdges =
-      std::accumulate(usedOf.begin(), usedOf.end(), std::int64_t(0)) - 3 * firstOf.back();
-    result.Triangles.reserve(triangles);
-    while (result.Triangles.size() < triangles) // bit by bit, because memory may be new
-    {
-      this->Run(1,
-        [&](std::int64_t)
-        { result.Triangles.resize(std::min(triangles, result.Triangles.size() + Piece)); });
-    }
+    DividedPoints made{ Array<TriangleRecord>(triangles, this->Caller.Host),
+      std::accumulate(usedOf.begin(), usedOf.end(), -3 * firstOf.back()) };
     const auto placeOf = [&](Edge side) { return this->Places[this->Origin(side)].Number; };
     this->ForPieces(sides,
       [&](std::size_t piece, std::size_t begin, std::size_t end)
@@ -382,8 +432,8 @@ private:
             cornerOf[first] = MakeCorner(number, 2);
             cornerOf[second] = MakeCorner(number, 0);
             cornerOf[third] = MakeCorner(number, 1);
-            result.Triangles[number] = { { placeOf(first), placeOf(second), placeOf(third) },
-              number, { second ^ 1u, third ^ 1u, first ^ 1u }, 0 };
+            made.Triangles[number] = { { placeOf(first), placeOf(second), placeOf(third) }, number,
+              { second ^ 1u, third ^ 1u, first ^ 1u }, 0 };
             ++number;
           }
         }
@@ -393,29 +443,47 @@ private:
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          for (CornerId& other : result.Triangles[i].HalfEdges)
+          for (CornerId& other : made.Triangles[i].HalfEdges)
           {
             other = cornerOf[other];
           }
         }
       });
-    return result;
+    return made;
   }
 
   /// How many sides or triangles a task has.
   static constexpr std::size_t Piece = std::size_t(1) << 16;
 
-  const TaskRunner& Run;
-  std::vector<Place> Places; ///< In the order of the parts.
-  std::unique_ptr<Side[]> Sides; ///< Of edge e; e ^ 1 is its other side.
+  const Division& Caller;
+  const std::uint32_t Count;
+  Array<Place> Places; ///< In the order of the parts.
+  Array<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
   bool FiltersApply = true;
+  std::atomic<std::uint32_t> Solved{ 0 }; ///< Places in parts that one thread has solved.
+  std::atomic<bool> IsStopped{ false };
 };
 }
 
-DividedPoints DivideAndConquer(
-  const std::vector<CoordinatePair<double>>& places, const TaskRunner& run)
+DividedPoints DivideAndConquer(std::int64_t count, const Division& division)
 {
-  return Divider(places, run).Solve();
+  Divider divider(count, division);
+  // On a thread beside this one, or if the system has none left on this one.
+  std::future<DividedPoints> divided = std::async([&]() { return divider.Solve(); });
+  try
+  {
+    constexpr std::chrono::milliseconds Pause(50);
+    while (divided.wait_for(Pause) == std::future_status::timeout)
+    {
+      division.Tell(divider.GetShare());
+    }
+  }
+  catch (...)
+  {
+    divider.Stop();
+    throw; // once it has ended
+  }
+  return divided.get();
 }
 
 }

@@ -3,37 +3,45 @@
 #ifndef DELAUNAYFLIP_DIVIDEANDCONQUER_H
 #define DELAUNAYFLIP_DIVIDEANDCONQUER_H
 
+#include "Array.h"
 #include "EdgeMesh.h"
 
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 /// @file
 /// The Delaunay triangulation of points on the host, by divide and conquer (Guibas and Stolfi, ACM
-/// Transactions on Graphics 4, 1985) with cuts that alternate between x and y (Dwyer, Algorithmica
-/// 2, 1987). It takes O(n log n) steps whatever the points are. Where strips leave a start from
-/// which flips are a long chain, as for points along curves, this takes over.
+/// Transactions on Graphics 4, 1985): strips are cut in the order of x, and merged in that of y. It
+/// takes O(n log n) steps whatever the points are. Where strips leave a start from which flips are
+/// a long chain, as for points along curves, this takes over.
 
 namespace delaunayflip
 {
 
-/// Calls work(task) for task = 0 .. count - 1, on threads.
-using TaskRunner =
-  std::function<void(std::int64_t count, const std::function<void(std::int64_t)>& work)>;
+/// What DivideAndConquer needs of its caller.
+struct Division
+{
+  /// Calls work(task) for task = 0 .. count - 1, on threads.
+  std::function<void(std::int64_t count, const std::function<void(std::int64_t)>& work)> Run;
+  /// A place, on any thread.
+  std::function<CoordinatePair<double>(std::int64_t)> GetPlace;
+  /// Is told the share of the work that is done, on the calling thread, every twentieth of a
+  /// second. It may throw, which ends the work.
+  std::function<void(double)> Tell;
+  Memory& Host; ///< Thread-safe.
+};
 
 struct DividedPoints
 {
   /// Vertices are numbers of places; HalfEdges hold the other corners, or NoCorner.
-  std::vector<TriangleRecord> Triangles;
+  Array<TriangleRecord> Triangles;
   std::int64_t HullEdges = 0;
 };
 
-/// Triangulates places, no two of which are equal. All triangles turn to the left and have an area;
-/// no point is inside a circumcircle. Which of two diagonals is used for four points on a circle
-/// depends on the order of the places.
-DividedPoints DivideAndConquer(
-  const std::vector<CoordinatePair<double>>& places, const TaskRunner& run);
+/// Triangulates places, no two of which are equal, in the order of strips (Strips.h). All triangles
+/// turn to the left and have an area; no point is inside a circumcircle. Which of two diagonals is
+/// used for four points on a circle depends on the order of the places.
+DividedPoints DivideAndConquer(std::int64_t count, const Division& division);
 
 }
 

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_POINTMESH_H
 
 #include "Array.h"
+#include "BuildProgress.h"
 #include "DivideAndConquer.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
@@ -308,19 +309,32 @@ struct PointMeshBuilder
 };
 
 /// Triangulates at least three places by divide and conquer, on the host. No edge is bad then.
-/// @param hullEdges receives their number.
+/// @param places as in StripPoints. @param hullEdges receives their number.
 template <typename Real, typename Backend>
 EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
-  const Backend& backend, std::int64_t& hullEdges)
+  const Backend& backend, const BuildProgress& progress, std::int64_t& hullEdges)
 {
-  const DividedPoints divided = DivideAndConquer(FetchPlaces(places, nullptr, count, backend),
-    [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
-    { backend.ForTasks(tasks, work); });
+  const std::vector<CoordinatePair<double>> fetched =
+    FetchPlaces(places, nullptr, Backend::IsOnHost ? 0 : count, backend);
+  const auto run = [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
+  { backend.ForTasks(tasks, work); };
+  const auto getPlace = [&](std::int64_t i) {
+    return Backend::IsOnHost ? CoordinatePair<double>{ places[i].U, places[i].V } : fetched[i];
+  };
+  const auto tell = [&](double share)
+  { progress.Reach(BuildStep::Loaded, BuildStep::Fixed, share); };
+  DividedPoints divided = DivideAndConquer(count, { run, getPlace, tell, backend.GetHostMemory() });
   hullEdges = divided.HullEdges;
   EdgeMesh edges;
-  edges.NumberOfTriangles = static_cast<std::int64_t>(divided.Triangles.size());
-  edges.Triangles = backend.template MakeArray<TriangleRecord>(edges.NumberOfTriangles);
-  backend.Upload(divided.Triangles.data(), edges.NumberOfTriangles, edges.Triangles.Data());
+  edges.NumberOfTriangles = static_cast<std::int64_t>(divided.Triangles.Size());
+  edges.Triangles = std::move(divided.Triangles);
+  if constexpr (!Backend::IsOnHost)
+  {
+    Array<TriangleRecord> onDevice =
+      backend.template MakeArray<TriangleRecord>(edges.NumberOfTriangles);
+    backend.Upload(edges.Triangles.Data(), edges.NumberOfTriangles, onDevice.Data());
+    edges.Triangles = std::move(onDevice);
+  }
   RequireComplete(edges, count, hullEdges);
   NumberJoinedEdges(edges, {}, backend);
   return edges;
@@ -331,7 +345,8 @@ EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
 /// along one curve, or if few are and runs are long.
 /// @param strips as above.
 template <typename Real, typename Backend>
-PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
+PointMesh<Real> BuildPointMesh(
+  StripPoints<Real> strips, const Backend& backend, const BuildProgress& progress)
 {
   PointMesh<Real> mesh;
   mesh.Points = std::move(strips);
@@ -348,7 +363,8 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, const Backend& backend)
   if (mesh.Points.Count >= SmallestCurve &&
     (onBoundary >= 9 * tenth || (onBoundary < 2 * tenth && builder.HasLongRuns())))
   {
-    mesh.Edges = DividePlaces(mesh.Points.Places(), mesh.Points.Count, backend, mesh.HullEdges);
+    mesh.Edges =
+      DividePlaces(mesh.Points.Places(), mesh.Points.Count, backend, progress, mesh.HullEdges);
     return mesh;
   }
   builder.MakeArrays(triangles + onBoundary);

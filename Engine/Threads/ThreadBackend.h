@@ -280,6 +280,8 @@ public:
   bool PairCorners(
     EdgeMesh& mesh, std::int64_t vertices, PairSums& sums, Numbering& numbering) const;
 
+  HostMemory& GetHostMemory() const { return *this->Memory; }
+
   template <typename T>
   Array<T> MakeArray(std::int64_t size) const
   {

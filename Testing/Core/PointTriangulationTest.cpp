@@ -1,17 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DivideAndConquer.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
+#include "ThreadBackend.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <set>
+#include <thread>
 
 /// @file
 /// Triangulations of points, judged by CGAL, rational numbers and the flips of other
@@ -448,6 +452,64 @@ TEST(PointTriangulation, CanBeStopped)
     EXPECT_EQ(StopReasonKind::Converged, session.GetReport().StopReason);
     EXPECT_EQ(Triangulate(points).Triangles, StoreTriangles(session));
   }
+}
+
+/// The calling thread is asked while other threads work, whatever they do, and hears how far they
+/// are; what it throws ends their work.
+TEST(PointTriangulation, DivideAndConquerAsks)
+{
+  constexpr int Columns = 200, Rows = 150;
+  std::mt19937 random(10);
+  std::vector<CoordinatePair<double>> places;
+  for (int i = 0; i < Columns * Rows; ++i)
+  {
+    places.push_back({ i % Columns + 1e-4 * DrawIndex(random, 9000),
+      i / Columns + 1e-4 * DrawIndex(random, 9000) });
+  }
+  std::vector<double> told;
+  std::atomic<std::size_t> count{ 0 };
+  int tasks = 0;
+  std::size_t most = 1000;
+  double patience = 20.0;
+  const auto run = [&](std::int64_t size, const std::function<void(std::int64_t)>& work)
+  {
+    for (std::int64_t task = 0; task < size; ++task)
+    {
+      work(task);
+      ++tasks;
+      // Until the calling thread is asked, if it is, or the work stops.
+      const StopWatch watch;
+      const std::size_t before = count;
+      while (count == before && watch.GetSeconds() < patience)
+      {
+        std::this_thread::yield();
+      }
+      patience = count == before ? 0.0 : (count < most ? patience : 1.0);
+    }
+  };
+  const auto getPlace = [&](std::int64_t i) { return places[i]; };
+  const auto tell = [&](double share)
+  {
+    told.push_back(share);
+    if (++count == most)
+    {
+      throw RunAborted();
+    }
+  };
+  HostMemory memory;
+  const Division division{ run, getPlace, tell, memory };
+  const DividedPoints divided =
+    DivideAndConquer(static_cast<std::int64_t>(places.size()), division);
+  EXPECT_EQ(2 * places.size() - 2 - divided.HullEdges, divided.Triangles.Size());
+  const int all = tasks;
+  ASSERT_LE(static_cast<std::size_t>(all), told.size());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LE(4u, std::set<double>(told.begin(), told.end()).size());
+  EXPECT_EQ(1.0, told.back());
+  most = count + 2;
+  tasks = 0;
+  EXPECT_THROW(DivideAndConquer(static_cast<std::int64_t>(places.size()), division), RunAborted);
+  EXPECT_GT(all / 2, tasks);
 }
 
 TEST(PointTriangulation, TooManyPoints)
