@@ -3,7 +3,6 @@
 #include "Hull.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace delaunayflip
@@ -109,43 +108,41 @@ HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePai
     firstTriangle, nullptr, &failed };
   TriangleId next = firstTriangle;
   // Cuts a path that leads from `left` through all other vertices, and keeps what is left of it.
-  const auto cut = [&](
-                     VertexId left, std::vector<VertexId>& vertices, std::vector<CornerId>& labels)
+  const auto cut = [&](VertexId left, std::vector<LabelledVertex>& path)
   {
-    EarCutter<double> cutter{ chains, { vertices.data(), labels.data(), 1 },
-      static_cast<std::uint32_t>(vertices.size() - 1), left, vertices.back(), labels.back(), true,
-      NoCorner, next };
+    EarCutter<double> cutter{ chains, { &path.front().Vertex, &path.front().Label, 2 },
+      static_cast<std::uint32_t>(path.size() - 1), left, path.back().Vertex, path.back().Label,
+      true, NoCorner, next };
     cutter.Cut();
     next = cutter.Next;
-    vertices.resize(cutter.Size);
-    vertices.push_back(cutter.Right);
-    labels.resize(cutter.Size);
-    labels.push_back(cutter.LastLabel);
+    path.resize(cutter.Size);
+    path.push_back({ cutter.Right, cutter.LastLabel });
   };
-  std::vector<VertexId> vertices, ofPart;
-  std::vector<CornerId> labels, labelsOfPart;
+  std::vector<LabelledVertex> whole, part;
   std::size_t begin = 0;
   for (const std::size_t end : boundary.PartEnds)
   {
-    if (begin + 1 < end)
+    part.clear();
+    for (std::size_t i = begin + 1; i < end; ++i)
     {
-      ofPart.resize(end - begin - 1);
-      std::iota(ofPart.begin(), ofPart.end(), static_cast<VertexId>(begin + 1));
-      labelsOfPart.assign(&boundary.Labels[begin + 1], boundary.Labels.data() + end);
-      cut(static_cast<VertexId>(begin), ofPart, labelsOfPart);
-      vertices.insert(vertices.end(), ofPart.begin(), ofPart.end());
-      labels.insert(labels.end(), labelsOfPart.begin(), labelsOfPart.end());
+      part.push_back({ static_cast<VertexId>(i), boundary.Labels[i] });
+    }
+    if (!part.empty())
+    {
+      cut(static_cast<VertexId>(begin), part);
+      whole.insert(whole.end(), part.begin(), part.end());
     }
     begin = end;
   }
-  const auto isLower = [&](std::uint32_t a, std::uint32_t b)
-  { return places[a].V != places[b].V ? places[a].V < places[b].V : places[a].U < places[b].U; };
-  const auto lowest =
-    std::min_element(vertices.begin(), vertices.end(), isLower) - vertices.begin() + 1;
-  std::rotate(vertices.begin(), vertices.begin() + lowest, vertices.end());
-  std::rotate(labels.begin(), labels.begin() + lowest, labels.end());
-  cut(vertices.back(), vertices, labels);
-  result.HullEdges = static_cast<std::int64_t>(labels.size());
+  const auto isLower = [&](const LabelledVertex& first, const LabelledVertex& second)
+  {
+    const CoordinatePair<double>&a = places[first.Vertex], &b = places[second.Vertex];
+    return a.V != b.V ? a.V < b.V : a.U < b.U;
+  };
+  std::rotate(
+    whole.begin(), std::min_element(whole.begin(), whole.end(), isLower) + 1, whole.end());
+  cut(whole.back().Vertex, whole);
+  result.HullEdges = static_cast<std::int64_t>(whole.size());
   result.Triangles.resize(next - firstTriangle);
   for (TriangleRecord& triangle : result.Triangles)
   {

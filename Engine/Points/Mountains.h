@@ -132,32 +132,31 @@ DELAUNAYFLIP_HOST_DEVICE Gap MeasureGap(const ChainView<Real>& chains, std::int6
   const std::uint32_t lower = chains.Starts[gap];
   const std::uint32_t upper = chains.Starts[gap + 1];
   const std::uint32_t end = chains.Starts[gap + 2];
-  // How many of the lower chain come before a place of the upper one, and the reverse.
-  const auto countLower = [&](std::uint32_t place)
-  {
-    return FindEnd(
-             lower, upper, [&](std::uint32_t other) { return chains.IsBefore(other, place); }) -
-      lower;
-  };
-  const auto countUpper = [&](std::uint32_t place)
-  {
-    return FindEnd(
-             upper, end, [&](std::uint32_t other) { return !chains.IsBefore(place, other); }) -
-      upper;
-  };
-  const std::uint32_t fromUpper = countUpper(lower);
-  const std::uint32_t lowerAtEnd = (upper - lower) - countLower(end - 1);
-  return { fromUpper > 0 ? fromUpper : countLower(upper),
-    lowerAtEnd > 0 ? lowerAtEnd : (end - upper) - countUpper(upper - 1), fromUpper == 0,
-    lowerAtEnd > 0, 0 };
+  // The first of the lower chain that does not come before a place of the upper one, and the
+  // reverse.
+  const auto endOfLower = [&](std::uint32_t place)
+  { return FindEnd(lower, upper, [&](auto other) { return chains.IsBefore(other, place); }); };
+  const auto endOfUpper = [&](std::uint32_t place)
+  { return FindEnd(upper, end, [&](auto other) { return !chains.IsBefore(place, other); }); };
+  const std::uint32_t fromUpper = endOfUpper(lower) - upper;
+  const std::uint32_t lowerAtEnd = upper - endOfLower(end - 1);
+  return { fromUpper > 0 ? fromUpper : endOfLower(upper) - lower,
+    lowerAtEnd > 0 ? lowerAtEnd : end - endOfUpper(upper - 1), fromUpper == 0, lowerAtEnd > 0, 0 };
 }
+
+/// A vertex of a path, and the label of the edge before it.
+struct LabelledVertex
+{
+  VertexId Vertex;
+  CornerId Label;
+};
 
 /// The vertices of a path between its two ends, and the labels of the edges before them.
 struct EarPath
 {
   VertexId* Vertices;
   CornerId* Labels;
-  std::uint32_t Stride; ///< 1, or that of records of triangles that are made later.
+  std::uint32_t Stride; ///< 1, 2 in a LabelledVertex, or that of triangles that are made later.
 };
 
 /// A path of vertices from left to right of which ears are cut until only what is convex, or in a
@@ -215,20 +214,10 @@ private:
     const bool swaps = this->IsOnRight;
     const TriangleId number = this->Next++;
     TriangleRecord& made = this->Chains.GetTriangle(number);
-    if (this->Path.Stride == 1)
-    {
-      made = { { a, swaps ? c : b, swaps ? b : c }, number,
-        { second, swaps ? first : this->Base, swaps ? this->Base : first }, 0 };
-    }
-    else // the rest of the record may be part of the path
-    {
-      made.Vertices[0] = a;
-      made.Vertices[1] = swaps ? c : b;
-      made.Vertices[2] = swaps ? b : c;
-      made.HalfEdges[0] = second;
-      made.HalfEdges[1] = swaps ? first : this->Base;
-      made.HalfEdges[2] = swaps ? this->Base : first;
-    }
+    const bool isWhole = this->Path.Stride == 1; // else the rest of it may be part of the path
+    made = { { a, swaps ? c : b, swaps ? b : c }, isWhole ? number : made.InputTriangle,
+      { second, swaps ? first : this->Base, swaps ? this->Base : first },
+      isWhole ? 0 : made.Flips };
     this->Chains.Attach(first, a, b, swaps, MakeCorner(number, swaps ? 1 : 2));
     this->Chains.Attach(second, b, c, swaps, MakeCorner(number, 0));
     return MakeCorner(number, swaps ? 2 : 1);
@@ -335,30 +324,21 @@ struct BoundaryPiece
   CornerId LastLabel;
 };
 
-/// What is left of a piece: a vertex, and the label of the edge before it. The last vertex of a
-/// piece comes last, the first one not at all.
-struct LabelledVertex
-{
-  VertexId Vertex;
-  CornerId Label;
-};
-
 /// Cuts ears off a piece alone.
 /// @param chains its triangles are of no mesh yet. The first of the piece's is number Begin.
 /// @param path what is left of the piece, from Begin on.
 template <typename Real>
 DELAUNAYFLIP_HOST_DEVICE void CutPiece(
-  const ChainView<Real>& chains, BoundaryPiece& piece, const EarPath& path)
+  const ChainView<Real>& chains, BoundaryPiece& piece, LabelledVertex* path)
 {
   const std::uint32_t size = piece.Size - 2, last = piece.First + piece.Size - 1;
-  const EarPath own{ path.Vertices + piece.Begin, path.Labels + piece.Begin, 1 };
+  LabelledVertex* own = path + piece.Begin;
   for (std::uint32_t i = 0; i < size; ++i)
   {
-    own.Vertices[i] = piece.First + 1 + i;
-    own.Labels[i] = LabelChainEdge(piece.First + 1 + i);
+    own[i] = { piece.First + 1 + i, LabelChainEdge(piece.First + 1 + i) };
   }
-  EarCutter<Real> cutter{ chains, own, size, piece.First, last, LabelChainEdge(last), piece.IsAbove,
-    NoCorner, piece.Begin };
+  EarCutter<Real> cutter{ chains, { &own->Vertex, &own->Label, 2 }, size, piece.First, last,
+    LabelChainEdge(last), piece.IsAbove, NoCorner, piece.Begin };
   cutter.Cut();
   piece.Made = cutter.Next - piece.Begin;
   piece.LastLabel = cutter.LastLabel;
@@ -366,10 +346,10 @@ DELAUNAYFLIP_HOST_DEVICE void CutPiece(
 
 /// Makes the triangles of a piece part of the mesh.
 /// @param made the first of them, as made by CutPiece; path as there.
-/// @param left what is left of the piece (LabelledVertex).
+/// @param left what is left of the piece. Its last vertex comes last, the first one not at all.
 template <typename Real>
 DELAUNAYFLIP_HOST_DEVICE void MovePiece(const ChainView<Real>& chains, const BoundaryPiece& piece,
-  const EarPath& path, const TriangleRecord* made, TriangleId first, LabelledVertex* left)
+  const LabelledVertex* path, const TriangleRecord* made, TriangleId first, LabelledVertex* left)
 {
   const auto renumber = [&](CornerId label)
   { return IsOpen(label) ? label : label + 4 * (first - piece.Begin); };
@@ -386,7 +366,8 @@ DELAUNAYFLIP_HOST_DEVICE void MovePiece(const ChainView<Real>& chains, const Bou
   const std::uint32_t size = piece.Size - 2 - piece.Made;
   for (std::uint32_t i = 0; i < size; ++i)
   {
-    left[i] = { path.Vertices[piece.Begin + i], renumber(path.Labels[piece.Begin + i]) };
+    const LabelledVertex& vertex = path[piece.Begin + i];
+    left[i] = { vertex.Vertex, renumber(vertex.Label) };
   }
   left[size] = { piece.First + piece.Size - 1, renumber(piece.LastLabel) };
 }

@@ -216,8 +216,7 @@ struct PointMeshBuilder
   std::int64_t CountSlots() const
   {
     const auto& starts = this->HostStarts;
-    return starts.size() > 2 ? std::int64_t(starts[starts.size() - 2]) + starts.back() - starts[1]
-                             : 0;
+    return std::int64_t(starts[starts.size() - 2]) + starts.back() - starts[1];
   }
 
   void MakeArrays(std::int64_t mostTriangles)
@@ -248,11 +247,10 @@ struct PointMeshBuilder
       this->Device.template MakeArray<TriangleRecord>(needed > firstTriangle ? needed : 0);
     ChainView<Real> alone = this->View();
     alone.Triangles = needed > firstTriangle ? own.Data() : alone.Triangles;
-    static_assert(sizeof(TriangleRecord) == 8 * sizeof(VertexId), "two arrays in a fourth");
-    auto* const vertices = reinterpret_cast<VertexId*>(alone.Triangles + inner);
+    static_assert(sizeof(TriangleRecord) == 4 * sizeof(LabelledVertex), "in the last fourth");
+    auto* const path = reinterpret_cast<LabelledVertex*>(alone.Triangles + inner);
     this->Device.Upload(pieces.data(), count, local.Data());
     BoundaryPiece* piece = local.Data();
-    const EarPath path{ vertices, vertices + inner, 1 };
     alone.Sides = nullptr;
     this->ForTasks(
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { CutPiece(alone, piece[i], path); });

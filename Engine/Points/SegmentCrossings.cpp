@@ -213,8 +213,7 @@ private:
     {
       pointAt.emplace(placeOf(crossing), None);
     }
-    const std::int64_t there = this->Points.Count + CountOf(this->Result.Added);
-    for (std::int64_t i = 0; i < there; ++i)
+    for (std::int64_t i = 0; i < this->CountPoints(); ++i)
     {
       const PlanePoint place = this->At(i);
       const auto found = IsFinite(place) ? pointAt.find({ place.U, place.V }) : pointAt.end();
@@ -229,7 +228,7 @@ private:
       const auto found = pointAt.find(placeOf(crossing));
       if (found->second == None)
       {
-        found->second = this->Points.Count + CountOf(this->Result.Added);
+        found->second = this->CountPoints();
         const Segment& earlier = this->Result.Segments[crossing.Earlier];
         this->Result.Added.push_back({ found->first.first, found->first.second, earlier.From,
           earlier.To, Round(crossing.OnEarlier, 0, false).Value });
@@ -241,9 +240,10 @@ private:
     return points;
   }
 
-  static std::int64_t CountOf(const std::vector<AddedPoint>& points)
+  /// Of the points, and of those that have been added.
+  std::int64_t CountPoints() const
   {
-    return static_cast<std::int64_t>(points.size());
+    return this->Points.Count + static_cast<std::int64_t>(this->Result.Added.size());
   }
 
   void Split(const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
