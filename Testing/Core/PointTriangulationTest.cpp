@@ -454,6 +454,61 @@ TEST(PointTriangulation, CanBeStopped)
   }
 }
 
+/// Strips may have any number of places, also one.
+TEST(PointTriangulation, DivideAndConquerOfSmallGrids)
+{
+  std::mt19937 random(11);
+  for (int i = 0; i < 1000 / Reduction; ++i)
+  {
+    const Places drawn =
+      DrawOnGrid(random, 3 + random() % 40, 1 + DrawIndex(random, 9), 1 + DrawIndex(random, 9));
+    const std::set<std::array<double, 2>> places(drawn.begin(), drawn.end());
+    Places points(places.begin(), places.end());
+    int stripOf[9] = {}; // by y
+    for (int y = 1; y < 9; ++y)
+    {
+      stripOf[y] = stripOf[y - 1] + DrawIndex(random, 2);
+    }
+    std::stable_sort(points.begin(), points.end(),
+      [&](const auto& a, const auto& b)
+      { return stripOf[static_cast<int>(a[1])] < stripOf[static_cast<int>(b[1])]; });
+    if (points.size() < 3)
+    {
+      continue;
+    }
+    HostMemory memory;
+    const DividedPoints divided = DivideAndConquer(static_cast<std::int64_t>(points.size()),
+      { [](std::int64_t size, const std::function<void(std::int64_t)>& work)
+        {
+          for (std::int64_t task = 0; task < size; ++task)
+          {
+            work(task);
+          }
+        },
+        [&](std::int64_t place) {
+          return CoordinatePair<double>{ points[place][0], points[place][1] };
+        },
+        [](double) {}, memory });
+    Triangulation result;
+    for (std::size_t t = 0; t < divided.Triangles.Size(); ++t)
+    {
+      const TriangleRecord& triangle = divided.Triangles[t];
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        const CornerId across = triangle.HalfEdges[slot];
+        result.Triangles.push_back(static_cast<std::int32_t>(triangle.Vertices[slot]));
+        result.Neighbors.push_back(
+          across == NoCorner ? -1 : static_cast<std::int32_t>(TriangleOf(across)));
+      }
+    }
+    result.Report.Triangles = static_cast<std::int64_t>(divided.Triangles.Size());
+    result.Report.StopReason = StopReasonKind::Converged;
+    ExpectDelaunay(points, result);
+    ASSERT_TRUE(result.Triangles.empty() || CountBorder(result.Neighbors) == divided.HullEdges);
+    ASSERT_FALSE(HasFatalFailure()) << "case " << i;
+  }
+}
+
 /// The calling thread is asked while other threads work, whatever they do, and hears how far they
 /// are; what it throws ends their work.
 TEST(PointTriangulation, DivideAndConquerAsks)
