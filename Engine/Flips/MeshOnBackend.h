@@ -206,16 +206,9 @@ public:
 
   void Divide(const BuildProgress& progress) override
   {
-    if constexpr (BackendT::IsOnHost)
-    {
-      this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
-    }
+    this->StartPolls(progress);
     this->Places.Floats ? this->Divide(this->Places.Floats, progress)
                         : this->Divide(this->Places.Doubles, progress);
-    if constexpr (BackendT::IsOnHost)
-    {
-      this->Backend.SetPoll(nullptr);
-    }
   }
 
   void InsertSegments(
@@ -352,15 +345,21 @@ protected:
   FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
 
 private:
+  /// Asks the observer also within steps, which may take seconds, and in the loop.
+  void StartPolls(const BuildProgress& progress)
+  {
+    if constexpr (BackendT::IsOnHost)
+    {
+      this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
+    }
+  }
+
   template <typename Real>
   void Triangulate(PlaneArray points, bool isLocal, const Real* values, const FlipOptions& options,
     const BuildProgress& progress)
   {
     constexpr GeometryKind Plane = GeometryKind::PlanarXY;
-    if constexpr (BackendT::IsOnHost) // a step may take seconds, also of the loop
-    {
-      this->Backend.SetPoll([&progress] { progress.Tell(0.0); });
-    }
+    this->StartPolls(progress);
     StripPoints<Real> sorted;
     {
       const std::int64_t numbers = points.Count > 0 ? (points.Count - 1) * points.Stride + 2 : 0;

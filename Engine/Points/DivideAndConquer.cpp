@@ -65,7 +65,6 @@ public:
 
   DividedPoints Solve()
   {
-    std::atomic<bool> filtersApply{ true };
     this->ForPieces(this->Count,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
@@ -75,11 +74,10 @@ public:
           this->Places[i] = { u, v, static_cast<std::uint32_t>(i) };
           if (!IsInFilterRange({ u, v, 0.0 }))
           {
-            filtersApply = false;
+            this->FiltersApply = false;
           }
         }
       });
-    this->FiltersApply = filtersApply;
     return this->Collect(this->Solve(0, this->Count, false));
   }
 
@@ -112,13 +110,10 @@ private:
       ? sign
       : ExactOrientation(points[0], points[1], points[2]);
   }
-  bool IsLeftOfEdge(std::uint32_t point, Edge e) const
+  /// 1: a point is left of an edge; -1: right.
+  int FindSide(Edge e, std::uint32_t point) const
   {
-    return this->Turn(point, this->Origin(e), this->Destination(e)) > 0;
-  }
-  bool IsRightOfEdge(std::uint32_t point, Edge e) const
-  {
-    return this->Turn(point, this->Destination(e), this->Origin(e)) > 0;
+    return this->Turn(this->Origin(e), this->Destination(e), point);
   }
 
   bool IsInCircle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const
@@ -173,30 +168,24 @@ private:
   }
 
   //----------------------------------------------------------------------------
-  /// Triangulates a range of places. It is cut where a strip begins, and a strip by x.
+  /// Triangulates a range of places. It is cut where a strip begins, and one strip in the order of
+  /// x.
   Part Solve(std::uint32_t begin, std::uint32_t end, bool isStrip)
   {
     constexpr std::uint32_t SmallestShared = 1 << 13;
-    const auto place = [&](std::uint32_t i) { return this->Places.Data() + i; };
     const std::uint32_t size = end - begin;
+    isStrip = isStrip || this->JoinsFew(begin, end);
     if (size <= 3)
     {
-      std::sort(place(begin), place(end), IsLeftOf);
       return this->SolveFew(begin, end);
     }
-    const std::uint32_t strip = isStrip ? None : this->FindStrip(begin, end);
-    const int axis = strip == None ? 0 : 1;
-    const std::uint32_t middle = strip == None ? begin + size / 2 : strip;
-    if (!isStrip && axis == 0) // of other strips there may be one place at both ends
-    {
-      std::inplace_merge(place(begin), place(begin + 1), place(end - 1), IsLeftOf);
-      std::inplace_merge(place(begin), place(end - 1), place(end), IsLeftOf);
-    }
+    const int axis = isStrip ? 0 : 1;
+    const std::uint32_t middle = isStrip ? begin + size / 2 : this->FindStrip(begin, end);
     Part halves[2];
     const auto solve = [&](std::int64_t i)
     {
       const std::uint32_t first = i == 0 ? begin : middle, last = i == 0 ? middle : end;
-      halves[i] = this->Solve(first, last, axis == 0);
+      halves[i] = this->Solve(first, last, isStrip);
       this->Solved += size > SmallestShared && last - first <= SmallestShared ? last - first : 0;
     };
     if (size > SmallestShared)
@@ -211,22 +200,56 @@ private:
     return this->Merge(halves[0], halves[1], axis);
   }
 
-  /// The place nearest to the middle of a range where a strip begins, with two places at least on
-  /// both sides; None if there is none.
+  /// Joins the strips of a range to one if they are few, or if one place would be left alone: then
+  /// fewer edges are made and deleted than by merges of thin parts. @returns whether it is one now.
+  bool JoinsFew(std::uint32_t begin, std::uint32_t end)
+  {
+    constexpr int MostJoined = 6;
+    int strips = 1;
+    for (std::uint32_t i = begin + 1; i < end && strips <= MostJoined; ++i)
+    {
+      strips += this->Begins(i) ? 1 : 0;
+    }
+    const std::uint32_t strip = this->FindStrip(begin, end);
+    const bool joins = strips <= MostJoined || strip - begin < 2 || end - strip < 2;
+    if (joins)
+    {
+      this->Join(begin, end);
+    }
+    return joins;
+  }
+
+  /// Merges all strips of a range.
+  void Join(std::uint32_t begin, std::uint32_t end)
+  {
+    const std::uint32_t strip = this->FindStrip(begin, end);
+    if (strip < end)
+    {
+      this->Join(begin, strip);
+      this->Join(strip, end);
+      Place* const places = this->Places.Data();
+      std::inplace_merge(places + begin, places + strip, places + end, IsLeftOf);
+    }
+  }
+
+  /// Whether a strip begins at a place.
+  bool Begins(std::uint32_t i) const { return IsLeftOf(this->Places[i], this->Places[i - 1]); }
+
+  /// The place nearest to the middle of a range where a strip begins, or its end.
   std::uint32_t FindStrip(std::uint32_t begin, std::uint32_t end) const
   {
     const std::uint32_t middle = begin + (end - begin) / 2;
-    for (std::uint32_t far = 0; far + 2 <= end - middle; ++far)
+    for (std::uint32_t far = 0; far < end - middle; ++far)
     {
       for (const std::uint32_t i : { middle - far, middle + far })
       {
-        if (i >= begin + 2 && IsLeftOf(this->Places[i], this->Places[i - 1]))
+        if (i > begin && this->Begins(i))
         {
           return i;
         }
       }
     }
-    return None;
+    return end;
   }
 
   /// Two or three sorted places.
@@ -289,11 +312,11 @@ private:
     Edge l = this->Previous(left.Ends[axis][1].Leaving), r = right.Ends[axis][0].Leaving;
     for (;;) // the lower common tangent
     {
-      if (this->IsLeftOfEdge(this->Origin(r), l))
+      if (this->FindSide(l, this->Origin(r)) > 0)
       {
         l = this->NextLeft(l);
       }
-      else if (this->IsRightOfEdge(this->Origin(l), r))
+      else if (this->FindSide(r, this->Origin(l)) < 0)
       {
         r = this->Next(r ^ 1);
       }
@@ -342,7 +365,7 @@ private:
     const auto step = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
     const Edge last = isLeft ? base ^ 1 : base; // which comes round again
     Edge candidate = step(last);
-    if (!this->IsRightOfEdge(this->Destination(candidate), base))
+    if (this->FindSide(base, this->Destination(candidate)) >= 0)
     {
       return None;
     }
@@ -459,7 +482,7 @@ private:
   const std::uint32_t Count;
   Array<Place> Places; ///< In the order of the parts.
   Array<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
-  bool FiltersApply = true;
+  std::atomic<bool> FiltersApply{ true };
   std::atomic<std::uint32_t> Solved{ 0 }; ///< Places in parts that one thread has solved.
   std::atomic<bool> IsStopped{ false };
 };

@@ -461,11 +461,11 @@ TEST(PointTriangulation, DivideAndConquerOfSmallGrids)
   for (int i = 0; i < 1000 / Reduction; ++i)
   {
     const Places drawn =
-      DrawOnGrid(random, 3 + random() % 40, 1 + DrawIndex(random, 9), 1 + DrawIndex(random, 9));
+      DrawOnGrid(random, 3 + random() % 40, 1 + DrawIndex(random, 9), 1 + DrawIndex(random, 30));
     const std::set<std::array<double, 2>> places(drawn.begin(), drawn.end());
     Places points(places.begin(), places.end());
-    int stripOf[9] = {}; // by y
-    for (int y = 1; y < 9; ++y)
+    int stripOf[30] = {}; // by y
+    for (int y = 1; y < 30; ++y)
     {
       stripOf[y] = stripOf[y - 1] + DrawIndex(random, 2);
     }
