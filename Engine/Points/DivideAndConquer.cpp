@@ -200,8 +200,9 @@ private:
     return this->Merge(halves[0], halves[1], axis);
   }
 
-  /// Joins the strips of a range to one if they are few, or if one place would be left alone: then
-  /// fewer edges are made and deleted than by merges of thin parts. @returns whether it is one now.
+  /// Joins the strips of a range to one if they are few: then fewer edges are made and deleted than
+  /// by merges of thin parts. A cut near the middle of more strips leaves no place alone.
+  /// @returns whether the range is one strip now.
   bool JoinsFew(std::uint32_t begin, std::uint32_t end)
   {
     constexpr int MostJoined = 6;
@@ -210,13 +211,11 @@ private:
     {
       strips += this->Begins(i) ? 1 : 0;
     }
-    const std::uint32_t strip = this->FindStrip(begin, end);
-    const bool joins = strips <= MostJoined || strip - begin < 2 || end - strip < 2;
-    if (joins)
+    if (strips <= MostJoined)
     {
       this->Join(begin, end);
     }
-    return joins;
+    return strips <= MostJoined;
   }
 
   /// Merges all strips of a range.
