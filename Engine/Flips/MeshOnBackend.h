@@ -216,8 +216,11 @@ public:
   {
     this->RequireStates();
     const Array<VertexId> placeOf = this->ListPlaces();
-    SegmentInsertion<BackendT>(this->Mesh, this->Places, placeOf.Data(), this->Backend)
-      .Insert(ends, onBatch);
+    if (onBatch({})) // what precedes the first segments takes long, too
+    {
+      SegmentInsertion<BackendT>(this->Mesh, this->Places, placeOf.Data(), this->Backend)
+        .Insert(ends, onBatch);
+    }
     this->Loop->Restart();
   }
 

@@ -302,7 +302,7 @@ struct SegmentInsertion
     constexpr std::int64_t Fewest = 1 << 12, Most = 1 << 20;
     constexpr double SecondsPerBatch = 0.1;
     std::int64_t batch = Fewest;
-    bool goesOn = true;
+    bool goesOn = onBatch({});
     for (std::int64_t begin = 0; begin < size && goesOn;)
     {
       const auto start = std::chrono::steady_clock::now();

@@ -286,7 +286,8 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
     [&](const InsertedSegments& made)
     {
       this->Take(made);
-      isComplete = !observer || observer(0.0);
+      const auto all = static_cast<double>(this->Segments.size());
+      isComplete = !observer || observer(static_cast<double>(this->Taken) / all);
       return isComplete;
     });
   std::sort(this->Refused.begin(), this->Refused.end(),

@@ -44,6 +44,7 @@ public:
   bool WasStopped() const { return this->Taken > 0 && !this->Inserted; }
 
   /// Inserts the segments into a triangulation. Detect must follow.
+  /// @param observer is told the share of the segments that is inserted.
   /// @returns false if the observer stopped it; then another call goes on.
   /// @throws InvalidMesh if a ring is not closed or a segment of a ring is refused.
   bool Insert(LoadedMesh& mesh, const ProgressObserver& observer);

@@ -236,7 +236,8 @@ try
   this->Report.NonDelaunayBefore = this->Report.NonDelaunayAfter;
   this->Report.FlipSeconds = flipWatch.GetSeconds();
   this->Building.Reach(geometry, BuildStep::Tested);
-  this->Progress.StartFlips(this->Found.Bad, this->Report.BuildSeconds, this->Report.FlipSeconds);
+  this->Progress.StartFlips(this->Found.Bad, this->Report.BuildSeconds, this->Report.FlipSeconds,
+    this->Cloud && this->Cloud->HasSegments());
   if (this->Cloud)
   {
     this->ReportPoints();
@@ -447,8 +448,9 @@ void FlipSession::Work::InsertIfDone()
     return;
   }
   this->IterationsBeforeInsertion = this->CountIterations(); // where the CPU has to insert, too
+  const auto tell = [this](double share) { return this->Progress.TellRest(this->Observer, share); };
   const bool isComplete =
-    this->OnBackend([this](LoadedMesh& mesh) { return this->Cloud->Insert(mesh, this->Observer); });
+    this->OnBackend([&](LoadedMesh& mesh) { return this->Cloud->Insert(mesh, tell); });
   this->Detect();
   this->Resume();
   if (!isComplete)

@@ -123,9 +123,11 @@ public:
   /// Called when the build is done.
   /// @param badEdges the number of edges that may flip.
   /// @param buildSeconds the time without the test that found them.
-  void StartFlips(std::int64_t badEdges, double buildSeconds, double testSeconds)
+  /// @param hasRest whether something follows the flips.
+  void StartFlips(std::int64_t badEdges, double buildSeconds, double testSeconds, bool hasRest)
   {
     this->BadEdgesBefore = badEdges;
+    this->Rest = hasRest ? 0.25 : 0.0;
     this->ToldBeforeFlips = this->Told;
     this->SecondsPerIteration = TestsPerIteration * testSeconds;
     this->SecondsBetweenCalls =
@@ -141,7 +143,14 @@ public:
     const double byLimit =
       static_cast<double>(report.Iterations.size()) / static_cast<double>(limit);
     const double share = std::max(byLimit, this->EstimateFlipped(report, badEdges));
-    return this->Tell(observer, this->ToldBeforeFlips + (1.0 - this->ToldBeforeFlips) * share);
+    const double all = 1.0 - this->Rest - this->ToldBeforeFlips;
+    return this->Tell(observer, this->ToldBeforeFlips + all * share);
+  }
+
+  /// @param share of what follows the flips. @returns the same as Tell.
+  bool TellRest(const ProgressObserver& observer, double share)
+  {
+    return this->Tell(observer, 1.0 - this->Rest * (1.0 - share));
   }
 
   /// How many iterations, at least one, observers can wait for.
@@ -183,6 +192,7 @@ private:
 
   double Told = 0.0;
   double ToldBeforeFlips = 0.0;
+  double Rest = 0.0; ///< The share of the run after the flips.
   std::int64_t BadEdgesBefore = 0;
   double SecondsPerIteration = 0.0;
   double SecondsBetweenCalls = 0.0;

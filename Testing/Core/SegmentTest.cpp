@@ -104,6 +104,31 @@ TEST(Segments, OnSmallGrids)
   }
 }
 
+/// Progress goes on while segments are inserted, some thousands at a time.
+TEST(Segments, InsertionTellsProgress)
+{
+  std::mt19937 random(8);
+  Drawing drawing = DrawRandom(random, 30000 / Reduction, 0, 1 << 20);
+  const std::vector<std::int32_t> triangles = Triangulate(drawing).Triangles;
+  for (std::size_t i = 0; i < triangles.size(); i += 3)
+  {
+    drawing.Segments.push_back({ triangles[i], triangles[i + 1] });
+  }
+  std::vector<double> told;
+  const auto tell = [&](double share)
+  {
+    told.push_back(share);
+    return true;
+  };
+  FlipSession session(drawing.View(), PointOptions{ OnTestBackend({}) }, tell);
+  session.Advance(-1, {}, tell);
+  EXPECT_EQ(0, session.GetReport().FromPoints.RefusedSegments);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  const std::set<double> shares(told.begin(), told.end());
+  const double first = 4096.0 / static_cast<double>(drawing.Segments.size()); // of the segments
+  EXPECT_EQ(Reduction == 1, shares.count(1.0 - 0.25 * (1.0 - first)) == 1);
+}
+
 /// The triangles depend on the places and the segments, not on the order of the points.
 TEST(Segments, InAnyOrderOfPoints)
 {
