@@ -67,6 +67,14 @@ struct StripSorter<Real, ThreadBackend>
     sorted.Coordinates = backend.MakeArray<Real>(2 * sorted.Count);
     CoordinatePair<Real>* sortedPlaces = sorted.Places();
     sorted.Ids = backend.MakeArray<VertexId>(sorted.Count);
+    const auto store = [&](const Item* first, const Item* last)
+    {
+      for (const Item* item = first; item < last; ++item)
+      {
+        sortedPlaces[item - items.Data()] = { item->X, item->Y };
+        sorted.Ids[item - items.Data()] = item->Id;
+      }
+    };
     const std::int64_t stripGrain =
       std::max<std::int64_t>(1, 4096 * sorted.Strips / (sorted.Count + 1));
     backend.ForRange(
@@ -75,16 +83,32 @@ struct StripSorter<Real, ThreadBackend>
       {
         for (std::int64_t strip = begin; strip < end; ++strip)
         {
-          std::sort(items.Data() + sorted.Starts[strip], items.Data() + sorted.Starts[strip + 1]);
-        }
-        for (std::uint32_t i = sorted.Starts[begin]; i < sorted.Starts[end]; ++i)
-        {
-          sortedPlaces[i] = { items[i].X, items[i].Y };
-          sorted.Ids[i] = items[i].Id;
+          SortStrip(items.Data() + sorted.Starts[strip], items.Data() + sorted.Starts[strip + 1],
+            store, backend);
         }
       },
       stripGrain);
     return sorted;
+  }
+
+  /// Calls store(first, last) with sorted items. One strip may have most of the points, as where
+  /// these lie along a line.
+  template <typename Store>
+  static void SortStrip(Item* first, Item* last, const Store& store, const ThreadBackend& backend)
+  {
+    constexpr std::int64_t Most = 1 << 16;
+    if (last - first <= Most)
+    {
+      std::sort(first, last);
+      store(first, last);
+      return;
+    }
+    Item* const middle = first + (last - first) / 2;
+    // A task, so that an observer is asked after it.
+    backend.ForTasks(1, [&](std::int64_t) { std::nth_element(first, middle, last); });
+    backend.ForTasks(2,
+      [&](std::int64_t half)
+      { SortStrip(half == 0 ? first : middle, half == 0 ? middle : last, store, backend); });
   }
 };
 

@@ -407,6 +407,21 @@ TEST(PointTriangulation, OfNothing)
   }
 }
 
+/// Nearly all of the points are in one strip, which several threads sort.
+TEST(PointTriangulation, OneLongStrip)
+{
+  std::mt19937 random(12);
+  Places points = { { 0.5, 1.0 } };
+  for (int i = 0; i < 200000; ++i)
+  {
+    points.push_back({ DrawIndex(random, 1 << 30) * 0x1p-30, 0.0 });
+  }
+  const std::set<std::array<double, 2>> places(points.begin(), points.end());
+  const Triangulation result = Triangulate(points);
+  ASSERT_EQ(places.size() - 2, result.Triangles.size() / 3);
+  EXPECT_EQ(static_cast<std::int64_t>(places.size()), CountBorder(result.Neighbors));
+}
+
 /// Floats are judged as the floats they are; other numbers between points do not matter.
 TEST(PointTriangulation, FloatsAndStrides)
 {
