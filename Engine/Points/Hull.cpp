@@ -58,11 +58,6 @@ std::vector<BoundaryPiece> CutIntoPieces(const std::vector<BoundaryPart>& parts)
 Boundary JoinPieces(const std::vector<BoundaryPart>& parts, const std::vector<LabelledVertex>& left)
 {
   Boundary boundary;
-  const auto add = [&](std::uint32_t place, CornerId label)
-  {
-    boundary.Places.push_back(place);
-    boundary.Labels.push_back(label);
-  };
   auto next = left.begin();
   std::vector<LabelledVertex> chain;
   for (const BoundaryPart& part : parts)
@@ -80,18 +75,15 @@ Boundary JoinPieces(const std::vector<BoundaryPart>& parts, const std::vector<La
         chain[i].Label = chain[i - 1].Label; // now it comes before the other end of its edge
       }
     }
-    if (part.Other != NoVertex && part.OtherIsFirst)
+    chain.front().Label = part.Diagonal; // if the other place is first
+    if (part.Other != NoVertex)
     {
-      add(part.Other, NoCorner);
+      chain.insert(part.OtherIsFirst ? chain.begin() : chain.end(), { part.Other, part.Diagonal });
     }
-    chain.front().Label = part.Diagonal;
     for (const LabelledVertex& vertex : chain)
     {
-      add(vertex.Vertex, vertex.Label);
-    }
-    if (part.Other != NoVertex && !part.OtherIsFirst)
-    {
-      add(part.Other, part.Diagonal);
+      boundary.Places.push_back(vertex.Vertex);
+      boundary.Labels.push_back(vertex.Label);
     }
     boundary.PartEnds.push_back(boundary.Places.size());
   }
