@@ -14,26 +14,27 @@ std::vector<BoundaryPart> ListBoundary(
   std::vector<BoundaryPart> parts;
   const auto firstSlot = [&](std::size_t gap)
   { return std::int64_t(starts[gap]) + starts[gap + 1] - starts[1]; };
-  const auto label = [&](std::int64_t slot) { return LabelDiagonal(starts.back(), slot); };
+  const auto addEnd = [&](std::size_t gap, bool isRight)
+  {
+    const std::uint32_t run = isRight ? gaps[gap].RightRun : gaps[gap].LeftRun;
+    const bool rises = isRight ? !gaps[gap].RightIsLower : !gaps[gap].LeftIsLower;
+    // The outermost places of the two chains.
+    const std::uint32_t lower = isRight ? starts[gap + 1] - 1 : starts[gap];
+    const std::uint32_t upper = isRight ? starts[gap + 2] - 1 : starts[gap + 1];
+    const std::uint32_t own = rises ? upper : lower;
+    const std::int64_t slot = isRight ? firstSlot(gap + 1) - run : firstSlot(gap) + run;
+    parts.push_back({ isRight ? own - run + 1 : own, isRight ? own : own + run - 1, rises,
+      rises == isRight, rises ? lower : upper, LabelDiagonal(starts.back(), slot) });
+  };
   parts.push_back({ 0, starts[1] - 1, true, false });
   for (std::size_t gap = 0; gap < gaps.size(); ++gap)
   {
-    const std::uint32_t lower = starts[gap + 1] - 1, upper = starts[gap + 2] - 1; // rightmost
-    const std::uint32_t run = gaps[gap].RightRun;
-    const bool rises = !gaps[gap].RightIsLower;
-    const std::uint32_t last = rises ? upper : lower;
-    parts.push_back({ last - run + 1, last, rises, rises, rises ? lower : upper,
-      label(firstSlot(gap + 1) - run) });
+    addEnd(gap, true);
   }
   parts.push_back({ starts[starts.size() - 2], starts.back() - 1, false, false });
   for (std::size_t gap = gaps.size(); gap-- > 0;)
   {
-    const std::uint32_t lower = starts[gap], upper = starts[gap + 1]; // leftmost
-    const std::uint32_t run = gaps[gap].LeftRun;
-    const bool rises = !gaps[gap].LeftIsLower;
-    const std::uint32_t first = rises ? upper : lower;
-    parts.push_back({ first, first + run - 1, rises, !rises, rises ? lower : upper,
-      label(firstSlot(gap) + run) });
+    addEnd(gap, false);
   }
   return parts;
 }
