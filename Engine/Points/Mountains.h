@@ -214,7 +214,7 @@ private:
     const bool swaps = this->IsOnRight;
     const TriangleId number = this->Next++;
     TriangleRecord& made = this->Chains.GetTriangle(number);
-    const bool isWhole = this->Path.Stride == 1; // else the rest of it may be part of the path
+    const bool isWhole = this->Path.Stride <= 2; // else the rest of it may be part of the path
     made = { { a, swaps ? c : b, swaps ? b : c }, isWhole ? number : made.InputTriangle,
       { second, swaps ? first : this->Base, swaps ? this->Base : first },
       isWhole ? 0 : made.Flips };
