@@ -186,7 +186,10 @@ private:
     {
       const std::uint32_t first = i == 0 ? begin : middle, last = i == 0 ? middle : end;
       halves[i] = this->Solve(first, last, isStrip);
-      this->Solved += size > SmallestShared && last - first <= SmallestShared ? last - first : 0;
+      if (size > SmallestShared && last - first <= SmallestShared)
+      {
+        this->Solved += last - first;
+      }
     };
     if (size > SmallestShared)
     {
@@ -482,8 +485,9 @@ private:
   Array<Place> Places; ///< In the order of the parts.
   Array<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
   std::atomic<bool> FiltersApply{ true };
-  std::atomic<std::uint32_t> Solved{ 0 }; ///< Places in parts that one thread has solved.
   std::atomic<bool> IsStopped{ false };
+  /// Places in parts that one thread has solved. Not in the cache line of what all threads read.
+  alignas(64) std::atomic<std::uint32_t> Solved{ 0 };
 };
 }
 
