@@ -65,7 +65,7 @@ extern "C"
   } delaunayflip_status;
 
   /** The message of the last failing call of this thread, in English; "" if there was none. Valid
-   * until the thread's next failing call. */
+   * until the thread's next failing call. At most 1023 bytes: what is longer is cut off. */
   DELAUNAYFLIP_API const char* delaunayflip_error_message(void);
 
   /** Where the last failing call of this thread found an invalid mesh: the triangle or the

@@ -82,7 +82,7 @@ public:
   /// Of a mesh from points: inserts segments one after the other, as far as they cross none before
   /// them. FlipLoop::Detect must follow.
   /// @param ends pairs of points. @param onBatch is told of some segments at a time, in their
-  /// order.
+  /// order; before the first ones of none.
   virtual void InsertSegments(
     const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) = 0;
 

@@ -321,7 +321,8 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   {
     part.Take(this->Mesh.Triangles);
   }
-  const auto getFate = [&](std::int64_t constraint) // of one between shared points; else null
+  // Of a constraint between shared points, which is entered if it is new; else null.
+  const auto getFate = [&](std::int64_t constraint)
   {
     const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * constraint;
     const bool areShared = part.AreShared({ ends[0], ends[1] });
@@ -329,7 +330,7 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   };
   for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
   {
-    getFate(i); // so that the survey knows the constraint
+    getFate(i); // enters it for the survey
   }
   this->Seams = SurveySeams(job, this->Mesh, part, this->Fates);
   this->Edges = this->Seams.ToFix;

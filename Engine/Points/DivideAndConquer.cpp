@@ -204,7 +204,8 @@ private:
   }
 
   /// Joins the strips of a range to one if they are few: then fewer edges are made and deleted than
-  /// by merges of thin parts. A cut near the middle of more strips leaves no place alone.
+  /// by merges of thin parts. If there are more, the cut nearest to the middle leaves at least two
+  /// places on each side.
   /// @returns whether the range is one strip now.
   bool JoinsFew(std::uint32_t begin, std::uint32_t end)
   {

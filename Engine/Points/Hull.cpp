@@ -76,7 +76,7 @@ Boundary JoinPieces(const std::vector<BoundaryPart>& parts, const std::vector<La
         chain[i].Label = chain[i - 1].Label; // now it comes before the other end of its edge
       }
     }
-    chain.front().Label = part.Diagonal; // if the other place is first
+    chain.front().Label = part.Diagonal; // only used if the other place comes before it
     if (part.Other != NoVertex)
     {
       chain.insert(part.OtherIsFirst ? chain.begin() : chain.end(), { part.Other, part.Diagonal });
