@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace delaunayflip
@@ -31,20 +30,16 @@ class PlainFormatter : public CLI::Formatter
   }
 };
 
+/// @param words the choices, in the order of the enumeration.
 template <typename Kind>
 void AddChoice(CLI::App& app, const std::string& name, Kind& value,
-  const std::map<std::string, Kind>& choices, const std::string& help)
+  const std::vector<std::string>& words, const std::string& help)
 {
-  std::string names;
-  for (const auto& [word, kind] : choices)
-  {
-    names += (names.empty() ? "{" : ",") + word;
-  }
-  app
-    .add_option_function<std::string>(
-      name, [&value, choices](const std::string& text) { value = choices.at(text); }, help)
-    ->type_name(names + "}")
-    ->check(CLI::IsMember(choices).description(""));
+  const auto take = [&value, words](const std::string& word)
+  { value = static_cast<Kind>(std::find(words.begin(), words.end(), word) - words.begin()); };
+  CLI::Validator check = CLI::IsMember(words);
+  CLI::Option* const option = app.add_option_function<std::string>(name, take, help);
+  option->type_name(check.get_description())->check(check.description(""));
 }
 
 /// A number in a range; unlike with CLI::Range, NaN is in none. An integer may have leading zeros,
@@ -85,15 +80,11 @@ CLI::Option* AddFile(
 void AddMethodOptions(CLI::App& app, Arguments& arguments)
 {
   FlipOptions& flip = arguments.Flip;
-  AddChoice<GeometryKind>(app, "--geometry", flip.Geometry,
-    { { "auto", GeometryKind::Auto }, { "planar", GeometryKind::Planar },
-      { "planar-xy", GeometryKind::PlanarXY }, { "surface", GeometryKind::Surface } },
+  AddChoice(app, "--geometry", flip.Geometry, { "auto", "planar", "planar-xy", "surface" },
     "Where edges are judged: in the plane of the points (planar), by x and y alone "
     "(planar-xy, for terrain) or in space (surface). auto: planar if all points lie in one plane, "
     "planar-xy if the mesh is a height field of gentle slopes or mixed units, else surface [auto]");
-  AddChoice<CriterionKind>(app, "--criterion", flip.Criterion,
-    { { "in-circle", CriterionKind::InCircle },
-      { "opposite-angles", CriterionKind::OppositeAngles } },
+  AddChoice(app, "--criterion", flip.Criterion, { "in-circle", "opposite-angles" },
     "Exact in-circle test, or opposite-angle sum above pi; surfaces always use the latter "
     "[in-circle]");
   AddValue(app, "--feature-angle", flip.FeatureAngle, "DEGREES",
@@ -120,8 +111,7 @@ void AddMethodOptions(CLI::App& app, Arguments& arguments)
       Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"),
     "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as much "
     "as the rounding of its points can explain [-1]");
-  AddChoice<TieRuleKind>(app, "--tie-rule", flip.TieRule,
-    { { "keep", TieRuleKind::Keep }, { "canonical", TieRuleKind::Canonical } },
+  AddChoice(app, "--tie-rule", flip.TieRule, { "keep", "canonical" },
     "Edges whose four points lie on one circle: keep them, or make the result independent of the "
     "input's triangles (in-circle in the plane only) [keep]");
 }
@@ -142,6 +132,7 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
     "--insert-lines", arguments.InsertLines, "Insert edges along lines of the input as well");
   app.add_flag(
     "--ignore-lines", arguments.IgnoreLines, "Do not keep edges along lines of the input");
+  app.get_option("--insert-lines")->excludes("--ignore-lines");
   app
     .add_option("--region-array", arguments.RegionArray,
       "A cell array of the input: edges between cells of different values stay")
@@ -150,7 +141,7 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
 
 void AddPointOptions(CLI::App& app, Arguments& arguments)
 {
-  app.add_flag("--from-points", arguments.FromPoints,
+  CLI::Option* const fromPoints = app.add_flag("--from-points", arguments.FromPoints,
     "Make a mesh from the points of INPUT, whatever its cells: their Delaunay triangulation. The "
     "lines and polygons of --constraints become edges of it, and with --insert-lines the lines of "
     "INPUT too. Points of these files that INPUT does not have are added");
@@ -167,21 +158,16 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "Remove triangles that have a longer edge; 0: none [0]");
   AddValue(app, "--point-tolerance", arguments.Flip.PointTolerance, "LENGTH", length,
     "Leave out points nearer than this to one before them; 0: those at the same place [0]");
-  AddChoice<bool>(app, "--projection", arguments.InBestPlane,
-    { { "xy", false }, { "plane", true } },
+  AddChoice(app, "--projection", arguments.InBestPlane, { "xy", "plane" },
     "Where points are joined: by x and y, or in the plane that fits them best [xy]");
-  CLI::Option* const fromPoints = app.get_option("--from-points");
   for (const char* name : { "--outline", "--holes", "--split-crossings", "--alpha",
          "--longest-edge", "--point-tolerance", "--projection" })
   {
     app.get_option(name)->needs(fromPoints);
   }
-  for (const char* name : { "--geometry", "--criterion", "--feature-angle", "--max-deviation",
-         "--tolerance", "--tie-rule", "--merge-points", "--no-insert-constraints", "--ignore-lines",
-         "--region-array", "--devices", "--pieces", "--quality" })
-  {
-    app.get_option(name)->excludes(fromPoints);
-  }
+  fromPoints->excludes("--geometry", "--criterion", "--feature-angle", "--max-deviation",
+    "--tolerance", "--tie-rule", "--merge-points", "--no-insert-constraints", "--ignore-lines",
+    "--region-array", "--devices", "--pieces", "--quality");
 }
 
 /// @returns what is wrong with a list of GPUs, or an empty text.
@@ -205,9 +191,7 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     Within<std::int64_t>(
       -1, std::numeric_limits<std::int64_t>::max(), "a number of iterations (-1 or more)"),
     "Stop after this many iterations; -1: when nothing is left to flip [-1]");
-  AddChoice<BackendKind>(app, "--backend", flip.Backend,
-    { { "auto", BackendKind::Auto }, { "cuda", BackendKind::CUDA },
-      { "threads", BackendKind::Threads } },
+  AddChoice(app, "--backend", flip.Backend, { "auto", "cuda", "threads" },
     "Where the flips run; the result is the same. auto: on a GPU if there is one and the mesh has "
     "at least " +
       std::to_string(SmallestMeshForCuda) +
@@ -281,10 +265,6 @@ void CheckFormats(Arguments& arguments)
 /// Checks that involve more than one option.
 void CheckTogether(Arguments& arguments)
 {
-  if (arguments.IgnoreLines && arguments.InsertLines)
-  {
-    FailOnUsage("--insert-lines and --ignore-lines contradict each other; give one of them");
-  }
   CheckFormats(arguments);
   const bool holdsCellData =
     arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
