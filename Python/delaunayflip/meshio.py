@@ -30,20 +30,16 @@ def flip(mesh: "meshio.Mesh", **options: typing.Any) -> "meshio.Mesh":
     """
     if not isinstance(mesh, meshio.Mesh):
         raise TypeError(f"mesh must be a meshio.Mesh, not {type(mesh).__name__}")
-    are_triangles = [block.type == "triangle" for block in mesh.cells]
     lines = [_arrays.as_ids("lines", block.data, 2) for block in mesh.cells if block.type == "line"]
     if lines:
         _add_lines(numpy.concatenate(lines), options)
-    blocks = [block.data for block, is_one in zip(mesh.cells, are_triangles) if is_one]
-    triangles = numpy.concatenate(blocks) if blocks else numpy.empty((0, 3), dtype=int)
-    flipped = _flip(mesh.points, triangles, **options).triangles
-    parts = iter(numpy.split(flipped, numpy.cumsum([len(block) for block in blocks])[:-1]))
-    cells = [meshio.CellBlock(block.type, next(parts) if is_one else block.data, block.tags)
-             for block, is_one in zip(mesh.cells, are_triangles)]
-    return meshio.Mesh(
-        mesh.points, cells, dict(mesh.point_data),
-        {name: list(values) for name, values in mesh.cell_data.items()}, mesh.field_data,
-        mesh.point_sets, mesh.cell_sets, mesh.gmsh_periodic, mesh.info)
+    made = mesh.copy()
+    blocks = [block for block in made.cells if block.type == "triangle"]
+    triangles = [block.data for block in blocks] or [numpy.empty((0, 3), dtype=int)]
+    flipped = _flip(mesh.points, numpy.concatenate(triangles), **options).triangles
+    for block, end in zip(blocks, numpy.cumsum([len(block) for block in blocks])):
+        block.data = flipped[end - len(block):end]
+    return made
 
 
 def _add_lines(lines, options):
