@@ -41,6 +41,21 @@ inline void Require(bool isKept, const char* rule)
   }
 }
 
+/// Of a struct of the caller.
+template <typename Struct>
+void RequireSize(const Struct* given)
+{
+  Require(given && given->size >= static_cast<std::int64_t>(sizeof(given->size)),
+    "a struct is null, or its size is not set: call its _init function first");
+}
+
+/// Of an array of the caller with `count` things called `name`.
+inline void RequireArray(const void* array, std::int64_t count, const std::string& name)
+{
+  Require(count >= 0, ("number_of_" + name + " is negative").c_str());
+  Require(array || count == 0, (name + " is null").c_str());
+}
+
 /// A struct with its size; all other members are 0.
 template <typename Struct>
 Struct MakeEmpty()
@@ -55,9 +70,7 @@ Struct MakeEmpty()
 template <typename Struct>
 Struct Complete(const Struct* given, void (*initialize)(Struct*))
 {
-  Require(given, "a struct is null");
-  Require(given->size >= static_cast<std::int64_t>(sizeof(given->size)),
-    "the size of a struct is not set: call its _init function first");
+  RequireSize(given);
   Struct complete;
   initialize(&complete);
   std::memcpy(&complete, given, std::min(sizeof(Struct), static_cast<std::size_t>(given->size)));
@@ -81,8 +94,7 @@ Enumeration ToEnumeration(std::int32_t value, Enumeration last, const std::strin
 template <typename Array, typename Struct, typename... Components>
 Array ToPoints(const Struct& c, Components... components)
 {
-  Require(c.number_of_points >= 0, "number_of_points is negative");
-  Require(c.points || c.number_of_points == 0, "points is null");
+  RequireArray(c.points, c.number_of_points, "points");
   Require(c.point_type == DELAUNAYFLIP_FLOAT32 || c.point_type == DELAUNAYFLIP_FLOAT64,
     "point_type is neither DELAUNAYFLIP_FLOAT32 nor DELAUNAYFLIP_FLOAT64");
   return c.point_type == DELAUNAYFLIP_FLOAT32
@@ -92,8 +104,7 @@ Array ToPoints(const Struct& c, Components... components)
 
 inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c)
 {
-  Require(c.number_of_constraint_edges >= 0, "number_of_constraint_edges is negative");
-  Require(c.constraint_edges || c.number_of_constraint_edges == 0, "constraint_edges is null");
+  RequireArray(c.constraint_edges, c.number_of_constraint_edges, "constraint_edges");
   return { c.constraint_edges, c.number_of_constraint_edges, c.constraints_to_insert, c.regions,
     c.frozen_triangles };
 }
@@ -102,8 +113,7 @@ inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c)
 template <typename Array, typename Id32, typename Id64, typename Void>
 Array ToIds(Void* ids, std::int64_t triangles, std::int32_t type)
 {
-  Require(triangles >= 0, "number_of_triangles is negative");
-  Require(ids || triangles == 0, "triangles is null");
+  RequireArray(ids, triangles, "triangles");
   Require(type == DELAUNAYFLIP_INT32 || type == DELAUNAYFLIP_INT64,
     "id_type is neither DELAUNAYFLIP_INT32 nor DELAUNAYFLIP_INT64");
   return type == DELAUNAYFLIP_INT32 ? Array(static_cast<Id32*>(ids), triangles)
@@ -141,10 +151,8 @@ inline TriangleMesh ToMesh(const delaunayflip_mesh* given)
 inline PointInput ToPointInput(const delaunayflip_points& c)
 {
   Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
-  Require(c.number_of_segments >= 0, "number_of_segments is negative");
-  Require(c.segments || c.number_of_segments == 0, "segments is null");
-  Require(c.number_of_hole_seeds >= 0, "number_of_hole_seeds is negative");
-  Require(c.hole_seeds || c.number_of_hole_seeds == 0, "hole_seeds is null");
+  RequireArray(c.segments, c.number_of_segments, "segments");
+  RequireArray(c.hole_seeds, c.number_of_hole_seeds, "hole_seeds");
   PointInput input{ ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments,
     c.rings, c.hole_seeds, c.number_of_hole_seeds };
   input.OnDevice = IsOnDevice(c.memory);

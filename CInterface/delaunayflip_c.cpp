@@ -93,12 +93,6 @@ delaunayflip_status TryWith(const delaunayflip_session* session, const Work& wor
     });
 }
 
-void RequireReport(const delaunayflip_report* report)
-{
-  Require(report && report->size >= static_cast<std::int64_t>(sizeof(report->size)),
-    "report is null, or its size is not set: call delaunayflip_report_init first");
-}
-
 /// The triangles of all polygons.
 std::vector<std::int64_t> Split(
   const PointArray& points, const delaunayflip_polygons& polygons, const ProgressObserver& progress)
@@ -376,7 +370,7 @@ extern "C"
     return TryWith(session,
       [=]()
       {
-        RequireReport(report);
+        RequireSize(report);
         session->Report.emplace(session->Session.GetReport(), session->TriangleNumbers);
         session->Report->Fill(*report);
       });
@@ -452,7 +446,7 @@ extern "C"
         const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init);
         if (report)
         {
-          RequireReport(report);
+          RequireSize(report);
         }
         const auto flip = [&](const auto& view)
         {

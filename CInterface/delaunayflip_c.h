@@ -29,12 +29,6 @@
  *   any backend.
  */
 
-#if defined(__GNUC__)
-#define DELAUNAYFLIP_API __attribute__((visibility("default")))
-#else
-#define DELAUNAYFLIP_API
-#endif
-
 #ifdef __cplusplus
 extern "C"
 {
@@ -44,34 +38,34 @@ extern "C"
 #define DELAUNAYFLIP_INTERFACE_VERSION 1
 
   /** The interface version of the library that was loaded. */
-  DELAUNAYFLIP_API int32_t delaunayflip_interface_version(void);
+  int32_t delaunayflip_interface_version(void);
 
   /** The release of the library, e.g. "0.1.0". */
-  DELAUNAYFLIP_API const char* delaunayflip_version(void);
+  const char* delaunayflip_version(void);
 
   typedef enum
   {
     DELAUNAYFLIP_OK = 0,
-    DELAUNAYFLIP_INVALID_MESH =
-      1, /**< A triangle or constraint edge names a point that does not exist. */
+    /** A triangle or constraint edge names a point that does not exist. */
+    DELAUNAYFLIP_INVALID_MESH = 1,
     DELAUNAYFLIP_INVALID_OPTIONS = 2, /**< Options out of range, or that contradict the mesh. */
     DELAUNAYFLIP_MESH_TOO_LARGE = 3,
     DELAUNAYFLIP_BACKEND_UNAVAILABLE = 4, /**< The requested backend cannot run here. */
     DELAUNAYFLIP_OUT_OF_MEMORY = 5,
-    DELAUNAYFLIP_INVALID_CALL =
-      6, /**< A null pointer, an unknown type, or a struct without a size. */
+    /** A null pointer, an unknown type, or a struct without a size. */
+    DELAUNAYFLIP_INVALID_CALL = 6,
     DELAUNAYFLIP_FAILED = 7, /**< Anything else. */
     DELAUNAYFLIP_STOPPED = 8 /**< A callback stopped a call that cannot return a partial result. */
   } delaunayflip_status;
 
   /** The message of the last failing call of this thread, in English; "" if there was none. Valid
    * until the thread's next failing call. At most 1023 bytes: what is longer is cut off. */
-  DELAUNAYFLIP_API const char* delaunayflip_error_message(void);
+  const char* delaunayflip_error_message(void);
 
   /** Where the last failing call of this thread found an invalid mesh: the triangle or the
    * constraint edge, and the point id that it names. -1 where the failure has no such place. */
-  DELAUNAYFLIP_API int64_t delaunayflip_error_cell(void);
-  DELAUNAYFLIP_API int64_t delaunayflip_error_point(void);
+  int64_t delaunayflip_error_cell(void);
+  int64_t delaunayflip_error_point(void);
 
   typedef enum
   {
@@ -180,8 +174,7 @@ extern "C"
     int64_t tested; /**< Edges tested. */
     int64_t non_delaunay; /**< Bad edges at its start; fixed edges never count. */
     int64_t flipped;
-    int64_t
-      excluded; /**< Not flipped because a neighbour was, or because it lies between chunks. */
+    int64_t excluded; /**< Not flipped because a neighbour was, or as it lies between chunks. */
     int64_t blocked; /**< Bad, but the flip would fold the mesh, move it too far or duplicate an
                         edge. */
     double minimum_angle; /**< Degrees, after the iteration; NaN where it was not computed. */
@@ -219,8 +212,8 @@ extern "C"
     int64_t inserted_constraints; /**< Constraint edges that flips made before the iterations. */
     int64_t constraint_flips; /**< Flips that inserted these edges; not in total_flips. */
     int64_t euler_characteristic; /**< Used points - edges + triangles; flips keep it. */
-    double
-      minimum_angle_before; /**< Degrees; 0 with a degenerate triangle; NaN without triangles. */
+    /** Degrees; 0 with a degenerate triangle; NaN without triangles. */
+    double minimum_angle_before;
     double minimum_angle_after;
     double build_seconds;
     double flip_seconds;
@@ -238,8 +231,7 @@ extern "C"
     int64_t triangles_large; /**< Removed by alpha and longest_edge. */
     int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
                                the smallest angles, with one below 5 degrees; else 0. */
-    int64_t
-      blocked_by_deviation; /**< Of non_delaunay_after, edges that maximum_deviation blocks. */
+    int64_t blocked_by_deviation; /**< Of non_delaunay_after, by maximum_deviation. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -253,10 +245,10 @@ extern "C"
   } delaunayflip_callbacks;
 
   /** Fill a struct with its size and the defaults; all other members with 0. */
-  DELAUNAYFLIP_API void delaunayflip_mesh_init(delaunayflip_mesh* mesh);
-  DELAUNAYFLIP_API void delaunayflip_options_init(delaunayflip_options* options);
-  DELAUNAYFLIP_API void delaunayflip_report_init(delaunayflip_report* report);
-  DELAUNAYFLIP_API void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks);
+  void delaunayflip_mesh_init(delaunayflip_mesh* mesh);
+  void delaunayflip_options_init(delaunayflip_options* options);
+  void delaunayflip_report_init(delaunayflip_report* report);
+  void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks);
 
   /** A mesh that is being flipped. */
   typedef struct delaunayflip_session delaunayflip_session;
@@ -266,7 +258,7 @@ extern "C"
    * request threads, if the GPU fails, or for constraints_to_insert. If a progress callback returns
    * 0, the session is aborted and has the input's triangles. On success `*session` must be passed
    * to delaunayflip_close. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_open(const delaunayflip_mesh* mesh,
+  delaunayflip_status delaunayflip_open(const delaunayflip_mesh* mesh,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session);
 
@@ -303,7 +295,7 @@ extern "C"
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
   } delaunayflip_points;
 
-  DELAUNAYFLIP_API void delaunayflip_points_init(delaunayflip_points* points);
+  void delaunayflip_points_init(delaunayflip_points* points);
 
   /** Triangulates points in x and y: a session that begins with a valid triangulation of all
    * places, which delaunayflip_advance makes Delaunay; then it inserts the segments and removes
@@ -313,101 +305,98 @@ extern "C"
    * are not. When nothing is left to do, the report's number_of_triangles says how many triangles
    * to store; it is 0 if all places lie on one line. All arrays must stay as long as the session.
    */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_open_points(const delaunayflip_points* points,
+  delaunayflip_status delaunayflip_open_points(const delaunayflip_points* points,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session);
 
   /** Of a session from points: writes, for every triangle, the triangles across its edges: number k
    * is opposite its vertex k, -1 where there is none. 3 * number_of_triangles integers. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_neighbors(
+  delaunayflip_status delaunayflip_store_neighbors(
     delaunayflip_session* session, int32_t* neighbors);
 
   /** Of a session from points: writes, for every point, the id of the point that is used at its
    * place, or -1 for one that is not finite. number_of_points integers. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_used_points(
-    delaunayflip_session* session, int64_t* ids);
+  delaunayflip_status delaunayflip_store_used_points(delaunayflip_session* session, int64_t* ids);
 
   /** Of a session from points: writes the points that were made where segments cross, as many as
    * the report's crossings. Each gets `xy`, two numbers; `ends`, two ids of points, of which an
    * added one is number_of_points plus its index; and `shares`: what belongs to the point, such as
    * z, is (1 - share) times that of the first end plus share times that of the second. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_added_points(
+  delaunayflip_status delaunayflip_store_added_points(
     delaunayflip_session* session, double* xy, int64_t* ends, double* shares);
 
   /** Of a session from points: writes the edges that segments have become, as pairs of point ids,
    * in the order and direction of the segments: 2 * segment_edges of the report. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_segment_edges(
+  delaunayflip_status delaunayflip_store_segment_edges(
     delaunayflip_session* session, int64_t* pairs);
 
   /** Runs at most `iterations` more iterations; -1: until nothing is left to flip or a limit is
    * reached.
    * `*is_running` (may be null) becomes 1 if there is more to do, else 0. `callbacks` may be null.
    */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_advance(delaunayflip_session* session,
-    int64_t iterations, const delaunayflip_callbacks* callbacks, int32_t* is_running);
+  delaunayflip_status delaunayflip_advance(delaunayflip_session* session, int64_t iterations,
+    const delaunayflip_callbacks* callbacks, int32_t* is_running);
 
   /** Announces memory of the host that a store function will write after the next
    * delaunayflip_advance, such as a new array for the result. Its contents are lost, and it must
    * stay until that call returns. While a GPU flips, CPU threads touch its pages, which the system
    * takes longer to provide than the result takes to be stored. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_expect(
+  delaunayflip_status delaunayflip_expect(
     delaunayflip_session* session, void* memory, int64_t bytes);
 
   /** Fills `report`, whose size must be set (delaunayflip_report_init). */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_get_report(
+  delaunayflip_status delaunayflip_get_report(
     delaunayflip_session* session, delaunayflip_report* report);
 
   /** What was done, in lines of a title, ": " and a text; "" without triangles. `report` may be a
    * sum over several meshes. `*text` is valid until this thread's next call. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_summarize(
-    const delaunayflip_report* report, const char** text);
+  delaunayflip_status delaunayflip_summarize(const delaunayflip_report* report, const char** text);
 
   /** Copies the records of iterations first + 1 .. first + count to `records`, which has room for
    * `count` of them, each of `record_size` bytes: sizeof(delaunayflip_iteration). `first` + `count`
    * must not exceed the report's number_of_iterations. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_get_iterations(delaunayflip_session* session,
-    int64_t first, int64_t count, delaunayflip_iteration* records, int64_t record_size);
+  delaunayflip_status delaunayflip_get_iterations(delaunayflip_session* session, int64_t first,
+    int64_t count, delaunayflip_iteration* records, int64_t record_size);
 
   /** Writes the triangles in their input slots: 3 * number_of_triangles integers of `id_type`
    * (DELAUNAYFLIP_INT32 or DELAUNAYFLIP_INT64). A triangle that no flip touched keeps its three ids
    * in their order. If the session has nothing left to do, `triangles` may be the mesh's own array.
    */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_triangles(
+  delaunayflip_status delaunayflip_store_triangles(
     delaunayflip_session* session, void* triangles, int32_t id_type);
 
   /** Writes, for every triangle slot, how many flips it was part of: number_of_triangles integers.
    */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts(
+  delaunayflip_status delaunayflip_store_flip_counts(
     delaunayflip_session* session, int32_t* counts);
 
   /** The same for arrays in the memory of a GPU, from any session. If the session runs on this GPU,
    * nothing is copied through the host. `stream` is a cudaStream_t; null is the default stream. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_triangles_on_device(
+  delaunayflip_status delaunayflip_store_triangles_on_device(
     delaunayflip_session* session, void* triangles, int32_t id_type, void* stream);
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_flip_counts_on_device(
+  delaunayflip_status delaunayflip_store_flip_counts_on_device(
     delaunayflip_session* session, int32_t* counts, void* stream);
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_store_neighbors_on_device(
+  delaunayflip_status delaunayflip_store_neighbors_on_device(
     delaunayflip_session* session, int32_t* neighbors, void* stream);
 
   /** Ends a session; null is allowed. */
-  DELAUNAYFLIP_API void delaunayflip_close(delaunayflip_session* session);
+  void delaunayflip_close(delaunayflip_session* session);
 
   /** The whole run in one call: flips `mesh` and writes the result to `triangles` (integers of the
    * mesh's id_type, in the mesh's memory), which may be the very array of the mesh. `report` may be
    * null; its strings are valid until this thread's next call of this function. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_flip(const delaunayflip_mesh* mesh,
+  delaunayflip_status delaunayflip_flip(const delaunayflip_mesh* mesh,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks, void* triangles,
     delaunayflip_report* report);
 
   /** The smallest angle of each triangle in degrees, in space or (PLANAR_XY) by x and y, to
    * `angles`: number_of_triangles numbers. NaN where a coordinate is not finite. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_triangle_angles(
+  delaunayflip_status delaunayflip_triangle_angles(
     const delaunayflip_mesh* mesh, int32_t geometry, double* angles);
 
   /** The unit normal of each triangle by the right-hand rule, to `normals`: 3 * number_of_triangles
    * numbers; 0, 0, 0 for a triangle without area. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_triangle_normals(
-    const delaunayflip_mesh* mesh, double* normals);
+  delaunayflip_status delaunayflip_triangle_normals(const delaunayflip_mesh* mesh, double* normals);
 
   /** Polygon i has the corners corners[offsets[i]] .. corners[offsets[i + 1] - 1], ids of points.
    */
@@ -419,7 +408,7 @@ extern "C"
     const int64_t* corners;
   } delaunayflip_polygons;
 
-  DELAUNAYFLIP_API void delaunayflip_polygons_init(delaunayflip_polygons* polygons);
+  void delaunayflip_polygons_init(delaunayflip_polygons* polygons);
 
   /** Splits polygons over the points of `mesh`, whose other members have no effect, into triangles
    * that keep their winding. A polygon of n corners gives n - 2 triangles, or none if n < 3; their
@@ -427,15 +416,15 @@ extern "C"
    * divided along its first diagonal, unless that runs outside it; a larger polygon becomes a fan
    * if it is convex, else its ears are clipped. `callbacks` may be null; if `progress` returns 0
    * the call fails with DELAUNAYFLIP_STOPPED. */
-  DELAUNAYFLIP_API delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,
+  delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,
     const delaunayflip_polygons* polygons, const delaunayflip_callbacks* callbacks,
     int64_t* triangles);
 
   /** 1 where there is a GPU that this library can use, else 0. */
-  DELAUNAYFLIP_API int32_t delaunayflip_has_cuda_device(void);
+  int32_t delaunayflip_has_cuda_device(void);
 
   /** Frees the memory that the CUDA backend keeps between runs. */
-  DELAUNAYFLIP_API void delaunayflip_release_cuda_memory(void);
+  void delaunayflip_release_cuda_memory(void);
 
 #ifdef __cplusplus
 }
