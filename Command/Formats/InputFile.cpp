@@ -64,19 +64,18 @@ void InputFile::CopyPipe()
 {
   const std::size_t most = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
     static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  std::FILE* const temporary = std::tmpfile();
-  const int copy = temporary ? fcntl(fileno(temporary), F_DUPFD_CLOEXEC, 0) : -1;
+  std::FILE* const copy = std::tmpfile();
   std::vector<char> buffer(1 << 20);
   std::size_t total = 0;
-  ssize_t size = copy < 0 ? -1 : 1;
+  ssize_t size = copy ? 1 : -1;
   while (size > 0 && total <= most)
   {
     size = read(this->Descriptor, buffer.data(), buffer.size());
     const auto bytes = static_cast<std::size_t>(std::max<ssize_t>(size, 0));
     total += bytes;
-    size = std::fwrite(buffer.data(), 1, bytes, temporary) == bytes ? size : -1;
+    size = write(fileno(copy), buffer.data(), bytes) == size ? size : -1;
   }
-  if (size < 0 || std::fclose(temporary) != 0)
+  if (size < 0 || dup2(fileno(copy), this->Descriptor) < 0)
   {
     this->FailToRead();
   }
@@ -84,9 +83,8 @@ void InputFile::CopyPipe()
   {
     this->Fail("is a pipe that does not end, or that delivers more bytes than fit into memory");
   }
-  close(this->Descriptor);
-  this->Descriptor = copy;
-  this->Path = "/dev/fd/" + std::to_string(copy);
+  std::fclose(copy);
+  this->Path = "/dev/fd/" + std::to_string(this->Descriptor);
 }
 
 /// After a system call that failed.
@@ -185,6 +183,10 @@ void TextLines::Split(std::string_view line)
       const std::size_t end = std::min(line.find(this->Separator, start), line.size());
       this->Words.push_back(Trimmed(line.substr(start, end - start)));
       start = end + 1;
+    }
+    while (this->Words.size() > 1 && this->Words.back().empty())
+    {
+      this->Words.pop_back(); // files often end all lines with a separator
     }
     return;
   }

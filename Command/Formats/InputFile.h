@@ -69,8 +69,8 @@ public:
   explicit TextLines(const InputFile& file, bool isObj = false);
 
   /// From this line on, words are separated by the first of these characters that this line has, if
-  /// it has one. Then words may be empty, and quotes around them are removed. Returns the
-  /// character, or a blank.
+  /// it has one. Then words may be empty, but for those at the end, and quotes around them are
+  /// removed. Returns the character, or a blank.
   char SeparateBy(std::string_view characters);
 
   /// Reads the next line that is not empty. Returns false if there is none.

@@ -66,15 +66,6 @@ std::string Quoted(const Words& names)
   return names.size() > most ? text + " and others" : text;
 }
 
-/// Files often end all lines with a separator.
-void DropEmptyEnd(Words& words)
-{
-  while (words.size() > 1 && words.back().empty())
-  {
-    words.pop_back();
-  }
-}
-
 /// Reads the lines before the first point, which is then the line of `lines`.
 /// @returns the names of its columns; empty if the file names none, or has no points.
 Words ReadNames(TextLines& lines)
@@ -87,7 +78,6 @@ Words ReadNames(TextLines& lines)
   {
     const bool isComment = IsComment(lines.Words[0]);
     lines.SeparateBy(separators);
-    DropEmptyEnd(lines.Words);
     if (!isComment && (hasNames || std::any_of(lines.Words.begin(), lines.Words.end(), IsNumber)))
     {
       const bool fits = names.size() == lines.Words.size();
@@ -99,7 +89,6 @@ Words ReadNames(TextLines& lines)
       return fits ? names : Words();
     }
     const bool hasTabs = lines.SeparateBy(";,\t") == '\t';
-    DropEmptyEnd(lines.Words);
     Words found = lines.Words;
     if (isComment)
     {
