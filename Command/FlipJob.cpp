@@ -50,14 +50,9 @@ double SecondsSince(Clock::time_point start)
 void TryOptions(FlipOptions options)
 {
   options.NumberOfPieces = 1; // a session of several looks for a GPU when it flips
-  const double points[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
-  const std::int32_t triangle[] = { 0, 1, 2 };
-  TriangleMesh mesh;
-  mesh.Points = PointArray(points, 3);
-  mesh.Triangles = TriangleArray(triangle, 1);
   try
   {
-    FlipSession(mesh, options);
+    FlipSession(TriangleMesh(), options);
   }
   catch (const BackendUnavailable& error)
   {

@@ -247,11 +247,12 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format)
     RequireValidIds(read.Mesh, file);
     return read;
   }
-  catch (const std::bad_alloc&)
+  catch (const std::exception& error)
   {
-  }
-  catch (const std::length_error&)
-  {
+    if (!IsLackOfMemory(error))
+    {
+      throw;
+    }
   }
   file.Fail(
     "cannot be read: not enough memory, or the file is corrupt: it asks for more than its " +

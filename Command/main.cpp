@@ -42,37 +42,26 @@ int Guarded(const Function& work, const Description& describe)
 /// The file that was in use and what was being done to it, as the beginning of a message.
 std::string DescribeWork(const Arguments& arguments, Phase phase)
 {
-  switch (phase)
-  {
-    case Phase::Reading:
-      return arguments.Input + ": cannot be read: ";
-    case Phase::Flipping:
-      return arguments.Input + ": cannot be " +
-        (arguments.FromPoints ? "triangulated: " : "flipped: ");
-    default:
-      return arguments.Output + ": cannot be written: ";
-  }
+  const char* const flip = arguments.FromPoints ? "triangulated: " : "flipped: ";
+  return phase == Phase::Reading ? arguments.Input + ": cannot be read: "
+    : phase == Phase::Flipping   ? arguments.Input + ": cannot be " + flip
+                                 : arguments.Output + ": cannot be written: ";
 }
 
 /// Says what the child was doing when a signal killed it, and what may have caused that.
 std::string ExplainDeath(
   const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
 {
-  const std::string death = std::string(" (") + strsignal(outcome.KilledBy) + ")";
-  const std::string work = DescribeWork(arguments, outcome.LastPhase);
-  switch (outcome.LastPhase)
+  const Phase phase = outcome.LastPhase;
+  const std::string work = DescribeWork(arguments, phase);
+  if (outcome.KilledBy == SIGXCPU && phase == Phase::Reading)
   {
-    case Phase::Reading:
-      return work +
-        (outcome.KilledBy == SIGXCPU ? "reading takes far more time than a file of its size needs"
-                                     : "the reader crashed" + death) +
-        "; the file is probably truncated or corrupt";
-    case Phase::Flipping:
-      return work + "it crashed" + death + "; was there enough memory? Nothing was written";
-    default:
-      return work + "writing or checking it crashed" + death +
-        ExplainFailedWrite(files.Mesh.GetTemporary());
+    return work + "it takes far more time than a file of its size needs; it is probably corrupt";
   }
+  return work + "it crashed (" + strsignal(outcome.KilledBy) + ")" +
+    (phase == Phase::Reading       ? "; the file is probably truncated or corrupt"
+        : phase == Phase::Flipping ? "; was there enough memory? Nothing was written"
+                                   : ExplainFailedWrite(files.Mesh.GetTemporary()));
 }
 
 int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& outcome)

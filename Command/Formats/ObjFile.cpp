@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CommandError.h"
 #include "Formats.h"
 #include "InputFile.h"
 
@@ -333,11 +332,6 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
         }
         out << '\n';
       });
-  }
-  out.close();
-  if (!out)
-  {
-    throw CommandError(ExitCode::BadFile, "the file is incomplete");
   }
 }
 
