@@ -7,7 +7,6 @@
 #include "DelaunayFlip.h"
 #include "Formats.h"
 #include "OutputFiles.h"
-#include "Report.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
@@ -21,15 +20,20 @@
 #include <vtkSMPTools.h>
 #include <vtkStaticCleanPolyData.h>
 
+#include <nlohmann/json.hpp>
+
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -191,6 +195,142 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
   const bool areLines = kind == SegmentKind::Breaklines;
   (areLines ? made->SetLines(segments) : made->SetPolys(segments));
   return made;
+}
+
+/// The engine's report, and the times of the steps outside it.
+struct RunReport
+{
+  bool IsFromPoints = false;
+  FlipReport Flip;
+  std::string Summary; ///< The filter's: lines of a title, ": " and a text.
+  double ReadSeconds = 0.0;
+  double WriteSeconds = 0.0;
+  std::vector<std::string> Warnings;
+};
+
+/// One JSON object; numbers that are not finite become null.
+std::string MakeJson(const RunReport& run)
+{
+  const FlipReport& flip = run.Flip;
+  nlohmann::ordered_json json;
+  json["points"] = flip.Points;
+  json["triangles"] = flip.Triangles;
+  json["edges"] = flip.Edges.Edges;
+  json["boundary_edges"] = flip.Edges.Boundary;
+  json["fixed_edges"] = flip.Edges.Fixed;
+  json["non_manifold_edges"] = flip.Edges.NonManifold;
+  json["feature_edges"] = flip.Edges.Feature;
+  json["region_edges"] = flip.Edges.Region;
+  json["constraint_edges"] = flip.Edges.Constraint;
+  json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
+  json["inserted_constraint_edges"] = flip.InsertedConstraints;
+  json["constraint_flips"] = flip.ConstraintFlips;
+  if (run.IsFromPoints)
+  {
+    const PointCounts& counts = flip.FromPoints;
+    json["from_points"] = { { "not_finite", counts.NotFinite }, { "repeated", counts.Repeated },
+      { "too_near", counts.TooNear }, { "segment_edges", counts.SegmentEdges },
+      { "refused_segments", counts.RefusedSegments }, { "crossings", counts.Crossings },
+      { "largest_shift", counts.LargestShift }, { "outside_triangles", counts.OutsideTriangles },
+      { "large_triangles", counts.LargeTriangles } };
+  }
+  json["geometry"] = ToString(flip.GeometryUsed);
+  json["geometry_reason"] = flip.GeometryReason;
+  json["tolerance"] = flip.Tolerance;
+  json["backend"] = flip.Backend;
+  if (!flip.Fallback.empty())
+  {
+    json["fallback"] = flip.Fallback;
+  }
+  json["iterations"] = flip.Iterations.size();
+  json["total_flips"] = flip.TotalFlips;
+  json["total_excluded"] = flip.TotalExcluded;
+  json["total_blocked"] = flip.TotalBlocked;
+  json["non_delaunay_before"] = flip.NonDelaunayBefore;
+  json["non_delaunay_after"] = flip.NonDelaunayAfter;
+  json["blocked_by_shape"] = flip.BlockedByShape;
+  json["blocked_by_deviation"] = flip.BlockedByDeviation;
+  json["blocked_by_edge"] = flip.BlockedByEdge;
+  json["min_angle_before_deg"] = flip.MinimumAngleBefore;
+  json["min_angle_after_deg"] = flip.MinimumAngleAfter;
+  json["converged"] = flip.Converged();
+  json["stop_reason"] = ToString(flip.StopReason);
+  json["seconds"] = { { "read", run.ReadSeconds }, { "build", flip.BuildSeconds },
+    { "flip", flip.FlipSeconds }, { "write", run.WriteSeconds } };
+  json["warnings"] = run.Warnings;
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+/// The iterations as CSV with a header line; the smallest angle is nan where it was not computed.
+std::string MakeCsv(const FlipReport& flip)
+{
+  std::ostringstream text;
+  text << "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds\n"
+       << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const IterationRecord& record : flip.Iterations)
+  {
+    text << record.Iteration << ',' << record.Tested << ',' << record.NonDelaunay << ','
+         << record.Flipped << ',' << record.Excluded << ',' << record.Blocked << ','
+         << std::abs(record.MinimumAngle) // a NaN may have a sign
+         << ',' << record.Seconds << '\n';
+  }
+  return text.str();
+}
+
+/// The lines of the summary that only a mesh from points has.
+std::string DescribePoints(const FlipReport& flip)
+{
+  const PointCounts& counts = flip.FromPoints;
+  const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
+  { return count > 0 ? text + ", " + Count(count) + " " + what : text; };
+  const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
+  std::string points = Count(flip.Points - unused) + " used";
+  points = add(points, counts.Repeated, "repeated");
+  points = add(points, counts.TooNear, "too near to another");
+  points = add(points, counts.NotFinite, "not finite");
+  std::string text = "points          " + points + '\n';
+  if (counts.SegmentEdges + counts.RefusedSegments > 0)
+  {
+    std::string segments = Count(counts.SegmentEdges, "edge");
+    segments = add(segments, counts.RefusedSegments, "refused");
+    text += "segments        " + segments +
+      (counts.Crossings > 0 ? ", " + Count(counts.Crossings, "crossing") + " added" : "") + '\n';
+  }
+  if (counts.OutsideTriangles + counts.LargeTriangles > 0)
+  {
+    text += "removed         " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
+      Count(counts.LargeTriangles) + " too large\n";
+  }
+  return text;
+}
+
+/// The summary and the times, in two columns.
+std::string MakeSummary(const RunReport& run)
+{
+  constexpr std::size_t Column = 16;
+  std::ostringstream text;
+  std::istringstream lines(run.Summary);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t colon = line.find(": ");
+    const std::string title = line.substr(0, colon);
+    // Points have lines of their own, and the triangles that flips begin with are not the user's.
+    if (!run.IsFromPoints ||
+      (title != "geometry" && title != "constraints" && title != "bad edges"))
+    {
+      text << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
+    }
+    if (run.IsFromPoints && title == "mesh")
+    {
+      text << DescribePoints(run.Flip);
+    }
+  }
+  const FlipReport& flip = run.Flip;
+  text << std::fixed << std::setprecision(3) << "time            read " << run.ReadSeconds
+       << " s, edges " << flip.BuildSeconds << " s, flips " << flip.FlipSeconds << " s, write "
+       << run.WriteSeconds << " s" << (flip.Backend.empty() ? "" : " (" + flip.Backend + ")")
+       << '\n';
+  return text.str();
 }
 
 /// The work from reading to the report, one function per step.
@@ -383,25 +523,19 @@ private:
     }
   }
 
-  /// Names the file of the ring that cannot be inserted, and the number that it has there.
-  [[noreturn]] void FailOnRing(const std::smatch& message) const
-  {
-    const vtkIdType ring = std::stoll(message[1].str()) - this->Segments->GetNumberOfLines();
-    const bool isHole = ring >= this->OutlineRings;
-    throw CommandError(ExitCode::BadFile,
-      (isHole ? this->Settings.Holes : this->Settings.Outline) + ": ring " +
-        std::to_string(ring - (isHole ? this->OutlineRings : 0)) + " cannot be used" +
-        message[2].str() + "; --split-crossings adds points where it crosses others");
-  }
-
   void ThrowErrors()
   {
     const std::string errors = TakeVTKErrors();
-    static const std::regex ring("ring (\\d+) from .* cannot be inserted(.*)");
     std::smatch found;
-    if (std::regex_search(errors, found, ring))
+    if (std::regex_search(errors, found, std::regex("ring (\\d+) from .* cannot be inserted(.*)")))
     {
-      this->FailOnRing(found);
+      // Names the file of the ring, and the number that it has there.
+      const vtkIdType ring = std::stoll(found[1].str()) - this->Segments->GetNumberOfLines();
+      const bool isHole = ring >= this->OutlineRings;
+      throw CommandError(ExitCode::BadFile,
+        (isHole ? this->Settings.Holes : this->Settings.Outline) + ": ring " +
+          std::to_string(ring - (isHole ? this->OutlineRings : 0)) + " cannot be used" +
+          found[2].str() + "; --split-crossings adds points where it crosses others");
     }
     if (!errors.empty())
     {
