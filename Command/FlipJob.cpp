@@ -454,7 +454,7 @@ private:
     this->Bar.Clear();
     for (const std::string& warning : file.Warnings)
     {
-      this->Warn(warning);
+      this->Warn(path + ": " + warning);
     }
     return file.Mesh;
   }

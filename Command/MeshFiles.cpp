@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshFiles.h"
 
-#include "CommandError.h"
 #include "Formats.h"
-#include "InputFile.h"
 #include "OutputFiles.h"
 
 #include <vtkCellData.h>
@@ -23,7 +21,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <new>
 #include <stdexcept>
 
 namespace delaunayflip

@@ -34,7 +34,7 @@ MeshFormat FormatOf(const std::string& path);
 struct FileMesh
 {
   vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
-  std::vector<std::string> Warnings; ///< What reading left out, one line each.
+  std::vector<std::string> Warnings; ///< What reading left out, one line each, without the file.
 };
 
 /// Reads a surface mesh.

@@ -3,6 +3,8 @@
 #ifndef DELAUNAYFLIP_FORMATS_H
 #define DELAUNAYFLIP_FORMATS_H
 
+#include "CommandError.h"
+#include "InputFile.h"
 #include "MeshFiles.h"
 
 #include <vtkCellArray.h>
@@ -12,12 +14,11 @@ class vtkAbstractArray;
 
 /// @file
 /// The reader and the writer of each format. They throw CommandError (BadFile); readers name the
-/// file, writers do not. The readers and writers of VtkFiles.cpp are VTK's, with checks.
+/// file, writers do not. The readers and writers of VtkFiles.cpp are VTK's, with checks. This
+/// header has what all of them need.
 
 namespace delaunayflip
 {
-
-class InputFile;
 
 FileMesh ReadLegacy(const InputFile& file);
 FileMesh ReadXml(const InputFile& file);

@@ -40,9 +40,6 @@ public:
 
   std::string_view GetBytes() const { return this->Bytes; }
 
-  /// The name that the user gave.
-  const std::string& GetName() const { return this->Name; }
-
   /// A path that VTK's readers can open: for a pipe, a copy of its contents.
   const std::string& GetPath() const { return this->Path; }
 
@@ -53,7 +50,7 @@ private:
   void CopyPipe();
   [[noreturn]] void FailToRead() const;
 
-  std::string Name;
+  std::string Name; ///< That the user gave.
   std::string Path;
   int Descriptor = -1;
   std::string_view Bytes;

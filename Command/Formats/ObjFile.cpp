@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats.h"
-#include "InputFile.h"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
@@ -55,8 +54,7 @@ class ObjReader
 {
 public:
   explicit ObjReader(const InputFile& file)
-    : File(file),
-      Lines(file, true)
+    : Lines(file, true)
   {
     for (TextLines all(file, true); all.Next();) // indices may refer to later lines
     {
@@ -91,11 +89,11 @@ public:
     std::string list;
     for (const auto& [what, count] : this->LeftOut)
     {
-      list += (list.empty() ? ": left out " : ", ") + what + " (" + std::to_string(count) + ")";
+      list += (list.empty() ? "left out " : ", ") + what + " (" + std::to_string(count) + ")";
     }
     if (!list.empty())
     {
-      result.Warnings.push_back(this->File.GetName() + list);
+      result.Warnings.push_back(list);
     }
     return result;
   }
@@ -234,7 +232,6 @@ private:
     return values.empty() || !agree ? nullptr : MakeVectors(name, ofPoints, size);
   }
 
-  const InputFile& File;
   TextLines Lines;
   std::array<std::int64_t, 4> Sizes = {}; ///< How many v, vt, vn and other lines there are.
   std::array<std::vector<double>, 3> Values; ///< Of v, vt and vn.

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CommandError.h"
 #include "Formats.h"
-#include "InputFile.h"
 
 #include <vtkDataArray.h>
 #include <vtkNew.h>
@@ -125,7 +123,8 @@ public:
     const std::size_t rest = this->Lines.Rest.size();
     if (rest > 0 && (!this->IsText || this->Lines.Next()))
     {
-      this->Warn(Counted(static_cast<std::int64_t>(rest), "byte") + " after its last element");
+      this->Result.Warnings.push_back(
+        "left out " + Counted(static_cast<std::int64_t>(rest), "byte") + " after its last element");
     }
     if (!this->Result.Mesh->GetPoints())
     {
@@ -262,7 +261,7 @@ private:
     }
     if (!others.empty())
     {
-      this->Warn(others + " of the element " + element.Name);
+      this->Result.Warnings.push_back("left out " + others + " of the element " + element.Name);
     }
   }
 
@@ -322,11 +321,6 @@ private:
     this->Lines.Rest.remove_prefix(sizeof(T));
     std::reverse(bytes, this->IsSwapped ? bytes + sizeof(T) : bytes);
     return value;
-  }
-
-  void Warn(const std::string& what)
-  {
-    this->Result.Warnings.push_back(this->File.GetName() + ": left out " + what);
   }
 
   const InputFile& File;

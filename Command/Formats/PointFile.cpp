@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats.h"
-#include "InputFile.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -108,7 +107,7 @@ Words ReadNames(TextLines& lines)
 
 /// The columns of x, y and, if there is one, z. Warns of all that is not certain or left out.
 std::vector<std::size_t> ChooseColumns(
-  const TextLines& lines, const Words& names, const std::string& file, FileMesh& result)
+  const TextLines& lines, const Words& names, std::vector<std::string>& warnings)
 {
   const std::size_t count = lines.Words.size();
   if (count < 2)
@@ -122,7 +121,7 @@ std::vector<std::size_t> ChooseColumns(
     columns.resize(std::min<std::size_t>(count, 3), 2);
     if (!names.empty())
     {
-      result.Warnings.push_back(file + ": no columns are named x and y; took " +
+      warnings.push_back("no columns are named x and y; took " +
         Quoted({ names.begin(), names.begin() + static_cast<std::ptrdiff_t>(columns.size()) }) +
         " as x" + (columns.size() == 3 ? ", y, z" : ", y"));
     }
@@ -137,12 +136,12 @@ std::vector<std::size_t> ChooseColumns(
   }
   if (!others.empty())
   {
-    result.Warnings.push_back(file + ": left out the columns " + Quoted(others));
+    warnings.push_back("left out the columns " + Quoted(others));
   }
   else if (count > columns.size())
   {
-    result.Warnings.push_back(
-      file + ": left out the columns from number " + std::to_string(columns.size() + 1) + " on");
+    warnings.push_back(
+      "left out the columns from number " + std::to_string(columns.size() + 1) + " on");
   }
   return columns;
 }
@@ -158,7 +157,7 @@ FileMesh ReadPoints(const InputFile& file)
   coordinates->SetNumberOfComponents(3);
   if (!lines.Words.empty())
   {
-    const std::vector<std::size_t> columns = ChooseColumns(lines, names, file.GetName(), result);
+    const std::vector<std::size_t> columns = ChooseColumns(lines, names, result.Warnings);
     const std::string_view rest = lines.Rest;
     coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
     do

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CommandError.h"
 #include "Formats.h"
-#include "InputFile.h"
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
@@ -74,8 +72,8 @@ private:
   std::int64_t Corners = 0;
 };
 
-/// @returns whether some bytes of attributes are not 0.
-bool ReadBinary(std::string_view bytes, CornerMesh& mesh)
+/// @returns what is left out. So does the next function.
+std::string ReadBinary(std::string_view bytes, CornerMesh& mesh)
 {
   bool hasAttributes = false;
   for (std::size_t begin = BodyBegin; begin < bytes.size(); begin += TriangleSize)
@@ -89,11 +87,10 @@ bool ReadBinary(std::string_view bytes, CornerMesh& mesh)
     hasAttributes =
       hasAttributes || bytes.substr(begin + sizeof(numbers), 2) != std::string_view("\0\0", 2);
   }
-  return hasAttributes;
+  return hasAttributes ? "the attribute bytes of triangles" : "";
 }
 
-/// @returns how many solids there are.
-int ReadText(const InputFile& file, CornerMesh& mesh)
+std::string ReadText(const InputFile& file, CornerMesh& mesh)
 {
   constexpr const char* Facet[] = { "facet", "outer", "vertex", "vertex", "vertex", "endloop",
     "endfacet" };
@@ -125,7 +122,7 @@ int ReadText(const InputFile& file, CornerMesh& mesh)
   {
     file.Fail("has no 'endsolid' (truncated or corrupt)");
   }
-  return solids;
+  return solids > 1 ? "which triangle is of which of its " + Counted(solids, "solid") : "";
 }
 
 }
@@ -140,29 +137,18 @@ FileMesh ReadStl(const InputFile& file)
   }
   const std::size_t expected = BodyBegin + TriangleSize * triangles;
   const bool isBinary = bytes.size() == expected;
-  CornerMesh mesh(isBinary ? VTK_FLOAT : VTK_DOUBLE);
-  FileMesh result;
-  if (isBinary)
-  {
-    if (ReadBinary(bytes, mesh))
-    {
-      result.Warnings.push_back(file.GetName() + ": left out the attribute bytes of triangles");
-    }
-  }
-  else if (bytes.size() < BodyBegin || bytes.find('\0') == std::string_view::npos)
-  {
-    const int solids = ReadText(file, mesh);
-    if (solids > 1)
-    {
-      result.Warnings.push_back(file.GetName() + ": left out which triangle is of which of its " +
-        Counted(solids, "solid"));
-    }
-  }
-  else
+  if (!isBinary && bytes.size() >= BodyBegin && bytes.find('\0') != std::string_view::npos)
   {
     file.Fail("its header says " + Counted(triangles, "triangle") + ", which take " +
       std::to_string(expected) + " bytes, but it has " + std::to_string(bytes.size()) +
       " (truncated or corrupt)");
+  }
+  CornerMesh mesh(isBinary ? VTK_FLOAT : VTK_DOUBLE);
+  const std::string leftOut = isBinary ? ReadBinary(bytes, mesh) : ReadText(file, mesh);
+  FileMesh result;
+  if (!leftOut.empty())
+  {
+    result.Warnings.push_back("left out " + leftOut);
   }
   result.Mesh->SetPoints(mesh.Points);
   result.Mesh->SetPolys(mesh.Triangles);

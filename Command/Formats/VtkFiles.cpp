@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CommandError.h"
 #include "Console.h"
 #include "Formats.h"
-#include "InputFile.h"
 
 #include <vtkCellData.h>
 #include <vtkErrorCode.h>
