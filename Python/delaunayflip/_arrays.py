@@ -34,6 +34,16 @@ class _NumPy:
 
 class _OnDevice:
     @classmethod
+    def take(cls, name, array, types, columns):
+        """The array, without gaps. Requires one of these types, and so many columns."""
+        array = cls.as_contiguous(array)
+        if type_of(array) not in types:
+            raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {type_of(array)}")
+        if len(array.shape) != 2 or array.shape[1] not in columns:
+            raise _shape_error(name, array, " or ".join(f"(n, {count})" for count in columns))
+        return array
+
+    @classmethod
     def can_be_written(cls, array):
         """Whether it is contiguous, too."""
         is_read_only = array.__cuda_array_interface__["data"][1]
@@ -172,18 +182,8 @@ def type_of(array):
     return kind.name if kind.isnative else kind.str
 
 
-def _check(name, array, types, columns):
-    """Requires one of these types, and so many columns."""
-    found = type_of(array)
-    if found not in types:
-        raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {found}")
-    if len(array.shape) != 2 or array.shape[1] not in columns:
-        shapes = " or ".join(f"(n, {count})" for count in columns)
-        raise ValueError(f"{name} must have the shape {shapes}, not {tuple(array.shape)}")
-
-
 def _shape_error(name, array, wanted):
-    return ValueError(f"{name} must have the shape {wanted}, not {array.shape}")
+    return ValueError(f"{name} must have the shape {wanted}, not {tuple(array.shape)}")
 
 
 def _as_array(name, values):
@@ -215,9 +215,7 @@ def as_plane(points):
     device stay there."""
     functions, points = _adapt(points)
     if functions is not _NumPy:
-        points = functions.as_contiguous(points)
-        _check("points", points, ("float32", "float64"), (2, 3))
-        return points
+        return functions.take("points", points, ("float32", "float64"), (3, 2))
     points = _as_array("points", points)
     if points.size == 0 and points.ndim < 2:
         points = numpy.empty((0, 3))
@@ -334,11 +332,9 @@ class Mesh:
             if not _is_on_device(array):
                 raise TypeError(f"{name} must be in the memory of the GPU, as the other array is")
         library = _choose_library({"triangles": triangles, "points": points})
-        self.points, self.triangles = (
-            _ADAPTERS[library].as_contiguous(_view(name, array, library))
-            for name, array in (("points", points), ("triangles", triangles)))
-        _check("points", self.points, ("float32", "float64"), (3, 2))
-        _check("triangles", self.triangles, ("int32", "int64"), (3,))
+        self.points = as_plane(_view("points", points, library))
+        self.triangles = _ADAPTERS[library].take(
+            "triangles", _view("triangles", triangles, library), ("int32", "int64"), (3,))
 
 
 def expect(session, *arrays):

@@ -97,6 +97,7 @@ class Report:
 
 
 _TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
+_TEXTS = [field.name for field in dataclasses.fields(Report)[2:] if field.type is str]
 #: delaunayflip_report: the members of Report, of which the first two are numbers there.
 Struct = _library.make_struct("Report", (
     (ctypes.c_int64, "size"), (ctypes.c_int32, "stop_reason geometry_used"),
@@ -119,11 +120,9 @@ def read_iterations(handle: ctypes.c_void_p) -> numpy.typing.NDArray[typing.Any]
 
 
 def _from_struct(struct: ctypes.Structure) -> Report:
-    values: typing.Dict[str, typing.Any] = {}
-    for name, _ in struct._fields_[1:]:
-        value = getattr(struct, name)
-        is_text = value is None or isinstance(value, bytes)
-        values[name] = (value or b"").decode(errors="replace") if is_text else value
+    values = {name: getattr(struct, name) for name, _ in struct._fields_[1:]}
+    for name in _TEXTS:
+        values[name] = values[name].decode(errors="replace")
     values["stop_reason"] = _library.STOP_REASONS[struct.stop_reason]
     values["geometry_used"] = CHOICES["geometry"][struct.geometry_used]
     if values["stop_reason"] == "aborted" and struct.edges == 0:  # while they were being found
@@ -136,7 +135,7 @@ class Totals:
     "mixed"; and the rows of its iterations."""
 
     def __init__(self, stop_reason="not started"):
-        self.report = dataclasses.replace(_from_struct(Struct()), stop_reason=stop_reason,
+        self.report = dataclasses.replace(_from_struct(_library.make(Struct)), stop_reason=stop_reason,
                                           minimum_angle_before=numpy.nan, minimum_angle_after=numpy.nan)
         self.iterations = numpy.empty(0, dtype=ITERATION)
 
@@ -173,9 +172,9 @@ class Totals:
     def summarize(self):
         """What was done, in lines of a title, ": " and a text; "" without triangles."""
         struct, text = _library.make(Struct), ctypes.c_char_p()
-        for name, kind in Struct._fields_[3:]:
+        for name, _ in Struct._fields_[3:]:
             value = getattr(self.report, name)
-            setattr(struct, name, value.encode() if kind is ctypes.c_char_p else value)
+            setattr(struct, name, value.encode() if name in _TEXTS else value)
         struct.stop_reason = _library.STOP_REASONS.index(self.report.stop_reason)
         struct.geometry_used = GEOMETRIES.index(self.report.geometry_used)
         struct.number_of_iterations = len(self.iterations)

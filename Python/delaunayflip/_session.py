@@ -293,12 +293,10 @@ def flip(
     with Session(**arguments) as session:
         triangles, counts = session._mesh.make_triangles(), session._mesh.make_flip_counts()
         if session.report.stop_reason != "aborted":
-            with session._open() as handle:
-                _arrays.expect(handle, triangles, counts)
+            _arrays.expect(session._handle, triangles, counts)
             session.advance(progress=progress, on_iteration=on_iteration)
         session.store_triangles(triangles)
-        with session._open() as handle:
-            _arrays.store("flip_counts", handle, counts)
+        _arrays.store("flip_counts", session._handle, counts)
         return Result(triangles, counts, session.iterations, session.report)
 
 
