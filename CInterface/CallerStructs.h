@@ -15,7 +15,6 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 /// @file
@@ -190,11 +189,6 @@ inline MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int
   return ToIds<MutableTriangleArray, std::int32_t, std::int64_t>(ids, triangles, type);
 }
 
-inline GeometryKind ToGeometry(std::int32_t value)
-{
-  return ToEnumeration(value, GeometryKind::Surface, "geometry");
-}
-
 /// The engine's defaults where `given` is null.
 inline FlipOptions ToOptions(const delaunayflip_options* given)
 {
@@ -204,7 +198,7 @@ inline FlipOptions ToOptions(const delaunayflip_options* given)
     return options;
   }
   const delaunayflip_options c = Complete(given, delaunayflip_options_init);
-  options.Geometry = ToGeometry(c.geometry);
+  options.Geometry = ToEnumeration(c.geometry, GeometryKind::Surface, "geometry");
   options.Criterion = ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion");
   options.TieRule = ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
   options.Backend = ToEnumeration(c.backend, BackendKind::Threads, "backend");
@@ -312,10 +306,11 @@ inline FlipReport ToReport(const delaunayflip_report* given)
 class KeptReport
 {
 public:
+  /// Keeps a report, and fills as many bytes of `target` as target.size says.
   /// @param numbers the numbers by which the report names triangles; null: their indices.
-  KeptReport(FlipReport report, const std::int64_t* numbers)
-    : Report(std::move(report))
+  void Fill(const FlipReport& report, const std::int64_t* numbers, delaunayflip_report& target)
   {
+    this->Report = report;
     for (Defect& defect : this->Report.Defects)
     {
       if (numbers && defect.Ids == DefectIds::Triangles)
@@ -329,20 +324,14 @@ public:
       }
     }
     this->Defects = DescribeDefects(this->Report.Defects);
-  }
-
-  /// Fills as many bytes of `target` as target.size says.
-  void Fill(delaunayflip_report& target) const
-  {
-    const FlipReport& report = this->Report;
     delaunayflip_report c;
     delaunayflip_report_init(&c);
     ForEachNumber(c, report, [](auto& number, const auto& known) { number = known; });
     c.geometry_used = static_cast<std::int32_t>(report.GeometryUsed);
-    c.geometry_reason = report.GeometryReason.c_str();
-    c.backend = report.Backend.c_str();
-    c.fallback = report.Fallback.c_str();
-    c.tolerance = report.Tolerance.c_str();
+    c.geometry_reason = this->Report.GeometryReason.c_str();
+    c.backend = this->Report.Backend.c_str();
+    c.fallback = this->Report.Fallback.c_str();
+    c.tolerance = this->Report.Tolerance.c_str();
     c.defects = this->Defects.c_str();
     c.stop_reason = static_cast<std::int32_t>(report.StopReason);
     c.number_of_iterations = static_cast<std::int64_t>(report.Iterations.size());

@@ -13,7 +13,6 @@
 #include <cstdio>
 #include <functional>
 #include <new>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -161,7 +160,7 @@ struct delaunayflip_session
   bool IsFromPoints = false;
   std::int64_t NumberOfTriangles = 0;
   const std::int64_t* TriangleNumbers = nullptr; ///< Of the caller, or null.
-  std::optional<KeptReport> Report;
+  KeptReport Report;
 };
 
 namespace
@@ -371,8 +370,7 @@ extern "C"
       [=]()
       {
         RequireSize(report);
-        session->Report.emplace(session->Session.GetReport(), session->TriangleNumbers);
-        session->Report->Fill(*report);
+        session->Report.Fill(session->Session.GetReport(), session->TriangleNumbers, *report);
       });
   }
 
@@ -457,9 +455,8 @@ extern "C"
         const FlipReport result = IsOnDevice(c.memory) ? flip(ToDeviceMesh(c)) : flip(ToMesh(&c));
         if (report)
         {
-          thread_local std::optional<KeptReport> kept;
-          kept.emplace(result, c.triangle_numbers);
-          kept->Fill(*report);
+          thread_local KeptReport kept;
+          kept.Fill(result, c.triangle_numbers, *report);
         }
       });
   }
@@ -472,7 +469,8 @@ extern "C"
       {
         const TriangleMesh view = ToMesh(mesh);
         Require(angles || view.Triangles.Count == 0, "angles is null");
-        FindSmallestAngles(view, ToGeometry(geometry), 0, angles);
+        FindSmallestAngles(
+          view, ToEnumeration(geometry, GeometryKind::Surface, "geometry"), 0, angles);
       });
   }
 
