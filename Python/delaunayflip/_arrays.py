@@ -114,15 +114,10 @@ def _is_on_device(array):
     return hasattr(array, "__dlpack__") and array.__dlpack_device__()[0] in _DLPACK_MEMORIES
 
 
-def _choose_library(arrays):
+def _choose_library(*arrays):
     """The name of the library of the first array that is of a known one; else of one that is here,
-    if possible one that the process uses. `arrays`: by name."""
-    libraries = {name: _library_name(array) for name, array in arrays.items()}
-    for name, library in libraries.items():
-        if library not in _ADAPTERS and not hasattr(arrays[name], "__dlpack__"):
-            raise TypeError(f"{name} must be an array of CuPy, PyTorch or Numba, or have __dlpack__, "
-                            f"not of {library}")
-    known = [library for library in libraries.values() if library in _ADAPTERS]
+    if possible one that the process uses."""
+    known = [library for library in map(_library_name, arrays) if library in _ADAPTERS]
     known += [library for library in _VIEWERS if library in sys.modules]
     for library in (*known, *_VIEWERS):
         if library in known or importlib.util.find_spec(library):
@@ -137,8 +132,8 @@ def _view(name, array, library):
     if own == library:
         return array
     if library not in _VIEWERS or not hasattr(array, "__dlpack__"):
-        raise TypeError(f"{name} must be an array of {library}, as the other array is, not of {own}; "
-                        "cupy.asarray views both without a copy")
+        raise TypeError(f"{name} must be an array of {library}, as the other array is, or have "
+                        f"__dlpack__, not of {own}; cupy.asarray views all without a copy")
     return importlib.import_module(library).from_dlpack(array)
 
 
@@ -146,7 +141,7 @@ def _adapt(array):
     """The functions for an array, and the array as they take it."""
     if not _is_on_device(array):
         return _NumPy, array
-    library = _choose_library({"the array": array})
+    library = _choose_library(array)
     return _ADAPTERS[library], _view("the array", array, library)
 
 
@@ -331,7 +326,7 @@ class Mesh:
         for name, array in (("points", points), ("triangles", triangles)):
             if not _is_on_device(array):
                 raise TypeError(f"{name} must be in the memory of the GPU, as the other array is")
-        library = _choose_library({"triangles": triangles, "points": points})
+        library = _choose_library(triangles, points)
         self.points = as_plane(_view("points", points, library))
         self.triangles = _ADAPTERS[library].take(
             "triangles", _view("triangles", triangles, library), ("int32", "int64"), (3,))

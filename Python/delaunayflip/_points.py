@@ -11,7 +11,7 @@ from . import _arrays, _library, _report
 from ._arrays import address
 from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
 from ._report import Report
-from ._session import Observers
+from ._session import call
 
 _ORIENTATION = 1  # an outline
 
@@ -95,15 +95,13 @@ def triangulate(
     options = make_options(backend=backend, threads=threads, device=device,
                            maximum_iterations=maximum_iterations)
     handle = ctypes.c_void_p()
-    with Observers(progress).raising() as callbacks:
-        _library.call("open_points", struct, options, callbacks, ctypes.byref(handle))
+    call("open_points", struct, options, ctypes.byref(handle), progress)
     try:
         report = _report.read(handle)
         room = given.make_room(report.number_of_triangles)
         if report.stop_reason != "aborted":
             _arrays.expect(handle, *room)
-            with Observers(progress, on_iteration).raising() as callbacks:
-                _library.call("advance", handle, -1, callbacks, None)
+            call("advance", handle, -1, None, progress, on_iteration)
             report = _report.read(handle)
         return given.store(handle, report, room)
     finally:

@@ -38,54 +38,40 @@ def _interrupt_as(note):
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-class Observers:
-    """Callbacks for one call of the engine. If one raises an exception, the run is aborted and the
-    exception raised after it.
+def call(name, first, second, last, progress=None, on_iteration=None):
+    """Calls a function of the engine, with these observers as its third argument. If one raises an
+    exception, the run is aborted and the exception raised after it.
 
     There is always a progress callback, even without an observer: while Python runs in it, the
     interpreter handles signals, so Ctrl-C works.
     """
+    for word, function in (("progress", progress), ("on_iteration", on_iteration)):
+        if function is not None and not callable(function):
+            raise TypeError(f"{word} must be a function, not {function!r}")
+    raised = []
 
-    def __init__(self, progress=None, on_iteration=None):
-        for name, function in (("progress", progress), ("on_iteration", on_iteration)):
-            if function is not None and not callable(function):
-                raise TypeError(f"{name} must be a function, not {function!r}")
-        self._progress = progress
-        self._on_iteration = on_iteration
-        self._raised = None
-        self.struct = _library.make(_library.Callbacks)
-        self.struct.progress = _library.ProgressFunction(self._tell_progress)
-        if on_iteration is not None:
-            self.struct.iteration = _library.IterationFunction(self._tell_iteration)
-
-    @contextlib.contextmanager
-    def raising(self):
-        """Raises, after the block, an exception of a callback in it, or KeyboardInterrupt."""
-        with _interrupt_as(self._note):
-            yield self.struct
-        if self._raised is not None:
-            raised, self._raised = self._raised, None
-            raise raised
-
-    def _tell_progress(self, share, _):
-        return self._ask(self._progress, share)
-
-    def _tell_iteration(self, record, _):
-        values = record.contents
-        return self._ask(self._on_iteration, {name: getattr(values, name) for name, _ in values._fields_})
-
-    def _note(self, error):
-        self._raised = error
-
-    def _ask(self, function, value):
+    def ask(function, value):
         """Returns 0, which aborts, if the function returned False or raised an exception."""
         try:
             answer = function(value) if function is not None else None
             if isinstance(answer, (bool, numpy.bool_)) and not answer:
                 return 0
         except BaseException as error:
-            self._note(error)
-        return int(self._raised is None)
+            raised.append(error)
+        return int(not raised)
+
+    def tell_iteration(record, _):
+        values = record.contents
+        return ask(on_iteration, {name: getattr(values, name) for name, _ in values._fields_})
+
+    callbacks = _library.make(_library.Callbacks)
+    callbacks.progress = _library.ProgressFunction(lambda share, _: ask(progress, share))
+    if on_iteration is not None:
+        callbacks.iteration = _library.IterationFunction(tell_iteration)
+    with _interrupt_as(raised.append):
+        _library.call(name, first, second, callbacks, last)
+    if raised:
+        raise raised.pop()
 
 
 class Session:
@@ -126,9 +112,7 @@ class Session:
         self._lock = threading.Lock()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
                                   insert_constraints, triangle_numbers)
-        chosen = make_options(**options)
-        with Observers(progress).raising() as callbacks:
-            _library.call("open", self._mesh.struct, chosen, callbacks, ctypes.byref(self._handle))
+        call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
 
     def __enter__(self) -> "Session":
         return self
@@ -142,8 +126,8 @@ class Session:
 
     def close(self) -> None:
         """Frees the session's memory. It cannot be used afterwards; closing again is allowed."""
-        with self._at_work():
-            handle, self._handle = self._handle, None
+        with self._open(may_be_closed=True) as handle:
+            self._handle = None
             if handle:
                 _library.run("close", handle)
 
@@ -166,9 +150,8 @@ class Session:
         """
         iterations = check_integer("iterations", iterations, -1, 2**63 - 1)
         running = ctypes.c_int32()
-        observers = Observers(progress, on_iteration)
-        with self._open() as handle, observers.raising() as callbacks:
-            _library.call("advance", handle, iterations, callbacks, ctypes.byref(running))
+        with self._open() as handle:
+            call("advance", handle, iterations, ctypes.byref(running), progress, on_iteration)
         return bool(running.value)
 
     @property
@@ -206,22 +189,17 @@ class Session:
         return counts
 
     @contextlib.contextmanager
-    def _at_work(self):
+    def _open(self, may_be_closed=False):
+        """The handle, which nothing else uses meanwhile."""
         if not self._lock.acquire(blocking=False):
             raise RuntimeError("the session is at work: observers, and other threads, have to wait "
                                "until its call has returned")
         try:
-            yield
-        finally:
-            self._lock.release()
-
-    @contextlib.contextmanager
-    def _open(self):
-        """The handle, which nothing else uses meanwhile."""
-        with self._at_work():
-            if not self._handle:
+            if not self._handle and not may_be_closed:
                 raise ValueError("the session is closed")
             yield self._handle
+        finally:
+            self._lock.release()
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

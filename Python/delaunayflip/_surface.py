@@ -6,7 +6,7 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh
-from ._session import Observers
+from ._session import call
 
 NONE = -1
 
@@ -155,8 +155,7 @@ def _split(polygons, points, progress):
     struct = _library.make(_library.Polygons)
     struct.number_of_polygons = polygons.count
     struct.offsets, struct.corners = _arrays.address(offsets), _arrays.address(corners)
-    with Observers(progress).raising() as callbacks:
-        _library.call("split_polygons", mesh.struct, struct, callbacks, _arrays.address(triangles))
+    call("split_polygons", mesh.struct, struct, _arrays.address(triangles), progress)
     return triangles
 
 
