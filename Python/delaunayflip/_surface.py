@@ -210,14 +210,11 @@ def _drop_points(pairs):
 def _unite(pairs, flags, count):
     """Each pair once, at its first position; its flag is set if any of its flags is."""
     if not pairs:
-        return numpy.empty((0, 2), dtype=numpy.int64), numpy.empty(0, dtype=numpy.uint8)
+        return numpy.empty((0, 2), dtype=numpy.int64), numpy.empty(0, dtype=bool)
     pairs, flags = numpy.concatenate(pairs), numpy.concatenate(flags)
-    _, first, inverse = numpy.unique(
-        pairs[:, 0] * count + pairs[:, 1], return_index=True, return_inverse=True)
-    united = numpy.zeros(len(first), dtype=numpy.uint8)
-    numpy.maximum.at(united, inverse.ravel(), flags.astype(numpy.uint8))
-    order = numpy.argsort(first)
-    return numpy.ascontiguousarray(pairs[first[order]]), united[order]
+    keys = pairs[:, 0] * count + pairs[:, 1]
+    first = numpy.sort(numpy.unique(keys, return_index=True)[1])
+    return pairs[first], numpy.isin(keys[first], keys[flags])
 
 
 def _find_others(others, points, triangles):
@@ -256,7 +253,7 @@ def _match_places(pairs, other_points, points, triangles):
     wanted = _drop_points(other_places[pairs])
     size = int(max(places.max(initial=-1), other_places.max(initial=-1))) + 1
     shift = len(places) + len(other_places)  # so that none is negative
-    wanted = _unite([wanted + shift], [numpy.zeros(len(wanted))], 2 * shift)[0] - shift
+    wanted = _unite([wanted + shift], [numpy.zeros(len(wanted), bool)], 2 * shift)[0] - shift
     known = places[places >= 0]
     crowd = numpy.append(numpy.bincount(known, minlength=size), 0)  # [-1]: a place without points
     first = numpy.full(size + 1, -1)
