@@ -51,6 +51,9 @@ class Property(
         return value if self.low is None else min(max(value, self.low), self.high)
 
 
+#: Of options of the engine that have another name here.
+_PROPERTY_OF = {"threads": "number_of_threads", "device": "device_id", "pieces": "number_of_pieces"}
+
 #: Those of every filter.
 COMMON_PROPERTIES = (
     Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
@@ -302,6 +305,13 @@ class Filter(VTKPythonAlgorithmBase):
             self.SetAbortOutput(False)
         return bool(aborted)
 
+    def _get_options(self, *names):
+        """These options of the engine, and those of every filter."""
+        values = {name: getattr(self, _PROPERTY_OF.get(name, name))
+                  for name in (*names, "maximum_iterations", "threads", "device")}
+        return {name: CHOICES[name][value] if name in CHOICES else value
+                for name, value in values.items()}
+
     def _observe(self, record):
         row = numpy.array([tuple(record[name] for name in ITERATION.names)], dtype=ITERATION)
         self._totals.iterations = numpy.concatenate([self._totals.iterations, row])
@@ -451,7 +461,9 @@ class vtkDelaunayFlip(Filter):
         try:
             settings = {name: getattr(self, name) for name in SETTINGS}
             data = MeshInput(mesh, constraints, self._observe_part(0.02), **settings)
-            session = data.open(progress=observe, **self._get_options())
+            session = data.open(progress=observe, **self._get_options(
+                *CHOICES, "tolerance", "feature_angle", "maximum_deviation", "devices", "pieces",
+                "track_quality"))
         except _library.Stopped:
             return self._pass(mesh, output, "aborted")
         with session:
@@ -465,14 +477,6 @@ class vtkDelaunayFlip(Filter):
             if not is_whole:
                 self._totals.change(stop_reason="aborted")
             return data.report(output, self._totals)
-
-    def _get_options(self):
-        options = {name: words[getattr(self, name)] for name, words in CHOICES.items()}
-        for name in ("tolerance", "feature_angle", "maximum_deviation", "maximum_iterations", "devices",
-                     "track_quality"):
-            options[name] = getattr(self, name)
-        return {**options, "threads": self.GetNumberOfThreads(), "device": self.GetDeviceId(),
-                "pieces": self.GetNumberOfPieces()}
 
 
 _ANSWERS = {
@@ -526,12 +530,9 @@ class vtkDelaunayFlipPoints(Filter):
         if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if data.GetNumberOfPoints() else "converged")
         cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline])
-        keywords = {name: getattr(self, name) for name in (
-            "alpha", "longest_edge", "point_tolerance", "split_crossings", "maximum_iterations")}
         result = triangulate(
-            cloud, backend=CHOICES["backend"][self.backend], threads=self.number_of_threads,
-            device=self.device_id, progress=self._observe_part(1.0),
-            on_iteration=self._observe, **keywords)
+            cloud, progress=self._observe_part(1.0), on_iteration=self._observe, **self._get_options(
+                "backend", "alpha", "longest_edge", "point_tolerance", "split_crossings"))
         self._totals = Totals.of_run(result.report, result.iterations)
         return cloud.write(result, output)
 
