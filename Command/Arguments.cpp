@@ -12,7 +12,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <set>
 
 namespace delaunayflip
@@ -30,13 +32,29 @@ class PlainFormatter : public CLI::Formatter
   }
 };
 
+/// Calls a method of the filters that have it.
+template <typename Filter, typename... T>
+std::function<void(T...)> Set(Arguments& arguments, void (Filter::*method)(T...))
+{
+  return [&arguments, method](T... value)
+  {
+    const std::array<vtkObject*, 2> filters = { arguments.Flip, arguments.Points };
+    for (vtkObject* const each : filters)
+    {
+      if (auto* const filter = dynamic_cast<Filter*>(each))
+      {
+        (filter->*method)(value...);
+      }
+    }
+  };
+}
+
 /// @param words the choices, in the order of the enumeration.
-template <typename Kind>
-void AddChoice(CLI::App& app, const std::string& name, Kind& value,
+void AddChoice(CLI::App& app, const std::string& name, const std::function<void(int)>& set,
   const std::vector<std::string>& words, const std::string& help)
 {
-  const auto take = [&value, words](const std::string& word)
-  { value = static_cast<Kind>(std::find(words.begin(), words.end(), word) - words.begin()); };
+  const auto take = [set, words](const std::string& word)
+  { set(static_cast<int>(std::find(words.begin(), words.end(), word) - words.begin())); };
   CLI::Validator check = CLI::IsMember(words);
   CLI::Option* const option = app.add_option_function<std::string>(name, take, help);
   option->type_name(check.get_description())->check(check.description(""));
@@ -62,10 +80,10 @@ CLI::Validator Within(T low, T high, const std::string& range)
 
 /// An option with a value that is checked. `type` is what help calls the value.
 template <typename T>
-void AddValue(CLI::App& app, const std::string& name, T& value, const std::string& type,
-  const CLI::Validator& check, const std::string& help)
+void AddValue(CLI::App& app, const std::string& name, const std::function<void(T)>& set,
+  const std::string& type, const CLI::Validator& check, const std::string& help)
 {
-  app.add_option(name, value, help)->type_name(type)->transform(check);
+  app.add_option_function<T>(name, set, help)->type_name(type)->transform(check);
 }
 
 /// The same for a file. An empty name would count as an option that is not given.
@@ -79,18 +97,19 @@ CLI::Option* AddFile(
 
 void AddMethodOptions(CLI::App& app, Arguments& arguments)
 {
-  FlipOptions& flip = arguments.Flip;
-  AddChoice(app, "--geometry", flip.Geometry, { "auto", "planar", "planar-xy", "surface" },
+  AddChoice(app, "--geometry", Set(arguments, &vtkDelaunayFlip::SetGeometry),
+    { "auto", "planar", "planar-xy", "surface" },
     "Where edges are judged: in the plane of the points (planar), by x and y alone "
     "(planar-xy, for terrain) or in space (surface). auto: planar if all points lie in one plane, "
     "planar-xy if the mesh is a height field of gentle slopes or mixed units, else surface [auto]");
-  AddChoice(app, "--criterion", flip.Criterion, { "in-circle", "opposite-angles" },
+  AddChoice(app, "--criterion", Set(arguments, &vtkDelaunayFlip::SetCriterion),
+    { "in-circle", "opposite-angles" },
     "Exact in-circle test, or opposite-angle sum above pi; surfaces always use the latter "
     "[in-circle]");
-  AddValue(app, "--feature-angle", flip.FeatureAngle, "DEGREES",
+  AddValue(app, "--feature-angle", Set(arguments, &vtkDelaunayFlip::SetFeatureAngle), "DEGREES",
     Within(0.0, 180.0, "an angle from 0 to 180 degrees"),
     "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]");
-  AddValue(app, "--max-deviation", flip.MaximumDeviation, "LENGTH",
+  AddValue(app, "--max-deviation", Set(arguments, &vtkDelaunayFlip::SetMaximumDeviation), "LENGTH",
     CLI::Validator(
       [&arguments](std::string& text)
       {
@@ -106,12 +125,13 @@ void AddMethodOptions(CLI::App& app, Arguments& arguments)
       ""),
     "On surfaces, an edge stays if its flip would move the surface by more than this: a length, or "
     "with a percent sign a share of the bounding box's diagonal (1%). Many flips can add up [inf]");
-  AddValue(app, "--tolerance", flip.Tolerance, "RADIANS",
+  AddValue(app, "--tolerance", Set(arguments, &vtkDelaunayFlip::SetTolerance), "RADIANS",
     Within(-1.0, -1.0, "automatic (-1)") |
       Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"),
     "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as much "
     "as the rounding of its points can explain [-1]");
-  AddChoice(app, "--tie-rule", flip.TieRule, { "keep", "canonical" },
+  AddChoice(app, "--tie-rule", Set(arguments, &vtkDelaunayFlip::SetTieRule),
+    { "keep", "canonical" },
     "Edges whose four points lie on one circle: keep them, or make the result independent of the "
     "input's triangles (in-circle in the plane only) [keep]");
 }
@@ -125,16 +145,22 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
     "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
     "it has the same points; otherwise points are matched by their coordinates. In the plane, "
     "edges that the input does not have are inserted by flips");
+  app.add_flag_callback("--no-insert-constraints",
+    Set(arguments, &vtkDelaunayFlip::InsertConstraintsOff), "Do not insert edges of --constraints");
+  const auto insertLines = [&arguments]
+  {
+    arguments.Flip->InsertLinesOn();
+    arguments.Points->LinesAsSegmentsOn();
+  };
   app.add_flag_callback(
-    "--no-insert-constraints", [&arguments] { arguments.InsertConstraints = false; },
-    "Do not insert edges of --constraints");
-  app.add_flag(
-    "--insert-lines", arguments.InsertLines, "Insert edges along lines of the input as well");
-  app.add_flag(
-    "--ignore-lines", arguments.IgnoreLines, "Do not keep edges along lines of the input");
+    "--insert-lines", insertLines, "Insert edges along lines of the input as well");
+  app.add_flag_callback("--ignore-lines", Set(arguments, &vtkDelaunayFlip::LinesAsConstraintsOff),
+    "Do not keep edges along lines of the input");
   app.get_option("--insert-lines")->excludes("--ignore-lines");
   app
-    .add_option("--region-array", arguments.RegionArray,
+    .add_option_function<std::string>(
+      "--region-array",
+      [&arguments](const std::string& name) { arguments.Flip->SetRegionArray(name.c_str()); },
       "A cell array of the input: edges between cells of different values stay")
     ->type_name("NAME");
 }
@@ -149,16 +175,19 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "A mesh file whose polygons and closed lines are rings: what is outside of all is removed");
   AddFile(app, "--holes", arguments.Holes,
     "A mesh file whose polygons and closed lines are rings: what is inside is removed");
-  app.add_flag("--split-crossings", arguments.Flip.SplitCrossings,
+  app.add_flag_callback("--split-crossings",
+    Set(arguments, &vtkDelaunayFlipPoints::SplitCrossingsOn),
     "Add a point where segments cross. Else one that crosses an earlier one is left out");
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
-  AddValue(app, "--alpha", arguments.Flip.Alpha, "RADIUS", length,
+  AddValue(app, "--alpha", Set(arguments, &vtkDelaunayFlipPoints::SetAlpha), "RADIUS", length,
     "Remove triangles whose circumcircle has a larger radius; 0: none [0]");
-  AddValue(app, "--longest-edge", arguments.Flip.LongestEdge, "LENGTH", length,
-    "Remove triangles that have a longer edge; 0: none [0]");
-  AddValue(app, "--point-tolerance", arguments.Flip.PointTolerance, "LENGTH", length,
+  AddValue(app, "--longest-edge", Set(arguments, &vtkDelaunayFlipPoints::SetLongestEdge), "LENGTH",
+    length, "Remove triangles that have a longer edge; 0: none [0]");
+  AddValue(app, "--point-tolerance", Set(arguments, &vtkDelaunayFlipPoints::SetPointTolerance),
+    "LENGTH", length,
     "Leave out points nearer than this to one before them; 0: those at the same place [0]");
-  AddChoice(app, "--projection", arguments.InBestPlane, { "xy", "plane" },
+  AddChoice(app, "--projection", Set(arguments, &vtkDelaunayFlipPoints::SetProjection),
+    { "xy", "plane" },
     "Where points are joined: by x and y, or in the plane that fits them best [xy]");
   for (const char* name : { "--outline", "--holes", "--split-crossings", "--alpha",
          "--longest-edge", "--point-tolerance", "--projection" })
@@ -170,48 +199,42 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "--region-array", "--devices", "--pieces", "--quality");
 }
 
-/// @returns what is wrong with a list of GPUs, or an empty text.
-std::string FindFaultOfDevices(const std::string& list)
-{
-  try
-  {
-    ParseDevices(list);
-    return "";
-  }
-  catch (const InvalidOptions& error)
-  {
-    return error.what();
-  }
-}
-
 void AddRunOptions(CLI::App& app, Arguments& arguments)
 {
-  FlipOptions& flip = arguments.Flip;
-  AddValue(app, "--max-iterations", flip.MaximumIterations, "INT",
+  AddValue(app, "--max-iterations", Set(arguments, &vtkDelaunayFlipAlgorithm::SetMaximumIterations),
+    "INT",
     Within<std::int64_t>(
       -1, std::numeric_limits<std::int64_t>::max(), "a number of iterations (-1 or more)"),
     "Stop after this many iterations; -1: when nothing is left to flip [-1]");
-  AddChoice(app, "--backend", flip.Backend, { "auto", "cuda", "threads" },
+  AddChoice(app, "--backend", Set(arguments, &vtkDelaunayFlipAlgorithm::SetBackend),
+    { "auto", "cuda", "threads" },
     "Where the flips run; the result is the same. auto: on a GPU if there is one and the mesh has "
     "at least " +
       std::to_string(SmallestMeshForCuda) +
       " triangles, else, or if the GPU fails, on the CPU [auto]");
-  AddValue(app, "--device", flip.Device, "INT",
+  AddValue(app, "--device", Set(arguments, &vtkDelaunayFlipAlgorithm::SetDeviceId), "INT",
     Within(-1, std::numeric_limits<int>::max(), "the number of a GPU (-1 or more)"),
     "Which GPU, by CUDA's number, 0 or more; -1: CUDA's default [-1]");
-  AddValue(app, "--devices", arguments.Devices, "LIST", CLI::Validator(FindFaultOfDevices, ""),
-    "GPUs that share the mesh: CUDA's numbers separated by commas (0,1), or all. Meshes "
-    "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink");
-  AddValue(app, "--pieces", flip.NumberOfPieces, "INT",
+  const auto setDevices = [&arguments](const std::string& list)
+  {
+    ParseDevices(list);
+    arguments.Flip->SetDevices(list.c_str());
+  };
+  app
+    .add_option_function<std::string>("--devices", setDevices,
+      "GPUs that share the mesh: CUDA's numbers separated by commas (0,1), or all. Meshes "
+      "of 12 million triangles or more per GPU flip faster, with the same result. Needs NVLink")
+    ->type_name("LIST");
+  AddValue(app, "--pieces", Set(arguments, &vtkDelaunayFlip::SetNumberOfPieces), "INT",
     Within(0, 255, "a number of pieces (0 to 255)"),
     "Flip the mesh in this many pieces, one after the other, so that it may be larger than the "
     "memory of the GPU. With --devices they take turns and need no NVLink. With --tie-rule "
     "canonical the result does not depend on it; 0: as few as possible [0]");
-  AddValue(app, "--threads", flip.NumberOfThreads, "INT",
+  AddValue(app, "--threads", Set(arguments, &vtkDelaunayFlipAlgorithm::SetNumberOfThreads), "INT",
     Within(0, 65536, "a number of threads (0 to 65536)"),
     "Number of CPU threads; 0: all. At most twice as many as there are cores are used, or 16 if "
     "that is more. The result does not depend on it [0]");
-  app.add_flag("--quality", arguments.Quality,
+  app.add_flag_callback("--quality", Set(arguments, &vtkDelaunayFlip::GenerateQualityOn),
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
     "(.vtk and .vtp)");
   AddFile(app, "--statistics", arguments.Statistics, "Write a table of the iterations (CSV)");
@@ -268,7 +291,7 @@ void CheckTogether(Arguments& arguments)
   CheckFormats(arguments);
   const bool holdsCellData =
     arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
-  if (arguments.Quality && !holdsCellData)
+  if (arguments.Flip->GetGenerateQuality() && !holdsCellData)
   {
     FailOnUsage(arguments.Output + ": --quality needs a .vtk or .vtp file");
   }
@@ -304,6 +327,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
     "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
     "With any code but 0 and 4 no file has been changed.");
+  arguments.Points->SetOutlineToOrientation();
   AddFile(app, "INPUT", arguments.Input, "The mesh or the points to read")->required();
   AddFile(app, "OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
   AddMethodOptions(app, arguments);
@@ -318,6 +342,10 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   catch (const CLI::Success& success)
   {
     return app.exit(success);
+  }
+  catch (const InvalidOptions& error)
+  {
+    FailOnUsage(std::string("--devices: ") + error.what());
   }
   catch (const CLI::ParseError& error)
   {

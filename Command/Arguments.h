@@ -4,7 +4,10 @@
 #define DELAUNAYFLIP_ARGUMENTS_H
 
 #include "MeshFiles.h"
-#include "PointTriangulation.h"
+
+#include <vtkDelaunayFlip.h>
+#include <vtkDelaunayFlipPoints.h>
+#include <vtkNew.h>
 
 #include <optional>
 #include <string>
@@ -20,20 +23,14 @@ struct Arguments
   std::string Input;
   std::string Output;
   MeshFormat OutputFormat = MeshFormat::VTK;
-  PointOptions Flip;
-  bool DeviationIsPercent = false; ///< Flip.MaximumDeviation is one of the bounding box's diagonal.
+  vtkNew<vtkDelaunayFlip> Flip; ///< Its properties are options.
+  vtkNew<vtkDelaunayFlipPoints> Points; ///< The same, for FromPoints.
+  bool DeviationIsPercent = false; ///< The largest deviation is one of the bounding box's diagonal.
   bool MergePoints = false; ///< Of the input, at equal places.
   bool FromPoints = false;
-  bool InBestPlane = false; ///< Of points: else in x and y.
   std::string Outline; ///< Of points: a file; empty: none.
   std::string Holes;
-  bool IgnoreLines = false;
-  bool InsertLines = false;
   std::string Constraints; ///< File; empty: none.
-  bool InsertConstraints = true;
-  std::string RegionArray; ///< Empty: none.
-  std::string Devices; ///< GPUs that share the mesh; empty: Flip.Device.
-  bool Quality = false; ///< Cell arrays of angles.
   std::string Statistics; ///< CSV file; empty: none.
   std::string Report; ///< JSON file; empty: none.
   bool Quiet = false;

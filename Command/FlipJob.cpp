@@ -51,8 +51,14 @@ double SecondsSince(Clock::time_point start)
 }
 
 /// Reports contradicting options and a missing backend before a large file is read.
-void TryOptions(FlipOptions options)
+void TryOptions(vtkDelaunayFlip* filter)
 {
+  FlipOptions options;
+  options.Geometry = static_cast<GeometryKind>(filter->GetGeometry());
+  options.Criterion = static_cast<CriterionKind>(filter->GetCriterion());
+  options.TieRule = static_cast<TieRuleKind>(filter->GetTieRule());
+  options.Backend = static_cast<BackendKind>(filter->GetBackend());
+  options.Device = filter->GetDeviceId();
   options.NumberOfPieces = 1; // a session of several looks for a GPU when it flips
   try
   {
@@ -77,47 +83,6 @@ void KeepVTKFromThreads()
   {
     vtkSMPTools::SetBackend("Sequential");
   }
-}
-
-void ConfigureRun(vtkDelaunayFlipAlgorithm* filter, const FlipOptions& flip)
-{
-  filter->SetBackend(static_cast<int>(flip.Backend));
-  filter->SetMaximumIterations(flip.MaximumIterations);
-  filter->SetNumberOfThreads(flip.NumberOfThreads);
-  filter->SetDeviceId(flip.Device);
-}
-
-void Configure(vtkDelaunayFlip* filter, const Arguments& arguments, double diagonal)
-{
-  const FlipOptions& flip = arguments.Flip;
-  ConfigureRun(filter, flip);
-  filter->SetGeometry(static_cast<int>(flip.Geometry));
-  filter->SetCriterion(static_cast<int>(flip.Criterion));
-  filter->SetTieRule(static_cast<int>(flip.TieRule));
-  filter->SetTolerance(flip.Tolerance);
-  filter->SetFeatureAngle(flip.FeatureAngle);
-  filter->SetMaximumDeviation(
-    flip.MaximumDeviation * (arguments.DeviationIsPercent ? diagonal / 100.0 : 1.0));
-  filter->SetDevices(arguments.Devices.c_str());
-  filter->SetNumberOfPieces(flip.NumberOfPieces);
-  filter->SetLinesAsConstraints(!arguments.IgnoreLines);
-  filter->SetInsertLines(arguments.InsertLines);
-  filter->SetInsertConstraints(arguments.InsertConstraints);
-  filter->SetRegionArray(arguments.RegionArray.c_str());
-  filter->SetGenerateQuality(arguments.Quality);
-}
-
-void Configure(vtkDelaunayFlipPoints* filter, const Arguments& arguments)
-{
-  const PointOptions& points = arguments.Flip;
-  ConfigureRun(filter, points);
-  filter->SetProjection(arguments.InBestPlane);
-  filter->SetLinesAsSegments(arguments.InsertLines);
-  filter->SetSplitCrossings(points.SplitCrossings);
-  filter->SetAlpha(points.Alpha);
-  filter->SetLongestEdge(points.LongestEdge);
-  filter->SetPointTolerance(points.PointTolerance);
-  filter->SetOutlineToOrientation();
 }
 
 /// The filter's message with options of the command for properties of the filter.
@@ -340,7 +305,9 @@ public:
   FlipJob(const Arguments& arguments, OutputFiles& files)
     : Settings(arguments),
       Files(files),
-      Bar(!arguments.Quiet)
+      Bar(!arguments.Quiet),
+      Filter(arguments.FromPoints ? static_cast<vtkDelaunayFlipAlgorithm*>(arguments.Points)
+                                  : arguments.Flip)
   {
     CollectVTKMessages();
   }
@@ -374,23 +341,15 @@ public:
 
   void Flip()
   {
-    if (this->Settings.FromPoints)
+    if (this->Settings.DeviationIsPercent)
     {
-      const auto filter = vtkSmartPointer<vtkDelaunayFlipPoints>::New();
-      filter->SetSegmentsData(this->Segments);
-      Configure(filter, this->Settings);
-      this->Filter = filter;
-    }
-    else
-    {
-      const auto filter = vtkSmartPointer<vtkDelaunayFlip>::New();
-      filter->SetConstraintsData(this->Segments);
-      Configure(filter, this->Settings, this->Input->GetLength());
-      this->Filter = filter;
+      this->Settings.Flip->SetMaximumDeviation(
+        this->Settings.Flip->GetMaximumDeviation() * this->Input->GetLength() / 100.0);
     }
     this->Bar.Begin(Phase::Flipping, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, this, &FlipJob::ShowProgress);
-    this->Filter->SetInputData(this->Input);
+    this->Filter->SetInputData(0, this->Input);
+    this->Filter->SetInputData(1, this->Segments);
     this->Filter->Update();
     this->Bar.Clear();
     for (const std::string& warning : TakeVTKWarnings())
@@ -573,7 +532,7 @@ private:
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
   vtkIdType OutlineRings = 0; ///< How many of the rings come first.
-  vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
+  vtkDelaunayFlipAlgorithm* const Filter;
   RunReport Run;
 };
 
