@@ -53,12 +53,7 @@ std::string ExplainDeath(
   const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
 {
   const Phase phase = outcome.LastPhase;
-  const std::string work = DescribeWork(arguments, phase);
-  if (outcome.KilledBy == SIGXCPU && phase == Phase::Reading)
-  {
-    return work + "it takes far more time than a file of its size needs; it is probably corrupt";
-  }
-  return work + "it crashed (" + strsignal(outcome.KilledBy) + ")" +
+  return DescribeWork(arguments, phase) + "it crashed (" + strsignal(outcome.KilledBy) + ")" +
     (phase == Phase::Reading       ? "; the file is probably truncated or corrupt"
         : phase == Phase::Flipping ? "; was there enough memory? Nothing was written"
                                    : ExplainFailedWrite(files.Mesh.GetTemporary()));

@@ -50,14 +50,12 @@ __all__ = [
     "smallest_angles", "triangulate", "vtkDelaunayFlip", "vtkDelaunayFlipPoints",
 ]
 
-# Modules of the names that are not in _library.
+# Modules of the names that are in neither _library nor _vtk.
 _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
     "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
-    "vtkDelaunayFlip": "_vtk", "vtkDelaunayFlipLiveView": "_vtk", "vtkDelaunayFlipPoints": "_vtk",
-    "vtkPDelaunayFlip": "_vtk",
 }
-# What these need beside VTK.
+# The names of _vtk, and what they need beside VTK.
 _NEEDS = {
     "vtkDelaunayFlip": "numpy",
     "vtkDelaunayFlipPoints": "numpy",
@@ -69,9 +67,9 @@ _NEEDS = {
 def __getattr__(name: str) -> typing.Any:
     if name == "__version__":
         value = importlib.import_module("._library", __name__).version()
-    elif name in __all__ or name in _HOMES:
-        home = importlib.import_module(f".{_HOMES.get(name, '_library')}", __name__)
-        value = getattr(home, name)
+    elif name in __all__ or name in _NEEDS:
+        home = "_vtk" if name in _NEEDS else _HOMES.get(name, "_library")
+        value = getattr(importlib.import_module(f".{home}", __name__), name)
     else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     globals()[name] = value
@@ -82,4 +80,4 @@ def __dir__() -> typing.List[str]:
     """Only names that can be had: help() and inspect.getmembers() look all of them up."""
     find = importlib.util.find_spec
     absent = {name for name, needed in _NEEDS.items() if not find("vtkmodules") or not find(needed)}
-    return sorted({*globals(), *__all__, *_HOMES, "__version__"} - absent)
+    return sorted({*globals(), *__all__, *_NEEDS, "__version__"} - absent)
