@@ -82,9 +82,9 @@ def flip(
         >>> int(better.field_data["DelaunayFlip:TotalFlips"][0])
         1
     """
-    run = _Run(mesh, constraints, options)
+    run = _open(mesh, constraints, options)
     run.session.advance()
-    return run.make_mesh(flip_counts, quality)
+    return _make_mesh(mesh, run, flip_counts, quality)
 
 
 def triangulate(
@@ -188,25 +188,25 @@ def animate(
         The same exceptions as `flip`.
     """
     iterations_per_frame = check_integer("iterations_per_frame", iterations_per_frame, 1, 2**63 - 1)
-    run = _Run(mesh, constraints, options)
+    run = _open(mesh, constraints, options)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(window_size))
     try:
         if str(filename).endswith(".gif"):
             plotter.open_gif(str(filename), fps=fps)
         else:
             plotter.open_movie(str(filename), framerate=fps)
-        shown = run.show()
+        shown = _color_by_quality(run.points, run.session.triangles)
         plotter.add_mesh(shown, **_LOOK)
         plotter.camera_position = _choose_camera(mesh) or "iso"
         plotter.write_frame()
         is_running = True
         while is_running:
             is_running = run.session.advance(iterations_per_frame)
-            shown.copy_from(run.show())
+            shown.copy_from(_color_by_quality(run.points, run.session.triangles))
             plotter.write_frame()
     finally:
         plotter.close()
-    return run.make_mesh(False, False)
+    return _make_mesh(mesh, run)
 
 
 class DelaunayAccessor:
@@ -239,37 +239,33 @@ def _require_mesh(name, mesh):
     return mesh
 
 
-class _Run:
-    """A session for a mesh, and the way back."""
+def _open(mesh, constraints, options):
+    """The mesh as MeshInput, with its session."""
+    _require_mesh("mesh", mesh)
+    if constraints is not None:
+        _require_mesh("constraints", constraints)
+    flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
+             for name in SETTINGS[:-1] if name in options}
+    regions = options.pop("region_array", None) or ""
+    if regions and regions not in mesh.cell_data:
+        listed = ", ".join(map(repr, mesh.cell_data)) or "none"
+        raise InvalidOptions(
+            f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
+    run = MeshInput(mesh, constraints, **flags, region_array=regions)
+    run.open(**options)
+    return run
 
-    def __init__(self, mesh, constraints, options):
-        self._mesh = _require_mesh("mesh", mesh)
-        if constraints is not None:
-            _require_mesh("constraints", constraints)
-        flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
-                 for name in SETTINGS[:-1] if name in options}
-        regions = options.pop("region_array", None) or ""
-        if regions and regions not in mesh.cell_data:
-            listed = ", ".join(map(repr, mesh.cell_data)) or "none"
-            raise InvalidOptions(
-                f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
-        self._input = MeshInput(mesh, constraints, **flags, region_array=regions)
-        self.session = self._input.open(**options)
 
-    def show(self):
-        """The triangles so far, with their smallest angles."""
-        return _color_by_quality(self._input.points, self.session.triangles)
-
-    def make_mesh(self, flip_counts, quality):
-        """The mesh so far. The engine's warnings become Python's."""
-        made = self._mesh.copy(deep=False)
-        if len(self._input.slots.triangles) == 0:
-            return made
-        self._input.store(made, flip_counts, quality)
-        trouble = self._input.report(made, self._input.sum_up())
-        if trouble:
-            warnings.warn(trouble, stacklevel=3)
+def _make_mesh(mesh, run, flip_counts=False, quality=False):
+    """The mesh so far. The engine's warnings become Python's."""
+    made = mesh.copy(deep=False)
+    if len(run.slots.triangles) == 0:
         return made
+    run.store(made, flip_counts, quality)
+    trouble = run.report(made, run.sum_up())
+    if trouble:
+        warnings.warn(trouble, stacklevel=3)
+    return made
 
 
 def _color_by_quality(points, triangles):
