@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipJob.h"
 
+#include "Arguments.h"
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"

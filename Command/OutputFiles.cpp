@@ -9,12 +9,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <iterator>
 
 namespace delaunayflip
 {
@@ -215,18 +213,16 @@ void PendingFile::Fail(const std::string& reason) const
   throw CommandError(ExitCode::BadFile, this->Target + ": cannot be written: " + reason);
 }
 
-OutputFiles::OutputFiles(const Arguments& arguments)
-  : Mesh(arguments.Output),
-    Statistics(arguments.Statistics, true),
-    Report(arguments.Report, true)
-{
-}
-
 void OutputFiles::Commit()
 {
-  PendingFile* const files[] = { &this->Statistics, &this->Report, &this->Mesh };
-  std::for_each(std::begin(files), std::end(files), [](PendingFile* file) { file->Commit(); });
-  std::for_each(std::begin(files), std::end(files), [](PendingFile* file) { file->Keep(); });
+  for (PendingFile* const file : { &this->Statistics, &this->Report, &this->Mesh })
+  {
+    file->Commit();
+  }
+  for (PendingFile* const file : { &this->Statistics, &this->Report, &this->Mesh })
+  {
+    file->Keep();
+  }
 }
 
 }

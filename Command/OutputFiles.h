@@ -3,8 +3,6 @@
 #ifndef DELAUNAYFLIP_OUTPUTFILES_H
 #define DELAUNAYFLIP_OUTPUTFILES_H
 
-#include "Arguments.h"
-
 #include <filesystem>
 #include <string>
 
@@ -67,9 +65,6 @@ private:
 /// permission is noticed early, and get their final names after it.
 struct OutputFiles
 {
-  /// @throws CommandError (BadFile).
-  explicit OutputFiles(const Arguments& arguments);
-
   /// All of them, or none. The mesh comes last, because it matters most.
   /// @throws CommandError (BadFile).
   void Commit();

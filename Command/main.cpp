@@ -93,7 +93,8 @@ int main(int argc, char** argv)
       return *code;
     }
     ChildProcess child;
-    OutputFiles files(arguments);
+    OutputFiles files{ PendingFile(arguments.Output), PendingFile(arguments.Statistics, true),
+      PendingFile(arguments.Report, true) };
     const auto work = [&]
     {
       return Guarded([&] { return RunFlipJob(arguments, files, child); },
