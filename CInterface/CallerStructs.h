@@ -138,12 +138,8 @@ inline TriangleMesh ToMesh(const delaunayflip_mesh* given)
 {
   const delaunayflip_mesh c = Complete(given, delaunayflip_mesh_init);
   Require(!IsOnDevice(c.memory), "this function needs a mesh in the host's memory");
-  TriangleMesh mesh;
-  static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
   Require(c.point_components == 3, "point_components must be 3 for points in the host's memory");
-  mesh.Points = ToPoints<PointArray>(c);
-  mesh.Triangles = ToTriangles(c);
-  return mesh;
+  return { ToFixedEdges(c), ToPoints<PointArray>(c), ToTriangles(c), {} };
 }
 
 /// Views of the points and segments to triangulate.
@@ -152,35 +148,23 @@ inline PointInput ToPointInput(const delaunayflip_points& c)
   Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
   RequireArray(c.segments, c.number_of_segments, "segments");
   RequireArray(c.hole_seeds, c.number_of_hole_seeds, "hole_seeds");
-  PointInput input{ ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments,
-    c.rings, c.hole_seeds, c.number_of_hole_seeds };
-  input.OnDevice = IsOnDevice(c.memory);
-  input.Stream.Handle = c.stream;
-  return input;
+  return { ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments, c.rings,
+    c.hole_seeds, c.number_of_hole_seeds, IsOnDevice(c.memory), { c.stream } };
 }
 
 /// @param options of the run.
 inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
 {
-  PointOptions points{ options };
-  points.PointTolerance = c.point_tolerance;
-  points.SplitCrossings = c.split_crossings != 0;
-  points.Outline = ToEnumeration(c.outline, OutlineKind::Orientation, "outline");
-  points.Alpha = c.alpha;
-  points.LongestEdge = c.longest_edge;
-  return points;
+  return { options, c.point_tolerance, c.split_crossings != 0,
+    ToEnumeration(c.outline, OutlineKind::Orientation, "outline"), c.alpha, c.longest_edge };
 }
 
 /// Views of the arrays of a complete mesh in device memory.
 inline DeviceMesh ToDeviceMesh(const delaunayflip_mesh& c)
 {
-  DeviceMesh mesh;
-  static_cast<FixedEdges&>(mesh) = ToFixedEdges(c);
   Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
-  mesh.Points = ToPoints<DevicePointArray>(c, c.point_components);
-  mesh.Triangles = ToTriangles(c);
-  mesh.Stream.Handle = c.stream;
-  return mesh;
+  return { ToFixedEdges(c), ToPoints<DevicePointArray>(c, c.point_components), ToTriangles(c),
+    { c.stream } };
 }
 
 /// A view of an array for three ids per triangle, of a delaunayflip_type.

@@ -14,6 +14,7 @@
 #include <functional>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace delaunayflip;
@@ -135,22 +136,6 @@ std::vector<std::int64_t> Split(
 
 struct delaunayflip_session
 {
-  delaunayflip_session(
-    const delaunayflip_mesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-    : Session(IsOnDevice(mesh.memory) ? FlipSession(ToDeviceMesh(mesh), options, progress)
-                                      : FlipSession(ToMesh(&mesh), options, progress)),
-      NumberOfTriangles(mesh.number_of_triangles),
-      TriangleNumbers(mesh.triangle_numbers)
-  {
-  }
-
-  delaunayflip_session(
-    const delaunayflip_points& points, const FlipOptions& options, const ProgressObserver& progress)
-    : Session(ToPointInput(points), ToPointOptions(points, options), progress),
-      IsFromPoints(true)
-  {
-  }
-
   std::int64_t CountTriangles() const
   {
     return this->IsFromPoints ? this->Session.GetReport().Triangles : this->NumberOfTriangles;
@@ -265,8 +250,12 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        *session = new delaunayflip_session(
-          Complete(mesh, delaunayflip_mesh_init), ToOptions(options), ToProgress(callbacks));
+        const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init);
+        const auto open = [&](const auto& view)
+        { return FlipSession(view, ToOptions(options), ToProgress(callbacks)); };
+        *session =
+          new delaunayflip_session{ IsOnDevice(c.memory) ? open(ToDeviceMesh(c)) : open(ToMesh(&c)),
+            false, c.number_of_triangles, c.triangle_numbers, {} };
       });
   }
 
@@ -278,8 +267,10 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        *session = new delaunayflip_session(
-          Complete(points, delaunayflip_points_init), ToOptions(options), ToProgress(callbacks));
+        const delaunayflip_points c = Complete(points, delaunayflip_points_init);
+        FlipSession opened(
+          ToPointInput(c), ToPointOptions(c, ToOptions(options)), ToProgress(callbacks));
+        *session = new delaunayflip_session{ std::move(opened), true, 0, nullptr, {} };
       });
   }
 
