@@ -106,24 +106,22 @@ void ChildProcess::Work(const std::function<int()>& work, int parent)
 
 ChildOutcome ChildProcess::Wait(int child)
 {
-  ChildOutcome outcome;
   int status = 0;
+  int interruptedBy = 0;
   while (waitpid(child, &status, WNOHANG) == 0)
   {
     int received = 0;
     if (sigwait(&this->Watched, &received) == 0 && received != SIGCHLD)
     {
       // Nothing has been written under a final name yet, so there is nothing to wait for.
-      outcome.InterruptedBy = received;
+      interruptedBy = received;
       kill(child, SIGKILL);
       waitpid(child, &status, 0);
       break;
     }
   }
-  outcome.ExitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
-  outcome.KilledBy = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  outcome.LastPhase = *this->Shared;
-  return outcome;
+  return { WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+    interruptedBy, *this->Shared };
 }
 
 }

@@ -246,7 +246,7 @@ class Filter(VTKPythonAlgorithmBase):
     def _flip_blocks(self, source, constraints, output):
         self._sum.change(stop_reason="converged")  # the result for an input without blocks
         blocks = _copy(source)  # observers may change the input meanwhile
-        if _count_partitions(blocks, self.kind) > 1:
+        if _has_partitions(blocks, self.kind):
             self._judge_partitions()
         output.CopyStructure(blocks)
         output.GetFieldData().ShallowCopy(blocks.GetFieldData())
@@ -344,18 +344,16 @@ def _name_leaf(leaf):
     return f"block {leaf.GetCurrentFlatIndex()}" + (f" ({name})" if name else "")
 
 
-def _count_partitions(blocks, kind):
-    """The most partitions, of this class and with points, that a dataset has."""
+def _has_partitions(blocks, kind):
+    """Whether a dataset has several partitions of this class with points."""
     datasets = [blocks]
     if isinstance(blocks, vtkDataObjectTree):
         nodes = blocks.NewTreeIterator()
         nodes.VisitOnlyLeavesOff()
         datasets += [node.GetCurrentDataObject() for node in _iterate(nodes)]
-    counts = [0]
-    for dataset in filter(vtkPartitionedDataSet.SafeDownCast, datasets):
-        parts = [part.GetCurrentDataObject() for part in _iterate(dataset.NewIterator())]
-        counts.append(sum(isinstance(part, kind) and part.GetNumberOfPoints() > 0 for part in parts))
-    return max(counts)
+    return any(sum(isinstance(part := leaf.GetCurrentDataObject(), kind) and part.GetNumberOfPoints() > 0
+                   for leaf in _iterate(dataset.NewIterator())) > 1
+               for dataset in filter(vtkPartitionedDataSet.SafeDownCast, datasets))
 
 
 def _copy(source):
