@@ -159,11 +159,9 @@ class Filter(VTKPythonAlgorithmBase):
     def RequestDataObject(self, request, inInfo, outInfo):
         """Port 0: composite data of the input's type, or a mesh."""
         blocks = vtkDataObject.GetData(inInfo[0], 0)
-        is_composite = isinstance(blocks, vtkCompositeDataSet)
-        wanted = blocks.GetClassName() if is_composite else "vtkPolyData"
+        made = blocks.NewInstance() if isinstance(blocks, vtkCompositeDataSet) else vtkPolyData()
         output = vtkDataObject.GetData(outInfo, 0)
-        if output is None or output.GetClassName() != wanted:
-            made = blocks.NewInstance() if is_composite else vtkPolyData()
+        if output is None or output.GetClassName() != made.GetClassName():
             outInfo.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), made)
         if vtkDataObject.GetData(outInfo, 1) is None:
             outInfo.GetInformationObject(1).Set(vtkDataObject.DATA_OBJECT(), vtkTable())
