@@ -21,6 +21,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <stdexcept>
 
 namespace delaunayflip
@@ -244,12 +245,11 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format)
     RequireValidIds(read.Mesh, file);
     return read;
   }
-  catch (const std::exception& error)
+  catch (const std::bad_alloc&)
   {
-    if (!IsLackOfMemory(error))
-    {
-      throw;
-    }
+  }
+  catch (const std::length_error&)
+  {
   }
   file.Fail(
     "cannot be read: not enough memory, or the file is corrupt: it asks for more than its " +
