@@ -20,7 +20,7 @@ from . import _library
 from ._options import CHOICES
 from ._points import triangulate
 from ._report import COUNTS, GEOMETRIES, ITERATION, POINT_COUNTS, Totals, describe
-from ._vtk_mesh import OUTLINES, SETTINGS, Cloud, MeshInput, vtk_of
+from ._vtk_mesh import OUTLINES, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
 #: vtkDelaunayFlip.FAILURE_...
@@ -512,9 +512,7 @@ class vtkDelaunayFlipPoints(Filter):
 
     def _pass(self, data, output, stop_reason):
         super()._pass(vtkPolyData(), output, stop_reason)
-        output.SetPoints(data.GetPoints())
-        output.GetPointData().ShallowCopy(data.GetPointData())
-        output.GetFieldData().ShallowCopy(data.GetFieldData())
+        pass_points(data, output)
         return ""
 
     def _flip(self, data, segments, output):

@@ -125,6 +125,13 @@ class Vtk:
         return number_tuples(numpy.array(texts).reshape(mesh.GetNumberOfCells(), -1))
 
 
+def pass_points(data, output):
+    """Passes points with their data, and the field data."""
+    output.SetPoints(data.GetPoints())
+    output.GetPointData().ShallowCopy(data.GetPointData())
+    output.GetFieldData().ShallowCopy(data.GetFieldData())
+
+
 _load = functools.lru_cache(maxsize=None)(Vtk)
 
 
@@ -204,13 +211,11 @@ class MeshInput:
         chosen = slots.kept_strips - slots.strips.first
         strips, corners = self.vtk.make_cells(slots.strips.sizes[chosen], _is_wide(mesh.GetStrips()))
         corners[:] = slots.strips.gather(chosen)
-        output.SetPoints(mesh.GetPoints())
+        pass_points(mesh, output)
         output.SetVerts(mesh.GetVerts())
         output.SetLines(mesh.GetLines())
         output.SetPolys(self._make_polygons(is_wide))
         output.SetStrips(strips)
-        output.GetPointData().ShallowCopy(mesh.GetPointData())
-        output.GetFieldData().ShallowCopy(mesh.GetFieldData())
         self._pass_cell_data(output)
         polygons, chosen = slots.list_triangles()
         for name, elsewhere, values in self._list_numbers(counts, angles):
@@ -335,9 +340,7 @@ class Cloud(Input):
         polygons, corners = vtk.make_cells(numpy.full(len(result.triangles), 3), is_wide=True)
         corners[:] = result.triangles.ravel()
         output.SetPolys(polygons)
-        output.SetPoints(data.GetPoints())
-        output.GetFieldData().ShallowCopy(data.GetFieldData())
-        output.GetPointData().ShallowCopy(data.GetPointData())
+        pass_points(data, output)
         if is_grown:
             points = vtk.core.vtkPoints()
             points.SetData(vtk.support.numpy_to_vtk(result.points, deep=True))
