@@ -53,11 +53,7 @@ class Surface:
         self.first = dict(zip(self.KINDS, numpy.cumsum([0, *counts]).tolist()))
         self.points = numpy.empty((0, 3))
         if mesh.GetNumberOfPoints():
-            data = mesh.GetPoints().GetData()
-            if data.GetNumberOfComponents() != 3:
-                raise InvalidMesh(
-                    f"Points must have 3 coordinates, not {data.GetNumberOfComponents()}.")
-            points = view(data)
+            points = view(mesh.GetPoints().GetData())
             is_real = points.dtype in (numpy.float32, numpy.float64)
             self.points = points if is_real else points.astype(float)
 
