@@ -176,26 +176,17 @@ inline MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int
 /// The engine's defaults where `given` is null.
 inline FlipOptions ToOptions(const delaunayflip_options* given)
 {
-  FlipOptions options;
   if (!given)
   {
-    return options;
+    return {};
   }
   const delaunayflip_options c = Complete(given, delaunayflip_options_init);
-  options.Geometry = ToEnumeration(c.geometry, GeometryKind::Surface, "geometry");
-  options.Criterion = ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion");
-  options.TieRule = ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
-  options.Backend = ToEnumeration(c.backend, BackendKind::Threads, "backend");
-  options.Tolerance = c.tolerance;
-  options.FeatureAngle = c.feature_angle;
-  options.MaximumDeviation = c.maximum_deviation;
-  options.MaximumIterations = c.maximum_iterations;
-  options.NumberOfThreads = c.number_of_threads;
-  options.Device = c.device;
-  options.Devices = ParseDevices(c.devices ? c.devices : "");
-  options.NumberOfPieces = c.number_of_pieces;
-  options.TrackQuality = c.track_quality != 0;
-  return options;
+  return { ToEnumeration(c.geometry, GeometryKind::Surface, "geometry"),
+    ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion"),
+    ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule"),
+    ToEnumeration(c.backend, BackendKind::Threads, "backend"), c.tolerance, c.feature_angle,
+    c.maximum_deviation, c.maximum_iterations, c.number_of_threads, c.device,
+    ParseDevices(c.devices ? c.devices : ""), c.number_of_pieces, c.track_quality != 0 };
 }
 
 inline delaunayflip_iteration ToC(const IterationRecord& record)
