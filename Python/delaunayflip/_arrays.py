@@ -224,11 +224,7 @@ def as_plane(points):
 def as_points(points):
     """The same of shape (n, 3): (n, 2) gets z = 0."""
     points = as_plane(points)
-    kind = points.dtype
-    if points.shape[1] == 2:
-        flat, points = points, numpy.zeros((len(points), 3), dtype=kind)
-        points[:, :2] = flat
-    return _convert(points, kind)
+    return points if points.shape[1] == 3 else numpy.pad(points, ((0, 0), (0, 1)))
 
 
 def as_ids(name, ids, columns):
@@ -241,12 +237,11 @@ def as_ids(name, ids, columns):
         raise _shape_error(name, ids, f"(m, {columns})")
     if ids.dtype.kind not in "iu":
         raise TypeError(f"{name} must be integers, not {ids.dtype}")
-    if ids.dtype.kind == "u":
-        large = numpy.argwhere(ids > numpy.iinfo(numpy.int64).max)
-        if len(large):
-            row, column = large[0].tolist()
-            raise InvalidMesh(f"{name}: row {row} names point {ids[row, column]}, which no mesh has",
-                              row, int(ids[row, column]))
+    large = numpy.argwhere(ids > numpy.iinfo(numpy.int64).max) if ids.dtype.kind == "u" else ()
+    if len(large):
+        row, column = large[0].tolist()
+        raise InvalidMesh(f"{name}: row {row} names point {ids[row, column]}, which no mesh has",
+                          row, int(ids[row, column]))
     return _convert(ids, kind)
 
 
@@ -296,10 +291,9 @@ class Mesh:
             to_host, (constraints, regions, frozen, insert_constraints, triangle_numbers))
         edges = as_ids("constraints", [] if constraints is None else constraints, 2)
         flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
-        if constraints is not None:
-            struct.number_of_constraint_edges = len(edges)
-            self._keep("constraint_edges", _convert(edges, numpy.int64))
-            self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
+        struct.number_of_constraint_edges = len(edges)
+        self._keep("constraint_edges", _convert(edges, numpy.int64))
+        self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
         count = struct.number_of_triangles
         if regions is not None:
             self._keep("regions", _per_triangle("regions", regions, numpy.int32, count))
