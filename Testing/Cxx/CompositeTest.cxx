@@ -21,8 +21,6 @@
 namespace
 {
 
-using Blocks = vtkSmartPointer<vtkMultiBlockDataSet>;
-
 Mesh MakeWorstCase(int size) { return ToPolyData(delaunayflip::MakeWorstCaseMesh(size)); }
 
 Mesh MakeBrokenMesh()
@@ -30,16 +28,6 @@ Mesh MakeBrokenMesh()
   auto mesh = MakeRhombus();
   mesh->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 44 } }));
   return mesh;
-}
-
-Blocks MakeBlocks(const std::vector<vtkDataObject*>& leaves)
-{
-  auto blocks = Blocks::New();
-  for (std::size_t i = 0; i < leaves.size(); ++i)
-  {
-    blocks->SetBlock(static_cast<unsigned int>(i), leaves[i]);
-  }
-  return blocks;
 }
 
 }
@@ -191,8 +179,7 @@ TEST(Composite, ProgressRisesOverBlocks)
   auto blocks = MakeBlocks({ MakeWorstCase(20), MakeRhombus(), MakeWorstCase(20) });
   WatchedFilter filter(blocks);
   std::vector<double> progress;
-  auto record = [&]() { progress.push_back(filter->GetProgress()); };
-  OnProgress(filter.Get(), record);
+  OnProgress(filter.Get(), [&]() { progress.push_back(filter->GetProgress()); });
   filter.Run();
   EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
   EXPECT_EQ(progress.back(), 1.0);
@@ -207,8 +194,7 @@ TEST(Composite, ProgressRisesOverBlocks)
 
 TEST(Composite, ConstraintsForAllOrForEachBlock)
 {
-  vtkNew<vtkPolyData> line;
-  line->SetLines(MakeCells({ { 0, 2 } }));
+  const Mesh line = MakeLines({ { 0, 2 } });
   auto blocks = MakeBlocks({ MakeRhombus(), MakeRhombus() });
   WatchedFilter filter(blocks);
   filter->SetConstraintsData(line);

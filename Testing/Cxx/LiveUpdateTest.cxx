@@ -9,7 +9,6 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
 #include "vtkTable.h"
 
@@ -24,9 +23,7 @@ namespace
 /// The triangles of a mesh after a single update by x and y.
 Cells FlipAtOnceXY(vtkPolyData* mesh)
 {
-  WatchedFilter filter(mesh);
-  filter->SetGeometryToPlanarXY();
-  return GetCells(RunCleanly(filter)->GetPolys());
+  return FlipAtOnce(mesh, [](vtkDelaunayFlip* filter) { filter->SetGeometryToPlanarXY(); });
 }
 
 /// Bends the rhombus along its long diagonal, or flattens it.
@@ -100,11 +97,12 @@ TEST(LiveUpdate, OtherOptionsInputsAndCellsStartAgain)
   filter.RunToTheEnd();
   filter->SetInputData(mesh);
   expectStart(FlipAtOnce(mesh));
-  filter->SetFeatureAngle(180.0);
-  expectStart(FlipAtOnce(mesh, 180.0));
+  const auto setAngle = [](vtkDelaunayFlip* flip) { flip->SetFeatureAngle(180.0); };
+  setAngle(filter.Get());
+  expectStart(FlipAtOnce(mesh, setAngle));
   filter->Restart();
   EXPECT_FALSE(filter->GetNeedsUpdate());
-  expectStart(FlipAtOnce(mesh, 180.0));
+  expectStart(FlipAtOnce(mesh, setAngle));
   auto rhombus = MakeRhombus();
   filter->SetInputData(rhombus);
   filter.RunToTheEnd();
@@ -146,9 +144,7 @@ TEST(LiveUpdate, OtherStepsOutputsAndAttributesGoOn)
 
 TEST(LiveUpdate, BlocksAreFlippedAtOnce)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeBadPlane());
-  WatchedFilter filter(blocks);
+  WatchedFilter filter(MakeBlocks({ MakeBadPlane() }));
   filter->LiveUpdateOn();
   ExpectHolds(RunToWarning(filter), "LiveUpdate");
   EXPECT_TRUE(filter->GetConverged());
@@ -166,16 +162,14 @@ TEST(LivePace, AsManyIterationsAsFit)
 
   LiveFilter filter(MakeBadPlane());
   filter->SetIterationsPerUpdate(0);
-  auto wait = []() { std::this_thread::sleep_for(std::chrono::milliseconds(60)); };
-  OnProgress(filter.Get(), wait);
+  OnProgress(filter.Get(), []() { std::this_thread::sleep_for(std::chrono::milliseconds(60)); });
   for (vtkIdType iterations = 1; iterations <= 3; ++iterations)
   {
     filter.Run();
     EXPECT_EQ(filter->GetNumberOfIterations(), iterations);
     filter->Advance();
   }
-  auto stop = [&filter]() { filter->SetAbortExecute(filter->GetNumberOfIterations() > 3); };
-  OnProgress(filter.Get(), stop);
+  OnProgress(filter.Get(), [&]() { filter->SetAbortExecute(filter->GetNumberOfIterations() > 3); });
   filter.Run();
   EXPECT_EQ(filter->GetNumberOfIterations(), 4);
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);

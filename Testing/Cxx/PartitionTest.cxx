@@ -371,8 +371,7 @@ TEST(Partitions, ConstraintsMayBeOfEach)
   PartitionFilter free(given);
   free.UpdateCleanly();
   EXPECT_EQ(free->GetTotalFlips(), 1);
-  vtkNew<vtkPolyData> ofSecond; // an edge between its own points
-  ofSecond->SetLines(MakeCells({ { 0, 1 } }));
+  const Mesh ofSecond = MakeLines({ { 0, 1 } }); // an edge between its own points
   vtkNew<vtkPartitionedDataSet> lines;
   lines->SetPartition(1, ofSecond);
   PartitionFilter kept(given);
@@ -383,9 +382,8 @@ TEST(Partitions, ConstraintsMayBeOfEach)
   named->SetInputDataObject(1, ofSecond);
   named.UpdateCleanly();
   EXPECT_EQ(named->GetTotalFlips(), 0);
-  vtkNew<vtkPolyData> places;
+  const Mesh places = MakeLines({ { 0, 2 } });
   places->SetPoints(given[0]->GetPoints());
-  places->SetLines(MakeCells({ { 0, 2 } }));
   PartitionFilter also(given);
   also->SetInputDataObject(1, places);
   also.UpdateCleanly();

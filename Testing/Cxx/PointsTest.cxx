@@ -12,7 +12,6 @@
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -35,7 +34,6 @@ namespace
 {
 
 using PointsFilter = Watched<vtkDelaunayFlipPoints>;
-using TriangleSet = std::set<std::set<vtkIdType>>;
 
 constexpr double Inf = std::numeric_limits<double>::infinity();
 
@@ -56,17 +54,6 @@ Mesh ToMesh(const Points& points) { return MakeMesh(points, {}); }
 
 /// A square of 4 x 4 units, whose points 0 to 3 are its corners, counter-clockwise.
 const Points Square = { { 0, 0, 1 }, { 4, 0, 2 }, { 4, 4, 3 }, { 0, 4, 4 } };
-
-TriangleSet GetTriangles(vtkPolyData* mesh)
-{
-  TriangleSet triangles;
-  for (const Cell& cell : GetCells(mesh->GetPolys()))
-  {
-    EXPECT_EQ(cell.size(), 3u);
-    triangles.emplace(cell.begin(), cell.end());
-  }
-  return triangles;
-}
 
 }
 
@@ -178,7 +165,7 @@ TEST(FromPoints, Projections)
     std::array<double, 16>{ 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1 }.data());
   PointsFilter moved(ToMesh(upright));
   moved->SetTransform(transform);
-  const TriangleSet byTransform = GetTriangles(RunCleanly(moved));
+  const auto byTransform = GetTriangles(RunCleanly(moved));
   EXPECT_EQ(byTransform, GetTriangles(output));
   const vtkMTimeType before = moved->GetMTime();
   transform->RotateZ(30.0);
@@ -237,8 +224,7 @@ TEST(FromPoints, IdsOfSegments)
   // With the shorter diagonal these would be Delaunay.
   const Points points = { { 0, 0, 0 }, { 4, -1, 0 }, { 8, 0, 0 }, { 4, 1, 0 } };
   auto lines = MakeLines(points, { { 0, 2 } });
-  vtkNew<vtkPolyData> idsOnly;
-  idsOnly->SetLines(lines->GetLines());
+  auto idsOnly = MakeLines({ { 0, 2 } });
   auto floats = MakeLines(points, { { 0, 2 } });
   ReplacePoints<vtkFloatArray>(floats);
   for (vtkPolyData* segments : { lines.Get(), idsOnly.Get(), floats.Get() })
@@ -382,16 +368,10 @@ TEST(FromPoints, CompositeInput)
   const auto first = ToMesh(MakeCloud(100)), second = ToMesh(MakeCloud(60, 3.0));
   vtkNew<vtkImageData> image;
   image->SetDimensions(2, 2, 1);
-  vtkNew<vtkMultiBlockDataSet> blocks, segments;
-  blocks->SetBlock(0, first);
-  blocks->SetBlock(1, image);
-  blocks->SetBlock(2, second);
   vtkNew<vtkPolyData> none;
-  segments->SetBlock(0, none);
-  segments->SetBlock(1, none);
-  segments->SetBlock(2, MakeLines({ { 1, 1, 5 }, { 2, 2, 5 } }, { { 0, 1 } }));
-  PointsFilter filter(blocks);
-  filter->SetInputDataObject(1, segments);
+  const Mesh segments = MakeLines({ { 1, 1, 5 }, { 2, 2, 5 } }, { { 0, 1 } });
+  PointsFilter filter(MakeBlocks({ first, image, second }));
+  filter->SetInputDataObject(1, MakeBlocks({ none, none, segments }));
   ExpectHolds(RunToWarning(filter), "block 2: has no points of its own, passed unchanged");
   EXPECT_EQ(filter.GetBlock(0)->GetPoints(), first->GetPoints());
   EXPECT_EQ(filter.GetBlock(2)->GetNumberOfPoints(), 62);
