@@ -10,7 +10,6 @@
 #include <cmath>
 #include <numeric>
 #include <ostream>
-#include <set>
 #include <string>
 
 /// @file

@@ -28,7 +28,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <set>
 
 namespace
 {
