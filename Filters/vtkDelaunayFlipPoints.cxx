@@ -20,6 +20,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTransform.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace delaunayflip;
@@ -99,9 +100,7 @@ public:
   FlipReport GetReport() const override
   {
     FlipReport report = this->Session->GetReport();
-    const bool addsPoints = this->Cloud->GetPoints() != this->Given->GetPoints() ||
-      !this->Session->GetAddedPoints().empty();
-    const auto malformed = ListMalformedArrays(this->Given, !addsPoints, true);
+    const auto malformed = ListMalformedArrays(this->Given, !this->AddsPoints(), true);
     report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
     return report;
   }
@@ -116,6 +115,10 @@ public:
     {
       this->AddCrossings(output);
     }
+    if (this->AddsPoints())
+    {
+      DemoteGlobalIds(output->GetPointData());
+    }
     // Triangles may have been removed since.
     const bool fits =
       this->Room && this->Room->GetNumberOfCells() == this->Session->GetReport().Triangles;
@@ -126,6 +129,12 @@ public:
   }
 
 private:
+  bool AddsPoints() const
+  {
+    return this->Cloud->GetPoints() != this->Given->GetPoints() ||
+      !this->Session->GetAddedPoints().empty();
+  }
+
   vtkSmartPointer<vtkCellArray> MakeRoom() const
   {
     return MakeRoomForTriangles(this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8);
@@ -208,7 +217,6 @@ private:
     {
       AppendPoints(this->Given, segments->GetPoints(), added,
         TakeWholeArrays(segments->GetPointData(), otherPoints.Count), this->Cloud);
-      DemoteGlobalIds(this->Cloud->GetPointData());
     }
     return ids;
   }
@@ -242,7 +250,6 @@ private:
     zeros->SetNumberOfPoints(places->GetNumberOfIds());
     zeros->GetData()->Fill(0.0);
     AppendPoints(this->Cloud, zeros, places, nullptr, output);
-    DemoteGlobalIds(output->GetPointData());
     const auto interpolate = [&](vtkAbstractArray* array)
     {
       for (const vtkIdType i : *places)
@@ -251,9 +258,16 @@ private:
         array->InterpolateTuple(count + i, point.From, array, point.To, array, point.Share);
       }
     };
-    for (int i = 0; i < output->GetPointData()->GetNumberOfArrays(); ++i)
+    vtkPointData* data = output->GetPointData();
+    vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
+      data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {
-      interpolate(output->GetPointData()->GetAbstractArray(i));
+      vtkAbstractArray* array = data->GetAbstractArray(i);
+      if (std::count(std::begin(labels), std::end(labels), array) == 0)
+      {
+        interpolate(array);
+      }
     }
     vtkDataArray* xyz = output->GetPoints()->GetData();
     interpolate(xyz);

@@ -104,9 +104,9 @@ public:
 
   ///@{
   /**
-   * The plane in which the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that
-   * with the smallest sum of squared distances to the points, seen from above. A Transform replaces
-   * both.
+   * The plane in which the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that of
+   * vtkPlane::ComputeBestFittingPlane, seen from above; of thick clouds it is some degrees off that
+   * with the smallest sum of squared distances. A Transform replaces both.
    */
   enum ProjectionType
   {

@@ -20,6 +20,7 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -256,6 +257,11 @@ TEST(FromPoints, Crossings)
     heights->SetValue(i, 10.0 * static_cast<double>(i));
   }
   cloud->GetPointData()->SetScalars(heights);
+  AddNumbers(cloud->GetPointData(), "Id", 4, 100);
+  cloud->GetPointData()->SetActiveGlobalIds("Id");
+  auto ghosts = MakeArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 4);
+  ghosts->FillValue(2);
+  cloud->GetPointData()->AddArray(ghosts);
   for (const bool splits : { false, true })
   {
     PointsFilter filter(cloud);
@@ -274,6 +280,9 @@ TEST(FromPoints, Crossings)
     EXPECT_EQ(output->GetPoint(4)[1], 2.0);
     EXPECT_EQ(output->GetPoint(4)[2], 2.0); // between 1 and 3, of the earlier segment
     EXPECT_EQ(output->GetPointData()->GetScalars()->GetTuple1(4), 10.0);
+    ASSERT_NE(output->GetPointData()->GetPedigreeIds(), nullptr);
+    EXPECT_EQ(output->GetPointData()->GetPedigreeIds()->GetVariantValue(4).ToInt(), 0);
+    EXPECT_EQ(output->GetPointData()->GetArray(ghosts->GetName())->GetTuple1(4), 0.0);
     EXPECT_EQ(GetTotal(output, "CrossingPoints"), 1.0);
     EXPECT_EQ(filter.GetPolygons().size(), 4u);
     EXPECT_EQ(cloud->GetNumberOfPoints(), 4);

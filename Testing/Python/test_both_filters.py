@@ -54,6 +54,9 @@ def make_polygon_mesh(seed=3, side=9):
     normals = numpy_to_vtk(numpy.tile([0.0, 0.0, -1.0], (count, 1)), deep=True)
     normals.SetName("Normals")
     mesh.GetCellData().SetNormals(normals)
+    mesh.GetCellData().SetActiveVectors("Normals")
+    mesh.GetCellData().SetActiveScalars("Ids")
+    mesh.GetCellData().AddArray(numpy_to_vtk(numpy.arange(count), deep=True))  # without a name
     return mesh
 
 
@@ -109,8 +112,8 @@ def read_mesh(mesh):
             parts.append((get_cells(cells), cells.GetConnectivityArray().GetDataTypeSize()))
         data = (mesh.GetPointData(), mesh.GetCellData())
         parts += [read_array(array) for attributes in data for array in list_arrays(attributes)]
-        parts += [attributes.IsArrayAnAttribute(i)
-                  for attributes in data for i in range(attributes.GetNumberOfArrays())]
+        parts += [attribute and attribute.GetName() for attributes in data for attribute in map(
+            attributes.GetAbstractAttribute, range(attributes.NUM_ATTRIBUTES))]
     parts += [read_array(array) for array in list_arrays(mesh.GetFieldData())
               if not array.GetName().endswith(":Seconds")]
     return parts
@@ -312,6 +315,11 @@ def make_cloud(count=300, kind=numpy.float64, seed=5):
     add_numbers(cloud.GetPointData(), "Own", count)
     cloud.GetPointData().SetGlobalIds(numpy_to_vtk(numpy.arange(count), deep=True))
     cloud.GetPointData().GetGlobalIds().SetName("Ids")
+    cloud.GetPointData().SetActiveScalars("Ids")
+    cloud.GetPointData().AddArray(numpy_to_vtk(numpy.arange(count), deep=True))  # without a name
+    ghosts = numpy_to_vtk(numpy.full(count, 2, numpy.uint8), deep=True)
+    ghosts.SetName("vtkGhostType")
+    cloud.GetPointData().AddArray(ghosts)
     return cloud
 
 
