@@ -68,7 +68,7 @@ struct JoinedMesh
 {
   vtkSmartPointer<vtkPolyData> Mesh;
   std::vector<vtkSmartPointer<vtkIdList>> Points; ///< For each partition, its points in the mesh.
-  vtkSmartPointer<vtkIntArray> Owners; ///< For each cell of the mesh, its partition.
+  vtkSmartPointer<vtkIntArray> Owners; ///< Its partition for each cell, by which it is divided.
 
   /// Points that coincide with others of their partition, and with one of another: it is not known
   /// which of them are meant.

@@ -69,10 +69,10 @@
  * coordinates and at least one of them is at the border of its partition. Where such a point
  * coincides with another one of its own partition, it is not known which of the two is meant; a
  * warning says so. Duplicate ghost cells (vtkGhostType) are dropped. Every triangle stays in its
- * partition, with its cell data. Points that a partition then lacks are added behind its own. Every
- * partition gets the arrays of all partitions. An array that it lacked is 0 or empty there, except
- * at points that it shares with a partition that has the array. All results are those of the whole
- * mesh.
+ * partition, with its cell data. Points that a partition then lacks are added behind its own, which
+ * become double if they are integers. Every partition gets the arrays of all partitions. An array
+ * that it lacked is 0 or empty there, except at points that it shares with a partition that has the
+ * array. All results are those of the whole mesh.
  *
  * @par References
  * - C. Navarro, N. Hitschfeld, E. Scheihing: A GPU-based method for generating quasi-Delaunay

@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -302,6 +303,87 @@ TEST(Partitions, KeepArraysThatOthersLack)
   const std::vector<int> points = GetNumbers(parts[0]->GetPointData(), "OwnOfPoints");
   EXPECT_EQ(points.front(), 7);
   EXPECT_EQ(points.back(), 0); // of a point that the other partition had
+}
+
+/// Float has no such integers. Their places differ a little.
+TEST(Partitions, KeepTheirPointsAndPointData)
+{
+  const auto enlarge = [](double* x)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = (1 << 28) + std::round(1e6 * x[axis]);
+    }
+  };
+  const auto mesh = MakeBadMesh();
+  ReplacePoints<vtkDoubleArray>(mesh, enlarge);
+  Parts given = Cut(mesh, 3, [](vtkIdType t) { return static_cast<int>(t % 3); });
+  AddGlobalIds(given);
+  for (int k = 0; k < 3; ++k)
+  {
+    AddNumbers(given[k]->GetPointData(), "Own", given[k]->GetNumberOfPoints(), 1000 * k);
+    ReplacePoints<vtkIntArray>(given[k], [k](double* x) { x[0] += k; });
+  }
+  PartitionFilter filter(given);
+  const Parts parts = filter.UpdateCleanly();
+  const auto list = [](const Parts& meshes)
+  {
+    std::multiset<std::set<int>> triangles;
+    for (const auto& part : meshes)
+    {
+      const std::vector<int> numbers = GetNumbers(part->GetPointData(), "Point");
+      for (const Cell& cell : GetCells(part->GetPolys()))
+      {
+        triangles.insert({ numbers[cell[0]], numbers[cell[1]], numbers[cell[2]] });
+      }
+    }
+    return triangles;
+  };
+  AddNumbers(mesh->GetPointData(), "Point", mesh->GetNumberOfPoints(), 0);
+  WatchedFilter alone(mesh);
+  alone->SetTieRuleToCanonical();
+  EXPECT_EQ(list(parts), list({ RunCleanly(alone) }));
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    EXPECT_GT(parts[k]->GetNumberOfPoints(), given[k]->GetNumberOfPoints());
+    const std::vector<int> own = GetNumbers(given[k]->GetPointData(), "Own");
+    const std::vector<int> points = GetNumbers(parts[k]->GetPointData(), "Own");
+    EXPECT_TRUE(std::equal(own.begin(), own.end(), points.begin()));
+    for (vtkIdType i = 0; i < given[k]->GetNumberOfPoints(); ++i)
+    {
+      EXPECT_EQ(GetPlace(parts[k], i), GetPlace(given[k], i));
+    }
+  }
+}
+
+TEST(Partitions, KeepArraysOfAnyName)
+{
+  const Parts given = CutInOrder(MakeBadMesh(60), 3);
+  const char* const internal = "vtkDelaunayFlipPartition";
+  for (const auto& part : given)
+  {
+    vtkCellData* data = part->GetCellData();
+    AddNumbers(data, internal, part->GetNumberOfCells(), 5);
+    for (const int first : { 100, 200 })
+    {
+      AddNumbers(data, "Unnamed", part->GetNumberOfCells(), first);
+      data->GetArray("Unnamed")->SetName(nullptr);
+    }
+  }
+  PartitionFilter filter(given);
+  const Parts parts = filter.UpdateCleanly();
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    vtkCellData* data = parts[k]->GetCellData();
+    EXPECT_EQ(GetNumbers(data, internal), GetNumbers(given[k]->GetCellData(), internal));
+    ASSERT_EQ(data->GetNumberOfArrays(), 4);
+    std::set<double> firsts;
+    for (int i = 0; i < 4; ++i)
+    {
+      firsts.insert(data->GetArray(i)->GetName() ? 0.0 : data->GetArray(i)->GetComponent(0, 0));
+    }
+    EXPECT_EQ(firsts, (std::set<double>{ 0.0, 100.0, 200.0 }));
+  }
 }
 
 /// As a partition may have that got no part of the mesh.
