@@ -28,6 +28,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace delaunayflip
@@ -102,10 +103,50 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
   return blocks;
 }
 
+namespace
+{
+
+/// Whether the second input is a single dataset.
+bool IsOfAll(const std::vector<MeshBlock>& others)
+{
+  return others.size() == 1 && others.front().Place.empty();
+}
+
+}
+
+std::vector<Note> ListMisfits(
+  const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others)
+{
+  std::set<std::vector<std::int64_t>> places;
+  for (const MeshBlock& block : blocks)
+  {
+    places.insert(block.Place);
+  }
+  std::vector<Note> notes;
+  for (const MeshBlock& other : others)
+  {
+    const bool fits = IsOfAll(others) || places.count({}) > 0 || places.count(other.Place) > 0;
+    for (const BlockLeaf& leaf : other.Leaves)
+    {
+      auto* mesh = vtkPolyData::SafeDownCast(leaf.Data);
+      const std::string fault = !fits   ? "nothing of the first one is at its place, ignored"
+        : !mesh                         ? "not a vtkPolyData, ignored"
+        : mesh->GetNumberOfStrips() > 0 ? "triangle strips ignored"
+                                        : "";
+      if (!fault.empty() && leaf.Data->GetNumberOfElements(vtkDataObject::CELL) > 0)
+      {
+        notes.push_back(
+          { leaf.Name + (leaf.Name.empty() ? "" : " of the ") + "second input", fault });
+      }
+    }
+  }
+  return notes;
+}
+
 std::vector<BlockLeaf> ListOthers(
   const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what)
 {
-  const bool isOfAll = others.size() == 1 && others.front().Place.empty();
+  const bool isOfAll = IsOfAll(others);
   if (!others.empty() && !isOfAll && block.Place.empty())
   {
     throw InvalidOptions(what + " cannot be a composite dataset");
@@ -541,7 +582,7 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
     }
     if (sources.size() == before)
     {
-      sources.emplace_back(edges, nullptr);
+      sources.emplace_back(edges, this->IsJoined() ? nullptr : this->GetMesh());
     }
   }
   return JoinConstraints(sources);

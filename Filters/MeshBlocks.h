@@ -45,6 +45,10 @@ struct MeshBlock
 /// are blocks of their own.
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
+/// What of the second input is ignored.
+std::vector<Note> ListMisfits(
+  const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others);
+
 /// The leaves of the second input, all polygonal, that are for a block: that of a single dataset,
 /// whose number is 0, or those at the same place.
 /// @param what begins the message if they cannot be composite.

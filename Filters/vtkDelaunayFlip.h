@@ -61,7 +61,7 @@
  * blocks pass unchanged, with a warning. If a block fails, the error names it, its output is empty,
  * and the other blocks are flipped. The methods that return results, and the only table, have the
  * sums over all blocks; the field data of a block are its own. Composite constraints with the same
- * structure apply block by block.
+ * structure apply block by block; a warning names those that no block has.
  *
  * The partitions of a dataset (vtkPartitionedDataSet, vtkMultiPieceDataSet) are one mesh: edges
  * between them flip, too. Points of several partitions are the same if they have the same global id

@@ -308,6 +308,10 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     {
       size += block.Size;
     }
+    if (!this->Run) // live updates give each warning once
+    {
+      summary.Warnings = ListMisfits(blocks, others);
+    }
     const bool isLive = blocks.size() == 1 && blocks.front().IsLive;
     if (this->LiveUpdate && !isLive && !IsBatchProgram())
     {

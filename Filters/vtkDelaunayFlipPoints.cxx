@@ -338,6 +338,11 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     return;
   }
   const auto others = ListOthers(block, segments, "the segments of a single dataset");
+  if (others.size() > 1)
+  {
+    throw InvalidOptions("the segments are in several partitions; join them first, by "
+                         "vtkAppendPolyData, or Merge Blocks in ParaView");
+  }
   vtkNew<vtkPolyData> cloud, output;
   cloud->SetPoints(points->GetPoints());
   cloud->GetPointData()->ShallowCopy(points->GetPointData());

@@ -68,8 +68,8 @@
  * Composite input (multiblock, partitioned): the points of every block are triangulated alone;
  * blocks that are no point sets pass unchanged, with a warning. A composite second input has the
  * same structure, and its blocks apply block by block; any other applies to all. Points in several
- * partitions of one dataset are an error: join them first. So are points in any piece of a
- * pipeline but the first: gather them there.
+ * partitions of one dataset, or segments, are an error: join them first. So are points in any piece
+ * of a pipeline but the first: gather them there.
  *
  * @warning
  * The inputs are viewed, not copied, as by vtkDelaunayFlip. A projection is rounded once, to

@@ -227,6 +227,7 @@ class Filter(VTKPythonAlgorithmBase):
 
     def _flip_all(self, source, constraints, output):
         """Flips the input, a mesh or blocks."""
+        self._warn_of_misfits(source, constraints)
         if isinstance(source, vtkCompositeDataSet):
             self._flip_blocks(source, constraints, output)
         else:
@@ -240,16 +241,24 @@ class Filter(VTKPythonAlgorithmBase):
         if pieces > 1 and self._sum.report.number_of_triangles:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
+    def _warn_of_misfits(self, source, others):
+        """Warns of what of the second input is ignored."""
+        places = _list_leaves(source)
+        for number, (name, data) in _list_leaves(others).items():
+            fault = ("nothing of the first one is at its place, ignored"
+                     if number and 0 not in places and number not in places
+                     else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
+                     else "triangle strips ignored" if data.GetNumberOfStrips() else "")
+            if fault and data.GetNumberOfElements(vtkDataObject.CELL):
+                self._warnings.append((name + " of the " * bool(name) + "second input", fault))
+
     def _flip_blocks(self, source, constraints, output):
         self._sum.change(stop_reason="converged")  # the result for an input without blocks
         blocks = _copy(source)  # observers may change the input meanwhile
-        if _count_partitions(blocks, self.kind) > 1:
-            self._judge_partitions()
+        self._judge_partitions(blocks, constraints)
         output.CopyStructure(blocks)
         output.GetFieldData().ShallowCopy(blocks.GetFieldData())
-        are_own = isinstance(constraints, vtkCompositeDataSet)
-        edges = {leaf.GetCurrentFlatIndex(): leaf.GetCurrentDataObject()
-                 for leaf in _iterate(constraints.NewIterator())} if are_own else {}
+        edges = _list_leaves(constraints)
         before, total = 0, max(blocks.GetNumberOfElements(vtkDataObject.CELL), 1)
         for leaf in _iterate(blocks.NewIterator()):
             data, name = leaf.GetCurrentDataObject(), _name_leaf(leaf)
@@ -260,14 +269,15 @@ class Filter(VTKPythonAlgorithmBase):
             if not is_mesh and cells:
                 self._warnings.append((name, self.no_mesh))
             if is_mesh and self._sum.report.stop_reason != "aborted":
-                others = edges.get(leaf.GetCurrentFlatIndex()) if are_own else constraints
+                _, others = edges.get(0) or edges.get(leaf.GetCurrentFlatIndex(), ("", None))
                 result = vtkPolyData()
                 self._try_to_flip(data, others if isinstance(others, vtkPolyData) else None, result, name)
             output.SetDataSet(leaf, result)
 
-    def _judge_partitions(self):
-        self._warnings.append(
-            ("", "partitions were flipped one by one; edges between them stayed as they were"))
+    def _judge_partitions(self, blocks, _):
+        if _count_partitions(blocks, self.kind) > 1:
+            self._warnings.append(
+                ("", "partitions were flipped one by one; edges between them stayed as they were"))
 
     def _try_to_flip(self, mesh, constraints, output, where=""):
         self._totals = Totals()
@@ -332,6 +342,14 @@ def _name_leaf(leaf):
     about = leaf.GetCurrentMetaData() if leaf.HasCurrentMetaData() else None
     name = about.Get(vtkCompositeDataSet.NAME()) if about is not None else None
     return f"block {leaf.GetCurrentFlatIndex()}" + (f" ({name})" if name else "")
+
+
+def _list_leaves(data):
+    """The leaves of composite data by flat index, each after its name; any other data alone."""
+    if not isinstance(data, vtkCompositeDataSet):
+        return {0: ("", data)} if data is not None else {}
+    return {leaf.GetCurrentFlatIndex(): (_name_leaf(leaf), leaf.GetCurrentDataObject())
+            for leaf in _iterate(data.NewIterator())}
 
 
 def _count_partitions(blocks, kind):
@@ -505,10 +523,15 @@ class vtkDelaunayFlipPoints(Filter):
     def SetSegmentsData(self, segments):
         self.SetInputDataObject(1, segments)
 
-    def _judge_partitions(self):
-        raise _library.InvalidMesh(
-            "the points are in several partitions; join them first, by vtkAppendDataSets, or Merge Blocks "
-            "in ParaView")
+    def _judge_partitions(self, blocks, constraints):
+        if _count_partitions(blocks, self.kind) > 1:
+            raise _library.InvalidMesh(
+                "the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
+                "Blocks in ParaView")
+        if _count_partitions(constraints, vtkPolyData) > 1:
+            raise _library.InvalidOptions(
+                "the segments are in several partitions; join them first, by vtkAppendPolyData, or Merge "
+                "Blocks in ParaView")
 
     def _pass(self, data, output, stop_reason):
         super()._pass(vtkPolyData(), output, stop_reason)

@@ -205,3 +205,28 @@ TEST(Composite, ConstraintsForAllOrForEachBlock)
   EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
   EXPECT_FALSE(HasEdge(filter.GetBlock(1), 1, 3));
 }
+
+TEST(Composite, WhatIsIgnoredOfTheSecondInputIsToldOf)
+{
+  vtkNew<vtkPolyData> line, strip;
+  line->SetLines(MakeCells({ { 0, 2 } }));
+  strip->SetStrips(MakeCells({ { 0, 1, 2 } }));
+  vtkNew<vtkUnstructuredGrid> grid;
+  const vtkIdType ends[] = { 0, 2 };
+  grid->InsertNextCell(VTK_LINE, 2, ends);
+  const auto warn = [](vtkDataObject* input, vtkDataObject* constraints)
+  {
+    WatchedFilter filter(input);
+    filter->SetInputDataObject(1, constraints);
+    return RunToWarning(filter);
+  };
+  ExpectHolds(warn(MakeBlocks({ MakeRhombus() }), MakeBlocks({ MakeBlocks({ line }) })),
+    "block 2 of the second input: nothing of the first one is at its place, ignored");
+  ExpectHolds(warn(MakeBlocks({ MakeRhombus(), MakeRhombus() }), MakeBlocks({ line, grid })),
+    "block 2 of the second input: not a vtkPolyData, ignored");
+  ExpectHolds(warn(MakeRhombus(), strip), "second input: triangle strips ignored");
+  LiveFilter live(MakeWorstCase(20));
+  live->SetConstraintsData(strip);
+  EXPECT_GT(live.RunToTheEnd(), 2);
+  EXPECT_EQ(live.GetWarnings().size(), 1u);
+}

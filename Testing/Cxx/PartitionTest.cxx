@@ -470,4 +470,14 @@ TEST(Partitions, ConstraintsMayBeOfEach)
   also->SetInputDataObject(1, places);
   also.UpdateCleanly();
   EXPECT_EQ(also->GetTotalFlips(), 0);
+  vtkNew<vtkPolyData> sides, diagonal; // of a mesh in one partition
+  sides->SetLines(MakeCells({ { 0, 1 } }));
+  diagonal->SetLines(MakeCells({ { 0, 2 } }));
+  vtkNew<vtkPartitionedDataSet> two;
+  two->SetPartition(0, sides);
+  two->SetPartition(1, diagonal);
+  PartitionFilter single({ MakeRhombus() });
+  single->SetInputDataObject(1, two);
+  single.UpdateCleanly();
+  EXPECT_EQ(single->GetTotalFlips(), 0);
 }

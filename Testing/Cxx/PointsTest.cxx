@@ -403,6 +403,15 @@ TEST(FromPoints, PointsInPiecesAreAnError)
   ASSERT_EQ(several.GetErrors().size(), 1u);
   ExpectHolds(several.GetErrors()[0], "the points are in several partitions; join them first");
   EXPECT_EQ(several->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
+  vtkNew<vtkPartitionedDataSet> whole, segments;
+  whole->SetPartition(0, ToMesh(Square));
+  segments->SetPartition(0, MakeLines(Square, { { 0, 1 } }));
+  segments->SetPartition(1, MakeLines(Square, { { 0, 2 } }));
+  PointsFilter apart(whole);
+  apart->SetInputDataObject(1, segments);
+  apart->Update();
+  ASSERT_EQ(apart.GetErrors().size(), 1u);
+  ExpectHolds(apart.GetErrors()[0], "the segments are in several partitions; join them first");
   PointsFilter piece(ToMesh(MakeCloud(10)));
   piece->UpdatePiece(1, 2, 0);
   ASSERT_EQ(piece.GetErrors().size(), 1u);

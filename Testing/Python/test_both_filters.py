@@ -286,6 +286,15 @@ class Same(Pair, unittest.TestCase):
         told = self.expect_same(blocks, lambda flip: flip.TrackQualityOn())
         self.assertEqual(len(told["warnings"]), 1)
         self.assertEqual(len(told["errors"]), 1)
+        constraints = vtkMultiBlockDataSet()
+        constraints.SetBlock(0, image)
+        constraints.SetBlock(2, make_polygon_mesh())
+        told = self.expect_same(blocks, lambda flip: flip.SetInputDataObject(1, constraints))
+        for number, text in (3, "nothing of the first one is at its place"), (1, "not a vtkPolyData"):
+            self.assertIn(f"block {number} of the second input: {text}", told["warnings"][0])
+        told = self.expect_same(
+            make_rhombus(), lambda flip: flip.SetConstraintsData(make_polygon_mesh()))
+        self.assertIn("second input: triangle strips ignored", told["warnings"][0])
 
     def test_aborts(self):
         def stop(flip, _event):
@@ -402,7 +411,12 @@ class SamePoints(Pair, unittest.TestCase):
         for kind in (CxxPoints, PythonPoints):
             told = Watched(join([make_cloud(9), make_cloud(8)]), kind)
             told.filter.Update()
-            self.assertIn("in several partitions; join them first", told.errors[0])
+            self.assertIn("points are in several partitions; join them first", told.errors[0])
+            segments = make_segments(make_cloud(9), float)
+            told = Watched(join([make_cloud(9)]), kind)
+            told.filter.SetInputDataObject(1, join([segments, segments]))
+            told.filter.Update()
+            self.assertIn("segments are in several partitions; join them first", told.errors[0])
             for piece in range(2):  # gathered on the first rank, or not
                 told = Watched(make_cloud(9), kind)
                 told.filter.UpdatePiece(piece, 2, 0)
