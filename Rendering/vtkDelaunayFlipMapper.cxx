@@ -126,6 +126,7 @@ struct vtkDelaunayFlipMapper::Parts
   bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
   bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
+  vtkNew<vtkLookupTable> Table;
   double TableKind = -1.0; ///< What the table was filled for: a largest count, or -1 for angles.
   bool HasWarned = false;
 
@@ -138,13 +139,12 @@ struct vtkDelaunayFlipMapper::Parts
   }
 
   /// The faces are a copy of the mesh, which shares arrays, if its polygons are triangles, as in
-  /// outputs of the filter. Otherwise polygons and strips are split into triangles. Nothing can be
-  /// drawn if one names a point that does not exist: the mesh may be one that no filter has
-  /// checked.
+  /// outputs of the filter. Otherwise polygons and strips are split into triangles. There are none
+  /// if the mesh cannot be drawn: it may be one that no filter has checked.
   void ReadFaces(vtkPolyData* mesh)
   {
     this->Faces = vtkSmartPointer<vtkPolyData>::New();
-    if (mesh)
+    if (mesh && CanDraw(mesh))
     {
       this->Faces->ShallowCopy(mesh);
     }
@@ -157,25 +157,20 @@ struct vtkDelaunayFlipMapper::Parts
       this->Faces = split->GetOutput();
     }
     this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
-    this->Box.Reset();
-    const std::int32_t* ids = this->Ids->GetPointer(0);
-    const vtkIdType count = this->Ids->GetNumberOfValues();
-    const auto points = static_cast<std::size_t>(this->Faces->GetNumberOfPoints());
-    std::vector<unsigned char> areUsed(points);
-    for (vtkIdType i = 0; i < count; ++i)
+    std::vector<bool> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
     {
-      const auto id = static_cast<std::size_t>(ids[i]); // large if negative
-      if (id >= points)
-      {
-        return;
-      }
-      areUsed[id] = 1;
+      areUsed[this->Ids->GetValue(i)] = true;
     }
-    if (count > 0)
+    this->Box.Reset();
+    for (vtkIdType i = 0; i < this->Faces->GetNumberOfPoints(); ++i)
     {
-      double bounds[6];
-      vtkBoundingBox::ComputeBounds(this->Faces->GetPoints(), areUsed.data(), bounds);
-      this->Box.SetBounds(bounds);
+      double x[3];
+      this->Faces->GetPoint(i, x);
+      if (areUsed[i] && std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+      {
+        this->Box.AddPoint(x);
+      }
     }
   }
 
@@ -343,9 +338,8 @@ vtkStandardNewMacro(vtkDelaunayFlipMapper);
 vtkDelaunayFlipMapper::vtkDelaunayFlipMapper()
   : Own(new Parts)
 {
-  vtkNew<vtkLookupTable> table;
-  FillTable(table, -1.0);
-  this->SetLookupTable(table);
+  FillTable(this->Own->Table, -1.0);
+  this->SetLookupTable(this->Own->Table);
 }
 
 vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper()
@@ -365,6 +359,29 @@ void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
 }
 
 vtkDelaunayFlip* vtkDelaunayFlipMapper::GetFilter() const { return this->Own->Filter; }
+
+bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
+{
+  vtkCellArray* arrays[] = { mesh->GetPolys(), mesh->GetStrips(), mesh->GetVerts(),
+    mesh->GetLines() };
+  const auto count = static_cast<double>(mesh->GetNumberOfPoints());
+  const bool areTriples =
+    !mesh->GetPoints() || mesh->GetPoints()->GetData()->GetNumberOfComponents() == 3;
+  const auto isValid = [](vtkCellArray* cells) { return cells->IsValid(); };
+  const auto areThere = [count](vtkCellArray* cells)
+  {
+    vtkDataArray* ids = cells->GetConnectivityArray(); // of any type
+    bool are = true;
+    for (vtkIdType i = 0; are && i < ids->GetNumberOfTuples(); ++i)
+    {
+      const double id = ids->GetComponent(i, 0);
+      are = id >= 0.0 && id < count;
+    }
+    return are;
+  };
+  return areTriples && std::all_of(std::begin(arrays), std::end(arrays), isValid) &&
+    std::all_of(arrays, arrays + 2, areThere);
+}
 
 bool vtkDelaunayFlipMapper::DrawsRun()
 {
@@ -467,7 +484,7 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
     const double kind = own.ByFlipCount ? own.LargestCount : -1.0;
     if (std::exchange(own.TableKind, kind) != kind)
     {
-      FillTable(vtkLookupTable::SafeDownCast(this->LookupTable), kind);
+      FillTable(own.Table, kind);
     }
     return true;
   }
@@ -554,7 +571,7 @@ void vtkDelaunayFlipMapper::SetColors(vtkShaderProgram* program, vtkProperty* pr
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
   const bool isReadable = 3 * std::max(this->Own->Count, this->Own->PointCount) <= largest;
-  auto* table = vtkLookupTable::SafeDownCast(this->LookupTable);
+  vtkLookupTable* table = this->Own->Table;
   float bands[Bands][3];
   for (int i = 0; i < Bands; ++i)
   {

@@ -251,6 +251,24 @@ TEST(LiveView, AFailureEndsTheRun)
   EXPECT_EQ(view->GetFrameNumber(), 2);
 }
 
+TEST(LiveView, AMeshThatCannotBeDrawnFails)
+{
+  auto broken = MakeRhombus();
+  broken->SetPolys(MakeCells({ { 0, 1, 2, 1000000000 } }));
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, broken);
+  blocks->SetBlock(1, MakeRhombus());
+  for (vtkDataObject* input : std::initializer_list<vtkDataObject*>{ broken, blocks })
+  {
+    WatchedView view(nullptr);
+    view.Filter->SetInputDataObject(input);
+    view->Start();
+    EXPECT_EQ(view.GetMapper()->GetNumberOfTriangles(), input == broken.Get() ? 0 : 2);
+    EXPECT_FALSE(view->Step());
+    ExpectHolds(view.GetStatus(), "failed: ");
+  }
+}
+
 TEST(LiveView, WhatIsMissingIsAnError)
 {
   WatchedView view;
