@@ -163,12 +163,40 @@ std::vector<BlockLeaf> ListOthers(
   return leaves;
 }
 
+namespace
+{
+
+/// Gives `copy` the structure of a tree, and leaves. @param leafOf the leaf at an iterator.
+template <typename LeafOf>
+void CopyTree(vtkDataObjectTree* tree, vtkDataObjectTree* copy, const LeafOf& leafOf)
+{
+  copy->CopyStructure(tree);
+  copy->GetFieldData()->ShallowCopy(tree->GetFieldData());
+  const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(tree->NewIterator());
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    copy->SetDataSet(leaf, leafOf(leaf));
+  }
+}
+
+}
+
 vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
 {
   vtkSmartPointer<vtkDataObject> held;
-  if (data)
+  if (!data)
   {
-    held.TakeReference(data->NewInstance());
+    return held;
+  }
+  held.TakeReference(data->NewInstance());
+  vtkDataObjectTree* tree = GetTree(data);
+  if (tree) // in VTK 9.1 a shallow copy has the same leaves
+  {
+    CopyTree(tree, vtkDataObjectTree::SafeDownCast(held),
+      [](vtkCompositeDataIterator* leaf) { return Hold(leaf->GetCurrentDataObject()); });
+  }
+  else
+  {
     held->ShallowCopy(data);
   }
   return held;
@@ -191,13 +219,8 @@ void StoreResults(const std::vector<MeshBlock>& blocks, vtkDataObject* input, vt
       results[leaf.Number] = leaf.Result;
     }
   }
-  tree->CopyStructure(given);
-  tree->GetFieldData()->ShallowCopy(given->GetFieldData());
-  const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(given->NewIterator());
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    tree->SetDataSet(leaf, results[leaf->GetCurrentFlatIndex()]);
-  }
+  CopyTree(given, tree,
+    [&](vtkCompositeDataIterator* leaf) { return results[leaf->GetCurrentFlatIndex()]; });
 }
 
 //------------------------------------------------------------------------------

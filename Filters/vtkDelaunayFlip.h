@@ -336,7 +336,8 @@ public:
    * points, can be used. Coordinates must be equal, not just close; if one input has float points
    * and the other double, they are compared after rounding to float. If several points of the mesh
    * coincide, all pairs of them that are edges of the mesh match. Constraint edges that match no
-   * edge of the mesh and are not inserted are counted, and the update gives one warning.
+   * edge of the mesh and are not inserted are counted, and the update gives one warning. An update
+   * of a piece of the mesh asks for all of this input.
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetConstraintsData(vtkPolyData* constraints) { this->SetInputData(1, constraints); }

@@ -64,7 +64,8 @@ struct CloudRequest
   vtkAbstractTransform* Transform; ///< Or null.
   bool FitsPlane;
   PointOptions Options;
-  std::vector<double> Key; ///< When all of this was modified, and the values of its options.
+  Stamps Arrays; ///< Of both.
+  std::vector<double> Key; ///< The values of the options, and when the transform was modified.
   bool IsLive;
   ProgressObserver Progress;
 };
@@ -323,7 +324,8 @@ void vtkDelaunayFlipPoints::FlipLeaves(
       -1, -1);
   }
   using Asked = vtkStreamingDemandDrivenPipeline;
-  if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0 && block.Size > 0.0)
+  const bool isFirst = this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) <= 0;
+  if (!isFirst && block.Size > 0.0)
   {
     throw InvalidMesh("points are in several pieces; gather them in the first one, by "
                       "Redistribute DataSet with one partition in ParaView",
@@ -354,7 +356,8 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     cloud->SetLines(mesh->GetLines());
   }
   this->TimeOfBlock = points->GetMTime();
-  this->FlipMesh(cloud, others.empty() ? nullptr : vtkPolyData::SafeDownCast(others.front().Data),
+  this->FlipMesh(cloud,
+    isFirst && !others.empty() ? vtkPolyData::SafeDownCast(others.front().Data) : nullptr,
     block.IsLive, output);
   output->SetVerts(nullptr);
   output->SetLines(nullptr);
@@ -374,21 +377,32 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   options.Outline = static_cast<OutlineKind>(this->Outline);
   options.Alpha = this->Alpha;
   options.LongestEdge = this->LongestEdge;
-  const auto write = [](vtkMTimeType time) { return static_cast<double>(time); };
-  const std::vector<double> key{ write(this->TimeOfBlock), write(cloud->GetNumberOfPoints()),
-    write(segments ? segments->GetMTime() : 0),
-    write(this->Transform ? this->Transform->GetMTime() : 0), double(this->Projection),
-    double(this->LinesAsSegments), this->PointTolerance, double(this->SplitCrossings),
-    double(this->Outline), this->Alpha, this->LongestEdge };
+  Stamps arrays;
+  for (vtkPolyData* given : { cloud, segments })
+  {
+    if (given)
+    {
+      arrays.AddPoints(given, given == cloud ? this->TimeOfBlock : 0);
+      arrays.AddCells(given->GetVerts());
+      arrays.AddCells(given->GetLines());
+      arrays.AddCells(given->GetPolys());
+      arrays.AddArrays(given->GetPointData());
+      arrays.AddArrays(given->GetFieldData());
+    }
+  }
+  const std::vector<double> key{ this->Transform ? double(this->Transform->GetMTime()) : 0.0,
+    double(this->Projection), double(this->LinesAsSegments), this->PointTolerance,
+    double(this->SplitCrossings), double(this->Outline), this->Alpha, this->LongestEdge };
   auto* last = static_cast<CloudRun*>(run.get());
-  if (last && last->Asked.Key == key && last->Asked.Options == options)
+  if (last && last->Asked.Key == key && last->Asked.Options == options &&
+    last->Asked.Arrays.Fit(arrays))
   {
     last->IsStopped = false;
     return true;
   }
   run.reset(); // its memory may be needed
   run = std::make_unique<CloudRun>(CloudRequest{ cloud, segments, this->Transform,
-    this->Projection == PROJECTION_BEST_FITTING_PLANE, options, key, isLive,
+    this->Projection == PROJECTION_BEST_FITTING_PLANE, options, std::move(arrays), key, isLive,
     this->MakeProgress() });
   return false;
 }

@@ -166,17 +166,26 @@ class Filter(VTKPythonAlgorithmBase):
             outInfo.GetInformationObject(1).Set(vtkDataObject.DATA_OBJECT(), vtkTable())
         return 1
 
+    def RequestUpdateExtent(self, request, inInfo, outInfo):
+        """A piece of the mesh may need any of the second input."""
+        others, asked = inInfo[1].GetInformationObject(0), vtkStreamingDemandDrivenPipeline
+        if others is not None:
+            others.Set(asked.UPDATE_PIECE_NUMBER(), 0)
+            others.Set(asked.UPDATE_NUMBER_OF_PIECES(), 1)
+            others.Set(asked.UPDATE_NUMBER_OF_GHOST_LEVELS(), 0)
+        return 1
+
     def RequestData(self, request, inInfo, outInfo):
-        data = [vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo)]
+        source, others, output = (vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo))
         table = vtkDataObject.GetData(outInfo, 1)
         self._is_at_work = True
         self._forget()
         try:
-            self._flip_all(*data)
+            self._flip_all(source, None if others is None else _copy(others), output)
         except Exception as error:
             self._forget()
             self._fail(error)
-            data[-1].Initialize()
+            output.Initialize()
         finally:
             self._is_at_work = False
         vtk_of(table).add_arrays(table.GetRowData(), "", self._totals.list_columns())
@@ -367,9 +376,15 @@ def _count_partitions(blocks, kind):
 
 
 def _copy(source):
-    """A shallow copy."""
+    """A shallow copy. Its leaves are copies, too, as only newer versions of VTK make them."""
     made = source.NewInstance()
-    made.ShallowCopy(source)
+    if isinstance(source, vtkDataObjectTree) and not source.IsA("vtkUniformGridAMR"):
+        made.CopyStructure(source)
+        made.GetFieldData().ShallowCopy(source.GetFieldData())
+        for leaf in _iterate(source.NewIterator()):
+            made.SetDataSet(leaf, _copy(leaf.GetCurrentDataObject()))
+    else:
+        made.ShallowCopy(source)
     return made
 
 
@@ -542,12 +557,17 @@ class vtkDelaunayFlipPoints(Filter):
 
     def _flip(self, data, segments, output):
         piece = vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()
-        if self.GetOutputInformation(0).Get(piece) > 0 and data.GetNumberOfPoints():
+        count = data.GetNumberOfPoints()
+        if self.GetOutputInformation(0).Get(piece) > 0:
+            segments = None
+        elif segments is not None:
+            count += segments.GetNumberOfPoints()
+        if self.GetOutputInformation(0).Get(piece) > 0 and count:
             raise _library.InvalidMesh(
                 "points are in several pieces; gather them in the first one, by Redistribute DataSet with "
                 "one partition in ParaView")
-        if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
-            return self._pass(data, output, "aborted" if data.GetNumberOfPoints() else "converged")
+        if count == 0 or self._is_abort_requested():
+            return self._pass(data, output, "aborted" if count else "converged")
         cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline])
         keywords = {name: getattr(self, name) for name in (
             "alpha", "longest_edge", "point_tolerance", "split_crossings", "maximum_iterations")}

@@ -312,7 +312,7 @@ class Cloud(Input):
 
     def _add_points(self, others):
         """The ids of the points of the segments; those at new places are added."""
-        own = self._own
+        own = self._own if len(self._own) else others[:0]  # of the same type
         if len(others) == 0 or own.dtype == others.dtype and own.tobytes() == others.tobytes():
             return numpy.arange(len(own))
         places = numpy.concatenate(number_places(own, others))

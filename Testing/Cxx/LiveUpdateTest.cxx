@@ -9,7 +9,10 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCleanPolyData.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
@@ -140,6 +143,84 @@ TEST(LiveUpdate, OtherStepsOutputsAndAttributesGoOn)
   filter.Run();
   EXPECT_TRUE(filter->GetConverged());
   EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(mesh));
+}
+
+TEST(LiveUpdate, OtherVertsStartAgain)
+{
+  auto mesh = MakeQuadAndTriangle();
+  LiveFilter filter(mesh);
+  for (const Cells& verts : { Cells{ { 0 } }, Cells{ { 0 }, { 1 }, { 2 } } })
+  {
+    mesh->SetVerts(MakeCells(verts));
+    AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
+    filter.RunToTheEnd();
+  }
+  EXPECT_EQ(GetNumbers(filter->GetOutput()->GetCellData(), "Number"),
+    (std::vector<int>{ 0, 1, 2, 3, 3, 4 }));
+}
+
+TEST(LiveUpdate, GoesOnWhereInputsAreMadeAgain)
+{
+  auto mesh = MakeBadPlane();
+  vtkNew<vtkStringArray> regions;
+  regions->SetName("Region");
+  regions->SetNumberOfValues(mesh->GetNumberOfCells());
+  mesh->GetCellData()->AddArray(regions);
+  vtkNew<vtkCleanPolyData> makers[2];
+  makers[0]->SetInputData(mesh);
+  makers[1]->SetInputData(MakeLines({ { -9, 0, 0 }, { -9, 1, 0 } }, { { 0, 1 } }));
+  makers[0]->Update();
+  const Cells expected = FlipAtOnce(makers[0]->GetOutput());
+  LiveFilter filter(mesh);
+  filter->SetRegionArray("Region");
+  for (int port = 0; port < 2; ++port)
+  {
+    makers[port]->ReleaseDataFlagOn(); // so that every update executes it
+    filter->SetInputConnection(port, makers[port]->GetOutputPort());
+  }
+  filter.RunToTheEnd();
+  EXPECT_GT(filter->GetNumberOfIterations(), 5);
+  EXPECT_EQ(filter.GetPolygons(), expected);
+  Shear(mesh, 0.05);
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  regions->SetValue(0, "other");
+  regions->Modified();
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  filter->Advance();
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 2);
+}
+
+TEST(LiveUpdate, RestartsAfterTheUpdateAtWork)
+{
+  LiveFilter filter(MakeBadPlane());
+  filter.Run();
+  filter->Advance();
+  OnProgress(filter.Get(),
+    [&filter]()
+    {
+      if (filter->GetProgress() > 0.0 && filter->GetProgress() < 1.0)
+      {
+        filter->Restart();
+      }
+    });
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 2);
+  filter->RemoveAllObservers();
+  EXPECT_TRUE(filter->Advance());
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+}
+
+TEST(LiveUpdate, EndsWithoutAMesh)
+{
+  LiveFilter filter(MakeBadPlane());
+  filter.Run();
+  filter->SetInputDataObject(vtkNew<vtkMultiBlockDataSet>());
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetSession(), nullptr);
 }
 
 TEST(LiveUpdate, BlocksAreFlippedAtOnce)

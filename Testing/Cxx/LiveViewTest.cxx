@@ -255,9 +255,7 @@ TEST(LiveView, AMeshThatCannotBeDrawnFails)
 {
   auto broken = MakeRhombus();
   broken->SetPolys(MakeCells({ { 0, 1, 2, 1000000000 } }));
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, broken);
-  blocks->SetBlock(1, MakeRhombus());
+  const auto blocks = MakeBlocks({ broken, MakeRhombus() });
   for (vtkDataObject* input : std::initializer_list<vtkDataObject*>{ broken, blocks })
   {
     WatchedView view(nullptr);

@@ -167,11 +167,12 @@ TEST(ObserverSafety, AnUpdateWithinAnUpdateIsRefused)
   EXPECT_FALSE(filter.GetErrors().empty());
 }
 
-TEST(ObserverSafety, BlocksMayBeRemoved)
+TEST(ObserverSafety, BlocksMayBeRemovedOrEmptied)
 {
   for (const bool all : { false, true })
   {
     const auto blocks = MakePlanes();
+    const Mesh last = vtkPolyData::SafeDownCast(blocks->GetBlock(3));
     WatchedFilter filter(blocks);
     filter->SetInputDataObject(1, MakePlanes());
     OnProgress(filter.Get(),
@@ -181,6 +182,7 @@ TEST(ObserverSafety, BlocksMayBeRemoved)
         {
           return;
         }
+        last->Initialize();
         for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
         {
           blocks->SetBlock(i, nullptr);

@@ -6,6 +6,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -16,6 +17,7 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -440,8 +442,14 @@ TEST(Partitions, BrokenOnesAndShortArraysAreNamed)
   EXPECT_EQ(parts[1]->GetCellData()->GetNumberOfArrays(), 1);
   EXPECT_EQ(parts[1]->GetPointData()->GetNumberOfArrays(), 1);
   given[1]->SetPolys(MakeCells({ { 0, 1, 4444 } }));
-  PartitionFilter broken(given);
-  EXPECT_EQ(broken.Update()[0]->GetNumberOfCells(), 0);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->InsertNextCell(VTK_VERTEX, 1, std::array<vtkIdType, 1>{ 0 }.data());
+  auto data = vtkSmartPointer<vtkPartitionedDataSet>::New();
+  data->SetPartition(0, grid);
+  PartitionFilter broken(given, data);
+  EXPECT_EQ(broken.Update()[1]->GetNumberOfCells(), 0);
+  auto* output = vtkPartitionedDataSet::SafeDownCast(broken->GetOutputDataObject(0));
+  EXPECT_TRUE(output->GetPartitionAsDataObject(0)->IsA("vtkUnstructuredGrid")); // passed
   ASSERT_EQ(broken.GetErrors().size(), 1u);
   ExpectHolds(broken.GetErrors()[0], "4444");
 }

@@ -6,6 +6,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCleanPolyData.h"
 #include "vtkDataArray.h"
 #include "vtkDelaunayFlipPoints.h"
 #include "vtkDoubleArray.h"
@@ -28,6 +29,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace
@@ -436,4 +438,21 @@ TEST(FromPoints, LiveUpdate)
   MovePoints(cloud, [](double* x) { x[0] *= 1.5; });
   live->Update();
   EXPECT_EQ(live->GetNumberOfIterations(), 1);
+
+  Cell all(cloud->GetNumberOfPoints());
+  std::iota(all.begin(), all.end(), 0);
+  cloud->SetVerts(MakeCells({ all }));
+  AddNumbers(cloud->GetPointData(), "Number", cloud->GetNumberOfPoints(), 0);
+  vtkNew<vtkCleanPolyData> maker;
+  maker->SetInputData(cloud);
+  maker->ReleaseDataFlagOn(); // so that every update makes the points again
+  live->SetInputConnection(maker->GetOutputPort());
+  const auto segments = MakeLines({ { 1, 1, 0 }, { 9, 8, 0 } }, { { 0, 1 } });
+  for (PointsFilter* filter : { &live, &atOnce })
+  {
+    (*filter)->SetSegmentsData(segments);
+  }
+  EXPECT_GT(RunToTheEnd(live), 2);
+  atOnce->Update();
+  EXPECT_EQ(live.GetPolygons(), atOnce.GetPolygons());
 }
