@@ -247,7 +247,7 @@ class Filter(VTKPythonAlgorithmBase):
                 ("", "LiveUpdate needs the filter in C++; this one, in Python, makes all flips at once"))
         pieces = self.GetOutputInformation(0).Get(
             vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES()) or 1
-        if pieces > 1 and self._sum.report.number_of_triangles:
+        if pieces > 1 and self._sum.report.number_of_triangles and self.kind is vtkPolyData:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def _warn_of_misfits(self, source, others):

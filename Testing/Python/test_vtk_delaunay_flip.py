@@ -428,12 +428,12 @@ class FromPoints(unittest.TestCase):
     def test_segments_alone(self):
         outline = make_mesh([(0, 0, 0), (2, 0, 0), (2, 2, 1), (0, 2, 0)], [(0, 1, 2, 3)])
         for piece, triangles in ((0, 2), (1, 0)):
-            points = vtkDelaunayFlipPoints()
-            points.SetInputData(vtkPolyData())
-            points.SetSegmentsData(outline)
-            points.UpdatePiece(piece, 2, 0)
-            self.assertEqual(points.GetOutput().GetNumberOfCells(), triangles)
-            self.assertTrue(points.GetConverged())
+            watched = Watched(vtkPolyData(), vtkDelaunayFlipPoints)
+            watched.filter.SetSegmentsData(outline)
+            watched.filter.UpdatePiece(piece, 2, 0)
+            self.assertEqual(watched.filter.GetOutput().GetNumberOfCells(), triangles)
+            self.assertTrue(watched.filter.GetConverged())
+            self.assertEqual(watched.warnings, [])
 
     def test_properties(self):
         points = vtkDelaunayFlipPoints()
