@@ -15,6 +15,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkColorTransferFunction.h"
+#include "vtkDataArrayRange.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
@@ -370,14 +371,9 @@ bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
   const auto isValid = [](vtkCellArray* cells) { return cells->IsValid(); };
   const auto areThere = [count](vtkCellArray* cells)
   {
-    vtkDataArray* ids = cells->GetConnectivityArray(); // of any type
-    bool are = true;
-    for (vtkIdType i = 0; are && i < ids->GetNumberOfTuples(); ++i)
-    {
-      const double id = ids->GetComponent(i, 0);
-      are = id >= 0.0 && id < count;
-    }
-    return are;
+    const auto ids = vtk::DataArrayValueRange<1>(cells->GetConnectivityArray()); // of any type
+    return std::all_of(
+      ids.begin(), ids.end(), [count](double id) { return id >= 0.0 && id < count; });
   };
   return areTriples && std::all_of(std::begin(arrays), std::end(arrays), isValid) &&
     std::all_of(arrays, arrays + 2, areThere);
