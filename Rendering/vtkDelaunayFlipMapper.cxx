@@ -10,6 +10,7 @@
 #include "OpenGLFunctions.h"
 
 #include "vtkActor.h"
+#include "vtkArrayDispatch.h"
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
@@ -158,21 +159,31 @@ struct vtkDelaunayFlipMapper::Parts
       this->Faces = split->GetOutput();
     }
     this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
-    std::vector<bool> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
+    vtkPoints* points = this->Faces->GetPoints();
+    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
     for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
     {
-      areUsed[this->Ids->GetValue(i)] = true;
+      areUsed[this->Ids->GetValue(i)] = 1;
     }
     this->Box.Reset();
-    for (vtkIdType i = 0; i < this->Faces->GetNumberOfPoints(); ++i)
+    if (this->Ids->GetNumberOfValues() == 0)
     {
-      double x[3];
-      this->Faces->GetPoint(i, x);
-      if (areUsed[i] && std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
-      {
-        this->Box.AddPoint(x);
-      }
+      return;
     }
+    double bounds[6];
+    vtkBoundingBox::ComputeBounds(points, areUsed.data(), bounds);
+    const auto isFinite = [](double x) { return std::isfinite(x); };
+    if (!std::all_of(std::begin(bounds), std::end(bounds), isFinite))
+    {
+      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+      {
+        double x[3];
+        points->GetPoint(i, x);
+        areUsed[i] = areUsed[i] != 0 && std::all_of(std::begin(x), std::end(x), isFinite) ? 1 : 0;
+      }
+      vtkBoundingBox::ComputeBounds(points, areUsed.data(), bounds);
+    }
+    this->Box.SetBounds(bounds);
   }
 
   /// Keeps those that there are, if they have the right sizes.
@@ -365,15 +376,26 @@ bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
 {
   vtkCellArray* arrays[] = { mesh->GetPolys(), mesh->GetStrips(), mesh->GetVerts(),
     mesh->GetLines() };
-  const auto count = static_cast<double>(mesh->GetNumberOfPoints());
+  const vtkIdType count = mesh->GetNumberOfPoints();
   const bool areTriples =
     !mesh->GetPoints() || mesh->GetPoints()->GetData()->GetNumberOfComponents() == 3;
   const auto isValid = [](vtkCellArray* cells) { return cells->IsValid(); };
   const auto areThere = [count](vtkCellArray* cells)
   {
-    const auto ids = vtk::DataArrayValueRange<1>(cells->GetConnectivityArray()); // of any type
-    return std::all_of(
-      ids.begin(), ids.end(), [count](double id) { return id >= 0.0 && id < count; });
+    bool are = true;
+    const auto check = [&](auto* ids)
+    {
+      const auto all = vtk::DataArrayValueRange<1>(ids);
+      are = std::all_of(all.begin(), all.end(),
+        [count](auto id)
+        { return static_cast<vtkIdType>(id) >= 0 && static_cast<vtkIdType>(id) < count; });
+    };
+    vtkDataArray* ids = cells->GetConnectivityArray();
+    if (!vtkArrayDispatch::Dispatch::Execute(ids, check))
+    {
+      check(ids);
+    }
+    return are;
   };
   return areTriples && std::all_of(std::begin(arrays), std::end(arrays), isValid) &&
     std::all_of(arrays, arrays + 2, areThere);
