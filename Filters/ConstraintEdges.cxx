@@ -310,10 +310,7 @@ vtkSmartPointer<vtkPolyData> JoinConstraints(
     vtkPoints* points = (edges->GetNumberOfPoints() > 0 || !mesh ? edges : mesh)->GetPoints();
     areFloats = areFloats && (!points || points->GetDataType() == VTK_FLOAT);
     std::vector<PointPair> pairs;
-    if (points || mesh)
-    {
-      AddAllPaths(edges, points ? points->GetNumberOfPoints() : 0, {}, pairs);
-    }
+    AddAllPaths(edges, points ? points->GetNumberOfPoints() : 0, {}, pairs);
     for (const PointPair& pair : pairs)
     {
       points->GetPoint(pair[0], ends.emplace_back().data());

@@ -15,6 +15,7 @@
 
 #include <cstring>
 #include <numeric>
+#include <set>
 #include <string>
 
 namespace delaunayflip
@@ -193,8 +194,37 @@ vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdType count)
   return range;
 }
 
+int FindAttributes(vtkDataSetAttributes* data, vtkAbstractArray* array)
+{
+  int attributes = 0;
+  for (int i = 0; i < vtkDataSetAttributes::NUM_ATTRIBUTES; ++i)
+  {
+    attributes |= data->GetAbstractAttribute(i) == array ? 1 << i : 0;
+  }
+  return attributes;
+}
+
+void AddAttributes(vtkDataSetAttributes* data, int index, int attributes)
+{
+  for (int i = 0; i < vtkDataSetAttributes::NUM_ATTRIBUTES; ++i)
+  {
+    if ((attributes >> i & 1) != 0 && !data->GetAbstractAttribute(i))
+    {
+      data->SetActiveAttribute(index, i);
+    }
+  }
+}
+
 namespace
 {
+
+bool AreAlike(vtkAbstractArray* a, vtkAbstractArray* b)
+{
+  return a->GetDataType() == b->GetDataType() &&
+    a->GetNumberOfComponents() == b->GetNumberOfComponents();
+}
+
+std::string GetName(vtkAbstractArray* array) { return array->GetName() ? array->GetName() : ""; }
 
 /// An array of the same kind, of zeros or empty texts.
 vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tuples)
@@ -219,16 +249,26 @@ vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tu
 void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places, vtkIdType size,
   vtkDataSetAttributes* data)
 {
+  std::set<vtkAbstractArray*> taken; // never iterated over
   for (int i = 0; i < own->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = own->GetAbstractArray(i);
-    std::string name = array->GetName() ? array->GetName() : "";
+    std::string name = GetName(array);
+    const auto fits = [&](vtkAbstractArray* other)
+    { return AreAlike(other, array) && taken.count(other) == 0; };
     const auto find = [&]()
-    { return name.empty() ? nullptr : data->GetAbstractArray(name.c_str()); };
+    {
+      vtkSmartPointer<vtkAbstractArray> found;
+      for (int k = 0; k < data->GetNumberOfArrays() && !found; ++k)
+      {
+        vtkAbstractArray* other = data->GetAbstractArray(k);
+        const bool isFound = GetName(other) == name && (!name.empty() || fits(other));
+        found = isFound ? other : nullptr;
+      }
+      return found;
+    };
     vtkSmartPointer<vtkAbstractArray> target = find();
-    while (target &&
-      (target->GetDataType() != array->GetDataType() ||
-        target->GetNumberOfComponents() != array->GetNumberOfComponents()))
+    while (target && !fits(target))
     {
       name += " (2)";
       target = find();
@@ -236,30 +276,41 @@ void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
     if (!target)
     {
       target = MakeZeros(array, size);
-      target->SetName(array->GetName() ? name.c_str() : nullptr);
-      const int index = data->AddArray(target);
-      const int attribute = own->IsArrayAnAttribute(i);
-      if (attribute >= 0 && !data->GetAbstractAttribute(attribute))
-      {
-        data->SetActiveAttribute(index, attribute);
-      }
+      target->SetName(name.empty() ? nullptr : name.c_str());
+      AddAttributes(data, data->AddArray(target), FindAttributes(own, array));
     }
+    taken.insert(target);
     target->InsertTuples(places, sources, array);
   }
 }
 
 void DemoteGlobalIds(vtkDataSetAttributes* data)
 {
-  vtkSmartPointer<vtkDataArray> ids = data->GetGlobalIds();
-  if (!ids)
-  {
-    return;
-  }
+  int indices[vtkDataSetAttributes::NUM_ATTRIBUTES];
+  data->GetAttributeIndices(indices);
+  const int ids = indices[vtkDataSetAttributes::GLOBALIDS];
   data->SetActiveAttribute(-1, vtkDataSetAttributes::GLOBALIDS);
   if (!data->GetPedigreeIds())
   {
-    data->SetPedigreeIds(ids);
+    data->SetActiveAttribute(ids, vtkDataSetAttributes::PEDIGREEIDS);
   }
+}
+
+vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids)
+{
+  const vtkIdType given = mesh->GetNumberOfPoints();
+  const vtkIdType size = given + ids->GetNumberOfIds();
+  vtkPoints* typical = given > 0 ? mesh->GetPoints() : more;
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  // Integers would cut what is added.
+  points->SetDataType(typical->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
+  points->SetNumberOfPoints(size);
+  if (given > 0)
+  {
+    points->InsertPoints(0, given, 0, mesh->GetPoints());
+  }
+  points->InsertPoints(MakeRange(given, size - given), ids, more);
+  return points;
 }
 
 void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids, vtkDataSetAttributes* data,
@@ -268,17 +319,7 @@ void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids, vtkDataSet
   const vtkIdType given = mesh->GetNumberOfPoints();
   const vtkIdType size = given + ids->GetNumberOfIds();
   const auto own = MakeRange(0, given), places = MakeRange(given, size - given);
-  vtkPoints* typical = given > 0 ? mesh->GetPoints() : more;
-  vtkNew<vtkPoints> points;
-  // Integers would cut what is added.
-  points->SetDataType(typical->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
-  points->SetNumberOfPoints(size);
-  if (given > 0)
-  {
-    points->InsertPoints(0, given, 0, mesh->GetPoints());
-  }
-  points->InsertPoints(places, ids, more);
-  output->SetPoints(points);
+  output->SetPoints(ExtendPoints(mesh, more, ids));
   output->GetPointData()->Initialize();
   AddTuples(TakeWholeArrays(mesh->GetPointData(), given), own, own, size, output->GetPointData());
   if (data)

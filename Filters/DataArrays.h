@@ -119,10 +119,17 @@ DELAUNAYFLIP_EXPORT std::vector<Defect> ListMalformedArrays(
 /// The numbers from `first` on.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdType count);
 
+/// Which attributes of `data` an array is, one bit for each.
+DELAUNAYFLIP_EXPORT int FindAttributes(vtkDataSetAttributes* data, vtkAbstractArray* array);
+
+/// Makes an array these attributes, except those that `data` has.
+DELAUNAYFLIP_EXPORT void AddAttributes(vtkDataSetAttributes* data, int index, int attributes);
+
 /// Copies the tuples `sources` of all arrays of `own` to the tuples `places` of `data`. An array
 /// that `data` does not have yet is added, with zeros or empty texts for its other tuples, and as
-/// the attribute that it is, unless `data` has one. One that differs from that of the same name in
-/// type or number of components is added under another name.
+/// the attributes that it is, except those that `data` has. One that differs from that of the same
+/// name in type or number of components is added under another name. Arrays without a name are
+/// the same if they are alike and in the same order.
 /// @param size how many tuples the arrays of `data` have.
 DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
   vtkIdType size, vtkDataSetAttributes* data);
@@ -130,6 +137,9 @@ DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources
 /// Turns global ids into pedigree ids: when cells are divided or points added, several share an id.
 /// If there are pedigree ids already, the array is no attribute any more.
 DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
+
+/// The points of a mesh, then some of `more`: as double, unless those of the mesh are float.
+vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids);
 
 /// Gives `output` the points of a mesh, then some of `more`, with their data.
 /// @param ids which of them. @param data of `more`; or null: zeros.

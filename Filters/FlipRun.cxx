@@ -5,7 +5,10 @@
 #include "DataArrays.h"
 
 #include "vtkPoints.h"
+#include "vtkStringArray.h"
 
+#include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace delaunayflip
@@ -13,19 +16,10 @@ namespace delaunayflip
 namespace
 {
 
-/// Of arrays also how many values there are: cells grow in place without being marked as modified.
-void Stamp(vtkObject* object, std::vector<vtkMTimeType>& stamps)
+Stamps StampPoints(vtkPolyData* mesh)
 {
-  auto* array = vtkAbstractArray::SafeDownCast(object);
-  stamps.push_back(object ? object->GetMTime() : 0);
-  stamps.push_back(array ? static_cast<vtkMTimeType>(array->GetNumberOfValues()) : 0);
-}
-
-std::vector<vtkMTimeType> StampPoints(vtkPolyData* mesh)
-{
-  std::vector<vtkMTimeType> stamps;
-  Stamp(mesh->GetPoints(), stamps);
-  Stamp(mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr, stamps);
+  Stamps stamps;
+  stamps.AddPoints(mesh);
   return stamps;
 }
 
@@ -58,6 +52,82 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
 }
 
 //------------------------------------------------------------------------------
+void Stamps::AddArray(vtkAbstractArray* array, vtkObject* owner, vtkMTimeType since)
+{
+  this->All.push_back({ array, owner, 0, array ? array->GetNumberOfValues() : 0 });
+  this->All.back().Time = std::max(since, this->All.back().FindTime());
+}
+
+void Stamps::AddCells(vtkCellArray* cells)
+{
+  this->AddArray(cells->GetOffsetsArray(), cells);
+  this->AddArray(cells->GetConnectivityArray(), cells);
+}
+
+void Stamps::AddPoints(vtkPolyData* mesh, vtkMTimeType since)
+{
+  vtkPoints* points = mesh->GetPoints();
+  this->AddArray(points ? points->GetData() : nullptr, points, since);
+}
+
+void Stamps::AddArrays(vtkFieldData* data)
+{
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    this->AddArray(data->GetAbstractArray(i));
+  }
+  if (auto* attributes = vtkDataSetAttributes::SafeDownCast(data))
+  {
+    int numbers[vtkDataSetAttributes::NUM_ATTRIBUTES];
+    attributes->GetAttributeIndices(numbers);
+    std::for_each(
+      std::begin(numbers), std::end(numbers), [this](int number) { this->AddNumber(number); });
+  }
+}
+
+bool Stamps::Fit(const Stamps& now) const
+{
+  return std::equal(this->All.begin(), this->All.end(), now.All.begin(), now.All.end(),
+    [](const Stamp& a, const Stamp& b) { return a.Fits(b); });
+}
+
+vtkMTimeType Stamps::Stamp::FindTime() const
+{
+  return std::max(
+    this->Array ? this->Array->GetMTime() : 0, this->Owner ? this->Owner->GetMTime() : 0);
+}
+
+/// Values are compared only if they are in different memory and nobody has changed them since.
+bool Stamps::Stamp::Fits(const Stamp& now) const
+{
+  vtkAbstractArray* a = this->Array;
+  vtkAbstractArray* b = now.Array;
+  if (this->Count == now.Count && this->Time == now.Time)
+  {
+    return true;
+  }
+  const auto getName = [](vtkAbstractArray* array)
+  { return std::string(array->GetName() ? array->GetName() : ""); };
+  if (!a || !b || a == b || a->GetNumberOfValues() != now.Count || this->Count != now.Count ||
+    this->FindTime() > this->Time || a->GetDataType() != b->GetDataType() ||
+    a->GetNumberOfComponents() != b->GetNumberOfComponents() || getName(a) != getName(b))
+  {
+    return false;
+  }
+  if (auto* texts = vtkStringArray::SafeDownCast(a))
+  {
+    const auto* first = texts->GetPointer(0);
+    return std::equal(first, first + now.Count, vtkStringArray::SafeDownCast(b)->GetPointer(0));
+  }
+  const auto size = static_cast<std::size_t>(a->GetDataTypeSize()); // 0: of bits
+  return size > 0 && vtkDataArray::SafeDownCast(a) && a->HasStandardMemoryLayout() &&
+    b->HasStandardMemoryLayout() &&
+    (now.Count == 0 ||
+      (a->GetVoidPointer(0) != b->GetVoidPointer(0) &&
+        std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), size * now.Count) == 0));
+}
+
+//------------------------------------------------------------------------------
 FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
   : UpdateRun(std::move(plan)),
     Asked(request),
@@ -71,30 +141,25 @@ FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
 {
 }
 
-/// Of the attributes only region labels and ghosts matter.
-FlipRun::Stamps FlipRun::StampEdges(const FlipRequest& request)
+/// Of the attributes only region labels and ghosts matter, of the verts only their number.
+Stamps FlipRun::StampEdges(const FlipRequest& request)
 {
-  Stamps stamps{ static_cast<vtkMTimeType>(request.Input->GetNumberOfPoints()) };
-  const auto stampCells = [&stamps](vtkCellArray* cells)
-  {
-    Stamp(cells, stamps);
-    Stamp(cells->GetOffsetsArray(), stamps);
-    Stamp(cells->GetConnectivityArray(), stamps);
-  };
-  stampCells(request.Input->GetPolys());
-  stampCells(request.Input->GetStrips());
-  stampCells(request.Input->GetLines());
+  Stamps stamps;
+  stamps.AddNumber(request.Input->GetNumberOfPoints());
+  stamps.AddNumber(request.Input->GetNumberOfVerts());
+  stamps.AddCells(request.Input->GetPolys());
+  stamps.AddCells(request.Input->GetStrips());
+  stamps.AddCells(request.Input->GetLines());
   vtkCellData* data = request.Input->GetCellData();
-  Stamp(data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()), stamps);
-  Stamp(data->GetAbstractArray(request.Settings.RegionArray.c_str()), stamps);
+  stamps.AddArray(data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  stamps.AddArray(data->GetAbstractArray(request.Settings.RegionArray.c_str()));
   if (request.Constraints)
   {
-    stampCells(request.Constraints->GetPolys());
-    stampCells(request.Constraints->GetLines());
+    stamps.AddCells(request.Constraints->GetPolys());
+    stamps.AddCells(request.Constraints->GetLines());
     if (request.Constraints->GetPoints() != request.Input->GetPoints())
     {
-      const Stamps points = StampPoints(request.Constraints);
-      stamps.insert(stamps.end(), points.begin(), points.end());
+      stamps.AddPoints(request.Constraints);
     }
   }
   return stamps;
@@ -142,8 +207,8 @@ bool FlipRun::ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest
 {
   auto* last = static_cast<FlipRun*>(run.get());
   const bool fits = last && last->Asked.Options == request.Options &&
-    last->Asked.Settings == request.Settings && last->Edges == StampEdges(request);
-  if (fits && last->Points == StampPoints(request.Input))
+    last->Asked.Settings == request.Settings && last->Edges.Fit(StampEdges(request));
+  if (fits && last->Points.Fit(StampPoints(request.Input)))
   {
     if (last->Time != request.Input->GetMTime())
     {

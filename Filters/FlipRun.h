@@ -63,6 +63,40 @@ protected:
 /// A shallow copy, but with points of its own.
 vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input);
 
+/// What the arrays of an input were like, to tell whether they have changed since.
+class Stamps
+{
+public:
+  void AddNumber(vtkIdType number) { this->All.push_back({ nullptr, nullptr, 0, number }); }
+
+  /// @param array or null. @param owner which may be marked as modified instead of the array.
+  /// @param since when else it may have been modified.
+  void AddArray(vtkAbstractArray* array, vtkObject* owner = nullptr, vtkMTimeType since = 0);
+  void AddCells(vtkCellArray* cells);
+  void AddPoints(vtkPolyData* mesh, vtkMTimeType since = 0);
+
+  /// And which arrays are active.
+  void AddArrays(vtkFieldData* data);
+
+  /// Whether these arrays are the same objects and unchanged or, as where a reader whose output was
+  /// released has been executed again, others with the same values.
+  bool Fit(const Stamps& now) const;
+
+private:
+  struct Stamp
+  {
+    vtkSmartPointer<vtkAbstractArray> Array;
+    vtkSmartPointer<vtkObject> Owner;
+    vtkMTimeType Time; ///< No two objects ever have the same one.
+    vtkIdType Count; ///< Of values: cells grow in place without being marked as modified.
+
+    vtkMTimeType FindTime() const;
+    bool Fits(const Stamp& now) const;
+  };
+
+  std::vector<Stamp> All;
+};
+
 /// The run of a vtkDelaunayFlip.
 class FlipRun : public UpdateRun
 {
@@ -81,9 +115,6 @@ public:
   bool Store(vtkPolyData* output) const override;
 
 private:
-  /// Modification times, of which no two objects ever have the same one, and sizes of arrays.
-  using Stamps = std::vector<vtkMTimeType>;
-
   /// Where a warm start begins; empty for other runs.
   struct Start
   {

@@ -28,15 +28,13 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 namespace delaunayflip
 {
 namespace
 {
-
-/// The cell array by which a joined mesh is divided again.
-constexpr const char* OwnerName = "vtkDelaunayFlipPartition";
 
 /// The leaves of AMR, which is a tree from VTK 9.6 on, are grids.
 vtkDataObjectTree* GetTree(vtkDataObject* data)
@@ -105,10 +103,50 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
   return blocks;
 }
 
+namespace
+{
+
+/// Whether the second input is a single dataset.
+bool IsOfAll(const std::vector<MeshBlock>& others)
+{
+  return others.size() == 1 && others.front().Place.empty();
+}
+
+}
+
+std::vector<Note> ListMisfits(
+  const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others)
+{
+  std::set<std::vector<std::int64_t>> places;
+  for (const MeshBlock& block : blocks)
+  {
+    places.insert(block.Place);
+  }
+  std::vector<Note> notes;
+  for (const MeshBlock& other : others)
+  {
+    const bool fits = IsOfAll(others) || places.count({}) > 0 || places.count(other.Place) > 0;
+    for (const BlockLeaf& leaf : other.Leaves)
+    {
+      auto* mesh = vtkPolyData::SafeDownCast(leaf.Data);
+      const std::string fault = !fits   ? "nothing of the first one is at its place, ignored"
+        : !mesh                         ? "not a vtkPolyData, ignored"
+        : mesh->GetNumberOfStrips() > 0 ? "triangle strips ignored"
+                                        : "";
+      if (!fault.empty() && leaf.Data->GetNumberOfElements(vtkDataObject::CELL) > 0)
+      {
+        notes.push_back(
+          { leaf.Name + (leaf.Name.empty() ? "" : " of the ") + "second input", fault });
+      }
+    }
+  }
+  return notes;
+}
+
 std::vector<BlockLeaf> ListOthers(
   const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what)
 {
-  const bool isOfAll = others.size() == 1 && others.front().Place.empty();
+  const bool isOfAll = IsOfAll(others);
   if (!others.empty() && !isOfAll && block.Place.empty())
   {
     throw InvalidOptions(what + " cannot be a composite dataset");
@@ -125,12 +163,40 @@ std::vector<BlockLeaf> ListOthers(
   return leaves;
 }
 
+namespace
+{
+
+/// Gives `copy` the structure of a tree, and leaves. @param leafOf the leaf at an iterator.
+template <typename LeafOf>
+void CopyTree(vtkDataObjectTree* tree, vtkDataObjectTree* copy, const LeafOf& leafOf)
+{
+  copy->CopyStructure(tree);
+  copy->GetFieldData()->ShallowCopy(tree->GetFieldData());
+  const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(tree->NewIterator());
+  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+  {
+    copy->SetDataSet(leaf, leafOf(leaf));
+  }
+}
+
+}
+
 vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
 {
   vtkSmartPointer<vtkDataObject> held;
-  if (data)
+  if (!data)
   {
-    held.TakeReference(data->NewInstance());
+    return held;
+  }
+  held.TakeReference(data->NewInstance());
+  vtkDataObjectTree* tree = GetTree(data);
+  if (tree) // in VTK 9.1 a shallow copy has the same leaves
+  {
+    CopyTree(tree, vtkDataObjectTree::SafeDownCast(held),
+      [](vtkCompositeDataIterator* leaf) { return Hold(leaf->GetCurrentDataObject()); });
+  }
+  else
+  {
     held->ShallowCopy(data);
   }
   return held;
@@ -153,21 +219,32 @@ void StoreResults(const std::vector<MeshBlock>& blocks, vtkDataObject* input, vt
       results[leaf.Number] = leaf.Result;
     }
   }
-  tree->CopyStructure(given);
-  tree->GetFieldData()->ShallowCopy(given->GetFieldData());
-  const auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(given->NewIterator());
-  for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-  {
-    tree->SetDataSet(leaf, results[leaf->GetCurrentFlatIndex()]);
-  }
+  CopyTree(given, tree,
+    [&](vtkCompositeDataIterator* leaf) { return results[leaf->GetCurrentFlatIndex()]; });
 }
 
 //------------------------------------------------------------------------------
 namespace
 {
 
-/// Cells of several meshes by kind (verts, lines, polygons and strips, which is the order of cell
-/// ids), and which cells they were.
+/// Verts, lines, polygons and strips, which is the order of cell ids.
+std::array<vtkCellArray*, 4> ListCells(vtkPolyData* mesh)
+{
+  return { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() };
+}
+
+/// @throws InvalidMesh when a cell names a point that does not exist.
+void RequireValidCells(vtkPolyData* mesh)
+{
+  PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
+  for (vtkCellArray* cells : ListCells(mesh))
+  {
+    VisitCells(cells, check, [](vtkIdType, vtkIdList*) {});
+    check.FirstCell += cells->GetNumberOfCells();
+  }
+}
+
+/// Cells of several meshes by kind, and which cells they were.
 class CellCollector
 {
 public:
@@ -180,29 +257,26 @@ public:
     }
   }
 
-  /// Adds cells of a mesh. @param isKept whether a cell is among them. @param newId of a point.
-  /// @throws InvalidMesh when a cell names a point that does not exist.
-  template <typename IsKept, typename NewId>
-  void Add(vtkPolyData* mesh, const IsKept& isKept, const NewId& newId)
+  /// Adds cells of a valid mesh. @param chosen their ids, ascending. @param newId of a point.
+  template <typename NewId>
+  void Add(vtkPolyData* mesh, vtkIdList* chosen, const NewId& newId)
   {
-    vtkCellArray* arrays[] = { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(),
-      mesh->GetStrips() };
-    PointIdCheck check{ "cell", 0, mesh->GetNumberOfPoints() };
+    auto cell = chosen->begin();
+    vtkIdType first = 0;
+    vtkNew<vtkIdList> ids;
     this->Sources.emplace_back();
     for (std::size_t kind = 0; kind < this->Cells.size(); ++kind)
     {
-      const auto add = [&](vtkIdType place, vtkIdList* ids)
+      vtkCellArray* array = ListCells(mesh)[kind];
+      const vtkIdType last = first + array->GetNumberOfCells();
+      for (; cell != chosen->end() && *cell < last; ++cell)
       {
-        const vtkIdType cell = check.FirstCell + place;
-        if (isKept(cell))
-        {
-          std::transform(ids->begin(), ids->end(), ids->begin(), newId);
-          this->Cells[kind]->InsertNextCell(ids);
-          this->Sources.back()[kind]->InsertNextId(cell);
-        }
-      };
-      VisitCells(arrays[kind], check, add);
-      check.FirstCell += arrays[kind]->GetNumberOfCells();
+        array->GetCellAtId(*cell - first, ids);
+        std::transform(ids->begin(), ids->end(), ids->begin(), newId);
+        this->Cells[kind]->InsertNextCell(ids);
+        this->Sources.back()[kind]->InsertNextId(*cell);
+      }
+      first = last;
     }
   }
 
@@ -257,7 +331,7 @@ std::vector<vtkSmartPointer<vtkIdList>> AddPoints(
   std::vector<std::unique_ptr<PolyDataBridge>> bridges;
   std::vector<std::vector<std::int64_t>> numbers;
   std::vector<MeshPiece> pieces;
-  bool areDoubles = false;
+  bool areFloats = true;
   for (const auto& mesh : partitions)
   {
     bridges.push_back(
@@ -266,15 +340,14 @@ std::vector<vtkSmartPointer<vtkIdList>> AddPoints(
     numbers.push_back(ReadPointNumbers(mesh));
     pieces.push_back(
       { bridges.back()->GetMesh(), numbers.back().empty() ? nullptr : numbers.back().data() });
-    areDoubles =
-      areDoubles || (mesh->GetPoints() && mesh->GetPoints()->GetDataType() == VTK_DOUBLE);
+    areFloats = areFloats && (!mesh->GetPoints() || mesh->GetPoints()->GetDataType() == VTK_FLOAT);
   }
   const JoinedPoints found = JoinPoints(pieces);
   ambiguous = found.Ambiguous;
   std::vector<vtkIdType> all; // of the points of all partitions, in the joined mesh
   std::vector<vtkSmartPointer<vtkIdList>> ids;
   vtkNew<vtkPoints> points;
-  points->SetDataType(areDoubles ? VTK_DOUBLE : VTK_FLOAT);
+  points->SetDataType(areFloats ? VTK_FLOAT : VTK_DOUBLE);
   for (const auto& mesh : partitions)
   {
     ids.push_back(vtkSmartPointer<vtkIdList>::New());
@@ -324,11 +397,17 @@ vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
   {
     return mesh;
   }
+  RequireValidCells(mesh);
+  vtkNew<vtkIdList> own;
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
+  {
+    if (cell >= ghosts->GetNumberOfValues() || !isDuplicate(ghosts->GetValue(cell)))
+    {
+      own->InsertNextId(cell);
+    }
+  }
   CellCollector cells(UsesWideIds(mesh));
-  const vtkIdType known = ghosts->GetNumberOfValues();
-  cells.Add(
-    mesh, [&](vtkIdType cell) { return cell >= known || !isDuplicate(ghosts->GetValue(cell)); },
-    [](vtkIdType id) { return id; });
+  cells.Add(mesh, own, [](vtkIdType id) { return id; });
   const auto kept = ShareMesh(mesh);
   cells.Store({ mesh }, kept);
   return kept;
@@ -347,6 +426,7 @@ JoinedMesh JoinPartitions(const MeshList& partitions, const std::string& regions
   bool areWide = false;
   for (const auto& mesh : partitions)
   {
+    RequireValidCells(mesh);
     meshes.push_back(DropDuplicateCells(mesh));
     areWide = areWide || UsesWideIds(mesh);
   }
@@ -359,22 +439,27 @@ JoinedMesh JoinPartitions(const MeshList& partitions, const std::string& regions
   CellCollector cells(areWide);
   for (std::size_t k = 0; k < meshes.size(); ++k)
   {
-    cells.Add(
-      meshes[k], [](vtkIdType) { return true; },
+    cells.Add(meshes[k], MakeRange(0, meshes[k]->GetNumberOfCells()),
       [&](vtkIdType id) { return joined.Points[k]->GetId(id); });
   }
   joined.Owners = cells.Store(meshes, joined.Mesh);
   return joined;
 }
 
-/// Divides a joined mesh after its flips. A partition has its own points first, then those that it
-/// lacks, with the arrays that the joined mesh has. Its field data come before those of that mesh.
+/// Divides a joined mesh after its flips. A partition has its own points first, with their data,
+/// then those that it lacks, with the arrays that the joined mesh has. Its field data come before
+/// those of that mesh.
 /// @param owners for each cell its partition.
 MeshList DividePartitions(vtkPolyData* flipped, vtkIntArray* owners, const MeshList& partitions,
   const std::vector<vtkSmartPointer<vtkIdList>>& points)
 {
   constexpr vtkIdType None = -1;
   MeshList divided;
+  std::vector<vtkNew<vtkIdList>> cellsOf(partitions.size());
+  for (vtkIdType cell = 0; cell < owners->GetNumberOfValues(); ++cell)
+  {
+    cellsOf[owners->GetValue(cell)]->InsertNextId(cell);
+  }
   std::vector<vtkIdType> local(flipped->GetNumberOfPoints(), None);
   for (std::size_t k = 0; k < partitions.size(); ++k)
   {
@@ -387,20 +472,21 @@ MeshList DividePartitions(vtkPolyData* flipped, vtkIntArray* owners, const MeshL
       local[id] = ids->InsertNextId(id);
     }
     CellCollector cells(UsesWideIds(own));
-    cells.Add(
-      flipped, [&](vtkIdType cell) { return owners->GetValue(cell) == static_cast<int>(k); }, take);
+    cells.Add(flipped, cellsOf[k], take);
     divided.push_back(vtkSmartPointer<vtkPolyData>::New());
     vtkPolyData* made = divided.back();
-    const vtkIdType count = ids->GetNumberOfIds();
-    vtkSmartPointer<vtkPoints> all = own->GetPoints();
-    if (count > own->GetNumberOfPoints())
+    const vtkIdType given = own->GetNumberOfPoints(), count = ids->GetNumberOfIds();
+    made->SetPoints(own->GetPoints());
+    if (count > given)
     {
-      all = vtkSmartPointer<vtkPoints>::New();
-      all->SetDataType(own->GetPoints()->GetDataType());
-      flipped->GetPoints()->GetPoints(ids, all);
+      vtkNew<vtkIdList> received;
+      received->SetNumberOfIds(count - given);
+      std::copy(ids->begin() + given, ids->end(), received->begin());
+      made->SetPoints(ExtendPoints(own, flipped->GetPoints(), received));
     }
-    made->SetPoints(all);
     AddTuples(flipped->GetPointData(), ids, MakeRange(0, count), count, made->GetPointData());
+    AddTuples(TakeWholeArrays(own->GetPointData(), given), MakeRange(0, given), MakeRange(0, given),
+      count, made->GetPointData());
     cells.Store({ flipped }, made);
     made->GetFieldData()->ShallowCopy(own->GetFieldData());
     made->GetFieldData()->PassData(flipped->GetFieldData());
@@ -450,8 +536,14 @@ BlockMesh::BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDup
     }
     else
     {
-      this->Joined.Owners->SetName(OwnerName);
-      this->Joined.Mesh->GetCellData()->AddArray(this->Joined.Owners);
+      vtkCellData* data = this->Joined.Mesh->GetCellData();
+      std::string name = "vtkDelaunayFlipPartition";
+      while (data->HasArray(name.c_str()))
+      {
+        name += " (2)";
+      }
+      this->Joined.Owners->SetName(name.c_str());
+      data->AddArray(this->Joined.Owners);
     }
   }
   else if (!this->Meshes.empty())
@@ -513,7 +605,7 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
     }
     if (sources.size() == before)
     {
-      sources.emplace_back(edges, nullptr);
+      sources.emplace_back(edges, this->IsJoined() ? nullptr : this->GetMesh());
     }
   }
   return JoinConstraints(sources);
@@ -522,12 +614,12 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
 void BlockMesh::Store(vtkPolyData* flipped)
 {
   MeshList results{ flipped };
-  vtkCellData* data = flipped ? flipped->GetCellData() : nullptr;
-  const vtkSmartPointer<vtkIntArray> owners =
-    data ? vtkIntArray::SafeDownCast(data->GetAbstractArray(OwnerName)) : nullptr;
-  if (this->IsJoined() && owners)
+  const char* name = this->IsJoined() ? this->Joined.Owners->GetName() : nullptr;
+  if (flipped && name) // not on several ranks
   {
-    data->RemoveArray(OwnerName);
+    vtkCellData* data = flipped->GetCellData();
+    const vtkSmartPointer<vtkIntArray> owners = vtkIntArray::SafeDownCast(data->GetArray(name));
+    data->RemoveArray(name);
     results = DividePartitions(flipped, owners, this->Meshes, this->Joined.Points);
   }
   auto next = results.begin();

@@ -45,6 +45,10 @@ struct MeshBlock
 /// are blocks of their own.
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
+/// What of the second input is ignored.
+std::vector<Note> ListMisfits(
+  const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others);
+
 /// The leaves of the second input, all polygonal, that are for a block: that of a single dataset,
 /// whose number is 0, or those at the same place.
 /// @param what begins the message if they cannot be composite.
@@ -68,7 +72,7 @@ struct JoinedMesh
 {
   vtkSmartPointer<vtkPolyData> Mesh;
   std::vector<vtkSmartPointer<vtkIdList>> Points; ///< For each partition, its points in the mesh.
-  vtkSmartPointer<vtkIntArray> Owners; ///< For each cell of the mesh, its partition.
+  vtkSmartPointer<vtkIntArray> Owners; ///< Its partition for each cell, by which it is divided.
 
   /// Points that coincide with others of their partition, and with one of another: it is not known
   /// which of them are meant.

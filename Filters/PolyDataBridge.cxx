@@ -585,7 +585,9 @@ void RenewNormals(vtkPolyData* output, const FindChange& findChange)
         }
       }
     });
-  output->GetCellData()->SetNormals(normals);
+  vtkCellData* data = output->GetCellData();
+  const int attributes = FindAttributes(data, shared);
+  AddAttributes(data, data->SetNormals(normals), attributes);
 }
 
 }

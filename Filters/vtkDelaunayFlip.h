@@ -61,7 +61,7 @@
  * blocks pass unchanged, with a warning. If a block fails, the error names it, its output is empty,
  * and the other blocks are flipped. The methods that return results, and the only table, have the
  * sums over all blocks; the field data of a block are its own. Composite constraints with the same
- * structure apply block by block.
+ * structure apply block by block; a warning names those that no block has.
  *
  * The partitions of a dataset (vtkPartitionedDataSet, vtkMultiPieceDataSet) are one mesh: edges
  * between them flip, too. Points of several partitions are the same if they have the same global id
@@ -69,10 +69,10 @@
  * coordinates and at least one of them is at the border of its partition. Where such a point
  * coincides with another one of its own partition, it is not known which of the two is meant; a
  * warning says so. Duplicate ghost cells (vtkGhostType) are dropped. Every triangle stays in its
- * partition, with its cell data. Points that a partition then lacks are added behind its own. Every
- * partition gets the arrays of all partitions. An array that it lacked is 0 or empty there, except
- * at points that it shares with a partition that has the array. All results are those of the whole
- * mesh.
+ * partition, with its cell data. Points that a partition then lacks are added behind its own, which
+ * become double if they are integers. Every partition gets the arrays of all partitions. An array
+ * that it lacked is 0 or empty there, except at points that it shares with a partition that has the
+ * array. All results are those of the whole mesh.
  *
  * @par References
  * - C. Navarro, N. Hitschfeld, E. Scheihing: A GPU-based method for generating quasi-Delaunay
@@ -336,7 +336,8 @@ public:
    * points, can be used. Coordinates must be equal, not just close; if one input has float points
    * and the other double, they are compared after rounding to float. If several points of the mesh
    * coincide, all pairs of them that are edges of the mesh match. Constraint edges that match no
-   * edge of the mesh and are not inserted are counted, and the update gives one warning.
+   * edge of the mesh and are not inserted are counted, and the update gives one warning. An update
+   * of a piece of the mesh asks for all of this input.
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetConstraintsData(vtkPolyData* constraints) { this->SetInputData(1, constraints); }

@@ -225,9 +225,8 @@ const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const
 
 void vtkDelaunayFlipAlgorithm::Restart()
 {
-  this->Run.reset();
-  this->CanContinue = true;
-  this->Next = NextUpdate::StepAndStore;
+  this->DropRun(true);
+  this->IsRestarted = true;
   this->Modified();
 }
 
@@ -279,6 +278,20 @@ const char* vtkDelaunayFlipAlgorithm::GetBackendUsed() const
 const FlipReport& vtkDelaunayFlipAlgorithm::GetReport() const { return *this->Report; }
 
 //------------------------------------------------------------------------------
+/// A piece of the mesh may need any of the second input.
+int vtkDelaunayFlipAlgorithm::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (vtkInformation* others = inputVector[1]->GetInformationObject(0))
+  {
+    using Asked = vtkStreamingDemandDrivenPipeline;
+    others->Set(Asked::UPDATE_PIECE_NUMBER(), 0);
+    others->Set(Asked::UPDATE_NUMBER_OF_PIECES(), 1);
+    others->Set(Asked::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+}
+
 int vtkDelaunayFlipAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -292,6 +305,7 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     ~Work() { this->IsUnderWay = false; }
   } work{ this->IsAtWork = true };
   UpdateSummary summary;
+  this->IsRestarted = false;
   try
   {
     const auto structure = Hold(input);
@@ -302,11 +316,16 @@ int vtkDelaunayFlipAlgorithm::RequestData(
       others = ListMeshBlocks(second, vtkDataObject::CELL);
       others.resize(std::max<std::size_t>(1, others.size()), { { 0 }, "", 0.0, false, {} });
     }
-    std::vector<MeshBlock> blocks = this->ListBlocks(input);
+    std::vector<MeshBlock> blocks =
+      this->ListBlocks(vtkCompositeDataSet::SafeDownCast(input) ? structure : input);
     double size = 0.0;
     for (const MeshBlock& block : blocks)
     {
       size += block.Size;
+    }
+    if (!this->Run) // live updates give each warning once
+    {
+      summary.Warnings = ListMisfits(blocks, others);
     }
     const bool isLive = blocks.size() == 1 && blocks.front().IsLive;
     if (this->LiveUpdate && !isLive && !IsBatchProgram())
@@ -322,6 +341,10 @@ int vtkDelaunayFlipAlgorithm::RequestData(
       this->FlipBlock(block, others, summary);
       before += block.Size;
     }
+    if (!isLive)
+    {
+      this->DropRun(false); // of an earlier mesh
+    }
     StoreResults(blocks, structure, output);
   }
   catch (...)
@@ -330,6 +353,10 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     output->Initialize();
     summary = UpdateSummary();
     summary.AddFailure("");
+  }
+  if (this->IsRestarted)
+  {
+    this->DropRun(true);
   }
   this->SetProgressShiftScale(0.0, 1.0);
   AddIterationColumns(this->IsSilent ? FlipReport() : summary.Report, "", table->GetRowData());
@@ -341,12 +368,17 @@ int vtkDelaunayFlipAlgorithm::RequestData(
   return 1;
 }
 
+void vtkDelaunayFlipAlgorithm::DropRun(bool canContinue)
+{
+  this->Run.reset();
+  this->CanContinue = canContinue;
+  this->Next = NextUpdate::StepAndStore;
+}
+
 /// Leaves nothing half done.
 void vtkDelaunayFlipAlgorithm::DiscardRun()
 {
-  this->Run.reset();
-  this->CanContinue = false;
-  this->Next = NextUpdate::StepAndStore;
+  this->DropRun(false);
   *this->Report = FlipReport();
 }
 
@@ -394,7 +426,9 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
     summary.AddFailure(block.Name);
     for (BlockLeaf& leaf : block.Leaves)
     {
-      leaf.Result = vtkSmartPointer<vtkPolyData>::New();
+      leaf.Result = leaf.Data->IsA(this->InputType)
+        ? vtkSmartPointer<vtkDataObject>::Take(vtkPolyData::New())
+        : Hold(leaf.Data);
     }
   }
   const std::string trouble =
@@ -435,7 +469,7 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
   const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
   const bool couldContinue = std::exchange(this->CanContinue, false);
   const bool hasWork = this->SizeOfBlocks == vtkDataObject::POINT
-    ? mesh->GetNumberOfPoints() > 0
+    ? mesh->GetNumberOfPoints() > 0 || (others && others->GetNumberOfPoints() > 0)
     : mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0;
   if (!hasWork)
   {

@@ -100,11 +100,11 @@ public:
    *
    *     do { flip->Update(); show(flip->GetOutput()); } while (flip->Advance());
    *
-   * A change of the input or of an option starts a new run. But if only the points of a mesh were
-   * moved, under the same cells, the next update continues from the flipped triangles, with the
-   * edges that were fixed at the beginning (a warm start); its statistics start again. Composite
-   * input is flipped at once, with a warning. So is any input in ParaView's pvbatch, without a
-   * warning.
+   * A change of the input, or of an option that decides the mesh, starts a new run. But if only the
+   * points of a mesh were moved, under the same cells, the next update continues from the flipped
+   * triangles, with the edges that were fixed at the beginning (a warm start); its statistics start
+   * again. Composite input is flipped at once, with a warning. So is any input in ParaView's
+   * pvbatch, without a warning.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);
@@ -145,7 +145,8 @@ public:
   bool Step() { return this->Advance(); }
 
   /**
-   * Makes the next update of a live run start from the input again.
+   * Makes the next update of a live run start from the input again, also when an observer calls
+   * this during an update.
    */
   void Restart();
 
@@ -287,6 +288,8 @@ protected:
     vtkInformationVector* outputVector) override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
@@ -345,6 +348,7 @@ protected:
 private:
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
+  void DropRun(bool canContinue);
   void DiscardRun();
   void FlipBlock(delaunayflip::MeshBlock& block, const std::vector<delaunayflip::MeshBlock>& others,
     delaunayflip::UpdateSummary& summary);
@@ -375,6 +379,7 @@ private:
   //
   // A change of the input or of an option begins a run, whatever the state.
   bool IsAtWork = false;
+  bool IsRestarted = false; ///< Since the last update began.
   bool CanContinue = true; ///< Whether another step can change the mesh.
   NextUpdate Next = NextUpdate::StepAndStore;
   std::unique_ptr<delaunayflip::UpdateRun> Run; ///< Of LiveUpdate.

@@ -20,6 +20,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTransform.h"
 
+#include <algorithm>
 #include <cmath>
 
 using namespace delaunayflip;
@@ -63,7 +64,8 @@ struct CloudRequest
   vtkAbstractTransform* Transform; ///< Or null.
   bool FitsPlane;
   PointOptions Options;
-  std::vector<double> Key; ///< When all of this was modified, and the values of its options.
+  Stamps Arrays; ///< Of both.
+  std::vector<double> Key; ///< The values of the options, and when the transform was modified.
   bool IsLive;
   ProgressObserver Progress;
 };
@@ -99,9 +101,7 @@ public:
   FlipReport GetReport() const override
   {
     FlipReport report = this->Session->GetReport();
-    const bool addsPoints = this->Cloud->GetPoints() != this->Given->GetPoints() ||
-      !this->Session->GetAddedPoints().empty();
-    const auto malformed = ListMalformedArrays(this->Given, !addsPoints, true);
+    const auto malformed = ListMalformedArrays(this->Given, !this->AddsPoints(), true);
     report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
     return report;
   }
@@ -116,6 +116,10 @@ public:
     {
       this->AddCrossings(output);
     }
+    if (this->AddsPoints())
+    {
+      DemoteGlobalIds(output->GetPointData());
+    }
     // Triangles may have been removed since.
     const bool fits =
       this->Room && this->Room->GetNumberOfCells() == this->Session->GetReport().Triangles;
@@ -126,6 +130,12 @@ public:
   }
 
 private:
+  bool AddsPoints() const
+  {
+    return this->Cloud->GetPoints() != this->Given->GetPoints() ||
+      !this->Session->GetAddedPoints().empty();
+  }
+
   vtkSmartPointer<vtkCellArray> MakeRoom() const
   {
     return MakeRoomForTriangles(this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8);
@@ -208,7 +218,6 @@ private:
     {
       AppendPoints(this->Given, segments->GetPoints(), added,
         TakeWholeArrays(segments->GetPointData(), otherPoints.Count), this->Cloud);
-      DemoteGlobalIds(this->Cloud->GetPointData());
     }
     return ids;
   }
@@ -242,7 +251,6 @@ private:
     zeros->SetNumberOfPoints(places->GetNumberOfIds());
     zeros->GetData()->Fill(0.0);
     AppendPoints(this->Cloud, zeros, places, nullptr, output);
-    DemoteGlobalIds(output->GetPointData());
     const auto interpolate = [&](vtkAbstractArray* array)
     {
       for (const vtkIdType i : *places)
@@ -251,9 +259,16 @@ private:
         array->InterpolateTuple(count + i, point.From, array, point.To, array, point.Share);
       }
     };
-    for (int i = 0; i < output->GetPointData()->GetNumberOfArrays(); ++i)
+    vtkPointData* data = output->GetPointData();
+    vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
+      data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {
-      interpolate(output->GetPointData()->GetAbstractArray(i));
+      vtkAbstractArray* array = data->GetAbstractArray(i);
+      if (std::count(std::begin(labels), std::end(labels), array) == 0)
+      {
+        interpolate(array);
+      }
     }
     vtkDataArray* xyz = output->GetPoints()->GetData();
     interpolate(xyz);
@@ -309,7 +324,8 @@ void vtkDelaunayFlipPoints::FlipLeaves(
       -1, -1);
   }
   using Asked = vtkStreamingDemandDrivenPipeline;
-  if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0 && block.Size > 0.0)
+  const bool isFirst = this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) <= 0;
+  if (!isFirst && block.Size > 0.0)
   {
     throw InvalidMesh("points are in several pieces; gather them in the first one, by "
                       "Redistribute DataSet with one partition in ParaView",
@@ -324,6 +340,11 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     return;
   }
   const auto others = ListOthers(block, segments, "the segments of a single dataset");
+  if (others.size() > 1)
+  {
+    throw InvalidOptions("the segments are in several partitions; join them first, by "
+                         "vtkAppendPolyData, or Merge Blocks in ParaView");
+  }
   vtkNew<vtkPolyData> cloud, output;
   cloud->SetPoints(points->GetPoints());
   cloud->GetPointData()->ShallowCopy(points->GetPointData());
@@ -335,7 +356,8 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     cloud->SetLines(mesh->GetLines());
   }
   this->TimeOfBlock = points->GetMTime();
-  this->FlipMesh(cloud, others.empty() ? nullptr : vtkPolyData::SafeDownCast(others.front().Data),
+  this->FlipMesh(cloud,
+    isFirst && !others.empty() ? vtkPolyData::SafeDownCast(others.front().Data) : nullptr,
     block.IsLive, output);
   output->SetVerts(nullptr);
   output->SetLines(nullptr);
@@ -355,21 +377,32 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   options.Outline = static_cast<OutlineKind>(this->Outline);
   options.Alpha = this->Alpha;
   options.LongestEdge = this->LongestEdge;
-  const auto write = [](vtkMTimeType time) { return static_cast<double>(time); };
-  const std::vector<double> key{ write(this->TimeOfBlock), write(cloud->GetNumberOfPoints()),
-    write(segments ? segments->GetMTime() : 0),
-    write(this->Transform ? this->Transform->GetMTime() : 0), double(this->Projection),
-    double(this->LinesAsSegments), this->PointTolerance, double(this->SplitCrossings),
-    double(this->Outline), this->Alpha, this->LongestEdge };
+  Stamps arrays;
+  for (vtkPolyData* given : { cloud, segments })
+  {
+    if (given)
+    {
+      arrays.AddPoints(given, given == cloud ? this->TimeOfBlock : 0);
+      arrays.AddCells(given->GetVerts());
+      arrays.AddCells(given->GetLines());
+      arrays.AddCells(given->GetPolys());
+      arrays.AddArrays(given->GetPointData());
+      arrays.AddArrays(given->GetFieldData());
+    }
+  }
+  const std::vector<double> key{ this->Transform ? double(this->Transform->GetMTime()) : 0.0,
+    double(this->Projection), double(this->LinesAsSegments), this->PointTolerance,
+    double(this->SplitCrossings), double(this->Outline), this->Alpha, this->LongestEdge };
   auto* last = static_cast<CloudRun*>(run.get());
-  if (last && last->Asked.Key == key && last->Asked.Options == options)
+  if (last && last->Asked.Key == key && last->Asked.Options == options &&
+    last->Asked.Arrays.Fit(arrays))
   {
     last->IsStopped = false;
     return true;
   }
   run.reset(); // its memory may be needed
   run = std::make_unique<CloudRun>(CloudRequest{ cloud, segments, this->Transform,
-    this->Projection == PROJECTION_BEST_FITTING_PLANE, options, key, isLive,
+    this->Projection == PROJECTION_BEST_FITTING_PLANE, options, std::move(arrays), key, isLive,
     this->MakeProgress() });
   return false;
 }

@@ -68,8 +68,8 @@
  * Composite input (multiblock, partitioned): the points of every block are triangulated alone;
  * blocks that are no point sets pass unchanged, with a warning. A composite second input has the
  * same structure, and its blocks apply block by block; any other applies to all. Points in several
- * partitions of one dataset are an error: join them first. So are points in any piece of a
- * pipeline but the first: gather them there.
+ * partitions of one dataset, or segments, are an error: join them first. So are points in any piece
+ * of a pipeline but the first: gather them there.
  *
  * @warning
  * The inputs are viewed, not copied, as by vtkDelaunayFlip. A projection is rounded once, to
@@ -104,9 +104,9 @@ public:
 
   ///@{
   /**
-   * The plane in which the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that
-   * with the smallest sum of squared distances to the points, seen from above. A Transform replaces
-   * both.
+   * The plane in which the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that of
+   * vtkPlane::ComputeBestFittingPlane, seen from above; of thick clouds it is some degrees off that
+   * with the smallest sum of squared distances. A Transform replaces both.
    */
   enum ProjectionType
   {

@@ -174,7 +174,7 @@ void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
     Put(message, std::string(array->GetName() ? array->GetName() : ""));
     Put(message,
       std::array<int, 3>{
-        array->GetDataType(), array->GetNumberOfComponents(), taken->IsArrayAnAttribute(i) });
+        array->GetDataType(), array->GetNumberOfComponents(), FindAttributes(taken, array) });
     if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
     {
       const auto* bytes = static_cast<const char*>(numbers->GetVoidPointer(0));
@@ -196,7 +196,7 @@ vtkSmartPointer<vtkDataSetAttributes> GetTuples(Message message, vtkIdType count
   while (!reader.IsAtEnd())
   {
     const auto name = reader.Get<std::string>();
-    const auto [type, components, attribute] = reader.Get<std::array<int, 3>>();
+    const auto [type, components, attributes] = reader.Get<std::array<int, 3>>();
     const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
     array->SetName(name.empty() ? nullptr : name.c_str());
     array->SetNumberOfComponents(components);
@@ -212,11 +212,7 @@ vtkSmartPointer<vtkDataSetAttributes> GetTuples(Message message, vtkIdType count
         array->SetVariantValue(value, vtkVariant(reader.Get<std::string>()));
       }
     }
-    const int index = data->AddArray(array);
-    if (attribute >= 0)
-    {
-      data->SetActiveAttribute(index, attribute);
-    }
+    AddAttributes(data, data->AddArray(array), attributes);
   }
   return data;
 }

@@ -43,6 +43,15 @@ std::unique_ptr<PieceGroup> vtkPDelaunayFlip::MakeGroup()
   return isShared ? MakeControllerGroup(this->Controller) : nullptr;
 }
 
+/// Several processes gather the pieces of the second input.
+int vtkPDelaunayFlip::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return this->Controller && this->Controller->GetNumberOfProcesses() > 1
+    ? this->vtkPolyDataAlgorithm::RequestUpdateExtent(request, inputVector, outputVector)
+    : this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+}
+
 //------------------------------------------------------------------------------
 namespace
 {

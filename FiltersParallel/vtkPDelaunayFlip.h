@@ -92,6 +92,8 @@ public:
 protected:
   vtkPDelaunayFlip();
   ~vtkPDelaunayFlip() override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 #ifndef __VTK_WRAP__
   /**

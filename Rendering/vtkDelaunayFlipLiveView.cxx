@@ -461,7 +461,10 @@ void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
     append->AddInputData(shown); // so that there is one
     for (vtkPolyData* block : blocks)
     {
-      append->AddInputData(block);
+      if (vtkDelaunayFlipMapper::CanDraw(block))
+      {
+        append->AddInputData(block);
+      }
     }
     append->Update();
     shown->ShallowCopy(append->GetOutput());

@@ -10,11 +10,13 @@
 #include "OpenGLFunctions.h"
 
 #include "vtkActor.h"
+#include "vtkArrayDispatch.h"
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkColorTransferFunction.h"
+#include "vtkDataArrayRange.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
@@ -126,6 +128,7 @@ struct vtkDelaunayFlipMapper::Parts
   bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
   bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
+  vtkNew<vtkLookupTable> Table;
   double TableKind = -1.0; ///< What the table was filled for: a largest count, or -1 for angles.
   bool HasWarned = false;
 
@@ -138,13 +141,12 @@ struct vtkDelaunayFlipMapper::Parts
   }
 
   /// The faces are a copy of the mesh, which shares arrays, if its polygons are triangles, as in
-  /// outputs of the filter. Otherwise polygons and strips are split into triangles. Nothing can be
-  /// drawn if one names a point that does not exist: the mesh may be one that no filter has
-  /// checked.
+  /// outputs of the filter. Otherwise polygons and strips are split into triangles. There are none
+  /// if the mesh cannot be drawn: it may be one that no filter has checked.
   void ReadFaces(vtkPolyData* mesh)
   {
     this->Faces = vtkSmartPointer<vtkPolyData>::New();
-    if (mesh)
+    if (mesh && CanDraw(mesh))
     {
       this->Faces->ShallowCopy(mesh);
     }
@@ -157,26 +159,31 @@ struct vtkDelaunayFlipMapper::Parts
       this->Faces = split->GetOutput();
     }
     this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
+    vtkPoints* points = this->Faces->GetPoints();
+    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
+    {
+      areUsed[this->Ids->GetValue(i)] = 1;
+    }
     this->Box.Reset();
-    const std::int32_t* ids = this->Ids->GetPointer(0);
-    const vtkIdType count = this->Ids->GetNumberOfValues();
-    const auto points = static_cast<std::size_t>(this->Faces->GetNumberOfPoints());
-    std::vector<unsigned char> areUsed(points);
-    for (vtkIdType i = 0; i < count; ++i)
+    if (this->Ids->GetNumberOfValues() == 0)
     {
-      const auto id = static_cast<std::size_t>(ids[i]); // large if negative
-      if (id >= points)
+      return;
+    }
+    double bounds[6];
+    vtkBoundingBox::ComputeBounds(points, areUsed.data(), bounds);
+    const auto isFinite = [](double x) { return std::isfinite(x); };
+    if (!std::all_of(std::begin(bounds), std::end(bounds), isFinite))
+    {
+      for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
       {
-        return;
+        double x[3];
+        points->GetPoint(i, x);
+        areUsed[i] = areUsed[i] != 0 && std::all_of(std::begin(x), std::end(x), isFinite) ? 1 : 0;
       }
-      areUsed[id] = 1;
+      vtkBoundingBox::ComputeBounds(points, areUsed.data(), bounds);
     }
-    if (count > 0)
-    {
-      double bounds[6];
-      vtkBoundingBox::ComputeBounds(this->Faces->GetPoints(), areUsed.data(), bounds);
-      this->Box.SetBounds(bounds);
-    }
+    this->Box.SetBounds(bounds);
   }
 
   /// Keeps those that there are, if they have the right sizes.
@@ -343,9 +350,8 @@ vtkStandardNewMacro(vtkDelaunayFlipMapper);
 vtkDelaunayFlipMapper::vtkDelaunayFlipMapper()
   : Own(new Parts)
 {
-  vtkNew<vtkLookupTable> table;
-  FillTable(table, -1.0);
-  this->SetLookupTable(table);
+  FillTable(this->Own->Table, -1.0);
+  this->SetLookupTable(this->Own->Table);
 }
 
 vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper()
@@ -365,6 +371,35 @@ void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
 }
 
 vtkDelaunayFlip* vtkDelaunayFlipMapper::GetFilter() const { return this->Own->Filter; }
+
+bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
+{
+  vtkCellArray* arrays[] = { mesh->GetPolys(), mesh->GetStrips(), mesh->GetVerts(),
+    mesh->GetLines() };
+  const vtkIdType count = mesh->GetNumberOfPoints();
+  const bool areTriples =
+    !mesh->GetPoints() || mesh->GetPoints()->GetData()->GetNumberOfComponents() == 3;
+  const auto isValid = [](vtkCellArray* cells) { return cells->IsValid(); };
+  const auto areThere = [count](vtkCellArray* cells)
+  {
+    bool are = true;
+    const auto check = [&](auto* ids)
+    {
+      const auto all = vtk::DataArrayValueRange<1>(ids);
+      are = std::all_of(all.begin(), all.end(),
+        [count](auto id)
+        { return static_cast<vtkIdType>(id) >= 0 && static_cast<vtkIdType>(id) < count; });
+    };
+    vtkDataArray* ids = cells->GetConnectivityArray();
+    if (!vtkArrayDispatch::Dispatch::Execute(ids, check))
+    {
+      check(ids);
+    }
+    return are;
+  };
+  return areTriples && std::all_of(std::begin(arrays), std::end(arrays), isValid) &&
+    std::all_of(arrays, arrays + 2, areThere);
+}
 
 bool vtkDelaunayFlipMapper::DrawsRun()
 {
@@ -467,7 +502,7 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
     const double kind = own.ByFlipCount ? own.LargestCount : -1.0;
     if (std::exchange(own.TableKind, kind) != kind)
     {
-      FillTable(vtkLookupTable::SafeDownCast(this->LookupTable), kind);
+      FillTable(own.Table, kind);
     }
     return true;
   }
@@ -554,7 +589,7 @@ void vtkDelaunayFlipMapper::SetColors(vtkShaderProgram* program, vtkProperty* pr
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &largest);
   const bool isReadable = 3 * std::max(this->Own->Count, this->Own->PointCount) <= largest;
-  auto* table = vtkLookupTable::SafeDownCast(this->LookupTable);
+  vtkLookupTable* table = this->Own->Table;
   float bands[Bands][3];
   for (int i = 0; i < Bands; ++i)
   {

@@ -20,7 +20,8 @@
  * Of the actor's property it uses ambient and diffuse coefficient, lighting, edge visibility, edge
  * colour and line width, and the colour if ColorBy is SOLID. Edges fade where triangles are smaller
  * than about seven pixels, so that a dense mesh shows its colours. The light is at the camera,
- * wherever the renderer's lights are. Up to six clipping planes are obeyed.
+ * wherever the renderer's lights are. Up to six clipping planes are obeyed. GetLookupTable() has
+ * the colours, for a vtkScalarBarActor; another table has no effect.
  *
  * @warning
  * Nothing is picked: hardware selection does not see the triangles, and other pickers see the
@@ -88,6 +89,12 @@ public:
   vtkGetMacro(ZeroCopy, bool);
   vtkBooleanMacro(ZeroCopy, bool);
   ///@}
+
+  /**
+   * Whether the cells and points of a mesh are valid, and its polygons and strips name points that
+   * exist. If not, nothing is drawn.
+   */
+  static bool CanDraw(vtkPolyData* mesh);
 
   /// Whether the filter's run is drawn, so that steps need not be put out.
   bool DrawsRun();

@@ -167,17 +167,26 @@ class Filter(VTKPythonAlgorithmBase):
             outInfo.GetInformationObject(1).Set(vtkDataObject.DATA_OBJECT(), vtkTable())
         return 1
 
+    def RequestUpdateExtent(self, request, inInfo, outInfo):
+        """A piece of the mesh may need any of the second input."""
+        others, asked = inInfo[1].GetInformationObject(0), vtkStreamingDemandDrivenPipeline
+        if others is not None:
+            others.Set(asked.UPDATE_PIECE_NUMBER(), 0)
+            others.Set(asked.UPDATE_NUMBER_OF_PIECES(), 1)
+            others.Set(asked.UPDATE_NUMBER_OF_GHOST_LEVELS(), 0)
+        return 1
+
     def RequestData(self, request, inInfo, outInfo):
-        data = [vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo)]
+        source, others, output = (vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo))
         table = vtkDataObject.GetData(outInfo, 1)
         self._is_at_work = True
         self._forget()
         try:
-            self._flip_all(*data)
+            self._flip_all(source, None if others is None else _copy(others), output)
         except Exception as error:
             self._forget()
             self._fail(error)
-            data[-1].Initialize()
+            output.Initialize()
         finally:
             self._is_at_work = False
         vtk_of(table).add_arrays(table.GetRowData(), "", self._totals.list_columns())
@@ -228,6 +237,7 @@ class Filter(VTKPythonAlgorithmBase):
 
     def _flip_all(self, source, constraints, output):
         """Flips the input, a mesh or blocks."""
+        self._warn_of_misfits(source, constraints)
         if isinstance(source, vtkCompositeDataSet):
             self._flip_blocks(source, constraints, output)
         else:
@@ -238,19 +248,27 @@ class Filter(VTKPythonAlgorithmBase):
                 ("", "LiveUpdate needs the filter in C++; this one, in Python, makes all flips at once"))
         pieces = self.GetOutputInformation(0).Get(
             vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES()) or 1
-        if pieces > 1 and self._sum.report.number_of_triangles:
+        if pieces > 1 and self._sum.report.number_of_triangles and self.kind is vtkPolyData:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
+
+    def _warn_of_misfits(self, source, others):
+        """Warns of what of the second input is ignored."""
+        places = _list_leaves(source)
+        for number, (name, data) in _list_leaves(others).items():
+            fault = ("nothing of the first one is at its place, ignored"
+                     if number and 0 not in places and number not in places
+                     else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
+                     else "triangle strips ignored" if data.GetNumberOfStrips() else "")
+            if fault and data.GetNumberOfElements(vtkDataObject.CELL):
+                self._warnings.append((name + " of the " * bool(name) + "second input", fault))
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.change(stop_reason="converged")  # the result for an input without blocks
         blocks = _copy(source)  # observers may change the input meanwhile
-        if _has_partitions(blocks, self.kind):
-            self._judge_partitions()
+        self._judge_partitions(blocks, constraints)
         output.CopyStructure(blocks)
         output.GetFieldData().ShallowCopy(blocks.GetFieldData())
-        are_own = isinstance(constraints, vtkCompositeDataSet)
-        edges = {leaf.GetCurrentFlatIndex(): leaf.GetCurrentDataObject()
-                 for leaf in _iterate(constraints.NewIterator())} if are_own else {}
+        edges = _list_leaves(constraints)
         before, total = 0, max(blocks.GetNumberOfElements(vtkDataObject.CELL), 1)
         for leaf in _iterate(blocks.NewIterator()):
             data, name = leaf.GetCurrentDataObject(), _name_leaf(leaf)
@@ -261,14 +279,15 @@ class Filter(VTKPythonAlgorithmBase):
             if not is_mesh and cells:
                 self._warnings.append((name, self.no_mesh))
             if is_mesh and self._sum.report.stop_reason != "aborted":
-                others = edges.get(leaf.GetCurrentFlatIndex()) if are_own else constraints
+                _, others = edges.get(0) or edges.get(leaf.GetCurrentFlatIndex(), ("", None))
                 result = vtkPolyData()
                 self._try_to_flip(data, others if isinstance(others, vtkPolyData) else None, result, name)
             output.SetDataSet(leaf, result)
 
-    def _judge_partitions(self):
-        self._warnings.append(
-            ("", "partitions were flipped one by one; edges between them stayed as they were"))
+    def _judge_partitions(self, blocks, _):
+        if _has_partitions(blocks, self.kind):
+            self._warnings.append(
+                ("", "partitions were flipped one by one; edges between them stayed as they were"))
 
     def _try_to_flip(self, mesh, constraints, output, where=""):
         self._totals = Totals()
@@ -342,6 +361,14 @@ def _name_leaf(leaf):
     return f"block {leaf.GetCurrentFlatIndex()}" + (f" ({name})" if name else "")
 
 
+def _list_leaves(data):
+    """The leaves of composite data by flat index, each after its name; any other data alone."""
+    if not isinstance(data, vtkCompositeDataSet):
+        return {0: ("", data)} if data is not None else {}
+    return {leaf.GetCurrentFlatIndex(): (_name_leaf(leaf), leaf.GetCurrentDataObject())
+            for leaf in _iterate(data.NewIterator())}
+
+
 def _has_partitions(blocks, kind):
     """Whether a dataset has several partitions of this class with points."""
     datasets = [blocks]
@@ -355,9 +382,15 @@ def _has_partitions(blocks, kind):
 
 
 def _copy(source):
-    """A shallow copy."""
+    """A shallow copy. Its leaves are copies, too, as only newer versions of VTK make them."""
     made = source.NewInstance()
-    made.ShallowCopy(source)
+    if isinstance(source, vtkDataObjectTree) and not source.IsA("vtkUniformGridAMR"):
+        made.CopyStructure(source)
+        made.GetFieldData().ShallowCopy(source.GetFieldData())
+        for leaf in _iterate(source.NewIterator()):
+            made.SetDataSet(leaf, _copy(leaf.GetCurrentDataObject()))
+    else:
+        made.ShallowCopy(source)
     return made
 
 
@@ -505,10 +538,15 @@ class vtkDelaunayFlipPoints(Filter):
     def SetSegmentsData(self, segments):
         self.SetInputDataObject(1, segments)
 
-    def _judge_partitions(self):
-        raise _library.InvalidMesh(
-            "the points are in several partitions; join them first, by vtkAppendDataSets, or Merge Blocks "
-            "in ParaView")
+    def _judge_partitions(self, blocks, constraints):
+        if _has_partitions(blocks, self.kind):
+            raise _library.InvalidMesh(
+                "the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
+                "Blocks in ParaView")
+        if _has_partitions(constraints, vtkPolyData):
+            raise _library.InvalidOptions(
+                "the segments are in several partitions; join them first, by vtkAppendPolyData, or Merge "
+                "Blocks in ParaView")
 
     def _pass(self, data, output, stop_reason):
         super()._pass(vtkPolyData(), output, stop_reason)
@@ -517,12 +555,17 @@ class vtkDelaunayFlipPoints(Filter):
 
     def _flip(self, data, segments, output):
         piece = vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()
-        if self.GetOutputInformation(0).Get(piece) > 0 and data.GetNumberOfPoints():
+        count = data.GetNumberOfPoints()
+        if self.GetOutputInformation(0).Get(piece) > 0:
+            segments = None
+        elif segments is not None:
+            count += segments.GetNumberOfPoints()
+        if self.GetOutputInformation(0).Get(piece) > 0 and count:
             raise _library.InvalidMesh(
                 "points are in several pieces; gather them in the first one, by Redistribute DataSet with "
                 "one partition in ParaView")
-        if data.GetNumberOfPoints() == 0 or self._is_abort_requested():
-            return self._pass(data, output, "aborted" if data.GetNumberOfPoints() else "converged")
+        if count == 0 or self._is_abort_requested():
+            return self._pass(data, output, "aborted" if count else "converged")
         cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline])
         result = triangulate(
             cloud, progress=self._observe_part(1.0), on_iteration=self._observe, **self._get_options(

@@ -48,14 +48,11 @@ class Vtk:
         for place, source in enumerate(sources, first):
             ids.InsertNextId(int(source))
             places.InsertNextId(place)
-        for i in range(own.GetNumberOfArrays()):
-            array, name = own.GetAbstractArray(i), own.GetAbstractArray(i).GetName()
+        taken = []
+        for array in _list_arrays(own):
             if array.GetNumberOfTuples() < count:
                 continue
-            target = data.GetAbstractArray(name) if name else None
-            if target is not None and (target.GetDataType() != array.GetDataType()
-                                       or target.GetNumberOfComponents() != array.GetNumberOfComponents()):
-                target, name = None, name + " (2)"
+            target, name = _find_array(data, array, taken)
             if target is None:
                 target = self.core.vtkAbstractArray.CreateArray(array.GetDataType())
                 target.SetName(name)
@@ -66,9 +63,8 @@ class Vtk:
                 if hasattr(target, "Fill"):
                     target.Fill(0)
                     target.SetLookupTable(array.GetLookupTable())
-                number, attribute = data.AddArray(target), own.IsArrayAnAttribute(i)
-                if attribute >= 0 and data.GetAbstractAttribute(attribute) is None:
-                    data.SetActiveAttribute(number, attribute)
+                _add_attributes(data, data.AddArray(target), _find_attributes(own, array))
+            taken.append(target)
             target.InsertTuples(places, ids, array)
 
     def read(self, mesh):
@@ -111,9 +107,8 @@ class Vtk:
         """
         array = mesh.GetCellData().GetAbstractArray(name)
         if array is None:
-            data = mesh.GetCellData()
-            names = [data.GetAbstractArray(i).GetName() for i in range(data.GetNumberOfArrays())]
-            listed = ", ".join(f'"{one or ""}"' for one in names) or "none"
+            names = [one.GetName() or "" for one in _list_arrays(mesh.GetCellData())]
+            listed = ", ".join(f'"{one}"' for one in names) or "none"
             raise InvalidOptions(
                 f'RegionArray: the input has no cell array named "{name}"; it has {listed}.')
         if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
@@ -256,7 +251,8 @@ class MeshInput:
                 and shared.GetNumberOfTuples() >= output.GetNumberOfCells()):
             normals = self.vtk.copy_array(shared)
             self._renew_normals(self.vtk.view(normals), self.session.triangles)
-            data.SetNormals(normals)
+            attributes = _find_attributes(data, shared)
+            _add_attributes(data, data.SetNormals(normals), attributes)
 
     def _renew_normals(self, values, triangles):
         """Writes the normals of changed triangles to those of all output cells. Normals that pointed
@@ -321,7 +317,7 @@ class Cloud(Input):
 
     def _add_points(self, others):
         """The ids of the points of the segments; those at new places are added."""
-        own = self._own
+        own = self._own if len(self._own) else others[:0]  # of the same type
         if len(others) == 0 or own.dtype == others.dtype and own.tobytes() == others.tobytes():
             return numpy.arange(len(own))
         places = numpy.concatenate(number_places(own, others))
@@ -363,10 +359,41 @@ class Cloud(Input):
             others = self._others
             self.vtk.add_tuples(
                 others.GetPointData(), others.GetNumberOfPoints(), self._sources, count, size, data)
-        for array in [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]:
-            for place, (start, end, share) in enumerate(self.ends, first):
+        labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
+        for array in _list_arrays(data):
+            for place, (start, end, share) in enumerate(() if array in labels else self.ends, first):
                 array.InterpolateTuple(place, int(start), array, int(end), array, share)
         _demote_global_ids(data)
+
+
+def _list_arrays(data):
+    return [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+
+
+def _find_array(data, like, taken):
+    """The array of `data` for tuples of another one, or None, and its name: see AddTuples in C++."""
+    def fits(array):
+        return array not in taken and (array.GetDataType(), array.GetNumberOfComponents()) == (
+            like.GetDataType(), like.GetNumberOfComponents())
+
+    name = like.GetName() or ""
+    while True:
+        found = [array for array in _list_arrays(data)
+                 if (array.GetName() or "") == name and (name or fits(array))]
+        if not found or fits(found[0]):
+            return found[0] if found else None, name or None
+        name += " (2)"
+
+
+def _find_attributes(data, array):
+    return [kind for kind in range(data.NUM_ATTRIBUTES) if data.GetAbstractAttribute(kind) is array]
+
+
+def _add_attributes(data, number, attributes):
+    """Makes an array these attributes, except those that `data` has."""
+    for kind in attributes:
+        if data.GetAbstractAttribute(kind) is None:
+            data.SetActiveAttribute(number, kind)
 
 
 def _demote_global_ids(data):
@@ -374,8 +401,7 @@ def _demote_global_ids(data):
     ids = data.GetGlobalIds()
     if ids is not None:
         data.SetActiveAttribute(-1, data.GLOBALIDS)
-        if data.GetPedigreeIds() is None:
-            data.SetPedigreeIds(ids)
+        _add_attributes(data, _list_arrays(data).index(ids), [data.PEDIGREEIDS])
 
 
 def _is_wide(cells):
@@ -390,8 +416,8 @@ def _find_ghost_fault(ghosts):
 
 
 def _describe_short(data, tuples, kind, fate):
-    arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
-    names = [array.GetName() or "" for array in arrays if array.GetNumberOfTuples() < tuples]
+    names = [array.GetName() or "" for array in _list_arrays(data)
+             if array.GetNumberOfTuples() < tuples]
     if not names:
         return []
     listed = join([f'"{name}"' for name in names], ", ")

@@ -47,6 +47,16 @@ class CommandTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+        return name
+
+    def content(self, name):
+        """The bytes of a file."""
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
     def run_command(self, *arguments, **options):
         """Runs it. The result has returncode, stdout and stderr (text)."""
         return subprocess.run(
@@ -61,15 +71,15 @@ class CommandTest(unittest.TestCase):
             **options,
         )
 
-    def succeed(self, *arguments, code=0):
+    def succeed(self, *arguments, code=0, **options):
         """Runs it and expects success."""
-        result = self.run_command(*arguments)
+        result = self.run_command(*arguments, **options)
         self.assertEqual(result.returncode, code, result.stderr)
         return result
 
-    def fail_with(self, code, *arguments, naming=()):
+    def fail_with(self, code, *arguments, naming=(), **options):
         """Runs it and expects this exit code and a one-line error with every word of `naming`."""
-        result = self.run_command(*arguments)
+        result = self.run_command(*arguments, **options)
         self.assertEqual(result.returncode, code, f"{arguments}: {result.stderr}")
         errors = [line for line in result.stderr.splitlines() if line.startswith("error: ")]
         self.assertEqual(len(errors), 1, result.stderr)
@@ -97,6 +107,13 @@ def read_report(path):
         return json.load(file, parse_constant=refuse)
 
 
+def make_cells(cells):
+    array = vtkCellArray()
+    for cell in cells:
+        array.InsertNextCell(len(cell), cell)
+    return array
+
+
 def make_mesh(points, cells, lines=()):
     """A vtkPolyData with double points."""
     coordinates = vtkPoints()
@@ -105,11 +122,8 @@ def make_mesh(points, cells, lines=()):
         coordinates.InsertNextPoint(point)
     mesh = vtkPolyData()
     mesh.SetPoints(coordinates)
-    for ids, setter in ((cells, mesh.SetPolys), (lines, mesh.SetLines)):
-        array = vtkCellArray()
-        for cell in ids:
-            array.InsertNextCell(len(cell), cell)
-        setter(array)
+    mesh.SetPolys(make_cells(cells))
+    mesh.SetLines(make_cells(lines))
     return mesh
 
 
@@ -195,6 +209,14 @@ def triangles_of(mesh):
     return cells_of(mesh.GetPolys())
 
 
+def turns_of(mesh):
+    """Twice the signed area of each triangle in x and y; negative if it turns right."""
+    points = points_of(mesh)
+    for triangle in triangles_of(mesh):
+        (ax, ay, _), (bx, by, _), (cx, cy, _) = (points[i] for i in triangle)
+        yield (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
 def triangle_set(mesh):
     """The triangles as coordinates, independent of their order and first corner."""
     points = points_of(mesh)
@@ -244,10 +266,11 @@ def same(first, second):
 
 
 class BadFileTest(CommandTest):
-    def write(self, name, content):
-        with open(self.path(name), "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
-        return name
+    def read(self, name, content):
+        """The mesh that the command makes of a file with this content, and its messages."""
+        self.write(name, content)
+        result = self.succeed(name, "out.vtp")
+        return read_mesh(self.path("out.vtp")), result.stderr
 
     def refuse(self, name, *naming):
         """Expects exit code 3, one line about the file and the reason, and no output."""

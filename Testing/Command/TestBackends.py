@@ -28,13 +28,8 @@ class BackendTest(CommandTest):
     def run_on(self, mesh, *arguments, **options):
         """The report and the standard error, in lines, of a run that succeeds."""
         path = self.path("report.json")
-        result = self.run_command(mesh, "out.vtk", "--report", path, *arguments, **options)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.succeed(mesh, "out.vtk", "--report", path, *arguments, **options)
         return read_report(path), result.stderr.splitlines()
-
-    def output(self):
-        with open(self.path("out.vtk"), "rb") as file:
-            return file.read()
 
 
 class Backends(BackendTest):
@@ -74,9 +69,9 @@ class Fallback(BackendTest):
 
     def test_the_cpu_takes_over(self):
         self.run_on(self.large, "--backend", "threads")
-        expected = self.output()
+        expected = self.content("out.vtk")
         report, lines = self.run_on(self.large, env=with_old_driver())
-        self.assertEqual(self.output(), expected)
+        self.assertEqual(self.content("out.vtk"), expected)
         self.assertRegex(report["backend"], r"^Threads: \d+$")
         self.assertEqual(list(report).index("fallback"), list(report).index("backend") + 1)
         self.assertRegex(report["fallback"], "^CUDA could not .*update NVIDIA's driver$")
@@ -90,8 +85,7 @@ class Fallback(BackendTest):
 
     def test_forced_does_not_fall_back(self):
         arguments = (self.large, "out.vtk", "--backend", "cuda")
-        result = self.run_command(*arguments, env=with_old_driver())
-        self.assertEqual(result.returncode, 5, result.stderr)
+        result = self.fail_with(5, *arguments, env=with_old_driver())
         self.assertRegex(result.stderr, "^error: CUDA could not .*update NVIDIA's driver\n$")
         self.assertFalse(os.path.exists(self.path("out.vtk")))
 

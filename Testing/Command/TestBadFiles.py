@@ -17,9 +17,7 @@ class Truncated(BadFileTest):
     def cut(self, name, keep_from=0, **settings):
         """Truncates a file at every fortieth of its length. It must be refused, or read completely
         if only the end mark or the last blank is missing."""
-        path = write_mesh(bumpy_grid(GRID, 0), self.path(name), **settings)
-        with open(path, "rb") as file:
-            whole = file.read()
+        whole = self.content(write_mesh(bumpy_grid(GRID, 0), self.path(name), **settings))
         refused = 0
         for length in range(keep_from, len(whole), max(1, len(whole) // 40)):
             self.write("cut-" + name, whole[:length])
@@ -66,13 +64,8 @@ class Truncated(BadFileTest):
 
 
 class Corrupt(BadFileTest):
-    def bytes_of(self, name):
-        write_mesh(bumpy_grid(GRID, 0), self.path(name))
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def test_stl_count(self):
-        good = self.bytes_of("a.stl")
+        good = self.content(write_mesh(bumpy_grid(GRID, 0), self.path("a.stl")))
         for count in (TRIANGLES - 1, TRIANGLES + 1, 0, 2**32 - 1):
             self.write("a.stl", good[:80] + struct.pack("<I", count) + good[84:])
             self.refuse("a.stl", f"{count} triangles", f"{len(good)}")

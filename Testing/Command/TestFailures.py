@@ -18,22 +18,11 @@ class FullDisk(CommandTest):
     def refuse(self, limit, *arguments, naming):
         """With files limited to `limit` bytes, expects exit code 3 and no new or changed file."""
         before = {name: self.content(name) for name in os.listdir(self.folder)}
-        result = self.run_command(
-            self.mesh,
-            *arguments,
+        self.fail_with(
+            3, self.mesh, *arguments, naming=[naming, "cannot be written", f"limited to {limit} byte"],
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
         )
-        self.assertEqual(result.returncode, 3, result.stderr)
-        errors = [line for line in result.stderr.splitlines() if line.startswith("error:")]
-        self.assertEqual(len(errors), 1, result.stderr)
-        self.assertIn(naming, errors[0])
-        self.assertIn("cannot be written", errors[0])
-        self.assertIn(f"limited to {limit} byte", errors[0])
         self.assertEqual(before, {name: self.content(name) for name in os.listdir(self.folder)})
-
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
 
     def test_mesh(self):
         for extension in FORMATS:
@@ -51,10 +40,9 @@ class FullDisk(CommandTest):
 
     def test_a_limit_is_not_blamed_for_other_errors(self):
         path = write_mesh(make_mesh([(0, 0, 0)] * 3, [(0, 1, 2), (0, 1)]), self.path("in.vtk"))
-        result = self.run_command(
-            path, "out.obj",
+        result = self.fail_with(
+            3, path, "out.obj",
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 20, 1 << 20)))
-        self.assertEqual(result.returncode, 3)
         self.assertRegex(result.stderr, "polygon 1 has 2 points.*can hold it\n$")
 
     def test_report_and_statistics(self):

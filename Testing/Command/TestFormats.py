@@ -81,12 +81,8 @@ class Kept(CommandTest):
             path = write_mesh(bumpy_grid(6, 0), self.path("mesh" + extension))
             self.succeed(path, "separate" + extension)
             self.succeed(path, path)
-            same, separate = self.bytes("mesh" + extension), self.bytes("separate" + extension)
+            same, separate = (self.content(name + extension) for name in ("mesh", "separate"))
             self.assertEqual(same, separate)
-
-    def bytes(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
 
 
 class Lost(CommandTest):
@@ -147,9 +143,9 @@ class Lost(CommandTest):
 class RepeatedPoints(CommandTest):
     def test_obj_keeps_vertices_that_it_repeats(self):
         """As some programs write it, with a vertex for every normal: the edge is a boundary."""
-        with open(self.path("in.obj"), "w", encoding="ascii") as file:
-            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 1\n")
-            file.write("f 1//1 2//1 3//1\nf 4//2 5//2 6//2\n")
+        self.write(
+            "in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 1\n"
+            "f 1//1 2//1 3//1\nf 4//2 5//2 6//2\n")
         self.assertIn("no two share an edge", self.succeed("in.obj", "out.vtk").stderr)
         self.assertEqual(triangles_of(read_mesh(self.path("out.vtk"))), [(0, 1, 2), (3, 4, 5)])
 

@@ -21,15 +21,7 @@ from CommandTesting import (
 )
 
 
-class Interrupt(CommandTest):
-    """The slow mesh takes 30,000 iterations, so the signal always comes before the end."""
-
-    def setUp(self):
-        super().setUp()
-        self.mesh = write_mesh(worst_case(15000), self.path("slow.vtk"))
-        with open(self.path("out.vtk"), "w", encoding="utf-8") as file:
-            file.write("precious")
-
+class TerminalTest(CommandTest):
     def start(self, *arguments, disposition=signal.SIG_DFL):
         """Starts the command with a terminal as stderr. Returns the process and the terminal."""
         terminal, far_end = pty.openpty()
@@ -44,6 +36,15 @@ class Interrupt(CommandTest):
         self.addCleanup(process.stdout.close)
         os.close(far_end)
         return process, terminal
+
+
+class Interrupt(TerminalTest):
+    """The slow mesh takes 30,000 iterations, so the signal always comes before the end."""
+
+    def setUp(self):
+        super().setUp()
+        self.mesh = write_mesh(worst_case(15000), self.path("slow.vtk"))
+        self.write("out.vtk", "precious")
 
     def stop(self, number):
         """The exit code and last output of a command that gets the signal while it flips."""
@@ -61,8 +62,7 @@ class Interrupt(CommandTest):
         self.assertEqual(code, 130)
         self.assertIn(b"interrupted", text)
         self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
-        with open(self.path("out.vtk"), encoding="utf-8") as file:
-            self.assertEqual(file.read(), "precious")
+        self.assertEqual(self.content("out.vtk"), b"precious")
 
     def test_termination(self):
         code, _ = self.stop(signal.SIGTERM)
@@ -79,20 +79,11 @@ class Interrupt(CommandTest):
         self.assertTrue(os.path.exists(self.path("new.vtk")))
 
 
-class Terminal(CommandTest):
+class Terminal(TerminalTest):
     def errors_on_terminal(self, *arguments):
-        terminal, far_end = pty.openpty()
-        self.addCleanup(os.close, terminal)
-        result = subprocess.run(
-            command_line(*arguments),
-            cwd=self.folder,
-            stdout=subprocess.PIPE,
-            stderr=far_end,
-            timeout=60,
-            check=True,
-        )
-        os.close(far_end)
-        self.assertNotIn(b"\r", result.stdout)
+        process, terminal = self.start(*arguments)
+        self.assertNotIn(b"\r", process.communicate(timeout=60)[0])
+        self.assertEqual(process.returncode, 0)
         return read_terminal(terminal)
 
     def test_progress_bar_on_a_terminal_only(self):

@@ -7,7 +7,7 @@ import random
 import struct
 import unittest
 
-from CommandTesting import BadFileTest, points_of, read_mesh
+from CommandTesting import BadFileTest, points_of
 
 TRIANGLE = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 
@@ -51,11 +51,6 @@ TEXTS = {"a.obj": 2, "a.ply": 11, "a.stl": 5, "a.vtk": 7, "a.vtp": 5}
 
 
 class Exact(BadFileTest):
-    def read(self, name, content):
-        self.write(name, content)
-        self.succeed(name, "out.vtk")
-        return read_mesh(self.path("out.vtk"))
-
     def test_every_digit_of_a_double(self):
         generator = random.Random(5)
         for name in TEXTS:
@@ -63,7 +58,7 @@ class Exact(BadFileTest):
             values = [struct.unpack("<d", struct.pack("<Q", b))[0] for b in bits]
             values = [0.1 if math.isnan(v) or math.isinf(v) else v for v in values]
             points = [tuple(values[i : i + 3]) for i in (0, 3, 6)]
-            mesh = self.read(name, as_text([map(repr, point) for point in points], name))
+            mesh, _ = self.read(name, as_text([map(repr, point) for point in points], name))
             self.assertEqual(points_of(mesh), points, name)
             self.assertTrue(mesh.GetPoints().GetData().IsA("vtkDoubleArray"))
 
@@ -71,7 +66,7 @@ class Exact(BadFileTest):
         ways = {"+1.5": 1.5, "1.": 1.0, ".5": 0.5, "-0": 0.0, "1E3": 1e3, "1e-400": 0.0, "2e-324": 0.0}
         for name in TEXTS:
             for text, value in ways.items():
-                mesh = self.read(name, as_text([(0, 0, 0), (text, 0, 0), (0, 1, 0)], name))
+                mesh, _ = self.read(name, as_text([(0, 0, 0), (text, 0, 0), (0, 1, 0)], name))
                 self.assertEqual(mesh.GetPoint(1)[0], value, (name, text))
 
     def test_nan_and_infinity_stay(self):
@@ -83,7 +78,7 @@ class Exact(BadFileTest):
                 ("-inf", -math.inf),
                 ("-Infinity", -math.inf),
             ):
-                mesh = self.read(name, as_text([(0, 0, 0), (1, text, 7), (0, 1, 0)], name))
+                mesh, _ = self.read(name, as_text([(0, 0, 0), (1, text, 7), (0, 1, 0)], name))
                 point = mesh.GetPoint(1)
                 self.assertEqual(repr(point), repr((1.0, value, 7.0)), (name, text))
                 self.assertEqual(mesh.GetPoint(2), (0, 1, 0))
@@ -99,7 +94,8 @@ class Exact(BadFileTest):
         """Slightly more than half of a float's last place; as a double it would be exactly half."""
         text = "1.00000005960464477539062500000000000001"
         content = as_text([(0, 0, 0), (text, 0, 0), (0, 1, 0)], "a.vtk").replace("double", "float")
-        self.assertEqual(self.read("a.vtk", content).GetPoint(1)[0], 1 + 2**-23)
+        mesh, _ = self.read("a.vtk", content)
+        self.assertEqual(mesh.GetPoint(1)[0], 1 + 2**-23)
 
 
 class Refused(BadFileTest):
@@ -146,9 +142,8 @@ class Lines(BadFileTest):
             expected = None
             for mark in ("", "\ufeff"):
                 for end in ("\n", "\r\n", "\r"):
-                    self.write(name, (mark + text.replace("\n", end)).encode("utf-8"))
-                    self.succeed(name, "out.vtk")
-                    points = points_of(read_mesh(self.path("out.vtk")))
+                    mesh, _ = self.read(name, mark + text.replace("\n", end))
+                    points = points_of(mesh)
                     expected = expected or points
                     self.assertEqual(points, expected, (name, mark, end))
             self.assertEqual(expected[1], (1, 0.5, 0))

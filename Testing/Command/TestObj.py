@@ -22,14 +22,9 @@ NORMALS = "vn 0 0 1\nvn 0 1 1\nvn 0 0 1\n"
 
 
 class Obj(ArrayTest):
-    def read(self, text):
-        """The mesh of a file with this text, and the messages."""
-        self.write("a.obj", text)
-        result = self.succeed("a.obj", "out.vtp")
-        return read_mesh(self.path("out.vtp")), result.stderr
-
     def test_texture_and_normals_of_points(self):
         mesh, said = self.read(
+            "a.obj",
             SQUARE + TEXTURE + NORMALS + "f 1/1/1 2/2/2 3/3/1\nf 1/1/3 3/5/3 4/4/2 # comment\n")
         data = mesh.GetPointData()
         self.assertEqual(said, "")
@@ -48,7 +43,7 @@ class Obj(ArrayTest):
             ("v 9 9 9 .5\nf 1 2 3\n", "weights (1)"),
             ("vt 0 0 .5\nf 1/1 2/1 3/1\n", "third coordinates of vt (1)"),
         ):
-            mesh, found = self.read(SQUARE + text)
+            mesh, found = self.read("a.obj", SQUARE + text)
             self.assertEqual(found, f"warning: a.obj: left out {said}\n")
             if "third" not in said:
                 self.assertEqual(mesh.GetPointData().GetNumberOfArrays(), 0)
@@ -71,13 +66,14 @@ class Obj(ArrayTest):
 
     def test_comments_and_continued_lines(self):
         mesh, _ = self.read(
+            "a.obj",
             "# v 9 9 9\\\nv 0 0 0 # here\nv 1 \\\n 0 0\n\tv 1 1 0\nv 0 1 0\nf 1 2 \\ \r\n 3 \\\n4\n"
         )
         self.assertEqual(points_of(mesh), [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
         self.assertEqual(len(triangles_of(mesh)), 2)
 
     def test_indices_of_later_vertices(self):
-        mesh, _ = self.read("f 1 2 3\nl 1 2\n" + SQUARE + "f -4 -2 -1\n")
+        mesh, _ = self.read("a.obj", "f 1 2 3\nl 1 2\n" + SQUARE + "f -4 -2 -1\n")
         self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
         self.assertEqual(cells_of(mesh.GetLines()), [(0, 1)])
 

@@ -190,16 +190,14 @@ class ManyThreads(CommandTest):
         arguments = (path, "out.vtk", "--backend", "threads", "--threads")
         backend = self.report(*arguments, 65536)["backend"]
         self.assertLessEqual(int(backend.split()[1]), max(16, 2 * os.cpu_count()))
-        with open(self.path("out.vtk"), "rb") as file:
-            expected = file.read()
+        expected = self.content("out.vtk")
         for megabytes in (200, 250, 300, 350, 400, 500, 800):  # with room for a few of their stacks
             limit = megabytes << 20
             result = self.run_command(
                 *arguments, "2000",
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
             if result.returncode == 0:
-                with open(self.path("out.vtk"), "rb") as file:
-                    self.assertEqual(file.read(), expected)
+                self.assertEqual(self.content("out.vtk"), expected)
             else:
                 self.assertEqual(result.returncode, 3)
                 # The second is said where VTK itself ends the process.

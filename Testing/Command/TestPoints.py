@@ -15,6 +15,7 @@ from CommandTesting import (
     read_mesh,
     triangle_set,
     triangles_of,
+    turns_of,
     write_mesh,
 )
 
@@ -28,13 +29,9 @@ def grid(columns, spacing=1.0):
 
 def area_of(mesh):
     """The sum of the triangles' areas in x and y; all must turn counter-clockwise."""
-    points, total = points_of(mesh), 0.0
-    for a, b, c in triangles_of(mesh):
-        (ax, ay, _), (bx, by, _), (cx, cy, _) = points[a], points[b], points[c]
-        area = ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / 2
-        assert area > 0
-        total += area
-    return total
+    turns = list(turns_of(mesh))
+    assert all(turn > 0 for turn in turns)
+    return sum(turns) / 2
 
 
 def edges_of(mesh):

@@ -16,14 +16,6 @@ class ReplaceTest(CommandTest):
         super().setUp()
         self.mesh = write_mesh(bumpy_grid(6, 0), self.path("mesh.vtk"))
 
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="ascii") as file:
-            file.write(text)
-
 
 class Links(ReplaceTest):
     def check_link(self, link, target):

@@ -12,9 +12,8 @@ from CommandTesting import (
     bad_mesh,
     bumpy_grid,
     make_mesh,
-    points_of,
     read_mesh,
-    triangles_of,
+    turns_of,
     worst_case,
     write_mesh,
 )
@@ -49,8 +48,8 @@ class Report(CommandTest):
         report = self.report(*arguments[:2], "--tolerance", 0.1)
         self.assertEqual(report["warnings"], said)
         self.assertEqual(sum("olerance" in warning for warning in said), 1, said)
-        with open(self.path("in.obj"), "w", encoding="ascii") as file:
-            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 2/1\n")
+        self.write(
+            "in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 2/1\n")
         (texture, _) = self.report("in.obj", "out.vtk")["warnings"]
         self.assertIn("in.obj: left out vt (2)", texture)
 
@@ -103,14 +102,6 @@ class Statistics(CommandTest):
         ):
             self.assertEqual(report[key], sum(self.column(rows, name)))
         self.assertEqual(report["min_angle_after_deg"], float(rows[-1]["MinimumAngle"]))
-
-
-def turns_of(mesh):
-    """Twice the signed area of each triangle in x and y; negative if it turns right."""
-    points = points_of(mesh)
-    for triangle in triangles_of(mesh):
-        (ax, ay, _), (bx, by, _), (cx, cy, _) = (points[i] for i in triangle)
-        yield (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
 class Summary(CommandTest):

@@ -5,7 +5,7 @@
 import math
 import unittest
 
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataSetAttributes
+from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
 from CommandTesting import (
@@ -13,6 +13,7 @@ from CommandTesting import (
     BadFileTest,
     bumpy_grid,
     cells_of,
+    make_cells,
     make_mesh,
     make_values,
     points_of,
@@ -24,13 +25,6 @@ from CommandTesting import (
 )
 
 GRID = 4
-
-
-def cells_array(cells):
-    array = vtkCellArray()
-    for cell in cells:
-        array.InsertNextCell(len(cell), cell)
-    return array
 
 
 def read_all(path):
@@ -62,7 +56,7 @@ class Read(ArrayTest):
         """Several arrays of each kind, on verts, lines and triangles, which are Delaunay already."""
         points = [(x, y + x / 16, 0) for x in range(4) for y in range(3)]
         mesh = make_mesh(points, [(0, 3, 1), (1, 3, 4)], [(0, 1, 2), (5, 8)])
-        mesh.SetVerts(cells_array([(2,), (0,)]))
+        mesh.SetVerts(make_cells([(2,), (0,)]))
         for data, size in ((mesh.GetPointData(), 12), (mesh.GetCellData(), 6)):
             for kind, components in (("Scalars", 1), ("Vectors", 3), ("Normals", 3), ("TCoords", 2)):
                 for number in range(2):
@@ -116,9 +110,9 @@ class Read(ArrayTest):
 
     def test_every_kind_of_cell(self):
         mesh = make_mesh([(x, y, 0) for x in range(4) for y in range(2)], [(0, 2, 3, 1)])
-        mesh.SetStrips(cells_array([(2, 3, 4, 5), (4, 6, 5)]))
-        mesh.SetVerts(cells_array([(7,), (0, 1)]))
-        mesh.SetLines(cells_array([(0, 2, 4), (1, 3)]))
+        mesh.SetStrips(make_cells([(2, 3, 4, 5), (4, 6, 5)]))
+        mesh.SetVerts(make_cells([(7,), (0, 1)]))
+        mesh.SetLines(make_cells([(0, 2, 4), (1, 3)]))
         for name in self.written(mesh):
             self.succeed(name, "out.vtk")
             found = read_mesh(self.path("out.vtk"))
@@ -142,8 +136,7 @@ class LostByVtk(BadFileTest):
     def damaged(self):
         """Damaged files, each with the attribute of Piece that shows it."""
         path = write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), SetDataModeToAscii=())
-        with open(path, encoding="ascii") as file:
-            good = file.read()
+        good = self.content(path).decode()
         words = '<FieldData><Array type="String" Name="w" format="ascii" {}>104 101 abc 0</Array></FieldData>'
         field = "<PolyData>\n" + words.format('NumberOfTuples="1"')
         yield "NumberOfPoints", good.replace("<PolyData>", field)
@@ -165,8 +158,7 @@ class LostByVtk(BadFileTest):
             for compressor in ("None", "LZ4"):
                 settings = {f"SetDataModeTo{mode}": (), f"SetCompressorTypeTo{compressor}": ()}
                 write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), **settings)
-                with open(path, encoding="latin-1") as file:
-                    binary = file.read()
+                binary = self.content(path).decode("latin-1")
                 for kind, count in (("Polys", 18), ("Points", 16)):
                     for wrong in (count - 1, count + 1):
                         old, new = (f'NumberOf{kind}="{n}"' for n in (count, wrong))
@@ -180,8 +172,7 @@ class LostByVtk(BadFileTest):
                 self.write("mesh.vtp", before)
                 self.refuse("mesh.vtp")
                 self.fail_with(3, "mesh.vtp", "mesh.vtp", naming=["mesh.vtp"])
-                with open(self.path("mesh.vtp"), "rb") as file:
-                    self.assertEqual(file.read(), before)
+                self.assertEqual(self.content("mesh.vtp"), before)
                 good = write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk"))
                 self.fail_with(3, good, "out.vtk", "--constraints", "mesh.vtp", naming=["mesh.vtp"])
 
@@ -206,9 +197,8 @@ class LostByVtk(BadFileTest):
 
     def test_newer_version(self):
         """Only a warning, since the file may be readable."""
-        write_mesh(bumpy_grid(GRID, 0), self.path("a.vtk"), SetFileTypeToASCII=())
-        with open(self.path("a.vtk"), encoding="ascii") as file:
-            text = file.read()
+        path = write_mesh(bumpy_grid(GRID, 0), self.path("a.vtk"), SetFileTypeToASCII=())
+        text = self.content(path).decode()
         self.assertIn("Version 5.1", text)
         self.write("a.vtk", text.replace("Version 5.1", "Version 6.7"))
         self.assertRegex(self.succeed("a.vtk", "out.vtk").stderr, r"^warning: .*6\.7.*\n$")
@@ -223,9 +213,7 @@ class Written(ArrayTest):
             getattr(mesh, add)().AddArray(words)
             source = write_mesh(mesh, self.path("in.vtk"), SetFileTypeToASCII=())
             self.succeed(source, "out.vtp")
-            with open(source, encoding="ascii") as file:
-                text = file.read()
-            self.write("in.vtk", text.replace("\na\n", "\na%00b\n", 1))
+            self.write("in.vtk", self.content(source).replace(b"\na\n", b"\na%00b\n", 1))
             self.fail_with(3, "in.vtk", "new.vtp", naming=["new.vtp", "words", "zero byte", ".vtk"])
             self.succeed("in.vtk", "out.vtk")
 

@@ -24,8 +24,7 @@ struct Layout
   static constexpr int Components = ComponentsT;
 };
 
-template <typename Tested>
-class DeviceLayoutTest : public testing::Test
+class TestOfADevice : public testing::Test
 {
 protected:
   void SetUp() override
@@ -37,30 +36,20 @@ protected:
   }
 };
 
+template <typename Tested>
+class DeviceLayoutTest : public TestOfADevice
+{
+};
+
 using Layouts = testing::Types<Layout<float, std::int32_t, 3>, Layout<float, std::int64_t, 2>,
   Layout<double, std::int32_t, 2>, Layout<double, std::int64_t, 3>>;
 TYPED_TEST_SUITE(DeviceLayoutTest, Layouts);
 
 using Arrays = DeviceArrays<double, std::int32_t>;
 
-class DeviceMeshTest : public testing::Test
+class DeviceMeshTest : public TestOfADevice
 {
 protected:
-  void SetUp() override
-  {
-    if (!HasTestDevice())
-    {
-      GTEST_SKIP() << "no GPU";
-    }
-  }
-
-  static FlipOptions On(BackendKind backend)
-  {
-    FlipOptions options;
-    options.Backend = backend;
-    return options;
-  }
-
   OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(2000, 71);
 };
 
@@ -74,9 +63,7 @@ FlipReport ExpectSame(const TriangleMesh& mesh, const FlipOptions& options, int 
   session.Advance();
   session.StoreTriangles(device.ViewResult(), {});
   session.StoreFlipCounts(device.FlipCounts.Data(), {});
-  FlipOptions onThreads = options;
-  onThreads.Backend = BackendKind::Threads;
-  const FlipResult expected = Flip(mesh, onThreads);
+  const FlipResult expected = Flip(mesh, OnBackend(BackendKind::Threads, options));
   const std::vector<Id> ids(expected.Triangles.begin(), expected.Triangles.end());
   EXPECT_TRUE(ids == device.Result.Get());
   EXPECT_TRUE(expected.FlipCounts == device.FlipCounts.Get());
@@ -139,11 +126,9 @@ TEST_F(DeviceMeshTest, ConstraintsRegionsAndFrozenTrianglesAreTheHosts)
   }
   const std::vector<std::int64_t> edges(
     this->Mesh.Triangles.begin(), this->Mesh.Triangles.begin() + 60);
-  TriangleMesh mesh = this->Mesh.View();
+  TriangleMesh mesh = WithConstraints(this->Mesh.View(), edges);
   mesh.Regions = regions.data();
   mesh.FrozenTriangles = frozen.data();
-  mesh.ConstraintEdges = edges.data();
-  mesh.NumberOfConstraintEdges = 30;
   const FlipReport report = ExpectSame(mesh, {});
   EXPECT_LT(0, report.Edges.Region);
   EXPECT_LT(0, report.Edges.Constraint);
@@ -151,15 +136,13 @@ TEST_F(DeviceMeshTest, ConstraintsRegionsAndFrozenTrianglesAreTheHosts)
 
 TEST_F(DeviceMeshTest, ConstraintsAreInserted)
 {
-  const std::int64_t edge[] = { 100, 200 };
+  const std::vector<std::int64_t> edge{ 100, 200 };
   const unsigned char flag = 1;
-  TriangleMesh mesh = this->Mesh.View();
-  mesh.ConstraintEdges = edge;
-  mesh.NumberOfConstraintEdges = 1;
+  TriangleMesh mesh = WithConstraints(this->Mesh.View(), edge);
   mesh.ConstraintsToInsert = &flag;
   for (const BackendKind backend : { BackendKind::Auto, BackendKind::CUDA })
   {
-    const FlipReport report = ExpectSame(mesh, On(backend));
+    const FlipReport report = ExpectSame(mesh, OnBackend(backend));
     EXPECT_EQ(1, report.InsertedConstraints);
     EXPECT_LT(0, report.ConstraintFlips);
   }
@@ -167,11 +150,11 @@ TEST_F(DeviceMeshTest, ConstraintsAreInserted)
 
 TEST_F(DeviceMeshTest, ThreadsGetACopy)
 {
-  const FlipReport report = ExpectSame(this->Mesh.View(), On(BackendKind::Threads));
+  const FlipReport report = ExpectSame(this->Mesh.View(), OnBackend(BackendKind::Threads));
   EXPECT_EQ(0u, report.Backend.rfind("Threads: ", 0)) << report.Backend;
   const OwnedMesh<float> floats = MakeRandomBadMesh(500, 73);
   const DeviceArrays<float, std::int64_t> device(floats.View(), 2);
-  ExpectSame(floats.View(), On(BackendKind::Threads), 2, device);
+  ExpectSame(floats.View(), OnBackend(BackendKind::Threads), 2, device);
 }
 
 TEST_F(DeviceMeshTest, TheResultMayReplaceTheInput)
@@ -186,7 +169,7 @@ TEST_F(DeviceMeshTest, EveryStepCanBeStored)
 {
   const Arrays device(this->Mesh.View(), 3);
   FlipSession onDevice(device.View(), {});
-  FlipSession onHost(this->Mesh.View(), On(BackendKind::Threads));
+  FlipSession onHost(this->Mesh.View(), OnBackend(BackendKind::Threads));
   std::vector<std::int32_t> expected(this->Mesh.Triangles.size());
   const MutableTriangleArray host(expected.data(), this->Mesh.NumberOfTriangles());
   bool isRunning = true;
@@ -204,11 +187,11 @@ TEST_F(DeviceMeshTest, EveryStepCanBeStored)
 
 TEST_F(DeviceMeshTest, AnySessionStoresOnADevice)
 {
-  const FlipResult expected = Flip(this->Mesh.View(), On(BackendKind::Threads));
+  const FlipResult expected = Flip(this->Mesh.View(), OnBackend(BackendKind::Threads));
   for (const BackendKind backend : { BackendKind::Threads, BackendKind::CUDA })
   {
     const DeviceArrays<double, std::int64_t> device(this->Mesh.View(), 3);
-    FlipSession session(this->Mesh.View(), On(backend));
+    FlipSession session(this->Mesh.View(), OnBackend(backend));
     session.Advance();
     session.StoreTriangles(device.ViewResult(), {});
     session.StoreFlipCounts(device.FlipCounts.Data(), {});
@@ -216,7 +199,7 @@ TEST_F(DeviceMeshTest, AnySessionStoresOnADevice)
     EXPECT_TRUE(std::vector<std::int32_t>(ids.begin(), ids.end()) == expected.Triangles);
     EXPECT_TRUE(expected.FlipCounts == device.FlipCounts.Get());
   }
-  FlipOptions inPieces = On(BackendKind::Threads);
+  FlipOptions inPieces = OnBackend(BackendKind::Threads);
   inPieces.NumberOfPieces = 3;
   FlipSession divided(this->Mesh.View(), inPieces);
   divided.Advance();

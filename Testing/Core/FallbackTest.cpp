@@ -27,13 +27,6 @@ class FallbackTest : public testing::Test
 protected:
   ~FallbackTest() override { CallsToFailure = 0; }
 
-  void SetUp() override
-  {
-    FlipOptions options;
-    options.Backend = BackendKind::Threads;
-    this->Expected = Flip(this->Mesh.View(), options);
-  }
-
   /// A session whose backend fails at some call, in steps of two iterations.
   FlipSession RunInSteps(int failingCall, const ProgressObserver& progress = {}) const
   {
@@ -56,7 +49,7 @@ protected:
   }
 
   OwnedMesh<double> Mesh = MakeRandomBadMeshDouble(12000, 35);
-  FlipResult Expected;
+  FlipResult Expected = Flip(this->Mesh.View(), OnBackend(BackendKind::Threads));
 };
 
 /// What is asked of an observer: false from the moment on when the backend has failed.
@@ -85,9 +78,7 @@ TEST_F(FallbackTest, PagesOfExpectedMemoryAreTouchedOnceAndOnlyForAGpu)
   constexpr std::int64_t Page = 4096, Pages = 1000, Bytes = Page * Pages + 1;
   for (const BackendKind backend : { BackendKind::CUDA, BackendKind::Threads })
   {
-    FlipOptions options;
-    options.Backend = backend;
-    FlipSession session(this->Mesh.View(), options);
+    FlipSession session(this->Mesh.View(), OnBackend(backend));
     std::vector<char> memory(Bytes, 'x');
     session.Expect(memory.data(), Bytes);
     session.Advance(1);
@@ -117,9 +108,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     const std::vector<std::int64_t> segments = { 0, 9000, 20, 7000, 11, 12, 1, 2000 };
     points.Segments = segments.data();
     points.NumberOfSegments = 4;
-    PointOptions threads;
-    threads.Backend = BackendKind::Threads;
-    FlipSession expected(points, threads);
+    FlipSession expected(points, PointOptions{ OnBackend(BackendKind::Threads) });
     expected.Advance();
     for (int call = 1; CallsToFailure == 0; call += 1 + (Reduction > 1 ? call : call / 8))
     {
@@ -234,9 +223,7 @@ TEST_F(FallbackTest, NothingPassesThroughTheHost)
 
 TEST_F(FallbackTest, AForcedGpuFails)
 {
-  FlipOptions options;
-  options.Backend = BackendKind::CUDA;
-  FlipSession session(this->Mesh.View(), options);
+  FlipSession session(this->Mesh.View(), OnBackend(BackendKind::CUDA));
   CallsToFailure = 1;
   EXPECT_THROW(session.Advance(), BackendUnavailable);
 }
@@ -250,8 +237,8 @@ TEST(RanksTest, MakeTheSameWhereverTheFirstFlipsAre)
   std::vector<FlippedPiece> onThreads(Ranks), onDevice(Ranks);
   for (std::vector<FlippedPiece>* flipped : { &onThreads, &onDevice })
   {
-    FlipOptions options;
-    options.Backend = flipped == &onDevice ? BackendKind::CUDA : BackendKind::Threads;
+    FlipOptions options =
+      OnBackend(flipped == &onDevice ? BackendKind::CUDA : BackendKind::Threads);
     options.NumberOfThreads = 1;
     RunInThreads(Ranks,
       [&](PieceGroup& group)

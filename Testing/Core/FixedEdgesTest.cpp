@@ -6,29 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 namespace delaunayflip
 {
 namespace
 {
-
-using Edge = VertexPair;
-
-/// Edges with their incident triangles.
-std::map<Edge, std::vector<std::int64_t>> CollectEdges(const TriangleArray& triangles)
-{
-  std::map<Edge, std::vector<std::int64_t>> edges;
-  for (std::int64_t t = 0; t < triangles.Count; ++t)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      edges[std::minmax({ triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3) })].push_back(t);
-    }
-  }
-  return edges;
-}
 
 /// Every `step`-th interior edge, some of them reversed.
 std::vector<std::int64_t> PickConstraints(const TriangleArray& triangles, int step)
@@ -138,17 +121,6 @@ TEST(FrozenTriangles, StayBitForBit)
   ExpectNoneLeft(mesh, result);
 }
 
-/// The pairs of a list of vertex ids, the smaller id first.
-std::set<Edge> ToEdges(const std::vector<std::int64_t>& ids)
-{
-  std::set<Edge> edges;
-  for (std::size_t i = 0; i < ids.size(); i += 2)
-  {
-    edges.insert(std::minmax({ ids[i], ids[i + 1] }));
-  }
-  return edges;
-}
-
 TEST(FixedEdges, AreListed)
 {
   // Those of the rim are not.
@@ -158,18 +130,18 @@ TEST(FixedEdges, AreListed)
   const TriangleMesh mesh = WithConstraints(bad.View(), constraints);
   FlipOptions options;
   options.FeatureAngle = 12.0;
-  const std::set<Edge> fixed = ToEdges(FindFixedEdges(mesh, options));
+  const std::set<VertexPair> fixed = ToEdges(FindFixedEdges(mesh, options));
   const EdgeCounts counts = MakeSession(mesh, options).GetReport().Edges;
   EXPECT_LT(0, counts.Feature);
   EXPECT_EQ(counts.Fixed, static_cast<std::int64_t>(fixed.size()));
-  for (const Edge& edge : ToEdges(constraints))
+  for (const VertexPair& edge : ToEdges(constraints))
   {
     EXPECT_EQ(1u, fixed.count(edge));
   }
   const FlipResult result = Flip(mesh, options);
   EXPECT_LT(0, result.Report.TotalFlips);
   const auto edgesAfter = CollectEdges(ViewTriangles(result.Triangles));
-  for (const Edge& edge : fixed)
+  for (const VertexPair& edge : fixed)
   {
     EXPECT_EQ(1u, edgesAfter.count(edge));
   }

@@ -54,12 +54,7 @@ public:
 
 OppositeMap FindOppositesOf(const TriangleSet& triangles)
 {
-  std::vector<std::int32_t> ids;
-  for (const auto& triangle : triangles)
-  {
-    ids.insert(ids.end(), triangle.begin(), triangle.end());
-  }
-  return FindOpposites(ViewTriangles(ids));
+  return FindOpposites(ViewTriangles(ToIds(triangles)));
 }
 
 /// Edges that are bad: the opposite vertex of one triangle lies inside the circle of the other, or
@@ -192,19 +187,10 @@ bool AreCirclesEmpty(const Judge& judge, const TriangleSet& triangles)
   return true;
 }
 
-void SetTriangles(OwnedMesh<double>& mesh, const TriangleSet& triangles)
-{
-  mesh.Triangles.clear();
-  for (const auto& triangle : triangles)
-  {
-    mesh.Triangles.insert(mesh.Triangles.end(), triangle.begin(), triangle.end());
-  }
-}
-
 struct PointSet
 {
   const char* Name;
-  std::vector<std::array<double, 2>> Points;
+  Places Points;
 };
 
 void PrintTo(const PointSet& set, std::ostream* stream) { *stream << set.Name; }
@@ -239,7 +225,7 @@ protected:
       for (const TriangleSet& triangulation :
         ListTriangulations(judge, ToTriangleSet(mesh.Triangles)))
       {
-        SetTriangles(mesh, triangulation);
+        mesh.Triangles = ToIds(triangulation);
         check(mesh);
         ASSERT_FALSE(this->HasFailure()) << testing::PrintToString(triangulation);
       }
@@ -282,12 +268,7 @@ TEST(FlatTrianglesOfLattices, LeaveNoBadEdgeUncounted)
   std::mt19937 random(17);
   for (int i = 0; i < 300 / Reduction; ++i)
   {
-    std::set<std::array<double, 2>> points;
-    for (int k = 0; k < 8 + i % 10; ++k)
-    {
-      points.insert({ double(DrawIndex(random, 6)), double(DrawIndex(random, 4)) });
-    }
-    OwnedMesh<double> mesh = MakeSweptMesh({ points.begin(), points.end() });
+    OwnedMesh<double> mesh = MakeSweptMesh(DrawDistinct(random, 8 + i % 10, 6, 4));
     if (i % 2 == 0)
     {
       CoverBoundary(mesh);
@@ -299,8 +280,8 @@ TEST(FlatTrianglesOfLattices, LeaveNoBadEdgeUncounted)
         ListNeighbours(judge, ToTriangleSet(mesh.Triangles));
       if (!neighbours.empty())
       {
-        SetTriangles(
-          mesh, neighbours[DrawIndex(random, static_cast<std::int64_t>(neighbours.size()))]);
+        mesh.Triangles =
+          ToIds(neighbours[DrawIndex(random, static_cast<std::int64_t>(neighbours.size()))]);
       }
     }
     CheckFlips(mesh);

@@ -34,6 +34,16 @@ TriangleSet ToTriangleSet(const std::vector<std::int32_t>& triangles)
   return ToTriangleSet(ViewTriangles(triangles));
 }
 
+std::vector<std::int32_t> ToIds(const TriangleSet& triangles)
+{
+  std::vector<std::int32_t> ids;
+  for (const auto& triangle : triangles)
+  {
+    ids.insert(ids.end(), triangle.begin(), triangle.end());
+  }
+  return ids;
+}
+
 FlipOptions OnTestBackend(FlipOptions options)
 {
   if (options.Backend == BackendKind::Auto && IsTestBackendCuda())
@@ -62,16 +72,7 @@ auto RunOnTestBackend(const FlipOptions& options, const Run& run)
       throw;
     }
   }
-  FlipOptions onThreads = options;
-  onThreads.Backend = BackendKind::Threads;
-  return run(onThreads);
-}
-
-FlipResult FlipOnce(const TriangleMesh& mesh, const FlipOptions& options)
-{
-  FlipSession session(mesh, options);
-  session.Advance();
-  return { StoreTriangles(session), StoreFlipCounts(session), session.GetReport() };
+  return run(OnBackend(BackendKind::Threads, options));
 }
 
 }
@@ -98,7 +99,16 @@ FlipSession FlipPoints(const PointInput& points, const PointOptions& options)
 FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options)
 {
   return RunOnTestBackend(
-    options, [&](const FlipOptions& chosen) { return FlipOnce(mesh, chosen); });
+    options, [&](const FlipOptions& chosen) { return FlipInSteps(mesh, chosen); });
+}
+
+FlipResult FlipInSteps(const TriangleMesh& mesh, const FlipOptions& options, std::int64_t step)
+{
+  FlipSession session(mesh, options);
+  while (session.Advance(step))
+  {
+  }
+  return { StoreTriangles(session), StoreFlipCounts(session), session.GetReport() };
 }
 
 std::vector<std::int32_t> StoreTriangles(const FlipSession& session)
@@ -146,6 +156,12 @@ FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options)
   ExpectSameTopology(mesh.Triangles, result.Triangles, report);
   ExpectConsistentStatistics(report);
   return result;
+}
+
+FlipOptions OnBackend(BackendKind backend, FlipOptions options)
+{
+  options.Backend = backend;
+  return options;
 }
 
 FlipOptions OnSurface(double featureAngle)
@@ -358,6 +374,14 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   EXPECT_EQ(a.FromPoints.Repeated, fromPoints.Repeated);
   EXPECT_EQ(a.FromPoints.SegmentEdges, fromPoints.SegmentEdges);
   ExpectSameDefects(a.Defects, defects);
+}
+
+void ExpectSameResult(const FlipResult& expected, const FlipResult& actual)
+{
+  EXPECT_TRUE(expected.Triangles == actual.Triangles);
+  EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
+  ExpectSameStatistics(expected.Report, actual.Report);
+  EXPECT_EQ(expected.Report.KeepsSliver, actual.Report.KeepsSliver);
 }
 
 std::int64_t CountDefect(const FlipReport& report, const std::string& word)

@@ -34,6 +34,7 @@ using Point3 = std::array<double, 3>;
 using TriangleSet = std::vector<std::array<std::int64_t, 3>>;
 TriangleSet ToTriangleSet(const TriangleArray& triangles);
 TriangleSet ToTriangleSet(const std::vector<std::int32_t>& triangles);
+std::vector<std::int32_t> ToIds(const TriangleSet& triangles);
 
 struct FlipResult
 {
@@ -59,10 +60,17 @@ std::vector<std::int32_t> StoreFlipCounts(const FlipSession& session);
 /// Runs all flips on a copy of the triangles, on the backend that MakeSession chooses.
 FlipResult Flip(const TriangleMesh& mesh, const FlipOptions& options = {});
 
-/// The same, and reports a failure for a run that does not end by itself, for statistics that do
+/// A run so many iterations at a time (-1: all at once), on the backend of the options.
+FlipResult FlipInSteps(
+  const TriangleMesh& mesh, const FlipOptions& options, std::int64_t step = -1);
+
+/// Flip, and reports a failure for a run that does not end by itself, for statistics that do
 /// not add up, for topology that has changed, and for counts of bad edges and smallest angles,
 /// before and after, that are not those of the audit.
 FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options = {});
+
+/// The options on a backend.
+FlipOptions OnBackend(BackendKind backend, FlipOptions options = {});
 
 /// On a surface, by default without feature edges.
 FlipOptions OnSurface(double featureAngle = 180.0);
@@ -91,6 +99,24 @@ void ExpectConsistentStatistics(const FlipReport& report);
 
 /// Reports a failure for every difference other than times, the backend's name and its fallback.
 void ExpectSameStatistics(const FlipReport& a, const FlipReport& b);
+
+/// Reports a failure for every bit that differs.
+void ExpectSameResult(const FlipResult& expected, const FlipResult& actual);
+
+/// The message of the error that run() throws; "" if it throws none.
+template <typename Error, typename Run>
+std::string GetMessage(const Run& run)
+{
+  try
+  {
+    run();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
 
 /// The count of the first defect whose text contains `word`, or 0. Reports a failure if the defect
 /// lacks its first ids.

@@ -285,8 +285,7 @@ TEST(GeometryChoice, IsTheSameInParts)
     EXPECT_EQ(whole.GeometryReason, report.GeometryReason);
     EXPECT_EQ("40 triangles that turn the other way than most", DescribeDefects(report.Defects));
   };
-  FlipOptions options;
-  options.Backend = BackendKind::Threads;
+  FlipOptions options = OnBackend(BackendKind::Threads);
   for (const int parts : { 2, 5 })
   {
     expectSame(FlipDivided(globe.View(), DivideMesh(globe.View(), parts), options).Report);

@@ -151,12 +151,8 @@ TEST(NonDelaunayEdges, AreNotTiesInvertedPairsOrEdgesThatMustStay)
   EXPECT_EQ(0, CountBad(MakePair({ -2, 0, 0, 0, -1, 0, 2, 0, 0, 0, -0.5, 0 }).View()));
 
   const OwnedMesh<double> bad = MakeBadPair();
+  EXPECT_EQ(0, CountBad(WithConstraints(bad.View(), { 2, 0 })));
   TriangleMesh mesh = bad.View();
-  const std::int64_t constraint[] = { 2, 0 };
-  mesh.ConstraintEdges = constraint;
-  mesh.NumberOfConstraintEdges = 1;
-  EXPECT_EQ(0, CountBad(mesh));
-  mesh = bad.View();
   const std::int32_t regions[] = { 4, 5 };
   mesh.Regions = regions;
   EXPECT_EQ(0, CountBad(mesh));

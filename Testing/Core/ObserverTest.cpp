@@ -350,8 +350,7 @@ TEST(Progress, IsToldAndEndsTheRun)
 TEST(Progress, FollowsTheIterationLimit)
 {
   const OwnedMesh<double> mesh = MakeWorstCaseMesh(300);
-  FlipOptions options;
-  options.Backend = BackendKind::Threads;
+  FlipOptions options = OnBackend(BackendKind::Threads);
   options.MaximumIterations = 10;
   Watcher watcher;
   FlipSession session(mesh.View(), options, watcher.GetObserver());

@@ -14,9 +14,8 @@ namespace delaunayflip
 
 FlipOptions MakeCanonical(int pieces)
 {
-  FlipOptions options;
+  FlipOptions options = OnBackend(BackendKind::Threads);
   options.TieRule = TieRuleKind::Canonical;
-  options.Backend = BackendKind::Threads;
   options.NumberOfThreads = 1;
   options.NumberOfPieces = pieces;
   return options;
@@ -24,8 +23,7 @@ FlipOptions MakeCanonical(int pieces)
 
 FlipOptions OnSurfaceOfRanks(double featureAngle)
 {
-  FlipOptions options = OnSurface(featureAngle);
-  options.Backend = BackendKind::Threads;
+  FlipOptions options = OnBackend(BackendKind::Threads, OnSurface(featureAngle));
   options.NumberOfThreads = 1;
   return options;
 }

@@ -92,7 +92,7 @@ TEST(LatticePoints, BecomeCgalsTriangles)
     SCOPED_TRACE(seed);
     const auto size = static_cast<int>(4 + seed), share = static_cast<int>(25 * (1 + seed % 4));
     std::mt19937 random(seed);
-    std::vector<std::array<double, 2>> points;
+    Places points;
     for (int i = 0; i < size * size; ++i)
     {
       if (DrawIndex(random, 100) < share)
@@ -107,7 +107,7 @@ TEST(LatticePoints, BecomeCgalsTriangles)
 /// Integer points on a circle about the origin: every edge is a tie.
 TEST(CirclePoints, BecomeCgalsTriangles)
 {
-  std::vector<std::array<double, 2>> points;
+  Places points;
   for (int x = -65; x <= 65; ++x)
   {
     for (int y = -65; y <= 65; ++y)
@@ -174,13 +174,8 @@ TEST(Terrain, IsJudgedByXAndYAlone)
 OwnedMesh<double> DrawMesh(std::mt19937& random)
 {
   const int size = 3 + DrawIndex(random, 6);
-  std::set<std::array<double, 2>> points;
   const int count = 3 + DrawIndex(random, size * size);
-  for (int i = 0; i < count; ++i)
-  {
-    points.insert({ double(DrawIndex(random, size)), double(DrawIndex(random, size)) });
-  }
-  return MakeSweptMesh({ points.begin(), points.end() });
+  return MakeSweptMesh(DrawDistinct(random, count, size, size));
 }
 
 /// Canonical meshes are Lawson's, triangle for triangle. If ties are kept, the result depends on
@@ -329,7 +324,7 @@ TEST(TiltedPlane, BecomesDelaunayInItself)
 TEST(TiltedPlane, LatticePointsGiveTheSameCanonicalMeshWhateverTheStart)
 {
   const OwnedMesh<double> grid = MakeGridMesh(12, 9);
-  std::vector<std::array<double, 2>> points;
+  Places points;
   for (std::size_t i = 0; i < grid.Points.size(); i += 3)
   {
     points.push_back({ grid.Points[i], grid.Points[i + 1] });

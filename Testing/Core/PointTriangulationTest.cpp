@@ -13,7 +13,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <thread>
 
@@ -25,16 +24,6 @@ namespace delaunayflip
 {
 namespace
 {
-
-std::vector<double> Lift(const Places& points)
-{
-  std::vector<double> xyz;
-  for (const auto& point : points)
-  {
-    xyz.insert(xyz.end(), { point[0], point[1], 0.0 });
-  }
-  return xyz;
-}
 
 /// The triangles by the places of their corners, so that they can be compared across orders.
 std::set<std::array<std::array<double, 2>, 3>> ByPlaces(
@@ -110,17 +99,6 @@ void ExpectDelaunay(const Places& points, const Triangulation& result)
   ASSERT_EQ(isLine ? 0 : 2 * count - 2 - CountBorder(result.Neighbors), triangles);
   ASSERT_EQ(triangles, result.Report.Triangles);
   ASSERT_EQ(StopReasonKind::Converged, result.Report.StopReason);
-}
-
-Places DrawOnGrid(std::mt19937& random, std::size_t count, int columns, int rows)
-{
-  Places points(count);
-  for (auto& point : points)
-  {
-    point = { static_cast<double>(DrawIndex(random, columns)),
-      static_cast<double>(DrawIndex(random, rows)) };
-  }
-  return points;
 }
 
 //------------------------------------------------------------------------------
@@ -286,36 +264,23 @@ protected:
 TEST_P(PointSetsTest, EqualCgal)
 {
   const Places points = Draw(30000 / Reduction);
-  const std::vector<double> xyz = Lift(points);
-  const PointArray lifted(xyz.data(), static_cast<std::int64_t>(points.size()));
   const Triangulation result = Triangulate(points);
   EXPECT_EQ(StopReasonKind::Converged, result.Report.StopReason);
-  const TriangleSet expected = MakeCgalDelaunay(lifted);
+  const OwnedMesh<double> mesh = ToMesh(points, result.Triangles);
+  const TriangleSet expected = MakeCgalDelaunay(mesh.View().Points);
   EXPECT_EQ(expected.size(), result.Triangles.size() / 3);
-  TriangleMesh mesh;
-  mesh.Points = lifted;
-  mesh.Triangles = ViewTriangles(result.Triangles);
-  EXPECT_EQ(0, CountCgalViolations(mesh));
+  EXPECT_EQ(0, CountCgalViolations(mesh.View()));
   ExpectNeighbors(result);
 }
 
 TEST_P(PointSetsTest, DependOnThePointsAlone)
 {
   const Places points = Draw(20000 / Reduction);
-  const Triangulation one = Triangulate(points,
-    []
-    {
-      FlipOptions o;
-      o.NumberOfThreads = 1;
-      return o;
-    }());
-  const Triangulation many = Triangulate(points,
-    []
-    {
-      FlipOptions o;
-      o.NumberOfThreads = 5;
-      return o;
-    }());
+  FlipOptions options;
+  options.NumberOfThreads = 1;
+  const Triangulation one = Triangulate(points, options);
+  options.NumberOfThreads = 5;
+  const Triangulation many = Triangulate(points, options);
   EXPECT_EQ(one.Triangles, many.Triangles);
   EXPECT_EQ(one.Report.TotalFlips, many.Report.TotalFlips);
   Places shuffled = points;
@@ -362,9 +327,7 @@ TEST(PointTriangulation, EqualsCanonicalFlips)
   std::mt19937 random(6);
   for (int i = 0; i < 40 / Reduction; ++i)
   {
-    const Places drawn = DrawOnGrid(random, 400, 20, 30);
-    const std::set<std::array<double, 2>> places(drawn.begin(), drawn.end());
-    const Places points(places.begin(), places.end());
+    const Places points = DrawDistinct(random, 400, 20, 30);
     const OwnedMesh<double> swept = MakeSweptMesh(points);
     const FlipResult flipped = Flip(swept.View(), InPlane(TieRuleKind::Canonical));
     EXPECT_EQ(ByPlaces(flipped.Triangles, points), ByPlaces(Triangulate(points).Triangles, points));
@@ -475,10 +438,8 @@ TEST(PointTriangulation, DivideAndConquerOfSmallGrids)
   std::mt19937 random(11);
   for (int i = 0; i < 1000 / Reduction; ++i)
   {
-    const Places drawn =
-      DrawOnGrid(random, 3 + random() % 40, 1 + DrawIndex(random, 9), 1 + DrawIndex(random, 30));
-    const std::set<std::array<double, 2>> places(drawn.begin(), drawn.end());
-    Places points(places.begin(), places.end());
+    Places points =
+      DrawDistinct(random, 3 + random() % 40, 1 + DrawIndex(random, 9), 1 + DrawIndex(random, 30));
     int stripOf[30] = {}; // by y
     for (int y = 1; y < 30; ++y)
     {
@@ -596,16 +557,8 @@ TEST(PointTriangulation, InPiecesIsAnError)
   options.NumberOfPieces = 1;
   EXPECT_EQ(3u, Triangulate(PointInput{ View(points) }, options).Triangles.size());
   options.NumberOfPieces = 2;
-  try
-  {
-    FlipSession(PointInput{ View(points) }, options);
-    ADD_FAILURE() << "several pieces";
-  }
-  catch (const InvalidOptions& error)
-  {
-    EXPECT_STREQ(
-      "points cannot be triangulated in several pieces: gather them first", error.what());
-  }
+  EXPECT_EQ("points cannot be triangulated in several pieces: gather them first",
+    GetMessage<InvalidOptions>([&] { FlipSession(PointInput{ View(points) }, options); }));
 }
 
 }

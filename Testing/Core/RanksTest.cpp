@@ -93,15 +93,9 @@ TEST(RanksWithoutNumbers, KeepClosedTwinsApart)
 {
   OwnedMesh<double> mesh = MakeBadSphere(12, 8, 3);
   const FlipReport alone = Flip(mesh.View(), OnSurfaceOfRanks()).Report;
-  const auto points = static_cast<std::int32_t>(mesh.NumberOfPoints());
   Owners owners(mesh.NumberOfTriangles());
   owners.resize(2 * owners.size(), 1);
-  const OwnedMesh<double> one = mesh;
-  mesh.Points.insert(mesh.Points.end(), one.Points.begin(), one.Points.end());
-  for (const std::int32_t id : one.Triangles)
-  {
-    mesh.Triangles.push_back(points + id);
-  }
+  Append(mesh, OwnedMesh<double>(mesh));
   const std::vector<OwnPiece> pieces = DivideMesh(mesh.View(), owners, 2);
   const PiecesReport report = FlipDivided(mesh.View(), pieces, OnSurfaceOfRanks(), false).Report;
   EXPECT_EQ(2 * alone.TotalFlips, report.TotalFlips);
@@ -156,15 +150,12 @@ std::string FindError(int ranks, const std::function<void(FlipOptions&, OwnPiece
     {
       const int rank = group.GetRank();
       FlippedPiece flipped;
-      try
-      {
-        FlipPiece(
-          pieces[rank].View(), rank + 1 == ranks ? different : MakeCanonical(), group, flipped);
-      }
-      catch (const FlipError& error)
-      {
-        errors[rank] = error.what();
-      }
+      errors[rank] = GetMessage<FlipError>(
+        [&]
+        {
+          FlipPiece(
+            pieces[rank].View(), rank + 1 == ranks ? different : MakeCanonical(), group, flipped);
+        });
     });
   EXPECT_EQ(ranks, std::count(errors.begin(), errors.end(), errors.front()));
   return errors.front();

@@ -30,6 +30,29 @@ OppositeMap FindOpposites(const TriangleArray& triangles)
   return opposites;
 }
 
+std::set<VertexPair> ToEdges(const std::vector<std::int64_t>& ids)
+{
+  std::set<VertexPair> edges;
+  for (std::size_t i = 0; i < ids.size(); i += 2)
+  {
+    edges.insert(Sorted(ids[i], ids[i + 1]));
+  }
+  return edges;
+}
+
+EdgeMap CollectEdges(const TriangleArray& triangles)
+{
+  EdgeMap edges;
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      edges[Sorted(triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3))].push_back(t);
+    }
+  }
+  return edges;
+}
+
 //------------------------------------------------------------------------------
 namespace
 {
@@ -108,7 +131,17 @@ std::int64_t CountCgalViolations(const TriangleMesh& mesh)
     { return sideOfCircle(get(p), get(q), get(a), get(b)) == CGAL::ON_POSITIVE_SIDE; });
 }
 
-OwnedMesh<double> MakeSweptMesh(const std::vector<std::array<double, 2>>& points)
+OwnedMesh<double> ToMesh(const Places& points, const std::vector<std::int32_t>& triangles)
+{
+  OwnedMesh<double> mesh{ {}, triangles };
+  for (const std::array<double, 2>& point : points)
+  {
+    mesh.Points.insert(mesh.Points.end(), { point[0], point[1], 0.0 });
+  }
+  return mesh;
+}
+
+OwnedMesh<double> MakeSweptMesh(const Places& points)
 {
   std::vector<std::int32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -122,13 +155,18 @@ OwnedMesh<double> MakeSweptMesh(const std::vector<std::array<double, 2>>& points
     vertex->info() = i;
     hint = vertex->face();
   }
-  OwnedMesh<double> mesh;
-  for (const std::array<double, 2>& point : points)
+  return ToMesh(points, GetTriangles(triangulation));
+}
+
+Places DrawDistinct(std::mt19937& random, int count, int columns, int rows)
+{
+  std::set<std::array<double, 2>> points;
+  for (int i = 0; i < count; ++i)
   {
-    mesh.Points.insert(mesh.Points.end(), { point[0], point[1], 0.0 });
+    const double x = DrawIndex(random, columns);
+    points.insert({ x, double(DrawIndex(random, rows)) });
   }
-  mesh.Triangles = GetTriangles(triangulation);
-  return mesh;
+  return { points.begin(), points.end() };
 }
 
 //------------------------------------------------------------------------------
@@ -322,19 +360,6 @@ bool AreCrossing(
   return areApart(turn(a, b, c), turn(a, b, d)) && areApart(turn(c, d, a), turn(c, d, b));
 }
 
-std::set<VertexPair> CollectEdges(const TriangleArray& triangles)
-{
-  std::set<VertexPair> edges;
-  for (std::int64_t t = 0; t < triangles.Count; ++t)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      edges.insert(std::minmax({ triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3) }));
-    }
-  }
-  return edges;
-}
-
 bool CrossAny(
   const TriangleMesh& mesh, const std::vector<VertexPair>& some, const std::vector<VertexPair>& all)
 {
@@ -347,8 +372,7 @@ bool CrossAny(
 }
 
 /// Distinct points with whole coordinates from 0 to `size`, among them the corners.
-std::vector<std::array<double, 2>> DrawLattice(
-  std::size_t count, std::int32_t size, std::mt19937& random)
+Places DrawLattice(std::size_t count, std::int32_t size, std::mt19937& random)
 {
   const double last = size;
   std::set<std::array<double, 2>> points = { { 0, 0 }, { last, 0 }, { 0, last }, { last, last } };
@@ -358,7 +382,7 @@ std::vector<std::array<double, 2>> DrawLattice(
     const double y = DrawIndex(random, size + 1);
     points.insert({ x, y });
   }
-  std::vector<std::array<double, 2>> drawn(points.begin(), points.end());
+  Places drawn(points.begin(), points.end());
   std::shuffle(drawn.begin(), drawn.end(), random);
   return drawn;
 }
@@ -380,17 +404,21 @@ TriangleMesh ConstrainedMesh::View() const
   return mesh;
 }
 
-ConstrainedMesh DrawCase(std::size_t points, std::int32_t size, int constraints, std::uint32_t seed)
+ConstrainedMesh Constrain(OwnedMesh<double> mesh, int constraints, std::mt19937& random)
 {
-  std::mt19937 random(seed);
-  ConstrainedMesh drawn;
-  drawn.Mesh = MakeSweptMesh(DrawLattice(points, size, random));
+  ConstrainedMesh drawn{ std::move(mesh), {}, {} };
   for (int i = 0; i < constraints; ++i)
   {
     const std::int64_t from = DrawIndex(random, drawn.Mesh.NumberOfPoints());
     drawn.Add(from, DrawIndex(random, drawn.Mesh.NumberOfPoints()));
   }
   return drawn;
+}
+
+ConstrainedMesh DrawCase(std::size_t points, std::int32_t size, int constraints, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  return Constrain(MakeSweptMesh(DrawLattice(points, size, random)), constraints, random);
 }
 
 ConstrainedMesh DrawOverlapping(int constraints, std::uint32_t seed)
@@ -459,16 +487,15 @@ bool Cross(const TriangleMesh& mesh, const VertexPair& a, const VertexPair& b)
 std::vector<VertexPair> FindHeldPieces(
   const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles)
 {
-  const std::set<VertexPair> edges = CollectEdges(ViewTriangles(triangles));
+  const EdgeMap edges = CollectEdges(ViewTriangles(triangles));
   std::set<VertexPair> held;
   for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
   {
     const std::vector<VertexPair> pieces =
       SplitAtVertices(mesh, mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
     if (std::all_of(pieces.begin(), pieces.end(),
-          [&](const VertexPair& piece) {
-            return edges.count(std::minmax({ piece.first, piece.second })) == 1;
-          }))
+          [&](const VertexPair& piece)
+          { return edges.count(Sorted(piece.first, piece.second)) == 1; }))
     {
       held.insert(pieces.begin(), pieces.end());
     }
@@ -479,12 +506,11 @@ std::vector<VertexPair> FindHeldPieces(
 ExpectedInsertion PredictInsertion(const TriangleMesh& mesh)
 {
   ExpectedInsertion expected;
-  const std::set<VertexPair> edges = CollectEdges(mesh.Triangles);
+  const EdgeMap edges = CollectEdges(mesh.Triangles);
   std::vector<VertexPair> missing;
   for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
   {
-    const VertexPair ends =
-      std::minmax({ mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1] });
+    const VertexPair ends = Sorted(mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
     const bool isKnown = std::find(missing.begin(), missing.end(), ends) != missing.end();
     if (edges.count(ends) > 0)
     {
@@ -510,11 +536,10 @@ ExpectedInsertion PredictInsertion(const TriangleMesh& mesh)
 
 void ExpectEdges(const std::vector<std::int32_t>& triangles, const std::vector<VertexPair>& edges)
 {
-  const std::set<VertexPair> all = CollectEdges(ViewTriangles(triangles));
+  const EdgeMap all = CollectEdges(ViewTriangles(triangles));
   for (const VertexPair& edge : edges)
   {
-    EXPECT_EQ(1u, all.count(std::minmax({ edge.first, edge.second })))
-      << edge.first << "-" << edge.second;
+    EXPECT_EQ(1u, all.count(Sorted(edge.first, edge.second))) << edge.first << "-" << edge.second;
   }
 }
 

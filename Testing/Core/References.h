@@ -5,6 +5,7 @@
 
 #include "FlipTestSupport.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -18,6 +19,16 @@ namespace delaunayflip
 {
 
 using VertexPair = std::pair<std::int64_t, std::int64_t>;
+using Places = std::vector<std::array<double, 2>>;
+
+inline VertexPair Sorted(std::int64_t a, std::int64_t b) { return std::minmax(a, b); }
+
+/// The pairs of a list of vertex ids, the smaller id first.
+std::set<VertexPair> ToEdges(const std::vector<std::int64_t>& ids);
+
+/// Edges, the smaller id first, with their incident triangles.
+using EdgeMap = std::map<VertexPair, std::vector<std::int64_t>>;
+EdgeMap CollectEdges(const TriangleArray& triangles);
 
 /// The opposite vertex of every half-edge.
 using OppositeMap = std::map<VertexPair, std::int64_t>;
@@ -69,9 +80,15 @@ TriangleSet MakeCgalConstrainedDelaunay(const TriangleMesh& mesh);
 /// meshes without degenerate triangles.
 std::int64_t CountCgalViolations(const TriangleMesh& mesh);
 
+/// A mesh of these points. z is 0.
+OwnedMesh<double> ToMesh(const Places& points, const std::vector<std::int32_t>& triangles = {});
+
 /// A valid but bad triangulation of the convex hull of distinct points, which are inserted in the
 /// order of x without regard to shape. z is 0.
-OwnedMesh<double> MakeSweptMesh(const std::vector<std::array<double, 2>>& points);
+OwnedMesh<double> MakeSweptMesh(const Places& points);
+
+/// Up to `count` distinct points of a lattice, in the order of x.
+Places DrawDistinct(std::mt19937& random, int count, int columns, int rows);
 
 //------------------------------------------------------------------------------
 // Rational numbers.
@@ -127,6 +144,9 @@ struct ConstrainedMesh
   void Add(std::int64_t from, std::int64_t to, bool insert = true);
   TriangleMesh View() const;
 };
+
+/// The mesh with constraints between random points.
+ConstrainedMesh Constrain(OwnedMesh<double> mesh, int constraints, std::mt19937& random);
 
 /// Random constraints on a random bad mesh. The fewer lattice points there are to choose from, the
 /// more constraints meet vertices.

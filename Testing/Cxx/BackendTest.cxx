@@ -37,9 +37,7 @@ Mesh MakeLargeMesh()
 
 Cells RunOnThreads(vtkPolyData* mesh)
 {
-  WatchedFilter filter(mesh);
-  filter->SetBackendToThreads();
-  return GetCells(RunCleanly(filter)->GetPolys());
+  return FlipAtOnce(mesh, [](vtkDelaunayFlip* filter) { filter->SetBackendToThreads(); });
 }
 
 bool RanOn(WatchedFilter& filter, const std::string& backend)
@@ -72,11 +70,7 @@ TEST(Backend, PiecesGiveTheSameMesh)
     filter->SetNumberOfPieces(pieces);
     filter->GenerateFlipCountOn();
     vtkPolyData* output = RunCleanly(filter);
-    std::set<std::set<vtkIdType>> triangles;
-    for (const Cell& cell : GetCells(output->GetPolys()))
-    {
-      triangles.emplace(cell.begin(), cell.end());
-    }
+    const std::set<std::set<vtkIdType>> triangles = GetTriangles(output);
     expected = pieces == 0 ? triangles : expected;
     EXPECT_EQ(triangles, expected) << pieces;
     EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);

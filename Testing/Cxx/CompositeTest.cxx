@@ -21,8 +21,6 @@
 namespace
 {
 
-using Blocks = vtkSmartPointer<vtkMultiBlockDataSet>;
-
 Mesh MakeWorstCase(int size) { return ToPolyData(delaunayflip::MakeWorstCaseMesh(size)); }
 
 Mesh MakeBrokenMesh()
@@ -30,16 +28,6 @@ Mesh MakeBrokenMesh()
   auto mesh = MakeRhombus();
   mesh->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 2, 44 } }));
   return mesh;
-}
-
-Blocks MakeBlocks(const std::vector<vtkDataObject*>& leaves)
-{
-  auto blocks = Blocks::New();
-  for (std::size_t i = 0; i < leaves.size(); ++i)
-  {
-    blocks->SetBlock(static_cast<unsigned int>(i), leaves[i]);
-  }
-  return blocks;
 }
 
 }
@@ -191,8 +179,7 @@ TEST(Composite, ProgressRisesOverBlocks)
   auto blocks = MakeBlocks({ MakeWorstCase(20), MakeRhombus(), MakeWorstCase(20) });
   WatchedFilter filter(blocks);
   std::vector<double> progress;
-  auto record = [&]() { progress.push_back(filter->GetProgress()); };
-  OnProgress(filter.Get(), record);
+  OnProgress(filter.Get(), [&]() { progress.push_back(filter->GetProgress()); });
   filter.Run();
   EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
   EXPECT_EQ(progress.back(), 1.0);
@@ -207,8 +194,7 @@ TEST(Composite, ProgressRisesOverBlocks)
 
 TEST(Composite, ConstraintsForAllOrForEachBlock)
 {
-  vtkNew<vtkPolyData> line;
-  line->SetLines(MakeCells({ { 0, 2 } }));
+  const Mesh line = MakeLines({ { 0, 2 } });
   auto blocks = MakeBlocks({ MakeRhombus(), MakeRhombus() });
   WatchedFilter filter(blocks);
   filter->SetConstraintsData(line);
@@ -218,4 +204,29 @@ TEST(Composite, ConstraintsForAllOrForEachBlock)
   filter.Run();
   EXPECT_TRUE(HasEdge(filter.GetBlock(0), 1, 3));
   EXPECT_FALSE(HasEdge(filter.GetBlock(1), 1, 3));
+}
+
+TEST(Composite, WhatIsIgnoredOfTheSecondInputIsToldOf)
+{
+  vtkNew<vtkPolyData> line, strip;
+  line->SetLines(MakeCells({ { 0, 2 } }));
+  strip->SetStrips(MakeCells({ { 0, 1, 2 } }));
+  vtkNew<vtkUnstructuredGrid> grid;
+  const vtkIdType ends[] = { 0, 2 };
+  grid->InsertNextCell(VTK_LINE, 2, ends);
+  const auto warn = [](vtkDataObject* input, vtkDataObject* constraints)
+  {
+    WatchedFilter filter(input);
+    filter->SetInputDataObject(1, constraints);
+    return RunToWarning(filter);
+  };
+  ExpectHolds(warn(MakeBlocks({ MakeRhombus() }), MakeBlocks({ MakeBlocks({ line }) })),
+    "block 2 of the second input: nothing of the first one is at its place, ignored");
+  ExpectHolds(warn(MakeBlocks({ MakeRhombus(), MakeRhombus() }), MakeBlocks({ line, grid })),
+    "block 2 of the second input: not a vtkPolyData, ignored");
+  ExpectHolds(warn(MakeRhombus(), strip), "second input: triangle strips ignored");
+  LiveFilter live(MakeWorstCase(20));
+  live->SetConstraintsData(strip);
+  EXPECT_GT(live.RunToTheEnd(), 2);
+  EXPECT_EQ(live.GetWarnings().size(), 1u);
 }

@@ -25,14 +25,6 @@
 namespace
 {
 
-/// Lines or polygons in ids of the mesh.
-Mesh MakeLines(const Cells& lines)
-{
-  auto mesh = Mesh::New();
-  mesh->SetLines(MakeCells(lines));
-  return mesh;
-}
-
 /// The same mesh with points of this type (VTK_FLOAT, ...).
 void Convert(vtkPolyData* mesh, int type)
 {

@@ -5,7 +5,6 @@
 #include "MeshAudit.h"
 #include "TestBackend.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCommand.h"
 #include "vtkDataSetAttributes.h"
@@ -13,11 +12,25 @@
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
 #include "vtkIntArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
+
+namespace
+{
+
+/// A command that owns the function that it calls.
+class FunctionCommand : public vtkCommand
+{
+public:
+  static FunctionCommand* New() { return new FunctionCommand; }
+  void Execute(vtkObject*, unsigned long, void* data) override { this->Action(data); }
+
+  std::function<void(void*)> Action;
+};
+
+}
 
 vtkSmartPointer<vtkCellArray> MakeCells(const Cells& cells)
 {
@@ -48,6 +61,23 @@ Mesh MakeLines(const Points& points, const Cells& lines)
   auto mesh = MakeMesh(points, {});
   mesh->SetLines(MakeCells(lines));
   return mesh;
+}
+
+Mesh MakeLines(const Cells& lines)
+{
+  auto mesh = Mesh::New();
+  mesh->SetLines(MakeCells(lines));
+  return mesh;
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks(const std::vector<vtkDataObject*>& leaves)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    blocks->SetBlock(static_cast<unsigned int>(i), leaves[i]);
+  }
+  return blocks;
 }
 
 Mesh MakeRhombus()
@@ -103,6 +133,17 @@ Cells GetCells(vtkCellArray* cells)
     result.emplace_back(ids->begin(), ids->end());
   }
   return result;
+}
+
+std::set<std::set<vtkIdType>> GetTriangles(vtkPolyData* mesh)
+{
+  std::set<std::set<vtkIdType>> triangles;
+  for (const Cell& cell : GetCells(mesh->GetPolys()))
+  {
+    EXPECT_EQ(cell.size(), 3u);
+    triangles.emplace(cell.begin(), cell.end());
+  }
+  return triangles;
 }
 
 bool HasEdge(vtkPolyData* mesh, vtkIdType a, vtkIdType b)
@@ -205,25 +246,33 @@ void SetTestBackend(vtkDelaunayFlipAlgorithm* filter)
   }
 }
 
+unsigned long Observe(
+  vtkObject* object, unsigned long event, const std::function<void(void*)>& action)
+{
+  vtkNew<FunctionCommand> command;
+  command->Action = action;
+  return object->AddObserver(event, command);
+}
+
+void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>& action)
+{
+  Observe(object, event, [action](void*) { action(); });
+}
+
+void OnProgress(vtkAlgorithm* filter, const std::function<void()>& action)
+{
+  OnEvent(filter, vtkCommand::ProgressEvent, action);
+}
+
 WatchedAlgorithm::WatchedAlgorithm(vtkDelaunayFlipAlgorithm* filter)
   : Filter(filter)
 {
   SetTestBackend(this->Filter);
-  this->Watch(this->Filter, vtkCommand::ErrorEvent, &this->Errors);
-  this->Watch(this->Filter, vtkCommand::WarningEvent, &this->Warnings);
-  this->Watch(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, &this->ExecutiveErrors);
-}
-
-void WatchedAlgorithm::Watch(
-  vtkObject* object, unsigned long event, std::vector<std::string>* messages)
-{
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(messages);
-  command->SetCallback(
-    [](vtkObject*, unsigned long, void* target, void* text) {
-      static_cast<std::vector<std::string>*>(target)->emplace_back(static_cast<const char*>(text));
-    });
-  object->AddObserver(event, command);
+  const auto addTo = [](std::vector<std::string>& messages)
+  { return [&messages](void* text) { messages.emplace_back(static_cast<const char*>(text)); }; };
+  Observe(this->Filter, vtkCommand::ErrorEvent, addTo(this->Errors));
+  Observe(this->Filter, vtkCommand::WarningEvent, addTo(this->Warnings));
+  Observe(this->Filter->GetExecutive(), vtkCommand::ErrorEvent, addTo(this->ExecutiveErrors));
 }
 
 vtkPolyData* WatchedAlgorithm::Run()
@@ -271,10 +320,10 @@ std::string RunToError(WatchedAlgorithm& filter, int failure)
   return filter.GetErrors().empty() ? "" : filter.GetErrors().back();
 }
 
-Cells FlipAtOnce(vtkPolyData* mesh, double featureAngle)
+Cells FlipAtOnce(vtkPolyData* mesh, const std::function<void(vtkDelaunayFlip*)>& set)
 {
   WatchedFilter filter(mesh);
-  filter->SetFeatureAngle(featureAngle);
+  set(filter.Get());
   return GetCells(RunCleanly(filter)->GetPolys());
 }
 

@@ -5,9 +5,9 @@
 
 #include "GeneratedMeshes.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDelaunayFlip.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -15,6 +15,7 @@
 
 #include <array>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,12 @@ using Points = std::vector<std::array<double, 3>>;
 using Cell = std::vector<vtkIdType>;
 using Cells = std::vector<Cell>;
 
-/// A mesh with double points and polygons, and one with lines.
+/// A mesh with double points and polygons, one with lines, and lines without points.
 Mesh MakeMesh(const Points& points, const Cells& polygons);
 Mesh MakeLines(const Points& points, const Cells& lines);
+Mesh MakeLines(const Cells& lines);
+
+vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks(const std::vector<vtkDataObject*>& leaves);
 
 /// A rhombus of points 0 (left), 1 (below), 2 (right), 3 (above), divided along its long diagonal
 /// 0-2 into triangles (0, 1, 2) and (0, 2, 3). One flip, to 1-3, makes it Delaunay.
@@ -53,6 +57,9 @@ Cell GetCell(vtkPolyData* mesh, vtkIdType cell);
 /// The cells of a cell array.
 Cells GetCells(vtkCellArray* cells);
 vtkSmartPointer<vtkCellArray> MakeCells(const Cells& cells);
+
+/// The triangles of a mesh without other polygons, whatever their order and first corner.
+std::set<std::set<vtkIdType>> GetTriangles(vtkPolyData* mesh);
 
 /// Whether two points are joined by an edge of some polygon.
 bool HasEdge(vtkPolyData* mesh, vtkIdType a, vtkIdType b);
@@ -151,8 +158,6 @@ public:
   const std::vector<std::string>& GetExecutiveErrors() const { return this->ExecutiveErrors; }
 
 private:
-  void Watch(vtkObject* object, unsigned long event, std::vector<std::string>* messages);
-
   vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
@@ -179,16 +184,13 @@ public:
 
 using WatchedFilter = Watched<vtkDelaunayFlip>;
 
+/// Calls a function with the data of every event of an object, or without. @returns the observer.
+unsigned long Observe(
+  vtkObject* object, unsigned long event, const std::function<void(void*)>& action);
+void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>& action);
+
 /// Calls a function at every progress event.
-template <typename Action>
-void OnProgress(vtkAlgorithm* filter, Action& action)
-{
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(&action);
-  command->SetCallback(
-    [](vtkObject*, unsigned long, void* target, void*) { (*static_cast<Action*>(target))(); });
-  filter->AddObserver(vtkCommand::ProgressEvent, command);
-}
+void OnProgress(vtkAlgorithm* filter, const std::function<void()>& action);
 
 /// Runs a filter that must have neither an error nor a warning.
 Mesh RunCleanly(WatchedAlgorithm& filter);
@@ -200,8 +202,9 @@ std::string RunToWarning(WatchedAlgorithm& filter);
 /// of failure. @returns the error.
 std::string RunToError(WatchedAlgorithm& filter, int failure = vtkDelaunayFlip::FAILURE_MESH);
 
-/// The polygons after a single update.
-Cells FlipAtOnce(vtkPolyData* mesh, double featureAngle = 30.0);
+/// The polygons after a single update with some options.
+Cells FlipAtOnce(
+  vtkPolyData* mesh, const std::function<void(vtkDelaunayFlip*)>& set = [](vtkDelaunayFlip*) {});
 
 /// Updates a live run until nothing is left to do. @returns the number of updates.
 int RunToTheEnd(WatchedAlgorithm& filter);

@@ -126,9 +126,7 @@ void Divide(vtkDelaunayFlip* filter)
 {
   filter->SetGeometryToPlanarXY();
   filter->SetRegionArray("Region");
-  vtkNew<vtkPolyData> constraints;
-  constraints->SetLines(MakeCells({ GetCell(filter->GetPolyDataInput(0), 250) }));
-  filter->SetConstraintsData(constraints);
+  filter->SetConstraintsData(MakeLines({ GetCell(filter->GetPolyDataInput(0), 250) }));
 }
 
 }

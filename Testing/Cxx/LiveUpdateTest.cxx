@@ -9,8 +9,10 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCleanPolyData.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
@@ -24,9 +26,7 @@ namespace
 /// The triangles of a mesh after a single update by x and y.
 Cells FlipAtOnceXY(vtkPolyData* mesh)
 {
-  WatchedFilter filter(mesh);
-  filter->SetGeometryToPlanarXY();
-  return GetCells(RunCleanly(filter)->GetPolys());
+  return FlipAtOnce(mesh, [](vtkDelaunayFlip* filter) { filter->SetGeometryToPlanarXY(); });
 }
 
 /// Bends the rhombus along its long diagonal, or flattens it.
@@ -100,11 +100,12 @@ TEST(LiveUpdate, OtherOptionsInputsAndCellsStartAgain)
   filter.RunToTheEnd();
   filter->SetInputData(mesh);
   expectStart(FlipAtOnce(mesh));
-  filter->SetFeatureAngle(180.0);
-  expectStart(FlipAtOnce(mesh, 180.0));
+  const auto setAngle = [](vtkDelaunayFlip* flip) { flip->SetFeatureAngle(180.0); };
+  setAngle(filter.Get());
+  expectStart(FlipAtOnce(mesh, setAngle));
   filter->Restart();
   EXPECT_FALSE(filter->GetNeedsUpdate());
-  expectStart(FlipAtOnce(mesh, 180.0));
+  expectStart(FlipAtOnce(mesh, setAngle));
   auto rhombus = MakeRhombus();
   filter->SetInputData(rhombus);
   filter.RunToTheEnd();
@@ -144,11 +145,87 @@ TEST(LiveUpdate, OtherStepsOutputsAndAttributesGoOn)
   EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(mesh));
 }
 
+TEST(LiveUpdate, OtherVertsStartAgain)
+{
+  auto mesh = MakeQuadAndTriangle();
+  LiveFilter filter(mesh);
+  for (const Cells& verts : { Cells{ { 0 } }, Cells{ { 0 }, { 1 }, { 2 } } })
+  {
+    mesh->SetVerts(MakeCells(verts));
+    AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
+    filter.RunToTheEnd();
+  }
+  EXPECT_EQ(GetNumbers(filter->GetOutput()->GetCellData(), "Number"),
+    (std::vector<int>{ 0, 1, 2, 3, 3, 4 }));
+}
+
+TEST(LiveUpdate, GoesOnWhereInputsAreMadeAgain)
+{
+  auto mesh = MakeBadPlane();
+  vtkNew<vtkStringArray> regions;
+  regions->SetName("Region");
+  regions->SetNumberOfValues(mesh->GetNumberOfCells());
+  mesh->GetCellData()->AddArray(regions);
+  vtkNew<vtkCleanPolyData> makers[2];
+  makers[0]->SetInputData(mesh);
+  makers[1]->SetInputData(MakeLines({ { -9, 0, 0 }, { -9, 1, 0 } }, { { 0, 1 } }));
+  makers[0]->Update();
+  const Cells expected = FlipAtOnce(makers[0]->GetOutput());
+  LiveFilter filter(mesh);
+  filter->SetRegionArray("Region");
+  for (int port = 0; port < 2; ++port)
+  {
+    makers[port]->ReleaseDataFlagOn(); // so that every update executes it
+    filter->SetInputConnection(port, makers[port]->GetOutputPort());
+  }
+  filter.RunToTheEnd();
+  EXPECT_GT(filter->GetNumberOfIterations(), 5);
+  EXPECT_EQ(filter.GetPolygons(), expected);
+  Shear(mesh, 0.05);
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  regions->SetValue(0, "other");
+  regions->Modified();
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  filter->Advance();
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 2);
+}
+
+TEST(LiveUpdate, RestartsAfterTheUpdateAtWork)
+{
+  LiveFilter filter(MakeBadPlane());
+  filter.Run();
+  filter->Advance();
+  OnProgress(filter.Get(),
+    [&filter]()
+    {
+      if (filter->GetProgress() > 0.0 && filter->GetProgress() < 1.0)
+      {
+        filter->Restart();
+      }
+    });
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 2);
+  filter->RemoveAllObservers();
+  EXPECT_TRUE(filter->Advance());
+  filter.Run();
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+}
+
+TEST(LiveUpdate, EndsWithoutAMesh)
+{
+  LiveFilter filter(MakeBadPlane());
+  filter.Run();
+  filter->SetInputDataObject(vtkNew<vtkMultiBlockDataSet>());
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter->GetSession(), nullptr);
+}
+
 TEST(LiveUpdate, BlocksAreFlippedAtOnce)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeBadPlane());
-  WatchedFilter filter(blocks);
+  WatchedFilter filter(MakeBlocks({ MakeBadPlane() }));
   filter->LiveUpdateOn();
   ExpectHolds(RunToWarning(filter), "LiveUpdate");
   EXPECT_TRUE(filter->GetConverged());
@@ -166,16 +243,14 @@ TEST(LivePace, AsManyIterationsAsFit)
 
   LiveFilter filter(MakeBadPlane());
   filter->SetIterationsPerUpdate(0);
-  auto wait = []() { std::this_thread::sleep_for(std::chrono::milliseconds(60)); };
-  OnProgress(filter.Get(), wait);
+  OnProgress(filter.Get(), []() { std::this_thread::sleep_for(std::chrono::milliseconds(60)); });
   for (vtkIdType iterations = 1; iterations <= 3; ++iterations)
   {
     filter.Run();
     EXPECT_EQ(filter->GetNumberOfIterations(), iterations);
     filter->Advance();
   }
-  auto stop = [&filter]() { filter->SetAbortExecute(filter->GetNumberOfIterations() > 3); };
-  OnProgress(filter.Get(), stop);
+  OnProgress(filter.Get(), [&]() { filter->SetAbortExecute(filter->GetNumberOfIterations() > 3); });
   filter.Run();
   EXPECT_EQ(filter->GetNumberOfIterations(), 4);
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);

@@ -10,7 +10,6 @@
 #include "vtkCamera.h"
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkImageData.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPNGReader.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
@@ -202,11 +201,8 @@ TEST(LiveView, MovedPointsContinueAfterTheEnd)
 
 TEST(LiveView, CompositeInputTakesOneStep)
 {
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->SetBlock(0, MakeBadPlane());
-  blocks->SetBlock(1, MakeRhombus());
   WatchedView view;
-  view.Filter->SetInputDataObject(blocks);
+  view.Filter->SetInputDataObject(MakeBlocks({ MakeBadPlane(), MakeRhombus() }));
   view.Filter->LiveUpdateOn();
   view->Start();
   EXPECT_FALSE(view->Step());
@@ -221,9 +217,8 @@ TEST(LiveView, CompositeInputTakesOneStep)
 TEST(LiveView, AnAbortPausesIt)
 {
   WatchedView view(MakeBadPlane(), false);
-  auto stop = [&view]()
-  { view.Filter->SetAbortExecute(view.Filter->GetNumberOfIterations() == 2); };
-  OnProgress(view.Filter.Get(), stop);
+  OnProgress(view.Filter.Get(),
+    [&view]() { view.Filter->SetAbortExecute(view.Filter->GetNumberOfIterations() == 2); });
   OnEvent(view.Filter.Get(), vtkCommand::AbortCheckEvent, []() {});
   view->Run();
   view.RunUntilItStops();
@@ -254,6 +249,22 @@ TEST(LiveView, AFailureEndsTheRun)
   view.Filter->SetTolerance(0.0);
   EXPECT_TRUE(view->Step());
   EXPECT_EQ(view->GetFrameNumber(), 2);
+}
+
+TEST(LiveView, AMeshThatCannotBeDrawnFails)
+{
+  auto broken = MakeRhombus();
+  broken->SetPolys(MakeCells({ { 0, 1, 2, 1000000000 } }));
+  const auto blocks = MakeBlocks({ broken, MakeRhombus() });
+  for (vtkDataObject* input : std::initializer_list<vtkDataObject*>{ broken, blocks })
+  {
+    WatchedView view(nullptr);
+    view.Filter->SetInputDataObject(input);
+    view->Start();
+    EXPECT_EQ(view.GetMapper()->GetNumberOfTriangles(), input == broken.Get() ? 0 : 2);
+    EXPECT_FALSE(view->Step());
+    ExpectHolds(view.GetStatus(), "failed: ");
+  }
 }
 
 TEST(LiveView, WhatIsMissingIsAnError)
@@ -355,13 +366,11 @@ TEST(LiveView, LeavesNothingBehind)
 TEST(LiveView, ObserversMayDoAnything)
 {
   WatchedView view(MakeBadPlane(), false);
-  auto restart = [&view]() { view->Restart(); };
-  OnProgress(view.Filter.Get(), restart); // ignored while the filter executes
+  OnProgress(view.Filter.Get(), [&view]() { view->Restart(); }); // ignored while it executes
   view->Step();
   view->Step();
   EXPECT_EQ(view->GetFrameNumber(), 2);
-  auto drop = [&view]() { view->SetFilter(nullptr); };
-  OnProgress(view.Filter.Get(), drop);
+  OnProgress(view.Filter.Get(), [&view]() { view->SetFilter(nullptr); });
   EXPECT_FALSE(view->Step());
   EXPECT_EQ(view->GetFrameNumber(), -1);
   EXPECT_FALSE(view->IsRunning());

@@ -20,23 +20,6 @@
 namespace
 {
 
-/// A command that owns the function that it calls.
-class FunctionCommand : public vtkCommand
-{
-public:
-  static FunctionCommand* New() { return new FunctionCommand; }
-  void Execute(vtkObject*, unsigned long, void* data) override { this->Action(data); }
-
-  std::function<void(void*)> Action;
-};
-
-void Observe(vtkObject* object, unsigned long event, const std::function<void(void*)>& action)
-{
-  vtkNew<FunctionCommand> command;
-  command->Action = action;
-  object->AddObserver(event, command);
-}
-
 /// The texts of a renderer: the status, then the keys.
 std::string GetText(vtkRenderer* renderer, int number)
 {
@@ -53,11 +36,6 @@ std::string GetText(vtkRenderer* renderer, int number)
   return "";
 }
 
-}
-
-void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>& action)
-{
-  Observe(object, event, [action](void*) { action(); });
 }
 
 WatchedView::WatchedView(vtkPolyData* input, bool isOffScreen)
@@ -94,19 +72,18 @@ int WatchedView::RunUntilItStops()
   const int timer = this->Interactor->CreateRepeatingTimer(300);
   int looks = 0;
   bool wasRunning = true;
-  vtkNew<FunctionCommand> look;
-  look->Action = [&](void* id)
-  {
-    if (*static_cast<int*>(id) == timer)
+  const unsigned long observer = Observe(this->Interactor, vtkCommand::TimerEvent,
+    [&](void* id)
     {
-      if (++looks == 200 || !wasRunning)
+      if (*static_cast<int*>(id) == timer)
       {
-        this->Interactor->TerminateApp();
+        if (++looks == 200 || !wasRunning)
+        {
+          this->Interactor->TerminateApp();
+        }
+        wasRunning = this->View->IsRunning();
       }
-      wasRunning = this->View->IsRunning();
-    }
-  };
-  const unsigned long observer = this->Interactor->AddObserver(vtkCommand::TimerEvent, look);
+    });
   this->Interactor->Start();
   this->Interactor->RemoveObserver(observer);
   this->Interactor->DestroyTimer(timer);
@@ -116,12 +93,10 @@ int WatchedView::RunUntilItStops()
 bool WatchedView::Press(const char* key)
 {
   int heard = 0;
-  vtkNew<FunctionCommand> listener;
-  listener->Action = [&heard](void*) { ++heard; };
   for (const unsigned long event : { vtkCommand::KeyPressEvent, vtkCommand::CharEvent })
   {
     this->Interactor->SetKeySym(key);
-    const unsigned long observer = this->Interactor->AddObserver(event, listener);
+    const unsigned long observer = Observe(this->Interactor, event, [&heard](void*) { ++heard; });
     this->Interactor->InvokeEvent(event);
     this->Interactor->RemoveObserver(observer);
   }

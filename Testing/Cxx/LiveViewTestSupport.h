@@ -10,7 +10,6 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,9 +18,6 @@ class vtkActor;
 /// Helpers for the tests of vtkDelaunayFlipLiveView.
 
 using Bytes = std::vector<unsigned char>;
-
-/// Calls a function at every event of an object.
-void OnEvent(vtkObject* object, unsigned long event, const std::function<void()>& action);
 
 /// A view with a filter, an interactor and a window, which records events and errors.
 class WatchedView

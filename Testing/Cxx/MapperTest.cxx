@@ -14,8 +14,10 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellPicker.h"
+#include "vtkColorTransferFunction.h"
 #include "vtkDoubleArray.h"
 #include "vtkHardwareSelector.h"
+#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
 #include "vtkMeshQuality.h"
@@ -28,6 +30,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -234,6 +238,46 @@ TEST(Mapper, AnyInput)
   bad->Modified();
   Drawing(bad).Draw();
   EXPECT_EQ(FindMean(Drawing(vtkSmartPointer<vtkPolyData>::New()).Draw()), 0.0);
+  const vtkIdType far = 1000000000, wrapped = (vtkIdType(1) << 32) + 2;
+  for (const Cell& cell :
+    { Cell{ 0, 1, 2, far }, Cell{ 0, 1, 2, -far }, Cell{ 0, 1, 2, 3, far }, Cell{ 0, 1, wrapped } })
+  {
+    bad->SetPolys(MakeCells({ cell }));
+    EXPECT_EQ(FindMean(Drawing(bad).Draw()), 0.0);
+  }
+  vtkNew<vtkIdTypeArray> offsets, ids;
+  offsets->SetNumberOfValues(100001);
+  std::generate_n(
+    offsets->GetPointer(0), 100001, [id = vtkIdType(-3)]() mutable { return id += 3; });
+  ids->SetNumberOfValues(3);
+  ids->FillValue(0);
+  bad->GetPolys()->SetData(offsets, ids);
+  EXPECT_TRUE(std::isnan(Drawing(bad).Mapper->GetSmallestAngle()));
+  auto pairs = MakeRhombus();
+  pairs->GetPoints()->GetData()->SetNumberOfComponents(2);
+  EXPECT_TRUE(std::isnan(Drawing(pairs).Mapper->GetSmallestAngle()));
+}
+
+TEST(Mapper, InfinitePointsHideNoOthers)
+{
+  auto mesh = MakeBadPlane();
+  const double mean = FindMean(Drawing(mesh).Draw());
+  mesh->GetPoints()->SetPoint(7, std::numeric_limits<double>::infinity(), 0.0, 0.0);
+  EXPECT_GT(FindMean(Drawing(mesh).Draw()), 0.8 * mean);
+  MovePoints(mesh, [](double* x) { x[2] = std::numeric_limits<double>::infinity(); });
+  EXPECT_EQ(FindMean(Drawing(mesh).Draw()), 0.0);
+}
+
+TEST(Mapper, OtherTablesHaveNoEffect)
+{
+  Drawing drawing(MakeBadPlane());
+  drawing.Mapper->SetColorBy(vtkDelaunayFlipMapper::COLOR_BY_SMALLEST_ANGLE);
+  const Bytes picture = drawing.Draw();
+  drawing.Mapper->SetLookupTable(nullptr);
+  EXPECT_EQ(drawing.Draw(), picture);
+  drawing.Mapper->SetLookupTable(vtkNew<vtkColorTransferFunction>());
+  drawing.Mapper->SetColorBy(vtkDelaunayFlipMapper::COLOR_BY_FLIP_COUNT); // another table
+  drawing.Draw();
 }
 
 TEST(Mapper, NothingIsTranslucent)

@@ -7,7 +7,6 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkExecutive.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkTable.h"
 
 #include <gtest/gtest.h>
@@ -17,20 +16,11 @@
 namespace
 {
 
-using Action = std::function<void()>;
-
 Mesh MakeQuads()
 {
   auto mesh = ToPolyData(delaunayflip::MakeRandomBadMeshDouble(20000, 1));
   mesh->GetPolys()->InsertNextCell({ 0, 1, 2, 3 }); // so that all are copied, with progress
   mesh->SetLines(vtkNew<vtkCellArray>()); // not the one that all meshes without lines share
-  return mesh;
-}
-
-Mesh MakeLine()
-{
-  auto mesh = Mesh::New();
-  mesh->SetLines(MakeCells({ { 0, 1 } }));
   return mesh;
 }
 
@@ -41,18 +31,18 @@ bool IsAtWork(vtkDelaunayFlip* filter)
 }
 
 /// What an update gives when `action` happens at each of its events.
-Cells FlipDespite(WatchedFilter& filter, const Action& action)
+Cells FlipDespite(WatchedFilter& filter, const std::function<void()>& action)
 {
   int events = 0;
-  auto act = [&]()
-  {
-    if (IsAtWork(filter.Get()))
+  OnProgress(filter.Get(),
+    [&]()
     {
-      action();
-      ++events;
-    }
-  };
-  OnProgress(filter.Get(), act);
+      if (IsAtWork(filter.Get()))
+      {
+        action();
+        ++events;
+      }
+    });
   const Mesh output = filter->GetOutput(); // the filter may lose it
   filter->Update();
   EXPECT_GT(events, 3);
@@ -60,14 +50,9 @@ Cells FlipDespite(WatchedFilter& filter, const Action& action)
   return GetCells(output->GetPolys());
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> MakeBlocks()
+vtkSmartPointer<vtkMultiBlockDataSet> MakePlanes()
 {
-  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (unsigned int i = 0; i < 4; ++i)
-  {
-    blocks->SetBlock(i, MakeBadPlane());
-  }
-  return blocks;
+  return MakeBlocks({ MakeBadPlane(), MakeBadPlane(), MakeBadPlane(), MakeBadPlane() });
 }
 
 /// The filter's error when progress makes it catch `thrown`.
@@ -76,14 +61,14 @@ std::string GetErrorOfThrown(const Thrown& thrown, bool live)
 {
   WatchedFilter filter(MakeBadPlane());
   filter->SetLiveUpdate(live);
-  Action action = [&]()
-  {
-    if (IsAtWork(filter.Get()))
+  OnProgress(filter.Get(),
+    [&]()
     {
-      throw thrown;
-    }
-  };
-  OnProgress(filter.Get(), action);
+      if (IsAtWork(filter.Get()))
+      {
+        throw thrown;
+      }
+    });
   const std::string error = RunToError(filter, vtkDelaunayFlip::FAILURE_OTHER);
   filter->RemoveAllObservers();
   filter->LiveUpdateOff();
@@ -150,7 +135,7 @@ TEST(ObserverSafety, InputsOutputsAndOptionsMayChange)
       {
         WatchedFilter filter;
         filter->SetInputData(make()); // which nobody else holds
-        filter->SetConstraintsData(MakeLine());
+        filter->SetConstraintsData(MakeLines({ { 0, 1 } }));
         filter->SetLiveUpdate(live);
         filter->GenerateQualityOn();
         filter->GenerateFlipCountOn();
@@ -167,46 +152,48 @@ TEST(ObserverSafety, AnUpdateWithinAnUpdateIsRefused)
   WatchedFilter filter(MakeBadPlane());
   vtkNew<vtkAppendPolyData> below;
   below->AddInputConnection(filter->GetOutputPort());
-  Action action = [&]()
-  {
-    if (IsAtWork(filter.Get()))
+  OnProgress(filter.Get(),
+    [&]()
     {
-      filter->Update();
-      below->Update();
-    }
-  };
-  OnProgress(filter.Get(), action);
+      if (IsAtWork(filter.Get()))
+      {
+        filter->Update();
+        below->Update();
+      }
+    });
   filter.Run();
   EXPECT_TRUE(filter->GetConverged());
   EXPECT_EQ(CountViolations(filter->GetOutput()), 0);
   EXPECT_FALSE(filter.GetErrors().empty());
 }
 
-TEST(ObserverSafety, BlocksMayBeRemoved)
+TEST(ObserverSafety, BlocksMayBeRemovedOrEmptied)
 {
   for (const bool all : { false, true })
   {
-    const auto blocks = MakeBlocks();
+    const auto blocks = MakePlanes();
+    const Mesh last = vtkPolyData::SafeDownCast(blocks->GetBlock(3));
     WatchedFilter filter(blocks);
-    filter->SetInputDataObject(1, MakeBlocks());
-    Action action = [&]()
-    {
-      if (!IsAtWork(filter.Get()))
+    filter->SetInputDataObject(1, MakePlanes());
+    OnProgress(filter.Get(),
+      [&]()
       {
-        return;
-      }
-      for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
-      {
-        blocks->SetBlock(i, nullptr);
-      }
-      if (all)
-      {
-        blocks->Initialize();
-        filter->GetInputDataObject(1, 0)->Initialize();
-        filter->RemoveAllInputConnections(0);
-      }
-    };
-    OnProgress(filter.Get(), action);
+        if (!IsAtWork(filter.Get()))
+        {
+          return;
+        }
+        last->Initialize();
+        for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
+        {
+          blocks->SetBlock(i, nullptr);
+        }
+        if (all)
+        {
+          blocks->Initialize();
+          filter->GetInputDataObject(1, 0)->Initialize();
+          filter->RemoveAllInputConnections(0);
+        }
+      });
     filter->Update();
     for (unsigned int i = 0; i < 4; ++i)
     {

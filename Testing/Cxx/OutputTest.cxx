@@ -266,6 +266,29 @@ TEST(Output, GlobalIdsBecomePedigreeIdsWhereACellIsSplit)
   EXPECT_EQ(filter->GetOutput()->GetCellData()->GetPedigreeIds(), nullptr);
 }
 
+/// Also where they have no name.
+TEST(Output, ArraysMayBeSeveralAttributes)
+{
+  auto mesh = SetCellNormals(MakeQuadAndTriangle(), 1.0);
+  vtkCellData* given = mesh->GetCellData();
+  AddNumbers(given, "Id", 2, 7);
+  given->SetActiveGlobalIds("Id");
+  given->SetActiveScalars("Id");
+  given->SetActiveVectors("Normals");
+  for (const bool areNamed : { true, false })
+  {
+    given->GetGlobalIds()->SetName(areNamed ? "Id" : nullptr);
+    given->GetNormals()->SetName(areNamed ? "Normals" : nullptr);
+    WatchedFilter filter(mesh);
+    vtkCellData* data = RunCleanly(filter)->GetCellData();
+    EXPECT_EQ(data->GetNumberOfArrays(), 2);
+    ASSERT_NE(data->GetScalars(), nullptr);
+    EXPECT_EQ(data->GetPedigreeIds(), data->GetScalars());
+    ASSERT_NE(data->GetNormals(), nullptr);
+    EXPECT_EQ(data->GetVectors(), data->GetNormals());
+  }
+}
+
 TEST(Output, CellDataOfAllTypesFollowTheirCells)
 {
   std::vector<vtkSmartPointer<vtkDataArray>> arrays = { MakeArray<vtkSOADataArrayTemplate<float>>(

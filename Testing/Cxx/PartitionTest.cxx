@@ -6,6 +6,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -16,10 +17,12 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -304,6 +307,87 @@ TEST(Partitions, KeepArraysThatOthersLack)
   EXPECT_EQ(points.back(), 0); // of a point that the other partition had
 }
 
+/// Float has no such integers. Their places differ a little.
+TEST(Partitions, KeepTheirPointsAndPointData)
+{
+  const auto enlarge = [](double* x)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      x[axis] = (1 << 28) + std::round(1e6 * x[axis]);
+    }
+  };
+  const auto mesh = MakeBadMesh();
+  ReplacePoints<vtkDoubleArray>(mesh, enlarge);
+  Parts given = Cut(mesh, 3, [](vtkIdType t) { return static_cast<int>(t % 3); });
+  AddGlobalIds(given);
+  for (int k = 0; k < 3; ++k)
+  {
+    AddNumbers(given[k]->GetPointData(), "Own", given[k]->GetNumberOfPoints(), 1000 * k);
+    ReplacePoints<vtkIntArray>(given[k], [k](double* x) { x[0] += k; });
+  }
+  PartitionFilter filter(given);
+  const Parts parts = filter.UpdateCleanly();
+  const auto list = [](const Parts& meshes)
+  {
+    std::multiset<std::set<int>> triangles;
+    for (const auto& part : meshes)
+    {
+      const std::vector<int> numbers = GetNumbers(part->GetPointData(), "Point");
+      for (const Cell& cell : GetCells(part->GetPolys()))
+      {
+        triangles.insert({ numbers[cell[0]], numbers[cell[1]], numbers[cell[2]] });
+      }
+    }
+    return triangles;
+  };
+  AddNumbers(mesh->GetPointData(), "Point", mesh->GetNumberOfPoints(), 0);
+  WatchedFilter alone(mesh);
+  alone->SetTieRuleToCanonical();
+  EXPECT_EQ(list(parts), list({ RunCleanly(alone) }));
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    EXPECT_GT(parts[k]->GetNumberOfPoints(), given[k]->GetNumberOfPoints());
+    const std::vector<int> own = GetNumbers(given[k]->GetPointData(), "Own");
+    const std::vector<int> points = GetNumbers(parts[k]->GetPointData(), "Own");
+    EXPECT_TRUE(std::equal(own.begin(), own.end(), points.begin()));
+    for (vtkIdType i = 0; i < given[k]->GetNumberOfPoints(); ++i)
+    {
+      EXPECT_EQ(GetPlace(parts[k], i), GetPlace(given[k], i));
+    }
+  }
+}
+
+TEST(Partitions, KeepArraysOfAnyName)
+{
+  const Parts given = CutInOrder(MakeBadMesh(60), 3);
+  const char* const internal = "vtkDelaunayFlipPartition";
+  for (const auto& part : given)
+  {
+    vtkCellData* data = part->GetCellData();
+    AddNumbers(data, internal, part->GetNumberOfCells(), 5);
+    for (const int first : { 100, 200 })
+    {
+      AddNumbers(data, "Unnamed", part->GetNumberOfCells(), first);
+      data->GetArray("Unnamed")->SetName(nullptr);
+    }
+  }
+  PartitionFilter filter(given);
+  const Parts parts = filter.UpdateCleanly();
+  for (std::size_t k = 0; k < parts.size(); ++k)
+  {
+    vtkCellData* data = parts[k]->GetCellData();
+    EXPECT_EQ(GetNumbers(data, internal), GetNumbers(given[k]->GetCellData(), internal));
+    ASSERT_EQ(data->GetNumberOfArrays(), 4);
+    std::set<double> firsts;
+    for (int i = 0; i < 4; ++i)
+    {
+      firsts.insert(data->GetArray(i)->GetName() ? 0.0 : data->GetArray(i)->GetComponent(0, 0));
+    }
+    EXPECT_EQ(firsts, (std::set<double>{ 0.0, 100.0, 200.0 }));
+  }
+}
+
 /// As a partition may have that got no part of the mesh.
 TEST(Partitions, DropDuplicateGhosts)
 {
@@ -358,8 +442,14 @@ TEST(Partitions, BrokenOnesAndShortArraysAreNamed)
   EXPECT_EQ(parts[1]->GetCellData()->GetNumberOfArrays(), 1);
   EXPECT_EQ(parts[1]->GetPointData()->GetNumberOfArrays(), 1);
   given[1]->SetPolys(MakeCells({ { 0, 1, 4444 } }));
-  PartitionFilter broken(given);
-  EXPECT_EQ(broken.Update()[0]->GetNumberOfCells(), 0);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->InsertNextCell(VTK_VERTEX, 1, std::array<vtkIdType, 1>{ 0 }.data());
+  auto data = vtkSmartPointer<vtkPartitionedDataSet>::New();
+  data->SetPartition(0, grid);
+  PartitionFilter broken(given, data);
+  EXPECT_EQ(broken.Update()[1]->GetNumberOfCells(), 0);
+  auto* output = vtkPartitionedDataSet::SafeDownCast(broken->GetOutputDataObject(0));
+  EXPECT_TRUE(output->GetPartitionAsDataObject(0)->IsA("vtkUnstructuredGrid")); // passed
   ASSERT_EQ(broken.GetErrors().size(), 1u);
   ExpectHolds(broken.GetErrors()[0], "4444");
 }
@@ -371,8 +461,7 @@ TEST(Partitions, ConstraintsMayBeOfEach)
   PartitionFilter free(given);
   free.UpdateCleanly();
   EXPECT_EQ(free->GetTotalFlips(), 1);
-  vtkNew<vtkPolyData> ofSecond; // an edge between its own points
-  ofSecond->SetLines(MakeCells({ { 0, 1 } }));
+  const Mesh ofSecond = MakeLines({ { 0, 1 } }); // an edge between its own points
   vtkNew<vtkPartitionedDataSet> lines;
   lines->SetPartition(1, ofSecond);
   PartitionFilter kept(given);
@@ -383,11 +472,20 @@ TEST(Partitions, ConstraintsMayBeOfEach)
   named->SetInputDataObject(1, ofSecond);
   named.UpdateCleanly();
   EXPECT_EQ(named->GetTotalFlips(), 0);
-  vtkNew<vtkPolyData> places;
+  const Mesh places = MakeLines({ { 0, 2 } });
   places->SetPoints(given[0]->GetPoints());
-  places->SetLines(MakeCells({ { 0, 2 } }));
   PartitionFilter also(given);
   also->SetInputDataObject(1, places);
   also.UpdateCleanly();
   EXPECT_EQ(also->GetTotalFlips(), 0);
+  vtkNew<vtkPolyData> sides, diagonal; // of a mesh in one partition
+  sides->SetLines(MakeCells({ { 0, 1 } }));
+  diagonal->SetLines(MakeCells({ { 0, 2 } }));
+  vtkNew<vtkPartitionedDataSet> two;
+  two->SetPartition(0, sides);
+  two->SetPartition(1, diagonal);
+  PartitionFilter single({ MakeRhombus() });
+  single->SetInputDataObject(1, two);
+  single.UpdateCleanly();
+  EXPECT_EQ(single->GetTotalFlips(), 0);
 }

@@ -154,8 +154,7 @@ TEST(Pipeline, ExecutesOnlyWhenModified)
   WatchedFilter filter;
   filter->SetInputConnection(above->GetOutputPort());
   int executions = 0;
-  auto count = [&]() { executions += filter->GetProgress() == 0.0 ? 1 : 0; };
-  OnProgress(filter.Get(), count);
+  OnProgress(filter.Get(), [&]() { executions += filter->GetProgress() == 0.0 ? 1 : 0; });
   EXPECT_TRUE(HasEdge(RunCleanly(filter), 1, 3));
   RunCleanly(filter);
   EXPECT_EQ(executions, 1);
@@ -220,8 +219,7 @@ TEST(Growth, NothingOutlivesTheFilter)
     std::vector<vtkWeakPointer<vtkObjectBase>> all;
     {
       auto mesh = MakeBadPlane();
-      auto lines = MakeLines({}, { { 0, 1 } });
-      lines->SetPoints(nullptr);
+      auto lines = MakeLines({ { 0, 1 } });
       auto filter = vtkSmartPointer<vtkDelaunayFlip>::New();
       filter->SetInputData(mesh);
       filter->SetConstraintsData(lines);

@@ -6,13 +6,13 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCleanPolyData.h"
 #include "vtkDataArray.h"
 #include "vtkDelaunayFlipPoints.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -21,6 +21,7 @@
 #include "vtkStructuredGrid.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -28,14 +29,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
-#include <set>
 
 namespace
 {
 
 using PointsFilter = Watched<vtkDelaunayFlipPoints>;
-using TriangleSet = std::set<std::set<vtkIdType>>;
 
 constexpr double Inf = std::numeric_limits<double>::infinity();
 
@@ -56,17 +56,6 @@ Mesh ToMesh(const Points& points) { return MakeMesh(points, {}); }
 
 /// A square of 4 x 4 units, whose points 0 to 3 are its corners, counter-clockwise.
 const Points Square = { { 0, 0, 1 }, { 4, 0, 2 }, { 4, 4, 3 }, { 0, 4, 4 } };
-
-TriangleSet GetTriangles(vtkPolyData* mesh)
-{
-  TriangleSet triangles;
-  for (const Cell& cell : GetCells(mesh->GetPolys()))
-  {
-    EXPECT_EQ(cell.size(), 3u);
-    triangles.emplace(cell.begin(), cell.end());
-  }
-  return triangles;
-}
 
 }
 
@@ -178,7 +167,7 @@ TEST(FromPoints, Projections)
     std::array<double, 16>{ 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1 }.data());
   PointsFilter moved(ToMesh(upright));
   moved->SetTransform(transform);
-  const TriangleSet byTransform = GetTriangles(RunCleanly(moved));
+  const auto byTransform = GetTriangles(RunCleanly(moved));
   EXPECT_EQ(byTransform, GetTriangles(output));
   const vtkMTimeType before = moved->GetMTime();
   transform->RotateZ(30.0);
@@ -237,8 +226,7 @@ TEST(FromPoints, IdsOfSegments)
   // With the shorter diagonal these would be Delaunay.
   const Points points = { { 0, 0, 0 }, { 4, -1, 0 }, { 8, 0, 0 }, { 4, 1, 0 } };
   auto lines = MakeLines(points, { { 0, 2 } });
-  vtkNew<vtkPolyData> idsOnly;
-  idsOnly->SetLines(lines->GetLines());
+  auto idsOnly = MakeLines({ { 0, 2 } });
   auto floats = MakeLines(points, { { 0, 2 } });
   ReplacePoints<vtkFloatArray>(floats);
   for (vtkPolyData* segments : { lines.Get(), idsOnly.Get(), floats.Get() })
@@ -271,6 +259,11 @@ TEST(FromPoints, Crossings)
     heights->SetValue(i, 10.0 * static_cast<double>(i));
   }
   cloud->GetPointData()->SetScalars(heights);
+  AddNumbers(cloud->GetPointData(), "Id", 4, 100);
+  cloud->GetPointData()->SetActiveGlobalIds("Id");
+  auto ghosts = MakeArray<vtkUnsignedCharArray>(vtkDataSetAttributes::GhostArrayName(), 4);
+  ghosts->FillValue(2);
+  cloud->GetPointData()->AddArray(ghosts);
   for (const bool splits : { false, true })
   {
     PointsFilter filter(cloud);
@@ -289,6 +282,9 @@ TEST(FromPoints, Crossings)
     EXPECT_EQ(output->GetPoint(4)[1], 2.0);
     EXPECT_EQ(output->GetPoint(4)[2], 2.0); // between 1 and 3, of the earlier segment
     EXPECT_EQ(output->GetPointData()->GetScalars()->GetTuple1(4), 10.0);
+    ASSERT_NE(output->GetPointData()->GetPedigreeIds(), nullptr);
+    EXPECT_EQ(output->GetPointData()->GetPedigreeIds()->GetVariantValue(4).ToInt(), 0);
+    EXPECT_EQ(output->GetPointData()->GetArray(ghosts->GetName())->GetTuple1(4), 0.0);
     EXPECT_EQ(GetTotal(output, "CrossingPoints"), 1.0);
     EXPECT_EQ(filter.GetPolygons().size(), 4u);
     EXPECT_EQ(cloud->GetNumberOfPoints(), 4);
@@ -382,16 +378,10 @@ TEST(FromPoints, CompositeInput)
   const auto first = ToMesh(MakeCloud(100)), second = ToMesh(MakeCloud(60, 3.0));
   vtkNew<vtkImageData> image;
   image->SetDimensions(2, 2, 1);
-  vtkNew<vtkMultiBlockDataSet> blocks, segments;
-  blocks->SetBlock(0, first);
-  blocks->SetBlock(1, image);
-  blocks->SetBlock(2, second);
   vtkNew<vtkPolyData> none;
-  segments->SetBlock(0, none);
-  segments->SetBlock(1, none);
-  segments->SetBlock(2, MakeLines({ { 1, 1, 5 }, { 2, 2, 5 } }, { { 0, 1 } }));
-  PointsFilter filter(blocks);
-  filter->SetInputDataObject(1, segments);
+  const Mesh segments = MakeLines({ { 1, 1, 5 }, { 2, 2, 5 } }, { { 0, 1 } });
+  PointsFilter filter(MakeBlocks({ first, image, second }));
+  filter->SetInputDataObject(1, MakeBlocks({ none, none, segments }));
   ExpectHolds(RunToWarning(filter), "block 2: has no points of its own, passed unchanged");
   EXPECT_EQ(filter.GetBlock(0)->GetPoints(), first->GetPoints());
   EXPECT_EQ(filter.GetBlock(2)->GetNumberOfPoints(), 62);
@@ -415,6 +405,15 @@ TEST(FromPoints, PointsInPiecesAreAnError)
   ASSERT_EQ(several.GetErrors().size(), 1u);
   ExpectHolds(several.GetErrors()[0], "the points are in several partitions; join them first");
   EXPECT_EQ(several->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
+  vtkNew<vtkPartitionedDataSet> whole, segments;
+  whole->SetPartition(0, ToMesh(Square));
+  segments->SetPartition(0, MakeLines(Square, { { 0, 1 } }));
+  segments->SetPartition(1, MakeLines(Square, { { 0, 2 } }));
+  PointsFilter apart(whole);
+  apart->SetInputDataObject(1, segments);
+  apart->Update();
+  ASSERT_EQ(apart.GetErrors().size(), 1u);
+  ExpectHolds(apart.GetErrors()[0], "the segments are in several partitions; join them first");
   PointsFilter piece(ToMesh(MakeCloud(10)));
   piece->UpdatePiece(1, 2, 0);
   ASSERT_EQ(piece.GetErrors().size(), 1u);
@@ -439,4 +438,21 @@ TEST(FromPoints, LiveUpdate)
   MovePoints(cloud, [](double* x) { x[0] *= 1.5; });
   live->Update();
   EXPECT_EQ(live->GetNumberOfIterations(), 1);
+
+  Cell all(cloud->GetNumberOfPoints());
+  std::iota(all.begin(), all.end(), 0);
+  cloud->SetVerts(MakeCells({ all }));
+  AddNumbers(cloud->GetPointData(), "Number", cloud->GetNumberOfPoints(), 0);
+  vtkNew<vtkCleanPolyData> maker;
+  maker->SetInputData(cloud);
+  maker->ReleaseDataFlagOn(); // so that every update makes the points again
+  live->SetInputConnection(maker->GetOutputPort());
+  const auto segments = MakeLines({ { 1, 1, 0 }, { 9, 8, 0 } }, { { 0, 1 } });
+  for (PointsFilter* filter : { &live, &atOnce })
+  {
+    (*filter)->SetSegmentsData(segments);
+  }
+  EXPECT_GT(RunToTheEnd(live), 2);
+  atOnce->Update();
+  EXPECT_EQ(live.GetPolygons(), atOnce.GetPolygons());
 }

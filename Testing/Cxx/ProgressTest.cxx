@@ -24,15 +24,15 @@ constexpr int Side = 120; ///< Quads per side: enough for several progress event
 /// Quads with numbered cells, many of which are split along the wrong diagonal.
 Mesh MakeQuads()
 {
-  Points points;
-  Cells quads;
-  for (int y = 0; y <= Side; ++y)
-  {
-    for (int x = 0; x <= Side; ++x)
+  auto mesh = ToPolyData(delaunayflip::MakeGridMesh(Side, Side));
+  MovePoints(mesh,
+    [](double* x)
     {
-      points.push_back({ x + 0.3 * (y % 2), y + 0.2 * std::sin(x * y), 0.0 });
-    }
-  }
+      const double wave = std::sin(x[0] * x[1]);
+      x[0] += 0.3 * std::fmod(x[1], 2.0);
+      x[1] += 0.2 * wave;
+    });
+  Cells quads;
   for (vtkIdType y = 0; y < Side; ++y)
   {
     for (vtkIdType x = 0; x < Side; ++x)
@@ -41,7 +41,7 @@ Mesh MakeQuads()
       quads.push_back({ corner, corner + 1, corner + Side + 2, corner + Side + 1 });
     }
   }
-  auto mesh = MakeMesh(points, quads);
+  mesh->SetPolys(MakeCells(quads));
   AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
   return mesh;
 }
@@ -56,10 +56,14 @@ public:
     : Filter(filter.Get()),
       LastEvent(lastEvent)
   {
-    OnProgress(this->Filter, *this);
+    OnProgress(this->Filter, [this]() { this->Record(); });
   }
 
-  void operator()()
+  std::vector<double> Progress;
+  std::vector<vtkIdType> Iterations;
+
+private:
+  void Record()
   {
     if (this->IsOfExecutive())
     {
@@ -73,10 +77,6 @@ public:
     }
   }
 
-  std::vector<double> Progress;
-  std::vector<vtkIdType> Iterations;
-
-private:
   /// 0 before the filter runs; from VTK 9.3 on also 1 after it was aborted.
   bool IsOfExecutive() const
   {
@@ -87,13 +87,6 @@ private:
   vtkDelaunayFlip* Filter;
   std::size_t LastEvent;
 };
-
-Cells FlipTo(vtkPolyData* mesh, vtkIdType iterations)
-{
-  WatchedFilter filter(mesh);
-  filter->SetMaximumIterations(iterations);
-  return GetCells(RunCleanly(filter)->GetPolys());
-}
 
 constexpr int LongSide = 130; ///< Squares; 33,800 triangles are enough for events while labelled.
 
@@ -113,8 +106,7 @@ Mesh MakeEdges(vtkPolyData* mesh, bool withPoints)
   {
     lines.push_back({ triangle[0], triangle[1] });
   }
-  auto edges = Mesh::New();
-  edges->SetLines(MakeCells(lines));
+  auto edges = MakeLines(lines);
   if (withPoints)
   {
     edges->SetPoints(mesh->GetPoints());
@@ -175,7 +167,9 @@ TEST(FilterProgress, AbortsAnywhere)
       ASSERT_EQ(watch.Progress.size(), event);
     }
     EXPECT_EQ(output->GetPoints(), mesh->GetPoints());
-    ASSERT_EQ(GetCells(output->GetPolys()), FlipTo(mesh, filter->GetNumberOfIterations())) << event;
+    const auto limit = [&](vtkDelaunayFlip* other)
+    { other->SetMaximumIterations(filter->GetNumberOfIterations()); };
+    ASSERT_EQ(GetCells(output->GetPolys()), FlipAtOnce(mesh, limit)) << event;
     hasStoppedEarly = hasStoppedEarly || filter->GetNumberOfIterations() == 0;
   }
   EXPECT_TRUE(hasStoppedEarly);

@@ -8,7 +8,6 @@
 #include "TestBackend.h"
 
 #include "vtkFieldData.h"
-#include "vtkMultiBlockDataSet.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
@@ -148,10 +147,7 @@ TEST(Tolerance, WithoutEffectIsWarnedOfOnce)
       filter->Advance();
     }
   }
-  vtkNew<vtkMultiBlockDataSet> two;
-  two->SetBlock(0, MakeRhombus());
-  two->SetBlock(1, MakeRhombus());
-  WatchedFilter blocks(two);
+  WatchedFilter blocks(MakeBlocks({ MakeRhombus(), MakeRhombus() }));
   blocks->SetTolerance(0.5);
   ExpectHolds(RunToWarning(blocks), "block 1, block 2: " + expected);
 }

@@ -152,7 +152,7 @@ void JudgePointCase(const PointCase& drawn)
     points.push_back({ added.X, added.Y });
   }
   Triangulation kept = result;
-  const std::set<VertexPair> edges = ListEdges(result.Triangles);
+  const EdgeMap edges = CollectEdges(ViewTriangles(result.Triangles));
   const bool mayLack = result.Report.FromPoints.OutsideTriangles > 0;
   kept.Edges.erase(
     std::remove_if(kept.Edges.begin(), kept.Edges.end(),

@@ -117,17 +117,7 @@ TEST_P(AgreementTest, RunsAgree)
   const OwnedMesh<double> mesh = GetParam().Make();
   const FlipResult first = ExpectGpuAgrees(mesh.View(), GetOptions());
   ExpectSameResult(first, Flip(mesh.View(), GetOptions()));
-  FlipSession session(mesh.View(), GetOptions());
-  while (session.Advance(1))
-  {
-  }
-  FlipResult steps;
-  steps.Triangles.resize(mesh.Triangles.size());
-  steps.FlipCounts.resize(mesh.NumberOfTriangles());
-  session.StoreTriangles({ steps.Triangles.data(), mesh.NumberOfTriangles() });
-  session.StoreFlipCounts(steps.FlipCounts.data());
-  steps.Report = session.GetReport();
-  ExpectSameResult(first, steps);
+  ExpectSameResult(first, FlipInSteps(mesh.View(), GetOptions(), 1));
 }
 
 TEST_P(AgreementTest, EveryIterationAgrees)
@@ -190,9 +180,7 @@ TEST_F(MoreAgreementTest, InsertedConstraints)
     ends.push_back(DrawIndex(random, bad.NumberOfPoints()));
   }
   const std::vector<unsigned char> toInsert(Constraints, 1);
-  TriangleMesh mesh = bad.View();
-  mesh.ConstraintEdges = ends.data();
-  mesh.NumberOfConstraintEdges = Constraints;
+  TriangleMesh mesh = WithConstraints(bad.View(), ends);
   mesh.ConstraintsToInsert = toInsert.data();
   const FlipReport report = ExpectGpuAgrees(mesh, FlipOptions()).Report;
   EXPECT_LT(0, report.InsertedConstraints);
@@ -242,11 +230,9 @@ TEST_F(SmallMeshTest, TerrainWithConstraintsRegionsAndFrozenTriangles)
     frozen[i] = i % 97 == 0;
   }
   std::vector<std::int64_t> constraints(mesh.Triangles.begin(), mesh.Triangles.begin() + 60);
-  TriangleMesh view = mesh.View();
+  TriangleMesh view = WithConstraints(mesh.View(), constraints);
   view.Regions = regions.data();
   view.FrozenTriangles = frozen.data();
-  view.ConstraintEdges = constraints.data();
-  view.NumberOfConstraintEdges = 30;
   ExpectGpuAgrees(view, MakeOptions(BackendKind::CUDA, GeometryKind::PlanarXY));
 }
 

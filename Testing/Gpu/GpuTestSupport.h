@@ -28,8 +28,7 @@ protected:
 
 inline FlipOptions MakeOptions(BackendKind backend, GeometryKind geometry = GeometryKind::Auto)
 {
-  FlipOptions options;
-  options.Backend = backend;
+  FlipOptions options = OnBackend(backend);
   options.Geometry = geometry;
   options.FeatureAngle = 180.0;
   return options;
@@ -37,22 +36,11 @@ inline FlipOptions MakeOptions(BackendKind backend, GeometryKind geometry = Geom
 
 inline bool IsOnGpu(const FlipReport& report) { return report.Backend.rfind("CUDA: ", 0) == 0; }
 
-/// Reports a failure for every bit that differs.
-inline void ExpectSameResult(const FlipResult& expected, const FlipResult& actual)
-{
-  EXPECT_TRUE(expected.Triangles == actual.Triangles);
-  EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
-  ExpectSameStatistics(expected.Report, actual.Report);
-  EXPECT_EQ(expected.Report.KeepsSliver, actual.Report.KeepsSliver);
-}
-
 /// Flips the mesh on the CPU and on the GPU, expects the same bits, and returns the GPU's result.
-inline FlipResult ExpectGpuAgrees(const TriangleMesh& mesh, FlipOptions options)
+inline FlipResult ExpectGpuAgrees(const TriangleMesh& mesh, const FlipOptions& options)
 {
-  options.Backend = BackendKind::Threads;
-  const FlipResult expected = Flip(mesh, options);
-  options.Backend = BackendKind::CUDA;
-  FlipResult actual = Flip(mesh, options);
+  const FlipResult expected = Flip(mesh, OnBackend(BackendKind::Threads, options));
+  FlipResult actual = Flip(mesh, OnBackend(BackendKind::CUDA, options));
   EXPECT_TRUE(IsOnGpu(actual.Report)) << actual.Report.Backend;
   ExpectSameResult(expected, actual);
   return actual;

@@ -90,9 +90,7 @@ TEST_F(DeviceStreamTest, TheMeshIsReadAfterTheCallersWork)
     stream.Copy(triangles, device.Triangles);
     DeviceMesh mesh = device.View();
     mesh.Stream = stream.Get();
-    FlipOptions options;
-    options.Backend = backend;
-    FlipToDelaunay(mesh, options, device.ViewResult());
+    FlipToDelaunay(mesh, OnBackend(backend), device.ViewResult());
     EXPECT_TRUE(this->Expected == device.Result.Get());
   }
 }
@@ -131,19 +129,7 @@ class BatchTest : public GpuTest
 protected:
   static constexpr std::int64_t LargestBatch = 128;
 
-  FlipSession Start() const
-  {
-    FlipOptions options;
-    options.Backend = BackendKind::CUDA;
-    return FlipSession(this->Mesh.View(), options);
-  }
-
-  std::vector<std::int32_t> Store(const FlipSession& session) const
-  {
-    std::vector<std::int32_t> triangles(this->Mesh.Triangles.size());
-    session.StoreTriangles(MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()));
-    return triangles;
-  }
+  FlipSession Start() const { return FlipSession(this->Mesh.View(), OnBackend(BackendKind::CUDA)); }
 
   /// Takes 797 iterations, several batches.
   OwnedMesh<double> Mesh = MakeWorstCaseMesh(400);
@@ -164,7 +150,7 @@ TEST_F(BatchTest, OnlyChangedTrianglesAreWritten)
   for (const std::int64_t iterations : { 0, 1, 300, -1 })
   {
     session.Advance(iterations);
-    EXPECT_EQ(this->Store(session), store());
+    EXPECT_EQ(StoreTriangles(session), store());
   }
   triangles.Set(none);
   EXPECT_EQ(none, store());
@@ -188,14 +174,13 @@ TEST_F(BatchTest, AnAbortActsAtItsEnd)
   EXPECT_LT(0, session.GetReport().NonDelaunayAfter);
 
   // The mesh and the statistics are those after `done` iterations, and the run can continue.
-  FlipOptions options;
-  options.Backend = BackendKind::Threads;
+  FlipOptions options = OnBackend(BackendKind::Threads);
   options.MaximumIterations = done;
-  EXPECT_TRUE(Flip(this->Mesh.View(), options).Triangles == this->Store(session));
+  EXPECT_TRUE(Flip(this->Mesh.View(), options).Triangles == StoreTriangles(session));
   EXPECT_FALSE(session.Advance());
   options.MaximumIterations = -1;
   const FlipResult complete = Flip(this->Mesh.View(), options);
-  EXPECT_TRUE(complete.Triangles == this->Store(session));
+  EXPECT_TRUE(complete.Triangles == StoreTriangles(session));
   EXPECT_EQ(complete.Report.TotalFlips, session.GetReport().TotalFlips);
   EXPECT_EQ(complete.Report.Iterations.size(), session.GetReport().Iterations.size());
   ExpectConsistentStatistics(session.GetReport());
@@ -221,10 +206,8 @@ std::size_t GetFreeMemory()
 TEST_P(FailureTest, AnyCallMayFail)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(40000, 31);
-  FlipOptions options;
-  options.Backend = BackendKind::Threads;
-  const FlipResult expected = Flip(mesh.View(), options);
-  options.Backend = BackendKind::Auto;
+  const FlipOptions options;
+  const FlipResult expected = Flip(mesh.View(), OnBackend(BackendKind::Threads));
   Flip(mesh.View(), options); // what the runtime loads at first is not a leak
   const std::size_t freeBefore = GetFreeMemory();
   std::int64_t failures = 0;
@@ -275,19 +258,10 @@ TEST_P(FailureTest, IdleMemoryIsFreedForARunThatLacksMemory)
 TEST_P(FailureTest, ForcedCudaSaysWhy)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 32);
-  FlipOptions options;
-  options.Backend = BackendKind::CUDA;
   InjectCudaError(5, GetParam());
-  try
-  {
-    Flip(mesh.View(), options);
-    FAIL() << "no error";
-  }
-  catch (const BackendUnavailable& error)
-  {
-    EXPECT_NE(std::string::npos, std::string(error.what()).find(cudaGetErrorString(GetParam())))
-      << error.what();
-  }
+  const std::string error =
+    GetMessage<BackendUnavailable>([&] { Flip(mesh.View(), OnBackend(BackendKind::CUDA)); });
+  EXPECT_NE(std::string::npos, error.find(cudaGetErrorString(GetParam()))) << error;
 }
 
 INSTANTIATE_TEST_SUITE_P(

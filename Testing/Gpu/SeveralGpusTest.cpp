@@ -161,17 +161,14 @@ TEST_F(SharedMeshTest, RegionsAndConstraints)
   {
     edges.insert(edges.end(), { mesh.Triangles[3 * t], mesh.Triangles[3 * t + 1] });
   }
-  TriangleMesh view = mesh.View();
+  TriangleMesh view = WithConstraints(mesh.View(), edges);
   view.Regions = regions.data();
-  view.ConstraintEdges = edges.data();
-  view.NumberOfConstraintEdges = static_cast<std::int64_t>(edges.size() / 2);
   ExpectSame(view);
 }
 
 TEST_F(SharedMeshTest, SmallMeshes)
 {
-  FlipOptions options;
-  options.Backend = BackendKind::CUDA;
+  FlipOptions options = OnBackend(BackendKind::CUDA);
   for (const std::int64_t points : { 3, 50, 5000 })
   {
     const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(points, 56);

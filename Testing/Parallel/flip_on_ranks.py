@@ -44,6 +44,19 @@ def run_ghosts(count, wrong=None):
     return facts, said
 
 
+def run_missing_data():
+    """Rank 1 lacks the cell data of rank 0, but gets triangles from it."""
+    points, triangles = rank_meshes.make_random(200)
+    owners = rank_meshes.divide(points, triangles, RANKS, "scattered")
+    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    if RANK == 1:
+        piece.GetCellData().Initialize()
+    flip, said = flip_piece(piece, {})
+    cells = flip.GetOutput().GetCellData()
+    require(cells.GetScalars() is cells.GetPedigreeIds() is not None, "an attribute is lost")
+    return describe(flip, said), said
+
+
 def run_slit(ids):
     """Two points of rank 0 are at the same place, at the two sides of a slit; rank 1 has one of them."""
     points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0, 0, 0], [0.5, -1, 0], [-1, 1, 0.0]])

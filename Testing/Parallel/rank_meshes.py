@@ -82,14 +82,17 @@ def add_array(data, name, values):
 
 
 def make_piece(points, triangles, slots, ids):
-    """The piece with the triangles `slots`, their data and, if `ids`, global point ids. Its points
-    are only those that it needs."""
+    """The piece with the triangles `slots`, their data, an array without a name and, if `ids`, global
+    point ids. Its points are only those that it needs."""
     used, local = np.unique(triangles[slots], return_inverse=True)
     piece = make_poly_data(points[used], local.reshape(-1, 3))
     if len(slots) == 0:
         return vtkPolyData()
-    add_array(piece.GetPointData(), "height", points[used] @ [1.0, 2.0, 3.0])
+    for name in (None, "height"):
+        add_array(piece.GetPointData(), name, points[used] @ [1.0, 2.0, 3.0])
     add_array(piece.GetCellData(), "slot", np.asarray(slots, np.int64))
+    piece.GetCellData().SetActiveScalars("slot")
+    piece.GetCellData().SetActivePedigreeIds("slot")
     names = vtkStringArray()
     names.SetName("name")
     for slot in slots:

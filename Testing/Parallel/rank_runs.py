@@ -76,9 +76,14 @@ def check_data(points, output):
     names = output.GetCellData().GetAbstractArray("name")
     for cell, slot in enumerate(slots):
         require(names.GetValue(cell) == f"triangle {slot}", "a name is lost")
-    heights = vtk_to_numpy(output.GetPointData().GetArray("height"))
-    require(np.array_equal(heights, rank_meshes.read_points(output) @ [1.0, 2.0, 3.0]),
-            "point data are lost")
+    cells, points = output.GetCellData(), output.GetPointData()
+    require(cells.GetScalars() is cells.GetPedigreeIds() is not None, "an attribute is lost")
+    arrays = [points.GetArray(i) for i in range(points.GetNumberOfArrays())]
+    heights = [vtk_to_numpy(array) for array in arrays if array.GetName() in (None, "height")]
+    require(len(heights) == 2, f"{len(heights)} arrays of heights")
+    for values in heights:
+        require(np.array_equal(values, rank_meshes.read_points(output) @ [1.0, 2.0, 3.0]),
+                "point data are lost")
 
 
 def gather_triangles(points, output):

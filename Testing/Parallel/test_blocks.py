@@ -48,6 +48,7 @@ class Blocks(RanksTest):
                 self.assertTrue(facts["same"])
                 self.assertEqual(facts["constraints"], facts["constraints alone"])
                 self.assertEqual(facts["unmatched"] > 0, unmatched)
+                self.assertNotIn("ignored", str(facts["said"]))
 
 
 class BlockFailures(RanksTest):

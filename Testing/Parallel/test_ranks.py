@@ -38,6 +38,9 @@ class Pieces(RanksTest):
     def test_one_rank_is_empty(self):
         self.expect_same(4, kind="one is empty")
 
+    def test_one_rank_has_no_data(self):
+        self.assertEqual(flip_on(2, "missing_data")["stopped"], "converged")
+
     def test_ghosts_are_dropped(self):
         facts = flip_on(3, "ghosts", count=400)
         self.assertTrue(facts["same"], facts)

@@ -54,6 +54,9 @@ def make_polygon_mesh(seed=3, side=9):
     normals = numpy_to_vtk(numpy.tile([0.0, 0.0, -1.0], (count, 1)), deep=True)
     normals.SetName("Normals")
     mesh.GetCellData().SetNormals(normals)
+    mesh.GetCellData().SetActiveVectors("Normals")
+    mesh.GetCellData().SetActiveScalars("Ids")
+    mesh.GetCellData().AddArray(numpy_to_vtk(numpy.arange(count), deep=True))  # without a name
     return mesh
 
 
@@ -109,8 +112,8 @@ def read_mesh(mesh):
             parts.append((get_cells(cells), cells.GetConnectivityArray().GetDataTypeSize()))
         data = (mesh.GetPointData(), mesh.GetCellData())
         parts += [read_array(array) for attributes in data for array in list_arrays(attributes)]
-        parts += [attributes.IsArrayAnAttribute(i)
-                  for attributes in data for i in range(attributes.GetNumberOfArrays())]
+        parts += [attribute and attribute.GetName() for attributes in data for attribute in map(
+            attributes.GetAbstractAttribute, range(attributes.NUM_ATTRIBUTES))]
     parts += [read_array(array) for array in list_arrays(mesh.GetFieldData())
               if not array.GetName().endswith(":Seconds")]
     return parts
@@ -283,6 +286,15 @@ class Same(Pair, unittest.TestCase):
         told = self.expect_same(blocks, lambda flip: flip.TrackQualityOn())
         self.assertEqual(len(told["warnings"]), 1)
         self.assertEqual(len(told["errors"]), 1)
+        constraints = vtkMultiBlockDataSet()
+        constraints.SetBlock(0, image)
+        constraints.SetBlock(2, make_polygon_mesh())
+        told = self.expect_same(blocks, lambda flip: flip.SetInputDataObject(1, constraints))
+        for number, text in (3, "nothing of the first one is at its place"), (1, "not a vtkPolyData"):
+            self.assertIn(f"block {number} of the second input: {text}", told["warnings"][0])
+        told = self.expect_same(
+            make_rhombus(), lambda flip: flip.SetConstraintsData(make_polygon_mesh()))
+        self.assertIn("second input: triangle strips ignored", told["warnings"][0])
 
     def test_aborts(self):
         def stop(flip, _event):
@@ -312,6 +324,11 @@ def make_cloud(count=300, kind=numpy.float64, seed=5):
     add_numbers(cloud.GetPointData(), "Own", count)
     cloud.GetPointData().SetGlobalIds(numpy_to_vtk(numpy.arange(count), deep=True))
     cloud.GetPointData().GetGlobalIds().SetName("Ids")
+    cloud.GetPointData().SetActiveScalars("Ids")
+    cloud.GetPointData().AddArray(numpy_to_vtk(numpy.arange(count), deep=True))  # without a name
+    ghosts = numpy_to_vtk(numpy.full(count, 2, numpy.uint8), deep=True)
+    ghosts.SetName("vtkGhostType")
+    cloud.GetPointData().AddArray(ghosts)
     return cloud
 
 
@@ -394,7 +411,12 @@ class SamePoints(Pair, unittest.TestCase):
         for kind in (CxxPoints, PythonPoints):
             told = Watched(join([make_cloud(9), make_cloud(8)]), kind)
             told.filter.Update()
-            self.assertIn("in several partitions; join them first", told.errors[0])
+            self.assertIn("points are in several partitions; join them first", told.errors[0])
+            segments = make_segments(make_cloud(9), float)
+            told = Watched(join([make_cloud(9)]), kind)
+            told.filter.SetInputDataObject(1, join([segments, segments]))
+            told.filter.Update()
+            self.assertIn("segments are in several partitions; join them first", told.errors[0])
             for piece in range(2):  # gathered on the first rank, or not
                 told = Watched(make_cloud(9), kind)
                 told.filter.UpdatePiece(piece, 2, 0)

@@ -22,7 +22,7 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
 from vtkmodules.vtkFiltersAMR import vtkAMRGaussianPulseSource
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
-from vtkmodules.vtkFiltersSources import vtkPlaneSource
+from vtkmodules.vtkFiltersSources import vtkLineSource, vtkPlaneSource
 
 HAS_PIPELINES = vtkVersion.GetVTKMajorVersion() * 100 + vtkVersion.GetVTKMinorVersion() >= 904
 
@@ -184,6 +184,16 @@ class Meshes(unittest.TestCase):
             self.assertEqual(FLIPPED in get_edges(watched.run()), not is_kept)
 
 
+    def test_pieces_share_constraints(self):
+        line = vtkLineSource()  # all of it in the first piece
+        line.SetPoint1(-3, 0, 0)
+        line.SetPoint2(3, 0, 0)
+        flip = vtkDelaunayFlip()
+        flip.SetInputData(make_rhombus())
+        flip.SetConstraintsConnection(line.GetOutputPort())
+        flip.UpdatePiece(1, 2, 0)
+        self.assertEqual(flip.GetNumberOfConstraintEdges(), 1)
+
     def test_kept_sliver(self):
         """A hint follows if a constraint keeps one of the worst triangles; not for a good one, nor
         without."""
@@ -271,6 +281,22 @@ class Observers(unittest.TestCase):
         filter_.AddObserver("ProgressEvent", remove)
         filter_.Update()
         self.assertEqual(filter_.GetOutput().GetNumberOfCells(), 301)
+
+    def test_blocks_are_emptied(self):
+        blocks, last = vtkMultiBlockDataSet(), make_bad_mesh()
+        for i, block in enumerate((make_bad_mesh(), last)):
+            blocks.SetBlock(i, block)
+        watched = Watched(blocks)
+
+        def empty(source, _event):
+            if 0 < source.GetProgress() < 1:
+                last.Initialize()
+
+        watched.filter.AddObserver("ProgressEvent", empty)
+        watched.filter.Update()
+        self.assertEqual(last.GetNumberOfCells(), 0)
+        output = watched.filter.GetOutputDataObject(0).GetBlock(1)
+        self.assertGreater(output.GetNumberOfCells(), 0)
 
     def test_update_within_an_update(self):
         watched = Watched(make_bad_mesh())
@@ -398,6 +424,16 @@ class FromPoints(unittest.TestCase):
         self.assertEqual(points.GetNumberOfRefusedSegments(), 0)
         self.assertTrue(points.GetConverged())
         self.assertEqual(points.GetIterations().GetNumberOfRows(), points.GetNumberOfIterations())
+
+    def test_segments_alone(self):
+        outline = make_mesh([(0, 0, 0), (2, 0, 0), (2, 2, 1), (0, 2, 0)], [(0, 1, 2, 3)])
+        for piece, triangles in ((0, 2), (1, 0)):
+            watched = Watched(vtkPolyData(), vtkDelaunayFlipPoints)
+            watched.filter.SetSegmentsData(outline)
+            watched.filter.UpdatePiece(piece, 2, 0)
+            self.assertEqual(watched.filter.GetOutput().GetNumberOfCells(), triangles)
+            self.assertTrue(watched.filter.GetConverged())
+            self.assertEqual(watched.warnings, [])
 
     def test_properties(self):
         points = vtkDelaunayFlipPoints()
