@@ -146,7 +146,7 @@ inline PointInput ToPointInput(const delaunayflip_points& c)
   Require(c.number_of_hole_seeds >= 0, "number_of_hole_seeds is negative");
   Require(c.hole_seeds || c.number_of_hole_seeds == 0, "hole_seeds is null");
   PointInput input{ ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments,
-    c.rings, c.hole_seeds, c.number_of_hole_seeds };
+    c.rings, c.first_hole, c.hole_seeds, c.number_of_hole_seeds };
   input.OnDevice = IsOnDevice(c.memory);
   input.Stream.Handle = c.stream;
   return input;
@@ -158,7 +158,7 @@ inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptio
   PointOptions points{ options };
   points.PointTolerance = c.point_tolerance;
   points.SplitCrossings = c.split_crossings != 0;
-  points.Outline = ToEnumeration(c.outline, OutlineKind::Orientation, "outline");
+  points.Outline = ToEnumeration(c.outline, OutlineKind::Any, "outline");
   points.Alpha = c.alpha;
   points.LongestEdge = c.longest_edge;
   return points;
