@@ -4,6 +4,8 @@
 
 #include "CommandError.h"
 #include "Console.h"
+#include "ConstraintEdges.h"
+#include "DataArrays.h"
 #include "DelaunayFlip.h"
 #include "Formats.h"
 #include "OutputFiles.h"
@@ -17,7 +19,6 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolygon.h>
 #include <vtkSMPTools.h>
 #include <vtkStaticCleanPolyData.h>
 
@@ -28,7 +29,6 @@
 #include <chrono>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <regex>
 #include <stdexcept>
 #include <vector>
@@ -118,7 +118,7 @@ void Configure(vtkDelaunayFlipPoints* filter, const Arguments& arguments)
   filter->SetAlpha(points.Alpha);
   filter->SetLongestEdge(points.LongestEdge);
   filter->SetPointTolerance(points.PointTolerance);
-  filter->SetOutlineToOrientation();
+  filter->SetOutlineToAny();
 }
 
 /// The filter's message with options of the command for properties of the filter.
@@ -136,18 +136,10 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
   return text;
 }
 
-enum class SegmentKind
-{
-  Breaklines,
-  Outline,
-  Holes
-};
-
 /// The lines and polygons of `mesh`, with all its points, as vtkDelaunayFlipPoints takes them:
-/// breaklines as lines, and rings as polygons. Seen from above, an outline turns counter-clockwise,
-/// and holes clockwise.
+/// breaklines as lines, and rings as polygons.
 vtkSmartPointer<vtkPolyData> MakeSegments(
-  vtkPolyData* mesh, const std::string& path, SegmentKind kind)
+  vtkPolyData* mesh, const std::string& path, bool areBreaklines)
 {
   const vtkNew<vtkCellArray> segments;
   for (vtkCellArray* const cells : { mesh->GetLines(), mesh->GetPolys() })
@@ -165,21 +157,16 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
         }
       };
       std::vector<vtkIdType> ids(points, points + size);
-      if (kind != SegmentKind::Breaklines)
+      if (!areBreaklines)
       {
         const char* const few = " has fewer than three points, so it is no ring";
         require(size > 2, few);
-        std::array<double, 3> first, last, normal;
+        std::array<double, 3> first, last;
         mesh->GetPoint(ids.front(), first.data());
         mesh->GetPoint(ids.back(), last.data());
         require(first == last || !areLines, " does not end where it begins, so it is no ring");
         ids.resize(ids.size() - (first == last ? 1 : 0));
         require(ids.size() > 2, few);
-        vtkPolygon::ComputeNormal(
-          mesh->GetPoints(), static_cast<int>(ids.size()), ids.data(), normal.data());
-        require(normal[2] != 0.0, " has no area as seen from above, so it is no ring");
-        const bool isRight = (normal[2] > 0.0) == (kind == SegmentKind::Outline);
-        std::reverse(ids.begin(), isRight ? ids.begin() : ids.end());
       }
       else if (!areLines && size > 0)
       {
@@ -193,8 +180,7 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
   auto made = vtkSmartPointer<vtkPolyData>::New();
   made->SetPoints(mesh->GetPoints());
   made->GetPointData()->ShallowCopy(mesh->GetPointData());
-  const bool areLines = kind == SegmentKind::Breaklines;
-  (areLines ? made->SetLines(segments) : made->SetPolys(segments));
+  (areBreaklines ? made->SetLines(segments) : made->SetPolys(segments));
   return made;
 }
 
@@ -243,6 +229,10 @@ public:
     {
       const auto filter = vtkSmartPointer<vtkDelaunayFlipPoints>::New();
       filter->SetSegmentsData(this->Segments);
+      if (this->Segments)
+      {
+        filter->SetFirstHole(this->Segments->GetNumberOfLines() + this->OutlineRings);
+      }
       Configure(filter, this->Settings);
       this->Filter = filter;
     }
@@ -344,10 +334,9 @@ private:
     const vtkNew<vtkAppendPolyData> all;
     int mostArrays = 0;
     const Arguments& files = this->Settings;
-    for (const auto& [kind, path] :
-      std::map<SegmentKind, std::string>{ { SegmentKind::Breaklines, files.Constraints },
-        { SegmentKind::Outline, files.Outline }, { SegmentKind::Holes, files.Holes } })
+    for (const std::string* file : { &files.Constraints, &files.Outline, &files.Holes })
     {
+      const std::string& path = *file;
       if (path.empty())
       {
         continue;
@@ -357,8 +346,9 @@ private:
       {
         throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
       }
-      const vtkSmartPointer<vtkPolyData> segments = MakeSegments(mesh, path, kind);
-      this->OutlineRings += kind == SegmentKind::Outline ? segments->GetNumberOfPolys() : 0;
+      this->TakeExactPlaces(mesh);
+      const auto segments = MakeSegments(mesh, path, file == &files.Constraints);
+      this->OutlineRings += file == &files.Outline ? segments->GetNumberOfPolys() : 0;
       all->AddInputData(segments);
       mostArrays = std::max(mostArrays, mesh->GetPointData()->GetNumberOfArrays());
     }
@@ -372,6 +362,46 @@ private:
                    "these files have are kept");
       }
     }
+  }
+
+  /// Makes floats doubles, as they become where another file has doubles. Those at a point of the
+  /// input, rounded, become that point.
+  void TakeExactPlaces(vtkPolyData* mesh) const
+  {
+    std::vector<double> storage, inputStorage;
+    const PointArray points = ViewPoints(mesh, storage);
+    const PointArray inputPoints = ViewPoints(this->Input, inputStorage);
+    if (!points.Floats || inputPoints.Floats)
+    {
+      return;
+    }
+    PointPlaces places(true);
+    std::vector<std::int64_t> placeOf(points.Count);
+    for (std::int64_t i = 0; i < points.Count; ++i)
+    {
+      placeOf[i] = places.Add(points, i);
+    }
+    std::vector<std::int64_t> inputAt(places.GetNumberOfPlaces(), PointPlaces::None);
+    for (std::int64_t i = inputPoints.Count - 1; i >= 0; --i)
+    {
+      const std::int64_t place = places.Find(inputPoints, i);
+      if (place != PointPlaces::None)
+      {
+        inputAt[place] = i;
+      }
+    }
+    const vtkNew<vtkPoints> exact;
+    exact->SetDataTypeToDouble();
+    exact->DeepCopy(mesh->GetPoints());
+    for (std::int64_t i = 0; i < points.Count; ++i)
+    {
+      const std::int64_t same = inputAt[placeOf[i]];
+      if (same != PointPlaces::None)
+      {
+        exact->SetPoint(i, this->Input->GetPoint(same));
+      }
+    }
+    mesh->SetPoints(exact);
   }
 
   void Warn(const std::string& warning)
@@ -388,21 +418,23 @@ private:
     }
   }
 
-  /// Names the file of the ring that cannot be inserted, and the number that it has there.
+  /// Names the file of the ring that cannot be used, and the number that it has there.
   [[noreturn]] void FailOnRing(const std::smatch& message) const
   {
     const vtkIdType ring = std::stoll(message[1].str()) - this->Segments->GetNumberOfLines();
     const bool isHole = ring >= this->OutlineRings;
     throw CommandError(ExitCode::BadFile,
       (isHole ? this->Settings.Holes : this->Settings.Outline) + ": ring " +
-        std::to_string(ring - (isHole ? this->OutlineRings : 0)) + " cannot be used" +
-        message[2].str() + "; --split-crossings adds points where it crosses others");
+        std::to_string(ring - (isHole ? this->OutlineRings : 0)) +
+        (message[2].matched ? " cannot be used" + message[3].str() +
+              "; --split-crossings adds points where it crosses others"
+                            : message[3].str()));
   }
 
   void ThrowErrors()
   {
     const std::string errors = TakeVTKErrors();
-    static const std::regex ring("ring (\\d+) from .* cannot be inserted(.*)");
+    static const std::regex ring("\\bring (\\d+)( from .* cannot be inserted)?(.*)");
     std::smatch found;
     if (std::regex_search(errors, found, ring))
     {
@@ -428,10 +460,10 @@ private:
     this->Run.IsFromPoints = this->Settings.FromPoints;
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
-    report.Points = this->Filter->GetOutput()->GetNumberOfPoints(); // with those that were added
     this->Run.Summary = this->Filter->GetSummary();
     if (report.Triangles == 0)
     {
+      report.Points = this->Filter->GetOutput()->GetNumberOfPoints();
       this->Run.Summary = "mesh: " + Counted(report.Points, "point") + ", no triangles\n";
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
