@@ -326,9 +326,11 @@ void PointRun::Take(const InsertedSegments& made)
     }
     for (std::int32_t i = 0; i < edges; ++i, ++side)
     {
-      const bool isFirst = this->Seen.insert(EdgeOf(side->Side)).second;
+      const EdgeId edge = EdgeOf(side->Side);
+      this->Seen.resize(std::max<std::size_t>(this->Seen.size(), edge + 1));
       this->Edges.push_back(
-        { side->Side, segment.Ring, side->IsOnLeft != 0, side->IsOnHull != 0, isFirst });
+        { side->Side, segment.Ring, side->IsOnLeft != 0, side->IsOnHull != 0, !this->Seen[edge] });
+      this->Seen[edge] = true;
     }
   }
   this->Flips += made.Flips;

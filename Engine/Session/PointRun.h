@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <unordered_set>
 #include <vector>
 
 namespace delaunayflip
@@ -108,7 +107,7 @@ private:
   std::size_t Taken = 0; ///< Segments that are inserted or refused.
   std::int64_t Flips = 0; ///< That inserted segments.
   std::vector<SegmentEdge> Edges;
-  std::unordered_set<EdgeId> Seen; ///< These, without the order.
+  std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
   std::vector<Segment> Refused;
   KeptTriangles Kept;
 };
