@@ -149,14 +149,14 @@ inline PointInput ToPointInput(const delaunayflip_points& c)
   RequireArray(c.segments, c.number_of_segments, "segments");
   RequireArray(c.hole_seeds, c.number_of_hole_seeds, "hole_seeds");
   return { ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments, c.rings,
-    c.hole_seeds, c.number_of_hole_seeds, IsOnDevice(c.memory), { c.stream } };
+    c.first_hole, c.hole_seeds, c.number_of_hole_seeds, IsOnDevice(c.memory), { c.stream } };
 }
 
 /// @param options of the run.
 inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
 {
   return { options, c.point_tolerance, c.split_crossings != 0,
-    ToEnumeration(c.outline, OutlineKind::Orientation, "outline"), c.alpha, c.longest_edge };
+    ToEnumeration(c.outline, OutlineKind::Any, "outline"), c.alpha, c.longest_edge };
 }
 
 /// Views of the arrays of a complete mesh in device memory.

@@ -216,6 +216,7 @@ extern "C"
     *points = MakeEmpty<delaunayflip_points>();
     points->point_type = DELAUNAYFLIP_FLOAT64;
     points->point_components = 2;
+    points->first_hole = PointInput().FirstHole;
   }
 
   void delaunayflip_options_init(delaunayflip_options* options)

@@ -223,7 +223,7 @@ extern "C"
     int64_t points_not_finite; /**< Points with NaN or infinite coordinates. */
     int64_t points_repeated; /**< Points at the place of one with a lower id. */
     int64_t points_too_near; /**< Points within the tolerance of one with a lower id. */
-    int64_t segment_edges; /**< Edges that segments have become. */
+    int64_t segment_edges; /**< Edges that segments have become, each once; not removed ones. */
     int64_t segments_refused; /**< They cross earlier ones, or an end is not finite. */
     int64_t crossings; /**< Points added where segments cross. */
     double largest_shift; /**< How far rounding has moved one of these at most. */
@@ -265,8 +265,9 @@ extern "C"
   typedef enum
   {
     DELAUNAYFLIP_EVEN_ODD = 0, /**< Triangles inside an odd number of rings are kept. */
-    DELAUNAYFLIP_ORIENTATION = 1 /**< Those inside more counter-clockwise rings than clockwise ones;
-                                    if no ring is counter-clockwise, those in no ring. */
+    DELAUNAYFLIP_ORIENTATION = 1, /**< Those inside more counter-clockwise rings than clockwise
+                                     ones; if no ring is counter-clockwise, those in no ring. */
+    DELAUNAYFLIP_ANY_RING = 2 /**< Those inside any ring. */
   } delaunayflip_outline;
 
   /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each
@@ -281,7 +282,7 @@ extern "C"
     const int64_t* segments; /**< Edges that the mesh must have: pairs of point ids, or null. */
     int64_t number_of_segments;
     const int32_t* rings; /**< Of every segment the number of its closed ring, or -1; null: none.
-                             What is outside of rings is removed. */
+                             What is outside of rings is removed; see outline and first_hole. */
     const double* hole_seeds; /**< x, y of places: what can be reached from there without crossing a
                                  segment is removed. */
     int64_t number_of_hole_seeds;
@@ -293,6 +294,8 @@ extern "C"
                                 refused. [0] */
     int32_t memory; /**< A delaunayflip_memory: where the points are. [HOST] */
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
+    int32_t first_hole; /**< Rings from this number on are holes: what is inside of any is removed.
+                           [INT32_MAX] */
   } delaunayflip_points;
 
   void delaunayflip_points_init(delaunayflip_points* points);

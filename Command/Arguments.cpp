@@ -327,7 +327,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
     "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
     "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
     "With any code but 0 and 4 no file has been changed.");
-  arguments.Points->SetOutlineToOrientation();
+  arguments.Points->SetOutlineToAny();
   AddFile(app, "INPUT", arguments.Input, "The mesh or the points to read")->required();
   AddFile(app, "OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
   AddMethodOptions(app, arguments);

@@ -5,6 +5,8 @@
 #include "Arguments.h"
 #include "CommandError.h"
 #include "Console.h"
+#include "ConstraintEdges.h"
+#include "DataArrays.h"
 #include "DelaunayFlip.h"
 #include "Formats.h"
 #include "OutputFiles.h"
@@ -17,7 +19,6 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolygon.h>
 #include <vtkSMPTools.h>
 #include <vtkStaticCleanPolyData.h>
 
@@ -32,7 +33,6 @@
 #include <iomanip>
 #include <iostream>
 #include <limits>
-#include <map>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -101,18 +101,10 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
   return text;
 }
 
-enum class SegmentKind
-{
-  Breaklines,
-  Outline,
-  Holes
-};
-
 /// The lines and polygons of `mesh`, with all its points, as vtkDelaunayFlipPoints takes them:
-/// breaklines as lines, and rings as polygons. Seen from above, an outline turns counter-clockwise,
-/// and holes clockwise.
+/// breaklines as lines, and rings as polygons.
 vtkSmartPointer<vtkPolyData> MakeSegments(
-  vtkPolyData* mesh, const std::string& path, SegmentKind kind)
+  vtkPolyData* mesh, const std::string& path, bool areBreaklines)
 {
   const vtkNew<vtkCellArray> segments;
   for (vtkCellArray* const cells : { mesh->GetLines(), mesh->GetPolys() })
@@ -130,21 +122,16 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
         }
       };
       std::vector<vtkIdType> ids(points, points + size);
-      if (kind != SegmentKind::Breaklines)
+      if (!areBreaklines)
       {
         const char* const few = " has fewer than three points, so it is no ring";
         require(size > 2, few);
-        std::array<double, 3> first, last, normal;
+        std::array<double, 3> first, last;
         mesh->GetPoint(ids.front(), first.data());
         mesh->GetPoint(ids.back(), last.data());
         require(first == last || !areLines, " does not end where it begins, so it is no ring");
         ids.resize(ids.size() - (first == last ? 1 : 0));
         require(ids.size() > 2, few);
-        vtkPolygon::ComputeNormal(
-          mesh->GetPoints(), static_cast<int>(ids.size()), ids.data(), normal.data());
-        require(normal[2] != 0.0, " has no area as seen from above, so it is no ring");
-        const bool isRight = (normal[2] > 0.0) == (kind == SegmentKind::Outline);
-        std::reverse(ids.begin(), isRight ? ids.begin() : ids.end());
       }
       else if (!areLines && size > 0)
       {
@@ -158,8 +145,7 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
   auto made = vtkSmartPointer<vtkPolyData>::New();
   made->SetPoints(mesh->GetPoints());
   made->GetPointData()->ShallowCopy(mesh->GetPointData());
-  const bool areLines = kind == SegmentKind::Breaklines;
-  (areLines ? made->SetLines(segments) : made->SetPolys(segments));
+  (areBreaklines ? made->SetLines(segments) : made->SetPolys(segments));
   return made;
 }
 
@@ -347,6 +333,10 @@ public:
       this->Settings.Flip->SetMaximumDeviation(
         this->Settings.Flip->GetMaximumDeviation() * this->Input->GetLength() / 100.0);
     }
+    if (this->Segments)
+    {
+      this->Settings.Points->SetFirstHole(this->Segments->GetNumberOfLines() + this->OutlineRings);
+    }
     this->Bar.Begin(Phase::Flipping, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, this, &FlipJob::ShowProgress);
     this->Filter->SetInputData(0, this->Input);
@@ -439,10 +429,9 @@ private:
     const vtkNew<vtkAppendPolyData> all;
     int mostArrays = 0;
     const Arguments& files = this->Settings;
-    for (const auto& [kind, path] :
-      std::map<SegmentKind, std::string>{ { SegmentKind::Breaklines, files.Constraints },
-        { SegmentKind::Outline, files.Outline }, { SegmentKind::Holes, files.Holes } })
+    for (const std::string* file : { &files.Constraints, &files.Outline, &files.Holes })
     {
+      const std::string& path = *file;
       if (path.empty())
       {
         continue;
@@ -452,8 +441,9 @@ private:
       {
         throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
       }
-      const vtkSmartPointer<vtkPolyData> segments = MakeSegments(mesh, path, kind);
-      this->OutlineRings += kind == SegmentKind::Outline ? segments->GetNumberOfPolys() : 0;
+      this->TakeExactPlaces(mesh);
+      const auto segments = MakeSegments(mesh, path, file == &files.Constraints);
+      this->OutlineRings += file == &files.Outline ? segments->GetNumberOfPolys() : 0;
       all->AddInputData(segments);
       mostArrays = std::max(mostArrays, mesh->GetPointData()->GetNumberOfArrays());
     }
@@ -467,6 +457,46 @@ private:
                    "these files have are kept");
       }
     }
+  }
+
+  /// Makes floats doubles, as they become where another file has doubles. Those at a point of the
+  /// input, rounded, become that point.
+  void TakeExactPlaces(vtkPolyData* mesh) const
+  {
+    std::vector<double> storage, inputStorage;
+    const PointArray points = ViewPoints(mesh, storage);
+    const PointArray inputPoints = ViewPoints(this->Input, inputStorage);
+    if (!points.Floats || inputPoints.Floats)
+    {
+      return;
+    }
+    PointPlaces places(true);
+    std::vector<std::int64_t> placeOf(points.Count);
+    for (std::int64_t i = 0; i < points.Count; ++i)
+    {
+      placeOf[i] = places.Add(points, i);
+    }
+    std::vector<std::int64_t> inputAt(places.GetNumberOfPlaces(), PointPlaces::None);
+    for (std::int64_t i = inputPoints.Count - 1; i >= 0; --i)
+    {
+      const std::int64_t place = places.Find(inputPoints, i);
+      if (place != PointPlaces::None)
+      {
+        inputAt[place] = i;
+      }
+    }
+    const vtkNew<vtkPoints> exact;
+    exact->SetDataTypeToDouble();
+    exact->DeepCopy(mesh->GetPoints());
+    for (std::int64_t i = 0; i < points.Count; ++i)
+    {
+      const std::int64_t same = inputAt[placeOf[i]];
+      if (same != PointPlaces::None)
+      {
+        exact->SetPoint(i, this->Input->GetPoint(same));
+      }
+    }
+    mesh->SetPoints(exact);
   }
 
   void Warn(const std::string& warning)
@@ -486,16 +516,19 @@ private:
   void ThrowErrors()
   {
     const std::string errors = TakeVTKErrors();
+    static const std::regex rings("\\bring (\\d+)( from .* cannot be inserted)?(.*)");
     std::smatch found;
-    if (std::regex_search(errors, found, std::regex("ring (\\d+) from .* cannot be inserted(.*)")))
+    if (std::regex_search(errors, found, rings))
     {
       // Names the file of the ring, and the number that it has there.
       const vtkIdType ring = std::stoll(found[1].str()) - this->Segments->GetNumberOfLines();
       const bool isHole = ring >= this->OutlineRings;
       throw CommandError(ExitCode::BadFile,
         (isHole ? this->Settings.Holes : this->Settings.Outline) + ": ring " +
-          std::to_string(ring - (isHole ? this->OutlineRings : 0)) + " cannot be used" +
-          found[2].str() + "; --split-crossings adds points where it crosses others");
+          std::to_string(ring - (isHole ? this->OutlineRings : 0)) +
+          (found[2].matched ? " cannot be used" + found[3].str() +
+                "; --split-crossings adds points where it crosses others"
+                            : found[3].str()));
     }
     if (!errors.empty())
     {
@@ -517,10 +550,10 @@ private:
     this->Run.IsFromPoints = this->Settings.FromPoints;
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
-    report.Points = this->Filter->GetOutput()->GetNumberOfPoints(); // with those that were added
     this->Run.Summary = this->Filter->GetSummary();
     if (report.Triangles == 0)
     {
+      report.Points = this->Filter->GetOutput()->GetNumberOfPoints();
       this->Run.Summary = "mesh: " + Counted(report.Points, "point") + ", no triangles\n";
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;

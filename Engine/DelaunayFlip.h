@@ -107,7 +107,7 @@ public:
   const std::vector<AddedPoint>& GetAddedPoints() const;
 
   /// Of a session from points: the edges that segments have become, as pairs of point ids, in the
-  /// order and direction of the segments. Empty until they are inserted.
+  /// order and direction of the segments, each once. Empty until they are inserted.
   std::vector<std::int64_t> ListSegmentEdges() const;
 
   /// Writes, for every triangle slot, in how many flips it took part: GetReport().Triangles

@@ -70,6 +70,7 @@ std::string InSingular(const std::string& what)
     { "constraint edges ", "constraint edge " },
     { "segments that cross an earlier one or end ",
       "segment that crosses an earlier one or ends " },
+    { "segments ", "segment " },
     { "hole seeds ", "hole seed " },
   };
   for (const auto& [several, one] : beginnings)

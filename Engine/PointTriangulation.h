@@ -22,20 +22,22 @@
 /// earlier one is no conflict. One that crosses an earlier one is refused, counted and named in the
 /// report, or with PointOptions::SplitCrossings both are split where they cross.
 ///
-/// **Rings** are closed polygons of segments. What lies outside of them is removed
-/// (PointOptions::Outline), then the regions of hole seeds, then what Alpha and LongestEdge say.
+/// **Rings** are closed polygons of segments, in any direction, with an area. What lies outside of
+/// them is removed (PointOptions::Outline), and what lies inside of rings that are holes
+/// (PointInput::FirstHole), then the regions of hole seeds, then what Alpha and LongestEdge say.
 
 namespace delaunayflip
 {
 
-/// What rings of segments enclose.
+/// What rings of segments enclose, if they are not holes.
 enum class OutlineKind
 {
   EvenOdd, ///< Triangles inside an odd number of rings are kept.
   /// Counter-clockwise rings enclose what is kept, clockwise ones cut holes, as for vtkDelaunay2D's
   /// Source: triangles inside more counter-clockwise rings than clockwise ones are kept. If no ring
   /// is counter-clockwise, those in no ring are kept.
-  Orientation
+  Orientation,
+  Any ///< Triangles inside any ring are kept.
 };
 
 /// Points in the plane, and the segments between them.
@@ -51,6 +53,9 @@ struct PointInput
   /// ring. Null: there are no rings. The segments of a ring run around it, all in the same
   /// direction.
   const std::int32_t* Rings = nullptr;
+  /// Rings from this number on are holes: triangles inside any of them are removed. If all are, the
+  /// others are kept.
+  std::int32_t FirstHole = INT32_MAX;
 
   /// x and y of places in holes: the triangles that can be reached from there without crossing a
   /// segment are removed. 2 * NumberOfHoleSeeds numbers.
@@ -68,7 +73,7 @@ struct PointInput
 struct PointOptions : FlipOptions
 {
   /// Points nearer than this to one that is used and has a lower id are not used. 0 (default): only
-  /// those at the same place.
+  /// those at the same place. Points where segments cross may be nearer to others.
   double PointTolerance = 0.0;
 
   /// Whether segments that cross are split where they do. The point is the exact crossing, rounded
@@ -103,7 +108,7 @@ struct PointCounts
   std::int64_t NotFinite = 0; ///< Points with NaN or infinite coordinates.
   std::int64_t Repeated = 0; ///< Points at the place of one with a lower id.
   std::int64_t TooNear = 0; ///< Points within the tolerance of one elsewhere with a lower id.
-  std::int64_t SegmentEdges = 0; ///< Edges that segments have become.
+  std::int64_t SegmentEdges = 0; ///< Edges that segments have become, each once; not removed ones.
   std::int64_t RefusedSegments = 0; ///< They cross earlier ones, or an end is not finite.
   std::int64_t Crossings = 0; ///< Points added where segments cross.
   double LargestShift = 0.0; ///< How far rounding has moved one of them at most.

@@ -25,8 +25,7 @@
 
 using namespace delaunayflip;
 
-static_assert(
-  static_cast<int>(OutlineKind::Orientation) == vtkDelaunayFlipPoints::OUTLINE_ORIENTATION, "");
+static_assert(static_cast<int>(OutlineKind::Any) == vtkDelaunayFlipPoints::OUTLINE_ANY, "");
 
 namespace
 {
@@ -63,6 +62,7 @@ struct CloudRequest
   vtkPolyData* Segments; ///< Or null.
   vtkAbstractTransform* Transform; ///< Or null.
   bool FitsPlane;
+  vtkIdType FirstHole;
   PointOptions Options;
   Stamps Arrays; ///< Of both.
   std::vector<double> Key; ///< The values of the options, and when the transform was modified.
@@ -88,6 +88,11 @@ public:
     this->Input.Segments = this->Segments.data();
     this->Input.NumberOfSegments = static_cast<std::int64_t>(this->Rings.size());
     this->Input.Rings = this->Rings.data();
+    if (request.FirstHole >= 0)
+    {
+      this->Input.FirstHole =
+        static_cast<std::int32_t>(std::min<vtkIdType>(request.FirstHole, VTK_INT_MAX));
+    }
     this->Session =
       std::make_unique<FlipSession>(this->Input, request.Options, this->GetProgress());
     this->IsStopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
@@ -101,6 +106,7 @@ public:
   FlipReport GetReport() const override
   {
     FlipReport report = this->Session->GetReport();
+    report.Points += static_cast<std::int64_t>(this->Session->GetAddedPoints().size());
     const auto malformed = ListMalformedArrays(this->Given, !this->AddsPoints(), true);
     report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
     return report;
@@ -175,7 +181,7 @@ private:
       {
         const vtkIdType from = ids.empty() ? first : ids[first];
         const vtkIdType to = ids.empty() ? last : ids[last];
-        if (from != to)
+        if (from != to || isRing)
         {
           this->Segments.insert(this->Segments.end(), { from, to });
           this->Rings.push_back(isRing ? static_cast<std::int32_t>(check.FirstCell + cell) : -1);
@@ -251,32 +257,30 @@ private:
     zeros->SetNumberOfPoints(places->GetNumberOfIds());
     zeros->GetData()->Fill(0.0);
     AppendPoints(this->Cloud, zeros, places, nullptr, output);
-    const auto interpolate = [&](vtkAbstractArray* array)
-    {
-      for (const vtkIdType i : *places)
-      {
-        const AddedPoint& point = crossings[i];
-        array->InterpolateTuple(count + i, point.From, array, point.To, array, point.Share);
-      }
-    };
     vtkPointData* data = output->GetPointData();
     vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
       data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
     for (int i = 0; i < data->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* array = data->GetAbstractArray(i);
-      if (std::count(std::begin(labels), std::end(labels), array) == 0)
+      const bool isLabel = std::count(std::begin(labels), std::end(labels), array) > 0;
+      for (vtkIdType k = 0; !isLabel && k < places->GetNumberOfIds(); ++k)
       {
-        interpolate(array);
+        const AddedPoint& point = crossings[k];
+        array->InterpolateTuple(count + k, point.From, array, point.To, array, point.Share);
       }
     }
     vtkDataArray* xyz = output->GetPoints()->GetData();
-    interpolate(xyz);
     const bool isProjected = this->Projected->GetNumberOfPoints() > 0;
-    for (vtkIdType i = 0; !isProjected && i < places->GetNumberOfIds(); ++i)
+    for (vtkIdType i = 0; i < 3 * places->GetNumberOfIds(); ++i)
     {
-      xyz->SetComponent(count + i, 0, crossings[i].X);
-      xyz->SetComponent(count + i, 1, crossings[i].Y);
+      // InterpolateTuple would make infinite floats finite.
+      const AddedPoint& point = crossings[i / 3];
+      const int axis = static_cast<int>(i % 3);
+      const double between = (1.0 - point.Share) * xyz->GetComponent(point.From, axis) +
+        point.Share * xyz->GetComponent(point.To, axis);
+      const double place = axis == 0 ? point.X : point.Y;
+      xyz->SetComponent(count + i / 3, axis, isProjected || axis == 2 ? between : place);
     }
   }
 
@@ -392,7 +396,8 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   }
   const std::vector<double> key{ this->Transform ? double(this->Transform->GetMTime()) : 0.0,
     double(this->Projection), double(this->LinesAsSegments), this->PointTolerance,
-    double(this->SplitCrossings), double(this->Outline), this->Alpha, this->LongestEdge };
+    double(this->SplitCrossings), double(this->Outline), double(this->FirstHole), this->Alpha,
+    this->LongestEdge };
   auto* last = static_cast<CloudRun*>(run.get());
   if (last && last->Asked.Key == key && last->Asked.Options == options &&
     last->Asked.Arrays.Fit(arrays))
@@ -402,8 +407,8 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   }
   run.reset(); // its memory may be needed
   run = std::make_unique<CloudRun>(CloudRequest{ cloud, segments, this->Transform,
-    this->Projection == PROJECTION_BEST_FITTING_PLANE, options, std::move(arrays), key, isLive,
-    this->MakeProgress() });
+    this->Projection == PROJECTION_BEST_FITTING_PLANE, this->FirstHole, options, std::move(arrays),
+    key, isLive, this->MakeProgress() });
   return false;
 }
 
@@ -428,5 +433,6 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PointTolerance: " << this->PointTolerance << "\n";
   os << indent << "SplitCrossings: " << this->SplitCrossings << "\n";
   os << indent << "Outline: " << this->Outline << "\n";
+  os << indent << "FirstHole: " << this->FirstHole << "\n";
   os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";
 }

@@ -13,9 +13,9 @@
  * Input port 0: any vtkPointSet; its cells do not matter, but see LinesAsSegments. Port 1,
  * optional: the segments, a vtkPolyData. Its lines become edges of the mesh, such as the breaklines
  * of a terrain; its polygons too, and they are outlines and holes: triangles outside of them are
- * removed (see Outline). If this input has no points, or the same points as the first input (the
- * same number and bits), its point ids are those of the first input, as with the source of
- * vtkDelaunay2D. Otherwise a point at the place of one of the first input is that point, and the
+ * removed (see Outline, FirstHole). If this input has no points, or the same points as the first
+ * input (the same number and bits), its point ids are those of the first input, as with the source
+ * of vtkDelaunay2D. Otherwise a point at the place of one of the first input is that point, and the
  * others are added. Places are compared as vtkDelaunayFlip does: x, y and z must be equal, after
  * rounding to float if one of the inputs has float points.
  *
@@ -43,7 +43,8 @@
  * the second one. A segment through points is split there. One that overlaps an earlier one is no
  * conflict. One that crosses an earlier one is refused and counted, and a warning names the first
  * ones; with SplitCrossings both are split where they cross. If a segment of a polygon is refused,
- * the update fails, and the error names the polygon: the number of its ring is its cell id.
+ * the update fails, and the error names the polygon: the number of its ring is its cell id. So it
+ * does if a polygon has no area.
  *
  * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
  * nothing is removed.
@@ -142,7 +143,7 @@ public:
   ///@{
   /**
    * Points nearer than this to one that is used and has a lower id are not used. 0 (default): only
-   * those at the same place.
+   * those at the same place. Points where segments cross may be nearer to others.
    */
   vtkSetClampMacro(PointTolerance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(PointTolerance, double);
@@ -163,17 +164,28 @@ public:
   /**
    * What the polygons of the second input enclose. EVEN_ODD (default): what is inside an odd number
    * of them is kept. ORIENTATION: counter-clockwise polygons enclose what is kept, clockwise ones
-   * cut holes, as for vtkDelaunay2D.
+   * cut holes, as for vtkDelaunay2D. ANY: what is inside any of them is kept.
    */
   enum OutlineType
   {
     OUTLINE_EVEN_ODD = 0,
-    OUTLINE_ORIENTATION = 1
+    OUTLINE_ORIENTATION = 1,
+    OUTLINE_ANY = 2
   };
-  vtkSetClampMacro(Outline, int, OUTLINE_EVEN_ODD, OUTLINE_ORIENTATION);
+  vtkSetClampMacro(Outline, int, OUTLINE_EVEN_ODD, OUTLINE_ANY);
   vtkGetMacro(Outline, int);
   void SetOutlineToEvenOdd() { this->SetOutline(OUTLINE_EVEN_ODD); }
   void SetOutlineToOrientation() { this->SetOutline(OUTLINE_ORIENTATION); }
+  void SetOutlineToAny() { this->SetOutline(OUTLINE_ANY); }
+  ///@}
+
+  ///@{
+  /**
+   * Polygons of the second input are holes from this cell id on, in any direction: what is inside
+   * of any of them is removed. -1 (default): none.
+   */
+  vtkSetClampMacro(FirstHole, vtkIdType, -1, VTK_ID_MAX);
+  vtkGetMacro(FirstHole, vtkIdType);
   ///@}
 
   ///@{
@@ -218,6 +230,7 @@ protected:
   double PointTolerance = 0.0;
   bool SplitCrossings = false;
   int Outline = OUTLINE_EVEN_ODD;
+  vtkIdType FirstHole = -1;
   bool LinesAsSegments = false;
 
 private:

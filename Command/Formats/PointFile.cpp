@@ -162,6 +162,12 @@ FileMesh ReadPoints(const InputFile& file)
     coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
     do
     {
+      if (names.empty() && columns.size() < 3 && !IsComment(lines.Words[0]) &&
+        lines.Words.size() > columns.size())
+      {
+        lines.Fail(
+          "has " + std::to_string(lines.Words.size()) + " columns, but the first point has 2");
+      }
       for (std::size_t i = 0; i < 3 && !IsComment(lines.Words[0]); ++i)
       {
         coordinates->InsertNextValue(i < columns.size() ? lines.Number<double>(columns[i]) : 0.0);

@@ -33,6 +33,7 @@ struct SegmentSide
 {
   HalfEdgeId Side; ///< One that has a triangle.
   std::uint32_t IsOnLeft; ///< Whether it is to the left of the segment.
+  std::uint32_t IsOnHull; ///< Whether the other side has no triangle.
 };
 
 /// What consecutive segments have become.

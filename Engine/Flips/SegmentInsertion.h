@@ -515,6 +515,7 @@ struct SegmentInsertion
     Array<SegmentSide> sides = this->Device.template MakeArray<SegmentSide>(numbering.Total);
     std::int32_t* count = counts.Data();
     SegmentSide* side = sides.Data();
+    const CornerId* corners = this->Round.Mesh.Edges.CornerOfHalfEdge;
     this->Device.ForEachNumbered(numbering, size, countOf,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
@@ -525,7 +526,8 @@ struct SegmentInsertion
         {
           const ConstraintPath::Segment& made = item.GetPath()[j];
           // The side of a path across triangles runs towards its start.
-          side[number + j] = { made.Side, made.IsForward ? 1u : 0u };
+          side[number + j] = { made.Side, made.IsForward ? 1u : 0u,
+            corners[made.Side ^ 1u] == NoCorner ? 1u : 0u };
         }
       });
     InsertedSegments result;

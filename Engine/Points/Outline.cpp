@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Outline.h"
 
+#include "FlipError.h"
 #include "SurfaceAngles.h"
 
 #include <algorithm>
@@ -9,12 +10,176 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <string>
+#include <utility>
 
 namespace delaunayflip
 {
 
 namespace
 {
+/// Goes from triangle to triangle, and back, and counts how often each ring winds around them.
+class RingWalk
+{
+public:
+  RingWalk(
+    const PointMeshView& mesh, const std::vector<SegmentEdge>& segments, const PointInput& input)
+    : Mesh(mesh),
+      Segments(segments),
+      FirstHole(input.FirstHole),
+      Last(mesh.NumberOfEdges, None),
+      Before(segments.size(), None)
+  {
+    for (std::int64_t i = 0; input.Rings && i < input.NumberOfSegments; ++i)
+    {
+      if (input.Rings[i] >= 0)
+      {
+        this->Rings[input.Rings[i]];
+      }
+    }
+    for (std::size_t i = 0; i < segments.size(); ++i)
+    {
+      if (segments[i].Ring >= 0)
+      {
+        this->Before[i] =
+          std::exchange(this->Last[EdgeOf(segments[i].Side)], static_cast<std::int64_t>(i));
+      }
+    }
+  }
+
+  bool HasRings() const { return !this->Rings.empty(); }
+
+  /// @returns 1 for every triangle that is in a hole or not inside of the outline, else 0.
+  /// @throws InvalidMesh if a ring has no area.
+  std::vector<unsigned char> FindOutside(OutlineKind outline)
+  {
+    std::vector<unsigned char> fates(this->Mesh.NumberOfTriangles, Unknown);
+    std::vector<HalfEdgeId> path; // the sides through which triangles were entered
+    const auto enter = [&](HalfEdgeId side)
+    {
+      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[side];
+      const bool isNew = corner != NoCorner && fates[TriangleOf(corner)] == Unknown;
+      if (isNew)
+      {
+        this->Cross(side);
+        this->LookAround(side);
+        fates[TriangleOf(corner)] = this->Judge(outline);
+        path.push_back(side);
+      }
+      return isNew;
+    };
+    for (HalfEdgeId side = 0; path.empty() && side < 2 * this->Mesh.NumberOfEdges; ++side)
+    {
+      if (this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u] == NoCorner)
+      {
+        enter(side);
+      }
+    }
+    while (!path.empty())
+    {
+      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[path.back()];
+      const TriangleRecord& triangle = this->Mesh.Edges.Triangles[TriangleOf(corner)];
+      if (std::none_of(std::begin(triangle.HalfEdges), std::end(triangle.HalfEdges),
+            [&](HalfEdgeId side) { return enter(side ^ 1u); }))
+      {
+        this->Cross(path.back() ^ 1u);
+        path.pop_back();
+      }
+    }
+    for (unsigned char& fate : fates)
+    {
+      fate = fate == Outside || (fate == OutsideIfAnyTurnsLeft && this->AnyTurnsLeft) ? 1 : 0;
+    }
+    this->RequireAreas();
+    return fates;
+  }
+
+private:
+  struct Ring
+  {
+    std::int64_t Winding = 0; ///< Around the triangle at hand.
+    bool HasArea = false;
+  };
+
+  enum FateKind : unsigned char
+  {
+    Inside,
+    Outside,
+    OutsideIfAnyTurnsLeft,
+    Unknown
+  };
+
+  /// Goes to this side of its edge.
+  void Cross(HalfEdgeId side)
+  {
+    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Before[i])
+    {
+      const SegmentEdge& segment = this->Segments[i];
+      const int step = segment.IsOnLeft == (segment.Side == side) ? 1 : -1;
+      const bool isHole = segment.Ring >= this->FirstHole;
+      std::int64_t& winding = this->Rings[segment.Ring].Winding;
+      std::int64_t& around = isHole ? this->HolesAround : this->OutlinesAround;
+      around -= winding != 0 ? 1 : 0;
+      winding += step;
+      around += winding != 0 ? 1 : 0;
+      this->Sum += isHole ? 0 : step;
+    }
+  }
+
+  /// Notes what the rings at an edge that was crossed enclose.
+  void LookAround(HalfEdgeId side)
+  {
+    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Before[i])
+    {
+      const std::int32_t number = this->Segments[i].Ring;
+      Ring& ring = this->Rings[number];
+      ring.HasArea = ring.HasArea || ring.Winding != 0;
+      this->AnyTurnsLeft = this->AnyTurnsLeft || (ring.Winding > 0 && number < this->FirstHole);
+    }
+  }
+
+  FateKind Judge(OutlineKind outline) const
+  {
+    const bool hasOutline = this->Rings.begin()->first < this->FirstHole;
+    if (this->HolesAround > 0 || !hasOutline)
+    {
+      return this->HolesAround > 0 ? Outside : Inside;
+    }
+    if (outline == OutlineKind::Orientation)
+    {
+      return this->Sum > 0 ? Inside : this->Sum < 0 ? Outside : OutsideIfAnyTurnsLeft;
+    }
+    const bool isInside =
+      outline == OutlineKind::EvenOdd ? this->Sum % 2 != 0 : this->OutlinesAround > 0;
+    return isInside ? Inside : Outside;
+  }
+
+  void RequireAreas() const
+  {
+    for (const auto& [number, ring] : this->Rings)
+    {
+      if (!ring.HasArea)
+      {
+        throw InvalidMesh("ring " + std::to_string(number) +
+            " has no area: its points are on one line, or at one place",
+          -1, -1);
+      }
+    }
+  }
+
+  static constexpr std::int64_t None = -1;
+
+  const PointMeshView& Mesh;
+  const std::vector<SegmentEdge>& Segments;
+  const std::int32_t FirstHole;
+  std::map<std::int32_t, Ring> Rings; ///< By their numbers.
+  std::vector<std::int64_t> Last; ///< By edge the last of its segments that are part of a ring.
+  std::vector<std::int64_t> Before; ///< By segment the one before it.
+  std::int64_t OutlinesAround = 0, HolesAround = 0; ///< That wind around the triangle at hand.
+  std::int64_t Sum = 0; ///< Of how often outlines do.
+  bool AnyTurnsLeft = false; ///< Of the outlines.
+};
+
 class Remover
 {
 public:
@@ -25,52 +190,13 @@ public:
   {
   }
 
-  /// By how many rings each triangle is enclosed: a flood from the hull inwards.
-  void RemoveOutside(OutlineKind outline)
+  /// @throws InvalidMesh if a ring has no area.
+  void RemoveOutside(const PointInput& input, OutlineKind outline)
   {
-    // What is added on the way from side 1 of an edge to side 0.
-    std::vector<std::int32_t> steps(this->Mesh.NumberOfEdges, 0);
-    for (const SegmentEdge& segment : this->Segments)
+    RingWalk walk(this->Mesh, this->Segments, input);
+    if (walk.HasRings())
     {
-      const bool isUp = segment.IsOnLeft == (segment.Side % 2 == 0);
-      steps[EdgeOf(segment.Side)] += segment.Ring < 0 ? 0 : (isUp ? 1 : -1);
-    }
-    constexpr std::int32_t Unknown = INT32_MIN;
-    std::vector<std::int32_t> depths(this->Mesh.NumberOfTriangles, Unknown);
-    std::vector<TriangleId> stack;
-    const auto reach = [&](HalfEdgeId side, std::int32_t from)
-    {
-      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[side];
-      if (corner != NoCorner && depths[TriangleOf(corner)] == Unknown)
-      {
-        const std::int32_t step = steps[EdgeOf(side)];
-        depths[TriangleOf(corner)] = from + (side % 2 == 0 ? step : -step);
-        stack.push_back(TriangleOf(corner));
-      }
-    };
-    for (HalfEdgeId side = 0; side < 2 * this->Mesh.NumberOfEdges; ++side)
-    {
-      if (this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u] == NoCorner)
-      {
-        reach(side, 0);
-      }
-    }
-    while (!stack.empty())
-    {
-      const TriangleId triangle = stack.back();
-      stack.pop_back();
-      for (const HalfEdgeId side : this->Mesh.Edges.Triangles[triangle].HalfEdges)
-      {
-        reach(side ^ 1u, depths[triangle]);
-      }
-    }
-    const bool hasLeftRings = this->HasLeftRings();
-    for (std::size_t t = 0; t < depths.size(); ++t)
-    {
-      const bool isInside = outline == OutlineKind::EvenOdd
-        ? depths[t] % 2 != 0
-        : depths[t] > 0 || (!hasLeftRings && depths[t] == 0);
-      this->IsRemoved[t] = isInside ? 0 : 1;
+      this->IsRemoved = walk.FindOutside(outline);
     }
   }
 
@@ -151,13 +277,7 @@ public:
     }
     for (std::int64_t e = 0; e < this->Mesh.NumberOfEdges; ++e)
     {
-      const CornerId* corners = this->Mesh.Edges.CornerOfHalfEdge + 2 * e;
-      int sides = 0;
-      for (int side = 0; side < 2; ++side)
-      {
-        sides +=
-          corners[side] != NoCorner && this->IsRemoved[TriangleOf(corners[side])] == 0 ? 1 : 0;
-      }
+      const int sides = this->CountKept(static_cast<EdgeId>(e));
       kept.Edges += sides > 0 ? 1 : 0;
       kept.Boundary += sides == 1 ? 1 : 0;
     }
@@ -165,22 +285,28 @@ public:
       std::count(isUsed.begin(), isUsed.end(), 1) - kept.Edges + kept.Count;
   }
 
-private:
-  /// Whether a ring turns counter-clockwise, by its area.
-  bool HasLeftRings() const
+  /// Drops the segments that are no edges of what is left.
+  std::vector<SegmentEdge> ListKeptSegments() const
   {
-    std::map<std::int32_t, double> areas;
-    const PlanePoint origin = this->Mesh.GetPoint(0);
-    for (const SegmentEdge& segment : this->Segments)
+    std::vector<SegmentEdge> kept;
+    for (SegmentEdge segment : this->Segments)
     {
-      const PlanePoint start = this->Mesh.GetPoint(this->Mesh.GetStart(segment.Side));
-      const PlanePoint end = this->Mesh.GetPoint(this->Mesh.GetEnd(segment.Side));
-      const double area =
-        (start.U - origin.U) * (end.V - origin.V) - (start.V - origin.V) * (end.U - origin.U);
-      areas[segment.Ring] += segment.IsOnLeft ? area : -area;
+      const int triangles = this->CountKept(EdgeOf(segment.Side));
+      segment.IsOnBoundary = triangles == 1;
+      kept.insert(kept.end(), triangles > 0 ? 1 : 0, segment);
     }
-    return std::any_of(areas.begin(), areas.end(),
-      [](const auto& ring) { return ring.first >= 0 && ring.second > 0.0; });
+    return kept;
+  }
+
+private:
+  /// How many triangles of an edge are kept.
+  int CountKept(EdgeId edge) const
+  {
+    const CornerId* corners =
+      this->Mesh.Edges.CornerOfHalfEdge + 2 * static_cast<std::size_t>(edge);
+    return static_cast<int>(std::count_if(corners, corners + 2,
+      [this](CornerId corner)
+      { return corner != NoCorner && this->IsRemoved[TriangleOf(corner)] == 0; }));
   }
 
   std::array<Vector3, 3> GetCorners(const TriangleRecord& triangle) const
@@ -254,16 +380,12 @@ bool MayRemove(const PointInput& input, const PointOptions& options)
     options.LongestEdge > 0.0;
 }
 
-KeptTriangles KeepTriangles(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments,
-  const PointInput& input, const PointOptions& options)
+KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
+  const PointOptions& options, std::vector<SegmentEdge>& segments)
 {
   KeptTriangles kept;
   Remover remover(mesh, segments);
-  if (std::any_of(segments.begin(), segments.end(),
-        [](const SegmentEdge& segment) { return segment.Ring >= 0; }))
-  {
-    remover.RemoveOutside(options.Outline);
-  }
+  remover.RemoveOutside(input, options.Outline);
   if (input.NumberOfHoleSeeds > 0)
   {
     kept.SeedsOutside = remover.RemoveHoles(input.HoleSeeds, input.NumberOfHoleSeeds);
@@ -275,6 +397,7 @@ KeptTriangles KeepTriangles(const PointMeshView& mesh, const std::vector<Segment
   }
   kept.Large = remover.CountRemoved() - kept.Outside;
   remover.Number(kept);
+  segments = remover.ListKeptSegments();
   return kept;
 }
 

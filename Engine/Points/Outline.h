@@ -30,6 +30,8 @@ struct SegmentEdge
   HalfEdgeId Side; ///< One that has a triangle.
   std::int32_t Ring; ///< -1: none.
   bool IsOnLeft; ///< Whether Side is to the left of the segment.
+  bool IsOnBoundary; ///< Whether only one side has a triangle.
+  bool IsFirst; ///< Whether no segment before has become the same edge.
 };
 
 /// What is left of a triangulation.
@@ -48,8 +50,10 @@ struct KeptTriangles
 /// Whether these options can remove triangles.
 bool MayRemove(const PointInput& input, const PointOptions& options);
 
-KeptTriangles KeepTriangles(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments,
-  const PointInput& input, const PointOptions& options);
+/// @param segments all of them; of the triangles that are kept in the end.
+/// @throws InvalidMesh if a ring has no area.
+KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
+  const PointOptions& options, std::vector<SegmentEdge>& segments);
 
 }
 

@@ -124,6 +124,7 @@ void PointRun::Reset()
   this->Taken = 0;
   this->Flips = 0;
   this->Edges.clear();
+  this->Seen.clear();
   this->Refused.clear();
   this->Kept = KeptTriangles();
 }
@@ -179,8 +180,14 @@ void PointRun::FindNearPoints(const ProgressObserver& observer)
     {
       continue;
     }
+    // Beyond 2^53 cells from 0 all other doubles are farther away than the tolerance.
+    const auto findCell = [&](double value)
+    {
+      const double cell = std::floor(value / tolerance);
+      return std::fabs(cell) < 0x1p53 ? cell : value;
+    };
     const double x = points.Get(i, 0), y = points.Get(i, 1);
-    const double column = std::floor(x / tolerance), row = std::floor(y / tolerance);
+    const double column = findCell(x), row = findCell(y);
     for (int cell = 0; cell < 9; ++cell)
     {
       const auto found = lastIn.find({ column + (cell % 3 - 1), row + (cell / 3 - 1) });
@@ -319,7 +326,11 @@ void PointRun::Take(const InsertedSegments& made)
     }
     for (std::int32_t i = 0; i < edges; ++i, ++side)
     {
-      this->Edges.push_back({ side->Side, segment.Ring, side->IsOnLeft != 0 });
+      const EdgeId edge = EdgeOf(side->Side);
+      this->Seen.resize(std::max<std::size_t>(this->Seen.size(), edge + 1));
+      this->Edges.push_back(
+        { side->Side, segment.Ring, side->IsOnLeft != 0, side->IsOnHull != 0, !this->Seen[edge] });
+      this->Seen[edge] = true;
     }
   }
   this->Flips += made.Flips;
@@ -330,7 +341,7 @@ void PointRun::Finish(LoadedMesh& mesh)
   if (!this->HasRemoved() && MayRemove(this->Prepared, this->Options))
   {
     mesh.ViewOnHost([this](const PointMeshView& view)
-      { this->Kept = KeepTriangles(view, this->Edges, this->Prepared, this->Options); });
+      { this->Kept = KeepTriangles(view, this->Prepared, this->Options, this->Edges); });
   }
 }
 
@@ -342,7 +353,12 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   counts = this->Counts;
   counts.NotFinite = notFinite;
   counts.Repeated = repeated;
-  counts.SegmentEdges = SizeOf(this->Edges);
+  std::int64_t inside = 0; // of these edges
+  for (const SegmentEdge& edge : this->Edges)
+  {
+    counts.SegmentEdges += edge.IsFirst ? 1 : 0;
+    inside += edge.IsFirst && !edge.IsOnBoundary ? 1 : 0;
+  }
   counts.RefusedSegments = SizeOf(this->Refused);
   counts.OutsideTriangles = this->Kept.Outside;
   counts.LargeTriangles = this->Kept.Large;
@@ -359,7 +375,7 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
     report.EulerCharacteristic = this->Kept.EulerCharacteristic;
     report.MinimumAngleAfter = ToDegrees(this->Kept.SquaredCotangent);
   }
-  report.Edges.Fixed = report.Edges.Boundary + counts.SegmentEdges;
+  report.Edges.Fixed = report.Edges.Boundary + inside;
 
   std::vector<std::int64_t> used(notFinite + repeated > 0 ? this->Prepared.Points.Count : 0);
   if (!used.empty())
@@ -387,8 +403,8 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   add("points nearer than the tolerance to one with a lower id", counts.TooNear, isNear);
   const bool isMesh = report.Triangles + this->Kept.Outside + this->Kept.Large > 0;
   for (const Defect& defect :
-    { Defect{ "segments that cross an earlier one or end at a point that is "
-              "not finite",
+    { Defect{ isMesh ? "segments that cross an earlier one or end at a point that is not finite"
+                     : "segments between points without a triangle",
         counts.RefusedSegments, ListFirstEnds(this->Caller, this->Refused), DefectIds::PointPairs },
       { "hole seeds outside of all triangles", this->Kept.SeedsOutside, {}, DefectIds::Points },
       { "points without a triangle: there are fewer than three places, or all are on one line",
@@ -426,6 +442,10 @@ std::vector<std::int64_t> PointRun::ListSegmentEdges(LoadedMesh& mesh) const
     {
       for (const SegmentEdge& edge : this->Edges)
       {
+        if (!edge.IsFirst)
+        {
+          continue;
+        }
         const std::int64_t ends[2] = { view.Ids[view.GetStart(edge.Side)],
           view.Ids[view.GetEnd(edge.Side)] };
         pairs.insert(pairs.end(), { ends[edge.IsOnLeft ? 0 : 1], ends[edge.IsOnLeft ? 1 : 0] });

@@ -107,6 +107,7 @@ private:
   std::size_t Taken = 0; ///< Segments that are inserted or refused.
   std::int64_t Flips = 0; ///< That inserted segments.
   std::vector<SegmentEdge> Edges;
+  std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
   std::vector<Segment> Refused;
   KeptTriangles Kept;
 };

@@ -13,7 +13,7 @@ from ._options import Array, Backend, Numbers, OnIteration, Progress, make_optio
 from ._report import Report
 from ._session import call
 
-_ORIENTATION = 1  # an outline
+_ANY_RING = 2  # an outline
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -28,7 +28,7 @@ class Triangulation:
     neighbors: Array
     #: (n,) int64: the point that is used at the place of each point; -1: it is not finite.
     used_points: Array
-    #: (k, 2) int64: the edges that segments have become, in their order and direction.
+    #: (k, 2) int64: the edges that segments have become, in their order and direction, each once.
     segments: Array
     iterations: Array  #: Of the flips, structured; see Session.iterations.
     report: Report
@@ -58,14 +58,14 @@ def triangulate(
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
             points is split there; one that crosses an earlier one is refused and reported.
         outline: A ring, or a list of rings: what is outside of all is removed. A ring is a list of
-            point ids, or of coordinates, (k, 2) or (k, 3), which become points.
+            point ids, or of coordinates, which become points: (k, 2), or (k, 3) of floats.
         holes: A list of rings, whose inside is removed; or (k, 2) coordinates of places in holes:
             what can be reached from there without crossing a segment is removed.
         alpha: Triangles with a larger circumradius are removed, unless they have a segment as an
             edge; 0: none.
         longest_edge: The same for triangles with a longer edge.
         point_tolerance: Points nearer than this to one with a lower id are not used; 0: only those
-            at equal places.
+            at equal places. Points where segments cross may be nearer.
         split_crossings: Split segments where they cross, instead of refusing the later one. The
             crossing is exact, rounded once; z is that of the earlier segment.
         backend: "cuda", "threads", or "auto": a GPU for many points if there is one.
@@ -80,7 +80,8 @@ def triangulate(
         line, or if progress aborts before there are any.
 
     Raises:
-        InvalidMesh: A segment names a point that does not exist, or a ring crosses a segment.
+        InvalidMesh: A segment names a point that does not exist, a ring crosses a segment, or has no
+            area.
         InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError, ValueError.
 
     Example:
@@ -119,9 +120,10 @@ class Input:
         self.new_points, self.ends = [], []
         are_places = _is_list_of_places(holes)
         for ring in _list_rings(outline, "outline"):
-            self._add_ring(ring, points, 1)
+            self._add_ring(ring, points)
+        self.struct.first_hole = len(self.rings) - 1
         for ring in _list_rings(None if are_places else holes, "holes"):
-            self._add_ring(ring, points, -1)
+            self._add_ring(ring, points)
         if self.new_points:
             points = numpy.concatenate([_arrays.to_host(points), *self.new_points])
         self.points = points
@@ -137,10 +139,9 @@ class Input:
         struct.segments, struct.number_of_segments = address(self.all_segments), len(self.all_segments)
         struct.rings = address(self.all_rings) if len(self.rings) > 1 else None
         struct.hole_seeds, struct.number_of_hole_seeds = address(self.seeds), len(self.seeds)
-        struct.outline = _ORIENTATION
+        struct.outline = _ANY_RING
 
-    def _add_ring(self, ring, points, side):
-        """Adds a ring that turns to the left (side 1) or to the right (-1)."""
+    def _add_ring(self, ring, points):
         ring = numpy.asarray(ring)
         if ring.ndim == 2:
             places = numpy.zeros((len(ring), points.shape[1]), dtype=_arrays.type_of(points))
@@ -150,13 +151,8 @@ class Input:
             self.new_points.append(places)
         else:
             ids = _arrays.as_ids("a ring", numpy.stack([ring, ring], axis=1), 2)[:, 0]
-            inside = ids[(ids >= 0) & (ids < len(points))]  # the engine names the others
-            places = _arrays.to_host(points[inside])
         if len(ids) > 1 and ids[0] == ids[-1]:
-            ids, places = ids[:-1], places[:-1]
-        x, y = (places[:, :2] - places[:1, :2]).astype(float).T
-        area = x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1)
-        ids = ids if area * side >= 0 else ids[::-1]
+            ids = ids[:-1]
         self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
         self.rings.append(numpy.full(len(ids), len(self.rings) - 1, dtype=numpy.int32))
 
@@ -179,6 +175,7 @@ class Input:
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
             used = numpy.concatenate([used, numpy.arange(len(used), len(points))])
+            report = dataclasses.replace(report, number_of_points=len(points))
         iterations = _report.read_iterations(handle)
         return Triangulation(points, triangles, neighbors, used, edges, iterations, report)
 
@@ -211,9 +208,10 @@ def _list_rings(given, name):
     """The rings of an argument: one, or a list of them."""
     if given is None or len(given) == 0:
         return []
-    first = numpy.asarray(given[0])
-    is_place = first.shape == (2,) or first.shape == (3,) and first.dtype.kind == "f"
-    if first.ndim == 0 or is_place:
+    items = [numpy.asarray(item) for item in given]
+    shapes = {item.shape for item in items}
+    are_spatial = shapes == {(3,)} and any(item.dtype.kind == "f" for item in items)
+    if shapes in ({()}, {(2,)}) or are_spatial:
         given = [given]
     for ring in given:
         if len(ring) < 3:

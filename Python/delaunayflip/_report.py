@@ -81,7 +81,7 @@ class Report:
     points_not_finite: int = 0  #: Of a triangulation of points, as all that follow.
     points_repeated: int = 0  #: Points at the place of one with a lower id.
     points_too_near: int = 0  #: Points within the tolerance of one with a lower id.
-    segment_edges: int = 0  #: Edges that segments have become.
+    segment_edges: int = 0  #: Edges of the mesh that segments have become.
     segments_refused: int = 0  #: They cross earlier ones, or an end is not finite.
     crossings: int = 0  #: Points added where segments cross.
     largest_shift: float = 0.0  #: How far rounding has moved one of these at most.

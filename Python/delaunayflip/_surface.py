@@ -128,6 +128,8 @@ class Slots:
 
 def number_tuples(values):
     """A number per tuple; equal tuples have equal numbers, and so have all NaN, and 0 and -0."""
+    if len(values) == 0:
+        return numpy.empty(0, dtype=numpy.int32)
     values = values.reshape(len(values), -1)
     if values.dtype.kind == "f":
         values = values + values.dtype.type(0)  # -0 becomes 0

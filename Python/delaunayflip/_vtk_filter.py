@@ -276,7 +276,7 @@ class Filter(VTKPythonAlgorithmBase):
             self._block = (before / total, cells / total)
             before += cells
             is_mesh, result = isinstance(data, self.kind), _copy(data)
-            if not is_mesh and cells:
+            if not is_mesh and (cells or self.kind is not vtkPolyData):
                 self._warnings.append((name, self.no_mesh))
             if is_mesh and self._sum.report.stop_reason != "aborted":
                 _, others = edges.get(0) or edges.get(leaf.GetCurrentFlatIndex(), ("", None))
@@ -566,7 +566,7 @@ class vtkDelaunayFlipPoints(Filter):
                 "one partition in ParaView")
         if count == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if count else "converged")
-        cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline])
+        cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline], self.first_hole)
         result = triangulate(
             cloud, progress=self._observe_part(1.0), on_iteration=self._observe, **self._get_options(
                 "backend", "alpha", "longest_edge", "point_tolerance", "split_crossings"))
@@ -577,5 +577,6 @@ class vtkDelaunayFlipPoints(Filter):
 finish(vtkDelaunayFlipPoints, (
     *(Property(name, 0.0, 0.0, VTK_DOUBLE_MAX) for name in ("Alpha", "LongestEdge", "PointTolerance")),
     *(Property(name, False) for name in ("SplitCrossings", "LinesAsSegments")),
-    Property("Outline", 0, 0, 1, ("EvenOdd", "Orientation")),
+    Property("Outline", 0, 0, 2, ("EvenOdd", "Orientation", "Any")),
+    Property("FirstHole", -1, -1, VTK_ID_MAX),
 ), count_answers("NumberOf", "SegmentEdges", "RefusedSegments"))

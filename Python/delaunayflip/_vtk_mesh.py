@@ -15,7 +15,7 @@ from ._surface import NONE, Constraints, Slots, Surface, list_pairs, number_plac
 
 #: Keywords of MeshInput.
 SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints", "region_array")
-OUTLINES = ("even-odd", "orientation")
+OUTLINES = ("even-odd", "orientation", "any")
 _GHOSTS = "vtkGhostType"
 _GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
@@ -285,7 +285,9 @@ class MeshInput:
 class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
-    def __init__(self, data, others=None, lines_as_segments=False, outline="even-odd"):
+    def __init__(self, data, others=None, lines_as_segments=False, outline="even-odd", first_hole=-1):
+        if outline not in OUTLINES:
+            raise ValueError(f"outline must be one of {', '.join(OUTLINES)}, not {outline!r}")
         self.vtk, self.data = vtk_of(data), data
         mesh = self.vtk.model.vtkPolyData()
         mesh.SetPoints(data.GetPoints())
@@ -304,6 +306,8 @@ class Cloud(Input):
         super().__init__(self._own, numpy.concatenate(self._pairs), None, None)
         self._numbers = numpy.concatenate(self._numbers).astype(numpy.int32)
         self.struct.rings, self.struct.outline = _arrays.address(self._numbers), OUTLINES.index(outline)
+        last = numpy.iinfo(numpy.int32).max
+        self.struct.first_hole = last if first_hole < 0 else min(first_hole, last)
 
     def _add_cells(self, cells, ids, are_rings=False):
         cells.require_points(len(ids))
@@ -311,7 +315,7 @@ class Cloud(Input):
         is_ring = are_rings & (cells.sizes > 2)
         numbers = numpy.where(is_ring, cells.first + numpy.arange(cells.count), -1)
         numbers = numpy.repeat(numbers, numpy.maximum(cells.sizes - ~is_ring, 0))
-        kept = pairs[:, 0] != pairs[:, 1]
+        kept = (pairs[:, 0] != pairs[:, 1]) | (numbers >= 0)
         self._pairs.append(pairs[kept])
         self._numbers.append(numbers[kept])
 

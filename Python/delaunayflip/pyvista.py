@@ -99,8 +99,8 @@ def triangulate(
         segments: Its lines become edges of the mesh. Its polygons too, and what is outside of them
             is removed. Its points are added where they are new.
         lines_as_segments: Whether the lines of `cloud` become edges, too.
-        outline: What polygons enclose: "even-odd", or "orientation", where counter-clockwise ones
-            enclose what is kept and clockwise ones cut holes.
+        outline: What polygons enclose: "even-odd"; "orientation", where counter-clockwise ones enclose
+            what is kept and clockwise ones cut holes; or "any", where what is inside any is kept.
         **options: alpha, longest_edge, point_tolerance, split_crossings, backend, threads, device,
             maximum_iterations and progress, as for delaunayflip.triangulate.
 

@@ -351,6 +351,8 @@ static void TestPolygons(void)
 static void TestPoints(void)
 {
   const int64_t diagonal[] = { 2, 0 };
+  const int64_t ring[] = { 0, 1, 1, 2, 2, 0 };
+  const int32_t rings[] = { 0, 0, 0 };
   int64_t triangles[6], edge[2];
   int32_t neighbors[6];
   delaunayflip_points points;
@@ -373,6 +375,19 @@ static void TestPoints(void)
     CHECK(neighbors[0] + neighbors[1] + neighbors[2] == -1);
     CHECK(delaunayflip_store_segment_edges(session, edge) == DELAUNAYFLIP_OK);
     CHECK(i == 0 || (edge[0] == 2 && edge[1] == 0));
+    delaunayflip_close(session);
+  }
+  for (i = 0; i < 2; ++i) /* a ring of which triangle 0, 1, 2 is the inside; then a hole */
+  {
+    points.segments = ring;
+    points.number_of_segments = 3;
+    points.rings = rings;
+    points.outline = DELAUNAYFLIP_ANY_RING;
+    points.first_hole = 1 - i;
+    CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+    CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+    CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
+    CHECK((triangles[0] + triangles[1] + triangles[2] == 3) == (i == 0));
     delaunayflip_close(session);
   }
   delaunayflip_options_init(&options);

@@ -5,6 +5,8 @@
 import math
 import unittest
 
+from vtkmodules.vtkCommonCore import vtkPoints
+
 from CommandTesting import (
     FORMATS,
     BadFileTest,
@@ -121,6 +123,8 @@ class Files(PointTest):
             "12\n1 2 3\n": ["line 1", "x y [z]"],
             "x y z\n1 0.1 0.2 0.3\n": ["line 2", "4 columns", "names has 3"],
             "1 2 1e999\n": ["line 1", "'1e999' is out of range"],
+            "0 0\n1 0 25\n": ["line 2", "has 3 columns, but the first point has 2"],
+            "0,0,\n1,0,\n1,1,25,\n": ["line 3", "has 3 columns, but the first point has 2"],
             b"\x7fELF\x01\x02\n\x03 1 2\n": ["line 2"],
         }.items():
             self.refuse_points(text, *words)
@@ -167,6 +171,12 @@ class Results(PointTest):
         self.assertEqual(len(triangles_of(mesh)), 4)
         self.write("in.xyz", text_of([(x, y, 9 * x) for x, y, _ in PLACES]))
         ring = self.rings("ring.vtk", [(x, y, 9 * x) for x, y, _ in PLACES[1:4]])
+        for option in ("--outline", "--holes"):
+            mesh, _ = self.triangulate("in.xyz", "--projection", "plane", option, ring)
+            self.assertEqual(len(triangles_of(mesh)), 2)
+        wall = [(3, y, x) for x, y, _ in PLACES]
+        self.write("in.xyz", text_of(wall))
+        ring = self.rings("ring.vtk", [wall[i] for i in (0, 1, 4, 3)])
         for option in ("--outline", "--holes"):
             mesh, _ = self.triangulate("in.xyz", "--projection", "plane", option, ring)
             self.assertEqual(len(triangles_of(mesh)), 2)
@@ -233,12 +243,34 @@ class Segments(PointTest):
             mesh, result = self.triangulate("in.xyz", *options)
             self.assertEqual(area_of(mesh), area, options)
             self.assertRegex(result.stdout, r"removed +\d+ triangles outside, 0 too large")
+        nested = self.rings("nested.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)],
+                            [(1, 1, 0), (3, 1, 0), (3, 3, 0), (1, 3, 0)])
+        mesh, _ = self.triangulate("in.xyz", "--outline", nested, "--holes", hole)
+        self.assertEqual(area_of(mesh), 8)
+
+    def test_ring_with_long_arms(self):
+        """Corners alone, without the lengths of edges, would not tell its direction."""
+        arm = [(2.25, 1.75), (3.75, 1.75), (3.75, 2.25)]
+        plus = []
+        for _ in range(4):
+            plus += [(x, y, 0) for x, y in arm]
+            arm = [(4 - y, x) for x, y in arm]
+        plus = self.rings("plus.vtk", plus)
+        for option, area in (("--outline", 3.25), ("--holes", 16 - 3.25)):
+            mesh, _ = self.triangulate("in.xyz", option, plus)
+            self.assertEqual(area_of(mesh), area)
+
+    def test_removed_edges_do_not_count(self):
+        far = self.rings("far.vtk", [(9, 9, 0), (10, 9, 0), (9, 10, 0)])
+        line = write_mesh(make_mesh([(0, 0, 0), (3, 1, 0)], [], [(0, 1)]), self.path("line.vtk"))
+        _, result = self.triangulate("in.xyz", "--outline", far, "--constraints", line)
+        self.assertIn("kept edges      3 (3 boundary, 3 constraints)\n", result.stdout)
 
     def test_rings_that_are_none(self):
         for mesh, words in (
             (make_mesh(PLACES, [], [(0, 1, 2, 0), (0, 1, 2)]), ["line 1", "not end where it begins"]),
             (make_mesh(PLACES, [], [(0, 1, 0)]), ["line 0", "fewer than three"]),
-            (make_mesh([(3, y, x) for x, y, _ in PLACES], [(0, 1, 2)]), ["polygon 0", "no area"]),
+            (make_mesh([(3, y, x) for x, y, _ in PLACES], [(0, 1, 2)]), ["ring 0 has no area"]),
             (make_mesh(PLACES[:2], [], [(0, 7, 1, 0)]), ["cell 0 names point 7"]),
             (make_mesh(PLACES, []), ["no lines or polygons"]),
         ):
@@ -255,6 +287,25 @@ class Segments(PointTest):
             self.fail_with(3, "in.xyz", "out.vtk", "--from-points", *options,
                            naming=["bow.vtk: ring 1", "crosses", "--split-crossings"])
         self.succeed("in.xyz", "out.vtk", "--from-points", "--outline", bow, "--split-crossings")
+        bow = self.rings("bow.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (0.5, 3.5, 0), (3.5, 3.5, 0)])
+        mesh, _ = self.triangulate("in.xyz", "--outline", bow, "--split-crossings")
+        self.assertEqual(area_of(mesh), 4.5)
+
+    def test_floats_beside_doubles(self):
+        """A breakline of floats is at points of the survey, also if the outline has doubles."""
+        places = [(x / 10, y / 10, 0.1) for x, y, _ in grid(5)]
+        self.write("in.xyz", text_of(places))
+        line = make_mesh(places, [], [(0, 8)])
+        floats = vtkPoints()
+        for place in places:
+            floats.InsertNextPoint(place)
+        line.SetPoints(floats)
+        line = write_mesh(line, self.path("line.vtk"))
+        ring = self.rings("ring.vtk", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)])
+        mesh, _ = self.triangulate("in.xyz", "--constraints", line, "--outline", ring)
+        self.assertEqual(points_of(mesh)[:25], places)
+        self.assertEqual(mesh.GetNumberOfPoints(), 29)
+        self.assertIn(((0, 0), (0.3, 0.1)), edges_of(mesh))
 
     def test_point_data_of_several_files(self):
         line = make_mesh([(0, 0, 0), (3.5, 1.25, 7)], [], [(0, 1)])

@@ -28,6 +28,7 @@ struct Drawing
   Places Points;
   Pairs Segments;
   std::vector<std::int32_t> Rings;
+  std::int32_t FirstHole = INT32_MAX;
   std::vector<double> Seeds;
 
   PointInput View() const
@@ -38,6 +39,7 @@ struct Drawing
     input.Segments = this->Segments.empty() ? nullptr : this->Segments.front().data();
     input.NumberOfSegments = static_cast<std::int64_t>(this->Segments.size());
     input.Rings = this->Rings.empty() ? nullptr : this->Rings.data();
+    input.FirstHole = this->FirstHole;
     input.HoleSeeds = this->Seeds.data();
     input.NumberOfHoleSeeds = static_cast<std::int64_t>(this->Seeds.size()) / 2;
     return input;

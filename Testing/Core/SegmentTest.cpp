@@ -207,6 +207,13 @@ TEST(Segments, NameWhatIsWrong)
   EXPECT_EQ("1 point with NaN or infinite coordinates (first: 4); 2 segments that cross an earlier "
             "one or end at a point that is not finite (first: 3-1, 0-4)",
     DescribeDefects(report.Defects));
+  Drawing line;
+  line.Points = { { 0, 0 }, { 1, 1 }, { 2, 2 } };
+  line.Segments = { { 0, 2 } };
+  EXPECT_EQ(
+    "1 segment between points without a triangle (first: 0-2); 3 points without a triangle: "
+    "there are fewer than three places, or all are on one line",
+    DescribeDefects(Triangulate(line).Report.Defects));
   drawing.Segments = { { 0, 5 } };
   EXPECT_EQ("segment 0 names point 5, but there are points 0 to 4",
     GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
@@ -325,6 +332,7 @@ struct OutlineCase
   OutlineKind Outline;
   std::vector<Places> Rings;
   double Area;
+  std::int32_t FirstHole = INT32_MAX;
 };
 
 void PrintTo(const OutlineCase& one, std::ostream* stream) { *stream << one.Name; }
@@ -347,6 +355,7 @@ TEST_P(OutlineTest, KeepsWhatIsInside)
     drawing.Rings.resize(drawing.Segments.size(), -1);
     drawing.AddRing(ring);
   }
+  drawing.FirstHole = GetParam().FirstHole;
   PointOptions options;
   options.Outline = GetParam().Outline;
   const Triangulation result = Triangulate(drawing, options);
@@ -370,7 +379,15 @@ INSTANTIATE_TEST_SUITE_P(Outlines, OutlineTest,
       { Square(2, 2, 10), Square(4, 4, 3, true), Square(5, 5, 1) }, 92 },
     OutlineCase{ "Nested", OutlineKind::Orientation, { Square(2, 2, 10), Square(4, 4, 3) }, 100 },
     OutlineCase{ "OnlyHoles", OutlineKind::Orientation,
-      { Square(2, 2, 3, true), Square(8, 8, 4, true) }, 375 }),
+      { Square(2, 2, 3, true), Square(8, 8, 4, true) }, 375 },
+    OutlineCase{ "HoleInTwoOutlines", OutlineKind::Any,
+      { Square(2, 2, 10), Square(4, 4, 6, true), Square(5, 5, 2, true) }, 96, 2 },
+    OutlineCase{ "OnlyHolesByNumber", OutlineKind::Any,
+      { Square(2, 2, 3), Square(8, 8, 4, true), Square(9, 9, 2) }, 375, 0 },
+    OutlineCase{ "EvenOddAndHole", OutlineKind::EvenOdd,
+      { Square(2, 2, 10), Square(4, 4, 6), Square(3, 3, 8) }, 36, 2 },
+    OutlineCase{ "BowTie", OutlineKind::Any,
+      { { { 4, 4 }, { 8, 4 }, { 6, 6 }, { 4, 8 }, { 8, 8 }, { 6, 6 } } }, 8 }),
   [](const auto& info) { return std::string(info.param.Name); });
 
 TEST(Outline, ReportsBrokenRings)
@@ -386,6 +403,71 @@ TEST(Outline, ReportsBrokenRings)
   EXPECT_EQ("the segment of ring 1 from point 4 to point 5 cannot be inserted: it crosses an "
             "earlier segment, or a coordinate is not finite",
     GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
+}
+
+/// Where areas overflow, underflow, or are lost in the distance to other points.
+TEST(Outline, DirectionOfHugeTinyAndFarRings)
+{
+  std::mt19937 random(8);
+  PointOptions options;
+  options.Outline = OutlineKind::Orientation;
+  for (int i = 0; i < 60; ++i)
+  {
+    const double scales[] = { 1e160, 1e-165, 1e-3 };
+    const double scale = scales[i % 3];
+    const double far = i % 3 == 2 ? 1e6 + DrawIndex(random, 8000000) : 0.0;
+    Drawing drawing;
+    drawing.Points = { { 0, 0 } };
+    Places ring = { { 1, 1 }, { 5, 2 }, { 4, 6 }, { 2, 5 } };
+    for (auto& corner : ring)
+    {
+      corner = { far + scale * corner[0], far + scale * corner[1] };
+    }
+    drawing.AddRing(ring);
+    EXPECT_EQ(2, Triangulate(drawing, options).Report.Triangles) << "case " << i;
+  }
+}
+
+TEST(Outline, RingsWithoutAreaAreErrors)
+{
+  PointOptions options;
+  options.PointTolerance = 0.5;
+  for (const Places& ring : { Places{ { 4, 4 }, { 8, 8 }, { 6, 6 } }, Square(4, 4, 0.1) })
+  {
+    Drawing drawing;
+    drawing.Points = Square(0, 0, 20);
+    drawing.AddRing(ring);
+    try
+    {
+      Triangulate(drawing, options);
+      ADD_FAILURE() << "a ring without area";
+    }
+    catch (const InvalidMesh& error)
+    {
+      EXPECT_STREQ("ring 0 has no area: its points are on one line, or at one place", error.what());
+    }
+  }
+}
+
+/// Edges of two segments, those of the boundary, and removed ones.
+TEST(Outline, EdgesAreCountedOnce)
+{
+  Drawing drawing;
+  drawing.Points = Square(0, 0, 8);
+  drawing.Segments = { { 0, 2 }, { 0, 1 }, { 2, 0 } };
+  const Triangulation all = Triangulate(drawing);
+  EXPECT_EQ((Pairs{ { 0, 2 }, { 0, 1 } }), all.Edges);
+  EXPECT_EQ(2, all.Report.FromPoints.SegmentEdges);
+  EXPECT_EQ(2, all.Report.Edges.Constraint);
+  EXPECT_EQ(5, all.Report.Edges.Fixed);
+  drawing.Rings = { -1, -1, -1 };
+  drawing.AddRing({ { 20, 20 }, { 22, 20 }, { 20, 22 } });
+  drawing.Segments.push_back({ 5, 4 });
+  drawing.Rings.push_back(-1);
+  const Triangulation few = Triangulate(drawing);
+  EXPECT_EQ((Pairs{ { 4, 5 }, { 5, 6 }, { 6, 4 } }), few.Edges);
+  EXPECT_EQ(3, few.Report.FromPoints.SegmentEdges);
+  EXPECT_EQ(3, few.Report.Edges.Fixed);
 }
 
 TEST(Outline, SeedsRemoveHoles)

@@ -217,7 +217,7 @@ TEST(FromPoints, PointsOfSegmentsAreAdded)
   EXPECT_EQ(data->GetScalars(), data->GetArray("mine"));
   EXPECT_EQ(data->GetGlobalIds(), nullptr);
   EXPECT_NE(data->GetPedigreeIds(), nullptr);
-  EXPECT_EQ(filter->GetNumberOfSegmentEdges(), 2); // the same edge
+  EXPECT_EQ(filter->GetNumberOfSegmentEdges(), 1); // of both
   EXPECT_EQ(cloud->GetNumberOfPoints(), 4);
 }
 
@@ -286,6 +286,7 @@ TEST(FromPoints, Crossings)
     EXPECT_EQ(output->GetPointData()->GetPedigreeIds()->GetVariantValue(4).ToInt(), 0);
     EXPECT_EQ(output->GetPointData()->GetArray(ghosts->GetName())->GetTuple1(4), 0.0);
     EXPECT_EQ(GetTotal(output, "CrossingPoints"), 1.0);
+    ExpectHolds(filter->GetSummary(), "mesh: 5 points, ");
     EXPECT_EQ(filter.GetPolygons().size(), 4u);
     EXPECT_EQ(cloud->GetNumberOfPoints(), 4);
   }
@@ -305,6 +306,13 @@ TEST(FromPoints, Crossings)
   ASSERT_EQ(output->GetNumberOfPoints(), 5);
   EXPECT_EQ(output->GetPoint(4)[0], 0.5);
   EXPECT_EQ(output->GetPoint(4)[1], 0.5);
+  auto floats =
+    MakeLines({ { 0, 0, 1 }, { 1, 0, 2 }, { 1, 1, Inf }, { 0, 1, 4 } }, { { 0, 2 }, { 1, 3 } });
+  ReplacePoints<vtkFloatArray>(floats);
+  PointsFilter infinite(floats);
+  infinite->LinesAsSegmentsOn();
+  infinite->SplitCrossingsOn();
+  EXPECT_EQ(RunCleanly(infinite)->GetPoint(4)[2], Inf);
 }
 
 TEST(FromPoints, OutlinesAndHoles)
@@ -330,19 +338,23 @@ TEST(FromPoints, OutlinesAndHoles)
   struct Case
   {
     Cells Rings;
-    bool ByOrientation;
+    int Outline;
     double Area;
+    vtkIdType FirstHole;
   };
   const std::vector<Case> cases = {
-    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, false, 60.0 },
-    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, true, 64.0 },
-    { { { 0, 1, 2, 3 }, { 7, 6, 5, 4 } }, true, 60.0 },
+    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, vtkDelaunayFlipPoints::OUTLINE_EVEN_ODD, 60.0, 2 },
+    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, vtkDelaunayFlipPoints::OUTLINE_ORIENTATION, 64.0, 2 },
+    { { { 0, 1, 2, 3 }, { 7, 6, 5, 4 } }, vtkDelaunayFlipPoints::OUTLINE_ORIENTATION, 60.0, 2 },
+    { { { 0, 1, 2, 3 }, { 7, 6, 5, 4 } }, vtkDelaunayFlipPoints::OUTLINE_ANY, 64.0, 2 },
+    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, vtkDelaunayFlipPoints::OUTLINE_ANY, 60.0, 1 },
   };
   for (const Case& each : cases)
   {
     PointsFilter filter(ToMesh(points));
     filter->SetSegmentsData(MakeMesh(both, each.Rings));
-    filter->SetOutline(each.ByOrientation);
+    filter->SetOutline(each.Outline);
+    filter->SetFirstHole(each.FirstHole);
     const auto output = RunCleanly(filter);
     EXPECT_NEAR(measure(output), each.Area, 1e-9);
     EXPECT_GT(GetTotal(output, "OutsideTriangles"), 0.0);

@@ -100,6 +100,8 @@ class Triangulate(unittest.TestCase):
         self.assertEqual(area(outline=square), 0.64)
         self.assertEqual(area(outline=square[::-1], holes=[triangle]), 0.62)
         self.assertEqual(area(outline=[square, [[2, 2], [3, 2], [3, 3]]]), 1.14)
+        inner, middle = [[.2, .2], [.2, .8], [.8, .8], [.8, .2]], [[.4, .4], [.6, .4], [.6, .6], [.4, .6]]
+        self.assertEqual(area(outline=[square, inner], holes=[middle]), 0.6)
         whole = area()
         self.assertAlmostEqual(area(holes=[triangle]), whole - 0.02)
         self.assertEqual(area(outline=square, holes=[[.5, .5]]), 0)  # no segment stops it
@@ -112,6 +114,18 @@ class Triangulate(unittest.TestCase):
             delaunayflip.triangulate(points, outline=[square, [[.5, .5], [2, .5], [2, .6]]])
         with self.assertRaises(ValueError):
             delaunayflip.triangulate(points, outline=[[0, 1]])
+        for ring in ([[0, 0], [4, 4], [8, 8]], [5, 5, 5], [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]):
+            with self.assertRaisesRegex(ValueError, "ring 0 has no area"):
+                delaunayflip.triangulate(points, outline=ring)
+        spatial = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, .5]]  # integers first
+        self.assertEqual(area(outline=spatial), 1)
+
+    def test_rings_of_any_size(self):
+        places = numpy.array([[0, 0], [1, 0], [1, 1], [0, 1], [.5, .5]])
+        for scale in (1e160, 1, 1e-165):
+            for ring in ([0, 1, 2], [2, 1, 0]):
+                self.assertEqual(len(delaunayflip.triangulate(scale * places, outline=ring).triangles), 2)
+                self.assertEqual(len(delaunayflip.triangulate(scale * places, holes=[ring]).triangles), 2)
 
     def test_what_is_left_out(self):
         points = numpy.random.default_rng(6).random((2000, 2))

@@ -16,7 +16,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import (
     vtkDoubleArray, vtkIntArray, vtkObject, vtkStringArray, vtkUnsignedCharArray)
 from vtkmodules.vtkCommonDataModel import (
-    vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData)
+    vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData, vtkTable)
 
 from test_vtk_delaunay_flip import (
     Watched, add_numbers, get_cells, list_properties, make_bad_mesh, make_cells, make_mesh,
@@ -373,11 +373,31 @@ class SamePoints(Pair, unittest.TestCase):
                     def prepare(points, segments=segments, splits=splits):
                         points.SetSegmentsData(segments)
                         points.SetSplitCrossings(splits)
-                        points.SetOutline(int(splits))
+                        points.SetOutline(2 * int(splits))
+                        points.SetFirstHole(6)
                         points.SetLongestEdge(9.0)
 
                     told = self.expect_same(cloud, prepare)
                     self.assertEqual(told["errors"], [])
+
+    def test_points_that_are_not_finite(self):
+        for kind in (numpy.float32, numpy.float64):
+            cloud, segments = make_cloud(9, kind), make_segments(make_cloud(9), kind)
+            for data in (cloud, segments):
+                vtk_to_numpy(data.GetPoints().GetData())[:, 2] = math.nan
+            self.expect_same(cloud, lambda points, lines=segments: points.SetSegmentsData(lines))
+        for kind in (numpy.float32, numpy.float64):
+            cross = make_mesh([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)], [])
+            cross.GetPoints().SetData(numpy_to_vtk(numpy.array(
+                [(0, 0, 0), (4, 0, 0), (4, 4, math.inf), (0, 4, 0)], kind), deep=True))
+            cross.SetLines(make_cells([(0, 2), (1, 3)]))
+            self.expect_same(
+                cross, lambda points: (points.LinesAsSegmentsOn(), points.SplitCrossingsOn()))
+
+    def test_points_of_the_second_input_alone(self):
+        segments = make_segments(make_cloud(9), numpy.float32)
+        told = self.expect_same(vtkPolyData(), lambda points: points.SetSegmentsData(segments))
+        self.assertIn("PointsNotFinite", str(told["meshes"]))
 
     def test_lines_of_the_input(self):
         cloud = make_cloud(40)
@@ -402,6 +422,9 @@ class SamePoints(Pair, unittest.TestCase):
         image.SetDimensions(2, 2, 2)
         for i, data in enumerate((make_cloud(30), image, None, make_cloud(50))):
             blocks.SetBlock(i, data)
+        told = self.expect_same(blocks)
+        self.assertIn("has no points of its own", told["warnings"][0])
+        blocks.SetBlock(1, vtkTable())
         told = self.expect_same(blocks)
         self.assertIn("has no points of its own", told["warnings"][0])
         told = self.expect_same(make_cloud(30), lambda points: points.SetInputDataObject(1, blocks))

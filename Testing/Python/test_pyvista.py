@@ -143,6 +143,10 @@ class PyVista(unittest.TestCase):
             cloud.delaunay.triangulate(segments.append_polydata(cross))
         with self.assertRaisesRegex(TypeError, "cloud must be a dataset with points, not list"):
             delaunayflip.pyvista.triangulate([[0, 0, 0]])
+        with self.assertRaisesRegex(ValueError, "outline must be one of even-odd, orientation, any"):
+            delaunayflip.pyvista.triangulate(cloud, outline="x")
+        bare = delaunayflip.pyvista.triangulate(self.pyvista.PolyData(), cloud)
+        self.assertEqual((bare.n_points, bare.n_cells), (50, same.n_cells))
 
     def test_what_is_refused(self):
         pyvista, flip = self.pyvista, self.mesh.delaunay.flip
