@@ -75,6 +75,10 @@ void RequireValidIds(vtkPolyData* mesh, const InputFile& file)
   for (vtkCellArray* cells :
     { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() })
   {
+    if (!cells->IsValid())
+    {
+      file.Fail("has cells without end (corrupt)");
+    }
     ForEachCell(cells,
       [&](vtkIdType size, const vtkIdType* ids)
       {

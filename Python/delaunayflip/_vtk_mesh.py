@@ -29,8 +29,11 @@ class Vtk:
         self.support = importlib.import_module(f"{package}.util.numpy_support")
 
     def add_arrays(self, data, prefix, arrays):
-        """`arrays`: (name, values, a number or a text) of each."""
+        """`arrays`: (name, values, a number or a text) of each; None removes it."""
         for name, values in arrays:
+            if values is None:
+                data.RemoveArray(prefix + name)
+                continue
             if isinstance(values, str):
                 array = self.core.vtkStringArray()
                 array.InsertNextValue(values)
