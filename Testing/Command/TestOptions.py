@@ -223,6 +223,9 @@ class Options(CommandTest):
             meshes.append(read_mesh(self.path("out.vtk")))
         self.assertEqual(triangle_set(meshes[0]), triangle_set(meshes[1]))
         self.assertNotEqual(triangles_of(meshes[0]), triangles_of(meshes[1]))
+        rough = write_mesh(bumpy_grid(12, 3), self.path("in.vtk"))
+        told = self.succeed(rough, "out.vtk", "--geometry", "surface", "--pieces", 2)
+        self.assertNotIn("constraint", told.stdout + told.stderr)
 
 
 class ManyThreads(CommandTest):
