@@ -86,13 +86,16 @@ void AddValue(CLI::App& app, const std::string& name, const std::function<void(T
   app.add_option_function<T>(name, set, help)->type_name(type)->transform(check);
 }
 
-/// The same for a file. An empty name would count as an option that is not given.
+/// An empty name would count as an option that is not given.
+std::string FindFaultOfName(const std::string& text)
+{
+  return text.empty() ? "the name is empty" : "";
+}
+
 CLI::Option* AddFile(
   CLI::App& app, const std::string& name, std::string& value, const std::string& help)
 {
-  const auto check = [](const std::string& text)
-  { return text.empty() ? "the name of the file is empty" : ""; };
-  return app.add_option(name, value, help)->type_name("FILE")->check(check);
+  return app.add_option(name, value, help)->type_name("FILE")->check(FindFaultOfName);
 }
 
 void AddMethodOptions(CLI::App& app, Arguments& arguments)
@@ -162,7 +165,8 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
       "--region-array",
       [&arguments](const std::string& name) { arguments.Flip->SetRegionArray(name.c_str()); },
       "A cell array of the input: edges between cells of different values stay")
-    ->type_name("NAME");
+    ->type_name("NAME")
+    ->check(FindFaultOfName);
 }
 
 void AddPointOptions(CLI::App& app, Arguments& arguments)
@@ -325,8 +329,8 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   app.footer(
     "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
     "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
-    "available; 129, 130 or 143 ended by the signal HUP, INT (Ctrl-C) or TERM.\n"
-    "With any code but 0 and 4 no file has been changed.");
+    "available; 129, 130, 131 or 143 ended by the signal HUP, INT (Ctrl-C), QUIT or\n"
+    "TERM. With any code but 0 and 4 no file has been changed.");
   arguments.Points->SetOutlineToAny();
   AddFile(app, "INPUT", arguments.Input, "The mesh or the points to read")->required();
   AddFile(app, "OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();

@@ -24,7 +24,7 @@ namespace
 {
 
 /// The signals by which a user or the system ends a program.
-constexpr int Endings[] = { SIGINT, SIGTERM, SIGHUP };
+constexpr int Endings[] = { SIGINT, SIGTERM, SIGHUP, SIGQUIT };
 
 }
 

@@ -31,9 +31,9 @@ struct ChildOutcome
   Phase LastPhase = Phase::Reading;
 };
 
-/// Watches one child. While this object lives, SIGINT, SIGTERM and SIGHUP do not end this process.
-/// They stay pending until Run, which then kills the child; so the caller can always clean up. Must
-/// be constructed before any thread is started.
+/// Watches one child. While this object lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT do not end this
+/// process. They stay pending until Run, which then kills the child; so the caller can always clean
+/// up. Must be constructed before any thread is started.
 class ChildProcess
 {
 public:

@@ -12,6 +12,7 @@
 #include "OutputFiles.h"
 
 #include <vtkAppendPolyData.h>
+#include <vtkBoundingBox.h>
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkDelaunayFlip.h>
@@ -20,7 +21,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
-#include <vtkStaticCleanPolyData.h>
 
 #include <nlohmann/json.hpp>
 
@@ -84,6 +84,22 @@ void KeepVTKFromThreads()
   {
     vtkSMPTools::SetBackend("Sequential");
   }
+}
+
+/// The diagonal of the box around the points whose coordinates are all finite.
+double DiagonalOf(vtkPolyData* mesh)
+{
+  vtkBoundingBox box;
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> point;
+    mesh->GetPoint(i, point.data());
+    if (std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); }))
+    {
+      box.AddPoint(point.data());
+    }
+  }
+  return box.IsValid() ? std::hypot(box.GetLength(0), box.GetLength(1), box.GetLength(2)) : 0.0;
 }
 
 /// The filter's message with options of the command for properties of the filter.
@@ -177,6 +193,7 @@ std::string MakeJson(const RunReport& run)
   json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
   json["inserted_constraint_edges"] = flip.InsertedConstraints;
   json["constraint_flips"] = flip.ConstraintFlips;
+  json["keeps_sliver"] = flip.KeepsSliver;
   if (run.IsFromPoints)
   {
     const PointCounts& counts = flip.FromPoints;
@@ -331,7 +348,7 @@ public:
     if (this->Settings.DeviationIsPercent)
     {
       this->Settings.Flip->SetMaximumDeviation(
-        this->Settings.Flip->GetMaximumDeviation() * this->Input->GetLength() / 100.0);
+        this->Settings.Flip->GetMaximumDeviation() * DiagonalOf(this->Input) / 100.0);
     }
     if (this->Segments)
     {
@@ -402,6 +419,12 @@ private:
     this->Bar.Begin(Phase::Reading, "reading " + path);
     const FileMesh file = ReadMesh(path, FormatOf(path));
     this->Bar.Clear();
+    return this->Take(file, path);
+  }
+
+  /// The mesh, after its warnings have been told.
+  vtkSmartPointer<vtkPolyData> Take(const FileMesh& file, const std::string& path)
+  {
     for (const std::string& warning : file.Warnings)
     {
       this->Warn(path + ": " + warning);
@@ -409,18 +432,12 @@ private:
     return file.Mesh;
   }
 
-  /// Joins points of the input at the same place.
   void MergePoints()
   {
-    vtkNew<vtkStaticCleanPolyData> clean;
-    clean->SetInputData(this->Input);
-    clean->ConvertLinesToPointsOff();
-    clean->ConvertPolysToLinesOff();
-    clean->ConvertStripsToPolysOff();
-    clean->Update();
-    this->Note(this->Settings.Input + ": of " + Counted(this->Input->GetNumberOfPoints(), "point") +
-      " " + std::to_string(clean->GetOutput()->GetNumberOfPoints()) + " are left after merging");
-    this->Input = clean->GetOutput();
+    const vtkIdType before = this->Input->GetNumberOfPoints();
+    this->Input = this->Take(MergeEqualPoints(this->Input), this->Settings.Input);
+    this->Note(this->Settings.Input + ": of " + Counted(before, "point") + " " +
+      std::to_string(this->Input->GetNumberOfPoints()) + " are left after merging");
   }
 
   /// Of points: breaklines and rings, as one mesh.

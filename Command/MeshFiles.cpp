@@ -6,7 +6,10 @@
 #include "OutputFiles.h"
 
 #include <vtkCellData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtksys/SystemTools.hxx>
 
 #include <sys/resource.h>
@@ -75,6 +78,10 @@ void RequireValidIds(vtkPolyData* mesh, const InputFile& file)
   for (vtkCellArray* cells :
     { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() })
   {
+    if (!cells->IsValid())
+    {
+      file.Fail("has cells without end (corrupt)");
+    }
     ForEachCell(cells,
       [&](vtkIdType size, const vtkIdType* ids)
       {
@@ -99,18 +106,25 @@ bool IsEnded(const std::string& path, MeshFormat format)
   return (format != MeshFormat::VTK && format != MeshFormat::OBJ) || file.get() == '\n';
 }
 
+/// Which points are corners of these cells.
+std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds)
+{
+  std::vector<bool> isUsed(mesh->GetNumberOfPoints());
+  for (vtkCellArray* cells : kinds)
+  {
+    ForEachCell(cells,
+      [&isUsed](vtkIdType size, const vtkIdType* points)
+      { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
+  }
+  return isUsed;
+}
+
 /// What a .stl loses of the points.
 struct PointLosses
 {
   explicit PointLosses(vtkPolyData* mesh)
   {
-    std::vector<bool> isUsed(mesh->GetNumberOfPoints());
-    for (vtkCellArray* cells : { mesh->GetPolys(), mesh->GetStrips() })
-    {
-      ForEachCell(cells,
-        [&isUsed](vtkIdType size, const vtkIdType* points)
-        { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
-    }
+    const std::vector<bool> isUsed = FindUsed(mesh, { mesh->GetPolys(), mesh->GetStrips() });
     this->Unused = std::count(isUsed.begin(), isUsed.end(), false);
     std::vector<std::array<double, 3>> places;
     for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
@@ -254,6 +268,75 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format)
   file.Fail(
     "cannot be read: not enough memory, or the file is corrupt: it asks for more than its " +
     std::to_string(file.GetBytes().size()) + " bytes can hold");
+}
+
+FileMesh MergeEqualPoints(vtkPolyData* mesh)
+{
+  const std::vector<bool> isUsed =
+    FindUsed(mesh, { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() });
+  std::vector<vtkIdType> numbers(isUsed.size());
+  const vtkNew<vtkIdList> kept, places;
+  PlaceNumbers known;
+  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+  {
+    std::array<double, 3> place;
+    mesh->GetPoint(point, place.data());
+    numbers[point] = isUsed[point] ? known.Number(place) : 0;
+    if (isUsed[point] && numbers[point] == kept->GetNumberOfIds())
+    {
+      places->InsertNextId(kept->InsertNextId(point));
+    }
+  }
+  FileMesh merged;
+  merged.Mesh->ShallowCopy(mesh);
+  const vtkNew<vtkPoints> points;
+  points->SetDataType(mesh->GetPoints()->GetDataType());
+  points->SetNumberOfPoints(kept->GetNumberOfIds());
+  mesh->GetPoints()->GetPoints(kept, points);
+  merged.Mesh->SetPoints(points);
+
+  const vtkNew<vtkPointData> given;
+  given->ShallowCopy(mesh->GetPointData());
+  std::vector<vtkAbstractArray*> whole;
+  for (int index = given->GetNumberOfArrays() - 1; index >= 0; --index)
+  {
+    vtkAbstractArray* const array = given->GetAbstractArray(index);
+    const bool isWhole = array->GetNumberOfTuples() >= mesh->GetNumberOfPoints();
+    isWhole ? whole.push_back(array) : given->RemoveArray(index);
+  }
+  const std::string lost =
+    LostArrays("left out point data with too few tuples", mesh->GetPointData(), whole);
+  merged.Warnings.resize(lost.empty() ? 0 : 1, lost);
+  vtkPointData* const data = merged.Mesh->GetPointData();
+  data->Initialize();
+  data->CopyAllOn();
+  data->CopyAllocate(given, kept->GetNumberOfIds());
+  data->CopyData(given, kept, places);
+
+  std::vector<vtkIdType> all, different;
+  const auto renumber = [&](vtkCellArray* cells, bool arePolygons)
+  {
+    auto made = vtkSmartPointer<vtkCellArray>::New();
+    ForEachCell(cells,
+      [&](vtkIdType size, const vtkIdType* corners)
+      {
+        all.resize(size);
+        std::transform(corners, corners + size, all.begin(),
+          [&numbers](vtkIdType corner) { return numbers[corner]; });
+        different.clear();
+        std::unique_copy(all.begin(), all.end(), std::back_inserter(different));
+        const bool isTwice = different.size() > 3 && different.front() == different.back();
+        different.resize(different.size() - (isTwice ? 1 : 0));
+        const auto& cell = arePolygons && different.size() > 2 ? different : all;
+        made->InsertNextCell(static_cast<vtkIdType>(cell.size()), cell.data());
+      });
+    return made;
+  };
+  merged.Mesh->SetVerts(renumber(mesh->GetVerts(), false));
+  merged.Mesh->SetLines(renumber(mesh->GetLines(), false));
+  merged.Mesh->SetPolys(renumber(mesh->GetPolys(), true));
+  merged.Mesh->SetStrips(renumber(mesh->GetStrips(), false));
+  return merged;
 }
 
 void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format)

@@ -34,12 +34,17 @@ MeshFormat FormatOf(const std::string& path);
 struct FileMesh
 {
   vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
-  std::vector<std::string> Warnings; ///< What reading left out, one line each, without the file.
+  std::vector<std::string> Warnings; ///< What was left out, one line each, without the file.
 };
 
 /// Reads a surface mesh.
 /// @throws CommandError (BadFile) that names the file and the reason.
 FileMesh ReadMesh(const std::string& path, MeshFormat format);
+
+/// Joins the points of a mesh that lie at the same place, and leaves out those that no cell has. A
+/// point has the data of the first of those that it was. All cells stay, but a polygon of more than
+/// three corners has corners that are the same as their neighbor only once.
+FileMesh MergeEqualPoints(vtkPolyData* mesh);
 
 /// Writes a mesh to `path`, in binary where the format allows it, and checks that the file is
 /// complete, because the writers of some formats do not notice a full disk.

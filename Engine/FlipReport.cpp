@@ -281,9 +281,11 @@ std::string Advise(const FlipReport& report)
 {
   const EdgeCounts& edges = report.Edges;
   const std::int64_t inner = edges.Edges - edges.Boundary;
-  const std::int64_t kept = edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound;
+  const std::int64_t kept = // an edge may be kept for several reasons
+    std::min(edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound,
+      edges.Feature + edges.Constraint + edges.Region);
   const bool isFromPoints = report.GeometryReason.rfind("points are triangulated", 0) == 0;
-  if ((10 * kept <= inner && !report.KeepsSliver) || isFromPoints)
+  if (kept <= 0 || (10 * kept <= inner && !report.KeepsSliver) || isFromPoints)
   {
     return "";
   }

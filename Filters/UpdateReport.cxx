@@ -111,7 +111,9 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
     {
       array->InsertNextValue(record.*member);
     }
-    data->AddArray(array);
+    // Of field data, VTK 9.7 cannot read empty arrays of ids from a .vtk.
+    const bool isKept = prefix.empty() || !report.Iterations.empty();
+    isKept ? (void)data->AddArray(array) : data->RemoveArray(array->GetName());
   };
   const auto addCount = [&](const char* name, std::int64_t IterationRecord::*member)
   { add(vtkNew<vtkIdTypeArray>().Get(), name, member); };

@@ -10,6 +10,11 @@
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <unordered_map>
+
 class vtkAbstractArray;
 
 /// @file
@@ -39,6 +44,36 @@ void WriteObj(vtkPolyData* mesh, const std::string& path);
 /// The arrays of the points that a .ply and an .obj hold.
 std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh);
 std::vector<vtkAbstractArray*> ArraysOfObj(vtkPolyData* mesh);
+
+/// Numbers places in the order in which they come.
+class PlaceNumbers
+{
+public:
+  /// @param place where each -0 becomes 0
+  /// @returns the number of an equal place that came before, or that of a new one.
+  vtkIdType Number(std::array<double, 3>& place)
+  {
+    std::array<std::uint64_t, 3> bits; // of which a NaN equals itself
+    for (double& value : place)
+    {
+      value += 0.0;
+    }
+    std::memcpy(bits.data(), place.data(), sizeof(bits));
+    return this->Known.try_emplace(bits, this->Known.size()).first->second;
+  }
+
+private:
+  struct Hash
+  {
+    std::size_t operator()(const std::array<std::uint64_t, 3>& bits) const
+    {
+      const auto* const bytes = reinterpret_cast<const char*>(bits.data());
+      return std::hash<std::string_view>()({ bytes, sizeof(bits) });
+    }
+  };
+
+  std::unordered_map<std::array<std::uint64_t, 3>, vtkIdType, Hash> Known;
+};
 
 /// Calls `visit(size, points)` for every cell.
 template <typename Function>

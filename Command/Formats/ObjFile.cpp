@@ -241,23 +241,23 @@ private:
   std::map<std::string, std::int64_t> LeftOut;
 };
 
-vtkDataArray* WithComponents(vtkDataArray* array, int fewest, int most)
+/// The colors, texture coordinates and normals of points, as far as a .obj can hold them. Colors
+/// are an array Colors, or three bytes.
+std::array<vtkDataArray*, 3> FindArrays(vtkPolyData* mesh)
 {
-  const int components = array ? array->GetNumberOfComponents() : 0;
-  return components >= fewest && components <= most ? array : nullptr;
-}
-
-/// The colors of points: an array Colors, or three bytes.
-vtkDataArray* FindColors(vtkPointData* data)
-{
-  for (vtkDataArray* array : { data->GetScalars(), data->GetArray("RGB") })
+  vtkPointData* const data = mesh->GetPointData();
+  const auto fit = [mesh](vtkDataArray* array, int fewest)
   {
-    if (WithComponents(array, 3, 3) && array->GetDataType() == VTK_UNSIGNED_CHAR)
-    {
-      return array;
-    }
+    const int components = array ? array->GetNumberOfComponents() : 0;
+    const bool fits = components >= fewest && components <= 3;
+    return fits && array->GetNumberOfTuples() >= mesh->GetNumberOfPoints() ? array : nullptr;
+  };
+  vtkDataArray* colors = fit(data->GetArray("Colors"), 3);
+  for (vtkDataArray* array : { data->GetArray("RGB"), data->GetScalars() })
+  {
+    colors = fit(array, 3) && array->GetDataType() == VTK_UNSIGNED_CHAR ? array : colors;
   }
-  return WithComponents(data->GetArray("Colors"), 3, 3);
+  return { colors, fit(data->GetTCoords(), 1), fit(data->GetNormals(), 3) };
 }
 
 template <typename T>
@@ -276,8 +276,8 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
 {
   std::ofstream out(path, std::ios::binary);
   out << "# written by delaunay-flip\n";
-  vtkPointData* const data = mesh->GetPointData();
-  vtkDataArray* const colors = FindColors(data);
+  const auto arrays = FindArrays(mesh);
+  vtkDataArray *const colors = arrays[0], *const texture = arrays[1], *const normals = arrays[2];
   const auto put = [&out](vtkDataArray* array, vtkIdType tuple)
   {
     const double scale = array->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
@@ -296,8 +296,6 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
     }
     out << '\n';
   }
-  vtkDataArray* const texture = WithComponents(data->GetTCoords(), 1, 3);
-  vtkDataArray* const normals = WithComponents(data->GetNormals(), 3, 3);
   for (vtkDataArray* array : { texture, normals })
   {
     for (vtkIdType tuple = 0; array && tuple < mesh->GetNumberOfPoints(); ++tuple)
@@ -334,9 +332,8 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
 
 std::vector<vtkAbstractArray*> ArraysOfObj(vtkPolyData* mesh)
 {
-  vtkPointData* const data = mesh->GetPointData();
-  return { FindColors(data), WithComponents(data->GetTCoords(), 1, 3),
-    WithComponents(data->GetNormals(), 3, 3) };
+  const auto arrays = FindArrays(mesh);
+  return { arrays.begin(), arrays.end() };
 }
 
 }

@@ -11,7 +11,6 @@
 #include <cctype>
 #include <cstdint>
 #include <cstring>
-#include <unordered_map>
 
 /// @file
 /// .stl, binary or text. VTK's reader would round text to single precision, drop triangles that
@@ -26,18 +25,6 @@ namespace
 constexpr std::size_t BodyBegin = 84; // behind 80 bytes of any content and the number of triangles
 constexpr std::size_t TriangleSize = 50; // a normal, three points and two bytes of attributes
 
-/// Coordinates as bits, so that a NaN equals itself.
-using Bits = std::array<std::uint64_t, 3>;
-
-struct BitsHash
-{
-  std::size_t operator()(const Bits& bits) const
-  {
-    const auto* const bytes = reinterpret_cast<const char*>(bits.data());
-    return std::hash<std::string_view>()({ bytes, sizeof(bits) });
-  }
-};
-
 /// A mesh that is given corner by corner. Corners in the same place are one point.
 class CornerMesh
 {
@@ -46,14 +33,8 @@ public:
 
   void Add(std::array<double, 3> place)
   {
-    Bits bits;
-    for (double& value : place)
-    {
-      value += 0.0; // -0 becomes 0
-    }
-    std::memcpy(bits.data(), place.data(), sizeof(bits));
-    const auto [known, isNew] = this->Known.try_emplace(bits, this->Points->GetNumberOfPoints());
-    if (isNew)
+    const vtkIdType point = this->Places.Number(place);
+    if (point == this->Points->GetNumberOfPoints())
     {
       this->Points->InsertNextPoint(place.data());
     }
@@ -61,14 +42,14 @@ public:
     {
       this->Triangles->InsertNextCell(3);
     }
-    this->Triangles->InsertCellPoint(known->second);
+    this->Triangles->InsertCellPoint(point);
   }
 
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Triangles;
 
 private:
-  std::unordered_map<Bits, vtkIdType, BitsHash> Known;
+  PlaceNumbers Places;
   std::int64_t Corners = 0;
 };
 

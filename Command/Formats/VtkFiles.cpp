@@ -6,8 +6,10 @@
 #include <vtkCellData.h>
 #include <vtkErrorCode.h>
 #include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationDoubleVectorKey.h>
+#include <vtkLongLongArray.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -16,6 +18,7 @@
 #include <vtkPolyDataWriter.h>
 #include <vtkSTLWriter.h>
 #include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLDataParser.h>
 #include <vtkXMLFileReadTester.h>
@@ -28,6 +31,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <iterator>
 #include <map>
@@ -102,37 +106,51 @@ struct MeshCount
   const char* Keyword; ///< Of a .vtk.
   const char* Attribute; ///< Of a .vtp.
   vtkIdType Number;
+  vtkCellArray* Cells; ///< Null for points.
 };
 
 std::array<MeshCount, 5> CountsOf(vtkPolyData* mesh)
 {
-  return { { { "POINTS", "NumberOfPoints", mesh->GetNumberOfPoints() },
-    { "VERTICES", "NumberOfVerts", mesh->GetNumberOfVerts() },
-    { "LINES", "NumberOfLines", mesh->GetNumberOfLines() },
-    { "POLYGONS", "NumberOfPolys", mesh->GetNumberOfPolys() },
-    { "TRIANGLE_STRIPS", "NumberOfStrips", mesh->GetNumberOfStrips() } } };
+  return { { { "POINTS", "NumberOfPoints", mesh->GetNumberOfPoints(), nullptr },
+    { "VERTICES", "NumberOfVerts", mesh->GetNumberOfVerts(), mesh->GetVerts() },
+    { "LINES", "NumberOfLines", mesh->GetNumberOfLines(), mesh->GetLines() },
+    { "POLYGONS", "NumberOfPolys", mesh->GetNumberOfPolys(), mesh->GetPolys() },
+    { "TRIANGLE_STRIPS", "NumberOfStrips", mesh->GetNumberOfStrips(), mesh->GetStrips() } } };
 }
 
-/// The sum of the counts behind a keyword in a .vtk; `found` if it is not there.
-vtkIdType CountInLegacy(
-  std::string_view bytes, const std::string& keyword, bool hasOffsets, vtkIdType found)
+/// The headers of a .vtk before its data, such as "POINTS 4 float" and "POLYGONS 2 8": by keyword,
+/// the sums of the two numbers, how many points or cells there are and how many integers behind.
+std::map<std::string, std::array<vtkIdType, 2>> ReadHeaders(std::string_view bytes, bool hasOffsets)
 {
-  vtkIdType announced = 0;
-  bool isThere = false;
-  for (std::size_t end = bytes.find('\n'); end < bytes.size(); end = bytes.find('\n', end + 1))
+  std::map<std::string, std::array<vtkIdType, 2>> headers;
+  std::size_t end = bytes.find('\n', bytes.find('\n') + 1); // of the title
+  for (; end < bytes.size(); end = bytes.find('\n', end + 1))
   {
-    const std::string_view line = bytes.substr(end + 1, keyword.size() + 32);
-    if (line.size() > keyword.size() && line[keyword.size()] == ' ' &&
-      strncasecmp(line.data(), keyword.c_str(), keyword.size()) == 0)
+    const std::string_view rest = bytes.substr(end + 1, 100);
+    if (rest.empty() || !std::isalpha(static_cast<unsigned char>(rest.front())))
     {
-      vtkIdType count = 0;
-      std::from_chars(line.data() + keyword.size() + 1, line.data() + line.size(), count);
+      continue;
+    }
+    std::istringstream line(std::string(rest.substr(0, rest.find('\n'))));
+    std::string keyword, second, third;
+    vtkIdType count = 0, size = 0;
+    line >> keyword >> count >> second >> third;
+    std::transform(keyword.begin(), keyword.end(), keyword.begin(), ::toupper);
+    if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
+    {
+      break;
+    }
+    ReadNumber(second, size);
+    const bool isArray = !third.empty() && std::isalpha(static_cast<unsigned char>(third.front()));
+    if (!isArray) // such as "points 1 4 int" of a FIELD
+    {
       // From version 5 on, the number of offsets, which is one more.
-      announced += hasOffsets ? std::max<vtkIdType>(count - 1, 0) : count;
-      isThere = true;
+      const bool isLarger = hasOffsets && keyword != "POINTS";
+      headers[keyword][0] += isLarger ? std::max<vtkIdType>(count - 1, 0) : count;
+      headers[keyword][1] += size;
     }
   }
-  return isThere ? announced : found;
+  return headers;
 }
 
 /// VTK's reader, which afterwards compares what it read with what the file says.
@@ -288,34 +306,86 @@ void LimitRange(vtkDataArray* array)
 }
 
 /// Throws where VTK's .vtp writer crashes or makes a file that cannot be read, and limits ranges.
-void PrepareForXml(vtkFieldData* data)
+/// @param tuples how many arrays must have; -1: any number.
+void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
 {
   auto* const attributes = vtkDataSetAttributes::SafeDownCast(data);
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
     vtkAbstractArray* const array = data->GetAbstractArray(index);
     const std::string name = array->GetName() ? array->GetName() : "";
+    const auto require = [&name](bool isTrue, const std::string& fault)
+    {
+      if (!isTrue)
+      {
+        throw CommandError(ExitCode::BadFile,
+          "the array '" + name + "' has " + fault +
+            ", which this file format cannot hold; a .vtk can hold it");
+      }
+    };
     auto* const strings = vtkStringArray::SafeDownCast(array);
-    bool hasZero = false;
     for (vtkIdType i = 0; strings && i < strings->GetNumberOfValues(); ++i)
     {
-      hasZero = hasZero || strings->GetValue(i).find('\0') != std::string::npos;
+      require(strings->GetValue(i).find('\0') == std::string::npos, "a string with a zero byte");
     }
     const int type = array->GetDataType();
     const bool canBeIds =
       type == VTK_INT || type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE;
     const bool areIds =
       attributes && (array == attributes->GetPedigreeIds() || array == attributes->GetGlobalIds());
-    if (hasZero || (areIds && !canBeIds))
+    require(!areIds || canBeIds, "ids that are not integers with a sign");
+    // VTK does not escape names.
+    const auto isMarkup = [](unsigned char c)
+    { return std::strchr("<>&\"", c) || std::iscntrl(c); };
+    for (int component = -1; component < array->GetNumberOfComponents(); ++component)
     {
-      throw CommandError(ExitCode::BadFile,
-        "the array '" + name + "' has " +
-          (hasZero ? "a string with a zero byte" : "ids that are not integers with a sign") +
-          ", which this file format cannot hold; a .vtk can hold it");
+      const char* const part = component < 0 ? name.c_str() : array->GetComponentName(component);
+      require(!part || std::none_of(part, part + std::strlen(part), isMarkup),
+        "one of < > & \" or a control character in the name of the array or of a component");
     }
+    require(tuples < 0 || array->GetNumberOfTuples() == tuples,
+      std::to_string(array->GetNumberOfTuples()) + " tuples instead of " + std::to_string(tuples));
     if (auto* const numbers = vtkDataArray::SafeDownCast(array))
     {
       LimitRange(numbers);
+    }
+  }
+}
+
+/// Changes what VTK's .vtk writer would spoil: ids, which it cuts to 32 bits, and bits, if a tuple
+/// has several. Colors whose name it would not read back become an array that is not active.
+void PrepareForLegacy(vtkFieldData* data)
+{
+  auto* const attributes = vtkDataSetAttributes::SafeDownCast(data);
+  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
+  {
+    vtkDataArray* const array = data->GetArray(index);
+    if (!array || !array->GetName())
+    {
+      continue;
+    }
+    vtkSmartPointer<vtkDataArray> changed;
+    auto* const ids = vtkIdTypeArray::SafeDownCast(array);
+    if (ids && std::any_of(ids->Begin(), ids->End(), [](auto id) { return id != int(id); }))
+    {
+      changed = vtkSmartPointer<vtkLongLongArray>::New();
+    }
+    else if (array->GetDataType() == VTK_BIT && array->GetNumberOfComponents() > 1)
+    {
+      changed = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    }
+    if (changed)
+    {
+      changed->DeepCopy(array);
+      data->AddArray(changed); // in its place
+    }
+    const std::string name = array->GetName();
+    const bool isPlain = std::all_of(name.begin(), name.end(),
+      [](unsigned char c) { return std::isgraph(c) && c != '%' && c != '"'; });
+    if (attributes && data->GetArray(index) == attributes->GetScalars() && !isPlain &&
+      data->GetArray(index)->GetDataType() == VTK_UNSIGNED_CHAR)
+    {
+      attributes->SetActiveAttribute(-1, vtkDataSetAttributes::SCALARS);
     }
   }
 }
@@ -354,11 +424,18 @@ FileMesh ReadLegacy(const InputFile& file)
   {
     file.Fail("has no POINTS (truncated or corrupt)");
   }
+  const auto headers = ReadHeaders(bytes, hasOffsets);
   for (const MeshCount& count : CountsOf(mesh))
   {
     const std::string section = count.Keyword;
-    RequireCount(file, section,
-      CountInLegacy(bytes, section, hasOffsets && section != "POINTS", count.Number), count.Number);
+    const auto header = headers.find(section);
+    if (header != headers.end())
+    {
+      RequireCount(file, section, header->second[0], count.Number);
+      const vtkIdType size = count.Cells ? count.Cells->GetNumberOfConnectivityIds() : 0;
+      RequireCount(file, section + ", all integers", header->second[1],
+        size + (hasOffsets || !count.Cells ? 0 : count.Number));
+    }
   }
   return result;
 }
@@ -395,7 +472,14 @@ void WriteLegacy(vtkPolyData* mesh, const std::string& path)
 {
   vtkNew<vtkPolyDataWriter> writer;
   writer->SetFileTypeToBinary();
-  Run(writer.Get(), mesh, path);
+  const vtkNew<vtkPolyData> copy;
+  copy->ShallowCopy(mesh);
+  for (vtkFieldData* data : std::initializer_list<vtkFieldData*>{
+         copy->GetFieldData(), copy->GetPointData(), copy->GetCellData() })
+  {
+    PrepareForLegacy(data);
+  }
+  Run(writer.Get(), copy, path);
 }
 
 void WriteStl(vtkPolyData* mesh, const std::string& path)
@@ -407,9 +491,9 @@ void WriteStl(vtkPolyData* mesh, const std::string& path)
 
 void WriteXml(vtkPolyData* mesh, const std::string& path)
 {
-  PrepareForXml(mesh->GetFieldData());
-  PrepareForXml(mesh->GetPointData());
-  PrepareForXml(mesh->GetCellData());
+  PrepareForXml(mesh->GetFieldData(), -1);
+  PrepareForXml(mesh->GetPointData(), mesh->GetNumberOfPoints());
+  PrepareForXml(mesh->GetCellData(), mesh->GetNumberOfCells());
   LimitRange(mesh->GetPoints()->GetData());
   vtkNew<vtkXMLPolyDataWriter> writer;
   // Appended data, raw or base64, would be twice as fast. But Debian 12's ParaView 5.11 cannot read

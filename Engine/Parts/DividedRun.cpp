@@ -515,13 +515,14 @@ private:
   void AddDefects()
   {
     std::vector<Defect> defects = this->Survey.ListDefects();
-    AddDefect({ "constraint edges that are not edges of the mesh",
-                this->Report.UnmatchedConstraints, {}, DefectIds::Points },
-      defects);
+    const Defect unmatched{ "constraint edges that are not edges of the mesh",
+      this->Report.UnmatchedConstraints, {}, DefectIds::Points };
+    AddDefect(unmatched, defects);
     for (const Defect& defect : this->Report.Defects)
     {
-      const bool isKnown = std::any_of(defects.begin(), defects.end(),
-        [&](const Defect& known) { return known.What == defect.What; });
+      const bool isKnown = defect.What == unmatched.What ||
+        std::any_of(defects.begin(), defects.end(),
+          [&](const Defect& known) { return known.What == defect.What; });
       if (!isKnown)
       {
         defects.push_back(defect);

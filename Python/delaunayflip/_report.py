@@ -187,8 +187,8 @@ class Totals:
             yield name.title().replace("_", ""), numpy.ascontiguousarray(self.iterations[name])
 
     def list_fields(self):
-        """(name, value) of VTK's field data: numbers, texts, then columns. ParaView lists no field data
-        when the first array is empty."""
+        """(name, value) of VTK's field data: numbers, texts, then columns; None: not an array. ParaView
+        lists no field data when the first array is empty."""
         yield "Converged", numpy.int32(self.report.converged)
         yield "StopReason", self.report.stop_reason
         yield "Summary", self.summarize()
@@ -197,7 +197,8 @@ class Totals:
         yield "GeometryUsed", self.report.geometry_used
         for name, text in TEXTS.items():
             yield name, getattr(self.report, text)
-        yield from self.list_columns()
+        for name, values in self.list_columns():
+            yield name, values if len(values) else None
 
 
 def _join_iterations(a, b):

@@ -53,7 +53,8 @@ def call(name, first, second, last, progress=None, on_iteration=None):
     def ask(function, value):
         """Returns 0, which aborts, if the function returned False or raised an exception."""
         try:
-            answer = function(value) if function is not None else None
+            # Not again after an exception, of which one is raised: the others would keep memory.
+            answer = function(value) if function is not None and not raised else None
             if isinstance(answer, (bool, numpy.bool_)) and not answer:
                 return 0
         except BaseException as error:

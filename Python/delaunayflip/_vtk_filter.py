@@ -3,6 +3,7 @@
 """The filters for every VTK with Python: the interfaces of the C++ classes, on libdelaunayflip. They
 take a dataset, or the blocks of a composite one, one by one."""
 import collections
+import itertools
 import operator
 import re
 
@@ -254,9 +255,9 @@ class Filter(VTKPythonAlgorithmBase):
     def _warn_of_misfits(self, source, others):
         """Warns of what of the second input is ignored."""
         places = _list_leaves(source)
-        for number, (name, data) in _list_leaves(others).items():
+        for place, (name, data) in _list_leaves(others).items():
             fault = ("nothing of the first one is at its place, ignored"
-                     if number and 0 not in places and number not in places
+                     if place and () not in places and place not in places
                      else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
                      else "triangle strips ignored" if data.GetNumberOfStrips() else "")
             if fault and data.GetNumberOfElements(vtkDataObject.CELL):
@@ -270,7 +271,7 @@ class Filter(VTKPythonAlgorithmBase):
         output.GetFieldData().ShallowCopy(blocks.GetFieldData())
         edges = _list_leaves(constraints)
         before, total = 0, max(blocks.GetNumberOfElements(vtkDataObject.CELL), 1)
-        for leaf in _iterate(blocks.NewIterator()):
+        for place, leaf in zip(_list_leaves(blocks), _iterate(blocks.NewIterator())):
             data, name = leaf.GetCurrentDataObject(), _name_leaf(leaf)
             cells = data.GetNumberOfElements(vtkDataObject.CELL)
             self._block = (before / total, cells / total)
@@ -279,7 +280,7 @@ class Filter(VTKPythonAlgorithmBase):
             if not is_mesh and (cells or self.kind is not vtkPolyData):
                 self._warnings.append((name, self.no_mesh))
             if is_mesh and self._sum.report.stop_reason != "aborted":
-                _, others = edges.get(0) or edges.get(leaf.GetCurrentFlatIndex(), ("", None))
+                _, others = edges.get(()) or edges.get(place, ("", None))
                 result = vtkPolyData()
                 self._try_to_flip(data, others if isinstance(others, vtkPolyData) else None, result, name)
             output.SetDataSet(leaf, result)
@@ -362,11 +363,26 @@ def _name_leaf(leaf):
 
 
 def _list_leaves(data):
-    """The leaves of composite data by flat index, each after its name; any other data alone."""
+    """The leaves of composite data by their place, each after its name; any other data alone. A place
+    is the numbers of children, from the root on."""
     if not isinstance(data, vtkCompositeDataSet):
-        return {0: ("", data)} if data is not None else {}
-    return {leaf.GetCurrentFlatIndex(): (_name_leaf(leaf), leaf.GetCurrentDataObject())
-            for leaf in _iterate(data.NewIterator())}
+        return {(): ("", data)} if data is not None else {}
+    places = _list_places(data) if isinstance(data, vtkDataObjectTree) else zip(itertools.count())
+    return {place: (_name_leaf(leaf), leaf.GetCurrentDataObject())
+            for place, leaf in zip(places, _iterate(data.NewIterator()))}
+
+
+def _list_places(tree, place=()):
+    children = tree.NewTreeIterator()
+    children.TraverseSubTreeOff()
+    children.VisitOnlyLeavesOff()
+    children.SkipEmptyNodesOff()
+    for number, child in enumerate(_iterate(children)):
+        data = child.GetCurrentDataObject()
+        if isinstance(data, vtkDataObjectTree):
+            yield from _list_places(data, (*place, number))
+        elif data is not None:
+            yield (*place, number)
 
 
 def _has_partitions(blocks, kind):

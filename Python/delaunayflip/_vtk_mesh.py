@@ -29,8 +29,11 @@ class Vtk:
         self.support = importlib.import_module(f"{package}.util.numpy_support")
 
     def add_arrays(self, data, prefix, arrays):
-        """`arrays`: (name, values, a number or a text) of each."""
+        """`arrays`: (name, values, a number or a text) of each; None removes it."""
         for name, values in arrays:
+            if values is None:
+                data.RemoveArray(prefix + name)
+                continue
             if isinstance(values, str):
                 array = self.core.vtkStringArray()
                 array.InsertNextValue(values)
@@ -365,7 +368,7 @@ class Cloud(Input):
                 others.GetPointData(), others.GetNumberOfPoints(), self._sources, count, size, data)
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
         for array in _list_arrays(data):
-            for place, (start, end, share) in enumerate(() if array in labels else self.ends, first):
+            for place, (start, end, share) in enumerate(() if _is_among(array, labels) else self.ends, first):
                 array.InterpolateTuple(place, int(start), array, int(end), array, share)
         _demote_global_ids(data)
 
@@ -374,10 +377,15 @@ def _list_arrays(data):
     return [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
 
 
+def _is_among(array, others):
+    """By identity: arrays of VTK 9.7 compare their values, as those of NumPy do."""
+    return any(array is other for other in others)
+
+
 def _find_array(data, like, taken):
     """The array of `data` for tuples of another one, or None, and its name: see AddTuples in C++."""
     def fits(array):
-        return array not in taken and (array.GetDataType(), array.GetNumberOfComponents()) == (
+        return not _is_among(array, taken) and (array.GetDataType(), array.GetNumberOfComponents()) == (
             like.GetDataType(), like.GetNumberOfComponents())
 
     name = like.GetName() or ""
@@ -405,7 +413,8 @@ def _demote_global_ids(data):
     ids = data.GetGlobalIds()
     if ids is not None:
         data.SetActiveAttribute(-1, data.GLOBALIDS)
-        _add_attributes(data, _list_arrays(data).index(ids), [data.PEDIGREEIDS])
+        number = [array is ids for array in _list_arrays(data)].index(True)
+        _add_attributes(data, number, [data.PEDIGREEIDS])
 
 
 def _is_wide(cells):

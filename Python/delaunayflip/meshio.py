@@ -35,8 +35,9 @@ def flip(mesh: "meshio.Mesh", **options: typing.Any) -> "meshio.Mesh":
         _add_lines(numpy.concatenate(lines), options)
     made = mesh.copy()
     blocks = [block for block in made.cells if block.type == "triangle"]
-    triangles = [block.data for block in blocks] or [numpy.empty((0, 3), dtype=int)]
-    flipped = _flip(mesh.points, numpy.concatenate(triangles), **options).triangles
+    triangles = [_arrays.as_ids("triangles", block.data, 3) for block in blocks]
+    triangles = numpy.concatenate(triangles or [numpy.empty((0, 3), dtype=int)])
+    flipped = _flip(mesh.points, triangles, **options).triangles
     for block, end in zip(blocks, numpy.cumsum([len(block) for block in blocks])):
         block.data = flipped[end - len(block):end]
     return made

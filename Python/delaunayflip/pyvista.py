@@ -22,7 +22,7 @@ import pyvista
 
 from ._library import InvalidOptions
 from ._session import smallest_angles as _angles_of_arrays
-from ._options import Array, check_integer
+from ._options import Array, OnIteration, Progress, check_integer, make_options
 from ._options import Options as _Options
 from ._points import triangulate as _triangulate_arrays
 from ._surface import Slots
@@ -49,7 +49,8 @@ if typing.TYPE_CHECKING:
 
 def flip(
     mesh: "pyvista.PolyData", *, constraints: "typing.Optional[pyvista.PolyData]" = None,
-    flip_counts: bool = False, quality: bool = False, **options: "Unpack[Options]",
+    flip_counts: bool = False, quality: bool = False, progress: "typing.Optional[Progress]" = None,
+    on_iteration: "typing.Optional[OnIteration]" = None, **options: "Unpack[Options]",
 ) -> "pyvista.PolyData":
     """A Delaunay mesh of the same points, with the attributes of the mesh.
 
@@ -60,6 +61,7 @@ def flip(
         constraints: Lines and polygons whose edges stay, and are inserted where the mesh is planar.
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add the cell arrays "Smallest angle before (degrees)" and "... after (degrees)".
+        progress, on_iteration: Functions, as for delaunayflip.flip; returning False aborts.
         **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_deviation,
             maximum_iterations, backend, threads, device, devices, pieces and track_quality as for
             delaunayflip.flip; region_array: a cell array, edges between its values stay; lines_as_constraints,
@@ -82,8 +84,9 @@ def flip(
         >>> int(better.field_data["DelaunayFlip:TotalFlips"][0])
         1
     """
-    run = _open(mesh, constraints, options)
-    run.session.advance()
+    run = _open(mesh, constraints, options, progress)
+    if run.session.report.stop_reason != "aborted":
+        run.session.advance(progress=progress, on_iteration=on_iteration)
     return _make_mesh(mesh, run, flip_counts, quality)
 
 
@@ -239,7 +242,7 @@ def _require_mesh(name, mesh):
     return mesh
 
 
-def _open(mesh, constraints, options):
+def _open(mesh, constraints, options, progress=None):
     """The mesh as MeshInput, with its session."""
     _require_mesh("mesh", mesh)
     if constraints is not None:
@@ -251,8 +254,9 @@ def _open(mesh, constraints, options):
         listed = ", ".join(map(repr, mesh.cell_data)) or "none"
         raise InvalidOptions(
             f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
+    make_options(**options)  # refuses what is none, such as `regions`
     run = MeshInput(mesh, constraints, **flags, region_array=regions)
-    run.open(**options)
+    run.open(progress=progress, **options)
     return run
 
 

@@ -78,7 +78,7 @@ class WrongUsage(CommandTest):
     def test_empty_names(self):
         self.fail_with(2, "", "out.vtk", naming=["INPUT", "empty"])
         self.fail_with(2, self.planar, "", naming=["OUTPUT", "empty"])
-        for option in ("--constraints", "--statistics", "--report"):
+        for option in ("--constraints", "--region-array", "--statistics", "--report"):
             self.refuse("empty", option, "")
             self.refuse(option, option, "")
 
@@ -121,7 +121,7 @@ class Success(CommandTest):
     def test_help_and_version(self):
         text = self.succeed("--help").stdout
         self.assertIn("--feature-angle", text)
-        for code in ("0 done", "2 wrong", "3 input", "4 iteration", "5 the", "129, 130 or 143"):
+        for code in ("0 done", "2 wrong", "3 input", "4 iteration", "5 the", "129, 130, 131 or 143"):
             self.assertIn(code, text)
         self.assertRegex(self.succeed("--version").stdout, r"^delaunay-flip \d+\.\d+\.\d+$")
 

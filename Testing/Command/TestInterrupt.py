@@ -65,9 +65,10 @@ class Interrupt(TerminalTest):
         self.assertEqual(self.content("out.vtk"), b"precious")
 
     def test_termination(self):
-        code, _ = self.stop(signal.SIGTERM)
-        self.assertEqual(code, 128 + signal.SIGTERM)
-        self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
+        for number in (signal.SIGTERM, signal.SIGQUIT):
+            code, _ = self.stop(number)
+            self.assertEqual(code, 128 + number)
+            self.assertEqual(sorted(os.listdir(self.folder)), ["out.vtk", "slow.vtk"])
 
     def test_ignored_interrupt_stays_ignored(self):
         """The signal is ignored, as for a job that a shell starts in the background."""

@@ -14,6 +14,7 @@ from CommandTesting import (
     triangles_of,
     tuples_of,
     values_of,
+    write_mesh,
 )
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -116,6 +117,17 @@ class Obj(ArrayTest):
         out = self.convert(mesh, "out.obj", "out.vtp")
         colors = out.GetPointData().GetArray("Colors")
         self.assertEqual(colors.GetTuple(3), (3 / 255, 0, 1))
+
+    def test_arrays_of_too_few_tuples(self):
+        mesh = bumpy_grid(3, 0)
+        for kind, name in (("Double", "Colors"), ("UnsignedChar", "RGB")):
+            mesh.GetPointData().AddArray(make_values(f"vtk{kind}Array", name, [(9, 9, 9)] * 2))
+        source = write_mesh(mesh, self.path("in.vtk"))
+        self.assertIn("point data (Colors, RGB)", self.succeed(source, "out.obj").stderr)
+        with open(self.path("out.obj"), encoding="ascii") as file:
+            words = [line.split() for line in file if line[0] != "#"]
+        self.assertEqual({(line[0], len(line)) for line in words}, {("v", 4), ("f", 4)})
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -11,11 +11,14 @@ from CommandTesting import (
     CommandTest,
     bad_mesh,
     bumpy_grid,
+    cells_of,
     make_mesh,
+    make_values,
     points_of,
     read_mesh,
     triangle_set,
     triangles_of,
+    values_of,
     write_mesh,
 )
 from vtkmodules.vtkCommonCore import vtkIntArray
@@ -90,6 +93,41 @@ class Options(CommandTest):
         self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
         self.assertEqual(len(points_of(read_mesh(self.path("out.vtk")))), 4)
 
+    def test_merging_keeps_data_and_cells(self):
+        """Also if a point lies at infinity; only a side that has collapsed leaves its quad."""
+        corners = [(math.inf, 0, 0)] + [KITE[i] for cell in KITE_CELLS for i in cell] + KITE[:3]
+        cells = [(1, 2, 3), (4, 5, 6), (7, 8, 8), (0, 8, 9), (1, 7, 8, 9)]
+        mesh = make_mesh(corners, cells, [(1, 7), (2, 9)])
+        size = len(corners)
+        data = mesh.GetPointData()
+        values = {"vtkIntArray": 2**24 + 1, "vtkLongLongArray": 2**53 + 1, "vtkDoubleArray": 1 / 3}
+        for kind, first in values.items():
+            data.AddArray(make_values(kind, kind, [(first + i,) for i in range(size)]))
+        data.SetScalars(make_values("vtkUnsignedCharArray", "RGB", [(i, 200, 255) for i in range(size)]))
+        data.SetGlobalIds(make_values("vtkIdTypeArray", "ids", [(i,) for i in range(size)]))
+        data.AddArray(make_values("vtkStringArray", "words", [(f"w {i}",) for i in range(size)]))
+        data.AddArray(make_values("vtkIntArray", "short", [(1,)] * 3))
+        path = write_mesh(mesh, self.path("in.vtk"))
+        told = self.succeed(path, "out.vtp", "--merge-points").stderr
+        self.assertIn(f"in.vtk: of {size} points 5 are left after merging\n", told)
+        self.assertIn("in.vtk: left out point data with too few tuples (short)\n", told)
+        out = read_mesh(self.path("out.vtp"))
+        self.assertEqual(cells_of(out.GetLines()), [(1, 1), (2, 3)])
+        self.assertEqual(triangles_of(out), [(1, 2, 3), (1, 3, 4), (1, 2, 2), (0, 2, 3), (1, 2, 3)])
+        self.assertEqual(points_of(out), corners[:4] + [corners[6]])
+        found = out.GetPointData()
+        for index in range(data.GetNumberOfArrays() - 1):
+            array = data.GetAbstractArray(index)
+            other = found.GetAbstractArray(array.GetName())
+            self.assertEqual(other.GetDataType(), array.GetDataType(), array.GetName())
+            count = array.GetNumberOfComponents()
+            expected = [array.GetValue(count * i + c) for i in (0, 1, 2, 3, 6) for c in range(count)]
+            self.assertEqual(values_of(other), expected, array.GetName())
+        self.assertEqual((found.GetScalars().GetName(), found.GetGlobalIds().GetName()), ("RGB", "ids"))
+        self.assertIsNone(found.GetAbstractArray("short"))
+        for name in ("out.ply", "out.obj", "out.stl", "out.vtk"):
+            self.succeed(path, name, "--merge-points")
+
     def test_nothing_to_merge(self):
         apart = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (5, 0, 0), (6, 0, 0), (5, 1, 0)]
         path = write_mesh(make_mesh(apart, [(0, 1, 2), (3, 4, 5)]), self.path("in.vtk"))
@@ -139,6 +177,9 @@ class Options(CommandTest):
         surface = ("--geometry", "surface")
         for bound, flips in (("inf", 1), ("0.25", 1), ("0.249", 0), ("0", 0), ("3.1%", 1), ("3%", 0)):
             self.assertEqual(self.flips(mesh, *surface, "--max-deviation", bound), flips, bound)
+        mesh.GetPoints().InsertNextPoint(math.inf, 0, 0)  # not in the bounding box
+        for bound, flips in (("3.1%", 1), ("3%", 0)):
+            self.assertEqual(self.flips(mesh, *surface, "--max-deviation", bound), flips, bound)
         text = self.succeed("in.vtk", "out.vtk", *surface, "--max-deviation", "0.1").stdout
         self.assertIn("bad edges       1 -> 1 (1 blocked: would deviate)\n", text)
         self.assertEqual(self.flips(mesh, "--max-deviation", "0"), 1)
@@ -182,6 +223,9 @@ class Options(CommandTest):
             meshes.append(read_mesh(self.path("out.vtk")))
         self.assertEqual(triangle_set(meshes[0]), triangle_set(meshes[1]))
         self.assertNotEqual(triangles_of(meshes[0]), triangles_of(meshes[1]))
+        rough = write_mesh(bumpy_grid(12, 3), self.path("in.vtk"))
+        told = self.succeed(rough, "out.vtk", "--geometry", "surface", "--pieces", 2)
+        self.assertNotIn("constraint", told.stdout + told.stderr)
 
 
 class ManyThreads(CommandTest):

@@ -21,7 +21,7 @@ from CommandTesting import (
 KEYS = [
     *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
     *("feature_edges", "region_edges", "constraint_edges", "unmatched_constraint_edges"),
-    *("inserted_constraint_edges", "constraint_flips"),
+    *("inserted_constraint_edges", "constraint_flips", "keeps_sliver"),
     *("geometry", "geometry_reason", "tolerance", "backend", "iterations"),
     *("total_flips", "total_excluded", "total_blocked"),
     *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape"),

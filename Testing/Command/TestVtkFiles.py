@@ -133,6 +133,30 @@ class LostByVtk(BadFileTest):
         self.write("a.vtk", head + "POLYGONS 1 4\n3 0 1 2\nPOLYGONS 0 0\n")
         self.refuse("a.vtk", "POLYGONS", "1", "0")
 
+    def test_last_cell_too_long(self):
+        head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+        self.write("a.vtk", head + "POLYGONS 2 8\n3 0 1 2\n4 0 2 3\n")
+        self.refuse("a.vtk", "POLYGONS, all integers", "8", "corrupt")
+        offsets = "POLYGONS 3 6\nOFFSETS vtktypeint64\n0 3 {}\nCONNECTIVITY vtktypeint64\n0 1 2 0 2 3\n"
+        for end, code in ((6, 0), (90000, 3), (2, 3)):
+            self.write("a.vtk", head.replace("3.0", "5.1") + offsets.format(end))
+            self.assertEqual(self.run_command("a.vtk", "out.vtk").returncode, code, end)
+
+    def test_words_that_look_like_headers(self):
+        """A title, and names of arrays before the points and after the cells."""
+        mesh = bumpy_grid(GRID, 0)
+        for name in ("points", "LINES", "polygons", "vertices"):
+            for add, size in (("GetFieldData", 3), ("GetPointData", 16), ("GetCellData", 18)):
+                values = make_values("vtkIntArray", name, [(i,) for i in range(size)])
+                getattr(mesh, add)().AddArray(values)
+        for version in (42, 51):
+            for encoding in ("ASCII", "Binary"):
+                settings = {f"SetFileTypeTo{encoding}": (), "SetFileVersion": (version,)}
+                write_mesh(mesh, self.path("a.vtk"), SetHeader=("Lines 3 to 5",), **settings)
+                self.succeed("a.vtk", "out.vtk")
+                self.succeed("out.vtk", "again.vtk")
+                self.assertEqual(len(triangles_of(read_mesh(self.path("again.vtk")))), 18)
+
     def damaged(self):
         """Damaged files, each with the attribute of Piece that shows it."""
         path = write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), SetDataModeToAscii=())
@@ -233,6 +257,67 @@ class Written(ArrayTest):
                     self.assert_array(ids, kind, list(range(size)))
                 else:
                     self.fail_with(3, source, "new.vtp", naming=["new.vtp", "'ids'", ".vtk"])
+
+    def test_names_that_a_vtp_cannot_hold(self):
+        for mark in "<>&\"\t":
+            for is_component in (False, True):
+                mesh = bumpy_grid(3, 0)
+                words = make_values("vtkIntArray", "a" if is_component else f"a{mark}b", [(1,)] * 9)
+                words.SetComponentName(0, f"a{mark}b" if is_component else "a")
+                mesh.GetPointData().AddArray(words)
+                source = write_mesh(mesh, self.path("in.vtk"))
+                self.fail_with(3, source, "new.vtp", naming=["new.vtp", "'a", "in the name", ".vtk"])
+                self.succeed(source, "out.vtk")
+                out = read_mesh(self.path("out.vtk")).GetPointData().GetArray(words.GetName())
+                self.assertEqual(out.GetComponentName(0), words.GetComponentName(0))
+
+    def test_arrays_of_a_wrong_size(self):
+        """VTK reads them from the field of a .vtk, but not from a .vtp."""
+        head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
+        head += "0 0 0 2 -1 0 4 0 0 2 1 0\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\nPOINT_DATA 4\nFIELD f 1\n"
+        for size in (2, 5):
+            self.write("in.vtk", head + f"Colors 3 {size} float\n" + size * "1 1 1\n")
+            self.fail_with(3, "in.vtk", "out.vtp", naming=["'Colors'", f"{size} tuples instead of 4"])
+            self.succeed("in.vtk", "out.vtk")
+
+    def test_what_vtk_spoils_in_a_vtk(self):
+        """Ids beyond 32 bits, bits of several components, and colors with a blank in their name."""
+        mesh = bumpy_grid(3, 0)
+        for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8), (mesh.GetFieldData(), 2)):
+            for name in ("large", "ids", "small"):
+                first = {"large": -2**40, "ids": 2**33, "small": 2**31 - size}[name]
+                ids = make_values("vtkIdTypeArray", name, [(first + i,) for i in range(size)])
+                data.AddArray(ids)
+                if name == "ids" and size > 2:
+                    data.SetGlobalIds(ids)
+            for count in (1, 3, 5):
+                tuples = [tuple((i + c) % 2 for c in range(count)) for i in range(size)]
+                data.AddArray(make_values("vtkBitArray", f"bits {count}", tuples))
+            data.AddArray(make_values("vtkUnsignedCharArray", "Vertex", [(7,)] * size))
+            colors = make_values("vtkUnsignedCharArray", "Vertex Color", [(i, 1, 2) for i in range(size)])
+            data.AddArray(colors)
+            if size > 2:
+                data.SetScalars(colors)
+        source = write_mesh(mesh, self.path("in.vtp"))
+        self.succeed(source, "out.vtk", "--max-iterations", 0, code=4)
+        out = read_all(self.path("out.vtk"))
+        for data in ("GetPointData", "GetCellData", "GetFieldData"):
+            for index in range(getattr(mesh, data)().GetNumberOfArrays()):
+                array = getattr(mesh, data)().GetArray(index)
+                found = getattr(out, data)().GetArray(array.GetName())
+                self.assertEqual(values_of(found), values_of(array), (data, array.GetName()))
+        for data in (out.GetPointData(), out.GetCellData()):
+            self.assertEqual(data.GetGlobalIds().GetName(), "ids")
+
+    def test_no_empty_arrays(self):
+        """VTK 9.7 crashes on those of ids in a .vtk. Those of an earlier run go, too."""
+        self.succeed(write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk")), "out.vtk")
+        for name, expected in (("out.vtk", True), ("again.vtk", False)):
+            self.succeed("out.vtk", "again.vtk")
+            data = read_mesh(self.path(name)).GetFieldData()
+            arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+            self.assertEqual("DelaunayFlip:Flipped" in [one.GetName() for one in arrays], expected)
+            self.assertEqual([one.GetName() for one in arrays if one.GetNumberOfTuples() == 0], [])
 
     def test_points_without_a_finite_range(self):
         for value in (1e155, 1.7e308, math.inf, math.nan):

@@ -354,6 +354,21 @@ class Callbacks(unittest.TestCase):
             with self.subTest(name), self.assertRaisesRegex(ZeroDivisionError, "in the callback"):
                 delaunayflip.flip(points, triangles, **{name: fail})
 
+    def test_exceptions_keep_no_memory(self):
+        """They leave no cycle of references behind, which would keep the session until a collection."""
+        def fail(_):
+            raise ZeroDivisionError("in the callback")
+
+        session = delaunayflip.Session(*sheared_lattice(300))  # which asks several times
+        gone = weakref.ref(session)
+        gc.disable()
+        self.addCleanup(gc.enable)
+        try:
+            session.advance(progress=fail, on_iteration=fail)
+        except ZeroDivisionError:
+            del session
+        self.assertIsNone(gone())
+
     def test_interrupt(self):
         """Ctrl-C ends a run with KeyboardInterrupt."""
         program = (

@@ -296,6 +296,21 @@ class Same(Pair, unittest.TestCase):
             make_rhombus(), lambda flip: flip.SetConstraintsData(make_polygon_mesh()))
         self.assertIn("second input: triangle strips ignored", told["warnings"][0])
 
+    def test_constraints_of_blocks_of_another_structure(self):
+        """Blocks are found by their place in the tree, not by VTK's flat index."""
+        blocks, inner, lines, none = (vtkMultiBlockDataSet() for _ in range(4))
+        constraint = vtkPolyData()
+        constraint.SetPoints(make_rhombus().GetPoints())
+        constraint.SetLines(make_cells([(0, 2)]))
+        blocks.SetBlock(0, make_rhombus())
+        inner.SetBlock(1, make_rhombus())
+        blocks.SetBlock(1, inner)
+        blocks.SetBlock(2, make_rhombus())
+        lines.SetBlock(1, none)
+        lines.SetBlock(2, constraint)
+        told = self.expect_same(blocks, lambda flip: flip.SetInputDataObject(1, lines))
+        self.assertEqual(told["answers"]["GetTotalFlips"], 2)
+
     def test_aborts(self):
         def stop(flip, _event):
             flip.SetAbortExecute(flip.GetNumberOfIterations() == self.last)

@@ -55,6 +55,9 @@ class MeshIO(unittest.TestCase):
         self.assertEqual([block.type for block in better.cells], ["triangle", "vertex", "triangle"])
         self.assertEqual(as_set(better.cells_dict["triangle"]), as_set(SHORT))
         self.assertEqual([values.tolist() for values in better.cell_data["n"]], [[5], [6], [7]])
+        for kind, other in ((numpy.uint64, numpy.int64), (numpy.int32, float)):
+            cells = [("triangle", numpy.array(LONG, kind)), ("triangle", numpy.empty((0, 3), other))]
+            self.assertEqual(as_set(flip(meshio.Mesh(KITE, cells)).cells[0].data), as_set(SHORT))
         for faces, line, constraints, expected in (
                 (LONG, [0, 2], None, LONG),  # a line stays, but is not inserted
                 (SHORT, [0, 2], None, SHORT), (SHORT, [0, 1], [[0, 2]], LONG)):
@@ -148,6 +151,20 @@ class PyVista(unittest.TestCase):
         bare = delaunayflip.pyvista.triangulate(self.pyvista.PolyData(), cloud)
         self.assertEqual((bare.n_points, bare.n_cells), (50, same.n_cells))
 
+    def test_callbacks(self):
+        """They follow the flips and may stop them; without iterations, VTK 9.7 can read a .vtk."""
+        for name in ("progress", "on_iteration"):
+            told = []
+            whole = self.mesh.delaunay.flip(**{name: told.append})
+            self.assertGreater(len(told), 2, name)
+            stopped = self.mesh.delaunay.flip(**{name: lambda value: False})
+            self.assertEqual(stopped.field_data["DelaunayFlip:StopReason"], ["aborted"])
+            self.assertLess(stopped.field_data["DelaunayFlip:TotalFlips"][0],
+                            whole.field_data["DelaunayFlip:TotalFlips"][0])
+        self.assertIn("DelaunayFlip:Flipped", whole.field_data)
+        data = whole.delaunay.flip().field_data
+        self.assertEqual([name for name in data if len(data[name]) == 0 or "Flipped" in name], [])
+
     def test_what_is_refused(self):
         pyvista, flip = self.pyvista, self.mesh.delaunay.flip
         functions = [importlib.import_module("delaunayflip.pyvista").flip,
@@ -168,6 +185,9 @@ class PyVista(unittest.TestCase):
                 ("triangulate", "no", TypeError), ("region_array", "no", ValueError)):
             with self.assertRaisesRegex(error, name.replace("feature_angle", "feature angle")):
                 flip(**{name: value})
+        for name in ("regions", "frozen", "triangle_numbers"):  # those of arrays
+            with self.assertRaisesRegex(TypeError, f"'{name}' is not an option"):
+                flip(**{name: [0] * 288})
         self.mesh.points[5] = numpy.nan
         with self.assertWarnsRegex(UserWarning, "NaN|finite"):
             flip()

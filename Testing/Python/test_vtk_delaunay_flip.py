@@ -213,6 +213,12 @@ class Meshes(unittest.TestCase):
                     "with fewer constraints more can flip\n")
             self.assertEqual(hint in watched.filter.GetSummary(), expected, watched.filter.GetSummary())
             self.assertEqual("hint" in watched.filter.GetSummary(), expected)
+        ghosts = numpy_to_vtk(numpy.ones(len(triangles), numpy.uint8), deep=True)
+        ghosts.SetName("vtkGhostType")  # these keep edges as well, which no option changes
+        mesh.GetCellData().AddArray(ghosts)
+        watched = Watched(mesh)
+        watched.run()
+        self.assertNotIn("hint", watched.filter.GetSummary())
 
 
 class Faults(unittest.TestCase):
