@@ -18,8 +18,8 @@ from pages import ROOT, blocks, list_pages, read, snippets
 
 BIN = os.path.join(os.environ["DELAUNAYFLIP_BUILD"], "bin")
 TIME = re.compile(r"^(time|wrote) .*\n", re.MULTILINE)
-ARGUMENT = re.compile(r"^ +((?:-\w, *)?-?-?\w\S*(?: [A-Z{]\S*)?)\s{2,}(\S.*(?:\n {20,}\S.*)*)$",
-                      re.MULTILINE)
+ARGUMENT = re.compile(r"^ +((?:-\w, *)?-?-?\w\S*(?: [A-Z{]\S*)?)(?:\s{2,}|(?<=\}) )"
+                      r"(\S.*(?:\n {20,}\S.*)*)$", re.MULTILINE)
 NUMBER = re.compile(r"\d[\d,]*\.?\d*")
 
 # A live view is closed at the end of its run.
