@@ -76,7 +76,8 @@ public:
   /// continues from there.
   /// @returns whether there is more to do and no observer stopped the run.
   /// @throws BackendUnavailable, std::bad_alloc; if the constructor was stopped, and with several
-  /// pieces, also what it throws.
+  /// pieces, also what it throws. After an exception, except one that an observer throws between
+  /// iterations, the next call begins anew.
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
     const ProgressObserver& progress = {});
 

@@ -122,6 +122,10 @@ std::unique_ptr<PieceGroup> MakeSingleGroup() { return std::make_unique<SingleGr
 void RunInThreads(
   int size, const std::function<void(PieceGroup&)>& work, const std::vector<int>& turnOf)
 {
+  if (size < 1 || (!turnOf.empty() && turnOf.size() < static_cast<std::size_t>(size)))
+  {
+    throw InvalidOptions("RunInThreads needs at least one rank, and a turn for each");
+  }
   MessageBoard board(size, turnOf);
   const auto fail = [&board]() // keeps the first failure, and wakes all
   {

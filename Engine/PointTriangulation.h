@@ -49,9 +49,9 @@ struct PointInput
   const std::int64_t* Segments = nullptr;
   std::int64_t NumberOfSegments = 0;
 
-  /// For every segment the number of its ring, 0 or more, or -1 for a segment that is part of no
-  /// ring. Null: there are no rings. The segments of a ring run around it, all in the same
-  /// direction.
+  /// For every segment the number of its ring, from 0 to INT32_MAX - 1, or -1 for a segment that is
+  /// part of no ring. Null: there are no rings. The segments of a ring run around it, all in the
+  /// same direction.
   const std::int32_t* Rings = nullptr;
   /// Rings from this number on are holes: triangles inside any of them are removed. If all are, the
   /// others are kept.

@@ -91,17 +91,26 @@ public:
     const auto total = static_cast<std::size_t>(offsets.back() + sizes.back());
     if (total > LargestPart)
     {
-      return this->Exchange(std::vector<Message>(ranks, message));
+      std::vector<Message> copies;
+      this->AllocateTogether([&]() { copies.assign(ranks, message); });
+      return this->Exchange(std::move(copies));
     }
     Message all;
     std::vector<Message> received(ranks);
-    this->AllocateTogether([&]() { all.resize(total + 1); }); // so that it has an address
+    this->AllocateTogether(
+      [&]()
+      {
+        all.resize(total + 1); // so that it has an address
+        for (int rank = 0; rank < ranks; ++rank)
+        {
+          received[rank].resize(sizes[rank]);
+        }
+      });
     Require(this->Controller->AllGatherV(message.empty() ? all.data() : message.data(), all.data(),
       own, sizes.data(), offsets.data()));
     for (int rank = 0; rank < ranks; ++rank)
     {
-      const char* bytes = all.data() + offsets[rank];
-      received[rank].assign(bytes, bytes + sizes[rank]);
+      std::copy_n(all.data() + offsets[rank], sizes[rank], received[rank].data());
     }
     return received;
   }

@@ -231,6 +231,7 @@ public:
     view.NumberOfTriangles = mesh.NumberOfTriangles;
     view.NumberOfEdges = mesh.NumberOfEdges;
     view.NumberOfPlaces = this->Points.Count;
+    view.Range = this->Range;
     if constexpr (BackendT::IsOnHost)
     {
       view.Edges = mesh.View();

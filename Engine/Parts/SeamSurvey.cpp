@@ -160,9 +160,11 @@ private:
   void Visit(const Function& visit) const
   {
     TriangleMesh mesh;
-    const std::vector<float> floats(this->Points.begin(), this->Points.end());
-    mesh.Points = this->Job.Survey.IsFloat ? PointArray(floats.data(), this->CountPoints())
-                                           : PointArray(this->Points.data(), this->CountPoints());
+    const bool isFloat = this->Job.Survey.IsFloat;
+    const std::vector<float> floats(
+      this->Points.begin(), isFloat ? this->Points.end() : this->Points.begin());
+    mesh.Points = isFloat ? PointArray(floats.data(), this->CountPoints())
+                          : PointArray(this->Points.data(), this->CountPoints());
     mesh.Triangles = TriangleArray(this->Triangles.data(), SizeOf(this->Triangles) / 3);
     mesh.Regions = this->Regions.data();
     mesh.FrozenTriangles = this->Frozen.data();

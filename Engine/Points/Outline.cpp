@@ -3,6 +3,7 @@
 #include "Outline.h"
 
 #include "FlipError.h"
+#include "SmallestAngle.h"
 #include "SurfaceAngles.h"
 
 #include <algorithm>
@@ -263,8 +264,8 @@ public:
       if (this->IsRemoved[t] == 0)
       {
         const std::array<Vector3, 3> corners = this->GetCorners(triangle);
-        kept.SquaredCotangent = std::max(
-          kept.SquaredCotangent, LargestSquaredCotangent(corners[0], corners[1], corners[2]));
+        kept.SquaredCotangent = std::max(kept.SquaredCotangent,
+          MeasureSquaredCotangent(corners[0], corners[1], corners[2], this->Mesh.Range));
         for (const VertexId vertex : triangle.Vertices)
         {
           isUsed[vertex] = 1;

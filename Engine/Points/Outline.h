@@ -5,6 +5,7 @@
 
 #include "PlaneMesh.h"
 #include "PointTriangulation.h"
+#include "WideAngles.h"
 
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,7 @@ struct PointMeshView : PlaneMesh
   std::int64_t NumberOfEdges;
   std::int64_t NumberOfPlaces;
   const VertexId* Ids; ///< Of every place the point that is used there.
+  CoordinateRange Range; ///< Of the places.
 };
 
 /// An edge that a segment has become.

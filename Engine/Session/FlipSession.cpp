@@ -51,7 +51,8 @@ try
   FlipReport& report = work.Report;
   const StopWatch watch;
   const double secondsBefore = report.FlipSeconds;
-  const std::int64_t limit = iterations < 0 ? NoLimit : work.CountIterations() + iterations;
+  const std::int64_t made = work.CountIterations();
+  const std::int64_t limit = iterations < 0 ? NoLimit : made + std::min(iterations, NoLimit - made);
   work.Resume();
   work.InsertIfDone();
   work.IsMeasured = work.IsMeasured && !work.Cloud; // triangles may be removed
@@ -65,13 +66,13 @@ try
     const AdvancePlan plan{ observer || progress ? std::min(most, work.GetBatch()) : most,
       first == 0, work.Options.TrackQuality };
     const TemporaryValue<bool> stoppable(work.MayStop, first == 0);
-    const std::vector<IterationCounts> made =
-      work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
+    const std::vector<IterationCounts> batch = work.OrReset([&]
+      { return work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); }); });
     work.IsMeasured = false;
     work.KeepFound(work.Loaded->GetLoop().GetFound());
-    const double seconds = batchWatch.GetSeconds() / static_cast<double>(made.size());
+    const double seconds = batchWatch.GetSeconds() / static_cast<double>(batch.size());
     work.Progress.KeepTime(seconds);
-    for (const IterationCounts& counts : made)
+    for (const IterationCounts& counts : batch)
     {
       work.Keep(counts, seconds);
     }
@@ -223,7 +224,10 @@ void FlipSession::StoreTriangles(
       DeviceArray<std::remove_pointer_t<decltype(ids)>>{ ids, 3 * triangles.Count, stream },
       "the array for triangles is",
       [&](const LoadedMesh& mesh)
-      { return mesh.StoreTrianglesOnDevice(triangles, stream, written); },
+      {
+        // Divide and conquer makes other triangles, of no flips.
+        return mesh.StoreTrianglesOnDevice(triangles, stream, this->Own->Cloud ? nullptr : written);
+      },
       [&](auto* host) { this->StoreTriangles(MutableTriangleArray(host, triangles.Count)); });
   };
   triangles.Ids32 ? write(triangles.Ids32) : write(triangles.Ids64);

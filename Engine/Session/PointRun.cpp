@@ -111,6 +111,8 @@ void PointRun::Prepare(const ProgressObserver& observer)
       SplitCrossings(this->GetOnHost(), std::move(this->Segments), [&] { Tell(observer); });
     this->Segments = std::move(split.Segments);
     this->Added = std::move(split.Added);
+    const std::int64_t points = input.Points.Count + SizeOf(this->Added);
+    CheckMeshSize(2 * points, points, "");
     this->Counts.Crossings = SizeOf(this->Added);
     this->Counts.LargestShift = split.LargestShift;
     this->CopyPoints();

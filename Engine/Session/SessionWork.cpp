@@ -262,7 +262,7 @@ bool FlipSession::Work::FlipDivided(
   {
     this->Build();
   }
-  this->Divided->FlipAll(progress);
+  this->OrReset([&] { this->Divided->FlipAll(progress); });
   this->Report = this->Divided->Report;
   for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
   {
@@ -331,8 +331,14 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
     throw;
   }
   this->Fallback = error.what();
+  this->OrReset([this] { this->RepeatOnThreads(); });
+}
+
+void FlipSession::Work::RepeatOnThreads()
+{
   const TemporaryValue<bool> stoppable(this->MayStop, true);
   const bool hadSegments = this->Cloud && this->Cloud->AreInserted();
+  const bool hadRemoved = this->Cloud && this->Cloud->HasRemoved();
   this->Loaded.reset();
   this->Loaded = this->LoadOn(BackendKind::Threads);
   if (this->ByDivision)
@@ -364,6 +370,10 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
     loop.Detect();
   }
   repeat(this->CountIterations() - done);
+  if (hadRemoved)
+  {
+    this->Cloud->Finish(*this->Loaded);
+  }
 }
 
 void FlipSession::Work::Reset()
@@ -431,7 +441,8 @@ void FlipSession::Work::DivideIfLong()
   const TemporaryValue<bool> stoppable(this->MayStop, true);
   this->IterationsBeforeDivision = this->CountIterations();
   this->HasDetected = false;
-  this->OnBackend([this](LoadedMesh& mesh) { mesh.Divide(this->Building); });
+  this->OrReset(
+    [this] { this->OnBackend([this](LoadedMesh& mesh) { mesh.Divide(this->Building); }); });
   this->ByDivision = true;
   this->Detect();
   this->Resume();
@@ -449,8 +460,8 @@ void FlipSession::Work::InsertIfDone()
   }
   this->IterationsBeforeInsertion = this->CountIterations(); // where the CPU has to insert, too
   const auto tell = [this](double share) { return this->Progress.TellRest(this->Observer, share); };
-  const bool isComplete =
-    this->OnBackend([&](LoadedMesh& mesh) { return this->Cloud->Insert(mesh, tell); });
+  const bool isComplete = this->OrReset([&]
+    { return this->OnBackend([&](LoadedMesh& mesh) { return this->Cloud->Insert(mesh, tell); }); });
   this->Detect();
   this->Resume();
   if (!isComplete)
@@ -551,7 +562,7 @@ void FlipSession::Work::MeasureEnd()
   this->ListDefects();
   if (this->Cloud)
   {
-    this->ReportPoints();
+    this->OrReset([this] { this->ReportPoints(); });
   }
   if (!this->IsRunning() && !this->Report.Iterations.empty())
   {

@@ -205,6 +205,21 @@ struct FlipSession::Work
   Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
   Work(const PointInput& points, const PointOptions& options, const ProgressObserver& progress);
 
+  /// Calls work(). If that throws, what is half done is forgotten.
+  template <typename Function>
+  auto OrReset(const Function& work)
+  {
+    try
+    {
+      return work();
+    }
+    catch (...)
+    {
+      this->Reset();
+      throw;
+    }
+  }
+
   /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
   /// @throws BackendUnavailable with BackendKind::CUDA.
   template <typename Function>
@@ -305,6 +320,7 @@ struct FlipSession::Work
   void DivideIfLong();
   void InsertIfDone();
   void FallBack(const BackendUnavailable& error);
+  void RepeatOnThreads();
   void Reset();
   void Abort();
 

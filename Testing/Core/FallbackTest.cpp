@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 /// @file
@@ -108,12 +109,15 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     const std::vector<std::int64_t> segments = { 0, 9000, 20, 7000, 11, 12, 1, 2000 };
     points.Segments = segments.data();
     points.NumberOfSegments = 4;
-    FlipSession expected(points, PointOptions{ OnBackend(BackendKind::Threads) });
+    PointOptions options{ OnBackend(BackendKind::Threads) };
+    options.LongestEdge = 300.0; // removes triangles
+    FlipSession expected(points, options);
     expected.Advance();
+    options.Backend = BackendKind::Auto;
     for (int call = 1; CallsToFailure == 0; call += 1 + (Reduction > 1 ? call : call / 8))
     {
       CallsToFailure = call;
-      FlipSession session(points, {});
+      FlipSession session(points, options);
       while (session.Advance(50))
       {
       }
@@ -124,6 +128,33 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     }
     CallsToFailure = 0;
   }
+}
+
+TEST_F(FallbackTest, AnExceptionInTheRepetitionForgetsIt)
+{
+  int thrown = 0;
+  for (int call = 1; CallsToFailure == 0; ++call)
+  {
+    CallsToFailure = call;
+    const auto throwing = [asked = 0](double) mutable
+    {
+      asked += CallsToFailure == 0 ? 1 : 0;
+      return asked == 3 ? throw std::runtime_error("from the observer") : true;
+    };
+    FlipSession session(this->Mesh.View(), {});
+    try
+    {
+      session.Advance(-1, {}, throwing);
+    }
+    catch (const std::runtime_error&)
+    {
+      ++thrown;
+      session.Advance();
+    }
+    ASSERT_TRUE(this->Expected.Triangles == StoreTriangles(session)) << call;
+    ASSERT_EQ(this->Expected.Report.TotalFlips, session.GetReport().TotalFlips) << call;
+  }
+  EXPECT_LT(0, thrown);
 }
 
 TEST_F(FallbackTest, AnAbortEndsTheRepetition)

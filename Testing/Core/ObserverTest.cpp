@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <thread>
@@ -115,6 +116,14 @@ TEST_F(ObserverTest, ExceptionsPassAndLeaveTheSessionUsable)
                  MutableTriangleArray(triangles.data(), this->Mesh.NumberOfTriangles()), throwing),
     std::logic_error);
   EXPECT_TRUE(this->Mesh.Triangles == triangles);
+}
+
+TEST_F(ObserverTest, AnyNumberOfIterationsMayBeAsked)
+{
+  FlipSession session = MakeSession(this->Mesh.View());
+  session.Advance(1);
+  EXPECT_FALSE(session.Advance(std::numeric_limits<std::int64_t>::max()));
+  EXPECT_TRUE(session.GetReport().Converged());
 }
 
 TEST_F(ObserverTest, TheIterationLimitHolds)
@@ -314,6 +323,39 @@ TEST_P(ProgressTest, ExceptionsOfTheObserverPass)
   EXPECT_TRUE(this->Mesh.Triangles == StoreTriangles(session));
   session.Advance();
   EXPECT_TRUE(session.GetReport().Converged());
+}
+
+/// Whenever an observer throws, the next call ends the run as if nothing had happened.
+TEST_P(ProgressTest, ExceptionsMayComeAtAnyCall)
+{
+  for (const int pieces : { 1, 3 })
+  {
+    this->Options.NumberOfPieces = pieces;
+    const FlipResult expected = Flip(this->Mesh.View(), this->Options);
+    bool hasThrown = true;
+    for (int call = 1; hasThrown; call += 1 + call / 4)
+    {
+      int asked = 0;
+      hasThrown = false;
+      const auto throwing = [&](double)
+      {
+        hasThrown = ++asked == call;
+        return hasThrown ? throw std::logic_error("from the observer") : true;
+      };
+      FlipSession session(this->Mesh.View(), this->Options);
+      try
+      {
+        session.Advance(-1, {}, throwing);
+      }
+      catch (const std::logic_error&)
+      {
+        session.Advance();
+      }
+      ASSERT_TRUE(session.GetReport().Converged()) << call;
+      ASSERT_TRUE(expected.Triangles == StoreTriangles(session)) << call;
+      ASSERT_EQ(expected.Report.TotalFlips, session.GetReport().TotalFlips) << call;
+    }
+  }
 }
 
 OwnedMesh<double> MakeSmallPlane() { return MakeRandomBadMeshDouble(2000, 61); }

@@ -209,6 +209,13 @@ TEST_P(RanksTest, NeedTheSameOptions)
     });
 }
 
+TEST(RunInThreads, NeedsARankAndATurnForEach)
+{
+  const auto nothing = [](PieceGroup&) {};
+  EXPECT_THROW(RunInThreads(0, nothing), InvalidOptions);
+  EXPECT_THROW(RunInThreads(2, nothing, { 0 }), InvalidOptions);
+}
+
 INSTANTIATE_TEST_SUITE_P(
   Pieces, RanksTest, testing::Values(2, 3, 7), testing::PrintToStringParamName());
 

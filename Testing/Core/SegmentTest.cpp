@@ -405,6 +405,18 @@ TEST(Outline, ReportsBrokenRings)
     GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
 }
 
+/// Where products of lengths overflow or underflow.
+TEST(Outline, TheSmallestAngleIsThatOfWhatIsLeft)
+{
+  for (const double scale : { 1.0, 1e-100, 1e110 })
+  {
+    Drawing drawing;
+    drawing.Points = { { 9 * scale, 0 }, { 0, 9 * scale } };
+    drawing.AddRing({ { 0, 0 }, { scale, 0 }, { 0, scale } });
+    EXPECT_NEAR(45.0, Triangulate(drawing).Report.MinimumAngleAfter, 1e-9) << scale;
+  }
+}
+
 /// Where areas overflow, underflow, or are lost in the distance to other points.
 TEST(Outline, DirectionOfHugeTinyAndFarRings)
 {
