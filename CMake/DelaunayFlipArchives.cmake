@@ -45,4 +45,8 @@ if(TARGET delaunay-flip)
   install(FILES "${PROJECT_SOURCE_DIR}/Command/delaunay-flip.bash" RENAME delaunay-flip
     DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions")
 endif()
+# All may read the files, whatever the umask of who makes the package.
+file(WRITE "${PROJECT_BINARY_DIR}/make_readable.cmake" "execute_process(
+  COMMAND chmod -R u=rwX,go=rX \"\${CPACK_TEMPORARY_INSTALL_DIRECTORY}\")\n")
+set(CPACK_PRE_BUILD_SCRIPTS "${PROJECT_BINARY_DIR}/make_readable.cmake")
 include(CPack)

@@ -3,7 +3,7 @@
 
 # Resolves DELAUNAYFLIP_ENABLE_CUDA into DELAUNAYFLIP_HAS_CUDA and enables the language.
 set(DELAUNAYFLIP_HAS_CUDA OFF)
-if(DELAUNAYFLIP_ENABLE_CUDA STREQUAL "OFF" OR DELAUNAYFLIP_SANITIZER)
+if(NOT DELAUNAYFLIP_ENABLE_CUDA OR DELAUNAYFLIP_SANITIZER)
   return() # the CPU's sanitizers do not support device code
 endif()
 
@@ -74,10 +74,18 @@ if(delaunayflip_choose_architectures AND DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE)
   execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader
     OUTPUT_VARIABLE delaunayflip_gpus ERROR_QUIET)
   string(REGEX MATCHALL "[0-9]+\\.[0-9]" delaunayflip_gpus "${delaunayflip_gpus}")
-  list(REMOVE_DUPLICATES delaunayflip_gpus)
   list(TRANSFORM delaunayflip_gpus REPLACE "\\." "")
-  if(delaunayflip_gpus)
-    set(CMAKE_CUDA_ARCHITECTURES ${delaunayflip_gpus})
+  execute_process(COMMAND "${CMAKE_CUDA_COMPILER}" --list-gpu-arch OUTPUT_VARIABLE delaunayflip_known)
+  set(delaunayflip_architectures "")
+  foreach(delaunayflip_gpu IN LISTS delaunayflip_gpus)
+    if(delaunayflip_gpu LESS 75 OR NOT delaunayflip_known MATCHES "compute_${delaunayflip_gpu}\n")
+      set(delaunayflip_gpu 75) # too old, or newer than the toolkit: runs PTX
+    endif()
+    list(APPEND delaunayflip_architectures ${delaunayflip_gpu})
+  endforeach()
+  if(delaunayflip_architectures)
+    list(REMOVE_DUPLICATES delaunayflip_architectures)
+    set(CMAKE_CUDA_ARCHITECTURES ${delaunayflip_architectures})
   endif()
 elseif(delaunayflip_choose_architectures)
   # Every generation from Turing on that the toolkit knows, newer ones through PTX. The "all-major"

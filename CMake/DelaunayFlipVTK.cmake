@@ -4,6 +4,10 @@
 # The VTK modules DelaunayFlip::Filters and, if VTK can draw, DelaunayFlip::Rendering; their Python
 # wrapping and their install rules.
 
+if(NOT BUILD_SHARED_LIBS)
+  message(FATAL_ERROR "The VTK modules are shared libraries: set BUILD_SHARED_LIBS to ON, or "
+    "DELAUNAYFLIP_BUILD_VTK to OFF for the engine alone")
+endif()
 option(DELAUNAYFLIP_BUILD_RENDERING "Build the live view, where VTK has what it draws with" ON)
 
 # All VTK modules that any folder uses are found here: VTK defines its targets in the folder that
@@ -58,7 +62,7 @@ foreach(component IN LISTS delaunayflip_vtk_drawing)
 endforeach()
 if(DELAUNAYFLIP_RENDERING)
   list(APPEND delaunayflip_module_files "${CMAKE_CURRENT_SOURCE_DIR}/Rendering/vtk.module")
-  list(APPEND delaunayflip_vtk_installed RenderingCore RenderingFreeType)
+  list(APPEND delaunayflip_vtk_installed RenderingCore RenderingFreeType RenderingOpenGL2)
 endif()
 
 vtk_module_scan(
@@ -70,6 +74,10 @@ vtk_module_build(
   MODULES ${delaunayflip_modules}
   HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip"
   INSTALL_EXPORT DelaunayFlip)
+foreach(delaunayflip_module IN LISTS delaunayflip_modules) # which need each other
+  string(REPLACE "DelaunayFlip::" "" delaunayflip_target "${delaunayflip_module}")
+  set_target_properties(${delaunayflip_target} PROPERTIES INSTALL_RPATH "$ORIGIN")
+endforeach()
 
 set(DELAUNAYFLIP_PYTHON OFF) # whether the Python package is built
 if(DELAUNAYFLIP_SANITIZER)

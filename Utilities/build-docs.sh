@@ -6,6 +6,7 @@
 # Installs missing packages (Debian) and builds the documentation's site into FOLDER (default:
 # build-docs/html). Warnings are errors.
 set -euo pipefail
+unset CDPATH
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 site=$(realpath -m "${1:-$root/build-docs/html}")

@@ -6,6 +6,7 @@
 # to start ParaView with it. Uses the ParaView in ParaView_DIR, else the one installed with
 # paraview-dev, else Debian's packages, unpacked into build-paraview-sdk/.
 set -euo pipefail
+unset CDPATH
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build="$root/build-paraview"
@@ -16,14 +17,17 @@ options=()
 # A new build with a CUDA compiler is for one architecture, which takes a quarter of the time; newer
 # GPUs run its PTX. An existing build keeps its options.
 [ -f "$build/CMakeCache.txt" ] ||
-  options=(-DDELAUNAYFLIP_BUILD_TESTING=OFF -DCMAKE_CUDA_ARCHITECTURES=75)
-cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=/usr/bin/python3 \
+  options=(-G Ninja -DDELAUNAYFLIP_BUILD_TESTING=OFF -DCMAKE_CUDA_ARCHITECTURES=75)
+cmake -S "$root" -B "$build" -DPython3_EXECUTABLE=/usr/bin/python3 \
   -DDELAUNAYFLIP_PARAVIEW=ON -DParaView_DIR="$config" "${options[@]}" >/dev/null
 cmake --build "$build" --parallel "${JOBS:-2}"
 
 plugin=$(find "$build/lib" -name DelaunayFlip.so | head -n 1)
 libraries=$(dirname "$(dirname "$config")")
-prefix=$(realpath "$libraries/../..")
+prefix=$(realpath "$libraries")
+until [ -e "$prefix/bin/paraview" ] || [ "$prefix" = / ]; do
+  prefix=$(dirname "$prefix")
+done
 paths="PV_PLUGIN_PATH=$(dirname "$plugin")"
 if [ "$prefix" != /usr ]; then
   paths+=" LD_LIBRARY_PATH=$libraries PYTHONPATH=$prefix/lib/python3/dist-packages"

@@ -12,6 +12,7 @@
 # build-wheel/root/. All versions that decide what is in the wheel are below.
 # CUDAARCHS in the environment chooses the GPUs to build for, e.g. 90; fewer take less time.
 set -euo pipefail
+unset CDPATH
 
 packages=(g++ libboost-dev python3-venv ca-certificates)
 tools=(pip==25.3 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 tbb-devel==2021.13.1
@@ -30,7 +31,7 @@ export CMAKE_PREFIX_PATH=/tools
 # The caller's compilers and ccache are not in the root.
 unset CC CXX CFLAGS CXXFLAGS CUDAFLAGS LDFLAGS
 unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER CMAKE_CUDA_COMPILER_LAUNCHER
-[ -d /tools ] || python3 -m venv /tools
+[ -x /tools/bin/pip ] || python3 -m venv /tools
 pip install --quiet --disable-pip-version-check "$@"
 rm -rf /built
 pip wheel /project --quiet --no-deps --no-build-isolation --wheel-dir /built/raw \

@@ -10,6 +10,7 @@
 # this one's and python3; where that has no matplotlib, draw the output elsewhere by --draw-only.
 # CUDA_ARCHITECTURES chooses the GPUs, JOBS the number of compilers at a time.
 set -euo pipefail
+unset CDPATH
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/.." && pwd)

@@ -10,6 +10,7 @@
 # of the branches. Needs Clang and LLVM (Debian: clang, llvm). JOBS: how many compilers at a time
 # (default 2).
 set -euo pipefail
+unset CDPATH
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build-coverage

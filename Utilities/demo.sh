@@ -5,6 +5,7 @@
 # Installs missing packages (Debian), builds the command, the VTK modules and the Python package in
 # build/, flips badly triangulated terrain, and draws the result. Writes to demo-output/.
 set -euo pipefail
+unset CDPATH
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build="$root/build"
@@ -23,8 +24,8 @@ build_all()
 {
   local options=()
   [ -f "$build/CMakeCache.txt" ] ||
-    options=(-DDELAUNAYFLIP_BUILD_TESTING=OFF -DCMAKE_CUDA_ARCHITECTURES=75)
-  cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=$python "${options[@]}" >/dev/null
+    options=(-G Ninja -DDELAUNAYFLIP_BUILD_TESTING=OFF -DCMAKE_CUDA_ARCHITECTURES=75)
+  cmake -S "$root" -B "$build" -DPython3_EXECUTABLE=$python "${options[@]}" >/dev/null
   cmake --build "$build" --parallel "${JOBS:-2}"
 }
 

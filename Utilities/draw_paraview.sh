@@ -7,6 +7,7 @@
 # build-paraview/) and python3-pyqt5 or, for ParaViews with Qt 6, python3-pyqt6, to find the client's
 # widgets.
 set -euo pipefail
+unset CDPATH
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 pictures=$(realpath -m "${1:-$root/Documentation/images}")

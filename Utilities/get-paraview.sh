@@ -8,6 +8,7 @@
 # unpacked into FOLDER (default build-paraview-sdk/). Unpacked there they do not conflict with python3-vtk9 and
 # need no root. If there is no ParaView, the exit status is 1 and standard error has the reason.
 set -euo pipefail
+unset CDPATH
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 folder=$(realpath -m "${1:-$root/build-paraview-sdk}")
@@ -49,6 +50,9 @@ fail()
 unpack()
 {
   local partial="$folder.partial" package
+  if [ -e "$folder" ] && ! rmdir "$folder" 2>/dev/null; then
+    fail "$folder has something else; remove it, or name another folder"
+  fi
   rm -rf "$partial"
   mkdir -p "$partial"
   (cd "$partial" && apt-get -qq -o APT::Sandbox::User= download "${packages[@]}") >&2 ||
@@ -59,8 +63,7 @@ unpack()
   done
   link_python_modules "$partial/usr"
   find_config "$partial/usr" >/dev/null || fail "the packages contain no CMake files"
-  rm -rf "$folder"
-  mv "$partial" "$folder"
+  mv -T "$partial" "$folder"
 }
 
 # Usage: link_python_modules PREFIX - ParaView's CMake files say vtkX.so where the packages of Debian

@@ -4,9 +4,10 @@
 #
 # Usage: install-packages.sh build|demo|test|docs|proof|paper|paraview
 # Installs the Debian packages for building, the demo, the tests, the documentation's site, the
-# measurements of the tests (coverage, fuzzing), the reproduction of the paper, or the
-# ParaView plugin with its tests. Asks no questions, and changes nothing if all are installed already. ParaView itself is not
-# included, since it cannot be installed beside python3-vtk9; see get-paraview.sh.
+# measurements of the tests (coverage, fuzzing), the reproduction of the paper, or the ParaView
+# plugin with its tests. Asks no questions, removes nothing, and changes nothing if all are
+# installed already. ParaView itself is not included, since it cannot be installed beside
+# python3-vtk9; see get-paraview.sh.
 set -euo pipefail
 
 engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
@@ -58,7 +59,7 @@ apt_get()
 # packages, which are in < >.
 dependencies()
 {
-  apt-cache depends "$1" 2>/dev/null |
+  LC_ALL=C apt-cache depends "$1" 2>/dev/null |
     awk '/Depends:/ { if (!alternative && $2 !~ /</) print $2; alternative = /\|Depends:/ }'
 }
 
@@ -114,4 +115,8 @@ if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
   exit 1
 fi
 apt_get update
-apt_get install -y --no-install-recommends "${missing[@]}" >/dev/null
+# Removes nothing: python3-vtk9, for one, cannot be installed beside ParaView's Python.
+if ! apt_get install -y --no-remove --no-install-recommends "${missing[@]}" >/dev/null; then
+  echo "Cannot install these packages beside those that are here" >&2
+  exit 1
+fi

@@ -6,6 +6,7 @@
 # what is missing (Debian) and builds into build-paper/ first; in a bundle (bundle_paper.sh) it runs
 # the program beside it. Exit status: 0 done, 3 when the time limit left parts for another call.
 set -euo pipefail
+unset CDPATH
 
 usage()
 {

@@ -12,6 +12,7 @@
 # It is in DELAUNAYFLIP_ROOTS/debian-RELEASE (default: ~/.cache/delaunayflip-roots), and the other
 # beside it, new every time. DEBIAN_MIRROR is the archive to install from; JOBS is passed on.
 set -euo pipefail
+unset CDPATH
 
 declare -A suites=([12]=bookworm [13]=trixie [testing]=testing)
 if [ $# -lt 1 ] || [ -z "${suites[$1]:-}" ]; then

@@ -15,6 +15,7 @@
 #
 # JOBS in the environment is the number of jobs that run at a time (default 2).
 set -euo pipefail
+unset CDPATH
 
 long=OFF sanitizers=ON timeout=1500 # seconds a test may take
 chosen=(--label-exclude long) flags="-O1 -g1"
@@ -49,9 +50,10 @@ check()
 
 configure_build_test()
 {
-  local build="$root/$1"
+  local build="$root/$1" generator=(-G Ninja)
   shift
-  cmake -S "$root" -B "$build" -G Ninja -DPython3_EXECUTABLE=/usr/bin/python3 "$@" &&
+  [ ! -f "$build/CMakeCache.txt" ] || generator=() # keeps its own
+  cmake -S "$root" -B "$build" "${generator[@]}" -DPython3_EXECUTABLE=/usr/bin/python3 "$@" &&
     "${launcher[@]}" cmake --build "$build" --parallel "$jobs" &&
     "${launcher[@]}" ctest --test-dir "$build" "${chosen[@]}" --output-on-failure \
       --parallel "$jobs" --no-tests=error --timeout "$timeout" --output-junit "$build/junit.xml"

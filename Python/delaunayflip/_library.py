@@ -5,6 +5,7 @@ out, MemoryError is raised."""
 import ctypes
 import functools
 import pathlib
+import sys
 from ctypes import c_char_p, c_double, c_int32, c_int64, c_void_p
 
 class FlipError(Exception):
@@ -94,14 +95,15 @@ Callbacks = make_struct("Callbacks", (
 
 @functools.lru_cache(maxsize=None)
 def library():
-    """The loaded library. It is in the package (a wheel or a build),
-    in the lib folder under which the package was installed, or where the system searches.
+    """The loaded library. It is in a folder of the package (a wheel, a build, or an editable
+    installation, which has two), in the lib folder under which the package was installed, or where the system searches.
 
     Raises:
         ImportError: The library does not exist, or has another interface version.
     """
     package = pathlib.Path(__file__).resolve().parent
-    places = [folder / LIBRARY for folder in (package, *list(package.parents)[1:3])]
+    folders = [pathlib.Path(folder) for folder in sys.modules[__package__].__path__]
+    places = [folder / LIBRARY for folder in (*folders, *list(package.parents)[1:3])]
     loaded = ctypes.CDLL(str(next(filter(pathlib.Path.exists, places), LIBRARY)))
     if loaded.delaunayflip_interface_version() != INTERFACE_VERSION:
         raise ImportError(f"{loaded._name} has another interface than this Python package")

@@ -9,6 +9,7 @@
 # GPU benchmark and the targets alone. JOBS: the number of compilers at a time; CUDA_ARCHITECTURES:
 # CMake's list of them.
 set -euo pipefail
+unset CDPATH
 
 only=no
 if [ "$1" = --only ]; then

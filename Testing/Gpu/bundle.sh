@@ -13,6 +13,7 @@
 # used if installed. CUDA_ARCHITECTURES chooses other GPUs than the project's default, JOBS the number
 # of compilers at a time.
 set -euo pipefail
+unset CDPATH
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -37,6 +38,7 @@ if [ ${#only[@]} -gt 0 ]; then programs=(delaunay-flip-gpu-benchmark "${window[@
 carry_loader()
 {
   local folder=$1 program library
+  rm -rf "$folder"/{own,programs}
   mv "$folder/libs" "$folder/own"
   mkdir "$folder/programs"
   ldd "${programs[@]/#/$build/bin/}" |

@@ -8,6 +8,7 @@
 # it. The results are in results.txt and results.json in the output folder. The exit status is 0 only
 # if nothing failed. What cannot run here is reported as skipped; without a GPU nothing passes.
 set -euo pipefail
+unset CDPATH
 
 usage()
 {
@@ -58,8 +59,8 @@ mkdir -p "$output"
 output=$(cd "$output" && pwd)
 (
   cd "$output"
-  rm -f results.* machine.json steps.tsv benchmarks.* gpu-tests.* {engine,filter}-tests-on-cuda.* \
-    gpus-in-turn.* sanitizer-*.log points-*.log {c,python}-device-arrays.log window-*.{json,log}
+  rm -f results.{txt,json} machine.json steps.tsv benchmarks.{json,log} gpu-tests.* \
+    {engine,filter}-tests-on-cuda.* gpus-in-turn.* sanitizer-*.log points-*.log {c,python}-device-arrays.log window-*.{json,log}
 )
 
 if [ -e "$here/BUILD.txt" ]; then
