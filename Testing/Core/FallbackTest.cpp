@@ -114,7 +114,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     FlipSession expected(points, options);
     expected.Advance();
     options.Backend = BackendKind::Auto;
-    for (int call = 1; CallsToFailure == 0; call += 1 + (Reduction > 1 ? call : call / 8))
+    const auto run = [&](int call)
     {
       CallsToFailure = call;
       FlipSession session(points, options);
@@ -125,8 +125,15 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
       ASSERT_EQ(expected.ListSegmentEdges(), session.ListSegmentEdges()) << call;
       ASSERT_EQ(expected.GetReport().TotalFlips, session.GetReport().TotalFlips) << call;
       ASSERT_EQ(CallsToFailure > 0 ? "" : "as the test wants it", session.GetReport().Fallback);
+    };
+    constexpr int Many = 1000000;
+    run(Many);
+    const int calls = Many - CallsToFailure;
+    constexpr int Share = Reduction > 1 ? 1 : 8;
+    for (int call = 1; call <= calls; call += 1 + std::min(call, calls - call) / Share)
+    {
+      run(call);
     }
-    CallsToFailure = 0;
   }
 }
 
@@ -136,15 +143,17 @@ TEST_F(FallbackTest, AnExceptionInTheRepetitionForgetsIt)
   for (int call = 1; CallsToFailure == 0; ++call)
   {
     CallsToFailure = call;
-    const auto throwing = [asked = 0](double) mutable
+    const auto throwing = [asked = 0, call](double) mutable
     {
       asked += CallsToFailure == 0 ? 1 : 0;
-      return asked == 3 ? throw std::runtime_error("from the observer") : true;
+      return asked == 3 + call % 12 ? throw std::runtime_error("from the observer") : true;
     };
     FlipSession session(this->Mesh.View(), {});
     try
     {
-      session.Advance(-1, {}, throwing);
+      while (session.Advance(2, {}, throwing))
+      {
+      }
     }
     catch (const std::runtime_error&)
     {
