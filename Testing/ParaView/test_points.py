@@ -52,7 +52,7 @@ class Points(PluginTest):
         points.Segments = self.read(make_data(KITE, [(0, 2)], [(0, 1, 2)]), "segments.vtp")
         refresh(points)
         self.assertEqual(len(get_triangles(fetch(points))), 1)
-        self.assertEqual((points.NumberOfSegmentEdges, points.StopReason), (4, "converged"))
+        self.assertEqual((points.NumberOfSegmentEdges, points.StopReason), (3, "converged"))
         arrays = points.GetDataInformation().DataInformation.GetFieldDataInformation()
         self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:OutsideTriangles"))
 

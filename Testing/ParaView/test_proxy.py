@@ -109,7 +109,8 @@ class Proxy(PluginTest):
 class PointsProxy(Proxy):
     name, label = "DelaunayFromPoints", "Delaunay From Points"
     vtk_class = "vtkDelaunayFlipPoints"
-    choices = {"Outline": ["Even-odd", "Orientation"], "Projection": ["XY", "Best-fitting plane"]}
+    choices = {"Outline": ["Even-odd", "Orientation", "Any"],
+               "Projection": ["XY", "Best-fitting plane"]}
 
 
 class PluginPath(unittest.TestCase):
