@@ -129,7 +129,7 @@ std::vector<Note> ListMisfits(
     for (const BlockLeaf& leaf : other.Leaves)
     {
       auto* mesh = vtkPolyData::SafeDownCast(leaf.Data);
-      const std::string fault = !fits   ? "nothing of the first one is at its place, ignored"
+      const std::string fault = !fits   ? "nothing of the first input is at the same place, ignored"
         : !mesh                         ? "not a vtkPolyData, ignored"
         : mesh->GetNumberOfStrips() > 0 ? "triangle strips ignored"
                                         : "";

@@ -6,9 +6,8 @@
 # Installs missing packages (Debian) and builds the documentation's site into FOLDER (default:
 # build-docs/html). Warnings are errors.
 set -euo pipefail
-unset CDPATH
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 site=$(realpath -m "${1:-$root/build-docs/html}")
 export PYTHONDONTWRITEBYTECODE=1
 

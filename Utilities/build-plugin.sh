@@ -6,9 +6,8 @@
 # to start ParaView with it. Uses the ParaView in ParaView_DIR, else the one installed with
 # paraview-dev, else Debian's packages, unpacked into build-paraview-sdk/.
 set -euo pipefail
-unset CDPATH
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 build="$root/build-paraview"
 
 "$root/Utilities/install-packages.sh" paraview

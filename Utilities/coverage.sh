@@ -10,9 +10,8 @@
 # of the branches. Needs Clang and LLVM (Debian: clang, llvm). JOBS: how many compilers at a time
 # (default 2).
 set -euo pipefail
-unset CDPATH
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 build=$root/build-coverage
 programs=(DelaunayFlipCoreTests DelaunayFlipFallbackTests DelaunayFlipEngineAllocationTests
   delaunay-flip-fuzz-engine)

@@ -5,9 +5,8 @@
 # Installs missing packages (Debian), builds the command, the VTK modules and the Python package in
 # build/, flips badly triangulated terrain, and draws the result. Writes to demo-output/.
 set -euo pipefail
-unset CDPATH
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 build="$root/build"
 output="$root/demo-output"
 python=/usr/bin/python3

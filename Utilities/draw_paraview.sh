@@ -7,9 +7,8 @@
 # build-paraview/) and python3-pyqt5 or, for ParaViews with Qt 6, python3-pyqt6, to find the client's
 # widgets.
 set -euo pipefail
-unset CDPATH
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 pictures=$(realpath -m "${1:-$root/Documentation/images}")
 config=$(sed -n 's/^ParaView_DIR:[A-Z]*=//p' "$root/build-paraview/CMakeCache.txt")
 prefix=$(realpath "$config/../../../..")

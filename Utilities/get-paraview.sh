@@ -8,9 +8,8 @@
 # unpacked into FOLDER (default build-paraview-sdk/). Unpacked there they do not conflict with python3-vtk9 and
 # need no root. If there is no ParaView, the exit status is 1 and standard error has the reason.
 set -euo pipefail
-unset CDPATH
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 folder=$(realpath -m "${1:-$root/build-paraview-sdk}")
 packages=(paraview paraview-dev python3-paraview)
 

@@ -6,7 +6,6 @@
 # what is missing (Debian) and builds into build-paper/ first; in a bundle (bundle_paper.sh) it runs
 # the program beside it. Exit status: 0 done, 3 when the time limit left parts for another call.
 set -euo pipefail
-unset CDPATH
 
 usage()
 {
@@ -26,7 +25,7 @@ A part that has run is not run again: remove its file from OUTPUT/parts for that
 END
 }
 
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" >/dev/null && pwd)
 output=paper-output scale=full rivals=yes draw=no build_only=no
 options=()
 while [ $# -gt 0 ]; do

@@ -12,7 +12,6 @@
 # It is in DELAUNAYFLIP_ROOTS/debian-RELEASE (default: ~/.cache/delaunayflip-roots), and the other
 # beside it, new every time. DEBIAN_MIRROR is the archive to install from; JOBS is passed on.
 set -euo pipefail
-unset CDPATH
 
 declare -A suites=([12]=bookworm [13]=trixie [testing]=testing)
 if [ $# -lt 1 ] || [ -z "${suites[$1]:-}" ]; then
@@ -26,7 +25,7 @@ if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap >/dev/null; then
   exit 1
 fi
 
-checkout=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+checkout=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 roots=${DELAUNAYFLIP_ROOTS:-$HOME/.cache/delaunayflip-roots}
 root=$roots/debian-$release
 other=$root-package

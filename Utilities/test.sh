@@ -15,7 +15,6 @@
 #
 # JOBS in the environment is the number of jobs that run at a time (default 2).
 set -euo pipefail
-unset CDPATH
 
 long=OFF sanitizers=ON timeout=1500 # seconds a test may take
 chosen=(--label-exclude long) flags="-O1 -g1"
@@ -29,7 +28,7 @@ case "$*" in
     ;;
 esac
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 jobs=${JOBS:-2}
 passed=0 failed=0 skipped=0
 broken=() absent=()

@@ -96,7 +96,8 @@ Callbacks = make_struct("Callbacks", (
 @functools.lru_cache(maxsize=None)
 def library():
     """The loaded library. It is in a folder of the package (a wheel, a build, or an editable
-    installation, which has two), in the lib folder under which the package was installed, or where the system searches.
+    installation, which has two), in the lib folder under which the package was installed, or where
+    the system searches.
 
     Raises:
         ImportError: The library does not exist, or has another interface version.

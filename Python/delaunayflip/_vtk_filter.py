@@ -256,7 +256,7 @@ class Filter(VTKPythonAlgorithmBase):
         """Warns of what of the second input is ignored."""
         places = _list_leaves(source)
         for place, (name, data) in _list_leaves(others).items():
-            fault = ("nothing of the first one is at its place, ignored"
+            fault = ("nothing of the first input is at the same place, ignored"
                      if place and () not in places and place not in places
                      else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
                      else "triangle strips ignored" if data.GetNumberOfStrips() else "")

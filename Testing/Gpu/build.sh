@@ -9,7 +9,6 @@
 # GPU benchmark and the targets alone. JOBS: the number of compilers at a time; CUDA_ARCHITECTURES:
 # CMake's list of them.
 set -euo pipefail
-unset CDPATH
 
 only=no
 if [ "$1" = --only ]; then
@@ -17,7 +16,7 @@ if [ "$1" = --only ]; then
   shift
 fi
 build=$1
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" >/dev/null && pwd)
 root=$(cd "$here/../.." && pwd)
 export PATH=$PATH:${CUDA_HOME:-/usr/local/cuda}/bin
 

@@ -13,9 +13,8 @@
 # used if installed. CUDA_ARCHITECTURES chooses other GPUs than the project's default, JOBS the number
 # of compilers at a time.
 set -euo pipefail
-unset CDPATH
 
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" >/dev/null && pwd)
 root=$(cd "$here/../.." && pwd)
 build=$root/build-gpu
 window=() only=()

@@ -8,7 +8,6 @@
 # it. The results are in results.txt and results.json in the output folder. The exit status is 0 only
 # if nothing failed. What cannot run here is reported as skipped; without a GPU nothing passes.
 set -euo pipefail
-unset CDPATH
 
 usage()
 {
@@ -24,7 +23,7 @@ Usage: run.sh [OPTION...] [OUTPUT_FOLDER]
 END
 }
 
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" >/dev/null && pwd)
 output=gpu-results
 filter='*'
 tests=yes benchmarks=yes window=no

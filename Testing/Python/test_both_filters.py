@@ -290,7 +290,7 @@ class Same(Pair, unittest.TestCase):
         constraints.SetBlock(0, image)
         constraints.SetBlock(2, make_polygon_mesh())
         told = self.expect_same(blocks, lambda flip: flip.SetInputDataObject(1, constraints))
-        for number, text in (3, "nothing of the first one is at its place"), (1, "not a vtkPolyData"):
+        for number, text in (3, "nothing of the first input is at the same place"), (1, "not a vtkPolyData"):
             self.assertIn(f"block {number} of the second input: {text}", told["warnings"][0])
         told = self.expect_same(
             make_rhombus(), lambda flip: flip.SetConstraintsData(make_polygon_mesh()))
