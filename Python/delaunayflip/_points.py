@@ -52,9 +52,10 @@ def triangulate(
     there, and triangles and neighbors are arrays of that library. All other arrays are NumPy's.
 
     Args:
-        points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous; z does not
-            matter. Of points at equal places that with the lowest id is used. Points with NaN or
-            infinite x or y are not used.
+        points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous. z does not
+            matter, so pass (n, 3) whole: `points[:, :2]` is copied, which on a GPU takes longer than
+            all the rest. Of points at equal places that with the lowest id is used. Points with NaN
+            or infinite x or y are not used.
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
             points is split there; one that crosses an earlier one is refused and reported.
         outline: A ring, or a list of rings: what is outside of all is removed. A ring is a list of

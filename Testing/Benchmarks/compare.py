@@ -115,7 +115,7 @@ class Ours:
         return self.flip(self.points, self.triangles, **self.choose(threads)).report.total_flips
 
     def triangulate(self, threads):
-        return self.from_points(self.points[:, :2], **self.choose(threads)).report.total_flips
+        return self.from_points(self.points, **self.choose(threads)).report.total_flips
 
     def update(self, threads):
         from delaunayflip import vtkDelaunayFlip
