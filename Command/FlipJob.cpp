@@ -535,7 +535,7 @@ private:
     const std::string errors = TakeVTKErrors();
     static const std::regex rings("\\bring (\\d+)( from .* cannot be inserted)?(.*)");
     std::smatch found;
-    if (std::regex_search(errors, found, rings))
+    if (this->Settings.FromPoints && std::regex_search(errors, found, rings))
     {
       // Names the file of the ring, and the number that it has there.
       const vtkIdType ring = std::stoll(found[1].str()) - this->Segments->GetNumberOfLines();
@@ -543,9 +543,10 @@ private:
       throw CommandError(ExitCode::BadFile,
         (isHole ? this->Settings.Holes : this->Settings.Outline) + ": ring " +
           std::to_string(ring - (isHole ? this->OutlineRings : 0)) +
-          (found[2].matched ? " cannot be used" + found[3].str() +
-                "; --split-crossings adds points where it crosses others"
-                            : found[3].str()));
+          (found[2].matched ? " cannot be used" : "") + found[3].str() +
+          (found[2].matched && !this->Settings.Points->GetSplitCrossings()
+              ? "; --split-crossings adds points where it crosses others"
+              : ""));
     }
     if (!errors.empty())
     {

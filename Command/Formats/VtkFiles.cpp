@@ -134,7 +134,11 @@ std::map<std::string, std::array<vtkIdType, 2>> ReadHeaders(std::string_view byt
     std::istringstream line(std::string(rest.substr(0, rest.find('\n'))));
     std::string keyword, second, third;
     vtkIdType count = 0, size = 0;
-    line >> keyword >> count >> second >> third;
+    if (!(line >> keyword >> count))
+    {
+      continue; // a line of text
+    }
+    line >> second >> third;
     std::transform(keyword.begin(), keyword.end(), keyword.begin(), ::toupper);
     if (keyword == "POINT_DATA" || keyword == "CELL_DATA")
     {
@@ -252,20 +256,21 @@ private:
     return !format || std::strcmp(format, "ascii") == 0;
   }
 
-  /// Whether an array of numbers has another value after its first `count`.
+  /// Whether an array of numbers has another value after its first `count`. Asks for the last of
+  /// these too: VTK 9.1 fails at the very end of compressed data whose blocks are all full.
   bool HasMore(vtkXMLDataElement* element, vtkIdType count)
   {
     int type = 0;
     vtkTypeInt64 offset = 0;
-    double value = 0.0;
+    double values[2];
     if (!element->GetWordTypeAttribute("type", type) || type == VTK_BIT || type == VTK_STRING)
     {
       return false;
     }
     const int isText = IsText(element) ? 1 : 0;
     return element->GetScalarAttribute("offset", offset)
-      ? this->XMLParser->ReadAppendedData(offset, &value, count, 1, type) > 0
-      : this->XMLParser->ReadInlineData(element, isText, &value, count, 1, type) > 0;
+      ? this->XMLParser->ReadAppendedData(offset, values, count - 1, 2, type) > 1
+      : this->XMLParser->ReadInlineData(element, isText, values, count - 1, 2, type) > 1;
   }
 };
 

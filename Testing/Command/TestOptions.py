@@ -144,7 +144,8 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh), 1)
         self.assertEqual(self.flips(mesh, "--region-array", "Rock"), 0)
         path = self.path("in.vtk")
-        self.fail_with(2, path, "out.vtk", "--region-array", "Sand", naming=["Sand", 'it has "Rock"'])
+        for name in ("Sand", "ring 1"):
+            self.fail_with(2, path, "out.vtk", "--region-array", name, naming=[name, 'it has "Rock"'])
 
     def test_quality(self):
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))

@@ -121,6 +121,12 @@ class Read(ArrayTest):
             self.assertEqual(cells_of(found.GetVerts()), [(7,), (0, 1)])
             self.assertEqual(cells_of(found.GetLines()), [(0, 2, 4), (1, 3)])
 
+    def test_full_blocks(self):
+        """64 x 64 points fill three of the blocks that VTK compresses."""
+        for name in self.written(bumpy_grid(64, 0)):
+            self.succeed(name, "out.vtk")
+            self.assertEqual(read_mesh(self.path("out.vtk")).GetNumberOfPoints(), 4096)
+
 
 class LostByVtk(BadFileTest):
     """VTK's readers give up a part of these, or all, and report nothing."""
@@ -143,8 +149,10 @@ class LostByVtk(BadFileTest):
             self.assertEqual(self.run_command("a.vtk", "out.vtk").returncode, code, end)
 
     def test_words_that_look_like_headers(self):
-        """A title, and names of arrays before the points and after the cells."""
+        """A title, strings, and names of arrays before the points and after the cells."""
         mesh = bumpy_grid(GRID, 0)
+        words = make_values("vtkStringArray", "words", [("POLYGONS",), ("POINT_DATA",)])
+        mesh.GetFieldData().AddArray(words)
         for name in ("points", "LINES", "polygons", "vertices"):
             for add, size in (("GetFieldData", 3), ("GetPointData", 16), ("GetCellData", 18)):
                 values = make_values("vtkIntArray", name, [(i,) for i in range(size)])
