@@ -97,8 +97,8 @@ def triangulate(
     options = make_options(backend=backend, threads=threads, device=device,
                            maximum_iterations=maximum_iterations)
     handle = ctypes.c_void_p()
-    call("open_points", struct, options, ctypes.byref(handle), progress)
     try:
+        call("open_points", struct, options, ctypes.byref(handle), progress)
         report = _report.read(handle)
         room = given.make_room(report.number_of_triangles)
         if report.stop_reason != "aborted":

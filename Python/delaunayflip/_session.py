@@ -21,21 +21,33 @@ if TYPE_CHECKING:
 
 
 @contextlib.contextmanager
-def _interrupt_as(note):
-    """While the block runs, Ctrl-C calls `note` instead of raising KeyboardInterrupt, which ctypes
-    would swallow in a callback. Only Python's own handler is replaced."""
-    is_ours = (
-        threading.current_thread() is threading.main_thread()
-        and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    )
-    if not is_ours:
-        yield
-        return
-    signal.signal(signal.SIGINT, lambda *_: note(KeyboardInterrupt()))
+def _raise_after(raised):
+    """After the block, raises one of these exceptions. Meanwhile handlers of signals, such as that of
+    Ctrl-C, add theirs, which ctypes would swallow in a callback. Only the main thread has handlers."""
+    is_main = threading.current_thread() is threading.main_thread()
+    handlers = {number: signal.getsignal(number) for number in signal.Signals if is_main}
+    own = {number: handler for number, handler in handlers.items() if callable(handler)}
+
+    def handle(number, frame):
+        try:
+            own[number](number, frame)
+        except BaseException as error:
+            if is_over:  # an exception has ended the loop that puts the handlers back
+                raise
+            raised[:] = [error]  # the others would keep memory
+
+    is_over = False
     try:
+        for number in own:
+            signal.signal(number, handle)
         yield
     finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        is_over = True
+        for number, handler in own.items():
+            if signal.getsignal(number) is handle:  # a callback may have set another one
+                signal.signal(number, handler)
+        if raised:
+            raise raised.pop()
 
 
 def call(name, first, second, last, progress=None, on_iteration=None):
@@ -69,10 +81,8 @@ def call(name, first, second, last, progress=None, on_iteration=None):
     callbacks.progress = _library.ProgressFunction(lambda share, _: ask(progress, share))
     if on_iteration is not None:
         callbacks.iteration = _library.IterationFunction(tell_iteration)
-    with _interrupt_as(raised.append):
+    with _raise_after(raised):
         _library.call(name, first, second, callbacks, last)
-    if raised:
-        raise raised.pop()
 
 
 class Session:

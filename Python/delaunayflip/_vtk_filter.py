@@ -98,7 +98,6 @@ class Filter(VTKPythonAlgorithmBase):
         super().__init__(nInputPorts=2, nOutputPorts=2, inputType=self.kind.__name__)
         self._values = {item.name: item.default for item in self.properties}
         self._is_at_work = False
-        self._interrupt = None
         self._forget()
         for name, value in properties.items():
             if not hasattr(type(self), name):
@@ -130,6 +129,7 @@ class Filter(VTKPythonAlgorithmBase):
         return vtkPolyData.SafeDownCast(self.GetOutputDataObject(port))
 
     def Update(self, *arguments):
+        self._interrupt = None  # not that of an update for another filter
         status = super().Update(*arguments)
         interrupt, self._interrupt = self._interrupt, None
         if interrupt is not None:
@@ -300,7 +300,7 @@ class Filter(VTKPythonAlgorithmBase):
             self._fail(error, where)
             output.Initialize()
             return
-        except KeyboardInterrupt as stop:
+        except BaseException as stop:  # KeyboardInterrupt, SystemExit, ...
             self._interrupt = stop  # raised when VTK is left
             trouble = self._pass(mesh, output, "aborted")
         self._sum.add(self._totals)

@@ -21,7 +21,7 @@ import weakref
 import numpy
 
 import delaunayflip
-from delaunayflip import _arrays, _library, _options, _report
+from delaunayflip import _arrays, _library, _options, _report, _session, _surface
 from lattice import sheared_lattice
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -146,8 +146,10 @@ class Triangulate(unittest.TestCase):
         stopped = delaunayflip.triangulate(points, progress=lambda share: share < 0.2)
         self.assertEqual(stopped.report.stop_reason, "aborted")
         self.assertEqual(len(stopped.triangles), 0)
-        with self.assertRaises(ZeroDivisionError):
+        with (self.assertRaises(ZeroDivisionError),
+              unittest.mock.patch.object(_library, "run", wraps=_library.run) as run):
             delaunayflip.triangulate(points, progress=lambda share: 1 / 0)
+        self.assertEqual(run.call_args.args[0], "close")
 
 
 class Flip(unittest.TestCase):
@@ -353,6 +355,9 @@ class Callbacks(unittest.TestCase):
         for name in ("progress", "on_iteration"):
             with self.subTest(name), self.assertRaisesRegex(ZeroDivisionError, "in the callback"):
                 delaunayflip.flip(points, triangles, **{name: fail})
+        square = _surface.Cells(numpy.array([0, 4]), numpy.arange(4), "cell", 0)
+        with self.assertRaisesRegex(ZeroDivisionError, "in the callback"):
+            _surface._split(square, POINTS, fail)  # which has no partial result
 
     def test_exceptions_keep_no_memory(self):
         """They leave no cycle of references behind, which would keep the session until a collection."""
@@ -388,6 +393,22 @@ class Callbacks(unittest.TestCase):
                 process.kill()
         self.assertTrue(errors.rstrip().endswith("KeyboardInterrupt"), errors)
         self.assertIn("delaunayflip/_session.py", errors)
+
+    def test_handlers_of_signals(self):
+        """What they raise, as at a timeout, comes through; afterwards they are as before."""
+        def raise_it(*_):
+            raise TimeoutError
+
+        self.addCleanup(signal.signal, signal.SIGALRM, signal.signal(signal.SIGALRM, raise_it))
+        mesh = sheared_lattice(600)
+        for _ in range(5):
+            with self.assertRaises(TimeoutError):
+                signal.setitimer(signal.ITIMER_REAL, 0.02)
+                delaunayflip.flip(*mesh, threads=1)
+            self.assertIs(signal.getsignal(signal.SIGALRM), raise_it)
+        with _session._raise_after([]):
+            handler = signal.getsignal(signal.SIGALRM)
+        self.assertRaises(TimeoutError, handler, signal.SIGALRM, None)  # were it still there
 
 
 class Session(unittest.TestCase):
@@ -482,9 +503,7 @@ class Package(unittest.TestCase):
         self.assertFalse(hasattr(delaunayflip, "flop"))
 
     def test_docstrings(self):
-        import delaunayflip._session
-
-        result = doctest.testmod(delaunayflip._session)
+        result = doctest.testmod(_session)
         self.assertGreater(result.attempted, 5)
         self.assertEqual(result.failed, 0)
 

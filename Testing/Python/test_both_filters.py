@@ -5,8 +5,11 @@ import math
 import random
 import re
 import unittest
+import unittest.mock
+import warnings
 
 from delaunayflip import vtkDelaunayFlip as CxxFilter, vtkDelaunayFlipPoints as CxxPoints
+from delaunayflip import _vtk_filter
 from delaunayflip._vtk_filter import (
     _ANSWERS, _COMMON_ANSWERS, vtkDelaunayFlip as PythonFilter,
     vtkDelaunayFlipPoints as PythonPoints)
@@ -17,6 +20,7 @@ from vtkmodules.vtkCommonCore import (
     vtkDoubleArray, vtkIntArray, vtkObject, vtkStringArray, vtkUnsignedCharArray)
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData, vtkTable)
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
 from test_vtk_delaunay_flip import (
     Watched, add_numbers, get_cells, list_properties, make_bad_mesh, make_cells, make_mesh,
@@ -488,6 +492,17 @@ class OnlyInCxx(unittest.TestCase):
         self.assertTrue(told.filter.GetConverged())
         self.assertFalse(told.filter.Advance() or told.filter.Step() or told.filter.GetNeedsUpdate())
         self.assertIn("LiveUpdate needs the filter in C++", told.warnings[0])
+
+    def test_interrupts(self):
+        """They end an update; that of the filter itself raises its own."""
+        flip, follower = Watched(make_bad_mesh(), PythonFilter).filter, vtkAppendPolyData()
+        follower.SetInputConnection(flip.GetOutputPort())
+        with unittest.mock.patch.object(_vtk_filter, "MeshInput", side_effect=SystemExit):
+            follower.Update()
+            self.assertEqual(flip.GetStopReasonAsString(), "aborted")
+            flip.Update()
+            flip.Modified()
+            self.assertRaises(SystemExit, flip.Update)
 
     def test_observers_that_change_the_input(self):
         """Its arrays are copied."""
