@@ -13,7 +13,7 @@ first argument: `delaunayflip.pyvista.flip(mesh)`.
 
 Meshes go to the engine as arrays, so it does not matter which VTK PyVista uses (vtk or cvista).
 """
-import functools
+import types
 import typing
 import warnings
 
@@ -219,16 +219,9 @@ class DelaunayAccessor:
         self._mesh = mesh
 
 
-def _make_method(function):
-    @functools.wraps(function)
-    def method(self, *arguments, **options):
-        return function(self._mesh, *arguments, **options)
-
-    return method
-
-
 for _function in (flip, triangulate, smallest_angles, plot_quality, animate):
-    setattr(DelaunayAccessor, _function.__name__, _make_method(_function))
+    setattr(DelaunayAccessor, _function.__name__, property(
+        lambda self, function=_function: types.MethodType(function, self._mesh), doc=_function.__doc__))
 
 if hasattr(pyvista, "register_dataset_accessor"):
     pyvista.register_dataset_accessor("delaunay", pyvista.PolyData)(DelaunayAccessor)

@@ -141,7 +141,7 @@ class PyVista(unittest.TestCase):
         self.assertGreater(int(made.field_data["DelaunayFlip:SegmentEdges"][0]), 0)
         same = delaunayflip.pyvista.triangulate(self.pyvista.PointSet(cloud.points))
         numpy.testing.assert_array_equal(same.faces, cloud.delaunay.triangulate().faces)
-        with self.assertWarnsRegex(UserWarning, "cross(es)? an earlier one"):
+        with self.assertWarnsRegex(UserWarning, "cross(es)? an earlier one") as told:
             cross = self.pyvista.Line((0.1, 0.8, 7), (0.9, 0.2, 7))
             cloud.delaunay.triangulate(segments.append_polydata(cross))
         with self.assertRaisesRegex(TypeError, "cloud must be a dataset with points, not list"):
@@ -189,8 +189,9 @@ class PyVista(unittest.TestCase):
             with self.assertRaisesRegex(TypeError, f"'{name}' is not an option"):
                 flip(**{name: [0] * 288})
         self.mesh.points[5] = numpy.nan
-        with self.assertWarnsRegex(UserWarning, "NaN|finite"):
+        with self.assertWarnsRegex(UserWarning, "NaN|finite") as told:
             flip()
+        self.assertEqual(told.filename, __file__)
 
     def test_attributes(self):
         mesh = self.mesh
