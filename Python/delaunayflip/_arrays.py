@@ -181,7 +181,7 @@ def _shape_error(name, array, wanted):
     return ValueError(f"{name} must have the shape {wanted}, not {tuple(array.shape)}")
 
 
-def _as_array(name, values):
+def as_array(name, values):
     """What NumPy makes of the values; by DLPack, in their memory, what it cannot convert itself."""
     if numpy.ma.is_masked(values):
         raise ValueError(f"{name} has masked values: fill them or leave them out")
@@ -205,19 +205,19 @@ def _convert(array, kind):
     return numpy.require(array, kind, "CA")
 
 
-def as_plane(points):
+def as_plane(points, name="points"):
     """Points of shape (n, 2) or (n, 3), float32 or float64; other numbers become float64. Those on a
     device stay there."""
     functions, points = _adapt(points)
     if functions is not _NumPy:
-        return functions.take("points", points, ("float32", "float64"), (3, 2))
-    points = _as_array("points", points)
+        return functions.take(name, points, ("float32", "float64"), (3, 2))
+    points = as_array(name, points)
     if points.size == 0 and points.ndim < 2:
         points = numpy.empty((0, 3))
     if points.ndim != 2 or points.shape[1] not in (2, 3):
-        raise _shape_error("points", points, "(n, 3) or (n, 2)")
+        raise _shape_error(name, points, "(n, 3) or (n, 2)")
     if points.dtype.kind not in "fiu":
-        raise TypeError(f"points must be real numbers, not {points.dtype}")
+        raise TypeError(f"{name} must be real numbers, not {points.dtype}")
     return _convert(points, _choose_type(points, numpy.float32, numpy.float64))
 
 
@@ -229,7 +229,7 @@ def as_points(points):
 
 def as_ids(name, ids, columns):
     """Ids of shape (m, columns), int32 or int64; other integers become int64."""
-    ids = _as_array(name, ids)
+    ids = as_array(name, ids)
     kind = _choose_type(ids, numpy.int32, numpy.int64)
     if ids.size == 0 and (ids.ndim < 2 or ids.shape == (0, columns)):
         ids = numpy.empty((0, columns), dtype=kind)
@@ -246,7 +246,7 @@ def as_ids(name, ids, columns):
 
 
 def _per_triangle(name, values, kind, count):
-    values = _as_array(name, values)
+    values = as_array(name, values)
     if values.shape != (count,):
         raise _shape_error(name, values, f"({count},), a value per triangle")
     if values.dtype.kind not in "iub" and count:
@@ -259,7 +259,7 @@ def _per_triangle(name, values, kind, count):
 
 def as_flags(name, values, *shapes):
     """True or false, or numbers that are 0 or not, of one of these shapes."""
-    values = _as_array(name, values)
+    values = as_array(name, values)
     if values.shape not in shapes:
         raise _shape_error(name, values, " or ".join(map(str, shapes)))
     if values.dtype.kind not in "biuf":

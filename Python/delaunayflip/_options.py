@@ -90,7 +90,7 @@ def make_options(**keywords):
         elif keyword in _RANGES:
             value = check_integer(keyword, value, *_RANGES[keyword])
         else:
-            value = _to_number(keyword, value)
+            value = to_number(keyword, value)
         setattr(options, name, value)
     return options
 
@@ -120,7 +120,7 @@ def check_integer(name, value, low, high, wanted=""):
     return number
 
 
-def _to_number(name, value):
+def to_number(name, value):
     if not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number, not {value!r}")
     try:

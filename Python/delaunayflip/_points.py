@@ -9,7 +9,8 @@ import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
-from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
+from ._options import (
+    Array, Backend, Numbers, OnIteration, Progress, check_integer, make_options, to_number)
 from ._report import Report
 from ._session import call
 
@@ -49,7 +50,8 @@ def triangulate(
     triangles have an area; n places with h of them on the hull give 2 n - 2 - h triangles.
 
     Points may be an array of CuPy, PyTorch or Numba in the memory of a GPU. They are triangulated
-    there, and triangles and neighbors are arrays of that library. All other arrays are NumPy's.
+    there, and triangles and neighbors are arrays of that library. All other arrays are NumPy's, and
+    so are these if rings are given by coordinates.
 
     Args:
         points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous. z does not
@@ -92,8 +94,10 @@ def triangulate(
     """
     given = points if isinstance(points, Input) else Input(points, segments, outline, holes)
     struct = given.struct
-    struct.alpha, struct.longest_edge = alpha or 0.0, longest_edge or 0.0
-    struct.point_tolerance, struct.split_crossings = point_tolerance, bool(split_crossings)
+    struct.alpha, struct.longest_edge, struct.point_tolerance = (
+        to_number(name, value) for name, value in (
+            ("alpha", alpha), ("longest_edge", longest_edge), ("point_tolerance", point_tolerance)))
+    struct.split_crossings = check_integer("split_crossings", split_crossings, 0, 1, "True or False")
     options = make_options(backend=backend, threads=threads, device=device,
                            maximum_iterations=maximum_iterations)
     handle = ctypes.c_void_p()
@@ -128,7 +132,7 @@ class Input:
         if self.new_points:
             points = numpy.concatenate([_arrays.to_host(points), *self.new_points])
         self.points = points
-        seeds = _arrays.as_plane(holes) if are_places else numpy.empty((0, 2))
+        seeds = _arrays.as_plane(holes, "holes") if are_places else numpy.empty((0, 2))
         self.seeds = numpy.ascontiguousarray(seeds[:, :2], dtype=numpy.float64)
         self.all_segments = numpy.concatenate(self.segments).astype(numpy.int64, order="C")
         self.all_rings = numpy.concatenate(self.rings)
@@ -143,8 +147,9 @@ class Input:
         struct.outline = _ANY_RING
 
     def _add_ring(self, ring, points):
-        ring = numpy.asarray(ring)
+        ring = _arrays.as_array("a ring", ring)
         if ring.ndim == 2:
+            ring = _arrays.as_plane(ring, "a ring")
             places = numpy.zeros((len(ring), points.shape[1]), dtype=_arrays.type_of(points))
             columns = min(ring.shape[1], points.shape[1])
             places[:, :columns] = ring[:, :columns]

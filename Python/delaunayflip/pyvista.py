@@ -122,6 +122,8 @@ def triangulate(
     """
     if not hasattr(cloud, "GetPoints"):
         raise TypeError(f"cloud must be a dataset with points, not {type(cloud).__name__}")
+    if "holes" in options:
+        raise TypeError("holes are polygons of the segments: see outline")
     if segments is not None:
         _require_mesh("segments", segments)
     given, made = Cloud(cloud, segments, lines_as_segments, outline), pyvista.PolyData()

@@ -119,6 +119,13 @@ class Triangulate(unittest.TestCase):
                 delaunayflip.triangulate(points, outline=ring)
         spatial = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, .5]]  # integers first
         self.assertEqual(area(outline=spatial), 1)
+        for name, values, error, text in (
+                ("outline", numpy.ma.masked_equal([0, 1, 2, 3], 3), ValueError, "a ring has masked"),
+                ("holes", [numpy.ma.masked_equal(square, .9)], ValueError, "a ring has masked"),
+                ("holes", numpy.ma.masked_equal(square, .9), ValueError, "holes has masked"),
+                ("outline", numpy.array(square, complex), TypeError, "a ring must be real")):
+            with self.assertRaisesRegex(error, text):
+                delaunayflip.triangulate(points, **{name: values})
 
     def test_rings_of_any_size(self):
         places = numpy.array([[0, 0], [1, 0], [1, 1], [0, 1], [.5, .5]])
@@ -138,8 +145,12 @@ class Triangulate(unittest.TestCase):
         self.assertEqual(result.report.points_too_near, (result.used_points != numpy.arange(2000)).sum())
         few = delaunayflip.triangulate(points, alpha=0.02)
         self.assertLess(len(few.triangles), len(delaunayflip.triangulate(points).triangles))
-        with self.assertRaises(delaunayflip.InvalidOptions):
-            delaunayflip.triangulate(points, alpha=-1)
+        for name, value, error in (
+                ("alpha", -1, delaunayflip.InvalidOptions), ("alpha", 10**400, delaunayflip.InvalidOptions),
+                ("longest_edge", "x", TypeError), ("point_tolerance", None, TypeError),
+                ("split_crossings", "no", TypeError), ("split_crossings", numpy.nan, TypeError)):
+            with self.assertRaisesRegex(error, name):
+                delaunayflip.triangulate(points, **{name: value})
 
     def test_can_be_stopped(self):
         points = numpy.random.default_rng(3).random((20000, 2))

@@ -144,6 +144,9 @@ class PyVista(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, "cross(es)? an earlier one") as told:
             cross = self.pyvista.Line((0.1, 0.8, 7), (0.9, 0.2, 7))
             cloud.delaunay.triangulate(segments.append_polydata(cross))
+        self.assertEqual(told.filename, __file__)
+        with self.assertRaisesRegex(TypeError, "holes are polygons of the segments"):
+            cloud.delaunay.triangulate(holes=[])
         with self.assertRaisesRegex(TypeError, "cloud must be a dataset with points, not list"):
             delaunayflip.pyvista.triangulate([[0, 0, 0]])
         with self.assertRaisesRegex(ValueError, "outline must be one of even-odd, orientation, any"):
