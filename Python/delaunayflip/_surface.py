@@ -16,7 +16,9 @@ class Cells:
     cells in messages, `first` the number of the first one."""
 
     def __init__(self, offsets, corners, what, first):
-        self.offsets, self.corners, self.what, self.first = offsets, corners, what, first
+        self.offsets, self.corners = (  # those of VTK may be unsigned
+            ids.astype(numpy.int64) if ids.dtype.kind == "u" else ids for ids in (offsets, corners))
+        self.what, self.first = what, first
         self.count = len(offsets) - 1
 
     @property

@@ -519,6 +519,14 @@ class Package(unittest.TestCase):
         self.assertEqual(result.failed, 0)
 
 
+class Cells(unittest.TestCase):
+    def test_unsigned_ids(self):
+        """VTK 9.6 has them."""
+        ids = numpy.arange(4, dtype=numpy.uint64)
+        square = _surface.Cells(4 * ids[:2], ids, "cell", 0)
+        self.assertEqual(_surface.list_pairs(square, True).tolist(), [[0, 1], [1, 2], [2, 3], [3, 0]])
+
+
 class Header(unittest.TestCase):
     """The structs and enumerations are those of the C header, in its order."""
 
