@@ -144,6 +144,9 @@ class Totals:
         """Of a run; `unmatched` more constraints than it knows have no edge."""
         totals = cls()
         totals.iterations = iterations
+        if not report.number_of_triangles:  # all were removed, but some had angles
+            report = dataclasses.replace(
+                report, minimum_angle_before=numpy.nan, minimum_angle_after=numpy.nan)
         totals.report = dataclasses.replace(
             report, non_delaunay_before=max(report.non_delaunay_before, 0),
             non_delaunay_after=max(report.non_delaunay_after, 0),

@@ -443,6 +443,8 @@ class SamePoints(Pair, unittest.TestCase):
             blocks.SetBlock(i, data)
         told = self.expect_same(blocks)
         self.assertIn("has no points of its own", told["warnings"][0])
+        vtk_to_numpy(blocks.GetBlock(0).GetPoints().GetData())[:] *= 100
+        self.expect_same(blocks, lambda points: points.SetLongestEdge(30))  # none of block 0 are left
         blocks.SetBlock(1, vtkTable())
         told = self.expect_same(blocks)
         self.assertIn("has no points of its own", told["warnings"][0])
