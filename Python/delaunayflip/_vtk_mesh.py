@@ -333,7 +333,8 @@ class Cloud(Input):
         is_new = ids >= len(own)
         self._sources, ranks = numpy.unique(ids[is_new] - len(own), return_inverse=True)
         ids[is_new] = len(own) + ranks.ravel()
-        self._own = numpy.concatenate([own, others[self._sources].astype(own.dtype)])
+        with numpy.errstate(over="ignore"):
+            self._own = numpy.concatenate([own, others[self._sources].astype(own.dtype)])
         return ids
 
     def write(self, result, output):

@@ -405,6 +405,10 @@ class SamePoints(Pair, unittest.TestCase):
             for data in (cloud, segments):
                 vtk_to_numpy(data.GetPoints().GetData())[:, 2] = math.nan
             self.expect_same(cloud, lambda points, lines=segments: points.SetSegmentsData(lines))
+        vtk_to_numpy(segments.GetPoints().GetData())[8] = 1e300  # beyond float32
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.expect_same(make_cloud(9, numpy.float32), lambda points: points.SetSegmentsData(segments))
         for kind in (numpy.float32, numpy.float64):
             cross = make_mesh([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)], [])
             cross.GetPoints().SetData(numpy_to_vtk(numpy.array(
