@@ -47,8 +47,10 @@ if typing.TYPE_CHECKING:
 __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "MeshTooLarge", "Report",
     "Result", "Session", "Triangulation", "flip", "has_cuda_device", "release_cuda_memory",
-    "smallest_angles", "triangulate", "vtkDelaunayFlip", "vtkDelaunayFlipPoints",
+    "smallest_angles", "triangulate",
 ]
+if importlib.util.find_spec("vtkmodules"):
+    __all__ += ["vtkDelaunayFlip", "vtkDelaunayFlipPoints"]
 
 # Modules of the names that are in neither _library nor _vtk.
 _HOMES = {

@@ -507,9 +507,11 @@ class Package(unittest.TestCase):
 
     def test_help(self):
         """It looks up all names, also where VTK is not installed."""
-        program = ("import sys, pydoc, delaunayflip\n"
+        program = ("import sys, pydoc\n"
                    "sys.modules['vtkmodules'] = None\n"
-                   "print('vtkDelaunayFlip' in dir(delaunayflip), len(pydoc.render_doc(delaunayflip)))")
+                   "import delaunayflip\n"
+                   "print('vtkDelaunayFlip' in dir(delaunayflip), len(pydoc.render_doc(delaunayflip)))\n"
+                   "from delaunayflip import *")
         self.assertRegex(run_python(program), r"^False \d{5}")
         self.assertFalse(hasattr(delaunayflip, "flop"))
 
