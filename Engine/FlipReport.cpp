@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <iomanip>
 #include <iterator>
+#include <locale>
 #include <sstream>
 #include <utility>
 
@@ -20,6 +21,15 @@ const char* GetName(const char* const (&names)[Size], Kind kind)
 {
   const auto i = static_cast<std::size_t>(kind);
   return i < Size ? names[i] : "unknown";
+}
+
+/// With a point, whatever language the program has chosen.
+std::string Format(double value, int digits)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(digits) << value;
+  return text.str();
 }
 }
 
@@ -46,9 +56,7 @@ std::string DescribeTolerance(const FlipOptions& options, GeometryKind used)
   {
     return "automatic";
   }
-  std::ostringstream text;
-  text << std::setprecision(std::numeric_limits<double>::digits10) << options.Tolerance;
-  return text.str();
+  return Format(options.Tolerance, std::numeric_limits<double>::digits10);
 }
 
 namespace
@@ -183,7 +191,9 @@ void AddIterations(FlipReport& sum, const FlipReport& other)
                                 : report.MinimumAngleAfter;
     };
     const double a = getAngle(sum, made), b = getAngle(other, other.Iterations.size());
-    sum.Iterations[i].MinimumAngle = std::isnan(a) || std::isnan(b) ? a + b : std::min(a, b);
+    const bool isKnown = !std::isnan(a + b) && (HasAngles(sum) || HasAngles(other));
+    sum.Iterations[i].MinimumAngle =
+      isKnown ? std::min(a, b) : std::numeric_limits<double>::quiet_NaN();
   }
 }
 
@@ -257,12 +267,7 @@ std::string Count(std::int64_t number, const std::string& singular)
 namespace
 {
 
-std::string Degrees(double angle)
-{
-  std::ostringstream text;
-  text << std::setprecision(4) << angle;
-  return angle == angle ? text.str() : "none";
-}
+std::string Degrees(double angle) { return angle == angle ? Format(angle, 4) : "none"; }
 
 /// " (1,000 boundary, 6 constraints)"; kinds of which there are none are left out.
 std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kinds)

@@ -408,7 +408,7 @@ private:
     report.EulerCharacteristic =
       report.Triangles > 0 ? places - report.Edges.Edges + report.Triangles : 0;
     report.GeometryUsed = Plane;
-    report.GeometryReason = "points are triangulated in x and y";
+    report.GeometryReason = "points are triangulated in the plane";
     report.Backend = this->Backend.GetName();
     report.Tolerance = DescribeTolerance(options, Plane);
     report.FromPoints.NotFinite = points.Count - finite;

@@ -7,6 +7,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -110,15 +111,33 @@ private:
     return { added.X, added.Y, 0.0 };
   }
 
-  /// The pairs of segments that cross, in ascending order: a sweep along x.
+  /// Of a segment, in x and y.
+  struct Box
+  {
+    std::array<double, 2> Low, High;
+    std::size_t Segment;
+  };
+
+  /// Sorts boxes for a sweep along an axis. Returns how many pairs it will look at.
+  static std::int64_t SortAlong(int axis, std::vector<Box>& boxes)
+  {
+    std::sort(boxes.begin(), boxes.end(),
+      [axis](const Box& a, const Box& b)
+      { return a.Low[axis] != b.Low[axis] ? a.Low[axis] < b.Low[axis] : a.Segment < b.Segment; });
+    std::int64_t pairs = 0;
+    for (auto box = boxes.begin(); box != boxes.end(); ++box)
+    {
+      pairs += std::upper_bound(box + 1, boxes.end(), box->High[axis],
+                 [axis](double high, const Box& other) { return high < other.Low[axis]; }) -
+        (box + 1);
+    }
+    return pairs;
+  }
+
+  /// The pairs of segments that cross, in ascending order: a sweep along the axis that takes less.
   std::vector<std::pair<std::size_t, std::size_t>> FindPairs(
     const std::function<void()>& check) const
   {
-    struct Box
-    {
-      double Left, Right, Lower, Upper;
-      std::size_t Segment;
-    };
     std::vector<Box> boxes;
     for (std::size_t i = 0; i < this->Result.Segments.size(); ++i)
     {
@@ -126,13 +145,13 @@ private:
       const PlanePoint b = this->At(this->Result.Segments[i].To);
       if (IsFinite(a) && IsFinite(b))
       {
-        boxes.push_back(
-          { std::min(a.U, b.U), std::max(a.U, b.U), std::min(a.V, b.V), std::max(a.V, b.V), i });
+        boxes.push_back({ { std::min(a.U, b.U), std::min(a.V, b.V) },
+          { std::max(a.U, b.U), std::max(a.V, b.V) }, i });
       }
     }
-    std::sort(boxes.begin(), boxes.end(),
-      [](const Box& a, const Box& b)
-      { return a.Left != b.Left ? a.Left < b.Left : a.Segment < b.Segment; });
+    const std::int64_t pairsAlongX = SortAlong(0, boxes);
+    const int axis = SortAlong(1, boxes) < pairsAlongX ? 1 : 0;
+    SortAlong(axis, boxes);
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t i = 0; i < boxes.size(); ++i)
     {
@@ -141,9 +160,10 @@ private:
         check();
       }
       const Box& box = boxes[i];
-      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].Left <= box.Right; ++j)
+      for (std::size_t j = i + 1; j < boxes.size() && boxes[j].Low[axis] <= box.High[axis]; ++j)
       {
-        if (boxes[j].Lower <= box.Upper && box.Lower <= boxes[j].Upper &&
+        if (boxes[j].Low[1 - axis] <= box.High[1 - axis] &&
+          box.Low[1 - axis] <= boxes[j].High[1 - axis] &&
           this->DoCross(box.Segment, boxes[j].Segment))
         {
           pairs.push_back(std::minmax(box.Segment, boxes[j].Segment));

@@ -66,16 +66,11 @@ try
     const AdvancePlan plan{ observer || progress ? std::min(most, work.GetBatch()) : most,
       first == 0, work.Options.TrackQuality };
     const TemporaryValue<bool> stoppable(work.MayStop, first == 0);
-    const std::vector<IterationCounts> batch = work.OrReset([&]
-      { return work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); }); });
+    const std::vector<IterationCounts> batch =
+      work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
     work.IsMeasured = false;
     work.KeepFound(work.Loaded->GetLoop().GetFound());
-    const double seconds = batchWatch.GetSeconds() / static_cast<double>(batch.size());
-    work.Progress.KeepTime(seconds);
-    for (const IterationCounts& counts : batch)
-    {
-      work.Keep(counts, seconds);
-    }
+    work.Keep(batch, batchWatch.GetSeconds());
 #if !defined(NDEBUG)
     // Now that the iterations are in the report: the CPU repeats those where the GPU fails here.
     work.OnBackend([](const LoadedMesh& mesh) { mesh.Audit(); });
@@ -112,6 +107,11 @@ catch (const RunAborted&)
   this->Own->Abort();
   return false;
 }
+catch (...)
+{
+  this->Own->Reset(); // forgets what is half done
+  throw;
+}
 
 void FlipSession::Expect(void* memory, std::int64_t bytes)
 {
@@ -133,6 +133,11 @@ const FlipReport& FlipSession::GetReport() const
   catch (const RunAborted&)
   {
     work.Abort();
+  }
+  catch (...)
+  {
+    work.Reset();
+    throw;
   }
   return work.Report;
 }

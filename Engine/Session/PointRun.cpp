@@ -46,8 +46,10 @@ void CheckInput(const PointInput& input, const PointOptions& options)
     const std::int64_t point = input.Segments[i];
     if (point < 0 || point >= input.Points.Count)
     {
-      throw InvalidMesh("segment " + std::to_string(i / 2) + " names point " +
-          std::to_string(point) + ", but there are " + DescribePoints(input.Points.Count),
+      const std::int32_t ring = input.Rings ? input.Rings[i / 2] : -1;
+      throw InvalidMesh((ring < 0 ? "segment " : "ring ") +
+          std::to_string(ring < 0 ? i / 2 : ring) + " names point " + std::to_string(point) +
+          ", but there are " + DescribePoints(input.Points.Count),
         i / 2, point);
     }
   }
@@ -308,7 +310,8 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
     const std::int64_t* pair = this->Caller.Segments + 2 * ofRing->Number;
     throw InvalidMesh("the segment of ring " + std::to_string(ofRing->Ring) + " from point " +
         std::to_string(pair[0]) + " to point " + std::to_string(pair[1]) +
-        " cannot be inserted: it crosses an earlier segment, or a coordinate is not finite",
+        " cannot be inserted: it crosses an earlier segment, a coordinate is not finite, or all "
+        "points lie on one line",
       ofRing->Number, pair[0]);
   }
   this->Inserted = isComplete;

@@ -262,7 +262,7 @@ bool FlipSession::Work::FlipDivided(
   {
     this->Build();
   }
-  this->OrReset([&] { this->Divided->FlipAll(progress); });
+  this->Divided->FlipAll(progress);
   this->Report = this->Divided->Report;
   for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
   {
@@ -331,7 +331,15 @@ void FlipSession::Work::FallBack(const BackendUnavailable& error)
     throw;
   }
   this->Fallback = error.what();
-  this->OrReset([this] { this->RepeatOnThreads(); });
+  try
+  {
+    this->RepeatOnThreads();
+  }
+  catch (...)
+  {
+    this->Reset();
+    throw;
+  }
 }
 
 void FlipSession::Work::RepeatOnThreads()
@@ -441,8 +449,7 @@ void FlipSession::Work::DivideIfLong()
   const TemporaryValue<bool> stoppable(this->MayStop, true);
   this->IterationsBeforeDivision = this->CountIterations();
   this->HasDetected = false;
-  this->OrReset(
-    [this] { this->OnBackend([this](LoadedMesh& mesh) { mesh.Divide(this->Building); }); });
+  this->OnBackend([this](LoadedMesh& mesh) { mesh.Divide(this->Building); });
   this->ByDivision = true;
   this->Detect();
   this->Resume();
@@ -460,8 +467,8 @@ void FlipSession::Work::InsertIfDone()
   }
   this->IterationsBeforeInsertion = this->CountIterations(); // where the CPU has to insert, too
   const auto tell = [this](double share) { return this->Progress.TellRest(this->Observer, share); };
-  const bool isComplete = this->OrReset([&]
-    { return this->OnBackend([&](LoadedMesh& mesh) { return this->Cloud->Insert(mesh, tell); }); });
+  const bool isComplete =
+    this->OnBackend([&](LoadedMesh& mesh) { return this->Cloud->Insert(mesh, tell); });
   this->Detect();
   this->Resume();
   if (!isComplete)
@@ -510,21 +517,26 @@ void FlipSession::Work::KeepFound(const StepCounts& found)
   this->Report.BlockedByEdge = found.BlockedByEdge;
 }
 
-void FlipSession::Work::Keep(const IterationCounts& counts, double seconds)
+void FlipSession::Work::Keep(const std::vector<IterationCounts>& batch, double seconds)
 {
-  IterationRecord record;
-  record.Iteration = this->CountIterations() + 1;
-  record.Tested = counts.Tested;
-  record.NonDelaunay = counts.Bad + counts.Blocked;
-  record.Blocked = counts.Blocked;
-  record.Flipped = counts.Flipped;
-  record.Excluded = counts.Bad - counts.Flipped;
-  record.MinimumAngle = ToDegrees(counts.SquaredCotangent);
-  record.Seconds = seconds;
-  this->Report.Iterations.push_back(record);
-  this->Report.TotalFlips += record.Flipped;
-  this->Report.TotalExcluded += record.Excluded;
-  this->Report.TotalBlocked += record.Blocked;
+  const double secondsPerIteration = seconds / static_cast<double>(batch.size());
+  this->Progress.KeepTime(secondsPerIteration);
+  for (const IterationCounts& counts : batch)
+  {
+    IterationRecord record;
+    record.Iteration = this->CountIterations() + 1;
+    record.Tested = counts.Tested;
+    record.NonDelaunay = counts.Bad + counts.Blocked;
+    record.Blocked = counts.Blocked;
+    record.Flipped = counts.Flipped;
+    record.Excluded = counts.Bad - counts.Flipped;
+    record.MinimumAngle = ToDegrees(counts.SquaredCotangent);
+    record.Seconds = secondsPerIteration;
+    this->Report.Iterations.push_back(record);
+    this->Report.TotalFlips += record.Flipped;
+    this->Report.TotalExcluded += record.Excluded;
+    this->Report.TotalBlocked += record.Blocked;
+  }
 }
 
 double FlipSession::Work::MeasureAngle()
@@ -562,7 +574,7 @@ void FlipSession::Work::MeasureEnd()
   this->ListDefects();
   if (this->Cloud)
   {
-    this->OrReset([this] { this->ReportPoints(); });
+    this->ReportPoints();
   }
   if (!this->IsRunning() && !this->Report.Iterations.empty())
   {

@@ -205,21 +205,6 @@ struct FlipSession::Work
   Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
   Work(const PointInput& points, const PointOptions& options, const ProgressObserver& progress);
 
-  /// Calls work(). If that throws, what is half done is forgotten.
-  template <typename Function>
-  auto OrReset(const Function& work)
-  {
-    try
-    {
-      return work();
-    }
-    catch (...)
-    {
-      this->Reset();
-      throw;
-    }
-  }
-
   /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
   /// @throws BackendUnavailable with BackendKind::CUDA.
   template <typename Function>
@@ -330,7 +315,7 @@ struct FlipSession::Work
   std::int64_t GetBatch() const;
   void Resume();
   void KeepFound(const StepCounts& found);
-  void Keep(const IterationCounts& counts, double seconds);
+  void Keep(const std::vector<IterationCounts>& batch, double seconds);
   double MeasureAngle();
   void MeasureEnd();
   void ListDefects();

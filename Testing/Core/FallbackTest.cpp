@@ -126,6 +126,27 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
       ASSERT_EQ(expected.GetReport().TotalFlips, session.GetReport().TotalFlips) << call;
       ASSERT_EQ(CallsToFailure > 0 ? "" : "as the test wants it", session.GetReport().Fallback);
     };
+    // Nothing replaces this backend: if it fails in a call, the next one begins anew.
+    const auto failsOnce = [&](int call)
+    {
+      CallsToFailure = 0;
+      options.Backend = BackendKind::CUDA;
+      FlipSession session(points, options);
+      CallsToFailure = call;
+      try
+      {
+        session.Advance();
+        session.GetReport();
+      }
+      catch (const BackendUnavailable&)
+      {
+        session.Advance();
+      }
+      EXPECT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
+      EXPECT_EQ(expected.GetReport().TotalFlips, session.GetReport().TotalFlips) << call;
+      EXPECT_TRUE(session.GetReport().Converged()) << call;
+      return CallsToFailure == 0;
+    };
     constexpr int Many = 1000000;
     run(Many);
     const int calls = Many - CallsToFailure;
@@ -133,6 +154,9 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     for (int call = 1; call <= calls; call += 1 + std::min(call, calls - call) / Share)
     {
       run(call);
+    }
+    for (int call = 1; failsOnce(call); call += 1 + call / 16)
+    {
     }
   }
 }

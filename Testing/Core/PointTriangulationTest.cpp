@@ -561,5 +561,25 @@ TEST(PointTriangulation, InPiecesIsAnError)
     GetMessage<InvalidOptions>([&] { FlipSession(PointInput{ View(points) }, options); }));
 }
 
+/// Once all triangles of a mesh are removed, its iterations have no angle.
+TEST(PointTriangulation, WithoutTrianglesHasNoAngle)
+{
+  Places points;
+  for (int i = 0; i < 50; ++i)
+  {
+    points.push_back({ 10.0 * i, std::fmod(17.0 * i, 50.0) });
+  }
+  PointOptions options;
+  const FlipReport some = Triangulate(PointInput{ View(points) }, options).Report;
+  options.LongestEdge = 1e-3;
+  const FlipReport none = Triangulate(PointInput{ View(points) }, options).Report;
+  ASSERT_LT(0u, none.Iterations.size());
+  FlipReport sum;
+  AddReport(sum, none);
+  EXPECT_TRUE(std::isnan(sum.Iterations[0].MinimumAngle));
+  AddReport(sum, some);
+  EXPECT_EQ(some.MinimumAngleAfter, sum.Iterations.back().MinimumAngle);
+}
+
 }
 }

@@ -217,6 +217,9 @@ TEST(Segments, NameWhatIsWrong)
   drawing.Segments = { { 0, 5 } };
   EXPECT_EQ("segment 0 names point 5, but there are points 0 to 4",
     GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
+  drawing.Rings = { 3 };
+  EXPECT_EQ("ring 3 names point 5, but there are points 0 to 4",
+    GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
 }
 
 //------------------------------------------------------------------------------
@@ -401,7 +404,7 @@ TEST(Outline, ReportsBrokenRings)
   drawing.AddRing(Square(0, 0, 4));
   drawing.AddRing(Square(2, 2, 4));
   EXPECT_EQ("the segment of ring 1 from point 4 to point 5 cannot be inserted: it crosses an "
-            "earlier segment, or a coordinate is not finite",
+            "earlier segment, a coordinate is not finite, or all points lie on one line",
     GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
 }
 
