@@ -3,8 +3,8 @@
 /// Usage: FlipTerrain [FOLDER]
 ///
 /// Makes badly triangulated terrain, flips it, and writes to FOLDER (default: the current one)
-/// terrain.vtp, the Delaunay mesh, and terrain.png, a picture of the mesh before (left) and after
-/// (right), with triangles coloured by their smallest angles.
+/// FlipTerrain.vtp, the Delaunay mesh, and FlipTerrain.png, a picture of the mesh before (left) and
+/// after (right), with triangles coloured by their smallest angles.
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -179,7 +179,7 @@ int main(int argc, char* argv[])
 {
   std::string folder = ".";
   CLI::App app(
-    "Flips badly triangulated terrain; writes FOLDER/terrain.vtp and FOLDER/terrain.png.",
+    "Flips badly triangulated terrain; writes FOLDER/FlipTerrain.vtp and FOLDER/FlipTerrain.png.",
     "FlipTerrain");
   app.footer("Exit status: 0 done; 2 wrong usage; 3 a file cannot be written.");
   app.add_option("FOLDER", folder, "Where to write (default: the current folder)");
@@ -199,8 +199,8 @@ int main(int argc, char* argv[])
   std::cout << flip->GetTotalFlips() << " flips in " << flip->GetNumberOfIterations()
             << " iterations, " << flip->GetNumberOfNonDelaunayEdges() << " bad edges left\n";
 
-  const bool isWritten = WriteMesh(flip, folder + "/terrain.vtp");
-  if (!isWritten || !WritePicture(flip, folder + "/terrain.png"))
+  const bool isWritten = WriteMesh(flip, folder + "/FlipTerrain.vtp");
+  if (!isWritten || !WritePicture(flip, folder + "/FlipTerrain.png"))
   {
     std::cerr << "error: " << folder << ": cannot be written to\n";
     return 3;

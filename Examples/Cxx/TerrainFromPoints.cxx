@@ -3,8 +3,9 @@
 /// Usage: TerrainFromPoints [FOLDER]
 ///
 /// Makes the mesh of a terrain from scattered points and two breaklines, the edges of a slope,
-/// within an outline. Writes to FOLDER (default: the current one) terrain.vtp, the mesh, and
-/// terrain.png, a picture of the mesh without (left) and with the breaklines (right).
+/// within an outline. Writes to FOLDER (default: the current one) TerrainFromPoints.vtp, the
+/// mesh, and TerrainFromPoints.png, a picture of the mesh without (left) and with the breaklines
+/// (right).
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -115,6 +116,12 @@ vtkSmartPointer<vtkRenderer> MakeView(vtkAlgorithmOutput* mesh, double left)
 int main(int argc, char* argv[])
 {
   const std::string folder = argc > 1 ? argv[1] : ".";
+  if (argc > 2 || folder[0] == '-')
+  {
+    std::cerr << "usage: " << argv[0] << " [FOLDER]\nWrites TerrainFromPoints.vtp, a mesh, and "
+              << "TerrainFromPoints.png, a picture, to FOLDER.\n";
+    return folder == "--help" ? 0 : 2;
+  }
   const auto points = MakePoints();
   vtkNew<vtkDelaunayFlipPoints> plain, terrain;
   plain->SetInputData(points);
@@ -128,7 +135,7 @@ int main(int argc, char* argv[])
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetDataModeToBinary(); // ParaView 5.11 with a newer expat fails on appended data
   writer->SetInputConnection(terrain->GetOutputPort());
-  writer->SetFileName((folder + "/terrain.vtp").c_str());
+  writer->SetFileName((folder + "/TerrainFromPoints.vtp").c_str());
   vtkNew<vtkRenderWindow> window;
   window->OffScreenRenderingOn();
   window->SetSize(1400, 600);
@@ -140,7 +147,7 @@ int main(int argc, char* argv[])
   image->ReadFrontBufferOff();
   vtkNew<vtkPNGWriter> picture;
   picture->SetInputConnection(image->GetOutputPort());
-  picture->SetFileName((folder + "/terrain.png").c_str());
+  picture->SetFileName((folder + "/TerrainFromPoints.png").c_str());
   picture->Write();
   if (!writer->Write() || picture->GetErrorCode() != 0)
   {
