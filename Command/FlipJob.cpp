@@ -8,12 +8,11 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "DelaunayFlip.h"
-#include "Formats.h"
+#include "MeshFiles.h"
 #include "OutputFiles.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkBoundingBox.h>
-#include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipPoints.h>
@@ -112,57 +111,9 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
         mergesPoints ? "no two edges lie at the same place, even after --merge-points"
                      : "--merge-points joins those that lie at the same place") })
   {
-    text = std::regex_replace(text, std::regex(property), option);
+    text = std::regex_replace(text, std::regex(std::string(property) + "(?!\")"), option);
   }
   return text;
-}
-
-/// The lines and polygons of `mesh`, with all its points, as vtkDelaunayFlipPoints takes them:
-/// breaklines as lines, and rings as polygons.
-vtkSmartPointer<vtkPolyData> MakeSegments(
-  vtkPolyData* mesh, const std::string& path, bool areBreaklines)
-{
-  const vtkNew<vtkCellArray> segments;
-  for (vtkCellArray* const cells : { mesh->GetLines(), mesh->GetPolys() })
-  {
-    const bool areLines = cells == mesh->GetLines();
-    vtkIdType cell = 0;
-    const auto add = [&](vtkIdType size, const vtkIdType* points)
-    {
-      const auto require = [&](bool isTrue, const char* problem)
-      {
-        if (!isTrue)
-        {
-          throw CommandError(ExitCode::BadFile,
-            path + (areLines ? ": line " : ": polygon ") + std::to_string(cell) + problem);
-        }
-      };
-      std::vector<vtkIdType> ids(points, points + size);
-      if (!areBreaklines)
-      {
-        const char* const few = " has fewer than three points, so it is no ring";
-        require(size > 2, few);
-        std::array<double, 3> first, last;
-        mesh->GetPoint(ids.front(), first.data());
-        mesh->GetPoint(ids.back(), last.data());
-        require(first == last || !areLines, " does not end where it begins, so it is no ring");
-        ids.resize(ids.size() - (first == last ? 1 : 0));
-        require(ids.size() > 2, few);
-      }
-      else if (!areLines && size > 0)
-      {
-        ids.push_back(ids.front());
-      }
-      segments->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
-      ++cell;
-    };
-    ForEachCell(cells, add);
-  }
-  auto made = vtkSmartPointer<vtkPolyData>::New();
-  made->SetPoints(mesh->GetPoints());
-  made->GetPointData()->ShallowCopy(mesh->GetPointData());
-  (areBreaklines ? made->SetLines(segments) : made->SetPolys(segments));
-  return made;
 }
 
 /// The engine's report, and the times of the steps outside it.
@@ -285,7 +236,8 @@ std::string MakeSummary(const RunReport& run)
     const std::string title = line.substr(0, colon);
     // Points have lines of their own, and the triangles that flips begin with are not the user's.
     if (!run.IsFromPoints ||
-      (title != "geometry" && title != "constraints" && title != "bad edges"))
+      (title != "geometry" && title != "constraints" &&
+        (title != "bad edges" || run.Flip.NonDelaunayAfter > 0)))
     {
       text << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
     }
@@ -326,7 +278,8 @@ public:
     }
     else if (!this->Settings.Constraints.empty())
     {
-      this->Segments = this->ReadFile(this->Settings.Constraints);
+      const std::string& path = this->Settings.Constraints;
+      this->Segments = MakeSegments(this->ReadFile(path), path, true);
     }
     if (this->Settings.MergePoints)
     {
@@ -454,10 +407,6 @@ private:
         continue;
       }
       const vtkSmartPointer<vtkPolyData> mesh = this->ReadFile(path);
-      if (mesh->GetNumberOfLines() + mesh->GetNumberOfPolys() == 0)
-      {
-        throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
-      }
       this->TakeExactPlaces(mesh);
       const auto segments = MakeSegments(mesh, path, file == &files.Constraints);
       this->OutlineRings += file == &files.Outline ? segments->GetNumberOfPolys() : 0;
@@ -476,14 +425,14 @@ private:
     }
   }
 
-  /// Makes floats doubles, as they become where another file has doubles. Those at a point of the
-  /// input, rounded, become that point.
+  /// Where only one of mesh and input has doubles, makes both doubles. Points of the mesh at a
+  /// point of the input, rounded, become that point.
   void TakeExactPlaces(vtkPolyData* mesh) const
   {
     std::vector<double> storage, inputStorage;
     const PointArray points = ViewPoints(mesh, storage);
     const PointArray inputPoints = ViewPoints(this->Input, inputStorage);
-    if (!points.Floats || inputPoints.Floats)
+    if (!points.Floats == !inputPoints.Floats)
     {
       return;
     }
@@ -504,16 +453,17 @@ private:
     }
     const vtkNew<vtkPoints> exact;
     exact->SetDataTypeToDouble();
-    exact->DeepCopy(mesh->GetPoints());
+    vtkPolyData* const floats = points.Floats ? mesh : this->Input.Get();
+    exact->DeepCopy(floats->GetPoints());
+    floats->SetPoints(exact);
     for (std::int64_t i = 0; i < points.Count; ++i)
     {
       const std::int64_t same = inputAt[placeOf[i]];
       if (same != PointPlaces::None)
       {
-        exact->SetPoint(i, this->Input->GetPoint(same));
+        mesh->GetPoints()->SetPoint(i, this->Input->GetPoint(same));
       }
     }
-    mesh->SetPoints(exact);
   }
 
   void Warn(const std::string& warning)

@@ -189,9 +189,11 @@ std::string LostArrays(
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
     vtkAbstractArray* const array = data->GetAbstractArray(index);
-    if (std::find(kept.begin(), kept.end(), array) == kept.end())
+    const std::string name = array->GetName() ? array->GetName() : "?";
+    const bool isOwn = name.rfind("DelaunayFlip:", 0) == 0; // of an earlier run
+    if (!isOwn && std::find(kept.begin(), kept.end(), array) == kept.end())
     {
-      names += (names.empty() ? "" : ", ") + std::string(array->GetName() ? array->GetName() : "?");
+      names += (names.empty() ? "" : ", ") + name;
     }
   }
   return names.empty() ? names : what + " (" + names + ")";
@@ -337,6 +339,56 @@ FileMesh MergeEqualPoints(vtkPolyData* mesh)
   merged.Mesh->SetPolys(renumber(mesh->GetPolys(), true));
   merged.Mesh->SetStrips(renumber(mesh->GetStrips(), false));
   return merged;
+}
+
+vtkSmartPointer<vtkPolyData> MakeSegments(
+  vtkPolyData* mesh, const std::string& path, bool areBreaklines)
+{
+  if (mesh->GetNumberOfLines() + mesh->GetNumberOfPolys() == 0)
+  {
+    throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
+  }
+  const vtkNew<vtkCellArray> segments;
+  for (vtkCellArray* const cells : { mesh->GetLines(), mesh->GetPolys() })
+  {
+    const bool areLines = cells == mesh->GetLines();
+    vtkIdType cell = 0;
+    const auto add = [&](vtkIdType size, const vtkIdType* points)
+    {
+      const auto require = [&](bool isTrue, const char* problem)
+      {
+        if (!isTrue)
+        {
+          throw CommandError(ExitCode::BadFile,
+            path + (areLines ? ": line " : ": polygon ") + std::to_string(cell) + problem);
+        }
+      };
+      std::vector<vtkIdType> ids(points, points + size);
+      if (!areBreaklines)
+      {
+        const char* const few = " has fewer than three points, so it is no ring";
+        require(size > 2, few);
+        std::array<double, 3> first, last;
+        mesh->GetPoint(ids.front(), first.data());
+        mesh->GetPoint(ids.back(), last.data());
+        require(first == last || !areLines, " does not end where it begins, so it is no ring");
+        ids.resize(ids.size() - (first == last ? 1 : 0));
+        require(ids.size() > 2, few);
+      }
+      else if (!areLines && size > 0)
+      {
+        ids.push_back(ids.front());
+      }
+      segments->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+      ++cell;
+    };
+    ForEachCell(cells, add);
+  }
+  auto made = vtkSmartPointer<vtkPolyData>::New();
+  made->SetPoints(mesh->GetPoints());
+  made->GetPointData()->ShallowCopy(mesh->GetPointData());
+  (areBreaklines ? made->SetLines(segments) : made->SetPolys(segments));
+  return made;
 }
 
 void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format)

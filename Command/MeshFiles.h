@@ -46,8 +46,15 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format);
 /// three corners has corners that are the same as their neighbor only once.
 FileMesh MergeEqualPoints(vtkPolyData* mesh);
 
+/// The lines and polygons of a mesh, with all its points, as vtkDelaunayFlipPoints takes them:
+/// breaklines as lines, and rings as polygons.
+/// @throws CommandError (BadFile) with `path` where there are none, or one is no ring.
+vtkSmartPointer<vtkPolyData> MakeSegments(
+  vtkPolyData* mesh, const std::string& path, bool areBreaklines);
+
 /// Writes a mesh to `path`, in binary where the format allows it, and checks that the file is
-/// complete, because the writers of some formats do not notice a full disk.
+/// complete, because the writers of some formats do not notice a full disk. Arrays that the format
+/// would spoil are replaced in the mesh too.
 /// @throws std::runtime_error with the reason; it does not name the file.
 void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format);
 

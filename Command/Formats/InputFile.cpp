@@ -134,6 +134,10 @@ TextLines::TextLines(const InputFile& file, bool isObj)
     File(file),
     IsObj(isObj)
 {
+  if (const auto start = this->Rest.substr(0, 2); start == "\xFF\xFE" || start == "\xFE\xFF")
+  {
+    file.Fail("is text in UTF-16; save it as UTF-8");
+  }
   const std::string_view mark = "\xEF\xBB\xBF";
   this->Rest.remove_prefix(this->Rest.substr(0, mark.size()) == mark ? mark.size() : 0);
 }

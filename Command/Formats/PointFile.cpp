@@ -158,15 +158,17 @@ FileMesh ReadPoints(const InputFile& file)
   if (!lines.Words.empty())
   {
     const std::vector<std::size_t> columns = ChooseColumns(lines, names, result.Warnings);
+    const std::size_t count = lines.Words.size();
     const std::string_view rest = lines.Rest;
     coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
     do
     {
-      if (names.empty() && columns.size() < 3 && !IsComment(lines.Words[0]) &&
-        lines.Words.size() > columns.size())
+      // Text at the end may have any number of words. Numbers may come from decimal commas.
+      const auto others = lines.Words.begin() + std::min(count, lines.Words.size());
+      if (!IsComment(lines.Words[0]) && std::any_of(others, lines.Words.end(), IsNumber))
       {
-        lines.Fail(
-          "has " + std::to_string(lines.Words.size()) + " columns, but the first point has 2");
+        lines.Fail("has " + std::to_string(lines.Words.size()) +
+          " columns, but the first point has " + std::to_string(count));
       }
       for (std::size_t i = 0; i < 3 && !IsComment(lines.Words[0]); ++i)
       {

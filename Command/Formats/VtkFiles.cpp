@@ -310,10 +310,28 @@ void LimitRange(vtkDataArray* array)
   }
 }
 
-/// Throws where VTK's .vtp writer crashes or makes a file that cannot be read, and limits ranges.
+/// Makes bytes of bits if a tuple has several, which VTK would spoil.
+void MakeBytes(vtkFieldData* data)
+{
+  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
+  {
+    vtkDataArray* const array = data->GetArray(index);
+    if (array && array->GetName() && array->GetDataType() == VTK_BIT &&
+      array->GetNumberOfComponents() > 1)
+    {
+      const vtkNew<vtkUnsignedCharArray> bytes;
+      bytes->DeepCopy(array);
+      data->AddArray(bytes); // in its place
+    }
+  }
+}
+
+/// Throws where VTK's .vtp writer crashes or makes a file that cannot be read, and changes arrays
+/// and ranges that cannot be read.
 /// @param tuples how many arrays must have; -1: any number.
 void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
 {
+  MakeBytes(data);
   auto* const attributes = vtkDataSetAttributes::SafeDownCast(data);
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
@@ -357,10 +375,11 @@ void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
   }
 }
 
-/// Changes what VTK's .vtk writer would spoil: ids, which it cuts to 32 bits, and bits, if a tuple
-/// has several. Colors whose name it would not read back become an array that is not active.
+/// Changes what VTK's .vtk writer would spoil: ids, which it cuts to 32 bits, and bits. Colors
+/// whose name it would not read back become an array that is not active.
 void PrepareForLegacy(vtkFieldData* data)
 {
+  MakeBytes(data);
   auto* const attributes = vtkDataSetAttributes::SafeDownCast(data);
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
@@ -369,18 +388,10 @@ void PrepareForLegacy(vtkFieldData* data)
     {
       continue;
     }
-    vtkSmartPointer<vtkDataArray> changed;
     auto* const ids = vtkIdTypeArray::SafeDownCast(array);
     if (ids && std::any_of(ids->Begin(), ids->End(), [](auto id) { return id != int(id); }))
     {
-      changed = vtkSmartPointer<vtkLongLongArray>::New();
-    }
-    else if (array->GetDataType() == VTK_BIT && array->GetNumberOfComponents() > 1)
-    {
-      changed = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    }
-    if (changed)
-    {
+      const vtkNew<vtkLongLongArray> changed;
       changed->DeepCopy(array);
       data->AddArray(changed); // in its place
     }
@@ -477,14 +488,10 @@ void WriteLegacy(vtkPolyData* mesh, const std::string& path)
 {
   vtkNew<vtkPolyDataWriter> writer;
   writer->SetFileTypeToBinary();
-  const vtkNew<vtkPolyData> copy;
-  copy->ShallowCopy(mesh);
-  for (vtkFieldData* data : std::initializer_list<vtkFieldData*>{
-         copy->GetFieldData(), copy->GetPointData(), copy->GetCellData() })
-  {
-    PrepareForLegacy(data);
-  }
-  Run(writer.Get(), copy, path);
+  PrepareForLegacy(mesh->GetFieldData());
+  PrepareForLegacy(mesh->GetPointData());
+  PrepareForLegacy(mesh->GetCellData());
+  Run(writer.Get(), mesh, path);
 }
 
 void WriteStl(vtkPolyData* mesh, const std::string& path)

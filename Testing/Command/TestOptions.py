@@ -56,6 +56,8 @@ class Options(CommandTest):
         self.assertTrue(self.has_edge(0, 2))
         self.assertEqual(constrain("--constraints", lines, "--no-insert-constraints"), [0, 0, 0, 1])
         self.assertFalse(self.has_edge(0, 2))
+        none = write_mesh(make_mesh(tall, []), self.path("none.vtk"))
+        self.fail_with(3, path, "out.vtk", "--constraints", none, naming=["none.vtk: has no lines"])
 
     def has_edge(self, a, b):
         """Whether the output has this edge."""
@@ -144,8 +146,8 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh), 1)
         self.assertEqual(self.flips(mesh, "--region-array", "Rock"), 0)
         path = self.path("in.vtk")
-        for name in ("Sand", "ring 1"):
-            self.fail_with(2, path, "out.vtk", "--region-array", name, naming=[name, 'it has "Rock"'])
+        for name in ("Sand", "ring 1", "Tolerance"):
+            self.fail_with(2, path, "out.vtk", "--region-array", name, naming=[f'"{name}"', 'it has "Rock"'])
 
     def test_quality(self):
         path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))

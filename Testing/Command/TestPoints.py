@@ -100,6 +100,10 @@ class Files(PointTest):
                     "no columns are named x and y; took 'lon', 'lat', 'height' as x, y, z")
         self.expect("in.xyz", text_of([(*p, 9, 9) for p in PLACES]), PLACES,
                     "left out the columns from number 4 on")
+        self.expect("in.xyz", text_of([(*p, 9) for p in PLACES], end=" an oak\n"), PLACES,
+                    "left out the columns from number 4 on")
+        self.expect("in.xyz", "0 0 1 oak\n" + text_of(PLACES[1:], end=" old oak\n"), PLACES,
+                    "left out the columns from number 4 on")
         many = ",".join(f"c{i}" for i in range(12))
         rows = text_of([(*p, *range(12)) for p in PLACES], ",", "x,y,z," + many)
         listed = ", ".join(f"'c{i}'" for i in range(10)) + " and others"
@@ -123,6 +127,9 @@ class Files(PointTest):
             "12\n1 2 3\n": ["line 1", "x y [z]"],
             "x y z\n1 0.1 0.2 0.3\n": ["line 2", "4 columns", "names has 3"],
             "1 2 1e999\n": ["line 1", "'1e999' is out of range"],
+            "x,y,z\n1,2,3\n1,5,2,5,3,5\n": ["line 3", "has 6 columns, but the first point has 3"],
+            "1,2,3\n1,5,2,5,3,5,a\n": ["line 2", "has 7 columns, but the first point has 3"],
+            "x\ty\n1\t2\n".encode("utf-16"): ["UTF-16", "UTF-8"],
             "0 0\n1 0 25\n": ["line 2", "has 3 columns, but the first point has 2"],
             "0,0,\n1,0,\n1,1,25,\n": ["line 3", "has 3 columns, but the first point has 2"],
             b"\x7fELF\x01\x02\n\x03 1 2\n": ["line 2"],
@@ -154,6 +161,12 @@ class Results(PointTest):
         self.assertEqual(counts["repeated"] + counts["too_near"], 2)
         self.assertEqual(counts["not_finite"], 2)
         self.assertEqual(report["triangles"], 4)
+
+    def test_bad_edges_that_are_left(self):
+        self.write("in.xyz", text_of(points_of(bumpy_grid(9, 0))))
+        self.assertNotIn("bad edges", self.triangulate("in.xyz")[1].stdout)
+        told = self.succeed("in.xyz", "out.vtk", "--from-points", "--max-iterations", 0, code=4).stdout
+        self.assertRegex(told, r"bad edges +[1-9]\d* -> [1-9]")
 
     def test_too_few_points(self):
         for text in ("", "x y z\n", "1 2 3\n", text_of([(i, i, 0) for i in range(5)])):
@@ -292,15 +305,20 @@ class Segments(PointTest):
         self.assertEqual(area_of(mesh), 4.5)
 
     def test_floats_beside_doubles(self):
-        """A breakline of floats is at points of the survey, also if the outline has doubles."""
+        """A breakline of floats is at points of the survey, also if the outline has doubles. Of a survey
+        of floats, a breakline keeps its doubles."""
         places = [(x / 10, y / 10, 0.1) for x, y, _ in grid(5)]
         self.write("in.xyz", text_of(places))
         line = make_mesh(places, [], [(0, 8)])
+        doubles = write_mesh(make_mesh([*places, (0.35, 0.11, 7.7)], [], [(0, 8, 25)]), self.path("d.vtk"))
         floats = vtkPoints()
         for place in places:
             floats.InsertNextPoint(place)
         line.SetPoints(floats)
         line = write_mesh(line, self.path("line.vtk"))
+        mesh, _ = self.triangulate(line, "--constraints", doubles)
+        self.assertEqual(points_of(mesh)[25:], [(0.35, 0.11, 7.7)])
+        self.assertEqual(mesh.GetPoint(24), floats.GetPoint(24))
         ring = self.rings("ring.vtk", [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)])
         mesh, _ = self.triangulate("in.xyz", "--constraints", line, "--outline", ring)
         self.assertEqual(points_of(mesh)[:25], places)

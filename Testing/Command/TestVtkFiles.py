@@ -317,11 +317,21 @@ class Written(ArrayTest):
         for data in (out.GetPointData(), out.GetCellData()):
             self.assertEqual(data.GetGlobalIds().GetName(), "ids")
 
+    def test_bits_of_several_components_beside_lines(self):
+        """VTK cannot read them from a .vtp."""
+        mesh = make_mesh([(0, 0, 0), (2, -1, 0), (4, 0, 0)], [(0, 1, 2)], [(0, 1)])
+        bits = make_values("vtkBitArray", "bits", [(1, 0), (0, 1)])
+        mesh.GetCellData().AddArray(bits)
+        self.succeed(write_mesh(mesh, self.path("in.vtk"), SetFileTypeToASCII=()), "out.vtp")
+        found = self.read_plainly("out.vtp").GetCellData().GetArray("bits")
+        self.assert_array(found, "vtkUnsignedCharArray", [1, 0, 0, 1])
+
     def test_no_empty_arrays(self):
         """VTK 9.7 crashes on those of ids in a .vtk. Those of an earlier run go, too."""
         self.succeed(write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk")), "out.vtk")
         for name, expected in (("out.vtk", True), ("again.vtk", False)):
             self.succeed("out.vtk", "again.vtk")
+            self.assertNotIn("cannot store", self.succeed("out.vtk", "out.ply").stderr)
             data = read_mesh(self.path(name)).GetFieldData()
             arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
             self.assertEqual("DelaunayFlip:Flipped" in [one.GetName() for one in arrays], expected)
