@@ -386,6 +386,7 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
   }
   auto made = vtkSmartPointer<vtkPolyData>::New();
   made->SetPoints(mesh->GetPoints());
+  made->SetStrips(mesh->GetStrips()); // so that the filter warns of them
   made->GetPointData()->ShallowCopy(mesh->GetPointData());
   (areBreaklines ? made->SetLines(segments) : made->SetPolys(segments));
   return made;
