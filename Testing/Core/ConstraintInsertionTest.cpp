@@ -429,19 +429,6 @@ TEST(ConstraintInsertion, CanBeAborted)
   }
 }
 
-TEST(ConstraintInsertion, RefusesIdsThatAreNoPoints)
-{
-  ConstrainedMesh grid;
-  grid.Mesh = MakeGridMesh(2, 2);
-  grid.Add(0, 9);
-  EXPECT_THROW(Flip(grid.View()), InvalidMesh);
-  grid.Ends[1] = -1;
-  EXPECT_THROW(Flip(grid.View()), InvalidMesh);
-  grid.Ends[1] = 8;
-  grid.Mesh.Triangles[3] = 77;
-  EXPECT_THROW(Flip(grid.View()), InvalidMesh);
-}
-
 //------------------------------------------------------------------------------
 // Real drawings. DELAUNAYFLIP_DATA_DIR names the folder that has them in pslg/.
 

@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, DeterminismTest,
     NamedMesh{ "Sphere", MakeSurface, GeometryKind::Auto },
     NamedMesh{ "MoebiusStrip", MakeStrip, GeometryKind::Auto },
     NamedMesh{ "DirtySphere", MakeDirtySurface, GeometryKind::Auto }),
-  [](const auto& test) { return std::string(test.param.Name); });
+  GetCaseName);
 
 TEST(ThreadBackend, TasksMayHaveTasksAndFail)
 {

@@ -317,8 +317,7 @@ TEST_P(FlatTriangles, CanonicalTrianglesWithAreaAreTheSame)
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(PointSets, FlatTriangles, testing::ValuesIn(PointSets),
-  [](const auto& test) { return std::string(test.param.Name); });
+INSTANTIATE_TEST_SUITE_P(PointSets, FlatTriangles, testing::ValuesIn(PointSets), GetCaseName);
 
 }
 }

@@ -180,6 +180,17 @@ FlipOptions InPlane(TieRuleKind ties)
   return options;
 }
 
+OwnedMesh<double> MakeSoup(std::int32_t points, std::int32_t triangles, std::uint32_t seed)
+{
+  std::mt19937 random(seed);
+  OwnedMesh<double> mesh{ std::vector<double>(3 * points),
+    std::vector<std::int32_t>(3 * triangles) };
+  std::generate(mesh.Points.begin(), mesh.Points.end(), [&] { return DrawIndex(random, 1024); });
+  std::generate(
+    mesh.Triangles.begin(), mesh.Triangles.end(), [&] { return DrawIndex(random, points); });
+  return mesh;
+}
+
 OwnedMesh<double> Lift(OwnedMesh<double> mesh, const std::function<double(double, double)>& height)
 {
   for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
@@ -382,6 +393,23 @@ void ExpectSameResult(const FlipResult& expected, const FlipResult& actual)
   EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
   ExpectSameStatistics(expected.Report, actual.Report);
   EXPECT_EQ(expected.Report.KeepsSliver, actual.Report.KeepsSliver);
+}
+
+std::string ExpectInvalidMesh(
+  std::int64_t cell, std::int64_t point, const std::function<void()>& run)
+{
+  try
+  {
+    run();
+    ADD_FAILURE() << "no error";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_EQ(cell, error.Cell);
+    EXPECT_EQ(point, error.Point);
+    return error.what();
+  }
+  return "";
 }
 
 std::int64_t CountDefect(const FlipReport& report, const std::string& word)

@@ -103,6 +103,9 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b);
 /// Reports a failure for every bit that differs.
 void ExpectSameResult(const FlipResult& expected, const FlipResult& actual);
 
+/// Names the cases of a suite by their member Name.
+inline constexpr auto GetCaseName = [](const auto& test) { return std::string(test.param.Name); };
+
 /// The message of the error that run() throws; "" if it throws none.
 template <typename Error, typename Run>
 std::string GetMessage(const Run& run)
@@ -118,6 +121,11 @@ std::string GetMessage(const Run& run)
   return "";
 }
 
+/// Reports a failure unless run() throws InvalidMesh with this cell and point. @returns its
+/// message.
+std::string ExpectInvalidMesh(
+  std::int64_t cell, std::int64_t point, const std::function<void()>& run);
+
 /// The count of the first defect whose text contains `word`, or 0. Reports a failure if the defect
 /// lacks its first ids.
 std::int64_t CountDefect(const FlipReport& report, const std::string& word);
@@ -126,6 +134,9 @@ bool HasEdge(const std::vector<std::int32_t>& triangles, std::int64_t p, std::in
 
 /// Reverses the winding of every triangle.
 void ReverseTriangles(std::vector<std::int32_t>& triangles);
+
+/// Random triangles on few points: every kind of edge, degenerate triangles included.
+OwnedMesh<double> MakeSoup(std::int32_t points, std::int32_t triangles, std::uint32_t seed);
 
 /// A random integer in [0, count), the same with every standard library.
 inline std::int32_t DrawIndex(std::mt19937& random, std::int64_t count)

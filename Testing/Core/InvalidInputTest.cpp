@@ -29,21 +29,14 @@ std::string ExpectInvalid(TriangleMesh mesh, std::int64_t cell, std::int64_t poi
 {
   std::vector<std::int64_t> output(3 * mesh.Triangles.Count, -7);
   const std::vector<std::int64_t> before = output;
-  std::string message;
-  try
-  {
-    FlipToDelaunay(
-      mesh, OnTestBackend({}), MutableTriangleArray(output.data(), mesh.Triangles.Count));
-    ADD_FAILURE() << "no exception for point " << point;
-  }
-  catch (const InvalidMesh& error)
-  {
-    EXPECT_EQ(cell, error.Cell);
-    EXPECT_EQ(point, error.Point);
-    message = error.what();
-    EXPECT_NE(std::string::npos, message.find(std::to_string(cell)));
-    EXPECT_NE(std::string::npos, message.find(std::to_string(point)));
-  }
+  const std::string message = ExpectInvalidMesh(cell, point,
+    [&]
+    {
+      FlipToDelaunay(
+        mesh, OnTestBackend({}), MutableTriangleArray(output.data(), mesh.Triangles.Count));
+    });
+  EXPECT_NE(std::string::npos, message.find(std::to_string(cell)));
+  EXPECT_NE(std::string::npos, message.find(std::to_string(point)));
   EXPECT_EQ(before, output);
   return message;
 }
@@ -80,10 +73,15 @@ TEST(InvalidIds, AreFoundWithoutAnyPoint)
 
 TEST(InvalidIds, OfConstraintsThrowWithConstraintAndPoint)
 {
+  constexpr unsigned char flags[] = { 1, 1 };
   const OwnedMesh<double> grid = MakeGridMesh(3, 3);
   for (std::int64_t id : { std::int64_t(16), std::int64_t(-1), Far, -Far })
   {
-    ExpectInvalid(WithConstraints(grid.View(), { 0, 1, 1, id }), 1, id);
+    const std::vector<std::int64_t> ends = { 0, 1, 1, id };
+    TriangleMesh mesh = WithConstraints(grid.View(), ends);
+    ExpectInvalid(mesh, 1, id);
+    mesh.ConstraintsToInsert = flags;
+    ExpectInvalid(mesh, 1, id);
   }
 }
 

@@ -17,17 +17,6 @@ namespace delaunayflip
 namespace
 {
 
-/// Random triangles on a few points: every kind of edge, and triangles with repeated ids.
-std::vector<std::int32_t> DrawSoup(std::mt19937& random, int points, int triangles)
-{
-  std::vector<std::int32_t> ids;
-  for (int i = 0; i < 3 * triangles; ++i)
-  {
-    ids.push_back(DrawIndex(random, points));
-  }
-  return ids;
-}
-
 /// Counts edges by a search through all triangles for every pair of points.
 EdgeCounts CountByBruteForce(const std::vector<std::int32_t>& triangles, int points)
 {
@@ -60,17 +49,11 @@ TEST(EdgeCounts, AgreeWithBruteForce)
   for (int i = 0; i < 300; ++i)
   {
     const int points = 3 + DrawIndex(random, 12);
-    const std::vector<std::int32_t> soup = DrawSoup(random, points, 1 + DrawIndex(random, 30));
-    const EdgeCounts expected = CountByBruteForce(soup, points);
-    OwnedMesh<double> mesh;
-    mesh.Triangles = soup;
-    for (int k = 0; k < 3 * points; ++k)
-    {
-      mesh.Points.push_back(DrawIndex(random, 10));
-    }
-    const std::set<std::int32_t> used(soup.begin(), soup.end());
+    const OwnedMesh<double> mesh = MakeSoup(points, 1 + DrawIndex(random, 30), i);
+    const EdgeCounts expected = CountByBruteForce(mesh.Triangles, points);
+    const std::set<std::int32_t> used(mesh.Triangles.begin(), mesh.Triangles.end());
     const FlipReport report = MakeSession(mesh.View()).GetReport();
-    for (const EdgeCounts& found : { CountEdges(ViewTriangles(soup)), report.Edges })
+    for (const EdgeCounts& found : { CountEdges(mesh.View().Triangles), report.Edges })
     {
       EXPECT_EQ(expected.Edges, found.Edges);
       EXPECT_EQ(expected.Boundary, found.Boundary);
@@ -319,16 +302,7 @@ TEST(TriangleAngles, NameATriangleWithoutItsPoint)
   TriangleMesh mesh;
   mesh.Points = PointArray(points.data(), 3);
   mesh.Triangles = TriangleArray(triangles.data(), 3);
-  try
-  {
-    FindAngles(mesh, GeometryKind::Planar);
-    FAIL() << "no exception";
-  }
-  catch (const InvalidMesh& error)
-  {
-    EXPECT_EQ(1, error.Cell);
-    EXPECT_EQ(3, error.Point);
-  }
+  ExpectInvalidMesh(1, 3, [&] { FindAngles(mesh, GeometryKind::Planar); });
 }
 
 }

@@ -236,8 +236,7 @@ TEST_P(Metamorphic, PermutedTriangles)
   this->ExpectCorresponding(changed, [](std::vector<std::int32_t>&) {});
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, Metamorphic, testing::ValuesIn(Cases),
-  [](const auto& test) { return std::string(test.param.Name); });
+INSTANTIATE_TEST_SUITE_P(Cases, Metamorphic, testing::ValuesIn(Cases), GetCaseName);
 
 }
 }

@@ -352,8 +352,7 @@ TEST_P(EarClipperTest, NeedsFewStepsForTenThousandCorners)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, EarClipperTest, testing::ValuesIn(Families),
-  [](const auto& test) { return std::string(test.param.Name); });
+INSTANTIATE_TEST_SUITE_P(Families, EarClipperTest, testing::ValuesIn(Families), GetCaseName);
 
 /// Simple polygons that are as crooked as chance makes them: CGAL's, with the middle of some sides.
 Polygon DrawSimplePolygon(int size, std::mt19937& random)

@@ -102,8 +102,8 @@ TEST_P(PredicatesTest, FixedPointIsExact)
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, PredicatesTest, testing::ValuesIn(ListPointFamilies()),
-  [](const auto& test) { return std::string(test.param.Name); });
+INSTANTIATE_TEST_SUITE_P(
+  Families, PredicatesTest, testing::ValuesIn(ListPointFamilies()), GetCaseName);
 
 /// Tests the bound that the proof for 64 bits assumes.
 /// (n + 1)(n - 1) - n^2 = -1: the smallest determinants that are not 0, in coordinates of any size.

@@ -128,8 +128,7 @@ TEST_P(AgreementTest, EveryIterationAgrees)
   ExpectGpuAgrees(GetParam().Make().View(), options);
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest, testing::ValuesIn(Cases),
-  [](const auto& test) { return std::string(test.param.Name); });
+INSTANTIATE_TEST_SUITE_P(Meshes, AgreementTest, testing::ValuesIn(Cases), GetCaseName);
 
 class MoreAgreementTest : public GpuTest
 {
