@@ -3,6 +3,7 @@
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
 #include "Machine.h"
+#include "PointSets.h"
 #if defined(DELAUNAYFLIP_HAS_CUDA)
 #include "TestDevice.h"
 #endif
@@ -34,125 +35,8 @@ namespace delaunayflip
 namespace
 {
 
-using Place = std::array<double, 2>;
 using Places = std::vector<Place>;
 using Random = std::mt19937_64;
-constexpr double Pi = 3.14159265358979323846;
-
-double Draw(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-Place AtAngle(double radiusX, double radiusY, double turns)
-{
-  return { radiusX * std::cos(2 * Pi * turns), radiusY * std::sin(2 * Pi * turns) };
-}
-
-/// On one of so many closed lines, each inside the next.
-Place DrawContour(Random& random, int levels)
-{
-  const double level = 1.0 + static_cast<double>(random() % levels);
-  const double turns = Draw(random);
-  const double radius =
-    level * (1 + 0.25 * std::sin(6 * Pi * turns + 0.1 * level) + 0.1 * std::sin(14 * Pi * turns));
-  return AtAngle(radius, 0.7 * radius, turns);
-}
-
-struct PointSet
-{
-  const char* Name;
-  std::function<Place(Random& random, double i, double n)> Make;
-  bool IsHard =
-    false; ///< Without care it takes quadratic time: twice as many points are timed too.
-};
-
-/// On which triangulations differ in cost.
-const PointSet Sets[] = {
-  { "uniform",
-    [](Random& r, double, double) {
-      return Place{ Draw(r), Draw(r) };
-    } },
-  { "clusters",
-    [](Random& r, double i, double)
-    {
-      Random centre(static_cast<std::uint64_t>(i) % 30);
-      const double size = std::pow(10.0, -1 - 3 * Draw(centre));
-      const double x = Draw(centre), y = Draw(centre);
-      const double distance = size * std::sqrt(-2 * std::log(1 - Draw(r)));
-      const Place offset = AtAngle(distance, distance, Draw(r));
-      return Place{ x + offset[0], y + offset[1] };
-    } },
-  { "lines",
-    [](Random& r, double, double) {
-      return Place{ Draw(r), static_cast<double>(r() % 100) / 100 + 1e-4 * Draw(r) };
-    } },
-  { "ring",
-    [](Random& r, double, double)
-    {
-      const double radius = 1 + 1e-3 * Draw(r);
-      return AtAngle(radius, radius, Draw(r));
-    } },
-  { "power",
-    [](Random& r, double, double)
-    {
-      const double radius = std::pow(Draw(r), 4);
-      return AtAngle(radius, radius, Draw(r));
-    } },
-  { "outlier",
-    [](Random& r, double i, double) {
-      return i == 0 ? Place{ 0.5, 1e4 } : Place{ Draw(r), Draw(r) };
-    } },
-  { "lattice",
-    [](Random&, double i, double n)
-    {
-      const double side = std::ceil(std::sqrt(n));
-      return Place{ std::fmod(i, side), std::floor(i / side) };
-    } },
-  { "contours40", [](Random& r, double, double) { return DrawContour(r, 40); } },
-  { "contours400", [](Random& r, double, double) { return DrawContour(r, 400); } },
-  { "ellipse", [](Random& r, double, double) { return AtAngle(1000, 1, Draw(r)); } },
-  { "parabola",
-    [](Random& r, double, double)
-    {
-      const double x = Draw(r);
-      return Place{ x, x * x };
-    } },
-  { "hyperbola",
-    [](Random& r, double, double)
-    {
-      const double x = 10 * Draw(r) + 0.1;
-      return Place{ x, 1 / x };
-    } },
-  { "spiral",
-    [](Random&, double i, double) { return AtAngle(i + 0.5, i + 0.5, 0.001 * i / (2 * Pi)); } },
-  { "two_circles",
-    [](Random& r, double i, double)
-    {
-      const Place place = AtAngle(1, 1, Draw(r));
-      return Place{ place[0], place[1] + 2 * std::fmod(i, 2) };
-    },
-    true },
-  { "line_and_point",
-    [](Random& r, double i, double) {
-      return i == 0 ? Place{ 0.5, 1 } : Place{ Draw(r), 0 };
-    },
-    true },
-  { "two_rows",
-    [](Random& r, double i, double) {
-      return i < 20 ? Place{ i / 19, 1 } : Place{ Draw(r), 0 };
-    },
-    true },
-};
-
-Places MakePlaces(const PointSet& set, std::int64_t count)
-{
-  Random random(5);
-  Places places;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    places.push_back(set.Make(random, static_cast<double>(i), static_cast<double>(count)));
-  }
-  std::shuffle(places.begin(), places.end(), random);
-  return places;
-}
 
 /// Segments from points to others that are a few triangles away.
 std::vector<std::int64_t> DrawSegments(
@@ -426,7 +310,7 @@ int main(int argc, char* argv[])
   std::printf("%s\n", DescribeMachine().c_str());
   for (const std::int64_t count : plan.Sizes)
   {
-    for (const PointSet& set : Sets)
+    for (const PointSet& set : ListPointSets())
     {
       const auto& names = plan.Names;
       if (names.empty() || std::find(names.begin(), names.end(), set.Name) != names.end())

@@ -122,10 +122,58 @@ inline Places DrawOnGrid(std::mt19937& random, std::size_t count, int columns, i
   return points;
 }
 
-/// All triangles turn left, neighbours refer to each other, the segments' edges are there, and
+/// How many edges have one triangle.
+inline std::int64_t CountBorder(const Triangulation& result)
+{
+  return std::count(result.Neighbors.begin(), result.Neighbors.end(), -1);
+}
+
+/// The triangles by the places of their corners, so that they can be compared across orders.
+inline std::set<std::set<Place>> ByPlaces(
+  const std::vector<std::int32_t>& triangles, const Places& points)
+{
+  std::set<std::set<Place>> result;
+  for (std::size_t i = 0; i < triangles.size(); i += 3)
+  {
+    result.insert({ points[triangles[i]], points[triangles[i + 1]], points[triangles[i + 2]] });
+  }
+  return result;
+}
+
+/// As many triangles as the places and their hull ask for, or none where all are on one line.
+inline void ExpectRightNumber(const std::set<Place>& places, const Triangulation& result)
+{
+  const auto triangles = static_cast<std::int64_t>(result.Triangles.size()) / 3;
+  EXPECT_EQ(triangles, result.Report.Triangles);
+  EXPECT_EQ(StopReasonKind::Converged, result.Report.StopReason);
+  const bool isLine = std::all_of(places.begin(), places.end(),
+    [&](const Place& place) {
+      return RationalTurn(ToPoint(*places.begin()), ToPoint(*places.rbegin()), ToPoint(place)) == 0;
+    });
+  const auto count = static_cast<std::int64_t>(places.size());
+  EXPECT_EQ(isLine ? 0 : 2 * count - 2 - CountBorder(result), triangles);
+}
+
+/// Neighbor k of a triangle must be the other one at its edge across corner k.
+inline void ExpectNeighbors(const Triangulation& result)
+{
+  const TriangleArray triangles = ViewTriangles(result.Triangles);
+  ASSERT_EQ(result.Triangles.size(), FindOpposites(triangles).size()); // each half-edge once
+  const EdgeMap edges = CollectEdges(triangles);
+  for (std::int64_t i = 0; i < 3 * triangles.Count; ++i)
+  {
+    const std::int64_t t = i / 3;
+    const auto& incident =
+      edges.at(Sorted(triangles.Get(t, (i + 1) % 3), triangles.Get(t, (i + 2) % 3)));
+    ASSERT_EQ(incident.size() == 2 ? incident[0] + incident[1] - t : -1, result.Neighbors[i]);
+  }
+}
+
+/// All triangles turn left, neighbours are those of the edges, the segments' edges are there, and
 /// every other edge is locally Delaunay: so the whole is constrained Delaunay.
 inline void ExpectConstrainedDelaunay(const Places& points, const Triangulation& result)
 {
+  ExpectNeighbors(result);
   const EdgeMap edges = CollectEdges(ViewTriangles(result.Triangles));
   std::set<VertexPair> segments;
   for (const auto& edge : result.Edges)
@@ -141,20 +189,16 @@ inline void ExpectConstrainedDelaunay(const Places& points, const Triangulation&
     const std::int32_t c = result.Triangles[first + (i + 2) % 3];
     ASSERT_EQ(1, Turn(points, a, b, c));
     const std::int32_t across = result.Neighbors[i];
-    if (across < 0)
+    if (across < 0 || segments.count(Sorted(b, c)) > 0)
     {
       continue;
     }
     const std::int32_t* other = &result.Triangles[3 * across];
     const std::int32_t* opposite = std::find_if(
       other, other + 3, [=](std::int32_t vertex) { return vertex != b && vertex != c; });
-    ASSERT_EQ(static_cast<std::int32_t>(i / 3), result.Neighbors[3 * across + (opposite - other)]);
-    if (segments.count(Sorted(b, c)) == 0)
-    {
-      ASSERT_GE(0,
-        RationalInCircle(
-          ToPoint(points[a]), ToPoint(points[b]), ToPoint(points[c]), ToPoint(points[*opposite])));
-    }
+    ASSERT_GE(0,
+      RationalInCircle(
+        ToPoint(points[a]), ToPoint(points[b]), ToPoint(points[c]), ToPoint(points[*opposite])));
   }
 }
 

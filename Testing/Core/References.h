@@ -19,7 +19,8 @@ namespace delaunayflip
 {
 
 using VertexPair = std::pair<std::int64_t, std::int64_t>;
-using Places = std::vector<std::array<double, 2>>;
+using Place = std::array<double, 2>;
+using Places = std::vector<Place>;
 
 inline VertexPair Sorted(std::int64_t a, std::int64_t b) { return std::minmax(a, b); }
 

@@ -83,17 +83,14 @@ TEST(Segments, OnSmallGrids)
     const Drawing drawing =
       DrawRandom(random, 4 + random() % 30, 1 + random() % 12, 2 + DrawIndex(random, 9));
     const Triangulation result = Triangulate(drawing);
-    const bool isLine = result.Triangles.empty();
-    if (!isLine)
+    ExpectRightNumber({ drawing.Points.begin(), drawing.Points.end() }, result);
+    if (!result.Triangles.empty())
     {
       ExpectConstrainedDelaunay(drawing.Points, result);
       ASSERT_EQ(static_cast<std::int64_t>(ListRefused(drawing).size()),
         result.Report.FromPoints.RefusedSegments);
-      const auto border = std::count(result.Neighbors.begin(), result.Neighbors.end(), -1);
-      const std::set<std::array<double, 2>> places(drawing.Points.begin(), drawing.Points.end());
-      ASSERT_EQ(2 * places.size() - 2 - border, result.Triangles.size() / 3);
     }
-    ASSERT_FALSE(HasFatalFailure()) << "case " << i;
+    ASSERT_FALSE(HasFailure()) << "case " << i;
   }
 }
 
@@ -144,16 +141,7 @@ TEST(Segments, InAnyOrderOfPoints)
       shuffled.Segments.push_back({ order[segment[0]], order[segment[1]] });
     }
     const auto list = [](const Drawing& given)
-    {
-      std::set<std::set<std::array<double, 2>>> places;
-      const Triangulation result = Triangulate(given);
-      for (std::size_t t = 0; t < result.Triangles.size(); t += 3)
-      {
-        const std::int32_t* ids = &result.Triangles[t];
-        places.insert({ given.Points[ids[0]], given.Points[ids[1]], given.Points[ids[2]] });
-      }
-      return places;
-    };
+    { return ByPlaces(Triangulate(given).Triangles, given.Points); };
     ASSERT_EQ(list(drawing), list(shuffled)) << i;
   }
 }
@@ -365,8 +353,7 @@ TEST_P(OutlineTest, KeepsWhatIsInside)
   ExpectConstrainedDelaunay(drawing.Points, result);
   EXPECT_EQ(2.0 * GetParam().Area, SumArea(drawing.Points, result.Triangles));
   const FlipReport& report = result.Report;
-  EXPECT_EQ(
-    std::count(result.Neighbors.begin(), result.Neighbors.end(), -1), report.Edges.Boundary);
+  EXPECT_EQ(CountBorder(result), report.Edges.Boundary);
   const EdgeMap edges = CollectEdges(ViewTriangles(result.Triangles));
   EXPECT_EQ(static_cast<std::int64_t>(edges.size()), report.Edges.Edges);
   EXPECT_EQ(static_cast<std::int64_t>(result.Triangles.size()) / 3, report.Triangles);
@@ -381,6 +368,10 @@ INSTANTIATE_TEST_SUITE_P(Outlines, OutlineTest,
     OutlineCase{ "Orientation", OutlineKind::Orientation,
       { Square(2, 2, 10), Square(4, 4, 3, true), Square(5, 5, 1) }, 92 },
     OutlineCase{ "Nested", OutlineKind::Orientation, { Square(2, 2, 10), Square(4, 4, 3) }, 100 },
+    OutlineCase{ "LongArms", OutlineKind::Orientation, // not told by corners without lengths
+      { { { 9, 7 }, { 15, 7 }, { 15, 9 }, { 9, 9 }, { 9, 15 }, { 7, 15 }, { 7, 9 }, { 1, 9 },
+        { 1, 7 }, { 7, 7 }, { 7, 1 }, { 9, 1 } } },
+      52 },
     OutlineCase{ "OnlyHoles", OutlineKind::Orientation,
       { Square(2, 2, 3, true), Square(8, 8, 4, true) }, 375 },
     OutlineCase{ "HoleInTwoOutlines", OutlineKind::Any,
@@ -391,7 +382,7 @@ INSTANTIATE_TEST_SUITE_P(Outlines, OutlineTest,
       { Square(2, 2, 10), Square(4, 4, 6), Square(3, 3, 8) }, 36, 2 },
     OutlineCase{ "BowTie", OutlineKind::Any,
       { { { 4, 4 }, { 8, 4 }, { 6, 6 }, { 4, 8 }, { 8, 8 }, { 6, 6 } } }, 8 }),
-  [](const auto& info) { return std::string(info.param.Name); });
+  GetCaseName);
 
 TEST(Outline, ReportsBrokenRings)
 {
@@ -452,15 +443,8 @@ TEST(Outline, RingsWithoutAreaAreErrors)
     Drawing drawing;
     drawing.Points = Square(0, 0, 20);
     drawing.AddRing(ring);
-    try
-    {
-      Triangulate(drawing, options);
-      ADD_FAILURE() << "a ring without area";
-    }
-    catch (const InvalidMesh& error)
-    {
-      EXPECT_STREQ("ring 0 has no area: its points are on one line, or at one place", error.what());
-    }
+    EXPECT_EQ("ring 0 has no area: its points are on one line, or at one place",
+      GetMessage<InvalidMesh>([&] { Triangulate(drawing, options); }));
   }
 }
 
