@@ -6,6 +6,7 @@
 
 #include "GeneratedMeshes.h"
 #include "MeshDivision.h"
+#include "OtherGroup.h"
 #include "PieceFlip.h"
 
 #include <gtest/gtest.h>
@@ -24,28 +25,21 @@ constexpr int Ranks = 3;
 constexpr int Failing = 1;
 
 /// A group whose own allocations do not fail, as if messages went by another library.
-class SparedGroup : public PieceGroup
+class SparedGroup : public OtherGroup
 {
 public:
-  explicit SparedGroup(PieceGroup& group)
-    : Group(group)
-  {
-  }
-  int GetRank() const override { return this->Group.GetRank(); }
-  int GetSize() const override { return this->Group.GetSize(); }
+  using OtherGroup::OtherGroup;
+
   std::vector<Message> Exchange(std::vector<Message> messages) override
   {
     const SparedAllocations spared;
-    return this->Group.Exchange(std::move(messages));
+    return OtherGroup::Exchange(std::move(messages));
   }
   std::vector<Message> Gather(const Message& message) override
   {
     const SparedAllocations spared;
-    return this->Group.Gather(message);
+    return OtherGroup::Gather(message);
   }
-
-private:
-  PieceGroup& Group;
 };
 
 /// Flips the pieces. @returns what went wrong on every rank.

@@ -5,6 +5,7 @@
 #include "GeneratedMeshes.h"
 #include "Machine.h"
 #include "MeshDivision.h"
+#include "OtherGroup.h"
 #include "PieceFlip.h"
 #include "Records.h"
 
@@ -86,17 +87,15 @@ struct GroupMeter
 };
 
 /// Another group, with its messages measured.
-class MeteredGroup : public PieceGroup
+class MeteredGroup : public OtherGroup
 {
 public:
   MeteredGroup(PieceGroup& group, GroupMeter& meter)
-    : Group(group),
+    : OtherGroup(group),
       Meter(meter)
   {
   }
 
-  int GetRank() const override { return this->Group.GetRank(); }
-  int GetSize() const override { return this->Group.GetSize(); }
   std::vector<Message> Exchange(std::vector<Message> messages) override
   {
     for (int rank = 0; rank < this->GetSize(); ++rank)
@@ -105,7 +104,7 @@ public:
     }
     ++this->Meter.Exchanges;
     const auto start = Clock::now();
-    std::vector<Message> received = this->Group.Exchange(std::move(messages));
+    std::vector<Message> received = OtherGroup::Exchange(std::move(messages));
     this->Meter.Seconds += SecondsSince(start);
     return received;
   }
@@ -114,14 +113,12 @@ public:
     this->Meter.BytesSent += (this->GetSize() - 1) * message.size();
     ++this->Meter.Gathers;
     const auto start = Clock::now();
-    std::vector<Message> received = this->Group.Gather(message);
+    std::vector<Message> received = OtherGroup::Gather(message);
     this->Meter.Seconds += SecondsSince(start);
     return received;
   }
-  void Work(const std::function<void()>& work) override { this->Group.Work(work); }
 
 private:
-  PieceGroup& Group;
   GroupMeter& Meter;
 };
 
@@ -212,11 +209,12 @@ void TakeTime(Measure& measure, const Work& work)
 template <typename T>
 std::vector<T> GatherValues(PieceGroup& group, const T& value)
 {
-  const char* bytes = reinterpret_cast<const char*>(&value);
+  Message own;
+  Put(own, value);
   std::vector<T> values;
-  for (const Message& message : group.Gather(Message(bytes, bytes + sizeof(T))))
+  for (const Message& message : group.Gather(own))
   {
-    std::memcpy(&values.emplace_back(), message.data(), sizeof(T));
+    values.push_back(MessageReader(message).Get<T>());
   }
   return values;
 }

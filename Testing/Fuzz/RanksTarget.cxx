@@ -3,7 +3,7 @@
 #include "ByteSource.h"
 #include "EngineCase.h"
 #include "FuzzTarget.h"
-#include "PieceGroup.h"
+#include "OtherGroup.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -33,28 +33,6 @@ using namespace delaunayflip;
 namespace
 {
 
-class BorrowedGroup : public PieceGroup
-{
-public:
-  explicit BorrowedGroup(PieceGroup& group)
-    : Group(group)
-  {
-  }
-  int GetRank() const override { return this->Group.GetRank(); }
-  int GetSize() const override { return this->Group.GetSize(); }
-  std::vector<Message> Exchange(std::vector<Message> messages) override
-  {
-    return this->Group.Exchange(std::move(messages));
-  }
-  std::vector<Message> Gather(const Message& message) override
-  {
-    return this->Group.Gather(message);
-  }
-
-private:
-  PieceGroup& Group;
-};
-
 /// The filter of one rank.
 class RankFilter : public vtkPDelaunayFlip
 {
@@ -67,7 +45,7 @@ public:
 protected:
   std::unique_ptr<PieceGroup> MakeGroup() override
   {
-    return std::unique_ptr<PieceGroup>(new BorrowedGroup(*this->Group));
+    return std::unique_ptr<PieceGroup>(new OtherGroup(*this->Group));
   }
 };
 vtkStandardNewMacro(RankFilter);
