@@ -8,13 +8,10 @@
 #include "FlipReport.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
-#include <set>
 
 namespace
 {
@@ -57,27 +54,6 @@ TEST(Backend, DevicesThatCannotBeReadAreAnError)
   filter->Update();
   EXPECT_EQ(filter.GetErrors().size(), 1u);
   EXPECT_EQ(filter->GetTotalFlips(), 1);
-}
-
-TEST(Backend, PiecesGiveTheSameMesh)
-{
-  const auto mesh = ToPolyData(delaunayflip::MakeRandomBadMesh(2000, 6));
-  std::set<std::set<vtkIdType>> expected;
-  for (const int pieces : { 0, 1, 4 })
-  {
-    WatchedFilter filter(mesh);
-    filter->SetTieRuleToCanonical();
-    filter->SetNumberOfPieces(pieces);
-    filter->GenerateFlipCountOn();
-    vtkPolyData* output = RunCleanly(filter);
-    const std::set<std::set<vtkIdType>> triangles = GetTriangles(output);
-    expected = pieces == 0 ? triangles : expected;
-    EXPECT_EQ(triangles, expected) << pieces;
-    EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
-    const std::vector<int> counts = GetNumbers(output->GetCellData(), "vtkDelaunayFlipCount");
-    EXPECT_EQ(
-      std::accumulate(counts.begin(), counts.end(), vtkIdType(0)), 2 * filter->GetTotalFlips());
-  }
 }
 
 TEST(Backend, AutoIsSilent)
@@ -125,16 +101,4 @@ TEST(Backend, ForcedBackendThatIsAbsentIsAnError)
   filter->SetBackendToThreads(); // then there is no error
   EXPECT_TRUE(HasEdge(filter.Run(), 1, 3));
   EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_NONE);
-}
-
-TEST(Backend, ThreadCountsAgree)
-{
-  WatchedFilter filter(MakeBadPlane());
-  filter->SetBackendToThreads();
-  filter->SetNumberOfThreads(1);
-  const Cells cells = GetCells(RunCleanly(filter)->GetPolys());
-  EXPECT_EQ(filter->GetReport().Backend, "Threads: 1");
-  filter->SetNumberOfThreads(3);
-  EXPECT_EQ(cells, GetCells(RunCleanly(filter)->GetPolys()));
-  EXPECT_EQ(filter->GetReport().Backend, "Threads: 3");
 }

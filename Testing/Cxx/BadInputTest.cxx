@@ -158,19 +158,6 @@ TEST(BadInput, DirtyCellsStayWithOneWarning)
   }
 }
 
-TEST(BadInput, NonManifoldAndWronglyWoundEdgesStay)
-{
-  auto wound = MakeRhombus();
-  wound->SetPolys(MakeCells({ { 0, 1, 2 }, { 0, 3, 2 } }));
-  for (const Mesh& mesh : { MakeRhombusAnd({ { 0, 0, 2 } }, { { 0, 2, 4 } }), wound })
-  {
-    WatchedFilter filter(mesh);
-    filter->SetFeatureAngle(180.0);
-    EXPECT_EQ(GetCells(filter.Run()->GetPolys()), GetCells(mesh->GetPolys()));
-    EXPECT_EQ(GetTotal(filter->GetOutput(), "NonManifoldEdges"), mesh == wound ? 0.0 : 1.0);
-  }
-}
-
 TEST(BadInput, UnstructuredGridIsATypeError)
 {
   WatchedFilter filter(vtkNew<vtkUnstructuredGrid>().Get());

@@ -368,14 +368,6 @@ TEST(ConstraintInsertion, FollowsTheOrderOfTheInput)
   ExpectHolds(filter.GetWarnings()[0], "(first: 7-50, 0-50)");
 }
 
-TEST(ConstraintInsertion, NotOnSurfaces)
-{
-  WatchedFilter filter(MakeBadSphere());
-  EXPECT_EQ(Constrain(filter, MakeLines({ { 4, 40 } })).second, 1);
-  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 0);
-  ExpectHolds(filter.GetWarnings()[0], "on a surface (first: 4-40)");
-}
-
 TEST(ConstraintInsertion, LiveRunsEndWithTheSameMesh)
 {
   Mesh mesh = MakeBadPlane();

@@ -6,14 +6,11 @@
 #include "TemporaryFolder.h"
 #include "TestWindow.h"
 
-#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkImageData.h"
 #include "vtkPNGReader.h"
-#include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkTesting.h"
 
 #include <gtest/gtest.h>
 
@@ -60,23 +57,6 @@ std::string Unwrap(std::string text)
 {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
-}
-
-vtkSmartPointer<vtkRenderer> MakeRenderer(vtkAlgorithmOutput* mesh, double left)
-{
-  vtkNew<vtkDelaunayFlipMapper> mapper;
-  mapper->SetInputConnection(mesh);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->LightingOff();
-  actor->GetProperty()->EdgeVisibilityOn();
-  auto view = vtkSmartPointer<vtkRenderer>::New();
-  view->SetViewport(left, 0.0, left + 0.5, 1.0);
-  view->SetBackground(1.0, 1.0, 1.0);
-  view->AddActor(actor);
-  view->ResetCamera();
-  view->GetActiveCamera()->Zoom(1.4);
-  return view;
 }
 
 }
@@ -448,19 +428,6 @@ TEST(LiveViewPicture, EdgesOfLargeMeshesAreHidden)
   EXPECT_TRUE(view.HasEdges());
 }
 
-TEST(LiveViewPicture, FacesAreTriangles)
-{
-  auto mesh = MakeQuadAndTriangle();
-  mesh->SetLines(MakeCells({ { 0, 1 } }));
-  WatchedView view(mesh);
-  view->Start();
-  EXPECT_EQ(view.GetMapper()->GetNumberOfTriangles(), 3);
-  view->SetColorByToFlipCount();
-  view->Step();
-  EXPECT_EQ(view.GetMapper()->GetNumberOfTriangles(), 3);
-  EXPECT_EQ(view.Filter->GetOutput()->GetNumberOfCells(), 4);
-}
-
 TEST(LiveViewPicture, LooksAtFlatMeshesFromTheirSide)
 {
   const int up[3] = { 2, 2, 1 };
@@ -529,24 +496,4 @@ TEST(LiveViewPicture, AFrameThatCannotBeWrittenEndsTheWriting)
     EXPECT_TRUE(fs::exists(folder / "f0000.png"));
   }
   EXPECT_FALSE(canBeFull && fs::exists(folder / "full0002.png"));
-}
-
-/// A random bad mesh before (left) and after (right), coloured by the smallest angles.
-TEST(Image, BeforeAndAfter)
-{
-  vtkNew<vtkDelaunayFlip> flip;
-  flip->SetInputData(ToPolyData(delaunayflip::MakeRandomBadMesh(80, 7)));
-  vtkNew<vtkRenderWindow> window;
-  window->SetMultiSamples(0);
-  window->SetSize(360, 180);
-  window->AddRenderer(MakeRenderer(flip->GetInputConnection(0, 0), 0.0));
-  window->AddRenderer(MakeRenderer(flip->GetOutputPort(), 0.5));
-  window->Render();
-  vtkNew<vtkTesting> testing;
-  for (const char* argument : { "-V", DELAUNAYFLIP_BASELINE "/BeforeAndAfter.png", "-T", "." })
-  {
-    testing->AddArgument(argument);
-  }
-  testing->SetRenderWindow(window);
-  EXPECT_EQ(testing->RegressionTest(10.0), vtkTesting::PASSED);
 }

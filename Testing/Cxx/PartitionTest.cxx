@@ -3,6 +3,7 @@
 /// The partitions of a dataset are flipped as one mesh.
 
 #include "FilterTestSupport.h"
+#include "MeshDivision.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace
@@ -40,43 +40,30 @@ Corner GetPlace(vtkPolyData* mesh, vtkIdType point)
   return place;
 }
 
+void AddIds(vtkDataSetAttributes* data, const char* name, const std::vector<std::int64_t>& ids)
+{
+  const auto array = MakeArray<vtkIntArray>(name, static_cast<vtkIdType>(ids.size()));
+  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  data->AddArray(array);
+}
+
 /// Cuts a mesh: triangle t goes to part ownerOf(t). Each part has the points of its triangles, with
 /// their number in "Point", and its triangles' numbers in "Cell".
 template <typename OwnerOf>
 Parts Cut(vtkPolyData* mesh, int count, const OwnerOf& ownerOf)
 {
-  Parts parts;
-  for (int part = 0; part < count; ++part)
+  delaunayflip::Owners owners;
+  for (vtkIdType t = 0; t < mesh->GetNumberOfCells(); ++t)
   {
-    std::map<vtkIdType, vtkIdType> local;
-    Points points;
-    Cells cells;
-    vtkNew<vtkIntArray> pointNumbers, cellNumbers;
-    pointNumbers->SetName("Point");
-    cellNumbers->SetName("Cell");
-    for (vtkIdType t = 0; t < mesh->GetNumberOfCells(); ++t)
-    {
-      if (ownerOf(t) != part)
-      {
-        continue;
-      }
-      Cell cell = GetCell(mesh, t);
-      for (vtkIdType& id : cell)
-      {
-        const auto known = local.emplace(id, static_cast<vtkIdType>(points.size()));
-        if (known.second)
-        {
-          points.push_back(GetPlace(mesh, id));
-          pointNumbers->InsertNextValue(static_cast<int>(id));
-        }
-        id = known.first->second;
-      }
-      cells.push_back(cell);
-      cellNumbers->InsertNextValue(static_cast<int>(t));
-    }
-    parts.push_back(MakeMesh(points, cells));
-    parts.back()->GetPointData()->AddArray(pointNumbers);
-    parts.back()->GetCellData()->AddArray(cellNumbers);
+    owners.push_back(ownerOf(t));
+  }
+  Parts parts;
+  const delaunayflip::OwnedMesh<double> owned = ToOwnedMesh(mesh);
+  for (const auto& piece : delaunayflip::DivideMesh(owned.View(), owners, count))
+  {
+    parts.push_back(ToPolyData(delaunayflip::OwnedMesh<double>{ piece.Doubles, piece.Triangles }));
+    AddIds(parts.back()->GetPointData(), "Point", piece.PointOf);
+    AddIds(parts.back()->GetCellData(), "Cell", piece.SlotOf);
   }
   return parts;
 }

@@ -364,26 +364,6 @@ TEST(FromPoints, OutlinesAndHoles)
   ExpectHolds(RunToError(crossed), "ring 0");
 }
 
-TEST(FromPoints, LargeTrianglesAndNearPoints)
-{
-  Points points = MakeCloud(200, 1.0);
-  points.push_back({ 50, 50, 0 });
-  points.push_back({ points[0][0] + 1e-9, points[0][1], 0 });
-  for (const bool byAlpha : { false, true })
-  {
-    PointsFilter filter(ToMesh(points));
-    byAlpha ? filter->SetAlpha(5.0) : filter->SetLongestEdge(5.0);
-    filter->SetPointTolerance(1e-6);
-    RunToWarning(filter);
-    EXPECT_EQ(GetTotal(filter->GetOutput(), "PointsTooNear"), 1.0);
-    EXPECT_GT(GetTotal(filter->GetOutput(), "LargeTriangles"), 0.0);
-    for (const Cell& cell : filter.GetPolygons())
-    {
-      EXPECT_FALSE(std::count(cell.begin(), cell.end(), 200));
-    }
-  }
-}
-
 //------------------------------------------------------------------------------
 TEST(FromPoints, CompositeInput)
 {
