@@ -17,7 +17,9 @@ import rank_blocks
 import rank_constraints
 import rank_meshes
 from rank_runs import (
-    RANK, RANKS, WORLD, describe, flip_alone, flip_piece, gather_triangles, require, same, start)
+    RANK, RANKS, WORLD, describe, flip_alone, flip_piece, gather_triangles, make_own_piece, require,
+    same, start)
+
 
 def run_same(maker, count, kind, ids, options, unique=True):
     points, triangles = getattr(rank_meshes, maker)(count)
@@ -41,20 +43,19 @@ def run_ghosts(count, wrong=None):
     if RANK == 0:
         alone = flip_alone(points, triangles, {"TieRule": 1})
         facts["same"] = rank_meshes.are_same(after, alone.GetOutput())
-    return facts, said
+    return facts
 
 
 def run_missing_data():
     """Rank 1 lacks the cell data of rank 0, but gets triangles from it."""
     points, triangles = rank_meshes.make_random(200)
-    owners = rank_meshes.divide(points, triangles, RANKS, "scattered")
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    piece = make_own_piece(points, triangles, "scattered")
     if RANK == 1:
         piece.GetCellData().Initialize()
     flip, said = flip_piece(piece, {})
     cells = flip.GetOutput().GetCellData()
     require(cells.GetScalars() is cells.GetPedigreeIds() is not None, "an attribute is lost")
-    return describe(flip, said), said
+    return describe(flip, said)
 
 
 def run_slit(ids):
@@ -62,15 +63,13 @@ def run_slit(ids):
     points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0, 0, 0], [0.5, -1, 0], [-1, 1, 0.0]])
     slots = np.array([2] if RANK == 1 else [0, 1])
     triangles = np.array([[0, 1, 2], [3, 4, 1], [0, 2, 5]])
-    flip, said = flip_piece(rank_meshes.make_piece(points, triangles, slots, ids), {})
-    return describe(flip, said), said
+    return describe(*flip_piece(rank_meshes.make_piece(points, triangles, slots, ids), {}))
 
 
 def run_failure(rank, wrong):
     """One rank has a triangle that names a point which does not exist, or an option is wrong."""
     points, triangles = rank_meshes.make_random(200)
-    owners = rank_meshes.divide(points, triangles, RANKS, "space")
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), True)
+    piece = make_own_piece(points, triangles, "space")
     options = {}
     if RANK == rank and wrong == "point":
         cells = rank_meshes.read_triangles(piece).copy()
@@ -84,19 +83,18 @@ def run_failure(rank, wrong):
     require(len(set(errors)) == 1, f"different messages: {errors}")
     require((len(said) > 0) == (RANK == 0), f"messages of rank {RANK}: {said}")
     facts = describe(flip, said)
-    flip.SetInputData(rank_meshes.make_piece(
-        points, triangles, np.flatnonzero(owners == RANK), True))
+    flip.SetInputData(make_own_piece(points, triangles, "space"))
     flip.SetRegionArray("")
     flip.UpdatePiece(RANK, RANKS, 0)
     facts["then"] = flip.GetStopReasonAsString()
-    return facts, said
+    return facts
 
 
 def main():
     controller = start()
     name, arguments = sys.argv[1], json.loads(sys.argv[2])
     cases = {**vars(rank_blocks), **vars(rank_constraints), **globals()}
-    facts, _ = cases["run_" + name](**arguments)
+    facts = cases["run_" + name](**arguments)
     if RANK == 0:  # not to stdout, where mpirun may put words of other ranks into the line
         with open(sys.argv[3], "w", encoding="utf-8") as file:
             json.dump(facts, file)

@@ -8,7 +8,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 import delaunayflip
 import rank_meshes
 from rank_runs import (
-    RANK, RANKS, WORLD, describe, gather_triangles, listen, require, set_options)
+    RANK, RANKS, describe, gather_triangles, listen, require, require_same, set_options)
 
 
 def turn(a, b, c):
@@ -68,11 +68,10 @@ def make_case(points, triangles, pairs, kind, given, ids):
     piece = rank_meshes.make_piece(points, triangles, slots, False)
     used = np.unique(triangles[slots])
     flip = delaunayflip.vtkPDelaunayFlip()
-    if given == "lines" and len(slots):
-        piece, used = add_lines(piece, used, points, pairs[RANK // 2 % 2::2])
+    if given == "lines":
         set_options(flip, {"LinesAsConstraints": True, "InsertLines": True})
-    elif given == "lines":
-        set_options(flip, {"LinesAsConstraints": True, "InsertLines": True})
+        if len(slots):
+            piece, used = add_lines(piece, used, points, pairs[RANK // 2 % 2::2])
     elif given == "parts":
         flip.SetConstraintsData(rank_meshes.make_lines(points, pairs[RANK % 2:]))
     else:
@@ -86,9 +85,8 @@ def make_case(points, triangles, pairs, kind, given, ids):
 
 
 def run_alone(points, triangles, pairs, options):
-    mesh = rank_meshes.make_poly_data(points, triangles)
     flip = set_options(delaunayflip.vtkDelaunayFlip(), options)
-    flip.SetInputData(mesh)
+    flip.SetInputData(rank_meshes.make_poly_data(points, triangles))
     flip.SetConstraintsData(rank_meshes.make_lines(points, pairs))
     flip.Update()
     return flip
@@ -102,8 +100,7 @@ def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, a
     said = listen(flip)
     flip.UpdatePiece(RANK, RANKS, 0)
     facts = describe_all(flip)
-    for other in WORLD.allgather(facts):
-        require(other == facts, f"ranks differ: {other} {facts}")
+    require_same(facts)
     output = vtkPolyData()
     output.SetPoints(flip.GetOutput().GetPoints())
     output.SetPolys(flip.GetOutput().GetPolys())
@@ -118,7 +115,7 @@ def compare_inserted(points, triangles, pairs, kind, given="rank 0", ids=True, a
         facts["alone"] = describe_all(alone)
         facts["same"] = rank_meshes.are_same(after, alone.GetOutput())
         facts["said"] = " ".join(said)
-    return facts, said
+    return facts
 
 
 def run_inserted(count, pairs, across, kind, **arguments):
@@ -127,6 +124,5 @@ def run_inserted(count, pairs, across, kind, **arguments):
     owners = rank_meshes.divide(points, triangles, RANKS, kind)
     within = draw_pairs(points, triangles, owners, pairs, True)
     between = draw_pairs(points, triangles, owners, across, False)
-    facts, said = compare_inserted(
-        points, triangles, within, kind, across=between, **arguments)
-    return {**facts, "across": len(between)}, said
+    facts = compare_inserted(points, triangles, within, kind, across=between, **arguments)
+    return {**facts, "across": len(between)}

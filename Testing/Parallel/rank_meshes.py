@@ -6,32 +6,14 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
+import delaunayflip
+
 
 def make_random(count, seed=1):
-    """Points in a square, each of which splits the triangle that holds it: a bad mesh."""
-    points = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-    triangles, children = [(0, 1, 2), (0, 2, 3)], {}
-
-    def turn(a, b, p):
-        return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-
-    def holds(triangle, p):
-        a, b, c = (points[i] for i in triangles[triangle])
-        return turn(a, b, p) > 0 and turn(b, c, p) > 0 and turn(c, a, p) > 0
-
-    for p in np.random.default_rng(seed).random((count, 2)):
-        at = 0 if holds(0, p) else 1
-        while at in children:
-            at = next((c for c in children[at] if holds(c, p)), None)
-        if at is None or not holds(at, p):
-            continue
-        new, first = len(points), len(triangles)
-        points.append(tuple(p))
-        a, b, c = triangles[at]
-        triangles += [(a, b, new), (b, c, new), (c, a, new)]
-        children[at] = (first, first + 1, first + 2)
-    leaves = [t for t in range(len(triangles)) if t not in children]
-    return np.c_[np.array(points), np.zeros(len(points))], np.array([triangles[t] for t in leaves])
+    """A bad mesh of points in a square: the strips that a triangulation starts from."""
+    points = np.r_[np.random.default_rng(seed).random((count, 2)), [[0, 0], [1, 0], [1, 1], [0, 1]]]
+    strips = delaunayflip.triangulate(points, maximum_iterations=0).triangles
+    return np.c_[points, np.zeros(len(points))], strips
 
 
 def make_bumps(count, seed=1):

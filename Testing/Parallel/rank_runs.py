@@ -47,6 +47,12 @@ def flip_piece(piece, options):
     return flip, said
 
 
+def make_own_piece(points, triangles, kind, ids=True):
+    """This rank's piece of a mesh that is divided in a way of rank_meshes.divide."""
+    slots = np.flatnonzero(rank_meshes.divide(points, triangles, RANKS, kind) == RANK)
+    return rank_meshes.make_piece(points, triangles, slots, ids)
+
+
 def describe(flip, said):
     return {
         "flips": flip.GetTotalFlips(), "left": flip.GetNumberOfNonDelaunayEdges(),
@@ -60,6 +66,11 @@ def describe(flip, said):
 def require(condition, text):
     if not condition:
         raise AssertionError(f"rank {RANK}: {text}")
+
+
+def require_same(facts):
+    for other in WORLD.allgather(facts):
+        require(other == facts, f"ranks differ: {other} {facts}")
 
 
 def find_ids(points, found):
@@ -106,21 +117,13 @@ def flip_alone(points, triangles, options):
 
 
 def same(points, triangles, kind="space", ids=True, options=None, unique=True):
-    """Flips a mesh that is divided in a way of rank_meshes.divide; see compare."""
-    owners = rank_meshes.divide(points, triangles, RANKS, kind)
-    piece = rank_meshes.make_piece(points, triangles, np.flatnonzero(owners == RANK), ids)
-    return compare(points, triangles, piece, options or {}, unique)
-
-
-def compare(points, triangles, piece, options, unique):
     """Flips this rank's piece of a mesh, and compares the pieces with a run of one rank."""
-    flip, said = flip_piece(piece, options)
+    options = options or {}
+    flip, _ = flip_piece(make_own_piece(points, triangles, kind, ids), options)
     output = flip.GetOutput()
     check_data(points, output)
-    facts = describe(flip, said)
-    facts["said"] = []
-    for other in WORLD.allgather(facts):
-        require(other == facts, f"ranks differ: {other} {facts}")
+    facts = describe(flip, [])
+    require_same(facts)
     after, slots = gather_triangles(points, output)
     if RANK == 0:
         require(np.array_equal(np.sort(slots), np.arange(len(triangles))), "triangles are lost")
@@ -131,4 +134,4 @@ def compare(points, triangles, piece, options, unique):
         facts["again"] = again.GetTotalFlips()
         facts["left again"] = again.GetNumberOfNonDelaunayEdges()
         facts["geometry alone"] = alone.GetGeometryUsedAsString()
-    return facts, said
+    return facts

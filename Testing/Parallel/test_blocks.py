@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Composite datasets under mpirun: a leaf is a mesh of which each rank may have a piece."""
-import unittest
 
 from RanksTesting import RanksTest, flip_on
 
@@ -63,8 +62,3 @@ class BlockFailures(RanksTest):
         facts = flip_on(2, "mixed_kinds")
         self.assertEqual(facts["error"],
                          "rank 1: this rank has a single mesh, but others have composite datasets")
-
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Constraints under mpirun that are not edges: ranks insert those within their pieces."""
-import unittest
 
 from RanksTesting import RanksTest, flip_on
 
@@ -30,8 +29,3 @@ class Insertion(RanksTest):
                 self.assertEqual(facts["unmatched"], facts["across"])
                 self.assertEqual(facts["across"] > 0, kind != "one has all")
                 self.assertEqual("before the mesh is divided" in facts["said"], facts["across"] > 0)
-
-
-
-if __name__ == "__main__":
-    unittest.main()

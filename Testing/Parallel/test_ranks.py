@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The filter for many ranks under mpirun, with more ranks than cores. flip_on_ranks.py is run by
 every rank and compares the pieces with a run of one rank."""
-import unittest
 
 from RanksTesting import RanksTest, flip_on
 
@@ -76,7 +75,3 @@ class Failures(RanksTest):
     def test_missing_regions(self):
         facts = flip_on(2, "failure", rank=0, wrong="regions")
         self.assertIn('no cell array named "missing"', facts["error"])
-
-
-if __name__ == "__main__":
-    unittest.main()
