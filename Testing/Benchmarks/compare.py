@@ -119,20 +119,12 @@ class Ours:
 
     def update(self, threads):
         from delaunayflip import vtkDelaunayFlip
-        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-        from vtkmodules.vtkCommonCore import vtkObject, vtkPoints
-        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+        from vtkmodules.vtkCommonCore import vtkObject
+        from filter_times import make_poly_data
         if self.filter is None:
             vtkObject.GlobalWarningDisplayOff()
-            mesh, points, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
-            offsets = numpy.arange(0, self.triangles.size + 1, 3)
-            points.SetData(numpy_to_vtk(self.points, deep=True))
-            cells.SetData(numpy_to_vtkIdTypeArray(offsets, deep=True),
-                          numpy_to_vtkIdTypeArray(self.triangles.ravel(), deep=True))
-            mesh.SetPoints(points)
-            mesh.SetPolys(cells)
             self.filter = vtkDelaunayFlip()
-            self.filter.SetInputData(mesh)
+            self.filter.SetInputData(make_poly_data(self.points, self.triangles))
         self.filter.SetBackend(1 if threads == "cuda" else 2)
         self.filter.SetNumberOfThreads(0 if threads == "cuda" else threads)
         self.filter.Modified()
