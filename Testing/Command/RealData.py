@@ -7,7 +7,6 @@ one iteration makes all of them."""
 
 import os
 import sys
-import unittest
 from typing import NamedTuple
 
 from CommandTesting import CommandTest, edge_counts, read_mesh, read_report, triangles_of
@@ -205,7 +204,3 @@ class Points(RealDataTest):
         self.assertEqual(non_manifold, 0)
         again = self.report("out.vtk", "again.vtk", *XY, "--tie-rule", "canonical")
         self.assertEqual(again["non_delaunay_before"], 0)
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -88,7 +88,3 @@ class Fallback(BackendTest):
         result = self.fail_with(5, *arguments, env=with_old_driver())
         self.assertRegex(result.stderr, "^error: CUDA could not .*update NVIDIA's driver\n$")
         self.assertFalse(os.path.exists(self.path("out.vtk")))
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -5,7 +5,6 @@ of a mesh."""
 
 import os
 import struct
-import unittest
 
 from CommandTesting import BadFileTest, bumpy_grid, make_mesh, read_mesh, triangles_of, write_mesh
 
@@ -87,7 +86,3 @@ class OtherData(BadFileTest):
             self.succeed("none.vtk", "out" + extension)
             self.succeed("out" + extension, "again.vtk")
             self.assertEqual(read_mesh(self.path("again.vtk")).GetNumberOfPoints(), 0)
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -4,7 +4,6 @@
 
 import os
 import stat
-import unittest
 
 from CommandTesting import (
     CommandTest,
@@ -145,6 +144,3 @@ class Success(CommandTest):
         self.assertEqual(backend, "Threads: 10")
         for text in ("0x10", "1e1", "10.0", "", " 10", "1 0", "+-1", "99999999999999999999"):
             self.fail_with(2, mesh, "out.vtk", f"--max-iterations={text}", naming=["max-iterations"])
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -5,7 +5,6 @@ the file."""
 
 import os
 import resource
-import unittest
 
 from CommandTesting import FORMATS, CommandTest, bumpy_grid, make_mesh, write_mesh
 
@@ -53,7 +52,3 @@ class FullDisk(CommandTest):
         self.mesh = tiny
         self.refuse(300, "tiny-out.stl", "--report", "report.json", naming="report.json")
         self.refuse(40, "tiny-out.stl", "--statistics", "table.csv", naming="tiny-out.stl")
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

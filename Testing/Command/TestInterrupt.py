@@ -9,7 +9,6 @@ import select
 import signal
 import subprocess
 import time
-import unittest
 
 from CommandTesting import (
     CommandTest,
@@ -133,7 +132,3 @@ def read_terminal(terminal, until=None):
         elif until is None:
             break
     return text
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -5,7 +5,6 @@
 import os
 import resource
 import threading
-import unittest
 
 from CommandTesting import (
     FORMATS,
@@ -134,6 +133,3 @@ class Pipes(BadFileTest):
         writer.start()
         self.fail_with(3, "pipe.obj", "out.vtk", naming=["pipe.obj: line 1: 'x'"])
         writer.join()
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -5,7 +5,6 @@
 import math
 import random
 import struct
-import unittest
 
 from CommandTesting import BadFileTest, points_of
 
@@ -152,7 +151,3 @@ class Lines(BadFileTest):
         for end in ("\n", "\r\n", "\r"):
             self.write("a.obj", as_text([(0, 0, 0), (1, "x", 0), (0, 1, 0)], "a.obj").replace("\n", end))
             self.refuse("a.obj", "line 2:")
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

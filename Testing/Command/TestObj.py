@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a .obj contains besides points and faces: what is kept, and what is named."""
 
-import unittest
-
 from CommandTesting import (
     ArrayTest,
     bumpy_grid,
@@ -127,7 +125,3 @@ class Obj(ArrayTest):
         with open(self.path("out.obj"), encoding="ascii") as file:
             words = [line.split() for line in file if line[0] != "#"]
         self.assertEqual({(line[0], len(line)) for line in words}, {("v", 4), ("f", 4)})
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

@@ -5,7 +5,6 @@
 import math
 import os
 import resource
-import unittest
 
 from CommandTesting import (
     CommandTest,
@@ -250,7 +249,3 @@ class ManyThreads(CommandTest):
                 # The second is said where VTK itself ends the process.
                 self.assertRegex(result.stderr, "not enough memory|was there enough memory")
         self.assertEqual(result.returncode, 0)  # 800 MiB are enough
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

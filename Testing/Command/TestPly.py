@@ -4,7 +4,6 @@
 
 import math
 import struct
-import unittest
 
 from CommandTesting import (
     ArrayTest,
@@ -259,7 +258,3 @@ class Written(ArrayTest):
         source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
         said = self.succeed(source, "out.ply").stderr
         self.assertIn("point data (words, huge, x, two_words), cell data (rock)\n", said)
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

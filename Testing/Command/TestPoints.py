@@ -3,7 +3,6 @@
 """--from-points: files of points, segments, outlines, holes, and what the command says about them."""
 
 import math
-import unittest
 
 from vtkmodules.vtkCommonCore import vtkPoints
 
@@ -261,24 +260,6 @@ class Segments(PointTest):
         mesh, _ = self.triangulate("in.xyz", "--outline", nested, "--holes", hole)
         self.assertEqual(area_of(mesh), 8)
 
-    def test_ring_with_long_arms(self):
-        """Corners alone, without the lengths of edges, would not tell its direction."""
-        arm = [(2.25, 1.75), (3.75, 1.75), (3.75, 2.25)]
-        plus = []
-        for _ in range(4):
-            plus += [(x, y, 0) for x, y in arm]
-            arm = [(4 - y, x) for x, y in arm]
-        plus = self.rings("plus.vtk", plus)
-        for option, area in (("--outline", 3.25), ("--holes", 16 - 3.25)):
-            mesh, _ = self.triangulate("in.xyz", option, plus)
-            self.assertEqual(area_of(mesh), area)
-
-    def test_removed_edges_do_not_count(self):
-        far = self.rings("far.vtk", [(9, 9, 0), (10, 9, 0), (9, 10, 0)])
-        line = write_mesh(make_mesh([(0, 0, 0), (3, 1, 0)], [], [(0, 1)]), self.path("line.vtk"))
-        _, result = self.triangulate("in.xyz", "--outline", far, "--constraints", line)
-        self.assertIn("kept edges      3 (3 boundary, 3 constraints)\n", result.stdout)
-
     def test_rings_that_are_none(self):
         for mesh, words in (
             (make_mesh(PLACES, [], [(0, 1, 2, 0), (0, 1, 2)]), ["line 1", "not end where it begins"]),
@@ -378,7 +359,3 @@ class Usage(PointTest):
                            naming=["a.txt", "points alone"])
             self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, "out.vtk",
                            naming=["out.vtk", "two purposes"])
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

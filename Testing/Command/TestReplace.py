@@ -162,6 +162,3 @@ class AllOrNothing(ReplaceTest):
             elif other != name:
                 self.assertFalse(os.path.exists(self.path(other)), f"{other} beside {name}")
         os.rmdir(self.path(name))
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

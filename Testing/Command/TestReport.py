@@ -5,7 +5,6 @@
 import csv
 import math
 import re
-import unittest
 
 from CommandTesting import (
     CommandTest,
@@ -176,7 +175,3 @@ class Messages(CommandTest):
         self.assertEqual(len(lines), 1, result.stderr)
         self.assertTrue(lines[0].startswith("warning: "))
         self.assertNotIn("0x", lines[0])
-
-
-if __name__ == "__main__":
-    unittest.main(verbosity=2)

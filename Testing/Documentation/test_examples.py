@@ -124,7 +124,3 @@ class Engine(unittest.TestCase):
         self.assertEqual(len(found), 2)
         for part in "\n\n".join(found).split("\n\n"):
             self.assertTrue(" ".join(part.split()) in example, f"not in the example:\n{part}")
-
-
-if __name__ == "__main__":
-    unittest.main()

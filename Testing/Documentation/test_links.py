@@ -68,7 +68,3 @@ class Messages(unittest.TestCase):
             for part in message.split(" ... "):
                 with self.subTest(message):
                     self.assertTrue(part in literals, "no message of the sources")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -21,7 +21,6 @@ if not shutil.which("doxygen"):
     TOOLS.append("doxygen")
 
 
-
 # Comments behind members, over one line or more.
 BEHIND = re.compile(r"///<[^\n]*(?:\n +///<[^\n]*)*")
 
@@ -80,7 +79,3 @@ class Site(unittest.TestCase):
             paragraphs = map(strip, re.findall(r"<p>(.*?)</p>", self.reference[name], re.DOTALL))
             torn = [one for one in paragraphs if re.match(r'[a-z]{2,}[," ]', one) and one.endswith(".")]
             self.assertEqual(torn, [], name)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -265,7 +265,3 @@ class DebianPackage(Packing):
         for path in ("man/man1/delaunay-flip.1", "bash-completion/completions/delaunay-flip"):
             self.assertTrue(os.path.exists(self.path(f"usr/share/{path}")), path)
         self.expect_that_it_works(self.path("usr"))
-
-
-if __name__ == "__main__":
-    unittest.main()

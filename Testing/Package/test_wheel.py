@@ -202,7 +202,3 @@ class Vtk(unittest.TestCase):
     def test_cvista(self):
         self.check("pyvista[io]", "cvista", "cvista-io", "cvista-rendering", "imageio", "trimesh",
                    "meshio", modules=("test_pyvista",))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -11,7 +11,6 @@ import os
 import shutil
 import subprocess
 import sys
-import unittest
 
 from PluginTesting import PluginTest, main, make_fan, make_line
 from test_points import make_cloud

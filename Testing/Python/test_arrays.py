@@ -565,7 +565,3 @@ class Header(unittest.TestCase):
                 self.assertEqual(words[int(value)], word)
                 plain = word.upper().replace("-", "_").replace(" ", "_")
                 self.assertIn(plain, constant)
-
-
-if __name__ == "__main__":
-    unittest.main()

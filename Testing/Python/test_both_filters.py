@@ -542,7 +542,3 @@ class TwoEngines(unittest.TestCase):
                    if name.startswith(("libdelaunayflip.so", "libvtkDelaunayFlipFilters.so"))}
         self.assertEqual(len(engines), 2, loaded)
         self.assertEqual(len([name for name in loaded if re.match(r"libtbb[-.]", name)]), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -180,7 +180,3 @@ class Viewer(Example):
             self.assertIn(wrong[-1], self.run_example(2, *wrong))
         for word in ("MESH", "--geometry", "planar-xy", "--frames", ".vtk .vtp .ply .stl .obj"):
             self.assertIn(word, self.run_example(0, "--help"))
-
-
-if __name__ == "__main__":
-    unittest.main()

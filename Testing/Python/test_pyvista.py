@@ -280,7 +280,3 @@ class Notebook(unittest.TestCase):
         outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
         kinds = [kind for output in outputs for kind in output.get("data", {})]
         self.assertGreaterEqual(kinds.count("image/png"), 2)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -483,7 +483,3 @@ class NewVtk(unittest.TestCase):
         self.assertEqual(table.GetColumnName(0), "Iteration")
         mesh, _ = (vtkDelaunayFlip() >> vtkDelaunayFlip())(mesh)
         self.assertEqual(mesh.GetNumberOfCells(), 18)
-
-
-if __name__ == "__main__":
-    unittest.main()
