@@ -72,6 +72,14 @@ FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options = {
 /// The options on a backend.
 FlipOptions OnBackend(BackendKind backend, FlipOptions options = {});
 
+/// The options with so many threads.
+template <typename Options>
+Options WithThreads(Options options, int threads)
+{
+  options.NumberOfThreads = threads;
+  return options;
+}
+
 /// On a surface, by default without feature edges.
 FlipOptions OnSurface(double featureAngle = 180.0);
 

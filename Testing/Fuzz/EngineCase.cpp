@@ -140,32 +140,11 @@ Mesh MakeLarge(ByteSource& source)
 /// @param isClean receives whether the mesh is a triangulation without overlaps.
 Mesh DrawMesh(ByteSource& source, bool& isClean)
 {
-  isClean = false;
+  constexpr Mesh (*Kinds[])(ByteSource&) = { MakePlane, MakePlane, MakeLattice, MakeTerrain,
+    MakeTiltedPlane, MakeSurface, MakeSoup, MakeMess };
   const std::uint32_t kind = source.Draw(256);
-  if (kind == 255)
-  {
-    return MakeLarge(source);
-  }
-  switch (kind % 8)
-  {
-    case 0:
-    case 1:
-      isClean = true;
-      return MakePlane(source);
-    case 2:
-      isClean = true;
-      return MakeLattice(source);
-    case 3:
-      return MakeTerrain(source);
-    case 4:
-      return MakeTiltedPlane(source);
-    case 5:
-      return MakeSurface(source);
-    case 6:
-      return MakeSoup(source);
-    default:
-      return MakeMess(source);
-  }
+  isClean = kind % 8 < 3;
+  return kind == 255 ? MakeLarge(source) : Kinds[kind % 8](source);
 }
 
 double DrawBadNumber(ByteSource& source)

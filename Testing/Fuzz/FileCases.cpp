@@ -334,35 +334,20 @@ void Splice(std::string& text, const std::string& other, ByteSource& source)
 
 void MutateOnce(std::string& text, const std::string& other, ByteSource& source)
 {
-  switch (source.Draw(8))
+  constexpr void (*Changes[])(std::string&, ByteSource&) = { ChangeByte, ChangeWord, ChangeNumber,
+    ChangeNumber, ChangeNumber, ChangePiece, ChangeLine };
+  const Size choice = source.Draw(8);
+  if (choice < 7)
   {
-    case 0:
-      ChangeByte(text, source);
-      break;
-    case 1:
-      ChangeWord(text, source);
-      break;
-    case 2:
-    case 3:
-    case 4:
-      ChangeNumber(text, source);
-      break;
-    case 5:
-      ChangePiece(text, source);
-      break;
-    case 6:
-      ChangeLine(text, source);
-      break;
-    default:
-      if (source.Once(2))
-      {
-        Splice(text, other, source);
-      }
-      else
-      {
-        text.resize(DrawPlace(text, source));
-      }
-      break;
+    Changes[choice](text, source);
+  }
+  else if (source.Once(2))
+  {
+    Splice(text, other, source);
+  }
+  else
+  {
+    text.resize(DrawPlace(text, source));
   }
 }
 

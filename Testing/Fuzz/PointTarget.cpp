@@ -86,12 +86,6 @@ PointCase MakePointCase(const std::uint8_t* bytes, std::size_t size)
   return drawn;
 }
 
-PointOptions WithThreads(PointOptions options, int threads)
-{
-  options.NumberOfThreads = threads;
-  return options;
-}
-
 /// Unless triangles were removed, none is left over or twice.
 void ExpectRightNumber(const PointCase& drawn, const Places& points, const Triangulation& result)
 {

@@ -3,6 +3,7 @@
 #include "ByteSource.h"
 #include "EngineCase.h"
 #include "FuzzTarget.h"
+#include "MeshDivision.h"
 #include "OtherGroup.h"
 
 #include "vtkCellArray.h"
@@ -17,9 +18,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -126,35 +127,23 @@ RanksCase MakeRanksCase(const std::uint8_t* bytes, std::size_t size)
 }
 
 /// The triangles of one rank with their points.
-vtkSmartPointer<vtkDataObject> MakePiece(const RanksCase& drawn, int rank)
+vtkSmartPointer<vtkDataObject> MakePiece(const RanksCase& drawn, const OwnPiece& own)
 {
+  const TriangleMesh mesh = own.View().Mesh;
   vtkNew<vtkPoints> points;
   points->SetDataType(drawn.Whole.HasFloats ? VTK_FLOAT : VTK_DOUBLE);
-  vtkNew<vtkIdTypeArray> numbers;
-  numbers->SetName("Number");
+  for (std::int64_t i = 0; i < mesh.Points.Count; ++i)
+  {
+    points->InsertNextPoint(mesh.Points.Get(i, 0), mesh.Points.Get(i, 1), mesh.Points.Get(i, 2));
+  }
   vtkNew<vtkIntArray> regions;
   regions->SetName("Region");
   vtkNew<vtkCellArray> polygons;
-  std::map<std::int32_t, vtkIdType> ids;
-  for (std::size_t t = 0; t < drawn.Owners.size(); ++t)
+  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
   {
-    if (drawn.Owners[t] != rank)
-    {
-      continue;
-    }
-    polygons->InsertNextCell(3);
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const std::int32_t point = drawn.Whole.Triangles[3 * t + slot];
-      const auto [known, isNew] = ids.emplace(point, points->GetNumberOfPoints());
-      if (isNew)
-      {
-        points->InsertNextPoint(&drawn.Whole.Points[3 * point]);
-        numbers->InsertNextValue(point);
-      }
-      polygons->InsertCellPoint(known->second);
-    }
-    regions->InsertNextValue(drawn.Whole.Regions.empty() ? 0 : drawn.Whole.Regions[t]);
+    polygons->InsertNextCell(
+      { mesh.Triangles.Get(t, 0), mesh.Triangles.Get(t, 1), mesh.Triangles.Get(t, 2) });
+    regions->InsertNextValue(mesh.Regions ? mesh.Regions[t] : 0);
   }
   const auto piece = vtkSmartPointer<vtkPolyData>::New();
   piece->SetPoints(points);
@@ -162,6 +151,10 @@ vtkSmartPointer<vtkDataObject> MakePiece(const RanksCase& drawn, int rank)
   piece->GetCellData()->AddArray(regions);
   if (drawn.HasNumbers)
   {
+    vtkNew<vtkIdTypeArray> numbers;
+    numbers->SetName("Number");
+    std::for_each(own.PointOf.begin(), own.PointOf.end(),
+      [&numbers](std::int64_t id) { numbers->InsertNextValue(id); });
     piece->GetPointData()->SetGlobalIds(numbers);
   }
   if (!drawn.IsComposite)
@@ -173,11 +166,11 @@ vtkSmartPointer<vtkDataObject> MakePiece(const RanksCase& drawn, int rank)
   return partitions;
 }
 
-vtkSmartPointer<RankFilter> MakeFilter(const RanksCase& drawn, int rank)
+vtkSmartPointer<RankFilter> MakeFilter(const RanksCase& drawn, const OwnPiece& piece, int rank)
 {
   const auto filter = vtkSmartPointer<RankFilter>::New();
   const FlipOptions& options = drawn.Whole.Options;
-  filter->SetInputDataObject(MakePiece(drawn, rank));
+  filter->SetInputDataObject(MakePiece(drawn, piece));
   filter->SetGeometry(static_cast<int>(options.Geometry));
   filter->SetCriterion(static_cast<int>(options.Criterion));
   filter->SetTieRule(static_cast<int>(options.TieRule));
@@ -270,10 +263,12 @@ void SetUpTarget(int*, char**) { vtkObject::GlobalWarningDisplayOff(); }
 void RunTarget(const std::uint8_t* bytes, std::size_t size)
 {
   const RanksCase drawn = MakeRanksCase(bytes, size);
+  const std::vector<OwnPiece> pieces =
+    DivideMesh(EngineInput(drawn.Whole).View(), drawn.Owners, drawn.Ranks);
   std::vector<vtkSmartPointer<RankFilter>> filters;
   for (int rank = 0; rank < drawn.Ranks; ++rank)
   {
-    filters.push_back(MakeFilter(drawn, rank));
+    filters.push_back(MakeFilter(drawn, pieces[rank], rank));
   }
   RunInThreads(drawn.Ranks,
     [&](PieceGroup& group)
