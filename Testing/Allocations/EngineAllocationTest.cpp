@@ -92,7 +92,7 @@ void ExpectFailuresReported(
   EXPECT_GE(count, smallest > 0 ? 3 : 30);
 }
 
-FlipOptions WithThreads(int threads, GeometryKind geometry)
+FlipOptions MakeOptions(int threads, GeometryKind geometry = GeometryKind::Auto)
 {
   FlipOptions options;
   options.NumberOfThreads = threads;
@@ -130,22 +130,12 @@ void ExpectFailuresInPiecesReported(const OwnedMesh<double>& mesh, FlipOptions o
 
 }
 
-TEST(EngineAllocations, OfAPlaneFailOnce)
+TEST(EngineAllocations, OfAWholeRunFailOnce)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
-  ExpectFailuresReported(mesh, WithThreads(1, GeometryKind::Auto));
-}
-
-TEST(EngineAllocations, OnThreadsFailOnce)
-{
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(6000, 1);
-  ExpectFailuresReported(mesh, WithThreads(3, GeometryKind::Auto));
-}
-
-TEST(EngineAllocations, OfASurfaceFailOnce)
-{
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
-  ExpectFailuresReported(mesh, WithThreads(1, GeometryKind::Surface));
+  ExpectFailuresReported(mesh, MakeOptions(1));
+  ExpectFailuresReported(mesh, MakeOptions(1, GeometryKind::Surface));
+  ExpectFailuresReported(MakeRandomBadMeshDouble(6000, 1), MakeOptions(3));
 }
 
 /// Allocations of a megabyte and more are mapped.
@@ -155,7 +145,7 @@ TEST(EngineAllocations, OfALargeMeshFailOnce)
   GTEST_SKIP() << "sanitizers replace mmap themselves";
 #endif
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(70000, 1);
-  ExpectFailuresReported(mesh, WithThreads(2, GeometryKind::Auto), Megabyte);
+  ExpectFailuresReported(mesh, MakeOptions(2), Megabyte);
 }
 
 TEST(EngineAllocations, OfOtherFunctionsFailOnce)
