@@ -113,17 +113,6 @@ TEST(DirtyInput, NonFinitePointsStayAndTheRestIsProcessed)
   }
 }
 
-TEST(DirtyInput, NonFinitePointsOfSurfacesAreLeftAlone)
-{
-  OwnedMesh<double> mesh = MakeBadSphere(40, 20, 82);
-  mesh.Points[3 * 200 + 2] = std::nan("");
-  mesh.Points[3 * 400 + 1] = Infinity;
-  const FlipResult result = FlipDirty(mesh, GeometryKind::Auto);
-  EXPECT_EQ(GeometryKind::Surface, result.Report.GeometryUsed);
-  EXPECT_EQ(2, CountDefect(result.Report, "NaN"));
-  EXPECT_LT(100, result.Report.TotalFlips);
-}
-
 /// A cap whose apex lies exactly on the shared edge: its angle is pi, so the edge is bad.
 TEST(DirtyInput, FlatCapsFlip)
 {
@@ -157,42 +146,6 @@ TEST(DirtyInput, AllCollinearOrCoincidentPointsEnd)
     EXPECT_EQ(line.NumberOfTriangles(), CountDefect(FlipDirty(line, geometry).Report, "area"));
     const FlipResult result = FlipDirty(spot, geometry);
     EXPECT_EQ(spot.Triangles, result.Triangles);
-  }
-}
-
-/// Pairs of points at one place, with triangles between them.
-TEST(DirtyInput, CoincidentPointsAreNotMerged)
-{
-  std::mt19937 random(84);
-  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 84);
-  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 300)
-  {
-    const std::int32_t from = mesh.Triangles[t];
-    const std::int32_t to = mesh.Triangles[t + 1];
-    std::copy_n(&mesh.Points[3 * from], 3, &mesh.Points[3 * to]);
-  }
-  for (GeometryKind geometry : Geometries)
-  {
-    const FlipResult result = FlipDirty(mesh, geometry);
-    EXPECT_LT(100, result.Report.TotalFlips);
-    EXPECT_LT(0, CountDefect(result.Report, "area"));
-  }
-}
-
-/// Lattice points moved onto each other: many zero-area and inverted triangles, and many ties.
-TEST(DirtyInput, CrumpledLatticesEnd)
-{
-  for (std::uint32_t seed = 0; seed < 60 / Reduction; ++seed)
-  {
-    std::mt19937 random(seed);
-    OwnedMesh<double> mesh = MakeGridMesh(9, 9);
-    for (double& x : mesh.Points)
-    {
-      x += DrawIndex(random, 8) == 0 ? DrawIndex(random, 3) - 1 : 0;
-    }
-    FlipDirty(mesh, GeometryKind::PlanarXY);
-    FlipDirty(mesh, GeometryKind::Surface);
-    ASSERT_FALSE(HasFailure()) << "seed " << seed;
   }
 }
 

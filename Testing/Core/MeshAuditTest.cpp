@@ -73,12 +73,6 @@ TEST(EulerCharacteristic, TellsSurfacesApart)
   EXPECT_EQ(2, EulerCharacteristic(MakeBadSphere(9, 5, 1).View().Triangles));
   EXPECT_EQ(0, EulerCharacteristic(MakeMoebiusStrip(9, 2, 1).View().Triangles));
   EXPECT_EQ(1, EulerCharacteristic(MakeRandomBadMesh(500, 1).View().Triangles));
-  // Tiles fit together, whichever thread makes them.
-  const OwnedMesh<float> tiled = MakeTiledBadMesh(5000, 4, 7, 1);
-  EXPECT_EQ(1, EulerCharacteristic(tiled.View().Triangles));
-  EXPECT_EQ(16, CountEdges(tiled.View().Triangles).Boundary);
-  EXPECT_EQ(2 * 5000 - 16 - 2, CountTurns(tiled.View()).Left);
-  EXPECT_TRUE(tiled.Triangles == MakeTiledBadMesh(5000, 4, 7, 5).Triangles);
 }
 
 TEST(DuplicateEdgesGained, AreCountedWhereThreeTrianglesMeet)
@@ -128,11 +122,30 @@ TEST(NonDelaunayEdges, AreCountedInEveryGeometry)
   EXPECT_EQ(0, CountBad(mesh.View(), GeometryKind::Surface));
 }
 
-TEST(NonDelaunayEdges, AreNotTiesInvertedPairsOrEdgesThatMustStay)
+TEST(NonDelaunayEdges, DependOnTheGeometry)
 {
-  EXPECT_EQ(0, CountBad(MakeGridMesh(1, 1).View()));
-  EXPECT_EQ(0, CountBad(MakePair({ -2, 0, 0, 0, -1, 0, 2, 0, 0, 0, -0.5, 0 }).View()));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const struct
+  {
+    const char* Name;
+    std::vector<double> Points;
+    int InPlane, OnSurface; ///< Bad edges by x and y, and in space.
+  } cases[] = { { "tie", { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, 0, 0 },
+    { "inverted pair", { -2, 0, 0, 0, -1, 0, 2, 0, 0, 0, -0.5, 0 }, 0, 0 },
+    { "flat cap", { -2, 0, 0, 0, 0, 0, 2, 0, 0, 0, 1, 0 }, 1, 1 },
+    { "not a number", { -2, 0, 0, nan, 0, 0, 2, 0, 0, 0, 1, 0 }, 0, 0 },
+    { "terrain", { -2, 0, 0, 0, -1, 100, 2, 0, 0, 0, 1, 0 }, 1, 0 } };
+  for (const auto& one : cases)
+  {
+    SCOPED_TRACE(one.Name);
+    const OwnedMesh<double> mesh = MakePair(one.Points);
+    EXPECT_EQ(one.InPlane, CountBad(mesh.View(), GeometryKind::PlanarXY));
+    EXPECT_EQ(one.OnSurface, CountBad(mesh.View(), GeometryKind::Surface));
+  }
+}
 
+TEST(NonDelaunayEdges, AreNotEdgesThatMustStay)
+{
   const OwnedMesh<double> bad = MakeBadPair();
   EXPECT_EQ(0, CountBad(WithConstraints(bad.View(), { 2, 0 })));
   TriangleMesh mesh = bad.View();
@@ -143,25 +156,6 @@ TEST(NonDelaunayEdges, AreNotTiesInvertedPairsOrEdgesThatMustStay)
   const unsigned char frozen[] = { 0, 1 };
   mesh.FrozenTriangles = frozen;
   EXPECT_EQ(0, CountBad(mesh));
-}
-
-TEST(NonDelaunayEdges, IncludeFlatCapsAndMayNotBeJudgedWithNaN)
-{
-  OwnedMesh<double> cap = MakePair({ -2, 0, 0, 0, 0, 0, 2, 0, 0, 0, 1, 0 });
-  EXPECT_EQ(1, CountBad(cap.View()));
-  EXPECT_EQ(1, CountBad(cap.View(), GeometryKind::Surface));
-  cap.Points[3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(0, CountBad(cap.View()));
-  EXPECT_EQ(0, CountBad(cap.View(), GeometryKind::Surface));
-}
-
-TEST(NonDelaunayEdges, OfTerrainIgnoreHeight)
-{
-  OwnedMesh<double> terrain = MakeBadPair();
-  terrain.Points[5] = 100.0;
-  EXPECT_EQ(1, CountBad(terrain.View(), GeometryKind::PlanarXY));
-  EXPECT_EQ(1, CountBad(terrain.View(), GeometryKind::PlanarXY, CriterionKind::OppositeAngles));
-  EXPECT_EQ(0, CountBad(terrain.View(), GeometryKind::Surface));
 }
 
 TEST(NonDelaunayEdges, OfSurfacesObeyFeatureAngleAndTolerance)

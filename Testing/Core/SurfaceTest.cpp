@@ -317,22 +317,6 @@ TEST(Surface, MoebiusStripsStayOneSided)
   }
 }
 
-TEST(Surface, MixedWindingFixesTheEdgesBetween)
-{
-  std::mt19937 random(63);
-  OwnedMesh<double> mesh = MakeBadSphere(40, 20, 63);
-  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
-  {
-    if (DrawIndex(random, 10) == 0)
-    {
-      std::swap(mesh.Triangles[t], mesh.Triangles[t + 1]);
-    }
-  }
-  const FlipResult result = FlipSurface(mesh);
-  EXPECT_LT(0, result.Report.Edges.WronglyWound);
-  EXPECT_LT(0, result.Report.TotalFlips);
-}
-
 TEST(Surface, DuplicateTrianglesKeepTheirEdges)
 {
   for (bool reversed : { false, true })
