@@ -20,7 +20,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace
 {
@@ -366,27 +365,4 @@ TEST(ConstraintInsertion, FollowsTheOrderOfTheInput)
   EXPECT_FALSE(HasEdges(filter->GetOutput(), FirstChain));
   EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 1);
   ExpectHolds(filter.GetWarnings()[0], "(first: 7-50, 0-50)");
-}
-
-TEST(ConstraintInsertion, LiveRunsEndWithTheSameMesh)
-{
-  Mesh mesh = MakeBadPlane();
-  Mesh lines = MakeLines({ { 0, 300 }, { 1, 250 }, { 17, 200 }, { 5, 399 } });
-  WatchedFilter atOnce(mesh);
-  atOnce->SetConstraintsData(lines);
-  atOnce->GenerateFlipCountOn();
-  const std::vector<int> counts = GetNumbers(atOnce.Run()->GetCellData(), "vtkDelaunayFlipCount");
-  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), vtkIdType(0)),
-    2 * (atOnce->GetTotalFlips() + atOnce->GetNumberOfConstraintFlips()));
-  LiveFilter live(mesh);
-  live->SetConstraintsData(lines);
-  live.Run();
-  EXPECT_EQ(live->GetNumberOfIterations(), 1);
-  EXPECT_GT(live->GetNumberOfConstraintFlips(), 0);
-  EXPECT_GT(live.RunToTheEnd(), 3);
-  EXPECT_EQ(live.GetPolygons(), atOnce.GetPolygons());
-  EXPECT_EQ(live->GetNumberOfConstraintFlips(), atOnce->GetNumberOfConstraintFlips());
-  live->InsertConstraintsOff(); // starts again
-  live.RunToTheEnd();
-  EXPECT_EQ(live->GetNumberOfConstraintFlips(), 0);
 }

@@ -140,4 +140,8 @@ TEST(LiveBits, AreThoseOfAnUpdateAtOnce)
   ExpectLiveIsAtOnce(MakeBadSphere(), setNothing);
   ExpectLiveIsAtOnce(floats, [](vtkDelaunayFlip* filter) { filter->SetGeometryToPlanarXY(); });
   ExpectLiveIsAtOnce(MakeDividedTerrain(), Divide);
+  // Constraints that are inserted first.
+  const Mesh lines = MakeLines({ { 0, 300 }, { 1, 250 }, { 17, 200 }, { 5, 399 } });
+  ExpectLiveIsAtOnce(
+    MakeBadPlane(), [&lines](vtkDelaunayFlip* filter) { filter->SetConstraintsData(lines); });
 }

@@ -386,30 +386,29 @@ TEST(FromPoints, CompositeInput)
 
 TEST(FromPoints, PointsInPiecesAreAnError)
 {
-  vtkNew<vtkPartitionedDataSet> parts;
+  vtkNew<vtkPartitionedDataSet> parts, whole, segments;
   parts->SetPartition(0, ToMesh(MakeCloud(10)));
+  whole->SetPartition(0, ToMesh(Square));
   PointsFilter one(parts);
   one->Update();
   EXPECT_EQ(one.GetErrors().size(), 0u);
   parts->SetPartition(1, ToMesh(MakeCloud(20)));
-  PointsFilter several(parts);
-  several->Update();
-  ASSERT_EQ(several.GetErrors().size(), 1u);
-  ExpectHolds(several.GetErrors()[0], "the points are in several partitions; join them first");
-  EXPECT_EQ(several->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
-  vtkNew<vtkPartitionedDataSet> whole, segments;
-  whole->SetPartition(0, ToMesh(Square));
   segments->SetPartition(0, MakeLines(Square, { { 0, 1 } }));
   segments->SetPartition(1, MakeLines(Square, { { 0, 2 } }));
-  PointsFilter apart(whole);
+  PointsFilter several(parts), apart(whole), piece(ToMesh(MakeCloud(10)));
+  several->Update();
+  EXPECT_EQ(several->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
   apart->SetInputDataObject(1, segments);
   apart->Update();
-  ASSERT_EQ(apart.GetErrors().size(), 1u);
-  ExpectHolds(apart.GetErrors()[0], "the segments are in several partitions; join them first");
-  PointsFilter piece(ToMesh(MakeCloud(10)));
   piece->UpdatePiece(1, 2, 0);
-  ASSERT_EQ(piece.GetErrors().size(), 1u);
-  ExpectHolds(piece.GetErrors()[0], "gather them in the first one");
+  for (const auto& [filter, text] :
+    { std::pair(&several, "the points are in several partitions; join them first"),
+      { &apart, "the segments are in several partitions; join them first" },
+      { &piece, "gather them in the first one" } })
+  {
+    ASSERT_EQ(filter->GetErrors().size(), 1u);
+    ExpectHolds(filter->GetErrors()[0], text);
+  }
 }
 
 TEST(FromPoints, LiveUpdate)
