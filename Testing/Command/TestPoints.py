@@ -176,22 +176,18 @@ class Results(PointTest):
 
     def test_plane(self):
         """Points of the plane x = 3."""
-        self.write("in.xyz", text_of([(3, y, x) for x, y, _ in PLACES]))
+        wall = [(3, y, x) for x, y, _ in PLACES]
+        self.write("in.xyz", text_of(wall))
         mesh, _ = self.triangulate("in.xyz")
         self.assertEqual(triangles_of(mesh), [])
         mesh, _ = self.triangulate("in.xyz", "--projection", "plane")
         self.assertEqual(len(triangles_of(mesh)), 4)
-        self.write("in.xyz", text_of([(x, y, 9 * x) for x, y, _ in PLACES]))
-        ring = self.rings("ring.vtk", [(x, y, 9 * x) for x, y, _ in PLACES[1:4]])
-        for option in ("--outline", "--holes"):
-            mesh, _ = self.triangulate("in.xyz", "--projection", "plane", option, ring)
-            self.assertEqual(len(triangles_of(mesh)), 2)
-        wall = [(3, y, x) for x, y, _ in PLACES]
-        self.write("in.xyz", text_of(wall))
-        ring = self.rings("ring.vtk", [wall[i] for i in (0, 1, 4, 3)])
-        for option in ("--outline", "--holes"):
-            mesh, _ = self.triangulate("in.xyz", "--projection", "plane", option, ring)
-            self.assertEqual(len(triangles_of(mesh)), 2)
+        for places in ([(x, y, 9 * x) for x, y, _ in PLACES], wall):
+            self.write("in.xyz", text_of(places))
+            ring = self.rings("ring.vtk", [places[i] for i in (0, 1, 4, 3)])
+            for option in ("--outline", "--holes"):
+                mesh, _ = self.triangulate("in.xyz", "--projection", "plane", option, ring)
+                self.assertEqual(len(triangles_of(mesh)), 2)
 
     def test_large_triangles(self):
         self.write("in.xyz", text_of(grid(4) + [(20, 1, 0)]))
@@ -247,18 +243,17 @@ class Segments(PointTest):
     def test_outline_and_holes(self):
         outline = self.rings("outline.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)])
         hole = self.rings("hole.vtk", [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0), (2.5, 1.5, 0)])
+        nested = self.rings("nested.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)],
+                            [(1, 1, 0), (3, 1, 0), (3, 3, 0), (1, 3, 0)])
         for options, area in (
             (["--outline", outline], 9), (["--holes", hole], 15), (["--outline", hole], 1),
             (["--outline", outline, "--holes", hole], 8),
+            (["--outline", nested, "--holes", hole], 8),
             (["--outline", outline, "--constraints", hole], 9),
         ):
             mesh, result = self.triangulate("in.xyz", *options)
             self.assertEqual(area_of(mesh), area, options)
             self.assertRegex(result.stdout, r"removed +\d+ triangles outside, 0 too large")
-        nested = self.rings("nested.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)],
-                            [(1, 1, 0), (3, 1, 0), (3, 3, 0), (1, 3, 0)])
-        mesh, _ = self.triangulate("in.xyz", "--outline", nested, "--holes", hole)
-        self.assertEqual(area_of(mesh), 8)
 
     def test_rings_that_are_none(self):
         for mesh, words in (

@@ -53,7 +53,7 @@ class Read(ArrayTest):
 
     def test_every_array(self):
         """Several arrays of each kind, on verts, lines and triangles, which are Delaunay already."""
-        points = [(x, y + x / 15, 0) for x in range(4) for y in range(3)]
+        points = [(x, y + x / 16, 0) for x in range(4) for y in range(3)]
         mesh = make_mesh(points, [(0, 3, 1), (1, 3, 4)], [(0, 1, 2), (5, 8)])
         mesh.SetVerts(make_cells([(2,), (0,)]))
         for data, size in ((mesh.GetPointData(), 12), (mesh.GetCellData(), 6)):
