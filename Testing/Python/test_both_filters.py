@@ -16,14 +16,13 @@ from delaunayflip._vtk_filter import (
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    vtkDoubleArray, vtkIntArray, vtkObject, vtkStringArray, vtkUnsignedCharArray)
+from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData, vtkTable)
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
 from test_vtk_delaunay_flip import (
-    Watched, add_numbers, get_cells, list_properties, make_bad_mesh, make_cells, make_mesh,
+    Watched, add_array, get_cells, list_properties, make_bad_mesh, make_cells, make_mesh,
     make_rhombus)
 
 
@@ -51,37 +50,28 @@ def make_polygon_mesh(seed=3, side=9):
     mesh.SetVerts(make_cells([(0,), (5,)]))
     mesh.SetLines(make_cells([(0, 1, 2), (10, 31)]))
     count = mesh.GetNumberOfCells()
-    add_numbers(mesh.GetCellData(), "Number", count)
-    add_numbers(mesh.GetPointData(), "Depth", len(points))
-    mesh.GetCellData().SetGlobalIds(numpy_to_vtk(numpy.arange(count), deep=True))
-    mesh.GetCellData().GetGlobalIds().SetName("Ids")
-    normals = numpy_to_vtk(numpy.tile([0.0, 0.0, -1.0], (count, 1)), deep=True)
-    normals.SetName("Normals")
-    mesh.GetCellData().SetNormals(normals)
+    add_array(mesh.GetCellData(), "Number", numpy.arange(count))
+    add_array(mesh.GetPointData(), "Depth", numpy.arange(len(points)))
+    add_array(mesh.GetCellData(), "Ids", numpy.arange(count))
+    add_array(mesh.GetCellData(), "Normals", numpy.tile([0.0, 0.0, -1.0], (count, 1)))
+    mesh.GetCellData().SetActiveGlobalIds("Ids")
+    mesh.GetCellData().SetActiveNormals("Normals")
     mesh.GetCellData().SetActiveVectors("Normals")
     mesh.GetCellData().SetActiveScalars("Ids")
-    mesh.GetCellData().AddArray(numpy_to_vtk(numpy.arange(count), deep=True))  # without a name
+    add_array(mesh.GetCellData(), None, numpy.arange(count))
     return mesh
 
 
 def add_ghosts(mesh):
-    ghosts = vtkUnsignedCharArray()
-    ghosts.SetName("vtkGhostType")
-    for cell in range(mesh.GetNumberOfCells() // 2):
-        ghosts.InsertNextValue(cell % 3)
-    mesh.GetCellData().AddArray(ghosts)
+    cells = numpy.arange(mesh.GetNumberOfCells() // 2)
+    add_array(mesh.GetCellData(), "vtkGhostType", (cells % 3).astype(numpy.uint8))
 
 
 def add_regions(mesh):
-    tree, height = vtkStringArray(), vtkDoubleArray()
-    tree.SetName("Tree")
-    height.SetName("Height")
-    height.SetNumberOfComponents(2)
-    for cell in range(mesh.GetNumberOfCells()):
-        tree.InsertNextValue(("oak", "elm")[cell // 11 % 2])
-        height.InsertNextTuple2((0.0, -0.0, math.nan, -math.nan)[cell // 7 % 4], cell // 20)
-    mesh.GetCellData().AddArray(tree)
-    mesh.GetCellData().AddArray(height)
+    cells = range(mesh.GetNumberOfCells())
+    heights = [((0.0, -0.0, math.nan, -math.nan)[cell // 7 % 4], cell // 20) for cell in cells]
+    add_array(mesh.GetCellData(), "Tree", [("oak", "elm")[cell // 11 % 2] for cell in cells])
+    add_array(mesh.GetCellData(), "Height", heights)
 
 
 def make_constraints(mesh, kind):
@@ -268,14 +258,11 @@ class Same(Pair, unittest.TestCase):
     def test_warnings(self):
         mesh = make_polygon_mesh()
         mesh.SetPolys(make_cells(get_cells(mesh.GetPolys()) + [(1, 1, 2, 3), (4, 4, 4), (4, 4, 5)]))
-        short = vtkIntArray()
-        short.SetName("Short")
         for data in (mesh.GetCellData(), mesh.GetPointData()):
-            data.AddArray(short)
+            add_array(data, "Short", [])
         mesh.GetPoints().SetPoint(7, math.nan, 0, 0)
-        ghosts = numpy_to_vtk(numpy.ones(mesh.GetNumberOfCells(), numpy.int32), deep=True)
-        ghosts.SetName("vtkGhostType")
-        mesh.GetCellData().AddArray(ghosts)
+        ghosts = numpy.ones(mesh.GetNumberOfCells(), numpy.int32)
+        add_array(mesh.GetCellData(), "vtkGhostType", ghosts)
         told = self.expect_same(mesh)
         self.assertIn("Short", told["warnings"][0])
 
@@ -339,15 +326,13 @@ def make_cloud(count=300, kind=numpy.float64, seed=5):
     places = numpy.floor(generator.uniform(0, 30, (count, 3))) + [0, 0, 0.25]
     cloud = make_mesh(places, [(0, 1, 2)])
     cloud.GetPoints().SetData(numpy_to_vtk(places.astype(kind), deep=True))
-    add_numbers(cloud.GetPointData(), "Number", count)
-    add_numbers(cloud.GetPointData(), "Own", count)
-    cloud.GetPointData().SetGlobalIds(numpy_to_vtk(numpy.arange(count), deep=True))
-    cloud.GetPointData().GetGlobalIds().SetName("Ids")
+    add_array(cloud.GetPointData(), "Number", numpy.arange(count))
+    add_array(cloud.GetPointData(), "Own", numpy.arange(count))
+    add_array(cloud.GetPointData(), "Ids", numpy.arange(count))
+    cloud.GetPointData().SetActiveGlobalIds("Ids")
     cloud.GetPointData().SetActiveScalars("Ids")
-    cloud.GetPointData().AddArray(numpy_to_vtk(numpy.arange(count), deep=True))  # without a name
-    ghosts = numpy_to_vtk(numpy.full(count, 2, numpy.uint8), deep=True)
-    ghosts.SetName("vtkGhostType")
-    cloud.GetPointData().AddArray(ghosts)
+    add_array(cloud.GetPointData(), None, numpy.arange(count))
+    add_array(cloud.GetPointData(), "vtkGhostType", numpy.full(count, 2, numpy.uint8))
     return cloud
 
 
@@ -361,12 +346,8 @@ def make_segments(cloud, kind):
     segments = make_mesh(places, [(13, 14, 15, 16), (17, 18, 19, 20)])
     segments.GetPoints().SetData(numpy_to_vtk(places, deep=True))
     segments.SetLines(make_cells([(0, 1, 2), (8, 9), (10, 11), (3, 3, 4), (7,)]))
-    add_numbers(segments.GetPointData(), "Number", len(places))
-    names = vtkStringArray()
-    names.SetName("Names")
-    for place in range(len(places)):
-        names.InsertNextValue(str(place))
-    segments.GetPointData().AddArray(names)
+    add_array(segments.GetPointData(), "Number", numpy.arange(len(places)))
+    add_array(segments.GetPointData(), "Names", [str(place) for place in range(len(places))])
     return segments
 
 
@@ -431,9 +412,8 @@ class SamePoints(Pair, unittest.TestCase):
         self.assertEqual(len(told["errors"]), 1)
 
     def test_other_trouble(self):
-        cloud, short = make_cloud(30), vtkIntArray()
-        short.SetName("Short")
-        cloud.GetPointData().AddArray(short)
+        cloud = make_cloud(30)
+        add_array(cloud.GetPointData(), "Short", [])
         self.expect_same(cloud)
         segments = make_segments(cloud, float)
         self.expect_same(cloud, lambda points: points.SetSegmentsData(segments))

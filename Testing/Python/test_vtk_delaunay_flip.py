@@ -3,19 +3,18 @@
 """The essentials of vtkDelaunayFlip in Python; with numpy where bits matter."""
 import importlib.util
 import math
-import random
 import re
 import subprocess
 import sys
 import unittest
 
 # Imported before any module of VTK: the package must load what it needs.
+import delaunayflip
 from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipPoints
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    vtkIdList, vtkPoints, vtkStringArray, vtkVersion)
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkStringArray, vtkVersion
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkStructuredGrid, vtkTable,
     vtkUnstructuredGrid)
@@ -52,20 +51,12 @@ def make_rhombus():
     return make_mesh([(-3, 0, 0), (0, -1, 0), (3, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 3)])
 
 
-def make_bad_mesh(number_of_points=150):
-    """Random points, each joined to the corners of the triangle that contains it."""
-    generator = random.Random(5)
-    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-    triangles = [(0, 1, 2)]
-    for _ in range(number_of_points):
-        a, b, c = triangles.pop(generator.randrange(len(triangles)))
-        weights = [generator.uniform(1, 2) for _ in range(3)]
-        points.append(tuple(
-            sum(w * points[i][k] for w, i in zip(weights, (a, b, c))) / sum(weights)
-            for k in range(3)))
-        p = len(points) - 1
-        triangles += [(a, b, p), (b, c, p), (c, a, p)]
-    return make_mesh(points, triangles)
+def make_bad_mesh():
+    """Random points in a triangle, in the strips that a triangulation starts from."""
+    points = numpy.random.default_rng(5).dirichlet([1, 1, 1], 150)[:, :2]
+    points = numpy.concatenate([[(0, 0), (1, 0), (0, 1)], points])
+    strips = delaunayflip.triangulate(points, maximum_iterations=0).triangles
+    return make_mesh(numpy.c_[points, numpy.zeros(len(points))], strips)
 
 
 def get_cells(cells):
@@ -98,8 +89,14 @@ def count_violations(mesh):
     return sum(len(angles) == 2 and sum(angles) > math.pi + 1e-9 for angles in opposite.values())
 
 
-def add_numbers(data, name, count):
-    array = numpy_to_vtk(numpy.arange(count), deep=True)
+def add_array(data, name, values):
+    """Adds numbers, or strings."""
+    if len(values) and isinstance(values[0], str):
+        array = vtkStringArray()
+        for value in values:
+            array.InsertNextValue(value)
+    else:
+        array = numpy_to_vtk(numpy.asarray(values), deep=True)
     array.SetName(name)
     data.AddArray(array)
 
@@ -135,8 +132,8 @@ class Meshes(unittest.TestCase):
     def test_what_passes(self):
         mesh = make_bad_mesh()
         mesh.SetLines(make_cells([(0, 1)]))
-        add_numbers(mesh.GetPointData(), "Depth", mesh.GetNumberOfPoints())
-        add_numbers(mesh.GetCellData(), "Number", mesh.GetNumberOfCells())
+        add_array(mesh.GetPointData(), "Depth", numpy.arange(mesh.GetNumberOfPoints()))
+        add_array(mesh.GetCellData(), "Number", numpy.arange(mesh.GetNumberOfCells()))
         points = vtk_to_numpy(mesh.GetPoints().GetData())
         bits, cells = points.tobytes(), get_cells(mesh.GetPolys())
         self.assertGreater(count_violations(mesh), 0)
@@ -155,7 +152,7 @@ class Meshes(unittest.TestCase):
         mesh = make_mesh([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 2, 0), (1, 2, 0)],
                          [(0, 1, 2, 3)])
         mesh.SetStrips(make_cells([(3, 2, 4, 5)]))
-        add_numbers(mesh.GetCellData(), "Number", 2)
+        add_array(mesh.GetCellData(), "Number", numpy.arange(2))
         watched = Watched(mesh)
         output = watched.run()
         self.assertEqual(get_cells(output.GetPolys()), [(0, 1, 2), (0, 2, 3), (3, 2, 4), (4, 2, 5)])
@@ -168,13 +165,9 @@ class Meshes(unittest.TestCase):
         self.assertEqual(get_cells(output.GetStrips()), [(3, 2, 4, 5)])
 
     def test_constraints(self):
-        lines, names = vtkPolyData(), vtkStringArray()
+        lines, mesh = vtkPolyData(), make_rhombus()
         lines.SetLines(make_cells([(0, 2)]))
-        names.SetName("Tree")
-        for name in ("oak", "elm"):
-            names.InsertNextValue(name)
-        mesh = make_rhombus()
-        mesh.GetCellData().AddArray(names)
+        add_array(mesh.GetCellData(), "Tree", ("oak", "elm"))
         for set_up, is_kept in ((lambda flip: None, False),
                                 (lambda flip: flip.SetConstraintsData(lines), True),
                                 (lambda flip: flip.SetRegionArray("Tree"), True)):
@@ -182,7 +175,6 @@ class Meshes(unittest.TestCase):
             set_up(watched.filter)
             self.assertEqual(frozenset((0, 2)) in get_edges(watched.run()), is_kept)
             self.assertEqual(FLIPPED in get_edges(watched.run()), not is_kept)
-
 
     def test_pieces_share_constraints(self):
         line = vtkLineSource()  # all of it in the first piece
@@ -213,9 +205,8 @@ class Meshes(unittest.TestCase):
                     "with fewer constraints more can flip\n")
             self.assertEqual(hint in watched.filter.GetSummary(), expected, watched.filter.GetSummary())
             self.assertEqual("hint" in watched.filter.GetSummary(), expected)
-        ghosts = numpy_to_vtk(numpy.ones(len(triangles), numpy.uint8), deep=True)
-        ghosts.SetName("vtkGhostType")  # these keep edges as well, which no option changes
-        mesh.GetCellData().AddArray(ghosts)
+        # These keep edges as well, which no option changes.
+        add_array(mesh.GetCellData(), "vtkGhostType", numpy.ones(len(triangles), numpy.uint8))
         watched = Watched(mesh)
         watched.run()
         self.assertNotIn("hint", watched.filter.GetSummary())
