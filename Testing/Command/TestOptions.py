@@ -20,7 +20,6 @@ from CommandTesting import (
     values_of,
     write_mesh,
 )
-from vtkmodules.vtkCommonCore import vtkIntArray
 
 # Divided along its long diagonal.
 KITE = [(-2.0, 0.0, 0.0), (0.0, -1.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
@@ -137,11 +136,7 @@ class Options(CommandTest):
 
     def test_region_array(self):
         mesh = make_mesh(KITE, KITE_CELLS)
-        regions = vtkIntArray()
-        regions.SetName("Rock")
-        for value in (1, 2):
-            regions.InsertNextValue(value)
-        mesh.GetCellData().AddArray(regions)
+        mesh.GetCellData().AddArray(make_values("vtkIntArray", "Rock", [(1,), (2,)]))
         self.assertEqual(self.flips(mesh), 1)
         self.assertEqual(self.flips(mesh, "--region-array", "Rock"), 0)
         path = self.path("in.vtk")
