@@ -189,15 +189,11 @@ TEST(EngineAllocations, OfASessionLeaveItUsable)
 TEST(EngineAllocations, OfAMeshInPiecesFailOnce)
 {
   FlipOptions options;
-  options.TieRule = TieRuleKind::Canonical;
-  ExpectFailuresInPiecesReported(MakeRandomBadMeshDouble(60, 1), options);
-}
-
-TEST(EngineAllocations, OfASurfaceInPiecesFailOnce)
-{
-  FlipOptions options;
   options.Geometry = GeometryKind::Surface;
   ExpectFailuresInPiecesReported(MakeBadSphere(12, 6, 1), options);
+  options.Geometry = GeometryKind::Auto;
+  options.TieRule = TieRuleKind::Canonical;
+  ExpectFailuresInPiecesReported(MakeRandomBadMeshDouble(60, 1), options);
 }
 
 }

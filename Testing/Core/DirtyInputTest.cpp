@@ -134,11 +134,8 @@ TEST(DirtyInput, FlatCapsFlip)
 
 TEST(DirtyInput, AllCollinearOrCoincidentPointsEnd)
 {
-  OwnedMesh<double> line = MakeRandomBadMeshDouble(300, 83);
-  for (std::size_t i = 0; i < line.Points.size(); i += 3)
-  {
-    line.Points[i + 1] = line.Points[i];
-  }
+  const OwnedMesh<double> line = Transform(
+    MakeRandomBadMeshDouble(300, 83), { { { 1, 0, 0, 0 }, { 1, 0, 0, 0 }, { 0, 0, 1, 0 } } });
   OwnedMesh<double> spot = line;
   std::fill(spot.Points.begin(), spot.Points.end(), 7.0);
   for (GeometryKind geometry : Geometries)

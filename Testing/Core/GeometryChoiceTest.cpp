@@ -113,14 +113,9 @@ TEST(GeometryChoice, UtmTerrainIsPlanarXY)
 /// Even rough terrain: in degrees and metres slopes mean nothing.
 OwnedMesh<double> MakeDegreesAndMetres()
 {
-  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(5000, 31);
-  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
-  {
-    mesh.Points[i] = 156.0 + 70.0 * mesh.Points[i];
-    mesh.Points[i + 1] = 40.0 + 40.0 * mesh.Points[i + 1];
-    mesh.Points[i + 2] = 100.0 * Wave(mesh.Points[i], mesh.Points[i + 1]);
-  }
-  return mesh;
+  const AffineMap map = { { { 70, 0, 0, 156 }, { 0, 40, 0, 40 }, { 0, 0, 0, 0 } } };
+  return Lift(Transform(MakeRandomBadMeshDouble(5000, 31), map),
+    [](double x, double y) { return 100.0 * Wave(x, y); });
 }
 
 TEST(GeometryChoice, DegreesAndMetresArePlanarXY)

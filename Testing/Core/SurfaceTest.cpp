@@ -138,11 +138,8 @@ TEST(Surface, NarrowSpheresGainNoEdgeTwice)
   std::int64_t blocked = 0;
   for (std::uint32_t seed = 0; seed < 100 / Reduction; ++seed)
   {
-    OwnedMesh<double> mesh = MakeBadSphere(3 + seed % 3, 4 + seed % 40, seed);
-    for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
-    {
-      mesh.Points[i] *= 1.0 + seed % 7;
-    }
+    const OwnedMesh<double> mesh = Transform(MakeBadSphere(3 + seed % 3, 4 + seed % 40, seed),
+      { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1.0 + seed % 7, 0 } } });
     blocked += FlipSurface(mesh).Report.NonDelaunayAfter;
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
   }

@@ -211,5 +211,3 @@ TEST(ObserverSafety, ExceptionsAreErrors)
     ExpectHolds(GetErrorOfThrown(42, live), "unknown");
   }
 }
-
-/// Without being marked as modified.

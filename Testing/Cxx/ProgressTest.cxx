@@ -222,7 +222,6 @@ TEST(FilterProgress, AbortsWhileAnglesAreFound)
   }
 }
 
-/// Wherever it is stopped: the same mesh in the end.
 /// Wherever it is stopped, a live run continues with the next update.
 TEST(FilterProgress, LiveRunsContinue)
 {

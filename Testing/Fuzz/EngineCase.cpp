@@ -64,37 +64,24 @@ Mesh MakeLattice(ByteSource& source)
 /// A triangulation in x and y, with heights of the same family.
 Mesh MakeTerrain(ByteSource& source)
 {
-  Mesh mesh = MakePlane(source);
+  const Mesh mesh = MakePlane(source);
   const std::vector<Point3> heights = DrawPoints(source, 16);
-  for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
-  {
-    mesh.Points[i] = heights[source.Draw(static_cast<std::uint32_t>(heights.size()))][2];
-  }
-  return mesh;
+  return Lift(mesh,
+    [&](double, double)
+    { return heights[source.Draw(static_cast<std::uint32_t>(heights.size()))][2]; });
 }
 
 /// A triangulation in a tilted plane. Coordinates are integers, so the points lie in it exactly.
 Mesh MakeTiltedPlane(ByteSource& source)
 {
-  Mesh mesh = MakeLattice(source);
-  double map[3][3];
-  for (auto& row : map)
+  const Mesh mesh = MakeLattice(source);
+  const auto draw = [&source] { return static_cast<double>(source.Draw(32)) - 16.0; };
+  AffineMap map;
+  for (AffineRow& row : map)
   {
-    for (double& entry : row)
-    {
-      entry = static_cast<double>(source.Draw(32)) - 16.0;
-    }
+    row = { draw(), draw(), 0.0, draw() };
   }
-  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
-  {
-    const double x = mesh.Points[i];
-    const double y = mesh.Points[i + 1];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      mesh.Points[i + axis] = map[axis][0] * x + map[axis][1] * y + map[axis][2];
-    }
-  }
-  return mesh;
+  return Transform(mesh, map);
 }
 
 Mesh MakeSurface(ByteSource& source)

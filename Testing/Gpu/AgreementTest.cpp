@@ -24,12 +24,7 @@ OwnedMesh<double> MakeGrid() { return MakeGridMesh(300, 200); }
 
 OwnedMesh<double> MakeFoldedPlane()
 {
-  OwnedMesh<double> mesh = MakeBadSphere(200, 100, 17);
-  for (std::size_t i = 2; i < mesh.Points.size(); i += 3)
-  {
-    mesh.Points[i] = 0.0;
-  }
-  return mesh;
+  return Lift(MakeBadSphere(200, 100, 17), [](double, double) { return 0.0; });
 }
 
 OwnedMesh<double> MakeHills(double height)
