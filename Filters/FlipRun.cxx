@@ -133,7 +133,6 @@ FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
     Asked(request),
     Edges(StampEdges(request)),
     Points(StampPoints(request.Input)),
-    Time(request.Input->GetMTime()),
     Current(ShareMesh(request.Input)),
     Constraints(request.Constraints ? ShareMesh(request.Constraints) : nullptr),
     Origin(request.IsLive ? CopyPoints(Current) : Current),
@@ -182,7 +181,6 @@ void FlipRun::OpenSession(Start start)
     this->Bridge.RequireValidIds(); // its error names the cell, not the triangle
     throw;
   }
-  this->IsStopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
   this->Room = this->Asked.IsLive ? nullptr : this->Bridge.MakeRoom();
   if (this->Room)
   {
@@ -210,14 +208,8 @@ bool FlipRun::ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest
     last->Asked.Settings == request.Settings && last->Edges.Fit(StampEdges(request));
   if (fits && last->Points.Fit(StampPoints(request.Input)))
   {
-    if (last->Time != request.Input->GetMTime())
-    {
-      last->Time = request.Input->GetMTime();
-      last->Current = ShareMesh(request.Input);
-    }
-    last->Asked.WantsFlipCounts = request.WantsFlipCounts;
-    last->Asked.WantsAngles = request.WantsAngles;
-    last->IsStopped = false;
+    last->Current = ShareMesh(request.Input);
+    last->Asked = request;
     return true;
   }
   UpdatePlan plan = MakePlan(request, fits);

@@ -53,7 +53,6 @@ public:
 
   std::unique_ptr<FlipSession> Session;
   vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
-  bool IsStopped = false; ///< The observer of this update stopped it before the first iteration.
   std::string Warning; ///< What the last warning said.
 
 protected:
@@ -135,7 +134,6 @@ private:
   FlipRequest Asked; ///< Its meshes may be gone.
   Stamps Edges; ///< Of all, points aside, that decides which edges exist and which are fixed.
   Stamps Points;
-  vtkMTimeType Time; ///< Of the input.
   vtkSmartPointer<vtkPolyData> Current; ///< The input as it was at the last update.
   vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
   vtkSmartPointer<vtkPolyData> Origin; ///< With points that no later update moves.

@@ -349,7 +349,7 @@ int vtkDelaunayFlipAlgorithm::RequestData(
   }
   catch (...)
   {
-    this->DiscardRun();
+    this->DropRun(false);
     output->Initialize();
     summary = UpdateSummary();
     summary.AddFailure("");
@@ -373,13 +373,6 @@ void vtkDelaunayFlipAlgorithm::DropRun(bool canContinue)
   this->Run.reset();
   this->CanContinue = canContinue;
   this->Next = NextUpdate::StepAndStore;
-}
-
-/// Leaves nothing half done.
-void vtkDelaunayFlipAlgorithm::DiscardRun()
-{
-  this->DropRun(false);
-  *this->Report = FlipReport();
 }
 
 void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
@@ -422,7 +415,8 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
   }
   catch (...)
   {
-    this->DiscardRun();
+    this->DropRun(false);
+    *this->Report = FlipReport();
     summary.AddFailure(block.Name);
     for (BlockLeaf& leaf : block.Leaves)
     {
@@ -491,7 +485,8 @@ void vtkDelaunayFlipAlgorithm::FlipMesh(
     *this->Report = run->GetReport();
     const bool storesOnly = isSame && asked == NextUpdate::Store;
     bool isRunning = storesOnly && couldContinue;
-    if (!storesOnly && !run->IsStopped)
+    const bool isStopped = !isSame && this->Report->StopReason == StopReasonKind::Aborted;
+    if (!storesOnly && !isStopped)
     {
       const FlipObserver observer = [this](const IterationRecord& record)
       {

@@ -349,7 +349,6 @@ private:
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
   void DropRun(bool canContinue);
-  void DiscardRun();
   void FlipBlock(delaunayflip::MeshBlock& block, const std::vector<delaunayflip::MeshBlock>& others,
     delaunayflip::UpdateSummary& summary);
   void Publish(const delaunayflip::UpdateSummary& summary);

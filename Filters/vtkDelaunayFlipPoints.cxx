@@ -95,7 +95,6 @@ public:
     }
     this->Session =
       std::make_unique<FlipSession>(this->Input, request.Options, this->GetProgress());
-    this->IsStopped = this->Session->GetReport().StopReason == StopReasonKind::Aborted;
     if (!request.IsLive)
     {
       this->Room = this->MakeRoom();
@@ -239,12 +238,11 @@ private:
     }
     vtkPoints* points = this->Cloud->GetPoints();
     vtkSmartPointer<vtkAbstractTransform> transform = request.Transform;
-    vtkNew<vtkPolyData> projected;
     this->Projected->SetDataTypeToDouble();
     (transform ? transform.Get() : FitPlane(points).Get())
       ->TransformPoints(points, this->Projected);
-    projected->SetPoints(this->Projected);
-    return PlaneArray(ViewPoints(projected, this->Storage).Doubles, points->GetNumberOfPoints(), 3);
+    return PlaneArray(static_cast<const double*>(this->Projected->GetVoidPointer(0)),
+      points->GetNumberOfPoints(), 3);
   }
 
   /// Adds the points where segments cross to an output.
@@ -402,7 +400,6 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   if (last && last->Asked.Key == key && last->Asked.Options == options &&
     last->Asked.Arrays.Fit(arrays))
   {
-    last->IsStopped = false;
     return true;
   }
   run.reset(); // its memory may be needed
