@@ -103,17 +103,6 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
   return blocks;
 }
 
-namespace
-{
-
-/// Whether the second input is a single dataset.
-bool IsOfAll(const std::vector<MeshBlock>& others)
-{
-  return others.size() == 1 && others.front().Place.empty();
-}
-
-}
-
 std::vector<Note> ListMisfits(
   const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others)
 {
@@ -125,7 +114,7 @@ std::vector<Note> ListMisfits(
   std::vector<Note> notes;
   for (const MeshBlock& other : others)
   {
-    const bool fits = IsOfAll(others) || places.count({}) > 0 || places.count(other.Place) > 0;
+    const bool fits = other.Place.empty() || places.count({}) > 0 || places.count(other.Place) > 0;
     for (const BlockLeaf& leaf : other.Leaves)
     {
       auto* mesh = vtkPolyData::SafeDownCast(leaf.Data);
@@ -146,14 +135,14 @@ std::vector<Note> ListMisfits(
 std::vector<BlockLeaf> ListOthers(
   const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what)
 {
-  const bool isOfAll = IsOfAll(others);
-  if (!others.empty() && !isOfAll && block.Place.empty())
-  {
-    throw InvalidOptions(what + " cannot be a composite dataset");
-  }
   std::vector<BlockLeaf> leaves;
   for (const MeshBlock& other : others)
   {
+    const bool isOfAll = other.Place.empty();
+    if (block.Place.empty() && !isOfAll)
+    {
+      throw InvalidOptions(what + " cannot be a composite dataset");
+    }
     if (isOfAll || other.Place == block.Place)
     {
       std::copy_if(other.Leaves.begin(), other.Leaves.end(), std::back_inserter(leaves),
