@@ -176,13 +176,10 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
 {
   PointPlaces places(others.Floats != nullptr || mesh.Points.Floats != nullptr);
   std::vector<std::int64_t> placeOfOther(others.Count, PointPlaces::None);
-  std::vector<std::int64_t> otherAt; // the first at each place
   const auto number = [&](std::int64_t point)
   {
     std::int64_t& place = placeOfOther[point];
-    place = place == PointPlaces::None ? places.Add(others, point) : place;
-    otherAt.resize(places.GetNumberOfPlaces(), point);
-    return place;
+    return place = place == PointPlaces::None ? places.Add(others, point) : place;
   };
   std::vector<PointPair> wanted; // of places
   WorkProgress numbering(MakePart(progress, 0.0, 0.32), static_cast<vtkIdType>(pairs.size()));
@@ -222,17 +219,17 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
 
   for (const PointPair& pair : pairs)
   {
-    edges.AreHere.push_back(
-      pointsAt[placeOfOther[pair[0]]] > 0 && pointsAt[placeOfOther[pair[1]]] > 0 ? 1 : 0);
+    const std::int64_t from = placeOfOther[pair[0]], to = placeOfOther[pair[1]];
+    edges.AreHere.push_back(pointsAt[from] > 0 && pointsAt[to] > 0 ? 1 : 0);
+    if (edges.AreHere.back() == 0 && from != to && edges.FirstStranger.empty())
+    {
+      edges.FirstStranger = DescribeEdge(others, pair[0], pair[1]);
+    }
   }
   std::vector<PointPair> crowded;
   for (const PointPair& pair : wanted)
   {
     const std::int64_t points = pointsAt[pair[0]] * pointsAt[pair[1]];
-    if (points == 0 && edges.FirstStranger.empty())
-    {
-      edges.FirstStranger = DescribeEdge(others, otherAt[pair[0]], otherAt[pair[1]]);
-    }
     edges.Unmatched += points == 0 ? 1 : 0;
     if (points == 1)
     {
