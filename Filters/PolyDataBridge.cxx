@@ -14,8 +14,6 @@
 #include "vtkMath.h"
 #include "vtkPointData.h"
 #include "vtkSMPTools.h"
-#include "vtkTypeInt32Array.h"
-#include "vtkTypeInt64Array.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVariant.h"
 
@@ -48,14 +46,13 @@ std::string ListNames(vtkCellData* data)
 /// Asks for pages of 2 MiB instead of 4 KiB in new memory, because each page is allocated and
 /// cleared on first use. Measured in an earlier version: for the connectivity alone, this took an
 /// update of 5 M points on a GPU from 63 to 56 ms.
-template <typename Value>
-void UseHugePages([[maybe_unused]] Value* values, [[maybe_unused]] vtkIdType count)
+void UseHugePages([[maybe_unused]] vtkDataArray* values)
 {
 #if defined(__linux__)
   constexpr std::uintptr_t HugePage = std::uintptr_t(2) << 20;
-  const auto begin = reinterpret_cast<std::uintptr_t>(values);
+  const auto begin = reinterpret_cast<std::uintptr_t>(values->GetVoidPointer(0));
   const std::uintptr_t first = (begin + HugePage - 1) / HugePage * HugePage;
-  const std::uintptr_t end = begin + count * sizeof(Value);
+  const std::uintptr_t end = begin + values->GetNumberOfValues() * values->GetDataTypeSize();
   if (first + HugePage <= end)
   {
     madvise(reinterpret_cast<void*>(first), (end - first) / HugePage * HugePage, MADV_HUGEPAGE);
@@ -63,39 +60,21 @@ void UseHugePages([[maybe_unused]] Value* values, [[maybe_unused]] vtkIdType cou
 #endif
 }
 
-/// Room for triangles. Offsets are not shared with the input, whose cells may grow in place later:
-/// the output would then have more offsets than connectivity.
-template <typename ArrayT>
-vtkSmartPointer<vtkCellArray> MakeRoom(vtkIdType count)
-{
-  vtkNew<ArrayT> offsets, connectivity;
-  offsets->SetNumberOfTuples(count + 1);
-  connectivity->SetNumberOfTuples(3 * count);
-  UseHugePages(offsets->GetPointer(0), count + 1);
-  UseHugePages(connectivity->GetPointer(0), 3 * count);
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, connectivity);
-  return cells;
-}
-
-/// Id is the engine's type for the values of ArrayT.
-template <typename ArrayT, typename Id>
+template <typename Id>
 void Fill(const FlipSession& session, vtkCellArray* cells)
 {
-  using Value = typename ArrayT::ValueType;
   const vtkIdType count = cells->GetNumberOfCells();
-  Value* values = static_cast<ArrayT*>(cells->GetOffsetsArray())->GetPointer(0);
+  auto* offsets = static_cast<Id*>(cells->GetOffsetsArray()->GetVoidPointer(0));
   vtkSMPTools::For(0, count + 1,
-    [values](vtkIdType begin, vtkIdType end)
+    [offsets](vtkIdType begin, vtkIdType end)
     {
       for (vtkIdType i = begin; i < end; ++i)
       {
-        values[i] = static_cast<Value>(3 * i);
+        offsets[i] = static_cast<Id>(3 * i);
       }
     });
-  auto* connectivity = static_cast<ArrayT*>(cells->GetConnectivityArray());
-  session.StoreTriangles(
-    MutableTriangleArray(reinterpret_cast<Id*>(connectivity->GetPointer(0)), count));
+  auto* ids = static_cast<Id*>(cells->GetConnectivityArray()->GetVoidPointer(0));
+  session.StoreTriangles(MutableTriangleArray(ids, count));
 }
 
 }
@@ -446,10 +425,16 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide)
 {
+  // Offsets are not shared with the input, whose cells may grow in place later: the output would
+  // then have more offsets than connectivity.
+  auto room = vtkSmartPointer<vtkCellArray>::New();
   // There may be more connectivity than 32-bit offsets can number.
-  return areWide || 3 * count > std::numeric_limits<std::int32_t>::max()
-    ? MakeRoom<vtkTypeInt64Array>(count)
-    : MakeRoom<vtkTypeInt32Array>(count);
+  const bool needsWide = areWide || 3 * count > std::numeric_limits<std::int32_t>::max();
+  needsWide ? room->Use64BitStorage() : room->Use32BitStorage();
+  room->ResizeExact(count, 3 * count);
+  UseHugePages(room->GetOffsetsArray());
+  UseHugePages(room->GetConnectivityArray());
+  return room;
 }
 
 void ExpectTriangles(FlipSession& session, vtkCellArray* room)
@@ -462,8 +447,7 @@ void ExpectTriangles(FlipSession& session, vtkCellArray* room)
 
 void FillTriangles(const FlipSession& session, vtkCellArray* room)
 {
-  room->IsStorage64Bit() ? Fill<vtkTypeInt64Array, std::int64_t>(session, room)
-                         : Fill<vtkTypeInt32Array, std::int32_t>(session, room);
+  room->IsStorage64Bit() ? Fill<std::int64_t>(session, room) : Fill<std::int32_t>(session, room);
 }
 
 bool UsesWideIds(vtkPolyData* mesh)
