@@ -10,13 +10,11 @@
 #include "OpenGLFunctions.h"
 
 #include "vtkActor.h"
-#include "vtkArrayDispatch.h"
 #include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkColorTransferFunction.h"
-#include "vtkDataArrayRange.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
@@ -376,26 +374,15 @@ bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
 {
   vtkCellArray* arrays[] = { mesh->GetPolys(), mesh->GetStrips(), mesh->GetVerts(),
     mesh->GetLines() };
-  const vtkIdType count = mesh->GetNumberOfPoints();
   const bool areTriples =
     !mesh->GetPoints() || mesh->GetPoints()->GetData()->GetNumberOfComponents() == 3;
   const auto isValid = [](vtkCellArray* cells) { return cells->IsValid(); };
-  const auto areThere = [count](vtkCellArray* cells)
+  const auto areThere = [count = mesh->GetNumberOfPoints()](vtkCellArray* cells)
   {
-    bool are = true;
-    const auto check = [&](auto* ids)
-    {
-      const auto all = vtk::DataArrayValueRange<1>(ids);
-      are = std::all_of(all.begin(), all.end(),
-        [count](auto id)
-        { return static_cast<vtkIdType>(id) >= 0 && static_cast<vtkIdType>(id) < count; });
-    };
     vtkDataArray* ids = cells->GetConnectivityArray();
-    if (!vtkArrayDispatch::Dispatch::Execute(ids, check))
-    {
-      check(ids);
-    }
-    return are;
+    const double* range = ids->GetRange();
+    return ids->GetNumberOfValues() == 0 ||
+      (range[0] >= 0.0 && range[1] < static_cast<double>(count));
   };
   return areTriples && std::all_of(std::begin(arrays), std::end(arrays), isValid) &&
     std::all_of(arrays, arrays + 2, areThere);
