@@ -15,36 +15,33 @@ namespace
 using Point = std::array<double, 2>;
 using Triangle = std::array<vtkIdType, 3>;
 
-constexpr int Rim = 3; // points per side
-constexpr std::size_t Splits = 300;
-
 /// A square with points along its boundary, all joined to one inside.
-void MakeFan(std::vector<Point>& points, std::vector<Triangle>& triangles)
+void MakeFan(int rim, std::vector<Point>& points, std::vector<Triangle>& triangles)
 {
   const double sides[4][4] = { { 0, 0, 1, 0 }, { 1, 0, 0, 1 }, { 1, 1, -1, 0 }, { 0, 1, 0, -1 } };
   points = { { 0.44, 0.53 } };
   for (const auto& side : sides)
   {
-    for (int i = 0; i < Rim; ++i)
+    for (int i = 0; i < rim; ++i)
     {
-      points.push_back({ side[0] + side[2] * i / Rim, side[1] + side[3] * i / Rim });
+      points.push_back({ side[0] + side[2] * i / rim, side[1] + side[3] * i / rim });
     }
   }
-  for (vtkIdType i = 0; i < 4 * Rim; ++i)
+  for (vtkIdType i = 0; i < 4 * rim; ++i)
   {
-    triangles.push_back({ 0, 1 + i, 1 + (i + 1) % (4 * Rim) });
+    triangles.push_back({ 0, 1 + i, 1 + (i + 1) % (4 * rim) });
   }
 }
 
 }
 
 /// The fan, with its triangles split into three again and again, which makes slivers.
-vtkSmartPointer<vtkPolyData> MakeBadMesh()
+vtkSmartPointer<vtkPolyData> MakeBadMesh(int rim, int splits)
 {
   std::vector<Point> points;
   std::vector<Triangle> triangles;
-  MakeFan(points, triangles);
-  for (std::size_t i = 0; i < Splits; ++i)
+  MakeFan(rim, points, triangles);
+  for (int i = 0; i < splits; ++i)
   {
     const Triangle t = triangles[i];
     const auto mix = [&](int k)
@@ -59,7 +56,7 @@ vtkSmartPointer<vtkPolyData> MakeBadMesh()
     places->InsertNextPoint(point[0], point[1], 0.0);
   }
   vtkNew<vtkCellArray> cells;
-  for (std::size_t i = Splits; i < triangles.size(); ++i)
+  for (std::size_t i = splits; i < triangles.size(); ++i)
   {
     cells->InsertNextCell(3, triangles[i].data());
   }

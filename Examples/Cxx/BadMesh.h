@@ -6,7 +6,9 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-/// A square of 612 triangles, most of them slivers.
-vtkSmartPointer<vtkPolyData> MakeBadMesh();
+/// A unit square of triangles, most of them slivers.
+/// @param rim the number of points on each side. @param splits how often a triangle is split into
+/// three.
+vtkSmartPointer<vtkPolyData> MakeBadMesh(int rim = 3, int splits = 300);
 
 #endif

@@ -6,9 +6,10 @@
 /// FlipTerrain.vtp, the Delaunay mesh, and FlipTerrain.png, a picture of the mesh before (left) and
 /// after (right), with triangles coloured by their smallest angles.
 
+#include "BadMesh.h"
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkDelaunayFlip.h>
 #include <vtkLookupTable.h>
 #include <vtkMeshQuality.h>
@@ -26,91 +27,25 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <iostream>
-#include <random>
 #include <string>
-#include <vector>
 
 namespace
 {
 
-double GetHeight(double x, double y)
+/// Slivers on hills.
+vtkSmartPointer<vtkPolyData> MakeTerrain()
 {
-  return 0.1 * std::sin(5.0 * x) * std::cos(4.0 * y) + 0.03 * std::sin(11.0 * x + 7.0 * y);
-}
-
-using Triangle = std::array<vtkIdType, 3>;
-
-/// Whether point `p` lies to the left of a -> b, seen from above.
-bool IsLeft(vtkPoints* points, vtkIdType a, vtkIdType b, vtkIdType p)
-{
-  double u[3], v[3], w[3];
-  points->GetPoint(a, u);
-  points->GetPoint(b, v);
-  points->GetPoint(p, w);
-  return (v[0] - u[0]) * (w[1] - u[1]) > (v[1] - u[1]) * (w[0] - u[0]);
-}
-
-/// A fan from the middle of a square to the points along its boundary.
-std::vector<Triangle> MakeFan(vtkPoints* points, int pointsPerSide)
-{
-  const auto addPoint = [points](double x, double y)
-  { points->InsertNextPoint(x, y, GetHeight(x, y)); };
-  addPoint(0.5, 0.5);
-  const double corners[5][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 }, { 0, 0 } };
-  for (int i = 0; i < 4 * pointsPerSide; ++i)
+  const vtkSmartPointer<vtkPolyData> mesh = MakeBadMesh(20, 900);
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
   {
-    const double* from = corners[i / pointsPerSide];
-    const double* to = corners[i / pointsPerSide + 1];
-    const double t = static_cast<double>(i % pointsPerSide) / pointsPerSide;
-    addPoint(from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]));
+    double p[3];
+    mesh->GetPoint(i, p);
+    p[2] =
+      0.1 * std::sin(5.0 * p[0]) * std::cos(4.0 * p[1]) + 0.03 * std::sin(11.0 * p[0] + 7.0 * p[1]);
+    mesh->GetPoints()->SetPoint(i, p);
   }
-  std::vector<Triangle> triangles;
-  for (vtkIdType i = 0; i < 4 * pointsPerSide; ++i)
-  {
-    triangles.push_back({ 0, 1 + i, 1 + (i + 1) % (4 * pointsPerSide) });
-  }
-  return triangles;
-}
-
-/// Random points, each joined to the corners of the triangle that contains it, which makes long
-/// thin triangles.
-vtkSmartPointer<vtkPolyData> MakeTerrain(int numberOfPoints)
-{
-  vtkNew<vtkPoints> points;
-  std::vector<Triangle> triangles = MakeFan(points, 20);
-  std::mt19937 random(1);
-  const auto number = [&random]() { return random() / 4294967296.0; };
-  while (points->GetNumberOfPoints() < numberOfPoints)
-  {
-    const double x = number();
-    const double y = number();
-    const vtkIdType p = points->InsertNextPoint(x, y, GetHeight(x, y));
-    const auto holdsPoint = [&points, p](const Triangle& t)
-    {
-      return IsLeft(points, t[0], t[1], p) && IsLeft(points, t[1], t[2], p) &&
-        IsLeft(points, t[2], t[0], p);
-    };
-    const auto found = std::find_if(triangles.begin(), triangles.end(), holdsPoint);
-    if (found != triangles.end())
-    {
-      const Triangle t = *found;
-      *found = { t[0], t[1], p };
-      triangles.push_back({ t[1], t[2], p });
-      triangles.push_back({ t[2], t[0], p });
-    }
-  }
-  vtkNew<vtkCellArray> cells;
-  for (const Triangle& triangle : triangles)
-  {
-    cells->InsertNextCell(3, triangle.data());
-  }
-  auto mesh = vtkSmartPointer<vtkPolyData>::New();
-  mesh->SetPoints(points);
-  mesh->SetPolys(cells);
   return mesh;
 }
 
@@ -193,7 +128,7 @@ int main(int argc, char* argv[])
   }
 
   vtkNew<vtkDelaunayFlip> flip;
-  flip->SetInputData(MakeTerrain(900));
+  flip->SetInputData(MakeTerrain());
   flip->SetGeometryToPlanarXY(); // terrain: only x and y decide
   flip->Update();
   std::cout << flip->GetTotalFlips() << " flips in " << flip->GetNumberOfIterations()
