@@ -32,26 +32,24 @@ function(delaunayflip_find_nvcc)
 endfunction()
 
 delaunayflip_find_nvcc()
+set(delaunayflip_reason "")
 if(delaunayflip_nvcc_version AND delaunayflip_nvcc_version VERSION_LESS delaunayflip_oldest_cuda)
   string(CONCAT delaunayflip_reason "${delaunayflip_nvcc} is of CUDA ${delaunayflip_nvcc_version}, "
     "and CUDA ${delaunayflip_oldest_cuda} or newer is needed")
+else()
+  include(CheckLanguage)
+  check_language(CUDA)
+  if(NOT CMAKE_CUDA_COMPILER)
+    set(delaunayflip_reason "no CUDA compiler was found")
+  endif()
+endif()
+if(delaunayflip_reason)
   if(NOT DELAUNAYFLIP_ENABLE_CUDA STREQUAL "AUTO")
     message(FATAL_ERROR "DELAUNAYFLIP_ENABLE_CUDA is ${DELAUNAYFLIP_ENABLE_CUDA}, but "
       "${delaunayflip_reason}; install a newer CUDA Toolkit and set CMAKE_CUDA_COMPILER to its "
       "nvcc, or set DELAUNAYFLIP_ENABLE_CUDA to OFF")
   endif()
   message(STATUS "CUDA backend: not built, ${delaunayflip_reason}")
-  return()
-endif()
-
-include(CheckLanguage)
-check_language(CUDA)
-if(NOT CMAKE_CUDA_COMPILER)
-  if(NOT DELAUNAYFLIP_ENABLE_CUDA STREQUAL "AUTO")
-    message(FATAL_ERROR "DELAUNAYFLIP_ENABLE_CUDA is ${DELAUNAYFLIP_ENABLE_CUDA}, but no CUDA "
-      "compiler was found; install the CUDA Toolkit or set CMAKE_CUDA_COMPILER")
-  endif()
-  message(STATUS "CUDA backend: not built, no CUDA compiler")
   return()
 endif()
 
