@@ -37,7 +37,7 @@ namespace
 /// Slivers on hills.
 vtkSmartPointer<vtkPolyData> MakeTerrain()
 {
-  const vtkSmartPointer<vtkPolyData> mesh = MakeBadMesh(20, 900);
+  const vtkSmartPointer<vtkPolyData> mesh = MakeBadMesh(6, 900);
   for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
   {
     double p[3];
