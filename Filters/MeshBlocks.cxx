@@ -233,81 +233,60 @@ void RequireValidCells(vtkPolyData* mesh)
   }
 }
 
-/// Cells of several meshes by kind, and which cells they were.
-class CellCollector
+/// Gives a mesh cells of other, valid ones, and the data of these cells.
+/// @param chosen by mesh the ids of cells, ascending. @param areWide whether ids are stored in 64
+/// bits. @param newId of a point, by the number of its mesh and its id there.
+/// @returns for each cell the number of its mesh.
+template <typename NewId>
+vtkSmartPointer<vtkIntArray> CopyCells(const MeshList& meshes,
+  const std::vector<vtkSmartPointer<vtkIdList>>& chosen, bool areWide, const NewId& newId,
+  vtkPolyData* copy)
 {
-public:
-  /// @param areWide whether ids are stored in 64 bits.
-  explicit CellCollector(bool areWide)
+  auto owners = vtkSmartPointer<vtkIntArray>::New();
+  vtkIdType size = 0;
+  for (const auto& cells : chosen)
   {
-    for (auto& cells : this->Cells)
-    {
-      areWide ? cells->Use64BitStorage() : cells->Use32BitStorage();
-    }
+    size += cells->GetNumberOfIds();
   }
-
-  /// Adds cells of a valid mesh. @param chosen their ids, ascending. @param newId of a point.
-  template <typename NewId>
-  void Add(vtkPolyData* mesh, vtkIdList* chosen, const NewId& newId)
+  std::array<vtkNew<vtkCellArray>, 4> copied; // by kind
+  std::vector<vtkIdType> first(meshes.size()); // cell of the kind
+  copy->GetCellData()->Initialize();
+  for (std::size_t kind = 0; kind < copied.size(); ++kind)
   {
-    auto cell = chosen->begin();
-    vtkIdType first = 0;
-    vtkNew<vtkIdList> ids;
-    this->Sources.emplace_back();
-    for (std::size_t kind = 0; kind < this->Cells.size(); ++kind)
+    areWide ? copied[kind]->Use64BitStorage() : copied[kind]->Use32BitStorage();
+    for (std::size_t k = 0; k < meshes.size(); ++k)
     {
-      vtkCellArray* array = ListCells(mesh)[kind];
-      const vtkIdType last = first + array->GetNumberOfCells();
-      for (; cell != chosen->end() && *cell < last; ++cell)
+      const auto arrays = ListCells(meshes[k]);
+      const vtkIdType last = first[k] + arrays[kind]->GetNumberOfCells();
+      const vtkIdType next = owners->GetNumberOfValues();
+      vtkNew<vtkIdList> sources, ids;
+      for (auto cell = std::lower_bound(chosen[k]->begin(), chosen[k]->end(), first[k]);
+           cell != chosen[k]->end() && *cell < last; ++cell)
       {
-        array->GetCellAtId(*cell - first, ids);
-        std::transform(ids->begin(), ids->end(), ids->begin(), newId);
-        this->Cells[kind]->InsertNextCell(ids);
-        this->Sources.back()[kind]->InsertNextId(*cell);
+        arrays[kind]->GetCellAtId(*cell - first[k], ids);
+        std::transform(
+          ids->begin(), ids->end(), ids->begin(), [&](vtkIdType id) { return newId(k, id); });
+        copied[kind]->InsertNextCell(ids);
+        sources->InsertNextId(*cell);
+        owners->InsertNextValue(static_cast<int>(k));
       }
-      first = last;
-    }
-  }
-
-  /// Writes the cells, and the data of those that are kept. @param meshes as they were added.
-  /// @returns for each cell which of them it is from.
-  vtkSmartPointer<vtkIntArray> Store(const MeshList& meshes, vtkPolyData* joined) const
-  {
-    auto owners = vtkSmartPointer<vtkIntArray>::New();
-    joined->SetVerts(this->Cells[0]);
-    joined->SetLines(this->Cells[1]);
-    joined->SetPolys(this->Cells[2]);
-    joined->SetStrips(this->Cells[3]);
-    vtkCellData* data = joined->GetCellData();
-    data->Initialize();
-    vtkIdType next = 0;
-    for (std::size_t kind = 0; kind < this->Cells.size(); ++kind)
-    {
-      for (std::size_t k = 0; k < meshes.size(); ++k)
+      first[k] = last;
+      const auto own = TakeWholeArrays(meshes[k]->GetCellData(), meshes[k]->GetNumberOfCells());
+      vtkAbstractArray* ghosts = own->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
+      if (ghosts && IsWrongGhostArray(ghosts))
       {
-        vtkIdList* sources = this->Sources[k][kind];
-        const auto own = TakeWholeArrays(meshes[k]->GetCellData(), meshes[k]->GetNumberOfCells());
-        vtkAbstractArray* ghosts = own->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
-        if (ghosts && IsWrongGhostArray(ghosts))
-        {
-          own->RemoveArray(ghosts->GetName()); // else it would hide those of other partitions
-        }
-        AddTuples(own, sources, MakeRange(next, sources->GetNumberOfIds()),
-          joined->GetNumberOfCells(), data);
-        next += sources->GetNumberOfIds();
-        while (owners->GetNumberOfValues() < next)
-        {
-          owners->InsertNextValue(static_cast<int>(k));
-        }
+        own->RemoveArray(ghosts->GetName()); // else it would hide those of other partitions
       }
+      AddTuples(
+        own, sources, MakeRange(next, sources->GetNumberOfIds()), size, copy->GetCellData());
     }
-    return owners;
   }
-
-private:
-  std::array<vtkNew<vtkCellArray>, 4> Cells;
-  std::vector<std::array<vtkNew<vtkIdList>, 4>> Sources; ///< By mesh and kind, the cells kept.
-};
+  copy->SetVerts(copied[0]);
+  copy->SetLines(copied[1]);
+  copy->SetPolys(copied[2]);
+  copy->SetStrips(copied[3]);
+  return owners;
+}
 
 /// The points of all partitions. They are the same if they have the same global id or, if a
 /// partition has no global ids, equal coordinates, if at least one of them is at the border of its
@@ -387,7 +366,7 @@ vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
     return mesh;
   }
   RequireValidCells(mesh);
-  vtkNew<vtkIdList> own;
+  const auto own = vtkSmartPointer<vtkIdList>::New();
   for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
   {
     if (cell >= ghosts->GetNumberOfValues() || !isDuplicate(ghosts->GetValue(cell)))
@@ -395,10 +374,9 @@ vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
       own->InsertNextId(cell);
     }
   }
-  CellCollector cells(UsesWideIds(mesh));
-  cells.Add(mesh, own, [](vtkIdType id) { return id; });
   const auto kept = ShareMesh(mesh);
-  cells.Store({ mesh }, kept);
+  CopyCells(
+    { mesh }, { own }, UsesWideIds(mesh), [](std::size_t, vtkIdType id) { return id; }, kept);
   return kept;
 }
 
@@ -412,11 +390,13 @@ vtkSmartPointer<vtkPolyData> DropDuplicateCells(vtkPolyData* mesh)
 JoinedMesh JoinPartitions(const MeshList& partitions, const std::string& regions)
 {
   MeshList meshes;
+  std::vector<vtkSmartPointer<vtkIdList>> all; // cells
   bool areWide = false;
   for (const auto& mesh : partitions)
   {
     RequireValidCells(mesh);
     meshes.push_back(DropDuplicateCells(mesh));
+    all.push_back(MakeRange(0, meshes.back()->GetNumberOfCells()));
     areWide = areWide || UsesWideIds(mesh);
   }
   if (!regions.empty())
@@ -425,13 +405,9 @@ JoinedMesh JoinPartitions(const MeshList& partitions, const std::string& regions
   }
   JoinedMesh joined{ vtkSmartPointer<vtkPolyData>::New(), {}, nullptr };
   joined.Points = AddPoints(meshes, joined.Mesh, joined.Ambiguous);
-  CellCollector cells(areWide);
-  for (std::size_t k = 0; k < meshes.size(); ++k)
-  {
-    cells.Add(meshes[k], MakeRange(0, meshes[k]->GetNumberOfCells()),
-      [&](vtkIdType id) { return joined.Points[k]->GetId(id); });
-  }
-  joined.Owners = cells.Store(meshes, joined.Mesh);
+  joined.Owners = CopyCells(
+    meshes, all, areWide, [&](std::size_t k, vtkIdType id) { return joined.Points[k]->GetId(id); },
+    joined.Mesh);
   return joined;
 }
 
@@ -454,16 +430,14 @@ MeshList DividePartitions(vtkPolyData* flipped, vtkIntArray* owners, const MeshL
   {
     vtkPolyData* own = partitions[k];
     vtkNew<vtkIdList> ids; // of its points in the joined mesh
-    const auto take = [&](vtkIdType id)
+    const auto take = [&](std::size_t, vtkIdType id)
     { return local[id] != None ? local[id] : local[id] = ids->InsertNextId(id); };
     for (const vtkIdType id : *points[k])
     {
       local[id] = ids->InsertNextId(id);
     }
-    CellCollector cells(UsesWideIds(own));
-    cells.Add(flipped, cellsOf[k], take);
-    divided.push_back(vtkSmartPointer<vtkPolyData>::New());
-    vtkPolyData* made = divided.back();
+    vtkPolyData* made = divided.emplace_back(vtkSmartPointer<vtkPolyData>::New());
+    CopyCells({ flipped }, { cellsOf[k].Get() }, UsesWideIds(own), take, made);
     const vtkIdType given = own->GetNumberOfPoints(), count = ids->GetNumberOfIds();
     made->SetPoints(own->GetPoints());
     if (count > given)
@@ -476,7 +450,6 @@ MeshList DividePartitions(vtkPolyData* flipped, vtkIntArray* owners, const MeshL
     AddTuples(flipped->GetPointData(), ids, MakeRange(0, count), count, made->GetPointData());
     AddTuples(TakeWholeArrays(own->GetPointData(), given), MakeRange(0, given), MakeRange(0, given),
       count, made->GetPointData());
-    cells.Store({ flipped }, made);
     made->GetFieldData()->ShallowCopy(own->GetFieldData());
     made->GetFieldData()->PassData(flipped->GetFieldData());
     for (const vtkIdType id : *ids)
