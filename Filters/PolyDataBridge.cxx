@@ -217,18 +217,6 @@ bool TriangleSlots::ArePolygonsTriangles() const
         [](const OutputPolygon& polygon) { return polygon.Triangle != None; }));
 }
 
-void TriangleSlots::RequireValidIds(vtkIdType numberOfPoints) const
-{
-  const PointIdCheck check{ "cell", this->FirstPolygon, numberOfPoints };
-  for (vtkIdType triangle = 0; triangle < this->Triangles.Count; ++triangle)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      check.RequireInRange(triangle, this->Triangles.Get(triangle, slot));
-    }
-  }
-}
-
 //------------------------------------------------------------------------------
 PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   const BridgeSettings& settings, const UpdatePlan& plan)
@@ -255,6 +243,19 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   if (!settings.RegionArray.empty())
   {
     this->LabelRegions(settings.RegionArray, plan.For(UpdatePlan::Regions));
+  }
+}
+
+void PolyDataBridge::RequireValidIds() const
+{
+  const PointIdCheck check{ "cell", this->Slots.FirstPolygon, this->Points.Count };
+  const TriangleArray& triangles = this->Slots.Triangles;
+  for (vtkIdType triangle = 0; triangle < triangles.Count; ++triangle)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      check.RequireInRange(triangle, triangles.Get(triangle, slot));
+    }
   }
 }
 

@@ -74,9 +74,6 @@ public:
   TriangleSlots(vtkPolyData* mesh, const PointArray& points, bool triangulate,
     const ProgressObserver& progress);
 
-  /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
-  DELAUNAYFLIP_EXPORT void RequireValidIds(vtkIdType numberOfPoints) const;
-
   /// The cell of the mesh from which `triangle` is made.
   vtkIdType GetCell(vtkIdType triangle) const
   {
@@ -126,7 +123,7 @@ public:
   PolyDataBridge& operator=(const PolyDataBridge&) = delete;
 
   /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
-  void RequireValidIds() const { this->Slots.RequireValidIds(this->Points.Count); }
+  void RequireValidIds() const;
 
   /// GetMesh() may hold more edges that are unmatched.
   const ConstraintEdges& GetConstraints() const { return this->Constraints; }
