@@ -16,7 +16,6 @@
 #include <cstring>
 #include <numeric>
 #include <set>
-#include <string>
 
 namespace delaunayflip
 {
@@ -111,6 +110,8 @@ void PointIdCheck::ThrowOutOfRange(vtkIdType cell, vtkIdType id) const
 }
 
 //------------------------------------------------------------------------------
+std::string GetName(vtkAbstractArray* array) { return array->GetName() ? array->GetName() : ""; }
+
 vtkSmartPointer<vtkDataSetAttributes> TakeWholeArrays(vtkDataSetAttributes* data, vtkIdType tuples)
 {
   auto whole = vtkSmartPointer<vtkDataSetAttributes>::New();
@@ -127,8 +128,7 @@ vtkSmartPointer<vtkDataSetAttributes> TakeWholeArrays(vtkDataSetAttributes* data
 
 bool IsWrongGhostArray(vtkAbstractArray* array)
 {
-  const char* name = array->GetName();
-  return name && std::string(name) == vtkDataSetAttributes::GhostArrayName() &&
+  return GetName(array) == vtkDataSetAttributes::GhostArrayName() &&
     (array->GetDataType() != VTK_UNSIGNED_CHAR || array->GetNumberOfComponents() != 1);
 }
 
@@ -160,7 +160,7 @@ std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool
       vtkAbstractArray* array = data->GetAbstractArray(i);
       if (array->GetNumberOfTuples() < tuples)
       {
-        names.push_back(std::string("\"") + (array->GetName() ? array->GetName() : "") + '"');
+        names.push_back('"' + GetName(array) + '"');
       }
     }
     if (!names.empty())
@@ -223,8 +223,6 @@ bool AreAlike(vtkAbstractArray* a, vtkAbstractArray* b)
   return a->GetDataType() == b->GetDataType() &&
     a->GetNumberOfComponents() == b->GetNumberOfComponents();
 }
-
-std::string GetName(vtkAbstractArray* array) { return array->GetName() ? array->GetName() : ""; }
 
 /// An array of the same kind, of zeros or empty texts.
 vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tuples)

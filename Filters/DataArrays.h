@@ -13,6 +13,7 @@
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
+#include <string>
 #include <vector>
 
 class vtkPoints;
@@ -96,6 +97,9 @@ void VisitEdges(vtkCellArray* cells, bool areClosed, const PointIdCheck& check, 
 }
 
 //------------------------------------------------------------------------------
+/// "" for an array without a name.
+DELAUNAYFLIP_EXPORT std::string GetName(vtkAbstractArray* array);
+
 /// A shallow copy without the arrays that have fewer than `tuples` tuples: they would be read past
 /// their end.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkDataSetAttributes> TakeWholeArrays(

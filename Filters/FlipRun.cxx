@@ -106,11 +106,9 @@ bool Stamps::Stamp::Fits(const Stamp& now) const
   {
     return true;
   }
-  const auto getName = [](vtkAbstractArray* array)
-  { return std::string(array->GetName() ? array->GetName() : ""); };
   if (!a || !b || a == b || a->GetNumberOfValues() != now.Count || this->Count != now.Count ||
     this->FindTime() > this->Time || a->GetDataType() != b->GetDataType() ||
-    a->GetNumberOfComponents() != b->GetNumberOfComponents() || getName(a) != getName(b))
+    a->GetNumberOfComponents() != b->GetNumberOfComponents() || GetName(a) != GetName(b))
   {
     return false;
   }

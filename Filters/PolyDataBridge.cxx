@@ -37,8 +37,7 @@ std::string ListNames(vtkCellData* data)
   std::string names;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    const char* name = data->GetAbstractArray(i)->GetName();
-    names += std::string(i > 0 ? ", \"" : "it has \"") + (name ? name : "") + '"';
+    names += (i > 0 ? ", \"" : "it has \"") + GetName(data->GetAbstractArray(i)) + '"';
   }
   return names.empty() ? "it has none" : names;
 }

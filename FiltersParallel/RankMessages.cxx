@@ -180,7 +180,7 @@ void PutTuples(vtkDataSetAttributes* data, vtkIdList* ids, Message& message)
   for (int i = 0; i < taken->GetNumberOfArrays() && count > 0; ++i)
   {
     vtkAbstractArray* array = taken->GetAbstractArray(i);
-    Put(message, std::string(array->GetName() ? array->GetName() : ""));
+    Put(message, GetName(array));
     Put(message,
       std::array<int, 3>{
         array->GetDataType(), array->GetNumberOfComponents(), FindAttributes(taken, array) });
