@@ -108,15 +108,15 @@ void ShareRegionLabels(PolyDataBridge& bridge, PieceGroup& group)
   {
     Put(own, key);
   }
-  std::set<std::string> all;
+  std::map<std::string, std::int32_t> all;
   for (MessageReader reader = GatherAll(own, group); !reader.IsAtEnd();)
   {
-    all.insert(reader.Get<std::string>());
+    all.emplace(reader.Get<std::string>(), static_cast<std::int32_t>(all.size()));
   }
   std::vector<std::int32_t> labels;
   for (const std::string& key : bridge.RegionKeys)
   {
-    labels.push_back(static_cast<std::int32_t>(std::distance(all.begin(), all.find(key))));
+    labels.push_back(all.at(key));
   }
   for (std::int32_t& label : bridge.Regions)
   {
