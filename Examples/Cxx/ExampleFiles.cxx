@@ -3,22 +3,131 @@
 #include "ExampleFiles.h"
 
 #include "BadMesh.h"
-#include "ReadMeshFile.h"
 
+#include <vtkCleanPolyData.h>
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipLiveView.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
+#include <vtkOBJReader.h>
+#include <vtkPLYReader.h>
+#include <vtkPolyDataReader.h>
 #include <vtkRenderWindow.h>
+#include <vtkSTLReader.h>
+#include <vtkStringOutputWindow.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <CLI/CLI.hpp>
 
 #include <iostream>
 #include <map>
-#include <stdexcept>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace
 {
+
+std::string GetExtension(const std::string& file)
+{
+  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(file));
+}
+
+template <typename Reader>
+vtkSmartPointer<vtkAlgorithm> Make(const std::string& file)
+{
+  auto reader = vtkSmartPointer<Reader>::New();
+  reader->SetFileName(file.c_str());
+  return reader;
+}
+
+/// Merges coincident points: vtkOBJReader repeats them for every normal and texture coordinate.
+vtkSmartPointer<vtkAlgorithm> MakeObjReader(const std::string& file)
+{
+  auto clean = vtkSmartPointer<vtkCleanPolyData>::New();
+  clean->SetInputConnection(Make<vtkOBJReader>(file)->GetOutputPort());
+  clean->SetTolerance(0.0);
+  return clean;
+}
+
+vtkSmartPointer<vtkAlgorithm> MakeReader(const std::string& file)
+{
+  const std::string extension = GetExtension(file);
+  return extension == ".vtk" ? Make<vtkPolyDataReader>(file)
+    : extension == ".vtp"    ? Make<vtkXMLPolyDataReader>(file)
+    : extension == ".ply"    ? Make<vtkPLYReader>(file)
+    : extension == ".stl"    ? Make<vtkSTLReader>(file)
+    : extension == ".obj"    ? MakeObjReader(file)
+                             : nullptr;
+}
+
+vtkPolyData* GetMesh(vtkAlgorithm* reader)
+{
+  return vtkPolyData::SafeDownCast(reader->GetOutputDataObject(0));
+}
+
+/// Whether the reader can read the file. It runs in a child process, because some truncated files
+/// crash it.
+bool Survives(vtkAlgorithm* reader)
+{
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    reader->Update();
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return status == 0;
+}
+
+/// Collects the messages of VTK during its lifetime.
+class Messages
+{
+public:
+  Messages()
+  {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    vtkOutputWindow::SetInstance(this->Window);
+  }
+  ~Messages()
+  {
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_INFO);
+    vtkOutputWindow::SetInstance(nullptr);
+  }
+  Messages(const Messages&) = delete;
+  Messages& operator=(const Messages&) = delete;
+
+  /// The second line of the messages, since the first one names a source file of VTK; empty if
+  /// there are none.
+  std::string GetFirst()
+  {
+    const std::string all = this->Window->GetOutput();
+    const std::size_t begin = all.find('\n') + 1;
+    return all.substr(begin, all.find('\n', begin) - begin);
+  }
+
+private:
+  vtkNew<vtkStringOutputWindow> Window;
+};
+
+/// What is wrong, or empty.
+std::string Update(vtkAlgorithm* reader)
+{
+  Messages messages;
+  if (!Survives(reader))
+  {
+    return "cannot be read: VTK's reader crashed; the file is probably truncated or corrupt";
+  }
+  reader->Update();
+  const std::string problem = messages.GetFirst();
+  const bool isEmpty = GetMesh(reader)->GetNumberOfCells() == 0;
+  return !problem.empty() ? "cannot be read: " + problem
+    : isEmpty             ? "cannot be read: no mesh in it"
+                          : "";
+}
 
 const std::map<std::string, int> Geometries = { { "auto", vtkDelaunayFlip::GEOMETRY_AUTO },
   { "planar", vtkDelaunayFlip::GEOMETRY_PLANAR },
@@ -33,9 +142,8 @@ int Fail(ExitStatus status, const std::string& message)
 
 std::string CheckExtension(const std::string& file)
 {
-  return HasKnownExtension(file)
-    ? ""
-    : file + ": unknown file extension; known are .vtk .vtp .ply .stl .obj";
+  return MakeReader(file) ? ""
+                          : file + ": unknown file extension; known are .vtk .vtp .ply .stl .obj";
 }
 
 }
@@ -69,15 +177,21 @@ std::optional<int> ExampleFiles::ReadArguments(int argc, char* argv[])
 
 vtkSmartPointer<vtkPolyData> ExampleFiles::ReadMesh() const
 {
-  try
+  if (this->Mesh.empty())
   {
-    return this->Mesh.empty() ? MakeBadMesh() : ReadMeshFile(this->Mesh);
+    return MakeBadMesh();
   }
-  catch (const std::runtime_error& error)
+  const bool isReadable = vtksys::SystemTools::TestFileAccess(this->Mesh, vtksys::TEST_FILE_READ) &&
+    !vtksys::SystemTools::FileIsDirectory(this->Mesh);
+  const auto reader = MakeReader(this->Mesh);
+  const std::string problem =
+    isReadable ? Update(reader) : "no such file, or no permission to read it";
+  if (!problem.empty())
   {
-    Fail(BadFile, error.what());
+    Fail(BadFile, this->Mesh + ": " + problem);
     return nullptr;
   }
+  return GetMesh(reader);
 }
 
 int ExampleFiles::GetGeometry() const { return Geometries.at(this->Geometry); }
