@@ -36,8 +36,6 @@ Refusal ToRefusal(PathResult result)
 
 }
 
-const char* Describe(Refusal refusal) { return Reasons[static_cast<std::size_t>(refusal)]; }
-
 void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defect>& defects)
 {
   for (std::size_t i = 0; i < std::size(Reasons); ++i)

@@ -34,9 +34,6 @@ struct RefusedConstraint
   Refusal Why;
 };
 
-/// The text of a defect.
-const char* Describe(Refusal refusal);
-
 /// Adds a defect for every reason, which names the first constraints.
 void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defect>& defects);
 
