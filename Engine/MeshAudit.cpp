@@ -4,6 +4,7 @@
 
 #include "MeshSurveyBuilder.h"
 #include "Predicates.h"
+#include "Records.h"
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 #include "TriangleAngles.h"
@@ -93,19 +94,12 @@ std::vector<Side> SortSides(const TriangleArray& triangles)
 
 /// Calls visit(first side, number of incident sides) for every edge, by ascending vertex pair.
 template <typename Visitor>
-void ForEachEdge(const std::vector<Side>& sides, const Visitor& visit)
+void ForEachEdge(const TriangleArray& triangles, const Visitor& visit)
 {
-  std::size_t begin = 0;
-  while (begin < sides.size())
-  {
-    std::size_t end = begin + 1;
-    while (end < sides.size() && sides[end].Ends == sides[begin].Ends)
-    {
-      ++end;
-    }
-    visit(&sides[begin], static_cast<std::int64_t>(end - begin));
-    begin = end;
-  }
+  std::vector<Side> sides = SortSides(triangles);
+  ForEachRun(
+    sides, [](const Side& a, const Side& b) { return a.Ends == b.Ends; },
+    [&](const Side* begin, const Side* end) { visit(begin, end - begin); });
 }
 
 /// The vertices of a triangle or quad relative to the first; with PlanarXY, z is 0.
@@ -307,7 +301,7 @@ private:
 EdgeCounts CountEdges(const TriangleArray& triangles)
 {
   EdgeCounts counts;
-  ForEachEdge(SortSides(triangles),
+  ForEachEdge(triangles,
     [&](const Side* sides, std::int64_t incident)
     {
       ++counts.Edges;
@@ -334,11 +328,11 @@ std::int64_t EulerCharacteristic(const TriangleArray& triangles)
 std::int64_t CountDuplicateEdgesGained(const TriangleArray& before, const TriangleArray& after)
 {
   std::map<VertexPair, std::int64_t> valences;
-  ForEachEdge(SortSides(before),
+  ForEachEdge(before,
     [&](const Side* sides, std::int64_t incident)
     { valences.emplace_hint(valences.end(), sides->Ends, incident); });
   std::int64_t gained = 0;
-  ForEachEdge(SortSides(after),
+  ForEachEdge(after,
     [&](const Side* sides, std::int64_t incident)
     { gained += incident >= 3 && incident > valences[sides->Ends]; });
   return gained;
@@ -348,7 +342,7 @@ std::int64_t CountNonDelaunayEdges(const TriangleMesh& mesh, const FlipOptions& 
 {
   const EdgeJudge judge(mesh, options);
   std::int64_t violated = 0;
-  ForEachEdge(SortSides(mesh.Triangles),
+  ForEachEdge(mesh.Triangles,
     [&](const Side* sides, std::int64_t incident)
     { violated += incident == 2 && judge.IsViolated(sides); });
   return violated;
