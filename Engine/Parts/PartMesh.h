@@ -124,7 +124,6 @@ public:
   /// Begins with empty lists. More triangles and points may be added later.
   /// @param capacity the number of triangles to reserve memory for.
   void Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points);
-  bool HasBegun() const { return this->First.capacity() > 0; }
   /// Adds a corner that is in no list.
   void Add(const PartCorner& corner, std::int32_t point);
 
@@ -203,7 +202,6 @@ public:
   /// find triangles without a pass over all. From now on only the functions below may change
   /// triangles.
   void BeginRounds(const MarkedEdges& marks);
-  bool HasBegunRounds() const { return this->Stars.HasBegun(); }
   /// Flips the edge opposite to two corners.
   void Flip(const PartCorner& one, const PartCorner& other);
   /// Marks the edge opposite to a corner as a seam edge.

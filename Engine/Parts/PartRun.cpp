@@ -318,8 +318,8 @@ private:
     const bool mayGoOn = this->MayGoOn();
     const std::vector<std::int64_t> changed = this->Mesh.TakeChanged();
     SeamTest test = this->Tester.Run(this->Mesh, changed, this->Judge, group);
-    this->Seams = test.OfAll;
-    WaitedFlips waiting{ test.OfAll.Bad, {}, {} };
+    this->Seams = test.Counts;
+    WaitedFlips waiting{ test.BadOfAll, {}, {} };
     if (needsGuard && mayGoOn)
     {
       this->Waiting.insert(this->Waiting.end(), changed.begin(), changed.end());
@@ -467,7 +467,7 @@ private:
   /// The bad edges that are left on this rank.
   void CountBad()
   {
-    if (!this->Mesh.HasBegunRounds())
+    if (this->Job.Group.GetSize() == 1)
     {
       this->BeginRounds(); // which finds the mates of corners
     }
@@ -480,10 +480,7 @@ private:
         const PartCorner mate = this->Mesh.FindOpenMate({ t, slot });
         const EdgeState state =
           mate.Triangle > t ? flips.Judge({ t, slot }, mate) : EdgeState::Good;
-        this->Own.NonDelaunayAfter += state != EdgeState::Good ? 1 : 0;
-        this->Own.BlockedByShape += state == EdgeState::BlockedByShape ? 1 : 0;
-        this->Own.BlockedByDeviation += state == EdgeState::BlockedByDeviation ? 1 : 0;
-        this->Own.BlockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
+        CountState(state, this->Own);
       }
     }
   }
@@ -494,15 +491,16 @@ private:
     const FlipReport& seams = this->Constraints.Seams.Totals;
     AddCounts(this->Own.Edges, seams.Edges, 1);
     this->Own.NonDelaunayBefore += seams.NonDelaunayAfter;
+    if (this->WholeStopReason == StopReasonKind::Converged) // nothing else blocks those left
+    {
+      this->Seams.BlockedByEdge =
+        this->Seams.NonDelaunayAfter - this->Seams.BlockedByShape - this->Seams.BlockedByDeviation;
+    }
+    AddEdges(this->Own, this->Seams, 1);
     PiecesReport report = this->Whole;
     static_cast<FlipReport&>(report) = JoinReports(this->Own, this->Job.Group);
     CompleteReport(report, keys.UsedPoints, this->IsCounted);
     report.Points = keys.Owners.Firsts.back() - keys.Repeated;
-    report.NonDelaunayAfter += this->Seams.Bad + this->Seams.Blocked;
-    report.BlockedByShape += this->Seams.Blocked - this->Seams.Deviating;
-    report.BlockedByDeviation += this->Seams.Deviating;
-    const bool areBlocked = this->WholeStopReason == StopReasonKind::Converged;
-    report.BlockedByEdge += areBlocked ? this->Seams.Bad : 0;
     report.GeometryUsed = this->Job.Survey.Geometry;
     report.GeometryReason = this->Job.Survey.GeometryReason;
     report.StopReason = this->WholeStopReason;
@@ -523,13 +521,13 @@ private:
   StopReasonKind StopReason = StopReasonKind::Converged;
   std::int64_t EarlierRows = 0; ///< Iterations of this rank in earlier rounds.
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
+  FlipReport Seams; ///< SeamTest::Counts of the last test.
 
   // Of all ranks:
   PiecesReport Whole; ///< The members that it inherits from FlipReport are set at the end.
   StopReasonKind WholeStopReason = StopReasonKind::Converged;
   std::int64_t Iterations = 0; ///< Of earlier rounds.
   bool IsCounted = true; ///< Whether no rank was stopped before its edges were counted.
-  SeamCounts Seams; ///< At the last test.
 };
 
 //------------------------------------------------------------------------------

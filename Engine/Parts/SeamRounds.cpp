@@ -5,6 +5,14 @@
 namespace delaunayflip
 {
 
+void CountState(EdgeState state, FlipReport& counts)
+{
+  counts.NonDelaunayAfter += state != EdgeState::Good ? 1 : 0;
+  counts.BlockedByShape += state == EdgeState::BlockedByShape ? 1 : 0;
+  counts.BlockedByDeviation += state == EdgeState::BlockedByDeviation ? 1 : 0;
+  counts.BlockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
+}
+
 /// Brings the sides up to date.
 void SeamTester::Update(PartMesh& mesh, const std::vector<std::int64_t>& changed, PieceGroup& group)
 {
@@ -49,14 +57,14 @@ SeamTest SeamTester::Run(PartMesh& mesh, const std::vector<std::int64_t>& change
 {
   this->Update(mesh, changed, group);
   RecordLists<BadSeam> toRank(group.GetSize());
-  SeamCounts counts;
+  SeamTest result;
+  std::int64_t countOfBad = 0;
   const auto test = [&](SeamTriangle& one, SeamTriangle& other)
   {
     const EdgeState state = judge.Judge(one, other);
     one.IsToTest = other.IsToTest = state != EdgeState::Good;
-    counts.Blocked += state != EdgeState::Good && state != EdgeState::Bad ? 1 : 0;
-    counts.Deviating += state == EdgeState::BlockedByDeviation ? 1 : 0;
-    counts.Bad += state == EdgeState::Bad ? 1 : 0;
+    CountState(state, result.Counts);
+    countOfBad += state == EdgeState::Bad ? 1 : 0;
     for (int i = 0; i < 2 && state == EdgeState::Bad; ++i)
     {
       const SeamTriangle& own = i == 0 ? one : other;
@@ -80,8 +88,9 @@ SeamTest SeamTester::Run(PartMesh& mesh, const std::vector<std::int64_t>& change
         last = &side;
       }
     });
-  std::vector<BadSeam> bad = Join(ExchangeRecords(group, toRank));
-  return { std::move(bad), SumOverRanks(group, counts) };
+  result.Bad = Join(ExchangeRecords(group, toRank));
+  result.BadOfAll = SumOverRanks(group, countOfBad);
+  return result;
 }
 
 //------------------------------------------------------------------------------

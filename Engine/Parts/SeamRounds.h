@@ -30,27 +30,15 @@ struct BadSeam
   std::int32_t OtherRank;
 };
 
-/// How many seam edges may flip, as far as their shape tells, and how many may not.
-struct SeamCounts
-{
-  std::int64_t Bad = 0;
-  std::int64_t Blocked = 0; ///< Other ones, blocked by their shape or deviation.
-  std::int64_t Deviating = 0; ///< Of these, those blocked by deviation.
-
-  SeamCounts& operator+=(const SeamCounts& part)
-  {
-    this->Bad += part.Bad;
-    this->Blocked += part.Blocked;
-    this->Deviating += part.Deviating;
-    return *this;
-  }
-};
+/// Counts an edge that was judged, if it is bad or blocked.
+void CountState(EdgeState state, FlipReport& counts);
 
 /// The result of a test of all seam edges.
 struct SeamTest
 {
   std::vector<BadSeam> Bad; ///< Those of this rank. Each is in the lists of both of its ranks.
-  SeamCounts OfAll; ///< Over all ranks, each edge counted once.
+  FlipReport Counts; ///< Has the states of the edges whose home is this rank (CountState).
+  std::int64_t BadOfAll; ///< How many may flip, over all ranks, each counted once.
 };
 
 /// Finds the bad seam edges that may flip, as far as the shape of their quads tells. Keeps the seam
