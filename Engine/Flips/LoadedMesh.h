@@ -116,6 +116,12 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
 std::unique_ptr<LoadedMesh> LoadOnThreads(
   const PlaneArray& points, const FlipOptions& options, const BuildProgress& progress);
 
+/// The edges of a mesh that stay, but boundary edges: two ids for each, several times for one with
+/// three or more triangles.
+/// @param counts of its edges.
+std::vector<std::int64_t> ListInnerFixedEdges(
+  const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts);
+
 /// @throws RunAborted.
 /// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
 /// mesh needs the CPU. The message says why.

@@ -245,7 +245,7 @@ private:
   /// @param edges of that part.
   void KeepFixedEdges(const SubMesh& part, const FlipOptions& options, const EdgeCounts& edges)
   {
-    const std::vector<std::int64_t> ends = ListFixedEdges(part.View(), options, edges);
+    const std::vector<std::int64_t> ends = ListInnerFixedEdges(part.View(), options, edges);
     const std::lock_guard<std::mutex> lock(this->Mutex);
     for (const std::int64_t end : ends)
     {

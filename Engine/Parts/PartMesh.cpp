@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartMesh.h"
 
-#include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "SmallestAngle.h"
 #include "SurfaceAngles.h"
@@ -11,34 +10,6 @@
 namespace delaunayflip
 {
 
-std::vector<std::int64_t> ListFixedEdges(
-  const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts)
-{
-  std::vector<std::int64_t> ends;
-  if (counts.Fixed > counts.Boundary + counts.NonManifold)
-  {
-    ends = FindFixedEdges(mesh, options);
-  }
-  std::vector<PointPair> edges; // of all triangles, to find those of three or more
-  for (std::int64_t t = 0; t < mesh.Triangles.Count && counts.NonManifold > 0; ++t)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      edges.push_back(MakePair(mesh.Triangles.Get(t, slot), mesh.Triangles.Get(t, (slot + 1) % 3)));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 2; i < edges.size(); ++i)
-  {
-    if (edges[i] == edges[i - 2])
-    {
-      ends.insert(ends.end(), edges[i].begin(), edges[i].end());
-    }
-  }
-  return ends;
-}
-
-//------------------------------------------------------------------------------
 void PointStars::Begin(std::int64_t triangles, std::int64_t capacity, std::int64_t points)
 {
   this->First.assign(points, None);

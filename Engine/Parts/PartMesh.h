@@ -111,11 +111,6 @@ struct PartCorner
 /// The marks (EdgeMark, of slot 0) of the edges of a part, by the ends of the edges.
 using MarkedEdges = PairMap<unsigned char>;
 
-/// The edges of a mesh that stay, but boundary edges: two ids for each.
-/// @param counts of its edges.
-std::vector<std::int64_t> ListFixedEdges(
-  const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts);
-
 /// The star of every point of a rank: the corners of triangles at the point. The stars are linked
 /// lists that are kept up to date, so a round takes no time for triangles that it does not change.
 class PointStars

@@ -269,7 +269,7 @@ private:
   {
     MarkedEdges edges = std::move(this->Constraints.Seams.Marks);
     const std::vector<std::int64_t> fixed =
-      ListFixedEdges(this->Constraints.Mesh, this->Job.Options, this->Own.Edges);
+      ListInnerFixedEdges(this->Constraints.Mesh, this->Job.Options, this->Own.Edges);
     for (std::size_t i = 0; i < fixed.size(); i += 2)
     {
       edges[MakePair(fixed[i], fixed[i + 1])] |= FixedMark;

@@ -28,17 +28,16 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
     points, true, options, ThreadBackend(options.NumberOfThreads), progress));
 }
 
-std::vector<std::int64_t> FindFixedEdges(
-  const TriangleMesh& caller, const FlipOptions& options, const ProgressObserver& observer)
+namespace
 {
-  CheckOptions(options);
-  CheckMeshSize(caller.Triangles.Count, caller.Points.Count);
-  const ConstraintInsertion insertion(caller, options, {});
-  const TriangleMesh mesh = insertion.GetMesh(caller);
+/// Pairs of vertex ids of the fixed edges with two triangles, and perhaps of those with more, of
+/// which each triangle lists them.
+std::vector<std::int64_t> ListFixedEdges(const TriangleMesh& mesh, const FlipOptions& options,
+  const BuildProgress& progress, bool withNonManifold)
+{
   const ThreadBackend backend(options.NumberOfThreads);
-  const BuildProgress progress(observer);
   const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey = BuildMeshSurvey(input, insertion.GetOptions(options).Geometry, backend);
+  const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
   progress.Reach(survey.Geometry, BuildStep::Surveyed);
   const SpatialOrder order = OrderMesh(input, survey, backend);
   progress.Reach(survey.Geometry, BuildStep::Ordered);
@@ -46,18 +45,40 @@ std::vector<std::int64_t> FindFixedEdges(
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, progress);
   progress.Reach(survey.Geometry, BuildStep::Fixed);
   const EdgeMeshView view = built.Edges.View();
-  std::vector<std::int64_t> pairs; // of the fixed edges with two triangles
+  std::vector<std::int64_t> pairs;
   for (std::int64_t e = 0; e < built.Edges.NumberOfEdges; ++e)
   {
     const CornerPair corners = view.GetCorners(static_cast<EdgeId>(e));
-    if (view.States[e] == EdgeState::Fixed && corners.A != NoCorner && corners.B != NoCorner &&
-      !IsLoop(view.Triangles[TriangleOf(corners.A)], SlotOf(corners.A)))
+    const TriangleRecord& triangle = view.Triangles[TriangleOf(corners.A)];
+    const int slot = SlotOf(corners.A);
+    const bool isListed = corners.B != NoCorner ||
+      (withNonManifold && GetRole(triangle, slot) == CornerRole::OneOfMany);
+    if (view.States[e] == EdgeState::Fixed && isListed && !IsLoop(triangle, slot))
     {
-      const Quad quad = view.GetQuad(corners);
-      pairs.insert(pairs.end(), { order.View().GetVertex(quad.P), order.View().GetVertex(quad.Q) });
+      pairs.insert(pairs.end(),
+        { order.View().GetVertex(triangle.Vertices[NextSlot(slot)]),
+          order.View().GetVertex(triangle.Vertices[PreviousSlot(slot)]) });
     }
   }
   return pairs;
+}
+}
+
+std::vector<std::int64_t> FindFixedEdges(
+  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+{
+  CheckOptions(options);
+  CheckMeshSize(mesh.Triangles.Count, mesh.Points.Count);
+  const ConstraintInsertion insertion(mesh, options, {});
+  return ListFixedEdges(
+    insertion.GetMesh(mesh), insertion.GetOptions(options), BuildProgress(progress), false);
+}
+
+std::vector<std::int64_t> ListInnerFixedEdges(
+  const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts)
+{
+  return counts.Fixed > counts.Boundary ? ListFixedEdges(mesh, options, {}, true)
+                                        : std::vector<std::int64_t>();
 }
 
 GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options)
