@@ -302,8 +302,7 @@ ConstraintInsertion::ConstraintInsertion(
   this->Tried = missing.First;
   const MeshInput input{ mesh, mesh };
   const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
-  this->HasEdges = true; // all but the missing ones as they are
-  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i) // all but the missing ones
   {
     const std::int64_t* ends = mesh.ConstraintEdges + 2 * i;
     this->Edges.insert(this->Edges.end(), ends, missing.IsMissing[i] ? ends : ends + 2);
@@ -351,7 +350,6 @@ ConstraintInsertion::ConstraintInsertion(
       refuse(missing.First[i], ToRefusal(result));
     }
   }
-  this->Inserted = static_cast<std::int64_t>(missing.First.size() - this->Refused.size());
   for (const auto& [start, end] : flips.GetEdges())
   {
     this->Edges.insert(this->Edges.end(), { ranks.GetVertex(start), ranks.GetVertex(end) });
@@ -388,10 +386,10 @@ TriangleMesh ConstraintInsertion::GetMesh(const TriangleMesh& caller) const
 {
   TriangleMesh mesh = caller;
   mesh.ConstraintsToInsert = nullptr;
-  if (this->HasEdges)
+  if (!this->Tried.empty())
   {
     mesh.ConstraintEdges = this->Edges.data();
-    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->Edges.size()) / 2;
+    mesh.NumberOfConstraintEdges = SizeOf(this->Edges) / 2;
   }
   if (!this->Triangles.empty())
   {
@@ -410,9 +408,9 @@ FlipOptions ConstraintInsertion::GetOptions(const FlipOptions& caller) const
 void ConstraintInsertion::AddTo(FlipReport& report) const
 {
   report.GeometryReason = this->HasFlips() ? this->GeometryReason : report.GeometryReason;
-  report.InsertedConstraints = this->Inserted;
+  report.InsertedConstraints = SizeOf(this->Tried) - SizeOf(this->Refused);
   report.ConstraintFlips = this->Flips;
-  report.UnmatchedConstraints += static_cast<std::int64_t>(this->Refused.size());
+  report.UnmatchedConstraints += SizeOf(this->Refused);
   AddDefects(this->Refused, report.Defects);
 }
 

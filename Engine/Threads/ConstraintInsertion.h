@@ -87,11 +87,9 @@ private:
 
   std::vector<std::int64_t> Triangles; ///< Ids, if one has changed.
   std::vector<std::pair<std::int64_t, std::int32_t>> FlipCounts; ///< Of triangle slots.
-  bool HasEdges = false; ///< Whether Edges replace the caller's constraints.
-  std::vector<std::int64_t> Edges; ///< Pairs of vertex ids.
+  std::vector<std::int64_t> Edges; ///< Pairs of vertex ids, if some were tried.
   GeometryKind Geometry = GeometryKind::Auto;
   std::string GeometryReason;
-  std::int64_t Inserted = 0;
   std::int64_t Flips = 0;
   std::vector<std::int64_t> Tried;
   std::vector<RefusedConstraint> Refused;
