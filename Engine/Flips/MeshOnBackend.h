@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_MESHONBACKEND_H
 
 #include "Array.h"
+#include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
 #include "FlipLoopChoice.h"
@@ -12,6 +13,7 @@
 #include "LoadedMesh.h"
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
+#include "PlanarSurvey.h"
 #include "PointMesh.h"
 #include "SegmentInsertion.h"
 #include "SmallestAngle.h"
@@ -102,7 +104,10 @@ public:
     progress.Reach(survey.Geometry, BuildStep::Ordered);
     const bool isSurface = survey.Geometry == GeometryKind::Surface;
     EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
-    this->PackPoints(local, survey, options.Criterion);
+    const PointArray& points = input.Local.Points;
+    this->Points = PackPoints(points, this->Order.View(),
+      PlanPacking(survey, options.Criterion, points.Floats != nullptr), this->Backend);
+    local.DropPoints(); // the caller's points are not needed any more
     const PackedPointsView packed = this->Points.View();
     const std::int64_t count = isSurface ? mesh.Points.Count : 0;
     edges.Packed =
@@ -139,17 +144,12 @@ public:
     report.GeometryReason = survey.GeometryReason;
     report.Tolerance = DescribeTolerance(options, survey.Geometry);
     report.Backend = this->Backend.GetName();
-    Array<unsigned char> shared = this->RankSharedPoints(mesh);
-    FlipLoopResult made = ChooseFlipLoop(
-      { this->Points, survey, options, this->Report, this->Mesh, mesh.Whole, shared },
-      this->Backend);
-    this->Loop = std::move(made.Loop);
-    report.MinimumAngleBefore = ToDegrees(made.SquaredCotangent);
+    const std::vector<Defect> made = this->ChooseLoop(survey, options, mesh);
     std::vector<Defect> defects{ survey.NonFinitePoints, survey.RepeatedIds,
       survey.NearlyHeightField, built.DuplicateTriangles,
       { "constraint edges that are not edges of the mesh", built.MissingConstraints, {},
         DefectIds::Points } };
-    defects.insert(defects.end(), made.Defects.begin(), made.Defects.end());
+    defects.insert(defects.end(), made.begin(), made.end());
     std::copy_if(defects.begin(), defects.end(), std::back_inserter(report.Defects),
       [](const Defect& defect) { return defect.Count > 0; });
   }
@@ -416,17 +416,53 @@ private:
     // All triangles turn to the left and none overlap, so that flips need no guard.
     this->Range = survey.Range;
     this->FiltersApply = survey.FiltersApply;
-    this->MakePlaneLoop(coordinates);
+    this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
     report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestSquaredCotangent());
   }
 
-  template <typename Real>
-  void MakePlaneLoop(const Real* coordinates)
+  template <typename Rule>
+  void MakeLoop(const Rule& rule, EdgeGuard guard = EdgeGuard())
   {
-    using Rule = PlanarRule<Real, 2>;
-    using PlaneLoop = typename LoopOf<BackendT, Rule>::Type;
-    this->Loop.reset(new PlaneLoop(this->Mesh, Rule{ coordinates, 1, true, this->FiltersApply },
-      this->Range, EdgeGuard(), this->Backend));
+    using Type = typename LoopOf<BackendT, Rule>::Type;
+    this->Loop.reset(new Type(this->Mesh, rule, this->Range, std::move(guard), this->Backend));
+  }
+
+  /// Makes the loop that suits the mesh, and measures the smallest angle.
+  /// @returns the triangles without area or turned over.
+  std::vector<Defect> ChooseLoop(
+    const MeshSurvey& survey, const FlipOptions& options, const TriangleMesh& mesh)
+  {
+    const bool isSurface = survey.Geometry == GeometryKind::Surface;
+    Array<unsigned char> shared = this->RankSharedPoints(mesh);
+    std::vector<Defect> defects;
+    bool needsGuard = true;
+    int uniformSide = 0;
+    if (!isSurface)
+    {
+      const EdgeCounts& edges = this->Report.Edges;
+      const bool brokenFans =
+        edges.NonManifold > 0 || edges.WronglyWound > 0 || survey.NonFinitePoints.Count > 0;
+      const bool areSimple = mesh.Whole.StarsAreSimple;
+      const PlanarSurvey plane = SurveyPlane(
+        this->Mesh, this->Points, brokenFans || areSimple, survey.UsedPoints, this->Backend);
+      defects = plane.ListDefects(mesh.Whole.Side);
+      needsGuard = !(plane.StarsAreSimple || areSimple) || shared.Size() > 0;
+      uniformSide = plane.UniformSide;
+    }
+    EdgeGuard guard;
+    if (needsGuard)
+    {
+      guard = EdgeGuard(this->Mesh, mesh.Points.Count, this->Backend, std::move(shared));
+    }
+    const PackedPointsView packed = this->Points.View();
+    RuleChoice(survey, options)
+      .Visit(packed.Floats, packed.Doubles, uniformSide,
+        [&](const auto& rule) { this->MakeLoop(rule, std::move(guard)); });
+    const double largest = this->Loop->FindLargestSquaredCotangent();
+    this->Report.MinimumAngleBefore = ToDegrees(largest);
+    return isSurface && largest == INFINITY
+      ? std::vector<Defect>{ FindZeroAreaTriangles(this->Mesh, this->Points, this->Backend) }
+      : defects;
   }
 
   template <typename Real>
@@ -435,16 +471,7 @@ private:
     std::int64_t hullEdges = 0; // the same as before
     this->Mesh = DividePlaces(reinterpret_cast<const CoordinatePair<Real>*>(coordinates),
       this->Points.Count, this->Backend, progress, hullEdges);
-    this->MakePlaneLoop(coordinates);
-  }
-
-  /// After this the caller's points are not needed any more.
-  void PackPoints(LocalMesh& local, const MeshSurvey& survey, CriterionKind criterion)
-  {
-    const PointArray points = local.View().Points;
-    this->Points = delaunayflip::PackPoints(points, this->Order.View(),
-      PlanPacking(survey, criterion, points.Floats != nullptr), this->Backend);
-    local.DropPoints();
+    this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
   }
 
   BackendT Backend;
