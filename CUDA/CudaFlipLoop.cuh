@@ -297,12 +297,12 @@ private:
   auto* GetDetectKernel() const
   {
     return this->Guard.IsActive() ? DetectAllKernel<Rule, true>
-                                  : DetectAllKernel<Rule, Rule::AlwaysGuarded>;
+                                  : DetectAllKernel<Rule, Rule::IsInSpace>;
   }
   auto* GetIterateKernel() const
   {
     return this->Guard.IsActive() ? IterateKernel<Rule, true>
-                                  : IterateKernel<Rule, Rule::AlwaysGuarded>;
+                                  : IterateKernel<Rule, Rule::IsInSpace>;
   }
 
   /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also
@@ -349,7 +349,7 @@ private:
   void PlanTeams()
   {
     int blocks = 1;
-    if constexpr (!Rule::AlwaysGuarded) // else there are no chunks
+    if constexpr (!Rule::IsInSpace) // else there are no chunks
     {
       blocks = this->CountResidentBlocks(RunChunksKernel<Rule>);
     }
@@ -482,7 +482,7 @@ private:
     this->Backend.LaunchOnEach(parts,
       [&](cudaStream_t stream, int part)
       {
-        if constexpr (!Rule::AlwaysGuarded)
+        if constexpr (!Rule::IsInSpace)
         {
           LaunchTogether(stream, this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>,
             this->View(part, parts, part * this->CountTeamStates()), this->BlocksOfTeam,

@@ -107,7 +107,7 @@ __device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
     });
   counts.AddTo<Rule>(team);
   team.Warn(counts.Uncertain || isShort || contested > 0);
-  if constexpr (Rule::MayBeUncertain)
+  if constexpr (!Rule::IsInSpace)
   {
     if (worklist.IsAny(counts.Uncertain))
     {

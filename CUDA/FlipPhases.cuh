@@ -471,7 +471,7 @@ __device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, con
       }
     });
   counts.AddTo<Rule>(team);
-  if constexpr (Rule::MayBeUncertain)
+  if constexpr (!Rule::IsInSpace)
   {
     if (worklist.IsAny(counts.Uncertain))
     {

@@ -9,8 +9,6 @@
 #include "SurfaceAngles.h"
 #include "WideAngles.h"
 
-#include <cstdint>
-
 /// @file
 /// The rules that judge edges, one per geometry. A rule reads the coordinates of a quad and returns
 /// EdgeState::Good, Bad, BlockedByShape, BlockedByDeviation, or Uncertain when floating-point
@@ -20,42 +18,27 @@
 namespace delaunayflip
 {
 
-/// Signs by floating-point arithmetic; may be UncertainSign.
-struct FilteredSigns
+/// Whether signs are exact, or by floating-point arithmetic and perhaps UncertainSign.
+enum class SignKind
 {
-  DELAUNAYFLIP_HOST_DEVICE static int Orientation(
-    const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
-  {
-    return FilteredOrientation(a, b, c);
-  }
-  DELAUNAYFLIP_HOST_DEVICE static int InCircle(const PlanePoint (&points)[4], bool tilted)
-  {
-    return tilted ? FilteredInCircle<true>(points[0], points[1], points[2], points[3])
-                  : FilteredInCircle(points[0], points[1], points[2], points[3]);
-  }
+  Filtered,
+  Exact
 };
 
-/// Exact signs.
-struct ExactSigns
+template <SignKind Kind>
+DELAUNAYFLIP_HOST_DEVICE int FindTurnBy(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
-  DELAUNAYFLIP_HOST_DEVICE static int Orientation(
-    const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
-  {
-    return ExactOrientation(a, b, c);
-  }
-  DELAUNAYFLIP_HOST_DEVICE static int InCircle(const PlanePoint (&points)[4], bool tilted)
-  {
-    return ExactInCircle(points, tilted);
-  }
-};
+  return Kind == SignKind::Exact ? ExactOrientation(a, b, c) : FilteredOrientation(a, b, c);
+}
 
 /// The side to which the two triangles of a quad turn: 1 or -1; 0 if they turn to different sides
 /// or neither has an area; or UncertainSign. `strict` receives whether both have an area.
-template <typename Signs>
+template <SignKind Kind>
 DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint (&apqb)[4], bool& strict)
 {
-  const int upper = Signs::Orientation(apqb[0], apqb[1], apqb[2]);
-  const int lower = Signs::Orientation(apqb[3], apqb[2], apqb[1]);
+  const int upper = FindTurnBy<Kind>(apqb[0], apqb[1], apqb[2]);
+  const int lower = FindTurnBy<Kind>(apqb[3], apqb[2], apqb[1]);
   strict = upper != 0 && lower != 0;
   if (upper == UncertainSign || lower == UncertainSign)
   {
@@ -65,11 +48,11 @@ DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint (&apqb)[4], bool& strict)
 }
 
 /// BlockedByShape unless both triangles of the flipped quad turn to `side`.
-template <typename Signs>
+template <SignKind Kind>
 DELAUNAYFLIP_HOST_DEVICE EdgeState CheckConvex(const PlanePoint (&apqb)[4], int side)
 {
-  const int left = Signs::Orientation(apqb[0], apqb[1], apqb[3]);
-  const int right = Signs::Orientation(apqb[3], apqb[2], apqb[0]);
+  const int left = FindTurnBy<Kind>(apqb[0], apqb[1], apqb[3]);
+  const int right = FindTurnBy<Kind>(apqb[3], apqb[2], apqb[0]);
   if (left == UncertainSign || right == UncertainSign)
   {
     return EdgeState::Uncertain;
@@ -117,9 +100,9 @@ struct PlanarRule
 {
   static constexpr bool Tilted = Components == 3;
   static constexpr bool MayBlock = Tilted; ///< Whether an edge may be BlockedByShape.
-  static constexpr bool MayDeviate = false; ///< Whether an edge may be BlockedByDeviation.
-  static constexpr bool MayBeUncertain = true; ///< Whether Judge may leave it to JudgeExactly.
-  static constexpr bool AlwaysGuarded = false; ///< Whether flips always have a guard.
+  /// Whether it judges in space. Then flips always have a guard, an edge may be BlockedByDeviation,
+  /// and Judge leaves none to JudgeExactly.
+  static constexpr bool IsInSpace = false;
 
   const Real* Coordinates; ///< Components numbers per vertex.
   int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
@@ -146,25 +129,27 @@ struct PlanarRule
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    return this->FiltersApply ? this->Decide<FilteredSigns>(quad) : EdgeState::Uncertain;
+    return this->FiltersApply ? this->Decide<SignKind::Filtered>(quad) : EdgeState::Uncertain;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
   {
-    return this->Decide<ExactSigns>(quad);
+    return this->Decide<SignKind::Exact>(quad);
   }
 
 private:
   /// In the plane, if in-circle > 0, one triangle has an area, and the other is not turned over,
   /// the quad is strictly convex. With a tilted lift, points off the plane can break this.
-  template <typename Signs>
+  template <SignKind Kind>
   DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(const Quad& quad) const
   {
     const PlanePoint apqb[4] = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
       this->Get(quad.B) };
     bool strict = true;
-    const int side = this->UniformSide != 0 ? this->UniformSide : FindSide<Signs>(apqb, strict);
-    const int inCircle = Signs::InCircle(apqb, Tilted);
+    const int side = this->UniformSide != 0 ? this->UniformSide : FindSide<Kind>(apqb, strict);
+    const int inCircle = Kind == SignKind::Exact
+      ? ExactInCircle(apqb, Tilted)
+      : FilteredInCircle<Tilted>(apqb[0], apqb[1], apqb[2], apqb[3]);
     if (side == UncertainSign || inCircle == UncertainSign)
     {
       return EdgeState::Uncertain;
@@ -179,7 +164,7 @@ private:
     {
       state = EdgeHoldsLargest(apqb) ? EdgeState::Bad : EdgeState::Good;
     }
-    return Tilted && state == EdgeState::Bad ? CheckConvex<Signs>(apqb, side) : state;
+    return Tilted && state == EdgeState::Bad ? CheckConvex<Kind>(apqb, side) : state;
   }
 };
 
@@ -249,9 +234,7 @@ private:
 struct PlanarAngleRule : AnglePoints<double>
 {
   static constexpr bool MayBlock = true;
-  static constexpr bool MayDeviate = false;
-  static constexpr bool MayBeUncertain = true;
-  static constexpr bool AlwaysGuarded = false;
+  static constexpr bool IsInSpace = false;
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
@@ -265,12 +248,12 @@ struct PlanarAngleRule : AnglePoints<double>
     const PlanePoint apqb[4] = { { points.A.X, points.A.Y, 0.0 }, { points.P.X, points.P.Y, 0.0 },
       { points.Q.X, points.Q.Y, 0.0 }, { points.B.X, points.B.Y, 0.0 } };
     bool strict = true;
-    const int side = FindSide<ExactSigns>(apqb, strict);
+    const int side = FindSide<SignKind::Exact>(apqb, strict);
     if (side == 0)
     {
       return !strict && SpansOpposite(apqb) ? EdgeState::Bad : EdgeState::Good;
     }
-    return CheckConvex<ExactSigns>(apqb, side);
+    return CheckConvex<SignKind::Exact>(apqb, side);
   }
 };
 
@@ -281,9 +264,7 @@ struct SurfaceRule : AnglePoints<Real>
 {
   using AnglePoints<Real>::Get;
   static constexpr bool MayBlock = true;
-  static constexpr bool MayDeviate = true;
-  static constexpr bool MayBeUncertain = false;
-  static constexpr bool AlwaysGuarded = true;
+  static constexpr bool IsInSpace = true;
 
   double MaximumDeviation = INFINITY; ///< None.
 

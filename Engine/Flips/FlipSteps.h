@@ -32,7 +32,7 @@ template <typename Rule, typename Backend>
 std::int64_t CountDeviating(EdgeMesh& mesh, const Rule& rule, const Backend& backend)
 {
   std::int64_t count = 0;
-  if constexpr (Rule::MayDeviate)
+  if constexpr (Rule::IsInSpace)
   {
     const EdgeMeshView view = mesh.View();
     count = backend.template Sum<std::int64_t>(mesh.NumberOfEdges,
