@@ -202,30 +202,9 @@ public:
     this->Backend.ForEach(this->NumberOfChunks,
       [=] __device__(std::int64_t c)
       {
-        chunks[c] = { FirstEdgeOf(words, edges, c << bits),
-          FirstEdgeOf(words, edges, (c + 1) << bits) };
+        chunks[c] = { static_cast<EdgeId>(FindFirstEdge(words, edges, c << bits)),
+          static_cast<EdgeId>(FindFirstEdge(words, edges, (c + 1) << bits)) };
       });
-  }
-
-  /// The first edge whose first corner belongs to `triangle` or a later one.
-  __host__ __device__ static EdgeId FirstEdgeOf(
-    const CornerId* words, std::int64_t edges, std::int64_t triangle)
-  {
-    std::int64_t begin = 0;
-    std::int64_t end = edges;
-    while (begin < end)
-    {
-      const std::int64_t middle = (begin + end) / 2;
-      if (static_cast<std::int64_t>(TriangleOf(words[2 * middle])) < triangle)
-      {
-        begin = middle + 1;
-      }
-      else
-      {
-        end = middle;
-      }
-    }
-    return static_cast<EdgeId>(begin);
   }
 
 protected:

@@ -331,19 +331,11 @@ struct GuardedEdges
 {
   GuardTableView Table; ///< All edges of the mesh.
   const unsigned char* SharedVertices; ///< By vertex (WholeMesh::SharedPoints), or null.
-
-  DELAUNAYFLIP_HOST_DEVICE bool Forbid(const EdgeMeshView& mesh, VertexId a, VertexId b) const
-  {
-    const bool isUnknown =
-      this->SharedVertices && (this->SharedVertices[a] & this->SharedVertices[b]) != 0;
-    return isUnknown || this->Table.Has(mesh, a, b);
-  }
 };
 
 /// Plain pointers to an EdgeGuard, for functions of both backends.
 struct EdgeGuardView
 {
-  bool Active;
   GuardedEdges Edges;
   EdgeClaims Claims;
 };
@@ -413,7 +405,7 @@ public:
         std::max<std::int64_t>(1, this->NumberOfVertices) };
     const unsigned char* shared =
       this->SharedVertices.Size() > 0 ? this->SharedVertices.Data() : nullptr;
-    return { this->IsActive(), { table, shared },
+    return { { table, shared },
       { this->Claims.Data(), static_cast<std::uint32_t>(this->Claims.Size()) } };
   }
 

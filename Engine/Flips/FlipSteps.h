@@ -9,6 +9,7 @@
 #include "FlipRules.h"
 #include "HostDevice.h"
 #include "StepCounts.h"
+#include "Strips.h"
 
 #include <cstdint>
 
@@ -23,7 +24,10 @@ namespace delaunayflip
 DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(
   const GuardedEdges& edges, const EdgeMeshView& mesh, const Quad& quad)
 {
-  return edges.Forbid(mesh, quad.A, quad.B) ? EdgeState::BlockedByEdge : EdgeState::Bad;
+  const unsigned char* shared = edges.SharedVertices;
+  const bool isUnknown = shared && (shared[quad.A] & shared[quad.B]) != 0;
+  return isUnknown || edges.Table.Has(mesh, quad.A, quad.B) ? EdgeState::BlockedByEdge
+                                                            : EdgeState::Bad;
 }
 
 /// Counts the edges of EdgeState::BlockedByDeviation, which the passes count with BlockedByShape.
@@ -46,6 +50,14 @@ std::int64_t CountDeviating(EdgeMesh& mesh, const Rule& rule, const Backend& bac
       });
   }
   return count;
+}
+
+/// The first edge whose first corner belongs to `triangle` or a later one, before any flip.
+DELAUNAYFLIP_HOST_DEVICE inline std::int64_t FindFirstEdge(
+  const CornerId* words, std::int64_t edges, std::int64_t triangle)
+{
+  return FindEnd(std::int64_t(0), edges,
+    [=](std::int64_t edge) { return TriangleOf(words[2 * edge]) < triangle; });
 }
 
 /// Pass 4: decides which of two bad edges flips first. Priorities are a bijection of edge ids: two

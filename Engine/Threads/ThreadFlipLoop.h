@@ -171,17 +171,12 @@ private:
   {
     const std::int64_t triangles = this->Mesh.NumberOfTriangles;
     const std::int64_t size = std::int64_t(1) << this->ChunkBits;
-    const CornerId* words = this->Mesh.CornerOfHalfEdge.Data();
-    std::int64_t edge = 0;
+    const auto firstEdge = [this](std::int64_t t)
+    { return FindFirstEdge(this->Mesh.CornerOfHalfEdge.Data(), this->Mesh.NumberOfEdges, t); };
     for (std::int64_t t = 0; this->HasChunks() && t < triangles; t += size)
     {
-      Chunk chunk{ t, std::min(triangles, t + size), edge, 0, 0 };
-      while (edge < this->Mesh.NumberOfEdges && TriangleOf(words[2 * edge]) < chunk.LastTriangle)
-      {
-        ++edge;
-      }
-      chunk.LastEdge = edge;
-      this->Chunks.push_back(chunk);
+      const std::int64_t end = std::min(triangles, t + size);
+      this->Chunks.push_back({ t, end, firstEdge(t), firstEdge(end), 0 });
     }
   }
 
