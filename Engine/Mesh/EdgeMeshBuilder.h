@@ -487,12 +487,11 @@ struct LoadStep
   const PointUse* Uses; ///< Null: all points are finite.
   TriangleRecord* Triangles;
 
-  DELAUNAYFLIP_HOST_DEVICE void PrefetchFar(std::int64_t t) const
-  {
-    this->Mesh.Triangles.Prefetch(this->Order.GetTriangle(t));
-  }
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
+    constexpr std::int64_t Further = 32; // when this prefetches what the ids of a triangle name
+    const std::int64_t far = std::min(t + Further, this->Mesh.Triangles.Count - 1);
+    this->Mesh.Triangles.Prefetch(this->Order.GetTriangle(far));
     for (int slot = 0; slot < 3; ++slot)
     {
       const std::int64_t vertex = this->Mesh.Triangles.Get(this->Order.GetTriangle(t), slot);

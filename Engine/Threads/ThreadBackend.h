@@ -154,12 +154,9 @@ public:
         Loop(begin, end, count, [&count, &items](std::int64_t i) { items += count(i); });
         numbering.FirstOfPiece[begin / grain] = items;
       });
-    for (std::int64_t& first : numbering.FirstOfPiece)
-    {
-      const std::int64_t items = first;
-      first = numbering.Total;
-      numbering.Total += items;
-    }
+    auto& firsts = numbering.FirstOfPiece;
+    numbering.Total = std::accumulate(firsts.begin(), firsts.end(), std::int64_t(0));
+    std::exclusive_scan(firsts.begin(), firsts.end(), firsts.begin(), std::int64_t(0));
     return numbering;
   }
 
@@ -343,34 +340,23 @@ private:
   /// Items between the request for a cache line and its use.
   static constexpr std::int64_t PrefetchDistance = 32;
 
-  /// Call work.Prefetch(i) and work.PrefetchFar(i), if they exist.
+  /// Calls work.Prefetch(i), if that exists.
   template <typename Work>
   static auto Request(const Work& work, std::int64_t i, int) -> decltype(work.Prefetch(i))
   {
     work.Prefetch(i);
   }
   template <typename Work>
-  static auto RequestFar(const Work& work, std::int64_t i, int) -> decltype(work.PrefetchFar(i))
-  {
-    work.PrefetchFar(i);
-  }
-  template <typename Work>
   static void Request(const Work&, std::int64_t, long)
   {
   }
-  template <typename Work>
-  static void RequestFar(const Work&, std::int64_t, long)
-  {
-  }
 
-  /// Calls call(i) for i = begin .. end - 1; before that work.Prefetch(i) and, still earlier,
-  /// work.PrefetchFar(i), if they exist.
+  /// Calls call(i) for i = begin .. end - 1; before that work.Prefetch(i), if that exists.
   template <typename Work, typename Call>
   static void Loop(std::int64_t begin, std::int64_t end, const Work& work, const Call& call)
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
-      RequestFar(work, std::min(i + 2 * PrefetchDistance, end - 1), 0);
       Request(work, std::min(i + PrefetchDistance, end - 1), 0);
       call(i);
     }
