@@ -73,16 +73,6 @@ __global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items
   }
 }
 
-template <typename Result>
-struct Plus
-{
-  __device__ Result operator()(Result a, const Result& b) const
-  {
-    a += b;
-    return a;
-  }
-};
-
 /// The same as ForEachKernel, with a sum: every block writes its partial sum.
 template <typename Result, typename Work>
 __global__ void __launch_bounds__(ThreadsPerBlock)
@@ -96,7 +86,8 @@ __global__ void __launch_bounds__(ThreadsPerBlock)
   {
     work(i, sum);
   }
-  const Result total = Reduce(storage).Reduce(sum, Plus<Result>());
+  const auto plus = [](Result a, const Result& b) { return a += b; };
+  const Result total = Reduce(storage).Reduce(sum, plus);
   if (threadIdx.x == 0)
   {
     partials[blockIdx.x] = total;
@@ -143,8 +134,6 @@ struct LocalDeviceMesh
   Array<double> Doubles;
   Array<std::int32_t> Triangles, Regions;
   Array<unsigned char> Frozen;
-
-  const TriangleMesh& View() const { return this->Mesh; }
 
   /// Frees the array of which the engine now has its own form.
   void DropPoints()
@@ -241,7 +230,7 @@ public:
     const Result* own = partials.Data();
     Result* all = partials.Data() + blocks;
     const auto add = [=] __device__(std::int64_t i, Result & sum) { sum += own[i]; };
-    this->Launch(
+    Launch(this->GetStream(),
       [&](cudaStream_t stream) {
         SumKernel<<<1, ThreadsPerBlock, 0, stream>>>(ItemRange{ 0, blocks }, add, all);
       });
@@ -432,18 +421,14 @@ public:
     if (size > 0)
     {
       // The other GPUs cannot access the caller's memory.
-      this->Launch([&](cudaStream_t own)
+      Launch(this->GetStream(),
+        [&](cudaStream_t own)
         { ForEachKernel<<<this->GetBlocks(items), ThreadsPerBlock, 0, own>>>(items, work); });
     }
     this->Synchronize();
   }
 
   /// Calls launch(stream), which launches a kernel, and checks it.
-  template <typename LaunchKernel>
-  void Launch(const LaunchKernel& launch) const
-  {
-    this->Launch(this->GetStream(), launch);
-  }
   template <typename LaunchKernel>
   static void Launch(cudaStream_t stream, const LaunchKernel& launch)
   {

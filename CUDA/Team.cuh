@@ -290,15 +290,9 @@ public:
   /// had an iteration.
   __device__ int GetBadChange() const { return GetTeamMemory().News.GetBadChange(); }
 
-  /// Waits for all threads of the team and sees what they wrote before.
-  __device__ void Wait()
-  {
-    __syncthreads();
-    this->WaitForBlocks();
-  }
-
-  /// The same as Wait(); also adds the sums since the last such call to `iteration`, unless null.
-  __device__ void Wait(IterationSums* iteration)
+  /// Waits for all threads of the team and sees what they wrote before. Adds the sums since the
+  /// last call with an iteration to that, if it is not null.
+  __device__ void Wait(IterationSums* iteration = nullptr)
   {
     __syncthreads();
     if (iteration && threadIdx.x < WarpSize)

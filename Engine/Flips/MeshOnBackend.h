@@ -95,7 +95,7 @@ public:
     BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
-    const MeshInput input{ mesh, local.View(), local.IsOnHost };
+    const MeshInput input{ mesh, local.Mesh, local.IsOnHost };
     MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
     this->Range = survey.Range;

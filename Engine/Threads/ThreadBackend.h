@@ -303,7 +303,6 @@ public:
     TriangleMesh Mesh;
     static constexpr bool IsOnHost = true;
 
-    const TriangleMesh& View() const { return this->Mesh; }
     void DropPoints() {}
     void DropTriangles() {}
     void DropRegions() {}

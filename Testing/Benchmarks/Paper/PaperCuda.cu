@@ -33,7 +33,7 @@ void RunPhase(const CudaBackend& backend, std::int64_t size, const Step& step)
   const auto blocks = static_cast<unsigned>((size + ThreadsOfBlock - 1) / ThreadsOfBlock);
   if (blocks > 0)
   {
-    backend.Launch(
+    CudaBackend::Launch(backend.GetStream(),
       [&](cudaStream_t stream) { PhaseKernel<<<blocks, ThreadsOfBlock, 0, stream>>>(size, step); });
   }
 }
