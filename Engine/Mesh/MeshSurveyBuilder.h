@@ -54,6 +54,11 @@ struct PointSurvey : BoundingBox
   std::int64_t Used = 0;
   IdSample NonFinite;
 
+  DELAUNAYFLIP_HOST_DEVICE void Note(int axis, double x)
+  {
+    this->Include(axis, x, x);
+    this->IncludeMagnitude(std::fabs(x));
+  }
   DELAUNAYFLIP_HOST_DEVICE void IncludeMagnitude(double magnitude)
   {
     this->Smallest = magnitude > 0.0 && magnitude < this->Smallest ? magnitude : this->Smallest;
@@ -169,9 +174,7 @@ void SurveyPoints(
       }
       for (int axis = 0; axis < 3; ++axis)
       {
-        const double x = array.Get(i, axis);
-        sum.Include(axis, x, x);
-        sum.IncludeMagnitude(std::fabs(x));
+        sum.Note(axis, array.Get(i, axis));
       }
     });
   survey.Precision = input.Caller.Points.Floats ? FloatPrecision : DoublePrecision;

@@ -88,20 +88,16 @@ MeshSurvey SurveyPlaces(StripPoints<Real>& points, const Backend& backend)
   const PointSurvey found = backend.template Sum<PointSurvey>(points.Count,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PointSurvey & sum)
     {
-      const double xy[2] = { places[i].U, places[i].V };
-      for (int axis = 0; axis < 2; ++axis)
-      {
-        sum.Include(axis, xy[axis], xy[axis]);
-        sum.IncludeMagnitude(std::fabs(xy[axis]));
-      }
+      sum.Note(0, places[i].U);
+      sum.Note(1, places[i].V);
+      sum.Note(2, 0.0);
     });
   MeshSurvey survey;
   survey.Geometry = GeometryKind::PlanarXY;
   survey.UsedPoints = points.Count;
   if (points.Count > 0)
   {
-    std::copy_n(found.Lower, 2, survey.Box.Lower);
-    std::copy_n(found.Upper, 2, survey.Box.Upper);
+    survey.Box = found;
     survey.SmallestMagnitude = found.Smallest;
   }
   ResolveRange(survey);
