@@ -115,7 +115,7 @@ catch (...)
 
 void FlipSession::Expect(void* memory, std::int64_t bytes)
 {
-  this->Own->Expected.push_back({ static_cast<char*>(memory), bytes });
+  this->Own->Expected.push_back({ memory, bytes });
 }
 
 const FlipReport& FlipSession::GetReport() const

@@ -151,21 +151,10 @@ std::future<void> FlipSession::Work::TouchExpected()
   }
   const auto touch = [blocks = std::move(expected), threads = this->Options.NumberOfThreads]()
   {
-    constexpr std::int64_t Page = 4096, PagesPerTask = 512;
     const ThreadBackend backend(threads);
     for (const MemoryBlock& block : blocks)
     {
-      const std::int64_t pages = (block.Bytes + Page - 1) / Page;
-      backend.ForRange(
-        pages,
-        [&](std::int64_t begin, std::int64_t end)
-        {
-          for (std::int64_t page = begin; page < end; ++page)
-          {
-            block.First[page * Page] = 0;
-          }
-        },
-        PagesPerTask);
+      backend.TouchPages(block.First, block.Bytes);
     }
   };
   try

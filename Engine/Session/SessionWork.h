@@ -84,7 +84,7 @@ struct DeviceArray
 /// Memory of the caller.
 struct MemoryBlock
 {
-  char* First;
+  void* First;
   std::int64_t Bytes;
 };
 

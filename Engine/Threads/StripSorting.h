@@ -43,17 +43,7 @@ struct StripSorter<Real, ThreadBackend>
     Array<Item> items = backend.MakeArray<Item>(points.Count);
     // The points of a range go to places all over the array. So that not the first ranges wait for
     // all of its memory, and an observer for them, it is touched before.
-    constexpr std::int64_t ItemsPerPage = 4096 / sizeof(Item);
-    backend.ForRange(
-      points.Count / ItemsPerPage,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t page = begin; page < end; ++page)
-        {
-          items[page * ItemsPerPage].Id = 0;
-        }
-      },
-      64);
+    backend.TouchPages(items.Data(), points.Count * static_cast<std::int64_t>(sizeof(Item)));
     const std::vector<std::uint32_t> starts = backend.PlaceByDigit(
       points.Count, unused + 1, [&](std::int64_t i) { return stripOf[i]; },
       [&](std::int64_t i, std::uint32_t place)

@@ -309,6 +309,21 @@ public:
   };
   LocalMesh Localize(const TriangleMesh& mesh) const { return { mesh }; }
 
+  /// Touches the pages of memory whose contents are lost, so that the system provides them.
+  void TouchPages(void* memory, std::int64_t bytes) const
+  {
+    constexpr std::int64_t Page = 4096, PagesPerTask = 64;
+    this->ForRange((bytes + Page - 1) / Page,
+      [=](std::int64_t begin, std::int64_t end)
+      {
+        for (std::int64_t page = begin; page < end; ++page)
+        {
+          static_cast<char*>(memory)[page * Page] = 0;
+        }
+      },
+      PagesPerTask);
+  }
+
   /// Calls store(t, target) for every triangle, to set its ids in the caller's slot. On a device, a
   /// target may include only some of them.
   /// @param areInOrder whether the slots have the numbers of the triangles.
