@@ -125,7 +125,7 @@ struct StripPoints
   }
 };
 
-/// Sorts the points that are finite. A backend specialises this (Threads/StripSorting.h).
+/// Sorts the points that are finite. A backend specialises this (Threads/ThreadMesh.cpp).
 template <typename Real, typename Backend>
 struct StripSorter;
 
