@@ -2,18 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CudaContext.h"
 
-#include "Array.h"
 #include "CudaDevice.h"
-#include "DeviceMemory.h"
 #include "FlipError.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cstdint>
 #include <mutex>
 #include <new>
-#include <string>
-#include <vector>
 
 namespace delaunayflip
 {

@@ -3,13 +3,10 @@
 #include "DeviceMemory.h"
 
 #include "CudaContext.h"
-#include "FlipError.h"
 
 #include <cuda.h>
-#include <cuda_runtime_api.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <new>
 #include <string>
 #include <utility>

@@ -10,7 +10,6 @@
 #include "FlipOptions.h"
 #include "FlipReport.h"
 #include "Outline.h"
-#include "SpatialOrder.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>

@@ -7,7 +7,6 @@
 #include "EdgeMesh.h"
 #include "FilteredPredicates.h"
 #include "MeshSurvey.h"
-#include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>

@@ -10,7 +10,6 @@
 #include <chrono>
 #include <future>
 #include <numeric>
-#include <utility>
 
 namespace delaunayflip
 {

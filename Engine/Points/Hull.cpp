@@ -3,7 +3,6 @@
 #include "Hull.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace delaunayflip
 {

@@ -7,7 +7,6 @@
 #include "InputChecks.h"
 #include "Strips.h"
 
-#include <iterator>
 #include <map>
 #include <unordered_map>
 

@@ -4,7 +4,6 @@
 #define DELAUNAYFLIP_CORNERPAIRING_H
 
 #include "Array.h"
-#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
 #include "ThreadBackend.h"

@@ -4,16 +4,12 @@
 
 #include "CornerPairing.h"
 
-#include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <future>
-#include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
-#include <thread>
 
 #if !defined(DELAUNAYFLIP_STD_THREADS)
 #include <tbb/global_control.h>

@@ -18,7 +18,6 @@
 #include <numeric>
 #include <string>
 #include <thread>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
