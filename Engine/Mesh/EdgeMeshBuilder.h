@@ -261,24 +261,18 @@ Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
   return MakeDefect("triangles that repeat another one's points", repeated);
 }
 
-inline std::int64_t CheckConstraint(const TriangleMesh& mesh, std::int64_t constraint, int end)
-{
-  const std::int64_t point = mesh.ConstraintEdges[2 * constraint + end];
-  if (point < 0 || point >= mesh.Points.Count)
-  {
-    throw InvalidMesh("constraint edge " + std::to_string(constraint) + " names point " +
-        std::to_string(point) + ", but the mesh has " + DescribePoints(mesh.Points.Count),
-      constraint, point);
-  }
-  return point;
-}
-
 /// @throws InvalidMesh.
 inline void CheckConstraints(const TriangleMesh& mesh)
 {
   for (std::int64_t i = 0; i < 2 * mesh.NumberOfConstraintEdges; ++i)
   {
-    CheckConstraint(mesh, i / 2, static_cast<int>(i % 2));
+    const std::int64_t point = mesh.ConstraintEdges[i];
+    if (point < 0 || point >= mesh.Points.Count)
+    {
+      throw InvalidMesh("constraint edge " + std::to_string(i / 2) + " names point " +
+          std::to_string(point) + ", but the mesh has " + DescribePoints(mesh.Points.Count),
+        i / 2, point);
+    }
   }
 }
 
@@ -305,11 +299,8 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
   {
     return;
   }
-  std::vector<std::uint32_t> ends(2 * count);
-  for (std::int64_t i = 0; i < 2 * count; ++i)
-  {
-    ends[i] = static_cast<std::uint32_t>(CheckConstraint(caller, i / 2, static_cast<int>(i % 2)));
-  }
+  CheckConstraints(caller);
+  const std::vector<std::uint32_t> ends(caller.ConstraintEdges, caller.ConstraintEdges + 2 * count);
   Array<std::uint32_t> local = backend.template MakeArray<std::uint32_t>(2 * count);
   std::uint32_t* points = local.Data();
   backend.Upload(ends.data(), 2 * count, points);

@@ -68,12 +68,12 @@ MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const Thread
 {
   const auto toKey = [](std::int64_t from, std::int64_t to)
   { return EdgeKey(static_cast<VertexId>(from), static_cast<VertexId>(to)); };
+  CheckConstraints(mesh);
   std::vector<unsigned char> isEnd(mesh.Points.Count, 0);
   std::vector<std::uint64_t> keys; // of the edges that constraints are to become
   for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
   {
-    const std::int64_t from = CheckConstraint(mesh, i, 0);
-    const std::int64_t to = CheckConstraint(mesh, i, 1);
+    const std::int64_t from = mesh.ConstraintEdges[2 * i], to = mesh.ConstraintEdges[2 * i + 1];
     if (mesh.ConstraintsToInsert[i] != 0 && from != to)
     {
       keys.push_back(toKey(from, to));
@@ -122,19 +122,6 @@ MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const Thread
     }
   }
   return missing;
-}
-
-/// The places of the points in the plane, by rank.
-static std::vector<CoordinatePair<double>> ListPlaces(
-  const TriangleMesh& mesh, const SpatialOrderView& ranks, const PlaneProjection& projection)
-{
-  std::vector<CoordinatePair<double>> places(mesh.Points.Count);
-  for (std::int64_t i = 0; i < mesh.Points.Count; ++i)
-  {
-    const PlanePoint point = projection.Project(mesh.Points, i);
-    places[ranks.GetRank(i)] = { point.U, point.V };
-  }
-  return places;
 }
 
 namespace
@@ -332,8 +319,11 @@ ConstraintInsertion::ConstraintInsertion(
   const BuildProgress building(
     [&](double share) { return !observer || observer(std::min(1.0, share) * BuildShare); });
   EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, building);
-  const std::vector<CoordinatePair<double>> places = ListPlaces(mesh, ranks, survey.Projection);
-  const PlaneMesh plane{ built.Edges.View(), PlaneArray(&places.data()->U, mesh.Points.Count, 2) };
+  const PackingPlan plan{ { survey.Projection.AxisU, survey.Projection.AxisV }, 2, false, false,
+    false };
+  const PackedPoints places = PackPoints(mesh.Points, ranks, plan, backend);
+  const PlaneMesh plane{ built.Edges.View(),
+    PlaneArray(places.Doubles.Data(), mesh.Points.Count, 2) };
   Inserter flips(plane, mesh.Points.Count, mesh.Triangles.Count, built.Table.View());
   for (std::size_t i = 0; i < missing.First.size(); ++i)
   {
