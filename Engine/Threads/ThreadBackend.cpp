@@ -246,17 +246,6 @@ std::string ThreadBackend::GetName() const
   return "Threads: " + std::to_string(this->Threads->Size);
 }
 
-namespace
-{
-void RunHere(std::int64_t count, const std::function<void(std::int64_t)>& work)
-{
-  for (std::int64_t task = 0; task < count; ++task)
-  {
-    work(task);
-  }
-}
-}
-
 void ThreadBackend::SetPoll(std::function<void()> poll)
 {
   this->Poll = std::move(poll);
@@ -278,18 +267,22 @@ void ThreadBackend::TakePoll() const
 void ThreadBackend::ForTasks(
   std::int64_t count, const std::function<void(std::int64_t)>& work) const
 {
-  if (this->Poll)
+  const auto run = [&](std::int64_t task)
   {
-    const auto polled = [&](std::int64_t task)
+    work(task);
+    if (this->Poll)
     {
-      work(task);
       this->TakePoll();
-    };
-    this->Threads->Size > 1 ? this->Threads->Run(count, polled) : RunHere(count, polled);
-  }
-  else
+    }
+  };
+  if (count > 1 && this->Threads->Size > 1)
   {
-    count > 1 && this->Threads->Size > 1 ? this->Threads->Run(count, work) : RunHere(count, work);
+    this->Threads->Run(count, run);
+    return;
+  }
+  for (std::int64_t task = 0; task < count; ++task)
+  {
+    run(task);
   }
 }
 
