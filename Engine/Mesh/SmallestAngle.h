@@ -104,8 +104,8 @@ struct KeptEdgeSurvey
     const Quad quad = this->Mesh.GetQuad(corners);
     const TriangleRecord& other = this->Mesh.Triangles[TriangleOf(corners.B)];
     const bool isWound = GetAt(other.Vertices, NextSlot(SlotOf(corners.B))) == quad.Q;
-    const QuadPoints points = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
-      this->Get(quad.B) };
+    const QuadPoints points = { this->Points.GetPosition(quad.A), this->Points.GetPosition(quad.P),
+      this->Points.GetPosition(quad.Q), this->Points.GetPosition(quad.B) };
     if (isWound && SumWide(WideLegs(points)).ExceedsPi({}))
     {
       sum += { atWorst };
@@ -114,16 +114,9 @@ struct KeptEdgeSurvey
 
   DELAUNAYFLIP_HOST_DEVICE double Measure(std::int64_t t) const
   {
-    const TriangleRecord& triangle = this->Mesh.Triangles[t];
-    return MeasureSquaredCotangent(this->Get(triangle.Vertices[0]), this->Get(triangle.Vertices[1]),
-      this->Get(triangle.Vertices[2]), this->Range);
-  }
-
-private:
-  DELAUNAYFLIP_HOST_DEVICE Vector3 Get(VertexId vertex) const
-  {
-    return { this->Points.Get(vertex, 0), this->Points.Get(vertex, 1),
-      this->Points.Components == 3 ? this->Points.Get(vertex, 2) : 0.0 };
+    const VertexId* v = this->Mesh.Triangles[t].Vertices;
+    return MeasureSquaredCotangent(this->Points.GetPosition(v[0]), this->Points.GetPosition(v[1]),
+      this->Points.GetPosition(v[2]), this->Range);
   }
 };
 

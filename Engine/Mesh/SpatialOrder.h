@@ -287,9 +287,11 @@ struct PackedPointsView : CoordinateArray
   {
     return { this->Get(vertex, 0), this->Get(vertex, 1), 0.0 };
   }
+  /// In the plane z is 0.
   DELAUNAYFLIP_HOST_DEVICE Vector3 GetPosition(VertexId vertex) const
   {
-    return { this->Get(vertex, 0), this->Get(vertex, 1), this->Get(vertex, 2) };
+    return { this->Get(vertex, 0), this->Get(vertex, 1),
+      this->Components == 3 ? this->Get(vertex, 2) : 0.0 };
   }
 };
 
