@@ -310,7 +310,7 @@ void PartMesh::SharePoint(std::int32_t point)
 /// Takes the triangles at a point for changed ones.
 void PartMesh::NoteChangesAt(std::int32_t point)
 {
-  this->ForEachAt(point, [&](const PartCorner& corner) { this->NoteChange(corner.Triangle); });
+  this->Stars.ForEach(point, [&](const PartCorner& corner) { this->NoteChange(corner.Triangle); });
 }
 
 std::int32_t PartMesh::FindOrAddPoint(std::int64_t key, const double (&x)[3])

@@ -209,12 +209,7 @@ public:
   /// The keys of seam edges that have lost their triangle here since the last call. They may
   /// include edges that have a triangle here again.
   std::vector<PointPair> TakeLostSeams() { return std::exchange(this->LostSeams, {}); }
-  /// Calls visit(corner) for every corner at a point.
-  template <typename Visit>
-  void ForEachAt(std::int32_t point, const Visit& visit) const
-  {
-    this->Stars.ForEach(point, visit);
-  }
+  const PointStars& GetStars() const { return this->Stars; }
   /// The mate of a corner: the corner of another triangle here that is opposite to the same edge.
   PartCorner FindMate(const PartCorner& corner) const;
   /// The same, but none if the edge is a fixed edge or a seam edge.

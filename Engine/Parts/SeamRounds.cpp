@@ -293,7 +293,7 @@ EdgeState RoundFlips::Judge(const PartCorner& one, const PartCorner& other) cons
 
 void RoundFlips::AddFreed(const PointPair& edge)
 {
-  this->Mesh.ForEachAt(static_cast<std::int32_t>(edge[0]),
+  this->Mesh.GetStars().ForEach(static_cast<std::int32_t>(edge[0]),
     [&](const PartCorner& corner)
     {
       const PartCorner mate = this->Mesh.FindOpenMate(corner);
