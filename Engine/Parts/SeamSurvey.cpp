@@ -309,7 +309,7 @@ constexpr double InsertionShare = 0.25;
 PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   : Mesh(job.Piece.Mesh)
 {
-  const std::vector<SharedConstraint> shared = this->List(job, part);
+  const SharedConstraints shared = this->List(job, part);
   this->Mesh.ConstraintEdges = this->Ends.data();
   this->Mesh.NumberOfConstraintEdges = SizeOf(this->ToInsert);
   this->Mesh.ConstraintsToInsert = this->ToInsert.data();
@@ -346,9 +346,9 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   this->Mesh.NumberOfConstraintEdges = SizeOf(this->Edges) / 2;
 
   std::vector<char> ofShared;
-  for (const SharedConstraint& one : shared)
+  for (const auto& [ends, isToInsert] : shared)
   {
-    ofShared.push_back(this->Fates[one.Ends]);
+    ofShared.push_back(this->Fates[ends]);
   }
   ofShared = FindMaxima(job.Group, std::move(ofShared));
   if (job.Group.GetRank() == 0)
@@ -364,19 +364,19 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
 
 /// Lists the constraints whose two points this rank has: its own, and those between shared points
 /// that any rank has given.
-/// @returns the latter of all ranks, ascending.
-std::vector<PartConstraints::SharedConstraint> PartConstraints::List(
-  const PartJob& job, const PartMesh& part)
+/// @returns the latter of all ranks.
+PartConstraints::SharedConstraints PartConstraints::List(const PartJob& job, const PartMesh& part)
 {
   const TriangleMesh& caller = job.Piece.Mesh;
-  std::vector<SharedConstraint> own;
+  std::vector<std::array<std::int64_t, 3>> own; // two keys, and 1 if it is to be inserted
   for (std::int64_t i = 0; i < caller.NumberOfConstraintEdges; ++i)
   {
     const std::int64_t* ends = caller.ConstraintEdges + 2 * i;
     const bool isToInsert = caller.ConstraintsToInsert && caller.ConstraintsToInsert[i] != 0;
     if (part.AreShared({ ends[0], ends[1] }))
     {
-      own.push_back({ part.GetKeys({ ends[0], ends[1] }), isToInsert ? 1 : 0 });
+      const PointPair keys = part.GetKeys({ ends[0], ends[1] });
+      own.push_back({ keys[0], keys[1], isToInsert ? 1 : 0 });
     }
     else
     {
@@ -384,22 +384,19 @@ std::vector<PartConstraints::SharedConstraint> PartConstraints::List(
       this->ToInsert.push_back(isToInsert ? 1 : 0);
     }
   }
-  std::vector<SharedConstraint> shared = Join(GatherRecords(job.Group, own));
-  // Of equal ones, one to be inserted comes first.
-  std::sort(shared.begin(), shared.end(),
-    [](const SharedConstraint& a, const SharedConstraint& b)
-    { return a.Ends != b.Ends ? a.Ends < b.Ends : a.IsToInsert > b.IsToInsert; });
-  const auto areEqual = [](const SharedConstraint& a, const SharedConstraint& b)
-  { return a.Ends == b.Ends; };
-  shared.erase(std::unique(shared.begin(), shared.end(), areEqual), shared.end());
-  for (const SharedConstraint& one : shared)
+  SharedConstraints shared;
+  for (const auto& [a, b, isToInsert] : Join(GatherRecords(job.Group, own)))
   {
-    const std::int64_t from = part.FindPoint(one.Ends[0]);
-    const std::int64_t to = part.FindPoint(one.Ends[1]);
+    shared[{ a, b }] |= isToInsert != 0;
+  }
+  for (const auto& [ends, isToInsert] : shared)
+  {
+    const std::int64_t from = part.FindPoint(ends[0]);
+    const std::int64_t to = part.FindPoint(ends[1]);
     if (from >= 0 && to >= 0)
     {
       this->Ends.insert(this->Ends.end(), { from, to });
-      this->ToInsert.push_back(static_cast<unsigned char>(one.IsToInsert));
+      this->ToInsert.push_back(isToInsert ? 1 : 0);
     }
   }
   return shared;
@@ -461,19 +458,20 @@ void PartConstraints::FindFates(const PartMesh& part)
 }
 
 /// @param fates over all ranks.
-void PartConstraints::CountShared(
-  const std::vector<SharedConstraint>& shared, const std::vector<char>& fates)
+void PartConstraints::CountShared(const SharedConstraints& shared, const std::vector<char>& fates)
 {
-  for (std::size_t i = 0; i < shared.size(); ++i)
+  auto next = fates.begin();
+  for (const auto& [ends, isToInsert] : shared)
   {
-    this->NumberInserted += fates[i] == Inserted ? 1 : 0;
-    const bool isRefused = shared[i].IsToInsert != 0 && !this->IsAborted;
-    if (fates[i] < IsEdge && isRefused)
+    const char fate = *next++;
+    this->NumberInserted += fate == Inserted ? 1 : 0;
+    const bool isRefused = isToInsert && !this->IsAborted;
+    if (fate < IsEdge && isRefused)
     {
-      this->Refused.push_back({ { shared[i].Ends[0], shared[i].Ends[1] },
-        static_cast<Refusal>(std::max(0, fates[i] - 1)) });
+      this->Refused.push_back(
+        { { ends[0], ends[1] }, static_cast<Refusal>(std::max(0, fate - 1)) });
     }
-    this->Unmatched += fates[i] < IsEdge && !isRefused ? 1 : 0;
+    this->Unmatched += fate < IsEdge && !isRefused ? 1 : 0;
   }
 }
 

@@ -14,6 +14,7 @@
 #include "TriangleMesh.h"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace delaunayflip
@@ -99,17 +100,14 @@ public:
   void AddFlipCounts(std::int32_t* counts) const { this->Insertion.AddFlipCounts(counts); }
 
 private:
-  /// A constraint between shared points, which any rank may have given.
-  struct SharedConstraint
-  {
-    PointPair Ends; ///< Keys.
-    std::int64_t IsToInsert; ///< 0 or 1.
-  };
+  /// Of the constraints between shared points, which any rank may have given, by the keys of their
+  /// ends: whether they are to be inserted.
+  using SharedConstraints = std::map<PointPair, bool>;
 
-  std::vector<SharedConstraint> List(const PartJob& job, const PartMesh& part);
+  SharedConstraints List(const PartJob& job, const PartMesh& part);
   void Insert(const PartJob& job);
   void FindFates(const PartMesh& part);
-  void CountShared(const std::vector<SharedConstraint>& shared, const std::vector<char>& fates);
+  void CountShared(const SharedConstraints& shared, const std::vector<char>& fates);
 
   std::vector<std::int64_t> Ends; ///< Of the constraints that this rank can look up.
   std::vector<unsigned char> ToInsert; ///< One flag for each of them.
