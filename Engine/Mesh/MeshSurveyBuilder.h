@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <type_traits>
 
 /// @file
 /// Makes a MeshSurvey on a backend.
@@ -132,21 +131,16 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
   if (ids.Invalid.Count > 0)
   {
     const std::int64_t first = ids.Invalid.Smallest[0];
-    const TriangleArray& caller = input.Caller.Triangles;
-    const auto get = [&](const auto* given) // the ids as the caller gave them
+    PointIds given; // as the caller gave them: a backend may have narrowed its own
+    for (int slot = 0; slot < 3; ++slot)
     {
-      std::array<std::remove_const_t<std::remove_pointer_t<decltype(given)>>, 3> values;
-      if (input.IsOnHost)
-      {
-        std::copy_n(given + 3 * first, 3, values.data());
-      }
-      else
-      {
-        backend.Download(given + 3 * first, 3, values.data());
-      }
-      return PointIds{ values[0], values[1], values[2] };
-    };
-    ThrowInvalidId(caller.Ids32 ? get(caller.Ids32) : get(caller.Ids64), first, mesh.Points.Count);
+      given[slot] = input.IsOnHost
+        ? input.Caller.Triangles.Get(first, slot)
+        : backend.template Sum<std::int64_t>(1,
+            [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t, std::int64_t & sum)
+            { sum += mesh.Triangles.Get(first, slot); });
+    }
+    ThrowInvalidId(given, first, mesh.Points.Count);
   }
   survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
 }
