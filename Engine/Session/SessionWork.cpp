@@ -528,12 +528,6 @@ void FlipSession::Work::Keep(const std::vector<IterationCounts>& batch, double s
   }
 }
 
-double FlipSession::Work::MeasureAngle()
-{
-  return ToDegrees(
-    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().FindLargestSquaredCotangent(); }));
-}
-
 /// The smallest angle is known after the first and the last iteration. If a run stops in between,
 /// this takes a pass over the mesh, made only when the report is requested. Also counts the edges
 /// blocked by deviation, and lists the defects of the input and, at the end of a run, those that
@@ -558,7 +552,8 @@ void FlipSession::Work::MeasureEnd()
   {
     return;
   }
-  this->Report.MinimumAngleAfter = this->MeasureAngle();
+  this->Report.MinimumAngleAfter = ToDegrees(
+    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().FindLargestSquaredCotangent(); }));
   this->IsMeasured = true;
   this->ListDefects();
   if (this->Cloud)

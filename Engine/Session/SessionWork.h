@@ -316,7 +316,6 @@ struct FlipSession::Work
   void Resume();
   void KeepFound(const StepCounts& found);
   void Keep(const std::vector<IterationCounts>& batch, double seconds);
-  double MeasureAngle();
   void MeasureEnd();
   void ListDefects();
   void ReportPoints();
