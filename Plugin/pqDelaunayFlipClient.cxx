@@ -16,6 +16,7 @@
 #include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSettings.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionPresets.h"
@@ -91,7 +92,7 @@ private:
 
   void invoke(const char* command)
   {
-    SM_SCOPED_TRACE(CallMethod).arg("proxy", this->proxy()).arg("InvokeCommand").arg(command);
+    SM_SCOPED_TRACE(CallMethod).arg(this->proxy()).arg("InvokeCommand").arg(command);
     this->proxy()->InvokeCommand(command);
     pqApplicationCore::instance()->render();
   }
@@ -119,6 +120,8 @@ public:
     this->Text->setTextInteractionFlags(Qt::TextSelectableByMouse);
     this->Text->setWordWrap(true);
     pqCoreUtilities::connect(smproperty, vtkCommand::ModifiedEvent, this, SLOT(refresh()));
+    pqCoreUtilities::connect(
+      smproxy->GetProperty("BackendUsed"), vtkCommand::ModifiedEvent, this, SLOT(refresh()));
     this->refresh();
   }
 
@@ -245,11 +248,13 @@ void pqDelaunayFlipClient::startup()
   QObject::connect(GetModel(), &pqServerManagerModel::representationAdded, this,
     [](pqRepresentation* shown)
     {
-      vtkSMProxy* source = vtkSMPropertyHelper(shown->getProxy(), "Input", true).GetAsProxy();
-      if (source && std::string("DelaunayFlipStatistics") == source->GetXMLName())
+      vtkSMProxy* proxy = shown->getProxy();
+      vtkSMProxy* source = vtkSMPropertyHelper(proxy, "Input", true).GetAsProxy();
+      if (source && std::string("DelaunayFlipStatistics") == source->GetXMLName() &&
+        !proxy->GetSessionProxyManager()->GetInLoadXMLState())
       {
-        vtkSMPropertyHelper(shown->getProxy(), "Justification", true).Set(0); // left, not centred
-        shown->getProxy()->UpdateVTKObjects();
+        vtkSMPropertyHelper(proxy, "Justification", true).Set(0); // left, not centred
+        proxy->UpdateVTKObjects();
       }
     });
 }
@@ -261,7 +266,10 @@ void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
   if (name == "DelaunayFlip" || name == "DelaunayFromPoints")
   {
     proxy->UpdatePropertyInformation();
-    for (pqPipelineSource* consumer : source->getAllConsumers())
+    QSet<pqPipelineSource*> downstream;
+    AddDownstream(source, downstream);
+    downstream.remove(source); // ParaView renders its views
+    for (pqPipelineSource* consumer : downstream)
     {
       consumer->renderAllViews(); // later, from the event loop
     }

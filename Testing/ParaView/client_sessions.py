@@ -9,7 +9,7 @@ there.
 import html
 import os
 
-from paraview import servermanager, simple
+from paraview import servermanager, simple, smtrace
 from paraview.modules.vtkRemotingCore import vtkProcessModule
 
 from ClientTesting import FOLDER, Panel, QtWidgets, expect, idle, load_plugin, play, start_filter
@@ -150,7 +150,9 @@ def use_buttons(client, panel, flip):
     yield idle(QUIET)
     expect(flip.NumberOfIterations == held and flip.StopReason == "running", "it did not pause")
     client.save_picture("panel_paused.png")
+    smtrace.start_trace()
     panel.press("Step")
+    expect("InvokeCommand('Step')" in smtrace.stop_trace(), "the trace lacks the step")
     yield lambda: flip.NumberOfIterations == held + 1
     yield idle(QUIET)
     expect(flip.NumberOfIterations == held + 1, "a step made more than one iteration")
@@ -243,26 +245,31 @@ def use_panel(client):
     yield from omit_loops(panel, flip)
     yield from use_buttons(client, panel, flip)
     read_results(panel, flip)
+    panel.choose("Backend", "Threads")
+    panel.write("NumberOfThreads", "1")
+    client.apply()
+    yield lambda: flip.BackendUsed == "Threads: 1"
+    read_results(panel, flip)
 
 
-def read_view():
+def read_view(view):
     """All texts that the render view shows."""
-    view = simple.GetActiveView().SMProxy.GetClientSideObject()
-    props = view.GetNonCompositedRenderer().GetViewProps()
+    props = view.SMProxy.GetClientSideObject().GetNonCompositedRenderer().GetViewProps()
     shown = [props.GetItemAsObject(i) for i in range(props.GetNumberOfItems())]
     return "\n".join(prop.GetText() for prop in shown
                      if prop.IsA("vtkTextRepresentation") and prop.GetVisibility())
 
 
 def expect_text(flip):
-    """The text in the view agrees with the panel."""
-    text = read_view()
-    expect(text.split() == flip.Summary.split(), f"{text}\ninstead of\n{flip.Summary}")
-    expect(all(len(line) <= 70 for line in text.splitlines()), text)
+    """The text in all views agrees with the panel."""
+    for text in map(read_view, simple.GetViews()):
+        expect(text.split() == flip.Summary.split(), f"{text}\ninstead of\n{flip.Summary}")
+        expect(all(len(line) <= 70 for line in text.splitlines()), text)
 
 
 def use_statistics(client):
-    """Delaunay Flip Statistics: a text in the render view, which follows a live run."""
+    """Delaunay Flip Statistics: a text in the render view, which follows a live run, also in another
+    view and after other filters; and how a state restores it."""
     client.window.resize(1500, 800)
     mesh = read_mesh("long.vtp")
     flip = yield from start_filter(client, mesh)
@@ -275,6 +282,11 @@ def use_statistics(client):
         expect(simple.GetDisplayProperties(source).Visibility == 1, f"{source} is not shown")
     expect(simple.GetDisplayProperties(statistics).Justification == "Left", "lines are centred")
     expect(len(simple.GetViews()) == 1, "another view was opened")
+    view, other = simple.GetActiveView(), simple.CreateView("RenderView")
+    simple.AssignViewToLayout(other, simple.GetLayout(view), 0)
+    simple.Show(simple.DelaunayFlipStatistics(Input=simple.Transform(Input=flip)), other)
+    simple.SetActiveView(view)
+    simple.RenderAllViews()
     expect_text(flip)
     flip.LiveUpdate = 1
     client.application.processEvents()
@@ -293,7 +305,14 @@ def use_statistics(client):
     simple.Hide(statistics)
     simple.Show(simple.DelaunayFlipStatistics(Input=mesh))
     simple.Render()
-    expect(read_view() == "no statistics: not a mesh of Delaunay Flip", read_view())
+    expect(read_view(view) == "no statistics: not a mesh of Delaunay Flip", read_view(view))
+    simple.GetDisplayProperties(statistics).Justification = "Right"
+    simple.SaveState(os.path.join(FOLDER, "state.pvsm"))
+    simple.ResetSession()
+    simple.LoadState(os.path.join(FOLDER, "state.pvsm"))
+    statistics = simple.FindSource("DelaunayFlipStatistics1")
+    restored = simple.GetDisplayProperties(statistics, simple.GetViews()[0]).Justification
+    expect(restored == "Right", restored)
 
 
 def use_points(client):
