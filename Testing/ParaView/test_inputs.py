@@ -55,12 +55,16 @@ class Errors(PluginTest):
                 ("plane", simple.Sphere(), {"Geometry": "Planar"}),
                 ("Regions", fan, {"RegionArray": "Regions"}),
                 ("olerance", fan, {"Tolerance": 2.0}),
+                ("deviation", fan, {"MaximumDeviation": -1.0}),
+                ("GPUs", fan, {"Devices": "first"}),
                 ("77", self.read(broken, "broken.vtp"), {})):
             with self.subTest(word):
                 flip, text = self.flip_with_messages(source, **properties)
                 self.assertRegex(text, "ERROR(.|\n)*vtkP?DelaunayFlip(.|\n)*" + word)
                 self.assertEqual(fetch(flip).GetNumberOfCells(), 0)
                 self.assertRegex(flip.StopReason, "^failed: .*" + word)
+                for name in properties:  # the panel never hides what is wrong
+                    self.assertIsNone(flip.SMProxy.GetProperty(name).GetHints(), name)
 
 
 class ViewErrors(PluginTest):
