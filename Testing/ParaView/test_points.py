@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from PluginTesting import (
-    Messages, PluginTest, fetch, get_edges, get_triangles, main, make_cells, refresh)
+    PLUGIN, Messages, PluginTest, fetch, get_edges, get_triangles, main, make_cells, refresh)
 
 EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Examples",
                        "ParaView", "terrain_from_points.py")
@@ -65,6 +65,16 @@ class Points(PluginTest):
         self.assertEqual(text, "")
         self.assertEqual(len(get_triangles(fetch(points))), 2)
         self.assertTrue(fetch(points, 1).IsA("vtkTable"))
+
+    def test_projection(self):
+        """The plugin in Python has none and says so."""
+        wall = self.read(make_data([(0, x, y) for x, y, _ in KITE]))
+        points, text = self.apply(wall, Projection="Best-fitting plane")
+        if PLUGIN.endswith(".py"):
+            self.assertRegex(points.StopReason, "^failed: Projection")
+            points.Projection = "XY"
+            points, text = self.apply(self.read(make_data(KITE)))
+        self.assertEqual((len(get_triangles(fetch(points))), text), (2, ""))
 
     def test_messages(self):
         line = make_data([(0, 0, 0), (1, 1, 0), (2, 2, 0)])

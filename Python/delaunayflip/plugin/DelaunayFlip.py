@@ -9,7 +9,7 @@ and this file, or in pvpython
     LoadPlugin(".../delaunayflip/plugin/DelaunayFlip.py", remote=False, ns=globals())
 
 It has the properties of the plugin in C++, but not its text in the view, its live updates and the
-projection of points: all flips are made at once. Partitions of a dataset, and the pieces of a
+best-fitting plane of points: all flips are made at once. Partitions of a dataset, and the pieces of a
 server with several processes, are flipped one by one: edges between them stay, with a warning, and
 the statistics of pieces are those of the first process. The plugin in C++ flips them as one mesh.
 Each plugin can read the state files of the other, but only one of the two can be loaded.
@@ -53,13 +53,10 @@ def _find(name):
     return next(path for path in (_FOLDER / name, _FOLDER.parents[1] / "Plugin" / name) if path.exists())
 
 
-def _read_properties(name, left_out=None):
-    """The XML of a filter's properties in the C++ plugin, without the parts that need its libraries,
-    and without one property."""
+def _read_properties(name):
+    """The XML of a filter's properties in the C++ plugin, without the parts that need its libraries."""
     proxy = ElementTree.parse(_find("DelaunayFlip.xml")).find(f".//SourceProxy[@name='{name}']")
     for element in proxy.iter():
-        for child in [child for child in element if left_out and child.get("name") == left_out]:
-            element.remove(child)
         if element.get("panel_widget", "") == "DelaunayFlipSourceList":
             element.set("panel_widget", "input_selector")
         elif element.get("panel_widget", "").startswith("DelaunayFlip"):
@@ -98,6 +95,19 @@ class DelaunayFlip(vtkDelaunayFlip):
 
 
 @smproxy.filter(name="DelaunayFromPoints", label="Delaunay From Points", support_reload=False)
-@smproperty.xml(_read_properties("DelaunayFromPoints", left_out="Projection"))
+@smproperty.xml(_read_properties("DelaunayFromPoints"))
 class DelaunayFromPoints(vtkDelaunayFlipPoints):
     """vtkDelaunayFlipPoints for ParaView."""
+
+    projection = 0
+
+    def SetProjection(self, projection):
+        self.projection = projection
+        self.Modified()
+
+    def _flip_all(self, *data):
+        if self.projection:
+            raise delaunayflip.InvalidOptions(
+                "Projection: the best-fitting plane needs the plugin in C++; this one, in Python, joins "
+                "points in x and y")
+        super()._flip_all(*data)
