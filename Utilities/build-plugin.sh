@@ -27,14 +27,14 @@ prefix=$(realpath "$libraries")
 until [ -e "$prefix/bin/paraview" ] || [ "$prefix" = / ]; do
   prefix=$(dirname "$prefix")
 done
-paths="PV_PLUGIN_PATH=$(dirname "$plugin")"
+start=("PV_PLUGIN_PATH=$(dirname "$plugin")")
 if [ "$prefix" != /usr ]; then
-  paths+=" LD_LIBRARY_PATH=$libraries PYTHONPATH=$prefix/lib/python3/dist-packages"
+  start+=("LD_LIBRARY_PATH=$libraries" "PYTHONPATH=$prefix/lib/python3/dist-packages")
 fi
 cat <<END
 
 Done: $plugin
 Start ParaView with it:
-  $paths $prefix/bin/paraview
+  $(printf '%q ' "${start[@]}" "$prefix/bin/paraview")
 or load that file in a running one by Tools > Manage Plugins > Load New.
 END

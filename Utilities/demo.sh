@@ -54,7 +54,7 @@ Done. Look at
   $output/report.json        the run in numbers
   $output/iterations.csv     the iterations in numbers
 Your own mesh:
-  $build/bin/delaunay-flip INPUT OUTPUT
+  $(printf %q "$build/bin/delaunay-flip") INPUT OUTPUT
 In Python, from delaunayflip import vtkDelaunayFlip, after
-  export PYTHONPATH=$build/lib/python3/dist-packages
+  export PYTHONPATH=$(printf %q "$build/lib/python3/dist-packages")
 END
