@@ -26,10 +26,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <set>
 #include <string>
 #include <utility>
 
 using namespace delaunayflip;
+using Asked = vtkStreamingDemandDrivenPipeline;
 
 // The enumerators of the engine and of this class have the same values.
 static_assert(
@@ -91,6 +93,29 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
     iterations = std::min(fitting, 2.0 * iterations);
   } while (isRunning && iterations >= 1.0);
   return isRunning;
+}
+
+/// Adds an algorithm, if there is one, and all those upstream of it.
+void AddUpstream(vtkAlgorithm* algorithm, std::set<vtkAlgorithm*>& all)
+{
+  const bool isNew = algorithm && all.insert(algorithm).second;
+  for (int port = 0; isNew && port < algorithm->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < algorithm->GetNumberOfInputConnections(port); ++i)
+    {
+      AddUpstream(algorithm->GetInputAlgorithm(port, i), all);
+    }
+  }
+}
+
+/// Whether two algorithms are the same or have one upstream in common.
+bool ShareUpstream(vtkAlgorithm* one, vtkAlgorithm* other)
+{
+  std::set<vtkAlgorithm*> first, second;
+  AddUpstream(one, first);
+  AddUpstream(other, second);
+  return std::any_of(first.begin(), first.end(),
+    [&second](vtkAlgorithm* algorithm) { return second.count(algorithm) > 0; });
 }
 
 }
@@ -278,16 +303,22 @@ const char* vtkDelaunayFlipAlgorithm::GetBackendUsed() const
 const FlipReport& vtkDelaunayFlipAlgorithm::GetReport() const { return *this->Report; }
 
 //------------------------------------------------------------------------------
-/// A piece of the mesh may need any of the second input.
+/// Points are wanted whole, and a piece of a mesh may need any of the second input. But an
+/// algorithm upstream of both inputs cannot make a piece for one and all for the other.
 int vtkDelaunayFlipAlgorithm::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (vtkInformation* others = inputVector[1]->GetInformationObject(0))
+  const bool arePoints = this->SizeOfBlocks == vtkDataObject::POINT;
+  for (int port = arePoints ? 0 : 1; port < 2; ++port)
   {
-    using Asked = vtkStreamingDemandDrivenPipeline;
-    others->Set(Asked::UPDATE_PIECE_NUMBER(), 0);
-    others->Set(Asked::UPDATE_NUMBER_OF_PIECES(), 1);
-    others->Set(Asked::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info &&
+      (arePoints || !ShareUpstream(this->GetInputAlgorithm(0, 0), this->GetInputAlgorithm(1, 0))))
+    {
+      info->Set(Asked::UPDATE_PIECE_NUMBER(), 0);
+      info->Set(Asked::UPDATE_NUMBER_OF_PIECES(), 1);
+      info->Set(Asked::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
   }
   return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }

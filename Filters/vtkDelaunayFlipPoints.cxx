@@ -325,15 +325,14 @@ void vtkDelaunayFlipPoints::FlipLeaves(
                       "vtkAppendDataSets, or Merge Blocks in ParaView",
       -1, -1);
   }
-  using Asked = vtkStreamingDemandDrivenPipeline;
-  const bool isFirst = this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) <= 0;
-  if (!isFirst && block.Size > 0.0)
-  {
-    throw InvalidMesh("points are in several pieces; gather them in the first one, by "
-                      "Redistribute DataSet with one partition in ParaView",
-      -1, -1);
-  }
   BlockLeaf& leaf = block.Leaves.front();
+  const auto output = vtkSmartPointer<vtkPolyData>::New();
+  leaf.Result = output;
+  using Asked = vtkStreamingDemandDrivenPipeline;
+  if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0) // the first has all
+  {
+    return;
+  }
   auto* points = vtkPointSet::SafeDownCast(leaf.Data);
   if (!points)
   {
@@ -347,7 +346,7 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     throw InvalidOptions("the segments are in several partitions; join them first, by "
                          "vtkAppendPolyData, or Merge Blocks in ParaView");
   }
-  vtkNew<vtkPolyData> cloud, output;
+  vtkNew<vtkPolyData> cloud;
   cloud->SetPoints(points->GetPoints());
   cloud->GetPointData()->ShallowCopy(points->GetPointData());
   cloud->GetFieldData()->ShallowCopy(points->GetFieldData());
@@ -358,12 +357,10 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     cloud->SetLines(mesh->GetLines());
   }
   this->TimeOfBlock = points->GetMTime();
-  this->FlipMesh(cloud,
-    isFirst && !others.empty() ? vtkPolyData::SafeDownCast(others.front().Data) : nullptr,
+  this->FlipMesh(cloud, others.empty() ? nullptr : vtkPolyData::SafeDownCast(others.front().Data),
     block.IsLive, output);
   output->SetVerts(nullptr);
   output->SetLines(nullptr);
-  leaf.Result = output;
 }
 
 bool vtkDelaunayFlipPoints::ContinueOrStart(

@@ -69,8 +69,10 @@
  * Composite input (multiblock, partitioned): the points of every block are triangulated alone;
  * blocks that are no point sets pass unchanged, with a warning. A composite second input has the
  * same structure, and its blocks apply block by block; any other applies to all. Points in several
- * partitions of one dataset, or segments, are an error: join them first. So are points in any piece
- * of a pipeline but the first: gather them there.
+ * partitions of one dataset, or segments, are an error: join them first. In a pipeline of several
+ * pieces the first one asks for all points and has all triangles, and the others are empty. So
+ * points that are spread over processes, each of which gives its own whatever it is asked for, are
+ * left out but those of the first process: gather them there.
  *
  * @warning
  * The inputs are viewed, not copied, as by vtkDelaunayFlip. A projection is rounded once, to

@@ -169,12 +169,16 @@ class Filter(VTKPythonAlgorithmBase):
         return 1
 
     def RequestUpdateExtent(self, request, inInfo, outInfo):
-        """A piece of the mesh may need any of the second input."""
-        others, asked = inInfo[1].GetInformationObject(0), vtkStreamingDemandDrivenPipeline
-        if others is not None:
-            others.Set(asked.UPDATE_PIECE_NUMBER(), 0)
-            others.Set(asked.UPDATE_NUMBER_OF_PIECES(), 1)
-            others.Set(asked.UPDATE_NUMBER_OF_GHOST_LEVELS(), 0)
+        """Points are wanted whole, and a piece of a mesh may need any of the second input. But an
+        algorithm upstream of both inputs cannot make a piece for one and all for the other."""
+        asked, are_points = vtkStreamingDemandDrivenPipeline, self.kind is vtkPointSet
+        for port in range(0 if are_points else 1, 2):
+            info = inInfo[port].GetInformationObject(0)
+            if info is not None and (are_points or _list_upstream(self.GetInputAlgorithm(0, 0)).isdisjoint(
+                    _list_upstream(self.GetInputAlgorithm(1, 0)))):
+                info.Set(asked.UPDATE_PIECE_NUMBER(), 0)
+                info.Set(asked.UPDATE_NUMBER_OF_PIECES(), 1)
+                info.Set(asked.UPDATE_NUMBER_OF_GHOST_LEVELS(), 0)
         return 1
 
     def RequestData(self, request, inInfo, outInfo):
@@ -345,6 +349,17 @@ class Filter(VTKPythonAlgorithmBase):
             return not self._is_abort_requested()
 
         return observe
+
+
+def _list_upstream(algorithm, known=frozenset()):
+    """An algorithm, if there is one, all those upstream of it, and those that are known."""
+    if algorithm is None or algorithm in known:
+        return known
+    known |= {algorithm}
+    for port in range(algorithm.GetNumberOfInputPorts()):
+        for i in range(algorithm.GetNumberOfInputConnections(port)):
+            known = _list_upstream(algorithm.GetInputAlgorithm(port, i), known)
+    return known
 
 
 def _iterate(iterator):
@@ -570,16 +585,9 @@ class vtkDelaunayFlipPoints(Filter):
         return ""
 
     def _flip(self, data, segments, output):
-        piece = vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()
-        count = data.GetNumberOfPoints()
-        if self.GetOutputInformation(0).Get(piece) > 0:
-            segments = None
-        elif segments is not None:
-            count += segments.GetNumberOfPoints()
-        if self.GetOutputInformation(0).Get(piece) > 0 and count:
-            raise _library.InvalidMesh(
-                "points are in several pieces; gather them in the first one, by Redistribute DataSet with "
-                "one partition in ParaView")
+        if self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()) > 0:
+            return self._pass(vtkPolyData(), output, "converged")  # the first one has all
+        count = data.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments is not None else 0)
         if count == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if count else "converged")
         cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline], self.first_hole)

@@ -384,7 +384,7 @@ TEST(FromPoints, CompositeInput)
     GetTotal(filter.GetBlock(0), "TotalFlips") + GetTotal(filter.GetBlock(2), "TotalFlips"));
 }
 
-TEST(FromPoints, PointsInPiecesAreAnError)
+TEST(FromPoints, PointsInPartitionsAreAnError)
 {
   vtkNew<vtkPartitionedDataSet> parts, whole, segments;
   parts->SetPartition(0, ToMesh(MakeCloud(10)));
@@ -395,16 +395,14 @@ TEST(FromPoints, PointsInPiecesAreAnError)
   parts->SetPartition(1, ToMesh(MakeCloud(20)));
   segments->SetPartition(0, MakeLines(Square, { { 0, 1 } }));
   segments->SetPartition(1, MakeLines(Square, { { 0, 2 } }));
-  PointsFilter several(parts), apart(whole), piece(ToMesh(MakeCloud(10)));
+  PointsFilter several(parts), apart(whole);
   several->Update();
   EXPECT_EQ(several->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
   apart->SetInputDataObject(1, segments);
   apart->Update();
-  piece->UpdatePiece(1, 2, 0);
   for (const auto& [filter, text] :
     { std::pair(&several, "the points are in several partitions; join them first"),
-      { &apart, "the segments are in several partitions; join them first" },
-      { &piece, "gather them in the first one" } })
+      { &apart, "the segments are in several partitions; join them first" } })
   {
     ASSERT_EQ(filter->GetErrors().size(), 1u);
     ExpectHolds(filter->GetErrors()[0], text);

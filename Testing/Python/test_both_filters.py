@@ -445,11 +445,6 @@ class SamePoints(Pair, unittest.TestCase):
             told.filter.SetInputDataObject(1, join([segments, segments]))
             told.filter.Update()
             self.assertIn("segments are in several partitions; join them first", told.errors[0])
-            for piece in range(2):  # gathered on the first rank, or not
-                told = Watched(make_cloud(9), kind)
-                told.filter.UpdatePiece(piece, 2, 0)
-                self.assertEqual(len(told.errors), piece)
-            self.assertIn("in several pieces; gather them in the first one, by", told.errors[0])
 
 
 class OnlyInCxx(unittest.TestCase):

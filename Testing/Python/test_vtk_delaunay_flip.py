@@ -20,8 +20,8 @@ from vtkmodules.vtkCommonDataModel import (
     vtkUnstructuredGrid)
 from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
 from vtkmodules.vtkFiltersAMR import vtkAMRGaussianPulseSource
-from vtkmodules.vtkFiltersCore import vtkAppendPolyData
-from vtkmodules.vtkFiltersSources import vtkLineSource, vtkPlaneSource
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkFeatureEdges
+from vtkmodules.vtkFiltersSources import vtkLineSource, vtkPlaneSource, vtkSphereSource
 
 HAS_PIPELINES = vtkVersion.GetVTKMajorVersion() * 100 + vtkVersion.GetVTKMinorVersion() >= 904
 
@@ -185,6 +185,22 @@ class Meshes(unittest.TestCase):
         flip.SetConstraintsConnection(line.GetOutputPort())
         flip.UpdatePiece(1, 2, 0)
         self.assertEqual(flip.GetNumberOfConstraintEdges(), 1)
+
+    def test_pieces_of_one_source(self):
+        """No triangle comes twice."""
+        sphere, edges = vtkSphereSource(), vtkFeatureEdges()
+        edges.SetInputConnection(sphere.GetOutputPort())
+
+        def count_triangles(piece, pieces):
+            flip = vtkDelaunayFlip()
+            flip.SetInputConnection(sphere.GetOutputPort())
+            flip.SetConstraintsConnection(edges.GetOutputPort())
+            flip.UpdatePiece(piece, pieces, 0)
+            return flip.GetOutput().GetNumberOfPolys()
+
+        counts = [count_triangles(piece, 3) for piece in range(3)]
+        self.assertEqual(sum(counts), count_triangles(0, 1))
+        self.assertNotIn(0, counts)
 
     def test_kept_sliver(self):
         """A hint follows if a constraint keeps one of the worst triangles; not for a good one, nor
@@ -424,6 +440,16 @@ class FromPoints(unittest.TestCase):
         self.assertEqual(points.GetNumberOfRefusedSegments(), 0)
         self.assertTrue(points.GetConverged())
         self.assertEqual(points.GetIterations().GetNumberOfRows(), points.GetNumberOfIterations())
+
+    def test_first_piece_has_all_points(self):
+        sphere = vtkSphereSource()  # makes pieces
+        sphere.Update()
+        for piece, count in ((0, sphere.GetOutput().GetNumberOfPoints()), (1, 0)):
+            points = vtkDelaunayFlipPoints()
+            points.SetInputConnection(sphere.GetOutputPort())
+            points.UpdatePiece(piece, 2, 0)
+            self.assertEqual(points.GetOutput().GetNumberOfPoints(), count)
+            self.assertEqual(points.GetErrorMessage(), "")
 
     def test_segments_alone(self):
         outline = make_mesh([(0, 0, 0), (2, 0, 0), (2, 2, 1), (0, 2, 0)], [(0, 1, 2, 3)])
