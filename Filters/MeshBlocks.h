@@ -46,7 +46,7 @@ struct MeshBlock
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
 /// What of the second input is ignored.
-std::vector<Note> ListMisfits(
+DELAUNAYFLIP_EXPORT std::vector<Note> ListMisfits(
   const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others);
 
 /// The leaves of the second input, all polygonal, that are for a block: that of a single dataset,

@@ -347,16 +347,12 @@ int vtkDelaunayFlipAlgorithm::RequestData(
       others = ListMeshBlocks(second, vtkDataObject::CELL);
       others.resize(std::max<std::size_t>(1, others.size()), { { 0 }, "", 0.0, false, {} });
     }
-    std::vector<MeshBlock> blocks =
-      this->ListBlocks(vtkCompositeDataSet::SafeDownCast(input) ? structure : input);
+    std::vector<MeshBlock> blocks = this->ListBlocks(
+      vtkCompositeDataSet::SafeDownCast(input) ? structure : input, others, summary);
     double size = 0.0;
     for (const MeshBlock& block : blocks)
     {
       size += block.Size;
-    }
-    if (!this->Run) // live updates give each warning once
-    {
-      summary.Warnings = ListMisfits(blocks, others);
     }
     const bool isLive = blocks.size() == 1 && blocks.front().IsLive;
     if (this->LiveUpdate && !isLive && !IsBatchProgram())
@@ -426,12 +422,17 @@ void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
 }
 
 //------------------------------------------------------------------------------
-std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(vtkDataObject* input)
+std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(
+  vtkDataObject* input, const std::vector<MeshBlock>& others, UpdateSummary& summary)
 {
   std::vector<MeshBlock> blocks = ListMeshBlocks(input, this->SizeOfBlocks);
   if (blocks.size() == 1 && blocks.front().Place.empty())
   {
     blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram();
+  }
+  if (!this->Run) // live updates give each warning once
+  {
+    summary.Warnings = ListMisfits(blocks, others);
   }
   return blocks;
 }

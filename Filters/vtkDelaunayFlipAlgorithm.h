@@ -297,9 +297,12 @@ protected:
   // What subclasses do, and what they need for it; the headers of the types are private.
 
   /**
-   * The meshes of the input. May throw; the update then fails.
+   * The meshes of the input. Adds warnings of what of the second input is ignored. May throw; the
+   * update then fails.
+   * @param others the blocks of the second input.
    */
-  virtual std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input);
+  virtual std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input,
+    const std::vector<delaunayflip::MeshBlock>& others, delaunayflip::UpdateSummary& summary);
 
   /**
    * Flips a block by FlipMesh, stores its results, and adds warnings beside those of the report.

@@ -372,7 +372,8 @@ std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group)
 
 }
 
-std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(vtkDataObject* input)
+std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(
+  vtkDataObject* input, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
 {
   this->NumberOfRounds = 0;
   this->NumberOfMovedTriangles = 0;
@@ -380,7 +381,7 @@ std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(vtkDataObject* input)
   this->Group = this->MakeGroup();
   if (!this->Group)
   {
-    return this->Superclass::ListBlocks(input);
+    return this->Superclass::ListBlocks(input, constraints, summary);
   }
   this->IsSilent = this->Group->GetRank() > 0;
   std::vector<MeshBlock> blocks;
@@ -397,6 +398,7 @@ std::vector<MeshBlock> vtkPDelaunayFlip::ListBlocks(vtkDataObject* input)
         { "GenerateFlipCount", write(request.WantsFlipCounts) },
         { "GenerateQuality", write(request.WantsAngles) } });
     blocks = ShareBlocks(ListMeshBlocks(input, vtkDataObject::CELL), told);
+    summary.Warnings = ShareNotes(ListMisfits(blocks, constraints), told);
   };
   RunTogether(*this->Group, std::ref(share));
   return blocks;

@@ -102,7 +102,9 @@ protected:
    */
   virtual std::unique_ptr<delaunayflip::PieceGroup> MakeGroup();
 
-  std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input) override;
+  std::vector<delaunayflip::MeshBlock> ListBlocks(vtkDataObject* input,
+    const std::vector<delaunayflip::MeshBlock>& constraints,
+    delaunayflip::UpdateSummary& summary) override;
   void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& constraints,
     delaunayflip::UpdateSummary& summary) override;

@@ -181,8 +181,9 @@ def run_constraints_of_blocks(kind):
     constraints = lines if RANK == 0 else vtkPolyData()
     if kind == "composite":
         constraints = vtkMultiBlockDataSet()
-        constraints.SetNumberOfBlocks(3)
+        constraints.SetNumberOfBlocks(4)
         constraints.SetBlock(0, lines if RANK == 0 else None)
+        constraints.SetBlock(3, lines if RANK == 1 else None)
 
     def prepare(flip):
         flip.SetInsertConstraints(False)
