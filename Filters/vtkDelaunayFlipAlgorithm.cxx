@@ -428,7 +428,8 @@ std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(
   std::vector<MeshBlock> blocks = ListMeshBlocks(input, this->SizeOfBlocks);
   if (blocks.size() == 1 && blocks.front().Place.empty())
   {
-    blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram();
+    blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram() &&
+      this->GetOutputInformation(0)->Get(Asked::UPDATE_NUMBER_OF_PIECES()) <= 1;
   }
   if (!this->Run) // live updates give each warning once
   {

@@ -103,8 +103,8 @@ public:
    * A change of the input, or of an option that decides the mesh, starts a new run. But if only the
    * points of a mesh were moved, under the same cells, the next update continues from the flipped
    * triangles, with the edges that were fixed at the beginning (a warm start); its statistics start
-   * again. Composite input is flipped at once, with a warning. So is any input in ParaView's
-   * pvbatch, without a warning.
+   * again. Composite input, and a piece of several, is flipped at once, with a warning. So is any
+   * input in ParaView's pvbatch, without a warning.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);

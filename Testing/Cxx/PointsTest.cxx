@@ -409,6 +409,17 @@ TEST(FromPoints, PointsInPartitionsAreAnError)
   }
 }
 
+TEST(FromPoints, PiecesAreNotLive)
+{
+  PointsFilter filter(ToMesh(MakeCloud(2000)));
+  filter->LiveUpdateOn();
+  filter->UpdatePiece(0, 2, 0);
+  EXPECT_TRUE(filter->GetConverged());
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  ExpectHolds(filter.GetWarnings()[0], "LiveUpdate is for one mesh in one piece");
+}
+
 TEST(FromPoints, LiveUpdate)
 {
   auto cloud = ToMesh(MakeCloud(2000));
