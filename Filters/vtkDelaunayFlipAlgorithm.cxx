@@ -326,9 +326,13 @@ int vtkDelaunayFlipAlgorithm::RequestUpdateExtent(
 int vtkDelaunayFlipAlgorithm::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // Observers may take them from the filter while it works.
-  const vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+  // Observers may take them from the filter while it works, and the input even before.
   const vtkSmartPointer<vtkDataObject> output = vtkDataObject::GetData(outputVector);
+  vtkSmartPointer<vtkDataObject> input = vtkDataObject::GetData(inputVector[0]);
+  if (!input)
+  {
+    input.TakeReference(output->NewInstance());
+  }
   const vtkSmartPointer<vtkTable> table = vtkTable::GetData(outputVector, 1);
   const struct Work
   {

@@ -203,6 +203,19 @@ TEST(ObserverSafety, BlocksMayBeRemovedOrEmptied)
   }
 }
 
+TEST(ObserverSafety, TheInputMayBeRemovedBeforeTheFilterHasIt)
+{
+  for (vtkSmartPointer<vtkDataObject> input :
+    std::initializer_list<vtkSmartPointer<vtkDataObject>>{ MakeBadPlane(), MakePlanes() })
+  {
+    WatchedFilter filter(input);
+    OnProgress(filter.Get(), [&]() { filter->SetInputDataObject(0, nullptr); });
+    filter->Update();
+    EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
+    EXPECT_STREQ(filter->GetOutputDataObject(0)->GetClassName(), input->GetClassName());
+  }
+}
+
 TEST(ObserverSafety, ExceptionsAreErrors)
 {
   for (const bool live : { false, true })
