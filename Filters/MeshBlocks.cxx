@@ -18,7 +18,6 @@
 #include "vtkPartitionedDataSet.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkPolyData.h"
 #include "vtkUniformGridAMR.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkVariant.h"
@@ -178,8 +177,7 @@ vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
     return held;
   }
   held.TakeReference(data->NewInstance());
-  vtkDataObjectTree* tree = GetTree(data);
-  if (tree) // in VTK 9.1 a shallow copy has the same leaves
+  if (vtkDataObjectTree* tree = GetTree(data)) // in VTK 9.1 a shallow copy has the same leaves
   {
     CopyTree(tree, vtkDataObjectTree::SafeDownCast(held),
       [](vtkCompositeDataIterator* leaf) { return Hold(leaf->GetCurrentDataObject()); });
@@ -483,10 +481,12 @@ BlockMesh::BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDup
 {
   for (const BlockLeaf& leaf : block.Leaves)
   {
-    this->Surfaces.emplace_back(vtkPolyData::SafeDownCast(leaf.Data));
-    if (this->Surfaces.back())
+    this->Surfaces.emplace_back(vtkPolyData::SafeDownCast(Hold(leaf.Data)));
+    if (vtkPolyData* surface = this->Surfaces.back())
     {
-      this->Meshes.push_back(this->Surfaces.back());
+      DropResults(surface->GetFieldData());
+      DropResults(surface->GetCellData());
+      this->Meshes.emplace_back(surface);
     }
   }
   if (this->IsJoined())

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "UpdateReport.h"
 
+#include "DataArrays.h"
 #include "FlipError.h"
 
 #include "vtkDelaunayFlip.h"
@@ -111,9 +112,10 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
     {
       array->InsertNextValue(record.*member);
     }
-    // Of field data, VTK 9.7 cannot read empty arrays of ids from a .vtk.
-    const bool isKept = prefix.empty() || !report.Iterations.empty();
-    isKept ? (void)data->AddArray(array) : data->RemoveArray(array->GetName());
+    if (prefix.empty() || !report.Iterations.empty())
+    {
+      data->AddArray(array); // of field data, VTK 9.7 cannot read empty arrays of ids from a .vtk
+    }
   };
   const auto addCount = [&](const char* name, std::int64_t IterationRecord::*member)
   { add(vtkNew<vtkIdTypeArray>().Get(), name, member); };
@@ -141,6 +143,19 @@ void AddValue(const char* name, const Value& value, vtkFieldData* data)
   data->AddArray(array);
 }
 
+}
+
+void DropResults(vtkFieldData* data)
+{
+  for (int i = data->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    const std::string name = GetName(data->GetAbstractArray(i));
+    if (name.rfind(Prefix, 0) == 0 || name == "vtkDelaunayFlipCount" ||
+      name == "Smallest angle before (degrees)" || name == "Smallest angle after (degrees)")
+    {
+      data->RemoveArray(i);
+    }
+  }
 }
 
 void AddCount(const char* name, std::int64_t count, vtkFieldData* data)
@@ -178,7 +193,7 @@ void AddFieldData(const FlipReport& report, vtkFieldData* data)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);
-    if (array->GetName() && std::string(array->GetName()).rfind(Prefix, 0) == 0)
+    if (GetName(array).rfind(Prefix, 0) == 0)
     {
       array->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
     }

@@ -53,6 +53,9 @@ DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
 /// @param prefix of their names.
 void AddIterationColumns(const FlipReport& report, const std::string& prefix, vtkFieldData* data);
 
+/// Removes arrays that an earlier update has added to a mesh or its cells.
+void DropResults(vtkFieldData* data);
+
 /// Adds these columns, and one-tuple arrays that sum up the run, to the field data of a mesh, with
 /// the prefix "DelaunayFlip:", since the user may have an array "Seconds" already.
 DELAUNAYFLIP_EXPORT void AddFieldData(const FlipReport& report, vtkFieldData* data);

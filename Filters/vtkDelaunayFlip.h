@@ -26,13 +26,16 @@
  *
  * Output port 1: a vtkTable with one row per iteration and the columns Iteration, Tested,
  * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
- * and Seconds. Port 0 has the same columns as field data, and arrays with one value each:
+ * and Seconds. Port 0 has the same columns as field data, unless there are no rows, and arrays with
+ * one value each:
  * Converged, StopReason, Summary, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByDeviation,
  * BlockedByEdge, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,
  * InsertedConstraintEdges, ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic",
  * the value, or "none" if the in-circle predicate decides) and Backend. In the field data each name
  * begins with
  * "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short names pass.
+ * Such arrays of an earlier update, and those of GenerateFlipCount and GenerateQuality, do not
+ * pass.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost

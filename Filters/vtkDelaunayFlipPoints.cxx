@@ -350,6 +350,7 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   cloud->SetPoints(points->GetPoints());
   cloud->GetPointData()->ShallowCopy(points->GetPointData());
   cloud->GetFieldData()->ShallowCopy(points->GetFieldData());
+  DropResults(cloud->GetFieldData());
   auto* mesh = vtkPolyData::SafeDownCast(points);
   if (this->LinesAsSegments && mesh)
   {

@@ -20,8 +20,8 @@ from vtkmodules.vtkCommonExecutionModel import (
 from . import _library
 from ._options import CHOICES
 from ._points import triangulate
-from ._report import COUNTS, GEOMETRIES, ITERATION, POINT_COUNTS, Totals, describe
-from ._vtk_mesh import OUTLINES, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
+from ._report import COUNTS, FIELD_PREFIX, GEOMETRIES, ITERATION, POINT_COUNTS, Totals, describe
+from ._vtk_mesh import CELL_ARRAYS, OUTLINES, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 
 _USER_ERROR = 40000  # vtkErrorCode::UserError
 #: vtkDelaunayFlip.FAILURE_...
@@ -299,7 +299,7 @@ class Filter(VTKPythonAlgorithmBase):
         try:
             if isinstance(constraints, vtkCompositeDataSet):
                 raise _library.InvalidOptions(self.no_composite)
-            trouble = self._flip(mesh, constraints, output)
+            trouble = self._flip(_drop_results(mesh), constraints, output)
         except Exception as error:
             self._fail(error, where)
             output.Initialize()
@@ -410,6 +410,16 @@ def _has_partitions(blocks, kind):
     return any(sum(isinstance(part := leaf.GetCurrentDataObject(), kind) and part.GetNumberOfPoints() > 0
                    for leaf in _iterate(dataset.NewIterator())) > 1
                for dataset in filter(vtkPartitionedDataSet.SafeDownCast, datasets))
+
+
+def _drop_results(mesh):
+    """A shallow copy without arrays that an earlier update has added."""
+    made = _copy(mesh)
+    for data in made.GetFieldData(), made.GetCellData():
+        for name in [data.GetArrayName(i) or "" for i in range(data.GetNumberOfArrays())]:
+            if name.startswith(FIELD_PREFIX) or name in CELL_ARRAYS:
+                data.RemoveArray(name)
+    return made
 
 
 def _copy(source):

@@ -15,6 +15,9 @@ from ._surface import NONE, Constraints, Slots, Surface, list_pairs, number_plac
 
 #: Keywords of MeshInput.
 SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints", "region_array")
+#: Names of cell arrays of results.
+CELL_ARRAYS = (
+    "vtkDelaunayFlipCount", "Smallest angle before (degrees)", "Smallest angle after (degrees)")
 OUTLINES = ("even-odd", "orientation", "any")
 _GHOSTS = "vtkGhostType"
 _GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
@@ -277,12 +280,11 @@ class MeshInput:
     def _list_numbers(self, counts, angles):
         """(name, value elsewhere, values per triangle) of the requested cell arrays."""
         if counts:
-            yield "vtkDelaunayFlipCount", 0, self.session.flip_counts
+            yield CELL_ARRAYS[0], 0, self.session.flip_counts
         if angles:
             used, after = self.session.report.geometry_used, self.session.triangles
-            for when, triangles in (("before", self.slots.triangles), ("after", after)):
-                yield f"Smallest angle {when} (degrees)", numpy.nan, smallest_angles(
-                    self.points, triangles, geometry=used)
+            for name, triangles in zip(CELL_ARRAYS[1:], (self.slots.triangles, after)):
+                yield name, numpy.nan, smallest_angles(self.points, triangles, geometry=used)
 
 
 class Cloud(Input):

@@ -7,6 +7,7 @@
 #include "FlipReport.h"
 #include "TestBackend.h"
 
+#include "vtkCellData.h"
 #include "vtkFieldData.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -119,6 +120,8 @@ TEST(Report, FieldDataOfTheInputPass)
     AddText(mesh, name);
   }
   AddText(mesh, "DelaunayFlip:TotalFlips");
+  AddText(mesh, "DelaunayFlip:Rounds");
+  AddNumbers(mesh->GetCellData(), "Smallest angle after (degrees)", mesh->GetNumberOfCells(), 0);
   WatchedFilter filter(mesh);
   auto output = RunCleanly(filter);
   for (const char* name : Columns)
@@ -128,7 +131,10 @@ TEST(Report, FieldDataOfTheInputPass)
       << name;
   }
   EXPECT_EQ(GetTotal(output, "TotalFlips"), 9.0);
-  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 9);
+  EXPECT_EQ(output->GetFieldData()->GetAbstractArray("DelaunayFlip:Rounds"), nullptr);
+  EXPECT_EQ(output->GetCellData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(mesh->GetCellData()->GetNumberOfArrays(), 1);
+  EXPECT_EQ(mesh->GetFieldData()->GetNumberOfArrays(), 10);
   EXPECT_EQ(GetText(mesh, "TotalFlips"), "of the user");
 }
 

@@ -228,6 +228,15 @@ class Same(Pair, unittest.TestCase):
         for name in ("Tree", "Height", "Number", "Nothing"):
             self.expect_same(mesh, lambda flip, name=name: flip.SetRegionArray(name))
 
+    def test_results_of_an_earlier_update(self):
+        points, flip = CxxPoints(), CxxFilter()
+        points.SetInputData(make_cloud())
+        flip.SetInputConnection(points.GetOutputPort())
+        flip.GenerateFlipCountOn()
+        flip.GenerateQualityOn()
+        flip.Update()
+        self.expect_same(flip.GetOutput())
+
     def test_maximum_deviation(self):
         def prepare(flip):
             flip.SetGeometryToSurface()
