@@ -62,8 +62,8 @@ public:
   ///@{
   /**
    * CUDA's number of the GPU to use, 0 or more; -1 (default): the current device of the thread that
-   * updates, usually 0. If there is no such GPU, AUTO gives a warning and uses the CPU, and with
-   * CUDA the update fails. Has no effect on the CPU.
+   * updates, usually 0. If there is no such GPU, AUTO uses the CPU, with a warning if there are
+   * others, and with CUDA the update fails. Has no effect on the CPU.
    */
   vtkSetClampMacro(DeviceId, int, -1, VTK_INT_MAX);
   vtkGetMacro(DeviceId, int);
