@@ -541,6 +541,7 @@ void RenewNormals(vtkPolyData* output, const FindChange& findChange)
   const auto normals =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shared->GetDataType()));
   normals->DeepCopy(shared);
+  normals->SetName(shared->GetName()); // which one of bits does not copy
   std::vector<double> storage;
   const PointArray points = ViewPoints(output, storage);
   const vtkIdType first = output->GetNumberOfVerts() + output->GetNumberOfLines();

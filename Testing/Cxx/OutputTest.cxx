@@ -7,6 +7,7 @@
 
 #include "FlipReport.h"
 
+#include "vtkBitArray.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -159,6 +160,11 @@ TEST(Output, NormalsOfChangedTrianglesAreRenewed)
   EXPECT_DOUBLE_EQ(mesh->GetCellData()->GetNormals()->GetComponent(0, 2), 0.5);
   WatchedFilter against(SetCellNormals(MakeRhombus(), -1.0)); // the winding
   EXPECT_DOUBLE_EQ(RunCleanly(against)->GetCellData()->GetNormals()->GetComponent(1, 2), -1.0);
+  auto bits = MakeArray<vtkBitArray>("Bits", 2, 3);
+  bits->Fill(0.0);
+  against->GetPolyDataInput(0)->GetCellData()->SetNormals(bits);
+  against->Modified();
+  EXPECT_STREQ(RunCleanly(against)->GetCellData()->GetNormals()->GetName(), "Bits");
 }
 
 TEST(Output, CellNormalsFollowTheWindingWhereTrianglesTurn)
