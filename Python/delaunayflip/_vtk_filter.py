@@ -471,7 +471,8 @@ def finish(cls, properties, answers):
             value = item.convert(value)
             if value != self._values[item.name]:
                 self._values[item.name] = value
-                self.Modified()
+                if item.name != "Paused":  # this changes no result
+                    self.Modified()
 
         setattr(cls, "Get" + item.name, lambda self, item=item: self._values[item.name])
         setattr(cls, "Set" + item.name, set_)
