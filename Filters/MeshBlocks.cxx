@@ -19,7 +19,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkUniformGridAMR.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkVariant.h"
 
 #include <algorithm>
@@ -171,12 +170,11 @@ void CopyTree(vtkDataObjectTree* tree, vtkDataObjectTree* copy, const LeafOf& le
 
 vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data)
 {
-  vtkSmartPointer<vtkDataObject> held;
   if (!data)
   {
-    return held;
+    return nullptr;
   }
-  held.TakeReference(data->NewInstance());
+  auto held = vtkSmartPointer<vtkDataObject>::Take(data->NewInstance());
   if (vtkDataObjectTree* tree = GetTree(data)) // in VTK 9.1 a shallow copy has the same leaves
   {
     CopyTree(tree, vtkDataObjectTree::SafeDownCast(held),
