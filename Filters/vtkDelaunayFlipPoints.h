@@ -70,9 +70,9 @@
  * blocks that are no point sets pass unchanged, with a warning. A composite second input has the
  * same structure, and its blocks apply block by block; any other applies to all. Points in several
  * partitions of one dataset, or segments, are an error: join them first. In a pipeline of several
- * pieces the first one asks for all points and has all triangles, and the others are empty. So
- * points that are spread over processes, each of which gives its own whatever it is asked for, are
- * left out but those of the first process: gather them there.
+ * pieces the first one asks for all points and has all triangles, and the others are empty. If a
+ * filter upstream gives the first piece only some of the points, whatever it is asked for, the rest
+ * is missing: gather them there.
  *
  * @warning
  * The inputs are viewed, not copied, as by vtkDelaunayFlip. A projection is rounded once, to
