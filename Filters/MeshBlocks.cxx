@@ -575,7 +575,7 @@ void BlockMesh::Store(vtkPolyData* flipped)
 {
   MeshList results{ flipped };
   const char* name = this->IsJoined() ? this->Joined.Owners->GetName() : nullptr;
-  if (flipped && name) // not on several ranks
+  if (flipped && name)
   {
     vtkCellData* data = flipped->GetCellData();
     const vtkSmartPointer<vtkIntArray> owners = vtkIntArray::SafeDownCast(data->GetArray(name));

@@ -107,9 +107,9 @@ public:
   /// @throws InvalidOptions, InvalidMesh.
   vtkSmartPointer<vtkPolyData> FindConstraints(const std::vector<MeshBlock>& constraints) const;
 
-  /// Writes the results of the block's leaves. Partitions that were joined are divided again; on
-  /// several ranks the mesh takes the place of the first one, and the others are empty. Leaves that
-  /// are no surfaces pass.
+  /// Writes the results of the block's leaves. Partitions that were joined are divided again; if
+  /// the owners of their cells have no name, the mesh takes the place of the first one, and the
+  /// others are empty. Leaves that are no surfaces pass.
   /// @param flipped the mesh after the run; or null: all leaves of the input pass unchanged.
   void Store(vtkPolyData* flipped);
 
