@@ -57,6 +57,30 @@ class CommandTest(unittest.TestCase):
         with open(self.path(name), "rb") as file:
             return file.read()
 
+    def write_mesh(self, mesh, name, **settings):
+        """Writes with VTK's writer for the extension; `settings` are its methods and arguments.
+        Returns the path."""
+        path = self.path(name)
+        writer = FORMATS[os.path.splitext(path)[1].lower()][1]()
+        writer.SetFileName(path)
+        writer.SetInputData(mesh)
+        if hasattr(writer, "SetFileTypeToBinary"):
+            writer.SetFileTypeToBinary()
+        for method, arguments in settings.items():
+            getattr(writer, method)(*arguments)
+        writer.Write()
+        return path
+
+    def read_mesh(self, name):
+        path = self.path(name)
+        reader = FORMATS[os.path.splitext(path)[1].lower()][0]()
+        reader.SetFileName(path)
+        if path.endswith(".vtk"):  # else only the first attribute of each kind
+            for kind in ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields"):
+                getattr(reader, f"ReadAll{kind}On")()
+        reader.Update()
+        return reader.GetOutput()
+
     def run_command(self, *arguments, **options):
         """Runs it. The result has returncode, stdout and stderr (text)."""
         return subprocess.run(
@@ -172,26 +196,6 @@ def bad_mesh(columns):
     return mesh
 
 
-def write_mesh(mesh, path, **settings):
-    """Writes with VTK's writer for the extension; `settings` are its methods and arguments."""
-    writer = FORMATS[os.path.splitext(path)[1].lower()][1]()
-    writer.SetFileName(path)
-    writer.SetInputData(mesh)
-    if hasattr(writer, "SetFileTypeToBinary"):
-        writer.SetFileTypeToBinary()
-    for method, arguments in settings.items():
-        getattr(writer, method)(*arguments)
-    writer.Write()
-    return path
-
-
-def read_mesh(path):
-    reader = FORMATS[os.path.splitext(path)[1].lower()][0]()
-    reader.SetFileName(path)
-    reader.Update()
-    return reader.GetOutput()
-
-
 def points_of(mesh):
     return [mesh.GetPoint(i) for i in range(mesh.GetNumberOfPoints())]
 
@@ -270,7 +274,7 @@ class BadFileTest(CommandTest):
         """The mesh that the command makes of a file with this content, and its messages."""
         self.write(name, content)
         result = self.succeed(name, "out.vtp")
-        return read_mesh(self.path("out.vtp")), result.stderr
+        return self.read_mesh("out.vtp"), result.stderr
 
     def refuse(self, name, *naming):
         """Expects exit code 3, one line about the file and the reason, and no output."""
@@ -285,11 +289,11 @@ class ArrayTest(BadFileTest):
 
     def convert(self, mesh, *names):
         """Passes a mesh through files with these names without losses. Returns the last mesh."""
-        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        source = self.write_mesh(mesh, "in.vtp", SetDataModeToBinary=())
         for name in names:
             self.assertEqual(self.succeed(source, name).stderr, "", name)
             source = name
-        return read_mesh(self.path(names[-1]))
+        return self.read_mesh(names[-1])
 
     def read_plainly(self, name):
         """The mesh that VTK's own reader reads, without errors or warnings."""
@@ -297,7 +301,7 @@ class ArrayTest(BadFileTest):
         before = vtk.vtkOutputWindow.GetInstance()
         vtk.vtkOutputWindow.SetInstance(window)
         try:
-            mesh = read_mesh(self.path(name))
+            mesh = self.read_mesh(name)
         finally:
             vtk.vtkOutputWindow.SetInstance(before)
         self.assertEqual(window.GetOutput(), "", name)

@@ -9,7 +9,7 @@ import os
 import sys
 from typing import NamedTuple
 
-from CommandTesting import CommandTest, edge_counts, read_mesh, read_report, triangles_of
+from CommandTesting import CommandTest, edge_counts, read_report, triangles_of
 
 FOLDER = os.environ.get("DELAUNAYFLIP_DATA_DIR", "")
 if not os.path.isdir(FOLDER):
@@ -77,7 +77,7 @@ class Planar(RealDataTest):
                         self.assertIn(value, report["geometry_reason"])
                     else:
                         self.assertEqual(report[key], value, key)
-        counts = edge_counts(triangles_of(read_mesh(self.path("out.vtk"))))
+        counts = edge_counts(triangles_of(self.read_mesh("out.vtk")))
         self.assertEqual(counts, (179726, 271, 0))
 
     def test_delaunay_input_stays(self):
@@ -85,8 +85,8 @@ class Planar(RealDataTest):
         for name in ("greenland_cdt.vtk", SUPERIOR):
             report = self.flip(name, *XY)
             self.assertEqual((report["total_flips"], report["non_delaunay_after"]), (0, 0))
-            before = read_mesh(os.path.join(FOLDER, name))
-            after = read_mesh(self.path("out.vtk"))
+            before = self.read_mesh(os.path.join(FOLDER, name))
+            after = self.read_mesh("out.vtk")
             for array in ("GetConnectivityArray", "GetOffsetsArray"):
                 old, new = (memoryview(getattr(m.GetPolys(), array)()) for m in (before, after))
                 self.assertEqual(old.tobytes(), new.tobytes())
@@ -155,7 +155,7 @@ class Surfaces(RealDataTest):
             with self.subTest(name):
                 self.check(name, known)
                 # Counts the edges of out.vtk independently of the engine.
-                _, *counts = edge_counts(triangles_of(read_mesh(self.path("out.vtk"))))
+                _, *counts = edge_counts(triangles_of(self.read_mesh("out.vtk")))
                 self.assertEqual(counts, [known.boundary, known.non_manifold])
 
     def test_order_does_not_matter(self):
@@ -193,7 +193,7 @@ class Points(RealDataTest):
     def check(self, path):
         report = self.report(path, "out.vtk", "--from-points")
         self.assertTrue(report["converged"])
-        mesh = read_mesh(self.path("out.vtk"))
+        mesh = self.read_mesh("out.vtk")
         places = {mesh.GetPoint(i)[:2] for i in range(mesh.GetNumberOfPoints())}
         triangles = triangles_of(mesh)
         if len({y for _, y in places}) == 1:  # gc_lego.ply stands upright

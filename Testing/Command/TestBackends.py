@@ -5,7 +5,7 @@
 import os
 import unittest
 
-from CommandTesting import CommandTest, bumpy_grid, read_report, worst_case, write_mesh
+from CommandTesting import CommandTest, bumpy_grid, read_report, worst_case
 
 # The folder with a driver that is too old; empty in a build without the CUDA backend.
 OLD_DRIVER = os.environ.get("DELAUNAYFLIP_OLD_DRIVER", "")
@@ -21,9 +21,9 @@ def with_old_driver():
 class BackendTest(CommandTest):
     def setUp(self):
         super().setUp()
-        self.small = write_mesh(worst_case(4), self.path("small.vtk"))
+        self.small = self.write_mesh(worst_case(4), "small.vtk")
         # Just large enough for a GPU to be chosen: 20,402 triangles.
-        self.large = write_mesh(bumpy_grid(102, 0), self.path("large.vtk"))
+        self.large = self.write_mesh(bumpy_grid(102, 0), "large.vtk")
 
     def run_on(self, mesh, *arguments, **options):
         """The report and the standard error, in lines, of a run that succeeds."""

@@ -5,25 +5,17 @@
 import os
 import stat
 
-from CommandTesting import (
-    CommandTest,
-    bumpy_grid,
-    make_mesh,
-    read_mesh,
-    triangles_of,
-    worst_case,
-    write_mesh,
-)
+from CommandTesting import CommandTest, bumpy_grid, make_mesh, triangles_of, worst_case
 
 
 class WrongUsage(CommandTest):
     def setUp(self):
         super().setUp()
-        self.planar = write_mesh(bumpy_grid(4, 0), self.path("planar.vtk"))
-        self.surface = write_mesh(bumpy_grid(4, 1), self.path("surface.vtk"))
+        self.planar = self.write_mesh(bumpy_grid(4, 0), "planar.vtk")
+        self.surface = self.write_mesh(bumpy_grid(4, 1), "surface.vtk")
         points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
         cells = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
-        self.tetrahedron = write_mesh(make_mesh(points, cells), self.path("tetrahedron.vtk"))
+        self.tetrahedron = self.write_mesh(make_mesh(points, cells), "tetrahedron.vtk")
 
     def tearDown(self):
         self.assertFalse(os.path.exists(self.path("out.vtk")))
@@ -90,7 +82,7 @@ class WrongUsage(CommandTest):
 class BadFile(CommandTest):
     def setUp(self):
         super().setUp()
-        self.mesh = write_mesh(bumpy_grid(4, 0), self.path("mesh.vtk"))
+        self.mesh = self.write_mesh(bumpy_grid(4, 0), "mesh.vtk")
 
     def test_missing_input(self):
         self.fail_with(3, "none.vtk", "out.vtk", naming=["none.vtk", "No such file"])
@@ -125,17 +117,17 @@ class Success(CommandTest):
         self.assertRegex(self.succeed("--version").stdout, r"^delaunay-flip \d+\.\d+\.\d+$")
 
     def test_iteration_limit(self):
-        mesh = write_mesh(worst_case(4), self.path("mesh.vtk"))
+        mesh = self.write_mesh(worst_case(4), "mesh.vtk")
         report = self.report(mesh, "out.vtk", "--max-iterations", "2", code=4)
         self.assertEqual(report["stop_reason"], "iteration limit")
         self.assertFalse(report["converged"])
         self.assertEqual((report["iterations"], report["total_flips"]), (2, 3))
         self.assertGreater(report["non_delaunay_after"], 0)
-        self.assertEqual(len(triangles_of(read_mesh(self.path("out.vtk")))), 6)
+        self.assertEqual(len(triangles_of(self.read_mesh("out.vtk"))), 6)
 
     def test_numbers_are_decimal(self):
         """Leading zeros do not make a number octal."""
-        mesh = write_mesh(worst_case(20), self.path("mesh.vtk"))
+        mesh = self.write_mesh(worst_case(20), "mesh.vtk")
         for text, iterations in (("010", 10), ("08", 8), ("+9", 9), ("-01", 37), ("000", 0)):
             report = self.report(
                 *(mesh, "out.vtk", "--max-iterations", text), code=0 if iterations > 30 else 4)

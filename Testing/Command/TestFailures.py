@@ -6,13 +6,13 @@ the file."""
 import os
 import resource
 
-from CommandTesting import FORMATS, CommandTest, bumpy_grid, make_mesh, write_mesh
+from CommandTesting import FORMATS, CommandTest, bumpy_grid, make_mesh
 
 
 class FullDisk(CommandTest):
     def setUp(self):
         super().setUp()
-        self.mesh = write_mesh(bumpy_grid(30, 1), self.path("mesh.vtk"))
+        self.mesh = self.write_mesh(bumpy_grid(30, 1), "mesh.vtk")
 
     def refuse(self, limit, *arguments, naming):
         """With files limited to `limit` bytes, expects exit code 3 and no new or changed file."""
@@ -38,7 +38,7 @@ class FullDisk(CommandTest):
         self.refuse(limit, "out.obj", naming="out.obj")
 
     def test_a_limit_is_not_blamed_for_other_errors(self):
-        path = write_mesh(make_mesh([(0, 0, 0)] * 3, [(0, 1, 2), (0, 1)]), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh([(0, 0, 0)] * 3, [(0, 1, 2), (0, 1)]), "in.vtk")
         result = self.fail_with(
             3, path, "out.obj",
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1 << 20, 1 << 20)))
@@ -48,7 +48,7 @@ class FullDisk(CommandTest):
         self.succeed(self.mesh, "out.stl", "--report", "report.json")
         larger = os.path.getsize(self.path("out.stl"))
         self.refuse(larger // 100, "out.obj", "--report", "report.json", naming="out.obj")
-        tiny = write_mesh(bumpy_grid(2, 0), self.path("tiny.stl"))
+        tiny = self.write_mesh(bumpy_grid(2, 0), "tiny.stl")
         self.mesh = tiny
         self.refuse(300, "tiny-out.stl", "--report", "report.json", naming="report.json")
         self.refuse(40, "tiny-out.stl", "--statistics", "table.csv", naming="tiny-out.stl")

@@ -10,10 +10,8 @@ from CommandTesting import (
     bumpy_grid,
     make_array,
     make_mesh,
-    read_mesh,
     triangle_set,
     triangles_of,
-    write_mesh,
 )
 
 
@@ -35,10 +33,10 @@ class RoundTrip(CommandTest):
         """The resulting triangles are the same for every pair of formats."""
         results = {}
         for source in FORMATS:
-            path = write_mesh(mesh, self.path("in" + source))
+            path = self.write_mesh(mesh, "in" + source)
             for target in FORMATS:
                 self.succeed(path, "out" + target)
-                results[source, target] = triangle_set(read_mesh(self.path("out" + target)))
+                results[source, target] = triangle_set(self.read_mesh("out" + target))
         return results
 
     def test_every_pair_of_formats(self):
@@ -55,7 +53,7 @@ class RoundTrip(CommandTest):
 class Kept(CommandTest):
     def test_same_path(self):
         for extension in FORMATS:
-            path = write_mesh(bumpy_grid(6, 0), self.path("mesh" + extension))
+            path = self.write_mesh(bumpy_grid(6, 0), "mesh" + extension)
             self.succeed(path, "separate" + extension)
             self.succeed(path, path)
             same, separate = (self.content(name + extension) for name in ("mesh", "separate"))
@@ -65,7 +63,7 @@ class Kept(CommandTest):
 class Lost(CommandTest):
     def losses(self, mesh, name):
         """The line that lists losses, or an empty string."""
-        result = self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
+        result = self.succeed(self.write_mesh(mesh, "in.vtk"), name)
         lines = [line for line in result.stderr.splitlines() if "cannot store" in line]
         self.assertLessEqual(len(lines), 1)
         return "".join(lines)
@@ -96,7 +94,7 @@ class Lost(CommandTest):
     def test_points_beyond_float(self):
         """As float they would be infinite."""
         mesh = make_mesh([(0, 0, 0), (1e39, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-        path = write_mesh(mesh, self.path("in.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
         words = ["out.stl", "cannot be written", "larger than 3.4e38", ".ply"]
         self.fail_with(3, path, "out.stl", naming=words)
         self.succeed(path, "out.ply")
@@ -106,14 +104,14 @@ class Lost(CommandTest):
         points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
         for size in (0, 1, 2):
             mesh = make_mesh(points, [(0, 1, 2), tuple(range(size))])
-            path = write_mesh(mesh, self.path("in.vtk"))
+            path = self.write_mesh(mesh, "in.vtk")
             self.succeed(path, "out.vtk")
-            self.assertEqual(triangles_of(read_mesh(self.path("out.vtk")))[1], tuple(range(size)))
+            self.assertEqual(triangles_of(self.read_mesh("out.vtk"))[1], tuple(range(size)))
             for name in ("out.vtp", "out.obj", "out.stl"):
                 self.fail_with(3, path, name, naming=[name, f"polygon 1 has {size} point"])
         lines = make_mesh(points, [(0, 1, 2)], [(1,)])
         for name in ("out.vtp", "out.obj"):
-            path = write_mesh(lines, self.path("in.vtk"))
+            path = self.write_mesh(lines, "in.vtk")
             self.fail_with(3, path, name, naming=[name, "line 0 has 1 point,"])
 
 
@@ -124,10 +122,10 @@ class RepeatedPoints(CommandTest):
             "in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 1\n"
             "f 1//1 2//1 3//1\nf 4//2 5//2 6//2\n")
         self.assertIn("no two share an edge", self.succeed("in.obj", "out.vtk").stderr)
-        self.assertEqual(triangles_of(read_mesh(self.path("out.vtk"))), [(0, 1, 2), (3, 4, 5)])
+        self.assertEqual(triangles_of(self.read_mesh("out.vtk")), [(0, 1, 2), (3, 4, 5)])
 
     def test_collapsed_stl_triangle_stays(self):
         mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 1)], [(0, 1, 2), (1, 1, 3)])
-        report = self.report(write_mesh(mesh, self.path("in.stl")), "out.stl")
+        report = self.report(self.write_mesh(mesh, "in.stl"), "out.stl")
         self.assertEqual((report["points"], report["triangles"]), (4, 2))
         self.assertEqual(os.path.getsize(self.path("out.stl")), 84 + 2 * 50)

@@ -10,14 +10,7 @@ import signal
 import subprocess
 import time
 
-from CommandTesting import (
-    CommandTest,
-    bumpy_grid,
-    command_line,
-    make_array,
-    worst_case,
-    write_mesh,
-)
+from CommandTesting import CommandTest, bumpy_grid, command_line, make_array, worst_case
 
 
 class TerminalTest(CommandTest):
@@ -42,7 +35,7 @@ class Interrupt(TerminalTest):
 
     def setUp(self):
         super().setUp()
-        self.mesh = write_mesh(worst_case(15000), self.path("slow.vtk"))
+        self.mesh = self.write_mesh(worst_case(15000), "slow.vtk")
         self.write("out.vtk", "precious")
 
     def stop(self, number):
@@ -71,7 +64,7 @@ class Interrupt(TerminalTest):
 
     def test_ignored_interrupt_stays_ignored(self):
         """The signal is ignored, as for a job that a shell starts in the background."""
-        mesh = write_mesh(worst_case(3000), self.path("mesh.vtk"))
+        mesh = self.write_mesh(worst_case(3000), "mesh.vtk")
         process, terminal = self.start(mesh, "new.vtk", disposition=signal.SIG_IGN)
         read_terminal(terminal, until=b"[")
         process.send_signal(signal.SIGINT)
@@ -87,7 +80,7 @@ class Terminal(TerminalTest):
         return read_terminal(terminal)
 
     def test_progress_bar_on_a_terminal_only(self):
-        mesh = write_mesh(bumpy_grid(10, 0), self.path("mesh.vtk"))
+        mesh = self.write_mesh(bumpy_grid(10, 0), "mesh.vtk")
         text = self.errors_on_terminal(mesh, "out.vtk")
         self.assertIn(b"\r", text)
         self.assertIn(b"reading", text)
@@ -97,7 +90,7 @@ class Terminal(TerminalTest):
 
     def test_progress_bar_never_goes_back(self):
         """Each part of the job continues where the one before it ended."""
-        mesh = write_mesh(bumpy_grid(500, 0), self.path("mesh.vtk"))  # some redraws per part
+        mesh = self.write_mesh(bumpy_grid(500, 0), "mesh.vtk")  # some redraws per part
         text = self.errors_on_terminal(mesh, "out.vtp").decode()
         bars = re.findall(r"\[(#*)-*\] (\d+) %, (\w+)", text)
         percents = [int(percent) for _, percent, _ in bars]
@@ -110,7 +103,7 @@ class Terminal(TerminalTest):
     def test_quiet(self):
         grid = bumpy_grid(10, 1)
         grid.GetPointData().AddArray(make_array("Age", range(100)))  # which .stl cannot hold
-        mesh = write_mesh(grid, self.path("mesh.vtk"))
+        mesh = self.write_mesh(grid, "mesh.vtk")
         self.assertEqual(self.errors_on_terminal(mesh, "out.stl", "--quiet"), b"")
         result = self.succeed(mesh, "out.stl", "--quiet")
         self.assertEqual((result.stdout, result.stderr), ("", ""))

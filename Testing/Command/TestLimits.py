@@ -6,14 +6,7 @@ import os
 import resource
 import threading
 
-from CommandTesting import (
-    FORMATS,
-    BadFileTest,
-    bumpy_grid,
-    read_mesh,
-    triangles_of,
-    write_mesh,
-)
+from CommandTesting import FORMATS, BadFileTest, bumpy_grid, triangles_of
 from TestNumbers import TRIANGLE, as_text
 
 MOST_MEMORY = 3 << 30  # for refusing a file of a few hundred bytes
@@ -113,7 +106,7 @@ class Pipes(BadFileTest):
     def test_every_format(self):
         mesh = bumpy_grid(20, 0)
         for extension in FORMATS:
-            path = write_mesh(mesh, self.path("in" + extension))
+            path = self.write_mesh(mesh, "in" + extension)
             self.succeed(path, "expected.stl")
             os.mkfifo(self.path("pipe" + extension))
             writer = threading.Thread(
@@ -122,8 +115,8 @@ class Pipes(BadFileTest):
             self.succeed("pipe" + extension, "out.stl")
             writer.join()
             self.assertEqual(
-                triangles_of(read_mesh(self.path("out.stl"))),
-                triangles_of(read_mesh(self.path("expected.stl"))),
+                triangles_of(self.read_mesh("out.stl")),
+                triangles_of(self.read_mesh("expected.stl")),
                 extension,
             )
 

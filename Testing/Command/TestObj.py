@@ -8,11 +8,9 @@ from CommandTesting import (
     cells_of,
     make_values,
     points_of,
-    read_mesh,
     triangles_of,
     tuples_of,
     values_of,
-    write_mesh,
 )
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
@@ -60,7 +58,7 @@ class Obj(ArrayTest):
             self.assertEqual([report[key] for key in keys], [4, 6, 0, 0, 0, 1, 1, 1])
             self.succeed(name, "again.vtp")
             self.assertEqual(
-                {frozenset(cell) for cell in triangles_of(read_mesh(self.path("again.vtp")))},
+                {frozenset(cell) for cell in triangles_of(self.read_mesh("again.vtp"))},
                 {frozenset(cell) for cell in ((0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3))})
 
     def test_comments_and_continued_lines(self):
@@ -93,7 +91,7 @@ class Obj(ArrayTest):
         self.succeed("in.obj", "first.vtp")
         self.assertNotIn("cannot store", self.succeed("in.obj", "out.obj").stderr)
         self.succeed("out.obj", "second.vtp")
-        first, out = (read_mesh(self.path(name)) for name in ("first.vtp", "second.vtp"))
+        first, out = (self.read_mesh(name) for name in ("first.vtp", "second.vtp"))
         self.assertEqual(points_of(first), points_of(out))
         for kind in ("GetVerts", "GetLines", "GetPolys"):
             self.assertEqual(cells_of(getattr(first, kind)()), cells_of(getattr(out, kind)()))
@@ -105,7 +103,7 @@ class Obj(ArrayTest):
         self.assertEqual(data.GetTCoords().GetTuple(2), (1 / 3, 1))
         self.assertEqual(data.GetTCoords().GetTuple(4), (0, 0))  # of no polygon
         self.assertEqual(data.GetArray("Colors").GetTuple(0), (0.1, 0.2, 0.3))
-        plain = read_mesh(self.path("out.obj"))
+        plain = self.read_mesh("out.obj")
         self.assertEqual(plain.GetNumberOfPolys(), 2)
 
     def test_colors_of_bytes(self):
@@ -120,7 +118,7 @@ class Obj(ArrayTest):
         mesh = bumpy_grid(3, 0)
         for kind, name in (("Double", "Colors"), ("UnsignedChar", "RGB")):
             mesh.GetPointData().AddArray(make_values(f"vtk{kind}Array", name, [(9, 9, 9)] * 2))
-        source = write_mesh(mesh, self.path("in.vtk"))
+        source = self.write_mesh(mesh, "in.vtk")
         self.assertIn("point data (Colors, RGB)", self.succeed(source, "out.obj").stderr)
         with open(self.path("out.obj"), encoding="ascii") as file:
             words = [line.split() for line in file if line[0] != "#"]

@@ -14,11 +14,9 @@ from CommandTesting import (
     make_mesh,
     make_values,
     points_of,
-    read_mesh,
     triangle_set,
     triangles_of,
     values_of,
-    write_mesh,
 )
 
 # Divided along its long diagonal.
@@ -28,7 +26,7 @@ KITE_CELLS = [(0, 1, 2), (0, 2, 3)]
 
 class Options(CommandTest):
     def flips(self, mesh, *arguments):
-        path = write_mesh(mesh, self.path("in.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
         return self.report(path, "out.vtk", *arguments)["total_flips"]
 
     def test_lines(self):
@@ -40,8 +38,8 @@ class Options(CommandTest):
         """A kite cut along its short diagonal 1-3. A file with the same points has the long one."""
         tall = [(0, -2, 0), (1, 0, 0), (0, 2, 0), (-1, 0, 0)]
         mesh = make_mesh(tall, [(0, 1, 3), (1, 2, 3)])
-        path = write_mesh(mesh, self.path("in.vtk"))
-        lines = write_mesh(make_mesh(tall, [], [(0, 2)]), self.path("lines.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
+        lines = self.write_mesh(make_mesh(tall, [], [(0, 2)]), "lines.vtk")
         counts = ("inserted_constraint_edges", "constraint_flips", "constraint_edges",
                   "unmatched_constraint_edges")
 
@@ -54,12 +52,12 @@ class Options(CommandTest):
         self.assertTrue(self.has_edge(0, 2))
         self.assertEqual(constrain("--constraints", lines, "--no-insert-constraints"), [0, 0, 0, 1])
         self.assertFalse(self.has_edge(0, 2))
-        none = write_mesh(make_mesh(tall, []), self.path("none.vtk"))
+        none = self.write_mesh(make_mesh(tall, []), "none.vtk")
         self.fail_with(3, path, "out.vtk", "--constraints", none, naming=["none.vtk: has no lines"])
 
     def has_edge(self, a, b):
         """Whether the output has this edge."""
-        triangles = triangles_of(read_mesh(self.path("out.vtk")))
+        triangles = triangles_of(self.read_mesh("out.vtk"))
         return any(a in triangle and b in triangle for triangle in triangles)
 
     def test_lines_are_inserted_on_request(self):
@@ -72,9 +70,9 @@ class Options(CommandTest):
 
     def test_constraints_beside_the_mesh(self):
         """The message says why they do not match, and where the first is."""
-        path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh(KITE, KITE_CELLS), "in.vtk")
         beside = [(-2, 0, 0), (0, 1, 0), (0, 1.5, 0), (2, 0, 0)]
-        lines = write_mesh(make_mesh(beside, [], [(0, 1), (3, 2), (2, 0)]), self.path("lines.vtk"))
+        lines = self.write_mesh(make_mesh(beside, [], [(0, 1), (3, 2), (2, 0)]), "lines.vtk")
         self.assertIn("2 constraint edges of the second input that the mesh does not have: ends are "
                       "not points of the mesh (coordinates must be equal, not just close), first "
                       "from (0, 1.5, 0) to (2, 0, 0)\n",
@@ -83,7 +81,7 @@ class Options(CommandTest):
     def test_merged_points(self):
         """Triangles that share no points cannot flip, which a warning says, until these are merged."""
         corners = [KITE[i] for cell in KITE_CELLS for i in cell]
-        path = write_mesh(make_mesh(corners, [(0, 1, 2), (3, 4, 5)]), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh(corners, [(0, 1, 2), (3, 4, 5)]), "in.vtk")
         told = self.succeed(path, "out.vtk").stderr
         self.assertEqual(told.count("\n"), 1, told)
         self.assertIn("warning: 2 triangles of which no two share an edge", told)
@@ -91,7 +89,7 @@ class Options(CommandTest):
         result = self.succeed(path, "out.vtk", "--merge-points")
         self.assertIn("in.vtk: of 6 points 4 are left after merging\n", result.stderr)
         self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
-        self.assertEqual(len(points_of(read_mesh(self.path("out.vtk")))), 4)
+        self.assertEqual(len(points_of(self.read_mesh("out.vtk"))), 4)
 
     def test_merging_keeps_data_and_cells(self):
         """Also if a point lies at infinity; only a side that has collapsed leaves its quad."""
@@ -107,11 +105,11 @@ class Options(CommandTest):
         data.SetGlobalIds(make_values("vtkIdTypeArray", "ids", [(i,) for i in range(size)]))
         data.AddArray(make_values("vtkStringArray", "words", [(f"w {i}",) for i in range(size)]))
         data.AddArray(make_values("vtkIntArray", "short", [(1,)] * 3))
-        path = write_mesh(mesh, self.path("in.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
         told = self.succeed(path, "out.vtp", "--merge-points").stderr
         self.assertIn(f"in.vtk: of {size} points 5 are left after merging\n", told)
         self.assertIn("in.vtk: left out point data with too few tuples (short)\n", told)
-        out = read_mesh(self.path("out.vtp"))
+        out = self.read_mesh("out.vtp")
         self.assertEqual(cells_of(out.GetLines()), [(1, 1), (2, 3)])
         self.assertEqual(triangles_of(out), [(1, 2, 3), (1, 3, 4), (1, 2, 2), (0, 2, 3), (1, 2, 3)])
         self.assertEqual(points_of(out), corners[:4] + [corners[6]])
@@ -130,7 +128,7 @@ class Options(CommandTest):
 
     def test_nothing_to_merge(self):
         apart = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (5, 0, 0), (6, 0, 0), (5, 1, 0)]
-        path = write_mesh(make_mesh(apart, [(0, 1, 2), (3, 4, 5)]), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh(apart, [(0, 1, 2), (3, 4, 5)]), "in.vtk")
         told = self.succeed(path, "out.vtk", "--merge-points").stderr
         self.assertIn("no two edges lie at the same place, even after --merge-points", told)
 
@@ -144,7 +142,7 @@ class Options(CommandTest):
             self.fail_with(2, path, "out.vtk", "--region-array", name, naming=[f'"{name}"', 'it has "Rock"'])
 
     def test_quality(self):
-        path = write_mesh(make_mesh(KITE, KITE_CELLS), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh(KITE, KITE_CELLS), "in.vtk")
         for name in ("out.vtk", "out.vtp"):
             self.succeed(path, name)
             self.assertEqual(self.angles(name), [])
@@ -156,7 +154,7 @@ class Options(CommandTest):
 
     def angles(self, name):
         """The smallest values of the arrays that --quality adds."""
-        data = read_mesh(self.path(name)).GetCellData()
+        data = self.read_mesh(name).GetCellData()
         arrays = [data.GetArray(f"Smallest angle {when} (degrees)") for when in ("before", "after")]
         return [array.GetRange()[0] for array in arrays if array]
 
@@ -198,36 +196,36 @@ class Options(CommandTest):
             mesh = make_mesh(points, cells)
             self.assertEqual(self.flips(mesh), 0)
             self.flips(mesh, "--tie-rule", "canonical")
-            results.append(triangle_set(read_mesh(self.path("out.vtk"))))
+            results.append(triangle_set(self.read_mesh("out.vtk")))
         self.assertEqual(results[0], results[1])
 
     def test_geometry(self):
         mesh = bumpy_grid(6, 1)
-        path = write_mesh(mesh, self.path("in.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
         for geometry in ("planar-xy", "surface"):
             report = self.report(path, "out.vtk", "--geometry", geometry)
             self.assertEqual(report["geometry"], geometry)
         self.assertEqual(self.report(path, "out.vtk")["geometry"], "planar-xy")
-        flat = write_mesh(bumpy_grid(6, 0), self.path("flat.vtk"))
+        flat = self.write_mesh(bumpy_grid(6, 0), "flat.vtk")
         self.assertEqual(self.report(flat, "out.vtk")["geometry"], "planar")
 
     def test_pieces(self):
-        path = write_mesh(bad_mesh(23), self.path("in.vtk"))
+        path = self.write_mesh(bad_mesh(23), "in.vtk")
         meshes = []
         for pieces in (1, 5):
             report = self.report(path, "out.vtk", "--tie-rule", "canonical", "--pieces", pieces)
             self.assertEqual((report["converged"], report["non_delaunay_after"]), (True, 0))
-            meshes.append(read_mesh(self.path("out.vtk")))
+            meshes.append(self.read_mesh("out.vtk"))
         self.assertEqual(triangle_set(meshes[0]), triangle_set(meshes[1]))
         self.assertNotEqual(triangles_of(meshes[0]), triangles_of(meshes[1]))
-        rough = write_mesh(bumpy_grid(12, 3), self.path("in.vtk"))
+        rough = self.write_mesh(bumpy_grid(12, 3), "in.vtk")
         told = self.succeed(rough, "out.vtk", "--geometry", "surface", "--pieces", 2)
         self.assertNotIn("constraint", told.stdout + told.stderr)
 
 
 class ManyThreads(CommandTest):
     def test_more_than_there_is_memory_for(self):
-        path = write_mesh(bad_mesh(71), self.path("in.vtk"))
+        path = self.write_mesh(bad_mesh(71), "in.vtk")
         arguments = (path, "out.vtk", "--backend", "threads", "--threads")
         backend = self.report(*arguments, 65536)["backend"]
         self.assertLessEqual(int(backend.split()[1]), max(16, 2 * os.cpu_count()))

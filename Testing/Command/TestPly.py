@@ -13,11 +13,9 @@ from CommandTesting import (
     make_mesh,
     make_values,
     points_of,
-    read_mesh,
     triangles_of,
     tuples_of,
     values_of,
-    write_mesh,
 )
 
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
@@ -218,10 +216,10 @@ class Written(ArrayTest):
 
     def test_doubles_stay(self):
         mesh = make_mesh([(581311.123, 1e300, 1 / 3), (1, 0, -0.0), (0, math.nan, 5e-324)], [(0, 1, 2)])
-        source = write_mesh(mesh, self.path("in.vtk"))
+        source = self.write_mesh(mesh, "in.vtk")
         self.succeed(source, "out.ply", "--quiet")
         self.succeed("out.ply", "out.vtk", "--quiet")
-        out = read_mesh(self.path("out.vtk"))
+        out = self.read_mesh("out.vtk")
         self.assert_array(out.GetPoints().GetData(), "vtkDoubleArray",
                           values_of(mesh.GetPoints().GetData()))
 
@@ -234,9 +232,9 @@ class Written(ArrayTest):
 
     def convert_by_vtk(self, mesh, name):
         """Like convert, but from a .vtk, which can hold more."""
-        self.succeed(write_mesh(mesh, self.path("in.vtk")), name)
+        self.succeed(self.write_mesh(mesh, "in.vtk"), name)
         self.succeed(name, "out.vtk")
-        return read_mesh(self.path("out.vtk"))
+        return self.read_mesh("out.vtk")
 
     def test_cells_of_few_and_many_points(self):
         points = [(math.cos(i / 50), math.sin(i / 50), 0) for i in range(300)] + [(math.nan, 0, 0)]
@@ -255,6 +253,6 @@ class Written(ArrayTest):
         points.AddArray(make_values("vtkIntArray", "two words", [(1,)] * 9))
         points.AddArray(make_values("vtkIntArray", "two_words", [(1,)] * 9))
         mesh.GetCellData().AddArray(make_values("vtkIntArray", "rock", [(1,)] * 8))
-        source = write_mesh(mesh, self.path("in.vtp"), SetDataModeToBinary=())
+        source = self.write_mesh(mesh, "in.vtp", SetDataModeToBinary=())
         said = self.succeed(source, "out.ply").stderr
         self.assertIn("point data (words, huge, x, two_words), cell data (rock)\n", said)

@@ -13,11 +13,9 @@ from CommandTesting import (
     make_array,
     make_mesh,
     points_of,
-    read_mesh,
     triangle_set,
     triangles_of,
     turns_of,
-    write_mesh,
 )
 
 # A square and its middle.
@@ -51,7 +49,7 @@ class PointTest(BadFileTest):
     def triangulate(self, name, *options):
         """Returns the mesh and what is printed."""
         result = self.succeed(name, "out.vtp", "--from-points", *options)
-        return read_mesh(self.path("out.vtp")), result
+        return self.read_mesh("out.vtp"), result
 
     def refuse_points(self, text, *naming, name="in.csv", code=3):
         self.write(name, text)
@@ -64,7 +62,7 @@ class PointTest(BadFileTest):
         for ring in rings:
             cells.append((*range(begin, begin + len(ring)), begin))
             begin += len(ring)
-        write_mesh(make_mesh(points, [], cells), self.path(name))
+        self.write_mesh(make_mesh(points, [], cells), name)
         return name
 
 
@@ -140,7 +138,7 @@ class Files(PointTest):
         mesh = bumpy_grid(6, 0)
         expected = None
         for extension in FORMATS:
-            path = write_mesh(mesh, self.path("in" + extension))
+            path = self.write_mesh(mesh, "in" + extension)
             out, result = self.triangulate(path)
             self.assertIn("its triangles are not used", result.stderr)
             expected = expected or triangle_set(out)
@@ -207,7 +205,7 @@ class Segments(PointTest):
     def test_breaklines(self):
         """A line through points and to a place that no point is at; a polygon is a line, too."""
         line = make_mesh([(0, 0, 0), (3, 1, 0), (3.5, 1.25, 7)], [], [(0, 1, 2)])
-        path = write_mesh(line, self.path("line.vtk"))
+        path = self.write_mesh(line, "line.vtk")
         mesh, result = self.triangulate("in.xyz", "--constraints", path)
         self.assertIn("segments        2 edges\n", result.stdout)
         edges = edges_of(mesh)
@@ -217,20 +215,20 @@ class Segments(PointTest):
         self.assertEqual(area_of(mesh), 16)
         polygon = make_mesh([(0, 0, 0), (4, 1, 0), (1, 4, 0)], [(0, 1, 2)])
         mesh, _ = self.triangulate(
-            "in.xyz", "--constraints", write_mesh(polygon, self.path("polygon.vtk")))
+            "in.xyz", "--constraints", self.write_mesh(polygon, "polygon.vtk"))
         self.assertIn(((0, 0), (4, 1)), edges_of(mesh))
         self.assertIn(((0, 0), (1, 4)), edges_of(mesh))
         self.assertEqual(area_of(mesh), 16)
 
     def test_lines_of_the_input(self):
         mesh = make_mesh(grid(5), [], [(0, 8)])
-        path = write_mesh(mesh, self.path("in.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
         self.assertNotIn(((0, 0), (3, 1)), edges_of(self.triangulate(path)[0]))
         self.assertIn(((0, 0), (3, 1)), edges_of(self.triangulate(path, "--insert-lines")[0]))
 
     def test_crossings(self):
         lines = make_mesh([(0, 0, 0), (4, 1, 8), (0, 1, 0), (4, 0, 0)], [], [(0, 1), (2, 3)])
-        path = write_mesh(lines, self.path("lines.vtk"))
+        path = self.write_mesh(lines, "lines.vtk")
         mesh, result = self.triangulate("in.xyz", "--constraints", path)
         self.assertIn("1 refused", result.stdout)
         self.assertIn("warning: ", result.stderr)
@@ -263,7 +261,7 @@ class Segments(PointTest):
             (make_mesh(PLACES[:2], [], [(0, 7, 1, 0)]), ["cell 0 names point 7"]),
             (make_mesh(PLACES, []), ["no lines or polygons"]),
         ):
-            path = write_mesh(mesh, self.path("ring.vtk"))
+            path = self.write_mesh(mesh, "ring.vtk")
             for option in ("--outline", "--holes"):
                 self.fail_with(3, "in.xyz", "out.vtk", "--from-points", option, path,
                                naming=["ring.vtk", *words])
@@ -286,12 +284,12 @@ class Segments(PointTest):
         places = [(x / 10, y / 10, 0.1) for x, y, _ in grid(5)]
         self.write("in.xyz", text_of(places))
         line = make_mesh(places, [], [(0, 8)])
-        doubles = write_mesh(make_mesh([*places, (0.35, 0.11, 7.7)], [], [(0, 8, 25)]), self.path("d.vtk"))
+        doubles = self.write_mesh(make_mesh([*places, (0.35, 0.11, 7.7)], [], [(0, 8, 25)]), "d.vtk")
         floats = vtkPoints()
         for place in places:
             floats.InsertNextPoint(place)
         line.SetPoints(floats)
-        line = write_mesh(line, self.path("line.vtk"))
+        line = self.write_mesh(line, "line.vtk")
         mesh, _ = self.triangulate(line, "--constraints", doubles)
         self.assertEqual(points_of(mesh)[25:], [(0.35, 0.11, 7.7)])
         self.assertEqual(mesh.GetPoint(24), floats.GetPoint(24))
@@ -304,7 +302,7 @@ class Segments(PointTest):
     def test_point_data_of_several_files(self):
         line = make_mesh([(0, 0, 0), (3.5, 1.25, 7)], [], [(0, 1)])
         line.GetPointData().AddArray(make_array("depth", [1, 2]))
-        path = write_mesh(line, self.path("line.vtp"))
+        path = self.write_mesh(line, "line.vtp")
         hole = self.rings("hole.vtk", [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0)])
         mesh, _ = self.triangulate("in.xyz", "--constraints", path)
         self.assertEqual(mesh.GetPointData().GetArray("depth").GetValue(25), 2)
@@ -323,7 +321,7 @@ class Usage(PointTest):
         ):
             self.fail_with(2, "in.xyz", "out.vtk", "--from-points", *option,
                            naming=[option[0], "excludes --from-points"])
-        path = write_mesh(make_mesh(PLACES, [(0, 1, 2)]), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh(PLACES, [(0, 1, 2)]), "in.vtk")
         for option in (
             ["--outline", path], ["--holes", path], ["--split-crossings"], ["--alpha", 1],
             ["--longest-edge", 1], ["--point-tolerance", 1], ["--projection", "xy"],
@@ -342,7 +340,7 @@ class Usage(PointTest):
     def test_files_that_have_no_triangles(self):
         self.write("in.xyz", text_of(PLACES))
         self.fail_with(2, "in.xyz", "out.vtk", naming=["in.xyz", "--from-points"])
-        path = write_mesh(make_mesh(PLACES, []), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh(PLACES, []), "in.vtk")
         result = self.succeed(path, "out.vtk")
         self.assertIn("no triangles; --from-points makes them", result.stderr)
 

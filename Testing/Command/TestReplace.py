@@ -8,13 +8,13 @@ import stat
 import subprocess
 import unittest
 
-from CommandTesting import CommandTest, bumpy_grid, command_line, read_mesh, write_mesh
+from CommandTesting import CommandTest, bumpy_grid, command_line
 
 
 class ReplaceTest(CommandTest):
     def setUp(self):
         super().setUp()
-        self.mesh = write_mesh(bumpy_grid(6, 0), self.path("mesh.vtk"))
+        self.mesh = self.write_mesh(bumpy_grid(6, 0), "mesh.vtk")
 
 
 class Links(ReplaceTest):
@@ -23,7 +23,7 @@ class Links(ReplaceTest):
         self.succeed(self.mesh, link)
         self.assertTrue(os.path.islink(self.path(link)), link)
         self.assertFalse(os.path.islink(self.path(target)), target)
-        self.assertEqual(read_mesh(self.path(target)).GetNumberOfPolys(), 50)
+        self.assertEqual(self.read_mesh(target).GetNumberOfPolys(), 50)
 
     def test_dangling_links_are_followed(self):
         os.mkdir(self.path("deep"))

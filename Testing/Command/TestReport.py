@@ -6,16 +6,7 @@ import csv
 import math
 import re
 
-from CommandTesting import (
-    CommandTest,
-    bad_mesh,
-    bumpy_grid,
-    make_mesh,
-    read_mesh,
-    turns_of,
-    worst_case,
-    write_mesh,
-)
+from CommandTesting import CommandTest, bad_mesh, bumpy_grid, make_mesh, turns_of, worst_case
 
 KEYS = [
     *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
@@ -33,7 +24,7 @@ COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Se
 
 class Report(CommandTest):
     def test_keys(self):
-        report = self.report(write_mesh(worst_case(4), self.path("in.vtk")), "out.vtk")
+        report = self.report(self.write_mesh(worst_case(4), "in.vtk"), "out.vtk")
         self.assertEqual(list(report), KEYS)
         self.assertEqual(list(report["seconds"]), ["read", "build", "flip", "write"])
         for seconds in report["seconds"].values():
@@ -41,7 +32,7 @@ class Report(CommandTest):
 
     def test_warnings(self):
         mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 0, 1)])
-        path = write_mesh(mesh, self.path("in.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
         arguments = (path, "out.vtk", "--report", "r.json", "--tolerance", 0.1, "--quiet")
         said = [line.removeprefix("warning: ") for line in self.succeed(*arguments).stderr.splitlines()]
         report = self.report(*arguments[:2], "--tolerance", 0.1)
@@ -53,7 +44,7 @@ class Report(CommandTest):
         self.assertIn("in.obj: left out vt (2)", texture)
 
     def test_worst_case(self):
-        report = self.report(write_mesh(worst_case(4), self.path("in.vtk")), "out.vtk")
+        report = self.report(self.write_mesh(worst_case(4), "in.vtk"), "out.vtk")
         expected = {
             **{"points": 8, "triangles": 6, "edges": 13, "boundary_edges": 8, "fixed_edges": 8},
             **{"non_manifold_edges": 0, "geometry": "planar", "iterations": 5, "total_flips": 9},
@@ -63,7 +54,7 @@ class Report(CommandTest):
         self.assertEqual({key: report[key] for key in expected}, expected)
 
     def test_no_triangles(self):
-        report = self.report(write_mesh(make_mesh([(0, 0, 0)], []), self.path("in.vtk")), "out.vtk")
+        report = self.report(self.write_mesh(make_mesh([(0, 0, 0)], []), "in.vtk"), "out.vtk")
         self.assertEqual((report["points"], report["triangles"]), (1, 0))
         self.assertIsNone(report["min_angle_before_deg"])
         self.assertIsNone(report["min_angle_after_deg"])
@@ -71,7 +62,7 @@ class Report(CommandTest):
 
 class Statistics(CommandTest):
     def rows(self, mesh, *arguments):
-        path = write_mesh(mesh, self.path("in.vtk"))
+        path = self.write_mesh(mesh, "in.vtk")
         self.succeed(path, "out.vtk", "--statistics", "table.csv", *arguments)
         with open(self.path("table.csv"), encoding="utf-8", newline="") as file:
             self.assertEqual(file.readline(), COLUMNS + "\n")
@@ -105,7 +96,7 @@ class Statistics(CommandTest):
 
 class Summary(CommandTest):
     def test_numbers(self):
-        text = self.succeed(write_mesh(worst_case(4), self.path("in.vtk")), "out.vtk").stdout
+        text = self.succeed(self.write_mesh(worst_case(4), "in.vtk"), "out.vtk").stdout
         for words in (
             "mesh            8 points, 6 triangles, 13 edges\n",
             "kept edges      8 (8 boundary)\n",
@@ -125,14 +116,14 @@ class Summary(CommandTest):
                   (-4, 9, 0), (4, 9, 0), (-3, 11, 0), (3, 12, 1)]
         triangles = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2), (6, 4, 5), (7, 5, 4)]
         text = self.succeed(
-            write_mesh(make_mesh(points, triangles), self.path("in.vtk")), "out.vtk",
+            self.write_mesh(make_mesh(points, triangles), "in.vtk"), "out.vtk",
             "--geometry", "surface", "--feature-angle", 180).stdout
         self.assertIn("bad edges       2 -> 2 (1 blocked: would duplicate an edge, "
                       "1 blocked: would fold)\n", text)
 
     def test_what_keeps_many_edges(self):
         """A hint follows if more than a tenth of the inner edges is kept on request."""
-        path = write_mesh(bumpy_grid(12, 3), self.path("in.vtk"))
+        path = self.write_mesh(bumpy_grid(12, 3), "in.vtk")
         for angle, share in ((1, r"9\d|100"), (180, None)):
             text = self.succeed(path, "out.vtk", "--geometry", "surface", "--feature-angle", angle).stdout
             hint = re.search(r"hint +(\d+) % of the inner edges are kept; with a larger feature angle", text)
@@ -142,7 +133,7 @@ class Summary(CommandTest):
         self.assertIn("100 % of the inner edges are kept; with fewer constraints", text)
 
     def test_no_triangles(self):
-        path = write_mesh(make_mesh([(0, 0, 0)], []), self.path("in.vtk"))
+        path = self.write_mesh(make_mesh([(0, 0, 0)], []), "in.vtk")
         text = self.succeed(path, "out.vtk").stdout
         self.assertRegex(text, r"^mesh            1 point, no triangles\ntime .* s\nwrote  ")
 
@@ -150,10 +141,10 @@ class Summary(CommandTest):
 class Messages(CommandTest):
     def test_steep_height_field(self):
         """The summary gives a hint, and a warning counts triangles that flips have turned over."""
-        path = write_mesh(bumpy_grid(20, 20), self.path("in.vtk"))
+        path = self.write_mesh(bumpy_grid(20, 20), "in.vtk")
         result = self.succeed(path, "out.vtk")
         self.assertIn("% of its area slopes below 45 degrees; if it is terrain", result.stdout)
-        turned = sum(turn < 0 for turn in turns_of(read_mesh(self.path("out.vtk"))))
+        turned = sum(turn < 0 for turn in turns_of(self.read_mesh("out.vtk")))
         self.assertGreater(turned, 0)
         self.assertRegex(
             result.stderr, rf"^warning: {turned} triangles that flips in space have turned over"
@@ -165,12 +156,12 @@ class Messages(CommandTest):
             text = self.run_command(name, "out.vtk").stderr
             escaped = "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in name)
             self.assertRegex(text, rf"^error: {re.escape(escaped)}: .*\n$")
-        name = write_mesh(worst_case(4), self.path("o\x1b.vtk"))
+        name = self.write_mesh(worst_case(4), "o\x1b.vtk")
         self.assertIn("o\\x1b.vtk\n", self.succeed(name, name).stdout)
 
     def test_warnings_are_single_lines(self):
         mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 2), (0, 0, 1)])
-        result = self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.vtk", "--quiet")
+        result = self.succeed(self.write_mesh(mesh, "in.vtk"), "out.vtk", "--quiet")
         lines = result.stderr.splitlines()
         self.assertEqual(len(lines), 1, result.stderr)
         self.assertTrue(lines[0].startswith("warning: "))

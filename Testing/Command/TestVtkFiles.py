@@ -5,7 +5,6 @@
 import math
 
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
-from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
 from CommandTesting import (
     ArrayTest,
@@ -16,26 +15,12 @@ from CommandTesting import (
     make_mesh,
     make_values,
     points_of,
-    read_mesh,
     same,
     triangles_of,
     values_of,
-    write_mesh,
 )
 
 GRID = 4
-
-
-def read_all(path):
-    """VTK reads only the first attribute of each kind of a .vtk unless told otherwise."""
-    if path.endswith(".vtp"):
-        return read_mesh(path)
-    reader = vtkPolyDataReader()
-    reader.SetFileName(path)
-    for kind in ("Scalars", "Vectors", "Normals", "Tensors", "TCoords", "Fields"):
-        getattr(reader, f"ReadAll{kind}On")()
-    reader.Update()
-    return reader.GetOutput()
 
 
 class Read(ArrayTest):
@@ -45,10 +30,10 @@ class Read(ArrayTest):
             for encoding in ("ASCII", "Binary"):
                 name = f"{encoding}{version}.vtk"
                 settings = {f"SetFileTypeTo{encoding}": (), "SetFileVersion": (version,)}
-                write_mesh(mesh, self.path(name), **settings)
+                self.write_mesh(mesh, name, **settings)
                 yield name
         for mode in ("Ascii", "Binary", "Appended"):
-            write_mesh(mesh, self.path(mode + ".vtp"), **{f"SetDataModeTo{mode}": ()})
+            self.write_mesh(mesh, mode + ".vtp", **{f"SetDataModeTo{mode}": ()})
             yield mode + ".vtp"
 
     def test_every_array(self):
@@ -70,7 +55,7 @@ class Read(ArrayTest):
         for name in self.written(mesh):
             for out in ("out.vtk", "out.vtp"):
                 self.succeed(name, out)
-                found = read_all(self.path(out))
+                found = self.read_mesh(out)
                 self.assertEqual(points_of(found), points)
                 for data in ("GetPointData", "GetCellData", "GetFieldData"):
                     one, other = getattr(mesh, data)(), getattr(found, data)()
@@ -100,7 +85,7 @@ class Read(ArrayTest):
             + "</PolyData></VTKFile>",
         )
         self.succeed("in.vtp", "out.vtk")
-        found = read_mesh(self.path("out.vtk"))
+        found = self.read_mesh("out.vtk")
         flat = [(0, 0), (1, 0), (0, 1)]
         self.assertEqual(points_of(found), [(x, y, z) for z in (4, 7) for x, y in flat])
         self.assertEqual(triangles_of(found), [(0, 1, 2), (3, 4, 5)])
@@ -114,7 +99,7 @@ class Read(ArrayTest):
         mesh.SetLines(make_cells([(0, 2, 4), (1, 3)]))
         for name in self.written(mesh):
             self.succeed(name, "out.vtk")
-            found = read_mesh(self.path("out.vtk"))
+            found = self.read_mesh("out.vtk")
             triangles = {tuple(sorted(cell)) for cell in triangles_of(found)}
             self.assertEqual(triangles, {(0, 2, 3), (0, 1, 3), (2, 3, 4), (3, 4, 5), (4, 5, 6)})
             self.assertEqual(cells_of(found.GetVerts()), [(7,), (0, 1)])
@@ -124,7 +109,7 @@ class Read(ArrayTest):
         """64 x 64 points fill three of the blocks that VTK compresses."""
         for name in self.written(bumpy_grid(64, 0)):
             self.succeed(name, "out.vtk")
-            self.assertEqual(read_mesh(self.path("out.vtk")).GetNumberOfPoints(), 4096)
+            self.assertEqual(self.read_mesh("out.vtk").GetNumberOfPoints(), 4096)
 
 
 class LostByVtk(BadFileTest):
@@ -159,14 +144,14 @@ class LostByVtk(BadFileTest):
         for version in (42, 51):
             for encoding in ("ASCII", "Binary"):
                 settings = {f"SetFileTypeTo{encoding}": (), "SetFileVersion": (version,)}
-                write_mesh(mesh, self.path("a.vtk"), SetHeader=("Lines 3 to 5",), **settings)
+                self.write_mesh(mesh, "a.vtk", SetHeader=("Lines 3 to 5",), **settings)
                 self.succeed("a.vtk", "out.vtk")
                 self.succeed("out.vtk", "again.vtk")
-                self.assertEqual(len(triangles_of(read_mesh(self.path("again.vtk")))), 18)
+                self.assertEqual(len(triangles_of(self.read_mesh("again.vtk"))), 18)
 
     def damaged(self):
         """Damaged files, each with the attribute of Piece that shows it."""
-        path = write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), SetDataModeToAscii=())
+        path = self.write_mesh(bumpy_grid(GRID, 0), "good.vtp", SetDataModeToAscii=())
         good = self.content(path).decode()
         words = '<FieldData><Array type="String" Name="w" format="ascii" {}>104 101 abc 0</Array></FieldData>'
         field = "<PolyData>\n" + words.format('NumberOfTuples="1"')
@@ -188,7 +173,7 @@ class LostByVtk(BadFileTest):
         for mode in ("Binary", "Appended"):
             for compressor in ("None", "LZ4"):
                 settings = {f"SetDataModeTo{mode}": (), f"SetCompressorTypeTo{compressor}": ()}
-                write_mesh(bumpy_grid(GRID, 0), self.path("good.vtp"), **settings)
+                self.write_mesh(bumpy_grid(GRID, 0), "good.vtp", **settings)
                 binary = self.content(path).decode("latin-1")
                 for kind, count in (("Polys", 18), ("Points", 16)):
                     for wrong in (count - 1, count + 1):
@@ -204,7 +189,7 @@ class LostByVtk(BadFileTest):
                 self.refuse("mesh.vtp")
                 self.fail_with(3, "mesh.vtp", "mesh.vtp", naming=["mesh.vtp"])
                 self.assertEqual(self.content("mesh.vtp"), before)
-                good = write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk"))
+                good = self.write_mesh(bumpy_grid(GRID, 0), "in.vtk")
                 self.fail_with(3, good, "out.vtk", "--constraints", "mesh.vtp", naming=["mesh.vtp"])
 
     def test_other_legacy_type(self):
@@ -228,7 +213,7 @@ class LostByVtk(BadFileTest):
 
     def test_newer_version(self):
         """Only a warning, since the file may be readable."""
-        path = write_mesh(bumpy_grid(GRID, 0), self.path("a.vtk"), SetFileTypeToASCII=())
+        path = self.write_mesh(bumpy_grid(GRID, 0), "a.vtk", SetFileTypeToASCII=())
         text = self.content(path).decode()
         self.assertIn("Version 5.1", text)
         self.write("a.vtk", text.replace("Version 5.1", "Version 6.7"))
@@ -242,7 +227,7 @@ class Written(ArrayTest):
             mesh = bumpy_grid(3, 0)
             words = make_values("vtkStringArray", "words", [("a",)] * size)
             getattr(mesh, add)().AddArray(words)
-            source = write_mesh(mesh, self.path("in.vtk"), SetFileTypeToASCII=())
+            source = self.write_mesh(mesh, "in.vtk", SetFileTypeToASCII=())
             self.succeed(source, "out.vtp")
             self.write("in.vtk", self.content(source).replace(b"\na\n", b"\na%00b\n", 1))
             self.fail_with(3, "in.vtk", "new.vtp", naming=["new.vtp", "words", "zero byte", ".vtk"])
@@ -256,7 +241,7 @@ class Written(ArrayTest):
                 mesh = bumpy_grid(3, 0)
                 getattr(mesh, add)().SetPedigreeIds(
                     make_values(kind, "ids", [(make(i),) for i in range(size)]))
-                source = write_mesh(mesh, self.path("in.vtk"))
+                source = self.write_mesh(mesh, "in.vtk")
                 if kind == "vtkIntArray":
                     self.succeed(source, "out.vtp")
                     ids = getattr(self.read_plainly("out.vtp"), add)().GetAbstractAttribute(
@@ -272,10 +257,10 @@ class Written(ArrayTest):
                 words = make_values("vtkIntArray", "a" if is_component else f"a{mark}b", [(1,)] * 9)
                 words.SetComponentName(0, f"a{mark}b" if is_component else "a")
                 mesh.GetPointData().AddArray(words)
-                source = write_mesh(mesh, self.path("in.vtk"))
+                source = self.write_mesh(mesh, "in.vtk")
                 self.fail_with(3, source, "new.vtp", naming=["new.vtp", "'a", "in the name", ".vtk"])
                 self.succeed(source, "out.vtk")
-                out = read_mesh(self.path("out.vtk")).GetPointData().GetArray(words.GetName())
+                out = self.read_mesh("out.vtk").GetPointData().GetArray(words.GetName())
                 self.assertEqual(out.GetComponentName(0), words.GetComponentName(0))
 
     def test_arrays_of_a_wrong_size(self):
@@ -305,9 +290,9 @@ class Written(ArrayTest):
             data.AddArray(colors)
             if size > 2:
                 data.SetScalars(colors)
-        source = write_mesh(mesh, self.path("in.vtp"))
+        source = self.write_mesh(mesh, "in.vtp")
         self.succeed(source, "out.vtk", "--max-iterations", 0, code=4)
-        out = read_all(self.path("out.vtk"))
+        out = self.read_mesh("out.vtk")
         for data in ("GetPointData", "GetCellData", "GetFieldData"):
             for index in range(getattr(mesh, data)().GetNumberOfArrays()):
                 array = getattr(mesh, data)().GetArray(index)
@@ -321,17 +306,17 @@ class Written(ArrayTest):
         mesh = make_mesh([(0, 0, 0), (2, -1, 0), (4, 0, 0)], [(0, 1, 2)], [(0, 1)])
         bits = make_values("vtkBitArray", "bits", [(1, 0), (0, 1)])
         mesh.GetCellData().AddArray(bits)
-        self.succeed(write_mesh(mesh, self.path("in.vtk"), SetFileTypeToASCII=()), "out.vtp")
+        self.succeed(self.write_mesh(mesh, "in.vtk", SetFileTypeToASCII=()), "out.vtp")
         found = self.read_plainly("out.vtp").GetCellData().GetArray("bits")
         self.assert_array(found, "vtkUnsignedCharArray", [1, 0, 0, 1])
 
     def test_no_empty_arrays(self):
         """VTK 9.7 crashes on those of ids in a .vtk. Those of an earlier run go, too."""
-        self.succeed(write_mesh(bumpy_grid(GRID, 0), self.path("in.vtk")), "out.vtk")
+        self.succeed(self.write_mesh(bumpy_grid(GRID, 0), "in.vtk"), "out.vtk")
         for name, expected in (("out.vtk", True), ("again.vtk", False)):
             self.succeed("out.vtk", "again.vtk")
             self.assertNotIn("cannot store", self.succeed("out.vtk", "out.ply").stderr)
-            data = read_mesh(self.path(name)).GetFieldData()
+            data = self.read_mesh(name).GetFieldData()
             arrays = [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
             self.assertEqual("DelaunayFlip:Flipped" in [one.GetName() for one in arrays], expected)
             self.assertEqual([one.GetName() for one in arrays if one.GetNumberOfTuples() == 0], [])
@@ -355,7 +340,7 @@ class Written(ArrayTest):
 
     def keep(self, mesh):
         """VTK reads all values of the .vtp that the command writes, without warnings."""
-        self.succeed(write_mesh(mesh, self.path("in.vtk")), "out.vtp")
+        self.succeed(self.write_mesh(mesh, "in.vtk"), "out.vtp")
         out = self.read_plainly("out.vtp")
         self.assertTrue(same(values_of(mesh.GetPoints().GetData()),
                              values_of(out.GetPoints().GetData())))
