@@ -26,7 +26,6 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -107,58 +106,14 @@ vtkSmartPointer<vtkPolyData> MakeRichMesh()
   return mesh;
 }
 
-class SeedWriter
+template <typename Writer, typename Prepare>
+void Write(const std::string& path, vtkPolyData* mesh, const Prepare& prepare)
 {
-public:
-  explicit SeedWriter(std::string folder)
-    : Folder(std::move(folder))
-  {
-  }
-
-  template <typename Writer>
-  void Write(const char* name, vtkPolyData* mesh, const std::function<void(Writer*)>& prepare)
-  {
-    vtkNew<Writer> writer;
-    writer->SetInputData(mesh);
-    writer->SetFileName((this->Folder + "/" + name).c_str());
-    prepare(writer);
-    writer->Write();
-  }
-
-  void Write(const char* name, const char* text) const
-  {
-    std::ofstream(this->Folder + "/" + name, std::ios::binary) << text;
-  }
-
-private:
-  std::string Folder;
-};
-
-void WriteLegacy(SeedWriter& writer, vtkPolyData* mesh)
-{
-  writer.Write<vtkPolyDataWriter>(
-    "binary.vtk", mesh, [](auto* vtk) { vtk->SetFileTypeToBinary(); });
-  writer.Write<vtkPolyDataWriter>("ascii.vtk", mesh, [](auto* vtk) { vtk->SetFileTypeToASCII(); });
-  writer.Write<vtkPolyDataWriter>("version4.vtk", mesh,
-    [](auto* vtk) { vtk->SetFileVersion(vtkPolyDataWriter::VTK_LEGACY_READER_VERSION_4_2); });
-}
-
-void WriteXml(SeedWriter& writer, vtkPolyData* mesh)
-{
-  const auto raw = [](auto* vtk)
-  {
-    vtk->SetDataModeToAppended();
-    vtk->EncodeAppendedDataOff();
-  };
-  writer.Write<vtkXMLPolyDataWriter>("raw.vtp", mesh, raw);
-  writer.Write<vtkXMLPolyDataWriter>(
-    "ascii.vtp", mesh, [](auto* vtk) { vtk->SetDataModeToAscii(); });
-  writer.Write<vtkXMLPolyDataWriter>("inline.vtp", mesh,
-    [](auto* vtk)
-    {
-      vtk->SetDataModeToBinary();
-      vtk->SetCompressorTypeToNone();
-    });
+  vtkNew<Writer> writer;
+  writer->SetInputData(mesh);
+  writer->SetFileName(path.c_str());
+  prepare(writer.Get());
+  writer->Write();
 }
 
 constexpr const char* PlyText = R"(ply
@@ -206,33 +161,45 @@ p 3
 constexpr const char* CsvText = "id;X;Y;Z\n1;0;0;5\n2;4.5;0;1e-3\n#3\n3;4;3;\"2\"\n\n4;0;3;-1\n";
 constexpr const char* XyzText = "0 0 0\n4\t0.25 1\n4 3 2\n0 3 nan\n2 1 1\n";
 
-void WriteOthers(SeedWriter& writer, vtkPolyData* triangles)
+int WriteAll(const std::string& folder)
 {
-  writer.Write<vtkPLYWriter>(
-    "binary.ply", triangles, [](auto* vtk) { vtk->SetFileTypeToBinary(); });
-  writer.Write<vtkPLYWriter>("big.ply", triangles,
+  const auto mesh = MakeRichMesh(), triangles = MakeTriangles();
+  const auto binary = [](auto* vtk) { vtk->SetFileTypeToBinary(); };
+  const auto ascii = [](auto* vtk) { vtk->SetFileTypeToASCII(); };
+  Write<vtkPolyDataWriter>(folder + "/binary.vtk", mesh, binary);
+  Write<vtkPolyDataWriter>(folder + "/ascii.vtk", mesh, ascii);
+  Write<vtkPolyDataWriter>(folder + "/version4.vtk", mesh,
+    [](auto* vtk) { vtk->SetFileVersion(vtkPolyDataWriter::VTK_LEGACY_READER_VERSION_4_2); });
+  Write<vtkXMLPolyDataWriter>(folder + "/raw.vtp", mesh,
+    [](auto* vtk)
+    {
+      vtk->SetDataModeToAppended();
+      vtk->EncodeAppendedDataOff();
+    });
+  Write<vtkXMLPolyDataWriter>(
+    folder + "/ascii.vtp", mesh, [](auto* vtk) { vtk->SetDataModeToAscii(); });
+  Write<vtkXMLPolyDataWriter>(folder + "/inline.vtp", mesh,
+    [](auto* vtk)
+    {
+      vtk->SetDataModeToBinary();
+      vtk->SetCompressorTypeToNone();
+    });
+  Write<vtkPLYWriter>(folder + "/binary.ply", triangles, binary);
+  Write<vtkPLYWriter>(folder + "/big.ply", triangles,
     [](auto* vtk)
     {
       vtk->SetFileTypeToBinary();
       vtk->SetDataByteOrderToBigEndian();
     });
-  writer.Write("text.ply", PlyText);
-  writer.Write<vtkSTLWriter>(
-    "binary.stl", triangles, [](auto* vtk) { vtk->SetFileTypeToBinary(); });
-  writer.Write<vtkSTLWriter>("ascii.stl", triangles, [](auto* vtk) { vtk->SetFileTypeToASCII(); });
-  writer.Write<vtkOBJWriter>("plain.obj", triangles, [](auto*) {});
-  writer.Write("text.obj", ObjText);
-  writer.Write("names.csv", CsvText);
-  writer.Write("plain.csv", XyzText);
-}
-
-int WriteAll(const std::string& folder)
-{
-  SeedWriter writer(folder);
-  const auto mesh = MakeRichMesh();
-  WriteLegacy(writer, mesh);
-  WriteXml(writer, mesh);
-  WriteOthers(writer, MakeTriangles());
+  Write<vtkSTLWriter>(folder + "/binary.stl", triangles, binary);
+  Write<vtkSTLWriter>(folder + "/ascii.stl", triangles, ascii);
+  Write<vtkOBJWriter>(folder + "/plain.obj", triangles, [](auto*) {});
+  const std::pair<const char*, const char*> texts[] = { { "text.ply", PlyText },
+    { "text.obj", ObjText }, { "names.csv", CsvText }, { "plain.csv", XyzText } };
+  for (const auto& [name, text] : texts)
+  {
+    std::ofstream(folder + "/" + name, std::ios::binary) << text;
+  }
   return 0;
 }
 
