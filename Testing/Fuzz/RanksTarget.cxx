@@ -57,6 +57,9 @@ struct Difference
   std::function<void(vtkDelaunayFlip*)> Apply;
 };
 
+/// The first of the filter's own options among the differences, of which Flags has a bit each.
+constexpr std::size_t FirstOfFilter = 8;
+
 const std::vector<Difference>& ListDifferences()
 {
   static const std::vector<Difference> all = {
@@ -180,13 +183,13 @@ vtkSmartPointer<RankFilter> MakeFilter(const RanksCase& drawn, const OwnPiece& p
   filter->SetMaximumIterations(static_cast<int>(options.MaximumIterations));
   filter->SetTrackQuality(options.TrackQuality);
   filter->SetBackendToThreads();
-  filter->SetRegionArray((drawn.Flags & 1) != 0 ? "Region" : "");
-  filter->SetTriangulate((drawn.Flags & 2) != 0);
-  filter->SetLinesAsConstraints((drawn.Flags & 4) != 0);
-  filter->SetInsertLines((drawn.Flags & 8) != 0);
-  filter->SetInsertConstraints((drawn.Flags & 16) != 0);
-  filter->SetGenerateFlipCount((drawn.Flags & 32) != 0);
-  filter->SetGenerateQuality((drawn.Flags & 64) != 0);
+  for (std::size_t i = 0; i < 7; ++i)
+  {
+    if ((drawn.Flags >> i & 1) != 0)
+    {
+      ListDifferences()[FirstOfFilter + i].Apply(filter);
+    }
+  }
   // What may differ:
   filter->SetNumberOfThreads(1 + rank % 2);
   filter->SetNumberOfPieces((drawn.Flags & 128) != 0 ? rank : 0);
