@@ -309,20 +309,6 @@ TEST(ConstraintInsertion, FlipsTrianglesWithoutAreaOutOfTheWay)
   EXPECT_EQ(SumAreas(bar.Mesh.View()), SumAreas(WithTriangles(bar.View(), longer.Triangles)));
 }
 
-TEST(ConstraintInsertion, SurfacesNameWhatIsMissing)
-{
-  ConstrainedMesh sphere;
-  sphere.Mesh = MakeBadSphere(20, 10, 3);
-  sphere.Add(5, 90);
-  sphere.Add(sphere.Mesh.Triangles[0], sphere.Mesh.Triangles[1]);
-  const FlipResult result = Flip(sphere.View());
-  EXPECT_EQ(1, CountDefect(result.Report, "cannot be inserted on a surface"));
-  EXPECT_NE(std::string::npos, DescribeDefects(result.Report.Defects).find("(first: 5-90)"));
-  EXPECT_EQ(1, result.Report.UnmatchedConstraints);
-  EXPECT_EQ(1, result.Report.Edges.Constraint);
-  EXPECT_EQ(0, result.Report.ConstraintFlips);
-}
-
 TEST(ConstraintInsertion, KeepsOverlapsWhatTheyAre)
 {
   // Random triangles through each other: constraints may fail, but topology must stay.

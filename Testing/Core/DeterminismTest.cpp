@@ -25,8 +25,6 @@ struct NamedMesh
   GeometryKind Geometry;
 };
 
-void PrintTo(const NamedMesh& mesh, std::ostream* stream) { *stream << mesh.Name; }
-
 /// Large enough for several chunks, even where tests are reduced.
 OwnedMesh<double> MakeLargePlane() { return MakeRandomBadMeshDouble(90000, 41); }
 

@@ -18,6 +18,9 @@ namespace delaunayflip
 namespace
 {
 
+/// Coordinates up to some 10,000, so that determinants fit 64 bits.
+using WholePoint = std::array<std::int64_t, 2>;
+
 /// What is inside of what, in integers, for points with small whole coordinates.
 class Judge
 {
@@ -31,15 +34,19 @@ public:
     }
   }
 
+  /// Twice the area of a triangle, positive where it turns left.
   std::int64_t GetArea(std::int64_t a, std::int64_t b, std::int64_t c) const
   {
-    return FindWholeArea(this->Points[a], this->Points[b], this->Points[c]);
+    const WholePoint &x = this->Points[a], &y = this->Points[b], &z = this->Points[c];
+    return (x[0] - z[0]) * (y[1] - z[1]) - (x[1] - z[1]) * (y[0] - z[0]);
   }
 
   /// Of a triangle that turns left.
   bool IsInCircle(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) const
   {
-    return IsInWholeCircle(this->Points[a], this->Points[b], this->Points[c], this->Points[d]);
+    return this->Dot(d, a, a) * this->GetArea(b, c, d) +
+      this->Dot(d, b, b) * this->GetArea(c, a, d) + this->Dot(d, c, c) * this->GetArea(a, b, d) >
+      0;
   }
 
   /// The inner product of the vectors from i to p and to q.
@@ -192,8 +199,6 @@ struct PointSet
   const char* Name;
   Places Points;
 };
-
-void PrintTo(const PointSet& set, std::ostream* stream) { *stream << set.Name; }
 
 const PointSet PointSets[] = {
   { "FourInLineBelowOne", { { 0, 0 }, { 1, 0 }, { 2, 0 }, { 3, 0 }, { 1, 3 } } },

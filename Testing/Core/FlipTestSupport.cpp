@@ -312,17 +312,11 @@ void ExpectSameRow(const IterationRecord& a, const IterationRecord& b)
   ExpectSameAngle(a.MinimumAngle, angle);
 }
 
-void ExpectSameEdges(const EdgeCounts& a, const EdgeCounts& b)
+std::array<std::int64_t, 8> ListCounts(const EdgeCounts& counts)
 {
-  const auto& [edges, boundary, nonManifold, wronglyWound, feature, constraint, region, fixed] = b;
-  EXPECT_EQ(a.Edges, edges);
-  EXPECT_EQ(a.Boundary, boundary);
-  EXPECT_EQ(a.NonManifold, nonManifold);
-  EXPECT_EQ(a.WronglyWound, wronglyWound);
-  EXPECT_EQ(a.Feature, feature);
-  EXPECT_EQ(a.Constraint, constraint);
-  EXPECT_EQ(a.Region, region);
-  EXPECT_EQ(a.Fixed, fixed);
+  const auto& [edges, boundary, nonManifold, wronglyWound, feature, constraint, region, fixed] =
+    counts;
+  return { edges, boundary, nonManifold, wronglyWound, feature, constraint, region, fixed };
 }
 
 void ExpectSameDefects(const std::vector<Defect>& a, const std::vector<Defect>& b)
@@ -362,7 +356,7 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   static_cast<void>(flipSeconds);
   EXPECT_EQ(a.Points, points);
   EXPECT_EQ(a.Triangles, triangles);
-  ExpectSameEdges(a.Edges, edges);
+  EXPECT_EQ(ListCounts(a.Edges), ListCounts(edges));
   EXPECT_EQ(a.UnmatchedConstraints, unmatched);
   EXPECT_EQ(a.InsertedConstraints, inserted);
   EXPECT_EQ(a.ConstraintFlips, constraintFlips);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <ostream>
 #include <string>
 
 /// @file
@@ -30,8 +29,6 @@ struct Case
   Mesh (*Make)();
   GeometryKind Geometry;
 };
-
-void PrintTo(const Case& test, std::ostream* stream) { *stream << test.Name; }
 
 /// Coordinates times a power of two, rounded.
 Mesh Round(Mesh mesh, double factor)

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <ostream>
 #include <stdexcept>
 #include <thread>
 
@@ -210,8 +209,6 @@ struct NamedMesh
   const char* Name;
   OwnedMesh<double> (*Make)();
 };
-
-void PrintTo(const NamedMesh& mesh, std::ostream* stream) { *stream << mesh.Name; }
 
 class ProgressTest : public testing::TestWithParam<NamedMesh>
 {

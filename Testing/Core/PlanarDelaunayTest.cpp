@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 #include <set>
 
 /// @file
@@ -51,11 +50,6 @@ struct RandomMesh
   std::int64_t Points;
   std::uint32_t Seed;
 };
-
-void PrintTo(const RandomMesh& mesh, std::ostream* stream)
-{
-  *stream << mesh.Points << " points, seed " << mesh.Seed;
-}
 
 class RandomMeshTest : public testing::TestWithParam<RandomMesh>
 {
@@ -120,16 +114,6 @@ TEST(CirclePoints, BecomeCgalsTriangles)
     }
   }
   ExpectCgals(MakeSweptMesh(points).View());
-}
-
-TEST(RoundedScales, StillEndInDelaunay)
-{
-  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 9);
-  for (double scale : { 1e-300, 1e-100, 3e-8, 1e100, 1e300 })
-  {
-    SCOPED_TRACE(scale);
-    ExpectDelaunay(Transform(mesh, ScaleAndMove(scale, 0.0)).View());
-  }
 }
 
 /// One mesh whose quads hold coordinates near 1, 1e-300 and 1e300 at once.

@@ -43,19 +43,6 @@ void ExpectDelaunay(const Places& points, const Triangulation& result)
 }
 
 //------------------------------------------------------------------------------
-TEST(PointTriangulation, SmallGrids)
-{
-  std::mt19937 random(1);
-  for (int i = 0; i < 3000 / Reduction; ++i)
-  {
-    const std::size_t count = 3 + random() % 22;
-    const Places points =
-      DrawOnGrid(random, count, 1 + DrawIndex(random, 6), 1 + DrawIndex(random, 6));
-    ExpectDelaunay(points, Triangulate(points));
-    ASSERT_FALSE(HasFailure()) << "case " << i;
-  }
-}
-
 /// All sets of six points of a lattice of 3 by 3. Symmetric sets are not alike to the strips.
 TEST(PointTriangulation, AllOrdersOfSixPoints)
 {
@@ -256,21 +243,6 @@ TEST(PointTriangulation, FloatsAndStrides)
   }
   const Triangulation result = Triangulate(PointInput{ PlaneArray(floats.data(), 5000, 3) });
   EXPECT_EQ(ToTriangleSet(Triangulate(points).Triangles), ToTriangleSet(result.Triangles));
-}
-
-TEST(PointTriangulation, ExtremeCoordinates)
-{
-  std::mt19937 random(8);
-  for (const double scale : { 1e300, 1e-300, 1e-310 })
-  {
-    Places points = DrawOnGrid(random, 20, 9, 9);
-    for (auto& point : points)
-    {
-      point = { scale * (point[0] - 4), scale * (point[1] - 4) };
-    }
-    points.push_back({ 0.3, 0.7 });
-    ExpectDelaunay(points, Triangulate(points));
-  }
 }
 
 TEST(PointTriangulation, CanBeStopped)

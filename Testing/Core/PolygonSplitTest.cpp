@@ -16,7 +16,6 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
-#include <ostream>
 
 /// @file
 /// Polygons as triangles: quads and fans, and the ears of large and of malformed polygons.
@@ -174,8 +173,6 @@ struct Family
   const char* Name;
   Polygon (*Make)(int size, std::mt19937& random);
 };
-
-void PrintTo(const Family& family, std::ostream* stream) { *stream << family.Name; }
 
 PlaneVector OnCircle(double radius, double angle)
 {

@@ -105,7 +105,6 @@ TEST_P(PredicatesTest, FixedPointIsExact)
 INSTANTIATE_TEST_SUITE_P(
   Families, PredicatesTest, testing::ValuesIn(ListPointFamilies()), GetCaseName);
 
-/// Tests the bound that the proof for 64 bits assumes.
 /// (n + 1)(n - 1) - n^2 = -1: the smallest determinants that are not 0, in coordinates of any size.
 TEST(FixedPointPredicate, KnowsDeterminantsOfOne)
 {
@@ -123,6 +122,7 @@ TEST(FixedPointPredicate, KnowsDeterminantsOfOne)
   }
 }
 
+/// Tests the bound that the proof for 64 bits assumes.
 TEST(FixedPointPredicate, HoldsOffsetsOfAtMost2To62In64Bits)
 {
   const double half = std::ldexp(1.0, 61);
@@ -131,24 +131,6 @@ TEST(FixedPointPredicate, HoldsOffsetsOfAtMost2To62In64Bits)
   const PlanePoint next{ std::nextafter(half, 2 * half), 0, 0 };
   EXPECT_EQ(UncertainSign, FixedPointInCircleIn<std::int64_t>(next, b, c, d, false));
   EXPECT_EQ(-1, FixedPointInCircleIn<Integer128>(next, b, c, d, false));
-}
-
-/// (x, y) -> (3 x, 5 y, 4 x) is a similarity onto a tilted plane, exact on a lattice.
-TEST(TiltedPredicate, IsInCircleOnAPlane)
-{
-  std::mt19937 random(5);
-  for (int i = 0; i < 2000; ++i)
-  {
-    const FourPoints flat = i % 2 ? DrawSmallGrid(random) : DrawCircle(random);
-    FourPoints tilted;
-    for (int k = 0; k < 4; ++k)
-    {
-      tilted[k] = { 3.0 * flat[k][0], 5.0 * flat[k][1], 4.0 * flat[k][0] };
-    }
-    ASSERT_EQ(InCircle(flat[0].data(), flat[1].data(), flat[2].data(), flat[3].data()),
-      InCircleTilted(tilted[0].data(), tilted[1].data(), tilted[2].data(), tilted[3].data()))
-      << Describe(flat);
-  }
 }
 
 TEST(NonFiniteCoordinates, GiveZero)

@@ -27,12 +27,20 @@ FourPoints FillPoints(const Draw& draw)
   return points;
 }
 
+template <double (*DrawCoordinate)(std::mt19937&)>
+FourPoints Fill(std::mt19937& random)
+{
+  return FillPoints([&] { return DrawCoordinate(random); });
 }
 
-FourPoints DrawSmallGrid(std::mt19937& random)
-{
-  return FillPoints([&] { return double(DrawIndex(random, 4)); });
-}
+double DrawUniform(std::mt19937& random) { return DrawUnit(random) - 0.5; }
+double DrawFloat(std::mt19937& random) { return static_cast<float>(DrawUnit(random)); }
+double DrawTiny(std::mt19937& random) { return 1e-300 * DrawUniform(random); }
+double DrawHuge(std::mt19937& random) { return 3e300 * DrawUniform(random); }
+double DrawOnGrid(std::mt19937& random) { return DrawIndex(random, 4); } ///< Most are ties.
+double DrawOnTinyGrid(std::mt19937& random) { return std::ldexp(DrawOnGrid(random), -1000); }
+double DrawOnHugeGrid(std::mt19937& random) { return std::ldexp(DrawOnGrid(random), 1000); }
+double DrawFar(std::mt19937& random) { return 1e7 + std::ldexp(DrawIndex(random, 16), -20); }
 
 /// Lattice points on one circle: 5 * 13 * 17 has 14 Pythagorean triples.
 FourPoints DrawCircle(std::mt19937& random)
@@ -53,9 +61,6 @@ FourPoints DrawCircle(std::mt19937& random)
   }
   return points;
 }
-
-namespace
-{
 
 /// Moves one coordinate of one point by a few units in the last place.
 FourPoints Nudge(FourPoints points, std::mt19937& random)
@@ -93,37 +98,28 @@ FourPoints DrawNearDiagonal(std::mt19937& random)
 }
 
 /// Subnormal numbers around zero, and numbers around the smallest normal one.
-FourPoints DrawSubnormal(std::mt19937& random)
+double DrawSubnormal(std::mt19937& random)
 {
-  return FillPoints(
-    [&]
-    {
-      const double multiple = std::ldexp(DrawIndex(random, 2), 52) + DrawIndex(random, 9) - 4;
-      return std::numeric_limits<double>::denorm_min() * multiple;
-    });
+  const double multiple = std::ldexp(DrawIndex(random, 2), 52) + DrawIndex(random, 9) - 4;
+  return std::numeric_limits<double>::denorm_min() * multiple;
 }
 
-FourPoints DrawMixedMagnitudes(std::mt19937& random)
+double DrawMixedMagnitudes(std::mt19937& random)
 {
   constexpr double Magnitudes[] = { 0.0, 1.0, 1e-300, 1e300, 1.7e308, 5e-324, 3e100, 1e-100 };
-  return FillPoints(
-    [&]
-    {
-      const double magnitude = Magnitudes[DrawIndex(random, 8)];
-      return DrawIndex(random, 2) ? magnitude : -magnitude;
-    });
+  const double magnitude = Magnitudes[DrawIndex(random, 8)];
+  return DrawIndex(random, 2) ? magnitude : -magnitude;
 }
 
-FourPoints DrawAnyExponents(std::mt19937& random)
+double DrawAnyExponent(std::mt19937& random)
 {
-  return FillPoints(
-    [&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 2090) - 1070); });
+  return std::ldexp(DrawUniform(random), DrawIndex(random, 2090) - 1070);
 }
 
 /// Ranges of exponents around what the narrow fixed-point integers can hold.
-FourPoints DrawWideExponents(std::mt19937& random)
+double DrawWideExponent(std::mt19937& random)
 {
-  return FillPoints([&] { return std::ldexp(DrawUnit(random) - 0.5, DrawIndex(random, 30) - 15); });
+  return std::ldexp(DrawUniform(random), DrawIndex(random, 30) - 15);
 }
 
 /// Coordinates that are far from the limits of double, although products of two or four of them are
@@ -135,16 +131,12 @@ FourPoints DrawVanishingProducts(std::mt19937& random)
 }
 
 /// Integers of any size up to 2^61, so that differences and sums reach 2^62.
-FourPoints DrawLargestOffsets(std::mt19937& random)
+double DrawLargestOffset(std::mt19937& random)
 {
-  return FillPoints(
-    [&]
-    {
-      const int bits = DrawIndex(random, 62);
-      const double power = std::ldexp(1.0, DrawIndex(random, 2) ? 61 : bits);
-      const double noise = std::floor(std::ldexp(DrawUnit(random), bits - 9));
-      return (DrawIndex(random, 2) ? 1 : -1) * (power - (DrawIndex(random, 2) ? noise : 0.0));
-    });
+  const int bits = DrawIndex(random, 62);
+  const double power = std::ldexp(1.0, DrawIndex(random, 2) ? 61 : bits);
+  const double noise = std::floor(std::ldexp(DrawUnit(random), bits - 9));
+  return (DrawIndex(random, 2) ? 1 : -1) * (power - (DrawIndex(random, 2) ? noise : 0.0));
 }
 
 /// Offsets in x that are the next double above 2^62, beside units of 1: these need wide integers.
@@ -265,44 +257,24 @@ FourPoints DrawRectangle(std::mt19937& random)
 std::vector<PointFamily> ListPointFamilies()
 {
   return {
-    { "Uniform",
-      [](std::mt19937& random) { return FillPoints([&] { return DrawUnit(random) - 0.5; }); },
-      Fit::Always },
-    { "SmallGrid", DrawSmallGrid, Fit::Always },
-    { "Floats",
-      [](std::mt19937& random)
-      { return FillPoints([&] { return static_cast<float>(DrawUnit(random)); }); },
-      Fit::Always },
+    { "Uniform", Fill<DrawUniform>, Fit::Always },
+    { "SmallGrid", Fill<DrawOnGrid>, Fit::Always },
+    { "Floats", Fill<DrawFloat>, Fit::Always },
     { "Circle", DrawCircle, Fit::Always },
     { "NudgedCircle", DrawNudgedCircle, Fit::Sometimes },
     { "NudgedLine", DrawNudgedLine, Fit::Sometimes },
     { "NearDiagonal", DrawNearDiagonal, Fit::Always },
-    { "Tiny",
-      [](std::mt19937& random)
-      { return FillPoints([&] { return 1e-300 * (DrawUnit(random) - 0.5); }); },
-      Fit::Always },
-    { "Huge",
-      [](std::mt19937& random)
-      { return FillPoints([&] { return 3e300 * (DrawUnit(random) - 0.5); }); },
-      Fit::Always },
-    { "TinyGrid",
-      [](std::mt19937& random)
-      { return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), -1000); }); },
-      Fit::Always },
-    { "HugeGrid",
-      [](std::mt19937& random)
-      { return FillPoints([&] { return std::ldexp(DrawIndex(random, 4), 1000); }); },
-      Fit::Always },
-    { "Subnormal", DrawSubnormal, Fit::Always },
-    { "MixedMagnitudes", DrawMixedMagnitudes, Fit::Sometimes },
-    { "AnyExponents", DrawAnyExponents, Fit::Sometimes },
-    { "WideExponents", DrawWideExponents, Fit::Always },
+    { "Tiny", Fill<DrawTiny>, Fit::Always },
+    { "Huge", Fill<DrawHuge>, Fit::Always },
+    { "TinyGrid", Fill<DrawOnTinyGrid>, Fit::Always },
+    { "HugeGrid", Fill<DrawOnHugeGrid>, Fit::Always },
+    { "Subnormal", Fill<DrawSubnormal>, Fit::Always },
+    { "MixedMagnitudes", Fill<DrawMixedMagnitudes>, Fit::Sometimes },
+    { "AnyExponents", Fill<DrawAnyExponent>, Fit::Sometimes },
+    { "WideExponents", Fill<DrawWideExponent>, Fit::Always },
     { "VanishingProducts", DrawVanishingProducts, Fit::Always },
-    { "Offset",
-      [](std::mt19937& random)
-      { return FillPoints([&] { return 1e7 + std::ldexp(DrawIndex(random, 16), -20); }); },
-      Fit::Always },
-    { "LargestOffsets", DrawLargestOffsets, Fit::Always },
+    { "Offset", Fill<DrawFar>, Fit::Always },
+    { "LargestOffsets", Fill<DrawLargestOffset>, Fit::Always },
     { "OffsetsAbove62Bits", DrawOffsetsAbove62Bits, Fit::Always },
     { "GridAboutOrigin", DrawGridAboutOrigin, Fit::Always },
     { "NoisyTrapezoid", DrawNoisyTrapezoid, Fit::Always },

@@ -5,8 +5,6 @@
 
 #include "FlipTestSupport.h"
 
-#include <ostream>
-
 /// @file
 /// Random points on which predicates go wrong, and random meshes with every kind of defect. A seed
 /// gives the same on every machine.
@@ -32,15 +30,7 @@ struct PointFamily
   Fit FixedPoint;
 };
 
-inline void PrintTo(const PointFamily& family, std::ostream* stream) { *stream << family.Name; }
-
 std::vector<PointFamily> ListPointFamilies();
-
-/// Coordinates 0 to 3, so that most cases have ties.
-FourPoints DrawSmallGrid(std::mt19937& random);
-
-/// Lattice points on one circle.
-FourPoints DrawCircle(std::mt19937& random);
 
 /// A small random mesh with every kind of defect, random constraints and random options.
 struct RandomMess

@@ -304,8 +304,11 @@ TEST_P(RankInsertionTest, NoneOnASurface)
   const TriangleMesh mesh = sphere.View();
   const PartsResult together =
     FlipDivided(mesh, GiveToAny(mesh, this->Divide(mesh)), OnSurfaceOfRanks());
-  ExpectSameCounts(Flip(mesh, OnSurfaceOfRanks()).Report, together.Report);
+  const FlipReport alone = Flip(mesh, OnSurfaceOfRanks()).Report;
+  ExpectSameCounts(alone, together.Report);
+  EXPECT_EQ(0, alone.ConstraintFlips);
   EXPECT_EQ(2, together.Report.UnmatchedConstraints);
+  EXPECT_EQ(2, CountDefect(alone, "cannot be inserted on a surface"));
   EXPECT_EQ(2, CountWithoutIds(together.Report, "cannot be inserted on a surface"));
   EXPECT_EQ(1, together.Report.Edges.Constraint);
 }

@@ -324,22 +324,6 @@ std::int64_t FlipByLawson(
 }
 
 //------------------------------------------------------------------------------
-std::int64_t FindWholeArea(const WholePoint& a, const WholePoint& b, const WholePoint& c)
-{
-  return (a[0] - c[0]) * (b[1] - c[1]) - (a[1] - c[1]) * (b[0] - c[0]);
-}
-
-bool IsInWholeCircle(
-  const WholePoint& a, const WholePoint& b, const WholePoint& c, const WholePoint& d)
-{
-  const auto lift = [&](const WholePoint& p)
-  { return (p[0] - d[0]) * (p[0] - d[0]) + (p[1] - d[1]) * (p[1] - d[1]); };
-  return lift(a) * FindWholeArea(b, c, d) + lift(b) * FindWholeArea(c, a, d) +
-    lift(c) * FindWholeArea(a, b, d) >
-    0;
-}
-
-//------------------------------------------------------------------------------
 namespace
 {
 
@@ -347,17 +331,6 @@ namespace
 Point3 GetPlace(const TriangleMesh& mesh, std::int64_t id)
 {
   return { mesh.Points.Get(id, 0), mesh.Points.Get(id, 1), 0.0 };
-}
-
-/// Whether c and d lie on opposite sides of a-b, and a and b on opposite sides of c-d.
-template <typename Point, typename Turn>
-bool AreCrossing(
-  const Point& a, const Point& b, const std::pair<Point, Point>& other, const Turn& turn)
-{
-  const auto& [c, d] = other;
-  const auto areApart = [](std::int64_t x, std::int64_t y)
-  { return (x < 0 && y > 0) || (x > 0 && y < 0); };
-  return areApart(turn(a, b, c), turn(a, b, d)) && areApart(turn(c, d, a), turn(c, d, b));
 }
 
 bool CrossAny(
@@ -479,9 +452,16 @@ std::vector<VertexPair> SplitAtVertices(
 
 bool Cross(const TriangleMesh& mesh, const VertexPair& a, const VertexPair& b)
 {
-  const auto get = [&](std::int64_t id) { return GetPlace(mesh, id); };
-  return AreCrossing(
-    get(a.first), get(a.second), std::make_pair(get(b.first), get(b.second)), RationalTurn);
+  const auto divides = [&](const VertexPair& line, const VertexPair& other)
+  {
+    const auto turn = [&](std::int64_t id)
+    {
+      return RationalTurn(
+        GetPlace(mesh, line.first), GetPlace(mesh, line.second), GetPlace(mesh, id));
+    };
+    return turn(other.first) * turn(other.second) < 0;
+  };
+  return divides(a, b) && divides(b, a);
 }
 
 std::vector<VertexPair> FindHeldPieces(
@@ -545,31 +525,18 @@ void ExpectEdges(const std::vector<std::int32_t>& triangles, const std::vector<V
 
 void ExpectConstrainedDelaunay(const TriangleMesh& mesh, const std::vector<VertexPair>& pieces)
 {
-  // Three times as large, so that the middle of a triangle has whole coordinates.
-  const auto getThrice = [&](std::int64_t id) -> WholePoint
+  std::set<VertexPair> held;
+  for (const auto& [from, to] : pieces)
   {
-    return { 3 * static_cast<std::int64_t>(mesh.Points.Get(id, 0)),
-      3 * static_cast<std::int64_t>(mesh.Points.Get(id, 1)) };
-  };
-  for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
-  {
-    const WholePoint a = getThrice(mesh.Triangles.Get(t, 0));
-    const WholePoint b = getThrice(mesh.Triangles.Get(t, 1));
-    const WholePoint c = getThrice(mesh.Triangles.Get(t, 2));
-    const WholePoint middle = { (a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3 };
-    for (std::int64_t id = 0; id < mesh.Points.Count; ++id)
-    {
-      const WholePoint point = getThrice(id);
-      const auto hides = [&](const VertexPair& piece)
-      {
-        return AreCrossing(middle, point,
-          std::make_pair(getThrice(piece.first), getThrice(piece.second)), FindWholeArea);
-      };
-      EXPECT_TRUE(
-        !IsInWholeCircle(a, b, c, point) || std::any_of(pieces.begin(), pieces.end(), hides))
-        << "triangle " << t << " and point " << id;
-    }
+    held.insert(Sorted(from, to));
   }
+  const auto isBad = [&](std::int64_t a, std::int64_t p, std::int64_t q, std::int64_t b)
+  {
+    return held.count({ p, q }) == 0 &&
+      RationalInCircle(GetPlace(mesh, a), GetPlace(mesh, p), GetPlace(mesh, q), GetPlace(mesh, b)) >
+      0;
+  };
+  EXPECT_EQ(0, CountEdges(FindOpposites(mesh.Triangles), isBad));
 }
 
 double SumAreas(const TriangleMesh& mesh)

@@ -120,19 +120,6 @@ std::int64_t FlipByLawson(
   OwnedMesh<double>& mesh, const std::set<VertexPair>& constraints, TieRuleKind rule);
 
 //------------------------------------------------------------------------------
-// Integers.
-
-/// Coordinates up to some 10,000, so that determinants fit 64 bits.
-using WholePoint = std::array<std::int64_t, 2>;
-
-/// Twice the area of a triangle, positive where it turns left.
-std::int64_t FindWholeArea(const WholePoint& a, const WholePoint& b, const WholePoint& c);
-
-/// Whether d is inside the circle of a triangle that turns left.
-bool IsInWholeCircle(
-  const WholePoint& a, const WholePoint& b, const WholePoint& c, const WholePoint& d);
-
-//------------------------------------------------------------------------------
 // Constraints.
 
 /// A mesh with constraints, all of which are to be inserted.
@@ -185,8 +172,8 @@ ExpectedInsertion PredictInsertion(const TriangleMesh& mesh);
 /// Reports a failure for those that are no edges of the triangles.
 void ExpectEdges(const std::vector<std::int32_t>& triangles, const std::vector<VertexPair>& edges);
 
-/// Reports a failure for every triangle whose circle holds a vertex that can be seen from the
-/// triangle's middle, past the constraints. Coordinates must be whole, at most 3,000.
+/// Reports a failure for edges of two triangles that are not locally Delaunay and no pieces. Where
+/// all triangles turn left and do not overlap, the mesh is constrained Delaunay without them.
 void ExpectConstrainedDelaunay(const TriangleMesh& mesh, const std::vector<VertexPair>& pieces);
 
 /// Twice the area of all triangles with their sign, exact for small whole coordinates.

@@ -355,46 +355,5 @@ TEST(Surface, LoneDuplicatesAreReported)
   }
 }
 
-/// Pages of a book: strips of bad triangles that share one spine.
-TEST(Surface, NonManifoldFansKeepTheirSpine)
-{
-  constexpr int Pages = 5;
-  constexpr int Height = 20;
-  OwnedMesh<double> mesh;
-  for (int i = 0; i <= Height; ++i)
-  {
-    mesh.Points.insert(mesh.Points.end(), { 0.0, 0.0, i * 1.0 });
-  }
-  for (int page = 0; page < Pages; ++page)
-  {
-    const std::int32_t base = static_cast<std::int32_t>(mesh.NumberOfPoints());
-    for (int i = 0; i <= Height; ++i)
-    {
-      mesh.Points.insert(
-        mesh.Points.end(), { std::cos(page * 1.0), std::sin(page * 1.0), i + 0.8 });
-    }
-    for (int i = 0; i < Height; ++i)
-    {
-      mesh.Triangles.insert(
-        mesh.Triangles.end(), { i, base + i, base + i + 1, i, base + i + 1, i + 1 });
-    }
-  }
-  const FlipResult result = FlipSurface(mesh);
-  EXPECT_EQ(Height, result.Report.Edges.NonManifold);
-  EXPECT_EQ(Pages * Height, result.Report.TotalFlips);
-}
-
-TEST(Surface, BowTieVerticesAreNoObstacle)
-{
-  OwnedMesh<double> mesh = MakeBadSphere(20, 10, 65);
-  const auto north = static_cast<std::int32_t>(mesh.NumberOfPoints() - 2);
-  Append(mesh, Transform(mesh, { { { 1, 0, 0, 0 }, { 0, 1, 0, 0 }, { 0, 0, 1, 2 } } }));
-  const auto south = static_cast<std::int32_t>(mesh.NumberOfPoints() - 1);
-  std::replace(mesh.Triangles.begin(), mesh.Triangles.end(), south, north);
-  const FlipResult result = FlipSurface(mesh);
-  EXPECT_LT(0, result.Report.TotalFlips);
-  EXPECT_EQ(3, result.Report.EulerCharacteristic);
-}
-
 }
 }

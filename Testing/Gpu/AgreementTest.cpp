@@ -60,8 +60,6 @@ struct AgreementCase
   double MaximumDeviation = INFINITY;
 };
 
-void PrintTo(const AgreementCase& mesh, std::ostream* stream) { *stream << mesh.Name; }
-
 constexpr GeometryKind Auto = GeometryKind::Auto;
 constexpr CriterionKind InCircleOnly = CriterionKind::InCircle;
 constexpr CriterionKind Angles = CriterionKind::OppositeAngles;

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <ostream>
 #include <random>
 #include <vector>
 
@@ -23,8 +22,6 @@ struct PointSet
   Place (*Make)(std::mt19937_64& random, double i, double n); ///< Point i of n.
   bool IsHard = false; ///< Without care it takes quadratic time.
 };
-
-inline void PrintTo(const PointSet& set, std::ostream* stream) { *stream << set.Name; }
 
 /// Most of the curves are taken over by divide and conquer.
 const std::vector<PointSet>& ListPointSets();
