@@ -13,7 +13,8 @@ MOST_MEMORY = 3 << 30  # for refusing a file of a few hundred bytes
 
 
 class ExcessiveSizes(BadFileTest):
-    """Such a file must be refused within a few seconds, by a process with little memory."""
+    """Such a file must be refused within a few seconds, by a process with little memory. The fuzzer
+    of files changes numbers of all formats, too."""
 
     def refuse_quickly(self, name, content, *naming):
         self.write(name, content)
@@ -56,36 +57,19 @@ class ExcessiveSizes(BadFileTest):
 
     def test_counts_of_vtp(self):
         good = as_text(TRIANGLE, "a.vtp")
-        for old, new in (
-            ('NumberOfComponents="3"', 'NumberOfComponents=" "'),
-            ('NumberOfComponents="3"', 'NumberOfComponents=""'),
-            ('NumberOfComponents="3"', 'NumberOfComponents="0"'),
-            ('NumberOfComponents="3"', 'NumberOfComponents="-3"'),
-            ('NumberOfComponents="3"', 'NumberOfComponents="3x"'),
-            ('NumberOfComponents="3"', 'NumberOfComponents="99999999999"'),
-            ('NumberOfComponents="3"', 'NumberOfComponents="2147483648"'),
-            ('NumberOfPoints="3"', 'NumberOfPoints="99999999999"'),
-            ('NumberOfPoints="3"', 'NumberOfPoints=" "'),
-            ('NumberOfPolys="1"', 'NumberOfPolys="99999999"'),
-            (">3<", ">99999999999<"),
+        for name, right, wrong in (
+            ("Components", 3, (" ", "", 0, -3, "3x", 99999999999, 2147483648)),
+            ("Points", 3, (99999999999, " ")),
+            ("Polys", 1, (99999999,)),
         ):
-            self.assertIn(old, good)
-            self.refuse_quickly("a.vtp", good.replace(old, new))
+            for count in wrong:
+                self.refuse_quickly("a.vtp", good.replace(
+                    f'NumberOf{name}="{right}"', f'NumberOf{name}="{count}"'))
+        self.refuse_quickly("a.vtp", good.replace(">3<", ">99999999999<"))
         field = '<FieldData><DataArray type="{}" Name="f" NumberOfTuples="4000000000"/></FieldData>'
         for kind in ("Float64", "String", "Bit"):
             content = good.replace("<Piece", field.format(kind) + "<Piece", 1)
             self.refuse_quickly("a.vtp", content)
-
-    def test_counts_of_ply(self):
-        good = as_text(TRIANGLE, "a.ply")
-        for encoding in ("ascii", "binary_little_endian"):
-            for old, new in (
-                ("vertex 3", "vertex 4000000000000"),
-                ("face 1", "face 4000000000000"),
-                ("element face 1", "element face 1\nelement other 4000000000000"),
-                ("3 0 1 2", "4000000000 0 1 2"),
-            ):
-                self.refuse_quickly("a.ply", good.replace(old, new).replace("ascii", encoding))
 
     def test_a_file_larger_than_memory(self):
         with open(self.path("a.ply"), "wb") as file:

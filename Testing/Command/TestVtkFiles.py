@@ -19,6 +19,7 @@ from CommandTesting import (
     triangles_of,
     values_of,
 )
+from TestNumbers import as_text
 
 GRID = 4
 
@@ -69,24 +70,15 @@ class Read(ArrayTest):
                         self.assertEqual(active.GetName(), kind + " 1", (name, out))
 
     def test_pieces_of_xml(self):
-        piece = (
-            '<Piece NumberOfPoints="3" NumberOfPolys="1"><PointData><DataArray type="Int32" '
-            'Name="n" format="ascii"> {0}1 {0}2 {0}3 </DataArray></PointData><Points>'
-            '<DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 {0} 1 0 {0} 0 1 {0}'
-            '</DataArray></Points><Polys><DataArray type="Int64" Name="connectivity" '
-            'format="ascii">0 1 2</DataArray><DataArray type="Int64" Name="offsets" '
-            'format="ascii">3</DataArray></Polys></Piece>'
-        )
-        self.write(
-            "in.vtp",
-            '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian"><PolyData>'
-            + piece.format(4)
-            + piece.format(7)
-            + "</PolyData></VTKFile>",
-        )
+        numbers = '<PointData><DataArray type="Int32" Name="n" format="ascii">{0}1 {0}2 {0}3</DataArray></PointData>'
+        flat = [(0, 0), (1, 0), (0, 1)]
+        files = [as_text([(*place, z) for place in flat], "in.vtp").replace(
+            "<Points>", numbers.format(z) + "<Points>") for z in (4, 7)]
+        end = "</PolyData>"
+        second = files[1][files[1].index("<Piece"):files[1].index(end)]
+        self.write("in.vtp", files[0].replace(end, second + end))
         self.succeed("in.vtp", "out.vtk")
         found = self.read_mesh("out.vtk")
-        flat = [(0, 0), (1, 0), (0, 1)]
         self.assertEqual(points_of(found), [(x, y, z) for z in (4, 7) for x, y in flat])
         self.assertEqual(triangles_of(found), [(0, 1, 2), (3, 4, 5)])
         numbers_found = [found.GetPointData().GetArray("n").GetTuple1(i) for i in range(6)]
