@@ -48,9 +48,8 @@ std::vector<std::uint32_t> PairInSlices(
   const TriangleMesh& mesh, std::int64_t slices, const ThreadBackend& backend)
 {
   const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey = BuildMeshSurvey(input, GeometryKind::Auto, backend);
-  const SpatialOrder order = OrderMesh(input, survey, backend);
-  const EdgeMeshInput edges{ input, survey, order, 180.0 };
+  const Built built = Build(mesh, backend);
+  const EdgeMeshInput edges{ input, built.Survey, built.Order, 180.0 };
   EdgeMeshResult result;
   result.Edges = LoadTriangles(edges, backend);
   std::vector<std::uint32_t> paired;

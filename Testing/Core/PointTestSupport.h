@@ -22,6 +22,12 @@ namespace delaunayflip
 
 using Pairs = std::vector<std::array<std::int64_t, 2>>;
 
+inline PlaneArray View(const Places& points)
+{
+  return PlaneArray(
+    points.empty() ? nullptr : points.front().data(), static_cast<std::int64_t>(points.size()), 2);
+}
+
 /// Points and segments that belong to a test.
 struct Drawing
 {
@@ -34,8 +40,7 @@ struct Drawing
   PointInput View() const
   {
     PointInput input;
-    input.Points = PlaneArray(this->Points.empty() ? nullptr : this->Points.front().data(),
-      static_cast<std::int64_t>(this->Points.size()), 2);
+    input.Points = delaunayflip::View(this->Points);
     input.Segments = this->Segments.empty() ? nullptr : this->Segments.front().data();
     input.NumberOfSegments = static_cast<std::int64_t>(this->Segments.size());
     input.Rings = this->Rings.empty() ? nullptr : this->Rings.data();
@@ -68,12 +73,6 @@ struct Triangulation
   std::vector<AddedPoint> Added;
   FlipReport Report;
 };
-
-inline PlaneArray View(const Places& points)
-{
-  return PlaneArray(
-    points.empty() ? nullptr : points.front().data(), static_cast<std::int64_t>(points.size()), 2);
-}
 
 inline Triangulation Triangulate(const PointInput& input, const PointOptions& options = {})
 {

@@ -454,26 +454,6 @@ TEST(SplitPolygon, CutsFromTheFirstVertexIfFoldsDecideNothing)
   EXPECT_EQ(first, Split({ 0, 0, 0, 1, 0, 0, 1, 1e-20, 0, 0, 1e-20, 1e-40 }));
 }
 
-TEST(SplitPolygon, GivesAllTrianglesOfPolygonsWithoutInside)
-{
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Polygon degenerate[] = { Polygon(7, { 1, 1 }),
-    { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 }, { 5, 5 } },
-    { { 0, 0 }, { 2, 2 }, { 2, 0 }, { 0, 2 }, { -1, 1 } },
-    { { 0, 3 }, { 2, -3 }, { -3, 1 }, { 3, 1 }, { -2, -3 } },
-    { { 0, 0 }, { nan, 0 }, { 1, 1 }, { 0, 1 }, { -1, 0.5 } },
-    { { 0, 0 }, { 1, 0 }, { 0, 0 }, { 1, 0 } } };
-  for (const Polygon& polygon : degenerate)
-  {
-    const Ids triangles = Split(Embed(polygon));
-    ASSERT_EQ(3 * (polygon.size() - 2), triangles.size());
-    for (std::int64_t id = 0; id < static_cast<std::int64_t>(polygon.size()); ++id)
-    {
-      EXPECT_EQ(1, std::count(triangles.begin(), triangles.end(), id) > 0) << id;
-    }
-  }
-}
-
 TEST(SplitPolygon, UsesTheGivenIdsAndAppends)
 {
   const std::vector<float> points = { 9, 9, 9, 0, 0, 0, 1, 0, 0, 9, 9, 9, 1, 1, 0, 0, 1, 0 };

@@ -105,23 +105,6 @@ TEST_P(PredicatesTest, FixedPointIsExact)
 INSTANTIATE_TEST_SUITE_P(
   Families, PredicatesTest, testing::ValuesIn(ListPointFamilies()), GetCaseName);
 
-/// (n + 1)(n - 1) - n^2 = -1: the smallest determinants that are not 0, in coordinates of any size.
-TEST(FixedPointPredicate, KnowsDeterminantsOfOne)
-{
-  for (int bits = 1; bits <= 52; ++bits)
-  {
-    const double n = std::ldexp(1.0, bits);
-    const double a[] = { 0.0, 0.0 };
-    const double b[] = { n + 1.0, n };
-    const double c[] = { n, n - 1.0 };
-    EXPECT_EQ(-1, Orientation(a, b, c)) << bits;
-    EXPECT_EQ(1, Orientation(a, c, b)) << bits;
-    EXPECT_EQ(-1, FixedPointOrientation({ 0, 0, 0 }, { b[0], b[1], 0 }, { c[0], c[1], 0 })) << bits;
-    EXPECT_EQ(1, FixedPointOrientation({ 0, 0, 0 }, { c[0], c[1], 0 }, { b[0], b[1], 0 })) << bits;
-    EXPECT_EQ(0, FixedPointOrientation({ 0, 0, 0 }, { b[0], b[1], 0 }, { b[0], b[1], 0 })) << bits;
-  }
-}
-
 /// Tests the bound that the proof for 64 bits assumes.
 TEST(FixedPointPredicate, HoldsOffsetsOfAtMost2To62In64Bits)
 {
