@@ -25,10 +25,9 @@ constexpr const char* Leaves = "because they leave the mesh";
 constexpr const char* Overlaps = "where triangles overlap or points coincide";
 
 /// The mesh right after the insertion.
-FlipResult Insert(const TriangleMesh& mesh, FlipOptions options = {})
+FlipResult Insert(const TriangleMesh& mesh, const FlipOptions& options = {})
 {
-  options.MaximumIterations = 0;
-  return Flip(mesh, options);
+  return Flip(mesh, With(&FlipOptions::MaximumIterations, 0, options));
 }
 
 std::int64_t CountRefused(const FlipReport& report)
@@ -175,8 +174,7 @@ std::vector<std::int32_t> MakeReferenceInDomain(const TriangleMesh& mesh, Constr
 
 TEST(ConstraintInsertion, GivesCgalsMeshInADomainWithHoles)
 {
-  FlipOptions options;
-  options.TieRule = TieRuleKind::Canonical;
+  const FlipOptions options = With(&FlipOptions::TieRule, TieRuleKind::Canonical);
   std::int64_t inserted = 0;
   std::int64_t left = 0;
   for (std::uint32_t seed = 0; seed < 30 / Reduction; ++seed)
@@ -380,12 +378,9 @@ TEST(ConstraintInsertion, DoesNotDependOnThreads)
   std::mt19937 random(8);
   const ConstrainedMesh drawn =
     Constrain(MakeRandomBadMeshDouble(20000 / Reduction, 8), 200, random);
-  FlipOptions options;
-  options.NumberOfThreads = 1;
-  const FlipResult expected = Flip(drawn.View(), options);
+  const FlipResult expected = Flip(drawn.View(), WithThreads(1));
   EXPECT_LT(0, expected.Report.InsertedConstraints);
-  options.NumberOfThreads = 3;
-  ExpectSameResult(expected, Flip(drawn.View(), options));
+  ExpectSameResult(expected, Flip(drawn.View(), WithThreads(3)));
 }
 
 TEST(ConstraintInsertion, CanBeAborted)

@@ -258,9 +258,7 @@ TEST_F(DeviceMeshTest, RefusesOtherMemoryAndShapes)
   {
     DeviceMesh mesh = device.View();
     change(mesh);
-    FlipOptions options;
-    options.Device = number;
-    EXPECT_THROW(FlipSession(mesh, options), InvalidOptions);
+    EXPECT_THROW(FlipSession(mesh, With(&FlipOptions::Device, number)), InvalidOptions);
   };
   expectRefused([&](DeviceMesh& mesh)
     { mesh.Points = DevicePointArray(this->Mesh.Points.data(), this->Mesh.NumberOfPoints()); });
@@ -276,9 +274,7 @@ TEST_F(DeviceMeshTest, RefusesOtherMemoryAndShapes)
   EXPECT_THROW(session.StoreTriangles(result, {}), InvalidOptions);
   EXPECT_THROW(session.StoreFlipCounts(host.data(), {}), InvalidOptions);
   EXPECT_TRUE(std::vector<std::int32_t>(host.size(), 0) == host);
-  FlipOptions first;
-  first.Device = 0;
-  ExpectSame(this->Mesh.View(), first);
+  ExpectSame(this->Mesh.View(), With(&FlipOptions::Device, 0));
 }
 
 }

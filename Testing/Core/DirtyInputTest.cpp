@@ -27,9 +27,7 @@ constexpr GeometryKind Geometries[] = { GeometryKind::Auto, GeometryKind::Planar
 
 FlipResult FlipDirty(const OwnedMesh<double>& mesh, GeometryKind geometry)
 {
-  FlipOptions options = OnSurface();
-  options.Geometry = geometry;
-  return FlipAndAudit(mesh.View(), options);
+  return FlipAndAudit(mesh.View(), With(&FlipOptions::Geometry, geometry, OnSurface()));
 }
 
 TEST(DirtyInput, EmptyMeshesAreDone)
@@ -208,9 +206,7 @@ std::int64_t FlipOverlapping(const OwnedMesh<double>& mesh)
   std::int64_t left = 0;
   for (TieRuleKind rule : { TieRuleKind::Keep, TieRuleKind::Canonical })
   {
-    FlipOptions options;
-    options.TieRule = rule;
-    const FlipReport report = FlipAndAudit(mesh.View(), options).Report;
+    const FlipReport report = FlipAndAudit(mesh.View(), With(&FlipOptions::TieRule, rule)).Report;
     EXPECT_EQ(GeometryKind::Planar, report.GeometryUsed);
     left += report.NonDelaunayAfter;
   }

@@ -128,8 +128,7 @@ TEST(FixedEdges, AreListed)
   const OwnedMesh<double> bad = MakeBadSphere(40, 20, 36);
   const std::vector<std::int64_t> constraints = PickConstraints(bad.View().Triangles, 9);
   const TriangleMesh mesh = WithConstraints(bad.View(), constraints);
-  FlipOptions options;
-  options.FeatureAngle = 12.0;
+  const FlipOptions options = With(&FlipOptions::FeatureAngle, 12.0);
   const std::set<VertexPair> fixed = ToEdges(FindFixedEdges(mesh, options));
   const EdgeCounts counts = MakeSession(mesh, options).GetReport().Edges;
   EXPECT_LT(0, counts.Feature);
@@ -153,20 +152,20 @@ TEST(FeatureEdges, AreDecidedByTheFeatureAngle)
   OwnedMesh<double> roof;
   roof.Points = { 0, 0, 0, 9, 0, 0, 9, 1, 0, 0, 1, 0, 4, 0, 1 };
   roof.Triangles = { 0, 1, 2, 0, 2, 3, 1, 0, 4 };
-  FlipOptions options;
+  const auto count = [&](double angle)
+  {
+    const FlipOptions options = With(&FlipOptions::FeatureAngle, angle);
+    return MakeSession(roof.View(), options).GetReport().Edges.Feature;
+  };
   for (double angle : { 0.0, 30.0, 89.9 })
   {
-    options.FeatureAngle = angle;
-    EXPECT_EQ(1, MakeSession(roof.View(), options).GetReport().Edges.Feature) << angle;
+    EXPECT_EQ(1, count(angle)) << angle;
   }
   for (double angle : { 90.1, 180.0 })
   {
-    options.FeatureAngle = angle;
-    EXPECT_EQ(0, MakeSession(roof.View(), options).GetReport().Edges.Feature) << angle;
+    EXPECT_EQ(0, count(angle)) << angle;
   }
-  options.FeatureAngle = 30.0;
-  const FlipResult result = Flip(roof.View(), options);
-  EXPECT_TRUE(HasEdge(result.Triangles, 0, 1));
+  EXPECT_TRUE(HasEdge(Flip(roof.View()).Triangles, 0, 1));
 }
 
 }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <string>
 
 /// @file
 /// Triangles without area, from points in line: all triangulations of small point sets that have

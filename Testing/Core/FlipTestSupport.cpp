@@ -160,8 +160,7 @@ FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options)
 
 FlipOptions OnBackend(BackendKind backend, FlipOptions options)
 {
-  options.Backend = backend;
-  return options;
+  return With(&FlipOptions::Backend, backend, options);
 }
 
 FlipOptions OnSurface(double featureAngle)
@@ -299,17 +298,10 @@ void ExpectSameAngle(double a, double b)
 // The structured bindings below name every member: a new one is an error until it is compared here,
 // or left out on purpose.
 
-void ExpectSameRow(const IterationRecord& a, const IterationRecord& b)
+std::array<std::int64_t, 6> ListCounts(const IterationRecord& row)
 {
-  const auto& [iteration, tested, nonDelaunay, flipped, excluded, blocked, angle, seconds] = b;
-  static_cast<void>(seconds);
-  EXPECT_EQ(a.Iteration, iteration);
-  EXPECT_EQ(a.Tested, tested);
-  EXPECT_EQ(a.NonDelaunay, nonDelaunay);
-  EXPECT_EQ(a.Flipped, flipped);
-  EXPECT_EQ(a.Excluded, excluded);
-  EXPECT_EQ(a.Blocked, blocked);
-  ExpectSameAngle(a.MinimumAngle, angle);
+  const auto& [iteration, tested, nonDelaunay, flipped, excluded, blocked, angle, seconds] = row;
+  return { iteration, tested, nonDelaunay, flipped, excluded, blocked };
 }
 
 std::array<std::int64_t, 8> ListCounts(const EdgeCounts& counts)
@@ -337,7 +329,8 @@ void ExpectSameRows(const std::vector<IterationRecord>& a, const std::vector<Ite
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
   {
-    ExpectSameRow(a[i], b[i]);
+    EXPECT_EQ(ListCounts(a[i]), ListCounts(b[i]));
+    ExpectSameAngle(a[i].MinimumAngle, b[i].MinimumAngle);
   }
 }
 
@@ -349,11 +342,6 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
     reason, tolerance, backend, fallback, iterations, flips, excluded, blocked, badBefore, badAfter,
     byShape, byDeviation, byEdge, angleBefore, angleAfter, keepsSliver, stopReason, fromPoints,
     buildSeconds, flipSeconds, defects] = b;
-  static_cast<void>(backend);
-  static_cast<void>(fallback);
-  static_cast<void>(keepsSliver); // runs in parts do not look for it
-  static_cast<void>(buildSeconds);
-  static_cast<void>(flipSeconds);
   EXPECT_EQ(a.Points, points);
   EXPECT_EQ(a.Triangles, triangles);
   EXPECT_EQ(ListCounts(a.Edges), ListCounts(edges));

@@ -72,12 +72,19 @@ FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options = {
 /// The options on a backend.
 FlipOptions OnBackend(BackendKind backend, FlipOptions options = {});
 
-/// The options with so many threads.
-template <typename Options>
-Options WithThreads(Options options, int threads)
+/// The options, by default those of the member's class, with another value of one.
+template <typename T, typename Owner, typename Value, typename Options = Owner>
+Options With(T Owner::*member, const Value& value, Options options = {})
 {
-  options.NumberOfThreads = threads;
+  options.*member = value;
   return options;
+}
+
+/// The options with so many threads.
+template <typename Options = FlipOptions>
+Options WithThreads(int threads, const Options& options = {})
+{
+  return With(&FlipOptions::NumberOfThreads, threads, options);
 }
 
 /// On a surface, by default without feature edges.

@@ -32,9 +32,7 @@ double Wave(double x, double y) { return 2.0 * std::sin(0.3 * x) + std::cos(0.4 
 /// Checks the report before the first flip.
 FlipReport Survey(const OwnedMesh<double>& mesh, GeometryKind geometry = GeometryKind::Auto)
 {
-  FlipOptions options;
-  options.Geometry = geometry;
-  return MakeSession(mesh.View(), options).GetReport();
+  return MakeSession(mesh.View(), With(&FlipOptions::Geometry, geometry)).GetReport();
 }
 
 void ExpectChoice(const OwnedMesh<double>& mesh, GeometryKind geometry, const std::string& reason)
@@ -90,9 +88,7 @@ TEST(GeometryChoice, ARequestIsHonoured)
     const FlipReport report = Survey(mesh, geometry);
     EXPECT_EQ(geometry, report.GeometryUsed);
     EXPECT_EQ(0u, report.GeometryReason.find("as requested")) << report.GeometryReason;
-    FlipOptions options;
-    options.Geometry = geometry;
-    EXPECT_EQ(geometry, FindGeometry(mesh.View(), options));
+    EXPECT_EQ(geometry, FindGeometry(mesh.View(), With(&FlipOptions::Geometry, geometry)));
   }
 }
 
@@ -450,9 +446,7 @@ TEST(GeometryChoice, IsTheSameWhateverTheOrder)
       std::swap_ranges(
         &mesh.Triangles[3 * t], &mesh.Triangles[3 * t] + 3, &mesh.Triangles[3 * other]);
     }
-    FlipOptions options;
-    options.NumberOfThreads = threads;
-    EXPECT_EQ(expected, MakeSession(mesh.View(), options).GetReport().GeometryReason);
+    EXPECT_EQ(expected, MakeSession(mesh.View(), WithThreads(threads)).GetReport().GeometryReason);
   }
   for (double scale : { 0x1p-900, 0x1p-40, 0x1p40, 0x1p900 })
   {
@@ -469,12 +463,10 @@ TEST(GeometryChoice, HeightsNeedNotBeFinite)
   {
     mesh.Points[i] = i == 302 ? std::numeric_limits<double>::quiet_NaN() : 1e-6 * (i % 7);
   }
-  FlipOptions options;
-  const FlipResult result = Flip(mesh.View(), options);
+  const FlipResult result = Flip(mesh.View());
   EXPECT_EQ(GeometryKind::PlanarXY, result.Report.GeometryUsed) << result.Report.GeometryReason;
   EXPECT_EQ("", DescribeDefects(result.Report.Defects));
-  options.Geometry = GeometryKind::PlanarXY;
-  EXPECT_EQ(Flip(mesh.View(), options).Triangles, result.Triangles);
+  EXPECT_EQ(Flip(mesh.View(), InPlane()).Triangles, result.Triangles);
 }
 
 /// How many triangles the report says were turned over in x and y.
@@ -487,8 +479,7 @@ std::int64_t CountTurnedOver(const FlipReport& report)
 TEST(GeometryChoice, FlipsInSpaceThatTurnTerrainOverAreCounted)
 {
   OwnedMesh<double> mesh = MakeDegreesAndMetres();
-  FlipOptions options;
-  options.Geometry = GeometryKind::Surface;
+  const FlipOptions options = OnSurface(30.0);
   for (int winding = 0; winding < 2; ++winding)
   {
     const FlipResult result = Flip(mesh.View(), options);
@@ -505,8 +496,7 @@ TEST(GeometryChoice, FlipsInSpaceThatTurnTerrainOverAreCounted)
 TEST(GeometryChoice, TurnedTrianglesAreToldOfAtTheEnd)
 {
   const OwnedMesh<double> mesh = MakeDegreesAndMetres();
-  FlipOptions options;
-  options.Geometry = GeometryKind::Surface;
+  const FlipOptions options = OnSurface(30.0);
   const std::int64_t expected = CountTurnedOver(Flip(mesh.View(), options).Report);
   FlipSession session = MakeSession(mesh.View(), options);
   session.Advance(-1, [](const IterationRecord&) { return false; });

@@ -178,8 +178,7 @@ TEST(ForcedBackend, RunsOrIsRefused)
       EXPECT_EQ(0u, report.Backend.rfind("CUDA: ", 0));
     });
   EXPECT_TRUE(error.empty() || error.find("CUDA") != std::string::npos) << error;
-  FlipOptions options = OnBackend(BackendKind::Threads);
-  options.NumberOfThreads = 3;
+  const FlipOptions options = WithThreads(3, OnBackend(BackendKind::Threads));
   EXPECT_EQ("Threads: 3", Flip(grid.View(), options).Report.Backend);
 }
 

@@ -155,9 +155,7 @@ TEST(NonDelaunayEdges, OfSurfacesObeyFeatureAngleAndTolerance)
 {
   // Both triangles rise towards the bad edge; their normals differ by 2 atan(1/2) = 53 degrees.
   const OwnedMesh<double> roof = MakePair({ -2, 0, 0.5, 0, -1, 0, 2, 0, 0.5, 0, 1, 0 });
-  FlipOptions options;
-  options.Geometry = GeometryKind::Surface;
-  options.FeatureAngle = 53.0;
+  FlipOptions options = OnSurface(53.0);
   EXPECT_EQ(0, CountNonDelaunayEdges(roof.View(), options));
   options.FeatureAngle = 53.2;
   EXPECT_EQ(1, CountNonDelaunayEdges(roof.View(), options));
@@ -175,9 +173,7 @@ TEST(MeshAudit, SeesShortLegsBesideLongOnes)
   OwnedMesh<double> mesh;
   mesh.Points = { 0.5, 0.5, 0.0, -0x1p-52, 0.0, 0.0, 0x1p-52, 0.0, 0.0, 0.0, -1e-17, 0.0 };
   mesh.Triangles = { 0, 1, 2, 3, 2, 1 };
-  FlipOptions options;
-  options.Geometry = GeometryKind::PlanarXY;
-  options.Criterion = CriterionKind::OppositeAngles;
+  FlipOptions options = With(&FlipOptions::Criterion, CriterionKind::OppositeAngles, InPlane());
   options.Tolerance = 0.0;
   EXPECT_EQ(0, CountNonDelaunayEdges(mesh.View(), options));
   EXPECT_EQ(0, Flip(mesh.View(), options).Report.NonDelaunayAfter);

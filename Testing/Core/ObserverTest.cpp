@@ -155,9 +155,7 @@ TEST_F(ObserverTest, AnglesAreMeasuredAtBothEndsOrEverywhere)
   EXPECT_LT(this->Complete.Report.MinimumAngleBefore, rows.back().MinimumAngle);
 
   FlipSession plain = MakeSession(this->Mesh.View());
-  FlipOptions options;
-  options.TrackQuality = true;
-  FlipSession tracked = MakeSession(this->Mesh.View(), options);
+  FlipSession tracked = MakeSession(this->Mesh.View(), With(&FlipOptions::TrackQuality, true));
   for (int stop = 0; stop < 3; ++stop)
   {
     ASSERT_TRUE(plain.Advance(1));

@@ -23,9 +23,7 @@ FlipOptions MakeCanonical(int pieces)
 
 FlipOptions OnSurfaceOfRanks(double featureAngle)
 {
-  FlipOptions options = OnBackend(BackendKind::Threads, OnSurface(featureAngle));
-  options.NumberOfThreads = 1;
-  return options;
+  return WithThreads(1, OnBackend(BackendKind::Threads, OnSurface(featureAngle)));
 }
 
 Owners DivideAtRandom(const TriangleMesh& mesh, int ranks, std::uint32_t seed)

@@ -33,25 +33,13 @@ struct Case
 };
 
 FlipOptions Canonical() { return MakeCanonical(); }
-FlipOptions KeepTies()
-{
-  FlipOptions options = MakeCanonical();
-  options.TieRule = TieRuleKind::Keep;
-  return options;
-}
-FlipOptions Terrain()
-{
-  FlipOptions options = KeepTies();
-  options.Geometry = GeometryKind::PlanarXY;
-  return options;
-}
+FlipOptions KeepTies() { return With(&FlipOptions::TieRule, TieRuleKind::Keep, MakeCanonical()); }
+FlipOptions Terrain() { return With(&FlipOptions::Geometry, GeometryKind::PlanarXY, KeepTies()); }
 FlipOptions OnSurfaces() { return OnSurfaceOfRanks(); }
 FlipOptions WithFeatures() { return OnSurfaceOfRanks(20.0); }
 FlipOptions WithDeviation()
 {
-  FlipOptions options = OnSurfaceOfRanks();
-  options.MaximumDeviation = 0.002;
-  return options;
+  return With(&FlipOptions::MaximumDeviation, 0.002, OnSurfaceOfRanks());
 }
 
 Mesh MakeClockwisePlane()
@@ -108,8 +96,7 @@ Mesh MakeSheets()
 Mesh MakeTwoSheets()
 {
   Mesh mesh = MakeRandomBadMeshDouble(80, 5);
-  FlipOptions few = MakeCanonical();
-  few.MaximumIterations = 2;
+  const FlipOptions few = With(&FlipOptions::MaximumIterations, 2, MakeCanonical());
   const std::vector<std::int32_t> other = Flip(mesh.View(), few).Triangles;
   mesh.Triangles.insert(mesh.Triangles.end(), other.begin(), other.end());
   return mesh;

@@ -19,17 +19,10 @@ namespace
 
 constexpr TieRuleKind TieRules[] = { TieRuleKind::Keep, TieRuleKind::Canonical };
 
-FlipOptions WithTieRule(TieRuleKind rule)
-{
-  FlipOptions options;
-  options.TieRule = rule;
-  return options;
-}
-
 /// All that must hold for a planar, counter-clockwise result.
 FlipResult ExpectDelaunay(const TriangleMesh& mesh, TieRuleKind rule = TieRuleKind::Keep)
 {
-  const FlipResult result = FlipAndAudit(mesh, WithTieRule(rule));
+  const FlipResult result = FlipAndAudit(mesh, With(&FlipOptions::TieRule, rule));
   const TriangleMesh after = WithTriangles(mesh, result.Triangles);
   EXPECT_EQ(0, result.Report.NonDelaunayAfter);
   EXPECT_EQ(0, CountCgalViolations(after));
@@ -98,41 +91,11 @@ TEST(LatticePoints, BecomeCgalsTriangles)
   }
 }
 
-/// Integer points on a circle about the origin: every edge is a tie.
-TEST(CirclePoints, BecomeCgalsTriangles)
-{
-  Places points;
-  for (int x = -65; x <= 65; ++x)
-  {
-    for (int y = -65; y <= 65; ++y)
-    {
-      const int square = x * x + y * y;
-      if (square == 65 * 65 || square == 25 * 25 || square == 0)
-      {
-        points.push_back({ double(x), double(y) });
-      }
-    }
-  }
-  ExpectCgals(MakeSweptMesh(points).View());
-}
-
-/// One mesh whose quads hold coordinates near 1, 1e-300 and 1e300 at once.
-TEST(MixedMagnitudes, EndInDelaunay)
-{
-  std::set<std::array<double, 2>> points = { { 0.0, 0.0 } };
-  for (double r : { 1e-300, 1e-160, 1e-20, 1.0, 1e20, 1e160, 1e300 })
-  {
-    points.insert({ { r, r / 3 }, { -r, r / 7 }, { r / 9, -r }, { -r / 5, -r / 11 } });
-  }
-  ExpectCgals(MakeSweptMesh({ points.begin(), points.end() }).View());
-}
-
 TEST(OppositeAngles, ReachNearlyTheSameMesh)
 {
-  FlipOptions options;
-  options.Criterion = CriterionKind::OppositeAngles;
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(3000, 10);
-  const FlipResult result = FlipAndAudit(mesh.View(), options);
+  const FlipResult result =
+    FlipAndAudit(mesh.View(), With(&FlipOptions::Criterion, CriterionKind::OppositeAngles));
   const TriangleMesh after = WithTriangles(mesh.View(), result.Triangles);
   EXPECT_EQ(0, result.Report.NonDelaunayAfter);
   EXPECT_EQ(mesh.NumberOfTriangles(), CountTurns(after).Left);
@@ -182,7 +145,8 @@ TEST(Lawson, FindsTheSameMesh)
         ids.insert(ids.end(), { edge.first, edge.second });
       }
     }
-    const FlipResult result = FlipAndAudit(WithConstraints(mesh.View(), ids), WithTieRule(rule));
+    const FlipResult result =
+      FlipAndAudit(WithConstraints(mesh.View(), ids), With(&FlipOptions::TieRule, rule));
     EXPECT_EQ(0, result.Report.NonDelaunayAfter);
     const std::int64_t flips = FlipByLawson(mesh, constraints, rule);
     EXPECT_EQ(flips > 0, result.Report.TotalFlips > 0);
@@ -215,10 +179,9 @@ std::vector<std::int64_t> GetFlips(const FlipReport& report)
 /// criterion, makes the same decisions.
 TEST(WorstCase, OfThePaperTakesItsFlips)
 {
-  FlipOptions options;
   for (const CriterionKind criterion : { CriterionKind::InCircle, CriterionKind::OppositeAngles })
   {
-    options.Criterion = criterion;
+    const FlipOptions options = With(&FlipOptions::Criterion, criterion);
     const FlipReport report = FlipAndAudit(MakeWorstCaseMesh(4).View(), options).Report;
     EXPECT_EQ(8, report.Points);
     EXPECT_EQ(13, report.Edges.Edges);
@@ -272,7 +235,7 @@ bool FaceOneWay(const OwnedMesh<double>& mesh, const std::vector<std::int32_t>& 
 
 FlipResult FlipTilted(const OwnedMesh<double>& mesh, TieRuleKind rule = TieRuleKind::Keep)
 {
-  FlipResult result = FlipAndAudit(mesh.View(), WithTieRule(rule));
+  FlipResult result = FlipAndAudit(mesh.View(), With(&FlipOptions::TieRule, rule));
   EXPECT_EQ(GeometryKind::Planar, result.Report.GeometryUsed);
   EXPECT_TRUE(FaceOneWay(mesh, result.Triangles));
   return result;

@@ -129,11 +129,8 @@ TEST_P(PointSetsTest, EqualCgal)
 TEST_P(PointSetsTest, DependOnThePointsAlone)
 {
   const Places points = Draw(20000 / Reduction);
-  FlipOptions options;
-  options.NumberOfThreads = 1;
-  const Triangulation one = Triangulate(points, options);
-  options.NumberOfThreads = 5;
-  const Triangulation many = Triangulate(points, options);
+  const Triangulation one = Triangulate(points, WithThreads(1));
+  const Triangulation many = Triangulate(points, WithThreads(5));
   EXPECT_EQ(one.Triangles, many.Triangles);
   EXPECT_EQ(one.Report.TotalFlips, many.Report.TotalFlips);
   Places shuffled = points;
@@ -378,17 +375,6 @@ TEST(PointTriangulation, TooManyPoints)
   EXPECT_THROW(FlipSession(points, PointOptions()), MeshTooLarge);
 }
 
-TEST(PointTriangulation, InPiecesIsAnError)
-{
-  const Places points = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
-  PointOptions options;
-  options.NumberOfPieces = 1;
-  EXPECT_EQ(3u, Triangulate(PointInput{ View(points) }, options).Triangles.size());
-  options.NumberOfPieces = 2;
-  EXPECT_EQ("points cannot be triangulated in several pieces: gather them first",
-    GetMessage<InvalidOptions>([&] { FlipSession(PointInput{ View(points) }, options); }));
-}
-
 /// Once all triangles of a mesh are removed, its iterations have no angle.
 TEST(PointTriangulation, WithoutTrianglesHasNoAngle)
 {
@@ -397,10 +383,9 @@ TEST(PointTriangulation, WithoutTrianglesHasNoAngle)
   {
     points.push_back({ 10.0 * i, std::fmod(17.0 * i, 50.0) });
   }
-  PointOptions options;
-  const FlipReport some = Triangulate(PointInput{ View(points) }, options).Report;
-  options.LongestEdge = 1e-3;
-  const FlipReport none = Triangulate(PointInput{ View(points) }, options).Report;
+  const FlipReport some = Triangulate(points).Report;
+  const FlipReport none =
+    Triangulate(PointInput{ View(points) }, With(&PointOptions::LongestEdge, 1e-3)).Report;
   ASSERT_LT(0u, none.Iterations.size());
   FlipReport sum;
   AddReport(sum, none);

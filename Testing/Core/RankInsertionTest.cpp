@@ -116,8 +116,7 @@ std::int64_t CountWithoutIds(const FlipReport& report, const std::string& what)
 ConstrainedMesh Draw(std::size_t points, std::int32_t size, std::uint32_t seed)
 {
   ConstrainedMesh drawn = DrawCase(points, size, 10, seed);
-  FlipOptions few = MakeCanonical();
-  few.MaximumIterations = 4;
+  const FlipOptions few = With(&FlipOptions::MaximumIterations, 4, MakeCanonical());
   drawn.Mesh.Triangles = Flip(drawn.Mesh.View(), few).Triangles;
   const std::vector<double>& x = drawn.Mesh.Points;
   std::mt19937 random(seed);
@@ -275,8 +274,8 @@ TEST_P(RankInsertionTest, NoneBesideATriangleWithoutArea)
     drawn.Mesh.Points.insert(drawn.Mesh.Points.end(), { 40, 40, 0, 40, 41, 0, 40, y, 0 });
     const auto last = static_cast<std::int32_t>(drawn.Mesh.NumberOfPoints());
     drawn.Mesh.Triangles.insert(drawn.Mesh.Triangles.end(), { last - 3, last - 2, last - 1 });
-    FlipOptions options = MakeCanonical();
-    options.Geometry = GeometryKind::PlanarXY;
+    const FlipOptions options =
+      With(&FlipOptions::Geometry, GeometryKind::PlanarXY, MakeCanonical());
     TriangleMesh mesh = drawn.View();
     const PartsResult result = FlipDivided(mesh, GiveToAny(mesh, this->Divide(mesh)), options);
     mesh.ConstraintsToInsert = GetParam() == 1 ? mesh.ConstraintsToInsert : nullptr;

@@ -115,8 +115,7 @@ TEST_P(RanksTest, MayDisagreeAboutHeights)
       piece.Doubles[i] = DrawIndex(random, 1000);
     }
   }
-  FlipOptions options = MakeCanonical();
-  options.Geometry = GeometryKind::PlanarXY;
+  const FlipOptions options = With(&FlipOptions::Geometry, GeometryKind::PlanarXY, MakeCanonical());
   const PiecesReport report = FlipDivided(mesh.View(), pieces, options).Report;
   EXPECT_EQ(StopReasonKind::Converged, report.StopReason);
   EXPECT_EQ(Flip(mesh.View(), options).Report.NonDelaunayBefore, report.NonDelaunayBefore);
@@ -242,8 +241,7 @@ bool AreSimple(const OwnedMesh<double>& mesh, const Owners& owners, int ranks,
   {
     change(pieces);
   }
-  FlipOptions options = MakeCanonical();
-  options.Geometry = GeometryKind::PlanarXY;
+  const FlipOptions options = With(&FlipOptions::Geometry, GeometryKind::PlanarXY, MakeCanonical());
   std::vector<unsigned char> simple(ranks);
   RunInThreads(ranks,
     [&](PieceGroup& group)

@@ -24,16 +24,13 @@ namespace
 bool DoCross(const Places& points, const std::array<std::int64_t, 2>& first,
   const std::array<std::int64_t, 2>& second)
 {
-  const bool cross =
-    Turn(points, first[0], first[1], second[0]) * Turn(points, first[0], first[1], second[1]) < 0 &&
-    Turn(points, second[0], second[1], first[0]) * Turn(points, second[0], second[1], first[1]) < 0;
-  for (std::size_t i = 0; cross && i < points.size(); ++i)
+  const auto areApart = [&](const auto& line, const auto& other) {
+    return Turn(points, line[0], line[1], other[0]) * Turn(points, line[0], line[1], other[1]) < 0;
+  };
+  bool cross = areApart(first, second) && areApart(second, first);
+  for (std::int64_t i = 0; cross && i < static_cast<std::int64_t>(points.size()); ++i)
   {
-    const auto id = static_cast<std::int64_t>(i);
-    if (Turn(points, first[0], first[1], id) == 0 && Turn(points, second[0], second[1], id) == 0)
-    {
-      return false;
-    }
+    cross = Turn(points, first[0], first[1], i) != 0 || Turn(points, second[0], second[1], i) != 0;
   }
   return cross;
 }
@@ -215,8 +212,7 @@ TEST(Segments, NameWhatIsWrong)
 TEST(SplitCrossings, LeavesNoCrossing)
 {
   std::mt19937 random(4);
-  PointOptions options;
-  options.SplitCrossings = true;
+  const PointOptions options = With(&PointOptions::SplitCrossings, true);
   for (int i = 0; i < 300 / Reduction; ++i)
   {
     const Drawing drawing =
@@ -269,8 +265,7 @@ TEST(SplitCrossings, UsesNoPointThatIsNotUsed)
   Drawing drawing;
   drawing.Points = { { 0, 0 }, { 2, 2 }, { 0, 2 }, { 2, 0 }, { 1.0625, 1 }, { 1, 1 } };
   drawing.Segments = { { 0, 1 }, { 2, 3 } };
-  PointOptions options;
-  options.SplitCrossings = true;
+  PointOptions options = With(&PointOptions::SplitCrossings, true);
   options.PointTolerance = 0.125;
   const Triangulation result = Triangulate(drawing, options);
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 3, 4, 4 }), result.UsedPoints);
@@ -280,8 +275,7 @@ TEST(SplitCrossings, UsesNoPointThatIsNotUsed)
 
 TEST(SplitCrossings, RoundsOnceAndUsesPointsThatAreThere)
 {
-  PointOptions options;
-  options.SplitCrossings = true;
+  const PointOptions options = With(&PointOptions::SplitCrossings, true);
   Drawing drawing;
   drawing.Points = { { 0, 0 }, { 3, 1 }, { 0, 1 }, { 1, 0 }, { 4, 4 }, { 6, 6 }, { 4, 6 }, { 6, 4 },
     { 5, 5 } };
@@ -345,9 +339,8 @@ TEST_P(OutlineTest, KeepsWhatIsInside)
     drawing.AddRing(ring);
   }
   drawing.FirstHole = GetParam().FirstHole;
-  PointOptions options;
-  options.Outline = GetParam().Outline;
-  const Triangulation result = Triangulate(drawing, options);
+  const Triangulation result =
+    Triangulate(drawing, With(&PointOptions::Outline, GetParam().Outline));
   ExpectConstrainedDelaunay(drawing.Points, result);
   EXPECT_EQ(2.0 * GetParam().Area, SumArea(drawing.Points, result.Triangles));
   const FlipReport& report = result.Report;
@@ -413,8 +406,7 @@ TEST(Outline, TheSmallestAngleIsThatOfWhatIsLeft)
 TEST(Outline, DirectionOfHugeTinyAndFarRings)
 {
   std::mt19937 random(8);
-  PointOptions options;
-  options.Outline = OutlineKind::Orientation;
+  const PointOptions options = With(&PointOptions::Outline, OutlineKind::Orientation);
   for (int i = 0; i < 60; ++i)
   {
     const double scales[] = { 1e160, 1e-165, 1e-3 };
@@ -434,8 +426,7 @@ TEST(Outline, DirectionOfHugeTinyAndFarRings)
 
 TEST(Outline, RingsWithoutAreaAreErrors)
 {
-  PointOptions options;
-  options.PointTolerance = 0.5;
+  const PointOptions options = With(&PointOptions::PointTolerance, 0.5);
   for (const Places& ring : { Places{ { 4, 4 }, { 8, 8 }, { 6, 6 } }, Square(4, 4, 0.1) })
   {
     Drawing drawing;
@@ -490,9 +481,8 @@ TEST(Outline, AlphaAndLongestEdgeKeepSegments)
   for (const bool byAlpha : { true, false })
   {
     const Triangulation all = Triangulate(drawing);
-    PointOptions options;
-    (byAlpha ? options.Alpha : options.LongestEdge) = 60.0;
-    const Triangulation kept = Triangulate(drawing, options);
+    const auto limit = byAlpha ? &PointOptions::Alpha : &PointOptions::LongestEdge;
+    const Triangulation kept = Triangulate(drawing, With(limit, 60.0));
     const auto list = [&](const Triangulation& from, bool onlySmall)
     {
       std::set<VertexPair> segments;
@@ -536,9 +526,7 @@ TEST(PointTolerance, MergesNearPoints)
 {
   std::mt19937 random(7);
   const Drawing drawing = DrawRandom(random, 500, 0, 100);
-  PointOptions options;
-  options.PointTolerance = 5.0;
-  const Triangulation result = Triangulate(drawing, options);
+  const Triangulation result = Triangulate(drawing, With(&PointOptions::PointTolerance, 5.0));
   std::int64_t near = 0;
   for (std::size_t i = 0; i < drawing.Points.size(); ++i)
   {

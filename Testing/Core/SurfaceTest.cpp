@@ -112,9 +112,8 @@ private:
 /// Everything that must hold after flips on any surface.
 FlipResult FlipSurface(const OwnedMesh<double>& mesh, double deviation = INFINITY)
 {
-  FlipOptions options = OnSurface();
-  options.MaximumDeviation = deviation;
-  FlipResult result = FlipAndAudit(mesh.View(), options);
+  FlipResult result =
+    FlipAndAudit(mesh.View(), With(&FlipOptions::MaximumDeviation, deviation, OnSurface()));
   EXPECT_EQ(0, SurfaceReferee(mesh, result.Triangles, deviation).CountMissedFlips());
   return result;
 }
@@ -280,9 +279,8 @@ TEST(Surface, NoFlipMovesItByMoreThanTheDeviation)
         result.Report.BlockedByEdge);
     blocked += result.Report.BlockedByDeviation;
 
-    FlipOptions options = OnSurface();
-    options.MaximumDeviation = deviation;
-    FlipSession session(mesh.View(), OnTestBackend(options));
+    FlipSession session(
+      mesh.View(), OnTestBackend(With(&FlipOptions::MaximumDeviation, deviation, OnSurface())));
     std::vector<std::int32_t> triangles = mesh.Triangles;
     std::int64_t flips = 0;
     for (bool goesOn = true; goesOn;)

@@ -22,9 +22,7 @@ constexpr double Fixed = 1e-9;
 
 FlipOptions OfSurfaces(double tolerance)
 {
-  FlipOptions options = OnSurface();
-  options.Tolerance = tolerance;
-  return options;
+  return With(&FlipOptions::Tolerance, tolerance, OnSurface());
 }
 
 template <typename Real>

@@ -51,9 +51,7 @@ TEST(WideRange, OneLargeCoordinateHidesNoBadEdge)
     OwnedMesh<double> mesh;
     mesh.Points = { 0, 0, height, 4, 0, height, 2, 1, height, 2, -1, height, 1, 0, -height };
     mesh.Triangles = { 0, 1, 2, 1, 0, 3, 2, 1, 4 };
-    FlipOptions options = OnSurface();
-    options.Tolerance = 0.0;
-    const FlipResult result = Flip(mesh.View(), options);
+    const FlipResult result = Flip(mesh.View(), With(&FlipOptions::Tolerance, 0.0, OnSurface()));
     EXPECT_EQ(1, result.Report.NonDelaunayBefore) << height;
     EXPECT_EQ(1, result.Report.TotalFlips) << height;
     EXPECT_EQ(0, result.Report.NonDelaunayAfter) << height;

@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -440,7 +439,7 @@ void ExpectSameWhenDoubled(const EngineCase& drawn, const FlipResult& result)
     coordinate *= 2.0;
   }
   const EngineInput input(doubled);
-  const std::optional<FlipResult> other = TryToFlip(input.View(), WithThreads(doubled.Options, 1));
+  const std::optional<FlipResult> other = TryToFlip(input.View(), WithThreads(1, doubled.Options));
   ASSERT_TRUE(other.has_value());
   EXPECT_EQ(result.Triangles, other->Triangles);
   EXPECT_EQ(result.Report.NonDelaunayAfter, other->Report.NonDelaunayAfter);
@@ -469,16 +468,16 @@ void JudgeEngineCase(const EngineCase& drawn)
   const std::string before = Describe(drawn);
   const EngineInput input(drawn);
   const TriangleMesh mesh = input.View();
-  const std::optional<FlipResult> result = TryToFlip(mesh, WithThreads(drawn.Options, 1));
+  const std::optional<FlipResult> result = TryToFlip(mesh, WithThreads(1, drawn.Options));
   const int threads = 2 + static_cast<int>(drawn.Triangles.size() % 3);
-  const std::optional<FlipResult> other = TryToFlip(mesh, WithThreads(drawn.Options, threads));
+  const std::optional<FlipResult> other = TryToFlip(mesh, WithThreads(threads, drawn.Options));
   ASSERT_EQ(result.has_value(), other.has_value());
   if (!result)
   {
     return;
   }
   ExpectSameResult(*result, *other);
-  ExpectSameResult(*result, FlipInSteps(mesh, WithThreads(drawn.Options, 1), 1));
+  ExpectSameResult(*result, FlipInSteps(mesh, WithThreads(1, drawn.Options), 1));
   EXPECT_EQ(before, Describe(drawn));
   ExpectSameTopology(mesh.Triangles, result->Triangles, result->Report);
   ExpectUntouchedTrianglesStay(mesh, *result);

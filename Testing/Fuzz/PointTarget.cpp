@@ -114,7 +114,7 @@ void JudgePointCase(const PointCase& drawn)
   Triangulation result;
   try
   {
-    result = Triangulate(drawn.Input, WithThreads(drawn.Options, 1));
+    result = Triangulate(drawn.Input, WithThreads(1, drawn.Options));
   }
   catch (const InvalidMesh&)
   {
@@ -122,7 +122,7 @@ void JudgePointCase(const PointCase& drawn)
     EXPECT_EQ(0, drawn.Input.Rings.front());
     return;
   }
-  const Triangulation other = Triangulate(drawn.Input, WithThreads(drawn.Options, 3));
+  const Triangulation other = Triangulate(drawn.Input, WithThreads(3, drawn.Options));
   EXPECT_EQ(result.Triangles, other.Triangles);
   EXPECT_EQ(result.Neighbors, other.Neighbors);
   EXPECT_EQ(result.UsedPoints, other.UsedPoints);

@@ -206,9 +206,7 @@ TEST_F(SmallMeshTest, Planes)
   options.TrackQuality = true;
   ExpectGpuAgrees(MakeRandomBadMeshDouble(400, 62).View(), options);
   ExpectGpuAgrees(MakeWorstCaseMesh(20).View(), {});
-  FlipOptions canonical;
-  canonical.TieRule = TieRuleKind::Canonical;
-  ExpectGpuAgrees(MakeGridMesh(20, 10).View(), canonical);
+  ExpectGpuAgrees(MakeGridMesh(20, 10).View(), With(&FlipOptions::TieRule, TieRuleKind::Canonical));
 }
 
 TEST_F(SmallMeshTest, TerrainWithConstraintsRegionsAndFrozenTriangles)

@@ -44,12 +44,8 @@ TEST_F(RealDataTest, TheGpuGivesTheCpusBits)
     free.NumberOfConstraintEdges = 0;
     for (const double tolerance : { -1.0, 1e-9 })
     {
-      FlipOptions options;
-      options.Tolerance = tolerance;
-      ExpectGpuAgrees(mesh.View(), options);
-      options = OnSurface();
-      options.Tolerance = tolerance;
-      ExpectGpuAgrees(mesh.View(), options);
+      ExpectGpuAgrees(mesh.View(), With(&FlipOptions::Tolerance, tolerance));
+      ExpectGpuAgrees(mesh.View(), With(&FlipOptions::Tolerance, tolerance, OnSurface()));
     }
     if (mesh.IsHeightField)
     {
