@@ -5,14 +5,7 @@
 import os
 
 from CommandTesting import (
-    FORMATS,
-    CommandTest,
-    bumpy_grid,
-    make_array,
-    make_mesh,
-    triangle_set,
-    triangles_of,
-)
+    FORMATS, CommandTest, bumpy_grid, make_array, make_mesh, triangle_set, triangles_of)
 
 
 def annotated_mesh():

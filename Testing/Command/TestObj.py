@@ -3,15 +3,7 @@
 """What a .obj contains besides points and faces: what is kept, and what is named."""
 
 from CommandTesting import (
-    ArrayTest,
-    bumpy_grid,
-    cells_of,
-    make_values,
-    points_of,
-    triangles_of,
-    tuples_of,
-    values_of,
-)
+    ArrayTest, bumpy_grid, cells_of, make_values, points_of, triangles_of, tuples_of, values_of)
 
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
 TEXTURE = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 1 1\n"

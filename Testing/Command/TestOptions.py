@@ -7,17 +7,8 @@ import os
 import resource
 
 from CommandTesting import (
-    CommandTest,
-    bad_mesh,
-    bumpy_grid,
-    cells_of,
-    make_mesh,
-    make_values,
-    points_of,
-    triangle_set,
-    triangles_of,
-    values_of,
-)
+    CommandTest, bad_mesh, bumpy_grid, cells_of, make_mesh, make_values, points_of, triangle_set,
+    triangles_of, values_of)
 
 # Divided along its long diagonal.
 KITE = [(-2.0, 0.0, 0.0), (0.0, -1.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0)]

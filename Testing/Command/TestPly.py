@@ -6,17 +6,8 @@ import math
 import struct
 
 from CommandTesting import (
-    ArrayTest,
-    BadFileTest,
-    bumpy_grid,
-    cells_of,
-    make_mesh,
-    make_values,
-    points_of,
-    triangles_of,
-    tuples_of,
-    values_of,
-)
+    ArrayTest, BadFileTest, bumpy_grid, cells_of, make_mesh, make_values, points_of, triangles_of,
+    tuples_of, values_of)
 
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
          "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",

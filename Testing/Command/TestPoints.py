@@ -7,16 +7,8 @@ import math
 from vtkmodules.vtkCommonCore import vtkPoints
 
 from CommandTesting import (
-    FORMATS,
-    BadFileTest,
-    bumpy_grid,
-    make_array,
-    make_mesh,
-    points_of,
-    triangle_set,
-    triangles_of,
-    turns_of,
-)
+    FORMATS, BadFileTest, bumpy_grid, make_array, make_mesh, points_of, triangle_set, triangles_of,
+    turns_of)
 
 # A square and its middle.
 PLACES = [(0, 0, 1), (4, 0, 2), (4, 4, 3), (0, 4, 4), (2, 2, 5)]

@@ -7,18 +7,8 @@ import math
 from vtkmodules.vtkCommonDataModel import vtkDataSetAttributes
 
 from CommandTesting import (
-    ArrayTest,
-    BadFileTest,
-    bumpy_grid,
-    cells_of,
-    make_cells,
-    make_mesh,
-    make_values,
-    points_of,
-    same,
-    triangles_of,
-    values_of,
-)
+    ArrayTest, BadFileTest, bumpy_grid, cells_of, make_cells, make_mesh, make_values, points_of,
+    same, triangles_of, values_of)
 from TestNumbers import as_text
 
 GRID = 4
