@@ -145,18 +145,6 @@ TEST(Surface, NarrowSpheresGainNoEdgeTwice)
   EXPECT_LT(0, blocked);
 }
 
-/// In a tetrahedron every flip would repeat an edge.
-TEST(Surface, TetrahedraStayAsTheyAre)
-{
-  const OwnedMesh<double> mesh = { { -2, 0, 0, 2, 0, 0, 0, -1, 0.1, 0, 1, 0.1 },
-    { 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2 } };
-  const FlipResult result = FlipSurface(mesh);
-  EXPECT_EQ(mesh.Triangles, result.Triangles);
-  EXPECT_EQ(1, result.Report.NonDelaunayAfter);
-  EXPECT_EQ(1, result.Report.BlockedByEdge);
-  EXPECT_EQ(0, result.Report.BlockedByShape);
-}
-
 /// A sheet folded almost flat onto itself: the angles sum to more than pi, but the new triangles
 /// would face each other.
 TEST(Surface, FlipsThatFoldItOverAreBlocked)
