@@ -138,8 +138,7 @@ TEST_F(DeviceMeshTest, ConstraintsAreInserted)
 {
   const std::vector<std::int64_t> edge{ 100, 200 };
   const unsigned char flag = 1;
-  TriangleMesh mesh = WithConstraints(this->Mesh.View(), edge);
-  mesh.ConstraintsToInsert = &flag;
+  const TriangleMesh mesh = WithConstraints(this->Mesh.View(), edge, &flag);
   for (const BackendKind backend : { BackendKind::Auto, BackendKind::CUDA })
   {
     const FlipReport report = ExpectSame(mesh, OnBackend(backend));

@@ -232,8 +232,10 @@ TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int3
   return result;
 }
 
-TriangleMesh WithConstraints(TriangleMesh mesh, const std::vector<std::int64_t>& ends)
+TriangleMesh WithConstraints(
+  TriangleMesh mesh, const std::vector<std::int64_t>& ends, const unsigned char* toInsert)
 {
+  mesh.ConstraintsToInsert = toInsert;
   mesh.ConstraintEdges = ends.data();
   mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(ends.size()) / 2;
   return mesh;

@@ -99,7 +99,9 @@ TriangleArray ViewTriangles(const std::vector<std::int32_t>& triangles);
 TriangleMesh WithTriangles(const TriangleMesh& mesh, const std::vector<std::int32_t>& triangles);
 
 /// `mesh` with constraint edges, given as pairs of ids.
-TriangleMesh WithConstraints(TriangleMesh mesh, const std::vector<std::int64_t>& ends);
+/// @param toInsert TriangleMesh::ConstraintsToInsert.
+TriangleMesh WithConstraints(TriangleMesh mesh, const std::vector<std::int64_t>& ends,
+  const unsigned char* toInsert = nullptr);
 
 /// Reports a failure for every count of edges that has changed although flips must not change it.
 void ExpectSameTopology(

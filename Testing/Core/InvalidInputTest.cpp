@@ -78,10 +78,8 @@ TEST(InvalidIds, OfConstraintsThrowWithConstraintAndPoint)
   for (std::int64_t id : { std::int64_t(16), std::int64_t(-1), Far, -Far })
   {
     const std::vector<std::int64_t> ends = { 0, 1, 1, id };
-    TriangleMesh mesh = WithConstraints(grid.View(), ends);
-    ExpectInvalid(mesh, 1, id);
-    mesh.ConstraintsToInsert = flags;
-    ExpectInvalid(mesh, 1, id);
+    ExpectInvalid(WithConstraints(grid.View(), ends), 1, id);
+    ExpectInvalid(WithConstraints(grid.View(), ends, flags), 1, id);
   }
 }
 

@@ -346,8 +346,7 @@ TEST_P(PartsTest, TheCallerCanStopAtAnyTime)
   const Mesh owned = MakeRandomBadMeshDouble(1000, 56);
   const std::vector<std::int64_t> edges{ 10, 990, 20, 980, 50, 60 };
   const std::vector<unsigned char> insert{ 1, 1, 0 };
-  TriangleMesh mesh = WithConstraints(owned.View(), edges);
-  mesh.ConstraintsToInsert = insert.data();
+  const TriangleMesh mesh = WithConstraints(owned.View(), edges, insert.data());
   const FlipResult alone = Flip(mesh, MakeCanonical());
   const PartsResult expected = FlipHere(mesh, GetParam(), MakeCanonical());
   ASSERT_LT(0, alone.Report.InsertedConstraints);

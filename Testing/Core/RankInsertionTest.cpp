@@ -80,8 +80,7 @@ bool LiesInAPiece(const std::vector<OwnPiece>& pieces, const std::int64_t* ends)
     [&](const OwnPiece& piece)
     {
       const std::vector<std::int64_t> own{ FindPoint(piece, ends[0]), FindPoint(piece, ends[1]) };
-      TriangleMesh part = WithConstraints(piece.View().Mesh, own);
-      part.ConstraintsToInsert = &insert;
+      TriangleMesh part = WithConstraints(piece.View().Mesh, own, &insert);
       part.Regions = nullptr;
       part.FrozenTriangles = nullptr;
       return own[0] >= 0 && own[1] >= 0 && Flip(part, options).Report.UnmatchedConstraints == 0;

@@ -370,11 +370,7 @@ void ConstrainedMesh::Add(std::int64_t from, std::int64_t to, bool insert)
 
 TriangleMesh ConstrainedMesh::View() const
 {
-  TriangleMesh mesh = this->Mesh.View();
-  mesh.ConstraintEdges = this->Ends.data();
-  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(this->ToInsert.size());
-  mesh.ConstraintsToInsert = this->ToInsert.data();
-  return mesh;
+  return WithConstraints(this->Mesh.View(), this->Ends, this->ToInsert.data());
 }
 
 ConstrainedMesh Constrain(OwnedMesh<double> mesh, int constraints, std::mt19937& random)

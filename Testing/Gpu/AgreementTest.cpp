@@ -172,8 +172,7 @@ TEST_F(MoreAgreementTest, InsertedConstraints)
     ends.push_back(DrawIndex(random, bad.NumberOfPoints()));
   }
   const std::vector<unsigned char> toInsert(Constraints, 1);
-  TriangleMesh mesh = WithConstraints(bad.View(), ends);
-  mesh.ConstraintsToInsert = toInsert.data();
+  const TriangleMesh mesh = WithConstraints(bad.View(), ends, toInsert.data());
   const FlipReport report = ExpectGpuAgrees(mesh, FlipOptions()).Report;
   EXPECT_LT(0, report.InsertedConstraints);
   EXPECT_LT(0, report.ConstraintFlips);
