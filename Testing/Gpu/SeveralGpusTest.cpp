@@ -133,6 +133,7 @@ TEST_F(SharedMeshTest, Plane)
   options.TieRule = TieRuleKind::Canonical;
   ExpectSame(MakeTiledBadMesh(4 * Points, 5, 52).View(), options);
   ExpectSame(Transform(MakeGridMesh(700, 600), ScaleAndMove(3.0, 1e6)).View(), options);
+  options.TieRule = TieRuleKind::Keep;
   options.Criterion = CriterionKind::OppositeAngles;
   ExpectSame(MakeRandomBadMeshDouble(Points, 53).View(), options);
 }
