@@ -94,6 +94,15 @@ __global__ void __launch_bounds__(ThreadsPerBlock)
   }
 }
 
+/// Adds up partial sums. Not a lambda, so that there is one kernel for each type of sum.
+template <typename Result>
+struct AddPartial
+{
+  __device__ void operator()(std::int64_t i, Result& sum) const { sum += this->Partials[i]; }
+
+  const Result* Partials;
+};
+
 /// One block counts one tile, one item per thread, because counting may wait for memory.
 template <typename CountOf>
 __global__ void __launch_bounds__(ThreadsPerBlock)
@@ -227,9 +236,8 @@ public:
         SumKernel<<<own, ThreadsPerBlock, 0, stream>>>(items, work, partials.Data() + blocks);
         blocks += own;
       });
-    const Result* own = partials.Data();
+    const AddPartial<Result> add{ partials.Data() };
     Result* all = partials.Data() + blocks;
-    const auto add = [=] __device__(std::int64_t i, Result & sum) { sum += own[i]; };
     Launch(this->GetStream(),
       [&](cudaStream_t stream) {
         SumKernel<<<1, ThreadsPerBlock, 0, stream>>>(ItemRange{ 0, blocks }, add, all);
