@@ -290,8 +290,8 @@ public:
   /// had an iteration.
   __device__ int GetBadChange() const { return GetTeamMemory().News.GetBadChange(); }
 
-  /// Waits for all threads of the team and sees what they wrote before. Adds the sums since the
-  /// last call with an iteration to that, if it is not null.
+  /// Waits for all threads of the team and sees what they wrote before. If `iteration` is not null,
+  /// adds to it the sums since the last call that had one.
   __device__ void Wait(IterationSums* iteration = nullptr)
   {
     __syncthreads();

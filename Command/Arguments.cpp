@@ -143,7 +143,7 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
 {
   app.add_flag("--merge-points", arguments.MergePoints,
     "First join points of the input at the same place, as in a file that lists the corners of "
-    "each triangle. The data of the first stay. Points that no cell uses go");
+    "each triangle. A point keeps the data of the first of them. Points that no cell uses go");
   AddFile(app, "--constraints", arguments.Constraints,
     "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
     "it has the same points; otherwise points are matched by their coordinates. In the plane, "

@@ -408,6 +408,11 @@ private:
       }
       const vtkSmartPointer<vtkPolyData> mesh = this->ReadFile(path);
       this->TakeExactPlaces(mesh);
+      if (mesh->GetPoints()->GetDataType() == VTK_DOUBLE &&
+        this->Input->GetPoints()->GetDataType() == VTK_FLOAT)
+      {
+        this->Note(path + ": its coordinates are rounded to floats, as those of the points are");
+      }
       const auto segments = MakeSegments(mesh, path, file == &files.Constraints);
       this->OutlineRings += file == &files.Outline ? segments->GetNumberOfPolys() : 0;
       all->AddInputData(segments);
@@ -425,14 +430,14 @@ private:
     }
   }
 
-  /// Where only one of mesh and input has doubles, makes both doubles. Points of the mesh at a
-  /// point of the input, rounded, become that point.
+  /// Makes floats doubles, as they become where another file has doubles. Those at a point of the
+  /// input, rounded, become that point.
   void TakeExactPlaces(vtkPolyData* mesh) const
   {
     std::vector<double> storage, inputStorage;
     const PointArray points = ViewPoints(mesh, storage);
     const PointArray inputPoints = ViewPoints(this->Input, inputStorage);
-    if (!points.Floats == !inputPoints.Floats)
+    if (!points.Floats || inputPoints.Floats)
     {
       return;
     }
@@ -453,17 +458,16 @@ private:
     }
     const vtkNew<vtkPoints> exact;
     exact->SetDataTypeToDouble();
-    vtkPolyData* const floats = points.Floats ? mesh : this->Input.Get();
-    exact->DeepCopy(floats->GetPoints());
-    floats->SetPoints(exact);
+    exact->DeepCopy(mesh->GetPoints());
     for (std::int64_t i = 0; i < points.Count; ++i)
     {
       const std::int64_t same = inputAt[placeOf[i]];
       if (same != PointPlaces::None)
       {
-        mesh->GetPoints()->SetPoint(i, this->Input->GetPoint(same));
+        exact->SetPoint(i, this->Input->GetPoint(same));
       }
     }
+    mesh->SetPoints(exact);
   }
 
   void Warn(const std::string& warning)

@@ -75,9 +75,9 @@ public:
   /// convergence, at FlipOptions::MaximumIterations, or if an observer returns false. The next call
   /// continues from there.
   /// @returns whether there is more to do and no observer stopped the run.
-  /// @throws BackendUnavailable, std::bad_alloc; if the constructor was stopped, and with several
-  /// pieces, also what it throws; what an observer throws. After an exception the next call begins
-  /// anew.
+  /// @throws BackendUnavailable, std::bad_alloc, what an observer throws; and, after a constructor
+  /// that was stopped or with several pieces, what the constructor throws. After an exception the
+  /// next call begins anew.
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
     const ProgressObserver& progress = {});
 
@@ -88,8 +88,8 @@ public:
   void Expect(void* memory, std::int64_t bytes);
 
   /// What has happened so far. The first call after an Advance that did not finish computes the
-  /// smallest angle, which takes a pass over the mesh. After an exception, too, the next Advance
-  /// begins anew.
+  /// smallest angle, which takes a pass over the mesh. If this throws, the next Advance begins
+  /// anew.
   const FlipReport& GetReport() const;
 
   /// Writes the triangles, each in its input slot. A triangle that no flip changed keeps its three

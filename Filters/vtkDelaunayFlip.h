@@ -340,8 +340,8 @@ public:
    * and the other double, they are compared after rounding to float. If several points of the mesh
    * coincide, all pairs of them that are edges of the mesh match. Constraint edges that match no
    * edge of the mesh and are not inserted are counted, and the update gives one warning. An update
-   * of a piece of the mesh asks for all of this input, but only for the same piece where both
-   * inputs have an algorithm upstream in common.
+   * of a piece of the mesh asks for all of this input. If both inputs come from a common algorithm,
+   * it asks for the same piece of both.
    */
   void SetConstraintsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
   void SetConstraintsData(vtkPolyData* constraints) { this->SetInputData(1, constraints); }

@@ -362,7 +362,7 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     if (this->LiveUpdate && !isLive && !IsBatchProgram())
     {
       summary.Warnings.push_back(
-        { "", "LiveUpdate is for one mesh in one piece; others are flipped at once" });
+        { "", "LiveUpdate is for one mesh in one piece; this input was flipped at once" });
     }
     summary.Report.StopReason = StopReasonKind::Converged; // what an input without blocks is
     double before = 0.0;

@@ -328,16 +328,16 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   BlockLeaf& leaf = block.Leaves.front();
   const auto output = vtkSmartPointer<vtkPolyData>::New();
   leaf.Result = output;
-  using Asked = vtkStreamingDemandDrivenPipeline;
-  if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0) // the first has all
-  {
-    return;
-  }
   auto* points = vtkPointSet::SafeDownCast(leaf.Data);
   if (!points)
   {
     leaf.Result = Hold(leaf.Data);
     summary.Warnings.push_back({ block.Name, "has no points of its own, passed unchanged" });
+    return;
+  }
+  using Asked = vtkStreamingDemandDrivenPipeline;
+  if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0) // the first has all
+  {
     return;
   }
   const auto others = ListOthers(block, segments, "the segments of a single dataset");

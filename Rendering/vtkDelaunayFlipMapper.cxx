@@ -379,7 +379,8 @@ bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
   const auto isValid = [](vtkCellArray* cells) { return cells->IsValid(); };
   const auto areThere = [count = mesh->GetNumberOfPoints()](vtkCellArray* cells)
   {
-    vtkDataArray* ids = cells->GetConnectivityArray();
+    const vtkNew<vtkIdTypeArray> ids; // a copy: arrays keep a range that may be of old values
+    ids->DeepCopy(cells->GetConnectivityArray());
     const double* range = ids->GetRange();
     return ids->GetNumberOfValues() == 0 ||
       (range[0] >= 0.0 && range[1] < static_cast<double>(count));

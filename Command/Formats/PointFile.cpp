@@ -164,11 +164,11 @@ FileMesh ReadPoints(const InputFile& file)
     do
     {
       // Text at the end may have any number of words. Numbers may come from decimal commas.
-      const auto others = lines.Words.begin() + std::min(count, lines.Words.size());
-      if (!IsComment(lines.Words[0]) && std::any_of(others, lines.Words.end(), IsNumber))
+      const Words& words = lines.Words;
+      if (words.size() > count && std::all_of(words.begin(), words.begin() + count + 1, IsNumber))
       {
-        lines.Fail("has " + std::to_string(lines.Words.size()) +
-          " columns, but the first point has " + std::to_string(count));
+        lines.Fail("begins with more than " + std::to_string(count) +
+          " numbers, but the first point has " + std::to_string(count) + " columns");
       }
       for (std::size_t i = 0; i < 3 && !IsComment(lines.Words[0]); ++i)
       {

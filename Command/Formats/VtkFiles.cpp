@@ -327,7 +327,7 @@ void MakeBytes(vtkFieldData* data)
 }
 
 /// Throws where VTK's .vtp writer crashes or makes a file that cannot be read, and changes arrays
-/// and ranges that cannot be read.
+/// and ranges that VTK could not read back.
 /// @param tuples how many arrays must have; -1: any number.
 void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
 {
@@ -375,8 +375,8 @@ void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
   }
 }
 
-/// Changes what VTK's .vtk writer would spoil: ids, which it cuts to 32 bits, and bits. Colors
-/// whose name it would not read back become an array that is not active.
+/// Changes what VTK's .vtk writer would spoil: ids, which it cuts to 32 bits, and bits of
+/// several components. Colors whose name it would not read back become an array that is not active.
 void PrepareForLegacy(vtkFieldData* data)
 {
   MakeBytes(data);

@@ -115,8 +115,8 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
 std::unique_ptr<LoadedMesh> LoadOnThreads(
   const PlaneArray& points, const FlipOptions& options, const BuildProgress& progress);
 
-/// The edges of a mesh that stay, but boundary edges: two ids for each, several times for one with
-/// three or more triangles.
+/// The edges that stay, without boundary edges, as pairs of ids. An edge of three or more triangles
+/// is listed several times.
 /// @param counts of its edges.
 std::vector<std::int64_t> ListInnerFixedEdges(
   const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts);

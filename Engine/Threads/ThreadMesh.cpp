@@ -122,8 +122,8 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
 
 namespace
 {
-/// Pairs of vertex ids of the fixed edges with two triangles, and perhaps of those with more, of
-/// which each triangle lists them.
+/// Pairs of vertex ids of the fixed edges with two triangles and, if asked for, of those with more,
+/// once for each of their triangles.
 std::vector<std::int64_t> ListFixedEdges(const TriangleMesh& mesh, const FlipOptions& options,
   const BuildProgress& progress, bool withNonManifold)
 {

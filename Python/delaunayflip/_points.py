@@ -50,13 +50,13 @@ def triangulate(
     triangles have an area; n places with h of them on the hull give 2 n - 2 - h triangles.
 
     Points may be an array of CuPy, PyTorch or Numba in the memory of a GPU. They are triangulated
-    there, and triangles and neighbors are arrays of that library. All other arrays are NumPy's, and
-    so are these if rings are given by coordinates.
+    there, and triangles and neighbors are arrays of that library. All other arrays are NumPy's. If
+    rings are given by coordinates, all arrays are.
 
     Args:
-        points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous. z does not
-            matter, so pass (n, 3) whole: `points[:, :2]` is copied, which on a GPU takes longer than
-            all the rest. Of points at equal places that with the lowest id is used. Points with NaN
+        points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous. z is ignored.
+            Pass (n, 3) as it is: the slice `points[:, :2]` is copied, which with a GPU takes longer
+            than all the rest. Of points at equal places that with the lowest id is used. Points with NaN
             or infinite x or y are not used.
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
             points is split there; one that crosses an earlier one is refused and reported.

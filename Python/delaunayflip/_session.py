@@ -20,12 +20,16 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
+_SIGNALS = tuple(signal.Signals)
+
+
 @contextlib.contextmanager
 def _raise_after(raised):
-    """After the block, raises one of these exceptions. Meanwhile handlers of signals, such as that of
-    Ctrl-C, add theirs, which ctypes would swallow in a callback. Only the main thread has handlers."""
+    """Raises the exception in `raised`, if there is one, after the block. While it runs, what handlers of
+    signals raise, such as that of Ctrl-C, goes there too: ctypes would swallow it in a callback. Only
+    the main thread has handlers."""
     is_main = threading.current_thread() is threading.main_thread()
-    handlers = {number: signal.getsignal(number) for number in signal.Signals if is_main}
+    handlers = {number: signal.getsignal(number) for number in _SIGNALS if is_main}
     own = {number: handler for number, handler in handlers.items() if callable(handler)}
 
     def handle(number, frame):

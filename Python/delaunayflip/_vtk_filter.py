@@ -184,6 +184,7 @@ class Filter(VTKPythonAlgorithmBase):
     def RequestData(self, request, inInfo, outInfo):
         source, others, output = (vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo))
         table = vtkDataObject.GetData(outInfo, 1)
+        source = output.NewInstance() if source is None else source  # an observer may have removed it
         self._is_at_work = True
         self._forget()
         try:
