@@ -100,7 +100,8 @@ public:
    *
    *     do { flip->Update(); show(flip->GetOutput()); } while (flip->Advance());
    *
-   * A change of the input, or of an option that decides the mesh, starts a new run. But if only the
+   * A change of the input, or of an option that decides the mesh, starts a new run. After changing
+   * values in place, mark their array or its owner as modified, not only the dataset. If only the
    * points of a mesh were moved, under the same cells, the next update continues from the flipped
    * triangles, with the edges that were fixed at the beginning (a warm start); its statistics start
    * again. Composite input, and a piece of several, is flipped at once, with a warning. So is any

@@ -64,7 +64,8 @@ struct CloudRequest
   bool FitsPlane;
   vtkIdType FirstHole;
   PointOptions Options;
-  Stamps Arrays; ///< Of both.
+  Stamps Points; ///< Of the cloud.
+  Stamps Arrays; ///< Of both, but for these points.
   std::vector<double> Key; ///< The values of the options, and when the transform was modified.
   bool IsLive;
   ProgressObserver Progress;
@@ -100,6 +101,15 @@ public:
       this->Room = this->MakeRoom();
       ExpectTriangles(*this->Session, this->Room);
     }
+  }
+
+  /// Whether these are the points that a live run has copied. A filter upstream whose output was
+  /// released may have been executed again and have put out the same points.
+  bool HasCopyOf(vtkPolyData* cloud) const
+  {
+    std::vector<double> storage, others;
+    return this->Asked.IsLive &&
+      HaveSameBits(ViewPoints(this->Given, storage), ViewPoints(cloud, others));
   }
 
   FlipReport GetReport() const override
@@ -283,7 +293,7 @@ private:
   }
 
 public:
-  const CloudRequest Asked; ///< Its meshes may be gone.
+  CloudRequest Asked; ///< Its meshes may be gone.
 
 private:
   vtkSmartPointer<vtkPolyData> Given; ///< The input.
@@ -377,12 +387,12 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   options.Outline = static_cast<OutlineKind>(this->Outline);
   options.Alpha = this->Alpha;
   options.LongestEdge = this->LongestEdge;
-  Stamps arrays;
+  Stamps points, arrays;
   for (vtkPolyData* given : { cloud, segments })
   {
     if (given)
     {
-      arrays.AddPoints(given, given == cloud ? this->TimeOfBlock : 0);
+      given == cloud ? points.AddPoints(given, this->TimeOfBlock) : arrays.AddPoints(given);
       arrays.AddCells(given->GetVerts());
       arrays.AddCells(given->GetLines());
       arrays.AddCells(given->GetPolys());
@@ -396,14 +406,15 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
     this->LongestEdge };
   auto* last = static_cast<CloudRun*>(run.get());
   if (last && last->Asked.Key == key && last->Asked.Options == options &&
-    last->Asked.Arrays.Fit(arrays))
+    last->Asked.Arrays.Fit(arrays) && (last->Asked.Points.Fit(points) || last->HasCopyOf(cloud)))
   {
+    last->Asked.Points = std::move(points);
     return true;
   }
   run.reset(); // its memory may be needed
   run = std::make_unique<CloudRun>(CloudRequest{ cloud, segments, this->Transform,
-    this->Projection == PROJECTION_BEST_FITTING_PLANE, this->FirstHole, options, std::move(arrays),
-    key, isLive, this->MakeProgress() });
+    this->Projection == PROJECTION_BEST_FITTING_PLANE, this->FirstHole, options, std::move(points),
+    std::move(arrays), key, isLive, this->MakeProgress() });
   return false;
 }
 

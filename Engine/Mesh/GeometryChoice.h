@@ -517,7 +517,7 @@ private:
     {
       const bool areTurned = turns.GetOthers().Count > 0;
       std::string what = areTurned ? "triangles that turn the other way in x and y"
-                                   : "triangles that have no area in x and y";
+                                   : "triangles without area in x and y";
       if (areTurned && turns.Flat.Count > 0)
       {
         what += ", and " + std::to_string(turns.Flat.Count) + " that have no area there";
