@@ -155,7 +155,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     {
       run(call);
     }
-    for (int call = 1; failsOnce(call); call += 1 + call / 16)
+    for (int call = 1; failsOnce(call); call += 1 + call / (2 * Share))
     {
     }
   }
