@@ -166,25 +166,29 @@ bool TextLines::Next()
   return !this->Words.empty();
 }
 
-char TextLines::SeparateBy(std::string_view characters)
+void TextLines::SeparateBy(std::string_view characters)
 {
   const auto found = std::find_if(characters.begin(), characters.end(),
     [this](char letter) { return this->Text.find(letter) != std::string_view::npos; });
   this->Separator = found == characters.end() ? ' ' : *found;
   this->Words.clear();
   this->Split(this->Text);
-  return this->Separator;
 }
 
 void TextLines::Split(std::string_view line)
 {
-  this->Text = line;
   auto begin = std::find_if_not(line.begin(), line.end(), IsBlank);
+  this->Text = line.substr(static_cast<std::size_t>(begin - line.begin()));
   if (this->Separator != ' ' && begin != line.end())
   {
     for (std::size_t start = 0; start <= line.size();)
     {
-      const std::size_t end = std::min(line.find(this->Separator, start), line.size());
+      std::size_t open = line.find_first_not_of(' ', start);
+      while (open < line.size() && line[open] == '"') // again where quotes are doubled
+      {
+        open = std::min(line.find('"', open + 1), line.size() - 1) + 1;
+      }
+      const std::size_t end = std::min(line.find(this->Separator, open), line.size());
       this->Words.push_back(Trimmed(line.substr(start, end - start)));
       start = end + 1;
     }

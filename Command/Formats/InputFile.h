@@ -66,15 +66,21 @@ public:
   explicit TextLines(const InputFile& file, bool isObj = false);
 
   /// From this line on, words are separated by the first of these characters that this line has, if
-  /// it has one. Then words may be empty, but for those at the end, and quotes around them are
-  /// removed. Returns the character, or a blank.
-  char SeparateBy(std::string_view characters);
+  /// it has one. Then words may be empty, but for those at the end. Quotes around them are removed,
+  /// and characters between these do not separate.
+  void SeparateBy(std::string_view characters);
 
   /// Reads the next line that is not empty. Returns false if there is none.
   bool Next();
 
+  /// The line, from its first letter that is not blank.
+  std::string_view Text;
+
   /// The words of the line.
   std::vector<std::string_view> Words;
+
+  /// What is between them; a blank: any blanks.
+  char Separator = ' ';
 
   /// The bytes after this line.
   std::string_view Rest;
@@ -94,11 +100,9 @@ public:
 private:
   void Split(std::string_view line);
 
-  std::string_view Text; ///< The last one that was split.
   const InputFile& File;
   std::size_t Line = 0;
   bool IsObj;
-  char Separator = ' '; ///< Or a blank: any blanks.
 };
 
 template <typename T>

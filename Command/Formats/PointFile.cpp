@@ -27,9 +27,9 @@ bool IsNumber(std::string_view word)
   return ReadNumber(word, value) != std::errc::invalid_argument;
 }
 
-bool IsComment(std::string_view word)
+bool IsComment(const TextLines& lines)
 {
-  return word.substr(0, 1) == "#" || word.substr(0, 2) == "//";
+  return lines.Text.substr(0, 1) == "#" || lines.Text.substr(0, 2) == "//";
 }
 
 /// The places of the columns named x, y and, if there is one, z, in any case; else none.
@@ -72,22 +72,25 @@ Words ReadNames(TextLines& lines)
   Words names;
   bool hasNames = false; // that are no comment
   // Names may have blanks, so tabs separate them. Between numbers, blanks and tabs are the same.
-  const char* separators = ";,";
+  std::string separators = ";,";
   while (lines.Next())
   {
-    const bool isComment = IsComment(lines.Words[0]);
+    const bool isComment = IsComment(lines);
     lines.SeparateBy(separators);
     if (!isComment && (hasNames || std::any_of(lines.Words.begin(), lines.Words.end(), IsNumber)))
     {
-      const bool fits = names.size() == lines.Words.size();
-      if (hasNames && !fits)
+      if (lines.Separator != ' ') // cells at the end may be empty
+      {
+        lines.Words.resize(std::max(lines.Words.size(), names.size()));
+      }
+      if (!names.empty() && names.size() != lines.Words.size())
       {
         lines.Fail("has " + std::to_string(lines.Words.size()) +
           " columns, but the line of names has " + std::to_string(names.size()));
       }
-      return fits ? names : Words();
+      return names;
     }
-    const bool hasTabs = lines.SeparateBy(";,\t") == '\t';
+    lines.SeparateBy(";,\t");
     Words found = lines.Words;
     if (isComment)
     {
@@ -99,7 +102,7 @@ Words ReadNames(TextLines& lines)
     {
       hasNames = !isComment;
       names = std::move(found);
-      separators = hasTabs ? ";,\t" : ";,";
+      separators = lines.Separator == ' ' ? ";," : lines.Separator + std::string(";,");
     }
   }
   return {};
@@ -159,18 +162,31 @@ FileMesh ReadPoints(const InputFile& file)
   {
     const std::vector<std::size_t> columns = ChooseColumns(lines, names, result.Warnings);
     const std::size_t count = lines.Words.size();
+    // Between blanks no cell is empty, so a missing one would move the others.
+    const auto text = std::find_if_not(lines.Words.begin(), lines.Words.end(), IsNumber);
+    const auto numbers = static_cast<std::size_t>(text - lines.Words.begin());
+    const std::size_t fewest = lines.Separator != ' ' ? 0 : names.empty() ? numbers : count;
     const std::string_view rest = lines.Rest;
     coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
     do
     {
-      // Text at the end may have any number of words. Numbers may come from decimal commas.
       const Words& words = lines.Words;
+      if (IsComment(lines))
+      {
+        continue;
+      }
+      if (words.size() < fewest)
+      {
+        lines.Fail("has " + std::to_string(words.size()) + " columns, but lines before it have " +
+          std::to_string(fewest) + "; a value is missing");
+      }
+      // Text at the end may have any number of words. Numbers may come from decimal commas.
       if (words.size() > count && std::all_of(words.begin(), words.begin() + count + 1, IsNumber))
       {
         lines.Fail("begins with more than " + std::to_string(count) +
           " numbers, but the first point has " + std::to_string(count) + " columns");
       }
-      for (std::size_t i = 0; i < 3 && !IsComment(lines.Words[0]); ++i)
+      for (std::size_t i = 0; i < 3; ++i)
       {
         coordinates->InsertNextValue(i < columns.size() ? lines.Number<double>(columns[i]) : 0.0);
       }

@@ -103,6 +103,14 @@ class Files(PointTest):
         below the smallest, and no line end at the end."""
         self.expect("in.csv", '"x","y","z"\n"0","0","1"\n"4","0","2"\n4,4,"3"\n0,4,4\n2,2,5', PLACES)
         self.expect("in.csv", "\ufeffx;y;z;\n" + text_of(PLACES, ";", end=";\n"), PLACES)
+        rows = text_of(PLACES, ",", "x,y,z,n,m")
+        for first in ("0,0,1,,\n", "0,0,1,\n", "0,0,1\n"):
+            self.expect("in.csv", rows.replace("0,0,1\n", first), PLACES,
+                        "left out the columns 'n', 'm'")
+        for name in ("#1", "//", "a, b", "a; b", 'a, ""b"", c', "a, "):
+            rows = f'"{name}", "{name}",' + text_of(PLACES, ",", end=f'\n"{name}", "{name}",')
+            rows = rows[:rows.rindex("\n")]
+            self.expect("in.csv", "n,m,x,y,z\n" + rows, PLACES, "left out the columns 'n', 'm'")
         self.expect("in.xyz", "\n# a\n//b\n\n" + text_of(PLACES, end="\n\n#c\n"), PLACES)
         self.expect("in.xyz", "+0 1e-400 1\n" + text_of(PLACES[1:]), PLACES)
 
@@ -115,6 +123,10 @@ class Files(PointTest):
             "1.5;2,5;3\n": ["line 1", "'2,5' is not a number"],
             "12\n1 2 3\n": ["line 1", "x y [z]"],
             "x y z\n1 0.1 0.2 0.3\n": ["line 2", "4 columns", "names has 3"],
+            "# t x y z\n1 0.1 0.2\n": ["line 2", "3 columns", "names has 4"],
+            "x y z w\n1 2 3 4\n1  3 4\n": ["line 3", "3 columns", "have 4; a value is missing"],
+            "1\t2\t3\t4 a b\n#\n1\t\t3\n": ["line 3", "2 columns", "have 4; a value is missing"],
+            "lon,lat,height\n0,0,\n": ["line 2", "a number is missing"],
             "1 2 1e999\n": ["line 1", "'1e999' is out of range"],
             "x,y,z\n1,2,3\n1,5,2,5,3,5\n": ["line 3", "more than 3 numbers", "has 3 columns"],
             "1,2,3\n1,5,2,5,3,5,a\n": ["line 2", "more than 3 numbers", "has 3 columns"],
