@@ -204,7 +204,8 @@ private:
   }
 
   /// Adds the texture coordinates (kind 1) or normals (kind 2) to the points, zeros where no
-  /// polygon has the point. If a corner has none, or two at a point differ, all are left out.
+  /// polygon has the point. If there are no polygons, a corner has none, or two at a point differ,
+  /// all are left out.
   vtkSmartPointer<vtkDoubleArray> OfPoints(std::size_t kind, const char* name)
   {
     const std::vector<double>& values = this->Values[kind];
@@ -212,7 +213,7 @@ private:
     const auto points = static_cast<std::size_t>(this->Sizes[0]);
     std::vector<double> ofPoints(points * size);
     std::vector<bool> isKnown(points);
-    bool agree = true;
+    bool agree = !this->Corners.empty();
     for (std::size_t i = 0; i < this->Corners.size() && agree; ++i)
     {
       const Corner& corner = this->Corners[i];

@@ -20,13 +20,16 @@ namespace delaunayflip
 namespace
 {
 
-/// The types, each by two names; the first is written.
+/// The types, each by two names; the first is written. The last two are only read.
 constexpr std::pair<const char*, int> Types[] = { { "char", VTK_SIGNED_CHAR },
   { "int8", VTK_SIGNED_CHAR }, { "uchar", VTK_UNSIGNED_CHAR }, { "uint8", VTK_UNSIGNED_CHAR },
   { "short", VTK_SHORT }, { "int16", VTK_SHORT }, { "ushort", VTK_UNSIGNED_SHORT },
   { "uint16", VTK_UNSIGNED_SHORT }, { "int", VTK_INT }, { "int32", VTK_INT },
   { "uint", VTK_UNSIGNED_INT }, { "uint32", VTK_UNSIGNED_INT }, { "float", VTK_FLOAT },
-  { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE }, { "float64", VTK_DOUBLE } };
+  { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE }, { "float64", VTK_DOUBLE },
+  { "int64", VTK_LONG_LONG }, { "uint64", VTK_UNSIGNED_LONG_LONG } };
+
+bool IsInteger(int type) { return type != VTK_FLOAT && type != VTK_DOUBLE; }
 
 using Names = std::vector<std::string>;
 
@@ -163,7 +166,7 @@ private:
         std::vector<PlyProperty>& properties = this->Elements.back().Properties;
         PlyProperty property{ this->Word(isList ? 4 : 2), this->TypeAt(isList ? 3 : 1) };
         property.CountType = isList ? this->TypeAt(2) : VTK_VOID;
-        isRight = property.CountType < VTK_FLOAT && !Find(properties, property.Name);
+        isRight = IsInteger(property.CountType) && !Find(properties, property.Name);
         properties.push_back(property);
       }
       if (!isRight)
@@ -191,7 +194,7 @@ private:
       [name = this->Word(place)](const auto& type) { return name == type.first; });
     if (found == std::end(Types))
     {
-      this->Lines.Fail("unknown type of a property");
+      this->Lines.FailOn(this->Word(place), " is not a type of a property");
     }
     return found->second;
   }
@@ -209,7 +212,7 @@ private:
     {
       const std::string& name = property.Name;
       const bool isList = property.CountType != VTK_VOID;
-      property.IsOfCell = property.Type < VTK_FLOAT &&
+      property.IsOfCell = IsInteger(property.Type) &&
         (isList ? isFace && (name == "vertex_indices" || name == "vertex_index")
                 : isEdge && (name == "vertex1" || name == "vertex2"));
       found += property.IsOfCell ? 1 : 0;
@@ -279,6 +282,12 @@ private:
       for (double i = 0.0; i != length; ++i) // the file ends before a wrong length is reached
       {
         const double value = this->Next(property.Type);
+        if ((property.Array || property.IsOfCell) && property.Type >= VTK_LONG_LONG &&
+          std::abs(value) >= std::ldexp(1.0, 53))
+        {
+          this->File.Fail(
+            property.Name + " has integers beyond 2^53, which cannot be read exactly");
+        }
         if (property.Array)
         {
           property.Array->InsertComponent(row, 0, value);
@@ -295,7 +304,7 @@ private:
     }
   }
 
-  /// A double holds all numbers of a .ply.
+  /// A double holds all numbers of a .ply but large integers of 64 bits.
   double Next(int type)
   {
     switch (type)
@@ -335,7 +344,7 @@ private:
 const char* NameOf(int type)
 {
   const auto* const found = std::find_if(std::begin(Types), std::end(Types),
-    [type](const auto& candidate) { return candidate.second == type; });
+    [type](const auto& one) { return one.second == type && type < VTK_LONG_LONG; });
   return found == std::end(Types) ? nullptr : found->first;
 }
 

@@ -376,7 +376,8 @@ void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
 }
 
 /// Changes what VTK's .vtk writer would spoil: ids, which it cuts to 32 bits, and bits of
-/// several components. Colors whose name it would not read back become an array that is not active.
+/// several components. Colors whose name it would not read back become an array that is not active,
+/// and so do the kinds of active arrays that it would leave out.
 void PrepareForLegacy(vtkFieldData* data)
 {
   MakeBytes(data);
@@ -403,6 +404,11 @@ void PrepareForLegacy(vtkFieldData* data)
     {
       attributes->SetActiveAttribute(-1, vtkDataSetAttributes::SCALARS);
     }
+  }
+  for (int kind = vtkDataSetAttributes::TANGENTS;
+       attributes && kind <= vtkDataSetAttributes::HIGHERORDERDEGREES; ++kind)
+  {
+    attributes->SetActiveAttribute(-1, kind);
   }
 }
 

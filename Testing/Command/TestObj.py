@@ -37,6 +37,7 @@ class Obj(ArrayTest):
             if "third" not in said:
                 self.assertEqual(mesh.GetPointData().GetNumberOfArrays(), 0)
             self.assertIn((0, 1, 2), triangles_of(mesh))
+        self.assertIn("warning: a.obj: left out vn (3)\n", self.read("a.obj", SQUARE + NORMALS)[1])
 
     def test_closed_surface_of_seams_stays_closed(self):
         """A tetrahedron of which every triangle has its own texture: its bad edge must not flip."""

@@ -11,7 +11,8 @@ from CommandTesting import (
 
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
          "float": "f", "double": "d", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H",
-         "int32": "i", "uint32": "I", "float32": "f", "float64": "d"}  # fmt: skip
+         "int32": "i", "uint32": "I", "float32": "f", "float64": "d",
+         "int64": "q", "uint64": "Q"}  # fmt: skip
 XYZ = ["float x", "float y", "float z"]
 INDICES = ["list uchar int vertex_indices"]
 SQUARE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
@@ -59,9 +60,9 @@ class PlyTest(BadFileTest):
 class Elements(PlyTest):
     def test_faces_and_edges(self):
         for mesh, said in self.read_all(
-            ("edge", ["int vertex1", "int vertex2", "uchar red"], [(0, 1, 9), (2, 3, 9)]),
+            ("edge", ["int64 vertex1", "char vertex2", "uchar red"], [(0, 1, 9), (2, 3, 9)]),
             ("vertex", XYZ, SQUARE),
-            ("face", INDICES + ["short mark", "list int float uv"], [([0, 1, 2], -7, [0.5])]),
+            ("face", INDICES + ["short mark", "list char float uv"], [([0, 1, 2], -7, [0.5])]),
             ("camera", ["float view", "double far"], [(1, 2)]),
         ):
             self.assertEqual(triangles_of(mesh), [(0, 1, 2)])
@@ -100,8 +101,8 @@ class Elements(PlyTest):
 class Properties(PlyTest):
     def test_every_type(self):
         """Values at both ends of the range of each type."""
-        types = [kind for kind in CODES if kind[-1].isalpha()]
-        extremes = {"b": 7, "h": 15, "i": 31}
+        types = [kind for kind in CODES if kind[-1].isalpha() or kind[-2:] == "64"]
+        extremes = {"b": 7, "h": 15, "i": 31, "q": 52}
         rows = []
         for low in (True, False, True):
             row = [0.0, float(len(rows)), float(len(rows) ** 2)]
@@ -118,6 +119,12 @@ class Properties(PlyTest):
             for place, kind in enumerate(types):
                 values = tuples_of(mesh.GetPointData().GetArray(f"a_{kind}"))
                 self.assertEqual(values, [(row[3 + place],) for row in rows], kind)
+
+    def test_integers_that_a_double_cannot_hold(self):
+        rows = [(*p, 2**53) for p in SQUARE]
+        for kind in ("int64", "uint64"):
+            vertices = ("vertex", [*XYZ, kind + " id"], rows)
+            self.refuse_all((vertices, ("face", INDICES, [([0, 1, 2],)])), "id has integers beyond 2^53")
 
     def test_colors_normals_and_texture(self):
         vertex = XYZ + ["float nx", "float ny", "float nz", "uchar red", "uchar green"]
@@ -147,7 +154,7 @@ class Heads(PlyTest):
         for old, new, naming in (
             (b"vertex 4", b"vertex four", "line 4:"),
             (b"vertex 4", b"vertex -4", "line 4:"),
-            (b"float y", b"quad y", "line 6:"),
+            (b"float y", b"quad y", "line 6: 'quad' is not a type"),
             (b"float y", b"float x", "line 6:"),
             (b"list uchar", b"list float", "line 9:"),
             (b"element face", b"elements face", "line 8:"),

@@ -255,7 +255,8 @@ class Written(ArrayTest):
             self.succeed("in.vtk", "out.vtk")
 
     def test_what_vtk_spoils_in_a_vtk(self):
-        """Ids beyond 32 bits, bits of several components, and colors with a blank in their name."""
+        """Ids beyond 32 bits, bits of several components, colors with a blank in their name, and active
+        arrays that it would leave out."""
         mesh = bumpy_grid(3, 0)
         for data, size in ((mesh.GetPointData(), 9), (mesh.GetCellData(), 8), (mesh.GetFieldData(), 2)):
             for name in ("large", "ids", "small"):
@@ -272,6 +273,9 @@ class Written(ArrayTest):
             data.AddArray(colors)
             if size > 2:
                 data.SetScalars(colors)
+                for kind, count in (("Tangents", 3), ("RationalWeights", 1), ("HigherOrderDegrees", 3)):
+                    tuples = [(i,) * count for i in range(size)]
+                    getattr(data, "Set" + kind)(make_values("vtkDoubleArray", kind, tuples))
         source = self.write_mesh(mesh, "in.vtp")
         self.succeed(source, "out.vtk", "--max-iterations", 0, code=4)
         out = self.read_mesh("out.vtk")
