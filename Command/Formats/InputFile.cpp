@@ -177,8 +177,8 @@ void TextLines::SeparateBy(std::string_view characters)
 
 void TextLines::Split(std::string_view line)
 {
+  this->Text = line;
   auto begin = std::find_if_not(line.begin(), line.end(), IsBlank);
-  this->Text = line.substr(static_cast<std::size_t>(begin - line.begin()));
   if (this->Separator != ' ' && begin != line.end())
   {
     for (std::size_t start = 0; start <= line.size();)

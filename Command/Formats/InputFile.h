@@ -73,7 +73,7 @@ public:
   /// Reads the next line that is not empty. Returns false if there is none.
   bool Next();
 
-  /// The line, from its first letter that is not blank.
+  /// The line.
   std::string_view Text;
 
   /// The words of the line.

@@ -29,7 +29,8 @@ bool IsNumber(std::string_view word)
 
 bool IsComment(const TextLines& lines)
 {
-  return lines.Text.substr(0, 1) == "#" || lines.Text.substr(0, 2) == "//";
+  const std::size_t start = std::min(lines.Text.find_first_not_of(" \t\v\f"), lines.Text.size());
+  return lines.Text.substr(start, 1) == "#" || lines.Text.substr(start, 2) == "//";
 }
 
 /// The places of the columns named x, y and, if there is one, z, in any case; else none.
@@ -94,6 +95,8 @@ Words ReadNames(TextLines& lines)
     Words found = lines.Words;
     if (isComment)
     {
+      const auto isEmpty = [](std::string_view word) { return word.empty(); };
+      found.erase(found.begin(), std::find_if_not(found.begin(), found.end(), isEmpty));
       found[0].remove_prefix(found[0][0] == '#' ? 1 : 2);
       found[0].remove_prefix(std::min(found[0].find_first_not_of(' '), found[0].size()));
       found.erase(found.begin(), found.begin() + (found[0].empty() ? 1 : 0));

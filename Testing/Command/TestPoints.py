@@ -81,6 +81,10 @@ class Files(PointTest):
         text = 'name\tPoint ID\tz\tY\tx\n' + "".join(
             f"a b\t7\t{z}\t{y}\t{x}\n" for x, y, z in PLACES)
         self.expect("in.txt", text, PLACES, "left out the columns 'name', 'Point ID'")
+        rows = text_of([(7, *p) for p in PLACES], "\t", "\tx\ty\tz")
+        self.expect("in.txt", rows, PLACES, "left out the columns ''")
+        rows = text_of([p[::-1] for p in PLACES], "\t", "\t#z\ty\tx")
+        self.expect("in.txt", rows, PLACES)
         flat = [(x, y, 0) for x, y, _ in PLACES]
         self.expect("in.xyz", text_of([p[:2] for p in PLACES]), flat)
         self.expect("in.csv", text_of(PLACES, ",", "x,y,height"), flat,
