@@ -84,12 +84,13 @@ Words ReadNames(TextLines& lines)
       {
         lines.Words.resize(std::max(lines.Words.size(), names.size()));
       }
-      if (!names.empty() && names.size() != lines.Words.size())
+      const bool fits = names.size() == lines.Words.size();
+      if (hasNames && !fits)
       {
         lines.Fail("has " + std::to_string(lines.Words.size()) +
           " columns, but the line of names has " + std::to_string(names.size()));
       }
-      return names;
+      return fits ? names : Words(); // a comment may be anything
     }
     lines.SeparateBy(";,\t");
     Words found = lines.Words;

@@ -127,7 +127,6 @@ class Files(PointTest):
             "1.5;2,5;3\n": ["line 1", "'2,5' is not a number"],
             "12\n1 2 3\n": ["line 1", "x y [z]"],
             "x y z\n1 0.1 0.2 0.3\n": ["line 2", "4 columns", "names has 3"],
-            "# t x y z\n1 0.1 0.2\n": ["line 2", "3 columns", "names has 4"],
             "x y z w\n1 2 3 4\n1  3 4\n": ["line 3", "3 columns", "have 4; a value is missing"],
             "1\t2\t3\t4 a b\n#\n1\t\t3\n": ["line 3", "2 columns", "have 4; a value is missing"],
             "lon,lat,height\n0,0,\n": ["line 2", "a number is missing"],
