@@ -106,7 +106,7 @@ struct ShaderBuffer
 struct vtkDelaunayFlipMapper::Parts
 {
   vtkSmartPointer<vtkDelaunayFlip> Filter;
-  vtkMTimeType InputTime = 0;
+  std::pair<vtkPolyData*, vtkMTimeType> Input; ///< And its time, both to be compared only.
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< Of the input.
   vtkNew<vtkTypeInt32Array> Ids; ///< Of the corners of the triangles that the host has last had.
   vtkBoundingBox Box; ///< Of the points that triangles use; not valid if nothing can be drawn.
@@ -447,8 +447,8 @@ void vtkDelaunayFlipMapper::ReadInput()
 {
   Parts& own = *this->Own;
   vtkPolyData* input = this->GetInput();
-  const vtkMTimeType time = input ? input->GetMTime() : 0;
-  if (std::exchange(own.InputTime, time) != time)
+  const std::pair<vtkPolyData*, vtkMTimeType> version(input, input ? input->GetMTime() : 0);
+  if (std::exchange(own.Input, version) != version)
   {
     own.ReadFaces(input);
     own.MayUseDevice = true;

@@ -258,6 +258,21 @@ TEST(Mapper, AnyInput)
   EXPECT_TRUE(std::isnan(Drawing(pairs).Mapper->GetSmallestAngle()));
 }
 
+TEST(Mapper, AnotherMeshOfTheSameAgeIsAnotherMesh)
+{
+  auto before = MakeRhombus();
+  vtkNew<vtkPolyData> after;
+  after->SetPoints(before->GetPoints());
+  after->SetPolys(MakeCells({ { 0, 1, 3 }, { 1, 2, 3 } }));
+  before->GetPoints()->Modified();
+  ASSERT_EQ(after->GetMTime(), before->GetMTime());
+  vtkNew<vtkDelaunayFlipMapper> mapper;
+  mapper->SetInputData(before);
+  const double angle = mapper->GetSmallestAngle();
+  mapper->SetInputData(after);
+  EXPECT_GT(mapper->GetSmallestAngle(), 1.5 * angle);
+}
+
 TEST(Mapper, InfinitePointsHideNoOthers)
 {
   auto mesh = MakeBadPlane();
