@@ -33,6 +33,7 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -88,6 +89,14 @@ bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
     static_cast<std::streamsize>(bytes->GetNumberOfValues()));
   file.close();
   return file.good();
+}
+
+/// Sets a flag until the end of a scope, also if an observer ends it by an exception.
+auto Raise(bool& flag)
+{
+  const auto lower = [](bool* raised) { *raised = false; };
+  flag = true;
+  return std::unique_ptr<bool, decltype(lower)>(&flag, lower);
 }
 
 }
@@ -170,24 +179,30 @@ void vtkDelaunayFlipLiveView::Start()
     vtkErrorMacro("A filter with an input and an interactor with a render window are needed.");
     return;
   }
+  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+  auto busy = Raise(this->IsBusy);
   this->Detach();
   this->Attach();
-  vtkAlgorithmOutput* source = this->Filter->GetInputConnection(0, 0);
+  vtkAlgorithmOutput* source = filter->GetInputConnection(0, 0);
   source->GetProducer()->Update(source->GetIndex());
-  vtkDataObject* input = this->Filter->GetInputDataObject(0, 0);
-  this->Filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(input));
-  this->Filter->GenerateFlipCountOn();
-  this->Filter->Restart();
+  filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(filter->GetInputDataObject(0, 0)));
+  filter->GenerateFlipCountOn();
+  filter->Restart();
+  busy.reset();
+  if (!this->Window)
+  {
+    return; // An observer of the filter or its source has ended the run.
+  }
   this->HasFailed = false;
   this->Mapper->SetFilter(nullptr);
-  this->ShowMesh(input);
+  this->ShowMesh(filter->GetInputDataObject(0, 0));
   this->LookAtMesh();
   this->ShowFrame(0);
 }
 
 bool vtkDelaunayFlipLiveView::BeginIfNeeded()
 {
-  if (!this->Window)
+  if (!this->Window || this->FrameNumber < 0)
   {
     this->Start();
   }
@@ -289,7 +304,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
   const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
-  this->IsBusy = true;
+  auto busy = Raise(this->IsBusy);
   this->Mapper->SetZeroCopy(this->ZeroCopy);
   this->Mapper->BeginStep();
   const bool works = filter->AdvanceSession();
@@ -302,7 +317,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   {
     filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
   }
-  this->IsBusy = false;
+  busy.reset();
   if (!this->Window)
   {
     return false; // An observer of the filter has ended the run.
@@ -479,7 +494,7 @@ void vtkDelaunayFlipLiveView::Render()
   {
     return;
   }
-  this->IsBusy = true;
+  const auto busy = Raise(this->IsBusy);
   const bool isOffScreen = window->GetOffScreenRendering(); // there are no keys, and no timer
   const bool isSmall = this->Mapper->GetNumberOfTriangles() < SmallMesh;
   this->Mapper->SetColorBy(this->ColorBy);
@@ -502,7 +517,6 @@ void vtkDelaunayFlipLiveView::Render()
     }
     window->Render();
   } while (this->ShowDrawing && this->GetDrawing() != drawing);
-  this->IsBusy = false;
 }
 
 /// The keys take as many lines as the width of the renderer needs. The scale is above them.

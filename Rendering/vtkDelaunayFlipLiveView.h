@@ -42,8 +42,8 @@
  *
  * Events: UpdateEvent after every frame has been drawn and written; StartEvent when the timer
  * starts; EndEvent when a run ends: by convergence, an iteration limit or a failure.
- * Observers may call any method. While the filter executes or the window is drawn, Step(), Run(),
- * Start() and Restart() do nothing.
+ * Observers may call any method. While the filter or its source executes or the window is drawn,
+ * Step(), Run(), Start() and Restart() do nothing.
  *
  * Between the steps of a run the filter's output stays as it was, until the end of the run. A
  * program that reads it earlier calls Update() of the filter first, which makes no step.
@@ -276,7 +276,7 @@ private:
   std::vector<unsigned long> Observers; ///< Tags of the observers of the interactor.
   bool HasFailed = false; ///< The filter, or its source, in the last step.
   bool IsMeantToRun = false; ///< Run() was called, and no Pause() or Step() since.
-  bool IsBusy = false; ///< The filter is executing, or the window is being drawn.
+  bool IsBusy = false; ///< The filter or its source executes, or the window is being drawn.
   bool CanWrite = true; ///< False once a frame could not be written.
 };
 

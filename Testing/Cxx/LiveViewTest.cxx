@@ -18,6 +18,7 @@
 #include <array>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 vtkSmartPointer<vtkRenderWindow> MakeTestWindow()
 {
@@ -354,6 +355,29 @@ TEST(LiveView, ObserversMayDoAnything)
   EXPECT_FALSE(view->Step());
   EXPECT_EQ(view->GetFrameNumber(), -1);
   EXPECT_FALSE(view->IsRunning());
+}
+
+TEST(LiveView, ObserversOfTheStartMayDoAnything)
+{
+  WatchedView view;
+  OnEvent(view.Filter.Get(), vtkCommand::ModifiedEvent, [&view]() { view->Restart(); });
+  view->Start();
+  EXPECT_EQ(view->GetFrameNumber(), 0);
+  OnEvent(view.Filter.Get(), vtkCommand::ModifiedEvent, [&view]() { view->SetFilter(nullptr); });
+  view->Restart();
+  EXPECT_EQ(view->GetFrameNumber(), -1);
+}
+
+TEST(LiveView, AnObserverMayThrow)
+{
+  WatchedView view;
+  view->Start();
+  int calls = 0;
+  OnProgress(view.Filter.Get(),
+    [&calls]() { calls++ == 0 ? throw std::runtime_error("by an observer") : void(); });
+  EXPECT_THROW(view->Step(), std::runtime_error);
+  view.StepToTheEnd();
+  EXPECT_TRUE(view->GetConverged());
 }
 
 TEST(LiveView, MayBeDeletedByAnObserver)
