@@ -343,7 +343,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   {
     this->InvokeEvent(vtkCommand::EndEvent);
   }
-  return goesOn;
+  return goesOn && this->Window;
 }
 
 void vtkDelaunayFlipLiveView::ShowFrame(int number)
@@ -516,7 +516,7 @@ void vtkDelaunayFlipLiveView::Render()
       this->Status->SetInput(this->DescribeStatus(this->IsRunning() || isOffScreen).c_str());
     }
     window->Render();
-  } while (this->ShowDrawing && this->GetDrawing() != drawing);
+  } while (this->Window && this->ShowDrawing && this->GetDrawing() != drawing);
 }
 
 /// The keys take as many lines as the width of the renderer needs. The scale is above them.

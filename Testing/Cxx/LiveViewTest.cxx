@@ -380,6 +380,16 @@ TEST(LiveView, AnObserverMayThrow)
   EXPECT_TRUE(view->GetConverged());
 }
 
+TEST(LiveView, AnObserverOfTheRendererMayEndTheRun)
+{
+  WatchedView view;
+  view->ShowDrawingOn(); // another text at the first step: drawn twice
+  view->Start();
+  OnEvent(view->GetRenderer(), vtkCommand::EndEvent, [&view]() { view->SetFilter(nullptr); });
+  EXPECT_FALSE(view->Step());
+  EXPECT_EQ(view->GetFrameNumber(), -1);
+}
+
 TEST(LiveView, MayBeDeletedByAnObserver)
 {
   WatchedView view(MakeBadPlane(), false);
