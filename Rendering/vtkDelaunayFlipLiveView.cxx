@@ -179,6 +179,7 @@ void vtkDelaunayFlipLiveView::Start()
     vtkErrorMacro("A filter with an input and an interactor with a render window are needed.");
     return;
   }
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
   auto busy = Raise(this->IsBusy);
   this->Detach();
@@ -262,6 +263,7 @@ void vtkDelaunayFlipLiveView::Detach()
 
 void vtkDelaunayFlipLiveView::Run()
 {
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   if (this->BeginIfNeeded())
   {
     this->IsMeantToRun = true;
@@ -282,6 +284,7 @@ void vtkDelaunayFlipLiveView::Pause()
 
 bool vtkDelaunayFlipLiveView::Step()
 {
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   this->IsMeantToRun = false;
   this->TimerId = 0;
   return this->BeginIfNeeded() && this->TakeStep();
@@ -289,6 +292,7 @@ bool vtkDelaunayFlipLiveView::Step()
 
 void vtkDelaunayFlipLiveView::Restart()
 {
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   const bool wasMeantToRun = this->IsMeantToRun;
   this->Start();
   if (wasMeantToRun)
@@ -301,7 +305,6 @@ void vtkDelaunayFlipLiveView::Restart()
 /// update that is caused only by a change of the input or of an option is a step too.
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
-  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
   const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
   auto busy = Raise(this->IsBusy);
@@ -494,6 +497,7 @@ void vtkDelaunayFlipLiveView::Render()
   {
     return;
   }
+  const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
   const auto busy = Raise(this->IsBusy);
   const bool isOffScreen = window->GetOffScreenRendering(); // there are no keys, and no timer
   const bool isSmall = this->Mapper->GetNumberOfTriangles() < SmallMesh;

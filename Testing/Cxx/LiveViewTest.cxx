@@ -392,12 +392,26 @@ TEST(LiveView, AnObserverOfTheRendererMayEndTheRun)
 
 TEST(LiveView, MayBeDeletedByAnObserver)
 {
-  WatchedView view(MakeBadPlane(), false);
-  view->Start();
-  OnEvent(view.View, vtkCommand::UpdateEvent, [&view]() { view.View = nullptr; });
-  view.Press("n");
-  EXPECT_EQ(view.View, nullptr);
-  EXPECT_EQ(view.Filter->GetNumberOfIterations(), 1);
+  using Call = void (*)(WatchedView&);
+  for (const Call call :
+    { Call([](WatchedView& view) { view->Start(); }), Call([](WatchedView& view) { view->Run(); }),
+      Call([](WatchedView& view) { view->Step(); }),
+      Call([](WatchedView& view) { view->Restart(); }),
+      Call([](WatchedView& view) { view->Pause(); }),
+      Call([](WatchedView& view) { view.Press("n"); }) })
+  {
+    WatchedView view;
+    view->Start();
+    const vtkWeakPointer<vtkDelaunayFlipLiveView> same(view.View);
+    OnEvent(view->GetRenderer(), vtkCommand::EndEvent,
+      [&]()
+      {
+        view.View = nullptr;
+        EXPECT_NE(same.Get(), nullptr);
+      });
+    call(view);
+    EXPECT_EQ(same.Get(), nullptr);
+  }
 }
 
 TEST(LiveViewPicture, Texts)
