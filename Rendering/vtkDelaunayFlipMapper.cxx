@@ -37,6 +37,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -73,11 +74,25 @@ void FillTable(vtkLookupTable* table, double largestCount)
   table->SetRange(0.0, isOfAngles ? 60.0 : 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0));
 }
 
+/// A texture that tells when it is released. Its window does that before it goes.
+class WatchedTexture : public vtkTextureObject
+{
+public:
+  static WatchedTexture* New() { VTK_STANDARD_NEW_BODY(WatchedTexture); }
+  vtkTypeMacro(WatchedTexture, vtkTextureObject);
+  void ReleaseGraphicsResources(vtkWindow* window) override
+  {
+    this->Superclass::ReleaseGraphicsResources(window);
+    this->OnRelease(window);
+  }
+  std::function<void(vtkWindow*)> OnRelease = [](vtkWindow*) {};
+};
+
 /// Values of four bytes, which the shader reads as a texture.
 struct ShaderBuffer
 {
   vtkNew<vtkOpenGLBufferObject> Values;
-  vtkNew<vtkTextureObject> Texture;
+  vtkNew<WatchedTexture> Texture;
 
   void MakeReadable(vtkOpenGLRenderWindow* window, std::int64_t count, unsigned int format)
   {
@@ -204,6 +219,7 @@ struct vtkDelaunayFlipMapper::Parts
     this->Places.MakeReadable(window, 3 * points, GL_R32F);
     this->Corners.MakeReadable(window, 3 * count, GL_R32I);
     this->Counts.MakeReadable(window, count, GL_R32I);
+    this->Counts.Texture->OnRelease = [this](vtkWindow* current) { this->Release(current); };
   }
 
   /// Needs the window's context only if it is given.
@@ -352,13 +368,7 @@ vtkDelaunayFlipMapper::vtkDelaunayFlipMapper()
   this->SetLookupTable(this->Own->Table);
 }
 
-vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper()
-{
-  if (this->Own->Window) // else VTK has released everything already
-  {
-    this->Own->Release(this->Own->Window);
-  }
-}
+vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper() { this->Own->Release(this->Own->Window); }
 
 void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
 {

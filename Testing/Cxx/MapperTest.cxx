@@ -551,6 +551,19 @@ TEST(ZeroCopy, AWindowMayGoFirst)
   EXPECT_FALSE(view->Step());
 }
 
+TEST(ZeroCopy, AWindowMayGoThatNoLongerShowsTheMapper)
+{
+  TestFiller& filler = TestFiller::Install();
+  WatchedView view;
+  view->Step();
+  view->Step();
+  view.GetActor()->SetMapper(nullptr);
+  EXPECT_EQ(filler.Living, 1);
+  view.Interactor = nullptr;
+  view.Window = nullptr;
+  EXPECT_EQ(filler.Living, 0);
+}
+
 TEST(ZeroCopy, CellsThatStayAreDrawnToo)
 {
   TestFiller::Install();
