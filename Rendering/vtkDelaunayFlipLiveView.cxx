@@ -346,7 +346,7 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   {
     this->InvokeEvent(vtkCommand::EndEvent);
   }
-  return goesOn && this->Window;
+  return isUnderWay && this->Window;
 }
 
 void vtkDelaunayFlipLiveView::ShowFrame(int number)

@@ -208,7 +208,8 @@ public:
   /**
    * Pauses, makes the filter do IterationsPerUpdate iterations, and shows the mesh. If there is
    * nothing left to do, no frame is made.
-   * @returns whether another step can change the mesh, so `while (view->Step());` makes all frames.
+   * @returns whether another step can change the mesh, so `while (view->Step());` makes all frames;
+   * false also if an observer has aborted the step or ended the run.
    */
   bool Step();
 

@@ -206,6 +206,7 @@ TEST(LiveView, AnAbortPausesIt)
   EXPECT_FALSE(view->IsRunning());
   EXPECT_EQ(view->GetFrameNumber(), 2);
   EXPECT_EQ(view.GetStatus().find("iteration 2, aborted"), 0u);
+  EXPECT_FALSE(view->Step());
   view.Filter->SetAbortExecute(0);
   view.StepToTheEnd();
   EXPECT_TRUE(view->GetConverged());
