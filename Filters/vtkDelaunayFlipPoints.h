@@ -21,10 +21,11 @@
  *
  * Output port 0: a vtkPolyData with all points of the input, in their order and with their point
  * data, and triangles, which turn counter-clockwise in the plane. Without added points it shares
- * the vtkPoints object of the input. Added points come last: those of the second input with their z
- * and point data, where arrays that only one of the inputs has are 0 or empty for the points of the
- * other; then those where segments cross. Global point ids then become pedigree ids, since they are
- * no longer unique. Port 1: the table of iterations, as of vtkDelaunayFlip.
+ * the vtkPoints object of the input, but not in live updates. Added points come last: those of the
+ * second input with their z and point data, where arrays that only one of the inputs has are 0 or
+ * empty for the points of the other; then those where segments cross. Global point ids then become
+ * pedigree ids, since they are no longer unique. Port 1: the table of iterations, as of
+ * vtkDelaunayFlip.
  *
  * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each, whose
  * names begin with "DelaunayFlip:", too: PointsNotFinite, RepeatedPoints, PointsTooNear (see
