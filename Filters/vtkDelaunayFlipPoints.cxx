@@ -368,7 +368,10 @@ void vtkDelaunayFlipPoints::FlipLeaves(
     cloud->SetLines(mesh->GetLines());
   }
   this->TimeOfBlock = points->GetMTime();
-  this->FlipMesh(cloud, others.empty() ? nullptr : vtkPolyData::SafeDownCast(others.front().Data),
+  // Segments that all blocks share make no mesh of their own in an empty one.
+  const bool isEmptyBlock = !block.Place.empty() && points->GetNumberOfPoints() == 0;
+  const bool hasSegments = !isEmptyBlock && !others.empty();
+  this->FlipMesh(cloud, hasSegments ? vtkPolyData::SafeDownCast(others.front().Data) : nullptr,
     block.IsLive, output);
   output->SetVerts(nullptr);
   output->SetLines(nullptr);

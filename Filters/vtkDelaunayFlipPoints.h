@@ -69,10 +69,11 @@
  *
  * Composite input (multiblock, partitioned): the points of every block are triangulated alone;
  * blocks that are no point sets pass unchanged, with a warning. A composite second input has the
- * same structure, and its blocks apply block by block; any other applies to all. Points in several
- * partitions of one dataset, or segments, are an error: join them first. In a pipeline of several
- * pieces the first one asks for all points and has all triangles, and the others are empty. Points
- * that a filter upstream keeps in other pieces are missing: gather them in the first one before.
+ * same structure, and its blocks apply block by block; any other applies to all. Blocks and
+ * partitions without points stay empty. Points in several partitions of one dataset, or segments,
+ * are an error: join them first. In a pipeline of several pieces the first one asks for all points
+ * and has all triangles, and the others are empty. Points that a filter upstream keeps in other
+ * pieces are missing: gather them in the first one before.
  *
  * @warning
  * The inputs are viewed, not copied, as by vtkDelaunayFlip. A projection is rounded once, to

@@ -599,6 +599,8 @@ class vtkDelaunayFlipPoints(Filter):
     def _flip(self, data, segments, output):
         if self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()) > 0:
             return self._pass(vtkPolyData(), output, "converged")  # the first one has all
+        if isinstance(self.GetInput(), vtkCompositeDataSet) and data.GetNumberOfPoints() == 0:
+            segments = None  # those that all blocks share make no mesh of their own
         count = data.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments is not None else 0)
         if count == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if count else "converged")

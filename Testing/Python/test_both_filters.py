@@ -412,6 +412,17 @@ class SamePoints(Pair, unittest.TestCase):
         told = self.expect_same(vtkPolyData(), lambda points: points.SetSegmentsData(segments))
         self.assertIn("PointsNotFinite", str(told["meshes"]))
 
+    def test_empty_blocks_stay_empty(self):
+        lattice = make_mesh([(i % 4, i // 4, 0.0) for i in range(16)], [])
+        square = make_mesh([(.5, .5, 0), (2.5, .5, 0), (2.5, 2.5, 0), (.5, 2.5, 0)], [(0, 1, 2, 3)])
+        blocks = vtkMultiBlockDataSet()
+        blocks.SetBlock(0, vtkPolyData())
+        blocks.SetBlock(1, lattice)
+        for source, empty in ((join([lattice, vtkPolyData()]), 1), (blocks, 0)):
+            told = self.expect_same(source, lambda points: points.SetSegmentsData(square))
+            self.assertEqual([len(mesh[3][0]) > 0 for mesh in told["meshes"]],
+                             [number != empty for number in range(2)])
+
     def test_lines_of_the_input(self):
         cloud = make_cloud(40)
         cloud.SetLines(make_cells([(0, 9, 3), (5, 6), (7, 8)]))
