@@ -259,6 +259,7 @@ def _make_mesh(mesh, run, flip_counts=False, quality=False):
     """The mesh so far. The engine's warnings become Python's."""
     made = mesh.copy(deep=False)
     if len(run.slots.triangles) == 0:
+        warnings.warn("Nothing was flipped: the mesh has no triangles, polygons or strips.", stacklevel=3)
         return made
     run.store(made, flip_counts, quality)
     trouble = run.report(made, run.sum_up())

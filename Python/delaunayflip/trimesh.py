@@ -6,15 +6,35 @@ import typing
 
 import trimesh
 
+from ._report import Report
 from ._session import flip as _flip
 
 
-def flip(mesh: "trimesh.Trimesh", **options: typing.Any) -> "trimesh.Trimesh":
-    """A Delaunay mesh of the same vertices, with the colours, attributes and metadata of the mesh;
-    keywords as for delaunayflip.flip. Each face keeps its number and what belongs to it.
+@typing.overload
+def flip(mesh: "trimesh.Trimesh", **options: typing.Any) -> "trimesh.Trimesh": ...
+
+
+@typing.overload
+def flip(mesh: "trimesh.Trimesh", *, return_report: typing.Literal[True], **options: typing.Any
+         ) -> "typing.Tuple[trimesh.Trimesh, Report]": ...
+
+
+def flip(
+    mesh: "trimesh.Trimesh", *, return_report: bool = False, **options: typing.Any,
+) -> "typing.Union[trimesh.Trimesh, typing.Tuple[trimesh.Trimesh, Report]]":
+    """A Delaunay mesh of the same vertices, with the colours, attributes and metadata of the mesh.
+    Each face keeps its number and what belongs to it.
+
+    Args:
+        mesh: Any Trimesh; it is not changed.
+        return_report: Also return the `Report`.
+        **options: As for delaunayflip.flip.
+
+    Returns:
+        The mesh; with `return_report`, the mesh and the report.
 
     Raises:
-        TypeError: The mesh is no trimesh.Trimesh, such as a scene.
+        TypeError: The mesh is not a trimesh.Trimesh, such as a scene.
         The exceptions of delaunayflip.flip.
 
     Example:
@@ -35,7 +55,8 @@ def flip(mesh: "trimesh.Trimesh", **options: typing.Any) -> "trimesh.Trimesh":
         colors[name] = getattr(mesh.visual, name).copy()
     elif mesh.visual.kind is not None:
         colors["visual"] = mesh.visual.copy()
-    return trimesh.Trimesh(
+    made = trimesh.Trimesh(
         mesh.vertices.copy(), result.triangles, process=False, metadata=copy.deepcopy(mesh.metadata),
         face_attributes=copy.deepcopy(mesh.face_attributes),
         vertex_attributes=copy.deepcopy(mesh.vertex_attributes), **colors)
+    return (made, result.report) if return_report else made

@@ -51,7 +51,7 @@ class MeshIO(unittest.TestCase):
         meshio = load("meshio")
         from delaunayflip.meshio import flip
         cells = [("triangle", LONG[:1]), ("vertex", [[3]]), ("triangle", LONG[1:])]
-        better = flip(meshio.Mesh(KITE, cells, cell_data={"n": [[5], [6], [7]]}))
+        better = flip(meshio.Mesh(KITE, cells, cell_data={"n": [[5], [6], [7]]}), regions=0)
         self.assertEqual([block.type for block in better.cells], ["triangle", "vertex", "triangle"])
         self.assertEqual(as_set(better.cells_dict["triangle"]), as_set(SHORT))
         self.assertEqual([values.tolist() for values in better.cell_data["n"]], [[5], [6], [7]])
@@ -67,6 +67,60 @@ class MeshIO(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "meshio.Mesh, not list"):
             flip(KITE)
 
+    def test_edges_of_other_cells_stay(self):
+        meshio = load("meshio")
+        from delaunayflip.meshio import flip
+        points = [*KITE, [2, 0, 1]]
+        flat = [[0.0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0], [6, 1, 0], [6, -1, 0]]
+        for given, kind, cell in (
+                (points, "tetra", [0, 1, 2, 4]), (points, "quad", [0, 4, 2, 4]),
+                (points, "tetra10", [0, 4, 2, 4, 4, 4, 4, 4, 4, 4]), (flat, "line3", [0, 2, 5]),
+                (points, "polyhedron4", [[0, 4, 2], [0, 2, 4], [0, 4, 4]])):
+            with self.subTest(kind), warnings.catch_warnings():
+                warnings.simplefilter("error")
+                mesh = meshio.Mesh(given, [("triangle", LONG), (kind, [cell])])
+                better, report = flip(mesh, return_report=True)
+                self.assertEqual(as_set(better.cells[0].data), as_set(LONG))
+                self.assertEqual((report.total_flips, report.unmatched_constraints), (0, 0))
+        apart = meshio.Mesh(points, [("triangle", LONG), ("tetra", [[0, 1, 4, 3]])])
+        self.assertEqual(as_set(flip(apart).cells[0].data), as_set(SHORT))
+        with self.assertRaises(delaunayflip.InvalidMesh):
+            flip(meshio.Mesh(points, [("triangle", [[0, 1, 9]]), ("tetra", [[0, 1, 7, -3]])]))
+
+    def test_borders_of_labels_stay(self):
+        meshio = load("meshio")
+        from delaunayflip.meshio import flip
+        one, two = [("triangle", LONG)], [("triangle", LONG[:1]), ("triangle", LONG[1:])]
+        labels = {"gmsh:physical": [numpy.array([[3], [4]])], "medit:ref": [numpy.array([1, 1])],
+                  "mine": [numpy.array([8, 9])]}
+        sets = {"steel": [numpy.array([1])], "gmsh:bounding_entities": [numpy.array([7])]}
+        bare = {name: labels[name] for name in ("medit:ref", "mine")}
+        for cells, data, cell_sets, regions, expected in (
+                (two, {}, {}, None, LONG), (two, {}, {}, 0, SHORT), (two, {}, {}, [5, 5], SHORT),
+                (one, labels, {}, None, LONG), (one, bare, {}, None, SHORT),
+                (one, bare, {}, "mine", LONG), (one, labels, sets, "medit:ref", SHORT),
+                (one, {}, sets, None, LONG), (one, {}, sets, 0, SHORT),
+                (one, {}, {"all": [[0, 1]], "none": [None]}, None, SHORT)):
+            with self.subTest(data=data, sets=cell_sets, regions=regions):
+                mesh = meshio.Mesh(KITE, cells, cell_data=data, cell_sets=cell_sets)
+                better = flip(mesh, regions=regions)
+                self.assertEqual(as_set(numpy.concatenate([block.data for block in better.cells])),
+                                 as_set(expected))
+        with self.assertRaisesRegex(ValueError, "no cell data 'x'; it has 'medit:ref', 'mine'"):
+            flip(meshio.Mesh(KITE, one, cell_data=bare), regions="x")
+
+    def test_it_warns_where_nothing_can_flip(self):
+        meshio = load("meshio")
+        from delaunayflip.meshio import flip
+        tetra = ("tetra", [[0, 1, 2, 3]])
+        for cells, text in (
+                ([("quad", [[0, 1, 2, 3]]), tetra], "no cells of type triangle. It has 1 quad, 1 tetra"),
+                ([("triangle6", [[0, 1, 2, 3, 3, 3]])], "It has 1 triangle6"), ([], "of type triangle"),
+                ([("triangle", LONG), tetra], r"all edges of the 2 triangles .* \(1 tetra\)")):
+            with self.assertWarnsRegex(UserWarning, text) as told:
+                flip(meshio.Mesh(KITE, cells))
+            self.assertEqual(told.filename, __file__)
+
     def test_sets_and_info_stay(self):
         meshio = load("meshio")
         from delaunayflip.meshio import flip
@@ -74,7 +128,7 @@ class MeshIO(unittest.TestCase):
         given = meshio.Mesh(
             points, [meshio.CellBlock("triangle", LONG, tags=["skin"])],
             point_data={"p": [1, 2, 3, 4]}, field_data={"f": [1]}, point_sets={"a": [0, 1]},
-            cell_sets={"b": [numpy.array([1])]}, gmsh_periodic=[1], info={"by": "me"})
+            cell_sets={"b": [[0, 1]]}, gmsh_periodic=[1], info={"by": "me"})
         better = flip(given)
         self.assertEqual(as_set(better.cells[0].data), as_set(SHORT))
         for name in ("field_data", "point_sets", "cell_sets", "gmsh_periodic", "info"):
@@ -98,6 +152,7 @@ class Trimesh(unittest.TestCase):
         numpy.testing.assert_array_equal(better.visual.face_colors, given.visual.face_colors)
         numpy.testing.assert_array_equal(better.face_attributes["f"], [0, 1])
         numpy.testing.assert_array_equal(better.vertex_attributes["v"], [0, 1, 2, 3])
+        self.assertEqual(flip(given, return_report=True)[1].total_flips, 1)
         given.visual = trimesh.visual.ColorVisuals(vertex_colors=numpy.arange(16).reshape(4, 4))
         self.assertEqual(flip(given).visual.vertex_colors.tolist()[3], [12, 13, 14, 15])
         given.visual = trimesh.visual.TextureVisuals(uv=numpy.arange(8).reshape(4, 2))
@@ -191,6 +246,9 @@ class PyVista(unittest.TestCase):
         for name in ("regions", "frozen", "triangle_numbers"):  # those of arrays
             with self.assertRaisesRegex(TypeError, f"'{name}' is not an option"):
                 flip(**{name: [0] * 288})
+        with self.assertWarnsRegex(UserWarning, "no triangles, polygons or strips") as told:
+            self.pyvista.Line().delaunay.flip()
+        self.assertEqual(told.filename, __file__)
         self.mesh.points[5] = numpy.nan
         with self.assertWarnsRegex(UserWarning, "NaN|finite") as told:
             flip()
