@@ -55,6 +55,17 @@ apt_get()
     -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 
+# Reads what apt-get prints, and says how far it is.
+count_packages()
+{
+  local line count=0
+  while IFS= read -r line; do
+    [[ $line == "Setting up "* ]] || continue
+    count=$((count + 1))
+    [ $((count % 50)) -ne 0 ] || echo "$count packages are set up"
+  done
+}
+
 # Usage: dependencies PACKAGE - as this release has them; the first of alternatives; no virtual
 # packages, which are in < >.
 dependencies()
@@ -116,7 +127,10 @@ if [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
 fi
 apt_get update
 # Removes nothing: python3-vtk9, for one, cannot be installed beside ParaView's Python.
-if ! apt_get install -y --no-remove --no-install-recommends "${missing[@]}" >/dev/null; then
+install=(install -y --no-remove --no-install-recommends "${missing[@]}")
+apt_get --print-uris "${install[@]}" 2>/dev/null | awk '{ size += $3 }
+  END { printf "%d packages with what they need, %d MB to download\n", NR, size / 1e6 }' || true
+if ! apt_get "${install[@]}" | count_packages; then
   echo "Cannot install these packages beside those that are here" >&2
   exit 1
 fi

@@ -138,9 +138,9 @@ fi
 
 launcher=()
 # With a CUDA compiler, builds for one architecture, in a quarter of the time for all; newer GPUs
-# run its PTX.
+# run its PTX. A build that demo.sh made may be without CUDA.
 check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON \
-  -DCMAKE_CUDA_ARCHITECTURES=75 -DDELAUNAYFLIP_LONG_TESTS=$long
+  -DDELAUNAYFLIP_ENABLE_CUDA=AUTO -DCMAKE_CUDA_ARCHITECTURES=75 -DDELAUNAYFLIP_LONG_TESTS=$long
 # After build, whose command makes the meshes with which those of the plugin are compared.
 check_plugin
 if [ $sanitizers = ON ]; then
