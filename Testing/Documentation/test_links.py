@@ -44,6 +44,25 @@ class Links(unittest.TestCase):
                 self.assertIn(os.path.relpath(os.path.join(folder, name), ROOT), used)
 
 
+class Names(unittest.TestCase):
+
+    def test_names_of_the_method(self):
+        """Types, functions and files that the page names exist."""
+        paths = [path for folder in ("Engine", "CUDA", "Filters", "Rendering")
+                 for path in glob.glob(f"{ROOT}/{folder}/**/*.*", recursive=True)]
+        known = {os.path.basename(path) for path in paths}
+        known |= set(re.findall(r"\w+", "\n".join(read(path) for path in paths)))
+        names = set(re.findall(r"`((?:[A-Z]\w*[a-z]\w*|\w+(?=\.))(?:\.(?:h|cpp|cxx|cuh|cu))?)`",
+                               read("Documentation/method.md")))
+        self.assertGreater(len(names), 30)
+        self.assertEqual(set(), names - known)
+
+    def test_public_headers(self):
+        listed = re.search(r"public headers are (.*?)\. Everything", read("CONTRIBUTING.md"), re.DOTALL)
+        headers = [os.path.basename(path) for path in glob.glob(f"{ROOT}/Engine/*.h")]
+        self.assertEqual(sorted(headers), sorted(re.findall(r"`(\w+\.h)`", listed.group(1))))
+
+
 class Text(unittest.TestCase):
 
     def test_no_line_is_a_comment(self):
