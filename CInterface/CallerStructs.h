@@ -40,7 +40,7 @@ inline void Require(bool isKept, const char* rule)
   }
 }
 
-/// Of a struct of the caller.
+/// Requires that the caller has set the size of a struct.
 template <typename Struct>
 void RequireSize(const Struct* given)
 {
@@ -48,7 +48,7 @@ void RequireSize(const Struct* given)
     "a struct is null, or its size is not set: call its _init function first");
 }
 
-/// Of an array of the caller with `count` things called `name`.
+/// Requires that the caller's array of `count` things, called `name`, can exist.
 inline void RequireArray(const void* array, std::int64_t count, const std::string& name)
 {
   Require(count >= 0, ("number_of_" + name + " is negative").c_str());

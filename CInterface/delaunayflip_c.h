@@ -25,8 +25,8 @@
  *   reads the arrays of its mesh as long as it exists.
  * - Different sessions may be used by different threads at the same time; one session by one thread
  *   at a time.
- * - The same mesh and options give the same result, bit for bit, with any number of threads and on
- *   any backend.
+ * - Any number of threads and any backend give the same result, bit for bit, for the same mesh and
+ *   options.
  */
 
 #ifdef __cplusplus
@@ -198,8 +198,8 @@ extern "C"
     int64_t total_blocked;
     int64_t non_delaunay_before; /**< Bad edges of the input that are not fixed. */
     int64_t non_delaunay_after; /**< Bad edges left, flippable or blocked. */
-    int64_t blocked_by_shape; /**< Of these, edges whose flip would fold the mesh over. */
-    int64_t blocked_by_edge; /**< Of these, edges whose flip would duplicate an edge. */
+    int64_t blocked_by_shape; /**< Those left whose flip would fold the mesh over. */
+    int64_t blocked_by_edge; /**< Those left whose flip would repeat an edge. */
     int64_t edges;
     int64_t boundary_edges;
     int64_t non_manifold_edges;
@@ -217,9 +217,9 @@ extern "C"
     double minimum_angle_after;
     double build_seconds;
     double flip_seconds;
-    int64_t number_of_points; /**< Of the caller. */
+    int64_t number_of_points; /**< Points of the caller. */
     int64_t number_of_triangles;
-    /** Of a session from points. */
+    /** For sessions from points: this and what follows up to triangles_large. */
     int64_t points_not_finite; /**< Points with NaN or infinite coordinates. */
     int64_t points_repeated; /**< Points at the place of one with a lower id. */
     int64_t points_too_near; /**< Points within the tolerance of one with a lower id. */
@@ -231,7 +231,7 @@ extern "C"
     int64_t triangles_large; /**< Removed by alpha and longest_edge. */
     int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
                                the smallest angles, with one below 5 degrees; else 0. */
-    int64_t blocked_by_deviation; /**< Of non_delaunay_after, by maximum_deviation. */
+    int64_t blocked_by_deviation; /**< Those left that maximum_deviation blocks. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -281,7 +281,7 @@ extern "C"
     int32_t point_components; /**< 2 or 3. [2] */
     const int64_t* segments; /**< Edges that the mesh must have: pairs of point ids, or null. */
     int64_t number_of_segments;
-    const int32_t* rings; /**< Of every segment the number of its closed ring, or -1; null: none.
+    const int32_t* rings; /**< For each segment the number of its ring, or -1; null: no rings.
                              What is outside of rings is removed; see outline and first_hole. */
     const double* hole_seeds; /**< x, y of places: what can be reached from there without crossing a
                                  segment is removed. */
@@ -304,32 +304,33 @@ extern "C"
    * places, which delaunayflip_advance makes Delaunay; then it inserts the segments and removes
    * what is outside. Geometry, criterion and tie rule of the options are not used: the triangles
    * depend on the points alone, not on their order. They turn counter-clockwise and have an area.
-   * Of points at equal places that with the lowest id is used; points with NaN or infinite x or y
-   * are not. When nothing is left to do, the report's number_of_triangles says how many triangles
-   * to store; it is 0 if all places lie on one line. All arrays must stay as long as the session.
+   * If several points are at one place, the one with the lowest id is used. Points with NaN or
+   * infinite x or y are not used. When nothing is left to do, the report's number_of_triangles says
+   * how many triangles to store; it is 0 if all places lie on one line. All arrays must stay as
+   * long as the session.
    */
   delaunayflip_status delaunayflip_open_points(const delaunayflip_points* points,
     const delaunayflip_options* options, const delaunayflip_callbacks* callbacks,
     delaunayflip_session** session);
 
-  /** Of a session from points: writes, for every triangle, the triangles across its edges: number k
-   * is opposite its vertex k, -1 where there is none. 3 * number_of_triangles integers. */
+  /** Writes 3 * number_of_triangles integers, for each triangle the triangles across its edges:
+   * number k is opposite vertex k, and -1 where there is none. For sessions from points. */
   delaunayflip_status delaunayflip_store_neighbors(
     delaunayflip_session* session, int32_t* neighbors);
 
-  /** Of a session from points: writes, for every point, the id of the point that is used at its
-   * place, or -1 for one that is not finite. number_of_points integers. */
+  /** Writes number_of_points integers, for each point the id of the point that is used at its
+   * place, or -1 if it is not finite. For sessions from points. */
   delaunayflip_status delaunayflip_store_used_points(delaunayflip_session* session, int64_t* ids);
 
-  /** Of a session from points: writes the points that were made where segments cross, as many as
-   * the report's crossings. Each gets `xy`, two numbers; `ends`, two ids of points, of which an
+  /** Writes the points that were made where segments cross, as many as the report's crossings. For
+   * sessions from points. Each gets `xy`, two numbers; `ends`, two ids of points, of which an
    * added one is number_of_points plus its index; and `shares`: what belongs to the point, such as
    * z, is (1 - share) times that of the first end plus share times that of the second. */
   delaunayflip_status delaunayflip_store_added_points(
     delaunayflip_session* session, double* xy, int64_t* ends, double* shares);
 
-  /** Of a session from points: writes the edges that segments have become, as pairs of point ids,
-   * in the order and direction of the segments: 2 * segment_edges of the report. */
+  /** Writes the edges that segments have become, as pairs of point ids, in the order and direction
+   * of the segments: 2 * segment_edges of the report. For sessions from points. */
   delaunayflip_status delaunayflip_store_segment_edges(
     delaunayflip_session* session, int64_t* pairs);
 
@@ -373,8 +374,9 @@ extern "C"
   delaunayflip_status delaunayflip_store_flip_counts(
     delaunayflip_session* session, int32_t* counts);
 
-  /** The same for arrays in the memory of a GPU, from any session. If the session runs on this GPU,
-   * nothing is copied through the host. `stream` is a cudaStream_t; null is the default stream. */
+  /** Both do the same for arrays in the memory of a GPU, from any session. If the session runs on
+   * this GPU, nothing is copied through the host. `stream` is a cudaStream_t; null is the default
+   * stream. */
   delaunayflip_status delaunayflip_store_triangles_on_device(
     delaunayflip_session* session, void* triangles, int32_t id_type, void* stream);
   delaunayflip_status delaunayflip_store_flip_counts_on_device(

@@ -73,7 +73,7 @@ __global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items
   }
 }
 
-/// The same as ForEachKernel, with a sum: every block writes its partial sum.
+/// Does the work of ForEachKernel and sums up: every block writes its partial sum.
 template <typename Result, typename Work>
 __global__ void __launch_bounds__(ThreadsPerBlock)
   SumKernel(ItemRange items, Work work, Result* partials)
@@ -208,7 +208,7 @@ public:
     return Array<T>(static_cast<std::size_t>(size), this->Context->GetMemory());
   }
 
-  /// The same on the first GPU alone.
+  /// Makes an array in the memory of the first GPU alone.
   template <typename T>
   Array<T> MakeArrayOnFirst(std::int64_t size) const
   {

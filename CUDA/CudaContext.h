@@ -138,7 +138,7 @@ public:
   int Device; ///< The first one.
   std::string Name; ///< E.g. "NVIDIA H200" or "2 x NVIDIA H200".
   int Multiprocessors = 0;
-  std::size_t CacheBytes = 0; ///< Of the second-level cache.
+  std::size_t CacheBytes = 0; ///< The size of the second-level cache.
   CudaStream Stream;
   CudaEvent StreamDone; ///< What is in the stream so far.
   CudaEvent CallerDone; ///< What was in a stream of the caller's.

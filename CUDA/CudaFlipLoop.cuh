@@ -152,7 +152,7 @@ public:
 
 private:
   const CudaBackend& Backend;
-  std::int64_t NumberOfWords = 0; ///< Of each kind of bits.
+  std::int64_t NumberOfWords = 0; ///< Words for each kind of bits.
   Array<std::uint32_t> Words[EdgeBits::Kinds];
   EdgeBits Bits{};
 };
@@ -488,7 +488,7 @@ private:
   EdgeGuard Guard;
   const CudaBackend& Backend;
   int Parts = 1; ///< GPUs that make iterations on the whole mesh.
-  int GridBlocks = 1; ///< Of each of them.
+  int GridBlocks = 1; ///< Thread blocks on each of them.
   int Teams = 1;
   int BlocksOfTeam = 1;
   std::int64_t TestedInChunks = 0; ///< The edges tested by the last iteration within chunks.

@@ -80,8 +80,8 @@ inline std::int64_t SmallestShare = 12000000;
 /// an equal part of it on each GPU, in their order: what belongs to the same part of the mesh is on
 /// the same GPU. Small arrays are on the first GPU.
 ///
-/// Freed memory is kept for arrays of the same size. As in a memory pool, work that follows on the
-/// stream may use it again at once, so the work of all GPUs must be in the order of the stream.
+/// Freed memory is kept for arrays of the same size. Work that follows on the stream may use it
+/// again at once, as in a memory pool, so the work of all GPUs must be in the order of the stream.
 class SharedMemory : public Memory
 {
 public:
@@ -108,7 +108,7 @@ private:
 
   std::vector<int> Devices;
   DeviceMemory& Small;
-  std::size_t Granularity = 0; ///< Of the size of a part.
+  std::size_t Granularity = 0; ///< Sizes of parts are multiples of it.
   std::multimap<std::size_t, void*> Idle; ///< By the size of a part.
   std::size_t Used = 0, Peak = 0; ///< Bytes of arrays that are not small.
 };

@@ -28,8 +28,9 @@ struct EdgeBits
   std::uint32_t* Candidates;
   std::uint32_t* Bad;
   std::uint32_t* Winners; ///< Bad edges that flip in this iteration.
-  std::uint32_t* BlockedByEdge; ///< Or Deferred, while iterations run within chunks: no guard then.
-  /// Or by their deviation. Of a rule that does not block it is the same array as before.
+  /// While iterations run within chunks, which have no guard, these are the deferred edges.
+  std::uint32_t* BlockedByEdge;
+  /// Also those blocked by their deviation. With a rule that blocks none it is the array above.
   std::uint32_t* BlockedByShape;
 
   static constexpr int Kinds = 6;
@@ -252,7 +253,7 @@ class BlockWorklist : public EdgeUnits
 public:
   using EdgeUnits::EdgeUnits;
 
-  /// The same as WarpWorklist::Run.
+  /// Does what WarpWorklist::Run does.
   template <typename Look, typename Work>
   __device__ void Run(
     const Team& team, const EdgeMeshView& mesh, const Look& look, const Work& work) const
@@ -313,9 +314,9 @@ struct LoopView
   EdgeBits Bits;
   int Splits; ///< 2^Splits warps share a unit.
   int Parts; ///< How many GPUs iterate on the whole mesh together.
-  EdgeId FirstEdge, LastEdge; ///< Of this GPU.
+  EdgeId FirstEdge, LastEdge; ///< The range of this GPU.
   DeviceChunk* Chunks;
-  int FirstChunk, LastChunk; ///< Of this GPU.
+  int FirstChunk, LastChunk; ///< The range of this GPU.
   TeamState* Teams; ///< Zero before a launch.
   IterationSums* Sums; ///< One per iteration and one more; zero before a launch.
   int* IterationsDone; ///< Iterations of this launch.

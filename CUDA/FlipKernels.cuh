@@ -67,7 +67,7 @@ __device__ int GetMostListed(const LoopView<Rule>& loop, const Team& team)
   return IsGuarded && claims < MostListed ? claims : MostListed;
 }
 
-/// The same as RunDetection, but also lists the bad edges. Bad edges that are not candidates are
+/// Does what RunDetection does, and lists the bad edges. Bad edges that are not candidates are
 /// judged again to be listed; they do not count as tested. With a guard all of them claim their new
 /// edges already. Warns if the list is too short or a claim is contested.
 template <bool IsGuarded, typename Rule>

@@ -145,7 +145,7 @@ __device__ inline TriangleRecord LoadRecord(const TriangleRecord* triangle)
 struct RecordPair
 {
   CornerPair Corners;
-  TriangleRecord Upper, Lower; ///< Of Corners.A and Corners.B.
+  TriangleRecord Upper, Lower; ///< The triangles of Corners.A and Corners.B.
 
   __device__ RecordPair(const EdgeMeshView& mesh, const CornerPair& corners)
     : Corners(corners),

@@ -115,7 +115,7 @@ constexpr int MostListed = 48 * LoopWarps;
 struct TeamMemory
 {
   EdgeId Lists[LoopWarps][WarpListSize];
-  int SizeOfList; ///< Of all lists as one.
+  int SizeOfList; ///< The size of all lists together.
   BadEdge Listed[MostListed];
   std::uint32_t Claims[MostListed]; ///< With a guard: the slots of EdgeClaims of the listed edges.
   int NumberListed; ///< Bad edges, also those that found no room.
@@ -273,8 +273,8 @@ public:
     }
   }
 
-  /// Warns all threads of the team, which see it after the next wait. Of two consecutive waits only
-  /// one may have warnings before it: a block may reach the next wait while others still read the
+  /// Warns all threads of the team, which see it after the next wait. Only one of two consecutive
+  /// waits may have warnings before it: a block may reach the next wait while others still read the
   /// news of the last.
   __device__ void Warn(bool warning) const
   {

@@ -16,7 +16,18 @@
 #include <vector>
 
 /// @file
-/// The main header of the engine.
+/// The main header of the engine. FlipToDelaunay flips a mesh in one call. A FlipSession does it
+/// step by step, and also makes meshes from points:
+///
+///     using namespace delaunayflip;
+///     std::vector<float> xyz{ 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+///     std::vector<std::int32_t> ids{ 0, 1, 2, 0, 2, 3 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz.data(), 4);
+///     mesh.Triangles = TriangleArray(ids.data(), 2);
+///     const FlipReport report = FlipToDelaunay(mesh, {}, MutableTriangleArray(ids.data(), 2));
+///
+/// Now `ids` has the two better triangles, and report.TotalFlips is 1.
 
 namespace delaunayflip
 {
@@ -31,8 +42,8 @@ namespace delaunayflip
 /// whatever their number, and the edges and angles of the report are known only then. If it is
 /// stopped, the next one begins anew.
 ///
-/// The same mesh and options give the same result, bit for bit, with any number of threads and on
-/// any backend.
+/// Any number of threads and any backend give the same result, bit for bit, for the same mesh and
+/// options.
 class DELAUNAYFLIP_EXPORT FlipSession
 {
 public:
@@ -44,9 +55,9 @@ public:
   FlipSession(
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
 
-  /// The same for a mesh in the memory of a GPU, with the same result. FlipOptions::Device must be
-  /// -1 or that GPU, and NumberOfPieces 0 or 1. BackendKind::Auto uses the GPU whatever the size of
-  /// the mesh.
+  /// Opens a session for a mesh in the memory of a GPU, with the same result. FlipOptions::Device
+  /// must be -1 or that GPU, and NumberOfPieces 0 or 1. BackendKind::Auto uses the GPU whatever the
+  /// size of the mesh.
   /// @throws InvalidOptions if the arrays are not in the memory of that GPU; BackendUnavailable if
   /// CUDA cannot be used at all, with any BackendKind.
   FlipSession(
@@ -96,29 +107,29 @@ public:
   /// ids in their order. `triangles.Count` must be that of the input.
   void StoreTriangles(const MutableTriangleArray& triangles) const;
 
-  /// Of a session from points: writes, for every triangle, the triangles across its edges: number k
-  /// is opposite its vertex k, -1 where there is none. 3 numbers per triangle.
+  /// Writes three numbers for every triangle: the triangles across its edges. Number k is opposite
+  /// vertex k, and -1 where there is none. For sessions from points.
   void StoreNeighbors(std::int32_t* neighbors) const;
 
-  /// Of a session from points: writes, for every point of the caller, the id of the point that is
-  /// used at its place, or -1 for one that is not finite.
+  /// Writes, for every point of the caller, the id of the point that is used at its place, or -1 if
+  /// it is not finite. For sessions from points.
   void StoreUsedPoints(std::int64_t* ids) const;
 
-  /// Of a session from points: the points made where segments cross; empty without
-  /// PointOptions::SplitCrossings.
+  /// Returns the points made where segments cross. There are none without
+  /// PointOptions::SplitCrossings, nor in sessions from triangles.
   const std::vector<AddedPoint>& GetAddedPoints() const;
 
-  /// Of a session from points: the edges that segments have become, as pairs of point ids, in the
-  /// order and direction of the segments, each once. Empty until they are inserted.
+  /// Returns the edges that segments have become, as pairs of point ids, in the order and direction
+  /// of the segments, each once. Empty until they are inserted. For sessions from points.
   std::vector<std::int64_t> ListSegmentEdges() const;
 
   /// Writes, for every triangle slot, in how many flips it took part: GetReport().Triangles
   /// numbers.
   void StoreFlipCounts(std::int32_t* counts) const;
 
-  /// The same into arrays in the memory of a GPU, for any session: from the engine's GPU to arrays
-  /// of the same GPU without a copy through the host. An array of the mesh itself may be written
-  /// once there is nothing more to do.
+  /// Does the same for arrays in the memory of a GPU, in any session. If the engine works on that
+  /// GPU, nothing is copied through the host. An array of the mesh itself may be written once there
+  /// is nothing more to do.
   /// @param written null, or one number per triangle in the memory of the engine's GPU: all -1
   /// before the first call for an array of triangles, and then what that session's last call has
   /// left there. Then only triangles that flips have changed since need be written, which takes a
@@ -155,7 +166,7 @@ DELAUNAYFLIP_EXPORT FlipReport FlipToDelaunay(const TriangleMesh& mesh, const Fl
   const MutableTriangleArray& triangles, const FlipObserver& observer = {},
   const ProgressObserver& progress = {});
 
-/// The same for a mesh in the memory of a GPU; `triangles` views device memory too.
+/// Flips a mesh in the memory of a GPU; `triangles` views device memory too.
 DELAUNAYFLIP_EXPORT FlipReport FlipToDelaunay(const DeviceMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer = {},
   const ProgressObserver& progress = {});

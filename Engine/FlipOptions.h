@@ -21,15 +21,15 @@ enum class GeometryKind
   /// PlanarXY if the mesh is a height field over x and y, and either z extends further than both of
   /// them (mixed units) or 95 % of the area in space slopes less than 45 degrees; the slope is that
   /// of a triangle's plane or, for slivers, of the steepest edge. In a height field all triangles,
-  /// except at most one in 1,000, have area in x and y and turn the same way, and the triangles
+  /// except at most one in 1,000, have area in x and y and face the same side, and the triangles
   /// around any point turn at most once. If z extends more than ten times as far as x and as y, one
-  /// in five may have no area, and of the others one in 100 may turn the other way, as where an
+  /// in five may have no area, and one in 100 of the others may face the other side, as where an
   /// ocean crosses 180 degrees. Else Surface. FlipReport::GeometryReason says why.
   Auto,
   Planar, ///< In the plane of the points, in any orientation; an error if there is none.
   PlanarXY, ///< By x and y alone, for terrain.
   Surface, ///< In space, by opposite-angle sums.
-  Mixed ///< Of several meshes (AddReport); no option.
+  Mixed ///< Several meshes with different ones (AddReport); no option.
 };
 
 /// How an edge is judged.

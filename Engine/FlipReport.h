@@ -68,7 +68,7 @@ struct Defect
 {
   std::string What; ///< In words, e.g. "triangles with a repeated point id".
   std::int64_t Count = 0; ///< How many.
-  std::vector<std::int64_t> FirstIds; ///< Of at most three, ascending; empty if ids would not help.
+  std::vector<std::int64_t> FirstIds; ///< At most three, ascending; empty if ids would not help.
   DefectIds Ids = DefectIds::Triangles;
 };
 
@@ -98,9 +98,9 @@ struct FlipReport
   std::int64_t TotalBlocked = 0;
   std::int64_t NonDelaunayBefore = 0; ///< Bad edges before the first iteration that are not fixed.
   std::int64_t NonDelaunayAfter = 0; ///< Bad edges that are left, blocked or not.
-  std::int64_t BlockedByShape = 0; ///< Of these, those whose flip would fold the mesh over.
-  std::int64_t BlockedByDeviation = 0; ///< Those that FlipOptions::MaximumDeviation blocks.
-  std::int64_t BlockedByEdge = 0; ///< And those whose flip would create an edge that exists.
+  std::int64_t BlockedByShape = 0; ///< Those left whose flip would fold the mesh over.
+  std::int64_t BlockedByDeviation = 0; ///< Those left that FlipOptions::MaximumDeviation blocks.
+  std::int64_t BlockedByEdge = 0; ///< Those left whose flip would repeat an edge.
   double MinimumAngleBefore =
     0.0; ///< Degrees; 0 with a degenerate triangle; NaN without triangles.
   double MinimumAngleAfter = 0.0;
@@ -111,7 +111,7 @@ struct FlipReport
   StopReasonKind StopReason = StopReasonKind::NotStarted;
   bool Converged() const { return this->StopReason == StopReasonKind::Converged; }
 
-  PointCounts FromPoints; ///< Of a session from points.
+  PointCounts FromPoints; ///< For sessions from points.
 
   double BuildSeconds = 0.0; ///< From the caller's arrays to the edge mesh.
   double FlipSeconds = 0.0; ///< The loop.
@@ -182,8 +182,8 @@ DELAUNAYFLIP_EXPORT std::string Count(std::int64_t number, const std::string& si
 /// defects are dropped: they mean nothing outside their mesh.
 DELAUNAYFLIP_EXPORT void AddReport(FlipReport& sum, const FlipReport& other);
 
-/// The same for the members above, the smallest angles and the defects. An angle that is NaN does
-/// not count.
+/// Adds the members above, the smallest angles and the defects too. An angle that is NaN does not
+/// count.
 void AddTotals(FlipReport& sum, const FlipReport& part);
 
 /// Adds the counts of an iteration to those of the same number.

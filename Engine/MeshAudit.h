@@ -32,8 +32,9 @@ DELAUNAYFLIP_EXPORT std::int64_t CountDuplicateEdgesGained(
 /// Counts bad edges: edges of two consistently wound triangles that violate the criterion, which is
 /// the exact in-circle predicate in planar geometry, and the opposite-angle sum on surfaces and
 /// with CriterionKind::OppositeAngles. Constraint edges, region borders, edges of frozen triangles
-/// and feature edges of `mesh` itself do not count. Nor do ties, also with TieRuleKind::Canonical,
-/// by which a report counts those that are blocked. GeometryKind::Auto chooses as in a run.
+/// and feature edges of `mesh` itself do not count. Ties do not count either, although with
+/// TieRuleKind::Canonical a report counts those that are blocked. GeometryKind::Auto chooses as in
+/// a run.
 DELAUNAYFLIP_EXPORT std::int64_t CountNonDelaunayEdges(
   const TriangleMesh& mesh, const FlipOptions& options);
 

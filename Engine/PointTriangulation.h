@@ -12,10 +12,10 @@
 /// @file
 /// What a FlipSession needs to triangulate points in the plane, and how it treats them.
 ///
-/// **Points.** Of points at equal places that with the lowest id is used. Points with NaN or
-/// infinite coordinates are not used. All triangles turn counter-clockwise and have an area; n
-/// places with h on the hull have 2 n - 2 - h triangles. The triangles depend on the places and the
-/// segments alone, not on the order of the points: ties are canonical.
+/// **Points.** If several points are at one place, the one with the lowest id is used. Points with
+/// NaN or infinite coordinates are not used. All triangles turn counter-clockwise and have an area;
+/// n places with h on the hull have 2 n - 2 - h triangles. The triangles depend on the places and
+/// the segments alone, not on the order of the points: ties are canonical.
 ///
 /// **Segments** become edges of the mesh, and stay; all other edges are constrained Delaunay. They
 /// are taken in their order. One that passes through points is split there. One that overlaps an
@@ -68,7 +68,7 @@ struct PointInput
   DeviceStream Stream{};
 };
 
-/// How points are triangulated. Of FlipOptions, Geometry, Criterion, TieRule and FeatureAngle are
+/// How points are triangulated. Geometry, Criterion, TieRule and FeatureAngle of FlipOptions are
 /// not used; NumberOfPieces must be 0 or 1.
 struct PointOptions : FlipOptions
 {
@@ -87,7 +87,7 @@ struct PointOptions : FlipOptions
   /// segment. 0 (default): none.
   double Alpha = 0.0;
 
-  /// The same for triangles with a longer edge.
+  /// Triangles with a longer edge are removed in the same way. 0 (default): none.
   double LongestEdge = 0.0;
 };
 

@@ -20,7 +20,7 @@ namespace delaunayflip
 struct FlipRequest
 {
   vtkPolyData* Input;
-  vtkPolyData* Constraints; ///< Or null.
+  vtkPolyData* Constraints; ///< Null without a second input.
   BridgeSettings Settings;
   FlipOptions Options;
   bool IsLive; ///< More updates will follow, and points may be moved in place between them.
@@ -74,7 +74,7 @@ public:
   void AddCells(vtkCellArray* cells);
   void AddPoints(vtkPolyData* mesh, vtkMTimeType since = 0);
 
-  /// And which arrays are active.
+  /// Adds the arrays, and which of them are active.
   void AddArrays(vtkFieldData* data);
 
   /// Whether these arrays are the same objects and unchanged or, as where a reader whose output was
@@ -87,7 +87,7 @@ private:
     vtkSmartPointer<vtkAbstractArray> Array;
     vtkSmartPointer<vtkObject> Owner;
     vtkMTimeType Time; ///< No two objects ever have the same one.
-    vtkIdType Count; ///< Of values: cells grow in place without being marked as modified.
+    vtkIdType Count; ///< How many values: cells grow in place without being marked as modified.
 
     vtkMTimeType FindTime() const;
     bool Fits(const Stamp& now) const;
@@ -120,7 +120,7 @@ private:
     GeometryKind Geometry = GeometryKind::Auto;
     std::vector<std::int64_t> Triangles; ///< Vertex ids, three per slot.
     std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
-    FlipReport Report; ///< Of the last run.
+    FlipReport Report; ///< What the last run did.
   };
 
   FlipRun(const FlipRequest& request, UpdatePlan plan);
@@ -132,10 +132,10 @@ private:
   Start GetEnd(const ProgressObserver& progress) const;
 
   FlipRequest Asked; ///< Its meshes may be gone.
-  Stamps Edges; ///< Of all, points aside, that decides which edges exist and which are fixed.
+  Stamps Edges; ///< All but points that decides which edges exist and which are fixed.
   Stamps Points;
   vtkSmartPointer<vtkPolyData> Current; ///< The input as it was at the last update.
-  vtkSmartPointer<vtkPolyData> Constraints; ///< Or null.
+  vtkSmartPointer<vtkPolyData> Constraints; ///< Null without a second input.
   vtkSmartPointer<vtkPolyData> Origin; ///< With points that no later update moves.
   PolyDataBridge Bridge; ///< To the origin. The session has views of its arrays.
   Start Begin; ///< The session has views of its arrays, too.

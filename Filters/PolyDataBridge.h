@@ -52,7 +52,7 @@ inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
 struct OutputPolygon
 {
   vtkIdType Cell; ///< The cell of the mesh from which it is made, or TriangleSlots::None.
-  vtkIdType Triangle; ///< Or TriangleSlots::None.
+  vtkIdType Triangle; ///< The triangle of the mesh, or TriangleSlots::None.
 };
 
 /// The triangles of a vtkPolyData: from which cell each is made, and which output cell it becomes.
@@ -99,7 +99,7 @@ public:
   vtkIdType FirstPolygon; ///< The cell id of the mesh's first polygon.
   vtkIdType FirstStrip;
   TriangleArray Triangles; ///< For the engine: a view of an array of this object or of the mesh.
-  std::vector<unsigned char> Frozen; ///< One flag per triangle: it stays. Or empty.
+  std::vector<unsigned char> Frozen; ///< One flag per triangle: it stays. Empty if none does.
   std::vector<vtkIdType> Strips; ///< The cells of the mesh that become the strips of the output.
   std::vector<OutputPolygon> Polygons; ///< Empty if viewed in place, as the following ones.
 

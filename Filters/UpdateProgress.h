@@ -76,7 +76,7 @@ public:
     Regions, ///< Are labelled.
     Session, ///< The engine.
     Output,
-    Angles, ///< Of GenerateQuality.
+    Angles, ///< For GenerateQuality.
     NumberOfParts
   };
 

@@ -34,7 +34,7 @@ std::string Describe(const std::vector<Note>& notes);
 struct UpdateSummary
 {
   FlipReport Report; ///< The sum over the meshes without a failure.
-  int Failure = 0; ///< Of the first error, one of vtkDelaunayFlip::FailureType; 0: none.
+  int Failure = 0; ///< The first error's vtkDelaunayFlip::FailureType; 0: none.
   std::vector<Note> Errors;
   std::vector<Note> Warnings;
 
@@ -60,10 +60,10 @@ void DropResults(vtkFieldData* data);
 /// the prefix "DelaunayFlip:", since the user may have an array "Seconds" already.
 DELAUNAYFLIP_EXPORT void AddFieldData(const FlipReport& report, vtkFieldData* data);
 
-/// The same for a count.
+/// Adds an array of one count.
 DELAUNAYFLIP_EXPORT void AddCount(const char* name, std::int64_t count, vtkFieldData* data);
 
-/// The same for what is known of points.
+/// Adds an array for each count of a mesh from points.
 void AddPointFieldData(const PointCounts& counts, vtkFieldData* data);
 
 }

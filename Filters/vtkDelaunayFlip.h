@@ -4,9 +4,9 @@
  * @class   vtkDelaunayFlip
  * @brief   turn a triangle mesh into a Delaunay mesh by parallel edge flips
  *
- * vtkDelaunayFlip keeps the points of a mesh where they are and changes only how they are joined:
- * in every iteration it flips, in parallel, an independent set of edges that are not locally
- * Delaunay, until no such edge is left that may be flipped.
+ * vtkDelaunayFlip makes a triangle mesh Delaunay. The points stay where they are; only how they are
+ * joined changes. Every iteration flips, in parallel, an independent set of edges that are not
+ * locally Delaunay. The update ends when no such edge is left that may be flipped.
  *
  * Input: any vtkPolyData, also as a block of a composite dataset. Quads, polygons and triangle
  * strips are first split into triangles (see Triangulate). Nothing is assumed about the mesh: it
@@ -47,8 +47,8 @@
  * default each edge is judged by an error-free in-circle predicate.
  *
  * The work is done on a GPU if the build has the CUDA backend, there is a GPU, and the mesh is
- * large enough; otherwise on CPU threads (see Backend). The same input gives the same output, bit
- * for bit, on either and with any number of threads. Only Seconds and Backend may differ.
+ * large enough; otherwise on CPU threads (see Backend). Both give the same output, bit for bit,
+ * with any number of threads. Only Seconds and Backend may differ.
  *
  * @warning
  * Points that belong to no triangle stay unused: nothing is inserted. On surfaces the result is
@@ -118,9 +118,9 @@ public:
    * PLANAR_XY if the mesh is a height field over x and y, and either z extends further than both x
    * and y, as with degrees and metres, or 95 % of the area slopes less than 45 degrees. It is a
    * height field if in the projection all triangles, except at most one in 1,000, have area and
-   * turn the same way, and the triangles around any point turn at most once. If z extends more than
-   * ten times as far as x and as y, one in five may have no area, and of the others one in 100 may
-   * turn the other way, as where an ocean crosses 180 degrees; those stay as they are and are
+   * face the same side, and the triangles around any point turn at most once. If z extends more
+   * than ten times as far as x and as y, one in five may have no area, and one in 100 of the others
+   * may face the other side, as where an ocean crosses 180 degrees; those stay as they are and are
    * counted in a warning. The slope of a sliver is that of its steepest edge, because the planes of
    * slivers are steep even in gentle terrain.
    *

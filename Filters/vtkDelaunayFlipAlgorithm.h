@@ -4,8 +4,8 @@
  * @class   vtkDelaunayFlipAlgorithm
  * @brief   what vtkDelaunayFlip and vtkDelaunayFlipPoints have in common
  *
- * Where and how long a filter works, its live updates, and what the last update did. See the two
- * classes.
+ * This is the base class of both filters. It has their common properties (where they run, for how
+ * many iterations, live updates) and tells what the last update did.
  *
  * @sa
  * vtkDelaunayFlip vtkDelaunayFlipPoints
@@ -141,7 +141,7 @@ public:
   ///@}
 
   /**
-   * The same as Advance(): requests one more step of a live run, paused or not. For a button.
+   * Requests one more step of a live run, paused or not, as Advance() does. For a button.
    */
   bool Step() { return this->Advance(); }
 
@@ -337,7 +337,7 @@ protected:
   std::unique_ptr<delaunayflip::FlipReport> Report;
 #endif
 
-  const char* InputType = "vtkPolyData"; ///< Of the first input, unless it is composite.
+  const char* InputType = "vtkPolyData"; ///< The first input's, unless it is composite.
   int SizeOfBlocks; ///< What it is measured by: vtkDataObject::CELL (default) or POINT.
   bool IsSilent = false; ///< Gives no messages and no rows of the table.
   int Backend = BACKEND_AUTO;
@@ -385,7 +385,7 @@ private:
   bool IsRestarted = false; ///< Since the last update began.
   bool CanContinue = true; ///< Whether another step can change the mesh.
   NextUpdate Next = NextUpdate::StepAndStore;
-  std::unique_ptr<delaunayflip::UpdateRun> Run; ///< Of LiveUpdate.
+  std::unique_ptr<delaunayflip::UpdateRun> Run; ///< For LiveUpdate.
 
   vtkDelaunayFlipAlgorithm(const vtkDelaunayFlipAlgorithm&) = delete;
   void operator=(const vtkDelaunayFlipAlgorithm&) = delete;

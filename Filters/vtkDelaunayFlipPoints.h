@@ -34,9 +34,9 @@
  * of them at most), OutsideTriangles and LargeTriangles (those removed outside of polygons, and by
  * Alpha and LongestEdge).
  *
- * Points that are not used: of points at equal places in the plane all but the one with the lowest
- * id, whatever their z; and points with a coordinate that is NaN or infinite, where that of z does
- * not matter in XY. They stay in the output, and a warning counts them. n places with h of them on
+ * Not all points are used. If several are at one place in the plane, only the one with the lowest
+ * id is, whatever their z. Points with a NaN or infinite coordinate are not, but z does not matter
+ * in XY. Unused points stay in the output, and a warning counts them. n places with h of them on
  * the hull give 2 n - 2 - h triangles. If there are fewer than three places, or all lie on one
  * line, there are none, and a warning says why.
  *
@@ -44,8 +44,8 @@
  * the second one. A segment through points is split there. One that overlaps an earlier one is no
  * conflict. One that crosses an earlier one is refused and counted, and a warning names the first
  * ones; with SplitCrossings both are split where they cross. If a segment of a polygon is refused,
- * the update fails, and the error names the polygon: the number of its ring is its cell id. So it
- * does if a polygon has no area.
+ * the update fails, and the error names the polygon: the number of its ring is its cell id. The
+ * update also fails if a polygon has no area.
  *
  * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
  * nothing is removed.
@@ -202,8 +202,8 @@ public:
 
   ///@{
   /**
-   * Of the last update, summed over blocks: edges that segments have become, and segments that were
-   * refused. The field data have all counts.
+   * The number of edges that segments have become in the last update, and of segments that were
+   * refused, summed over blocks. The field data have all counts.
    */
   vtkIdType GetNumberOfSegmentEdges() const;
   vtkIdType GetNumberOfRefusedSegments() const;

@@ -255,7 +255,7 @@ private:
   const TriangleSlots& Slots;
   const FlippedPiece& Flipped;
   PieceGroup& Group;
-  // Of each polygon of the output:
+  // One for each polygon of the output:
   std::vector<OutputPolygon> Polygons; ///< Its triangle is one of the flipped piece.
   std::vector<vtkIdType> Origins; ///< The triangle of the mesh, or None.
 };

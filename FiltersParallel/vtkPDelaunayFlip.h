@@ -10,21 +10,21 @@
  * may flip, which depends on how the mesh is divided, and on nothing else. With one process, or
  * without a controller, this filter is vtkDelaunayFlip.
  *
- * Input: a vtkPolyData on every process; it may be empty. Or composite data on every process: each
- * block is a mesh of its own, of which each process may have a piece, in the same place of the
- * same structure; null where it has none. Blocks that are no meshes pass unchanged, with a
- * warning. All partitions of a dataset, on all processes, are one mesh: a process joins those that
- * it has, as vtkDelaunayFlip does, and they are its piece. Points of several pieces are the same
- * if they have the same global id (active global ids of the point data, on all processes that have
- * points) or, without global ids, equal coordinates and one of them is at the border of its piece.
- * Points that coincide within a piece are then not matched, because it is not known which of them
- * is meant. A warning counts them; global ids made before the mesh is cut avoid it. Duplicate
- * ghost cells (vtkGhostType) are dropped first. Constraints (second input) may be on any process,
- * all or in part; they are matched by coordinates. The ends of lines (LinesAsConstraints) are
- * points of the process that has them, if need be without cells. Constraints that are edges stay,
- * wherever they are. In planar geometry a process inserts those that lie within its piece. Others
- * count as unmatched, with a warning: insert constraints before the mesh is divided. Where
- * triangles overlap or have no area, several processes insert none.
+ * Input: a vtkPolyData on every process, which may be empty, or composite data on every process.
+ * Each block of composite data is a mesh of its own. A process may have a piece of it in the same
+ * place of the same structure, and null where it has none. Blocks that are no meshes pass
+ * unchanged, with a warning. All partitions of a dataset, on all processes, are one mesh: a process
+ * joins those that it has, as vtkDelaunayFlip does, and they are its piece. Points of several
+ * pieces are the same if they have the same global id (active global ids of the point data, on all
+ * processes that have points) or, without global ids, equal coordinates and one of them is at the
+ * border of its piece. Points that coincide within a piece are then not matched, because it is not
+ * known which of them is meant. A warning counts them; global ids made before the mesh is cut avoid
+ * it. Duplicate ghost cells (vtkGhostType) are dropped first. Constraints (second input) may be on
+ * any process, all or in part; they are matched by coordinates. The ends of lines
+ * (LinesAsConstraints) are points of the process that has them, if need be without cells.
+ * Constraints that are edges stay, wherever they are. In planar geometry a process inserts those
+ * that lie within its piece. Others count as unmatched, with a warning: insert constraints before
+ * the mesh is divided. Where triangles overlap or have no area, several processes insert none.
  *
  * Output: the piece of each process. Triangles may move to another process, with their cell data;
  * those that stayed come first, in their order, then those received. The points are those of the
@@ -115,7 +115,7 @@ protected:
   vtkIdType NumberOfMovedTriangles = 0;
 
 private:
-  std::unique_ptr<delaunayflip::PieceGroup> Group; ///< Of the last update; null for one process.
+  std::unique_ptr<delaunayflip::PieceGroup> Group; ///< The last update's; null for one process.
 
   vtkPDelaunayFlip(const vtkPDelaunayFlip&) = delete;
   void operator=(const vtkPDelaunayFlip&) = delete;

@@ -68,7 +68,7 @@ public:
     Require(cudaGraphicsGLRegisterBuffer(&this->Buffer, buffer, cudaGraphicsRegisterFlagsNone),
       "register a buffer of OpenGL");
   }
-  /// Of a context that is gone nothing can be released; that is no error.
+  /// If the context is gone, nothing can be released, and that is no error.
   ~CudaFiller() override
   {
     const CurrentGpu current(this->Device);

@@ -47,8 +47,8 @@ using Buffer = vtkOpenGLBufferObject;
 namespace
 {
 
-constexpr int MostPlanes = 6; ///< As in VTK's own mapper.
-constexpr int Bands = 12; ///< Of colours.
+constexpr int MostPlanes = 6; ///< As many as VTK's own mapper has.
+constexpr int Bands = 12; ///< How many colours there are.
 constexpr const char* NoRun = "there is no live run of one mesh of triangles";
 
 /// Fills the table with twelve bands between a few colours: for flip counts up to the largest or,
@@ -121,24 +121,24 @@ struct ShaderBuffer
 struct vtkDelaunayFlipMapper::Parts
 {
   vtkSmartPointer<vtkDelaunayFlip> Filter;
-  std::pair<vtkPolyData*, vtkMTimeType> Input; ///< And its time, both to be compared only.
-  vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< Of the input.
-  vtkNew<vtkTypeInt32Array> Ids; ///< Of the corners of the triangles that the host has last had.
-  vtkBoundingBox Box; ///< Of the points that triangles use; not valid if nothing can be drawn.
+  std::pair<vtkPolyData*, vtkMTimeType> Input; ///< The input and its time, only to be compared.
+  vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< The input's faces.
+  vtkNew<vtkTypeInt32Array> Ids; ///< The corners of the triangles that the host has last had.
+  vtkBoundingBox Box; ///< Holds the points that triangles use; not valid if nothing can be drawn.
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That of the buffers.
   ShaderBuffer Places, Corners, Counts;
   vtkNew<vtkOpenGLVertexArrayObject> Array;
   std::int64_t Count = 0, PointCount = 0; ///< The sizes of the buffers; 0: there are none.
-  vtkMTimeType PointsTime = 0; ///< Of the points in the buffer.
+  vtkMTimeType PointsTime = 0; ///< The time of the points in the buffer.
   double Center[3] = { 0.0, 0.0, 0.0 };
-  double Unit = 1.0; ///< Of places in the shader.
+  double Unit = 1.0; ///< The unit of places in the shader.
 
   std::unique_ptr<BufferFiller> Filler; ///< Null: the host fills.
   std::string Obstacle = NoRun; ///< Why the host fills.
   bool MayUseDevice = true; ///< It has not failed since the host has got a mesh.
   bool IsBehind = true; ///< The buffers hold an earlier mesh.
-  bool IsNew = true; ///< And it may be that of another run, or what the filler has not written.
+  bool IsNew = true; ///< They may hold another run's mesh, or what the filler has not written.
   bool ByFlipCount = false; ///< What colours show.
   double LargestCount = 0.0; ///< The largest flip count of any mesh so far.
   vtkNew<vtkLookupTable> Table;

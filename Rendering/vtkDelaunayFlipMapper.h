@@ -17,11 +17,11 @@
  * from the memory of the host. Both give the same picture. vtkDelaunayFlipLiveView draws with this
  * mapper.
  *
- * Of the actor's property it uses ambient and diffuse coefficient, lighting, edge visibility, edge
- * colour and line width, and the colour if ColorBy is SOLID. Edges fade where triangles are smaller
- * than about seven pixels, so that a dense mesh shows its colours. The light is at the camera,
- * wherever the renderer's lights are. Up to six clipping planes are obeyed. GetLookupTable() has
- * the colours, for a vtkScalarBarActor; another table has no effect.
+ * It uses these of the actor's property: ambient and diffuse coefficient, lighting, edge
+ * visibility, edge colour and line width, and the colour if ColorBy is SOLID. Edges fade where
+ * triangles are smaller than about seven pixels, so that a dense mesh shows its colours. The light
+ * is at the camera, wherever the renderer's lights are. Up to six clipping planes are obeyed.
+ * GetLookupTable() has the colours, for a vtkScalarBarActor; another table has no effect.
  *
  * @warning
  * Nothing is picked: hardware selection does not see the triangles, and other pickers see the

@@ -22,9 +22,9 @@ namespace delaunayflip
 /// triangle; most vertices have one.
 struct VertexFans
 {
-  CornerId* First; ///< Of every fan a corner of its vertex, or NoCorner. Fan v is one of vertex v.
-  const std::uint32_t* Others = nullptr; ///< Of every fan another one of its vertex; 0: none. Or
-                                         ///< null: no vertex has several.
+  CornerId* First; ///< For each fan a corner of its vertex, or NoCorner. Fan v is one of vertex v.
+  /// For each fan another one of its vertex, 0 for none. Null if no vertex has several.
+  const std::uint32_t* Others = nullptr;
 
   /// Calls visit(corner) for the corners of a vertex until it returns true.
   template <typename Visit>
@@ -38,7 +38,7 @@ struct VertexFans
     }
   }
 
-  /// The same for the fan of one corner: first what follows it, then what comes before it.
+  /// Visits the fan of one corner: first what follows it, then what comes before it.
   /// @returns whether a visit returned true.
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE static bool SearchFan(
@@ -220,7 +220,7 @@ private:
       : this->Mesh.FindTurn(this->From, this->To, vertex);
   }
 
-  /// Of two vertices on the line, whether `b` lies further on, but not beyond the end.
+  /// Whether `b` lies further on than `a`, but not beyond the end. Both are on the line.
   DELAUNAYFLIP_HOST_DEVICE bool IsAhead(VertexId a, VertexId b) const
   {
     const PlanePoint p = this->Mesh.GetPoint(a);
@@ -329,7 +329,7 @@ private:
       const int side = turn * this->FindSide(vertex);
       if (side == 0)
       {
-        // Or it has passed its end in another layer.
+        // If the vertex is not ahead, the walk has passed its end in another layer.
         return vertex == this->To || this->IsAhead(at, vertex) ? Segment{ PathResult::Found, at,
           vertex, this->Mesh.GetHalfEdge(PlaneMesh::Next(corner)) }
                                                                : this->Fail(PathResult::Overlaps);
@@ -359,7 +359,7 @@ private:
         {
           return false;
         }
-        // Of the ear, the third side; of what is left, its other side.
+        // The third side of the ear; the rim goes on along its other side.
         const CornerId corner = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[last]);
         next = this->Mesh.GetHalfEdge(corner) ^ 1u;
         hasBefore = this->Mesh.GetEnd(next) != segment.Start;

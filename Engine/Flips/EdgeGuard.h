@@ -75,7 +75,7 @@ struct EdgeClaims
     return this->HoldsSlot(slot, a, b, priority);
   }
 
-  /// The same for the slot that Claim() returned. Others may be released at the same time.
+  /// Looks at the slot that Claim() returned. Others may be released at the same time.
   DELAUNAYFLIP_HOST_DEVICE bool HoldsSlot(
     std::uint32_t slot, VertexId a, VertexId b, std::uint32_t priority) const
   {
@@ -184,8 +184,8 @@ struct GuardTableView
     }
 
     std::uint32_t Group;
-    std::uint64_t Tags; ///< Of the group.
-    unsigned Tag; ///< Of the edge.
+    std::uint64_t Tags; ///< The group's tags.
+    unsigned Tag; ///< The edge's tag.
 
   private:
     /// Home h of the table, or one of the first for those that follow the last.

@@ -22,7 +22,7 @@ struct IterationCounts
   std::int64_t Bad = 0; ///< Edges known to be bad and free to flip when it chose.
   std::int64_t Blocked = 0; ///< Bad edges that were not free.
   std::int64_t Flipped = 0;
-  double SquaredCotangent = -INFINITY; ///< Of the smallest angle after it, on request.
+  double SquaredCotangent = -INFINITY; ///< The smallest angle's after it, on request.
 
   IterationCounts& operator+=(const IterationCounts& other)
   {
@@ -40,7 +40,7 @@ struct AdvancePlan
 {
   std::int64_t Iterations; ///< The most iterations, at least 1.
   bool MeasureFirst; ///< Compute SquaredCotangent after the first of them.
-  bool MeasureAll; ///< And after every one.
+  bool MeasureAll; ///< Compute it after every iteration.
 };
 
 /// The loop, on top of what a backend provides. Between calls the mesh is valid.

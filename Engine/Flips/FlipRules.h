@@ -66,8 +66,8 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess(
   return a.U < b.U || (a.U == b.U && a.V < b.V);
 }
 
-/// Of the quad of two triangles without area, whose points lie in one line: whether the edge p-q
-/// spans both opposite vertices, so that the flip shortens it. Either may lie at an end of it.
+/// Whether the edge p-q spans both opposite vertices, so that the flip shortens it. Either may lie
+/// at an end of it. Both triangles have no area, and the four points lie in one line.
 DELAUNAYFLIP_HOST_DEVICE inline bool SpansOpposite(const PlanePoint (&apqb)[4])
 {
   // Along a line the lexicographic order is that of the points on it.
@@ -215,8 +215,8 @@ private:
     return delaunayflip::IsWide(this->Range, this->Get(quad));
   }
 
-  /// These load the points again. As separate functions they take no registers from the test of the
-  /// many edges that do not need them.
+  /// These load the points again. They are separate functions, so that they take no registers from
+  /// the test of the many edges that do not need them.
   DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE bool IsNoise(
     const Quad& quad, double excess) const
   {

@@ -40,8 +40,8 @@ struct InsertedSegments
 {
   static constexpr std::int32_t Refused = -1;
 
-  std::vector<std::int32_t> NumberOfEdges; ///< Of each segment; or it is Refused.
-  std::vector<SegmentSide> Sides; ///< Of all these edges, in order.
+  std::vector<std::int32_t> NumberOfEdges; ///< Per segment, or Refused.
+  std::vector<SegmentSide> Sides; ///< One per edge, in the order of the segments.
   std::int64_t Flips = 0;
 };
 
@@ -64,30 +64,30 @@ public:
   /// What is known about the input before the first iteration.
   virtual const FlipReport& GetInputReport() const = 0;
 
-  /// The same as FlipSession's.
+  /// These do what FlipSession's functions of the same names do.
   virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
   virtual void StoreNeighbors(std::int32_t* neighbors) const = 0;
   virtual void StoreUsedPoints(std::int64_t* ids) const = 0;
 
-  /// Of a mesh from points: calls view(mesh) with the mesh in the memory of the host.
+  /// Calls view(mesh) with a mesh from points, in the memory of the host.
   using HostView = std::function<void(const PointMeshView&)>;
   virtual void ViewOnHost(const HostView& view) = 0;
 
-  /// Of a mesh from points: triangulates them again, by divide and conquer on the host, after which
+  /// Triangulates the points of a mesh from points again, by divide and conquer on the host. Then
   /// no edge is bad. FlipLoop::Detect must follow.
   /// @throws RunAborted.
   virtual void Divide(const BuildProgress& progress) = 0;
 
-  /// Of a mesh from points: inserts segments one after the other, as far as they cross none before
-  /// them. FlipLoop::Detect must follow.
+  /// Inserts segments into a mesh from points, one after the other, if they cross none before them.
+  /// FlipLoop::Detect must follow.
   /// @param ends pairs of points. @param onBatch is told of some segments at a time, in their
-  /// order; before the first ones of none.
+  /// order, and is called with none before the first ones.
   virtual void InsertSegments(
     const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) = 0;
 
-  /// The same into device memory. @returns false, and writes nothing, if the backend's device
-  /// cannot write it.
+  /// Stores the triangles in device memory. @returns false, and writes nothing, if the backend's
+  /// device cannot write it.
   virtual bool StoreTrianglesOnDevice(
     const MutableTriangleArray&, const DeviceStream&, std::int32_t*) const
   {
@@ -100,7 +100,7 @@ public:
   /// nearly one; else none.
   virtual Defect FindTurnedTriangles() const = 0;
 
-  /// As KeepsWorstSliver (SmallestAngle.h).
+  /// Returns what KeepsWorstSliver (SmallestAngle.h) does.
   virtual bool KeepsSliver() = 0;
 
   /// Throws std::logic_error if the edge mesh is inconsistent, which is a bug of the engine.

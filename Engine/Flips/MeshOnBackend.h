@@ -279,8 +279,8 @@ public:
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
 
-  /// Of a mesh from points: by point the place at which it is, or NoVertex. Public for the same
-  /// reason as the next.
+  /// Returns the place of each point of a mesh from points, or NoVertex. Public for nvcc, as is the
+  /// next function.
   Array<VertexId> ListPlaces() const
   {
     Array<VertexId> places = this->Backend.template MakeArray<VertexId>(this->Report.Points);
@@ -479,9 +479,9 @@ private:
   EdgeMesh Mesh;
   PackedPoints Points;
   CoordinateRange Range = CoordinateRange::Usual;
-  bool FiltersApply = false; ///< Of a mesh from points: whether the rule's do.
-  PlaneArray Places; ///< Of a mesh from points: views Points.
-  Array<VertexId> UsedPoint; ///< As MergePlaces returns it.
+  bool FiltersApply = false; ///< For a mesh from points: whether the rule's do.
+  PlaneArray Places; ///< For a mesh from points: a view of Points.
+  Array<VertexId> UsedPoint; ///< What MergePlaces returned.
   TurnSample Turns;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;

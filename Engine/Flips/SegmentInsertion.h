@@ -34,9 +34,9 @@ struct SegmentItem
   VertexId From, To;
   StateKind State;
   std::uint32_t Beaten; ///< The number of the last round that it cannot win; 0: none.
-  std::uint32_t NumberOfEdges; ///< Of its path.
+  std::uint32_t NumberOfEdges; ///< The length of its path.
   TriangleId Crossed[MostHints]; ///< The first ones that the path crosses, to prefetch.
-  ConstraintPath::Segment First; ///< Of the path.
+  ConstraintPath::Segment First; ///< The first segment of the path.
   ConstraintPath::Segment* Others; ///< All of it, if it has several.
 
   DELAUNAYFLIP_HOST_DEVICE ConstraintPath::Segment* GetPath()
@@ -53,11 +53,11 @@ struct SegmentRound
 {
   PlaneMesh Mesh;
   VertexFans Fans;
-  std::uint32_t* Claims; ///< Of every triangle the smallest claim on it.
+  std::uint32_t* Claims; ///< The smallest claim on each triangle.
   SegmentItem* Items = nullptr;
   const std::uint32_t* List = nullptr;
   std::uint32_t Number = 0; ///< The first round has 1.
-  std::uint32_t FirstClaim = 0; ///< Of the first item.
+  std::uint32_t FirstClaim = 0; ///< The first item's claim.
   std::uint32_t EndClaim = 0; ///< Behind that of the last one. Those of other rounds are not less.
 
   DELAUNAYFLIP_HOST_DEVICE ConstraintPath StartPath(const SegmentItem& item) const
@@ -66,8 +66,8 @@ struct SegmentRound
   }
 
   /// Finds the path of a segment, and claims the triangles that it crosses. A segment that crosses
-  /// a fixed edge is refused: that edge will stay. Of two claims, the one that comes later sees the
-  /// other and who is beaten.
+  /// a fixed edge is refused: that edge will stay. The later one of two claims sees the other and
+  /// who is beaten.
   DELAUNAYFLIP_HOST_DEVICE void Claim(SegmentItem& item, std::uint32_t claim) const
   {
     std::uint32_t edges = 0, crossed = 0;
@@ -200,7 +200,7 @@ struct SegmentRound
     }
   }
 
-  /// The same for Flip, of which other threads may be changing what it leads to.
+  /// Prefetches for Flip. Other threads may be changing what its path leads to.
   void PrefetchFlip(std::int64_t i, int stage) const
   {
     const SegmentItem& item = this->Items[this->List[i]];
@@ -298,7 +298,7 @@ struct SegmentInsertion
   {
     this->Prepare();
     const auto size = static_cast<std::int64_t>(ends.size() / 2);
-    // As many as take about a tenth of a second. The more, the nearer they are to each other.
+    // A batch takes about a tenth of a second. Segments of a large batch are near each other.
     constexpr std::int64_t Fewest = 1 << 12, Most = 1 << 20;
     constexpr double SecondsPerBatch = 0.1;
     std::int64_t batch = Fewest;
@@ -553,7 +553,7 @@ struct SegmentInsertion
   Array<std::int32_t> Failed;
   SegmentRound Round;
   Array<SegmentItem> Items;
-  std::vector<Array<ConstraintPath::Segment>> Paths; ///< Of a round each.
+  std::vector<Array<ConstraintPath::Segment>> Paths; ///< One array per round.
   std::int64_t Flips = 0;
 };
 

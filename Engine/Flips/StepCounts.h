@@ -16,7 +16,7 @@ struct StepCounts
   std::int64_t Tested = 0;
   std::int64_t Uncertain = 0;
   std::int64_t Bad = 0;
-  std::int64_t BlockedByShape = 0; ///< Or by their deviation.
+  std::int64_t BlockedByShape = 0; ///< Also those blocked by their deviation.
   std::int64_t BlockedByEdge = 0;
   std::int64_t Flipped = 0;
   std::int64_t FreshSlots = 0; ///< Slots of the guard table that were empty.

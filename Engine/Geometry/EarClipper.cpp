@@ -122,7 +122,7 @@ private:
   struct Node
   {
     std::array<PlanePoint, 4> Hull; ///< Counter-clockwise.
-    PlanePoint Direction; ///< Of its first side.
+    PlanePoint Direction; ///< The direction of its first side.
     std::int64_t OnlyPlace; ///< A vertex, if all are at the same place; else Nobody.
     std::int64_t Left; ///< Vertices.
     std::int64_t LeftAtFit;
@@ -296,9 +296,9 @@ private:
   }
 
   const std::vector<PlaneVector>& Vertices;
-  std::vector<PlanePoint> Scaled; ///< The same near 1, for filters.
+  std::vector<PlanePoint> Scaled; ///< Vertices, scaled to about 1 for filters.
   std::vector<std::int64_t> Order; ///< The finite vertices, in the order of the leaves.
-  std::vector<std::int64_t> PlaceOf; ///< Of every vertex in Order; or Nobody.
+  std::vector<std::int64_t> PlaceOf; ///< The place of each vertex in Order, or Nobody.
   std::vector<bool> IsLeft; ///< By place.
   std::int64_t Broken; ///< Vertices left with a NaN or infinite coordinate.
   std::vector<Node> Nodes;

@@ -185,7 +185,7 @@ private:
 class FixedPointUnit
 {
 public:
-  /// Of the coordinates of points; with `tilted` also W.
+  /// Finds the unit of the coordinates of points, W too if `tilted`.
   template <typename... Points>
   DELAUNAYFLIP_HOST_DEVICE explicit FixedPointUnit(bool tilted, const Points&... points)
   {

@@ -546,14 +546,14 @@ private:
   PointSet Seam; ///< The points of seam edges before the first flip.
   std::int64_t Unmatched = 0; ///< Constraints that are not edges of the mesh.
   FlipReport Seams; ///< To be added to the sums of the parts' reports (AddEdges).
-  std::vector<std::int64_t> FixedAtSeams; ///< The same for all edges there that stay.
+  std::vector<std::int64_t> FixedAtSeams; ///< The ends of all edges there that stay.
 
-  std::vector<std::atomic<double>> Shares; ///< Of the work for each part that is done.
+  std::vector<std::atomic<double>> Shares; ///< How much of the work for each part is done.
   std::atomic<bool> GoesOn{ true };
   std::atomic<bool> AreCounted{ true }; ///< Whether no part was stopped before its edges were.
-  std::mutex Mutex; ///< Of what follows, while parts are flipped.
+  std::mutex Mutex; ///< Guards what follows while parts are flipped.
   std::vector<std::int64_t> Fixed; ///< All edges that stay, but boundary edges: two ids for each.
-  std::vector<FlipReport> Reports; ///< Of the parts.
+  std::vector<FlipReport> Reports; ///< One per part.
   bool HasBadEdges = false; ///< Whether a session has left some.
 };
 }

@@ -25,9 +25,9 @@ struct DividedRun
       this->Report.StopReason == StopReasonKind::IterationLimit;
   }
 
-  PiecesReport Report; ///< Of the whole mesh.
+  PiecesReport Report; ///< The report of the whole mesh.
   bool IsFresh = true; ///< Whether FlipAll has not been called.
-  MutableTriangleArray Triangles; ///< As they are at the moment.
+  MutableTriangleArray Triangles; ///< The present triangles.
   std::vector<std::int32_t> FlipCounts; ///< One per triangle; empty if an array was given.
 };
 

@@ -212,7 +212,7 @@ public:
   const PointStars& GetStars() const { return this->Stars; }
   /// The mate of a corner: the corner of another triangle here that is opposite to the same edge.
   PartCorner FindMate(const PartCorner& corner) const;
-  /// The same, but none if the edge is a fixed edge or a seam edge.
+  /// Finds the mate of a corner. There is none if the edge is a fixed edge or a seam edge.
   PartCorner FindOpenMate(const PartCorner& corner) const;
   /// Prefetches the points of a triangle.
   void PrefetchPoints(std::int64_t triangle) const;

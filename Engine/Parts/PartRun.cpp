@@ -32,8 +32,8 @@ constexpr double FirstShare = 0.8;
 /// are made at most.
 constexpr std::int64_t MostRounds = 1000;
 
-/// Nor that those of a round end, so it takes at most so many iterations more than the rank has
-/// triangles.
+/// Nothing proves there that the iterations of a round end. So a round makes at most this many more
+/// than the rank has triangles.
 constexpr std::int64_t SafetyMargin = 1000;
 
 // The guard keeps a flip from making an edge that another rank has. Such an edge could only join
@@ -63,8 +63,8 @@ struct WaitedFlips
   std::vector<PointPair> Gone; ///< The ends of these edges before the flip.
 };
 
-/// Of the inner edges of some triangles, those whose two opposite points are both shared, that are
-/// bad and whose flip would not fold the mesh over; in the order of the later of their triangles.
+/// Finds the inner edges of some triangles whose two opposite points are both shared, that are bad
+/// and whose flip would not fold the mesh over, in the order of the later of their triangles.
 std::vector<WaitingFlip> FindWaiting(
   PartMesh& mesh, std::vector<std::int64_t> triangles, const QuadJudge& judge)
 {
@@ -263,8 +263,8 @@ private:
     }
   }
 
-  /// Finds the edges that need marks. Of a fixed edge with one triangle only those are marked that
-  /// have others on other ranks.
+  /// Finds the edges that need marks. A fixed edge with one triangle is marked only if it has
+  /// others on other ranks.
   void BeginRounds()
   {
     MarkedEdges edges = std::move(this->Constraints.Seams.Marks);
@@ -509,24 +509,24 @@ private:
   }
 
   PartJob Job;
-  RankNumbers Origins; ///< Of the triangles in their input slots.
+  RankNumbers Origins; ///< The numbers of the triangles in their input slots.
   PartMesh Mesh;
   QuadJudge Judge;
   SeamTester Tester;
   std::vector<std::int64_t> Waiting; ///< Triangles of edges that are bad and may wait.
   PartConstraints Constraints;
 
-  // Of this rank:
+  // These are this rank's:
   FlipReport Own; ///< Starts as the report of the first flips. Has the iterations of all rounds.
   StopReasonKind StopReason = StopReasonKind::Converged;
   std::int64_t EarlierRows = 0; ///< Iterations of this rank in earlier rounds.
   bool HasBlocked = false; ///< Whether a bad edge was seen that may not flip.
   FlipReport Seams; ///< SeamTest::Counts of the last test.
 
-  // Of all ranks:
+  // These are about all ranks:
   PiecesReport Whole; ///< The members that it inherits from FlipReport are set at the end.
   StopReasonKind WholeStopReason = StopReasonKind::Converged;
-  std::int64_t Iterations = 0; ///< Of earlier rounds.
+  std::int64_t Iterations = 0; ///< Iterations of earlier rounds.
   bool IsCounted = true; ///< Whether no rank was stopped before its edges were counted.
 };
 

@@ -147,7 +147,7 @@ public:
   std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
 
 private:
-  const std::int64_t* Numbers; ///< Of the points, or null.
+  const std::int64_t* Numbers; ///< One per point, or null.
   /// One number per point: 0 if its triangles form a closed fan, or closed fans, or it has none and
   /// is not the end of a constraint.
   Array<std::uint64_t> Fans;
@@ -166,7 +166,7 @@ std::int64_t ForEachShared(std::vector<Candidate> all, const Visit& visit)
   std::int64_t ambiguous = 0;
   const auto join = [&](const Candidate* begin, const Candidate* end)
   {
-    // Of points without triangles only one of a rank counts, and none if it has one with triangles.
+    // Only one point without triangles counts per rank, and none if it has one with triangles.
     std::vector<Candidate> list;
     bool isRepeated = false;
     for (const Candidate* one = begin; one != end; ++one)
@@ -256,7 +256,8 @@ PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group, const ThreadBac
     [&](const Place& place)
     { return std::binary_search(asked.begin(), asked.end(), GetHash(place)); },
     [&](const Candidate& one) { toHome[GetHome(GetHash(one.At), group)].push_back(one); });
-  // As the home of places. An answer is the key that the rank has sent, and that of the owner.
+  // Now this rank is the home of places. An answer is the key that the rank has sent, and that of
+  // the owner.
   RecordLists<PointPair> answers(group.GetSize());
   keys.UsedPoints = std::count(points.Used.begin(), points.Used.end(), 1);
   keys.Ambiguous = ForEachShared(Join(ExchangeRecords(group, toHome)),
@@ -496,7 +497,7 @@ struct StarTurnStep
 /// do not close around it.
 struct Wedge
 {
-  std::int64_t Key; ///< Of the point.
+  std::int64_t Key; ///< The point's key.
   PlanePoint Apex, First, Last;
 
   bool IsAt(const Wedge& other) const

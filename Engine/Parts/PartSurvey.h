@@ -23,14 +23,14 @@ namespace delaunayflip
 /// that have the point use the same key.
 struct PointKeys
 {
-  RankNumbers Owners; ///< Of keys: a rank that has the point from the start.
+  RankNumbers Owners; ///< For each key a rank that has the point from the start.
   HostVector<std::int64_t> Keys; ///< One per point of this rank.
   std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
   std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
   /// One flag per point: whether it is not shared and its triangles form a closed fan.
   std::vector<unsigned char> Closed;
 
-  // Of the whole mesh:
+  // These are about the whole mesh:
   std::int64_t Repeated = 0; ///< Points of all ranks that a lower rank has, too.
   std::int64_t UsedPoints = 0; ///< Points of triangles, each once.
   /// Points that coincide with others of their rank and with a point of another rank.
@@ -58,7 +58,7 @@ struct PartSurvey : MeshSurvey
   /// Whether a flip could make an edge that already exists on some rank. Then flips need a guard
   /// (PartRun.cpp).
   bool NeedsGuard() const { return !this->Whole.StarsAreSimple; }
-  /// Of ids and coordinates.
+  /// Lists defects of ids and coordinates.
   std::vector<Defect> ListDefects() const;
 };
 
@@ -84,7 +84,7 @@ double FindLargestCotangent(
   return threads.Sum<LargestValue>(count, measure).Value;
 }
 
-/// Of some axes, the one along which items extend most.
+/// Returns that of some axes along which items extend most.
 /// @param get get(item, axis) is a coordinate.
 template <typename Iterator, typename Get>
 int FindLongestAxis(Iterator begin, Iterator end, const std::vector<int>& axes, const Get& get)

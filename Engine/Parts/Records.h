@@ -97,7 +97,7 @@ Value SumOverRanks(PieceGroup& group, const Value& value)
   return sum;
 }
 
-/// Of each value the largest of all ranks.
+/// Returns, for each value, the largest of all ranks.
 template <typename Value>
 std::vector<Value> FindMaxima(PieceGroup& group, std::vector<Value> values)
 {
@@ -153,7 +153,7 @@ inline int GetHome(std::uint64_t hash, const PieceGroup& group)
 /// Iterations with the same number are joined, without their smallest angles.
 FlipReport JoinReports(const FlipReport& report, PieceGroup& group);
 
-/// The same for the parts of a mesh of one process. Each time is the largest of all parts.
+/// Joins the reports of the parts of a mesh of one process. Each time is the largest of all parts.
 FlipReport JoinReports(const std::vector<FlipReport>& reports);
 
 /// Completes the report of the whole mesh once its edges and the smallest angle are known.

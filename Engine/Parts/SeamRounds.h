@@ -24,8 +24,8 @@ struct BadSeam
   std::int64_t Triangle; ///< The triangle of this rank.
   PointPair Ends; ///< Keys.
   PointPair Opposite; ///< Keys of the points that the flip would join.
-  /// Of the end with the lower key. Both ranks of the edge get the same values, even if they have
-  /// the point elsewhere.
+  /// Coordinates of the end with the lower key. Both ranks of the edge get the same values, even if
+  /// they have the point elsewhere.
   double Place[3];
   std::int32_t OtherRank;
 };

@@ -95,7 +95,7 @@ constexpr char IsEdge = 100, Inserted = 101;
 /// The answer of the home of an edge about a triangle that a rank has sent.
 struct SeamAnswer
 {
-  std::int64_t Corner; ///< As SeamTriangle's.
+  std::int64_t Corner; ///< SeamTriangle::Corner of the triangle.
   EdgeMark Mark;
   bool IsToFix; ///< The rank must be told to fix the edge: it has two triangles of it.
 };
@@ -323,7 +323,7 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   {
     part.Take(this->Mesh.Triangles);
   }
-  // Of a constraint between shared points, which is entered if it is new; else null.
+  // Returns the fate of a constraint between shared points, entered if new; null for others.
   const auto getFate = [&](std::int64_t constraint)
   {
     const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * constraint;

@@ -31,7 +31,7 @@ struct SeamTriangle
   PointPair Ends; ///< Keys of the ends of the edge.
   std::int64_t Opposite; ///< Key of the point opposite to the edge.
   std::int64_t Corner; ///< 3 * triangle + slot of the opposite point, on its rank.
-  double Places[3][3]; ///< Of both ends, in the same order for both triangles; of the opposite.
+  double Places[3][3]; ///< Both ends, in the same order for both triangles; the opposite point.
   std::int32_t Region;
   std::int32_t Rank; ///< The rank that has it.
   bool RunsForward; ///< It runs through the edge from the first end to the second.
@@ -53,10 +53,10 @@ public:
   /// @returns Good, Bad, BlockedByShape or BlockedByDeviation.
   EdgeState Judge(const double (&apqb)[4][3]) const;
 
-  /// The same for the two triangles of an edge. They must run through it in opposite directions.
+  /// Judges the edge of two triangles. They must run through it in opposite directions.
   EdgeState Judge(const SeamTriangle& one, const SeamTriangle& other) const;
 
-  /// The same for the edge that is opposite to both corners.
+  /// Judges the edge that is opposite to both corners.
   EdgeState Judge(const PartMesh& mesh, const PartCorner& one, const PartCorner& other) const;
 
 private:
@@ -68,7 +68,7 @@ private:
 /// once for all ranks.
 struct SeamSurvey
 {
-  MarkedEdges Marks; ///< Of those that have triangles on this rank.
+  MarkedEdges Marks; ///< Marks of those that have triangles on this rank.
   /// Two ids for each of those that have two triangles here and are fixed because of others.
   std::vector<std::int64_t> ToFix;
   FlipReport Totals; ///< Edges to be added to the counts of this rank (AddEdges).
@@ -79,8 +79,8 @@ struct SeamSurvey
 /// caller's mesh after insertion of the constraints that are to be inserted; otherwise the caller's
 /// mesh.
 ///
-/// Each rank inserts the constraints that stay within its part. Of those between shared points,
-/// which several ranks may have, it tries all whose two points it has. A constraint that no rank
+/// Each rank inserts the constraints that stay within its part. Several ranks may have those
+/// between shared points, so a rank tries all whose two points it has. A constraint that no rank
 /// inserts counts as unmatched, once. Where flips need a guard, ranks insert nothing.
 class PartConstraints
 {
@@ -92,7 +92,7 @@ public:
   TriangleMesh Mesh; ///< Views of the caller's arrays and of arrays of this object.
   SeamSurvey Seams;
   bool IsAborted = false; ///< Whether an observer of any rank has stopped the insertion.
-  double Share = 0.0; ///< Of the run that is done after the insertion.
+  double Share = 0.0; ///< How much of the run is done after the insertion.
 
   /// Adds what is known of constraints on this rank.
   void AddTo(FlipReport& report) const;
@@ -100,8 +100,8 @@ public:
   void AddFlipCounts(std::int32_t* counts) const { this->Insertion.AddFlipCounts(counts); }
 
 private:
-  /// Of the constraints between shared points, which any rank may have given, by the keys of their
-  /// ends: whether they are to be inserted.
+  /// Whether the constraints between shared points are to be inserted, by the keys of their ends.
+  /// Any rank may have given them.
   using SharedConstraints = std::map<PointPair, bool>;
 
   SharedConstraints List(const PartJob& job, const PartMesh& part);
@@ -109,11 +109,11 @@ private:
   void FindFates(const PartMesh& part);
   void CountShared(const SharedConstraints& shared, const std::vector<char>& fates);
 
-  std::vector<std::int64_t> Ends; ///< Of the constraints that this rank can look up.
+  std::vector<std::int64_t> Ends; ///< The ends of the constraints that this rank can look up.
   std::vector<unsigned char> ToInsert; ///< One flag for each of them.
   ConstraintInsertion Insertion;
-  PairMap<char> Fates; ///< Of those between shared points, by keys.
-  std::vector<std::int64_t> Edges; ///< Of the constraints that Mesh has.
+  PairMap<char> Fates; ///< What became of those between shared points, by keys.
+  std::vector<std::int64_t> Edges; ///< The ends of the constraints that Mesh has.
   std::int64_t NumberInserted = 0;
   std::int64_t Unmatched = 0; ///< That were not to be inserted.
   std::vector<RefusedConstraint> Refused; ///< Those that this rank counts.

@@ -244,8 +244,8 @@ private:
       sides.rbegin(), sides.rend(), [&](EdgeId side) { return path.TryFlip(side); });
   }
 
-  /// Of a triangle without area, the side that holds all three points; NoHalfEdge where two
-  /// coincide.
+  /// Returns the side of a triangle without area that holds all three points, NoHalfEdge if two of
+  /// them coincide.
   HalfEdgeId GetLongSide(TriangleId flat) const
   {
     for (int slot = 0; slot < 3; ++slot)
@@ -266,7 +266,7 @@ private:
 
   const PlaneMesh& Mesh;
   const EdgeTableView Table;
-  std::vector<CornerId> First; ///< As VertexFans has them.
+  std::vector<CornerId> First; ///< VertexFans::First. Others is VertexFans::Others.
   std::vector<std::uint32_t> Others;
   std::vector<std::pair<VertexId, VertexId>> Edges;
   std::int64_t Flips = 0;

@@ -21,7 +21,7 @@ namespace delaunayflip
 enum class Refusal : char
 {
   LeavesMesh,
-  LeavesPart, ///< Of the mesh that a rank has; then it may leave the mesh, too.
+  LeavesPart, ///< It leaves the part of this rank, and perhaps the mesh, too.
   CrossesFixedEdge,
   MeetsOverlap,
   NeedsGuard, ///< Flips might make edges that other ranks have (WholeMesh::SharedPoints).
@@ -86,7 +86,8 @@ private:
   void Store(const EdgeMesh& edges, const SpatialOrderView& order, const ThreadBackend& backend);
 
   std::vector<std::int64_t> Triangles; ///< Ids, if one has changed.
-  std::vector<std::pair<std::int64_t, std::int32_t>> FlipCounts; ///< Of triangle slots.
+  std::vector<std::pair<std::int64_t, std::int32_t>>
+    FlipCounts; ///< Triangle slots and their counts.
   std::vector<std::int64_t> Edges; ///< Pairs of vertex ids, if some were tried.
   GeometryKind Geometry = GeometryKind::Auto;
   std::string GeometryReason;

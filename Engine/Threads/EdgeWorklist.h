@@ -89,7 +89,7 @@ public:
     return found;
   }
 
-  /// The same on the calling thread, as all functions without a backend.
+  /// Detects on the calling thread, as all functions without a backend do.
   template <typename... Steps>
   StepCounts Detect(const Steps&... steps)
   {
@@ -109,7 +109,7 @@ public:
       });
   }
 
-  /// The same, and the winners claim their new edges.
+  /// Chooses winners, which claim their new edges.
   void ChooseAndClaim(const ThreadBackend& backend, const ChooseAndClaimStep& step)
   {
     this->ForTasks(backend, this->Listed,
@@ -208,7 +208,7 @@ private:
   {
     std::int64_t Begin, End;
     std::vector<EdgeId> Edges; ///< In order, and Padding.
-    std::vector<std::uint32_t> Slots; ///< Of the winners' claims.
+    std::vector<std::uint32_t> Slots; ///< The slots of the winners' claims.
     std::int64_t Size = 0; ///< Without padding.
   };
 

@@ -60,7 +60,7 @@ int CountStartable(int most)
   return static_cast<int>(threads.size());
 }
 
-/// As many threads as this have been started at once in this process.
+/// The largest number of threads that were started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
 /// oneTBB ends the process where the system refuses it a thread, so that is tried before, with

@@ -42,8 +42,8 @@ struct StripSorter<Real, ThreadBackend>
       [&](std::int64_t i)
       { stripOf[i] = IsFinitePoint(points, i) ? findStrip(points.Get(i, 1)) : unused; });
     Array<Item> items = backend.MakeArray<Item>(points.Count);
-    // The points of a range go to places all over the array. So that not the first ranges wait for
-    // all of its memory, and an observer for them, it is touched before.
+    // The points of a range go to places all over the array. It is touched before, or the first
+    // ranges would wait for all of its memory, and an observer would wait for them.
     backend.TouchPages(items.Data(), points.Count * static_cast<std::int64_t>(sizeof(Item)));
     const std::vector<std::uint32_t> starts = backend.PlaceByDigit(
       points.Count, unused + 1, [&](std::int64_t i) { return stripOf[i]; },

@@ -335,7 +335,7 @@ private:
 
   void Judge(const EdgeId* edges, std::int64_t size, StepCounts& counts)
   {
-    // As wide as double, so that results stay in their lanes.
+    // These are as wide as double, so that results stay in their lanes.
     std::int64_t states[Size];
     const auto side = static_cast<double>(this->Decision.UniformSide);
     for (int i = 0; i < Size; ++i)
