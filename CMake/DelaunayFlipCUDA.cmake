@@ -66,7 +66,7 @@ if(NOT CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
 endif()
 enable_language(CUDA)
 option(DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE
-  "Build the CUDA backend for the GPUs that are here alone; without any for Turing, and newer through PTX"
+  "Build the CUDA backend only for the GPUs that are here; if there are none, PTX for Turing, which newer drivers compile"
   ${DELAUNAYFLIP_WHEEL})
 if(delaunayflip_choose_architectures AND DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE)
   execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader
