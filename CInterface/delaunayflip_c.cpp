@@ -93,7 +93,7 @@ delaunayflip_status TryWith(const delaunayflip_session* session, const Work& wor
     });
 }
 
-/// The triangles of all polygons.
+/// The triangles of all polygons; also their numbers, if there is room for them.
 std::vector<std::int64_t> Split(
   const PointArray& points, const delaunayflip_polygons& polygons, const ProgressObserver& progress)
 {
@@ -122,11 +122,24 @@ std::vector<std::int64_t> Split(
     }
     const auto part = [&](double share)
     { return !progress || progress((static_cast<double>(i) + share) / all); };
+    const auto before = static_cast<std::int64_t>(triangles.size() / 3);
     if ((i % PolygonsBetweenCalls == 0 && !part(0.0)) ||
       (end - begin >= 3 &&
         !SplitPolygon(points, polygons.corners + begin, end - begin, triangles, part)))
     {
       throw RunAborted();
+    }
+    const std::int64_t made = static_cast<std::int64_t>(triangles.size() / 3) - before;
+    if (polygons.triangle_counts)
+    {
+      polygons.triangle_counts[i] = made;
+    }
+    else if (end - begin > 3 && made < end - begin - 2)
+    {
+      throw InvalidMesh("polygon " + std::to_string(i) +
+          " names a point twice in a row, and so gives fewer triangles: triangle_counts is needed "
+          "to tell how many",
+        i, -1);
     }
   }
   return triangles;

@@ -70,6 +70,7 @@ std::string InSingular(const std::string& what)
     { "triangles that repeat ", "triangle that repeats " },
     { "triangles ", "triangle " },
     { "points ", "point " },
+    { "polygons ", "polygon " },
     { "constraint edges that are not edges ", "constraint edge that is not an edge " },
     { "constraint edges that cannot be inserted because they leave ",
       "constraint edge that cannot be inserted because it leaves " },

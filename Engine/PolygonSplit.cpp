@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace delaunayflip
@@ -147,7 +148,29 @@ bool HasArea(const PointArray& points, const std::int64_t ids[3], int first)
 
 }
 
-bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
+namespace
+{
+
+/// Whether a vertex is the same as the next one. The first one is next to the last.
+bool HasRepeats(const std::int64_t* ids, std::int64_t count)
+{
+  return ids[count - 1] == ids[0] || std::adjacent_find(ids, ids + count) != ids + count;
+}
+
+/// The vertices that differ from the one before them.
+std::vector<std::int64_t> DropRepeats(const std::int64_t* ids, std::int64_t count)
+{
+  std::vector<std::int64_t> different;
+  std::unique_copy(ids, ids + count, std::back_inserter(different));
+  while (different.size() > 1 && different.back() == different.front())
+  {
+    different.pop_back();
+  }
+  return different;
+}
+
+/// As SplitPolygon, for vertices without repetitions.
+bool Split(const PointArray& points, const std::int64_t* ids, std::int64_t count,
   std::vector<std::int64_t>& triangles, const ProgressObserver& progress)
 {
   const std::vector<PlaneVector> polygon = Project(points, ids, count);
@@ -175,6 +198,20 @@ bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_
     }
   }
   return !cut.empty();
+}
+
+}
+
+bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
+  std::vector<std::int64_t>& triangles, const ProgressObserver& progress)
+{
+  if (count == 3 || !HasRepeats(ids, count))
+  {
+    return Split(points, ids, count, triangles, progress);
+  }
+  const std::vector<std::int64_t> different = DropRepeats(ids, count);
+  const auto left = static_cast<std::int64_t>(different.size());
+  return left < 3 || Split(points, different.data(), left, triangles, progress);
 }
 
 void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double normal[3])

@@ -274,6 +274,10 @@ FlipReport FlipRun::GetReport() const
       count, {}, DefectIds::Points });
   }
   this->Bridge.NumberCells(report.Defects);
+  if (this->Bridge.GetSlots().NoTriangles.Count > 0)
+  {
+    report.Defects.push_back(this->Bridge.GetSlots().NoTriangles);
+  }
   const auto malformed = ListMalformedArrays(this->Current, true, this->Bridge.GetSlots().InPlace);
   report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
   return report;

@@ -141,6 +141,8 @@ TriangleSlots::TriangleSlots(
   {
     return;
   }
+  this->NoTriangles.What = "polygons with fewer than three different points";
+  this->NoTriangles.What += triangulate ? ", left out" : "";
   WorkProgress split(progress,
     polygons->GetNumberOfConnectivityIds() + mesh->GetStrips()->GetNumberOfConnectivityIds());
   VisitCells(polygons, check(this->FirstPolygon),
@@ -149,6 +151,7 @@ TriangleSlots::TriangleSlots(
       constexpr vtkIdType LargePolygon = 1000; // takes a while to split
       const vtkIdType size = ids->GetNumberOfIds();
       const bool stays = size < 3 || (size > 3 && !triangulate);
+      const std::size_t before = this->Ids.size();
       if (stays)
       {
         this->Polygons.push_back({ this->FirstPolygon + polygon, None });
@@ -167,33 +170,58 @@ TriangleSlots::TriangleSlots(
           throw RunAborted();
         }
       }
-      this->AddTriangles(this->FirstPolygon + polygon, size - 2, stays);
+      const auto made = static_cast<vtkIdType>(this->Ids.size() - before) / 3;
+      this->AddTriangles(this->FirstPolygon + polygon, made, stays);
+      if (size > 3 && made == 0)
+      {
+        this->CountNoTriangle(this->FirstPolygon + polygon);
+      }
       split.Add(size);
     });
   VisitCells(mesh->GetStrips(), check(this->FirstStrip),
     [&](vtkIdType strip, vtkIdList* ids)
     {
-      const vtkIdType size = ids->GetNumberOfIds();
-      const bool stays = size < 3 || !triangulate;
-      if (stays)
-      {
-        this->Strips.push_back(this->FirstStrip + strip);
-      }
-      for (vtkIdType i = 0; i + 2 < size; ++i)
-      {
-        // Every other triangle of a strip is wound the other way.
-        const vtkIdType odd = i % 2;
-        this->Ids.insert(
-          this->Ids.end(), { ids->GetId(i + odd), ids->GetId(i + 1 - odd), ids->GetId(i + 2) });
-      }
-      this->AddTriangles(this->FirstStrip + strip, size - 2, stays);
-      split.Add(size);
+      this->SplitStrip(this->FirstStrip + strip, ids, triangulate);
+      split.Add(ids->GetNumberOfIds());
     });
   this->Triangles = TriangleArray(static_cast<const std::int64_t*>(this->Ids.data()),
     static_cast<std::int64_t>(this->Cells.size()));
 }
 
-/// @param count may be negative: none.
+/// Leaves out triangles that name a point twice, by which strips continue elsewhere.
+void TriangleSlots::SplitStrip(vtkIdType cell, vtkIdList* ids, bool triangulate)
+{
+  const vtkIdType size = ids->GetNumberOfIds();
+  const bool stays = size < 3 || !triangulate;
+  if (stays)
+  {
+    this->Strips.push_back(cell);
+  }
+  vtkIdType made = 0;
+  for (vtkIdType i = 0; i + 2 < size; ++i)
+  {
+    // Every other triangle of a strip is wound the other way.
+    const vtkIdType odd = i % 2;
+    const vtkIdType a = ids->GetId(i + odd), b = ids->GetId(i + 1 - odd), c = ids->GetId(i + 2);
+    if (a != b && b != c && c != a)
+    {
+      this->Ids.insert(this->Ids.end(), { a, b, c });
+      ++made;
+    }
+  }
+  this->AddTriangles(cell, made, stays);
+}
+
+void TriangleSlots::CountNoTriangle(vtkIdType cell)
+{
+  constexpr std::size_t Most = 3; // named in the warning
+  ++this->NoTriangles.Count;
+  if (this->NoTriangles.FirstIds.size() < Most)
+  {
+    this->NoTriangles.FirstIds.push_back(cell);
+  }
+}
+
 void TriangleSlots::AddTriangles(vtkIdType cell, vtkIdType count, bool stays)
 {
   for (vtkIdType i = 0; i < count; ++i)

@@ -58,7 +58,8 @@ struct OutputPolygon
 /// The triangles of a vtkPolyData: from which cell each is made, and which output cell it becomes.
 ///
 /// If all polygons are triangles, they are viewed in place. Otherwise polygons and strips are
-/// copied as the triangles into which they split. The output has these triangles in place of the
+/// copied as the triangles into which they split, without those triangles of strips that name a
+/// point twice, as strips do to continue elsewhere. The output has these triangles in place of the
 /// cell; with `triangulate` off it has the cell itself, and the triangles are frozen and not part
 /// of the output.
 class TriangleSlots
@@ -102,9 +103,14 @@ public:
   std::vector<unsigned char> Frozen; ///< One flag per triangle: it stays. Empty if none does.
   std::vector<vtkIdType> Strips; ///< The cells of the mesh that become the strips of the output.
   std::vector<OutputPolygon> Polygons; ///< Empty if viewed in place, as the following ones.
+  /// Polygons of more than three points, of which fewer than three are left where repetitions are
+  /// dropped; by cell. They are no triangle, and only in the output if `triangulate` is off.
+  Defect NoTriangles;
 
 private:
   void AddTriangles(vtkIdType cell, vtkIdType count, bool stays);
+  void CountNoTriangle(vtkIdType cell);
+  void SplitStrip(vtkIdType cell, vtkIdList* ids, bool triangulate);
 
   std::vector<std::int64_t> Ids; ///< Three per triangle.
   std::vector<vtkIdType> Cells; ///< One per triangle.

@@ -262,9 +262,13 @@ public:
   /**
    * Split quads, polygons and triangle strips into triangles and flip those too. A quad is split
    * along the diagonal from its first to its third point, unless that runs outside it; a larger
-   * polygon becomes a fan if it is convex, else its ears are clipped. Default on. If off, such
-   * cells pass unchanged and their edges stay. They are then counted as the triangles that they
-   * would become, with all of their edges fixed.
+   * polygon becomes a fan if it is convex, else its ears are clipped. Before, corners that repeat
+   * the one before them are dropped, as in triangles written as quads and in rings closed by their
+   * first point. A cell of more than three points, of which fewer than three are left, has no
+   * triangle: it is left out with its data, and a warning counts such cells. Triangles of strips
+   * that name a point twice are left out too. Default on. If off, such cells pass unchanged and
+   * their edges stay. They are then counted as the triangles that they would become, with all of
+   * their edges fixed.
    */
   vtkSetMacro(Triangulate, bool);
   vtkGetMacro(Triangulate, bool);

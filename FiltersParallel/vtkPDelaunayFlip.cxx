@@ -100,6 +100,22 @@ std::int64_t CountElsewhere(const std::vector<char>& areHere, PieceGroup& group)
   return elsewhere;
 }
 
+/// Adds a defect that ranks have found in their pieces to the report, which is the same on all.
+void AddSum(const Defect& own, PieceGroup& group, PiecesReport& report)
+{
+  Message message;
+  Put(message, own.Count);
+  Defect sum{ own.What, 0, {} };
+  for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
+  {
+    sum.Count += reader.Get<std::int64_t>();
+  }
+  if (sum.Count > 0)
+  {
+    report.Defects.push_back(sum);
+  }
+}
+
 /// Gives regions the same labels on all ranks.
 void ShareRegionLabels(PolyDataBridge& bridge, PieceGroup& group)
 {
@@ -302,6 +318,7 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
         : "constraint edges of the second input that the mesh does not have",
       elsewhere, {}, DefectIds::Points });
   }
+  AddSum(bridge.GetSlots().NoTriangles, group, report);
   const PieceOutput writer(mesh, bridge, flipped, group);
   writer.Store(output);
   if (request.WantsFlipCounts)

@@ -74,7 +74,7 @@ Points = make_struct("Points", (
     (c_void_p, "stream"), (c_int32, "first_hole")))
 
 Polygons = make_struct("Polygons", (
-    (c_int64, "size number_of_polygons"), (c_void_p, "offsets corners")))
+    (c_int64, "size number_of_polygons"), (c_void_p, "offsets corners triangle_counts")))
 
 Options = make_struct("Options", (
     (c_int64, "size"), (c_int32, "geometry criterion tie_rule backend"),

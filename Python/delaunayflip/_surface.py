@@ -88,6 +88,8 @@ class Slots:
             made, and its triangle, or NONE if the polygon is the whole cell.
         kept_strips: the cells that stay strips.
         divides_cells: whether the output has several cells for one.
+        no_triangles: the polygons of more than three points, of which fewer than three are left where
+            repetitions are dropped. They are only in the output if `triangulate` is off.
     """
 
     def __init__(self, surface, triangulate, progress=None):
@@ -98,21 +100,23 @@ class Slots:
         self.in_place = self.strips.count == 0 and self.polygons.are_triangles()
         if self.in_place:
             self.triangles = self.polygons.corners.reshape(-1, 3)
+            counts = numpy.ones(len(self.triangles), dtype=int)
         else:
             for cells in (self.polygons, self.strips):
                 cells.require_points(len(surface.points))
-            self.triangles = numpy.concatenate([_split(self.polygons, surface.points, progress),
-                                                _split_strips(self.strips)])
-        self._number_cells(triangulate)
+            parts = _split(self.polygons, surface.points, progress), _split_strips(self.strips)
+            self.triangles, counts = map(numpy.concatenate, zip(*parts))
+        self._number_cells(triangulate, counts)
 
-    def _number_cells(self, triangulate):
-        """Cells that stay are split too, into frozen triangles: those without area, and all that are
-        not to be split."""
+    def _number_cells(self, triangulate, counts):
+        """Cells that stay are split too, into frozen triangles: those of too few points, and all that
+        are not to be split. `counts`: the number of triangles of each."""
         sizes = numpy.concatenate([self.polygons.sizes, self.strips.sizes])
         is_strip = numpy.arange(len(sizes)) >= self.polygons.count
-        counts = numpy.maximum(sizes - 2, 0)
         stays = (sizes < 3) | ((sizes > 3 - is_strip) & (not triangulate))
         ids = self.first_polygon + numpy.arange(len(sizes))
+        self.no_triangles = ids[(sizes > 3) & (counts == 0) & ~is_strip]
+        self.triangulate = triangulate
         self.cells = numpy.repeat(ids, counts)
         self.frozen = numpy.repeat(stays, counts) if stays.any() else None
         rows = numpy.where(stays, ~is_strip, counts)
@@ -121,6 +125,16 @@ class Slots:
         self.polygon_triangles = numpy.where(numpy.repeat(stays, rows), NONE, triangles)
         self.kept_strips = ids[stays & is_strip]
         self.divides_cells = bool(((counts > 1) & ~stays).any())
+
+    def describe_no_triangles(self):
+        """Texts of a warning, if there are any."""
+        count = len(self.no_triangles)
+        if count == 0:
+            return []
+        first = ", ".join(str(cell) for cell in self.no_triangles[:3].tolist())
+        fate = ", left out" if self.triangulate else ""
+        return [f"{count} {'polygon' if count == 1 else 'polygons'} with fewer than three different "
+                f"points{fate} (first: {first})"]
 
     def list_triangles(self):
         """The polygons of the output that are triangles, and the triangle of each."""
@@ -148,6 +162,7 @@ def _count_up(sizes):
 
 
 def _split(polygons, points, progress):
+    """(m, 3) triangles of all polygons, and the number of those of each."""
     triangles = numpy.empty((int(numpy.maximum(polygons.sizes - 2, 0).sum()), 3), dtype=numpy.int64)
     mesh = _arrays.Mesh(points, triangles[:0])
     offsets = numpy.ascontiguousarray(polygons.offsets, dtype=numpy.int64)
@@ -155,17 +170,24 @@ def _split(polygons, points, progress):
     struct = _library.make(_library.Polygons)
     struct.number_of_polygons = polygons.count
     struct.offsets, struct.corners = _arrays.address(offsets), _arrays.address(corners)
+    made = numpy.empty(polygons.count, dtype=numpy.int64)
+    struct.triangle_counts = _arrays.address(made)
     call("split_polygons", mesh.struct, struct, _arrays.address(triangles), progress)
-    return triangles
+    return triangles[:made.sum()], made
 
 
 def _split_strips(strips):
+    """The same, without triangles that name a point twice, as strips do to continue elsewhere."""
     counts = numpy.maximum(strips.sizes - 2, 0)
     steps = _count_up(counts)
     first = numpy.repeat(strips.offsets[:-1], counts) + steps
     odd = steps % 2  # every other triangle of a strip is wound the other way
     places = numpy.stack([first + odd, first + 1 - odd, first + 2], axis=1)
-    return strips.corners[places].astype(numpy.int64).reshape(-1, 3)
+    a, b, c = strips.corners[places].astype(numpy.int64).reshape(-1, 3).T
+    is_whole = (a != b) & (b != c) & (c != a)
+    strip_of = numpy.repeat(numpy.arange(strips.count), counts)
+    made = numpy.bincount(strip_of[is_whole], minlength=strips.count)
+    return numpy.stack([a, b, c], axis=1)[is_whole], made
 
 
 class Constraints:

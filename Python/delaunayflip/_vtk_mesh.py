@@ -196,6 +196,7 @@ class MeshInput:
                 f"{count} constraint {'edge' if count == 1 else 'edges'} of the second input that the mesh "
                 "does not have" + (stranger and ": ends are not points of the mesh (coordinates must be "
                                    f"equal, not just close), first {stranger}"))
+        texts += self.slots.describe_no_triangles()
         texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
         texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
                                 passed if self.slots.in_place else "left out")

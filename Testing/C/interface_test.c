@@ -268,7 +268,8 @@ static void TestPolygons(void)
   static const int64_t corners[] = { 0, 1, 2, 3, 0, 1, 4, 5, 0, 1, 2, 3 };
   static const int64_t offsets[] = { 0, 4, 6, 12 };
   static const int64_t expected[] = { 0, 1, 2, 0, 2, 3 };
-  int64_t triangles[18];
+  static const int64_t repeated[] = { 0, 1, 2, 2, 0, 1, 4, 4, 4, 5, 5, 4 };
+  int64_t triangles[18], counts[3];
   delaunayflip_mesh mesh;
   delaunayflip_polygons polygons;
   delaunayflip_callbacks callbacks;
@@ -290,6 +291,15 @@ static void TestPolygons(void)
     const double* c = points + 3 * triangles[i + 2];
     CHECK((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0);
   }
+  polygons.corners = repeated;
+  CHECK(
+    delaunayflip_split_polygons(&mesh, &polygons, NULL, triangles) == DELAUNAYFLIP_INVALID_MESH);
+  CHECK(delaunayflip_error_cell() == 0 && delaunayflip_error_point() == -1);
+  polygons.triangle_counts = counts;
+  CHECK(delaunayflip_split_polygons(&mesh, &polygons, NULL, triangles) == DELAUNAYFLIP_OK);
+  CHECK(counts[0] == 1 && counts[1] == 0 && counts[2] == 0);
+  CHECK(triangles[0] == 0 && triangles[1] == 1 && triangles[2] == 2);
+  polygons.corners = corners;
   delaunayflip_callbacks_init(&callbacks);
   callbacks.progress = LogProgress;
   callbacks.user = &log;

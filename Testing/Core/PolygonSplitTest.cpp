@@ -463,6 +463,30 @@ TEST(SplitPolygon, UsesTheGivenIdsAndAppends)
   EXPECT_EQ((Ids{ 7, 1, 2, 4, 1, 4, 5 }), triangles);
 }
 
+/// As the corners of triangles written as quads, and of rings closed by their first point.
+TEST(SplitPolygon, DropsRepeatedCorners)
+{
+  const std::vector<double> points = { 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 1, 1, 0 };
+  const PointArray view(points.data(), 5);
+  const auto split = [&](const Ids& ids)
+  {
+    Ids triangles;
+    EXPECT_TRUE(SplitPolygon(view, ids.data(), static_cast<std::int64_t>(ids.size()), triangles));
+    return triangles;
+  };
+  for (const Ids& ids :
+    { Ids{ 0, 1, 2, 2 }, Ids{ 0, 0, 1, 2 }, Ids{ 0, 1, 2, 0 }, Ids{ 0, 1, 1, 1, 2, 0, 0 } })
+  {
+    EXPECT_EQ((Ids{ 0, 1, 2 }), split(ids));
+  }
+  EXPECT_EQ((Ids{ 0, 1, 2, 0, 2, 3 }), split({ 0, 1, 2, 3, 0, 0 }));
+  for (const Ids& ids : { Ids{ 3, 3, 3, 3 }, Ids{ 0, 1, 1, 0 }, Ids{ 0, 0, 1, 1, 0 } })
+  {
+    EXPECT_EQ(Ids(), split(ids));
+  }
+  EXPECT_EQ((Ids{ 0, 1, 1 }), split({ 0, 1, 1 })) << "a triangle given as such";
+}
+
 /// Clipping the ears of a large polygon takes long: its observer is called, and can stop it.
 TEST(SplitPolygon, TellsOfLargePolygons)
 {

@@ -382,6 +382,32 @@ TEST(OutputCells, OfTooFewPointsPass)
   }
 }
 
+/// Corners that repeat the one before them, as in triangles that are written as quads.
+TEST(OutputCells, RepeatedCornersAreDropped)
+{
+  auto mesh = MakeRhombus();
+  const Cells polygons = { { 0, 1, 2, 2 }, { 1, 3, 3, 1 }, { 0, 2, 3, 0 }, { 0, 0, 0, 0 } };
+  mesh->SetPolys(MakeCells(polygons));
+  AddNumbers(mesh->GetCellData(), "Number", 4, 0);
+  const std::string what = "2 polygons with fewer than three different points";
+  WatchedFilter filter(mesh);
+  ExpectHolds(RunToWarning(filter), what + ", left out (first: 1, 3)");
+  EXPECT_EQ(filter->GetTotalFlips(), 1);
+  EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
+  EXPECT_EQ(GetNumbers(filter->GetOutput()->GetCellData(), "Number"), std::vector<int>({ 0, 2 }));
+
+  WatchedFilter keeping(mesh);
+  keeping->TriangulateOff();
+  ExpectHolds(RunToWarning(keeping), what + " (first: 1, 3)");
+  EXPECT_EQ(GetCells(keeping->GetOutput()->GetPolys()), polygons);
+
+  // A strip that repeats points to continue elsewhere.
+  auto strip = MakeRhombus();
+  strip->SetPolys(nullptr);
+  strip->SetStrips(MakeCells({ { 0, 1, 2, 2, 0, 2, 3 } }));
+  EXPECT_TRUE(HasEdge(FlipNumbered(strip, { 0, 0 }), 1, 3));
+}
+
 TEST(OutputCells, TriangulateOffKeepsOthersAndFixesTheirEdges)
 {
   // The rhombus with a quad below its left side and a strip above its right side.

@@ -208,6 +208,19 @@ class Same(Pair, unittest.TestCase):
             self.expect_same(mesh, lambda flip: (prepare(flip), flip.TriangulateOff()))
             self.expect_same(mesh, lambda flip: (prepare(flip), flip.SetGeometryToSurface()))
 
+    def test_repeated_corners(self):
+        mesh = make_rhombus()
+        mesh.SetPolys(make_cells([(0, 1, 2, 2), (1, 3, 3, 1), (0, 2, 3, 0)]))
+        add_array(mesh.GetCellData(), "Number", numpy.arange(3))
+        told = self.expect_same(mesh)
+        self.assertEqual(told["answers"]["GetTotalFlips"], 1)
+        self.assertIn("1 polygon with fewer than three", told["warnings"][0])
+        self.expect_same(mesh, lambda flip: flip.TriangulateOff())
+        mesh = make_rhombus()
+        mesh.SetStrips(make_cells([(0, 1, 2, 2, 0, 2, 3)]))
+        mesh.SetPolys(make_cells([]))
+        self.assertEqual(self.expect_same(mesh)["answers"]["GetTotalFlips"], 1)
+
     def test_constraints(self):
         mesh = make_polygon_mesh()
         double = make_polygon_mesh()
