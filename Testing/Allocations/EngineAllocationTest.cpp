@@ -65,7 +65,7 @@ std::int64_t FailEach(const std::function<void()>& work, const std::function<voi
   }
 }
 
-/// Of a whole run, into an array of its own.
+/// Lets the allocations of a whole run fail, which stores into an array of its own.
 void ExpectFailuresReported(
   const OwnedMesh<double>& owned, FlipOptions options, std::size_t smallest = 0)
 {

@@ -175,9 +175,9 @@ public:
 struct Measure
 {
   double Seconds = 0.0;
-  double CpuSeconds = 0.0; ///< Of all threads.
+  double CpuSeconds = 0.0; ///< The sum over all threads.
   PiecesReport Report;
-  GroupMeter Meter; ///< Of the rank that sent most.
+  GroupMeter Meter; ///< That of the rank that sent most.
   double Load = 1.0;
   std::uint64_t Hash = 14695981039346656037u; ///< FNV-1a.
   std::uint64_t Set = 0;

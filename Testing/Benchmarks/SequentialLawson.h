@@ -156,7 +156,7 @@ std::int64_t RunLawson(CornerMesh& mesh, const IsBad& isBad,
   return flips;
 }
 
-/// The same for planar, counter-clockwise meshes without overlaps. Edges are judged by x and y,
+/// Flips planar, counter-clockwise meshes without overlaps. Edges are judged by x and y,
 /// exactly.
 class SequentialLawson
 {

@@ -85,7 +85,7 @@ class Lost(CommandTest):
         self.assertRegex(line, r"the points \(coordinates change by up to \S+e-09\)")
 
     def test_points_beyond_float(self):
-        """As float they would be infinite."""
+        """Such points would be infinite as floats."""
         mesh = make_mesh([(0, 0, 0), (1e39, 0, 0), (0, 1, 0)], [(0, 1, 2)])
         path = self.write_mesh(mesh, "in.vtk")
         words = ["out.stl", "cannot be written", "larger than 3.4e38", ".ply"]
@@ -110,7 +110,7 @@ class Lost(CommandTest):
 
 class RepeatedPoints(CommandTest):
     def test_obj_keeps_vertices_that_it_repeats(self):
-        """As some programs write it, with a vertex for every normal: the edge is a boundary."""
+        """Some programs write a vertex for every normal. The edge is then a boundary."""
         self.write(
             "in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 1\n"
             "f 1//1 2//1 3//1\nf 4//2 5//2 6//2\n")

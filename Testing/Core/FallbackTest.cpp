@@ -92,7 +92,7 @@ TEST_F(FallbackTest, PagesOfExpectedMemoryAreTouchedOnceAndOnlyForAGpu)
   }
 }
 
-/// Of points whose flips go on, and of points that divide and conquer takes over, with segments.
+/// Points whose flips go on, and points with segments that divide and conquer takes over.
 TEST_F(FallbackTest, AnyCallMayFailForPoints)
 {
   std::vector<double> places[2];

@@ -40,7 +40,7 @@ public:
     return (x[0] - z[0]) * (y[1] - z[1]) - (x[1] - z[1]) * (y[0] - z[0]);
   }
 
-  /// Of a triangle that turns left.
+  /// Whether d is in the circle of a triangle that turns left.
   bool IsInCircle(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) const
   {
     return this->Dot(d, a, a) * this->GetArea(b, c, d) +

@@ -297,7 +297,7 @@ OwnedMesh<double> MakeScatter(std::int32_t count, std::int32_t turned)
   return mesh;
 }
 
-/// As in terrain from a laser scanner, where some points have the same x and y.
+/// Terrain from a laser scanner is such a mesh: some points have the same x and y.
 TEST(GeometryChoice, TrianglesWithoutAreaAreCountedApart)
 {
   OwnedMesh<double> mesh = MakeScatter(1000, 7);

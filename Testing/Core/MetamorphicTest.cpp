@@ -102,7 +102,7 @@ protected:
     return result;
   }
 
-  /// The same triangles in the same slots, and the same statistics.
+  /// Expects equal triangles in equal slots, and equal statistics.
   void ExpectSame(const Mesh& changed, const std::string& what) const
   {
     SCOPED_TRACE(what);
@@ -111,8 +111,9 @@ protected:
     ExpectSameResult(expected, this->Run(changed));
   }
 
-  /// The same set of triangles, where the rule makes it unique. Else what any order of flips must
-  /// leave: on planes no bad edge, on surfaces the same edges of each kind, and fewer bad ones.
+  /// Expects an equal set of triangles, where the rule makes it unique. Else it expects what any
+  /// order of flips must leave: on planes no bad edge, on surfaces the same edges of each kind, and
+  /// fewer bad ones.
   /// @param rename gives the triangles of the changed mesh the names of the input.
   template <typename Rename>
   void ExpectCorresponding(const Mesh& changed, const Rename& rename)

@@ -27,7 +27,7 @@ struct PartsResult
 {
   std::vector<std::int32_t> Triangles;
   std::vector<std::int32_t> FlipCounts;
-  PiecesReport Report; ///< The same on all ranks.
+  PiecesReport Report; ///< All ranks have this one.
   std::vector<std::int64_t> Sizes; ///< How many triangles every rank has in the end.
 };
 

@@ -102,8 +102,8 @@ Mesh MakeTwoSheets()
   return mesh;
 }
 
-/// Three pages around a spine. Of three parts one has the first page; in those of the others, edges
-/// of the spine have two triangles and look like any edge that is bad.
+/// Three pages around a spine. One of three parts has the first page. In the other parts, edges of
+/// the spine have two triangles and look like any edge that is bad.
 Mesh MakePages()
 {
   constexpr int Length = 12;

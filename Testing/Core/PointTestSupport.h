@@ -139,7 +139,7 @@ inline std::set<std::set<Place>> ByPlaces(
   return result;
 }
 
-/// As many triangles as the places and their hull ask for, or none where all are on one line.
+/// Expects as many triangles as the places and their hull ask for, none if all are on one line.
 inline void ExpectRightNumber(const std::set<Place>& places, const Triangulation& result)
 {
   const auto triangles = static_cast<std::int64_t>(result.Triangles.size()) / 3;

@@ -329,7 +329,7 @@ TEST_P(EarClipperTest, CutsInTheOrderOfTheWalk)
 }
 
 /// The observer is asked once for so many steps: few, where every vertex would need all others a
-/// hundred times as many. And however long it takes, it can be stopped.
+/// hundred times as many. It can be stopped, however long it takes.
 TEST_P(EarClipperTest, NeedsFewStepsForTenThousandCorners)
 {
   std::mt19937 random(6);

@@ -87,7 +87,7 @@ bool LiesInAPiece(const std::vector<OwnPiece>& pieces, const std::int64_t* ends)
     });
 }
 
-/// The same mesh with the constraints that lie in a piece.
+/// The mesh with only those constraints that lie in a piece.
 ConstrainedMesh KeepWithin(const ConstrainedMesh& mesh, const std::vector<OwnPiece>& pieces)
 {
   ConstrainedMesh within;
@@ -145,8 +145,8 @@ protected:
   }
 };
 
-/// Of a mesh in which no two constraints cross and all lie in pieces, ranks make what one process
-/// makes of it, whoever has the constraints.
+/// If no two constraints cross and all lie in pieces, ranks make what one process makes of the
+/// mesh, whoever has the constraints.
 TEST_P(RankInsertionTest, WithinPieces)
 {
   for (std::uint32_t seed = 0; seed < CountSeeds(16); ++seed)

@@ -254,7 +254,7 @@ bool AreSimple(const OwnedMesh<double>& mesh, const Owners& owners, int ranks,
   return simple.front() != 0;
 }
 
-/// The same for one rank, and with triangle i on rank i % 3. Triangles may begin with any corner.
+/// Checks one rank, and three with triangle i on rank i % 3. Triangles may begin with any corner.
 void ExpectSimple(bool expected, OwnedMesh<double> mesh)
 {
   Owners owners;

@@ -279,7 +279,7 @@ std::int64_t FlipByLawson(
     const Point3 points[4] = { GetPoint(view, a), GetPoint(view, p), GetPoint(view, q),
       GetPoint(view, b) };
     const int sign = RationalInCircle(points[0], points[1], points[2], points[3]);
-    // Of two tied diagonals, the one away from the lexicographically largest point stays.
+    // If two diagonals tie, the one away from the lexicographically largest point stays.
     const Point3* largest = std::max_element(points, points + 4);
     const bool isWrongTie = rule == TieRuleKind::Canonical && sign == 0 &&
       (largest == &points[1] || largest == &points[2]);

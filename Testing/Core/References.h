@@ -141,7 +141,7 @@ ConstrainedMesh Constrain(OwnedMesh<double> mesh, int constraints, std::mt19937&
 ConstrainedMesh DrawCase(
   std::size_t points, std::int32_t size, int constraints, std::uint32_t seed);
 
-/// The same with some points moved and, for odd seeds, triangles repeated, so that triangles
+/// Draws a case with some points moved and, for odd seeds, triangles repeated, so that triangles
 /// overlap.
 ConstrainedMesh DrawOverlapping(int constraints, std::uint32_t seed);
 

@@ -326,7 +326,7 @@ TEST(Surface, DuplicateTrianglesKeepTheirEdges)
   }
 }
 
-/// The same triangle twice and nothing else: every edge has two triangles, but none may flip.
+/// One triangle twice and nothing else: every edge has two triangles, but none may flip.
 TEST(Surface, LoneDuplicatesAreReported)
 {
   const std::vector<std::int32_t> pairs[] = { { 0, 1, 2, 1, 2, 0 }, { 0, 1, 2, 2, 1, 0 } };

@@ -95,8 +95,8 @@ TEST(AutomaticTolerance, LetsABadSurfaceFlip)
   ExpectOnlyNoiseStays(RoundToFloat(sphere), 0.02); // at the poles
 }
 
-/// The same lattice points moved further and further from the origin, without rounding: what is
-/// noise at one distance is noise at larger ones.
+/// Lattice points are moved further and further from the origin, without rounding. What is noise at
+/// one distance is noise at larger ones.
 TEST(AutomaticTolerance, GrowsWithTheDistanceFromTheOrigin)
 {
   const AffineMap curved = { { { 1024, 0, 0, 0 }, { 0, 1024, 0, 0 }, { 0, 0, 1024, 0 } } };

@@ -24,7 +24,7 @@
 namespace
 {
 
-/// The same mesh with points of this type (VTK_FLOAT, ...).
+/// Gives a mesh points of this type (VTK_FLOAT, ...).
 void Convert(vtkPolyData* mesh, int type)
 {
   vtkNew<vtkPoints> points;

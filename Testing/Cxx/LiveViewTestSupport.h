@@ -65,7 +65,7 @@ public:
   std::vector<std::string> Errors;
 };
 
-/// The same run twice: once drawn from the host, once without copies as far as possible.
+/// A run that is drawn twice: from the host, and without copies as far as possible.
 struct ViewPair
 {
   explicit ViewPair(vtkPolyData* mesh);

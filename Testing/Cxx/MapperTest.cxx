@@ -76,7 +76,7 @@ struct Drawing
     return Bytes(pixels->GetPointer(0), pixels->GetPointer(pixels->GetNumberOfValues()));
   }
 
-  /// The same picture by VTK's mapper.
+  /// Draws the picture by VTK's mapper.
   Bytes DrawByVtk(vtkPolyDataMapper* mapper)
   {
     mapper->SetClippingPlanes(this->Mapper->GetClippingPlanes());

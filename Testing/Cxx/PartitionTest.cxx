@@ -375,7 +375,7 @@ TEST(Partitions, KeepArraysOfAnyName)
   }
 }
 
-/// As a partition may have that got no part of the mesh.
+/// A partition that got no part of the mesh may have such ghosts.
 TEST(Partitions, DropDuplicateGhosts)
 {
   const auto mesh = MakeBadMesh();

@@ -16,8 +16,8 @@ namespace
 {
 
 TestFiller Plan;
-unsigned int LastBuffer = 0; ///< Of the last filler, as is the count.
-std::int64_t LastCount = 0; ///< Of triangles that it has written.
+unsigned int LastBuffer = 0; ///< The last filler's buffer.
+std::int64_t LastCount = 0; ///< How many triangles it has written.
 
 /// Counts a call, and lets it fail as planned.
 void Count(int& calls, int failing, const char* message)

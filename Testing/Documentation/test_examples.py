@@ -68,7 +68,7 @@ class Shell(Examples):
                         self.compare(TIME.sub("", text), TIME.sub("", printed))
 
     def compare(self, expected, printed):
-        """The same words, and about the same counts: another NumPy makes slightly other meshes."""
+        """Expects equal words and similar counts: another NumPy makes slightly other meshes."""
         self.assertEqual(NUMBER.sub("N", expected), NUMBER.sub("N", printed))
         for one, other in zip(NUMBER.findall(expected), NUMBER.findall(printed)):
             one, other = float(one.replace(",", "")), float(other.replace(",", ""))

@@ -42,7 +42,7 @@ private:
   std::vector<std::int64_t> LongIds;
 };
 
-/// Draws a case. The same bytes give the same case on every machine.
+/// Draws a case, which depends on the bytes alone and is the same on every machine.
 EngineCase MakeEngineCase(const std::uint8_t* bytes, std::size_t size);
 
 /// Writes a case as C++ code for a test.

@@ -100,7 +100,7 @@ struct RanksCase
   std::size_t Difference;
   bool HasNumbers; ///< Global ids of points.
   bool IsComposite;
-  std::uint32_t Flags; ///< Of the filter's own options.
+  std::uint32_t Flags; ///< The filter's own options.
 };
 
 RanksCase MakeRanksCase(const std::uint8_t* bytes, std::size_t size)

@@ -59,7 +59,7 @@ BenchmarkMesh MoveSomePoints(const BenchmarkMesh& mesh);
 std::vector<BenchmarkMesh> ReadRealMeshes(const std::string& folder);
 
 #if defined(DELAUNAYFLIP_HAS_VTK)
-/// The same mesh for VTK, with its constraint edges as lines.
+/// The mesh for VTK, with its constraint edges as lines.
 vtkSmartPointer<vtkPolyData> ToPolyData(const BenchmarkMesh& mesh);
 #endif
 

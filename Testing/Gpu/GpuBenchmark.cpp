@@ -461,8 +461,8 @@ private:
   bool HasGpu = false;
   BenchmarkMesh Delaunay; ///< The largest untiled mesh after its flips.
   std::vector<std::int64_t> Output; ///< The engine's last result.
-  double CudaTotal = NAN; ///< Of the current mesh.
-  std::int64_t Flips = -1; ///< Of the current mesh by the first program.
+  double CudaTotal = NAN; ///< The time for the current mesh.
+  std::int64_t Flips = -1; ///< Those of the first program in the current mesh.
 };
 
 int RunProgram(int argc, char** argv)

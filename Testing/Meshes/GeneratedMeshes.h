@@ -40,12 +40,12 @@ struct OwnedMesh
 /// `points` >= 4.
 OwnedMesh<float> MakeRandomBadMesh(std::int64_t points, std::uint32_t seed);
 
-/// The same in double precision.
+/// A random bad mesh in double precision.
 OwnedMesh<double> MakeRandomBadMeshDouble(std::int64_t points, std::uint32_t seed);
 
 /// A large random bad mesh, made by several threads (0: as many as the machine has). It is a square
 /// of tilesPerSide x tilesPerSide squares that share their corners and borders, each split as above
-/// by random points inside it. The same for any number of threads. `points` is at least
+/// by random points inside it. It does not depend on the number of threads. `points` is at least
 /// (tilesPerSide + 1)^2 and at most a few hundred thousand per tile.
 OwnedMesh<float> MakeTiledBadMesh(
   std::int64_t points, std::int32_t tilesPerSide, std::uint32_t seed, int threads = 0);

@@ -21,7 +21,7 @@ struct OwnPiece
   std::vector<double> Doubles;
   std::vector<std::int32_t> Triangles;
   std::vector<std::int64_t> PointOf; ///< The id in the mesh, by the piece's own.
-  std::vector<std::int64_t> SlotOf; ///< The same for triangles.
+  std::vector<std::int64_t> SlotOf; ///< The slot in the mesh, by the piece's own.
   std::vector<std::int64_t> Constraints; ///< Pairs of the piece's own ids.
   std::vector<unsigned char> ToInsert; ///< One flag per constraint, or empty.
   std::vector<std::int32_t> Regions;

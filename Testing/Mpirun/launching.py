@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How tests start programs on several ranks, more than there are free cores if need be.
 
-As a program: launching.py RANKS PROGRAM [ARGUMENT...] runs one; the exit status is that of mpirun, or
-125, skipped, without mpirun.
+It is also a program: launching.py RANKS PROGRAM [ARGUMENT...] runs PROGRAM. The exit status is that of
+mpirun, or 125, skipped, without mpirun.
 """
 import os
 import shutil

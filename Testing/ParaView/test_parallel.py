@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Servers with several ranks flip the pieces of these as one mesh: pvbatch and pvserver under
 mpirun, compared with pvbatch as one process, without MPI. parallel_cases.py runs in all of them.
-And Examples/ParaView/flip_in_parallel.py on two ranks, whose files have the triangles of one.
+Examples/ParaView/flip_in_parallel.py runs on two ranks; its files have the triangles of one.
 """
 
 import glob
@@ -66,7 +66,7 @@ def wait_for_text(stream, text):
 
 
 def run_server(ranks):
-    """The same by a client of a server."""
+    """Runs the cases by a client of a server."""
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         port = listener.getsockname()[1]  # free

@@ -17,7 +17,7 @@ def make_random(count, seed=1):
 
 
 def make_bumps(count, seed=1):
-    """The same as a surface with steep bumps."""
+    """A random mesh as a surface with steep bumps."""
     points, triangles = make_random(count, seed)
     points[:, 2] = 0.3 * np.sin(9 * points[:, 0]) * np.cos(7 * points[:, 1])
     return points, triangles

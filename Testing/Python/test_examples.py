@@ -32,8 +32,7 @@ WRITERS = {".vtk": vtkPolyDataWriter, ".vtp": vtkXMLPolyDataWriter, ".ply": vtkP
            ".stl": vtkSTLWriter, ".obj": vtkOBJWriter}
 
 # An error of vtkImageDifference, which tolerates shifts by a pixel, as between versions of
-# FreeType. The same picture without its texts has an error of 90, the mesh of another iteration 7
-# to 280.
+# FreeType. A picture without its texts has an error of 90, the mesh of another iteration 7 to 280.
 TOLERANCE = 15.0
 
 

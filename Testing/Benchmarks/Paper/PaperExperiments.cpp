@@ -45,7 +45,7 @@ namespace
 using Json = nlohmann::ordered_json;
 using Ids = std::vector<std::int32_t>;
 
-/// Of eq. 5, for sequential Lawson on surfaces, in double precision.
+/// The epsilon of eq. 5, for sequential Lawson on surfaces, in double precision.
 constexpr double LawsonEpsilon = 1e-6;
 
 TriangleMesh WithTriangles(TriangleMesh mesh, const Ids& triangles)
@@ -301,7 +301,7 @@ double FindMean(const std::vector<double>& values)
 class Experiments
 {
 public:
-  int Repetitions = 5; ///< Of each timed program, after one run to warm up. 0: without times.
+  int Repetitions = 5; ///< Timed runs per program, after one to warm up. 0: no times.
   double Seconds = 20.0; ///< No repetition begins after this time.
   bool OnGpu = false; ///< Whether to use the GPU, too.
   std::string Mesh; ///< A file, or the name of a mesh.
@@ -389,7 +389,7 @@ public:
     }
   }
 
-  /// The same for a file of 32-bit ids, of another program.
+  /// Compares with a file of 32-bit ids, which another program wrote.
   void RunComparison()
   {
     const OwnedMesh<float> mesh = MakePlaneMesh(this->Points);
@@ -606,7 +606,7 @@ private:
     return row;
   }
 
-  /// The same by the paper's method. Flips are counted in a separate run.
+  /// Flips by the paper's method. Flips are counted in a separate run.
   Json FlipAsPaper(
     const TriangleMesh& mesh, const PaperOptions& options, const std::string& program)
   {

@@ -48,10 +48,10 @@ struct PaperOptions
   bool InDouble = false; ///< Coordinates and arithmetic in double; the paper uses float.
   int Dimension = 2; ///< 2: by x and y; 3: in space.
 
-  /// Of eq. 5, in radians; of InCircle, relative to the magnitude of the determinant's terms. For
-  /// float angles "experimentally estimated" like the paper's: with 5e-4 the loop does not end on a
-  /// random bad mesh of 1 M points. Near pi a change of the cosine's last bit changes acos
-  /// by 3.5e-4.
+  /// The epsilon of eq. 5, in radians; for InCircle relative to the magnitude of the determinant's
+  /// terms. For float angles "experimentally estimated" like the paper's: with 5e-4 the loop does
+  /// not end on a random bad mesh of 1 M points. Near pi a change of the cosine's last bit changes
+  /// acos by 3.5e-4.
   double Epsilon = 1e-3;
 
   /// In space, an edge stays if the normals of its two triangles differ by more than this many
@@ -80,8 +80,8 @@ struct PaperResult
   double FlipSeconds = 0.0; ///< For the loop, without copies.
 };
 
-/// Runs the loop on a copy of the arrays of a mesh. Of the options, Test, InDouble, Dimension,
-/// Epsilon, OnGpu and NumberOfThreads must be those with which it was made.
+/// Runs the loop on a copy of the arrays of a mesh. The options Test, InDouble, Dimension, Epsilon,
+/// OnGpu and NumberOfThreads must be those with which it was made.
 using PaperLoop = std::function<PaperResult(const PaperOptions&)>;
 
 /// Builds the arrays on the host.
@@ -89,7 +89,8 @@ using PaperLoop = std::function<PaperResult(const PaperOptions&)>;
 /// @throws BackendUnavailable if a GPU is requested and the program has no CUDA.
 PaperLoop MakePaperLoop(const TriangleMesh& mesh, const PaperOptions& options);
 
-/// The same on the current GPU (PaperCuda.cu); the loop throws BackendUnavailable without one.
+/// Builds the arrays on the current GPU (PaperCuda.cu); the loop throws BackendUnavailable without
+/// one.
 PaperLoop MakePaperLoopOnGpu(const TriangleMesh& mesh, const PaperOptions& options);
 
 /// A position, loaded in one instruction: x, y as in the paper, or x, y, z and padding.
@@ -243,7 +244,7 @@ struct DetectAndFlip
   typename Point::Number NormalCosine;
   std::int32_t Iteration; ///< 1, 2, ...
   std::int32_t* LastBad; ///< The last iteration that found a bad edge.
-  PaperIteration* Counts; ///< Of this iteration, or null.
+  PaperIteration* Counts; ///< This iteration's, or null.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t edge) const
   {
