@@ -13,6 +13,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.patches import Rectangle
@@ -34,6 +35,7 @@ RELIEF = LinearSegmentedColormap.from_list(
         (1.0, "#f7f5f2"),
     ],
 )
+# The colours of angles everywhere: see Plugin/AngleColors.json.
 ANGLES = LinearSegmentedColormap.from_list(
     "angles", ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"], N=12
 )
@@ -112,6 +114,15 @@ def draw_close_up(axes, points, triangles, window):
     frame(axes, (x, x + side), (y, y + side))
 
 
+def add_angle_legend(figure, bottom):
+    """A colour bar below the pictures of a figure, at a share of its height."""
+    bar = figure.add_axes((0.3, bottom, 0.4, 0.12 / figure.get_figheight()))
+    figure.colorbar(ScalarMappable(Normalize(0, 60), ANGLES), cax=bar, orientation="horizontal",
+                    ticks=range(0, 61, 10), format="{x:.0f}°")
+    bar.set_xlabel("smallest angle of a triangle", color=INK, fontsize=9)
+    bar.tick_params(labelsize=9, colors=INK)
+
+
 def draw_histogram(axes, angles):
     counts, edges = np.histogram(angles, bins=60, range=(0, 60))
     share = 100.0 * counts / len(angles)
@@ -165,10 +176,11 @@ def draw_iterations(path, rows):
 
 
 def save(figure, path):
-    """Writes a PNG of 128 colours, which is a quarter of the size of a full one."""
+    """Writes a PNG of 256 colours, also those of a legend, in a third of the size of a full one."""
     figure.canvas.draw()
     image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
-    image.quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+    few = image.quantize(256, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
     plt.close(figure)
 
 

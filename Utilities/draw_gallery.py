@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws the pictures of the documentation's guides: the meshes of make_examples.py before and after
 delaunay-flip, coloured by the smallest angle of each triangle, and the survey, which has no triangles
-before."""
+before. Each picture has a legend."""
 import argparse
 import os
 import subprocess
@@ -14,13 +14,15 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from draw_demo import ANGLES, INK, save, shaded_colors
+from draw_demo import ANGLES, INK, add_angle_legend, save, shaded_colors
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
+from matplotlib.lines import Line2D
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+WATER, RING = "#2166ac", "#b2182b"
 
 #: picture: (mesh, options, the direction to look from or None for the x, y plane, a part of it)
 PICTURES = {
@@ -88,6 +90,13 @@ def draw_lines(axes, lines, origin, **style):
     axes.add_collection(LineCollection([line - origin[:2] for line in lines], **style))
 
 
+def add_legend(figure, place, marks):
+    """A line below the pictures, centred at a place: styles of lines, by what they mean."""
+    handles = [Line2D([], [], label=label, **style) for label, style in marks.items()]
+    figure.legend(handles=handles, loc="lower center", bbox_to_anchor=place, frameon=False,
+                  ncol=len(marks), fontsize=9, labelcolor=INK)
+
+
 def draw_relief(axes, mesh, origin):
     """The mesh under the sun, with its edges."""
     points, triangles, _ = mesh
@@ -105,45 +114,50 @@ def draw_survey(command, folder, output):
     plain = ["--from-points"]
     lines = plain + ["--constraints", "river.vtk"]
     bounded = lines + ["--outline", "area.vtk", "--holes", "pond.vtk"]
-    for name, options, titles, window in (
-            ("survey", (None, bounded), ("points, breaklines, rings", "--outline, --holes"),
-             (0, 1200, 0, 800)),
-            ("river", (plain, lines), ("without breaklines", "--constraints"),
-             (380, 680, 330, 570))):
-        figure, both = plt.subplots(1, 2, figsize=(9, 3.6))
+    point = {"color": INK, "marker": ".", "markersize": 3, "linestyle": ""}
+    water, ring = {"color": WATER, "linewidth": 1.2}, {"color": RING, "linewidth": 1.2}
+    for name, options, titles, window, marks in (
+            ("survey", (None, bounded), ("before", "--outline, --holes"), (0, 1200, 0, 800),
+             {"points": point, "breaklines": water, "outline and hole": ring}),
+            ("river", (plain, lines), ("without breaklines", "--constraints"), (380, 680, 330, 570),
+             {"banks of the river, as breaklines; the terrain is lit from the north-west": water})):
+        figure, both = plt.subplots(1, 2, figsize=(9, 3.8))
         for axes, title, chosen in zip(both, titles, options):
             if chosen is None:
                 plan = survey - origin
                 axes.scatter(*plan[:, :2].T, s=1.2, c=INK, linewidths=0)
-                draw_lines(axes, rings, origin, colors="#b2182b", linewidths=1.2)
+                draw_lines(axes, rings, origin, colors=RING, linewidths=1.2)
             else:
                 draw_relief(axes, run(command, folder, "survey.csv", chosen), origin)
             if chosen is not plain:
-                draw_lines(axes, river, origin, colors="#2166ac", linewidths=0.8)
+                draw_lines(axes, river, origin, colors=WATER, linewidths=0.8)
             axes.set(xlim=window[:2], ylim=window[2:], aspect="equal")
             axes.set_title(title, color=INK)
             axes.axis("off")
-        figure.subplots_adjust(0.01, 0.02, 0.99, 0.9, wspace=0.04)
+        figure.subplots_adjust(0.01, 0.1, 0.99, 0.91, wspace=0.04)
+        add_legend(figure, (0.5, 0.0), marks)
         save(figure, os.path.join(output, f"guide_{name}.png"))
 
 
 def draw_edges(command, folder, output):
     """guide_edges.png: what sharp edges become without and with a maximum deviation."""
-    options = {"before": ["--max-iterations", "0"], "--feature-angle 30": [],
-               "--feature-angle 180": ["--feature-angle", "180"],
-               "... --max-deviation 0.3%": ["--feature-angle", "180", "--max-deviation", "0.3%"]}
-    figure, grid = plt.subplots(2, 2, figsize=(9, 6.4))
-    for axes, (title, chosen) in zip(grid.flat, options.items()):
-        mesh = run(command, folder, "edges.ply", ["--quality", *chosen])
+    chosen = {"before": "--max-iterations 0"}
+    for options in ("--feature-angle 30", "--feature-angle 180",
+                    "--feature-angle 180 --max-deviation 0.3%"):
+        chosen[options] = options
+    figure, grid = plt.subplots(2, 2, figsize=(9, 6.6))
+    for axes, (title, options) in zip(grid.flat, chosen.items()):
+        mesh = run(command, folder, "edges.ply", ["--quality", *options.split()])
         draw_mesh(axes, mesh, (0.3, -1.0, 1.2), (-0.8, 0.8, -1.35, -0.3))
         axes.set_title(title, color=INK)
-    figure.subplots_adjust(0.01, 0.02, 0.99, 0.95, wspace=0.04, hspace=0.12)
+    figure.subplots_adjust(0.01, 0.08, 0.99, 0.96, wspace=0.04, hspace=0.1)
+    add_angle_legend(figure, 0.08)
     save(figure, os.path.join(output, "guide_edges.png"))
 
 
 def draw_picture(name, command, folder, output):
     mesh, options, direction, window = PICTURES[name]
-    figure, both = plt.subplots(1, 2, figsize=(9, 4.2))
+    figure, both = plt.subplots(1, 2, figsize=(9, 4.8))
     for axes, title, limit in zip(both, ("before", "after"), (["--max-iterations", "0"], [])):
         constrained = options if not limit else [o for o in options if "road" not in o
                                                  and o != "--constraints"]
@@ -153,7 +167,10 @@ def draw_picture(name, command, folder, output):
         axes.set_title(title, color=INK)
         if name == "road":
             draw_lines(axes, read_lines(folder, "road.vtk"), origin, colors="k", linewidths=2)
-    figure.subplots_adjust(0.01, 0.02, 0.99, 0.92, wspace=0.04)
+    figure.subplots_adjust(0.01, 0.14, 0.99, 0.93, wspace=0.04)
+    add_angle_legend(figure, 0.1)
+    if name == "road":
+        add_legend(figure, (0.15, 0.06), {"road": {"color": "k", "linewidth": 2}})
     save(figure, os.path.join(output, f"guide_{name}.png"))
 
 

@@ -45,15 +45,17 @@ def draw(pictures, path):
     from draw_demo import INK, save
     from matplotlib.collections import PolyCollection
 
-    figure, both = plt.subplots(1, 2, figsize=(9, 4.7))
+    figure, both = plt.subplots(1, 2, figsize=(9, 5.0))
     for axes, (pieces, title) in zip(both, pictures):
-        for corners, color in zip(pieces, COLORS):
-            axes.add_collection(
-                PolyCollection(corners, facecolors=color, edgecolors=INK, linewidths=0.4))
+        for rank, (corners, color) in enumerate(zip(pieces, COLORS)):
+            axes.add_collection(PolyCollection(
+                corners, facecolors=color, edgecolors=INK, linewidths=0.4, label=f"process {rank}"))
         axes.set(xlim=(-0.01, 1.01), ylim=(-0.01, 1.01), aspect="equal")
         axes.axis("off")
         axes.set_title(title, color=INK, fontsize=10)
-    figure.subplots_adjust(0.01, 0.02, 0.99, 0.92, wspace=0.04)
+    figure.subplots_adjust(0.01, 0.08, 0.99, 0.92, wspace=0.04)
+    handles, names = both[0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="lower center", frameon=False, ncol=len(names), labelcolor=INK)
     save(figure, path)
 
 

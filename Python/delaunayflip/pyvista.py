@@ -29,8 +29,10 @@ from ._surface import Slots
 from ._vtk_mesh import SETTINGS, Cloud, MeshInput, vtk_of
 
 _QUALITY = "Smallest angle"
-_LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": "RdYlBu", "show_edges": True,
-         "scalar_bar_args": {"title": "Smallest angle (degrees)\n", "fmt": "%.0f"}}  # \n: above the labels
+_COLORS = ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"]  # of AngleColors.json
+_LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": _COLORS, "show_edges": True,
+         # The title ends its line, so that it is above the labels.
+         "scalar_bar_args": {"title": "Smallest angle (degrees)\n", "fmt": "%.0f", "n_labels": 7}}
 
 
 class Options(_Options, total=False):

@@ -3,6 +3,7 @@
 """Links between the pages lead somewhere, and every page and picture is reached by one. The messages
 that the pages explain are those of the sources."""
 import glob
+import json
 import os
 import re
 import unittest
@@ -61,6 +62,21 @@ class Names(unittest.TestCase):
         listed = re.search(r"public headers are (.*?)\. Everything", read("CONTRIBUTING.md"), re.DOTALL)
         headers = [os.path.basename(path) for path in glob.glob(f"{ROOT}/Engine/*.h")]
         self.assertEqual(sorted(headers), sorted(re.findall(r"`(\w+\.h)`", listed.group(1))))
+
+
+class Pictures(unittest.TestCase):
+
+    def test_one_palette(self):
+        """Angles have the same colours in pictures, live views, PyVista and ParaView."""
+        rows = json.loads(read("Plugin/AngleColors.json"))["RGBPoints"]
+        colors = [[round(part, 2) for part in rows[i + 1:i + 4]] for i in range(0, len(rows), 4)]
+        self.assertEqual([12 * i for i in range(6)], rows[::4])
+        for path in "Utilities/draw_demo.py", "Python/delaunayflip/pyvista.py":
+            named = re.search(r'\["(#\w+)"(?:, "#\w+"){5}\]', read(path)).group(0)
+            self.assertEqual(colors, [[round(int(color[i:i + 2], 16) / 255, 2) for i in (0, 2, 4)]
+                                      for color in re.findall(r"#(\w{6})", named)])
+        table = re.search(r"angleColors\[\] = \{([^}]*)\}", read("Rendering/vtkDelaunayFlipMapper.cxx"))
+        self.assertEqual(sum(colors, []), [float(part) for part in table.group(1).split(",")])
 
 
 class Text(unittest.TestCase):
