@@ -15,7 +15,9 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <regex>
 #include <set>
+#include <sstream>
 
 namespace delaunayflip
 {
@@ -23,12 +25,68 @@ namespace delaunayflip
 namespace
 {
 
-/// Help that says of an option what it takes, and not how it goes with others.
-class PlainFormatter : public CLI::Formatter
+/// The groups of options in the help, in this order.
+constexpr const char* ToRead = "What to read";
+constexpr const char* ToJudge = "Where edges are judged";
+constexpr const char* ToStay = "What stays";
+constexpr const char* OfPoints = "From points";
+constexpr const char* ToRun = "Where it runs";
+constexpr const char* ToWrite = "What to write";
+constexpr const char* ToHelp = "Help";
+
+/// Help in 80 columns, by group; of an option it says what it takes, and not how it goes with
+/// others. Every version of CLI11 lays it out like this.
+class PlainFormatter : public CLI::FormatterBase
 {
-  std::string make_option_opts(const CLI::Option* option) const override
+public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override
   {
-    return option->get_positional() ? "" : " " + option->get_type_name();
+    std::string text =
+      "Usage: " + name + " [OPTIONS] INPUT OUTPUT\n\n" + app->get_description() + "\n";
+    for (const char* group : { ToRead, ToJudge, ToStay, OfPoints, ToRun, ToWrite, ToHelp })
+    {
+      text += std::string("\n") + group + ":\n";
+      const auto isInGroup = [group](const CLI::Option* option)
+      { return option->get_group() == group; };
+      for (const CLI::Option* option : app->get_options(isInGroup))
+      {
+        text += Describe(*option);
+      }
+    }
+    return text + "\n" + app->get_footer() + "\n";
+  }
+
+private:
+  /// The option in one column, and its help in another one.
+  static std::string Describe(const CLI::Option& option)
+  {
+    constexpr std::size_t Column = 28;
+    constexpr std::size_t Width = 80;
+    std::string line = "  " + option.get_name(option.get_positional(), true);
+    if (!option.get_positional() && !option.get_type_name().empty())
+    {
+      line += " " + option.get_type_name();
+    }
+    std::string text;
+    if (line.size() + 2 > Column)
+    {
+      text = line + '\n';
+      line.clear();
+    }
+    line.resize(Column, ' ');
+    std::istringstream words(option.get_description());
+    for (std::string word; words >> word;)
+    {
+      const bool isFirst = line.size() == Column;
+      if (!isFirst && line.size() + 1 + word.size() > Width)
+      {
+        text += line + '\n';
+        line = std::string(Column, ' ') + word;
+        continue;
+      }
+      line += (isFirst ? "" : " ") + word;
+    }
+    return text + line + '\n';
   }
 };
 
@@ -98,8 +156,25 @@ CLI::Option* AddFile(
   return app.add_option(name, value, help)->type_name("FILE")->check(FindFaultOfName);
 }
 
-void AddMethodOptions(CLI::App& app, Arguments& arguments)
+void AddReadOptions(CLI::App& app, Arguments& arguments)
 {
+  app.option_defaults()->group(ToRead);
+  AddFile(app, "INPUT", arguments.Input, "The mesh or the points to read")->required();
+  app.add_flag("--merge-points", arguments.MergePoints,
+    "First join points of the input at the same place, as in a file that lists the corners of "
+    "each triangle. The merged point keeps the data of the first one. Triangles that collapse, "
+    "and points that no cell uses, are left out");
+  app.add_flag("--drop-duplicates", arguments.DropDuplicates,
+    "Of triangles with the same three corners keep only the first. All others would keep their "
+    "edges from flipping");
+  app.add_flag("--orient", arguments.Orient,
+    "Turn triangles over so that neighbours are wound the same way. Edges between triangles that "
+    "are wound differently never flip");
+}
+
+void AddJudgeOptions(CLI::App& app, Arguments& arguments)
+{
+  app.option_defaults()->group(ToJudge);
   AddChoice(app, "--geometry", Set(arguments, &vtkDelaunayFlip::SetGeometry),
     { "auto", "planar", "planar-xy", "surface" },
     "Where edges are judged: in the plane of the points (planar), by x and y alone "
@@ -109,6 +184,20 @@ void AddMethodOptions(CLI::App& app, Arguments& arguments)
     { "in-circle", "opposite-angles" },
     "Exact in-circle test, or opposite-angle sum above pi; surfaces always use the latter "
     "[in-circle]");
+  AddValue(app, "--tolerance", Set(arguments, &vtkDelaunayFlip::SetTolerance), "RADIANS",
+    Within(-1.0, -1.0, "automatic (-1)") |
+      Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"),
+    "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as much "
+    "as the rounding of its points can explain [-1]");
+  AddChoice(app, "--tie-rule", Set(arguments, &vtkDelaunayFlip::SetTieRule),
+    { "keep", "canonical" },
+    "Edges whose four points lie on one circle: keep them, or make the result independent of the "
+    "input's triangles (in-circle in the plane only) [keep]");
+}
+
+void AddStayOptions(CLI::App& app, Arguments& arguments)
+{
+  app.option_defaults()->group(ToStay);
   AddValue(app, "--feature-angle", Set(arguments, &vtkDelaunayFlip::SetFeatureAngle), "DEGREES",
     Within(0.0, 180.0, "an angle from 0 to 180 degrees"),
     "On surfaces, edges sharper than this many degrees stay; 180 turns this off [30]");
@@ -128,22 +217,6 @@ void AddMethodOptions(CLI::App& app, Arguments& arguments)
       ""),
     "On surfaces, an edge stays if its flip would move the surface by more than this: a length, or "
     "with a percent sign a share of the bounding box's diagonal (1%). Many flips can add up [inf]");
-  AddValue(app, "--tolerance", Set(arguments, &vtkDelaunayFlip::SetTolerance), "RADIANS",
-    Within(-1.0, -1.0, "automatic (-1)") |
-      Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"),
-    "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as much "
-    "as the rounding of its points can explain [-1]");
-  AddChoice(app, "--tie-rule", Set(arguments, &vtkDelaunayFlip::SetTieRule),
-    { "keep", "canonical" },
-    "Edges whose four points lie on one circle: keep them, or make the result independent of the "
-    "input's triangles (in-circle in the plane only) [keep]");
-}
-
-void AddConstraintOptions(CLI::App& app, Arguments& arguments)
-{
-  app.add_flag("--merge-points", arguments.MergePoints,
-    "First join points of the input at the same place, as in a file that lists the corners of "
-    "each triangle. A point keeps the data of the first of them. Points that no cell uses go");
   AddFile(app, "--constraints", arguments.Constraints,
     "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
     "it has the same points; otherwise points are matched by their coordinates. In the plane, "
@@ -159,7 +232,6 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
     "--insert-lines", insertLines, "Insert edges along lines of the input as well");
   app.add_flag_callback("--ignore-lines", Set(arguments, &vtkDelaunayFlip::LinesAsConstraintsOff),
     "Do not keep edges along lines of the input");
-  app.get_option("--insert-lines")->excludes("--ignore-lines");
   app
     .add_option_function<std::string>(
       "--region-array",
@@ -171,8 +243,9 @@ void AddConstraintOptions(CLI::App& app, Arguments& arguments)
 
 void AddPointOptions(CLI::App& app, Arguments& arguments)
 {
-  CLI::Option* const fromPoints = app.add_flag("--from-points", arguments.FromPoints,
-    "Make a mesh from the points of INPUT, whatever its cells: their Delaunay triangulation. The "
+  app.option_defaults()->group(OfPoints);
+  app.add_flag("--from-points", arguments.FromPoints,
+    "Make a mesh from the points of INPUT alone: their Delaunay triangulation. The "
     "lines and polygons of --constraints become edges of it, and with --insert-lines the lines of "
     "INPUT too. Points of these files that INPUT does not have are added");
   AddFile(app, "--outline", arguments.Outline,
@@ -193,18 +266,11 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   AddChoice(app, "--projection", Set(arguments, &vtkDelaunayFlipPoints::SetProjection),
     { "xy", "plane" },
     "Where points are joined: by x and y, or in the plane that fits them best [xy]");
-  for (const char* name : { "--outline", "--holes", "--split-crossings", "--alpha",
-         "--longest-edge", "--point-tolerance", "--projection" })
-  {
-    app.get_option(name)->needs(fromPoints);
-  }
-  fromPoints->excludes("--geometry", "--criterion", "--feature-angle", "--max-deviation",
-    "--tolerance", "--tie-rule", "--merge-points", "--no-insert-constraints", "--ignore-lines",
-    "--region-array", "--devices", "--pieces", "--quality");
 }
 
 void AddRunOptions(CLI::App& app, Arguments& arguments)
 {
+  app.option_defaults()->group(ToRun);
   AddValue(app, "--max-iterations", Set(arguments, &vtkDelaunayFlipAlgorithm::SetMaximumIterations),
     "INT",
     Within<std::int64_t>(
@@ -238,6 +304,12 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
     Within(0, 65536, "a number of threads (0 to 65536)"),
     "Number of CPU threads; 0: all. At most twice as many as there are cores are used, or 16 if "
     "that is more. The result does not depend on it [0]");
+}
+
+void AddWriteOptions(CLI::App& app, Arguments& arguments)
+{
+  app.option_defaults()->group(ToWrite);
+  AddFile(app, "OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
   app.add_flag_callback("--quality", Set(arguments, &vtkDelaunayFlip::GenerateQualityOn),
     "Add cell arrays of the smallest angle of each triangle, in degrees, before and after "
     "(.vtk and .vtp)");
@@ -245,6 +317,44 @@ void AddRunOptions(CLI::App& app, Arguments& arguments)
   AddFile(app, "--report", arguments.Report, "Write a summary of the run (JSON)");
   app.add_flag("--quiet", arguments.Quiet,
     "No summary, notes or progress bar; warnings and errors still appear");
+  app.option_defaults()->group(ToHelp);
+  app.get_help_ptr()->group(ToHelp);
+  app.set_version_flag("--version", "delaunay-flip " DELAUNAYFLIP_VERSION);
+}
+
+/// Which options need others, or exclude them.
+void RelateOptions(CLI::App& app)
+{
+  app.get_option("--insert-lines")->excludes("--ignore-lines");
+  CLI::Option* const fromPoints = app.get_option("--from-points");
+  for (const char* name : { "--outline", "--holes", "--split-crossings", "--alpha",
+         "--longest-edge", "--point-tolerance", "--projection" })
+  {
+    app.get_option(name)->needs(fromPoints);
+  }
+  fromPoints->excludes("--geometry", "--criterion", "--feature-angle", "--max-deviation",
+    "--tolerance", "--tie-rule", "--merge-points", "--drop-duplicates", "--orient",
+    "--no-insert-constraints", "--ignore-lines", "--region-array", "--devices", "--pieces",
+    "--quality");
+}
+
+/// Whether a word asks for a smallest angle, as programs that add points do.
+bool AsksForAngle(const std::string& word)
+{
+  static const std::regex angle("--?min(imum)?[-_]?angle(=.*)?", std::regex::icase);
+  return std::regex_match(word, angle);
+}
+
+/// An answer to a word that is no option; or "".
+std::string ExplainAngle(const CLI::App& app)
+{
+  const std::vector<std::string> words = app.remaining();
+  const auto found = std::find_if(words.begin(), words.end(), AsksForAngle);
+  return found == words.end() ? ""
+                              : found->substr(0, found->find('=')) +
+      ": flips guarantee no smallest angle. They choose the best triangles for the points that "
+      "are there. Only a program that adds or moves points can promise an angle: a mesh generator "
+      "with Delaunay refinement, for example Triangle, Gmsh or CGAL. Flip after it";
 }
 
 /// "; did you mean --geometry?" if a word that is no option begins like one.
@@ -319,25 +429,30 @@ void CheckTogether(Arguments& arguments)
 
 std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
 {
-  CLI::App app(
-    "Turns a triangle mesh into a Delaunay mesh by edge flips, or makes one from points.\n"
-    "Points never move. Files: .vtk .vtp .ply .stl .obj, by extension; points also\n"
-    ".xyz .csv .txt.",
+  CLI::App app("Turns a triangle mesh into a Delaunay mesh by edge flips, or makes one from\n"
+               "points. Points never move. Files: .vtk .vtp .ply .stl .obj, by extension; points\n"
+               "also .xyz .csv .txt. Defaults are in square brackets.\n\n"
+               "Examples:\n"
+               "  delaunay-flip scan.ply better.ply\n"
+               "      flips a surface; edges sharper than 30 degrees stay\n"
+               "  delaunay-flip terrain.vtp better.vtp --constraints roads.vtk\n"
+               "      makes the lines in roads.vtk edges that stay\n"
+               "  delaunay-flip survey.csv terrain.vtp --from-points\n"
+               "      makes a mesh from points alone",
     "delaunay-flip");
   app.formatter(std::make_shared<PlainFormatter>());
-  app.set_version_flag("--version", "delaunay-flip " DELAUNAYFLIP_VERSION);
-  app.footer(
-    "Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
-    "writable; 4 iteration limit reached (output written); 5 the requested backend is not\n"
-    "available; 129, 130, 131 or 143 ended by the signal HUP, INT (Ctrl-C), QUIT or\n"
-    "TERM. With any code but 0 and 4 no file has been changed.");
+  app.footer("Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
+             "writable; 4 iteration limit reached (output written); 5 the requested backend is\n"
+             "not available; 129, 130, 131 or 143 ended by the signal HUP, INT (Ctrl-C), QUIT\n"
+             "or TERM. With any code but 0 and 4 no file has been changed.\n");
   arguments.Points->SetOutlineToAny();
-  AddFile(app, "INPUT", arguments.Input, "The mesh or the points to read")->required();
-  AddFile(app, "OUTPUT", arguments.Output, "The mesh to write; may be INPUT")->required();
-  AddMethodOptions(app, arguments);
-  AddConstraintOptions(app, arguments);
-  AddRunOptions(app, arguments);
+  AddReadOptions(app, arguments);
+  AddJudgeOptions(app, arguments);
+  AddStayOptions(app, arguments);
   AddPointOptions(app, arguments);
+  AddRunOptions(app, arguments);
+  AddWriteOptions(app, arguments);
+  RelateOptions(app);
   try
   {
     app.parse(argc, argv);
@@ -353,7 +468,12 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   }
   catch (const CLI::ParseError& error)
   {
-    PrintError(error.what() + SuggestOption(app) + " (delaunay-flip --help shows the usage)");
+    std::string problem = ExplainAngle(app);
+    if (problem.empty())
+    {
+      problem = error.what() + SuggestOption(app);
+    }
+    PrintError(problem + " (delaunay-flip --help shows the usage)");
     return static_cast<int>(ExitCode::WrongUsage);
   }
   return std::nullopt;

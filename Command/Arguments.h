@@ -27,6 +27,8 @@ struct Arguments
   vtkNew<vtkDelaunayFlipPoints> Points; ///< The same, for FromPoints.
   bool DeviationIsPercent = false; ///< The largest deviation is one of the bounding box's diagonal.
   bool MergePoints = false; ///< Of the input, at equal places.
+  bool DropDuplicates = false; ///< Polygons of the input with the corners of earlier ones.
+  bool Orient = false; ///< Winds polygons of the input as those beside them.
   bool FromPoints = false;
   std::string Outline; ///< Of points: a file; empty: none.
   std::string Holes;

@@ -8,6 +8,7 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "DelaunayFlip.h"
+#include "InputRepair.h"
 #include "MeshFiles.h"
 #include "OutputFiles.h"
 
@@ -281,10 +282,9 @@ public:
       const std::string& path = this->Settings.Constraints;
       this->Segments = MakeSegments(this->ReadFile(path), path, true);
     }
-    if (this->Settings.MergePoints)
-    {
-      this->MergePoints();
-    }
+    this->Repair(this->Settings.MergePoints, MergeEqualPoints);
+    this->Repair(this->Settings.DropDuplicates, DropDuplicates);
+    this->Repair(this->Settings.Orient, Orient);
     this->Run.ReadSeconds = SecondsSince(start);
     const bool hasTriangles =
       this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() > 0;
@@ -385,12 +385,14 @@ private:
     return file.Mesh;
   }
 
-  void MergePoints()
+  void Repair(bool isWanted, RepairedMesh (*repair)(vtkPolyData*))
   {
-    const vtkIdType before = this->Input->GetNumberOfPoints();
-    this->Input = this->Take(MergeEqualPoints(this->Input), this->Settings.Input);
-    this->Note(this->Settings.Input + ": of " + Counted(before, "point") + " " +
-      std::to_string(this->Input->GetNumberOfPoints()) + " are left after merging");
+    if (isWanted)
+    {
+      const RepairedMesh repaired = repair(this->Input);
+      this->Input = this->Take(repaired.Result, this->Settings.Input);
+      this->Note(this->Settings.Input + ": " + repaired.Note);
+    }
   }
 
   /// Of points: breaklines and rings, as one mesh.

@@ -30,6 +30,35 @@
 namespace delaunayflip
 {
 
+std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds)
+{
+  std::vector<bool> isUsed(mesh->GetNumberOfPoints());
+  for (vtkCellArray* cells : kinds)
+  {
+    ForEachCell(cells,
+      [&isUsed](vtkIdType size, const vtkIdType* points)
+      { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
+  }
+  return isUsed;
+}
+
+std::string LostArrays(
+  const std::string& what, vtkFieldData* data, const std::vector<vtkAbstractArray*>& kept)
+{
+  std::string names;
+  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
+  {
+    vtkAbstractArray* const array = data->GetAbstractArray(index);
+    const std::string name = array->GetName() ? array->GetName() : "?";
+    const bool isOwn = name.rfind("DelaunayFlip:", 0) == 0; // of an earlier run
+    if (!isOwn && std::find(kept.begin(), kept.end(), array) == kept.end())
+    {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+  }
+  return names.empty() ? names : what + " (" + names + ")";
+}
+
 namespace
 {
 
@@ -106,19 +135,6 @@ bool IsEnded(const std::string& path, MeshFormat format)
   return (format != MeshFormat::VTK && format != MeshFormat::OBJ) || file.get() == '\n';
 }
 
-/// Which points are corners of these cells.
-std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds)
-{
-  std::vector<bool> isUsed(mesh->GetNumberOfPoints());
-  for (vtkCellArray* cells : kinds)
-  {
-    ForEachCell(cells,
-      [&isUsed](vtkIdType size, const vtkIdType* points)
-      { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
-  }
-  return isUsed;
-}
-
 /// What a .stl loses of the points.
 struct PointLosses
 {
@@ -179,24 +195,6 @@ void RequireStorable(vtkPolyData* mesh, MeshFormat format)
       "a coordinate is larger than 3.4e38, too large for this file format; a .vtk, .vtp, .ply or "
       ".obj can hold it");
   }
-}
-
-/// `what` and, in parentheses, the names of the arrays of `data` that are not among `kept`.
-std::string LostArrays(
-  const std::string& what, vtkFieldData* data, const std::vector<vtkAbstractArray*>& kept)
-{
-  std::string names;
-  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
-  {
-    vtkAbstractArray* const array = data->GetAbstractArray(index);
-    const std::string name = array->GetName() ? array->GetName() : "?";
-    const bool isOwn = name.rfind("DelaunayFlip:", 0) == 0; // of an earlier run
-    if (!isOwn && std::find(kept.begin(), kept.end(), array) == kept.end())
-    {
-      names += (names.empty() ? "" : ", ") + name;
-    }
-  }
-  return names.empty() ? names : what + " (" + names + ")";
 }
 
 /// A file format, by one of its extensions.
@@ -270,75 +268,6 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format)
   file.Fail(
     "cannot be read: not enough memory, or the file is corrupt: it asks for more than its " +
     std::to_string(file.GetBytes().size()) + " bytes can hold");
-}
-
-FileMesh MergeEqualPoints(vtkPolyData* mesh)
-{
-  const std::vector<bool> isUsed =
-    FindUsed(mesh, { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() });
-  std::vector<vtkIdType> numbers(isUsed.size());
-  const vtkNew<vtkIdList> kept, places;
-  PlaceNumbers known;
-  for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
-  {
-    std::array<double, 3> place;
-    mesh->GetPoint(point, place.data());
-    numbers[point] = isUsed[point] ? known.Number(place) : 0;
-    if (isUsed[point] && numbers[point] == kept->GetNumberOfIds())
-    {
-      places->InsertNextId(kept->InsertNextId(point));
-    }
-  }
-  FileMesh merged;
-  merged.Mesh->ShallowCopy(mesh);
-  const vtkNew<vtkPoints> points;
-  points->SetDataType(mesh->GetPoints()->GetDataType());
-  points->SetNumberOfPoints(kept->GetNumberOfIds());
-  mesh->GetPoints()->GetPoints(kept, points);
-  merged.Mesh->SetPoints(points);
-
-  const vtkNew<vtkPointData> given;
-  given->ShallowCopy(mesh->GetPointData());
-  std::vector<vtkAbstractArray*> whole;
-  for (int index = given->GetNumberOfArrays() - 1; index >= 0; --index)
-  {
-    vtkAbstractArray* const array = given->GetAbstractArray(index);
-    const bool isWhole = array->GetNumberOfTuples() >= mesh->GetNumberOfPoints();
-    isWhole ? whole.push_back(array) : given->RemoveArray(index);
-  }
-  const std::string lost =
-    LostArrays("left out point data with too few tuples", mesh->GetPointData(), whole);
-  merged.Warnings.resize(lost.empty() ? 0 : 1, lost);
-  vtkPointData* const data = merged.Mesh->GetPointData();
-  data->Initialize();
-  data->CopyAllOn();
-  data->CopyAllocate(given, kept->GetNumberOfIds());
-  data->CopyData(given, kept, places);
-
-  std::vector<vtkIdType> all, different;
-  const auto renumber = [&](vtkCellArray* cells, bool arePolygons)
-  {
-    auto made = vtkSmartPointer<vtkCellArray>::New();
-    ForEachCell(cells,
-      [&](vtkIdType size, const vtkIdType* corners)
-      {
-        all.resize(size);
-        std::transform(corners, corners + size, all.begin(),
-          [&numbers](vtkIdType corner) { return numbers[corner]; });
-        different.clear();
-        std::unique_copy(all.begin(), all.end(), std::back_inserter(different));
-        const bool isTwice = different.size() > 3 && different.front() == different.back();
-        different.resize(different.size() - (isTwice ? 1 : 0));
-        const auto& cell = arePolygons && different.size() > 2 ? different : all;
-        made->InsertNextCell(static_cast<vtkIdType>(cell.size()), cell.data());
-      });
-    return made;
-  };
-  merged.Mesh->SetVerts(renumber(mesh->GetVerts(), false));
-  merged.Mesh->SetLines(renumber(mesh->GetLines(), false));
-  merged.Mesh->SetPolys(renumber(mesh->GetPolys(), true));
-  merged.Mesh->SetStrips(renumber(mesh->GetStrips(), false));
-  return merged;
 }
 
 vtkSmartPointer<vtkPolyData> MakeSegments(

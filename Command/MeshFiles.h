@@ -3,6 +3,9 @@
 #ifndef DELAUNAYFLIP_MESHFILES_H
 #define DELAUNAYFLIP_MESHFILES_H
 
+#include <vtkAbstractArray.h>
+#include <vtkCellArray.h>
+#include <vtkFieldData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
@@ -41,10 +44,13 @@ struct FileMesh
 /// @throws CommandError (BadFile) that names the file and the reason.
 FileMesh ReadMesh(const std::string& path, MeshFormat format);
 
-/// Joins the points of a mesh that lie at the same place, and leaves out those that no cell has. A
-/// point has the data of the first of those that it was. All cells stay, but a polygon of more than
-/// three corners has corners that are the same as their neighbor only once.
-FileMesh MergeEqualPoints(vtkPolyData* mesh);
+/// Which points are corners of these cells.
+std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds);
+
+/// `what` and, in parentheses, the names of the arrays of `data` that are not among `kept`; empty
+/// if there are none.
+std::string LostArrays(
+  const std::string& what, vtkFieldData* data, const std::vector<vtkAbstractArray*>& kept);
 
 /// The lines and polygons of a mesh, with all its points, as vtkDelaunayFlipPoints takes them:
 /// breaklines as lines, and rings as polygons.

@@ -33,6 +33,11 @@ class WrongUsage(CommandTest):
         self.refuse("did you mean --geometry?", "--geomtry", "planar")
         self.refuse("did you mean --quiet?", "--quite=1")
 
+    def test_smallest_angle(self):
+        """Asked for, as of a mesh generator, it is answered by what guarantees one."""
+        for words in (["--min-angle", "20"], ["--minimum-angle=20"], ["--min_angle", "20"]):
+            self.refuse(words[0].split("=")[0] + ": flips guarantee no smallest angle", *words)
+
     def test_unknown_extension(self):
         known = [".vtk", ".vtp", ".ply", ".stl", ".obj"]
         self.fail_with(2, self.planar, "out.abc", naming=["out.abc", *known])
@@ -111,7 +116,11 @@ class BadFile(CommandTest):
 class Success(CommandTest):
     def test_help_and_version(self):
         text = self.succeed("--help").stdout
-        self.assertIn("--feature-angle", text)
+        self.assertEqual([line for line in text.splitlines() if len(line) > 80], [])
+        groups = [line for line in text.splitlines() if line.endswith(":") and line[0] != " "]
+        self.assertEqual(groups, ["Examples:", "What to read:", "Where edges are judged:", "What stays:",
+                                  "From points:", "Where it runs:", "What to write:", "Help:"])
+        self.assertIn("\n  --merge-points            First join points", text)
         for code in ("0 done", "2 wrong", "3 input", "4 iteration", "5 the", "129, 130, 131 or 143"):
             self.assertIn(code, text)
         self.assertRegex(self.succeed("--version").stdout, r"^delaunay-flip \d+\.\d+\.\d+$")

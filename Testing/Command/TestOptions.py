@@ -83,7 +83,8 @@ class Options(CommandTest):
         self.assertEqual(len(points_of(self.read_mesh("out.vtk"))), 4)
 
     def test_merging_keeps_data_and_cells(self):
-        """Also if a point lies at infinity; only a side that has collapsed leaves its quad."""
+        """Also if a point lies at infinity. A side that has collapsed leaves its quad; a triangle that has
+        collapsed is left out."""
         corners = [(math.inf, 0, 0)] + [KITE[i] for cell in KITE_CELLS for i in cell] + KITE[:3]
         cells = [(1, 2, 3), (4, 5, 6), (7, 8, 8), (0, 8, 9), (1, 7, 8, 9)]
         mesh = make_mesh(corners, cells, [(1, 7), (2, 9)])
@@ -96,13 +97,16 @@ class Options(CommandTest):
         data.SetGlobalIds(make_values("vtkIdTypeArray", "ids", [(i,) for i in range(size)]))
         data.AddArray(make_values("vtkStringArray", "words", [(f"w {i}",) for i in range(size)]))
         data.AddArray(make_values("vtkIntArray", "short", [(1,)] * 3))
+        mesh.GetCellData().AddArray(make_values("vtkIntArray", "cell", [(i,) for i in range(7)]))
         path = self.write_mesh(mesh, "in.vtk")
         told = self.succeed(path, "out.vtp", "--merge-points").stderr
-        self.assertIn(f"in.vtk: of {size} points 5 are left after merging\n", told)
+        self.assertIn(f"in.vtk: of {size} points 5 are left after merging; 1 polygon left out, because "
+                      "its corners are fewer than three places\n", told)
         self.assertIn("in.vtk: left out point data with too few tuples (short)\n", told)
         out = self.read_mesh("out.vtp")
         self.assertEqual(cells_of(out.GetLines()), [(1, 1), (2, 3)])
-        self.assertEqual(triangles_of(out), [(1, 2, 3), (1, 3, 4), (1, 2, 2), (0, 2, 3), (1, 2, 3)])
+        self.assertEqual(values_of(out.GetCellData().GetArray("cell")), [0, 1, 2, 3, 5, 6])
+        self.assertEqual(triangles_of(out), [(1, 2, 3), (1, 3, 4), (0, 2, 3), (1, 2, 3)])
         self.assertEqual(points_of(out), corners[:4] + [corners[6]])
         found = out.GetPointData()
         for index in range(data.GetNumberOfArrays() - 1):
@@ -116,6 +120,29 @@ class Options(CommandTest):
         self.assertIsNone(found.GetAbstractArray("short"))
         for name in ("out.ply", "out.obj", "out.stl", "out.vtk"):
             self.succeed(path, name, "--merge-points")
+
+    def test_duplicates_are_dropped(self):
+        """A sheet with two sides, which never flips."""
+        cells = [*KITE_CELLS, *[cell[::-1] for cell in KITE_CELLS]]
+        mesh = make_mesh(KITE, cells)
+        mesh.GetCellData().AddArray(make_values("vtkIntArray", "cell", [(i,) for i in range(4)]))
+        self.assertEqual(self.flips(mesh), 0)
+        result = self.succeed(self.path("in.vtk"), "out.vtk", "--drop-duplicates")
+        self.assertIn("in.vtk: 2 polygons left out as duplicates\n", result.stderr)
+        self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
+        out = self.read_mesh("out.vtk")
+        self.assertEqual(values_of(out.GetCellData().GetArray("cell")), [0, 1])
+        self.assertTrue(self.has_edge(1, 3))
+
+    def test_winding_is_made_consistent(self):
+        mesh = make_mesh(KITE, [KITE_CELLS[0], KITE_CELLS[1][::-1]], [(0, 1)])
+        mesh.GetCellData().AddArray(make_values("vtkIntArray", "cell", [(i,) for i in range(3)]))
+        self.assertEqual(self.flips(mesh), 0)
+        result = self.succeed(self.path("in.vtk"), "out.vtk", "--orient")
+        self.assertIn("in.vtk: 1 polygon turned over to be wound like its neighbours\n", result.stderr)
+        self.assertTrue(self.has_edge(1, 3))
+        self.assertEqual(values_of(self.read_mesh("out.vtk").GetCellData().GetArray("cell")), [0, 1, 2])
+        self.assertEqual(cells_of(self.read_mesh("out.vtk").GetLines()), [(0, 1)])
 
     def test_nothing_to_merge(self):
         apart = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (5, 0, 0), (6, 0, 0), (5, 1, 0)]

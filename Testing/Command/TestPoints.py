@@ -324,10 +324,10 @@ class Usage(PointTest):
             ["--geometry", "planar"], ["--criterion", "in-circle"], ["--feature-angle", 30],
             ["--tolerance", 0], ["--tie-rule", "keep"], ["--no-insert-constraints"],
             ["--ignore-lines"], ["--region-array", "a"], ["--devices", "all"], ["--pieces", 2],
-            ["--quality"], ["--merge-points"],
+            ["--quality"], ["--merge-points"], ["--drop-duplicates"], ["--orient"],
         ):
             self.fail_with(2, "in.xyz", "out.vtk", "--from-points", *option,
-                           naming=[option[0], "excludes --from-points"])
+                           naming=[option[0], "excludes", "--from-points"])
         path = self.write_mesh(make_mesh(PLACES, [(0, 1, 2)]), "in.vtk")
         for option in (
             ["--outline", path], ["--holes", path], ["--split-crossings"], ["--alpha", 1],
