@@ -51,7 +51,9 @@ void RequireSize(const Struct* given)
 /// Requires that the caller's array of `count` things, called `name`, can exist.
 inline void RequireArray(const void* array, std::int64_t count, const std::string& name)
 {
+  constexpr std::int64_t Most = std::int64_t(1) << 48; // more than any memory holds
   Require(count >= 0, ("number_of_" + name + " is negative").c_str());
+  Require(count <= Most, ("number_of_" + name + " is larger than any memory").c_str());
   Require(array || count == 0, (name + " is null").c_str());
 }
 
@@ -273,6 +275,7 @@ inline FlipReport ToReport(const delaunayflip_report* given)
   report.GeometryUsed = ToEnumeration(c.geometry_used, GeometryKind::Mixed, "geometry");
   report.GeometryReason = c.geometry_reason ? c.geometry_reason : "";
   report.StopReason = ToEnumeration(c.stop_reason, StopReasonKind::Running, "stop_reason");
+  Require(c.number_of_iterations >= 0, "number_of_iterations is negative");
   report.Iterations.resize(c.number_of_iterations);
   return report;
 }

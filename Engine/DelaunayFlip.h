@@ -112,7 +112,8 @@ public:
   void StoreNeighbors(std::int32_t* neighbors) const;
 
   /// Writes, for every point of the caller, the id of the point that is used at its place, or -1 if
-  /// it is not finite. For sessions from points.
+  /// it is not finite; its own id after an abort before there were triangles. For sessions from
+  /// points.
   void StoreUsedPoints(std::int64_t* ids) const;
 
   /// Returns the points made where segments cross. There are none without

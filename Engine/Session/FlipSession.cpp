@@ -5,6 +5,7 @@
 #include "SubMesh.h"
 #include "ThreadBackend.h"
 
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -184,7 +185,7 @@ void FlipSession::StoreUsedPoints(std::int64_t* ids) const
   const PointRun& points = this->Own->RequirePoints();
   if (!this->Own->TryOnBackend([&](const LoadedMesh& mesh) { points.StoreUsedPoints(mesh, ids); }))
   {
-    std::fill_n(ids, this->Own->Report.Points, -1);
+    std::iota(ids, ids + this->Own->Report.Points, std::int64_t(0));
   }
 }
 

@@ -7,6 +7,8 @@
 #include "SurfaceAngles.h"
 #include "ThreadBackend.h"
 
+#include <algorithm>
+
 namespace delaunayflip
 {
 
@@ -128,7 +130,8 @@ FlipSession::Work::Work(
     Observer(progress)
 {
   CheckOptions(options);
-  CheckMeshSize(2 * points.Points.Count, points.Points.Count, "");
+  constexpr std::int64_t MostToDouble = std::int64_t(1) << 40; // and far more than are supported
+  CheckMeshSize(2 * std::min(points.Points.Count, MostToDouble), points.Points.Count, "");
   if (points.OnDevice)
   {
     const int device = RequireOnDevice(points.Points.Data(), points.Points.Count, "the points are");

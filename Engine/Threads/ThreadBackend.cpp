@@ -68,7 +68,8 @@ std::atomic<int> mostStarted{ 1 };
 /// for ever where memory fails meanwhile; one thread does without oneTBB.
 int ResolveThreads(int wanted)
 {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  // The system reads a file for this, which would take a tenth of the time of a few points.
+  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   int threads = wanted > 0 ? std::min(wanted, std::max(MostThreads, 2 * cores)) : cores;
   if (threads > mostStarted)
   {

@@ -12,6 +12,8 @@ import numpy
 from . import _library
 from ._library import TYPES, InvalidMesh
 
+_KNOWN_TYPES = {numpy.dtype(name): name for name in TYPES}
+_FEWEST_EXPECTED = 1 << 16  # bytes of an array that a session is told of
 _CONVERSION_ERRORS = (TypeError, ValueError, OverflowError, RuntimeError, BufferError)
 
 
@@ -107,6 +109,8 @@ def _library_name(array):
 
 
 def _is_on_device(array):
+    if isinstance(array, numpy.ndarray):
+        return False
     if _library_name(array) == "torch":
         return getattr(array, "is_cuda", False)
     if hasattr(array, "__cuda_array_interface__"):
@@ -163,15 +167,17 @@ def find_memory(array):
 
 
 def address(array):
-    """Of an array of NumPy, or of one on a GPU."""
+    """Of an array of NumPy, or of one on a GPU; 0 if it is empty."""
     if isinstance(array, numpy.ndarray):
-        return array.ctypes.data
+        return array.ctypes.data if array.size else 0
     return array.__cuda_array_interface__["data"][0]
 
 
 def type_of(array):
     """NumPy's name for the type of the array's values, if these are in native byte order."""
     kind = array.dtype
+    if isinstance(array, numpy.ndarray) and kind in _KNOWN_TYPES:
+        return _KNOWN_TYPES[kind]
     if _is_on_device(array):
         kind = numpy.dtype(array.__cuda_array_interface__["typestr"])
     return kind.name if kind.isnative else kind.str
@@ -224,7 +230,11 @@ def as_plane(points, name="points"):
 def as_points(points):
     """The same of shape (n, 3): (n, 2) gets z = 0."""
     points = as_plane(points)
-    return points if points.shape[1] == 3 else numpy.pad(points, ((0, 0), (0, 1)))
+    if points.shape[1] == 3:
+        return points
+    spatial = numpy.zeros((len(points), 3), dtype=points.dtype)
+    spatial[:, :2] = points
+    return spatial
 
 
 def as_ids(name, ids, columns):
@@ -287,13 +297,9 @@ class Mesh:
         struct.point_type, struct.id_type = TYPES[type_of(self.points)], TYPES[type_of(self.triangles)]
         struct.memory, struct.stream = find_memory(self.triangles)
         struct.point_components = self.points.shape[1]
-        constraints, regions, frozen, insert_constraints, triangle_numbers = map(
-            to_host, (constraints, regions, frozen, insert_constraints, triangle_numbers))
-        edges = as_ids("constraints", [] if constraints is None else constraints, 2)
-        flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
-        struct.number_of_constraint_edges = len(edges)
-        self._keep("constraint_edges", _convert(edges, numpy.int64))
-        self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
+        if constraints is not None or insert_constraints is not True:
+            self._take_constraints(to_host(constraints), to_host(insert_constraints))
+        regions, frozen, triangle_numbers = map(to_host, (regions, frozen, triangle_numbers))
         count = struct.number_of_triangles
         if regions is not None:
             self._keep("regions", _per_triangle("regions", regions, numpy.int32, count))
@@ -307,6 +313,13 @@ class Mesh:
         """Sets a pointer of the struct to an array, which lives as long."""
         self._kept.append(array)
         setattr(self.struct, member, address(array))
+
+    def _take_constraints(self, constraints, insert_constraints):
+        edges = as_ids("constraints", [] if constraints is None else constraints, 2)
+        flags = as_flags("insert_constraints", insert_constraints, (), (len(edges),))
+        self.struct.number_of_constraint_edges = len(edges)
+        self._keep("constraint_edges", _convert(edges, numpy.int64))
+        self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
 
     def make_triangles(self):
         """Room for the triangles."""
@@ -329,7 +342,7 @@ class Mesh:
 def expect(session, *arrays):
     """Tells a session which new arrays its results will be written to."""
     for array in arrays:
-        if isinstance(array, numpy.ndarray):
+        if isinstance(array, numpy.ndarray) and array.nbytes >= _FEWEST_EXPECTED:
             _library.call("expect", session, address(array), array.nbytes)
 
 

@@ -115,23 +115,33 @@ def library():
     return loaded
 
 
+@functools.lru_cache(maxsize=None)
+def _find(name):
+    return getattr(library(), f"delaunayflip_{name}")
+
+
 def run(name, *arguments):
     """Calls delaunayflip_<name>. Structs are passed by their addresses, and numbers, which may be
     addresses, in 64 bits, of which a function may use the lower half."""
-    return getattr(library(), f"delaunayflip_{name}")(*(
+    return _find(name)(*[
         ctypes.byref(value) if isinstance(value, ctypes.Structure)
-        else c_int64(value) if isinstance(value, int) else value for value in arguments))
+        else c_int64(value) if isinstance(value, int) else value for value in arguments])
 
 
 _EXCEPTIONS = {2: InvalidOptions, 3: MeshTooLarge, 4: BackendUnavailable, 5: MemoryError,
                6: ValueError, 8: Stopped}
 
 
-def make(kind):
-    """A struct with its size and the defaults."""
+@functools.lru_cache(maxsize=None)
+def _make_default(kind):
     struct = kind()
     run(f"{kind.__name__.lower()}_init", struct)
     return struct
+
+
+def make(kind):
+    """A struct with its size and the defaults."""
+    return kind.from_buffer_copy(_make_default(kind))
 
 
 def call(name, *arguments):

@@ -68,8 +68,9 @@ _RANGES = {"maximum_iterations": (-1, 2**63 - 1), "threads": (0, 2**31 - 1),
            "device": (-1, 2**31 - 1), "pieces": (0, 255)}
 
 
-def make_options(**keywords):
-    """A _library.Options with the engine's defaults for options that are not given.
+def make_options(function=None, **keywords):
+    """A _library.Options with the engine's defaults for options that are not given. `function`: one
+    whose defaults are the engine's; these are passed over, which takes less time.
 
     Raises:
         TypeError: A keyword that is no option, or a value of a wrong type.
@@ -77,7 +78,10 @@ def make_options(**keywords):
     """
     options = _library.make(_library.Options)
     known = {name for name, _ in options._fields_} - {"size"}
+    defaults = function.__kwdefaults__ if function else {}
     for keyword, value in keywords.items():
+        if keyword in defaults and value is defaults[keyword]:
+            continue
         name = _NAMES.get(keyword, keyword)
         if name not in known:
             raise TypeError(f"{keyword!r} is not an option")

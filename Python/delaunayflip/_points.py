@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The Delaunay triangulation of points."""
-import ctypes
 import dataclasses
+import functools
 from typing import Optional, Sequence, Union
 
 import numpy
@@ -12,7 +12,7 @@ from ._arrays import address
 from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, check_integer, make_options, to_number)
 from ._report import Report
-from ._session import call
+from ._session import run
 
 _ANY_RING = 2  # an outline
 
@@ -27,12 +27,17 @@ class Triangulation:
     triangles: Array  #: (m, 3) int32, counter-clockwise in x and y.
     #: (m, 3) int32: the triangle opposite each corner, -1 where there is none, as in SciPy.
     neighbors: Array
-    #: (n,) int64: the point that is used at the place of each point; -1: it is not finite.
-    used_points: Array
     #: (k, 2) int64: the edges that segments have become, in their order and direction, each once.
     segments: Array
     iterations: Array  #: Of the flips, structured; see Session.iterations.
     report: Report
+    _used: Optional[Array] = dataclasses.field(repr=False)  # None: each point is used
+
+    @functools.cached_property
+    def used_points(self) -> Array:
+        """(n,) int64: the point that is used at the place of each point; -1: it is not finite. After
+        an abort before there are triangles, each point itself."""
+        return numpy.arange(len(self.points)) if self._used is None else self._used
 
 
 def triangulate(
@@ -98,20 +103,10 @@ def triangulate(
         to_number(name, value) for name, value in (
             ("alpha", alpha), ("longest_edge", longest_edge), ("point_tolerance", point_tolerance)))
     struct.split_crossings = check_integer("split_crossings", split_crossings, 0, 1, "True or False")
-    options = make_options(backend=backend, threads=threads, device=device,
-                           maximum_iterations=maximum_iterations)
-    handle = ctypes.c_void_p()
-    try:
-        call("open_points", struct, options, ctypes.byref(handle), progress)
-        report = _report.read(handle)
-        room = given.make_room(report.number_of_triangles)
-        if report.stop_reason != "aborted":
-            _arrays.expect(handle, *room)
-            call("advance", handle, -1, None, progress, on_iteration)
-            report = _report.read(handle)
-        return given.store(handle, report, room)
-    finally:
-        _library.run("close", handle)
+    options = make_options(triangulate, backend=backend, threads=threads,
+                           device=device, maximum_iterations=maximum_iterations)
+    with run("open_points", struct, options, given.make_room, progress, on_iteration) as (handle, room):
+        return given.store(handle, room)
 
 
 class Input:
@@ -162,28 +157,38 @@ class Input:
         self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
         self.rings.append(numpy.full(len(ids), len(self.rings) - 1, dtype=numpy.int32))
 
-    def make_room(self, count):
-        """Arrays for so many triangles, their neighbors, and the used points."""
-        ids = (_arrays.make_empty(self.points, (count, 3), "int32") for _ in range(2))
-        return *ids, numpy.empty(len(self.points), dtype=numpy.int64)
+    def make_room(self, report):
+        """Arrays for the triangles that a report counts and for their neighbors."""
+        shape = (report.number_of_triangles, 3)
+        return [_arrays.make_empty(self.points, shape, "int32") for _ in range(2)]
 
-    def store(self, handle, report, room):
+    def store(self, handle, room):
         """The Triangulation of a session that has ended. `room`: from make_room."""
+        report = _report.read(handle)
         if len(room[0]) != report.number_of_triangles:
-            room = self.make_room(report.number_of_triangles)
-        triangles, neighbors, used = room
+            room = self.make_room(report)
+        triangles, neighbors = room
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
         _arrays.store("triangles", handle, triangles, _library.TYPES["int32"])
         _arrays.store("neighbors", handle, neighbors)
-        _library.call("store_used_points", handle, address(used))
         _library.call("store_segment_edges", handle, address(edges))
+        used = self._find_used_points(handle, report)
         points = self.points
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
-            used = numpy.concatenate([used, numpy.arange(len(used), len(points))])
             report = dataclasses.replace(report, number_of_points=len(points))
-        iterations = _report.read_iterations(handle)
-        return Triangulation(points, triangles, neighbors, used, edges, iterations, report)
+        iterations = _report.read_iterations(handle, report)
+        return Triangulation(points, triangles, neighbors, edges, iterations, report, used)
+
+    def _find_used_points(self, handle, report):
+        """The used point of each one, also of those at crossings; None if these are the points
+        themselves, so that nothing has to come from a GPU."""
+        if not (report.points_not_finite or report.points_repeated or report.points_too_near):
+            return None
+        count = len(self.points)
+        used = numpy.arange(count + report.crossings)
+        _library.call("store_used_points", handle, address(used))
+        return used
 
     def _add_crossings(self, handle, count):
         """The points, with those at crossings behind them."""

@@ -20,7 +20,12 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
-_SIGNALS = tuple(signal.Signals)
+try:  # these do not convert numbers to enumerations, which would take most of the time of a small call
+    from _signal import getsignal as _get_handler, signal as _set_handler
+except ImportError:
+    from signal import getsignal as _get_handler, signal as _set_handler
+
+_SIGNALS = tuple(map(int, signal.Signals))
 
 
 @contextlib.contextmanager
@@ -29,8 +34,8 @@ def _raise_after(raised):
     signals raise, such as that of Ctrl-C, goes there too: ctypes would swallow it in a callback. Only
     the main thread has handlers."""
     is_main = threading.current_thread() is threading.main_thread()
-    handlers = {number: signal.getsignal(number) for number in _SIGNALS if is_main}
-    own = {number: handler for number, handler in handlers.items() if callable(handler)}
+    own = {number: handler for number in (_SIGNALS if is_main else ())
+           if callable(handler := _get_handler(number))}
 
     def handle(number, frame):
         try:
@@ -43,20 +48,21 @@ def _raise_after(raised):
     is_over = False
     try:
         for number in own:
-            signal.signal(number, handle)
+            _set_handler(number, handle)
         yield
     finally:
         is_over = True
         for number, handler in own.items():
-            if signal.getsignal(number) is handle:  # a callback may have set another one
-                signal.signal(number, handler)
+            if _get_handler(number) is handle:  # a callback may have set another one
+                _set_handler(number, handler)
         if raised:
             raise raised.pop()
 
 
-def call(name, first, second, last, progress=None, on_iteration=None):
-    """Calls a function of the engine, with these observers as its third argument. If one raises an
-    exception, the run is aborted and the exception raised after it.
+@contextlib.contextmanager
+def observe(progress=None, on_iteration=None):
+    """Gives these observers as callbacks for the engine. If one raises an exception, the run is aborted
+    and the exception raised after the block.
 
     There is always a progress callback, even without an observer: while Python runs in it, the
     interpreter handles signals, so Ctrl-C works.
@@ -86,7 +92,31 @@ def call(name, first, second, last, progress=None, on_iteration=None):
     if on_iteration is not None:
         callbacks.iteration = _library.IterationFunction(tell_iteration)
     with _raise_after(raised):
+        yield callbacks
+
+
+def call(name, first, second, last, progress=None, on_iteration=None):
+    """Calls a function of the engine, with these observers as its third argument."""
+    with observe(progress, on_iteration) as callbacks:
         _library.call(name, first, second, callbacks, last)
+
+
+@contextlib.contextmanager
+def run(name, struct, options, make_room, progress, on_iteration):
+    """A whole run: gives the handle of its session and the room for its results, which
+    `make_room` makes when the report of the opened session is known."""
+    handle = ctypes.c_void_p()
+    try:
+        with observe(progress, on_iteration) as callbacks:
+            _library.call(name, struct, options, callbacks, ctypes.byref(handle))
+            report = _report.read_struct(handle)
+            room = make_room(report)
+            if not _report.is_aborted(report):
+                _arrays.expect(handle, *room)
+                _library.call("advance", handle, -1, callbacks, None)
+        yield handle, room
+    finally:
+        _library.run("close", handle)
 
 
 class Session:
@@ -180,7 +210,7 @@ class Session:
         """A structured array with a row per iteration: iteration, tested, non_delaunay, flipped,
         excluded, blocked, minimum_angle (degrees; NaN where it was not computed) and seconds."""
         with self._open() as handle:
-            return _report.read_iterations(handle)
+            return _report.read_iterations(handle, _report.read(handle))
 
     @property
     def triangles(self) -> Array:
@@ -281,16 +311,21 @@ def flip(
         >>> result.report.total_flips, sorted(sorted(ids) for ids in result.triangles.tolist())
         (1, [[0, 1, 3], [1, 2, 3]])
     """
-    arguments = dict(locals())
-    del arguments["on_iteration"]
-    with Session(**arguments) as session:
-        triangles, counts = session._mesh.make_triangles(), session._mesh.make_flip_counts()
-        if session.report.stop_reason != "aborted":
-            _arrays.expect(session._handle, triangles, counts)
-            session.advance(progress=progress, on_iteration=on_iteration)
-        session.store_triangles(triangles)
-        _arrays.store("flip_counts", session._handle, counts)
-        return Result(triangles, counts, session.iterations, session.report)
+    mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints)
+    wanted = make_options(
+        flip, geometry=geometry, criterion=criterion, tie_rule=tie_rule, tolerance=tolerance,
+        feature_angle=feature_angle, maximum_deviation=maximum_deviation,
+        maximum_iterations=maximum_iterations, backend=backend, threads=threads, device=device,
+        devices=devices, pieces=pieces, track_quality=track_quality)
+
+    def make_room(_):
+        return mesh.make_triangles(), mesh.make_flip_counts()
+
+    with run("open", mesh.struct, wanted, make_room, progress, on_iteration) as (handle, room):
+        _arrays.store_triangles(handle, room[0], len(room[0]))
+        _arrays.store("flip_counts", handle, room[1])
+        report = _report.read(handle)
+        return Result(*room, _report.read_iterations(handle, report), report)
 
 
 def smallest_angles(

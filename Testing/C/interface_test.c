@@ -70,6 +70,9 @@ static void TestSummary(void)
   CHECK(delaunayflip_summarize(&report, &text) == DELAUNAYFLIP_OK);
   CHECK(strstr(text, "\nflips: 2,345 in 1 iteration") != NULL);
   CHECK(delaunayflip_summarize(&report, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  report.number_of_iterations = -1;
+  CHECK(delaunayflip_summarize(&report, &text) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(strstr(delaunayflip_error_message(), "number_of_iterations is negative") != NULL);
   CHECK(delaunayflip_summarize(NULL, &text) != DELAUNAYFLIP_OK);
 }
 
@@ -315,10 +318,12 @@ static void TestPolygons(void)
 static void TestPoints(void)
 {
   const int64_t diagonal[] = { 2, 0 };
-  int64_t triangles[6], edge[2];
+  int64_t triangles[6], edge[2], used[4];
   int32_t neighbors[6];
   delaunayflip_points points;
   delaunayflip_options options;
+  delaunayflip_callbacks callbacks;
+  Log log = { 0, 1, 0.0 };
   delaunayflip_session* session = NULL;
   int i;
   delaunayflip_points_init(&points);
@@ -339,11 +344,23 @@ static void TestPoints(void)
     CHECK(i == 0 || (edge[0] == 2 && edge[1] == 0));
     delaunayflip_close(session);
   }
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = LogProgress;
+  callbacks.user = &log;
+  CHECK(delaunayflip_open_points(&points, NULL, &callbacks, &session) == DELAUNAYFLIP_OK);
+  CHECK(GetReport(session).stop_reason == DELAUNAYFLIP_ABORTED);
+  CHECK(delaunayflip_store_used_points(session, used) == DELAUNAYFLIP_OK);
+  CHECK(used[0] == 0 && used[1] == 1 && used[2] == 2 && used[3] == 3);
+  delaunayflip_close(session);
   delaunayflip_options_init(&options);
   options.number_of_pieces = 2;
   CHECK(
     delaunayflip_open_points(&points, &options, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);
   CHECK(strstr(delaunayflip_error_message(), "gather them first") != NULL);
+  points.number_of_points = INT64_MAX;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
+  points.number_of_points = INT64_C(1) << 48;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_MESH_TOO_LARGE);
 }
 
 int main(void)

@@ -59,6 +59,11 @@ class Triangulate(unittest.TestCase):
         self.assertEqual(result.triangles.tolist(), [[1, 0, 4]])
         self.assertEqual(result.used_points.tolist(), [0, 1, -1, 1, 4])
         self.assertIn("place of another", result.report.defects)
+        with unittest.mock.patch.object(_library, "call", wraps=_library.call) as call:
+            whole = delaunayflip.triangulate(points[:2])  # nothing is fetched, maybe from a GPU
+        self.assertNotIn("store_used_points", [made.args[0] for made in call.call_args_list])
+        self.assertEqual(whole.used_points.tolist(), [0, 1])
+        self.assertIs(whole.used_points, whole.used_points)
         for none in (numpy.empty((0, 2)), points[:1], [[0, 0], [1, 1], [2, 2], [3, 3]]):
             self.assertEqual(delaunayflip.triangulate(none).triangles.shape, (0, 3))
 
@@ -157,6 +162,7 @@ class Triangulate(unittest.TestCase):
         stopped = delaunayflip.triangulate(points, progress=lambda share: share < 0.2)
         self.assertEqual(stopped.report.stop_reason, "aborted")
         self.assertEqual(len(stopped.triangles), 0)
+        numpy.testing.assert_array_equal(stopped.used_points, numpy.arange(20000))
         with (self.assertRaises(ZeroDivisionError),
               unittest.mock.patch.object(_library, "run", wraps=_library.run) as run):
             delaunayflip.triangulate(points, progress=lambda share: 1 / 0)
@@ -549,6 +555,14 @@ class Header(unittest.TestCase):
                 wanted = ctypes.c_void_p if kind.endswith("*") else None
                 if name != "Callbacks":
                     self.assertIs(field[1], self.TYPES.get(kind, wanted), f"{name}.{member}")
+
+    def test_defaults(self):
+        for function in (delaunayflip.flip, delaunayflip.triangulate):
+            options = {name: value for name, value in function.__kwdefaults__.items()
+                       if name in _options.Options.__annotations__ and name != "devices"}
+            self.assertGreater(len(options), 3)
+            self.assertEqual(bytes(_options.make_options(**options)), bytes(_options.make_options()))
+        self.assertEqual(delaunayflip.flip.__kwdefaults__["devices"], ())
 
     def test_enumerations(self):
         enumerations = {**_options.CHOICES, "geometry": _report.GEOMETRIES,
