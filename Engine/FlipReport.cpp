@@ -66,7 +66,7 @@ namespace
 std::string InSingular(const std::string& what)
 {
   static const std::pair<std::string, std::string> beginnings[] = {
-    { "triangles that turn ", "triangle that turns " },
+    { "triangles that face ", "triangle that faces " },
     { "triangles that repeat ", "triangle that repeats " },
     { "triangles ", "triangle " },
     { "points ", "point " },

@@ -285,7 +285,7 @@ inline bool IsHigherThanWide(const BoundingBox& box, double times = 1.0)
   return extent(2) > times * extent(0) && extent(2) > times * extent(1);
 }
 
-/// "12 of 30000 triangles turn the other way and 7 have no area".
+/// "12 of 30000 triangles face the other way and 7 have no area".
 inline std::string DescribeStrays(const TurnSample& turns)
 {
   const std::string all = " of " + std::to_string(turns.Count()) + " triangles";
@@ -294,7 +294,7 @@ inline std::string DescribeStrays(const TurnSample& turns)
   {
     return flat + all + " have no area";
   }
-  return std::to_string(turns.GetOthers().Count) + all + " turn the other way" +
+  return std::to_string(turns.GetOthers().Count) + all + " face the other way" +
     (turns.Flat.Count > 0 ? " and " + flat + " have no area" : "");
 }
 
@@ -494,7 +494,8 @@ private:
     else if (!turns.AreUniform() && !mayStray)
     {
       this->Take(GeometryKind::Surface,
-        "in x and y " + DescribeStrays(turns) + (turns.AreNearlyUniform() ? Advice : ""));
+        "not a height field: seen from above, " + DescribeStrays(turns) +
+          (turns.AreNearlyUniform() ? Advice : ""));
       this->WarnOfStrays();
     }
     else if (!suits)
@@ -516,7 +517,7 @@ private:
     if (turns.CountStrays() > 0 && turns.AreNearlyUniform())
     {
       const bool areTurned = turns.GetOthers().Count > 0;
-      std::string what = areTurned ? "triangles that turn the other way in x and y"
+      std::string what = areTurned ? "triangles that face the other way seen from above"
                                    : "triangles without area in x and y";
       if (areTurned && turns.Flat.Count > 0)
       {
@@ -538,8 +539,8 @@ private:
       return false;
     }
     this->Take(GeometryKind::Surface,
-      "triangles overlap in x and y around " + std::to_string(overlaps.Count) +
-        (overlaps.Count == 1 ? " point" : " points"));
+      "not a height field: seen from above, triangles overlap around " +
+        std::to_string(overlaps.Count) + (overlaps.Count == 1 ? " point" : " points"));
     this->Survey.NearlyHeightField = MakeDefect("points whose triangles overlap in x and y, so "
                                                 "the mesh, nearly a height field, is flipped "
                                                 "as a surface; if it is terrain, use planar-xy",

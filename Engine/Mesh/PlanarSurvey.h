@@ -186,7 +186,7 @@ struct PlanarSurvey
   {
     const int common = side != 0 ? side : this->Turns.GetSide();
     return { MakeDefect("triangles without area", this->Turns.Flat),
-      MakeDefect("triangles that turn the other way than most",
+      MakeDefect("triangles that face the other way than most",
         common < 0 ? this->Turns.Left : this->Turns.Right) };
   }
 };

@@ -187,7 +187,8 @@ TEST(GeometryChoice, AnOpenCylinderIsASurface)
   ExpectChoice(cylinder, GeometryKind::Surface, "no triangle has area in x and y");
   ExpectNoDefects(cylinder);
   Append(cylinder, MakeGridMesh(4, 4)); // an end
-  ExpectChoice(cylinder, GeometryKind::Surface, "in x and y 3600 of 3632 triangles have no area");
+  ExpectChoice(cylinder, GeometryKind::Surface,
+    "not a height field: seen from above, 3600 of 3632 triangles have no area");
   ExpectNoDefects(cylinder);
 }
 
@@ -231,16 +232,16 @@ TEST(GeometryChoice, AnOceanMayCrossTheAntimeridian)
   {
     const OwnedMesh<double> globe = MakeGlobe(columns, 20);
     const std::string turned =
-      "40 of " + std::to_string(40 * columns) + " triangles turn the other way";
+      "40 of " + std::to_string(40 * columns) + " triangles face the other way";
     ExpectChoice(globe, GeometryKind::PlanarXY,
       "a height field over x and y, although " + turned + " there, and z extends further than");
     const FlipResult result = Flip(globe.View());
     EXPECT_EQ(40, CountRight(globe, result.Triangles));
-    EXPECT_EQ(40, CountDefect(result.Report, "turn the other way"));
+    EXPECT_EQ(40, CountDefect(result.Report, "face the other way"));
     EXPECT_EQ(1u, result.Report.Defects.size()) << DescribeDefects(result.Report.Defects);
   }
-  ExpectChoice(
-    MakeGlobe(99, 20), GeometryKind::Surface, "in x and y 40 of 3960 triangles turn the other way");
+  ExpectChoice(MakeGlobe(99, 20), GeometryKind::Surface,
+    "not a height field: seen from above, 40 of 3960 triangles face the other way");
 }
 
 TEST(GeometryChoice, IsTheSameInParts)
@@ -250,7 +251,7 @@ TEST(GeometryChoice, IsTheSameInParts)
   const auto expectSame = [&](const FlipReport& report)
   {
     EXPECT_EQ(whole.GeometryReason, report.GeometryReason);
-    EXPECT_EQ("40 triangles that turn the other way than most", DescribeDefects(report.Defects));
+    EXPECT_EQ("40 triangles that face the other way than most", DescribeDefects(report.Defects));
   };
   FlipOptions options = OnBackend(BackendKind::Threads);
   for (const int parts : { 2, 5 })
@@ -273,7 +274,8 @@ TEST(GeometryChoice, TheAntimeridianIsWarnedOfOnce)
   const OwnedMesh<double> globe =
     Transform(MakeGlobe(200, 20), { { { 2, 0, 0, 0 }, { 0, 2, 0, 0 }, { 0, 0, 1, 0 } } });
   ExpectChoice(globe, GeometryKind::Surface,
-    "in x and y 40 of 8000 triangles turn the other way; if it is terrain, use planar-xy");
+    "not a height field: seen from above, 40 of 8000 triangles face the other way; if it is "
+    "terrain, use planar-xy");
   const FlipReport report = Survey(globe);
   ASSERT_EQ(1u, report.Defects.size()) << DescribeDefects(report.Defects);
   EXPECT_EQ(40, report.Defects[0].Count);
@@ -310,18 +312,20 @@ TEST(GeometryChoice, TrianglesWithoutAreaAreCountedApart)
   };
   flatten(100, 219);
   ExpectChoice(mesh, GeometryKind::Surface,
-    "in x and y 7 of 1000 triangles turn the other way and 119 have no area; if it is terrain, use "
+    "not a height field: seen from above, 7 of 1000 triangles face the other way and 119 have no "
+    "area; if it is terrain, use "
     "planar-xy");
   const FlipReport report = Survey(mesh);
   ASSERT_EQ(3u, report.Defects.size()) << DescribeDefects(report.Defects); // area, no shared edges
-  EXPECT_EQ("triangles that turn the other way in x and y, and 119 that have no area there, so the "
-            "mesh, nearly a height field, is flipped as a surface; if it is terrain, use planar-xy",
+  EXPECT_EQ(
+    "triangles that face the other way seen from above, and 119 that have no area there, so the "
+    "mesh, nearly a height field, is flipped as a surface; if it is terrain, use planar-xy",
     report.Defects[0].What);
   EXPECT_EQ(7, report.Defects[0].Count);
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2 }), report.Defects[0].FirstIds);
   mesh.Points[2] = 50000.0;
   ExpectChoice(mesh, GeometryKind::PlanarXY,
-    "although 7 of 1000 triangles turn the other way and 119 have no area there, and z");
+    "although 7 of 1000 triangles face the other way and 119 have no area there, and z");
   mesh.Points[2] = 0.0;
   flatten(219, 300);
   EXPECT_EQ(3u, Survey(mesh).Defects.size());
@@ -351,8 +355,8 @@ TEST(GeometryChoice, SteepTerrainWithAFewTrianglesTurnedIsWarnedOf)
 TEST(GeometryChoice, OneTriangleInAThousandMayStray)
 {
   ExpectChoice(MakeScatter(1000, 1), GeometryKind::PlanarXY,
-    "although 1 of 1000 triangles turn the other way there, and 100");
-  ExpectChoice(MakeScatter(999, 1), GeometryKind::Surface, "1 of 999 triangles turn");
+    "although 1 of 1000 triangles face the other way there, and 100");
+  ExpectChoice(MakeScatter(999, 1), GeometryKind::Surface, "1 of 999 triangles face");
   // One more than these: the triangles share no edges.
   EXPECT_EQ(2u, Survey(MakeScatter(999, 1)).Defects.size());
   EXPECT_EQ(2u, Survey(MakeScatter(1000, 10)).Defects.size());
@@ -385,7 +389,8 @@ OwnedMesh<double> MakeStaircase(int count, double turns, bool closed)
 
 TEST(GeometryChoice, StarsThatOverlapMakeASurface)
 {
-  const char* const overlap = "triangles overlap in x and y around 1 point";
+  const char* const overlap =
+    "not a height field: seen from above, triangles overlap around 1 point";
   ExpectChoice(MakeStaircase(24, 2.0, true), GeometryKind::Surface, overlap);
   ExpectChoice(MakeStaircase(24, 3.0, true), GeometryKind::Surface, overlap);
   ExpectChoice(MakeStaircase(24, 1.01, false), GeometryKind::Surface, overlap);
@@ -513,7 +518,7 @@ TEST(GeometryChoice, TurnedTrianglesAreToldOfAtTheEnd)
 TEST(GeometryChoice, NobodyWarnsOfClosedSurfaces)
 {
   const OwnedMesh<double> sphere = MakeBadSphere(60, 30, 33);
-  ExpectChoice(sphere, GeometryKind::Surface, "of 3600 triangles turn the other way");
+  ExpectChoice(sphere, GeometryKind::Surface, "of 3600 triangles face the other way");
   ExpectNoDefects(sphere);
 }
 

@@ -137,7 +137,7 @@ TEST(BadInput, DirtyCellsStayWithOneWarning)
     { "without area", { { 10, 0, 0 }, { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } },
       { { 4, 5, 6 }, { 4, 6, 7 }, { 5, 4, 7 } }, false },
     // Folded back over the other one.
-    { "turns the other way than most", { { 10, 0, 0 }, { 16, 0, 0 }, { 13, 1, 0 }, { 13, 2, 5 } },
+    { "faces the other way than most", { { 10, 0, 0 }, { 16, 0, 0 }, { 13, 1, 0 }, { 13, 2, 5 } },
       { { 4, 5, 6 }, { 5, 4, 7 } }, true } };
   for (const auto& given : cases)
   {
