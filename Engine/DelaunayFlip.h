@@ -32,6 +32,14 @@
 namespace delaunayflip
 {
 
+/// New memory in the host for a result. The system takes longer to provide its pages than storing
+/// the result takes.
+struct ResultMemory
+{
+  void* First;
+  std::int64_t Bytes;
+};
+
 /// A mesh that is being flipped. It is built once from the caller's arrays, then advanced by
 /// iterations, and can be read at any time between them. With BackendKind::Auto, with several
 /// pieces, and if a progress observer stopped the constructor, the caller's arrays must stay
@@ -51,9 +59,12 @@ public:
   /// StopReason is Aborted and the triangles are those of the input; the next Advance builds again.
   /// @param progress is kept: if a GPU fails in a later call, it can stop the CPU from repeating
   /// the run. The report and the triangles are then as above.
+  /// @param expected is announced as by Expect, but its pages are touched from the beginning, while
+  /// the GPU builds the edge mesh. It must stay until the first Advance returns, or until the
+  /// session is destroyed without one.
   /// @throws InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, std::bad_alloc.
-  FlipSession(
-    const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress = {});
+  FlipSession(const TriangleMesh& mesh, const FlipOptions& options,
+    const ProgressObserver& progress = {}, const std::vector<ResultMemory>& expected = {});
 
   /// Opens a session for a mesh in the memory of a GPU, with the same result. FlipOptions::Device
   /// must be -1 or that GPU, and NumberOfPieces 0 or 1. BackendKind::Auto uses the GPU whatever the
@@ -94,8 +105,7 @@ public:
 
   /// Announces memory that a Store function will write after the next Advance, such as a new array
   /// for the result. Its contents are lost, and it must stay until that Advance returns. While a
-  /// GPU flips, CPU threads touch its pages: the system takes longer to provide new ones than
-  /// storing takes.
+  /// GPU flips, CPU threads touch its pages.
   void Expect(void* memory, std::int64_t bytes);
 
   /// What has happened so far. The first call after an Advance that did not finish computes the

@@ -169,20 +169,16 @@ void FlipRun::OpenSession(Start start)
   FlipOptions options = this->Asked.Options;
   // A warm start finds no feature edges of its own: its fixed edges include them.
   options.FeatureAngle = this->IsWarm() ? 180.0 : options.FeatureAngle;
+  this->Room = this->Asked.IsLive ? nullptr : this->Bridge.MakeRoom();
   try
   {
-    this->Session =
-      std::make_unique<FlipSession>(this->GetMesh(this->Begin), options, this->GetProgress());
+    this->Session = std::make_unique<FlipSession>(
+      this->GetMesh(this->Begin), options, this->GetProgress(), ListMemory(this->Room));
   }
   catch (const InvalidMesh&)
   {
     this->Bridge.RequireValidIds(); // its error names the cell, not the triangle
     throw;
-  }
-  this->Room = this->Asked.IsLive ? nullptr : this->Bridge.MakeRoom();
-  if (this->Room)
-  {
-    ExpectTriangles(*this->Session, this->Room);
   }
 }
 

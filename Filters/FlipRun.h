@@ -51,8 +51,8 @@ public:
   /// @returns false when the observer stopped it; then there are no angles.
   virtual bool Store(vtkPolyData* output) const = 0;
 
-  std::unique_ptr<FlipSession> Session;
   vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
+  std::unique_ptr<FlipSession> Session; ///< May still touch the room when it is destroyed.
   std::string Warning; ///< What the last warning said.
 
 protected:

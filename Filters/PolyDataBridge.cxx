@@ -465,12 +465,18 @@ vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide
   return room;
 }
 
-void ExpectTriangles(FlipSession& session, vtkCellArray* room)
+std::vector<ResultMemory> ListMemory(vtkCellArray* room)
 {
-  for (vtkDataArray* array : { room->GetOffsetsArray(), room->GetConnectivityArray() })
+  std::vector<ResultMemory> memory;
+  if (room)
   {
-    session.Expect(array->GetVoidPointer(0), array->GetNumberOfValues() * array->GetDataTypeSize());
+    for (vtkDataArray* array : { room->GetOffsetsArray(), room->GetConnectivityArray() })
+    {
+      const vtkIdType bytes = array->GetNumberOfValues() * array->GetDataTypeSize();
+      memory.push_back({ array->GetVoidPointer(0), bytes });
+    }
   }
+  return memory;
 }
 
 void FillTriangles(const FlipSession& session, vtkCellArray* room)

@@ -4,6 +4,7 @@
 #define PolyDataBridge_h
 
 #include "ConstraintEdges.h"
+#include "DelaunayFlip.h"
 #include "EngineExport.h"
 #include "FlipReport.h"
 #include "TriangleMesh.h"
@@ -25,7 +26,6 @@
 namespace delaunayflip
 {
 
-class FlipSession;
 class UpdatePlan;
 
 /// How a mesh is read.
@@ -182,8 +182,8 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 /// @param areWide whether ids have 64 bits, even where 32 would do.
 vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide);
 
-/// Tells the session that its triangles will be written to such cells.
-void ExpectTriangles(FlipSession& session, vtkCellArray* room);
+/// The memory of such cells; none for null.
+std::vector<ResultMemory> ListMemory(vtkCellArray* room);
 
 /// Writes the session's triangles to such cells.
 void FillTriangles(const FlipSession& session, vtkCellArray* room);

@@ -99,7 +99,10 @@ public:
     if (!request.IsLive)
     {
       this->Room = this->MakeRoom();
-      ExpectTriangles(*this->Session, this->Room);
+      for (const ResultMemory& memory : ListMemory(this->Room))
+      {
+        this->Session->Expect(memory.First, memory.Bytes);
+      }
     }
   }
 

@@ -12,9 +12,9 @@
 namespace delaunayflip
 {
 
-FlipSession::FlipSession(
-  const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Own(std::make_unique<Work>(CallerMesh(mesh), options, progress))
+FlipSession::FlipSession(const TriangleMesh& mesh, const FlipOptions& options,
+  const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
+  : Own(std::make_unique<Work>(CallerMesh(mesh), options, progress, expected))
 {
 }
 
@@ -48,7 +48,8 @@ try
   {
     work.Build();
   }
-  const std::future<void> touching = work.TouchExpected();
+  work.TouchExpected();
+  const std::vector<std::future<void>> touching = std::exchange(work.Touching, {});
   FlipReport& report = work.Report;
   const StopWatch watch;
   const double secondsBefore = report.FlipSeconds;

@@ -8,6 +8,7 @@
 #include "ThreadBackend.h"
 
 #include <algorithm>
+#include <thread>
 
 namespace delaunayflip
 {
@@ -102,11 +103,12 @@ int CallerMesh::ChooseDevice(int requested) const
 }
 
 //------------------------------------------------------------------------------
-FlipSession::Work::Work(
-  const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+FlipSession::Work::Work(const CallerMesh& mesh, const FlipOptions& options,
+  const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
   : Mesh(mesh),
     Options(options),
-    Observer(progress)
+    Observer(progress),
+    Expected(expected)
 {
   if (mesh.GetOnDevice() && options.NumberOfPieces > 1)
   {
@@ -145,28 +147,32 @@ FlipSession::Work::Work(
 }
 
 //------------------------------------------------------------------------------
-std::future<void> FlipSession::Work::TouchExpected()
+void FlipSession::Work::TouchExpected()
 {
-  std::vector<MemoryBlock> expected = std::exchange(this->Expected, {});
+  std::vector<ResultMemory> expected = std::exchange(this->Expected, {});
   if (expected.empty() || !this->OnCuda)
   {
-    return {};
+    return;
   }
-  const auto touch = [blocks = std::move(expected), threads = this->Options.NumberOfThreads]()
+  // Measured on an H100 with 16 cores: with more threads the copies to the GPU wait.
+  constexpr int Most = 4;
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int asked = this->Options.NumberOfThreads;
+  const int threads = std::min({ Most, cores, asked == 0 ? cores : asked });
+  const auto touch = [blocks = std::move(expected), threads]()
   {
     const ThreadBackend backend(threads);
-    for (const MemoryBlock& block : blocks)
+    for (const ResultMemory& block : blocks)
     {
       backend.TouchPages(block.First, block.Bytes);
     }
   };
   try
   {
-    return std::async(std::launch::async, touch);
+    this->Touching.push_back(std::async(std::launch::async, touch));
   }
   catch (const std::exception&) // there is no thread left
   {
-    return {};
   }
 }
 
@@ -284,6 +290,7 @@ std::unique_ptr<LoadedMesh> FlipSession::Work::LoadOn(BackendKind backend)
   const DeviceMesh* device = this->Start->GetOnDevice();
   if (this->OnCuda)
   {
+    this->TouchExpected();
     return device ? LoadOnCuda(*device, options, this->Building)
                   : LoadOnCuda(this->Start->GetOnHost(), options, this->Building);
   }

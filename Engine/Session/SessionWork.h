@@ -81,13 +81,6 @@ struct DeviceArray
   DeviceStream Stream;
 };
 
-/// Memory of the caller.
-struct MemoryBlock
-{
-  void* First;
-  std::int64_t Bytes;
-};
-
 /// Gives a variable another value for as long as this lives.
 template <typename Value>
 class TemporaryValue
@@ -202,7 +195,8 @@ private:
 /// If the GPU fails, at any time, the CPU repeats what was done, with the same bits, and continues.
 struct FlipSession::Work
 {
-  Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
+  Work(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress,
+    const std::vector<ResultMemory>& expected = {});
   Work(const PointInput& points, const PointOptions& options, const ProgressObserver& progress);
 
   /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
@@ -240,9 +234,8 @@ struct FlipSession::Work
     return this->Loaded != nullptr;
   }
 
-  /// Begins to touch the pages of the memory that is expected, if a GPU flips. The result's
-  /// destructor waits for the end.
-  std::future<void> TouchExpected();
+  /// Begins to touch the pages of the memory that is expected, if a GPU flips.
+  void TouchExpected();
 
   /// Stores `width` values for every triangle by store(values), through an array of its own if
   /// triangles are removed, or if nothing may be written until all are known.
@@ -338,7 +331,8 @@ struct FlipSession::Work
   std::unique_ptr<LoadedMesh> Loaded; ///< None if the build was aborted.
   bool OnCuda = false; ///< Whether a GPU has it.
   std::string Fallback; ///< Why the CPU replaced a GPU that exists; else empty.
-  std::vector<MemoryBlock> Expected; ///< What FlipSession::Expect has announced.
+  std::vector<ResultMemory> Expected; ///< Announced memory that nobody touches yet.
+  std::vector<std::future<void>> Touching; ///< Their destructors wait for the end.
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last detection.
   bool HasDetected = false; ///< Whether the first detection has been made.

@@ -77,13 +77,20 @@ TEST_F(FallbackTest, AnyCallMayFail)
 TEST_F(FallbackTest, PagesOfExpectedMemoryAreTouchedOnceAndOnlyForAGpu)
 {
   constexpr std::int64_t Page = 4096, Pages = 1000, Bytes = Page * Pages + 1;
+  std::vector<char> duringBuild(Bytes, 'x');
+  {
+    const FlipSession neverAdvanced(
+      this->Mesh.View(), OnBackend(BackendKind::CUDA), {}, { { duringBuild.data(), Bytes } });
+  }
+  EXPECT_EQ(Pages + 1, std::count(duringBuild.begin(), duringBuild.end(), 0));
   for (const BackendKind backend : { BackendKind::CUDA, BackendKind::Threads })
   {
-    FlipSession session(this->Mesh.View(), OnBackend(backend));
-    std::vector<char> memory(Bytes, 'x');
-    session.Expect(memory.data(), Bytes);
+    std::vector<char> memory(Bytes, 'x'), announcedLater(Bytes, 'x');
+    FlipSession session(this->Mesh.View(), OnBackend(backend), {}, { { memory.data(), Bytes } });
+    session.Expect(announcedLater.data(), Bytes);
     session.Advance(1);
     const std::int64_t expected = backend == BackendKind::CUDA ? Pages + 1 : 0;
+    EXPECT_EQ(expected, std::count(announcedLater.begin(), announcedLater.end(), 0));
     EXPECT_EQ(expected, std::count(memory.begin(), memory.end(), 0));
     EXPECT_EQ(expected > 0, memory.back() == 0);
     std::fill(memory.begin(), memory.end(), 'x');
