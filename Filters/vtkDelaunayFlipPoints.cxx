@@ -22,6 +22,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 using namespace delaunayflip;
 
@@ -55,6 +57,27 @@ vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points)
   return rotation;
 }
 
+/// The finite heights of a range of points. Low exceeds High if there are none.
+struct HeightRange
+{
+  double Low = INFINITY, High = -INFINITY;
+
+  HeightRange(const PointArray& points, vtkIdType begin, vtkIdType end)
+  {
+    for (vtkIdType i = begin; i < end; ++i)
+    {
+      const double height = points.Get(i, 2);
+      if (std::isfinite(height))
+      {
+        this->Low = std::min(this->Low, height);
+        this->High = std::max(this->High, height);
+      }
+    }
+  }
+
+  bool IsZero() const { return this->Low == 0.0 && this->High == 0.0; }
+};
+
 /// What decides the triangles of a block.
 struct CloudRequest
 {
@@ -85,6 +108,7 @@ public:
   {
     this->Cloud->ShallowCopy(this->Given);
     this->AddSegments(request.Segments);
+    this->FindFlatPoints(request.FirstHole);
     this->Input.Points = this->Project(request);
     this->Input.Segments = this->Segments.data();
     this->Input.NumberOfSegments = static_cast<std::int64_t>(this->Rings.size());
@@ -119,6 +143,7 @@ public:
   {
     FlipReport report = this->Session->GetReport();
     report.Points += static_cast<std::int64_t>(this->Session->GetAddedPoints().size());
+    AddDefect(this->DescribeFlatPoints(), report.Defects);
     const auto malformed = ListMalformedArrays(this->Given, !this->AddsPoints(), true);
     report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
     return report;
@@ -165,6 +190,7 @@ private:
     const vtkIdType count = given->GetNumberOfPoints();
     this->AddCells(
       given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, false);
+    this->FirstOther = this->Segments.size();
     if (!others)
     {
       return;
@@ -240,6 +266,64 @@ private:
     return ids;
   }
 
+  /// Finds the added points of lines, outlines or holes, each of the three by itself, that have
+  /// z = 0 throughout, while the given points have other heights.
+  void FindFlatPoints(vtkIdType firstHole)
+  {
+    std::vector<double> storage;
+    const PointArray points = ViewPoints(this->Cloud, storage);
+    const vtkIdType given = this->Given->GetNumberOfPoints();
+    const HeightRange heights(points, 0, given);
+    if (points.Count == given || heights.Low > heights.High || heights.IsZero())
+    {
+      return;
+    }
+    const auto getKind = [&](std::size_t end)
+    {
+      const std::int32_t ring = this->Rings[end / 2];
+      const bool isHole = firstHole >= 0 && ring >= firstHole;
+      return ring < 0 ? 0 : (isHole ? 2 : 1);
+    };
+    bool isFlat[3] = { true, true, true };
+    for (std::size_t end = this->FirstOther; end < this->Segments.size(); ++end)
+    {
+      isFlat[getKind(end)] &= points.Get(this->Segments[end], 2) == 0.0;
+    }
+    std::vector<bool> isListed(points.Count, false);
+    for (std::size_t end = this->FirstOther; end < this->Segments.size(); ++end)
+    {
+      const std::int64_t point = this->Segments[end];
+      if (point >= given && isFlat[getKind(end)] && !isListed[point])
+      {
+        isListed[point] = true;
+        this->FlatPoints.push_back(point);
+      }
+    }
+  }
+
+  /// Counts those of them that triangles use.
+  Defect DescribeFlatPoints() const
+  {
+    if (this->FlatPoints.empty() || this->Session->GetReport().Triangles == 0)
+    {
+      return {};
+    }
+    std::vector<std::int64_t> used(this->Cloud->GetNumberOfPoints());
+    this->Session->StoreUsedPoints(used.data());
+    const auto count = std::count_if(this->FlatPoints.begin(), this->FlatPoints.end(),
+      [&](std::int64_t point) { return used[point] == point; });
+    std::vector<double> storage;
+    const PointArray points = ViewPoints(this->Given, storage);
+    const HeightRange heights(points, 0, points.Count);
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << "points of segments without heights (z = 0 throughout; the given points have z = "
+         << heights.Low << " to " << heights.High
+         << "): the mesh goes to z = 0 there; if it should not, give them heights, for example "
+            "those of the nearest points";
+    return { text.str(), count, {}, DefectIds::Points };
+  }
+
   /// A view of the points, or of a projection of them.
   PlaneArray Project(const CloudRequest& request)
   {
@@ -305,6 +389,8 @@ private:
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
   std::vector<std::int64_t> Segments; ///< Pairs of ids.
   std::vector<std::int32_t> Rings; ///< One number per segment.
+  std::size_t FirstOther = 0; ///< Of Segments, where those of the second input begin.
+  std::vector<std::int64_t> FlatPoints; ///< See FindFlatPoints.
   PointInput Input; ///< Views of these.
 };
 

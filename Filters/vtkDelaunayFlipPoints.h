@@ -47,6 +47,10 @@
  * the update fails, and the error names the polygon: the number of its ring is its cell id. The
  * update also fails if a polygon has no area.
  *
+ * The heights of added points are those of the second input. If its lines, outlines or holes have
+ * z = 0 throughout, and the points of the first input do not, a warning counts the added points:
+ * the mesh goes to z = 0 there.
+ *
  * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
  * nothing is removed.
  *

@@ -3,6 +3,7 @@
 """The Delaunay triangulation of points."""
 import dataclasses
 import functools
+import warnings
 from typing import Optional, Sequence, Union
 
 import numpy
@@ -66,7 +67,7 @@ def triangulate(
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
             points is split there; one that crosses an earlier one is refused and reported.
         outline: A ring, or a list of rings: what is outside of all is removed. A ring is a list of
-            point ids, or of coordinates, which become points: (k, 2), or (k, 3) of floats.
+            point ids, or of coordinates, which become points: (k, 2), where z = 0, or (k, 3) of floats.
         holes: A list of rings, whose inside is removed; or (k, 2) coordinates of places in holes:
             what can be reached from there without crossing a segment is removed.
         alpha: Triangles with a larger circumradius are removed, unless they have a segment as an
@@ -106,7 +107,10 @@ def triangulate(
     options = make_options(triangulate, backend=backend, threads=threads,
                            device=device, maximum_iterations=maximum_iterations)
     with run("open_points", struct, options, given.make_room, progress, on_iteration) as (handle, room):
-        return given.store(handle, room)
+        result = given.store(handle, room)
+    if given is not points and given.trouble:
+        warnings.warn(given.trouble, stacklevel=2)
+    return result
 
 
 class Input:
@@ -118,12 +122,14 @@ class Input:
         self.segments = [_arrays.as_ids("segments", [] if segments is None else segments, 2)]
         self.rings = [numpy.full(len(self.segments[0]), -1, dtype=numpy.int32)]
         self.new_points, self.ends = [], []
+        self.flat_rings, self.trouble = [], ""
         are_places = _is_list_of_places(holes)
         for ring in _list_rings(outline, "outline"):
             self._add_ring(ring, points)
         self.struct.first_hole = len(self.rings) - 1
         for ring in _list_rings(None if are_places else holes, "holes"):
             self._add_ring(ring, points)
+        given = len(points)
         if self.new_points:
             points = numpy.concatenate([_arrays.to_host(points), *self.new_points])
         self.points = points
@@ -140,6 +146,7 @@ class Input:
         struct.rings = address(self.all_rings) if len(self.rings) > 1 else None
         struct.hole_seeds, struct.number_of_hole_seeds = address(self.seeds), len(self.seeds)
         struct.outline = _ANY_RING
+        self.find_flat_points(given, self.all_segments, self.all_rings)
 
     def _add_ring(self, ring, points):
         ring = _arrays.as_array("a ring", ring)
@@ -150,12 +157,43 @@ class Input:
             places[:, :columns] = ring[:, :columns]
             ids = len(points) + sum(map(len, self.new_points)) + numpy.arange(len(ring))
             self.new_points.append(places)
+            if ring.shape[1] == 2:
+                self.flat_rings.append(ids)
         else:
             ids = _arrays.as_ids("a ring", numpy.stack([ring, ring], axis=1), 2)[:, 0]
         if len(ids) > 1 and ids[0] == ids[-1]:
             ids = ids[:-1]
         self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
         self.rings.append(numpy.full(len(ids), len(self.rings) - 1, dtype=numpy.int32))
+
+    def find_flat_points(self, given, segments, rings):
+        """Finds the points behind the `given` ones that rings without z have, or that lines, outlines
+        or holes have, each of the three by itself, if z = 0 throughout; where other heights are given."""
+        self.flat_points = numpy.empty(0, dtype=numpy.int64)
+        if len(self.points) == given or self.points.shape[1] < 3:
+            return
+        heights = self.points[:, 2]
+        self.heights = heights[:given][numpy.isfinite(heights[:given])]
+        if self.heights.any():
+            kinds = numpy.where(rings < 0, -1, rings >= self.struct.first_hole)
+            flat = [kind for kind in (-1, 0, 1) if not heights[segments[kinds == kind]].any()]
+            ends = segments[numpy.isin(kinds, flat)].ravel()
+            ids = numpy.unique(numpy.concatenate([ends, *self.flat_rings]))
+            self.flat_points = ids[ids >= given].astype(numpy.int64)
+
+    def _report_flat_points(self, report, used):
+        """Adds those of them that triangles use to the defects."""
+        are_used = True if used is None else used[self.flat_points] == self.flat_points
+        count = numpy.count_nonzero(numpy.broadcast_to(are_used, self.flat_points.shape))
+        if count == 0 or report.number_of_triangles == 0:
+            return report
+        low, high = float(self.heights.min()), float(self.heights.max())
+        self.trouble = (
+            f"{count} {'point' if count == 1 else 'points'} of segments without heights (z = 0 "
+            f"throughout; the given points have z = {low:g} to {high:g}): the mesh goes to z = 0 "
+            "there; if it should not, give them heights, for example those of the nearest points")
+        defects = "; ".join(filter(None, (report.defects, self.trouble)))
+        return dataclasses.replace(report, defects=defects)
 
     def make_room(self, report):
         """Arrays for the triangles that a report counts and for their neighbors."""
@@ -174,6 +212,7 @@ class Input:
         _library.call("store_segment_edges", handle, address(edges))
         used = self._find_used_points(handle, report)
         points = self.points
+        report = self._report_flat_points(report, used)
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
             report = dataclasses.replace(report, number_of_points=len(points))

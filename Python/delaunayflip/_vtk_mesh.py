@@ -314,6 +314,9 @@ class Cloud(Input):
         self.struct.rings, self.struct.outline = _arrays.address(self._numbers), OUTLINES.index(outline)
         last = numpy.iinfo(numpy.int32).max
         self.struct.first_hole = last if first_hole < 0 else min(first_hole, last)
+        own = len(self._pairs[0])
+        self.find_flat_points(
+            data.GetNumberOfPoints(), self.all_segments[own:], self._numbers[own:])
 
     def _add_cells(self, cells, ids, are_rings=False):
         cells.require_points(len(ids))

@@ -260,6 +260,14 @@ class Segments(PointTest):
             self.assertEqual(area_of(mesh), area, options)
             self.assertRegex(result.stdout, r"removed +\d+ triangles outside, 0 too large")
 
+    def test_outline_without_heights(self):
+        self.write("in.xyz", text_of([(x, y, 100 + x) for x, y, _ in grid(5)]))
+        outline = self.rings("outline.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0)])
+        line = make_mesh([(1, 1, 101), (2.5, 1.5, 101)], [], [(0, 1)])
+        result = self.triangulate("in.xyz", "--outline", outline, "--constraints",
+                                  self.write_mesh(line, "line.vtk"))[1]
+        self.assertIn("warning: 3 points of segments without heights", result.stderr)
+
     def test_rings_that_are_none(self):
         for mesh, words in (
             (make_mesh(PLACES, [], [(0, 1, 2, 0), (0, 1, 2)]), ["line 1", "not end where it begins"]),

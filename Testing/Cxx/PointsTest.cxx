@@ -319,6 +319,10 @@ TEST(FromPoints, Crossings)
 TEST(FromPoints, OutlinesAndHoles)
 {
   Points points = MakeCloud(400);
+  for (auto& point : points)
+  {
+    point[2] = 0.0; // as the rings have
+  }
   const Points outline = { { 1, 1, 0 }, { 9, 1, 0 }, { 9, 9, 0 }, { 1, 9, 0 } };
   const Points hole = { { 4, 4, 0 }, { 6, 4, 0 }, { 6, 6, 0 }, { 4, 6, 0 } };
   Points both = outline;

@@ -16,6 +16,7 @@ import threading
 import types
 import unittest
 import unittest.mock
+import warnings
 import weakref
 
 import numpy
@@ -131,6 +132,20 @@ class Triangulate(unittest.TestCase):
                 ("outline", numpy.array(square, complex), TypeError, "a ring must be real")):
             with self.assertRaisesRegex(error, text):
                 delaunayflip.triangulate(points, **{name: values})
+
+    def test_rings_without_heights(self):
+        points = numpy.random.default_rng(5).random((100, 3)) + [0, 0, 7]
+        square, hole = [[.1, .1], [.9, .1], [.9, .9], [.1, .9]], [[.3, .3, 7.], [.3, .5, 7.], [.5, .5, 7.]]
+        for rings, count in (({"outline": square, "holes": [hole]}, 4), ({"holes": [square, hole]}, 4),
+                             ({"holes": [[[x, y, 0.] for x, y in square]]}, 4),
+                             ({"holes": [hole, [[.7, .7, 0.], [.8, .7, 0.], [.8, .8, 0.]]]}, 0)):
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                result = delaunayflip.triangulate(points, **rings)
+                delaunayflip.triangulate(points[:, :2], **rings)
+            text = f"{count} points of segments without heights (z = 0 throughout; the given points"
+            self.assertEqual([str(one.message)[:len(text)] for one in told], [text] * (count > 0))
+            self.assertEqual(text in result.report.defects, count > 0)
 
     def test_rings_of_any_size(self):
         places = numpy.array([[0, 0], [1, 0], [1, 1], [0, 1], [.5, .5]])

@@ -436,6 +436,34 @@ class SamePoints(Pair, unittest.TestCase):
             self.assertEqual([len(mesh[3][0]) > 0 for mesh in told["meshes"]],
                              [number != empty for number in range(2)])
 
+    def test_segments_without_heights(self):
+        def make(heights):
+            """A line, an outline that shares a place with the cloud, and a hole at these heights."""
+            places = [(3.5, 3.5), (9.5, 9.5), (0.5, 0.5), (20.5, 0.5), (20.5, 20.5), (12.5, 12.5),
+                      (15.5, 12.5), (15.5, 15.5), (1, 1)]
+            cells = [(2, 3, 4), (5, 6, 7)]
+            mesh = make_mesh([(*place, heights[(0, 0, 1, 1, 1, 2, 2, 2, 0)[i]])
+                              for i, place in enumerate(places)], cells)
+            mesh.SetLines(make_cells([(0, 1, 8)]))
+            return mesh
+
+        def prepare(points):
+            points.SetSegmentsData(segments)
+            points.SetFirstHole(2)
+
+        cloud = make_mesh([(x, y, 5.25 + x) for x in range(30) for y in range(30)], [])
+        for kind in (numpy.float32, numpy.float64):
+            cloud.GetPoints().SetData(numpy_to_vtk(
+                vtk_to_numpy(cloud.GetPoints().GetData()).astype(kind), deep=True))
+            for heights, count in (((9, 9, 9), 0), ((0, 9, 9), 2), ((9, 0, 9), 3), ((0, 9, 0), 5)):
+                segments = make(heights)
+                told = self.expect_same(cloud, prepare)
+                text = f"{count} points of segments without heights (z = 0 throughout; the given points " \
+                    "have z = 5.25 to 34.25)"
+                self.assertEqual(text in " ".join(told["warnings"]), count > 0)
+        vtk_to_numpy(cloud.GetPoints().GetData())[:, 2] = 0
+        self.assertEqual(self.expect_same(cloud, prepare)["warnings"], told["warnings"][:0])
+
     def test_lines_of_the_input(self):
         cloud = make_cloud(40)
         cloud.SetLines(make_cells([(0, 9, 3), (5, 6), (7, 8)]))
