@@ -99,13 +99,12 @@ enum class PathResult
   IsBarred ///< By a triangle without area.
 };
 
-/// The way that a constraint takes through a mesh, vertex by vertex: it begins at one, and wherever
-/// it meets another, a segment of it ends.
+/// The path of a constraint through a mesh. It begins at a vertex, and a segment of it ends at each
+/// vertex that it meets.
 ///
-/// Each flip turns two triangles into two that turn to the same side, and makes no edge that
-/// exists. So whatever the mesh, it stays what it was; and where a constraint cannot be inserted,
-/// flips made for it do no harm. Several threads may flip at a time for paths that have no triangle
-/// in common.
+/// A flip replaces two triangles by two that turn to the same side, and makes no edge that exists.
+/// So any mesh stays as valid as it was, and flips for a constraint that cannot be inserted do no
+/// harm. Several threads may flip at a time for paths that have no triangle in common.
 struct ConstraintPath
 {
   const PlaneMesh& Mesh;
@@ -120,9 +119,9 @@ struct ConstraintPath
   {
     PathResult Result;
     VertexId Start = 0, End = 0;
-    /// A side of the edge that it is; or if it crosses triangles, the first edge of their left or
-    /// right rim, depending on how they turn. That is a half-edge of the first triangle, and runs
-    /// towards the segment's start, as all of a rim do.
+    /// If the segment is an edge, one of its sides. If it crosses triangles, the first edge of
+    /// their left or right rim, depending on how they turn: a half-edge of the first triangle. It
+    /// runs towards the segment's start, as all half-edges of a rim do.
     HalfEdgeId Side = NoHalfEdge;
     bool IsEdge = false;
     bool IsForward = false; ///< Whether Side is that of an edge and runs along the path.
@@ -147,7 +146,7 @@ struct ConstraintPath
     return PathResult::Found;
   }
 
-  /// Makes a segment one edge, of which `Side` is then a side.
+  /// Makes a segment one edge. `Side` is then one of its sides.
   /// @returns false where triangles overlap so that it cannot.
   DELAUNAYFLIP_HOST_DEVICE bool Flip(Segment& segment)
   {
@@ -212,7 +211,7 @@ private:
     int Side = 0;
   };
 
-  /// To which side of the constraint a vertex lies; 0: on its line.
+  /// The side of the constraint on which a vertex lies; 0: on its line.
   DELAUNAYFLIP_HOST_DEVICE int FindSide(VertexId vertex) const
   {
     return vertex == this->From || vertex == this->To
@@ -382,7 +381,7 @@ private:
     return this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
   }
 
-  /// The one that starts where another one ends.
+  /// The half-edge of the rim that starts where another one ends.
   DELAUNAYFLIP_HOST_DEVICE HalfEdgeId FindPreviousOfRim(HalfEdgeId side, int turn) const
   {
     CornerId corner = PlaneMesh::Previous(this->Mesh.Edges.CornerOfHalfEdge[side]);

@@ -63,7 +63,7 @@ struct EdgeClaims
     }
   }
 
-  /// Whether an edge that was claimed is held by this priority.
+  /// Whether this priority holds the claim on an edge that was claimed.
   DELAUNAYFLIP_HOST_DEVICE bool Holds(VertexId a, VertexId b, std::uint32_t priority) const
   {
     const std::uint64_t word = MakeWord(a, b, priority);

@@ -54,8 +54,7 @@ struct AdvancePlan
 ///    free those whose obstacle has gone.
 /// 3. Count the bad and the blocked edges. None bad: the loop has converged.
 /// 4. Choose an independent set of the bad edges by their priorities.
-/// 5. Claim and confirm, only with a guard: of two winners that would make the same edge, one
-/// waits.
+/// 5. Claim and confirm, only with a guard: one of two winners that would make the same edge waits.
 /// 6. Flip the winners. Their outer edges are the candidates of the next iteration.
 ///
 /// Passes 1 to 3 are a detection. The loop keeps what the last one found, so an iteration begins

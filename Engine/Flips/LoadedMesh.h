@@ -96,8 +96,8 @@ public:
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
   virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
 
-  /// The triangles that flips have turned over in x and y, on a surface that was a height field or
-  /// nearly one; else none.
+  /// Finds the triangles that flips have turned over in x and y, on a surface that was a height
+  /// field or nearly one. On other meshes there are none.
   virtual Defect FindTurnedTriangles() const = 0;
 
   /// Returns what KeepsWorstSliver (SmallestAngle.h) does.

@@ -102,8 +102,8 @@ struct SegmentRound
     item.State = result == PathResult::Found ? SegmentItem::Waiting : SegmentItem::Refused;
   }
 
-  /// Stores the path of a segment. Where it runs along an edge, an earlier segment in one of the
-  /// triangles there may cross it, and beats it. One that comes later and crosses it has both
+  /// Stores the path of a segment. Where the path runs along an edge, an earlier segment in one of
+  /// the two triangles may cross it, and then beats it. A later segment that crosses it has both
   /// triangles or is beaten.
   DELAUNAYFLIP_HOST_DEVICE void Decide(SegmentItem& item, std::uint32_t claim) const
   {
@@ -142,7 +142,8 @@ struct SegmentRound
     }
   }
 
-  /// For sure only when all have decided. Prefetches ask earlier, while others are being beaten.
+  /// The answer is final only when all have decided. Prefetches ask earlier, while others are being
+  /// beaten.
   DELAUNAYFLIP_HOST_DEVICE bool IsWinner(const SegmentItem& item) const
   {
     return item.State == SegmentItem::Waiting && AtomicLoad(&item.Beaten) != this->Number;
@@ -270,9 +271,9 @@ struct SegmentStep
 /// Inserts segments into a triangulation of points, many at a time, as if each were inserted after
 /// those before it.
 ///
-/// In every round those flip that no earlier one beats. Two segments that cross claim a common
-/// triangle, so the later one waits until it finds the earlier one. When few can flip at a time,
-/// threads insert the others one by one.
+/// In every round, the segments that no earlier one beats are inserted. Two segments that cross
+/// claim a common triangle, so the later one waits until it finds the earlier one. When few can
+/// flip at a time, threads insert the others one by one.
 template <typename Backend>
 struct SegmentInsertion
 {
@@ -367,7 +368,7 @@ struct SegmentInsertion
 
   void RunRounds(std::int64_t size)
   {
-    // Near segments one after the other: what they visit is near, too.
+    // Segments near each other are neighbours in the list, because what they visit is near, too.
     const SegmentItem* items = this->Items.Data();
     const auto places = std::max<std::uint64_t>(1, this->Corners.Size());
     Array<std::uint32_t> all = this->Device.template SortIndices<SortKeyBits>(size,

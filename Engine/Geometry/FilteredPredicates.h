@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// Whether a number is neither NaN nor infinite: only then its difference with itself is 0.
+/// Whether a number is neither NaN nor infinite. Only then is its difference with itself 0.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(double number) { return number - number == 0.0; }
 
 struct Vector3

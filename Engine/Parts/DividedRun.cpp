@@ -31,7 +31,7 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 /// About the share of the time that passes before the first region.
 constexpr double PartsShare = 0.9;
 
-/// On surfaces, where nothing proves that flips end, so many regions are flipped at most.
+/// On surfaces, where nothing proves that flips end, at most this many regions are flipped.
 constexpr std::int64_t MostRegions = 1000;
 
 ConstraintInsertion InsertConstraints(
@@ -355,7 +355,7 @@ private:
     this->Report.GeometryReason = this->Survey.GeometryReason;
     this->Report.Rounds = 1;
     this->Report.StopReason = StopReasonKind::Converged;
-    // The seconds of all parts that have the same GPU; of several GPUs the largest.
+    // The largest sum of the seconds of the parts on one GPU.
     const std::size_t devices = std::max<std::size_t>(1, this->Options.Devices.size());
     std::vector<double> build(devices), flip(devices);
     for (std::size_t number = 0; number < this->Reports.size(); ++number)

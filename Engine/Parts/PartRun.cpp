@@ -28,8 +28,8 @@ namespace
 /// The share of the time until the first test of edges between ranks, about.
 constexpr double FirstShare = 0.8;
 
-/// In the plane rounds end by themselves. On surfaces, where nothing proves that flips end, so many
-/// are made at most.
+/// In the plane rounds end by themselves. On surfaces, where nothing proves that flips end, at most
+/// this many are made.
 constexpr std::int64_t MostRounds = 1000;
 
 /// Nothing proves there that the iterations of a round end. So a round makes at most this many more
@@ -99,8 +99,8 @@ std::vector<WaitingFlip> FindWaiting(
   return waiting;
 }
 
-/// The edges that may be made, and by the flip of which edge: of those that can flip now, or else
-/// of the others, the first that asked. All ranks come to the same answers.
+/// The edges that may be made, and by the flip of which edge. The first that asked may flip, among
+/// those that can flip now if there are any. All ranks come to the same answers.
 PairMap<PointPair> GrantFlips(
   const PartMesh& mesh, const std::vector<FlipQuestion>& own, PieceGroup& group)
 {

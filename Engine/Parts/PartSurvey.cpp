@@ -74,7 +74,7 @@ public:
         }
         for (int slot = 0; slot < 3; ++slot)
         {
-          // Around a closed fan every neighbour is the next one once, and once the previous one.
+          // Around a closed fan every neighbour is once the next one and once the previous one.
           __atomic_fetch_add(
             &this->Fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
           AtomicStore<unsigned char>(&this->Used[ids[slot]], 1);

@@ -224,8 +224,8 @@ private:
     return result;
   }
 
-  /// Flips a triangle without area away, and before it others on which it leans with its long side:
-  /// the next one's is longer, so that there is a last one.
+  /// Flips a triangle without area away. If another one lies on its long side, that one goes first;
+  /// its own long side is longer, so there is a last one.
   bool RemoveBar(ConstraintPath& path) const
   {
     std::vector<EdgeId> sides;

@@ -55,7 +55,7 @@ public:
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer);
 
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
-  /// The numbers of the constraints that were no edges, ascending; of equal ones the first.
+  /// The numbers of the constraints that were no edges, ascending; only the first of equal ones.
   const std::vector<std::int64_t>& GetTried() const { return this->Tried; }
   /// Those of them that are not inserted, in the caller's order.
   const std::vector<RefusedConstraint>& GetRefused() const { return this->Refused; }

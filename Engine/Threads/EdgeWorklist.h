@@ -132,7 +132,7 @@ public:
       });
   }
 
-  /// Flips the edges of the lists; of those with claims, the ones that hold them.
+  /// Flips the edges of the lists. Edges with claims flip only if they hold them.
   /// @returns the step's counts.
   template <typename Step>
   StepCounts Flip(const ThreadBackend& backend, const Step& step)

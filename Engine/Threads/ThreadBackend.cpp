@@ -63,9 +63,9 @@ int CountStartable(int most)
 /// The largest number of threads that were started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
-/// oneTBB ends the process where the system refuses it a thread, so that is tried before, with
-/// twice as many: there must be memory left for oneTBB itself and for the mesh. oneTBB 2022 waits
-/// for ever where memory fails meanwhile; one thread does without oneTBB.
+/// oneTBB ends the process if the system refuses it a thread. So threads are tried before, twice as
+/// many, because oneTBB itself and the mesh need memory too. oneTBB 2022 waits for ever if memory
+/// fails meanwhile; one thread does without oneTBB.
 int ResolveThreads(int wanted)
 {
   // The system reads a file for this, which would take a tenth of the time of a few points.

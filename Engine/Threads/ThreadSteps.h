@@ -142,7 +142,7 @@ private:
   }
 };
 
-/// Passes 4 and 5 with a guard: the same, and winners claim the edge that they would make
+/// Passes 4 and 5 with a guard: chooses likewise, and winners claim the edge that they would make
 /// (EdgeGuard.h).
 struct ChooseAndClaimStep : ChooseStep
 {
@@ -217,7 +217,7 @@ private:
   }
 };
 
-/// Passes 5 and 6 with a guard: of the winners with the same new edge only the holder of the claim
+/// Passes 5 and 6 with a guard: if winners have the same new edge, only the holder of the claim
 /// flips. The others wait, and stay bad.
 struct ConfirmAndFlipStep : FlipStep
 {
