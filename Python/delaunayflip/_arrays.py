@@ -228,7 +228,7 @@ def as_plane(points, name="points"):
 
 
 def as_points(points):
-    """The same of shape (n, 3): (n, 2) gets z = 0."""
+    """Points as an array of shape (n, 3): (n, 2) gets z = 0."""
     points = as_plane(points)
     if points.shape[1] == 3:
         return points

@@ -145,7 +145,7 @@ def make(kind):
 
 
 def call(name, *arguments):
-    """The same as run, but raises the exception that belongs to the status that is returned."""
+    """Calls run, and raises the exception that belongs to the status that it returns."""
     status = run(name, *arguments)
     if status == 0:
         return

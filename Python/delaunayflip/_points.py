@@ -30,7 +30,7 @@ class Triangulation:
     neighbors: Array
     #: (k, 2) int64: the edges that segments have become, in their order and direction, each once.
     segments: Array
-    iterations: Array  #: Of the flips, structured; see Session.iterations.
+    iterations: Array  #: A row per iteration, structured; see Session.iterations.
     report: Report
     _used: Optional[Array] = dataclasses.field(repr=False)  # None: each point is used
 
@@ -62,8 +62,8 @@ def triangulate(
     Args:
         points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous. z is ignored.
             Pass (n, 3) as it is: the slice `points[:, :2]` is copied, which with a GPU takes longer
-            than all the rest. Of points at equal places that with the lowest id is used. Points with NaN
-            or infinite x or y are not used.
+            than all the rest. If several points are at one place, the one with the lowest id is used.
+            Points with NaN or infinite x or y are not used.
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
             points is split there; one that crosses an earlier one is refused and reported.
         outline: A ring, or a list of rings: what is outside of all is removed. A ring is a list of
@@ -72,7 +72,7 @@ def triangulate(
             what can be reached from there without crossing a segment is removed.
         alpha: Triangles with a larger circumradius are removed, unless they have a segment as an
             edge; 0: none.
-        longest_edge: The same for triangles with a longer edge.
+        longest_edge: Triangles with a longer edge are removed in the same way; 0: none.
         point_tolerance: Points nearer than this to one with a lower id are not used; 0: only those
             at equal places. Points where segments cross may be nearer.
         split_crossings: Split segments where they cross, instead of refusing the later one. The

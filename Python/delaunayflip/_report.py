@@ -58,8 +58,8 @@ class Report:
     total_blocked: int
     non_delaunay_before: int  #: Bad edges of the input; -1 if the run was aborted before the test.
     non_delaunay_after: int  #: Bad edges left, flippable or blocked; -1 as before.
-    blocked_by_shape: int  #: Of these, those whose flip would fold the mesh over.
-    blocked_by_edge: int  #: And those whose flip would create an edge that exists.
+    blocked_by_shape: int  #: Those left whose flip would fold the mesh over.
+    blocked_by_edge: int  #: Those left whose flip would repeat an edge.
     edges: int
     boundary_edges: int
     non_manifold_edges: int
@@ -78,7 +78,7 @@ class Report:
     flip_seconds: float
     number_of_points: int = 0
     number_of_triangles: int = 0
-    points_not_finite: int = 0  #: Of a triangulation of points, as all that follow.
+    points_not_finite: int = 0  #: Points left out of a triangulation: NaN or infinity.
     points_repeated: int = 0  #: Points at the place of one with a lower id.
     points_too_near: int = 0  #: Points within the tolerance of one with a lower id.
     segment_edges: int = 0  #: Edges of the mesh that segments have become.
@@ -88,7 +88,7 @@ class Report:
     triangles_outside: int = 0  #: Removed outside the outline and in holes.
     triangles_large: int = 0  #: Removed by alpha and longest_edge.
     keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
-    blocked_by_deviation: int = 0  #: Of non_delaunay_after, those that maximum_deviation blocks.
+    blocked_by_deviation: int = 0  #: Those left that maximum_deviation blocks.
 
     @property
     def converged(self) -> bool:
@@ -152,7 +152,7 @@ class Totals:
 
     @classmethod
     def of_run(cls, report, iterations, unmatched=0):
-        """Of a run; `unmatched` more constraints than it knows have no edge."""
+        """The totals of a run. `unmatched` more constraints than it knows have no edge."""
         totals = cls()
         totals.iterations = iterations
         if not report.number_of_triangles:  # all were removed, but some had angles

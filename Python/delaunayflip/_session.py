@@ -334,8 +334,8 @@ def smallest_angles(
     """The smallest angle of each triangle.
 
     Args:
-        points: As for `flip`. What is on a GPU is copied to the host.
-        triangles: As for `flip`.
+        points: Points as `flip` takes them. What is on a GPU is copied to the host.
+        triangles: Triangles as `flip` takes them.
         geometry: "planar-xy" measures by x and y, every other in space.
 
     Returns:

@@ -52,7 +52,7 @@ class Property(
         return value if self.low is None else min(max(value, self.low), self.high)
 
 
-#: Of options of the engine that have another name here.
+#: The names here of options that the engine calls otherwise.
 _PROPERTY_OF = {"threads": "number_of_threads", "device": "device_id", "pieces": "number_of_pieces"}
 
 #: Those of every filter.

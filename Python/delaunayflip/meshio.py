@@ -47,7 +47,7 @@ def flip(
             data, or (m,) values for the triangles of all blocks, take the place of these; 0 makes
             one region of all.
         return_report: Also return the `Report`.
-        **options: As for delaunayflip.flip; its constraints are added to the lines.
+        **options: Those of delaunayflip.flip; its constraints are added to the lines.
 
     Returns:
         The mesh; with `return_report`, the mesh and the report.

@@ -152,7 +152,7 @@ def smallest_angles(mesh: "pyvista.PolyData") -> Array:
     surface = vtk_of(_require_mesh("mesh", mesh)).read(mesh)
     polygons = surface.read("Polys")
     if not polygons.are_triangles() or mesh.GetNumberOfStrips():
-        raise ValueError("the mesh has polygons that are no triangles, or strips: mesh.triangulate() "
+        raise ValueError("the mesh has strips, or polygons that are no triangles: mesh.triangulate() "
                          "divides them")
     return _angles_of_arrays(surface.points, polygons.corners.reshape(-1, 3))
 
@@ -181,12 +181,12 @@ def animate(
     """Writes a film of the flips: one frame of the input, and one after each step.
 
     Args:
-        mesh: As for `flip`.
+        mesh: A mesh as `flip` takes it.
         filename: .gif (needs imageio) or .mp4 (also needs imageio-ffmpeg).
         iterations_per_frame: How many iterations are between two frames.
         fps: Frames per second.
         window_size: Width and height in pixels.
-        constraints, **options: As for `flip`.
+        constraints, **options: Those of `flip`.
 
     Returns:
         The flipped mesh of the last frame.
@@ -233,9 +233,9 @@ if hasattr(pyvista, "register_dataset_accessor"):
 
 def _require_mesh(name, mesh):
     if not isinstance(mesh, pyvista.PolyData):
-        raise TypeError(f"{name} must be a pyvista.PolyData, not {type(mesh).__name__}; of grids and "
-                        "images, mesh.extract_surface().triangulate() makes one; of heights in an "
-                        "image, first mesh.warp_by_scalar() makes terrain")
+        raise TypeError(f"{name} must be a pyvista.PolyData, not {type(mesh).__name__}; "
+                        "mesh.extract_surface().triangulate() makes one from a grid or an image, and "
+                        "mesh.warp_by_scalar() before that makes terrain from heights in an image")
     return mesh
 
 

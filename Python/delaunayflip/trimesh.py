@@ -28,7 +28,7 @@ def flip(
     Args:
         mesh: Any Trimesh; it is not changed.
         return_report: Also return the `Report`.
-        **options: As for delaunayflip.flip.
+        **options: Those of delaunayflip.flip.
 
     Returns:
         The mesh; with `return_report`, the mesh and the report.
