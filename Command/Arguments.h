@@ -24,13 +24,13 @@ struct Arguments
   std::string Output;
   MeshFormat OutputFormat = MeshFormat::VTK;
   vtkNew<vtkDelaunayFlip> Flip; ///< Its properties are options.
-  vtkNew<vtkDelaunayFlipPoints> Points; ///< The same, for FromPoints.
+  vtkNew<vtkDelaunayFlipPoints> Points; ///< Has the options for FromPoints.
   bool DeviationIsPercent = false; ///< The largest deviation is one of the bounding box's diagonal.
-  bool MergePoints = false; ///< Of the input, at equal places.
+  bool MergePoints = false; ///< Joins points of the input at equal places.
   bool DropDuplicates = false; ///< Polygons of the input with the corners of earlier ones.
   bool Orient = false; ///< Winds polygons of the input as those beside them.
   bool FromPoints = false;
-  std::string Outline; ///< Of points: a file; empty: none.
+  std::string Outline; ///< File, for FromPoints; empty: none.
   std::string Holes;
   std::string Constraints; ///< File; empty: none.
   std::string Statistics; ///< CSV file; empty: none.

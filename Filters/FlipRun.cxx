@@ -138,7 +138,7 @@ FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
 {
 }
 
-/// Of the attributes only region labels and ghosts matter, of the verts only their number.
+/// Attributes matter only as region labels and ghosts, and verts only by their number.
 Stamps FlipRun::StampEdges(const FlipRequest& request)
 {
   Stamps stamps;

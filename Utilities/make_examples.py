@@ -5,9 +5,9 @@
 
 terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over it.
 scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring with sharp edges. part.stl:
-an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell array Material. survey.csv: points of a
-valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
-outline of the survey, and pond.vtk. The same arguments give the same files.
+an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell
+array Material. survey.csv: points of a valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
+outline of the survey, and pond.vtk. Equal arguments give equal files.
 """
 import argparse
 import os

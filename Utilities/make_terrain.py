@@ -6,8 +6,8 @@
 Fractal mountains, sampled at scattered points that are denser where the relief is rougher, with
 coordinates in metres and an offset like that of UTM. The triangles come from plain insertion: every
 point, in random order, splits the triangle that contains it (Navarro, Hitschfeld and Scheihing,
-Fig. 7); no edge is ever flipped, so most triangles are slivers. The same arguments give the same
-file.
+Fig. 7); no edge is ever flipped, so most triangles are slivers. Equal arguments give equal
+files.
 """
 
 import argparse

@@ -56,7 +56,7 @@ def compare(command, folder, file, options, before):
 
 
 def count_flips(command, folder, options):
-    """Of a grid of 100 x 100 quads of 1 m, turned by 25 degrees and rounded to millimetres."""
+    """The flips of a grid of 100 x 100 quads of 1 m, turned by 25 degrees and rounded to millimetres."""
     x, y = np.mgrid[:101, :101].reshape(2, -1)
     turn = np.radians(25.0)
     points = np.stack([x * np.cos(turn) - y * np.sin(turn), x * np.sin(turn) + y * np.cos(turn),

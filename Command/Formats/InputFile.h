@@ -94,7 +94,7 @@ public:
   /// @throws CommandError (BadFile): the file, the number of this line and the reason.
   [[noreturn]] void Fail(const std::string& reason) const;
 
-  /// The same for a word, which is quoted before the problem.
+  /// Fails with a word, which is quoted before the problem.
   [[noreturn]] void FailOn(std::string_view word, const char* problem) const;
 
 private:

@@ -235,10 +235,10 @@ private:
 
   TextLines Lines;
   std::array<std::int64_t, 4> Sizes = {}; ///< How many v, vt, vn and other lines there are.
-  std::array<std::vector<double>, 3> Values; ///< Of v, vt and vn.
+  std::array<std::vector<double>, 3> Values; ///< The numbers of v, vt and vn.
   std::vector<double> Colors; ///< 3 each.
-  std::array<vtkNew<vtkCellArray>, 3> Cells; ///< Of one, two, and more points.
-  std::vector<Corner> Corners; ///< Of polygons.
+  std::array<vtkNew<vtkCellArray>, 3> Cells; ///< Those with one, two, and more points.
+  std::vector<Corner> Corners; ///< The corners of polygons.
   std::map<std::string, std::int64_t> LeftOut;
 };
 

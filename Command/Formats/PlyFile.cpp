@@ -62,7 +62,7 @@ struct PlyProperty
   int Type;
   vtkDataArray* Array = nullptr; ///< Has the numbers of vertices.
   int Component = 0;
-  int CountType = VTK_VOID; ///< Of a list, the type of its length.
+  int CountType = VTK_VOID; ///< For a list, the type of its length.
   bool IsOfCell = false; ///< Whether its values are points of a face or an edge.
 };
 
@@ -337,7 +337,7 @@ private:
   bool IsText = false;
   bool IsSwapped = false;
   std::vector<PlyElement> Elements;
-  std::size_t Place = 0; ///< Of the next word in a line of values.
+  std::size_t Place = 0; ///< Where the next word begins in a line of values.
   std::vector<vtkIdType> Cell; ///< The points of a face or an edge.
 };
 

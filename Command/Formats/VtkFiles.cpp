@@ -103,8 +103,8 @@ void RequireCount(
 
 struct MeshCount
 {
-  const char* Keyword; ///< Of a .vtk.
-  const char* Attribute; ///< Of a .vtp.
+  const char* Keyword; ///< In a .vtk.
+  const char* Attribute; ///< In a .vtp.
   vtkIdType Number;
   vtkCellArray* Cells; ///< Null for points.
 };

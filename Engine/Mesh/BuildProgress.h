@@ -45,7 +45,7 @@ public:
     this->Tell(geometry == GeometryKind::Surface ? OfSurfaces[i] : OfPlanes[i]);
   }
 
-  /// The same in a plane after `part` of what follows a step up to another one.
+  /// Tells, in a plane, that `part` of what follows a step up to another one is done.
   void Reach(BuildStep step, BuildStep next, double part) const
   {
     const double done = OfPlanes[static_cast<int>(step)];

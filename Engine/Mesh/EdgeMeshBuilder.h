@@ -75,7 +75,7 @@ struct FixedSums
 struct FixEdgeStep
 {
   EdgeMeshView Mesh;
-  const std::int32_t* Regions; ///< Or null.
+  const std::int32_t* Regions; ///< One per triangle, or null.
   PointArray Points;
   SpatialOrderView Order;
   CoordinateRange Range;

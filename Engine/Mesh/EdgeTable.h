@@ -257,7 +257,7 @@ enum class CornerRole : std::uint32_t
   Follower, ///< The other corner numbers the edge.
   Leader, ///< The smaller corner of two.
   Alone, ///< The only corner: a boundary edge.
-  OneOfMany ///< Of a non-manifold edge; gets an edge record of its own.
+  OneOfMany ///< One of three or more: it gets an edge record of its own.
 };
 
 DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t KeyOpposite(const TriangleRecord& triangle, int slot)
@@ -304,7 +304,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void SetRole(
   triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
 }
 
-/// The same for all corners, whose HalfEdges hold the other corners.
+/// Sets the roles of all three corners, whose HalfEdges hold the other corners.
 /// @returns the number of edges that the triangle leads.
 DELAUNAYFLIP_HOST_DEVICE inline int SetRoles(TriangleRecord& triangle, std::int64_t t)
 {

@@ -32,7 +32,7 @@ namespace delaunayflip
 {
 
 /// Scales by a power of two, in two steps, so that the largest coordinate is in 1 .. 2 and lengths
-/// neither overflow nor vanish. The same on every backend.
+/// neither overflow nor vanish. All backends scale alike.
 struct PlaneScale
 {
   double Factors[2] = { 1.0, 1.0 }; ///< Their product may be beyond the range of double.

@@ -133,7 +133,7 @@ inline Defect MakeDefect(
 struct MeshInput
 {
   const TriangleMesh& Caller; ///< The caller's arrays.
-  TriangleMesh Local; ///< The same in the backend's memory; constraints are the caller's.
+  TriangleMesh Local; ///< The mesh in the backend's memory; constraints are the caller's.
   bool IsOnHost = true; ///< Whether the caller's points and triangles are in the host's memory;
                         ///< else the triangles are those of Local.
 };
@@ -178,16 +178,16 @@ struct BoundingBox
 struct MeshSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
-  std::string GeometryReason; ///< As FlipReport's.
+  std::string GeometryReason; ///< FlipReport::GeometryReason.
   TurnSample Turns; ///< In x and y, of the finite triangles of surfaces, and if Auto needed them.
   PlaneProjection Projection; ///< For the planar kinds.
   Array<PointUse> Uses; ///< One per point, in the backend's memory.
   std::int64_t UsedPoints = 0;
-  BoundingBox Box{ {}, {} }; ///< Of the used, finite points; all 0 without any.
-  double SmallestMagnitude = INFINITY; ///< Of their coordinates that are not 0.
+  BoundingBox Box{ {}, {} }; ///< Holds the used, finite points; all 0 without any.
+  double SmallestMagnitude = INFINITY; ///< That of their coordinates, 0 aside.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
-  CoordinateRange Range = CoordinateRange::Usual; ///< Of the used, finite points.
-  double Precision = DoublePrecision; ///< Of the caller's coordinates, by their type.
+  CoordinateRange Range = CoordinateRange::Usual; ///< That of the used, finite points.
+  double Precision = DoublePrecision; ///< By the type of the caller's coordinates.
   Defect NonFinitePoints;
   Defect RepeatedIds;
   Defect NearlyHeightField; ///< What kept Auto from PlanarXY, if it was little.

@@ -34,7 +34,7 @@ struct PlaneMesh
     return delaunayflip::IsFinite(this->GetPoint(vertex));
   }
 
-  /// Turn of a, b, c, exactly: 1, 0 or -1. Of finite points.
+  /// Turn of the finite points a, b, c, exactly: 1, 0 or -1.
   DELAUNAYFLIP_HOST_DEVICE int FindTurn(VertexId a, VertexId b, VertexId c) const
   {
     const int turn = FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));

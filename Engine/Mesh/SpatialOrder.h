@@ -153,8 +153,8 @@ struct HilbertTurns
   }
 };
 
-/// The same in the plane, by doubling the distance over which turns are known, in a third of the
-/// time.
+/// The index in the plane. It doubles the distance over which turns are known, which takes a third
+/// of the time.
 /// @param u, v of at most 16 bits.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t HilbertIndex(
   std::uint32_t u, std::uint32_t v, int bits)

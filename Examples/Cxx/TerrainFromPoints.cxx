@@ -35,7 +35,7 @@ namespace
 /// The middle of the slope.
 double GetMiddle(double x) { return 0.5 + 0.15 * std::sin(6.0 * x); }
 
-constexpr double HalfWidth = 0.02; ///< Of the slope.
+constexpr double HalfWidth = 0.02; ///< Half the width of the slope.
 
 /// Hills that a steep slope divides.
 double GetHeight(double x, double y)
