@@ -8,6 +8,7 @@
 #include "FlipError.h"
 #include "InputFile.h"
 #include "OutputFiles.h"
+#include "PointColumns.h"
 
 #include <CLI/CLI.hpp>
 
@@ -248,6 +249,12 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "Make a mesh from the points of INPUT alone: their Delaunay triangulation. The "
     "lines and polygons of --constraints become edges of it, and with --insert-lines the lines of "
     "INPUT too. Points of these files that INPUT does not have are added");
+  app
+    .add_option("--columns", arguments.Columns,
+      "Which columns of a .xyz, .csv or .txt are x, y and perhaps z, by name or by number from 1: "
+      "x,y,z or 2,3,4 [those with known names, else the first ones]")
+    ->type_name("LIST")
+    ->check([](const std::string& list) { return ChosenColumns(list).FindFault(); });
   AddFile(app, "--outline", arguments.Outline,
     "A mesh file whose polygons and closed lines are rings: what is outside of all is removed");
   AddFile(app, "--holes", arguments.Holes,
@@ -327,7 +334,7 @@ void RelateOptions(CLI::App& app)
 {
   app.get_option("--insert-lines")->excludes("--ignore-lines");
   CLI::Option* const fromPoints = app.get_option("--from-points");
-  for (const char* name : { "--outline", "--holes", "--split-crossings", "--alpha",
+  for (const char* name : { "--columns", "--outline", "--holes", "--split-crossings", "--alpha",
          "--longest-edge", "--point-tolerance", "--projection" })
   {
     app.get_option(name)->needs(fromPoints);
@@ -385,7 +392,12 @@ std::string SuggestOption(const CLI::App& app)
 void CheckFormats(Arguments& arguments)
 {
   arguments.OutputFormat = FormatOf(arguments.Output);
-  if (FormatOf(arguments.Input) == MeshFormat::Points && !arguments.FromPoints)
+  const bool isOfPoints = FormatOf(arguments.Input) == MeshFormat::Points;
+  if (!arguments.Columns.empty() && !isOfPoints)
+  {
+    FailOnUsage(arguments.Input + ": --columns is for a .xyz, .csv or .txt");
+  }
+  if (isOfPoints && !arguments.FromPoints)
   {
     FailOnUsage(arguments.Input + ": has points, but no triangles; --from-points makes them");
   }

@@ -30,6 +30,7 @@ struct Arguments
   bool DropDuplicates = false; ///< Polygons of the input with the corners of earlier ones.
   bool Orient = false; ///< Winds polygons of the input as those beside them.
   bool FromPoints = false;
+  std::string Columns; ///< Those of x, y and z in a file of points; empty: not named.
   std::string Outline; ///< File, for FromPoints; empty: none.
   std::string Holes;
   std::string Constraints; ///< File; empty: none.

@@ -370,8 +370,16 @@ private:
   vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path)
   {
     this->Bar.Begin(Phase::Reading, "reading " + path);
-    const FileMesh file = ReadMesh(path, FormatOf(path));
+    const MeshFormat format = FormatOf(path);
+    const FileMesh file = ReadMesh(path, format, this->Settings.Columns);
     this->Bar.Clear();
+    // The others say that they have nothing.
+    const bool mayBeEmpty =
+      format == MeshFormat::VTK || format == MeshFormat::VTP || format == MeshFormat::PLY;
+    if (file.Mesh->GetNumberOfPoints() == 0 && !mayBeEmpty)
+    {
+      throw CommandError(ExitCode::BadFile, path + ": is empty: it has no points");
+    }
     return this->Take(file, path);
   }
 
@@ -381,6 +389,10 @@ private:
     for (const std::string& warning : file.Warnings)
     {
       this->Warn(path + ": " + warning);
+    }
+    for (const std::string& note : file.Notes)
+    {
+      this->Note(path + ": " + note);
     }
     return file.Mesh;
   }

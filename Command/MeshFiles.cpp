@@ -212,9 +212,9 @@ constexpr FormatRow Formats[] = {
   { ".ply", MeshFormat::PLY, ReadPly, WritePly },
   { ".stl", MeshFormat::STL, ReadStl, WriteStl },
   { ".obj", MeshFormat::OBJ, ReadObj, WriteObj },
-  { ".xyz", MeshFormat::Points, ReadPoints, nullptr },
-  { ".csv", MeshFormat::Points, ReadPoints, nullptr },
-  { ".txt", MeshFormat::Points, ReadPoints, nullptr },
+  { ".xyz", MeshFormat::Points, nullptr, nullptr },
+  { ".csv", MeshFormat::Points, nullptr, nullptr },
+  { ".txt", MeshFormat::Points, nullptr, nullptr },
 };
 
 const FormatRow& RowOf(MeshFormat format)
@@ -242,7 +242,7 @@ MeshFormat FormatOf(const std::string& path)
       ".xyz, .csv and .txt");
 }
 
-FileMesh ReadMesh(const std::string& path, MeshFormat format)
+FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string& columns)
 {
   const InputFile file(path);
   const auto bytes = static_cast<double>(file.GetBytes().size());
@@ -255,7 +255,8 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format)
   const auto time = LowerLimit(RLIMIT_CPU, std::ceil(seconds + 30.0 + 5e-6 * bytes));
   try
   {
-    FileMesh read = RowOf(format).Read(file);
+    const bool isOfPoints = format == MeshFormat::Points;
+    FileMesh read = isOfPoints ? ReadPoints(file, columns) : RowOf(format).Read(file);
     RequireValidIds(read.Mesh, file);
     return read;
   }

@@ -38,11 +38,13 @@ struct FileMesh
 {
   vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
   std::vector<std::string> Warnings; ///< What was left out, one line each, without the file.
+  std::vector<std::string> Notes; ///< What may be good to know, like warnings.
 };
 
 /// Reads a surface mesh.
+/// @param columns of points: those of x, y and z, as --columns names them; empty: not named.
 /// @throws CommandError (BadFile) that names the file and the reason.
-FileMesh ReadMesh(const std::string& path, MeshFormat format);
+FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string& columns = "");
 
 /// Which points are corners of these cells.
 std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds);

@@ -29,7 +29,10 @@ FileMesh ReadLegacy(const InputFile& file);
 FileMesh ReadXml(const InputFile& file);
 FileMesh ReadPly(const InputFile& file);
 FileMesh ReadObj(const InputFile& file);
-FileMesh ReadPoints(const InputFile& file);
+
+/// @param columns those of x, y and z, as the user names them; empty: those with known names, or
+/// the first ones.
+FileMesh ReadPoints(const InputFile& file, const std::string& columns);
 
 /// Points in the same place become one, because a .stl repeats them for every triangle. A triangle
 /// that collapses stays a triangle.

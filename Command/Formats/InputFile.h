@@ -91,6 +91,12 @@ public:
   template <typename T>
   T Number(std::size_t place) const;
 
+  /// The number of the line, from 1.
+  std::size_t GetLine() const { return this->Line; }
+
+  /// @throws CommandError (BadFile): the file and the reason.
+  [[noreturn]] void FailFile(const std::string& reason) const { this->File.Fail(reason); }
+
   /// @throws CommandError (BadFile): the file, the number of this line and the reason.
   [[noreturn]] void Fail(const std::string& reason) const;
 

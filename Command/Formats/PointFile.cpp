@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats.h"
+#include "PointColumns.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 
 /// @file
 /// .xyz, .csv and .txt: a line of text for each point, x y [z] and perhaps more, perhaps after a
@@ -19,12 +20,42 @@ namespace delaunayflip
 namespace
 {
 
-using Words = std::vector<std::string_view>;
+/// The first lines of a file of points.
+struct PointHeader
+{
+  Words Names; ///< Of the columns; empty if the file names none.
+  bool IsComment = false; ///< Whether a comment names them.
+  char Separator = ' '; ///< Of the names.
+  std::string Separators = ";,"; ///< Of the lines after it: the first that a line has.
+};
 
 bool IsNumber(std::string_view word)
 {
   double value = 0.0;
   return ReadNumber(word, value) != std::errc::invalid_argument;
+}
+
+/// A word with its only comma replaced by a point, if that is a number; else an empty string.
+std::string WithPoint(std::string_view word)
+{
+  std::string text(word);
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos || text.find('.') != text.npos)
+  {
+    return "";
+  }
+  text[comma] = '.';
+  return IsNumber(text) ? text : "";
+}
+
+/// Whether a word is a number, with a decimal point or a decimal comma.
+bool IsValue(std::string_view word) { return IsNumber(word) || !WithPoint(word).empty(); }
+
+/// Whether no word at these places, as far as they are there, is other than a number.
+bool AreValues(const Words& words, const Places& places)
+{
+  return std::all_of(places.begin(), places.end(),
+    [&words](std::size_t place) { return place >= words.size() || IsValue(words[place]); });
 }
 
 bool IsComment(const TextLines& lines)
@@ -33,149 +64,307 @@ bool IsComment(const TextLines& lines)
   return lines.Text.substr(start, 1) == "#" || lines.Text.substr(start, 2) == "//";
 }
 
-/// The places of the columns named x, y and, if there is one, z, in any case; else none.
-std::vector<std::size_t> FindAxes(const Words& names)
+/// Whether no cell of a line has anything, as in the empty rows of a spreadsheet.
+bool IsBlank(const TextLines& lines)
 {
-  std::vector<std::size_t> places;
-  for (const char axis : { 'x', 'y', 'z' })
-  {
-    const auto found = std::find_if(names.begin(), names.end(),
-      [axis](std::string_view name)
-      { return name.size() == 1 && std::tolower(static_cast<unsigned char>(name[0])) == axis; });
-    if (found != names.end())
-    {
-      places.push_back(static_cast<std::size_t>(found - names.begin()));
-    }
-    else if (axis != 'z')
-    {
-      return {};
-    }
-  }
-  return places;
+  return std::all_of(
+    lines.Words.begin(), lines.Words.end(), [](std::string_view word) { return word.empty(); });
 }
 
-/// E.g. "'time', 'intensity'", but no more than ten.
-std::string Quoted(const Words& names)
+/// The separator that a spreadsheet names in a line such as sep=; else 0.
+char NamedSeparator(const TextLines& lines)
 {
-  constexpr std::size_t most = 10;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-  {
-    text += (i == 0 ? "'" : ", '") + std::string(names[i]) + "'";
-  }
-  return names.size() > most ? text + " and others" : text;
+  const std::string_view text = lines.Text;
+  const bool isOne =
+    text.size() > 4 && (text.substr(0, 4) == "sep=" || text.substr(0, 4) == "SEP=");
+  return isOne ? text[4] : '\0';
 }
 
-/// Reads the lines before the first point, which is then the line of `lines`.
-/// @returns the names of its columns; empty if the file names none, or has no points.
-Words ReadNames(TextLines& lines)
+/// Splits a line of numbers. Tabs separate numbers with decimal commas.
+void SplitValues(TextLines& lines, const std::string& separators)
 {
-  Words names;
+  const bool mayHaveCommas = lines.Text.find('\t') != lines.Text.npos &&
+    lines.Text.find(',') != lines.Text.npos && lines.Text.find(';') == lines.Text.npos;
+  if (mayHaveCommas)
+  {
+    lines.SeparateBy("\t");
+    if (std::count_if(lines.Words.begin(), lines.Words.end(), IsValue) >= 2)
+    {
+      return;
+    }
+  }
+  lines.SeparateBy(separators);
+}
+
+/// The words of a comment without its mark.
+Words WordsOfComment(const TextLines& lines)
+{
+  Words found = lines.Words;
+  const auto isEmpty = [](std::string_view word) { return word.empty(); };
+  found.erase(found.begin(), std::find_if_not(found.begin(), found.end(), isEmpty));
+  found[0].remove_prefix(found[0][0] == '#' ? 1 : 2);
+  found[0].remove_prefix(std::min(found[0].find_first_not_of(' '), found[0].size()));
+  found.erase(found.begin(), found.begin() + (found[0].empty() ? 1 : 0));
+  return found;
+}
+
+/// Whether a comment may be a line of names. In prose, such as "x and y are lengths", x and y are
+/// not side by side.
+bool NamesColumns(const Words& comment, const ChosenColumns& chosen)
+{
+  if (!chosen.IsEmpty())
+  {
+    return !chosen.AreNumbers() && !chosen.Find(comment).empty();
+  }
+  const Places places = FindKnownColumns(comment);
+  const auto [first, last] = std::minmax_element(places.begin(), places.end());
+  return !places.empty() && *last - *first + 1 == places.size();
+}
+
+/// Whether words are the names that pandas gives to columns without any, and to their index: an
+/// empty one, 0, 1 and so on.
+bool AreCounted(const Words& words)
+{
+  std::size_t next = 0;
+  return words.size() > 2 && words[0].empty() &&
+    std::all_of(words.begin() + 1, words.end(),
+      [&next](std::string_view word) { return word == std::to_string(next++); });
+}
+
+/// Whether the first line that is no comment names columns. Names may be numbers, too.
+bool IsLineOfNames(const TextLines& lines, const ChosenColumns& chosen)
+{
+  const Words& words = lines.Words;
+  if (std::none_of(words.begin(), words.end(), IsValue) || AreCounted(words))
+  {
+    return true;
+  }
+  if (!chosen.IsEmpty())
+  {
+    const Places places = chosen.Find(words);
+    return chosen.AreNumbers() ? !AreValues(words, chosen.Find({})) : !places.empty();
+  }
+  const Places places = FindKnownColumns(words);
+  TextLines next = lines;
+  return !places.empty() && next.Next() && AreValues(next.Words, places);
+}
+
+/// Reads the lines before the first point, which is then the line of `lines`, if there is one.
+PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
+{
+  PointHeader header;
   bool hasNames = false; // that are no comment
-  // Names may have blanks, so tabs separate them. Between numbers, blanks and tabs are the same.
-  std::string separators = ";,";
+  bool isFirst = true;
   while (lines.Next())
   {
-    const bool isComment = IsComment(lines);
-    lines.SeparateBy(separators);
-    if (!isComment && (hasNames || std::any_of(lines.Words.begin(), lines.Words.end(), IsNumber)))
+    const char named = isFirst ? NamedSeparator(lines) : '\0';
+    isFirst = false;
+    if (named != '\0')
     {
-      if (lines.Separator != ' ') // cells at the end may be empty
+      header.Separators = named;
+      continue;
+    }
+    if (IsComment(lines))
+    {
+      lines.SeparateBy(";,\t");
+      const Words found = WordsOfComment(lines);
+      if (!hasNames && NamesColumns(found, chosen))
       {
-        lines.Words.resize(std::max(lines.Words.size(), names.size()));
+        header.Names = found;
+        header.IsComment = true;
+        header.Separator = lines.Separator;
       }
-      const bool fits = names.size() == lines.Words.size();
-      if (hasNames && !fits)
+      continue;
+    }
+    // Names may have blanks, so tabs separate them. Between numbers, blanks and tabs are the same.
+    lines.SeparateBy(header.Separators.size() == 1 ? header.Separators : ";,\t");
+    if (!hasNames && !IsBlank(lines) && IsLineOfNames(lines, chosen))
+    {
+      hasNames = true;
+      header.Names = lines.Words;
+      header.IsComment = false;
+      const std::string own = lines.Separator == ' ' ? "" : std::string(1, lines.Separator);
+      header.Separators = own + header.Separators;
+      continue;
+    }
+    SplitValues(lines, header.Separators);
+    if (!IsBlank(lines))
+    {
+      return header;
+    }
+  }
+  return header;
+}
+
+/// What the numbers of a file of points are like.
+class PointTable
+{
+public:
+  PointTable(TextLines& lines, const ChosenColumns& chosen)
+    : Lines(lines),
+      Header(ReadHeader(lines, chosen)),
+      HasChoice(!chosen.IsEmpty())
+  {
+    this->Coordinates->SetNumberOfComponents(3);
+    if (lines.Words.empty())
+    {
+      return;
+    }
+    this->FitNames(chosen);
+    this->ChooseColumns(chosen);
+    this->ReadLines();
+    this->RefuseIds();
+  }
+
+  vtkNew<vtkDoubleArray> Coordinates;
+  std::vector<std::string> Warnings;
+  std::vector<std::string> Notes;
+
+private:
+  /// Compares the line of names with the first point. A comment may be anything.
+  void FitNames(const ChosenColumns& chosen)
+  {
+    Words& words = this->Lines.Words;
+    Words& names = this->Header.Names;
+    const bool isTable = this->Lines.Separator != ' ';
+    if (isTable && (!this->Header.IsComment || this->Header.Separator == this->Lines.Separator))
+    {
+      // Cells at the end may be empty.
+      words.resize(std::max(words.size(), names.size()));
+    }
+    this->Count = words.size();
+    if (this->Count < 2)
+    {
+      this->Lines.Fail("a point has two or three coordinates: x y [z]");
+    }
+    const bool fits = names.empty() || names.size() == this->Count;
+    if (!fits && !this->Header.IsComment && !chosen.AreNumbers())
+    {
+      this->Lines.Fail("has " + std::to_string(this->Count) +
+        " columns, but the line of names has " + std::to_string(names.size()));
+    }
+    if (!fits)
+    {
+      names.clear();
+    }
+  }
+
+  /// Finds the columns of x, y and, if there is one, z. Tells of all that is left out.
+  void ChooseColumns(const ChosenColumns& chosen)
+  {
+    const Words& names = this->Header.Names;
+    if (!chosen.IsEmpty())
+    {
+      this->Columns = chosen.Find(names);
+      const auto last = std::max_element(this->Columns.begin(), this->Columns.end());
+      if (this->Columns.empty() || *last >= this->Count)
       {
-        lines.Fail("has " + std::to_string(lines.Words.size()) +
-          " columns, but the line of names has " + std::to_string(names.size()));
+        this->Lines.FailFile("--columns names another column than there are: " +
+          (names.empty() ? std::to_string(this->Count) + " without names" : Quoted(names)));
       }
-      return fits ? names : Words(); // a comment may be anything
     }
-    lines.SeparateBy(";,\t");
-    Words found = lines.Words;
-    if (isComment)
+    else if (!names.empty())
     {
-      const auto isEmpty = [](std::string_view word) { return word.empty(); };
-      found.erase(found.begin(), std::find_if_not(found.begin(), found.end(), isEmpty));
-      found[0].remove_prefix(found[0][0] == '#' ? 1 : 2);
-      found[0].remove_prefix(std::min(found[0].find_first_not_of(' '), found[0].size()));
-      found.erase(found.begin(), found.begin() + (found[0].empty() ? 1 : 0));
+      this->Columns = FindKnownColumns(names);
+      if (this->Columns.empty())
+      {
+        this->Lines.FailFile("which of its columns are x and y? They are " + Quoted(names) +
+          "; name them, by name or number, as in --columns 1,2,3");
+      }
     }
-    if (!isComment || !FindAxes(found).empty())
+    else
     {
-      hasNames = !isComment;
-      names = std::move(found);
-      separators = lines.Separator == ' ' ? ";," : lines.Separator + std::string(";,");
+      this->Columns = { 0, 1 };
+      this->Columns.resize(std::min<std::size_t>(this->Count, 3), 2);
+      this->RequireNumbers();
     }
+    this->TellColumns();
   }
-  return {};
-}
 
-/// The columns of x, y and, if there is one, z. Warns of all that is not certain or left out.
-std::vector<std::size_t> ChooseColumns(
-  const TextLines& lines, const Words& names, std::vector<std::string>& warnings)
-{
-  const std::size_t count = lines.Words.size();
-  if (count < 2)
+  /// Without names, the first columns have numbers, or the user says which.
+  void RequireNumbers() const
   {
-    lines.Fail("a point has two or three coordinates: x y [z]");
-  }
-  std::vector<std::size_t> columns = FindAxes(names);
-  if (columns.empty())
-  {
-    columns = { 0, 1 };
-    columns.resize(std::min<std::size_t>(count, 3), 2);
-    if (!names.empty())
+    for (const std::size_t column : this->Columns)
     {
-      warnings.push_back("no columns are named x and y; took " +
-        Quoted({ names.begin(), names.begin() + static_cast<std::ptrdiff_t>(columns.size()) }) +
-        " as x" + (columns.size() == 3 ? ", y, z" : ", y"));
+      const std::string_view word = this->Lines.Words[column];
+      if (!word.empty() && !IsValue(word))
+      {
+        this->Lines.FailOn(
+          word, " is not a number; where other columns are x, y and z, say which: --columns 2,3,4");
+      }
     }
   }
-  Words others;
-  for (std::size_t i = 0; i < names.size(); ++i)
+
+  void TellColumns()
   {
-    if (std::find(columns.begin(), columns.end(), i) == columns.end())
+    const Words& names = this->Header.Names;
+    Words taken, others;
+    for (const std::size_t column : this->Columns)
     {
-      others.push_back(names[i]);
+      taken.push_back(column < names.size() ? names[column] : std::string_view());
+    }
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      if (std::find(this->Columns.begin(), this->Columns.end(), i) == this->Columns.end())
+      {
+        others.push_back(names[i]);
+      }
+    }
+    const bool isPlain = std::all_of(
+      taken.begin(), taken.end(), [](std::string_view name) { return name.size() == 1; });
+    if (!names.empty() && !this->HasChoice && !isPlain)
+    {
+      this->Notes.push_back(
+        "took " + Quoted(taken) + " as x, y" + (this->Columns.size() == 3 ? ", z" : ""));
+    }
+    const bool lacksHeight = this->Columns.size() == 2 && !this->HasChoice;
+    if (!others.empty())
+    {
+      this->Warnings.push_back("left out the columns " + Quoted(others) +
+        (lacksHeight ? "; no name is known as that of z, so z is 0" : ""));
+    }
+    else if (names.empty() && this->Count > this->Columns.size())
+    {
+      this->TellsOthers = true;
+      this->Warnings.push_back(this->HasChoice
+          ? "left out all columns but those of --columns"
+          : "left out the columns from number " + std::to_string(this->Columns.size() + 1) + " on");
     }
   }
-  if (!others.empty())
-  {
-    warnings.push_back("left out the columns " + Quoted(others));
-  }
-  else if (count > columns.size())
-  {
-    warnings.push_back(
-      "left out the columns from number " + std::to_string(columns.size() + 1) + " on");
-  }
-  return columns;
-}
 
-}
-
-FileMesh ReadPoints(const InputFile& file)
-{
-  FileMesh result;
-  TextLines lines(file);
-  const Words names = ReadNames(lines);
-  const vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  if (!lines.Words.empty())
+  /// How many columns a line must have. Between blanks no cell is empty, so a missing one would
+  /// move the others. Cells between other separators may be empty.
+  std::size_t CountRequired() const
   {
-    const std::vector<std::size_t> columns = ChooseColumns(lines, names, result.Warnings);
-    const std::size_t count = lines.Words.size();
-    // Between blanks no cell is empty, so a missing one would move the others.
-    const auto text = std::find_if_not(lines.Words.begin(), lines.Words.end(), IsNumber);
-    const auto numbers = static_cast<std::size_t>(text - lines.Words.begin());
-    const std::size_t fewest = lines.Separator != ' ' ? 0 : names.empty() ? numbers : count;
+    const Words& words = this->Lines.Words;
+    if (this->Lines.Separator != ' ')
+    {
+      return 0;
+    }
+    if (!this->Header.Names.empty() && !this->Header.IsComment)
+    {
+      return this->Count;
+    }
+    const auto text = std::find_if_not(words.begin(), words.end(), IsNumber);
+    const auto last = std::find_if(words.rbegin(), words.rend(), IsNumber);
+    const bool hasNames = !this->Header.Names.empty() || this->HasChoice;
+    return static_cast<std::size_t>(hasNames ? words.rend() - last : text - words.begin());
+  }
+
+  void ReadLines()
+  {
+    TextLines& lines = this->Lines;
+    const std::size_t fewest = this->CountRequired();
+    const auto text = std::find_if_not(lines.Words.begin(), lines.Words.end(), IsValue);
+    this->Numbers = static_cast<std::size_t>(text - lines.Words.begin());
     const std::string_view rest = lines.Rest;
-    coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
+    this->Coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
+    std::int64_t longer = 0; // lines
+    std::string firstLonger;
     do
     {
       const Words& words = lines.Words;
-      if (IsComment(lines))
+      if (IsComment(lines) || IsBlank(lines))
       {
         continue;
       }
@@ -185,19 +374,119 @@ FileMesh ReadPoints(const InputFile& file)
           std::to_string(fewest) + "; a value is missing");
       }
       // Text at the end may have any number of words. Numbers may come from decimal commas.
-      if (words.size() > count && std::all_of(words.begin(), words.begin() + count + 1, IsNumber))
+      if (words.size() > this->Count &&
+        std::all_of(words.begin(), words.begin() + this->Count + 1, IsNumber))
       {
-        lines.Fail("begins with more than " + std::to_string(count) +
-          " numbers, but the first point has " + std::to_string(count) + " columns");
+        lines.Fail("begins with more than " + std::to_string(this->Count) +
+          " numbers, but the first point has " + std::to_string(this->Count) + " columns");
       }
-      for (std::size_t i = 0; i < 3; ++i)
+      if (words.size() > this->Count && longer++ == 0)
       {
-        coordinates->InsertNextValue(i < columns.size() ? lines.Number<double>(columns[i]) : 0.0);
+        firstLonger = std::to_string(lines.GetLine());
       }
+      this->ReadPoint();
     } while (lines.Next());
+    if (longer > 0 && !this->TellsOthers)
+    {
+      this->Warnings.push_back("left out the columns from number " +
+        std::to_string(this->Count + 1) + " on, which " + Counted(longer, "line") +
+        (longer == 1 ? " has (line " : " have (the first is line ") + firstLonger + ")");
+    }
   }
+
+  void ReadPoint()
+  {
+    const std::string_view first = this->Lines.Words[0];
+    this->HasIntegers =
+      this->HasIntegers && !first.empty() && first.find_first_not_of("0123456789") == first.npos;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      this->Coordinates->InsertNextValue(
+        i < this->Columns.size() ? this->ReadCoordinate(this->Columns[i], i) : 0.0);
+    }
+  }
+
+  double ReadCoordinate(std::size_t column, std::size_t axis)
+  {
+    Words& words = this->Lines.Words;
+    const std::string_view word = column < words.size() ? words[column] : std::string_view();
+    const bool hasPoint = word.find('.') != word.npos;
+    const std::string text = word.find(',') == word.npos ? "" : WithPoint(word);
+    const bool hasComma = !text.empty();
+    this->HasPoints = this->HasPoints || hasPoint;
+    this->HasCommas = this->HasCommas || hasComma;
+    if (this->HasPoints && hasComma)
+    {
+      this->Lines.FailOn(word, " has a decimal comma, but numbers before it have a decimal point");
+    }
+    if (this->HasCommas && hasPoint)
+    {
+      this->Lines.FailOn(word, " has a decimal point, but numbers before it have a decimal comma");
+    }
+    this->HasFractions[axis] = this->HasFractions[axis] || hasPoint || hasComma;
+    if (hasComma)
+    {
+      words[column] = text;
+    }
+    return this->Lines.Number<double>(column);
+  }
+
+  /// Without names, a first column of different integers before three coordinates is that of ids,
+  /// or could be; and so is one that counts the lines.
+  void RefuseIds() const
+  {
+    const vtkIdType points = this->Coordinates->GetNumberOfTuples();
+    const bool hasMore = this->Numbers > 3;
+    const vtkIdType fewest = hasMore ? 3 : 10; // fewer may be so by chance
+    if (!this->Header.Names.empty() || this->HasChoice || this->Columns.size() < 3 ||
+      !this->HasIntegers || points < fewest)
+    {
+      return;
+    }
+    std::vector<double> first(points);
+    for (vtkIdType i = 0; i < points; ++i)
+    {
+      first[i] = this->Coordinates->GetTypedComponent(i, 0);
+    }
+    const auto countUp = [](double a, double b) { return b != a + 1.0; };
+    const bool counts = std::adjacent_find(first.begin(), first.end(), countUp) == first.end();
+    std::sort(first.begin(), first.end());
+    const bool areDifferent = std::adjacent_find(first.begin(), first.end()) == first.end();
+    const bool haveFractions = this->HasFractions[1] && this->HasFractions[2];
+    if (counts || (hasMore && areDifferent && haveFractions))
+    {
+      this->Lines.FailFile(
+        std::string("its first column looks like numbers of points, not like x, "
+                    "and no line names the columns; say which are x, y and z: ") +
+        (hasMore ? "--columns 2,3,4, or 3,2,4 where northing comes before easting, or 1,2,3"
+                 : "--columns 2,3 or 1,2,3"));
+    }
+  }
+
+  TextLines& Lines;
+  PointHeader Header;
+  const bool HasChoice; ///< Whether the user chose the columns.
+  Places Columns;
+  std::size_t Count = 0; ///< Of the columns of the first point.
+  std::size_t Numbers = 0; ///< How many numbers the first point begins with.
+  bool TellsOthers = false; ///< Whether a warning tells of the columns at the end.
+  bool HasIntegers = true; ///< Whether the first column has only integers without a sign.
+  bool HasPoints = false;
+  bool HasCommas = false;
+  std::array<bool, 3> HasFractions = {};
+};
+
+}
+
+FileMesh ReadPoints(const InputFile& file, const std::string& columns)
+{
+  FileMesh result;
+  TextLines lines(file);
+  const PointTable table(lines, ChosenColumns(columns));
+  result.Warnings = table.Warnings;
+  result.Notes = table.Notes;
   result.Mesh->SetPoints(vtkNew<vtkPoints>());
-  result.Mesh->GetPoints()->SetData(coordinates);
+  result.Mesh->GetPoints()->SetData(table.Coordinates);
   return result;
 }
 

@@ -22,9 +22,13 @@ class Truncated(BadFileTest):
         self.refuse("a.obj", "line 4", "3 corners")
 
     def test_empty(self):
-        for name in ("a.vtk", "a.vtp", "a.ply", "a.stl"):
+        for name in ("a.vtk", "a.vtp", "a.ply", "a.stl", "a.obj"):
             self.write(name, b"")
             self.refuse(name)
+        for name, text in (("a.obj", "# nothing\n"), ("a.stl", "solid a\nendsolid a\n"),
+                           ("a.stl", bytes(84))):
+            self.write(name, text)
+            self.refuse(name, "is empty")
 
 
 class Corrupt(BadFileTest):
@@ -49,5 +53,8 @@ class OtherData(BadFileTest):
         self.write_mesh(make_mesh([], []), "none.vtk")
         for extension in (".vtk", ".vtp", ".ply", ".stl", ".obj"):
             self.succeed("none.vtk", "out" + extension)
+            if extension in (".stl", ".obj"):
+                self.fail_with(3, "out" + extension, "again.vtk", naming=["is empty"])
+                continue
             self.succeed("out" + extension, "again.vtk")
             self.assertEqual(self.read_mesh("again.vtk").GetNumberOfPoints(), 0)

@@ -59,13 +59,13 @@ class PointTest(BadFileTest):
 
 
 class Files(PointTest):
-    def expect(self, name, text, points, warning=""):
+    def expect(self, name, text, points, warning="", options=()):
         self.write(name, text)
-        mesh, result = self.triangulate(name)
+        mesh, result = self.triangulate(name, *options)
         self.assertEqual(points_of(mesh), points, text)
         self.assertEqual(len(triangles_of(mesh)), len(points) - 1, text)
         if warning:
-            self.assertIn(f"warning: {name}: {warning}\n", result.stderr)
+            self.assertIn(f": {name}: {warning}\n", result.stderr)
         else:
             self.assertEqual(result.stderr, "", text)
 
@@ -87,10 +87,8 @@ class Files(PointTest):
         self.expect("in.txt", rows, PLACES)
         flat = [(x, y, 0) for x, y, _ in PLACES]
         self.expect("in.xyz", text_of([p[:2] for p in PLACES]), flat)
-        self.expect("in.csv", text_of(PLACES, ",", "x,y,height"), flat,
-                    "left out the columns 'height'")
-        self.expect("in.csv", text_of(PLACES, ",", "lon,lat,height"), PLACES,
-                    "no columns are named x and y; took 'lon', 'lat', 'height' as x, y, z")
+        self.expect("in.csv", text_of(PLACES, ",", "x,y,depth"), flat,
+                    "left out the columns 'depth'; no name is known as that of z, so z is 0")
         self.expect("in.xyz", text_of([(*p, 9, 9) for p in PLACES]), PLACES,
                     "left out the columns from number 4 on")
         self.expect("in.xyz", text_of([(*p, 9) for p in PLACES], end=" an oak\n"), PLACES,
@@ -101,6 +99,110 @@ class Files(PointTest):
         rows = text_of([(*p, *range(12)) for p in PLACES], ",", "x,y,z," + many)
         listed = ", ".join(f"'c{i}'" for i in range(10)) + " and others"
         self.expect("in.csv", rows, PLACES, "left out the columns " + listed)
+
+    def test_known_names(self):
+        for names in ("X_COORD,Y_COORD,Z_COORD", "POINT_X,POINT_Y,Elev", "lon,lat,h", "E,N,Z",
+                      "Easting (m),Northing (m),Elevation (m)", "Longitude,Latitude,height",
+                      "Points:0,Points:1,Points:2", "utm_e,utm_n,z_m", "x,y,altitude"):
+            x, y, z = names.split(",")
+            told = f"took '{x}', '{y}', '{z}' as x, y, z"
+            rows = text_of([(9.5, *p) for p in PLACES], ",", "FID," + names)
+            self.expect("in.csv", rows, PLACES, "left out the columns 'FID'" if x == "E" else told)
+            rows = text_of([(9.5, *p[::-1]) for p in PLACES], ";", f"Height error;{z};{y};{x}")
+            self.expect("in.csv", rows, PLACES, "left out the columns 'Height error'")
+        rows = text_of([(*p, 7, 8) for p in PLACES], ",", "x,y,z,lon,lat")
+        self.expect("in.csv", rows, PLACES, "left out the columns 'lon', 'lat'")
+
+    def test_chosen_columns(self):
+        rows = [(n, y, x, z, "an oak") for n, (x, y, z) in enumerate(PLACES, 101)]
+        text = text_of(rows, ",").replace("'", "")
+        for choice, names in (("3,2,4", ""), ("c,B,d", "a,b,c,d,e\n"), ("3,b,4", "a,b,c,d,e\n"),
+                              ("3,b,4", "# a,b,c,d,e\n"), ("3,2,4", "P#,N,E,Z,1988\n"),
+                              ("4,2,3", "3,2,4,3,e\n"), ("3,2,4", "a title\n"), ("3,2,4", "# x y\n")):
+            with self.subTest(choice=choice, names=names):
+                expected = [(z, y, x) for x, y, z in PLACES] if choice == "4,2,3" else PLACES
+                told = "left out the columns " if names[:1] in ("a", "P", "3") else "left out all columns"
+                self.write("in.csv", names + text)
+                mesh, result = self.triangulate("in.csv", "--columns", choice)
+                if names == "3,2,4,3,e\n":
+                    expected = points_of(mesh)[:1] + expected
+                self.assertEqual(points_of(mesh), expected)
+        self.expect("in.csv", text, [(y, x, 0) for x, y, _ in PLACES],
+                    "left out all columns but those of --columns", ("--columns", "2,3"))
+        for names, choice, words in (
+            ("a,b,c,d,e\n", "b,x", ["'a', 'b', 'c', 'd', 'e'"]), ("", "b,c", ["5 without names"]),
+            ("", "2,6", ["5 without names"]), ("a,b,c,d,e\n", "2,6", ["'a', 'b'"]),
+        ):
+            self.write("in.csv", names + text)
+            self.fail_with(3, "in.csv", "out.vtk", "--from-points", "--columns", choice,
+                           naming=["in.csv", "--columns", *words])
+        for choice in ("", "1", "1,,2", "1,1", "1,2,3,4", "x,"):
+            self.fail_with(2, "in.csv", "out.vtk", "--from-points", "--columns", choice,
+                           naming=["--columns"])
+        path = self.write_mesh(make_mesh(PLACES, [(0, 1, 2)]), "in.vtk")
+        self.fail_with(2, path, "out.vtk", "--from-points", "--columns", "1,2", naming=["in.vtk", ".csv"])
+
+    def test_names_that_are_numbers(self):
+        flat = [(x, y, 0) for x, y, _ in PLACES]
+        told = "left out the columns '13.137'; no name is known as that of z, so z is 0"
+        self.expect("in.csv", text_of(PLACES, ",", "x,y,13.137"), flat, told)
+        rows = text_of([(7, *p) for p in PLACES], ",", "Unnamed: 0,x,y,1")
+        self.expect("in.csv", rows, flat, told.replace("'13.137'", "'Unnamed: 0', '1'"))
+        rows = text_of([(n, *p) for n, p in enumerate(PLACES)], ",", ",0,1,2")
+        self.refuse_points(rows, "'', '0', '1', '2'", "--columns")
+        for choice in ("0,1,2", "2,3,4"):
+            self.write("in.csv", rows)
+            mesh, _ = self.triangulate("in.csv", "--columns", choice)
+            self.assertEqual(points_of(mesh), PLACES)
+
+    def test_columns_that_are_not_sure(self):
+        """Names that nobody knows, and numbers of points before their coordinates."""
+        self.refuse_points(text_of(PLACES, ",", "time,depth,p"), "'time', 'depth', 'p'", "--columns")
+        survey = [(5000.5, 410.25, 17.5), (5001.5, 412.5, 18.5), (5000.25, 411, 17.25)]
+        for numbers in ((1, 2, 3), (101, 107, 104)):
+            for end in ("\n", ",TREE\n"):
+                rows = text_of([(n, *p) for n, p in zip(numbers, survey)], ",", end=end)
+                self.refuse_points(rows, "numbers of points", "--columns 2,3,4", "3,2,4")
+        self.refuse_points("A1,1,2,3\nA2,4,5,6\n", "line 1", "'A1' is not a number", "--columns")
+        self.refuse_points("52.1,N,13.2,E\n52.2,N,13.2,E\n", "line 1", "'N' is not a number")
+        counted = [(n, n * 7 % 5, n % 3) for n in range(12)]
+        self.refuse_points(text_of(counted, ","), "numbers of points", "--columns 2,3")
+        for rows in (survey, [(0, *p) for p in survey], counted[:9], counted[1:] + counted[:1]):
+            self.write("in.csv", text_of(rows, ","))
+            self.triangulate("in.csv")
+
+    def test_comments_are_prose(self):
+        for comment in ("# x and y\n", "// x, and, y\n", "# x, y and z are lengths, in m\n",
+                        "# time depth p\n", "# x y and other things\n", "# n e s w\n"):
+            self.expect("in.xyz", comment + text_of(PLACES), PLACES)
+            self.expect("in.csv", comment + text_of(PLACES, ","), PLACES)
+        self.expect("in.xyz", "# x y z kind\n0 0 1 oak\n" + text_of(PLACES[1:]), PLACES,
+                    "left out the columns 'kind'")
+
+    def test_spreadsheets(self):
+        comma = [text_of([(x + 0.5, y, z, x) for x, y, z in PLACES], s).replace(".", ",")
+                 for s in ";\t"]
+        expected = [(x + 0.5, y, z) for x, y, z in PLACES]
+        for text in comma:
+            self.expect("in.txt", text, expected, "left out the columns from number 4 on")
+        text = "sep=;\r\nx;y;z;m\r\n" + comma[0]
+        self.expect("in.csv", text, expected, "left out the columns 'm'")
+        self.expect("in.txt", "x\ty\tz\tm n\n" + comma[1], expected, "left out the columns 'm n'")
+        self.expect("in.csv", "sep=,\n" + text_of(PLACES, ","), PLACES)
+        blank = ',,\n"","",""\n, ,\n'
+        self.expect("in.csv", blank + "x,y,z\n" + blank + text_of(PLACES, ",", end="\n" + blank), PLACES)
+        self.refuse_points("1,5;2\n1.5;2\n", "line 2", "'1.5' has a decimal point")
+        self.refuse_points("1,500,5;2\n", "line 1", "'1,500,5' is not a number")
+
+    def test_longer_lines(self):
+        told = "left out the columns from number 3 on, which "
+        self.write("in.csv", "0,0\n4,0,a\n4,3\n\n1,2,b\n")
+        _, result = self.triangulate("in.csv")
+        self.assertIn(told + "2 lines have (the first is line 2)", result.stderr)
+
+    def test_nothing(self):
+        for text in ("", "x,y,z\n", "# nothing\n", ",,\n", "\n\n", "sep=;\n"):
+            self.refuse_points(text, "is empty")
 
     def test_small_print(self):
         """Quotes, a byte order mark, comments, empty lines, separators at the end, plus signs, numbers
@@ -124,7 +226,7 @@ class Files(PointTest):
             "1,2,3\n4,5\n": ["line 2", "a number is missing"],
             "1,2,3\n\n4,,6\n": ["line 3", "a number is missing"],
             "x,y,z\n1,2,3\na,b,c\n": ["line 3", "'a' is not a number"],
-            "1.5;2,5;3\n": ["line 1", "'2,5' is not a number"],
+            "1.5;2,5;3\n": ["line 1", "'2,5' has a decimal comma"],
             "12\n1 2 3\n": ["line 1", "x y [z]"],
             "x y z\n1 0.1 0.2 0.3\n": ["line 2", "4 columns", "names has 3"],
             "x y z w\n1 2 3 4\n1  3 4\n": ["line 3", "3 columns", "have 4; a value is missing"],
@@ -173,7 +275,7 @@ class Results(PointTest):
         self.assertRegex(told, r"bad edges +[1-9]\d* -> [1-9]")
 
     def test_too_few_points(self):
-        for text in ("", "x y z\n", "1 2 3\n", text_of([(i, i, 0) for i in range(5)])):
+        for text in ("1 2 3\n", text_of([(i, i, 0) for i in range(5)])):
             self.write("in.xyz", text)
             mesh, result = self.triangulate("in.xyz")
             self.assertEqual(triangles_of(mesh), [])

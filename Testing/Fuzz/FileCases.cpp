@@ -159,6 +159,8 @@ p 3
 )";
 
 constexpr const char* CsvText = "id;X;Y;Z\n1;0;0;5\n2;4.5;0;1e-3\n#3\n3;4;3;\"2\"\n\n4;0;3;-1\n";
+constexpr const char* SurveyText = "sep=;\n// x and y\nFID;Northing;Easting (m);Elev\n1;0,5;0;5\n"
+                                   "2;4,5;0;1e-3\n;;\n3;4;3;2;oak\n4;0;3;-1\n";
 constexpr const char* XyzText = "0 0 0\n4\t0.25 1\n4 3 2\n0 3 nan\n2 1 1\n";
 
 int WriteAll(const std::string& folder)
@@ -195,7 +197,8 @@ int WriteAll(const std::string& folder)
   Write<vtkSTLWriter>(folder + "/ascii.stl", triangles, ascii);
   Write<vtkOBJWriter>(folder + "/plain.obj", triangles, [](auto*) {});
   const std::pair<const char*, const char*> texts[] = { { "text.ply", PlyText },
-    { "text.obj", ObjText }, { "names.csv", CsvText }, { "plain.csv", XyzText } };
+    { "text.obj", ObjText }, { "names.csv", CsvText }, { "survey.csv", SurveyText },
+    { "plain.csv", XyzText } };
   for (const auto& [name, text] : texts)
   {
     std::ofstream(folder + "/" + name, std::ios::binary) << text;
