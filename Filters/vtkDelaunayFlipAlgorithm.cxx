@@ -6,6 +6,7 @@
 #include "DelaunayFlip.h"
 #include "FlipRun.h"
 #include "MeshBlocks.h"
+#include "UpdatePipeline.h"
 #include "UpdateReport.h"
 
 #include "vtkCompositeDataSet.h"
@@ -26,7 +27,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -95,29 +95,6 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
   return isRunning;
 }
 
-/// Adds an algorithm, if there is one, and all those upstream of it.
-void AddUpstream(vtkAlgorithm* algorithm, std::set<vtkAlgorithm*>& all)
-{
-  const bool isNew = algorithm && all.insert(algorithm).second;
-  for (int port = 0; isNew && port < algorithm->GetNumberOfInputPorts(); ++port)
-  {
-    for (int i = 0; i < algorithm->GetNumberOfInputConnections(port); ++i)
-    {
-      AddUpstream(algorithm->GetInputAlgorithm(port, i), all);
-    }
-  }
-}
-
-/// Whether two algorithms are the same or have one upstream in common.
-bool ShareUpstream(vtkAlgorithm* one, vtkAlgorithm* other)
-{
-  std::set<vtkAlgorithm*> first, second;
-  AddUpstream(one, first);
-  AddUpstream(other, second);
-  return std::any_of(first.begin(), first.end(),
-    [&second](vtkAlgorithm* algorithm) { return second.count(algorithm) > 0; });
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -157,6 +134,19 @@ vtkTable* vtkDelaunayFlipAlgorithm::GetIterations()
 }
 
 //------------------------------------------------------------------------------
+vtkExecutive* vtkDelaunayFlipAlgorithm::CreateDefaultExecutive()
+{
+  vtkExecutive* usual = this->Superclass::CreateDefaultExecutive();
+  if (std::strcmp(usual->GetClassName(), "vtkCompositeDataPipeline") != 0)
+  {
+    return usual; // which the program prefers, such as ParaView
+  }
+  usual->Delete();
+  UpdatePipeline* pipeline = UpdatePipeline::New();
+  pipeline->OnRefusal = [this](const std::string& why) { this->RefuseInput(why); };
+  return pipeline;
+}
+
 int vtkDelaunayFlipAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   if (port == 1)
@@ -406,15 +396,40 @@ void vtkDelaunayFlipAlgorithm::DropRun(bool canContinue)
   this->Next = NextUpdate::StepAndStore;
 }
 
-void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
+/// VTK has told of it, and has not asked for an update.
+void vtkDelaunayFlipAlgorithm::RefuseInput(const std::string& why)
+{
+  if (this->IsAtWork) // an update within an update was refused
+  {
+    return;
+  }
+  this->DropRun(false);
+  UpdateSummary summary;
+  summary.Failure = FAILURE_MESH;
+  summary.Errors.push_back({ "", why });
+  this->Keep(summary);
+  for (int port = 0; port < 2; ++port)
+  {
+    if (vtkDataObject* output = this->GetExecutive()->GetOutputData(port))
+    {
+      output->Initialize(); // what an earlier update has made
+    }
+  }
+}
+
+void vtkDelaunayFlipAlgorithm::Keep(const UpdateSummary& summary)
 {
   *this->Report = summary.Report;
   this->Failure = summary.Failure;
   this->ErrorMessage = Describe(summary.Errors);
   this->StopReasonText = "failed: " + this->ErrorMessage;
   this->Summary = this->Failure ? this->StopReasonText + "\n" : Summarize(*this->Report);
-  this->SetErrorCode(
-    this->Failure ? vtkErrorCode::UserError + this->Failure : vtkErrorCode::NoError);
+  this->SetErrorCode(this->Failure ? vtkErrorCode::UnknownError : vtkErrorCode::NoError);
+}
+
+void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
+{
+  this->Keep(summary);
   if (this->Failure && !this->IsSilent)
   {
     vtkErrorMacro(<< this->ErrorMessage);

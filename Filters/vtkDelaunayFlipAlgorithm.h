@@ -232,10 +232,10 @@ public:
   ///@{
   /**
    * What caused the last update to fail. FAILURE_OPTIONS: options contradict each other or the
-   * mesh. FAILURE_MESH: the mesh names points that do not exist, or is too large. FAILURE_BACKEND:
-   * the backend cannot run here. FAILURE_OTHER: no memory. FAILURE_NONE before the first update and
-   * after success. GetErrorCode() returns vtkErrorCode::UserError plus this number, or
-   * vtkErrorCode::NoError.
+   * mesh. FAILURE_MESH: there is no mesh, it names points that do not exist, or it is too large.
+   * FAILURE_BACKEND: the backend cannot run here. FAILURE_OTHER: no memory. FAILURE_NONE before the
+   * first update and after success. GetErrorCode() returns vtkErrorCode::UnknownError after all of
+   * them, else vtkErrorCode::NoError.
    */
   enum FailureType
   {
@@ -287,6 +287,7 @@ protected:
 
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
+  vtkExecutive* CreateDefaultExecutive() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -355,7 +356,9 @@ private:
   void DropRun(bool canContinue);
   void FlipBlock(delaunayflip::MeshBlock& block, const std::vector<delaunayflip::MeshBlock>& others,
     delaunayflip::UpdateSummary& summary);
+  void Keep(const delaunayflip::UpdateSummary& summary);
   void Publish(const delaunayflip::UpdateSummary& summary);
+  void RefuseInput(const std::string& why);
 
   enum class NextUpdate
   {

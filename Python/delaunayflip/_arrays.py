@@ -11,6 +11,7 @@ import numpy
 
 from . import _library
 from ._library import TYPES, InvalidMesh
+from ._options import show
 
 _KNOWN_TYPES = {numpy.dtype(name): name for name in TYPES}
 _FEWEST_EXPECTED = 1 << 16  # bytes of an array that a session is told of
@@ -184,6 +185,9 @@ def type_of(array):
 
 
 def _shape_error(name, array, wanted):
+    if isinstance(array, numpy.ndarray) and array.ndim == 0 and array.dtype.kind not in "biufc":
+        given = type(array.item()).__name__  # such as a set or a generator, of which NumPy makes one object
+        return TypeError(f"{name} must be an array, or a list of numbers, not {given}")
     return ValueError(f"{name} must have the shape {wanted}, not {tuple(array.shape)}")
 
 
@@ -274,7 +278,7 @@ def as_flags(name, values, *shapes):
         raise _shape_error(name, values, " or ".join(map(str, shapes)))
     if values.dtype.kind not in "biuf":
         example = values.ravel()[:1].tolist() or [str(values.dtype)]
-        raise TypeError(f"{name} must be true or false, not {example[0]!r}")
+        raise TypeError(f"{name} must be true or false, not {show(example[0])}")
     if numpy.isnan(values).any():
         raise ValueError(f"{name} must be true or false, not NaN")
     return values != 0

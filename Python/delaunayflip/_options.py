@@ -4,6 +4,7 @@
 numbers before ctypes takes them: it would cut off what is too large."""
 import numbers
 import operator
+import reprlib
 import typing
 
 import numpy
@@ -61,6 +62,15 @@ class Options(typing.TypedDict, total=False):
     track_quality: bool
 
 
+_SHORT = reprlib.Repr()
+_SHORT.maxother = _SHORT.maxstring = 60
+
+
+def show(value):
+    """The value for a message: one line, and only the beginning of what is long."""
+    return " ".join(_SHORT.repr(value).split())
+
+
 CHOICES = {name: typing.get_args(Options.__annotations__[name])
            for name in ("geometry", "criterion", "tie_rule", "backend")}
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
@@ -103,7 +113,7 @@ def choose(keyword, word):
     """The number of a word among the choices of an option."""
     choices = CHOICES[keyword]
     if not isinstance(word, str) or word not in choices:
-        raise ValueError(f"{keyword} must be one of {', '.join(choices)}, not {word!r}")
+        raise ValueError(f"{keyword} must be one of {', '.join(choices)}, not {show(word)}")
     return choices.index(word)
 
 
@@ -118,28 +128,28 @@ def check_integer(name, value, low, high, wanted=""):
     try:
         number = operator.index(bool(value) if isinstance(value, numpy.bool_) else value)
     except TypeError:
-        raise TypeError(f"{name} must be {wanted}, not {value!r}") from None
+        raise TypeError(f"{name} must be {wanted}, not {show(value)}") from None
     if not low <= number <= high:
-        raise InvalidOptions(f"{name} must be {wanted}, not {value!r}")
+        raise InvalidOptions(f"{name} must be {wanted}, not {show(value)}")
     return number
 
 
 def to_number(name, value):
     if not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} must be a number, not {value!r}")
+        raise TypeError(f"{name} must be a number, not {show(value)}")
     try:
         return float(value)
     except OverflowError:
-        raise InvalidOptions(f"{name} is out of range: {value!r}") from None
+        raise InvalidOptions(f"{name} is out of range: {show(value)}") from None
 
 
 def _list_devices(devices):
     """Numbers of GPUs, or a text of them, as the engine reads it."""
     if not isinstance(devices, str):
         if isinstance(devices, (bytes, bytearray)) or not numpy.iterable(devices):
-            raise TypeError(f"devices must be numbers of GPUs, or a text of them, not {devices!r}")
+            raise TypeError(f"devices must be numbers of GPUs, or a text of them, not {show(devices)}")
         highest = _RANGES["device"][1]
         devices = ",".join(str(check_integer("devices", one, 0, highest)) for one in devices)
     if "\0" in devices:
-        raise InvalidOptions(f"devices must be numbers of GPUs, not {devices!r}")
+        raise InvalidOptions(f"devices must be numbers of GPUs, not {show(devices)}")
     return devices.encode(errors="replace")

@@ -13,7 +13,7 @@ import numpy
 from . import _arrays, _library, _report
 from ._options import (
     Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule,
-    check_integer, choose, make_options)
+    check_integer, choose, make_options, show)
 from ._report import Report
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def observe(progress=None, on_iteration=None):
     """
     for word, function in (("progress", progress), ("on_iteration", on_iteration)):
         if function is not None and not callable(function):
-            raise TypeError(f"{word} must be a function, not {function!r}")
+            raise TypeError(f"{word} must be a function, not {show(function)}")
     raised = []
 
     def ask(function, value):

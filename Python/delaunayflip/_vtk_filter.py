@@ -23,7 +23,7 @@ from ._points import triangulate
 from ._report import COUNTS, FIELD_PREFIX, GEOMETRIES, ITERATION, POINT_COUNTS, Totals, describe
 from ._vtk_mesh import CELL_ARRAYS, OUTLINES, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 
-_USER_ERROR = 40000  # vtkErrorCode::UserError
+_UNKNOWN_ERROR = 20008  # vtkErrorCode::UnknownError
 #: vtkDelaunayFlip.FAILURE_...
 _FAILURES = ("NONE", "OPTIONS", "MESH", "BACKEND", "OTHER")
 _FAILURES_OF = {_library.InvalidOptions: "OPTIONS", _library.BackendUnavailable: "BACKEND",
@@ -97,7 +97,7 @@ class Filter(VTKPythonAlgorithmBase):
     def __init__(self, **properties):
         super().__init__(nInputPorts=2, nOutputPorts=2, inputType=self.kind.__name__)
         self._values = {item.name: item.default for item in self.properties}
-        self._is_at_work = False
+        self._is_at_work = self._has_run = False
         self._forget()
         for name, value in properties.items():
             if not hasattr(type(self), name):
@@ -130,11 +130,40 @@ class Filter(VTKPythonAlgorithmBase):
 
     def Update(self, *arguments):
         self._interrupt = None  # not that of an update for another filter
+        self._has_run = False
         status = super().Update(*arguments)
+        if not self._is_at_work:
+            self.SetAbortExecute(0)  # an observer may ask for it at the end
+            if not self._has_run:
+                self._look_for_refused_input()
         interrupt, self._interrupt = self._interrupt, None
         if interrupt is not None:
             raise interrupt
         return status
+
+    def _look_for_refused_input(self):
+        """If there is no usable input, VTK has told of it, and has not asked for an update."""
+        fault = self._describe_fault(0) or self._describe_fault(1)
+        if not fault:
+            return
+        self._forget()
+        self._fail(_library.InvalidMesh(fault))
+        for port in range(2):
+            if self.GetOutputDataObject(port) is not None:
+                self.GetOutputDataObject(port).Initialize()  # what an earlier update has made
+
+    def _describe_fault(self, port):
+        """What is wrong with the data of an input port; "" if nothing. The second input is optional."""
+        name = "second input" if port else "input"
+        if self.GetNumberOfInputConnections(port) == 0:
+            return "" if port else "there is no input"
+        data = self.GetInputDataObject(port, 0)
+        if data is None or self.GetInputAlgorithm(port, 0).GetErrorCode():
+            return f"the {name} was not made: see the errors of what makes it"
+        types = ("vtkPolyData" if port else self.kind.__name__, "vtkCompositeDataSet")
+        if any(map(data.IsA, types)):
+            return ""
+        return f"the {name} is a {data.GetClassName()}; it must be a {' or '.join(types)}"
 
     def FillInputPortInformation(self, port, info):
         if port == 1:
@@ -185,7 +214,7 @@ class Filter(VTKPythonAlgorithmBase):
         source, others, output = (vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo))
         table = vtkDataObject.GetData(outInfo, 1)
         source = output.NewInstance() if source is None else source  # an observer may have removed it
-        self._is_at_work = True
+        self._is_at_work = self._has_run = True
         self._forget()
         try:
             self._flip_all(source, None if others is None else _copy(others), output)
@@ -457,7 +486,7 @@ _COMMON_ANSWERS = {
     "GetBackendUsed": lambda self: self._totals.report.backend,
     "GetFailure": lambda self: self._failure,
     "GetErrorMessage": lambda self: describe(self._errors),
-    "GetErrorCode": lambda self: self._failure and _USER_ERROR + self._failure,
+    "GetErrorCode": lambda self: _UNKNOWN_ERROR if self._failure else 0,
     **count_answers("", "TotalFlips"), **count_answers("NumberOf", "NonDelaunayEdges"),
 }
 

@@ -7,6 +7,7 @@
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkCleanPolyData.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkTable.h"
@@ -34,7 +35,7 @@ void ExpectError(WatchedFilter& filter, int failure)
 {
   const std::string error = RunToError(filter, failure);
   ExpectHolds(error, filter->GetErrorMessage());
-  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError + failure));
+  EXPECT_STREQ(vtkErrorCode::GetStringFromErrorCode(filter->GetErrorCode()), "UnknownError");
   EXPECT_STRNE(filter->GetErrorMessage(), "");
   EXPECT_EQ(filter->GetStopReasonAsString(), "failed: " + std::string(filter->GetErrorMessage()));
   EXPECT_FALSE(filter->GetConverged());
@@ -158,12 +159,35 @@ TEST(BadInput, DirtyCellsStayWithOneWarning)
   }
 }
 
-TEST(BadInput, UnstructuredGridIsATypeError)
+TEST(BadInput, AMissingOrWrongOneIsTold)
 {
-  WatchedFilter filter(vtkNew<vtkUnstructuredGrid>().Get());
-  filter->Update(); // the executive refuses it
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_NOT_STARTED);
+  auto mesh = MakeRhombus();
+  WatchedFilter filter(mesh);
+  const auto expectRefusal = [&filter](const std::string& why)
+  {
+    filter->Update(); // the executive refuses it
+    EXPECT_EQ(filter->GetErrorMessage(), why);
+    EXPECT_EQ(filter->GetStopReasonAsString(), "failed: " + why);
+    EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
+    EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UnknownError));
+    EXPECT_EQ(filter->GetTotalFlips(), 0);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0); // nor what the update before has made
+  };
+  const Cells flipped = GetCells(filter.Run()->GetPolys());
+  filter->SetInputDataObject(0, vtkNew<vtkUnstructuredGrid>());
+  expectRefusal(
+    "the input is a vtkUnstructuredGrid; it must be a vtkPolyData or vtkCompositeDataSet");
+  filter->SetInputConnection(vtkNew<vtkCleanPolyData>()->GetOutputPort()); // which has no input
+  expectRefusal("an input was not made: see the errors of what makes it");
+  filter->RemoveAllInputConnections(0);
+  expectRefusal("there is no input");
+  filter->SetInputData(mesh);
+  filter->SetInputDataObject(1, vtkNew<vtkUnstructuredGrid>());
+  expectRefusal(
+    "the second input is a vtkUnstructuredGrid; it must be a vtkPolyData or vtkCompositeDataSet");
+  filter->RemoveAllInputConnections(1);
+  filter->Update();
+  EXPECT_EQ(GetCells(filter->GetOutput()->GetPolys()), flipped);
   EXPECT_STREQ(filter->GetErrorMessage(), "");
 }
 

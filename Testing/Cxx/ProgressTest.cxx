@@ -175,6 +175,19 @@ TEST(FilterProgress, AbortsAnywhere)
   EXPECT_TRUE(hasStoppedEarly);
 }
 
+TEST(FilterProgress, AnAbortAtEveryEventEndsWithTheUpdate)
+{
+  WatchedFilter filter(MakeLongRun());
+  OnProgress(filter.Get(), [&]() { filter->SetAbortExecute(1); }); // the executive tells of the end
+  filter->Update();
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+  EXPECT_EQ(filter->GetAbortExecute(), 0);
+  filter->RemoveAllObservers();
+  filter->Modified();
+  RunCleanly(filter);
+  EXPECT_TRUE(filter->GetConverged());
+}
+
 TEST(FilterProgress, AbortsWhileTheInputIsRead)
 {
   WatchedFilter split;

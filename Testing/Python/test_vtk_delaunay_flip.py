@@ -14,11 +14,13 @@ from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipPoints
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints, vtkStringArray, vtkVersion
+from vtkmodules.vtkCommonCore import (
+    vtkIdList, vtkObject, vtkPoints, vtkStringArray, vtkVersion)
 from vtkmodules.vtkCommonDataModel import (
     vtkCellArray, vtkImageData, vtkMultiBlockDataSet, vtkPolyData, vtkStructuredGrid, vtkTable,
     vtkUnstructuredGrid)
 from vtkmodules.vtkCommonExecutionModel import vtkPolyDataAlgorithm
+from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkFiltersAMR import vtkAMRGaussianPulseSource
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkFeatureEdges
 from vtkmodules.vtkFiltersSources import vtkLineSource, vtkPlaneSource, vtkSphereSource
@@ -242,11 +244,32 @@ class Faults(unittest.TestCase):
             self.assertEqual(flip.GetStopReason(), vtkDelaunayFlip.STOP_REASON_FAILED)
             self.assertEqual(flip.GetStopReasonAsString(), "failed: " + flip.GetErrorMessage())
             self.assertIn("tie rule", flip.GetErrorMessage())
-            self.assertEqual(flip.GetErrorCode(), 40000 + vtkDelaunayFlip.FAILURE_OPTIONS)
+            self.assertEqual(flip.GetFailure(), vtkDelaunayFlip.FAILURE_OPTIONS)
+            self.assertEqual(vtkErrorCode.GetStringFromErrorCode(flip.GetErrorCode()), "UnknownError")
         flip.SetGeometryToAuto()
         self.assertIn(frozenset((1, 3)), get_edges(watched.run()))
         self.assertEqual(flip.GetErrorMessage(), "")
         self.assertEqual(flip.GetErrorCode(), 0)
+
+    def test_a_missing_or_wrong_input_is_told(self):
+        filter_ = vtkDelaunayFlip()
+        vtkObject.GlobalWarningDisplayOff()
+        self.addCleanup(vtkObject.GlobalWarningDisplayOn)
+        wrong, types = vtkUnstructuredGrid(), "it must be a vtkPolyData or vtkCompositeDataSet"
+        for data, second, why in (
+                (None, None, "there is no input"), (make_bad_mesh(), None, ""),
+                (wrong, None, f"the input is a vtkUnstructuredGrid; {types}"),
+                (None, None, "there is no input"),
+                (make_bad_mesh(), wrong, f"the second input is a vtkUnstructuredGrid; {types}"),
+                (make_bad_mesh(), make_rhombus(), "")):
+            for port, given in enumerate((data, second)):
+                filter_.RemoveAllInputConnections(port)
+                if given is not None:
+                    filter_.SetInputDataObject(port, given)
+            filter_.Update()
+            self.assertEqual(filter_.GetErrorMessage(), why)
+            self.assertEqual(filter_.GetStopReasonAsString(), "failed: " + why if why else "converged")
+            self.assertEqual(filter_.GetOutput().GetNumberOfCells() > 0, not why)
 
     def test_ids_and_offsets(self):
         for offsets, ids, text in (((0, 3), (0, 2, 44), "cell 0 names point 44"),
@@ -268,12 +291,12 @@ class Observers(unittest.TestCase):
         watched = Watched(make_bad_mesh())
 
         def stop(flip, _event):
-            if flip.GetProgress() < 1:  # not at the end, which VTK tells of after an abort too
-                flip.SetAbortExecute(1)
+            flip.SetAbortExecute(1)
 
         watched.filter.AddObserver("ProgressEvent", stop)
         watched.run()
         self.assertEqual(watched.filter.GetStopReason(), vtkDelaunayFlip.STOP_REASON_ABORTED)
+        self.assertFalse(watched.filter.GetAbortExecute())
         watched.filter.RemoveObservers("ProgressEvent")
         watched.filter.Modified()
         watched.run()
