@@ -184,8 +184,8 @@ std::vector<double> SampleAxis(
 template <typename Backend>
 StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
 {
-  constexpr std::int64_t SmallestSample = 1 << 14;
-  constexpr std::int64_t SamplesPerStrip = 16;
+  constexpr std::int64_t SmallestSample = 1 << 11;
+  constexpr std::int64_t SamplesPerStrip = 32;
   const std::vector<double> xs = SampleAxis(points, 0, SmallestSample, backend);
   if (xs.empty())
   {
