@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The Delaunay triangulation of points."""
+from __future__ import annotations  # help() shows types by their names
+
 import dataclasses
 import functools
 import warnings

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """A run in steps, the whole run in one call, and Python functions as the engine's callbacks."""
+from __future__ import annotations  # help() shows types by their names
+
 import contextlib
 import ctypes
 import dataclasses

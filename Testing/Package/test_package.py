@@ -132,6 +132,47 @@ target_link_libraries(headers PRIVATE DelaunayFlip::Engine)
         self.build(NO_VTK, "-DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON", source=f"{ROOT}/Examples/C")
         self.assertIn("1 flip,", self.run_program("flip-arrays-c"))
 
+# What the other examples of the page on C++ need around them.
+MORE = """
+#include <DeviceMesh.h>
+#include <DelaunayFlip.h>
+#include <vtkCallbackCommand.h>
+#include <vtkDelaunayFlip.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataAlgorithm.h>
+#include <iostream>
+
+class MyFilter : public vtkPolyDataAlgorithm
+{{
+public:
+  static MyFilter* New();
+  vtkTypeMacro(MyFilter, vtkPolyDataAlgorithm);
+
+protected:
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  void Follow(vtkObject*, unsigned long, void*);
+}};
+
+vtkStandardNewMacro(MyFilter);
+
+{within}
+
+bool Watch(vtkDelaunayFlip* flip)
+{{
+{observer}
+  return isStopped;
+}}
+
+void FlipOnDevice(const float* devicePoints, const std::int32_t* deviceIds,
+  std::int32_t* deviceResult, std::int64_t numberOfPoints, std::int64_t numberOfTriangles, void* stream)
+{{
+{device}
+}}
+"""
+
 
 class Modules(Consumer):
     """Consumers of the VTK modules of an installed build."""
@@ -144,9 +185,17 @@ class Modules(Consumer):
         page = "Documentation/start/cpp.md"
         (project,) = [text for text in snippets("cmake", page) if "project(" in text]
         (program,) = [text for text in snippets("cpp", page) if "main()" in text]
-        self.write("CMakeLists.txt", project)
+        self.write("CMakeLists.txt", project.replace("my_program.cpp)", "my_program.cpp more.cpp)"))
         self.write("my_program.cpp", program)
+        others = [text for text in snippets("cpp", page) if "main()" not in text]
+        observer, within, device = (next(text for text in others if word in text)
+                                    for word in ("vtkCallbackCommand", "MyFilter::", "DeviceMesh"))
+        self.write("more.cpp", MORE.format(observer=observer, within=within, device=device))
         self.build()
+        failed = subprocess.run([self.path("build/my_program")], cwd=self.path("."), check=False,
+                                capture_output=True, text=True)
+        self.assertEqual(failed.returncode, 1)  # its file is missing
+        self.assertIn("terrain.vtp", failed.stderr)
         subprocess.run([f"{self.prefix}/bin/delaunay-flip", self.write_rhombus(),
                         self.path("terrain.vtp"), "--max-iterations", "0"],
                        stdout=subprocess.DEVNULL, check=False)

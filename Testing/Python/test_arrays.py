@@ -5,6 +5,7 @@ import copy
 import ctypes
 import doctest
 import gc
+import inspect
 import itertools
 import pathlib
 import pickle
@@ -518,6 +519,12 @@ def run_python(program):
 
 
 class Package(unittest.TestCase):
+
+    def test_help_names_types(self):
+        for function in (delaunayflip.flip, delaunayflip.triangulate, delaunayflip.Session):
+            signature = str(inspect.signature(function))
+            self.assertNotIn("numpy", signature)
+            self.assertIn("points: 'Numbers'", signature)
     def test_arrays_need_no_vtk(self):
         program = ("import sys, delaunayflip\n"
                    "assert 'numpy' not in sys.modules\n"
