@@ -117,6 +117,17 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
   return text;
 }
 
+/// E.g. "Material, Group".
+std::string JoinWords(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+  {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
+}
+
 /// The engine's report, and the times of the steps outside it.
 struct RunReport
 {
@@ -393,6 +404,14 @@ private:
     for (const std::string& note : file.Notes)
     {
       this->Note(path + ": " + note);
+    }
+    const char* const regions = this->Settings.Flip->GetRegionArray();
+    const bool hasRegions = regions != nullptr && *regions != '\0';
+    if (!file.Labels.empty() && !hasRegions && path == this->Settings.Input &&
+      !this->Settings.FromPoints)
+    {
+      this->Note(path + ": its faces have labels (" + JoinWords(file.Labels) +
+        "); --region-array " + file.Labels.front() + " keeps the edges between them");
     }
     return file.Mesh;
   }

@@ -242,6 +242,15 @@ MeshFormat FormatOf(const std::string& path)
       ".xyz, .csv and .txt");
 }
 
+void FileMesh::AddLabels(vtkDataArray* array)
+{
+  const double* const range = array->GetRange(0);
+  if (range[0] < range[1] && array->GetNumberOfComponents() == 1)
+  {
+    this->Labels.emplace_back(array->GetName());
+  }
+}
+
 FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string& columns)
 {
   const InputFile file(path);
@@ -378,12 +387,18 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
         (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
     }
   }
-  add(LostArrays("point data", mesh->GetPointData(),
-    format == MeshFormat::PLY     ? ArraysOfPly(mesh)
-      : format == MeshFormat::OBJ ? ArraysOfObj(mesh)
-                                  : std::vector<vtkAbstractArray*>()));
-  add(LostArrays("cell data", mesh->GetCellData(), {}));
-  add(LostArrays("field data", mesh->GetFieldData(), {}));
+  HeldArrays held; // nothing, by a .stl
+  if (format == MeshFormat::PLY)
+  {
+    held = ArraysOfPly(mesh);
+  }
+  else if (format == MeshFormat::OBJ)
+  {
+    held = ArraysOfObj(mesh);
+  }
+  add(LostArrays("point data", mesh->GetPointData(), held.OfPoints));
+  add(LostArrays("cell data", mesh->GetCellData(), held.OfCells));
+  add(LostArrays("field data", mesh->GetFieldData(), held.OfField));
   return list;
 }
 

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
+
 /// @file
 /// Reading and writing of meshes in all formats. Call ReadMesh and WriteMesh in a child process: a
 /// corrupt file may crash VTK's readers, or the limits on reading may end the process.
@@ -39,6 +41,10 @@ struct FileMesh
   vtkSmartPointer<vtkPolyData> Mesh = vtkSmartPointer<vtkPolyData>::New();
   std::vector<std::string> Warnings; ///< What was left out, one line each, without the file.
   std::vector<std::string> Notes; ///< What may be good to know, like warnings.
+  std::vector<std::string> Labels; ///< The integer arrays of cells with more than one value.
+
+  /// Adds the name of an array of cells to the labels, if it has more than one value.
+  void AddLabels(vtkDataArray* array);
 };
 
 /// Reads a surface mesh.

@@ -44,9 +44,14 @@ void WriteStl(vtkPolyData* mesh, const std::string& path);
 void WritePly(vtkPolyData* mesh, const std::string& path);
 void WriteObj(vtkPolyData* mesh, const std::string& path);
 
-/// The arrays of the points that a .ply and an .obj hold.
-std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh);
-std::vector<vtkAbstractArray*> ArraysOfObj(vtkPolyData* mesh);
+/// The arrays of a mesh that a file holds.
+struct HeldArrays
+{
+  std::vector<vtkAbstractArray*> OfPoints, OfCells, OfField;
+};
+
+HeldArrays ArraysOfPly(vtkPolyData* mesh);
+HeldArrays ArraysOfObj(vtkPolyData* mesh);
 
 /// Numbers places in the order in which they come.
 class PlaceNumbers

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CellLabels.h"
 #include "Formats.h"
 
 #include <vtkCellArray.h>
@@ -7,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
 
 #include <algorithm>
 #include <array>
@@ -32,6 +34,13 @@ constexpr const char* Keywords[] = { "v", "vt", "vn" };
 constexpr int Components[] = { 3, 2, 3 };
 constexpr const char* Others[] = { "weights", "third coordinates of vt",
   "further coordinates of vn" };
+
+/// What the elements are called in messages.
+constexpr const char* Elements[] = { "vertex (v)", "texture coordinate (vt)", "normal (vn)" };
+
+/// The lines that label the cells after them, and the arrays of their labels.
+constexpr const char* LabelKeywords[] = { "usemtl", "g", "o" };
+constexpr const char* LabelArrays[] = { "Material", "Group", "Object" };
 
 /// The place of a word among the keywords; 3 for others.
 std::size_t FindKind(std::string_view word)
@@ -86,6 +95,17 @@ public:
     }
     data->SetTCoords(this->OfPoints(1, "TCoords"));
     data->SetNormals(this->OfPoints(2, "Normals"));
+    for (const CellLabels& labels : this->Labels)
+    {
+      labels.Store(result);
+    }
+    for (const std::string& missing : this->Missing)
+    {
+      if (!missing.empty())
+      {
+        result.Warnings.push_back(missing);
+      }
+    }
     std::string list;
     for (const auto& [what, count] : this->LeftOut)
     {
@@ -110,6 +130,12 @@ private:
     {
       this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
     }
+    else if (const auto* const label =
+               std::find(std::begin(LabelKeywords), std::end(LabelKeywords), keyword);
+             label != std::end(LabelKeywords))
+    {
+      this->Labels[label - LabelKeywords].Set(this->JoinWords());
+    }
     else if (std::all_of(keyword.begin(), keyword.end(),
                [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; }))
     {
@@ -119,6 +145,17 @@ private:
     {
       this->Lines.Fail("not a line of an OBJ file");
     }
+  }
+
+  /// The words of a line after its keyword.
+  std::string JoinWords() const
+  {
+    std::string text;
+    for (std::size_t i = 1; i < this->Lines.Words.size(); ++i)
+    {
+      text += (i > 1 ? " " : "") + std::string(this->Lines.Words[i]);
+    }
+    return text;
   }
 
   /// A vertex may have a weight after its coordinates, and then a color. The second texture
@@ -160,6 +197,10 @@ private:
     }
     vtkCellArray* const cells = this->Cells[fewest - 1];
     cells->InsertNextCell(static_cast<int>(corners));
+    for (CellLabels& labels : this->Labels)
+    {
+      labels.AddCell(fewest - 1);
+    }
     for (std::size_t i = 1; i <= corners; ++i)
     {
       const Corner corner = this->ReadCorner(this->Lines.Words[i]);
@@ -188,11 +229,15 @@ private:
           break;
         }
         // In the file, index 1 is the first element, and -1 the last one before this line.
-        if (index == 0 || index < -seen || index > this->Sizes[kind])
+        const bool exists = index != 0 && index >= -seen && index <= this->Sizes[kind];
+        if (exists)
         {
-          this->Lines.Fail("index " + std::to_string(index) + " is out of range");
+          corner[kind] = index < 0 ? seen + index : index - 1;
         }
-        corner[kind] = index < 0 ? seen + index : index - 1;
+        else
+        {
+          this->MissElement(kind, index);
+        }
       }
       if (text.size() == rest.size())
       {
@@ -201,6 +246,22 @@ private:
       rest.remove_prefix(text.size() + 1); // and the slash
     }
     this->Lines.FailOn(word, " is not an index");
+  }
+
+  /// For an index of nothing. The mesh can do without texture coordinates and normals.
+  void MissElement(std::size_t kind, std::int64_t index)
+  {
+    const std::string text = "index " + std::to_string(index) + " of a " + Elements[kind] +
+      " is out of range: there are " + std::to_string(this->Sizes[kind]);
+    if (kind == 0)
+    {
+      this->Lines.Fail(text);
+    }
+    if (this->Missing[kind].empty())
+    {
+      this->Missing[kind] = "line " + std::to_string(this->Lines.GetLine()) + ": " + text +
+        "; read without " + Keywords[kind];
+    }
   }
 
   /// Adds the texture coordinates (kind 1) or normals (kind 2) to the points, zeros where no
@@ -240,6 +301,9 @@ private:
   std::array<vtkNew<vtkCellArray>, 3> Cells; ///< Those with one, two, and more points.
   std::vector<Corner> Corners; ///< The corners of polygons.
   std::map<std::string, std::int64_t> LeftOut;
+  std::array<std::string, 3> Missing; ///< Warnings of indices of nothing.
+  std::array<CellLabels, 3> Labels = { CellLabels(LabelArrays[0]), CellLabels(LabelArrays[1]),
+    CellLabels(LabelArrays[2]) };
 };
 
 /// The colors, texture coordinates and normals of points, as far as a .obj can hold them. Colors
@@ -260,6 +324,51 @@ std::array<vtkDataArray*, 3> FindArrays(vtkPolyData* mesh)
   }
   return { colors, fit(data->GetTCoords(), 1), fit(data->GetNormals(), 3) };
 }
+
+/// Writes the lines that label cells, each where a label differs from that of the cell before.
+class LabelWriter
+{
+public:
+  LabelWriter(vtkPolyData* mesh, std::ostream& out)
+    : Out(out)
+  {
+    for (const char* const array : LabelArrays)
+    {
+      this->Labels.emplace_back(mesh, array);
+    }
+  }
+
+  void Begin(vtkIdType cell)
+  {
+    for (std::size_t kind = 0; kind < this->Labels.size(); ++kind)
+    {
+      const StoredLabels& labels = this->Labels[kind];
+      if (labels.Numbers)
+      {
+        this->Put(kind,
+          labels.Texts->GetValue(static_cast<vtkIdType>(labels.Numbers->GetComponent(cell, 0))));
+      }
+    }
+  }
+
+private:
+  void Put(std::size_t kind, std::string text)
+  {
+    if (text == this->Last[kind])
+    {
+      return;
+    }
+    this->Last[kind] = text;
+    const auto isSpecial = [](unsigned char letter)
+    { return std::iscntrl(letter) || letter == '#' || letter == '\\'; };
+    std::replace_if(text.begin(), text.end(), isSpecial, '_');
+    this->Out << LabelKeywords[kind] << (text.empty() ? "" : " ") << text << '\n';
+  }
+
+  std::ostream& Out;
+  std::vector<StoredLabels> Labels;
+  std::array<std::string, 3> Last; ///< Nothing is labelled at first.
+};
 
 template <typename T>
 void PutNumber(std::ostream& out, T number, char before)
@@ -306,12 +415,15 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
       out << '\n';
     }
   }
+  LabelWriter labels(mesh, out);
+  vtkIdType cell = 0;
   for (vtkCellArray* cells : { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys() })
   {
     const bool isPolygons = cells == mesh->GetPolys();
     ForEachCell(cells,
       [&](vtkIdType size, const vtkIdType* points)
       {
+        labels.Begin(cell++);
         out << (isPolygons ? 'f' : cells == mesh->GetLines() ? 'l' : 'p');
         for (vtkIdType i = 0; i < size; ++i)
         {
@@ -331,10 +443,17 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
   }
 }
 
-std::vector<vtkAbstractArray*> ArraysOfObj(vtkPolyData* mesh)
+HeldArrays ArraysOfObj(vtkPolyData* mesh)
 {
   const auto arrays = FindArrays(mesh);
-  return { arrays.begin(), arrays.end() };
+  HeldArrays held = { { arrays.begin(), arrays.end() }, {}, {} };
+  for (const char* const array : LabelArrays)
+  {
+    const StoredLabels labels(mesh, array);
+    held.OfCells.push_back(labels.Numbers);
+    held.OfField.push_back(labels.Texts);
+  }
+  return held;
 }
 
 }

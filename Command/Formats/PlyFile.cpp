@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats.h"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -123,6 +124,7 @@ public:
         this->ReadElement(element);
       }
     }
+    this->StoreFaceData();
     const std::size_t rest = this->Lines.Rest.size();
     if (rest > 0 && (!this->IsText || this->Lines.Next()))
     {
@@ -216,11 +218,17 @@ private:
         (isList ? isFace && (name == "vertex_indices" || name == "vertex_index")
                 : isEdge && (name == "vertex1" || name == "vertex2"));
       found += property.IsOfCell ? 1 : 0;
-      if (isVertex && !isList)
+      const bool isLabel = isFace && IsInteger(property.Type);
+      if ((isVertex || isLabel) && !isList)
       {
         property.Array = vtkDataArray::CreateDataArray(property.Type);
         property.Array->SetName(name.c_str());
-        data->AddArray(vtk::TakeSmartPointer(property.Array));
+        vtkDataSetAttributes* owner = data;
+        if (isFace)
+        {
+          owner = this->FaceData;
+        }
+        owner->AddArray(vtk::TakeSmartPointer(property.Array));
       }
       else if (isList && !isVertex && !isFace && !isEdge)
       {
@@ -265,6 +273,31 @@ private:
     if (!others.empty())
     {
       this->Result.Warnings.push_back("left out " + others + " of the element " + element.Name);
+    }
+  }
+
+  /// Gives the integers of faces to the mesh. Edges, which come first there, have zeros.
+  void StoreFaceData()
+  {
+    vtkPolyData* const mesh = this->Result.Mesh;
+    for (const PlyGroup& group : Groups)
+    {
+      if (group.Attribute == vtkDataSetAttributes::SCALARS)
+      {
+        Join(this->FaceData, group);
+      }
+    }
+    for (int index = 0; index < this->FaceData->GetNumberOfArrays(); ++index)
+    {
+      vtkDataArray* const given = this->FaceData->GetArray(index);
+      const auto ofCells = vtk::TakeSmartPointer(given->NewInstance());
+      ofCells->SetName(given->GetName());
+      ofCells->SetNumberOfComponents(given->GetNumberOfComponents());
+      ofCells->SetNumberOfTuples(mesh->GetNumberOfLines());
+      ofCells->Fill(0.0);
+      ofCells->InsertTuples(mesh->GetNumberOfLines(), given->GetNumberOfTuples(), 0, given);
+      mesh->GetCellData()->AddArray(ofCells);
+      this->Result.AddLabels(given);
     }
   }
 
@@ -337,6 +370,7 @@ private:
   bool IsText = false;
   bool IsSwapped = false;
   std::vector<PlyElement> Elements;
+  vtkNew<vtkCellData> FaceData;
   std::size_t Place = 0; ///< Where the next word begins in a line of values.
   std::vector<vtkIdType> Cell; ///< The points of a face or an edge.
 };
@@ -410,10 +444,55 @@ std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh)
   return columns;
 }
 
+/// The properties of faces: arrays of integers of cells, and colors. Larger integers are left out.
+std::vector<PlyProperty> PlanFaceColumns(vtkPolyData* mesh)
+{
+  std::vector<PlyProperty> columns;
+  vtkCellData* const data = mesh->GetCellData();
+  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
+  {
+    vtkDataArray* const array = data->GetArray(index);
+    if (!array || !IsInteger(array->GetDataType()) ||
+      array->GetNumberOfTuples() < mesh->GetNumberOfCells())
+    {
+      continue;
+    }
+    int type = array->GetDataType();
+    if (!NameOf(type))
+    {
+      const double* const range = array->GetRange(0);
+      const bool fits = range[0] >= VTK_INT_MIN && range[1] <= VTK_INT_MAX;
+      type = fits ? VTK_INT : VTK_VOID;
+    }
+    const Names names = PropertyNames(data, array);
+    const bool isTaken = std::any_of(names.begin(), names.end(),
+      [&columns](const std::string& name)
+      { return Find(columns, name) || name == "vertex_indices" || name == "vertex_index"; });
+    const bool isOne = names.size() == 1 || names[0] == "red";
+    for (std::size_t i = 0; i < names.size() && !isTaken && isOne && type != VTK_VOID; ++i)
+    {
+      columns.push_back({ names[i], type, array, static_cast<int>(i) });
+    }
+  }
+  return columns;
+}
+
 template <typename T>
 void WriteNumber(std::ostream& out, T number)
 {
   out.write(reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+void WriteRow(std::ostream& out, const std::vector<PlyProperty>& columns, vtkIdType tuple)
+{
+  for (const PlyProperty& column : columns)
+  {
+    const double value = column.Array->GetComponent(tuple, column.Component);
+    switch (column.Type)
+    {
+      vtkTemplateMacro(WriteNumber(out, static_cast<VTK_TT>(value)));
+    }
+  }
 }
 
 }
@@ -449,6 +528,11 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   }
   out << "element face " << mesh->GetNumberOfPolys() << "\nproperty list "
       << (isShort ? "uchar" : "int") << " int vertex_indices\n";
+  const std::vector<PlyProperty> ofFaces = PlanFaceColumns(mesh);
+  for (const PlyProperty& column : ofFaces)
+  {
+    out << "property " << NameOf(column.Type) << ' ' << column.Name << '\n';
+  }
   if (const std::size_t bytes = edges.str().size())
   {
     out << "element edge " << bytes / 8 << "\nproperty int vertex1\nproperty int vertex2\n";
@@ -456,15 +540,9 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   out << "end_header\n";
   for (vtkIdType point = 0; point < size; ++point)
   {
-    for (const PlyProperty& column : columns)
-    {
-      const double value = column.Array->GetComponent(point, column.Component);
-      switch (column.Type)
-      {
-        vtkTemplateMacro(WriteNumber(out, static_cast<VTK_TT>(value)));
-      }
-    }
+    WriteRow(out, columns, point);
   }
+  vtkIdType cell = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
   ForEachCell(mesh->GetPolys(),
     [&](vtkIdType count, const vtkIdType* points)
     {
@@ -472,18 +550,23 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
               : WriteNumber(out, static_cast<std::int32_t>(count));
       std::for_each(points, points + count,
         [&out](vtkIdType point) { WriteNumber(out, static_cast<std::int32_t>(point)); });
+      WriteRow(out, ofFaces, cell++);
     });
   out << edges.str();
 }
 
-std::vector<vtkAbstractArray*> ArraysOfPly(vtkPolyData* mesh)
+HeldArrays ArraysOfPly(vtkPolyData* mesh)
 {
-  std::vector<vtkAbstractArray*> arrays;
+  HeldArrays held;
   for (const PlyProperty& column : PlanColumns(mesh))
   {
-    arrays.push_back(column.Array);
+    held.OfPoints.push_back(column.Array);
   }
-  return arrays;
+  for (const PlyProperty& column : PlanFaceColumns(mesh))
+  {
+    held.OfCells.push_back(column.Array);
+  }
+  return held;
 }
 
 }

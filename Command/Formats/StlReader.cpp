@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CellLabels.h"
 #include "Formats.h"
 
 #include <vtkCellArray.h>
@@ -53,8 +54,7 @@ private:
   std::int64_t Corners = 0;
 };
 
-/// @returns what is left out. So does the next function.
-std::string ReadBinary(std::string_view bytes, CornerMesh& mesh)
+void ReadBinary(std::string_view bytes, CornerMesh& mesh, FileMesh& result)
 {
   bool hasAttributes = false;
   for (std::size_t begin = BodyBegin; begin < bytes.size(); begin += TriangleSize)
@@ -68,25 +68,57 @@ std::string ReadBinary(std::string_view bytes, CornerMesh& mesh)
     hasAttributes =
       hasAttributes || bytes.substr(begin + sizeof(numbers), 2) != std::string_view("\0\0", 2);
   }
-  return hasAttributes ? "the attribute bytes of triangles" : "";
+  if (hasAttributes)
+  {
+    result.Warnings.emplace_back("left out the attribute bytes of triangles");
+  }
 }
 
-std::string ReadText(const InputFile& file, CornerMesh& mesh)
+/// The keyword of a line, in lower case: "endloop" of "end loop", too.
+std::string KeywordOf(const std::vector<std::string_view>& words)
+{
+  std::string keyword(words[0]);
+  std::transform(keyword.begin(), keyword.end(), keyword.begin(), ::tolower);
+  if (keyword == "end" && words.size() > 1)
+  {
+    std::string what(words[1]);
+    std::transform(what.begin(), what.end(), what.begin(), ::tolower);
+    keyword += what;
+  }
+  return keyword;
+}
+
+std::string NameOfSolid(const std::vector<std::string_view>& words)
+{
+  std::string name;
+  for (std::size_t i = 1; i < words.size(); ++i)
+  {
+    name += (i > 1 ? " " : "") + std::string(words[i]);
+  }
+  return name;
+}
+
+/// Where there are several solids, they become labels.
+void ReadText(const InputFile& file, CornerMesh& mesh, FileMesh& result)
 {
   constexpr const char* Facet[] = { "facet", "outer", "vertex", "vertex", "vertex", "endloop",
     "endfacet" };
   TextLines lines(file);
+  CellLabels labels("Solid");
   int solids = 0;
   bool isOpen = false;
   std::size_t place = 0; // in a facet
   while (lines.Next())
   {
-    std::string keyword(lines.Words[0]);
-    std::transform(keyword.begin(), keyword.end(), keyword.begin(), ::tolower);
+    const std::string keyword = KeywordOf(lines.Words);
     if (place == 0 && keyword == (isOpen ? "endsolid" : "solid"))
     {
       isOpen = !isOpen;
-      solids += isOpen ? 1 : 0;
+      if (isOpen)
+      {
+        ++solids;
+        labels.SetNew(NameOfSolid(lines.Words));
+      }
       continue;
     }
     if (!isOpen || keyword != Facet[place])
@@ -98,12 +130,19 @@ std::string ReadText(const InputFile& file, CornerMesh& mesh)
       mesh.Add({ lines.Number<double>(1), lines.Number<double>(2), lines.Number<double>(3) });
     }
     place = (place + 1) % std::size(Facet);
+    if (place == 0)
+    {
+      labels.AddCell(2);
+    }
   }
   if (isOpen || solids == 0)
   {
     file.Fail("has no 'endsolid' (truncated or corrupt)");
   }
-  return solids > 1 ? "which triangle is of which of its " + Counted(solids, "solid") : "";
+  if (solids > 1)
+  {
+    labels.Store(result);
+  }
 }
 
 }
@@ -125,12 +164,8 @@ FileMesh ReadStl(const InputFile& file)
       " (truncated or corrupt)");
   }
   CornerMesh mesh(isBinary ? VTK_FLOAT : VTK_DOUBLE);
-  const std::string leftOut = isBinary ? ReadBinary(bytes, mesh) : ReadText(file, mesh);
   FileMesh result;
-  if (!leftOut.empty())
-  {
-    result.Warnings.push_back("left out " + leftOut);
-  }
+  isBinary ? ReadBinary(bytes, mesh, result) : ReadText(file, mesh, result);
   result.Mesh->SetPoints(mesh.Points);
   result.Mesh->SetPolys(mesh.Triangles);
   return result;

@@ -108,6 +108,24 @@ class Lost(CommandTest):
             self.fail_with(3, path, name, naming=[name, "line 0 has 1 point,"])
 
 
+class Solids(CommandTest):
+    def test_several_solids_are_labels(self):
+        """Two coplanar triangles, whose edge is bad. The words after "end" may be apart."""
+        facet = ("facet normal 0 0 1\nouter loop\nvertex {}\nvertex {}\nvertex {}\nend loop\n"
+                 "end facet\n")
+        first = facet.format("0 0 0", "4 0 0", "2 1 0")
+        second = facet.format("4 0 0", "0 0 0", "2 -1 0")
+        self.write("in.stl", f"solid a b\n{first}end solid\nsolid a b\n{second}End Solid a b\n")
+        self.assertIn("--region-array Solid keeps", self.succeed("in.stl", "out.vtp").stderr)
+        self.assertEqual(self.report("in.stl", "out.vtp")["total_flips"], 1)
+        self.assertEqual(self.report("in.stl", "out.vtp", "--region-array", "Solid")["total_flips"], 0)
+        mesh = self.read_mesh("out.vtp")
+        self.assertEqual([mesh.GetCellData().GetArray("Solid").GetValue(i) for i in (0, 1)], [0, 1])
+        self.assertEqual(mesh.GetFieldData().GetAbstractArray("SolidNames").GetValue(1), "a b")
+        self.write("one.stl", f"solid a\n{first}end solid\n")
+        self.assertEqual(self.succeed("one.stl", "out.stl").stderr, "")
+
+
 class RepeatedPoints(CommandTest):
     def test_obj_keeps_vertices_that_it_repeats(self):
         """Some programs write a vertex for every normal. The edge is then a boundary."""

@@ -23,8 +23,7 @@ class Obj(ArrayTest):
     def test_what_is_left_out_is_named(self):
         for text, said in (
             ("f 1 2 3\nvp 1\ncurv 0 1 1 2\nvp 2\n", "curv (1), vp (2)"),
-            ("mtllib a b.mtl\nf 1 2 3\nusemtl red\ng one two\nf 1 3 4\nusemtl blue\n",
-             "g (1), mtllib (1), usemtl (2)"),
+            ("mtllib a b.mtl\nf 1 2 3\ns 1\nf 1 3 4\ns off\n", "mtllib (1), s (2)"),
             (TEXTURE + "f 1/1 2/2 3/3\nf 1/2 3/3 4/4\n", "vt (5)"),  # a seam at point 1
             (TEXTURE + "f 1/1 2/2 3\n", "vt (5)"),
             (NORMALS + "f 1//1 2//2 3//1\nf 1//2 3//3 4//2\n", "vn (3)"),
@@ -38,6 +37,47 @@ class Obj(ArrayTest):
                 self.assertEqual(mesh.GetPointData().GetNumberOfArrays(), 0)
             self.assertIn((0, 1, 2), triangles_of(mesh))
         self.assertIn("warning: a.obj: left out vn (3)\n", self.read("a.obj", SQUARE + NORMALS)[1])
+
+    def test_labels_of_faces(self):
+        """Two coplanar triangles of different materials, whose edge is bad."""
+        text = ("v 0 0 0\nv 4 0 0\nv 2 1 0\nv 2 -1 0\nf 1 2 3\nl 1 2\no a b\nusemtl red # 1\n"
+                "g one two\nf 1 2 3\nusemtl blue\nf 2 1 4\nusemtl red\nl 1 3\n")
+        self.write("in.obj", text)
+        note = ("its faces have labels (Material, Group, Object); --region-array Material keeps the "
+                "edges between them")
+        self.assertIn("note: in.obj: " + note, self.succeed("in.obj", "flipped.vtp").stderr)
+        for name in ("out.vtp", "out.vtk", "out.obj"):
+            said = self.succeed("in.obj", name, "--region-array", "Material").stderr
+            self.assertEqual(said.count("note:"), 0, said)
+            self.succeed(name, "again.vtp", "--region-array", "Material")
+            mesh = self.read_mesh("again.vtp")
+            for array, labels in (("Material", ("", "red", "", "red", "blue")),
+                                  ("Group", ("", "one two", "", "one two", "one two")),
+                                  ("Object", ("", "a b", "", "a b", "a b"))):
+                texts = mesh.GetFieldData().GetAbstractArray(array + "Names")
+                numbers = mesh.GetCellData().GetArray(array)
+                found = [texts.GetValue(int(n)) for n in values_of(numbers)]
+                self.assertEqual(tuple(found), labels, (name, array))
+            self.assertIn((1, 0, 3), triangles_of(mesh))
+        self.assertIn("cell data (Material", self.succeed("in.obj", "out.stl").stderr)
+        self.write("one.obj", "usemtl red\n" + SQUARE + "f 1 2 3\nf 1 3 4\n")
+        self.assertEqual(self.succeed("one.obj", "out.obj").stderr, "")
+        self.assertIn("usemtl red\nf 1 2 3\nf ", self.content("out.obj").decode())
+
+    def test_normals_and_texture_that_do_not_exist(self):
+        for kind, element, faces in (
+            ("vt", "texture coordinate (vt)", "f 1/1 2/1 3/7\nf 1/1 3/1 4/1\n"),
+            ("vn", "normal (vn)", "f 1//1 2//1 3//7\nf 1//0 3//1 4//-9\n"),
+            ("vn", "normal (vn)", "vt 0 0\nf 1/1/1 2/1/1 3/1/7\nf 1 3 4\n"),
+        ):
+            mesh, said = self.read("a.obj", SQUARE + f"{kind} 0 0 1\n" + faces)
+            line = 7 if faces.startswith("vt") else 6
+            self.assertIn(f"warning: a.obj: line {line}: index 7 of a {element} is out of range: there "
+                          f"are 1; read without {kind}\n", said)
+            self.assertEqual(said.count("is out of range"), 1)
+            self.assertEqual(len(triangles_of(mesh)), 2)
+            self.assertIsNone(mesh.GetPointData().GetNormals())
+        self.assertIn("there are 0;", self.read("a.obj", SQUARE + "f 1//1 2//1 3//1\n")[1])
 
     def test_closed_surface_of_seams_stays_closed(self):
         """A tetrahedron of which every triangle has its own texture: its bad edge must not flip."""

@@ -126,6 +126,7 @@ property double z
 property uchar red
 element face 2
 property list uchar int vertex_indices
+property int material
 element edge 1
 property int vertex1
 property int vertex2
@@ -134,8 +135,8 @@ end_header
 4 0 0 0
 4 3 1e-3 7
 0.5 3 0 9
-3 0 1 2
-3 0 2 3
+3 0 1 2 7
+3 0 2 3 -8
 0 2
 )";
 
@@ -153,9 +154,30 @@ g left
 usemtl grey
 s 1
 f 1/1/1 2/2/1 3/1/1
+usemtl
 f -4//1 -2//1 -1//1
 l 1 2
 p 3
+)";
+
+constexpr const char* StlText = R"(solid one two
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 4 0 0
+vertex 2 1 0
+end loop
+endfacet
+end solid
+solid
+facet normal 0 0 1
+outer loop
+vertex 4 0 0
+vertex 0 0 0
+vertex 2 -1 1e-3
+endloop
+end facet
+endsolid
 )";
 
 constexpr const char* CsvText = "id;X;Y;Z\n1;0;0;5\n2;4.5;0;1e-3\n#3\n3;4;3;\"2\"\n\n4;0;3;-1\n";
@@ -197,8 +219,8 @@ int WriteAll(const std::string& folder)
   Write<vtkSTLWriter>(folder + "/ascii.stl", triangles, ascii);
   Write<vtkOBJWriter>(folder + "/plain.obj", triangles, [](auto*) {});
   const std::pair<const char*, const char*> texts[] = { { "text.ply", PlyText },
-    { "text.obj", ObjText }, { "names.csv", CsvText }, { "survey.csv", SurveyText },
-    { "plain.csv", XyzText } };
+    { "text.obj", ObjText }, { "solids.stl", StlText }, { "names.csv", CsvText },
+    { "survey.csv", SurveyText }, { "plain.csv", XyzText } };
   for (const auto& [name, text] : texts)
   {
     std::ofstream(folder + "/" + name, std::ios::binary) << text;
