@@ -4,6 +4,7 @@
 import importlib.util
 import math
 import re
+import signal
 import subprocess
 import sys
 import unittest
@@ -301,6 +302,16 @@ class Observers(unittest.TestCase):
         watched.filter.Modified()
         watched.run()
         self.assertTrue(watched.filter.GetConverged())
+
+    def test_a_handler_of_signals_may_ask_to_abort(self):
+        """As the page Start in Python says of Ctrl-C, which comes while an observer runs."""
+        watched = Watched(make_bad_mesh())
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(
+            signal.SIGINT, lambda *_: watched.filter.SetAbortExecute(1)))
+        watched.filter.AddObserver("ProgressEvent", lambda *_: signal.raise_signal(signal.SIGINT))
+        watched.run()
+        self.assertEqual(watched.filter.GetStopReason(), vtkDelaunayFlip.STOP_REASON_ABORTED)
+        self.assertFalse(watched.filter.GetAbortExecute())
 
     def test_input_is_removed(self):
         filter_ = vtkDelaunayFlip()
