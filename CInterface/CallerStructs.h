@@ -158,7 +158,7 @@ inline PointInput ToPointInput(const delaunayflip_points& c)
 inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
 {
   return { options, c.point_tolerance, c.split_crossings != 0,
-    ToEnumeration(c.outline, OutlineKind::Any, "outline"), c.alpha, c.longest_edge };
+    ToEnumeration(c.ring_rule, RingRuleKind::Orientation, "ring_rule"), c.alpha, c.longest_edge };
 }
 
 /// Views of the arrays of a complete mesh in device memory.

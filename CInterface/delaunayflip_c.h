@@ -264,11 +264,11 @@ extern "C"
 
   typedef enum
   {
-    DELAUNAYFLIP_EVEN_ODD = 0, /**< Triangles inside an odd number of rings are kept. */
-    DELAUNAYFLIP_ORIENTATION = 1, /**< Those inside more counter-clockwise rings than clockwise
-                                     ones; if no ring is counter-clockwise, those in no ring. */
-    DELAUNAYFLIP_ANY_RING = 2 /**< Those inside any ring. */
-  } delaunayflip_outline;
+    DELAUNAYFLIP_EVEN_ODD = 0, /**< A path to infinity crosses the rings an odd number of times. */
+    DELAUNAYFLIP_NONZERO = 1, /**< The turns of the rings around it do not add up to 0. */
+    DELAUNAYFLIP_ORIENTATION = 2 /**< In the outline: more counter-clockwise turns; if it has no
+                                    counter-clockwise ring, no turns. In holes: as NONZERO. */
+  } delaunayflip_ring_rule; /**< When a place is inside a set of rings. */
 
   /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each
    * member in full. */
@@ -282,19 +282,20 @@ extern "C"
     const int64_t* segments; /**< Edges that the mesh must have: pairs of point ids, or null. */
     int64_t number_of_segments;
     const int32_t* rings; /**< For each segment the number of its ring, or -1; null: no rings.
-                             What is outside of rings is removed; see outline and first_hole. */
+                             Its segments may run in any direction. What is not inside the outline
+                             or is inside the holes is removed; see ring_rule and first_hole. */
     const double* hole_seeds; /**< x, y of places: what can be reached from there without crossing a
                                  segment is removed. */
     int64_t number_of_hole_seeds;
     double point_tolerance; /**< Points nearer than this to one with a lower id are not used. [0] */
     double alpha; /**< Triangles with a larger circumradius are removed; 0: none. [0] */
     double longest_edge; /**< Triangles with a longer edge are removed; 0: none. [0] */
-    int32_t outline; /**< A delaunayflip_outline. [EVEN_ODD] */
+    int32_t ring_rule; /**< A delaunayflip_ring_rule. [EVEN_ODD] */
     int32_t split_crossings; /**< Not 0: segments that cross are split there. 0: the later one is
                                 refused. [0] */
     int32_t memory; /**< A delaunayflip_memory: where the points are. [HOST] */
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
-    int32_t first_hole; /**< Rings from this number on are holes: what is inside of any is removed.
+    int32_t first_hole; /**< Rings from this number on are holes, those before are the outline.
                            [INT32_MAX] */
   } delaunayflip_points;
 

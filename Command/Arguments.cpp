@@ -256,9 +256,13 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     ->type_name("LIST")
     ->check([](const std::string& list) { return ChosenColumns(list).FindFault(); });
   AddFile(app, "--outline", arguments.Outline,
-    "A mesh file whose polygons and closed lines are rings: what is outside of all is removed");
+    "A mesh file whose polygons and closed lines are rings: what is not inside them is removed");
   AddFile(app, "--holes", arguments.Holes,
-    "A mesh file whose polygons and closed lines are rings: what is inside is removed");
+    "A mesh file whose polygons and closed lines are rings: what is inside them is removed");
+  AddChoice(app, "--ring-rule", Set(arguments, &vtkDelaunayFlipPoints::SetRingRule),
+    { "evenodd", "nonzero" },
+    "When a place is inside the rings of a file: if a path to infinity crosses them an odd number "
+    "of times, or if their turns around the place do not add up to 0 [evenodd]");
   app.add_flag_callback("--split-crossings",
     Set(arguments, &vtkDelaunayFlipPoints::SplitCrossingsOn),
     "Add a point where segments cross. Else one that crosses an earlier one is left out");
@@ -334,8 +338,8 @@ void RelateOptions(CLI::App& app)
 {
   app.get_option("--insert-lines")->excludes("--ignore-lines");
   CLI::Option* const fromPoints = app.get_option("--from-points");
-  for (const char* name : { "--columns", "--outline", "--holes", "--split-crossings", "--alpha",
-         "--longest-edge", "--point-tolerance", "--projection" })
+  for (const char* name : { "--columns", "--outline", "--holes", "--ring-rule", "--split-crossings",
+         "--alpha", "--longest-edge", "--point-tolerance", "--projection" })
   {
     app.get_option(name)->needs(fromPoints);
   }
@@ -457,7 +461,6 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
              "writable; 4 iteration limit reached (output written); 5 the requested backend is\n"
              "not available; 129, 130, 131 or 143 ended by the signal HUP, INT (Ctrl-C), QUIT\n"
              "or TERM. With any code but 0 and 4 no file has been changed.\n");
-  arguments.Points->SetOutlineToAny();
   AddReadOptions(app, arguments);
   AddJudgeOptions(app, arguments);
   AddStayOptions(app, arguments);

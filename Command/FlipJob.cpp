@@ -108,6 +108,7 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
   std::string text = message;
   for (const auto& [property, option] :
     { std::pair("\\bRegionArray\\b", "--region-array"), std::pair("\\bTolerance\\b", "--tolerance"),
+      std::pair("\\bSplitCrossings\\b", "--split-crossings"),
       std::pair("merge points that lie at the same place",
         mergesPoints ? "no two edges lie at the same place, even after --merge-points"
                      : "--merge-points joins those that lie at the same place") })
@@ -317,6 +318,7 @@ public:
     if (this->Segments)
     {
       this->Settings.Points->SetFirstHole(this->Segments->GetNumberOfLines() + this->OutlineRings);
+      this->Settings.Points->ClosedLinesAsRingsOff(); // those that are rings have become polygons
     }
     this->Bar.Begin(Phase::Flipping, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, this, &FlipJob::ShowProgress);
@@ -326,7 +328,7 @@ public:
     this->Bar.Clear();
     for (const std::string& warning : TakeVTKWarnings())
     {
-      this->Warn(WithOptions(warning, this->Settings.MergePoints));
+      this->Warn(this->NameRings(WithOptions(warning, this->Settings.MergePoints)));
     }
     this->ThrowErrors();
     this->TakeReport();
@@ -517,23 +519,48 @@ private:
     }
   }
 
+  /// The file of a ring, and its name there.
+  /// @param number the filter's: its cell id.
+  std::pair<std::string, std::string> FindRing(const std::string& number) const
+  {
+    const vtkIdType ring = std::stoll(number) - this->Segments->GetNumberOfLines();
+    if (ring < this->OutlineRings)
+    {
+      return { this->Settings.Outline, "ring " + std::to_string(ring) };
+    }
+    return { this->Settings.Holes, "ring " + std::to_string(ring - this->OutlineRings) };
+  }
+
+  /// A warning of the filter that names rings by their files.
+  std::string NameRings(const std::string& warning) const
+  {
+    static const std::regex list("(an area, left out \\(first: )([\\d, ]+)"), number("\\d+");
+    std::smatch found;
+    if (!std::regex_search(warning, found, list))
+    {
+      return warning;
+    }
+    const std::string numbers = found[2].str();
+    std::string names;
+    for (std::sregex_iterator each(numbers.begin(), numbers.end(), number), end; each != end;
+         ++each)
+    {
+      const auto [path, ring] = this->FindRing(each->str());
+      names += (names.empty() ? "" : ", ") + ring + " of " + path;
+    }
+    return found.prefix().str() + found[1].str() + names + found.suffix().str();
+  }
+
   void ThrowErrors()
   {
     const std::string errors = TakeVTKErrors();
-    static const std::regex rings("\\bring (\\d+)( from .* cannot be inserted)?(.*)");
+    static const std::regex ofRing("\\bring (\\d+)( from point \\d+ to point \\d+)?(.*)");
     std::smatch found;
-    if (this->Settings.FromPoints && std::regex_search(errors, found, rings))
+    if (this->Settings.FromPoints && std::regex_search(errors, found, ofRing))
     {
-      // Names the file of the ring, and the number that it has there.
-      const vtkIdType ring = std::stoll(found[1].str()) - this->Segments->GetNumberOfLines();
-      const bool isHole = ring >= this->OutlineRings;
+      const auto [path, ring] = this->FindRing(found[1].str());
       throw CommandError(ExitCode::BadFile,
-        (isHole ? this->Settings.Holes : this->Settings.Outline) + ": ring " +
-          std::to_string(ring - (isHole ? this->OutlineRings : 0)) +
-          (found[2].matched ? " cannot be used" : "") + found[3].str() +
-          (found[2].matched && !this->Settings.Points->GetSplitCrossings()
-              ? "; --split-crossings adds points where it crosses others"
-              : ""));
+        path + ": " + ring + WithOptions(found[3].str(), this->Settings.MergePoints));
     }
     if (!errors.empty())
     {

@@ -294,25 +294,19 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
     vtkIdType cell = 0;
     const auto add = [&](vtkIdType size, const vtkIdType* points)
     {
-      const auto require = [&](bool isTrue, const char* problem)
-      {
-        if (!isTrue)
-        {
-          throw CommandError(ExitCode::BadFile,
-            path + (areLines ? ": line " : ": polygon ") + std::to_string(cell) + problem);
-        }
-      };
       std::vector<vtkIdType> ids(points, points + size);
-      if (!areBreaklines)
+      if (!areBreaklines && size > 0)
       {
-        const char* const few = " has fewer than three points, so it is no ring";
-        require(size > 2, few);
         std::array<double, 3> first, last;
         mesh->GetPoint(ids.front(), first.data());
         mesh->GetPoint(ids.back(), last.data());
-        require(first == last || !areLines, " does not end where it begins, so it is no ring");
-        ids.resize(ids.size() - (first == last ? 1 : 0));
-        require(ids.size() > 2, few);
+        if (first != last && areLines)
+        {
+          throw CommandError(ExitCode::BadFile,
+            path + ": line " + std::to_string(cell) +
+              " does not end where it begins, so it is no ring");
+        }
+        ids.resize(ids.size() - (first == last && size > 1 ? 1 : 0));
       }
       else if (!areLines && size > 0)
       {

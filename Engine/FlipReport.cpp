@@ -81,6 +81,7 @@ std::string InSingular(const std::string& what)
       "segment that crosses an earlier one or ends " },
     { "segments ", "segment " },
     { "hole seeds ", "hole seed " },
+    { "rings ", "ring " },
   };
   for (const auto& [several, one] : beginnings)
   {

@@ -60,7 +60,8 @@ enum class DefectIds
 {
   Triangles, ///< The caller's triangle slots.
   Points,
-  PointPairs ///< Two ids for each: ends of edges, in the caller's order.
+  PointPairs, ///< Two ids for each: ends of edges, in the caller's order.
+  Rings ///< The caller's numbers.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.

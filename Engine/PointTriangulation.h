@@ -22,22 +22,26 @@
 /// earlier one is no conflict. One that crosses an earlier one is refused, counted and named in the
 /// report, or with PointOptions::SplitCrossings both are split where they cross.
 ///
-/// **Rings** are closed polygons of segments, in any direction, with an area. What lies outside of
-/// them is removed (PointOptions::Outline), and what lies inside of rings that are holes
-/// (PointInput::FirstHole), then the regions of hole seeds, then what Alpha and LongestEdge say.
+/// **Rings** are closed polygons of segments, in any direction. There are two sets of them: the
+/// outline, and the holes (PointInput::FirstHole). PointOptions::RingRule says what is inside a
+/// set. What is inside the outline, or everything if there is none, and not inside the holes is
+/// kept; the rest is removed, then the regions of hole seeds, then what Alpha and LongestEdge say.
+/// A ring without an area, such as one of fewer than three places or with all of them on one line,
+/// is left out and reported: its segments are segments of no ring.
 
 namespace delaunayflip
 {
 
-/// What rings of segments enclose, if they are not holes.
-enum class OutlineKind
+/// When a place is inside a set of rings.
+enum class RingRuleKind
 {
-  EvenOdd, ///< Triangles inside an odd number of rings are kept.
-  /// Counter-clockwise rings enclose what is kept, clockwise ones cut holes, as for vtkDelaunay2D's
-  /// Source: triangles inside more counter-clockwise rings than clockwise ones are kept. If no ring
-  /// is counter-clockwise, those in no ring are kept.
-  Orientation,
-  Any ///< Triangles inside any ring are kept.
+  EvenOdd, ///< If a path from there to infinity crosses the rings an odd number of times.
+  NonZero, ///< If the counter-clockwise turns of the rings around it differ from the clockwise
+           ///< ones.
+  /// As for vtkDelaunay2D's Source: inside the outline if it has more counter-clockwise turns
+  /// around the place than clockwise ones, or, if no ring of the outline is counter-clockwise, if
+  /// it has none. Inside the holes by NonZero.
+  Orientation
 };
 
 /// Points in the plane, and the segments between them.
@@ -50,11 +54,10 @@ struct PointInput
   std::int64_t NumberOfSegments = 0;
 
   /// For every segment the number of its ring, from 0 to INT32_MAX - 1, or -1 for a segment that is
-  /// part of no ring. Null: there are no rings. The segments of a ring run around it, all in the
-  /// same direction.
+  /// part of no ring. Null: there are no rings. The segments of a ring may run in any direction. If
+  /// it varies, they are turned to that of the first one.
   const std::int32_t* Rings = nullptr;
-  /// Rings from this number on are holes: triangles inside any of them are removed. If all are, the
-  /// others are kept.
+  /// Rings from this number on are holes; those before are the outline.
   std::int32_t FirstHole = INT32_MAX;
 
   /// x and y of places in holes: the triangles that can be reached from there without crossing a
@@ -81,7 +84,7 @@ struct PointOptions : FlipOptions
   /// because the halves may cross others; what then still crosses is refused.
   bool SplitCrossings = false;
 
-  OutlineKind Outline = OutlineKind::EvenOdd;
+  RingRuleKind RingRule = RingRuleKind::EvenOdd;
 
   /// Triangles whose circumcircle has a larger radius are removed, unless one of their edges is a
   /// segment. 0 (default): none.

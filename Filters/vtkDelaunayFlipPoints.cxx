@@ -21,13 +21,15 @@
 #include "vtkTransform.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <locale>
 #include <sstream>
 
 using namespace delaunayflip;
 
-static_assert(static_cast<int>(OutlineKind::Any) == vtkDelaunayFlipPoints::OUTLINE_ANY, "");
+static_assert(
+  static_cast<int>(RingRuleKind::Orientation) == vtkDelaunayFlipPoints::RING_RULE_ORIENTATION, "");
 
 namespace
 {
@@ -85,6 +87,7 @@ struct CloudRequest
   vtkPolyData* Segments; ///< Or null.
   vtkAbstractTransform* Transform; ///< Or null.
   bool FitsPlane;
+  bool ClosedLinesAsRings;
   vtkIdType FirstHole;
   PointOptions Options;
   Stamps Points; ///< Of the cloud.
@@ -107,7 +110,7 @@ public:
       Cloud(vtkSmartPointer<vtkPolyData>::New())
   {
     this->Cloud->ShallowCopy(this->Given);
-    this->AddSegments(request.Segments);
+    this->AddSegments(request.Segments, request.ClosedLinesAsRings);
     this->FindFlatPoints(request.FirstHole);
     this->Input.Points = this->Project(request);
     this->Input.Segments = this->Segments.data();
@@ -184,12 +187,12 @@ private:
     return MakeRoomForTriangles(this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8);
   }
 
-  void AddSegments(vtkPolyData* others)
+  void AddSegments(vtkPolyData* others, bool closedLinesAsRings)
   {
     vtkPolyData* given = this->Given;
     const vtkIdType count = given->GetNumberOfPoints();
     this->AddCells(
-      given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, false);
+      given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, CellKind::Line);
     this->FirstOther = this->Segments.size();
     if (!others)
     {
@@ -204,27 +207,62 @@ private:
       areSame ? std::vector<vtkIdType>() : this->AddPoints(points, otherPoints, segments);
     const vtkIdType size = areSame ? count : otherPoints.Count;
     const vtkIdType verts = segments->GetNumberOfVerts();
-    this->AddCells(segments->GetLines(), { "segment cell", verts, size }, ids, false);
+    this->AddCells(segments->GetLines(), { "segment cell", verts, size }, ids,
+      closedLinesAsRings ? CellKind::LineOrRing : CellKind::Line);
     this->AddCells(segments->GetPolys(),
-      { "segment cell", verts + segments->GetNumberOfLines(), size }, ids, true);
+      { "segment cell", verts + segments->GetNumberOfLines(), size }, ids, CellKind::Ring);
   }
 
-  /// @param ids of the points that the cells name; empty: their own. @param areRings whether the
-  /// cells are polygons, whose rings have the numbers of the cells.
-  void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
-    bool areRings)
+  enum class CellKind
   {
-    VisitEdges(cells, areRings, check,
-      [&](vtkIdType cell, vtkIdType first, vtkIdType last, bool isRing)
+    Line,
+    LineOrRing, ///< A line that ends where it begins is a ring.
+    Ring
+  };
+
+  /// @param ids of the points that the cells name; empty: their own. Rings have the numbers of
+  /// their cells.
+  void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
+    CellKind kind)
+  {
+    std::vector<vtkIdType> path;
+    VisitCells(cells, check,
+      [&](vtkIdType cell, vtkIdList* points)
       {
-        const vtkIdType from = ids.empty() ? first : ids[first];
-        const vtkIdType to = ids.empty() ? last : ids[last];
-        if (from != to || isRing)
+        path.clear();
+        for (const vtkIdType id : *points)
         {
-          this->Segments.insert(this->Segments.end(), { from, to });
-          this->Rings.push_back(isRing ? static_cast<std::int32_t>(check.FirstCell + cell) : -1);
+          path.push_back(ids.empty() ? id : ids[id]);
+        }
+        const bool isRing =
+          kind == CellKind::Ring || (kind == CellKind::LineOrRing && this->IsClosed(path));
+        const bool isOpen = !path.empty() && (path.size() == 1 || path.front() != path.back());
+        if (kind == CellKind::Ring && isOpen)
+        {
+          path.push_back(path.front());
+        }
+        for (std::size_t i = 1; i < path.size(); ++i)
+        {
+          if (path[i - 1] != path[i] || isRing)
+          {
+            this->Segments.insert(this->Segments.end(), { path[i - 1], path[i] });
+            this->Rings.push_back(isRing ? static_cast<std::int32_t>(check.FirstCell + cell) : -1);
+          }
         }
       });
+  }
+
+  /// Whether a line of three or more points ends at the place where it begins.
+  bool IsClosed(const std::vector<vtkIdType>& path) const
+  {
+    if (path.size() < 3)
+    {
+      return false;
+    }
+    std::array<double, 3> first, last;
+    this->Cloud->GetPoint(path.front(), first.data());
+    this->Cloud->GetPoint(path.back(), last.data());
+    return path.front() == path.back() || first == last;
   }
 
   /// Adds the points of the segments to the cloud where they are new. @returns the id of each.
@@ -476,7 +514,7 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   options.MaximumIterations = this->MaximumIterations;
   options.PointTolerance = this->PointTolerance;
   options.SplitCrossings = this->SplitCrossings;
-  options.Outline = static_cast<OutlineKind>(this->Outline);
+  options.RingRule = static_cast<RingRuleKind>(this->RingRule);
   options.Alpha = this->Alpha;
   options.LongestEdge = this->LongestEdge;
   Stamps points, arrays;
@@ -493,9 +531,9 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
     }
   }
   const std::vector<double> key{ this->Transform ? double(this->Transform->GetMTime()) : 0.0,
-    double(this->Projection), double(this->LinesAsSegments), this->PointTolerance,
-    double(this->SplitCrossings), double(this->Outline), double(this->FirstHole), this->Alpha,
-    this->LongestEdge };
+    double(this->Projection), double(this->LinesAsSegments), double(this->ClosedLinesAsRings),
+    this->PointTolerance, double(this->SplitCrossings), double(this->RingRule),
+    double(this->FirstHole), this->Alpha, this->LongestEdge };
   auto* last = static_cast<CloudRun*>(run.get());
   if (last && last->Asked.Key == key && last->Asked.Options == options &&
     last->Asked.Arrays.Fit(arrays) && (last->Asked.Points.Fit(points) || last->HasCopyOf(cloud)))
@@ -505,8 +543,8 @@ bool vtkDelaunayFlipPoints::ContinueOrStart(
   }
   run.reset(); // its memory may be needed
   run = std::make_unique<CloudRun>(CloudRequest{ cloud, segments, this->Transform,
-    this->Projection == PROJECTION_BEST_FITTING_PLANE, this->FirstHole, options, std::move(points),
-    std::move(arrays), key, isLive, this->MakeProgress() });
+    this->Projection == PROJECTION_BEST_FITTING_PLANE, this->ClosedLinesAsRings, this->FirstHole,
+    options, std::move(points), std::move(arrays), key, isLive, this->MakeProgress() });
   return false;
 }
 
@@ -530,7 +568,8 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LongestEdge: " << this->LongestEdge << "\n";
   os << indent << "PointTolerance: " << this->PointTolerance << "\n";
   os << indent << "SplitCrossings: " << this->SplitCrossings << "\n";
-  os << indent << "Outline: " << this->Outline << "\n";
+  os << indent << "RingRule: " << this->RingRule << "\n";
   os << indent << "FirstHole: " << this->FirstHole << "\n";
   os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";
+  os << indent << "ClosedLinesAsRings: " << this->ClosedLinesAsRings << "\n";
 }

@@ -12,12 +12,13 @@
  *
  * Input port 0: any vtkPointSet; its cells do not matter, but see LinesAsSegments. Port 1,
  * optional: the segments, a vtkPolyData. Its lines become edges of the mesh, such as the breaklines
- * of a terrain; its polygons too, and they are outlines and holes: triangles outside of them are
- * removed (see Outline, FirstHole). If this input has no points, or the same points as the first
- * input (the same number and bits), its point ids are those of the first input, as with the source
- * of vtkDelaunay2D. Otherwise a point at the place of one of the first input is that point, and the
- * others are added. Places are compared as vtkDelaunayFlip does: x, y and z must be equal, after
- * rounding to float if one of the inputs has float points.
+ * of a terrain. Its polygons too, and its lines that end where they begin (see ClosedLinesAsRings),
+ * and they are rings of the outline or of holes (see RingRule, FirstHole): what is not inside the
+ * outline, or inside the holes, is removed. Without an outline all is inside. If this input has no
+ * points, or the same points as the first input (the same number and bits), its point ids are those
+ * of the first input, as with the source of vtkDelaunay2D. Otherwise a point at the place of one of
+ * the first input is that point, and the others are added. Places are compared as vtkDelaunayFlip
+ * does: x, y and z must be equal, after rounding to float if one of the inputs has float points.
  *
  * Output port 0: a vtkPolyData with all points of the input, in their order and with their point
  * data, and triangles, which turn counter-clockwise in the plane. Without added points it shares
@@ -31,7 +32,7 @@
  * names begin with "DelaunayFlip:", too: PointsNotFinite, RepeatedPoints, PointsTooNear (see
  * PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
  * CrossingPoints (those added where segments cross), LargestShift (how far rounding has moved one
- * of them at most), OutsideTriangles and LargeTriangles (those removed outside of polygons, and by
+ * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by
  * Alpha and LongestEdge).
  *
  * Not all points are used. If several are at one place in the plane, only the one with the lowest
@@ -43,9 +44,9 @@
  * Segments are taken in the order of the cells: lines of the first input, lines, then polygons of
  * the second one. A segment through points is split there. One that overlaps an earlier one is no
  * conflict. One that crosses an earlier one is refused and counted, and a warning names the first
- * ones; with SplitCrossings both are split where they cross. If a segment of a polygon is refused,
- * the update fails, and the error names the polygon: the number of its ring is its cell id. The
- * update also fails if a polygon has no area.
+ * ones; with SplitCrossings both are split where they cross. If a segment of a ring is refused, the
+ * update fails, and the error names the ring: its number is its cell id. Rings without an area,
+ * such as those of two points, are left out, with a warning; their segments stay.
  *
  * The heights of added points are those of the second input. If its lines, outlines or holes have
  * z = 0 throughout, and the points of the first input do not, a warning counts the added points:
@@ -59,7 +60,7 @@
  * | vtkDelaunay2D | vtkDelaunayFlipPoints |
  * |---|---|
  * | Input | the same |
- * | Source | the second input, SetSegmentsConnection(); for polygons also Outline ORIENTATION |
+ * | Source | the second input, SetSegmentsConnection(); for polygons also RingRule ORIENTATION |
  * | Alpha | Alpha; the lines and vertices of an alpha shape are not made, only its triangles |
  * | Tolerance, a share of the extent | PointTolerance, a distance |
  * | Offset, BoundingTriangulation | none: there are no points but those of the inputs |
@@ -169,27 +170,28 @@ public:
 
   ///@{
   /**
-   * What the polygons of the second input enclose. EVEN_ODD (default): what is inside an odd number
-   * of them is kept. ORIENTATION: counter-clockwise polygons enclose what is kept, clockwise ones
-   * cut holes, as for vtkDelaunay2D. ANY: what is inside any of them is kept.
+   * When a place is inside a set of rings. EVEN_ODD (default): if a path from there to infinity
+   * crosses the rings an odd number of times. NON_ZERO: if the counter-clockwise turns of the rings
+   * around it differ from the clockwise ones. ORIENTATION, as for vtkDelaunay2D: counter-clockwise
+   * rings of the outline enclose what is kept, clockwise ones cut holes.
    */
-  enum OutlineType
+  enum RingRuleType
   {
-    OUTLINE_EVEN_ODD = 0,
-    OUTLINE_ORIENTATION = 1,
-    OUTLINE_ANY = 2
+    RING_RULE_EVEN_ODD = 0,
+    RING_RULE_NON_ZERO = 1,
+    RING_RULE_ORIENTATION = 2
   };
-  vtkSetClampMacro(Outline, int, OUTLINE_EVEN_ODD, OUTLINE_ANY);
-  vtkGetMacro(Outline, int);
-  void SetOutlineToEvenOdd() { this->SetOutline(OUTLINE_EVEN_ODD); }
-  void SetOutlineToOrientation() { this->SetOutline(OUTLINE_ORIENTATION); }
-  void SetOutlineToAny() { this->SetOutline(OUTLINE_ANY); }
+  vtkSetClampMacro(RingRule, int, RING_RULE_EVEN_ODD, RING_RULE_ORIENTATION);
+  vtkGetMacro(RingRule, int);
+  void SetRingRuleToEvenOdd() { this->SetRingRule(RING_RULE_EVEN_ODD); }
+  void SetRingRuleToNonZero() { this->SetRingRule(RING_RULE_NON_ZERO); }
+  void SetRingRuleToOrientation() { this->SetRingRule(RING_RULE_ORIENTATION); }
   ///@}
 
   ///@{
   /**
-   * Polygons of the second input are holes from this cell id on, in any direction: what is inside
-   * of any of them is removed. -1 (default): none.
+   * Rings of the second input are holes from this cell id on; those before are the outline. What is
+   * inside the holes is removed. -1 (default): there are no holes.
    */
   vtkSetClampMacro(FirstHole, vtkIdType, -1, VTK_ID_MAX);
   vtkGetMacro(FirstHole, vtkIdType);
@@ -197,11 +199,22 @@ public:
 
   ///@{
   /**
-   * Take the lines of the first input, if it is a vtkPolyData, as segments. Default off.
+   * Take the lines of the first input, if it is a vtkPolyData, as segments, also closed ones.
+   * Default off.
    */
   vtkSetMacro(LinesAsSegments, bool);
   vtkGetMacro(LinesAsSegments, bool);
   vtkBooleanMacro(LinesAsSegments, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Take a line of the second input that ends where it begins as a ring, as polygons are. Off: it
+   * is a breakline, such as a closed contour. Default on.
+   */
+  vtkSetMacro(ClosedLinesAsRings, bool);
+  vtkGetMacro(ClosedLinesAsRings, bool);
+  vtkBooleanMacro(ClosedLinesAsRings, bool);
   ///@}
 
   ///@{
@@ -236,9 +249,10 @@ protected:
   double LongestEdge = 0.0;
   double PointTolerance = 0.0;
   bool SplitCrossings = false;
-  int Outline = OUTLINE_EVEN_ODD;
+  int RingRule = RING_RULE_EVEN_ODD;
   vtkIdType FirstHole = -1;
   bool LinesAsSegments = false;
+  bool ClosedLinesAsRings = true;
 
 private:
   vtkMTimeType TimeOfBlock = 0; ///< When the block at hand was modified.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Outline.h"
 
-#include "FlipError.h"
 #include "SmallestAngle.h"
 #include "SurfaceAngles.h"
 
@@ -11,7 +10,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <string>
 #include <utility>
 
 namespace delaunayflip
@@ -31,17 +29,11 @@ public:
       Last(mesh.NumberOfEdges, None),
       Before(segments.size(), None)
   {
-    for (std::int64_t i = 0; input.Rings && i < input.NumberOfSegments; ++i)
-    {
-      if (input.Rings[i] >= 0)
-      {
-        this->Rings[input.Rings[i]];
-      }
-    }
     for (std::size_t i = 0; i < segments.size(); ++i)
     {
       if (segments[i].Ring >= 0)
       {
+        this->Rings[segments[i].Ring];
         this->Before[i] =
           std::exchange(this->Last[EdgeOf(segments[i].Side)], static_cast<std::int64_t>(i));
       }
@@ -50,9 +42,8 @@ public:
 
   bool HasRings() const { return !this->Rings.empty(); }
 
-  /// @returns 1 for every triangle that is in a hole or not inside of the outline, else 0.
-  /// @throws InvalidMesh if a ring has no area.
-  std::vector<unsigned char> FindOutside(OutlineKind outline)
+  /// @returns 1 for every triangle that is inside the holes or not inside the outline, else 0.
+  std::vector<unsigned char> FindOutside(RingRuleKind rule)
   {
     std::vector<unsigned char> fates(this->Mesh.NumberOfTriangles, Unknown);
     std::vector<HalfEdgeId> path; // the sides through which triangles were entered
@@ -64,7 +55,7 @@ public:
       {
         this->Cross(side);
         this->LookAround(side);
-        fates[TriangleOf(corner)] = this->Judge(outline);
+        fates[TriangleOf(corner)] = this->Judge(rule);
         path.push_back(side);
       }
       return isNew;
@@ -87,12 +78,24 @@ public:
         path.pop_back();
       }
     }
+    const bool hasOutline = this->HasOutline();
     for (unsigned char& fate : fates)
     {
-      fate = fate == Outside || (fate == OutsideIfAnyTurnsLeft && this->AnyTurnsLeft) ? 1 : 0;
+      const bool isOutside = fate == Outside || (fate == InNoRing && this->AnyTurnsLeft);
+      fate = fate == InHole || (hasOutline && isOutside) ? 1 : 0;
     }
-    this->RequireAreas();
     return fates;
+  }
+
+  /// The numbers of the rings that enclose nothing.
+  std::vector<std::int32_t> ListRingsWithoutArea() const
+  {
+    std::vector<std::int32_t> numbers;
+    for (const auto& [number, ring] : this->Rings)
+    {
+      numbers.insert(numbers.end(), ring.HasArea ? 0 : 1, number);
+    }
+    return numbers;
   }
 
 private:
@@ -105,8 +108,9 @@ private:
   enum FateKind : unsigned char
   {
     Inside,
-    Outside,
-    OutsideIfAnyTurnsLeft,
+    InHole,
+    Outside, ///< Of the outline.
+    InNoRing, ///< Of the outline, where its orientation decides.
     Unknown
   };
 
@@ -117,13 +121,8 @@ private:
     {
       const SegmentEdge& segment = this->Segments[i];
       const int step = segment.IsOnLeft == (segment.Side == side) ? 1 : -1;
-      const bool isHole = segment.Ring >= this->FirstHole;
-      std::int64_t& winding = this->Rings[segment.Ring].Winding;
-      std::int64_t& around = isHole ? this->HolesAround : this->OutlinesAround;
-      around -= winding != 0 ? 1 : 0;
-      winding += step;
-      around += winding != 0 ? 1 : 0;
-      this->Sum += isHole ? 0 : step;
+      this->Rings[segment.Ring].Winding += step;
+      (segment.Ring >= this->FirstHole ? this->HoleWinding : this->OutlineWinding) += step;
     }
   }
 
@@ -139,33 +138,26 @@ private:
     }
   }
 
-  FateKind Judge(OutlineKind outline) const
+  FateKind Judge(RingRuleKind rule) const
   {
-    const bool hasOutline = this->Rings.begin()->first < this->FirstHole;
-    if (this->HolesAround > 0 || !hasOutline)
+    const auto isInside = [rule](std::int64_t winding)
+    { return rule == RingRuleKind::EvenOdd ? winding % 2 != 0 : winding != 0; };
+    if (isInside(this->HoleWinding))
     {
-      return this->HolesAround > 0 ? Outside : Inside;
+      return InHole;
     }
-    if (outline == OutlineKind::Orientation)
+    if (rule == RingRuleKind::Orientation && this->OutlineWinding <= 0)
     {
-      return this->Sum > 0 ? Inside : this->Sum < 0 ? Outside : OutsideIfAnyTurnsLeft;
+      return this->OutlineWinding == 0 ? InNoRing : Outside;
     }
-    const bool isInside =
-      outline == OutlineKind::EvenOdd ? this->Sum % 2 != 0 : this->OutlinesAround > 0;
-    return isInside ? Inside : Outside;
+    return isInside(this->OutlineWinding) ? Inside : Outside;
   }
 
-  void RequireAreas() const
+  /// Whether a ring with an area is not a hole.
+  bool HasOutline() const
   {
-    for (const auto& [number, ring] : this->Rings)
-    {
-      if (!ring.HasArea)
-      {
-        throw InvalidMesh("ring " + std::to_string(number) +
-            " has no area: its points are on one line, or at one place",
-          -1, -1);
-      }
-    }
+    return std::any_of(this->Rings.begin(), this->Rings.end(),
+      [this](const auto& item) { return item.first < this->FirstHole && item.second.HasArea; });
   }
 
   static constexpr std::int64_t None = -1;
@@ -176,8 +168,8 @@ private:
   std::map<std::int32_t, Ring> Rings; ///< By their numbers.
   std::vector<std::int64_t> Last; ///< By edge the last of its segments that are part of a ring.
   std::vector<std::int64_t> Before; ///< By segment the one before it.
-  std::int64_t OutlinesAround = 0, HolesAround = 0; ///< That wind around the triangle at hand.
-  std::int64_t Sum = 0; ///< Of how often outlines do.
+  /// How often the rings of a set wind around the triangle at hand, all together.
+  std::int64_t OutlineWinding = 0, HoleWinding = 0;
   bool AnyTurnsLeft = false; ///< Of the outlines.
 };
 
@@ -191,14 +183,15 @@ public:
   {
   }
 
-  /// @throws InvalidMesh if a ring has no area.
-  void RemoveOutside(const PointInput& input, OutlineKind outline)
+  /// @returns the numbers of rings without an area.
+  std::vector<std::int32_t> RemoveOutside(const PointInput& input, RingRuleKind rule)
   {
     RingWalk walk(this->Mesh, this->Segments, input);
     if (walk.HasRings())
     {
-      this->IsRemoved = walk.FindOutside(outline);
+      this->IsRemoved = walk.FindOutside(rule);
     }
+    return walk.ListRingsWithoutArea();
   }
 
   /// Removes what can be reached from the seeds without crossing a segment. @returns how many seeds
@@ -386,7 +379,7 @@ KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
 {
   KeptTriangles kept;
   Remover remover(mesh, segments);
-  remover.RemoveOutside(input, options.Outline);
+  kept.RingsWithoutArea = remover.RemoveOutside(input, options.RingRule);
   if (input.NumberOfHoleSeeds > 0)
   {
     kept.SeedsOutside = remover.RemoveHoles(input.HoleSeeds, input.NumberOfHoleSeeds);

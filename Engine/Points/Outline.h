@@ -44,6 +44,7 @@ struct KeptTriangles
   std::int64_t Count = 0;
   std::int64_t Outside = 0, Large = 0; ///< How many are not kept, and why.
   std::int64_t SeedsOutside = 0; ///< Hole seeds in no triangle.
+  std::vector<std::int32_t> RingsWithoutArea; ///< Their numbers; they have removed nothing.
   std::int64_t Edges = 0, Boundary = 0; ///< Of the triangles that are kept.
   std::int64_t EulerCharacteristic = 0;
   double SquaredCotangent = 0.0; ///< Of their smallest angle.
@@ -53,7 +54,6 @@ struct KeptTriangles
 bool MayRemove(const PointInput& input, const PointOptions& options);
 
 /// @param segments all of them; of the triangles that are kept in the end.
-/// @throws InvalidMesh if a ring has no area.
 KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
   const PointOptions& options, std::vector<SegmentEdge>& segments);
 

@@ -5,9 +5,12 @@
 #include "Array.h"
 #include "FlipError.h"
 #include "InputChecks.h"
+#include "Predicates.h"
 #include "Strips.h"
 
+#include <array>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace delaunayflip
@@ -253,7 +256,10 @@ void PointRun::CopyCoordinates(std::vector<Real>& copy)
 }
 
 //------------------------------------------------------------------------------
-void PointRun::RequireClosedRings(const LoadedMesh& mesh) const
+/// Leaves out rings without an area: their segments become segments of no ring. Turns those of the
+/// others to one direction.
+/// @throws InvalidMesh if one of the others is not closed.
+void PointRun::PrepareRings(const LoadedMesh& mesh)
 {
   if (!this->Prepared.Rings)
   {
@@ -261,30 +267,153 @@ void PointRun::RequireClosedRings(const LoadedMesh& mesh) const
   }
   std::vector<std::int64_t> used(this->Prepared.Points.Count);
   mesh.StoreUsedPoints(used.data());
-  std::map<std::pair<std::int32_t, std::int64_t>, std::int64_t> ends; // segments out minus in
-  for (const Segment& segment : this->Segments)
+  this->LeftOutRings.clear();
+  std::map<std::int32_t, std::vector<std::size_t>> rings; // by their numbers, indices of segments
+  for (std::int64_t i = 0; i < this->Prepared.NumberOfSegments; ++i)
   {
-    if (segment.Ring >= 0)
+    if (this->Prepared.Rings[i] >= 0)
     {
-      ends[{ segment.Ring, used[segment.From] }] += 1;
-      ends[{ segment.Ring, used[segment.To] }] -= 1;
+      rings[this->Prepared.Rings[i]]; // of some nothing is left, such as of one at a single place
     }
   }
-  for (const Segment& segment : this->Segments)
+  for (std::size_t i = 0; i < this->Segments.size(); ++i)
   {
-    const bool isOpen = segment.Ring >= 0 && ends[{ segment.Ring, used[segment.From] }] != 0;
-    if (isOpen)
+    if (this->Segments[i].Ring >= 0)
     {
-      throw InvalidMesh("ring " + std::to_string(segment.Ring) + " is not closed at point " +
-          std::to_string(segment.From) + ": close it, or make its segments part of no ring",
-        segment.Number, segment.From);
+      rings[this->Segments[i].Ring].push_back(i);
+    }
+  }
+  for (const auto& [number, ring] : rings)
+  {
+    if (this->MayHaveArea(ring, used))
+    {
+      this->TurnSegments(ring, used);
+      continue;
+    }
+    this->LeftOutRings.push_back(number);
+    for (const std::size_t i : ring)
+    {
+      this->Segments[i].Ring = -1;
     }
   }
 }
 
+/// Whether the places of a ring are not on one line. True if one is not finite.
+/// @param used by point the one that is used at its place. @param ring indices of its segments.
+bool PointRun::MayHaveArea(
+  const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)
+{
+  const PlaneArray points = this->GetOnHost();
+  std::vector<std::array<double, 2>> line; // two places of the ring
+  for (const std::size_t i : ring)
+  {
+    for (const std::int64_t point : { this->Segments[i].From, this->Segments[i].To })
+    {
+      const std::array<double, 2> place = { points.Get(point, 0), points.Get(point, 1) };
+      const bool isOff =
+        line.size() == 2 && Orientation(line[0].data(), line[1].data(), place.data()) != 0;
+      if (used[point] < 0 || isOff)
+      {
+        return true;
+      }
+      if (line.empty() || (line.size() == 1 && line[0] != place))
+      {
+        line.push_back(place);
+      }
+    }
+  }
+  return false;
+}
+
+/// Turns segments of a ring so that as many begin as end at each place.
+/// @throws InvalidMesh if it is not closed.
+void PointRun::TurnSegments(
+  const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)
+{
+  std::map<std::int64_t, std::int64_t> surplus; // by place, the ends minus the beginnings there
+  std::map<std::int64_t, std::vector<std::size_t>> waiting; // by place, its segments
+  for (const std::size_t i : ring)
+  {
+    const Segment& segment = this->Segments[i];
+    const std::int64_t from = used[segment.From], to = used[segment.To];
+    surplus[from] -= 1;
+    surplus[to] += 1;
+    if (from != to)
+    {
+      waiting[from].push_back(i);
+      waiting[to].push_back(i);
+    }
+  }
+  for (const std::size_t i : ring)
+  {
+    const Segment& segment = this->Segments[i];
+    for (const std::int64_t point : { segment.From, segment.To })
+    {
+      if (waiting[used[point]].size() % 2 != 0)
+      {
+        throw InvalidMesh("ring " + std::to_string(segment.Ring) + " is not closed at point " +
+            std::to_string(point) + ": close it, or make its segments part of no ring",
+          segment.Number, point);
+      }
+    }
+  }
+  if (std::all_of(
+        surplus.begin(), surplus.end(), [](const auto& item) { return item.second == 0; }))
+  {
+    return;
+  }
+  for (auto& [place, segments] : waiting)
+  {
+    std::reverse(segments.begin(), segments.end()); // the first ones are taken first
+  }
+  std::set<std::size_t> taken;
+  for (const std::size_t first : ring)
+  {
+    std::int64_t place = used[this->Segments[first].From];
+    waiting[place].push_back(first);
+    for (std::vector<std::size_t>* here = &waiting[place]; !here->empty(); here = &waiting[place])
+    {
+      const std::size_t i = here->back();
+      here->pop_back();
+      if (taken.insert(i).second)
+      {
+        Segment& segment = this->Segments[i];
+        if (used[segment.From] != place)
+        {
+          std::swap(segment.From, segment.To);
+        }
+        place = used[segment.To];
+      }
+    }
+  }
+}
+
+/// Says why a segment of a ring is refused.
+void PointRun::FailOnRefused(const Segment& ofRing)
+{
+  const std::int64_t* pair = this->Caller.Segments + 2 * ofRing.Number;
+  const std::string where = "the segment of ring " + std::to_string(ofRing.Ring) + " from point " +
+    std::to_string(pair[0]) + " to point " + std::to_string(pair[1]);
+  std::string why =
+    " crosses an earlier segment: with SplitCrossings both get a point where they cross";
+  if (this->Options.SplitCrossings)
+  {
+    why = " crosses an earlier segment, even after ten rounds of splitting";
+  }
+  const PlaneArray points = this->GetOnHost();
+  if (!IsFinitePoint(points, pair[0]) || !IsFinitePoint(points, pair[1]))
+  {
+    why = " cannot be inserted: a coordinate of an end is NaN or infinite";
+  }
+  throw InvalidMesh(where + why, ofRing.Number, pair[0]);
+}
+
 bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
 {
-  this->RequireClosedRings(mesh);
+  if (this->Taken == 0)
+  {
+    this->PrepareRings(mesh);
+  }
   std::vector<std::uint32_t> ends;
   for (std::size_t i = this->Taken; i < this->Segments.size(); ++i)
   {
@@ -306,12 +435,7 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
     [](const Segment& segment) { return segment.Ring >= 0; });
   if (ofRing != this->Refused.end())
   {
-    const std::int64_t* pair = this->Caller.Segments + 2 * ofRing->Number;
-    throw InvalidMesh("the segment of ring " + std::to_string(ofRing->Ring) + " from point " +
-        std::to_string(pair[0]) + " to point " + std::to_string(pair[1]) +
-        " cannot be inserted: it crosses an earlier segment, a coordinate is not finite, or all "
-        "points lie on one line",
-      ofRing->Number, pair[0]);
+    this->FailOnRefused(*ofRing);
   }
   this->Inserted = isComplete;
   return isComplete;
@@ -347,6 +471,18 @@ void PointRun::Finish(LoadedMesh& mesh)
     mesh.ViewOnHost([this](const PointMeshView& view)
       { this->Kept = KeepTriangles(view, this->Prepared, this->Options, this->Edges); });
   }
+}
+
+/// Rings without an area, as a defect.
+Defect PointRun::FindRingsWithoutArea() const
+{
+  std::vector<std::int64_t> numbers(this->LeftOutRings.begin(), this->LeftOutRings.end());
+  numbers.insert(
+    numbers.end(), this->Kept.RingsWithoutArea.begin(), this->Kept.RingsWithoutArea.end());
+  std::sort(numbers.begin(), numbers.end());
+  const std::int64_t count = SizeOf(numbers);
+  numbers.resize(std::min<std::int64_t>(3, count));
+  return { "rings without an area, left out", count, numbers, DefectIds::Rings };
 }
 
 void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
@@ -411,6 +547,7 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
                      : "segments between points without a triangle",
         counts.RefusedSegments, ListFirstEnds(this->Caller, this->Refused), DefectIds::PointPairs },
       { "hole seeds outside of all triangles", this->Kept.SeedsOutside, {}, DefectIds::Points },
+      this->FindRingsWithoutArea(),
       { "points without a triangle: there are fewer than three places, or all are on one line",
         isMesh ? 0 : report.Points, {}, DefectIds::Points } })
   {

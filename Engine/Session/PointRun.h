@@ -46,7 +46,7 @@ public:
   /// Inserts the segments into a triangulation. Detect must follow.
   /// @param observer is told the share of the segments that is inserted.
   /// @returns false if the observer stopped it; then another call goes on.
-  /// @throws InvalidMesh if a ring is not closed or a segment of a ring is refused.
+  /// @throws InvalidMesh if a ring with an area is not closed or a segment of it is refused.
   bool Insert(LoadedMesh& mesh, const ProgressObserver& observer);
 
   /// Removes triangles as the options say.
@@ -90,7 +90,11 @@ private:
   void CopyPoints();
   template <typename Real>
   void CopyCoordinates(std::vector<Real>& copy);
-  void RequireClosedRings(const LoadedMesh& mesh) const;
+  void PrepareRings(const LoadedMesh& mesh);
+  bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
+  void TurnSegments(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
+  [[noreturn]] void FailOnRefused(const Segment& ofRing);
+  Defect FindRingsWithoutArea() const;
   void Take(const InsertedSegments& made);
 
   PointInput Caller;
@@ -101,6 +105,7 @@ private:
   std::vector<std::int64_t> NearPoint; ///< By point: itself, or the one that it is too near to.
   std::vector<AddedPoint> Added;
   std::vector<Segment> Segments;
+  std::vector<std::int32_t> LeftOutRings; ///< Their numbers: all places are on one line.
   PointCounts Counts;
   bool IsPrepared = false;
   bool Inserted = false;

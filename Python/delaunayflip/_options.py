@@ -109,9 +109,9 @@ def make_options(function=None, **keywords):
     return options
 
 
-def choose(keyword, word):
+def choose(keyword, word, choices=None):
     """The number of a word among the choices of an option."""
-    choices = CHOICES[keyword]
+    choices = choices or CHOICES[keyword]
     if not isinstance(word, str) or word not in choices:
         raise ValueError(f"{keyword} must be one of {', '.join(choices)}, not {show(word)}")
     return choices.index(word)

@@ -6,19 +6,18 @@ from __future__ import annotations  # help() shows types by their names
 import dataclasses
 import functools
 import warnings
-from typing import Optional, Sequence, Union
+from typing import Optional
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
 from ._options import (
-    Array, Backend, Numbers, OnIteration, Progress, check_integer, make_options, to_number)
+    Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, make_options, to_number)
 from ._report import Report
+from ._rings import (
+    RING_RULES, RingRule, Rings, find_rings_without_area, list_rings, name_rings)
 from ._session import run
-
-_ANY_RING = 2  # an outline
-
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Triangulation:
@@ -45,8 +44,8 @@ class Triangulation:
 
 def triangulate(
     points: Numbers, segments: Optional[Numbers] = None, *,
-    outline: Union[None, Numbers, Sequence[Numbers]] = None,
-    holes: Union[None, Numbers, Sequence[Numbers]] = None, alpha: float = 0.0,
+    outline: Optional[Rings] = None, holes: Optional[Rings] = None,
+    hole_seeds: Optional[Numbers] = None, ring_rule: RingRule = "evenodd", alpha: float = 0.0,
     longest_edge: float = 0.0, point_tolerance: float = 0.0, split_crossings: bool = False,
     backend: Backend = "auto", threads: int = 0, device: int = -1, maximum_iterations: int = -1,
     progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
@@ -68,10 +67,16 @@ def triangulate(
             Points with NaN or infinite x or y are not used.
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
             points is split there; one that crosses an earlier one is refused and reported.
-        outline: A ring, or a list of rings: what is outside of all is removed. A ring is a list of
-            point ids, or of coordinates, which become points: (k, 2), where z = 0, or (k, 3) of floats.
-        holes: A list of rings, whose inside is removed; or (k, 2) coordinates of places in holes:
-            what can be reached from there without crossing a segment is removed.
+        outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of
+            point ids, or of coordinates, which become points: (k, 2), where z = 0, or (k, 3) of floats. It
+            may end with its first point. Rings without an area are left out, with a warning.
+        holes: A ring, or a list of rings, of the same kinds: what is inside them is removed.
+        hole_seeds: (k, 2) places: what can be reached from there without crossing a segment is
+            removed.
+        ring_rule: When a place is inside a set of rings. "evenodd": if a path to infinity crosses them
+            an odd number of times. "nonzero": if their turns around the place do not add up to 0.
+            "orientation": as "nonzero", but of the outline only counter-clockwise turns count as
+            inside, as for vtkDelaunay2D.
         alpha: Triangles with a larger circumradius are removed, unless they have a segment as an
             edge; 0: none.
         longest_edge: Triangles with a longer edge are removed in the same way; 0: none.
@@ -91,8 +96,7 @@ def triangulate(
         line, or if progress aborts before there are any.
 
     Raises:
-        InvalidMesh: A segment names a point that does not exist, a ring crosses a segment, or has no
-            area.
+        InvalidMesh: A segment names a point that does not exist, or a ring crosses a segment.
         InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError, ValueError.
 
     Example:
@@ -100,7 +104,8 @@ def triangulate(
         >>> sorted(sorted(ids) for ids in result.triangles.tolist())
         [[0, 1, 2], [1, 2, 3]]
     """
-    given = points if isinstance(points, Input) else Input(points, segments, outline, holes)
+    given = points if isinstance(points, Input) else Input(
+        points, segments, outline=outline, holes=holes, hole_seeds=hole_seeds, ring_rule=ring_rule)
     struct = given.struct
     struct.alpha, struct.longest_edge, struct.point_tolerance = (
         to_number(name, value) for name, value in (
@@ -108,52 +113,65 @@ def triangulate(
     struct.split_crossings = check_integer("split_crossings", split_crossings, 0, 1, "True or False")
     options = make_options(triangulate, backend=backend, threads=threads,
                            device=device, maximum_iterations=maximum_iterations)
-    with run("open_points", struct, options, given.make_room, progress, on_iteration) as (handle, room):
-        result = given.store(handle, room)
+    try:
+        with run("open_points", struct, options, given.make_room, progress, on_iteration) as opened:
+            result = given.store(*opened)
+    except _library.InvalidMesh as error:
+        error.args = (given.explain(str(error)), *error.args[1:])
+        raise
     if given is not points and given.trouble:
-        warnings.warn(given.trouble, stacklevel=2)
+        warnings.warn("; ".join(given.trouble), stacklevel=2)
     return result
 
 
 class Input:
     """The arrays of a call, which live as long, and their C struct."""
 
-    def __init__(self, points, segments, outline, holes):
-        self.struct = _library.make(_library.Points)
+    split_option = "split_crossings"  #: What the caller calls PointOptions::SplitCrossings.
+
+    def __init__(self, points, segments=None, *, ring_numbers=None, outline=None, holes=None,
+                 hole_seeds=None, ring_rule="evenodd"):
+        """`ring_numbers`: of the rings of the segments; -1: none."""
+        self.struct, self.ends, self.new_points = _library.make(_library.Points), [], []
         points = _arrays.as_plane(points)
         self.segments = [_arrays.as_ids("segments", [] if segments is None else segments, 2)]
-        self.rings = [numpy.full(len(self.segments[0]), -1, dtype=numpy.int32)]
-        self.new_points, self.ends = [], []
-        self.flat_rings, self.trouble = [], ""
-        are_places = _is_list_of_places(holes)
-        for ring in _list_rings(outline, "outline"):
-            self._add_ring(ring, points)
-        self.struct.first_hole = len(self.rings) - 1
-        for ring in _list_rings(None if are_places else holes, "holes"):
-            self._add_ring(ring, points)
-        given = len(points)
+        if ring_numbers is None:
+            ring_numbers = numpy.full(len(self.segments[0]), -1)
+        self.rings = [numpy.asarray(ring_numbers, dtype=numpy.int32)]
+        self.flat_rings, self.trouble, given = [], [], len(points)
+        self._ring_names = {}  # of the rings of outline and holes, by their numbers
+        count = self.rings[0].max(initial=-1) + 1
+        for name, rings in (("outline", outline), ("holes", holes)):
+            self.struct.first_hole = count  # in the end where those of `holes` begin
+            for number, ring in enumerate(list_rings(name, rings)):
+                self._add_ring(ring, count, points)
+                self._ring_names[count] = f"ring {number} of {name}"
+                count += 1
         if self.new_points:
             points = numpy.concatenate([_arrays.to_host(points), *self.new_points])
         self.points = points
-        seeds = _arrays.as_plane(holes, "holes") if are_places else numpy.empty((0, 2))
-        self.seeds = numpy.ascontiguousarray(seeds[:, :2], dtype=numpy.float64)
+        self.seeds = numpy.empty((0, 2))
+        if hole_seeds is not None:
+            seeds = _arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds"))
+            self.seeds = numpy.ascontiguousarray(seeds[:, :2], dtype=numpy.float64)
         self.all_segments = numpy.concatenate(self.segments).astype(numpy.int64, order="C")
         self.all_rings = numpy.concatenate(self.rings)
+        self._fill_struct(count > 0, ring_rule)
+        self.find_flat_points(given, self.all_segments, self.all_rings)
+
+    def _fill_struct(self, has_rings, ring_rule):
         struct = self.struct
         struct.points, struct.number_of_points = address(self.points), len(self.points)
         struct.point_type = _library.TYPES[_arrays.type_of(self.points)]
         struct.point_components = self.points.shape[1]
         struct.memory, struct.stream = _arrays.find_memory(self.points)
         struct.segments, struct.number_of_segments = address(self.all_segments), len(self.all_segments)
-        struct.rings = address(self.all_rings) if len(self.rings) > 1 else None
+        struct.rings = address(self.all_rings) if has_rings else None
         struct.hole_seeds, struct.number_of_hole_seeds = address(self.seeds), len(self.seeds)
-        struct.outline = _ANY_RING
-        self.find_flat_points(given, self.all_segments, self.all_rings)
+        struct.ring_rule = choose("ring_rule", ring_rule, RING_RULES)
 
-    def _add_ring(self, ring, points):
-        ring = _arrays.as_array("a ring", ring)
+    def _add_ring(self, ring, number, points):
         if ring.ndim == 2:
-            ring = _arrays.as_plane(ring, "a ring")
             places = numpy.zeros((len(ring), points.shape[1]), dtype=_arrays.type_of(points))
             columns = min(ring.shape[1], points.shape[1])
             places[:, :columns] = ring[:, :columns]
@@ -162,11 +180,15 @@ class Input:
             if ring.shape[1] == 2:
                 self.flat_rings.append(ids)
         else:
-            ids = _arrays.as_ids("a ring", numpy.stack([ring, ring], axis=1), 2)[:, 0]
+            ids = ring if len(ring) or len(points) == 0 else numpy.zeros(1, int)  # so that it counts
         if len(ids) > 1 and ids[0] == ids[-1]:
             ids = ids[:-1]
         self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
-        self.rings.append(numpy.full(len(ids), len(self.rings) - 1, dtype=numpy.int32))
+        self.rings.append(numpy.full(len(ids), number, dtype=numpy.int32))
+
+    def explain(self, text):
+        """A message of the engine in the caller's words."""
+        return name_rings(text, self._ring_names).replace("SplitCrossings", self.split_option)
 
     def find_flat_points(self, given, segments, rings):
         """Finds the points behind the `given` ones that rings without z have, or that lines, outlines
@@ -190,11 +212,11 @@ class Input:
         if count == 0 or report.number_of_triangles == 0:
             return report
         low, high = float(self.heights.min()), float(self.heights.max())
-        self.trouble = (
+        self.trouble.append(
             f"{count} {'point' if count == 1 else 'points'} of segments without heights (z = 0 "
             f"throughout; the given points have z = {low:g} to {high:g}): the mesh goes to z = 0 "
             "there; if it should not, give them heights, for example those of the nearest points")
-        defects = "; ".join(filter(None, (report.defects, self.trouble)))
+        defects = "; ".join(filter(None, (report.defects, self.trouble[-1])))
         return dataclasses.replace(report, defects=defects)
 
     def make_room(self, report):
@@ -214,6 +236,9 @@ class Input:
         _library.call("store_segment_edges", handle, address(edges))
         used = self._find_used_points(handle, report)
         points = self.points
+        if report.defects:
+            report = dataclasses.replace(report, defects=self.explain(report.defects))
+            self.trouble += find_rings_without_area(report.defects)
         report = self._report_flat_points(report, used)
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
@@ -245,27 +270,3 @@ class Input:
             for i, (start, end, share) in enumerate(self.ends):  # of which one may be added before
                 points[first + i, 2] = (1 - share) * points[start, 2] + share * points[end, 2]
         return points
-
-
-def _is_list_of_places(holes):
-    """Whether these are places in holes, not rings."""
-    try:
-        return holes is not None and numpy.asarray(holes, dtype=float).ndim == 2 and \
-            numpy.shape(holes)[1] == 2
-    except ValueError:  # rings of different lengths
-        return False
-
-
-def _list_rings(given, name):
-    """The rings of an argument: one, or a list of them."""
-    if given is None or len(given) == 0:
-        return []
-    items = [numpy.asarray(item) for item in given]
-    shapes = {item.shape for item in items}
-    are_spatial = shapes == {(3,)} and any(item.dtype.kind == "f" for item in items)
-    if shapes in ({()}, {(2,)}) or are_spatial:
-        given = [given]
-    for ring in given:
-        if len(ring) < 3:
-            raise ValueError(f"{name} has a ring of fewer than three points")
-    return given

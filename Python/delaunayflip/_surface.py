@@ -217,8 +217,14 @@ class Constraints:
 
 def list_pairs(cells, are_closed):
     """(k, 2) consecutive points of each cell; of closed ones also the last and the first."""
+    return join_corners(cells, are_closed & (cells.sizes > 2))
+
+
+def join_corners(cells, returns):
+    """(k, 2) consecutive points of each cell; where `returns`, a flag per cell, says so, also the last
+    and the first."""
     corners, sizes = cells.corners.astype(numpy.int64), cells.sizes
-    counts = numpy.maximum(sizes - ~(are_closed & (sizes > 2)), 0)
+    counts = numpy.maximum(sizes - ~returns, 0)
     first, steps = numpy.repeat(cells.offsets[:-1], counts), _count_up(counts)
     following = (steps + 1) % numpy.repeat(sizes, counts)
     return numpy.stack([corners[first + steps], corners[first + following]], axis=1)

@@ -21,7 +21,8 @@ from . import _library
 from ._options import CHOICES
 from ._points import triangulate
 from ._report import COUNTS, FIELD_PREFIX, GEOMETRIES, ITERATION, POINT_COUNTS, Totals, describe
-from ._vtk_mesh import CELL_ARRAYS, OUTLINES, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
+from ._rings import RING_RULES
+from ._vtk_mesh import CELL_ARRAYS, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 
 _UNKNOWN_ERROR = 20008  # vtkErrorCode::UnknownError
 #: vtkDelaunayFlip.FAILURE_...
@@ -633,7 +634,10 @@ class vtkDelaunayFlipPoints(Filter):
         count = data.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments is not None else 0)
         if count == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if count else "converged")
-        cloud = Cloud(data, segments, self.lines_as_segments, OUTLINES[self.outline], self.first_hole)
+        cloud = Cloud(
+            data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
+            closed_lines_as_rings=self.closed_lines_as_rings, ring_rule=RING_RULES[self.ring_rule])
+        cloud.split_option = "SplitCrossings"
         result = triangulate(
             cloud, progress=self._observe_part(1.0), on_iteration=self._observe, **self._get_options(
                 "backend", "alpha", "longest_edge", "point_tolerance", "split_crossings"))
@@ -644,6 +648,7 @@ class vtkDelaunayFlipPoints(Filter):
 finish(vtkDelaunayFlipPoints, (
     *(Property(name, 0.0, 0.0, VTK_DOUBLE_MAX) for name in ("Alpha", "LongestEdge", "PointTolerance")),
     *(Property(name, False) for name in ("SplitCrossings", "LinesAsSegments")),
-    Property("Outline", 0, 0, 2, ("EvenOdd", "Orientation", "Any")),
+    Property("ClosedLinesAsRings", True),
+    Property("RingRule", 0, 0, 2, ("EvenOdd", "NonZero", "Orientation")),
     Property("FirstHole", -1, -1, VTK_ID_MAX),
 ), count_answers("NumberOf", "SegmentEdges", "RefusedSegments"))

@@ -11,14 +11,13 @@ from ._library import InvalidMesh, InvalidOptions
 from ._points import Input
 from ._report import FIELD_PREFIX, POINT_COUNTS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
-from ._surface import NONE, Constraints, Slots, Surface, list_pairs, number_places, number_tuples
+from ._surface import NONE, Constraints, Slots, Surface, join_corners, number_places, number_tuples
 
 #: Keywords of MeshInput.
 SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints", "region_array")
 #: Names of cell arrays of results.
 CELL_ARRAYS = (
     "vtkDelaunayFlipCount", "Smallest angle before (degrees)", "Smallest angle after (degrees)")
-OUTLINES = ("even-odd", "orientation", "any")
 _GHOSTS = "vtkGhostType"
 _GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
@@ -291,9 +290,10 @@ class MeshInput:
 class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
-    def __init__(self, data, others=None, lines_as_segments=False, outline="even-odd", first_hole=-1):
-        if outline not in OUTLINES:
-            raise ValueError(f"outline must be one of {', '.join(OUTLINES)}, not {outline!r}")
+    def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
+                 first_hole=-1, **rings):
+        """`others`: the second input of the filter, or pairs of point ids. `rings`: outline, holes,
+        hole_seeds and ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data
         mesh = self.vtk.model.vtkPolyData()
         mesh.SetPoints(data.GetPoints())
@@ -303,27 +303,39 @@ class Cloud(Input):
         own = self.vtk.read(mesh)
         self._own, self._sources, self._pairs, self._numbers = own.points, [], [], []
         self._others = others
-        self._add_cells(own.read("Lines", "line, cell"), numpy.arange(len(own.points)))
-        if others is not None:
+        self._add_cells(own.read("Lines", "line, cell"), numpy.arange(len(own.points)), False)
+        if hasattr(others, "GetPolys"):
             theirs = self.vtk.read(others)
             ids = self._add_points(theirs.points)
-            self._add_cells(theirs.read("Lines", "segment cell"), ids)
-            self._add_cells(theirs.read("Polys", "segment cell"), ids, are_rings=True)
-        super().__init__(self._own, numpy.concatenate(self._pairs), None, None)
-        self._numbers = numpy.concatenate(self._numbers).astype(numpy.int32)
-        self.struct.rings, self.struct.outline = _arrays.address(self._numbers), OUTLINES.index(outline)
-        last = numpy.iinfo(numpy.int32).max
-        self.struct.first_hole = last if first_hole < 0 else min(first_hole, last)
+            self._add_cells(theirs.read("Lines", "segment cell"), ids, closed_lines_as_rings)
+            self._add_cells(theirs.read("Polys", "segment cell"), ids, are_polygons=True)
+        elif others is not None:
+            self._pairs.append(_arrays.as_ids("segments", others, 2))
+            self._numbers.append(numpy.full(len(self._pairs[-1]), -1))
+        super().__init__(self._own, numpy.concatenate(self._pairs),
+                         ring_numbers=numpy.concatenate(self._numbers), **rings)
+        if first_hole >= 0:
+            self.struct.first_hole = min(first_hole, numpy.iinfo(numpy.int32).max)
         own = len(self._pairs[0])
         self.find_flat_points(
-            data.GetNumberOfPoints(), self.all_segments[own:], self._numbers[own:])
+            data.GetNumberOfPoints(), self.all_segments[own:], self.all_rings[own:])
 
-    def _add_cells(self, cells, ids, are_rings=False):
+    def _add_cells(self, cells, ids, closed_lines_as_rings=False, are_polygons=False):
         cells.require_points(len(ids))
-        pairs = ids[list_pairs(cells, are_rings)]
-        is_ring = are_rings & (cells.sizes > 2)
+        is_ring = numpy.full(cells.count, are_polygons)
+        returns = is_ring.copy()
+        if closed_lines_as_rings or are_polygons:
+            some = numpy.flatnonzero(cells.sizes > 0)
+            first, last = (ids[cells.corners[ends]] for ends in (
+                cells.offsets[some], cells.offsets[some] + cells.sizes[some] - 1))
+            if are_polygons:  # without those that end where they begin
+                returns[some] = (first != last) | (cells.sizes[some] == 1)
+            else:
+                is_ring[some] = ((first == last) | (self._own[first] == self._own[last]).all(axis=1)) & (
+                    cells.sizes[some] > 2)
+        pairs = ids[join_corners(cells, returns)]
         numbers = numpy.where(is_ring, cells.first + numpy.arange(cells.count), -1)
-        numbers = numpy.repeat(numbers, numpy.maximum(cells.sizes - ~is_ring, 0))
+        numbers = numpy.repeat(numbers, numpy.maximum(cells.sizes - ~returns, 0))
         kept = (pairs[:, 0] != pairs[:, 1]) | (numbers >= 0)
         self._pairs.append(pairs[kept])
         self._numbers.append(numbers[kept])
@@ -366,7 +378,8 @@ class Cloud(Input):
 
     def _extend_data(self, data, count):
         """The point data, extended by those of added points."""
-        first, size = count + len(self._sources), count + len(self._sources) + len(self.ends)
+        size = len(self.points) + len(self.ends)
+        first = len(self.points)  # of the points at crossings
         data.Initialize()
         self.vtk.add_tuples(self.data.GetPointData(), count, range(count), 0, size, data)
         if len(self._sources):

@@ -22,9 +22,10 @@ import pyvista
 
 from ._library import InvalidOptions
 from ._session import smallest_angles as _angles_of_arrays
-from ._options import Array, OnIteration, Progress, check_integer, make_options
+from ._options import Array, Numbers, OnIteration, Progress, check_integer, make_options
 from ._options import Options as _Options
 from ._points import triangulate as _triangulate_arrays
+from ._rings import RingRule, Rings
 from ._surface import Slots
 from ._vtk_mesh import SETTINGS, Cloud, MeshInput, vtk_of
 
@@ -93,19 +94,25 @@ def flip(
 
 
 def triangulate(
-    cloud: typing.Any, segments: "typing.Optional[pyvista.PolyData]" = None, *,
-    lines_as_segments: bool = False, outline: str = "even-odd", **options: typing.Any,
+    cloud: typing.Any, segments: "typing.Union[None, pyvista.PolyData, Numbers]" = None, *,
+    outline: "typing.Union[None, pyvista.PolyData, Rings]" = None,
+    holes: "typing.Union[None, pyvista.PolyData, Rings]" = None,
+    hole_seeds: "typing.Optional[Numbers]" = None, ring_rule: "RingRule" = "evenodd",
+    lines_as_segments: bool = False, closed_lines_as_rings: bool = True, **options: typing.Any,
 ) -> "pyvista.PolyData":
     """The Delaunay mesh of the points of a dataset in x and y, with their data.
 
     Args:
         cloud: A dataset with points of its own, such as a PolyData or a PointSet; its cells do not
             matter.
-        segments: Its lines become edges of the mesh. Its polygons too, and what is outside of them
-            is removed. Its points are added where they are new.
+        segments: Pairs of point ids, as for delaunayflip.triangulate, or a PolyData whose lines become
+            edges of the mesh. Its polygons, and lines that end where they begin, are rings of the
+            outline. Its points are added, with their data, where they are new.
+        outline, holes: As for delaunayflip.triangulate; or a PolyData, whose polygons and lines are
+            rings.
+        hole_seeds, ring_rule: As for delaunayflip.triangulate.
         lines_as_segments: Whether the lines of `cloud` become edges, too.
-        outline: What polygons enclose: "even-odd"; "orientation", where counter-clockwise ones enclose
-            what is kept and clockwise ones cut holes; or "any", where what is inside any is kept.
+        closed_lines_as_rings: If False, closed lines of the segments are only edges, such as contours.
         **options: alpha, longest_edge, point_tolerance, split_crossings, backend, threads, device,
             maximum_iterations and progress, as for delaunayflip.triangulate.
 
@@ -124,11 +131,13 @@ def triangulate(
     """
     if not hasattr(cloud, "GetPoints"):
         raise TypeError(f"cloud must be a dataset with points, not {type(cloud).__name__}")
-    if "holes" in options:
-        raise TypeError("holes are polygons of the segments: see outline")
-    if segments is not None:
+    if isinstance(segments, vtk_of(cloud).model.vtkDataObject):
         _require_mesh("segments", segments)
-    given, made = Cloud(cloud, segments, lines_as_segments, outline), pyvista.PolyData()
+    made = pyvista.PolyData()
+    given = Cloud(
+        cloud, segments, lines_as_segments=lines_as_segments, closed_lines_as_rings=closed_lines_as_rings,
+        outline=_list_rings("outline", outline), holes=_list_rings("holes", holes), hole_seeds=hole_seeds,
+        ring_rule=ring_rule)
     trouble = given.write(_triangulate_arrays(given, **options), made)
     if trouble:
         warnings.warn(trouble, stacklevel=2)
@@ -237,6 +246,23 @@ def _require_mesh(name, mesh):
                         "mesh.extract_surface().triangulate() makes one from a grid or an image, and "
                         "mesh.warp_by_scalar() before that makes terrain from heights in an image")
     return mesh
+
+
+def _list_rings(name, given):
+    """The polygons and lines of a mesh as rings of coordinates; what is no mesh as it is."""
+    if not hasattr(given, "GetPolys"):
+        return given
+    surface = vtk_of(given).read(given)
+    rings = []
+    for kind in ("Lines", "Polys"):
+        cells = surface.read(kind)
+        cells.require_points(len(surface.points))
+        for number, (start, end) in enumerate(zip(cells.offsets[:-1], cells.offsets[1:])):
+            ring = surface.points[cells.corners[start:end]]
+            if kind == "Lines" and len(ring) and not numpy.array_equal(ring[0], ring[-1]):
+                raise ValueError(f"{name}: line {number} does not end where it begins, so it is no ring")
+            rings.append(ring)
+    return rings
 
 
 def _open(mesh, constraints, options, progress=None):

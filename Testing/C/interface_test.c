@@ -363,6 +363,49 @@ static void TestPoints(void)
   CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_MESH_TOO_LARGE);
 }
 
+/** The segments of the second ring run in both directions. */
+static void TestRings(void)
+{
+  const double places[] = { 0, 0, 9, 0, 9, 9, 0, 9, 1, 1, 8, 1, 8, 8, 1, 8, 2, 2, 4, 2, 4, 4, 2,
+    4 };
+  const int64_t segments[] = { 4, 5, 5, 6, 6, 7, 7, 4, 8, 9, 10, 9, 10, 11, 8, 11, 0, 1, 1, 0 };
+  const int32_t rings[] = { 0, 0, 0, 0, 1, 1, 1, 1, 2, 2 };
+  const int32_t rules[] = { DELAUNAYFLIP_EVEN_ODD, DELAUNAYFLIP_NONZERO, DELAUNAYFLIP_ORIENTATION };
+  const double areas[] = { 45, 49, 49 };
+  int32_t triangles[3 * 30];
+  delaunayflip_points points;
+  delaunayflip_session* session = NULL;
+  int i, t;
+  delaunayflip_points_init(&points);
+  points.points = places;
+  points.number_of_points = 12;
+  points.segments = segments;
+  points.number_of_segments = 10;
+  points.rings = rings;
+  for (i = 0; i < 3; ++i)
+  {
+    double area = 0.0;
+    points.ring_rule = rules[i];
+    CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+    CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+    CHECK(
+      strstr(GetReport(session).defects, "1 ring without an area, left out (first: 2)") != NULL);
+    CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT32) == DELAUNAYFLIP_OK);
+    for (t = 0; t < GetReport(session).number_of_triangles; ++t)
+    {
+      const double* a = places + 2 * triangles[3 * t];
+      const double* b = places + 2 * triangles[3 * t + 1];
+      const double* c = places + 2 * triangles[3 * t + 2];
+      area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    }
+    CHECK(area == areas[i]);
+    delaunayflip_close(session);
+  }
+  points.ring_rule = 3;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(strstr(delaunayflip_error_message(), "ring_rule") != NULL);
+}
+
 int main(void)
 {
   TestFlipsSquare();
@@ -377,5 +420,6 @@ int main(void)
   TestDeviceMemory();
   TestPolygons();
   TestPoints();
+  TestRings();
   return 0;
 }

@@ -355,7 +355,9 @@ class Segments(PointTest):
         for options, area in (
             (["--outline", outline], 9), (["--holes", hole], 15), (["--outline", hole], 1),
             (["--outline", outline, "--holes", hole], 8),
-            (["--outline", nested, "--holes", hole], 8),
+            (["--outline", nested], 5), (["--outline", nested, "--holes", hole], 5),
+            (["--holes", nested], 11), (["--holes", nested, "--ring-rule", "nonzero"], 7),
+            (["--outline", nested, "--holes", hole, "--ring-rule", "nonzero"], 8),
             (["--outline", outline, "--constraints", hole], 9),
         ):
             mesh, result = self.triangulate("in.xyz", *options)
@@ -373,8 +375,6 @@ class Segments(PointTest):
     def test_rings_that_are_none(self):
         for mesh, words in (
             (make_mesh(PLACES, [], [(0, 1, 2, 0), (0, 1, 2)]), ["line 1", "not end where it begins"]),
-            (make_mesh(PLACES, [], [(0, 1, 0)]), ["line 0", "fewer than three"]),
-            (make_mesh([(3, y, x) for x, y, _ in PLACES], [(0, 1, 2)]), ["ring 0 has no area"]),
             (make_mesh(PLACES[:2], [], [(0, 7, 1, 0)]), ["cell 0 names point 7"]),
             (make_mesh(PLACES, []), ["no lines or polygons"]),
         ):
@@ -382,6 +382,17 @@ class Segments(PointTest):
             for option in ("--outline", "--holes"):
                 self.fail_with(3, "in.xyz", "out.vtk", "--from-points", option, path,
                                naming=["ring.vtk", *words])
+
+    def test_rings_without_area(self):
+        """They are left out, and one warning counts them, with the names of the first ones."""
+        outline = [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)]
+        rings = self.rings("some.vtk", outline, [(1, 1, 0), (2, 1, 0)], [(1, 1, 0)])
+        lines = self.rings("lines.vtk", [(1, 2, 0), (3, 2, 0), (2, 2, 0)])
+        mesh, result = self.triangulate("in.xyz", "--outline", rings, "--holes", lines)
+        self.assertEqual(area_of(mesh), 9)
+        self.assertEqual(result.stderr.count("warning: "), 1)
+        self.assertIn("3 rings without an area, left out (first: ring 1 of some.vtk, ring 2 of some.vtk, "
+                      "ring 0 of lines.vtk)", result.stderr)
 
     def test_ring_that_is_crossed(self):
         good = [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0), (2.5, 1.5, 0)]

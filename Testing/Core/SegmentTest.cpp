@@ -314,7 +314,7 @@ Places Square(double left, double lower, double size, bool isClockwise = false)
 struct OutlineCase
 {
   const char* Name;
-  OutlineKind Outline;
+  RingRuleKind Rule;
   std::vector<Places> Rings;
   double Area;
   std::int32_t FirstHole = INT32_MAX;
@@ -339,8 +339,7 @@ TEST_P(OutlineTest, KeepsWhatIsInside)
     drawing.AddRing(ring);
   }
   drawing.FirstHole = GetParam().FirstHole;
-  const Triangulation result =
-    Triangulate(drawing, With(&PointOptions::Outline, GetParam().Outline));
+  const Triangulation result = Triangulate(drawing, With(&PointOptions::RingRule, GetParam().Rule));
   ExpectConstrainedDelaunay(drawing.Points, result);
   EXPECT_EQ(2.0 * GetParam().Area, SumArea(drawing.Points, result.Triangles));
   const FlipReport& report = result.Report;
@@ -351,28 +350,37 @@ TEST_P(OutlineTest, KeepsWhatIsInside)
 }
 
 INSTANTIATE_TEST_SUITE_P(Outlines, OutlineTest,
-  testing::Values(OutlineCase{ "Square", OutlineKind::EvenOdd, { Square(2, 2, 10) }, 100 },
-    OutlineCase{ "Hole", OutlineKind::EvenOdd, { Square(2, 2, 10), Square(4, 4, 3) }, 91 },
+  testing::Values(OutlineCase{ "Square", RingRuleKind::EvenOdd, { Square(2, 2, 10) }, 100 },
+    OutlineCase{ "Hole", RingRuleKind::EvenOdd, { Square(2, 2, 10), Square(4, 4, 3) }, 91 },
     OutlineCase{
-      "Island", OutlineKind::EvenOdd, { Square(2, 2, 12), Square(4, 4, 8), Square(5, 5, 2) }, 84 },
-    OutlineCase{ "SharedSide", OutlineKind::EvenOdd, { Square(2, 2, 4), Square(6, 2, 4) }, 32 },
-    OutlineCase{ "Orientation", OutlineKind::Orientation,
+      "Island", RingRuleKind::EvenOdd, { Square(2, 2, 12), Square(4, 4, 8), Square(5, 5, 2) }, 84 },
+    OutlineCase{ "SharedSide", RingRuleKind::EvenOdd, { Square(2, 2, 4), Square(6, 2, 4) }, 32 },
+    OutlineCase{ "Orientation", RingRuleKind::Orientation,
       { Square(2, 2, 10), Square(4, 4, 3, true), Square(5, 5, 1) }, 92 },
-    OutlineCase{ "Nested", OutlineKind::Orientation, { Square(2, 2, 10), Square(4, 4, 3) }, 100 },
-    OutlineCase{ "LongArms", OutlineKind::Orientation, // not told by corners without lengths
+    OutlineCase{ "Nested", RingRuleKind::Orientation, { Square(2, 2, 10), Square(4, 4, 3) }, 100 },
+    OutlineCase{ "LongArms", RingRuleKind::Orientation, // not told by corners without lengths
       { { { 9, 7 }, { 15, 7 }, { 15, 9 }, { 9, 9 }, { 9, 15 }, { 7, 15 }, { 7, 9 }, { 1, 9 },
         { 1, 7 }, { 7, 7 }, { 7, 1 }, { 9, 1 } } },
       52 },
-    OutlineCase{ "OnlyHoles", OutlineKind::Orientation,
+    OutlineCase{ "OnlyHoles", RingRuleKind::Orientation,
       { Square(2, 2, 3, true), Square(8, 8, 4, true) }, 375 },
-    OutlineCase{ "HoleInTwoOutlines", OutlineKind::Any,
-      { Square(2, 2, 10), Square(4, 4, 6, true), Square(5, 5, 2, true) }, 96, 2 },
-    OutlineCase{ "OnlyHolesByNumber", OutlineKind::Any,
-      { Square(2, 2, 3), Square(8, 8, 4, true), Square(9, 9, 2) }, 375, 0 },
-    OutlineCase{ "EvenOddAndHole", OutlineKind::EvenOdd,
+    OutlineCase{
+      "NestedNonZero", RingRuleKind::NonZero, { Square(2, 2, 10), Square(4, 4, 3) }, 100 },
+    OutlineCase{ "LakeAndIslandNonZero", RingRuleKind::NonZero,
+      { Square(2, 2, 12, true), Square(4, 4, 8), Square(5, 5, 2, true) }, 84 },
+    OutlineCase{ "HolesInNonZero", RingRuleKind::NonZero,
+      { Square(2, 2, 10), Square(4, 4, 6, true), Square(5, 5, 2, true) }, 64, 1 },
+    OutlineCase{ "NestedHoles", RingRuleKind::EvenOdd,
+      { Square(2, 2, 10), Square(4, 4, 6, true), Square(5, 5, 2, true) }, 68, 1 },
+    OutlineCase{ "OnlyNestedHoles", RingRuleKind::EvenOdd,
+      { Square(2, 2, 3), Square(8, 8, 4, true), Square(9, 9, 2) }, 379, 0 },
+    OutlineCase{ "OnlyHolesWithOrientation", RingRuleKind::Orientation,
+      { Square(2, 2, 3), Square(8, 8, 4, true) }, 375, 0 },
+    OutlineCase{ "EvenOddAndHole", RingRuleKind::EvenOdd,
       { Square(2, 2, 10), Square(4, 4, 6), Square(3, 3, 8) }, 36, 2 },
-    OutlineCase{ "BowTie", OutlineKind::Any,
-      { { { 4, 4 }, { 8, 4 }, { 6, 6 }, { 4, 8 }, { 8, 8 }, { 6, 6 } } }, 8 }),
+    OutlineCase{ "BowTie", RingRuleKind::NonZero,
+      { { { 4, 4 }, { 8, 4 }, { 6, 6 }, { 4, 8 }, { 8, 8 }, { 6, 6 } } }, 8 },
+    OutlineCase{ "OnlyRingsWithoutArea", RingRuleKind::EvenOdd, { { { 4, 4 }, { 6, 6 } } }, 400 }),
   GetCaseName);
 
 TEST(Outline, ReportsBrokenRings)
@@ -385,9 +393,40 @@ TEST(Outline, ReportsBrokenRings)
   drawing = Drawing();
   drawing.AddRing(Square(0, 0, 4));
   drawing.AddRing(Square(2, 2, 4));
-  EXPECT_EQ("the segment of ring 1 from point 4 to point 5 cannot be inserted: it crosses an "
-            "earlier segment, a coordinate is not finite, or all points lie on one line",
+  EXPECT_EQ("the segment of ring 1 from point 4 to point 5 crosses an earlier segment: with "
+            "SplitCrossings both get a point where they cross",
     GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
+  drawing.Points[5][1] = NAN;
+  EXPECT_EQ(
+    "the segment of ring 1 from point 4 to point 5 cannot be inserted: a coordinate of an end "
+    "is NaN or infinite",
+    GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
+}
+
+TEST(Outline, SegmentsOfARingMayRunInAnyDirection)
+{
+  std::mt19937 random(9);
+  for (const auto rule :
+    { RingRuleKind::EvenOdd, RingRuleKind::NonZero, RingRuleKind::Orientation })
+  {
+    for (int i = 0; i < 20; ++i)
+    {
+      Drawing drawing;
+      drawing.Points = Square(0, 0, 20);
+      drawing.AddRing({ { 2, 2 }, { 10, 2 }, { 14, 9 }, { 10, 10 }, { 5, 12 } });
+      for (std::size_t k = 1; k < drawing.Segments.size(); ++k)
+      {
+        if (random() % 2 == 0)
+        {
+          std::swap(drawing.Segments[k][0], drawing.Segments[k][1]);
+        }
+      }
+      std::shuffle(drawing.Segments.begin() + 1, drawing.Segments.end(), random);
+      const Triangulation result = Triangulate(drawing, With(&PointOptions::RingRule, rule));
+      EXPECT_EQ(152.0, SumArea(drawing.Points, result.Triangles)) << "case " << i;
+      EXPECT_EQ(5, result.Report.FromPoints.SegmentEdges);
+    }
+  }
 }
 
 /// Where products of lengths overflow or underflow.
@@ -406,7 +445,7 @@ TEST(Outline, TheSmallestAngleIsThatOfWhatIsLeft)
 TEST(Outline, DirectionOfHugeTinyAndFarRings)
 {
   std::mt19937 random(8);
-  const PointOptions options = With(&PointOptions::Outline, OutlineKind::Orientation);
+  const PointOptions options = With(&PointOptions::RingRule, RingRuleKind::Orientation);
   for (int i = 0; i < 60; ++i)
   {
     const double scales[] = { 1e160, 1e-165, 1e-3 };
@@ -424,16 +463,25 @@ TEST(Outline, DirectionOfHugeTinyAndFarRings)
   }
 }
 
-TEST(Outline, RingsWithoutAreaAreErrors)
+TEST(Outline, RingsWithoutAreaAreLeftOut)
 {
-  const PointOptions options = With(&PointOptions::PointTolerance, 0.5);
-  for (const Places& ring : { Places{ { 4, 4 }, { 8, 8 }, { 6, 6 } }, Square(4, 4, 0.1) })
+  PointOptions options = With(&PointOptions::PointTolerance, 0.5);
+  const std::pair<Places, int> cases[] = { { { { 4, 4 }, { 8, 8 }, { 6, 6 } }, 2 },
+    { Square(4, 4, 0.1), 0 }, { { { 4, 4 } }, 0 }, { { { 4, 4 }, { 8, 9 } }, 1 },
+    { { { 4, 4 }, { 8, 9 }, { 4, 8 }, { 8, 9 } }, 2 }, // there and back
+    { { { 12, 8 }, { 18, 8 }, { 13, 8 } }, 1 } }; // crosses another ring
+  for (const auto& [ring, edges] : cases)
   {
     Drawing drawing;
     drawing.Points = Square(0, 0, 20);
+    drawing.AddRing(Square(2, 2, 14));
     drawing.AddRing(ring);
-    EXPECT_EQ("ring 0 has no area: its points are on one line, or at one place",
-      GetMessage<InvalidMesh>([&] { Triangulate(drawing, options); }));
+    options.SplitCrossings = edges == 0; // then nothing is left of the ring
+    const Triangulation result = Triangulate(drawing, options);
+    EXPECT_EQ(2.0 * 196, SumArea(drawing.Points, result.Triangles));
+    EXPECT_EQ(4 + edges, result.Report.FromPoints.SegmentEdges);
+    EXPECT_EQ("1 ring without an area, left out (first: 1)",
+      DescribeDefects({ result.Report.Defects.back() }));
   }
 }
 

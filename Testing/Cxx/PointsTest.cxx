@@ -343,22 +343,25 @@ TEST(FromPoints, OutlinesAndHoles)
   struct Case
   {
     Cells Rings;
-    int Outline;
+    int Rule;
     double Area;
     vtkIdType FirstHole;
   };
+  const Cells nested = { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } };
+  const Cells opposite = { { 0, 1, 2, 3 }, { 7, 6, 5, 4 } };
   const std::vector<Case> cases = {
-    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, vtkDelaunayFlipPoints::OUTLINE_EVEN_ODD, 60.0, 2 },
-    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, vtkDelaunayFlipPoints::OUTLINE_ORIENTATION, 64.0, 2 },
-    { { { 0, 1, 2, 3 }, { 7, 6, 5, 4 } }, vtkDelaunayFlipPoints::OUTLINE_ORIENTATION, 60.0, 2 },
-    { { { 0, 1, 2, 3 }, { 7, 6, 5, 4 } }, vtkDelaunayFlipPoints::OUTLINE_ANY, 64.0, 2 },
-    { { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } }, vtkDelaunayFlipPoints::OUTLINE_ANY, 60.0, 1 },
+    { nested, vtkDelaunayFlipPoints::RING_RULE_EVEN_ODD, 60.0, 2 },
+    { nested, vtkDelaunayFlipPoints::RING_RULE_ORIENTATION, 64.0, 2 },
+    { opposite, vtkDelaunayFlipPoints::RING_RULE_ORIENTATION, 60.0, 2 },
+    { opposite, vtkDelaunayFlipPoints::RING_RULE_NON_ZERO, 60.0, 2 },
+    { nested, vtkDelaunayFlipPoints::RING_RULE_NON_ZERO, 64.0, 2 },
+    { nested, vtkDelaunayFlipPoints::RING_RULE_NON_ZERO, 60.0, 1 },
   };
   for (const Case& each : cases)
   {
     PointsFilter filter(ToMesh(points));
     filter->SetSegmentsData(MakeMesh(both, each.Rings));
-    filter->SetOutline(each.Outline);
+    filter->SetRingRule(each.Rule);
     filter->SetFirstHole(each.FirstHole);
     const auto output = RunCleanly(filter);
     EXPECT_NEAR(measure(output), each.Area, 1e-9);
@@ -366,7 +369,37 @@ TEST(FromPoints, OutlinesAndHoles)
   }
   PointsFilter crossed(ToMesh(points));
   crossed->SetSegmentsData(MakeMesh(Square, { { 0, 1, 3, 2 } }));
-  ExpectHolds(RunToError(crossed), "ring 0");
+  ExpectHolds(RunToError(crossed), "ring 0 from point 4");
+}
+
+/// Closed by the first id, or by another point at its place.
+TEST(FromPoints, ClosedLinesAreRings)
+{
+  const Points corners = { { 1, 1, 5 }, { 9, 1, 5 }, { 9, 9, 5 }, { 1, 9, 5 }, { 1, 1, 5 } };
+  for (const Cells& lines : { Cells{ { 0, 1, 2, 3, 0 } }, Cells{ { 0, 1, 2, 3, 4 } } })
+  {
+    PointsFilter filter(ToMesh(MakeCloud(400)));
+    filter->SetSegmentsData(MakeLines(corners, lines));
+    EXPECT_GT(GetTotal(RunCleanly(filter), "OutsideTriangles"), 0.0);
+    filter->ClosedLinesAsRingsOff();
+    const auto output = RunCleanly(filter);
+    EXPECT_EQ(GetTotal(output, "OutsideTriangles"), 0.0);
+    EXPECT_GE(GetTotal(output, "SegmentEdges"), 4.0);
+  }
+  PointsFilter own(MakeLines(corners, { { 0, 1, 2, 3, 4 } })); // with the points of the input
+  own->SetSegmentsData(MakeLines(corners, { { 0, 1, 2, 4 } }));
+  ExpectHolds(RunToWarning(own), "1 point at the place of another one");
+  EXPECT_EQ(own->GetOutput()->GetNumberOfPolys(), 1);
+}
+
+TEST(FromPoints, RingsWithoutAreaAreLeftOut)
+{
+  Points points = MakeCloud(400);
+  const Points corners = { { 1, 1, 0 }, { 9, 1, 0 }, { 9, 9, 0 }, { 1, 9, 0 }, { 5, 5, 0 } };
+  PointsFilter filter(ToMesh(points));
+  filter->SetSegmentsData(MakeMesh(corners, { { 0, 1, 2, 3 }, { 0, 4 }, { 4 }, { 0, 4, 2 } }));
+  ExpectHolds(RunToWarning(filter), "3 rings without an area, left out (first: 1, 2, 3)");
+  EXPECT_GT(GetTotal(filter->GetOutput(), "OutsideTriangles"), 0.0);
 }
 
 //------------------------------------------------------------------------------

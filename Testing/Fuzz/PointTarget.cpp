@@ -77,7 +77,7 @@ PointCase MakePointCase(const std::uint8_t* bytes, std::size_t size)
     drawn.Input.Rings.push_back(-1);
   }
   drawn.Options.SplitCrossings = source.Once(3);
-  drawn.Options.Outline = static_cast<OutlineKind>(source.Draw(3));
+  drawn.Options.RingRule = static_cast<RingRuleKind>(source.Draw(3));
   drawn.Input.FirstHole = source.Once(4) ? 0 : INT32_MAX;
   const double lengths[] = { 0.0, 0.0, 0.0, 1.0, 3.0 };
   drawn.Options.Alpha = lengths[source.Draw(5)];
@@ -176,8 +176,8 @@ void PrintTarget(const std::uint8_t* bytes, std::size_t size)
     std::cout << "segment " << segment[0] << ' ' << segment[1] << " of ring "
               << drawn.Input.Rings[i] << '\n';
   }
-  std::cout << "split " << drawn.Options.SplitCrossings << ", outline "
-            << static_cast<int>(drawn.Options.Outline) << ", first hole " << drawn.Input.FirstHole
+  std::cout << "split " << drawn.Options.SplitCrossings << ", ring rule "
+            << static_cast<int>(drawn.Options.RingRule) << ", first hole " << drawn.Input.FirstHole
             << ", alpha " << drawn.Options.Alpha << ", longest edge " << drawn.Options.LongestEdge
             << ", tolerance " << drawn.Options.PointTolerance << '\n';
 }

@@ -109,7 +109,7 @@ class Proxy(PluginTest):
 class PointsProxy(Proxy):
     name, label = "DelaunayFromPoints", "Delaunay From Points"
     vtk_class = "vtkDelaunayFlipPoints"
-    choices = {"Outline": ["Even-odd", "Orientation", "Any"],
+    choices = {"RingRule": ["Even-odd", "Nonzero", "Orientation"],
                "Projection": ["XY", "Best-fitting plane"]}
 
 

@@ -108,29 +108,50 @@ class Triangulate(unittest.TestCase):
         self.assertEqual(area(outline=square[::-1], holes=[triangle]), 0.62)
         self.assertEqual(area(outline=[square, [[2, 2], [3, 2], [3, 3]]]), 1.14)
         inner, middle = [[.2, .2], [.2, .8], [.8, .8], [.8, .2]], [[.4, .4], [.6, .4], [.6, .6], [.4, .6]]
-        self.assertEqual(area(outline=[square, inner], holes=[middle]), 0.6)
+        for given, wanted in (({"outline": [square, inner]}, 0.28),
+                              ({"outline": [square, inner, middle]}, 0.32),
+                              ({"outline": square, "holes": [inner, middle]}, 0.32)):
+            self.assertEqual(area(**given), wanted)
+        for given, wanted in (({"outline": [square, inner]}, 0.28),
+                              ({"outline": [square, inner[::-1], middle]}, 0.64),
+                              ({"outline": square, "holes": [inner[::-1], middle]}, 0.28)):
+            self.assertEqual(area(ring_rule="nonzero", **given), wanted)
         whole = area()
-        self.assertAlmostEqual(area(holes=[triangle]), whole - 0.02)
-        self.assertEqual(area(outline=square, holes=[[.5, .5]]), 0)  # no segment stops it
+        for hole in (triangle, [triangle], numpy.array(triangle), [*triangle, triangle[0]]):
+            self.assertAlmostEqual(area(holes=hole), whole - 0.02)
+        self.assertEqual(area(outline=square, hole_seeds=[[.5, .5]]), 0)  # no segment stops it
         result = delaunayflip.triangulate(points, outline=square)
         self.assertEqual(result.points[1000:].tolist(), square)
         self.assertEqual(result.report.number_of_triangles, len(result.triangles))
         ids = delaunayflip.triangulate(result.points, outline=[1000, 1001, 1002, 1003])
         self.assertEqual(ids.triangles.tolist(), result.triangles.tolist())
-        with self.assertRaisesRegex(delaunayflip.InvalidMesh, "ring 1"):
-            delaunayflip.triangulate(points, outline=[square, [[.5, .5], [2, .5], [2, .6]]])
-        with self.assertRaises(ValueError):
-            delaunayflip.triangulate(points, outline=[[0, 1]])
-        for ring in ([[0, 0], [4, 4], [8, 8]], [5, 5, 5], [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]):
-            with self.assertRaisesRegex(ValueError, "ring 0 has no area"):
-                delaunayflip.triangulate(points, outline=ring)
+        with self.assertRaisesRegex(
+                delaunayflip.InvalidMesh, "ring 0 of holes from .* crosses .*: with split_crossings"):
+            delaunayflip.triangulate(points, outline=square, holes=[[[.5, .5], [2, .5], [2, .6]]])
+        for ring in ([[.2, .2], [.4, .4], [.3, .3]], [5, 5, 5], [[.5, .6]], [1, 2], [7], [[], [0, 1]]):
+            for name in ("outline", "holes"):
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    result = delaunayflip.triangulate(points, **{name: ring})
+                with self.assertWarnsRegex(UserWarning, "without an area, left out"):
+                    self.assertAlmostEqual(area(**{name: ring}), whole)
+                self.assertRegex(
+                    result.report.defects, rf"rings? without an area, left out \(first: ring 0 of {name}")
         spatial = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, .5]]  # integers first
         self.assertEqual(area(outline=spatial), 1)
         for name, values, error, text in (
-                ("outline", numpy.ma.masked_equal([0, 1, 2, 3], 3), ValueError, "a ring has masked"),
-                ("holes", [numpy.ma.masked_equal(square, .9)], ValueError, "a ring has masked"),
+                ("outline", numpy.ma.masked_equal([0, 1, 2, 3], 3), ValueError, "outline has masked"),
+                ("holes", [numpy.ma.masked_equal(square, .9)], ValueError, "holes has masked"),
                 ("holes", numpy.ma.masked_equal(square, .9), ValueError, "holes has masked"),
-                ("outline", numpy.array(square, complex), TypeError, "a ring must be real")):
+                ("outline", numpy.array(square, complex), TypeError, "outline must be real"),
+                *((name, value, TypeError, f"{name} must be a .*, not {kind}")
+                  for name in ("outline", "holes") for value, kind in (
+                      ("012", "str"), ({0, 1, 2}, "set"), (iter(square), "list_iterator"), (7, "int"))),
+                ("holes", [square, {0, 1, 2}], TypeError, "ring 1 of holes must be .*, not set"),
+                ("outline", ["0", "1", "2"], TypeError, "outline must be integers"),
+                ("outline", [[[0, 0], [1]]], ValueError, "outline cannot be made an array"),
+                ("ring_rule", "any", ValueError, "ring_rule must be one of evenodd, nonzero"),
+                ("hole_seeds", [1, 2], ValueError, "hole_seeds must have the shape")):
             with self.assertRaisesRegex(error, text):
                 delaunayflip.triangulate(points, **{name: values})
 

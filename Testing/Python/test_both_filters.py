@@ -395,12 +395,31 @@ class SamePoints(Pair, unittest.TestCase):
                     def prepare(points, segments=segments, splits=splits):
                         points.SetSegmentsData(segments)
                         points.SetSplitCrossings(splits)
-                        points.SetOutline(2 * int(splits))
+                        points.SetRingRule(2 * int(splits))
                         points.SetFirstHole(6)
                         points.SetLongestEdge(9.0)
 
                     told = self.expect_same(cloud, prepare)
                     self.assertEqual(told["errors"], [])
+
+    def test_closed_lines_and_rings_without_area(self):
+        cloud = make_cloud()
+        segments = make_segments(cloud, float)
+        segments.SetLines(make_cells(
+            [(13, 14, 15, 16, 13), (9, 10), (0, 3, 0), (3, 3), (17, 18, 19, 20, 20, 17), (5,)]))
+        segments.SetPolys(make_cells([(0, 1), (2,), (3, 4, 4), (8, 9, 10), (17, 18, 19, 17)]))
+        for closed in (True, False):
+            for rule in range(3):
+                told = self.expect_same(cloud, lambda points, closed=closed, rule=rule: (
+                    points.SetSegmentsData(segments), points.SetClosedLinesAsRings(closed),
+                    points.SetRingRule(rule), points.SetSplitCrossings(True)))
+                self.assertIn("rings without an area, left out (first: ", told["warnings"][0])
+        same = make_mesh([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 0, 0)], [])
+        lines = make_mesh([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 0, 0)], [])
+        lines.SetLines(make_cells([(0, 1, 2, 3)]))  # closed by another point at the same place
+        told = self.expect_same(same, lambda points: (
+            points.SetSegmentsData(lines), points.SetFirstHole(0)))
+        self.assertEqual(len(told["meshes"][0][3][0]), 0)
 
     def test_points_that_are_not_finite(self):
         for kind in (numpy.float32, numpy.float64):

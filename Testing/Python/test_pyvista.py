@@ -200,14 +200,53 @@ class PyVista(unittest.TestCase):
             cross = self.pyvista.Line((0.1, 0.8, 7), (0.9, 0.2, 7))
             cloud.delaunay.triangulate(segments.append_polydata(cross))
         self.assertEqual(told.filename, __file__)
-        with self.assertRaisesRegex(TypeError, "holes are polygons of the segments"):
-            cloud.delaunay.triangulate(holes=[])
         with self.assertRaisesRegex(TypeError, "cloud must be a dataset with points, not list"):
             delaunayflip.pyvista.triangulate([[0, 0, 0]])
-        with self.assertRaisesRegex(ValueError, "outline must be one of even-odd, orientation, any"):
-            delaunayflip.pyvista.triangulate(cloud, outline="x")
         bare = delaunayflip.pyvista.triangulate(self.pyvista.PolyData(), cloud)
         self.assertEqual((bare.n_points, bare.n_cells), (50, same.n_cells))
+
+    def test_rings(self):
+        """As arrays they are those of delaunayflip.triangulate; as meshes, polygons or closed lines."""
+        import delaunayflip.pyvista
+        cloud = self.pyvista.PolyData(numpy.random.default_rng(4).random((200, 3)) * [12, 12, 1])
+        lower = numpy.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+        outer, lake, island = 1 + 10 * lower, 3 + 6 * lower, 5 + 2 * lower
+
+        def join(rings, closes):
+            mesh = self.pyvista.PolyData(numpy.concatenate(rings).astype(float))
+            cells = [[5, *range(4 * i, 4 * i + 4), 4 * i] if closes else [4, *range(4 * i, 4 * i + 4)]
+                     for i in range(len(rings))]
+            setattr(mesh, "lines" if closes else "faces", numpy.concatenate(cells))
+            if closes:
+                mesh.verts = numpy.empty(0, int)
+            return mesh
+
+        def measure(segments=None, **options):
+            made = cloud.delaunay.triangulate(segments, **options)
+            return round(made.project_points_to_plane(origin=(0, 0, 0), normal=(0, 0, 1)).area, 9)
+
+        nested = [outer, lake, island]
+        self.assertEqual(measure(outline=[ring.tolist() for ring in nested]), 68)
+        self.assertEqual(measure(outline=nested, ring_rule="nonzero"), 100)
+        for closes in (False, True):
+            self.assertEqual(measure(join(nested, closes)), 68)
+            self.assertEqual(measure(outline=join(nested, closes)), 68)
+            self.assertEqual(measure(outline=outer, holes=join(nested[1:], closes)), 68)
+            self.assertEqual(measure(join(nested[:1], closes), holes=nested[1:]), 68)
+        self.assertGreater(measure(join(nested, True), closed_lines_as_rings=False), 100)
+        self.assertEqual(measure(outline=nested[:1], hole_seeds=[[5, 5]]), 0)
+        made = cloud.delaunay.triangulate([[0, 1]])
+        self.assertGreater(made.field_data["DelaunayFlip:SegmentEdges"][0], 0)
+        made = cloud.delaunay.triangulate(outline=outer)
+        self.assertEqual((made.n_points, made.point_data.keys()), (204, []))
+        with self.assertWarnsRegex(UserWarning, r"1 ring without an area, left out \(first: ring 1 of holes"):
+            self.assertEqual(measure(outline=outer, holes=[lake, [[2, 2], [3, 3]]]), 64)
+        with self.assertRaisesRegex(ValueError, "outline: line 0 does not end where it begins"):
+            measure(outline=self.pyvista.Line())
+        with self.assertRaisesRegex(TypeError, "outline must be .* not str"):
+            measure(outline="even-odd")
+        with self.assertRaisesRegex(TypeError, "segments must be a pyvista.PolyData, not UniformGrid|ImageData"):
+            measure(self.pyvista.ImageData())
 
     def test_callbacks(self):
         """They follow the flips and may stop them; without iterations, VTK 9.7 can read a .vtk."""

@@ -446,7 +446,7 @@ class Properties(unittest.TestCase):
             return dict(re.findall(r"^  (\w+): (.*)$", str(flip), re.MULTILINE))
 
         for kind, some in ((vtkDelaunayFlip, {"Geometry", "RegionArray", "LiveUpdate"}),
-                           (vtkDelaunayFlipPoints, {"Alpha", "Outline", "LinesAsSegments"})):
+                           (vtkDelaunayFlipPoints, {"Alpha", "RingRule", "LinesAsSegments"})):
             self.assertLessEqual(some, set(list_properties(kind)))
             for name in list_properties(kind):
                 flip = kind()

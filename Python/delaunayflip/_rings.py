@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rings of outlines and holes: what callers give, as a list of arrays, and their names."""
+import re
+import typing
+
+import numpy
+
+from . import _arrays
+from ._options import Numbers
+
+RingRule = typing.Literal["evenodd", "nonzero", "orientation"]
+RING_RULES = typing.get_args(RingRule)
+Rings = typing.Union[Numbers, typing.Sequence[Numbers]]  # one ring, or a list of rings
+
+
+def list_rings(name, given):
+    """Arrays of the rings of an argument: one ring, or a list of rings. A ring has point ids, (k,), or
+    coordinates, (k, 2) or (k, 3).
+
+    Raises:
+        TypeError, ValueError: It is neither. The message names the argument.
+    """
+    if given is None:
+        return []
+    _require_list(name, given)
+    if len(given) == 0:
+        return []
+    if _is_ring(name, given):
+        return [_read_ring(name, given)]
+    return [_read_ring(f"ring {number} of {name}", ring) for number, ring in enumerate(given)]
+
+
+def _require_list(name, given):
+    is_list = hasattr(given, "__len__") and hasattr(given, "__getitem__")
+    if not is_list or isinstance(given, (str, bytes, dict)):
+        raise TypeError(f"{name} must be a list of point ids, an array of coordinates or a list of such "
+                        f"rings, not {type(given).__name__}")
+
+
+def _is_ring(name, given):
+    if hasattr(given, "dtype") and hasattr(given, "shape"):
+        shapes, kinds = {tuple(given.shape[1:])}, {numpy.dtype(given.dtype).kind}
+    else:
+        items = [_arrays.as_array(name, item) for item in given]
+        shapes, kinds = {item.shape for item in items}, {item.dtype.kind for item in items}
+    are_spatial = shapes == {(3,)} and "f" in kinds  # three integers may be a ring of ids
+    return shapes in ({()}, {(2,)}) or are_spatial
+
+
+def _read_ring(name, ring):
+    _require_list(name, ring)
+    ring = _arrays.as_array(name, ring)
+    if ring.ndim == 1:
+        return _arrays.as_ids(name, numpy.stack([ring, ring], axis=1), 2)[:, 0]
+    ring = _arrays.as_plane(ring, name)
+    is_closed = len(ring) > 1 and numpy.array_equal(ring[0], ring[-1])
+    return ring[:-1] if is_closed else ring
+
+
+def name_rings(text, names):
+    """A message of the engine with names of rings, by their numbers."""
+    def name(found):
+        return names.get(int(found[1]), found[0])
+
+    text = re.sub(r"\bring (\d+)", name, text)
+    return re.sub(r"(?<=an area, left out \(first: )[\d, ]+",
+                  lambda found: re.sub(r"(\d+)", name, found[0]), text)
+
+
+def find_rings_without_area(defects):
+    """What the text of a report's defects says of them: a list of one text, or an empty one."""
+    return re.findall(r"\d+ rings? without an area, left out[^;]*", defects)
