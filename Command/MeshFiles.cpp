@@ -225,6 +225,33 @@ const FormatRow& RowOf(MeshFormat format)
 
 }
 
+namespace
+{
+
+/// How to go on with a file of meshes that the command cannot read; empty for other files.
+std::string NameTheWay(const std::string& extension)
+{
+  const auto isOneOf = [&extension](const std::vector<std::string>& others)
+  { return std::find(others.begin(), others.end(), extension) != others.end(); };
+  if (extension == ".vtu")
+  {
+    return "; ParaView's Extract Surface makes a .vtp of a .vtu, and in Python "
+           "delaunayflip.meshio.flip flips its triangles";
+  }
+  if (isOneOf({ ".off", ".msh", ".mesh", ".inp", ".xdmf", ".med" }))
+  {
+    return "; \"meshio convert\" converts between " + extension +
+      " and .ply, and in Python delaunayflip.meshio.flip takes what meshio reads";
+  }
+  if (isOneOf({ ".2dm", ".14", ".grd", ".gr3" }))
+  {
+    return "; in Python, delaunayflip.flip takes the points and triangles of such a file as arrays";
+  }
+  return "";
+}
+
+}
+
 MeshFormat FormatOf(const std::string& path)
 {
   const std::string extension =
@@ -239,7 +266,8 @@ MeshFormat FormatOf(const std::string& path)
   throw CommandError(ExitCode::WrongUsage,
     path +
       ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj, and for points "
-      ".xyz, .csv and .txt");
+      ".xyz, .csv and .txt" +
+      NameTheWay(extension));
 }
 
 void FileMesh::AddLabels(vtkDataArray* array)

@@ -43,6 +43,10 @@ class WrongUsage(CommandTest):
         self.fail_with(2, self.planar, "out.abc", naming=["out.abc", *known])
         self.fail_with(2, "in.abc", "out.vtk", naming=["in.abc", ".xyz", *known])
         self.fail_with(2, "in", "out.vtk", naming=known)
+        for name, way in (("in.vtu", "Extract Surface"), ("in.off", "between .off and .ply"),
+                          ("in.MSH", "delaunayflip.meshio.flip"), ("fort.14", "delaunayflip.flip"),
+                          ("in.2dm", "delaunayflip.flip"), ("in.gr3", "as arrays")):
+            self.fail_with(2, name, "out.vtk", naming=[name, way])
 
     def test_choices(self):
         for option in ("--geometry", "--criterion", "--tie-rule", "--backend"):
