@@ -245,10 +245,10 @@ public:
    * off, because lines may be contours that the mesh need not follow) for the lines of the first
    * input, if LinesAsConstraints is on.
    *
-   * Constraints that are edges already are fixed first. The others are inserted in the order of the
-   * inputs and their cells. A constraint that would cross an edge that stays, or leave the mesh, is
-   * not inserted. Such constraints are counted, and the update gives one warning that names the
-   * first of them. On surfaces nothing is inserted.
+   * Constraints are inserted in the order of the inputs and their cells, whether they are edges
+   * already or not; those that are not to be inserted are fixed before. A constraint that would
+   * cross an edge that stays, or leave the mesh, is not inserted. Such constraints are counted, and
+   * the update gives one warning that names the first of them. On surfaces nothing is inserted.
    */
   vtkSetMacro(InsertConstraints, bool);
   vtkGetMacro(InsertConstraints, bool);

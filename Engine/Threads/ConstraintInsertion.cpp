@@ -115,10 +115,14 @@ MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const Thread
   {
     const std::size_t found = find(mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
     missing.IsMissing.push_back(found < keys.size() && isEdge[found] == 0);
-    if (missing.IsMissing.back() && !isListed[found])
+    if (found < keys.size() && mesh.ConstraintsToInsert[i] != 0 && !isListed[found])
     {
       isListed[found] = true;
-      missing.First.push_back(i);
+      missing.Wanted.push_back(i);
+      if (missing.IsMissing.back())
+      {
+        missing.First.push_back(i);
+      }
     }
   }
   return missing;
@@ -153,6 +157,12 @@ public:
           });
       }
     }
+  }
+
+  /// Whether there is such an edge now.
+  bool HasEdge(VertexId from, VertexId to) const
+  {
+    return this->Table.Find(EdgeKey(from, to)) != EdgeTableView::NoSlot;
   }
 
   /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
@@ -273,6 +283,63 @@ private:
 };
 }
 
+namespace
+{
+/// The ends of the constraints of a mesh whose numbers are chosen.
+template <typename Choice>
+std::vector<std::int64_t> ListEnds(const TriangleMesh& mesh, const Choice& isChosen)
+{
+  std::vector<std::int64_t> listed;
+  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
+  {
+    const std::int64_t* ends = mesh.ConstraintEdges + 2 * i;
+    listed.insert(listed.end(), ends, isChosen(i) ? ends + 2 : ends);
+  }
+  return listed;
+}
+
+TriangleMesh WithConstraints(const TriangleMesh& mesh, const std::vector<std::int64_t>& ends)
+{
+  TriangleMesh made = mesh;
+  made.ConstraintEdges = ends.data();
+  made.NumberOfConstraintEdges = SizeOf(ends) / 2;
+  made.ConstraintsToInsert = nullptr;
+  return made;
+}
+}
+
+void ConstraintInsertion::Refuse(const TriangleMesh& mesh, std::int64_t constraint, Refusal why)
+{
+  const std::int64_t* ends = mesh.ConstraintEdges + 2 * constraint;
+  this->Refused.push_back({ { ends[0], ends[1] }, why });
+  this->Tried.push_back(constraint);
+}
+
+/// Refuses all constraints that are no edges.
+void ConstraintInsertion::RefuseAll(
+  const TriangleMesh& mesh, const MissingConstraints& missing, Refusal why)
+{
+  this->Edges = ListEnds(mesh, [&](std::int64_t i) { return !missing.IsMissing[i]; });
+  for (const std::int64_t constraint : missing.First)
+  {
+    this->Refuse(mesh, constraint, why);
+  }
+}
+
+/// Notes what became of a constraint.
+void ConstraintInsertion::Take(
+  const TriangleMesh& mesh, std::int64_t constraint, PathResult result, bool wasMissing)
+{
+  if (result != PathResult::Found)
+  {
+    this->Refuse(mesh, constraint, ToRefusal(result));
+  }
+  else if (wasMissing)
+  {
+    this->Tried.push_back(constraint);
+  }
+}
+
 ConstraintInsertion::ConstraintInsertion(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer)
 {
@@ -286,34 +353,28 @@ ConstraintInsertion::ConstraintInsertion(
   {
     return;
   }
-  this->Tried = missing.First;
   const MeshInput input{ mesh, mesh };
   const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
-  for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i) // all but the missing ones
-  {
-    const std::int64_t* ends = mesh.ConstraintEdges + 2 * i;
-    this->Edges.insert(this->Edges.end(), ends, missing.IsMissing[i] ? ends : ends + 2);
-  }
-  const auto refuse = [&](std::int64_t constraint, Refusal why)
-  {
-    const std::int64_t* ends = mesh.ConstraintEdges + 2 * constraint;
-    this->Refused.push_back({ { ends[0], ends[1] }, why });
-  };
   const bool isOnSurface = survey.Geometry == GeometryKind::Surface;
   if (isOnSurface || mesh.Whole.SharedPoints)
   {
-    for (const std::int64_t constraint : missing.First)
-    {
-      refuse(constraint, isOnSurface ? Refusal::OnSurface : Refusal::NeedsGuard);
-    }
+    this->RefuseAll(mesh, missing, isOnSurface ? Refusal::OnSurface : Refusal::NeedsGuard);
     return;
   }
 
+  // What the caller wants inserted is fixed in its turn, even if it is an edge already. Otherwise
+  // it would depend on the triangles which of two constraints that cross is refused.
+  this->Edges = ListEnds(mesh, [&](std::int64_t i) { return mesh.ConstraintsToInsert[i] == 0; });
+  std::vector<std::int64_t> first = this->Edges;
+  const std::int64_t* noEdge = mesh.ConstraintEdges + 2 * missing.First.front();
+  first.insert(first.end(), noEdge, noEdge + 2); // a mesh with constraints gets a table of edges
+  const TriangleMesh start = WithConstraints(mesh, first);
+  const MeshInput startInput{ start, start };
   // Shares of the time that an insertion takes: the edge mesh, and all constraints.
   constexpr double BuildShare = 0.6, FlipShare = 0.95;
   const SpatialOrder order = OrderMesh(input, survey, backend);
   const SpatialOrderView ranks = order.View();
-  const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
+  const EdgeMeshInput edges{ startInput, survey, order, options.FeatureAngle };
   const BuildProgress progress(
     [&](double share) { return !observer || observer(std::min(1.0, share)); });
   const BuildProgress building(
@@ -325,24 +386,31 @@ ConstraintInsertion::ConstraintInsertion(
   const PlaneMesh plane{ built.Edges.View(),
     PlaneArray(places.Doubles.Data(), mesh.Points.Count, 2) };
   Inserter flips(plane, mesh.Points.Count, mesh.Triangles.Count, built.Table.View());
-  for (std::size_t i = 0; i < missing.First.size(); ++i)
+  for (std::size_t i = 0; i < missing.Wanted.size(); ++i)
   {
     constexpr std::size_t ConstraintsPerCall = 64; // a few milliseconds
     if (i % ConstraintsPerCall == 0)
     {
-      const double share = static_cast<double>(i) / static_cast<double>(missing.First.size());
+      const double share = static_cast<double>(i) / static_cast<double>(missing.Wanted.size());
       progress.Tell(BuildShare + (FlipShare - BuildShare) * share);
     }
-    const std::int64_t* ends = mesh.ConstraintEdges + 2 * missing.First[i];
-    const PathResult result = flips.Insert(ranks.GetRank(ends[0]), ranks.GetRank(ends[1]));
-    if (result != PathResult::Found)
+    const std::int64_t wanted = missing.Wanted[i];
+    const std::int64_t* ends = mesh.ConstraintEdges + 2 * wanted;
+    const VertexId from = ranks.GetRank(ends[0]), to = ranks.GetRank(ends[1]);
+    const bool isEdge = !missing.IsMissing[wanted] && flips.HasEdge(from, to);
+    const PathResult result = flips.Insert(from, to);
+    if (result != PathResult::Found && isEdge) // at points that are not finite, or coincide
     {
-      refuse(missing.First[i], ToRefusal(result));
+      this->Edges.insert(this->Edges.end(), ends, ends + 2);
+    }
+    else
+    {
+      this->Take(mesh, wanted, result, missing.IsMissing[wanted]);
     }
   }
-  for (const auto& [start, end] : flips.GetEdges())
+  for (const auto& [from, to] : flips.GetEdges())
   {
-    this->Edges.insert(this->Edges.end(), { ranks.GetVertex(start), ranks.GetVertex(end) });
+    this->Edges.insert(this->Edges.end(), { ranks.GetVertex(from), ranks.GetVertex(to) });
   }
   this->Flips = flips.GetNumberOfFlips();
   if (this->Flips > 0)
@@ -374,13 +442,8 @@ void ConstraintInsertion::Store(
 
 TriangleMesh ConstraintInsertion::GetMesh(const TriangleMesh& caller) const
 {
-  TriangleMesh mesh = caller;
+  TriangleMesh mesh = this->Tried.empty() ? caller : WithConstraints(caller, this->Edges);
   mesh.ConstraintsToInsert = nullptr;
-  if (!this->Tried.empty())
-  {
-    mesh.ConstraintEdges = this->Edges.data();
-    mesh.NumberOfConstraintEdges = SizeOf(this->Edges) / 2;
-  }
   if (!this->Triangles.empty())
   {
     mesh.Triangles = TriangleArray(this->Triangles.data(), caller.Triangles.Count);

@@ -17,6 +17,9 @@
 namespace delaunayflip
 {
 
+enum class PathResult;
+struct MissingConstraints;
+
 /// Why a constraint is not inserted.
 enum class Refusal : char
 {
@@ -55,7 +58,8 @@ public:
     const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& observer);
 
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
-  /// The numbers of the constraints that were no edges, ascending; only the first of equal ones.
+  /// The numbers of the constraints that were no edges, or are refused, ascending; only the first
+  /// of equal ones.
   const std::vector<std::int64_t>& GetTried() const { return this->Tried; }
   /// Those of them that are not inserted, in the caller's order.
   const std::vector<RefusedConstraint>& GetRefused() const { return this->Refused; }
@@ -83,6 +87,9 @@ public:
   void AddFlipCounts(std::int32_t* counts) const;
 
 private:
+  void RefuseAll(const TriangleMesh& mesh, const MissingConstraints& missing, Refusal why);
+  void Refuse(const TriangleMesh& mesh, std::int64_t constraint, Refusal why);
+  void Take(const TriangleMesh& mesh, std::int64_t constraint, PathResult result, bool wasMissing);
   void Store(const EdgeMesh& edges, const SpatialOrderView& order, const ThreadBackend& backend);
 
   std::vector<std::int64_t> Triangles; ///< Ids, if one has changed.
@@ -100,6 +107,7 @@ private:
 struct MissingConstraints
 {
   std::vector<std::int64_t> First; ///< Their numbers, ascending; of equal ones the first.
+  std::vector<std::int64_t> Wanted; ///< The same of all that are to be inserted, edges or not.
   std::vector<bool> IsMissing; ///< For every constraint edge; also of equal ones.
 };
 

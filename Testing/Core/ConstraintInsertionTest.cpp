@@ -87,6 +87,22 @@ TEST(ConstraintInsertion, OfRandomConstraints)
   }
 }
 
+TEST(ConstraintInsertion, TrianglesDoNotChooseWhatIsRefused)
+{
+  const FlipOptions options = With(&FlipOptions::TieRule, TieRuleKind::Canonical);
+  for (std::uint32_t seed = 0; seed < 20 / Reduction; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const ConstrainedMesh drawn = DrawCase(60, 200, 60, seed);
+    const std::vector<std::int32_t> others = Flip(drawn.Mesh.View()).Triangles;
+    const FlipResult one = Flip(drawn.View(), options);
+    const FlipResult other = Flip(WithTriangles(drawn.View(), others), options);
+    EXPECT_LT(0, one.Report.UnmatchedConstraints);
+    EXPECT_EQ(one.Report.UnmatchedConstraints, other.Report.UnmatchedConstraints);
+    EXPECT_TRUE(ToTriangleSet(one.Triangles) == ToTriangleSet(other.Triangles));
+  }
+}
+
 TEST(ConstraintInsertion, GivesCgalsConstrainedDelaunayMesh)
 {
   for (std::uint32_t seed = 0; seed < 10; ++seed)
@@ -221,14 +237,14 @@ TEST(ConstraintInsertion, OfTheSecondOfTwoThatCross)
 {
   ConstrainedMesh square{ MakeGridMesh(1, 1), {}, {} };
   square.Add(1, 2);
-  square.Add(3, 0); // an edge, which comes first
+  square.Add(3, 0); // an edge of the given triangles, which does not matter
   square.Add(2, 1);
   const FlipResult result = Flip(square.View());
-  EXPECT_TRUE(HasEdge(result.Triangles, 0, 3));
+  EXPECT_TRUE(HasEdge(result.Triangles, 1, 2));
   EXPECT_EQ(1, result.Report.Edges.Constraint);
   EXPECT_EQ(1, result.Report.UnmatchedConstraints);
-  EXPECT_EQ(0, result.Report.InsertedConstraints);
-  EXPECT_NE(std::string::npos, DescribeDefects(result.Report.Defects).find("(first: 1-2)"))
+  EXPECT_EQ(1, result.Report.InsertedConstraints);
+  EXPECT_NE(std::string::npos, DescribeDefects(result.Report.Defects).find("(first: 3-0)"))
     << DescribeDefects(result.Report.Defects);
   EXPECT_EQ(1, CountDefect(result.Report, Crosses));
 }

@@ -483,27 +483,28 @@ ExpectedInsertion PredictInsertion(const TriangleMesh& mesh)
 {
   ExpectedInsertion expected;
   const EdgeMap edges = CollectEdges(mesh.Triangles);
-  std::vector<VertexPair> missing;
+  std::vector<VertexPair> wanted;
   for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
   {
     const VertexPair ends = Sorted(mesh.ConstraintEdges[2 * i], mesh.ConstraintEdges[2 * i + 1]);
-    const bool isKnown = std::find(missing.begin(), missing.end(), ends) != missing.end();
-    if (edges.count(ends) > 0)
+    const bool isKnown = std::find(wanted.begin(), wanted.end(), ends) != wanted.end();
+    if (mesh.ConstraintsToInsert[i] == 0)
     {
-      expected.Pieces.push_back(ends);
+      expected.Pieces.insert(expected.Pieces.end(), edges.count(ends), ends);
     }
     else if (!isKnown && ends.first != ends.second)
     {
-      missing.push_back(ends);
+      wanted.push_back(ends);
     }
   }
-  for (const VertexPair& ends : missing)
+  for (const VertexPair& ends : wanted)
   {
     const std::vector<VertexPair> pieces = SplitAtVertices(mesh, ends.first, ends.second);
     const bool isRefused = CrossAny(mesh, pieces, expected.Pieces);
-    ++(isRefused ? expected.Refused : expected.Inserted);
+    expected.Refused += isRefused ? 1 : 0;
     if (!isRefused)
     {
+      expected.Inserted += edges.count(ends) > 0 ? 0 : 1;
       expected.Pieces.insert(expected.Pieces.end(), pieces.begin(), pieces.end());
     }
   }
