@@ -63,14 +63,22 @@ int CountStartable(int most)
 /// The largest number of threads that were started at once in this process.
 std::atomic<int> mostStarted{ 1 };
 
+/// The system reads a file for this, which would take a tenth of the time of a few points.
+int CountCores()
+{
+  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return cores;
+}
+
+/// How many threads are used at most, whatever a caller wants.
+int FindMostThreads() { return std::max(MostThreads, 2 * CountCores()); }
+
 /// oneTBB ends the process if the system refuses it a thread. So threads are tried before, twice as
 /// many, because oneTBB itself and the mesh need memory too. oneTBB 2022 waits for ever if memory
 /// fails meanwhile; one thread does without oneTBB.
 int ResolveThreads(int wanted)
 {
-  // The system reads a file for this, which would take a tenth of the time of a few points.
-  static const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  int threads = wanted > 0 ? std::min(wanted, std::max(MostThreads, 2 * cores)) : cores;
+  int threads = wanted > 0 ? std::min(wanted, FindMostThreads()) : CountCores();
   if (threads > mostStarted)
   {
     threads = std::clamp((1 + CountStartable(2 * threads - 1)) / 2, 1, threads);
@@ -178,24 +186,32 @@ class ThreadBackend::Pool
 {
 public:
   explicit Pool(int threads)
-    : Size(threads),
-      Arena(IdleArenas::Take(threads))
+    : Size(threads)
   {
     if (threads == 1)
     {
       return; // and oneTBB is not used
     }
+    // The smallest allowance in the process counts, so those of all pools are equal. The program
+    // may have given a smaller one; oneTBB would write a warning if more threads were requested.
     constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
-    this->Allowance.emplace(
-      parallelism, std::max<std::size_t>(threads, tbb::global_control::active_value(parallelism)));
-    if (threads > mostStarted)
+    this->Allowance.emplace(parallelism, static_cast<std::size_t>(FindMostThreads()));
+    this->Size = std::min(threads, static_cast<int>(tbb::global_control::active_value(parallelism)));
+    this->Arena = IdleArenas::Take(this->Size);
+    if (this->Size > mostStarted)
     {
-      mostStarted = threads;
+      mostStarted = this->Size;
       this->StartAll();
     }
   }
 
-  ~Pool() { IdleArenas::Return(std::move(this->Arena)); }
+  ~Pool()
+  {
+    if (this->Arena)
+    {
+      IdleArenas::Return(std::move(this->Arena));
+    }
+  }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
 

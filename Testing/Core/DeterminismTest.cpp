@@ -89,6 +89,16 @@ TEST_P(DeterminismTest, MoreThreadsThanCanHelpAreReduced)
   }
 }
 
+TEST_P(DeterminismTest, RunsOfFewAndOfManyThreadsGoTogetherWithoutAWarning)
+{
+  testing::internal::CaptureStderr();
+  this->Options.NumberOfThreads = 2;
+  const FlipSession few = MakeSession(this->Mesh.View(), this->Options);
+  this->Options.NumberOfThreads = 16;
+  ExpectSameResult(this->Expected, Flip(this->Mesh.View(), this->Options));
+  EXPECT_EQ("", testing::internal::GetCapturedStderr());
+}
+
 TEST_P(DeterminismTest, SingleStepsGiveTheSameBits)
 {
   this->Options.NumberOfThreads = 3;
