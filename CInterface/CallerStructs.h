@@ -262,6 +262,9 @@ void ForEachNumber(Struct& c, Report& report, const Visit& visit)
   visit(c.triangles_large, report.FromPoints.LargeTriangles);
   visit(c.keeps_sliver, report.KeepsSliver);
   visit(c.blocked_by_deviation, report.BlockedByDeviation);
+  visit(c.duplicate_triangles, report.DuplicateTriangles);
+  visit(c.hidden_by_winding, report.HiddenByWinding);
+  visit(c.obtuse_at_non_manifold, report.ObtuseAtNonManifold);
 }
 
 /// A report with the numbers of a C struct, for Summarize.

@@ -232,6 +232,10 @@ extern "C"
     int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
                                the smallest angles, with one below 5 degrees; else 0. */
     int64_t blocked_by_deviation; /**< Those left that maximum_deviation blocks. */
+    int64_t duplicate_triangles; /**< Triangles with the three points of an earlier one. */
+    int64_t hidden_by_winding; /**< Edges that are wrongly wound and would else be bad. */
+    /** Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there. */
+    int64_t obtuse_at_non_manifold;
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns

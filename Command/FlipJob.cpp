@@ -107,7 +107,9 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
 {
   std::string text = message;
   for (const auto& [property, option] :
-    { std::pair("\\bRegionArray\\b", "--region-array"), std::pair("\\bTolerance\\b", "--tolerance"),
+    { std::pair("vtkPolyDataNormals with ConsistencyOn", "--orient"),
+      std::pair("leave out such duplicates", "leave them out (--drop-duplicates)"),
+      std::pair("\\bRegionArray\\b", "--region-array"), std::pair("\\bTolerance\\b", "--tolerance"),
       std::pair("\\bSplitCrossings\\b", "--split-crossings"),
       std::pair("merge points that lie at the same place",
         mergesPoints ? "no two edges lie at the same place, even after --merge-points"
@@ -158,6 +160,9 @@ std::string MakeJson(const RunReport& run)
   json["inserted_constraint_edges"] = flip.InsertedConstraints;
   json["constraint_flips"] = flip.ConstraintFlips;
   json["keeps_sliver"] = flip.KeepsSliver;
+  json["duplicate_triangles"] = flip.DuplicateTriangles;
+  json["hidden_by_winding"] = flip.HiddenByWinding;
+  json["obtuse_at_non_manifold"] = flip.ObtuseAtNonManifold;
   if (run.IsFromPoints)
   {
     const PointCounts& counts = flip.FromPoints;
@@ -582,7 +587,7 @@ private:
     this->Run.IsFromPoints = this->Settings.FromPoints;
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
-    this->Run.Summary = this->Filter->GetSummary();
+    this->Run.Summary = WithOptions(this->Filter->GetSummary(), this->Settings.MergePoints);
     if (report.Triangles == 0)
     {
       report.Points = this->Filter->GetOutput()->GetNumberOfPoints();

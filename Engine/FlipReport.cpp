@@ -70,6 +70,7 @@ std::string InSingular(const std::string& what)
     { "triangles that repeat ", "triangle that repeats " },
     { "triangles ", "triangle " },
     { "points ", "point " },
+    { "duplicate points ", "duplicate point " },
     { "polygons ", "polygon " },
     { "constraint edges that are not edges ", "constraint edge that is not an edge " },
     { "constraint edges that cannot be inserted because they leave ",
@@ -225,6 +226,9 @@ void AddReport(FlipReport& sum, const FlipReport& other)
   sum.BuildSeconds += other.BuildSeconds;
   sum.FlipSeconds += other.FlipSeconds;
   sum.KeepsSliver = sum.KeepsSliver || other.KeepsSliver;
+  sum.DuplicateTriangles += other.DuplicateTriangles;
+  sum.HiddenByWinding += other.HiddenByWinding;
+  sum.ObtuseAtNonManifold += other.ObtuseAtNonManifold;
   if (sum.GeometryUsed == GeometryKind::Auto)
   {
     sum.GeometryUsed = other.GeometryUsed;
@@ -296,14 +300,49 @@ std::string Advise(const FlipReport& report)
   {
     return "";
   }
-  const std::pair<std::int64_t, const char*> remedies[] = { { edges.Region, "fewer regions" },
-    { edges.Feature, "a larger feature angle" }, { edges.Constraint, "fewer constraints" } };
-  const auto most = std::max_element(std::begin(remedies), std::end(remedies),
-    [](const auto& one, const auto& other) { return one.first < other.first; });
+  struct Keeper
+  {
+    std::int64_t Count;
+    const char* Keeps;
+    const char* Remedy;
+  };
+  const Keeper keepers[] = { { edges.Region, "regions keep", "fewer regions" },
+    { edges.Feature, "the feature angle keeps", "a larger feature angle" },
+    { edges.Constraint, "constraints keep", "fewer constraints" } };
+  const Keeper& most = *std::max_element(std::begin(keepers), std::end(keepers),
+    [](const Keeper& one, const Keeper& other) { return one.Count < other.Count; });
+  const std::string share = std::to_string(100 * kept / inner);
   const std::string what = 10 * kept > inner
-    ? std::to_string(100 * kept / inner) + " % of the inner edges are kept; with "
-    : "an edge is kept at one of the ten triangles with the smallest angles; with ";
-  return "hint: " + what + most->second + " more can flip\n";
+    ? share + " % of the inner edges are kept"
+    : std::string(most.Keeps) + " an edge of one of the ten triangles with the smallest angles";
+  return "hint: " + what + "; with " + most.Remedy + " more can flip\n";
+}
+
+/// What to repair if bad edges stay because of defects of the mesh.
+std::string AdviseRepair(const FlipReport& report)
+{
+  const EdgeCounts& edges = report.Edges;
+  const std::int64_t inner = edges.Edges - edges.Boundary;
+  std::string text;
+  if (report.HiddenByWinding > 0)
+  {
+    text += "hint: " + Count(report.HiddenByWinding, "bad edge") +
+      " kept between triangles that are wound differently; wind all the same way "
+      "(vtkPolyDataNormals with ConsistencyOn), and more can flip\n";
+  }
+  if (report.DuplicateTriangles > 0 && report.ObtuseAtNonManifold > 0)
+  {
+    text += "hint: " + Count(report.DuplicateTriangles, "triangle") +
+      " with the corners of another one, whose edges are kept; leave out such duplicates, and more "
+      "can flip\n";
+  }
+  else if (report.ObtuseAtNonManifold > 0 && 10 * edges.NonManifold > inner)
+  {
+    text += "hint: " + std::to_string(100 * edges.NonManifold / inner) +
+      " % of the inner edges have more than two triangles and are kept; flip the parts that meet "
+      "there one by one, and more can flip\n";
+  }
+  return text;
 }
 
 /// A line, or nothing if there are no constraints.
@@ -337,7 +376,7 @@ std::string Summarize(const FlipReport& report)
     List({ { "boundary", edges.Boundary }, { "non-manifold", edges.NonManifold },
       { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
       { "constraints", edges.Constraint }, { "regions", edges.Region } }) +
-    "\n" + Advise(report) + "geometry: " + ToString(report.GeometryUsed) +
+    "\n" + Advise(report) + AdviseRepair(report) + "geometry: " + ToString(report.GeometryUsed) +
     (reason.empty() ? "" : ": ") + reason + "\n" + DescribeConstraints(report) +
     "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " +
     Count(report.NonDelaunayAfter, "") +

@@ -108,6 +108,13 @@ struct FlipReport
   /// Whether feature edges or constraints keep one of the ten triangles with the smallest angles at
   /// the end, with an angle below 5 degrees. False for points, and for meshes in parts.
   bool KeepsSliver = false;
+  // What hides bad edges; 0 for points, and for meshes in parts.
+  std::int64_t DuplicateTriangles = 0; ///< Triangles with the three points of an earlier one.
+  /// Edges that are wrongly wound at the end, and whose opposite angles sum to more than pi.
+  std::int64_t HiddenByWinding = 0;
+  /// Angles above 90 degrees opposite to non-manifold edges at the end. An edge that would be bad
+  /// has one.
+  std::int64_t ObtuseAtNonManifold = 0;
 
   StopReasonKind StopReason = StopReasonKind::NotStarted;
   bool Converged() const { return this->StopReason == StopReasonKind::Converged; }

@@ -9,6 +9,7 @@
 #include "FlipLoop.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "HiddenEdges.h"
 #include "Outline.h"
 #include "TriangleMesh.h"
 
@@ -102,6 +103,9 @@ public:
 
   /// Returns what KeepsWorstSliver (SmallestAngle.h) does.
   virtual bool KeepsSliver() = 0;
+
+  /// Which kept edges would be bad without defects of the mesh.
+  virtual HiddenSums CountHidden() = 0;
 
   /// Throws std::logic_error if the edge mesh is inconsistent, which is a bug of the engine.
   virtual void Audit() const = 0;

@@ -9,6 +9,7 @@
 #include "EdgeMeshBuilder.h"
 #include "FlipLoopChoice.h"
 #include "GeometryChoice.h"
+#include "HiddenEdges.h"
 #include "InputChecks.h"
 #include "LoadedMesh.h"
 #include "MeshSurvey.h"
@@ -138,6 +139,7 @@ public:
     report.Points = mesh.Points.Count;
     report.Triangles = mesh.Triangles.Count;
     report.Edges = built.Counts;
+    report.DuplicateTriangles = built.DuplicateTriangles.Count;
     report.UnmatchedConstraints = built.MissingConstraints;
     report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
     report.GeometryUsed = survey.Geometry;
@@ -275,6 +277,12 @@ public:
   {
     return KeepsWorstSliver(this->Mesh, this->Points, this->Range,
       this->Loop->FindLargestSquaredCotangent(), this->Backend);
+  }
+
+  HiddenSums CountHidden() override
+  {
+    return this->Backend.template Sum<HiddenSums>(
+      this->Mesh.NumberOfEdges, HiddenEdgeSurvey{ this->Mesh.View(), this->Points.View() });
   }
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }

@@ -171,23 +171,40 @@ struct TurnStep
 {
   ScaledTriangles Triangles;
   double Factor; ///< Power of two that brings the scaled bounding box's diagonal to 1 .. 2.
+  int Up = 2; ///< The axis of heights, in the place of z.
+  std::int64_t Stride = 1; ///< Every how many triangles one is taken.
 
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const { this->Triangles.Prefetch(t); }
-
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, TurnSums& sums) const
+  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t i) const
   {
+    this->Triangles.Prefetch(i * this->Stride);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, TurnSums& sums) const
+  {
+    const std::int64_t t = i * this->Stride;
     if (!this->Triangles.IsFinite(t))
     {
       return;
     }
-    const Vector3 corners[3] = { this->Triangles.GetCorner(t, 0), this->Triangles.GetCorner(t, 1),
-      this->Triangles.GetCorner(t, 2) };
+    const Vector3 corners[3] = { this->GetCorner(t, 0), this->GetCorner(t, 1),
+      this->GetCorner(t, 2) };
     sums.Turns.Note(FindTurn(corners[0], corners[1], corners[2]), t);
     const Vector3 normal = AreaVector(corners[0], corners[1], corners[2]);
     const double area = Length(normal) * this->Factor * this->Factor; // below 4
     const auto units = static_cast<std::int64_t>(0x1p60 * area);
     sums.All += units;
     sums.Gentle += IsGentle(corners, normal) ? units : 0;
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE Vector3 GetCorner(std::int64_t t, int slot) const
+  {
+    const Vector3 p = this->Triangles.GetCorner(t, slot);
+    if (this->Up == 2)
+    {
+      return p;
+    }
+    return this->Up == 1 ? Vector3{ p.Z, p.X, p.Y } : Vector3{ p.Y, p.Z, p.X };
   }
 };
 
@@ -386,15 +403,20 @@ public:
   }
 
   /// How triangles turn in x and y, and how steep they are.
-  TurnSums SumTurns() const
+  /// @param up another axis: in the two that follow it, with heights along it.
+  /// @param atMost about how many triangles are taken, evenly.
+  TurnSums SumTurns(
+    int up = 2, std::int64_t atMost = std::numeric_limits<std::int64_t>::max()) const
   {
     // The square of the factor must not overflow; areas in smaller boxes vanish anyway.
     constexpr int SmallestExponent = -500;
     const double length = this->Triangles.Scale.FindDiagonal(this->Survey.Box);
     const double factor =
       length > 0.0 ? std::scalbn(1.0, -std::max(std::ilogb(length), SmallestExponent)) : 1.0;
+    const std::int64_t all = this->Input.Local.Triangles.Count;
+    const std::int64_t stride = std::max<std::int64_t>(1, all / atMost);
     return this->Backend.template Sum<TurnSums>(
-      this->Input.Local.Triangles.Count, TurnStep{ this->Triangles, factor });
+      (all + stride - 1) / stride, TurnStep{ this->Triangles, factor, up, stride });
   }
 
   /// The points around which triangles turn more than once.
@@ -489,13 +511,14 @@ private:
       (turns.CountStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
     if (turns.GetSide() == 0)
     {
-      this->Take(GeometryKind::Surface, "no triangle has area in x and y");
+      this->Take(
+        GeometryKind::Surface, "no triangle has area in x and y" + this->AdviseOtherHeights());
     }
     else if (!turns.AreUniform() && !mayStray)
     {
       this->Take(GeometryKind::Surface,
         "not a height field: seen from above, " + DescribeStrays(turns) +
-          (turns.AreNearlyUniform() ? Advice : ""));
+          (turns.AreNearlyUniform() ? Advice : this->AdviseOtherHeights()));
       this->WarnOfStrays();
     }
     else if (!suits)
@@ -508,6 +531,28 @@ private:
       this->Take(GeometryKind::PlanarXY,
         field + ", and " + (isHigh ? "z extends further than x and y" : slopes));
     }
+  }
+
+  /// Names the axis, other than z, over which the mesh would be a height field of gentle slopes.
+  std::string AdviseOtherHeights() const
+  {
+    constexpr std::int64_t Sample = 1000; // triangles, which tell that most meshes are none
+    for (const int up : { 1, 0 })
+    {
+      const TurnSums sample = this->SumTurns(up, Sample);
+      if (10 * sample.Turns.CountStrays() > sample.Turns.Count())
+      {
+        continue;
+      }
+      const TurnSums sums = this->SumTurns(up);
+      if (sums.Turns.AreUniform() && 100 * sums.Gentle >= MostlyGentle * sums.All)
+      {
+        const std::string axis = up == 1 ? "y" : "x";
+        return "; " + axis + " looks like the height of terrain: if it is, exchange " + axis +
+          " and z";
+      }
+    }
+    return "";
   }
 
   /// Where they are few, and all that keeps the mesh from being a height field.

@@ -41,7 +41,7 @@ void CheckInput(const PointInput& input, const PointOptions& options)
   }
   if (options.NumberOfPieces > 1)
   {
-    throw InvalidOptions("points cannot be triangulated in several pieces: gather them first");
+    throw InvalidOptions("points cannot be triangulated in several pieces: gather them in one process first");
   }
   for (std::int64_t i = 0; i < 2 * input.NumberOfSegments; ++i)
   {
@@ -538,7 +538,7 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   };
   add("points with NaN or infinite coordinates", notFinite,
     [&](std::int64_t i) { return used[i] < 0 && !isNear(i); });
-  add("points at the place of another one", repeated,
+  add("duplicate points skipped", repeated,
     [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
   add("points nearer than the tolerance to one with a lower id", counts.TooNear, isNear);
   const bool isMesh = report.Triangles + this->Kept.Outside + this->Kept.Large > 0;

@@ -556,6 +556,13 @@ void FlipSession::Work::MeasureEnd()
     this->Report.KeepsSliver = !this->IsRunning() && !this->Cloud &&
       edges.Feature + edges.Constraint > 0 &&
       this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
+    HiddenSums hidden;
+    if (!this->IsRunning() && !this->Cloud && edges.WronglyWound + edges.NonManifold > 0)
+    {
+      hidden = this->OnBackend([](LoadedMesh& mesh) { return mesh.CountHidden(); });
+    }
+    this->Report.HiddenByWinding = hidden.WronglyWound;
+    this->Report.ObtuseAtNonManifold = hidden.ObtuseCorners;
     this->AreSliversKnown = true;
   }
   if (this->IsMeasured)

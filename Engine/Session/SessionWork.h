@@ -337,7 +337,7 @@ struct FlipSession::Work
   StepCounts Found; ///< The counts of the last detection.
   bool HasDetected = false; ///< Whether the first detection has been made.
   bool IsMeasured = true; ///< Whether MinimumAngleAfter is that of the mesh.
-  bool AreSliversKnown = false; ///< Whether KeepsSliver is that of the mesh.
+  bool AreSliversKnown = false; ///< Whether what kept edges hide is that of the mesh.
 };
 
 }

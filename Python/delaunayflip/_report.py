@@ -89,6 +89,10 @@ class Report:
     triangles_large: int = 0  #: Removed by alpha and longest_edge.
     keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
     blocked_by_deviation: int = 0  #: Those left that maximum_deviation blocks.
+    duplicate_triangles: int = 0  #: Triangles with the three points of an earlier one.
+    hidden_by_winding: int = 0  #: Edges that are wrongly wound and would else be bad.
+    #: Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there.
+    obtuse_at_non_manifold: int = 0
 
     @property
     def converged(self) -> bool:

@@ -356,7 +356,7 @@ static void TestPoints(void)
   options.number_of_pieces = 2;
   CHECK(
     delaunayflip_open_points(&points, &options, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);
-  CHECK(strstr(delaunayflip_error_message(), "gather them first") != NULL);
+  CHECK(strstr(delaunayflip_error_message(), "gather them in one process") != NULL);
   points.number_of_points = INT64_MAX;
   CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
   points.number_of_points = INT64_C(1) << 48;

@@ -12,6 +12,7 @@ KEYS = [
     *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
     *("feature_edges", "region_edges", "constraint_edges", "unmatched_constraint_edges"),
     *("inserted_constraint_edges", "constraint_flips", "keeps_sliver"),
+    *("duplicate_triangles", "hidden_by_winding", "obtuse_at_non_manifold"),
     *("geometry", "geometry_reason", "tolerance", "backend", "iterations"),
     *("total_flips", "total_excluded", "total_blocked"),
     *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape"),
@@ -131,6 +132,26 @@ class Summary(CommandTest):
             self.assertTrue(hint is None or re.fullmatch(share, hint[1]), text)
         text = self.succeed(path, "out.vtk", "--constraints", path).stdout
         self.assertIn("100 % of the inner edges are kept; with fewer constraints", text)
+
+    def test_what_hides_bad_edges(self):
+        """A hint names the remedy where bad edges stay because of defects, and only there."""
+        flat, tall = [(0, -1, 0), (4, 0, 0), (0, 1, 0), (-4, 0, 0)], [(0, -4, 0), (1, 0, 0), (0, 4, 0), (-1, 0, 0)]
+        for points, is_bad in ((tall, True), (flat, False)):
+            for triangles, hint in (
+                ([(0, 1, 2), (3, 2, 0)], None if not is_bad else
+                 "1 bad edge kept between triangles that are wound differently; wind all the same way (--orient)"),
+                ([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], None if not is_bad else
+                 "2 triangles with the corners of another one, whose edges are kept; leave them out "
+                 "(--drop-duplicates), and more can flip"),
+            ):
+                path = self.write_mesh(make_mesh(points, triangles), "in.vtk")
+                text = self.succeed(path, "out.vtk").stdout
+                self.assertEqual("hint" in text, hint is not None, text)
+                self.assertIn(hint or "", text)
+        leaves = [*tall, (0, 0, 1)]
+        path = self.write_mesh(make_mesh(leaves, [(0, 1, 2), (0, 2, 3), (0, 2, 4)]), "in.vtk")
+        self.assertIn("hint            100 % of the inner edges have more than two triangles and are kept; flip the "
+                      "parts that meet there one by one, and more can flip\n", self.succeed(path, "out.vtk").stdout)
 
     def test_no_triangles(self):
         path = self.write_mesh(make_mesh([(0, 0, 0)], []), "in.vtk")

@@ -118,6 +118,7 @@ public:
   }
   Defect FindTurnedTriangles() const override { return this->Engine->FindTurnedTriangles(); }
   bool KeepsSliver() override { return this->Engine->KeepsSliver(); }
+  HiddenSums CountHidden() override { return this->Engine->CountHidden(); }
   void Audit() const override { this->Engine->Audit(); }
 
 private:

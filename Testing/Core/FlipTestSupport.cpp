@@ -377,6 +377,8 @@ void ExpectSameResult(const FlipResult& expected, const FlipResult& actual)
   EXPECT_TRUE(expected.FlipCounts == actual.FlipCounts);
   ExpectSameStatistics(expected.Report, actual.Report);
   EXPECT_EQ(expected.Report.KeepsSliver, actual.Report.KeepsSliver);
+  EXPECT_EQ(expected.Report.HiddenByWinding, actual.Report.HiddenByWinding);
+  EXPECT_EQ(expected.Report.ObtuseAtNonManifold, actual.Report.ObtuseAtNonManifold);
 }
 
 std::string ExpectInvalidMesh(

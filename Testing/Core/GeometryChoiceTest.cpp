@@ -515,6 +515,20 @@ TEST(GeometryChoice, TurnedTrianglesAreToldOfAtTheEnd)
   EXPECT_EQ(expected, CountTurnedOver(session.GetReport()));
 }
 
+/// As most programs for pictures and games write it; a dome, a sphere and a tube are no terrain.
+TEST(GeometryChoice, NamesTheHeightsOfTerrainWhereTheyAreNotZ)
+{
+  const std::string advice = " looks like the height of terrain: if it is, exchange ";
+  const OwnedMesh<double> terrain = MakeHeights(60, 40, Wave);
+  ExpectChoice(terrain, GeometryKind::PlanarXY, "a height field over x and y, and");
+  ExpectChoice(Transform(terrain, { { { 1, 0, 0, 0 }, { 0, 0, 1, 0 }, { 0, -1, 0, 0 } } }),
+    GeometryKind::Surface, "; y" + advice + "y and z");
+  ExpectChoice(Transform(terrain, { { { 0, 0, 1, 0 }, { 0, 1, 0, 0 }, { 1, 0, 0, 0 } } }),
+    GeometryKind::Surface, "; x" + advice + "x and z");
+  const OwnedMesh<double> sphere = MakeBadSphere(60, 30, 33);
+  EXPECT_EQ(std::string::npos, Survey(sphere).GeometryReason.find("looks like"));
+}
+
 TEST(GeometryChoice, NobodyWarnsOfClosedSurfaces)
 {
   const OwnedMesh<double> sphere = MakeBadSphere(60, 30, 33);

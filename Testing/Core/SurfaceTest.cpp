@@ -314,6 +314,8 @@ TEST(Surface, DuplicateTrianglesKeepTheirEdges)
     const FlipResult result = FlipSurface(mesh);
     EXPECT_LT(100, result.Report.Edges.NonManifold);
     EXPECT_LT(0, result.Report.TotalFlips);
+    EXPECT_EQ(mesh.Triangles.size() - clean.size(), 3 * result.Report.DuplicateTriangles);
+    EXPECT_LT(0, result.Report.ObtuseAtNonManifold);
     for (std::size_t t = 0; t < clean.size() / 3; t += 20)
     {
       for (const std::size_t kept : { t, clean.size() / 3 + t / 20 })

@@ -241,6 +241,15 @@ class Same(Pair, unittest.TestCase):
         for name in ("Tree", "Height", "Number", "Nothing"):
             self.expect_same(mesh, lambda flip, name=name: flip.SetRegionArray(name))
 
+    def test_what_hides_bad_edges(self):
+        mesh = make_rhombus()
+        for cells, hint in (([(0, 1, 2), (3, 2, 0)], "hint: 1 bad edge kept between triangles that are wound "
+                             "differently; wind all the same way (vtkPolyDataNormals with ConsistencyOn)"),
+                            ([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], "hint: 2 triangles with the corners")):
+            mesh.SetPolys(make_cells(cells))
+            told = self.expect_same(mesh)
+            self.assertIn(hint, told["answers"]["GetSummary"])
+
     def test_results_of_an_earlier_update(self):
         points, flip = CxxPoints(), CxxFilter()
         points.SetInputData(make_cloud())
@@ -380,7 +389,7 @@ class SamePoints(Pair, unittest.TestCase):
     def test_points(self):
         for kind in (numpy.float32, numpy.float64):
             told = self.expect_same(make_cloud(kind=kind))
-            self.assertIn("points at the place of another one", told["warnings"][0])
+            self.assertIn("duplicate points skipped", told["warnings"][0])
         self.expect_same(make_cloud(), lambda points: points.SetMaximumIterations(1))
         for count in (0, 1, 2, 3):
             self.expect_same(make_cloud(count, seed=2))

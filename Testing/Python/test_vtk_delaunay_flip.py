@@ -220,7 +220,7 @@ class Meshes(unittest.TestCase):
             watched = Watched(mesh)
             watched.filter.SetConstraintsData(lines)
             watched.run()
-            hint = ("hint: an edge is kept at one of the ten triangles with the smallest angles; "
+            hint = ("hint: constraints keep an edge of one of the ten triangles with the smallest angles; "
                     "with fewer constraints more can flip\n")
             self.assertEqual(hint in watched.filter.GetSummary(), expected, watched.filter.GetSummary())
             self.assertEqual("hint" in watched.filter.GetSummary(), expected)
