@@ -41,7 +41,8 @@ void CheckInput(const PointInput& input, const PointOptions& options)
   }
   if (options.NumberOfPieces > 1)
   {
-    throw InvalidOptions("points cannot be triangulated in several pieces: gather them in one process first");
+    throw InvalidOptions(
+      "points cannot be triangulated in several pieces: gather them in one process first");
   }
   for (std::int64_t i = 0; i < 2 * input.NumberOfSegments; ++i)
   {

@@ -342,8 +342,8 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
   const auto& [points, triangles, edges, unmatched, inserted, constraintFlips, euler, geometry,
     reason, tolerance, backend, fallback, iterations, flips, excluded, blocked, badBefore, badAfter,
-    byShape, byDeviation, byEdge, angleBefore, angleAfter, keepsSliver, stopReason, fromPoints,
-    buildSeconds, flipSeconds, defects] = b;
+    byShape, byDeviation, byEdge, angleBefore, angleAfter, keepsSliver, duplicates, byWinding,
+    obtuse, stopReason, fromPoints, buildSeconds, flipSeconds, defects] = b;
   EXPECT_EQ(a.Points, points);
   EXPECT_EQ(a.Triangles, triangles);
   EXPECT_EQ(ListCounts(a.Edges), ListCounts(edges));

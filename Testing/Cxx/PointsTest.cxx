@@ -129,8 +129,7 @@ TEST(FromPoints, DegenerateInput)
   const std::vector<Case> cases = {
     { { { 0, 0, 0 }, { 1, 0, 0 } }, 0, "fewer than three places" },
     { { { 0, 0, 0 }, { 1, 1, 9 }, { 2, 2, 0 }, { 3, 3, 0 } }, 0, "4 points without a triangle" },
-    { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 7 } }, 1,
-      "1 duplicate point skipped" },
+    { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 7 } }, 1, "1 duplicate point skipped" },
     { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { Inf, 0, 0 } }, 1, "NaN or infinite" },
   };
   for (const Case& each : cases)
