@@ -151,7 +151,8 @@ inline PointInput ToPointInput(const delaunayflip_points& c)
   RequireArray(c.segments, c.number_of_segments, "segments");
   RequireArray(c.hole_seeds, c.number_of_hole_seeds, "hole_seeds");
   return { ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments, c.rings,
-    c.first_hole, c.hole_seeds, c.number_of_hole_seeds, IsOnDevice(c.memory), { c.stream } };
+    c.first_hole, c.hole_seeds, c.number_of_hole_seeds, c.first_added, IsOnDevice(c.memory),
+    { c.stream } };
 }
 
 /// @param options of the run.
@@ -265,6 +266,7 @@ void ForEachNumber(Struct& c, Report& report, const Visit& visit)
   visit(c.duplicate_triangles, report.DuplicateTriangles);
   visit(c.hidden_by_winding, report.HiddenByWinding);
   visit(c.obtuse_at_non_manifold, report.ObtuseAtNonManifold);
+  visit(c.points_used, report.FromPoints.Used);
 }
 
 /// A report with the numbers of a C struct, for Summarize.

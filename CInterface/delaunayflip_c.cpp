@@ -230,6 +230,7 @@ extern "C"
     points->point_type = DELAUNAYFLIP_FLOAT64;
     points->point_components = 2;
     points->first_hole = PointInput().FirstHole;
+    points->first_added = PointInput().FirstAdded;
   }
 
   void delaunayflip_options_init(delaunayflip_options* options)

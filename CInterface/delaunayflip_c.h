@@ -236,6 +236,7 @@ extern "C"
     int64_t hidden_by_winding; /**< Edges that are wrongly wound and would else be bad. */
     /** Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there. */
     int64_t obtuse_at_non_manifold;
+    int64_t points_used; /**< Of sessions from points: how many triangles have in the end. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -301,6 +302,8 @@ extern "C"
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
     int32_t first_hole; /**< Rings from this number on are holes, those before are the outline.
                            [INT32_MAX] */
+    int64_t first_added; /**< Points from this number on belong to segments alone. The defects tell
+                            if no others are left. [INT64_MAX] */
   } delaunayflip_points;
 
   void delaunayflip_points_init(delaunayflip_points* points);

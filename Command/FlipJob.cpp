@@ -166,10 +166,11 @@ std::string MakeJson(const RunReport& run)
   if (run.IsFromPoints)
   {
     const PointCounts& counts = flip.FromPoints;
-    json["from_points"] = { { "not_finite", counts.NotFinite }, { "repeated", counts.Repeated },
-      { "too_near", counts.TooNear }, { "segment_edges", counts.SegmentEdges },
-      { "refused_segments", counts.RefusedSegments }, { "crossings", counts.Crossings },
-      { "largest_shift", counts.LargestShift }, { "outside_triangles", counts.OutsideTriangles },
+    json["from_points"] = { { "used", counts.Used }, { "not_finite", counts.NotFinite },
+      { "repeated", counts.Repeated }, { "too_near", counts.TooNear },
+      { "segment_edges", counts.SegmentEdges }, { "refused_segments", counts.RefusedSegments },
+      { "crossings", counts.Crossings }, { "largest_shift", counts.LargestShift },
+      { "outside_triangles", counts.OutsideTriangles },
       { "large_triangles", counts.LargeTriangles } };
   }
   json["geometry"] = ToString(flip.GeometryUsed);
@@ -222,10 +223,11 @@ std::string DescribePoints(const FlipReport& flip)
   const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
   { return count > 0 ? text + ", " + Count(count) + " " + what : text; };
   const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
-  std::string points = Count(flip.Points - unused) + " used";
+  std::string points = Count(counts.Used) + " used";
   points = add(points, counts.Repeated, "repeated");
   points = add(points, counts.TooNear, "too near to another");
   points = add(points, counts.NotFinite, "not finite");
+  points = add(points, flip.Points - unused - counts.Used, "without a triangle");
   std::string text = "points          " + points + '\n';
   if (counts.SegmentEdges + counts.RefusedSegments > 0)
   {

@@ -22,15 +22,14 @@ const char* GetName(const char* const (&names)[Size], Kind kind)
   const auto i = static_cast<std::size_t>(kind);
   return i < Size ? names[i] : "unknown";
 }
+}
 
-/// With a point, whatever language the program has chosen.
-std::string Format(double value, int digits)
+std::string FormatNumber(double value, int digits)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::setprecision(digits) << value;
   return text.str();
-}
 }
 
 const char* ToString(StopReasonKind reason)
@@ -56,7 +55,7 @@ std::string DescribeTolerance(const FlipOptions& options, GeometryKind used)
   {
     return "automatic";
   }
-  return Format(options.Tolerance, std::numeric_limits<double>::digits10);
+  return FormatNumber(options.Tolerance, std::numeric_limits<double>::digits10);
 }
 
 namespace
@@ -238,7 +237,7 @@ void AddReport(FlipReport& sum, const FlipReport& other)
     sum.GeometryUsed = GeometryKind::Mixed;
   }
   using Found = PointCounts;
-  for (const auto count : { &Found::NotFinite, &Found::Repeated, &Found::TooNear,
+  for (const auto count : { &Found::Used, &Found::NotFinite, &Found::Repeated, &Found::TooNear,
          &Found::SegmentEdges, &Found::RefusedSegments, &Found::Crossings, &Found::OutsideTriangles,
          &Found::LargeTriangles })
   {
@@ -273,7 +272,7 @@ std::string Count(std::int64_t number, const std::string& singular)
 namespace
 {
 
-std::string Degrees(double angle) { return angle == angle ? Format(angle, 4) : "none"; }
+std::string Degrees(double angle) { return angle == angle ? FormatNumber(angle, 4) : "none"; }
 
 /// " (1,000 boundary, 6 constraints)"; kinds of which there are none are left out.
 std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kinds)

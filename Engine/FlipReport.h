@@ -184,6 +184,9 @@ DELAUNAYFLIP_EXPORT std::string Summarize(const FlipReport& report);
 /// E.g. "1,234,567 points"; the number alone without a noun.
 DELAUNAYFLIP_EXPORT std::string Count(std::int64_t number, const std::string& singular = "");
 
+/// A number with a point, whatever language the program has chosen.
+DELAUNAYFLIP_EXPORT std::string FormatNumber(double value, int digits);
+
 //------------------------------------------------------------------------------
 /// Adds the report of another mesh, flipped after this one. Counts are summed, those of iterations
 /// row by row; the stop reason is the worse of the two, and angles are the smaller ones. Ids of

@@ -65,6 +65,9 @@ struct PointInput
   const double* HoleSeeds = nullptr;
   std::int64_t NumberOfHoleSeeds = 0;
 
+  /// Points from this number on belong to segments alone. The report tells if no others are left.
+  std::int64_t FirstAdded = INT64_MAX;
+
   /// Whether the coordinates are in the memory of a GPU, ordered by Stream. All other arrays are in
   /// the host's.
   bool OnDevice = false;
@@ -108,6 +111,7 @@ struct AddedPoint
 /// What is reported about points beside the flips.
 struct PointCounts
 {
+  std::int64_t Used = 0; ///< Points that triangles have in the end, those at crossings included.
   std::int64_t NotFinite = 0; ///< Points with NaN or infinite coordinates.
   std::int64_t Repeated = 0; ///< Points at the place of one with a lower id.
   std::int64_t TooNear = 0; ///< Points within the tolerance of one elsewhere with a lower id.

@@ -204,6 +204,7 @@ void AddFieldData(const FlipReport& report, vtkFieldData* data)
 void AddPointFieldData(const PointCounts& counts, vtkFieldData* data)
 {
   const auto add = [&](const char* name, std::int64_t count) { AddCount(name, count, data); };
+  add("UsedPoints", counts.Used);
   add("PointsNotFinite", counts.NotFinite);
   add("RepeatedPoints", counts.Repeated);
   add("PointsTooNear", counts.TooNear);

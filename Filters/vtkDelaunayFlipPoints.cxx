@@ -23,8 +23,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <locale>
-#include <sstream>
 
 using namespace delaunayflip;
 
@@ -116,6 +114,7 @@ public:
     this->Input.Segments = this->Segments.data();
     this->Input.NumberOfSegments = static_cast<std::int64_t>(this->Rings.size());
     this->Input.Rings = this->Rings.data();
+    this->Input.FirstAdded = this->Given->GetNumberOfPoints();
     if (request.FirstHole >= 0)
     {
       this->Input.FirstHole =
@@ -353,13 +352,13 @@ private:
     std::vector<double> storage;
     const PointArray points = ViewPoints(this->Given, storage);
     const HeightRange heights(points, 0, points.Count);
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << "points of segments without heights (z = 0 throughout; the given points have z = "
-         << heights.Low << " to " << heights.High
-         << "): the mesh goes to z = 0 there; if it should not, give them heights, for example "
-            "those of the nearest points";
-    return { text.str(), count, {}, DefectIds::Points };
+    constexpr int Digits = 6;
+    const std::string text =
+      "points of segments without heights (z = 0 throughout; the given points have z = " +
+      FormatNumber(heights.Low, Digits) + " to " + FormatNumber(heights.High, Digits) +
+      "): the mesh goes to z = 0 there; if it should not, give them heights, for example those of "
+      "the nearest points";
+    return { text, count, {}, DefectIds::Points };
   }
 
   /// A view of the points, or of a projection of them.

@@ -29,8 +29,8 @@
  * vtkDelaunayFlip.
  *
  * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each, whose
- * names begin with "DelaunayFlip:", too: PointsNotFinite, RepeatedPoints, PointsTooNear (see
- * PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
+ * names begin with "DelaunayFlip:", too: UsedPoints, PointsNotFinite, RepeatedPoints, PointsTooNear
+ * (see PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
  * CrossingPoints (those added where segments cross), LargestShift (how far rounding has moved one
  * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by
  * Alpha and LongestEdge).
@@ -39,7 +39,8 @@
  * id is, whatever their z. Points with a NaN or infinite coordinate are not, but z does not matter
  * in XY. Unused points stay in the output, and a warning counts them. n places with h of them on
  * the hull give 2 n - 2 - h triangles. If there are fewer than three places, or all lie on one
- * line, there are none, and a warning says why.
+ * line, there are none, and a warning says why. So it does, with the boxes around points and
+ * segments, if outlines, holes or lengths leave no triangle of a point of the first input.
  *
  * Segments are taken in the order of the cells: lines of the first input, lines, then polygons of
  * the second one. A segment through points is split there. One that overlaps an earlier one is no

@@ -244,7 +244,8 @@ public:
   }
 
   /// Numbers what is left in the order of the slots, and measures it.
-  void Number(KeptTriangles& kept) const
+  /// @param firstAdded see PointInput.
+  void Number(std::int64_t firstAdded, KeptTriangles& kept) const
   {
     const std::int64_t triangles = this->Mesh.NumberOfTriangles;
     kept.Numbers.assign(triangles, 0);
@@ -275,8 +276,13 @@ public:
       kept.Edges += sides > 0 ? 1 : 0;
       kept.Boundary += sides == 1 ? 1 : 0;
     }
-    kept.EulerCharacteristic =
-      std::count(isUsed.begin(), isUsed.end(), 1) - kept.Edges + kept.Count;
+    for (std::int64_t place = 0; place < this->Mesh.NumberOfPlaces; ++place)
+    {
+      const bool isGiven = static_cast<std::int64_t>(this->Mesh.Ids[place]) < firstAdded;
+      kept.Used += isUsed[place];
+      kept.UsedGiven += isGiven ? isUsed[place] : 0;
+    }
+    kept.EulerCharacteristic = kept.Used - kept.Edges + kept.Count;
   }
 
   /// Drops the segments that are no edges of what is left.
@@ -390,7 +396,7 @@ KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
     remover.RemoveLarge(options.Alpha, options.LongestEdge);
   }
   kept.Large = remover.CountRemoved() - kept.Outside;
-  remover.Number(kept);
+  remover.Number(input.FirstAdded, kept);
   segments = remover.ListKeptSegments();
   return kept;
 }

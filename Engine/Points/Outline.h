@@ -45,6 +45,8 @@ struct KeptTriangles
   std::int64_t Outside = 0, Large = 0; ///< How many are not kept, and why.
   std::int64_t SeedsOutside = 0; ///< Hole seeds in no triangle.
   std::vector<std::int32_t> RingsWithoutArea; ///< Their numbers; they have removed nothing.
+  std::int64_t Used = 0; ///< Points of the triangles that are kept.
+  std::int64_t UsedGiven = 0; ///< Those of them before PointInput::FirstAdded.
   std::int64_t Edges = 0, Boundary = 0; ///< Of the triangles that are kept.
   std::int64_t EulerCharacteristic = 0;
   double SquaredCotangent = 0.0; ///< Of their smallest angle.

@@ -66,6 +66,32 @@ void CheckInput(const PointInput& input, const PointOptions& options)
   }
 }
 
+/// A box around places.
+struct CoordinateBox
+{
+  double Low[2] = { INFINITY, INFINITY };
+  double High[2] = { -INFINITY, -INFINITY };
+
+  void Add(double x, double y)
+  {
+    if (IsFinite(x) && IsFinite(y))
+    {
+      this->Low[0] = std::min(this->Low[0], x);
+      this->Low[1] = std::min(this->Low[1], y);
+      this->High[0] = std::max(this->High[0], x);
+      this->High[1] = std::max(this->High[1], y);
+    }
+  }
+
+  std::string Describe() const
+  {
+    constexpr int Digits = 10; // of a map's coordinates, down to millimetres
+    const auto format = [](double value) { return FormatNumber(value, Digits); };
+    return "x " + format(this->Low[0]) + " to " + format(this->High[0]) + ", y " +
+      format(this->Low[1]) + " to " + format(this->High[1]);
+  }
+};
+
 /// Pairs of point ids of the first three segments.
 std::vector<std::int64_t> ListFirstEnds(
   const PointInput& caller, const std::vector<Segment>& segments)
@@ -134,6 +160,7 @@ void PointRun::Reset()
   this->Seen.clear();
   this->Refused.clear();
   this->Kept = KeptTriangles();
+  this->Loss = Defect();
 }
 
 /// Copies the coordinates from a GPU, if they are there.
@@ -471,6 +498,13 @@ void PointRun::Finish(LoadedMesh& mesh)
   {
     mesh.ViewOnHost([this](const PointMeshView& view)
       { this->Kept = KeepTriangles(view, this->Prepared, this->Options, this->Edges); });
+    const bool isLost =
+      this->Prepared.FirstAdded > 0 ? this->Kept.UsedGiven == 0 : this->Kept.Count == 0;
+    if (isLost && this->Kept.Outside + this->Kept.Large > 0)
+    {
+      this->GetOnHost();
+      this->Loss = this->DescribeLoss();
+    }
   }
 }
 
@@ -484,6 +518,36 @@ Defect PointRun::FindRingsWithoutArea() const
   const std::int64_t count = SizeOf(numbers);
   numbers.resize(std::min<std::int64_t>(3, count));
   return { "rings without an area, left out", count, numbers, DefectIds::Rings };
+}
+
+/// That none of the given points is left, and where they and what was to cut them lie.
+Defect PointRun::DescribeLoss() const
+{
+  const PlaneArray points = this->Prepared.Points;
+  const std::int64_t added = std::min(this->Prepared.FirstAdded, this->Caller.Points.Count);
+  const std::int64_t given = added > 0 ? added : this->Caller.Points.Count;
+  CoordinateBox cloud, segments, seeds;
+  for (std::int64_t i = 0; i < given; ++i)
+  {
+    cloud.Add(points.Get(i, 0), points.Get(i, 1));
+  }
+  for (const Segment& segment : this->Segments)
+  {
+    segments.Add(points.Get(segment.From, 0), points.Get(segment.From, 1));
+    segments.Add(points.Get(segment.To, 0), points.Get(segment.To, 1));
+  }
+  for (std::int64_t i = 0; i < this->Caller.NumberOfHoleSeeds; ++i)
+  {
+    seeds.Add(this->Caller.HoleSeeds[2 * i], this->Caller.HoleSeeds[2 * i + 1]);
+  }
+  std::string text = "points without a triangle, because triangles are removed (" +
+    std::to_string(this->Kept.Outside) + " outside, " + std::to_string(this->Kept.Large) +
+    " too large): ";
+  text += this->Kept.Count == 0 ? "none is left" : "only those between points of segments are left";
+  text += "; these points lie in " + cloud.Describe();
+  text += this->Segments.empty() ? "" : ", the segments in " + segments.Describe();
+  text += this->Caller.NumberOfHoleSeeds == 0 ? "" : ", the hole seeds in " + seeds.Describe();
+  return { text, given, {}, DefectIds::Points };
 }
 
 void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
@@ -501,6 +565,9 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
     inside += edge.IsFirst && !edge.IsOnBoundary ? 1 : 0;
   }
   counts.RefusedSegments = SizeOf(this->Refused);
+  const std::int64_t places =
+    this->Prepared.Points.Count - notFinite - repeated - this->Counts.TooNear;
+  counts.Used = report.Triangles > 0 ? places : 0;
   counts.OutsideTriangles = this->Kept.Outside;
   counts.LargeTriangles = this->Kept.Large;
   report.Points = this->Caller.Points.Count;
@@ -510,11 +577,16 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   report.Edges.Constraint = counts.SegmentEdges;
   if (this->HasRemoved())
   {
+    counts.Used = this->Kept.Used;
     report.Triangles = this->Kept.Count;
     report.Edges.Edges = this->Kept.Edges;
     report.Edges.Boundary = this->Kept.Boundary;
     report.EulerCharacteristic = this->Kept.EulerCharacteristic;
     report.MinimumAngleAfter = ToDegrees(this->Kept.SquaredCotangent);
+    if (this->Kept.Count == 0)
+    {
+      report.MinimumAngleBefore = report.MinimumAngleAfter = NAN;
+    }
   }
   report.Edges.Fixed = report.Edges.Boundary + inside;
 
@@ -554,6 +626,7 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   {
     AddDefect(defect, report.Defects);
   }
+  AddDefect(this->Loss, report.Defects);
 }
 
 //------------------------------------------------------------------------------

@@ -96,6 +96,7 @@ private:
   [[noreturn]] void FailOnRefused(const Segment& ofRing);
   Defect FindRingsWithoutArea() const;
   void Take(const InsertedSegments& made);
+  Defect DescribeLoss() const;
 
   PointInput Caller;
   PointOptions Options;
@@ -115,6 +116,7 @@ private:
   std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
   std::vector<Segment> Refused;
   KeptTriangles Kept;
+  Defect Loss; ///< If none of the points that matter is left.
 };
 
 }

@@ -157,6 +157,7 @@ class Input:
         self.all_segments = numpy.concatenate(self.segments).astype(numpy.int64, order="C")
         self.all_rings = numpy.concatenate(self.rings)
         self._fill_struct(count > 0, ring_rule)
+        self.struct.first_added = given
         self.find_flat_points(given, self.all_segments, self.all_rings)
 
     def _fill_struct(self, has_rings, ring_rule):
@@ -240,6 +241,9 @@ class Input:
             report = dataclasses.replace(report, defects=self.explain(report.defects))
             self.trouble += find_rings_without_area(report.defects)
         report = self._report_flat_points(report, used)
+        is_cut = report.triangles_outside + report.triangles_large > 0
+        if is_cut and (len(triangles) == 0 or int(triangles.min()) >= self.struct.first_added > 0):
+            self.trouble = [report.defects]  # none of the points is left
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
             report = dataclasses.replace(report, number_of_points=len(points))

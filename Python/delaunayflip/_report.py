@@ -24,11 +24,11 @@ COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "ConstraintEdges": "constraint_edges",
           "UnmatchedConstraintEdges": "unmatched_constraints",
           "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
-POINT_COUNTS = {"PointsNotFinite": "points_not_finite", "RepeatedPoints": "points_repeated",
-                "PointsTooNear": "points_too_near", "SegmentEdges": "segment_edges",
-                "RefusedSegments": "segments_refused", "CrossingPoints": "crossings",
-                "OutsideTriangles": "triangles_outside", "LargeTriangles": "triangles_large",
-                "LargestShift": "largest_shift"}
+POINT_COUNTS = {"UsedPoints": "points_used", "PointsNotFinite": "points_not_finite",
+                "RepeatedPoints": "points_repeated", "PointsTooNear": "points_too_near",
+                "SegmentEdges": "segment_edges", "RefusedSegments": "segments_refused",
+                "CrossingPoints": "crossings", "OutsideTriangles": "triangles_outside",
+                "LargeTriangles": "triangles_large", "LargestShift": "largest_shift"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
 #: In the order of the header.
@@ -93,6 +93,7 @@ class Report:
     hidden_by_winding: int = 0  #: Edges that are wrongly wound and would else be bad.
     #: Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there.
     obtuse_at_non_manifold: int = 0
+    points_used: int = 0  #: Of a triangulation of points: how many its triangles have.
 
     @property
     def converged(self) -> bool:

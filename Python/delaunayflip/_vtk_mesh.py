@@ -316,6 +316,7 @@ class Cloud(Input):
                          ring_numbers=numpy.concatenate(self._numbers), **rings)
         if first_hole >= 0:
             self.struct.first_hole = min(first_hole, numpy.iinfo(numpy.int32).max)
+        self.struct.first_added = data.GetNumberOfPoints()
         own = len(self._pairs[0])
         self.find_flat_points(
             data.GetNumberOfPoints(), self.all_segments[own:], self.all_rings[own:])

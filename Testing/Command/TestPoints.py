@@ -372,6 +372,12 @@ class Segments(PointTest):
                                   self.write_mesh(line, "line.vtk"))[1]
         self.assertIn("warning: 3 points of segments without heights", result.stderr)
 
+    def test_outline_elsewhere(self):
+        outline = self.rings("outline.vtk", [(50, 50, 0), (53, 50, 0), (53, 53, 0)])
+        result = self.triangulate("in.xyz", "--outline", outline)[1]
+        self.assertIn("points          3 used, 25 without a triangle\n", result.stdout)
+        self.assertIn("the segments in x 50 to 53, y 50 to 53", result.stderr)
+
     def test_rings_that_are_none(self):
         for mesh, words in (
             (make_mesh(PLACES, [], [(0, 1, 2, 0), (0, 1, 2)]), ["line 1", "not end where it begins"]),

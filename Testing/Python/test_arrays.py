@@ -169,6 +169,30 @@ class Triangulate(unittest.TestCase):
             self.assertEqual([str(one.message)[:len(text)] for one in told], [text] * (count > 0))
             self.assertEqual(text in result.report.defects, count > 0)
 
+    def test_nothing_is_left(self):
+        points = numpy.random.default_rng(5).random((100, 2)) * [10, 1]
+        points[:2] = [[0, 0], [10, 1]]
+        there, here = [[500, 0], [510, 0], [510.5, 1]], [[1, .1], [9, .1], [9, .9], [1, .9]]
+        box = "these points lie in x 0 to 10, y 0 to 1"
+        for options, used, texts in (
+                ({"outline": there}, 3, ["only those between", box, "the segments in x 500 to 510.5, y 0 to 1"]),
+                ({"outline": here, "holes": [here]}, 0, ["none is left", "the segments in x 1 to 9, y 0.1 to"]),
+                ({"longest_edge": 1e-9}, 0, ["none is left", box]),
+                ({"outline": here}, None, [])):
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                result = delaunayflip.triangulate(points, **options)
+            self.assertEqual(len(told), len(texts) > 0)
+            self.assertEqual(result.report.points_used, len(numpy.unique(result.triangles)))
+            self.assertIn(used, (None, result.report.points_used))
+            for text in ["100 points without a triangle", *texts] if texts else ():
+                self.assertIn(text, result.report.defects)
+                self.assertIn(text, str(told[0].message))
+            self.assertEqual(numpy.isnan(result.report.minimum_angle_after), used == 0)
+        whole = delaunayflip.triangulate(numpy.append(points, points[:3], axis=0))
+        self.assertEqual(whole.report.points_used, 100)
+        self.assertEqual(delaunayflip.triangulate([[0, 0], [1, 1], [2, 2]]).report.points_used, 0)
+
     def test_rings_of_any_size(self):
         places = numpy.array([[0, 0], [1, 0], [1, 1], [0, 1], [.5, .5]])
         for scale in (1e160, 1, 1e-165):

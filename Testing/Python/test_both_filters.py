@@ -492,6 +492,15 @@ class SamePoints(Pair, unittest.TestCase):
         vtk_to_numpy(cloud.GetPoints().GetData())[:, 2] = 0
         self.assertEqual(self.expect_same(cloud, prepare)["warnings"], told["warnings"][:0])
 
+    def test_an_outline_elsewhere(self):
+        ring = make_mesh([(50, 0, 0), (60, 0, 0), (60, 9, 0)], [(0, 1, 2)])
+        cloud = make_mesh([(x, y, 0) for x in range(9) for y in range(9)], [])
+        told = self.expect_same(cloud, lambda points: points.SetSegmentsData(ring))
+        self.assertIn("81 points without a triangle", told["warnings"][0])
+        self.assertIn("x 0 to 8, y 0 to 8, the segments in x 50 to 60, y 0 to 9", told["warnings"][0])
+        told = self.expect_same(cloud, lambda points: points.SetLongestEdge(0.5))
+        self.assertIn("none is left", told["warnings"][0])
+
     def test_lines_of_the_input(self):
         cloud = make_cloud(40)
         cloud.SetLines(make_cells([(0, 9, 3), (5, 6), (7, 8)]))
