@@ -23,7 +23,8 @@ struct HiddenSums
 {
   std::int64_t WronglyWound = 0; ///< Edges that are wrongly wound, and else bad.
   /// Corners opposite to non-manifold edges with more than 90 degrees. A bad edge has such a
-  /// corner.
+  /// corner. Only those of triangles that have not flipped: a flip does not move the roles of
+  /// corners.
   std::int64_t ObtuseCorners = 0;
 
   DELAUNAYFLIP_HOST_DEVICE HiddenSums& operator+=(const HiddenSums& part)
@@ -49,14 +50,13 @@ struct HiddenEdgeSurvey
     {
       return;
     }
-    const CornerRole role = GetRole(triangle, slot);
-    if (role == CornerRole::OneOfMany)
-    {
-      sums.ObtuseCorners += this->IsObtuse(triangle, slot) ? 1 : 0;
-    }
-    else if (role == CornerRole::Leader)
+    if (corners.B != NoCorner)
     {
       sums.WronglyWound += this->IsWronglyWoundAndBad(corners) ? 1 : 0;
+    }
+    else if (triangle.Flips < OneFlip && GetRole(triangle, slot) == CornerRole::OneOfMany)
+    {
+      sums.ObtuseCorners += this->IsObtuse(triangle, slot) ? 1 : 0;
     }
   }
 

@@ -196,7 +196,8 @@ public:
     // may have given a smaller one; oneTBB would write a warning if more threads were requested.
     constexpr auto parallelism = tbb::global_control::max_allowed_parallelism;
     this->Allowance.emplace(parallelism, static_cast<std::size_t>(FindMostThreads()));
-    this->Size = std::min(threads, static_cast<int>(tbb::global_control::active_value(parallelism)));
+    this->Size =
+      std::min(threads, static_cast<int>(tbb::global_control::active_value(parallelism)));
     this->Arena = IdleArenas::Take(this->Size);
     if (this->Size > mostStarted)
     {

@@ -387,7 +387,7 @@ TEST(FromPoints, ClosedLinesAreRings)
   }
   PointsFilter own(MakeLines(corners, { { 0, 1, 2, 3, 4 } })); // with the points of the input
   own->SetSegmentsData(MakeLines(corners, { { 0, 1, 2, 4 } }));
-  ExpectHolds(RunToWarning(own), "1 point at the place of another one");
+  ExpectHolds(RunToWarning(own), "1 duplicate point skipped");
   EXPECT_EQ(own->GetOutput()->GetNumberOfPolys(), 1);
 }
 
