@@ -79,12 +79,12 @@ class Points(PluginTest):
     def test_closed_line(self):
         """ParaView's own sources make rings of this kind only. Off, it is a breakline."""
         ring = simple.PolyLineSource(Points=[1, 1, 0, 5, 1, 0, 5, 5, 0, 1, 5, 0], Closed=1)
-        corners = make_data([(0, 0, 0), (6, 0, 0), (6, 6, 0), (0, 6, 0)])
-        points, text = self.apply(self.read(corners), Segments=ring)
-        self.assertEqual((len(get_triangles(fetch(points))), text), (2, ""))
+        survey = make_data([(0, 0, 0), (6, 0, 0), (6, 6, 0), (0, 6, 0), (3, 2, 0)])
+        points, text = self.apply(self.read(survey), Segments=ring)
+        self.assertEqual((len(get_triangles(fetch(points))), text), (4, ""))
         points.ClosedLinesAsRings = 0
         refresh(points)
-        self.assertEqual(len(get_triangles(fetch(points))), 10)
+        self.assertEqual(len(get_triangles(fetch(points))), 12)
 
     def test_messages(self):
         line = make_data([(0, 0, 0), (1, 1, 0), (2, 2, 0)])
