@@ -389,6 +389,7 @@ private:
     this->UsedPoint = MergePlaces(sorted, points.Count, this->Backend);
     const std::int64_t places = sorted.Count;
     progress.Reach(Plane, BuildStep::Loaded);
+    const MeshSurvey survey = SurveyPlaces(sorted, this->Backend);
     PointMesh<Real> mesh;
     if (places < 3)
     {
@@ -396,10 +397,9 @@ private:
     }
     else
     {
-      mesh = BuildPointMesh(std::move(sorted), this->Backend, progress);
+      mesh = BuildPointMesh(std::move(sorted), survey.FiltersApply, this->Backend, progress);
     }
     progress.Reach(Plane, BuildStep::Fixed);
-    const MeshSurvey survey = SurveyPlaces(mesh.Points, this->Backend);
     this->Mesh = std::move(mesh.Edges);
     this->Order.VertexOfRank = std::move(mesh.Points.Ids);
     this->Points.Count = places;

@@ -18,6 +18,10 @@ namespace
 {
 using Edge = std::uint32_t; ///< A directed edge; e ^ 1 runs the other way.
 constexpr Edge None = ~Edge(0);
+constexpr std::chrono::milliseconds Pause(50); ///< Between questions to the caller.
+/// Of places, for which one thread does all. A thread more would take longer to start than it
+/// saves.
+constexpr std::uint32_t SmallestShared = 1 << 13;
 
 struct Place
 {
@@ -55,6 +59,13 @@ public:
       Places(count, division.Host),
       Sides(6 * count, division.Host)
   {
+  }
+
+  /// Solves on the calling thread, which asks meanwhile.
+  DividedPoints SolveHere()
+  {
+    this->AsksItself = true;
+    return this->Solve();
   }
 
   /// Ends Solve soon, by RunAborted.
@@ -171,7 +182,6 @@ private:
   /// x.
   Part Solve(std::uint32_t begin, std::uint32_t end, bool isStrip)
   {
-    constexpr std::uint32_t SmallestShared = 1 << 13;
     const std::uint32_t size = end - begin;
     isStrip = isStrip || this->JoinsFew(begin, end);
     if (size <= 3)
@@ -401,6 +411,21 @@ private:
     {
       throw RunAborted();
     }
+    if (this->AsksItself)
+    {
+      this->Ask();
+    }
+  }
+
+  /// Tells the caller, if enough time has passed. Most calls do not look at the clock.
+  void Ask() const
+  {
+    constexpr std::uint32_t CallsPerLook = 64;
+    if (++this->Calls % CallsPerLook == 0 && std::chrono::steady_clock::now() >= this->NextQuestion)
+    {
+      this->Caller.Tell(this->GetShare());
+      this->NextQuestion = std::chrono::steady_clock::now() + Pause;
+    }
   }
 
   /// Calls work(piece, first, end) for pieces of [0, size), on threads.
@@ -422,9 +447,14 @@ private:
     // Whether a side comes first of those of a triangle.
     const auto leads = [&](Edge e)
     {
-      const Edge second = this->NextLeft(e), third = this->NextLeft(second);
-      return e < second && e < third && this->NextLeft(third) == e && e != outside &&
-        second != outside && third != outside;
+      const Edge second = this->NextLeft(e);
+      if (second < e)
+      {
+        return false;
+      }
+      const Edge third = this->NextLeft(second);
+      return e < third && this->NextLeft(third) == e && e != outside && second != outside &&
+        third != outside;
     };
     std::vector<std::int64_t> usedOf(sides / Piece + 1, 0), firstOf(sides / Piece + 2, 0);
     this->ForPieces(sides,
@@ -486,6 +516,10 @@ private:
   Array<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
   std::atomic<bool> FiltersApply{ true };
   std::atomic<bool> IsStopped{ false };
+  bool AsksItself = false; ///< Then all is done on one thread.
+  mutable std::uint32_t Calls = 0; ///< Of Ask.
+  mutable std::chrono::steady_clock::time_point NextQuestion =
+    std::chrono::steady_clock::now() + Pause;
   /// Places in parts that one thread has solved. Not in the cache line of what all threads read.
   alignas(64) std::atomic<std::uint32_t> Solved{ 0 };
 };
@@ -494,11 +528,14 @@ private:
 DividedPoints DivideAndConquer(std::int64_t count, const Division& division)
 {
   Divider divider(count, division);
+  if (count <= SmallestShared)
+  {
+    return divider.SolveHere();
+  }
   // On a thread beside this one, or if the system has none left on this one.
   std::future<DividedPoints> divided = std::async([&]() { return divider.Solve(); });
   try
   {
-    constexpr std::chrono::milliseconds Pause(50);
     while (divided.wait_for(Pause) == std::future_status::timeout)
     {
       division.Tell(divider.GetShare());

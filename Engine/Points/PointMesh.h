@@ -189,9 +189,11 @@ struct PointMeshBuilder
   /// lines and rows across the strips, from which flips make no fewer flips for a long time.
   bool HasLongRuns()
   {
-    constexpr std::int64_t Samples = 1 << 12, Most = Samples * 71 / 100;
+    constexpr std::int64_t Fewest = 1 << 6, Most = 1 << 12, PointsPerSample = 16;
     const ChainView<Real> chains = this->View();
-    const std::int64_t alone = this->Device.template Sum<std::int64_t>(Samples,
+    const std::int64_t samples =
+      std::clamp<std::int64_t>(chains.Count / PointsPerSample, Fewest, Most);
+    const std::int64_t alone = this->Device.template Sum<std::int64_t>(samples,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
       {
         const auto place = static_cast<std::uint32_t>(PickSample(i, chains.Count - 1));
@@ -206,7 +208,33 @@ struct PointMeshBuilder
         const bool isSame = place + 1 < chains.Starts[end];
         sum += isSame && countBefore(place) == countBefore(place + 1) ? 1 : 0;
       });
-    return alone > Most;
+    return 100 * alone > 71 * samples;
+  }
+
+  /// Whether flips from the strips would take longer than divide and conquer. This depends on the
+  /// points alone, so that every backend chooses the same way.
+  /// @param onBoundary how many points are on the boundary of the strips.
+  /// @param filtersApply whether most of their geometry is decided without exact arithmetic, which
+  /// takes so long that only the number of decisions counts.
+  bool IsLongForFlips(std::int64_t onBoundary, bool filtersApply)
+  {
+    constexpr std::int64_t Fewest = 256; // below, both take microseconds
+    constexpr std::int64_t Most = 1 << 15; // of points for which flips on a GPU save little
+    const std::int64_t points = this->Mesh.Points.Count;
+    if (points < Fewest)
+    {
+      return false;
+    }
+    if (!filtersApply)
+    {
+      return true;
+    }
+    if (points < Most)
+    {
+      return this->Mesh.Points.Strips == 1 || this->HasLongRuns();
+    }
+    const std::int64_t tenth = points / 10;
+    return onBoundary >= 9 * tenth || (onBoundary < 2 * tenth && this->HasLongRuns());
   }
 
   std::int64_t CountSlots() const
@@ -335,12 +363,13 @@ EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
 }
 
 /// Triangulates the places of points by strips; or by divide and conquer where flips from there
-/// would be a long chain: if nearly all points are on the boundary of the strips, as where they lie
-/// along one curve, or if few are and runs are long.
-/// @param strips as above.
+/// would be a long chain. Of many points these are those that are nearly all on the boundary of the
+/// strips, as where they lie along one curve, and those of which few are and runs are long. Of few
+/// points these are those with long runs or with one strip.
+/// @param filtersApply as in IsLongForFlips.
 template <typename Real, typename Backend>
-PointMesh<Real> BuildPointMesh(
-  StripPoints<Real> strips, const Backend& backend, const BuildProgress& progress)
+PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, bool filtersApply, const Backend& backend,
+  const BuildProgress& progress)
 {
   PointMesh<Real> mesh;
   mesh.Points = std::move(strips);
@@ -352,10 +381,7 @@ PointMesh<Real> BuildPointMesh(
   const std::vector<BoundaryPart> parts = ListBoundary(builder.HostStarts, builder.HostGaps);
   const std::int64_t onBoundary = std::accumulate(parts.begin(), parts.end(), std::int64_t(0),
     [](std::int64_t sum, const BoundaryPart& part) { return sum + part.Last - part.First + 2; });
-  constexpr std::int64_t SmallestCurve = 10000; // below, flips take milliseconds
-  const std::int64_t tenth = mesh.Points.Count / 10;
-  if (mesh.Points.Count >= SmallestCurve &&
-    (onBoundary >= 9 * tenth || (onBoundary < 2 * tenth && builder.HasLongRuns())))
+  if (builder.IsLongForFlips(onBoundary, filtersApply))
   {
     mesh.Edges =
       DividePlaces(mesh.Points.Places(), mesh.Points.Count, backend, progress, mesh.HullEdges);

@@ -419,12 +419,13 @@ void FlipSession::Work::DivideIfLong()
   // iteration as long as some hundred flips.
   constexpr std::int64_t FlipsPerPoint = 8;
   constexpr std::int64_t FlipsPerIteration = 256;
-  constexpr std::int64_t Least = 100000;
+  constexpr std::int64_t Fewest = 10000, Most = 100000;
   if (!this->Cloud || this->ByDivision || this->Cloud->AreInserted())
   {
     return;
   }
   const std::int64_t points = this->Cloud->GetPoints().Points.Count;
+  const std::int64_t allowed = FlipsPerPoint * points + std::clamp(points, Fewest, Most);
   std::vector<IterationRecord>& made = this->Report.Iterations;
   std::int64_t done = 0;
   std::size_t iterations = 0;
@@ -432,7 +433,7 @@ void FlipSession::Work::DivideIfLong()
   while (iterations < made.size() && !isDue)
   {
     done += made[iterations++].Flipped + FlipsPerIteration;
-    isDue = done >= FlipsPerPoint * points + Least;
+    isDue = done >= allowed;
   }
   if (!isDue || (iterations == made.size() && !this->IsRunning()))
   {

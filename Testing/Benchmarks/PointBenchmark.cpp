@@ -14,8 +14,11 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <functional>
+#include <iterator>
 #include <random>
 #include <string>
 #include <utility>
@@ -26,7 +29,10 @@
 /// Times the triangulation of sets of points, from arrays of doubles to arrays of 32-bit ids, on
 /// threads and on a GPU, and CGAL on one thread. Prints a table with medians in milliseconds, the
 /// smallest and the largest time, how many times as fast as CGAL that is, and device memory.
-/// compare.py has other programs.
+/// compare.py has other programs. With --ratios it prints one table instead: for every set and
+/// number of points the processor time of the engine on one thread, divided by that of CGAL. Both
+/// run in turn, and the least time of each counts, so that other work on the machine matters
+/// little.
 
 namespace delaunayflip
 {
@@ -116,10 +122,12 @@ Result TimeEngine(const PointInput& input, BackendKind backend, int threads)
   const double flips = MillisecondsSince(start) - build;
   session.StoreTriangles(MutableTriangleArray(triangles.data(), count));
   const FlipReport& report = session.GetReport();
+  const auto points = static_cast<double>(input.Points.Count);
   char note[128];
-  std::snprintf(note, sizeof note, "build %.1f, flips %.1f; %.2f flips per point, %zu iterations",
-    build, flips, static_cast<double>(report.TotalFlips) / static_cast<double>(input.Points.Count),
-    report.Iterations.size());
+  std::snprintf(note, sizeof note,
+    "build %.1f, flips %.1f; per point %.2f bad edges and %.2f flips, %zu iterations", build, flips,
+    static_cast<double>(report.NonDelaunayBefore) / points,
+    static_cast<double>(report.TotalFlips) / points, report.Iterations.size());
   return { MillisecondsSince(start), count, note };
 }
 
@@ -212,6 +220,24 @@ double PrintRow(
   return median;
 }
 
+//------------------------------------------------------------------------------
+/// Calls run() until all of its calls have taken some milliseconds. @returns the processor time of
+/// one call in microseconds.
+double MeasureProcessorTime(const std::function<Result()>& run)
+{
+  constexpr double Enough = 0.004 * CLOCKS_PER_SEC;
+  const std::clock_t start = std::clock();
+  int calls = 0;
+  double taken = 0.0;
+  while (taken < Enough)
+  {
+    run();
+    ++calls;
+    taken = static_cast<double>(std::clock() - start);
+  }
+  return 1e6 * taken / CLOCKS_PER_SEC / calls;
+}
+
 struct Plan
 {
   std::vector<std::int64_t> Sizes{ 1000000 };
@@ -220,7 +246,48 @@ struct Plan
   std::int64_t Segments = 0;
   int Repetitions = 5;
   bool HasCgal = true;
+  bool PrintsRatios = false;
 };
+
+/// Prints a cell of the table of ratios.
+void PrintRatio(const Places& places, int repetitions)
+{
+  const PointInput input = View(places, {});
+  double engine = INFINITY, cgal = INFINITY;
+  for (int i = 0; i < repetitions; ++i)
+  {
+    engine = std::min(
+      engine, MeasureProcessorTime([&] { return TimeEngine(input, BackendKind::Threads, 1); }));
+    cgal = std::min(cgal, MeasureProcessorTime([&] { return TimeCgal(input); }));
+  }
+  const auto count = static_cast<double>(places.size());
+  std::printf(" %.2f (%.2f / %.2f) |", engine / cgal, engine / count, cgal / count);
+  std::fflush(stdout);
+}
+
+/// In brackets the microseconds per point of both.
+void PrintRatios(const std::vector<PointSet>& sets, const Plan& plan)
+{
+  std::printf("\n| set |");
+  for (const std::int64_t count : plan.Sizes)
+  {
+    std::printf(" %lld points |", static_cast<long long>(count));
+  }
+  std::printf("\n|---|");
+  for (std::size_t i = 0; i < plan.Sizes.size(); ++i)
+  {
+    std::printf("---|");
+  }
+  for (const PointSet& set : sets)
+  {
+    std::printf("\n| %s |", set.Name);
+    for (const std::int64_t count : plan.Sizes)
+    {
+      PrintRatio(MakePlaces(set, count), plan.Repetitions);
+    }
+  }
+  std::printf("\n");
+}
 
 /// @returns the medians of the engine's rows.
 std::vector<std::pair<std::string, double>> RunSet(
@@ -304,17 +371,25 @@ int main(int argc, char* argv[])
   application.add_option("--segments", plan.Segments, "how many segments, each across a few edges");
   application.add_option("--repetitions", plan.Repetitions, "runs per row");
   application.add_flag("!--no-cgal", plan.HasCgal, "leave CGAL out");
+  application.add_flag(
+    "--ratios", plan.PrintsRatios, "a table of times on one thread over CGAL's, of all sizes");
   CLI11_PARSE(application, argc, argv);
   std::printf("%s\n", DescribeMachine().c_str());
+  std::vector<PointSet> sets;
+  const auto& names = plan.Names;
+  std::copy_if(ListPointSets().begin(), ListPointSets().end(), std::back_inserter(sets),
+    [&](const PointSet& set)
+    { return names.empty() || std::find(names.begin(), names.end(), set.Name) != names.end(); });
+  if (plan.PrintsRatios)
+  {
+    PrintRatios(sets, plan);
+    return 0;
+  }
   for (const std::int64_t count : plan.Sizes)
   {
-    for (const PointSet& set : ListPointSets())
+    for (const PointSet& set : sets)
     {
-      const auto& names = plan.Names;
-      if (names.empty() || std::find(names.begin(), names.end(), set.Name) != names.end())
-      {
-        RunTwice(set, count, plan);
-      }
+      RunTwice(set, count, plan);
     }
   }
   return 0;

@@ -99,21 +99,29 @@ TEST_F(FallbackTest, PagesOfExpectedMemoryAreTouchedOnceAndOnlyForAGpu)
   }
 }
 
-/// Points whose flips go on, and points with segments that divide and conquer takes over.
+/// Points that take flips, points with segments that divide and conquer takes over at once, and
+/// points for which it does after some flips.
 TEST_F(FallbackTest, AnyCallMayFailForPoints)
 {
-  std::vector<double> places[2];
+  std::vector<double> places[3];
   for (int i = 0; i < 12000; ++i)
   {
-    const double angle = 0.1 * i;
-    places[0].insert(places[0].end(), { std::cos(angle) * i, std::sin(angle) * i });
+    const double angle = 2.4 * i, radius = 100.0 * std::sqrt(i);
+    places[0].insert(places[0].end(), { std::cos(angle) * radius, std::sin(angle) * radius });
     const double place = 0.0005236 * i;
     places[1].insert(places[1].end(), { 1000.0 * std::cos(place), std::sin(place) });
   }
+  for (int i = 0; i < 250; ++i)
+  {
+    const double x = 0.01 + 0.04 * i;
+    places[2].insert(places[2].end(), { 1000.0 * x, 1000.0 / x });
+  }
   for (const std::vector<double>& xy : places)
   {
-    PointInput points{ PlaneArray(xy.data(), static_cast<std::int64_t>(xy.size()) / 2, 2) };
-    const std::vector<std::int64_t> segments = { 0, 9000, 20, 7000, 11, 12, 1, 2000 };
+    const auto count = static_cast<std::int64_t>(xy.size()) / 2;
+    PointInput points{ PlaneArray(xy.data(), count, 2) };
+    const std::vector<std::int64_t> segments = { 0, 3 * count / 4, 20, count / 2, 11, 12, 1,
+      count / 6 };
     points.Segments = segments.data();
     points.NumberOfSegments = 4;
     PointOptions options{ OnBackend(BackendKind::Threads) };
@@ -144,6 +152,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
       {
         session.Advance();
         session.GetReport();
+        StoreTriangles(session);
       }
       catch (const BackendUnavailable&)
       {

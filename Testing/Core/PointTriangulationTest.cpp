@@ -140,13 +140,28 @@ TEST_P(PointSetsTest, DependOnThePointsAlone)
 
 INSTANTIATE_TEST_SUITE_P(Sets, PointSetsTest, testing::ValuesIn(ListPointSets()), GetCaseName);
 
-/// Where flips would be a long chain, or strips have few points, there are none.
+/// Where flips would be a long chain, divide and conquer takes over before the first one.
 TEST_P(PointSetsTest, OnlySomeTakeFlips)
 {
-  const FlipReport report = Triangulate(Draw(20000)).Report;
-  static const std::set<std::string> divided = { "ring", "ellipse", "parabola", "hyperbola", "tall",
-    "scan_lines", "two_circles", "line_and_point", "two_rows" };
-  EXPECT_EQ(divided.count(GetParam().Name) > 0, report.TotalFlips == 0) << report.TotalFlips;
+  static const std::set<std::string> divided = { "ring", "ellipse", "parabola", "hyperbola",
+    "spiral", "scan_lines", "survey_lines", "wide", "circle", "two_circles", "line_and_point",
+    "two_rows" };
+  for (const std::int64_t count : { 2000, 20000 })
+  {
+    const FlipReport report = Triangulate(Draw(count)).Report;
+    const std::string name = GetParam().Name;
+    const bool isDivided = divided.count(name) > 0 || (name == "profiles" && count > 2000);
+    EXPECT_EQ(isDivided, report.TotalFlips == 0) << count << ": " << report.TotalFlips;
+  }
+}
+
+/// Whichever way they take, and whatever triangulation flips begin with.
+TEST_P(PointSetsTest, EqualCanonicalFlips)
+{
+  const Places points = Draw(1000 / Reduction);
+  const OwnedMesh<double> swept = MakeSweptMesh(points);
+  const FlipResult flipped = Flip(swept.View(), InPlane(TieRuleKind::Canonical));
+  EXPECT_EQ(ByPlaces(flipped.Triangles, points), ByPlaces(Triangulate(points).Triangles, points));
 }
 
 /// The last three sets, on which flips or cutting ears may take quadratic time.
@@ -366,6 +381,40 @@ TEST(PointTriangulation, DivideAndConquerAsks)
   tasks = 0;
   EXPECT_THROW(DivideAndConquer(static_cast<std::int64_t>(places.size()), division), RunAborted);
   EXPECT_GT(all / 2, tasks);
+}
+
+/// Exact arithmetic decides all, so that few points take long; the calling thread does it alone.
+TEST(PointTriangulation, FewPlacesThatTakeLong)
+{
+  std::mt19937 random(13);
+  Places points;
+  const auto draw = [&]
+  {
+    return std::ldexp(
+      1.0 + DrawIndex(random, 1000), static_cast<int>(DrawIndex(random, 1900)) - 950);
+  };
+  for (int i = 0; i < 4000 / Reduction; ++i)
+  {
+    points.push_back({ draw(), draw() });
+  }
+  std::vector<double> told;
+  std::size_t most = 1000000;
+  const auto tell = [&](double share)
+  {
+    told.push_back(share);
+    return told.size() < most;
+  };
+  const StopWatch watch;
+  FlipSession session(PointInput{ View(points) }, PointOptions{ OnTestBackend({}) }, tell);
+  constexpr double LongestPause = 0.15; // on average; 0.05 where nothing else runs
+  EXPECT_LE(watch.GetSeconds(), LongestPause * static_cast<double>(told.size()));
+  EXPECT_EQ(0, session.GetReport().NonDelaunayBefore) << "nothing is left for flips";
+  const std::size_t all = told.size();
+  most = all / 2;
+  told.clear();
+  const FlipSession stopped(PointInput{ View(points) }, PointOptions{ OnTestBackend({}) }, tell);
+  EXPECT_EQ(StopReasonKind::Aborted, stopped.GetReport().StopReason);
+  EXPECT_GT(all, told.size());
 }
 
 TEST(PointTriangulation, TooManyPoints)

@@ -30,6 +30,30 @@ Place DrawContour(Random& random, int levels)
   return AtAngle(radius, 0.7 * radius, turns);
 }
 
+/// The path of a particle that is hit on all scales, at a time between 0 and 1.
+Place FollowWalk(double time)
+{
+  Place place{ 0, 0 };
+  for (int scale = 0; scale < 20; ++scale)
+  {
+    const double turns = std::ldexp(time, scale);
+    const double size = std::pow(0.5, 0.5 * scale);
+    place[0] += size * std::cos(2 * Pi * turns + scale * scale);
+    place[1] += size * std::cos(2 * Pi * turns + 2 * scale * scale);
+  }
+  return place;
+}
+
+/// Layers around an ellipse, each a tenth thicker than the one before: the points of a mesh for the
+/// flow around a wing.
+Place AtLayer(double i, double n)
+{
+  const double around = std::ceil(3 * std::sqrt(n)), layers = std::ceil(n / around);
+  const double growth = 1 + 5 / layers;
+  const double away = std::pow(growth, std::floor(i / around)) - 1;
+  return AtAngle(1 + 0.01 * away, 0.12 + 0.01 * away, std::fmod(i, around) / around);
+}
+
 const std::vector<PointSet> Sets = {
   { "uniform",
     [](Random& r, double, double) {
@@ -105,6 +129,47 @@ const std::vector<PointSet> Sets = {
       const double x = 500000 + std::round(1e6 * Draw(r)) / 1e3;
       return Place{ x, 5.4e6 + std::round(1e6 * Draw(r)) / 1e3 };
     } },
+  { "sunflower",
+    [](Random&, double i, double)
+    { return AtAngle(std::sqrt(i + 0.5), std::sqrt(i + 0.5), 2.399963 * i / (2 * Pi)); } },
+  { "kuzmin",
+    [](Random& r, double, double)
+    {
+      const double inside = 1 - Draw(r);
+      const double radius = std::sqrt(1 / (inside * inside) - 1);
+      return AtAngle(radius, radius, Draw(r));
+    } },
+  { "walk", [](Random&, double i, double n) { return FollowWalk(i / n); } },
+  { "wide",
+    [](Random& r, double, double) {
+      return Place{ 1e4 * Draw(r), Draw(r) };
+    } },
+  { "turned_lattice",
+    [](Random&, double i, double n)
+    {
+      const double side = std::ceil(std::sqrt(n));
+      const double x = std::fmod(i, side), y = std::floor(i / side);
+      return Place{ 0.8 * x - 0.6 * y, 0.6 * x + 0.8 * y };
+    } },
+  { "circle", [](Random& r, double, double) { return AtAngle(1, 1, Draw(r)); } },
+  { "survey_lines", // of a ship that sails to and fro
+    [](Random& r, double i, double n)
+    {
+      const double lines = 20, line = std::fmod(i, lines),
+                   along = std::floor(i / lines) * lines / n;
+      const double across = line + 0.1 * std::sin(9 * along + line) + 1e-3 * Draw(r);
+      return Place{ lines * along, across + 0.1 * lines * along };
+    } },
+  { "profiles", // along straight roads
+    [](Random& r, double i, double)
+    {
+      Random road(static_cast<std::uint64_t>(i) % 60);
+      const double x = Draw(road), y = Draw(road), along = Draw(r);
+      const double toX = Draw(road), toY = Draw(road);
+      return Place{ x + along * (toX - x) + 1e-4 * Draw(r),
+        y + along * (toY - y) + 1e-4 * Draw(r) };
+    } },
+  { "boundary_layers", [](Random&, double i, double n) { return AtLayer(i, n); } },
   { "two_circles",
     [](Random& r, double i, double)
     {
