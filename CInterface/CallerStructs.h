@@ -267,6 +267,12 @@ void ForEachNumber(Struct& c, Report& report, const Visit& visit)
   visit(c.hidden_by_winding, report.HiddenByWinding);
   visit(c.obtuse_at_non_manifold, report.ObtuseAtNonManifold);
   visit(c.points_used, report.FromPoints.Used);
+  visit(c.triangles_below_10_before, report.TrianglesBelow10Before);
+  visit(c.triangles_below_10_after, report.TrianglesBelow10After);
+  visit(c.triangles_below_20_before, report.TrianglesBelow20Before);
+  visit(c.triangles_below_20_after, report.TrianglesBelow20After);
+  visit(c.triangles_below_30_before, report.TrianglesBelow30Before);
+  visit(c.triangles_below_30_after, report.TrianglesBelow30After);
 }
 
 /// A report with the numbers of a C struct, for Summarize.

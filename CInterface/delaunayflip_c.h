@@ -212,7 +212,7 @@ extern "C"
     int64_t inserted_constraints; /**< Constraint edges that flips made before the iterations. */
     int64_t constraint_flips; /**< Flips that inserted these edges; not in total_flips. */
     int64_t euler_characteristic; /**< Used points - edges + triangles; flips keep it. */
-    /** Degrees; 0 with a degenerate triangle; NaN without triangles. */
+    /** Degrees; 0 with a degenerate triangle; NaN without triangles; before: NaN from points. */
     double minimum_angle_before;
     double minimum_angle_after;
     double build_seconds;
@@ -237,6 +237,13 @@ extern "C"
     /** Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there. */
     int64_t obtuse_at_non_manifold;
     int64_t points_used; /**< Of sessions from points: how many triangles have in the end. */
+    /** Triangles with an angle below so many degrees, or without area; before: 0 from points. */
+    int64_t triangles_below_10_before;
+    int64_t triangles_below_10_after;
+    int64_t triangles_below_20_before;
+    int64_t triangles_below_20_after;
+    int64_t triangles_below_30_before;
+    int64_t triangles_below_30_after;
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns

@@ -184,10 +184,10 @@ public:
     return CountDeviating(this->Mesh, this->Decision, this->Backend);
   }
 
-  double FindLargestSquaredCotangent() const override
+  AngleSums MeasureAngles() const override
   {
     const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Range };
-    return this->Backend.template Sum<LargestValue>(this->Mesh.NumberOfTriangles, survey).Value;
+    return this->Backend.template Sum<AngleSums>(this->Mesh.NumberOfTriangles, survey);
   }
 
   // Public because device lambdas require it.
@@ -235,7 +235,7 @@ protected:
       this->ReadIterations(this->LaunchOnMesh(this->GetIterateKernel(), limits), freshSlots);
     if (measure)
     {
-      iterations.back().SquaredCotangent = this->FindLargestSquaredCotangent();
+      iterations.back().SquaredCotangent = this->MeasureAngles().Largest;
     }
     return iterations;
   }
@@ -251,7 +251,7 @@ protected:
       this->LaunchChunks(measure ? 1 : static_cast<int>(left), iterations);
       if (measure)
       {
-        iterations.back().SquaredCotangent = this->FindLargestSquaredCotangent();
+        iterations.back().SquaredCotangent = this->MeasureAngles().Largest;
       }
     }
     this->Bits.RecallEdges();

@@ -192,6 +192,12 @@ std::string MakeJson(const RunReport& run)
   json["blocked_by_edge"] = flip.BlockedByEdge;
   json["min_angle_before_deg"] = flip.MinimumAngleBefore;
   json["min_angle_after_deg"] = flip.MinimumAngleAfter;
+  json["triangles_below_10_before"] = flip.TrianglesBelow10Before;
+  json["triangles_below_10_after"] = flip.TrianglesBelow10After;
+  json["triangles_below_20_before"] = flip.TrianglesBelow20Before;
+  json["triangles_below_20_after"] = flip.TrianglesBelow20After;
+  json["triangles_below_30_before"] = flip.TrianglesBelow30Before;
+  json["triangles_below_30_after"] = flip.TrianglesBelow30After;
   json["converged"] = flip.Converged();
   json["stop_reason"] = ToString(flip.StopReason);
   json["seconds"] = { { "read", run.ReadSeconds }, { "build", flip.BuildSeconds },
@@ -216,34 +222,6 @@ std::string MakeCsv(const FlipReport& flip)
   return text.str();
 }
 
-/// The lines of the summary that only a mesh from points has.
-std::string DescribePoints(const FlipReport& flip)
-{
-  const PointCounts& counts = flip.FromPoints;
-  const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
-  { return count > 0 ? text + ", " + Count(count) + " " + what : text; };
-  const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
-  std::string points = Count(counts.Used) + " used";
-  points = add(points, counts.Repeated, "repeated");
-  points = add(points, counts.TooNear, "too near to another");
-  points = add(points, counts.NotFinite, "not finite");
-  points = add(points, flip.Points - unused - counts.Used, "without a triangle");
-  std::string text = "points          " + points + '\n';
-  if (counts.SegmentEdges + counts.RefusedSegments > 0)
-  {
-    std::string segments = Count(counts.SegmentEdges, "edge");
-    segments = add(segments, counts.RefusedSegments, "refused");
-    text += "segments        " + segments +
-      (counts.Crossings > 0 ? ", " + Count(counts.Crossings, "crossing") + " added" : "") + '\n';
-  }
-  if (counts.OutsideTriangles + counts.LargeTriangles > 0)
-  {
-    text += "removed         " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
-      Count(counts.LargeTriangles) + " too large\n";
-  }
-  return text;
-}
-
 /// The summary and the times, in two columns.
 std::string MakeSummary(const RunReport& run)
 {
@@ -254,17 +232,7 @@ std::string MakeSummary(const RunReport& run)
   {
     const std::size_t colon = line.find(": ");
     const std::string title = line.substr(0, colon);
-    // Points have lines of their own, and the triangles that flips begin with are not the user's.
-    if (!run.IsFromPoints ||
-      (title != "geometry" && title != "constraints" &&
-        (title != "bad edges" || run.Flip.NonDelaunayAfter > 0)))
-    {
-      text << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
-    }
-    if (run.IsFromPoints && title == "mesh")
-    {
-      text << DescribePoints(run.Flip);
-    }
+    text << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
   }
   const FlipReport& flip = run.Flip;
   text << std::fixed << std::setprecision(3) << "time            read " << run.ReadSeconds

@@ -173,7 +173,7 @@ namespace
 /// Whether a mesh has a smallest angle: some triangle has no coordinate that is NaN.
 bool HasAngles(const FlipReport& report)
 {
-  return report.Triangles > 0 && !std::isnan(report.MinimumAngleBefore);
+  return report.Triangles > 0 && !std::isnan(report.MinimumAngleAfter);
 }
 
 void AddIterations(FlipReport& sum, const FlipReport& other)
@@ -285,6 +285,11 @@ std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kin
   return text + (text.empty() ? "" : ")");
 }
 
+bool IsFromPoints(const FlipReport& report)
+{
+  return report.GeometryReason.rfind("points are triangulated", 0) == 0;
+}
+
 /// What to change if more than a tenth of the inner edges, or one of the worst slivers, stay
 /// because the user wants it so.
 std::string Advise(const FlipReport& report)
@@ -294,8 +299,7 @@ std::string Advise(const FlipReport& report)
   const std::int64_t kept = // an edge may be kept for several reasons
     std::min(edges.Fixed - edges.Boundary - edges.NonManifold - edges.WronglyWound,
       edges.Feature + edges.Constraint + edges.Region);
-  const bool isFromPoints = report.GeometryReason.rfind("points are triangulated", 0) == 0;
-  if (kept <= 0 || (10 * kept <= inner && !report.KeepsSliver) || isFromPoints)
+  if (kept <= 0 || (10 * kept <= inner && !report.KeepsSliver) || IsFromPoints(report))
   {
     return "";
   }
@@ -360,6 +364,85 @@ std::string DescribeConstraints(const FlipReport& flip)
   return text + ", " + Count(flip.UnmatchedConstraints, "") + " not in the mesh\n";
 }
 
+/// The lines that only a mesh from points has.
+std::string DescribePoints(const FlipReport& flip)
+{
+  const PointCounts& counts = flip.FromPoints;
+  const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
+  { return count > 0 ? text + ", " + Count(count) + " " + what : text; };
+  const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
+  std::string points = Count(counts.Used) + " used";
+  points = add(points, counts.Repeated, "repeated");
+  points = add(points, counts.TooNear, "too near to another");
+  points = add(points, counts.NotFinite, "not finite");
+  points = add(points, flip.Points - unused - counts.Used, "without a triangle");
+  std::string text = "points: " + points + '\n';
+  if (counts.SegmentEdges + counts.RefusedSegments > 0)
+  {
+    std::string segments = Count(counts.SegmentEdges, "edge");
+    segments = add(segments, counts.RefusedSegments, "refused");
+    text += "segments: " + segments +
+      (counts.Crossings > 0 ? ", " + Count(counts.Crossings, "crossing") + " added" : "") + '\n';
+  }
+  if (counts.OutsideTriangles + counts.LargeTriangles > 0)
+  {
+    text += "removed: " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
+      Count(counts.LargeTriangles) + " too large\n";
+  }
+  return text;
+}
+
+/// What the mesh is, and which edges stay.
+std::string DescribeMesh(const FlipReport& report)
+{
+  const EdgeCounts& edges = report.Edges;
+  const std::string& reason = report.GeometryReason;
+  const std::string mesh = "mesh: " + Count(report.Points, "point") + ", " +
+    Count(report.Triangles, "triangle") + ", " + Count(edges.Edges, "edge") + "\n";
+  const std::string kept = "kept edges: " + Count(edges.Fixed, "") +
+    List({ { "boundary", edges.Boundary }, { "non-manifold", edges.NonManifold },
+      { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
+      { "constraints", edges.Constraint }, { "regions", edges.Region } }) +
+    "\n";
+  if (IsFromPoints(report))
+  {
+    return mesh + DescribePoints(report) + kept;
+  }
+  return mesh + kept + Advise(report) + AdviseRepair(report) +
+    "geometry: " + ToString(report.GeometryUsed) + (reason.empty() ? "" : ": ") + reason + "\n" +
+    DescribeConstraints(report);
+}
+
+/// What has become of it. Nobody has seen the triangles that a run from points begins with, so
+/// their numbers are left out.
+std::string DescribeResult(const FlipReport& report)
+{
+  const bool hasBefore = !IsFromPoints(report);
+  const auto compare = [hasBefore](const std::string& before, const std::string& after)
+  { return hasBefore ? before + " -> " + after : after; };
+  const auto countBelow = [&](std::int64_t before, std::int64_t after, const char* below)
+  { return compare(Count(before), Count(after)) + below; };
+  std::string text;
+  if (hasBefore || report.NonDelaunayAfter > 0)
+  {
+    text = countBelow(report.NonDelaunayBefore, report.NonDelaunayAfter, "") +
+      List({ { "blocked: would duplicate an edge", report.BlockedByEdge },
+        { "blocked: would fold", report.BlockedByShape },
+        { "blocked: would deviate", report.BlockedByDeviation } });
+    text = "bad edges: " + text + "\n";
+  }
+  return text + "smallest angle: " +
+    compare(Degrees(report.MinimumAngleBefore), Degrees(report.MinimumAngleAfter)) +
+    " degrees\nsmall angles: " +
+    countBelow(report.TrianglesBelow10Before, report.TrianglesBelow10After,
+      " triangles below 10 degrees, ") +
+    countBelow(report.TrianglesBelow20Before, report.TrianglesBelow20After, " below 20, ") +
+    countBelow(report.TrianglesBelow30Before, report.TrianglesBelow30After, " below 30") +
+    "\nflips: " + Count(report.TotalFlips, "") + " in " +
+    Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +
+    ToString(report.StopReason) + "\n";
+}
+
 }
 
 std::string Summarize(const FlipReport& report)
@@ -368,24 +451,9 @@ std::string Summarize(const FlipReport& report)
   {
     return "";
   }
-  const EdgeCounts& edges = report.Edges;
-  const std::string& reason = report.GeometryReason;
-  return "mesh: " + Count(report.Points, "point") + ", " + Count(report.Triangles, "triangle") +
-    ", " + Count(edges.Edges, "edge") + "\nkept edges: " + Count(edges.Fixed, "") +
-    List({ { "boundary", edges.Boundary }, { "non-manifold", edges.NonManifold },
-      { "wrongly wound", edges.WronglyWound }, { "feature angle", edges.Feature },
-      { "constraints", edges.Constraint }, { "regions", edges.Region } }) +
-    "\n" + Advise(report) + AdviseRepair(report) + "geometry: " + ToString(report.GeometryUsed) +
-    (reason.empty() ? "" : ": ") + reason + "\n" + DescribeConstraints(report) +
-    "bad edges: " + Count(report.NonDelaunayBefore, "") + " -> " +
-    Count(report.NonDelaunayAfter, "") +
-    List({ { "blocked: would duplicate an edge", report.BlockedByEdge },
-      { "blocked: would fold", report.BlockedByShape },
-      { "blocked: would deviate", report.BlockedByDeviation } }) +
-    "\nsmallest angle: " + Degrees(report.MinimumAngleBefore) + " -> " +
-    Degrees(report.MinimumAngleAfter) + " degrees\nflips: " + Count(report.TotalFlips, "") +
-    " in " + Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +
-    ToString(report.StopReason) + "\n";
+  // What has become better comes first. From points nothing has.
+  return IsFromPoints(report) ? DescribeMesh(report) + DescribeResult(report)
+                              : DescribeResult(report) + DescribeMesh(report);
 }
 
 }

@@ -102,9 +102,16 @@ struct FlipReport
   std::int64_t BlockedByShape = 0; ///< Those left whose flip would fold the mesh over.
   std::int64_t BlockedByDeviation = 0; ///< Those left that FlipOptions::MaximumDeviation blocks.
   std::int64_t BlockedByEdge = 0; ///< Those left whose flip would repeat an edge.
-  double MinimumAngleBefore =
-    0.0; ///< Degrees; 0 with a degenerate triangle; NaN without triangles.
+  double MinimumAngleBefore = 0.0; ///< Degrees; 0 with a degenerate triangle; NaN without
+                                   ///< triangles, and of a session from points.
   double MinimumAngleAfter = 0.0;
+  std::int64_t TrianglesBelow10Before = 0; ///< Triangles with an angle below 10 degrees; or without
+                                           ///< area. 0 of a session from points.
+  std::int64_t TrianglesBelow10After = 0;
+  std::int64_t TrianglesBelow20Before = 0;
+  std::int64_t TrianglesBelow20After = 0;
+  std::int64_t TrianglesBelow30Before = 0;
+  std::int64_t TrianglesBelow30After = 0;
   /// Whether feature edges or constraints keep one of the ten triangles with the smallest angles at
   /// the end, with an angle below 5 degrees. False for points, and for meshes in parts.
   bool KeepsSliver = false;
@@ -143,7 +150,10 @@ constexpr std::int64_t FlipReport::*ReportTotals[] = { &FlipReport::Points, &Fli
   &FlipReport::UnmatchedConstraints, &FlipReport::InsertedConstraints, &FlipReport::ConstraintFlips,
   &FlipReport::EulerCharacteristic, &FlipReport::TotalFlips, &FlipReport::TotalExcluded,
   &FlipReport::TotalBlocked, &FlipReport::NonDelaunayBefore, &FlipReport::NonDelaunayAfter,
-  &FlipReport::BlockedByShape, &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge };
+  &FlipReport::BlockedByShape, &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge,
+  &FlipReport::TrianglesBelow10Before, &FlipReport::TrianglesBelow10After,
+  &FlipReport::TrianglesBelow20Before, &FlipReport::TrianglesBelow20After,
+  &FlipReport::TrianglesBelow30Before, &FlipReport::TrianglesBelow30After };
 
 constexpr std::string FlipReport::*ReportTexts[] = { &FlipReport::GeometryReason,
   &FlipReport::Tolerance, &FlipReport::Backend, &FlipReport::Fallback };

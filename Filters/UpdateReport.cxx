@@ -177,6 +177,12 @@ void AddFieldData(const FlipReport& report, vtkFieldData* data)
   addCount("BlockedByShape", report.BlockedByShape);
   addCount("BlockedByDeviation", report.BlockedByDeviation);
   addCount("BlockedByEdge", report.BlockedByEdge);
+  addCount("TrianglesBelow10Before", report.TrianglesBelow10Before);
+  addCount("TrianglesBelow10After", report.TrianglesBelow10After);
+  addCount("TrianglesBelow20Before", report.TrianglesBelow20Before);
+  addCount("TrianglesBelow20After", report.TrianglesBelow20After);
+  addCount("TrianglesBelow30Before", report.TrianglesBelow30Before);
+  addCount("TrianglesBelow30After", report.TrianglesBelow30After);
   addCount("FixedEdges", report.Edges.Fixed);
   addCount("NonManifoldEdges", report.Edges.NonManifold);
   addCount("ConstraintEdges", report.Edges.Constraint);

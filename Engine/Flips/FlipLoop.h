@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_FLIPLOOP_H
 
 #include "StepCounts.h"
+#include "SurfaceAngles.h"
 
 #include <cmath>
 #include <cstdint>
@@ -91,8 +92,8 @@ public:
   /// EdgeState::BlockedByDeviation.
   virtual std::int64_t CountBlockedByDeviation() const = 0;
 
-  /// The largest LargestSquaredCotangent (SurfaceAngles.h) of all triangles.
-  virtual double FindLargestSquaredCotangent() const = 0;
+  /// Measures the smallest angles of all triangles.
+  virtual AngleSums MeasureAngles() const = 0;
 
 protected:
   /// @param hasGuard whether flips need a guard; then there are no chunks.

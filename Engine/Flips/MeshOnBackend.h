@@ -275,8 +275,8 @@ public:
 
   bool KeepsSliver() override
   {
-    return KeepsWorstSliver(this->Mesh, this->Points, this->Range,
-      this->Loop->FindLargestSquaredCotangent(), this->Backend);
+    return KeepsWorstSliver(
+      this->Mesh, this->Points, this->Range, this->Loop->MeasureAngles().Largest, this->Backend);
   }
 
   HiddenSums CountHidden() override
@@ -425,7 +425,8 @@ private:
     this->Range = survey.Range;
     this->FiltersApply = survey.FiltersApply;
     this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
-    report.MinimumAngleBefore = ToDegrees(this->Loop->FindLargestSquaredCotangent());
+    KeepAnglesBefore({}, report); // the caller has never seen these triangles
+    KeepAnglesAfter(this->Loop->MeasureAngles(), report);
   }
 
   template <typename Rule>
@@ -466,9 +467,10 @@ private:
     RuleChoice(survey, options)
       .Visit(packed.Floats, packed.Doubles, uniformSide,
         [&](const auto& rule) { this->MakeLoop(rule, std::move(guard)); });
-    const double largest = this->Loop->FindLargestSquaredCotangent();
-    this->Report.MinimumAngleBefore = ToDegrees(largest);
-    return isSurface && largest == INFINITY
+    const AngleSums angles = this->Loop->MeasureAngles();
+    KeepAnglesBefore(angles, this->Report);
+    KeepAnglesAfter(angles, this->Report);
+    return isSurface && angles.Largest == INFINITY
       ? std::vector<Defect>{ FindZeroAreaTriangles(this->Mesh, this->Points, this->Backend) }
       : defects;
   }

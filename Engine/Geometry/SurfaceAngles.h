@@ -140,6 +140,46 @@ DELAUNAYFLIP_HOST_DEVICE void LoadScaledOffsets(
     { offset = std::isfinite(scale) ? scale * offset : std::scalbn(offset, -exponent); });
 }
 
+/// What is measured of the angles of some triangles, with operator+= so that Sum can compute it.
+struct AngleSums
+{
+  double Largest = -INFINITY; ///< The largest LargestSquaredCotangent.
+  std::int64_t Below10 = 0; ///< How many triangles have an angle below 10 degrees.
+  std::int64_t Below20 = 0;
+  std::int64_t Below30 = 0;
+
+  /// How many of the three angles the smallest angle of a triangle is below.
+  DELAUNAYFLIP_HOST_DEVICE static unsigned char Grade(double squaredCotangent)
+  {
+    constexpr double At10 = 32.16343747752636, At20 = 7.548632170413032, At30 = 3.0;
+    return (squaredCotangent > At10 ? 1 : 0) + (squaredCotangent > At20 ? 1 : 0) +
+      (squaredCotangent > At30 ? 1 : 0);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void Count(unsigned char grade, std::int64_t triangles)
+  {
+    this->Below30 += grade > 0 ? triangles : 0;
+    this->Below20 += grade > 1 ? triangles : 0;
+    this->Below10 += grade > 2 ? triangles : 0;
+  }
+
+  /// Adds a triangle.
+  DELAUNAYFLIP_HOST_DEVICE void Add(double squaredCotangent)
+  {
+    this->Largest = squaredCotangent > this->Largest ? squaredCotangent : this->Largest;
+    this->Count(Grade(squaredCotangent), 1);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE AngleSums& operator+=(const AngleSums& other)
+  {
+    this->Largest = other.Largest > this->Largest ? other.Largest : this->Largest;
+    this->Below10 += other.Below10;
+    this->Below20 += other.Below20;
+    this->Below30 += other.Below30;
+    return *this;
+  }
+};
+
 //------------------------------------------------------------------------------
 // Whether the two angles opposite to an edge sum to more than pi plus a tolerance.
 

@@ -5,6 +5,7 @@
 
 #include "EdgeMesh.h"
 #include "FilteredPredicates.h"
+#include "FlipReport.h"
 #include "HostDevice.h"
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
@@ -17,9 +18,10 @@
 #include <limits>
 
 /// @file
-/// The smallest angles of triangles: the smallest of a whole mesh, exactly the same on every
-/// backend; and that of each triangle. The latter is measured by an arctangent, which is rounded
-/// differently on a GPU, so the last digits may differ; no decision depends on them.
+/// The smallest angles of triangles: the smallest of a whole mesh and how many are small, exactly
+/// the same on every backend; and that of each triangle. The latter is measured by an arctangent,
+/// which is rounded differently on a GPU, so the last digits may differ; no decision depends on
+/// them.
 
 namespace delaunayflip
 {
@@ -46,6 +48,22 @@ DELAUNAYFLIP_HOST_DEVICE inline double MeasureSquaredCotangent(
                                                        : largest;
 }
 
+inline void KeepAnglesBefore(const AngleSums& angles, FlipReport& report)
+{
+  report.MinimumAngleBefore = ToDegrees(angles.Largest);
+  report.TrianglesBelow10Before = angles.Below10;
+  report.TrianglesBelow20Before = angles.Below20;
+  report.TrianglesBelow30Before = angles.Below30;
+}
+
+inline void KeepAnglesAfter(const AngleSums& angles, FlipReport& report)
+{
+  report.MinimumAngleAfter = ToDegrees(angles.Largest);
+  report.TrianglesBelow10After = angles.Below10;
+  report.TrianglesBelow20After = angles.Below20;
+  report.TrianglesBelow30After = angles.Below30;
+}
+
 /// The same in the coordinates of a rule.
 template <typename Rule>
 struct AngleSurvey
@@ -61,13 +79,17 @@ struct AngleSurvey
       delaunayflip::Prefetch(this->Decision.Address(vertex));
     }
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, LargestValue& sum) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, AngleSums& sum) const
+  {
+    sum.Add(this->Measure(t));
+  }
+  DELAUNAYFLIP_HOST_DEVICE double Measure(std::int64_t t) const
   {
     const VertexId* v = this->Triangles[t].Vertices;
     const Vector3 a = ToPosition(this->Decision.Get(v[0]));
     const Vector3 b = ToPosition(this->Decision.Get(v[1]));
     const Vector3 c = ToPosition(this->Decision.Get(v[2]));
-    sum += { MeasureSquaredCotangent(a, b, c, this->Range) };
+    return MeasureSquaredCotangent(a, b, c, this->Range);
   }
 
 private:

@@ -464,16 +464,16 @@ private:
     if (report.Rounds > 1)
     {
       const TriangleMesh& mesh = this->Mesh;
-      report.MinimumAngleAfter =
-        ToDegrees(FindLargestCotangent(mesh.Triangles.Count, this->Survey, this->Threads,
-          [&](std::int64_t t, double(&x)[3][3])
+      const AngleSums angles = MeasureAngles(mesh.Triangles.Count, this->Survey, this->Threads,
+        [&](std::int64_t t, double(&x)[3][3])
+        {
+          for (int i = 0; i < 9; ++i)
           {
-            for (int i = 0; i < 9; ++i)
-            {
-              x[i / 3][i % 3] = mesh.Points.Get(mesh.Triangles.Get(t, i / 3), i % 3);
-            }
-            return true;
-          }));
+            x[i / 3][i % 3] = mesh.Points.Get(mesh.Triangles.Get(t, i / 3), i % 3);
+          }
+          return true;
+        });
+      KeepAnglesAfter(angles, report);
     }
     if (this->HasBadEdges && report.StopReason != StopReasonKind::Aborted)
     {

@@ -100,9 +100,9 @@ std::int64_t PartMesh::FindPoint(std::int64_t key) const
 }
 
 //------------------------------------------------------------------------------
-double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
+AngleSums PartMesh::MeasureAngles(const PartSurvey& survey, int threads) const
 {
-  return ToDegrees(FindLargestCotangent(SizeOf(this->Triangles), survey, ThreadBackend(threads),
+  return delaunayflip::MeasureAngles(SizeOf(this->Triangles), survey, ThreadBackend(threads),
     [&](std::int64_t t, double(&x)[3][3])
     {
       for (int slot = 0; slot < 3; ++slot)
@@ -110,7 +110,7 @@ double PartMesh::FindSmallestAngle(const PartSurvey& survey, int threads) const
         this->GetPosition(this->Triangles[t].Points[slot], x[slot]);
       }
       return !this->Triangles[t].HasLeft;
-    }));
+    });
 }
 
 void PartMesh::BeginRounds(const MarkedEdges& marks)

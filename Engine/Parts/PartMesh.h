@@ -191,8 +191,8 @@ public:
 
   PartTriangles Triangles; ///< A place may be empty (HasLeft).
 
-  /// The smallest angle of all triangles, in degrees; NaN if there is none.
-  double FindSmallestAngle(const PartSurvey& survey, int threads) const;
+  /// Measures the angles of all triangles.
+  AngleSums MeasureAngles(const PartSurvey& survey, int threads) const;
   /// Marks edges, and begins the lists of corners at every point (PointStars), with which rounds
   /// find triangles without a pass over all. From now on only the functions below may change
   /// triangles.

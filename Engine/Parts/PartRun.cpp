@@ -454,8 +454,8 @@ private:
     {
       return; // the first flips were the last
     }
-    this->Own.MinimumAngleAfter =
-      this->Mesh.FindSmallestAngle(this->Job.Survey, this->Job.Options.NumberOfThreads);
+    KeepAnglesAfter(
+      this->Mesh.MeasureAngles(this->Job.Survey, this->Job.Options.NumberOfThreads), this->Own);
     this->Own.NonDelaunayAfter = this->Own.BlockedByShape = this->Own.BlockedByDeviation =
       this->Own.BlockedByEdge = 0;
     if (this->HasBlocked || this->StopReason != StopReasonKind::Converged)

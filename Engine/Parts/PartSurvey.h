@@ -62,15 +62,15 @@ struct PartSurvey : MeshSurvey
   std::vector<Defect> ListDefects() const;
 };
 
-/// The largest MeasureSquaredCotangent of `count` triangles; -INFINITY if there is none.
+/// Measures the angles of `count` triangles.
 /// @param get get(i, x) sets the coordinates of triangle i; it does not count if that returns
 /// false.
 template <typename Get>
-double FindLargestCotangent(
+AngleSums MeasureAngles(
   std::int64_t count, const PartSurvey& survey, const ThreadBackend& threads, const Get& get)
 {
   const bool isFlat = survey.Geometry == GeometryKind::PlanarXY;
-  const auto measure = [&](std::int64_t i, LargestValue& sum)
+  const auto measure = [&](std::int64_t i, AngleSums& sum)
   {
     double x[3][3];
     const auto corner = [&](int slot) {
@@ -78,10 +78,10 @@ double FindLargestCotangent(
     };
     if (get(i, x))
     {
-      sum += { MeasureSquaredCotangent(corner(0), corner(1), corner(2), survey.Range) };
+      sum.Add(MeasureSquaredCotangent(corner(0), corner(1), corner(2), survey.Range));
     }
   };
-  return threads.Sum<LargestValue>(count, measure).Value;
+  return threads.Sum<AngleSums>(count, measure);
 }
 
 /// Returns that of some axes along which items extend most.

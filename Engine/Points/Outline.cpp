@@ -249,7 +249,6 @@ public:
   {
     const std::int64_t triangles = this->Mesh.NumberOfTriangles;
     kept.Numbers.assign(triangles, 0);
-    kept.SquaredCotangent = -INFINITY;
     std::vector<unsigned char> isUsed(this->Mesh.NumberOfPlaces, 0);
     for (std::int64_t t = 0; t < triangles; ++t)
     {
@@ -258,7 +257,7 @@ public:
       if (this->IsRemoved[t] == 0)
       {
         const std::array<Vector3, 3> corners = this->GetCorners(triangle);
-        kept.SquaredCotangent = std::max(kept.SquaredCotangent,
+        kept.Angles.Add(
           MeasureSquaredCotangent(corners[0], corners[1], corners[2], this->Mesh.Range));
         for (const VertexId vertex : triangle.Vertices)
         {

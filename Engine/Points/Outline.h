@@ -5,6 +5,7 @@
 
 #include "PlaneMesh.h"
 #include "PointTriangulation.h"
+#include "SurfaceAngles.h"
 #include "WideAngles.h"
 
 #include <cstdint>
@@ -49,7 +50,7 @@ struct KeptTriangles
   std::int64_t UsedGiven = 0; ///< Those of them before PointInput::FirstAdded.
   std::int64_t Edges = 0, Boundary = 0; ///< Of the triangles that are kept.
   std::int64_t EulerCharacteristic = 0;
-  double SquaredCotangent = 0.0; ///< Of their smallest angle.
+  AngleSums Angles;
 };
 
 /// Whether these options can remove triangles.

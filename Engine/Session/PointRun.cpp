@@ -6,6 +6,7 @@
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "Predicates.h"
+#include "SmallestAngle.h"
 #include "Strips.h"
 
 #include <array>
@@ -582,11 +583,7 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
     report.Edges.Edges = this->Kept.Edges;
     report.Edges.Boundary = this->Kept.Boundary;
     report.EulerCharacteristic = this->Kept.EulerCharacteristic;
-    report.MinimumAngleAfter = ToDegrees(this->Kept.SquaredCotangent);
-    if (this->Kept.Count == 0)
-    {
-      report.MinimumAngleBefore = report.MinimumAngleAfter = NAN;
-    }
+    KeepAnglesAfter(this->Kept.Angles, report);
   }
   report.Edges.Fixed = report.Edges.Boundary + inside;
 

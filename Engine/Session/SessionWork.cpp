@@ -4,7 +4,7 @@
 
 #include "CudaDevice.h"
 #include "InputChecks.h"
-#include "SurfaceAngles.h"
+#include "SmallestAngle.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>
@@ -225,7 +225,6 @@ try
   this->Insertion.AddTo(this->Report);
   this->ListDefects();
   const GeometryKind geometry = this->Report.GeometryUsed;
-  this->Report.MinimumAngleAfter = this->Report.MinimumAngleBefore;
   this->Report.BuildSeconds = watch.GetSeconds();
   this->Building.Reach(geometry, BuildStep::Measured);
 
@@ -570,8 +569,8 @@ void FlipSession::Work::MeasureEnd()
   {
     return;
   }
-  this->Report.MinimumAngleAfter = ToDegrees(
-    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().FindLargestSquaredCotangent(); }));
+  KeepAnglesAfter(
+    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().MeasureAngles(); }), this->Report);
   this->IsMeasured = true;
   this->ListDefects();
   if (this->Cloud)

@@ -33,7 +33,8 @@ public:
       Range(range),
       Guard(std::move(guard)),
       Backend(backend),
-      Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive())
+      Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive()),
+      Grades(mesh.NumberOfTriangles)
   {
     this->CutIntoChunks();
   }
@@ -44,27 +45,19 @@ public:
   }
 
   /// In most meshes no flip changes the worst triangle, because of a fixed edge. While that is so,
-  /// only triangles that flips have changed can be worse.
-  double FindLargestSquaredCotangent() const override
+  /// only triangles that flips have changed are measured again.
+  AngleSums MeasureAngles() const override
   {
-    const WorstSurvey survey{ this->Angles() };
-    const std::int64_t size = this->Mesh.NumberOfTriangles;
-    if (this->Worst.Value > -INFINITY && !survey.IsChanged(this->Worst.Triangle))
+    GradeSurvey survey{ this->Angles(), this->Grades.data(), true };
+    survey.MeasuresAll =
+      this->Measured.Angles.Largest == -INFINITY || survey.IsChanged(this->Measured.Worst);
+    if (survey.MeasuresAll)
     {
-      this->Worst += this->Backend.template Sum<WorstTriangle>(size,
-        [&](std::int64_t triangle, WorstTriangle& sum)
-        {
-          if (survey.IsChanged(triangle))
-          {
-            survey(triangle, sum);
-          }
-        });
+      this->Measured.Angles.Largest = -INFINITY;
     }
-    else
-    {
-      this->Worst = this->Backend.template Sum<WorstTriangle>(size, survey);
-    }
-    return this->Worst.Value;
+    this->Measured +=
+      this->Backend.template Sum<GradedTriangles>(this->Mesh.NumberOfTriangles, survey);
+    return this->Measured.Angles;
   }
 
 protected:
@@ -81,7 +74,7 @@ protected:
   void TakeStates() override
   {
     this->Worklist.ActivateAll();
-    this->Worst = WorstTriangle();
+    this->Measured.Angles.Largest = -INFINITY;
   }
 
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
@@ -103,7 +96,7 @@ protected:
       flips = this->Worklist.Flip(this->Backend, flip); // pass 6
     }
     const double angle =
-      plan.MeasureFirst || plan.MeasureAll ? this->FindLargestSquaredCotangent() : -INFINITY;
+      plan.MeasureFirst || plan.MeasureAll ? this->MeasureAngles().Largest : -INFINITY;
     const IterationCounts iteration{ this->Found.Tested, this->Found.Bad, this->Found.GetBlocked(),
       flips.Flipped, angle };
     this->Detect();
@@ -138,29 +131,46 @@ private:
     std::int64_t Tested; ///< Edges judged since the last choice.
   };
 
-  struct WorstTriangle
+  struct GradedTriangles
   {
-    double Value = -INFINITY; ///< Its squared cotangent.
-    std::int64_t Triangle = 0;
+    AngleSums Angles;
+    std::int64_t Worst = 0; ///< The triangle with the largest squared cotangent.
 
-    WorstTriangle& operator+=(const WorstTriangle& other)
+    GradedTriangles& operator+=(const GradedTriangles& other)
     {
-      *this = other.Value > this->Value ? other : *this;
+      this->Worst = other.Angles.Largest > this->Angles.Largest ? other.Worst : this->Worst;
+      this->Angles += other.Angles;
       return *this;
     }
   };
 
-  struct WorstSurvey : AngleSurvey<Rule>
+  /// Measures triangles again, and counts how the numbers of small angles change.
+  struct GradeSurvey : AngleSurvey<Rule>
   {
+    unsigned char* Grades; ///< Of every triangle AngleSums::Grade, when it was last measured.
+    bool MeasuresAll; ///< Else only the changed ones.
+
     bool IsChanged(std::int64_t triangle) const
     {
       return this->Triangles[triangle].Flips >= OneFlip;
     }
-    void operator()(std::int64_t triangle, WorstTriangle& sum) const
+    void Prefetch(std::int64_t triangle) const
     {
-      LargestValue own;
-      AngleSurvey<Rule>::operator()(triangle, own);
-      sum += { own.Value, triangle };
+      if (this->MeasuresAll)
+      {
+        AngleSurvey<Rule>::Prefetch(triangle);
+      }
+    }
+    void operator()(std::int64_t triangle, GradedTriangles& sum) const
+    {
+      if (this->MeasuresAll || this->IsChanged(triangle))
+      {
+        const double own = this->Measure(triangle);
+        sum.Worst = own > sum.Angles.Largest ? triangle : sum.Worst;
+        sum.Angles.Count(this->Grades[triangle], -1);
+        sum.Angles.Add(own);
+        this->Grades[triangle] = AngleSums::Grade(own);
+      }
     }
   };
 
@@ -195,12 +205,10 @@ private:
       counts[i] = { chunk.Tested, found.Bad, found.GetBlocked(), flips.Flipped, -INFINITY };
       if (plan.MeasureAll || (plan.MeasureFirst && i == 0))
       {
-        LargestValue largest;
         for (std::int64_t t = chunk.FirstTriangle; t < chunk.LastTriangle; ++t)
         {
-          angles(t, largest);
+          counts[i].SquaredCotangent = std::max(counts[i].SquaredCotangent, angles.Measure(t));
         }
-        counts[i].SquaredCotangent = largest.Value;
       }
       found = worklist.Detect(this->Judge(), this->Resolve());
       chunk.Tested = found.Tested;
@@ -244,7 +252,8 @@ private:
   const ThreadBackend& Backend;
   EdgeWorklist Worklist;
   std::vector<Chunk> Chunks;
-  mutable WorstTriangle Worst; ///< When it was last searched for.
+  mutable GradedTriangles Measured; ///< When angles were last measured.
+  mutable std::vector<unsigned char> Grades; ///< GradeSurvey's.
 };
 
 template <typename Rule>

@@ -20,6 +20,8 @@ FIELD_PREFIX = "DelaunayFlip:"
 COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
           "BlockedByShape": "blocked_by_shape", "BlockedByDeviation": "blocked_by_deviation",
           "BlockedByEdge": "blocked_by_edge",
+          **{f"TrianglesBelow{angle}{when}": f"triangles_below_{angle}_{when.lower()}"
+             for angle in (10, 20, 30) for when in ("Before", "After")},
           "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
           "ConstraintEdges": "constraint_edges",
           "UnmatchedConstraintEdges": "unmatched_constraints",
@@ -72,7 +74,7 @@ class Report:
     inserted_constraints: int  #: Constraint edges that flips made before the iterations.
     constraint_flips: int  #: How many flips that took; not in total_flips.
     euler_characteristic: int  #: Used points - edges + triangles; flips keep it.
-    minimum_angle_before: float  #: Degrees; NaN without triangles.
+    minimum_angle_before: float  #: Degrees; NaN without triangles, and from points.
     minimum_angle_after: float
     build_seconds: float
     flip_seconds: float
@@ -88,12 +90,18 @@ class Report:
     triangles_outside: int = 0  #: Removed outside the outline and in holes.
     triangles_large: int = 0  #: Removed by alpha and longest_edge.
     keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
-    blocked_by_deviation: int = 0  #: Those left that maximum_deviation blocks.
+    blocked_by_deviation: int = 0  #: Of non_delaunay_after, those that maximum_deviation blocks.
     duplicate_triangles: int = 0  #: Triangles with the three points of an earlier one.
     hidden_by_winding: int = 0  #: Edges that are wrongly wound and would else be bad.
     #: Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there.
     obtuse_at_non_manifold: int = 0
     points_used: int = 0  #: Of a triangulation of points: how many its triangles have.
+    triangles_below_10_before: int = 0  #: With an angle below 10 degrees; 0 from points, as below.
+    triangles_below_10_after: int = 0
+    triangles_below_20_before: int = 0
+    triangles_below_20_after: int = 0
+    triangles_below_30_before: int = 0
+    triangles_below_30_after: int = 0
 
     @property
     def converged(self) -> bool:
@@ -224,7 +232,7 @@ def _join_iterations(a, b):
     """Adds row by row. A mesh that made fewer iterations keeps its last angle; one without angles
     does not count."""
     rows = numpy.zeros(max(len(a.iterations), len(b.iterations)), dtype=ITERATION)
-    meshes = [one for one in (a, b) if not numpy.isnan(one.report.minimum_angle_before)]
+    meshes = [one for one in (a, b) if not numpy.isnan(one.report.minimum_angle_after)]
     rows["minimum_angle"] = numpy.inf if meshes else numpy.nan
     for one in (a, b):
         known = len(one.iterations)

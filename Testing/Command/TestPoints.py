@@ -272,7 +272,7 @@ class Results(PointTest):
         self.write("in.xyz", text_of(points_of(bumpy_grid(9, 0))))
         self.assertNotIn("bad edges", self.triangulate("in.xyz")[1].stdout)
         told = self.succeed("in.xyz", "out.vtk", "--from-points", "--max-iterations", 0, code=4).stdout
-        self.assertRegex(told, r"bad edges +[1-9]\d* -> [1-9]")
+        self.assertRegex(told, r"bad edges +[1-9]\d*\n")
 
     def test_too_few_points(self):
         for text in ("1 2 3\n", text_of([(i, i, 0) for i in range(5)])):

@@ -68,7 +68,7 @@ class Streams(ReplaceTest):
                 self.assertEqual(code, 0)
                 self.assertEqual(os.stat(self.path("log")).st_ino, inode)
                 text = self.content("log").decode()
-                self.assertRegex(text, r"(?s)^before\n{\n.*\n}\nmesh  .*wrote +out.vtk\n$")
+                self.assertRegex(text, r"(?s)^before\n{\n.*\n}\nbad edges  .*wrote +out.vtk\n$")
 
     def test_to_a_pipe(self):
         for name in ("/dev/stdout", "/dev/stderr"):

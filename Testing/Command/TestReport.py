@@ -18,6 +18,8 @@ KEYS = [
     *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape"),
     *("blocked_by_deviation", "blocked_by_edge"),
     *("min_angle_before_deg", "min_angle_after_deg"),
+    *("triangles_below_10_before", "triangles_below_10_after", "triangles_below_20_before"),
+    *("triangles_below_20_after", "triangles_below_30_before", "triangles_below_30_after"),
     *("converged", "stop_reason", "seconds", "warnings"),
 ]
 COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds"

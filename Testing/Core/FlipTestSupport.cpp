@@ -4,6 +4,7 @@
 
 #include "MeshAudit.h"
 #include "TestBackend.h"
+#include "TriangleAngles.h"
 
 #include <gtest/gtest.h>
 
@@ -138,6 +139,25 @@ void ExpectNearAngle(double expected, double angle)
 
 }
 
+void ExpectSmallAngles(
+  const TriangleMesh& mesh, GeometryKind geometry, const std::array<std::int64_t, 3>& below10To30)
+{
+  std::vector<double> angles(mesh.Triangles.Count);
+  FindSmallestAngles(mesh, geometry, 1, angles.data());
+  for (int i = 0; i < 3; ++i)
+  {
+    constexpr double Rounding = 1e-6;
+    const double limit = 10.0 * (i + 1);
+    const auto countBelow = [&](double degrees)
+    {
+      return std::count_if(
+        angles.begin(), angles.end(), [degrees](double angle) { return angle < degrees; });
+    };
+    EXPECT_GE(below10To30[i], countBelow(limit - Rounding)) << limit;
+    EXPECT_LE(below10To30[i], countBelow(limit + Rounding)) << limit;
+  }
+}
+
 FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options)
 {
   FlipResult result = Flip(mesh, options);
@@ -153,6 +173,11 @@ FlipResult FlipAndAudit(const TriangleMesh& mesh, const FlipOptions& options)
   EXPECT_EQ(CountNonDelaunayEdges(after, audit), report.NonDelaunayAfter);
   ExpectNearAngle(MinimumAngle(mesh, audit.Geometry), report.MinimumAngleBefore);
   ExpectNearAngle(MinimumAngle(after, audit.Geometry), report.MinimumAngleAfter);
+  ExpectSmallAngles(mesh, audit.Geometry,
+    { report.TrianglesBelow10Before, report.TrianglesBelow20Before,
+      report.TrianglesBelow30Before });
+  ExpectSmallAngles(after, audit.Geometry,
+    { report.TrianglesBelow10After, report.TrianglesBelow20After, report.TrianglesBelow30After });
   ExpectSameTopology(mesh.Triangles, result.Triangles, report);
   ExpectConsistentStatistics(report);
   return result;
@@ -342,7 +367,8 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
 {
   const auto& [points, triangles, edges, unmatched, inserted, constraintFlips, euler, geometry,
     reason, tolerance, backend, fallback, iterations, flips, excluded, blocked, badBefore, badAfter,
-    byShape, byDeviation, byEdge, angleBefore, angleAfter, keepsSliver, duplicates, byWinding,
+    byShape, byDeviation, byEdge, angleBefore, angleAfter, below10Before, below10After,
+    below20Before, below20After, below30Before, below30After, keepsSliver, duplicates, byWinding,
     obtuse, stopReason, fromPoints, buildSeconds, flipSeconds, defects] = b;
   EXPECT_EQ(a.Points, points);
   EXPECT_EQ(a.Triangles, triangles);
@@ -365,6 +391,12 @@ void ExpectSameStatistics(const FlipReport& a, const FlipReport& b)
   EXPECT_EQ(a.BlockedByEdge, byEdge);
   ExpectSameAngle(a.MinimumAngleBefore, angleBefore);
   ExpectSameAngle(a.MinimumAngleAfter, angleAfter);
+  EXPECT_EQ(a.TrianglesBelow10Before, below10Before);
+  EXPECT_EQ(a.TrianglesBelow10After, below10After);
+  EXPECT_EQ(a.TrianglesBelow20Before, below20Before);
+  EXPECT_EQ(a.TrianglesBelow20After, below20After);
+  EXPECT_EQ(a.TrianglesBelow30Before, below30Before);
+  EXPECT_EQ(a.TrianglesBelow30After, below30After);
   EXPECT_EQ(a.StopReason, stopReason);
   EXPECT_EQ(a.FromPoints.Repeated, fromPoints.Repeated);
   EXPECT_EQ(a.FromPoints.SegmentEdges, fromPoints.SegmentEdges);

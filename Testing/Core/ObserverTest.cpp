@@ -170,6 +170,8 @@ TEST_F(ObserverTest, AnglesAreMeasuredAtBothEndsOrEverywhere)
     }
     EXPECT_EQ(
       plain.GetReport().MinimumAngleAfter, tracked.GetReport().Iterations.back().MinimumAngle);
+    EXPECT_LT(0, plain.GetReport().TrianglesBelow30After);
+    EXPECT_EQ(plain.GetReport().TrianglesBelow30After, tracked.GetReport().TrianglesBelow30After);
   }
 }
 

@@ -141,12 +141,18 @@ void ExpectSameCounts(const FlipReport& alone, PiecesReport together)
   together.BlockedByDeviation = alone.BlockedByDeviation;
   together.BlockedByEdge = alone.BlockedByEdge;
   together.MinimumAngleAfter = alone.MinimumAngleAfter;
+  together.TrianglesBelow10After = alone.TrianglesBelow10After;
+  together.TrianglesBelow20After = alone.TrianglesBelow20After;
+  together.TrianglesBelow30After = alone.TrianglesBelow30After;
   together.StopReason = alone.StopReason;
   together.Defects = alone.Defects; // their ids are those of a rank
   if (alone.InsertedConstraints > 0) // by flips, in some order
   {
     together.NonDelaunayBefore = alone.NonDelaunayBefore;
     together.MinimumAngleBefore = alone.MinimumAngleBefore;
+    together.TrianglesBelow10Before = alone.TrianglesBelow10Before;
+    together.TrianglesBelow20Before = alone.TrianglesBelow20Before;
+    together.TrianglesBelow30Before = alone.TrianglesBelow30Before;
   }
   ExpectSameStatistics(alone, together);
 }
@@ -183,6 +189,9 @@ void ExpectNothingLeft(const TriangleMesh& mesh, FlipOptions options, const Part
   {
     EXPECT_NEAR(again.MinimumAngleAfter, together.Report.MinimumAngleAfter, 1e-9);
   }
+  EXPECT_EQ(again.TrianglesBelow10After, together.Report.TrianglesBelow10After);
+  EXPECT_EQ(again.TrianglesBelow20After, together.Report.TrianglesBelow20After);
+  EXPECT_EQ(again.TrianglesBelow30After, together.Report.TrianglesBelow30After);
 }
 
 void ExpectGood(const TriangleMesh& mesh, const FlipOptions& options, const PartsResult& together)

@@ -430,7 +430,7 @@ TEST(PointTriangulation, WithoutTrianglesHasNoAngle)
   Places points;
   for (int i = 0; i < 50; ++i)
   {
-    points.push_back({ 10.0 * i, std::fmod(17.0 * i, 50.0) });
+    points.push_back({ 10.0 * i, 0.3 * std::fmod(17.0 * i, 50.0) });
   }
   const FlipReport some = Triangulate(points).Report;
   const FlipReport none =
@@ -441,6 +441,31 @@ TEST(PointTriangulation, WithoutTrianglesHasNoAngle)
   EXPECT_TRUE(std::isnan(sum.Iterations[0].MinimumAngle));
   AddReport(sum, some);
   EXPECT_EQ(some.MinimumAngleAfter, sum.Iterations.back().MinimumAngle);
+  EXPECT_EQ(some.TrianglesBelow20After, sum.TrianglesBelow20After);
+  AddReport(sum, some);
+  EXPECT_LT(0, some.TrianglesBelow20After);
+  EXPECT_EQ(2 * some.TrianglesBelow20After, sum.TrianglesBelow20After);
+}
+
+/// Nobody has seen the triangles that flips begin with.
+TEST(PointTriangulation, AnglesBeforeAreUnknown)
+{
+  Places points;
+  for (int i = 0; i < 50; ++i)
+  {
+    points.push_back({ 10.0 * i, 0.3 * std::fmod(17.0 * i, 50.0) });
+  }
+  const Triangulation result = Triangulate(points);
+  const FlipReport& report = result.Report;
+  ASSERT_LT(0, report.TotalFlips);
+  EXPECT_TRUE(std::isnan(report.MinimumAngleBefore));
+  EXPECT_EQ(0, report.TrianglesBelow30Before);
+  EXPECT_LT(0, report.TrianglesBelow30After);
+  const std::string summary = Summarize(report);
+  EXPECT_EQ(0u, summary.rfind("mesh: 50 points, ", 0)) << summary;
+  EXPECT_NE(std::string::npos, summary.find("\npoints: 50 used\n")) << summary;
+  EXPECT_EQ(std::string::npos, summary.find("bad edges")) << summary;
+  EXPECT_EQ(std::string::npos, summary.find("->")) << summary;
 }
 
 }

@@ -437,7 +437,9 @@ TEST(Outline, TheSmallestAngleIsThatOfWhatIsLeft)
     Drawing drawing;
     drawing.Points = { { 9 * scale, 0 }, { 0, 9 * scale } };
     drawing.AddRing({ { 0, 0 }, { scale, 0 }, { 0, scale } });
-    EXPECT_NEAR(45.0, Triangulate(drawing).Report.MinimumAngleAfter, 1e-9) << scale;
+    const FlipReport report = Triangulate(drawing).Report;
+    EXPECT_NEAR(45.0, report.MinimumAngleAfter, 1e-9) << scale;
+    EXPECT_EQ(0, report.TrianglesBelow30After) << scale;
   }
 }
 

@@ -83,7 +83,8 @@ TEST(Report, TotalsAreReadBackAndInTheFieldData)
   EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR);
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_CONVERGED);
   const std::pair<const char*, double> totals[] = { { "Converged", 1 }, { "TotalFlips", 9 },
-    { "NonDelaunayEdges", 0 }, { "FixedEdges", 8 }, { "NonManifoldEdges", 0 } }; // 8 of 13
+    { "NonDelaunayEdges", 0 }, { "TrianglesBelow10Before", 6 }, { "TrianglesBelow10After", 4 },
+    { "FixedEdges", 8 }, { "NonManifoldEdges", 0 } }; // 8 of 13
   for (const auto& [name, value] : totals)
   {
     EXPECT_EQ(GetTotal(output, name), value) << name;
@@ -98,9 +99,10 @@ TEST(Report, TotalsAreReadBackAndInTheFieldData)
       filter->GetGeometryReason() },
     { "Backend", filter->GetReport().Backend, filter->GetBackendUsed() },
     { "Summary",
+      "bad edges: 1 -> 0\nsmallest angle: 1.909 -> 4.764 degrees\nsmall angles: 6 -> 4 triangles "
+      "below 10 degrees, 6 -> 6 below 20, 6 -> 6 below 30\nflips: 9 in 5 iterations, converged\n"
       "mesh: 8 points, 6 triangles, 13 edges\nkept edges: 8 (8 boundary)\ngeometry: planar: all "
-      "points lie in one plane; the feature angle has no effect\nbad edges: 1 -> 0\nsmallest "
-      "angle: 1.909 -> 4.764 degrees\nflips: 9 in 5 iterations, converged\n",
+      "points lie in one plane; the feature angle has no effect\n",
       filter->GetSummary() }
   };
   for (const auto& [name, text, readBack] : texts)
