@@ -241,14 +241,24 @@ class Input:
             report = dataclasses.replace(report, defects=self.explain(report.defects))
             self.trouble += find_rings_without_area(report.defects)
         report = self._report_flat_points(report, used)
-        is_cut = report.triangles_outside + report.triangles_large > 0
-        if is_cut and (len(triangles) == 0 or int(triangles.min()) >= self.struct.first_added > 0):
-            self.trouble = [report.defects]  # none of the points is left
+        if self._is_nothing_left(report, triangles):
+            self.trouble = [report.defects]
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
             report = dataclasses.replace(report, number_of_points=len(points))
         iterations = _report.read_iterations(handle, report)
         return Triangulation(points, triangles, neighbors, edges, iterations, report, used)
+
+    def _is_nothing_left(self, report, triangles):
+        """Whether triangles are removed, and none is left that has one of the caller's points."""
+        if report.triangles_outside + report.triangles_large == 0:
+            return False
+        if len(triangles) == 0:
+            return True
+        first_added = self.struct.first_added
+        if not 0 < first_added < len(self.points):
+            return False  # all points are the caller's, which may be on a GPU
+        return int(triangles.min()) >= first_added
 
     def _find_used_points(self, handle, report):
         """The used point of each one, also of those at crossings; None if these are the points
