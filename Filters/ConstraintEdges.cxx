@@ -3,7 +3,6 @@
 #include "ConstraintEdges.h"
 
 #include "DataArrays.h"
-#include "PolyDataBridge.h"
 #include "UpdateProgress.h"
 
 #include "vtkPoints.h"
@@ -246,7 +245,7 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
 }
 
 ConstraintEdges FindConstraintEdges(const TriangleMesh& mesh, vtkPolyData* input,
-  vtkPolyData* others, const BridgeSettings& settings, const ProgressObserver& progress)
+  vtkPolyData* others, const ConstraintSettings& settings, const ProgressObserver& progress)
 {
   ConstraintEdges edges;
   if (settings.LinesAsConstraints)

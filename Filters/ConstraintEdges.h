@@ -23,8 +23,6 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
-struct BridgeSettings;
-
 /// A hash of ids or coordinates.
 struct HashWords
 {
@@ -78,6 +76,14 @@ private:
 
 using PointPair = std::array<std::int64_t, 2>;
 
+/// Which edges are constraints, and what happens to those that the mesh does not have.
+struct ConstraintSettings
+{
+  bool LinesAsConstraints = true; ///< The lines of the mesh are constraints.
+  bool InsertLines = false; ///< Those that are no edges of the mesh are inserted.
+  bool InsertConstraints = true; ///< The same for the edges of the second input.
+};
+
 /// Edges that must stay.
 struct ConstraintEdges
 {
@@ -94,7 +100,7 @@ struct ConstraintEdges
 /// @param mesh the points and triangles of `input`. @param others the second input, or null.
 /// @throws InvalidMesh when a cell names a point that does not exist; RunAborted.
 ConstraintEdges FindConstraintEdges(const TriangleMesh& mesh, vtkPolyData* input,
-  vtkPolyData* others, const BridgeSettings& settings, const ProgressObserver& progress);
+  vtkPolyData* others, const ConstraintSettings& settings, const ProgressObserver& progress);
 
 /// Lines with points of their own, two in `ends` for each; null if there are none.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> MakeLines(

@@ -3,7 +3,6 @@
 #include "DataArrays.h"
 
 #include "FlipError.h"
-#include "UpdateReport.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellData.h"
@@ -146,43 +145,6 @@ vtkSmartPointer<vtkUnsignedCharArray> FindGhosts(vtkPolyData* mesh)
   auto ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New(); // another layout of memory
   ghosts->DeepCopy(array);
   return ghosts;
-}
-
-std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool cellsPass)
-{
-  std::vector<Defect> defects;
-  const auto addShort =
-    [&](const std::string& kind, vtkDataSetAttributes* data, vtkIdType tuples, bool pass)
-  {
-    std::vector<std::string> names;
-    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-    {
-      vtkAbstractArray* array = data->GetAbstractArray(i);
-      if (array->GetNumberOfTuples() < tuples)
-      {
-        names.push_back('"' + GetName(array) + '"');
-      }
-    }
-    if (!names.empty())
-    {
-      defects.push_back(
-        { kind + (names.size() == 1 ? " array" : " arrays") + " with too few tuples " +
-            (pass ? "passed unchanged" : "left out") + ": " + Join(names, ", "),
-          static_cast<std::int64_t>(names.size()), {} });
-    }
-  };
-  addShort("point", mesh->GetPointData(), mesh->GetNumberOfPoints(), pointsPass);
-  addShort("cell", mesh->GetCellData(), mesh->GetNumberOfCells(), cellsPass);
-  const char* name = vtkDataSetAttributes::GhostArrayName();
-  vtkAbstractArray* ghosts = mesh->GetCellData()->GetAbstractArray(name);
-  if (ghosts && IsWrongGhostArray(ghosts))
-  {
-    const std::string fault = ghosts->GetDataType() != VTK_UNSIGNED_CHAR
-      ? "ghost array that is not of type unsigned char ignored"
-      : "ghost array with several components ignored";
-    defects.push_back({ fault + ": \"" + name + '"', 1, {} });
-  }
-  return defects;
 }
 
 //------------------------------------------------------------------------------

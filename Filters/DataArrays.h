@@ -113,12 +113,6 @@ bool IsWrongGhostArray(vtkAbstractArray* array);
 /// ignored.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkUnsignedCharArray> FindGhosts(vtkPolyData* mesh);
 
-/// Point and cell arrays with too few tuples, and ghost arrays that are ignored.
-/// @param pointsPass whether such point arrays pass, or are left out. @param cellsPass the same for
-/// cell arrays.
-DELAUNAYFLIP_EXPORT std::vector<Defect> ListMalformedArrays(
-  vtkPolyData* mesh, bool pointsPass, bool cellsPass);
-
 //------------------------------------------------------------------------------
 /// The numbers from `first` on.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkIdList> MakeRange(vtkIdType first, vtkIdType count);

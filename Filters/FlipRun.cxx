@@ -3,6 +3,7 @@
 #include "FlipRun.h"
 
 #include "DataArrays.h"
+#include "UpdateReport.h"
 
 #include "vtkPoints.h"
 #include "vtkStringArray.h"

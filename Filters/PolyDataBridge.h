@@ -29,12 +29,9 @@ namespace delaunayflip
 class UpdatePlan;
 
 /// How a mesh is read.
-struct BridgeSettings
+struct BridgeSettings : ConstraintSettings
 {
   bool Triangulate = true;
-  bool LinesAsConstraints = true;
-  bool InsertLines = false;
-  bool InsertConstraints = true;
   std::string RegionArray; ///< Empty: no regions.
 };
 

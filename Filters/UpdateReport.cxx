@@ -5,7 +5,7 @@
 #include "DataArrays.h"
 #include "FlipError.h"
 
-#include "vtkDelaunayFlip.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
@@ -13,6 +13,8 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
 #include <algorithm>
@@ -21,7 +23,10 @@
 
 namespace delaunayflip
 {
+namespace
+{
 
+/// Joins the first items, and says how many more there are.
 std::string Join(const std::vector<std::string>& items, const char* separator)
 {
   constexpr std::size_t Most = 3; // places named per text, and texts
@@ -33,6 +38,41 @@ std::string Join(const std::vector<std::string>& items, const char* separator)
   return items.size() > Most
     ? text + separator + "and " + std::to_string(items.size() - Most) + " more"
     : text;
+}
+
+/// The kind and the text of the exception that is being handled.
+std::pair<FailureKind, std::string> DescribeException()
+{
+  try
+  {
+    throw;
+  }
+  catch (const InvalidOptions& error)
+  {
+    return { FailureKind::Options, error.what() };
+  }
+  catch (const BackendUnavailable& error)
+  {
+    return { FailureKind::Backend, error.what() };
+  }
+  catch (const FlipError& error)
+  {
+    return { FailureKind::Mesh, error.what() };
+  }
+  catch (const std::bad_alloc&)
+  {
+    return { FailureKind::Other, "not enough memory" };
+  }
+  catch (const std::exception& error)
+  {
+    return { FailureKind::Other, error.what() };
+  }
+  catch (...)
+  {
+    return { FailureKind::Other, "an exception of unknown type" };
+  }
+}
+
 }
 
 std::string Describe(const std::vector<Note>& notes)
@@ -59,24 +99,11 @@ std::string Describe(const std::vector<Note>& notes)
 
 void UpdateSummary::AddFailure(const std::string& where)
 {
-  int kind = vtkDelaunayFlip::FAILURE_OTHER;
-  std::string text = "an exception of unknown type";
-  try
+  const auto [kind, text] = DescribeException();
+  if (this->Failure == FailureKind::None)
   {
-    throw;
+    this->Failure = kind;
   }
-  catch (const std::exception& error)
-  {
-    kind = dynamic_cast<const InvalidOptions*>(&error)  ? vtkDelaunayFlip::FAILURE_OPTIONS
-      : dynamic_cast<const BackendUnavailable*>(&error) ? vtkDelaunayFlip::FAILURE_BACKEND
-      : dynamic_cast<const FlipError*>(&error)          ? vtkDelaunayFlip::FAILURE_MESH
-                                                        : kind;
-    text = dynamic_cast<const std::bad_alloc*>(&error) ? "not enough memory" : error.what();
-  }
-  catch (...)
-  {
-  }
-  this->Failure = this->Failure == 0 ? kind : this->Failure;
   this->Errors.push_back({ where, text });
 }
 
@@ -100,6 +127,43 @@ std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, boo
     add("the GPU could not be used, the CPU did the work: " + report.Fallback);
   }
   return text;
+}
+
+std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool cellsPass)
+{
+  std::vector<Defect> defects;
+  const auto addShort =
+    [&](const std::string& kind, vtkDataSetAttributes* data, vtkIdType tuples, bool pass)
+  {
+    std::vector<std::string> names;
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = data->GetAbstractArray(i);
+      if (array->GetNumberOfTuples() < tuples)
+      {
+        names.push_back('"' + GetName(array) + '"');
+      }
+    }
+    if (!names.empty())
+    {
+      defects.push_back(
+        { kind + (names.size() == 1 ? " array" : " arrays") + " with too few tuples " +
+            (pass ? "passed unchanged" : "left out") + ": " + Join(names, ", "),
+          static_cast<std::int64_t>(names.size()), {} });
+    }
+  };
+  addShort("point", mesh->GetPointData(), mesh->GetNumberOfPoints(), pointsPass);
+  addShort("cell", mesh->GetCellData(), mesh->GetNumberOfCells(), cellsPass);
+  const char* name = vtkDataSetAttributes::GhostArrayName();
+  vtkAbstractArray* ghosts = mesh->GetCellData()->GetAbstractArray(name);
+  if (ghosts && IsWrongGhostArray(ghosts))
+  {
+    const std::string fault = ghosts->GetDataType() != VTK_UNSIGNED_CHAR
+      ? "ghost array that is not of type unsigned char ignored"
+      : "ghost array with several components ignored";
+    defects.push_back({ fault + ": \"" + name + '"', 1, {} });
+  }
+  return defects;
 }
 
 //------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include <vector>
 
 class vtkFieldData;
+class vtkPolyData;
 
 /// @file
 /// What an update tells of itself: messages and arrays.
@@ -24,17 +25,24 @@ struct Note
   std::string Text;
 };
 
-/// Joins the first items, and says how many more there are.
-std::string Join(const std::vector<std::string>& items, const char* separator);
-
 /// Joins notes to one text. Each text appears once, with the first places to which it applies.
 std::string Describe(const std::vector<Note>& notes);
+
+/// The kinds of errors. vtkDelaunayFlipAlgorithm::FailureType explains them.
+enum class FailureKind
+{
+  None,
+  Options,
+  Mesh,
+  Backend,
+  Other
+};
 
 /// What one update did to all of its meshes, and the messages about it.
 struct UpdateSummary
 {
   FlipReport Report; ///< The sum over the meshes without a failure.
-  int Failure = 0; ///< The first error's vtkDelaunayFlip::FailureType; 0: none.
+  FailureKind Failure = FailureKind::None; ///< The kind of the first error.
   std::vector<Note> Errors;
   std::vector<Note> Warnings;
 
@@ -47,6 +55,12 @@ struct UpdateSummary
 /// @param hasTolerance whether the user has set one.
 DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
   const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
+
+/// Lists point and cell arrays that have too few tuples, and ghost arrays that are ignored.
+/// @param pointsPass whether such point arrays pass. Otherwise they are left out.
+/// @param cellsPass tells this of cell arrays.
+DELAUNAYFLIP_EXPORT std::vector<Defect> ListMalformedArrays(
+  vtkPolyData* mesh, bool pointsPass, bool cellsPass);
 
 /// Adds the columns of the iterations as arrays with one tuple per iteration. Replaces arrays with
 /// the same names.

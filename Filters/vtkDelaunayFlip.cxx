@@ -92,7 +92,7 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
   options.NumberOfPieces = this->NumberOfPieces;
   options.TrackQuality = this->TrackQuality;
   return { mesh, constraints,
-    { this->Triangulate, this->LinesAsConstraints, this->InsertLines, this->InsertConstraints,
+    { { this->LinesAsConstraints, this->InsertLines, this->InsertConstraints }, this->Triangulate,
       this->RegionArray },
     options, isLive, this->GenerateFlipCount, this->GenerateQuality, this->MakeProgress() };
 }

@@ -38,6 +38,7 @@ static_assert(
   static_cast<int>(BackendKind::Threads) == vtkDelaunayFlipAlgorithm::BACKEND_THREADS, "");
 static_assert(
   static_cast<int>(StopReasonKind::Running) == vtkDelaunayFlipAlgorithm::STOP_REASON_RUNNING, "");
+static_assert(static_cast<int>(FailureKind::Other) == vtkDelaunayFlipAlgorithm::FAILURE_OTHER, "");
 
 static_assert(SmallestMeshForCuda == 20000, "the documentation of Backend says 20,000");
 
@@ -405,7 +406,7 @@ void vtkDelaunayFlipAlgorithm::RefuseInput(const std::string& why)
   }
   this->DropRun(false);
   UpdateSummary summary;
-  summary.Failure = FAILURE_MESH;
+  summary.Failure = FailureKind::Mesh;
   summary.Errors.push_back({ "", why });
   this->Keep(summary);
   for (int port = 0; port < 2; ++port)
@@ -420,7 +421,7 @@ void vtkDelaunayFlipAlgorithm::RefuseInput(const std::string& why)
 void vtkDelaunayFlipAlgorithm::Keep(const UpdateSummary& summary)
 {
   *this->Report = summary.Report;
-  this->Failure = summary.Failure;
+  this->Failure = static_cast<int>(summary.Failure);
   this->ErrorMessage = Describe(summary.Errors);
   this->StopReasonText = "failed: " + this->ErrorMessage;
   this->Summary = this->Failure ? this->StopReasonText + "\n" : Summarize(*this->Report);

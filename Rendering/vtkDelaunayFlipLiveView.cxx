@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipLiveView.h"
 
-#include "UpdateReport.h"
+#include "FlipReport.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithmOutput.h"

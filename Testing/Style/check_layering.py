@@ -7,6 +7,8 @@ Includes point downwards only. Within the engine: public headers, then its rooms
 Engine/CMakeLists.txt gives both, with CUDA/ below the last room, then the other files at the root of
 Engine/. Above the engine: CInterface, Filters, FiltersParallel, Rendering, Command and Plugin see its public headers, the
 latter four the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
+Within the folders of LAYERED, a header and the source of the same name are one topic, and no two topics include each
+other, directly or through others: one of the includes would point upwards.
 """
 
 import os
@@ -30,6 +32,9 @@ ABOVE = {
     "Plugin": {PUBLIC, "Filters", "FiltersParallel", "Plugin"},
     "Examples": {PUBLIC, "CInterface", "Filters", "FiltersParallel", "Rendering", "Examples"},
 }
+
+# Folders whose files are in layers of their own.
+LAYERED = {"Filters", "FiltersParallel", "Rendering"}
 
 
 def read_list(root, name):
@@ -77,18 +82,51 @@ def violations(layers, path, name, home):
         yield f"{path}: {layer} includes {name} of {target}"
 
 
+def circles(includes):
+    """Problems with topics that include each other; `includes` maps each to the topics that it includes."""
+    reached = {}
+    for topic in includes:
+        reached[topic], todo = set(), [topic]
+        while todo:
+            new = includes.get(todo.pop(), set()) - reached[topic]
+            reached[topic] |= new
+            todo.extend(new)
+    for topic in sorted(includes):
+        for other in sorted(includes[topic]):
+            if topic in reached.get(other, ()):
+                yield f"{topic}: includes {other}, which includes it, directly or through others"
+
+
+def find_topics(layers, paths, texts):
+    """For each topic in a layered folder, the topics of the same layer that it includes."""
+    headers = {os.path.basename(path): path for path in paths if path.endswith((".h", ".cuh"))}
+    topics = {}
+    for path in paths:
+        topic, layer = os.path.splitext(path)[0], layers.of(path)
+        if layer not in LAYERED:
+            continue
+        for name in INCLUDE.findall(texts[path]):
+            target = headers.get(os.path.basename(name), "")
+            other = os.path.splitext(target)[0]
+            if layers.of(target) == layer and other != topic:
+                topics.setdefault(topic, set()).add(other)
+    return topics
+
+
 def main():
     root = sys.argv[1]
     layers = Layers(root)
     paths = [path for path in list_files(root) if path.endswith(CPP_SUFFIXES)]
     headers = [path for path in paths if path.endswith((".h", ".cuh"))]
     home = {os.path.basename(path): layers.of(path) for path in headers}
+    texts = {path: read(root, path) for path in paths}
     problems = [
         problem
         for path in paths
-        for name in INCLUDE.findall(read(root, path))
+        for name in INCLUDE.findall(texts[path])
         for problem in violations(layers, path, name, home)
     ]
+    problems.extend(circles(find_topics(layers, paths, texts)))
     finish("layering", problems)
 
 

@@ -25,6 +25,9 @@ CLEAN = {
     "Engine/Session/CallerMesh.h": LICENCE + '#include "EdgeMesh.h"\n#include "Team.cuh"\n',
     "CUDA/Team.cuh": LICENCE + '#include "EdgeMesh.h"\n',
     "Filters/vtkDelaunayFlip.cxx": LICENCE + '#include "FlipOptions.h"\n#include <vtkObject.h>\n',
+    "Filters/vtkDelaunayFlip.h": LICENCE + '#include "FlipOptions.h"\n',
+    "Filters/MeshBlocks.h": LICENCE + '#include "UpdateReport.h"\n',
+    "Filters/UpdateReport.h": LICENCE + '#include "FlipOptions.h"\n',
     "Rendering/BufferFiller.h": LICENCE,
     "Testing/Core/EdgeMeshTest.cpp": LICENCE + '#include "EdgeMesh.h"\n#include "vtkObject.h"\n',
     "Testing/Meshes/GeneratedMeshes.h": LICENCE,
@@ -56,6 +59,8 @@ FAULTS = {
         ("Engine/FlipOptions.h", '#include "EdgeMesh.h"\n', "public headers includes EdgeMesh.h"),
         ("Filters/Bad.h", '#include "EdgeMesh.h"\n', "Filters includes EdgeMesh.h of Engine/Mesh"),
         ("Filters/Bad.cxx", '# include "BufferFiller.h"\n', "Filters includes BufferFiller.h of"),
+        ("Filters/UpdateReport.cxx", '#include "MeshBlocks.h"\n',
+         "Filters/UpdateReport: includes Filters/MeshBlocks, which"),
         ("Command/Bad.cxx", '#include "GeneratedMeshes.h"\n', "GeneratedMeshes.h of Testing")],
 }
 
