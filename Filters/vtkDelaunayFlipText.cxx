@@ -18,10 +18,10 @@ vtkStandardNewMacro(vtkDelaunayFlipText);
 namespace
 {
 
-/// Breaks lines longer than 60 characters at blanks, for a view of usual width.
+/// Breaks lines longer than 44 characters at blanks, for half of a window.
 std::string Wrap(const std::string& text)
 {
-  static const std::regex blank("(?=[^\\n]{61})([^\\n]{1,60}) ");
+  static const std::regex blank("(?=[^\\n]{45})([^\\n]{1,44}) ");
   return std::regex_replace(text, blank, "$1\n    ");
 }
 

@@ -3,6 +3,7 @@
 #include "pqDelaunayFlipClient.h"
 
 #include "pqApplicationCore.h"
+#include "pqArraySelectorPropertyWidget.h"
 #include "pqCoreUtilities.h"
 #include "pqInputSelectorWidget.h"
 #include "pqPipelineSource.h"
@@ -12,12 +13,14 @@
 #include "pqRepresentation.h"
 #include "pqServerManagerModel.h"
 #include "vtkCommand.h"
+#include "vtkPVDataInformation.h"
 #include "vtkSMProperty.h"
 #include "vtkSMPropertyGroup.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMSessionProxyManager.h"
 #include "vtkSMSettings.h"
+#include "vtkSMSourceProxy.h"
 #include "vtkSMTrace.h"
 #include "vtkSMTransferFunctionPresets.h"
 
@@ -26,6 +29,7 @@
 #include <QComboBox>
 #include <QFile>
 #include <QHBoxLayout>
+#include <QIcon>
 #include <QLabel>
 #include <QPushButton>
 #include <QSet>
@@ -137,8 +141,10 @@ private Q_SLOTS:
       const int colon = line.indexOf(": ");
       if (colon > 0)
       {
-        table += "<tr><td><i>" + line.left(colon).toHtmlEscaped().replace(" ", "&nbsp;") +
-          "&nbsp;</i></td><td>" + line.mid(colon + 2).toHtmlEscaped() + "</td></tr>";
+        const QString title = line.left(colon).toHtmlEscaped().replace(" ", "&nbsp;");
+        // A line would break between - and >.
+        const QString value = line.mid(colon + 2).toHtmlEscaped().replace("-&gt;", "&rarr;");
+        table += "<tr><td><i>" + title + "&nbsp;</i></td><td>" + value + "</td></tr>";
       }
     }
     const bool isKnown = text.indexOf('\n') > 0; // before the first update it is empty
@@ -212,6 +218,110 @@ private:
   QComboBox* Choices;
 };
 
+/// ParaView's list of arrays for an optional array. It says None where ParaView shows only an icon.
+class ArrayList : public pqArraySelectorPropertyWidget
+{
+  Q_OBJECT
+
+public:
+  ArrayList(vtkSMProxy* smproxy, vtkSMProperty* smproperty, QWidget* parentWidget)
+    : pqArraySelectorPropertyWidget(smproperty, smproxy, parentWidget),
+      Choices(this->findChild<QComboBox*>())
+  {
+    // Later, since ParaView is filling the list.
+    QObject::connect(this->Choices->model(), &QAbstractItemModel::rowsInserted, this,
+      &ArrayList::nameNone, Qt::QueuedConnection);
+    this->nameNone();
+  }
+
+private:
+  void nameNone()
+  {
+    const int none = this->Choices->findText(QString());
+    if (none >= 0)
+    {
+      this->Choices->setItemText(none, "None");
+      this->Choices->setItemIcon(none, QIcon());
+    }
+  }
+
+  QComboBox* Choices;
+};
+
+/// Whether a property has ParaView's default, and not one that the user has saved.
+bool IsFree(vtkSMProxy* shown, const char* name)
+{
+  vtkSMProperty* property = shown->GetProperty(name);
+  return property && property->IsValueDefault();
+}
+
+/// Shows the edges of a mesh, in grey, unless they would cover all of it.
+void ChooseEdges(vtkSMProxy* shown, vtkSMSourceProxy* source)
+{
+  constexpr vtkTypeInt64 MostCells = 20000;
+  // No angle has this colour. ParaView's edges are blue, as good triangles are.
+  const double grey[] = { 0.3, 0.3, 0.3 };
+  if (IsFree(shown, "EdgeColor"))
+  {
+    vtkSMPropertyHelper(shown, "EdgeColor").Set(grey, 3);
+  }
+  vtkSMPropertyHelper representation(shown, "Representation", true);
+  const bool isSurface = QString(representation.GetAsString()) == "Surface";
+  if (isSurface && source->GetDataInformation(0)->GetNumberOfCells() < MostCells)
+  {
+    representation.Set("Surface With Edges");
+  }
+}
+
+/// The text of statistics, so that it fits into half a window.
+void ChooseLetters(vtkSMProxy* shown)
+{
+  vtkSMPropertyHelper(shown, "Justification", true).Set(0); // left, not centred
+  if (IsFree(shown, "FontSize"))
+  {
+    vtkSMPropertyHelper(shown, "FontSize").Set(12);
+  }
+}
+
+/// The ends of a legend of angles are 0 and 60. ParaView would write 6.0e+01.
+void ChooseLegend(vtkSMProxy* shown)
+{
+  vtkSMProxy* colors = vtkSMPropertyHelper(shown, "LookupTable", true).GetAsProxy();
+  const QString array =
+    colors ? colors->GetSessionProxyManager()->GetProxyName("lookup_tables", colors) : "";
+  if (array.contains("Smallestangle") && IsFree(shown, "RangeLabelFormat"))
+  {
+    vtkSMPropertyHelper format(shown, "RangeLabelFormat");
+    const bool isPrintf = QString(format.GetAsString()).startsWith('%'); // until 6.0
+    format.Set(isPrintf ? "%g" : "{:g}");
+  }
+}
+
+/// What a view shows at first. The user may change all of it.
+void ChooseDisplay(vtkSMProxy* shown)
+{
+  if (shown->GetSessionProxyManager()->GetInLoadXMLState())
+  {
+    return;
+  }
+  vtkSMProxy* input = vtkSMPropertyHelper(shown, "Input", true).GetAsProxy();
+  auto* source = vtkSMSourceProxy::SafeDownCast(input);
+  const QString name = source ? source->GetXMLName() : "";
+  if (name == "DelaunayFlip" || name == "DelaunayFromPoints")
+  {
+    ChooseEdges(shown, source);
+  }
+  else if (name == "DelaunayFlipStatistics")
+  {
+    ChooseLetters(shown);
+  }
+  else if (!source)
+  {
+    ChooseLegend(shown);
+  }
+  shown->UpdateVTKObjects();
+}
+
 /// Makes the colours of angles the defaults of two arrays, and a preset that the user may choose.
 void AddColors()
 {
@@ -246,17 +356,7 @@ void pqDelaunayFlipClient::startup()
   QObject::connect(
     GetModel(), &pqServerManagerModel::dataUpdated, this, &pqDelaunayFlipClient::refresh);
   QObject::connect(GetModel(), &pqServerManagerModel::representationAdded, this,
-    [](pqRepresentation* shown)
-    {
-      vtkSMProxy* proxy = shown->getProxy();
-      vtkSMProxy* source = vtkSMPropertyHelper(proxy, "Input", true).GetAsProxy();
-      if (source && std::string("DelaunayFlipStatistics") == source->GetXMLName() &&
-        !proxy->GetSessionProxyManager()->GetInLoadXMLState())
-      {
-        vtkSMPropertyHelper(proxy, "Justification", true).Set(0); // left, not centred
-        proxy->UpdateVTKObjects();
-      }
-    });
+    [](pqRepresentation* shown) { ChooseDisplay(shown->getProxy()); });
 }
 
 void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
@@ -279,18 +379,31 @@ void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
 pqPropertyWidget* pqDelaunayFlipClient::createWidgetForProperty(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parentWidget)
 {
-  const bool isList = QString(property->GetPanelWidget()) == "DelaunayFlipSourceList";
-  return isList ? new SourceList(proxy, property, parentWidget) : nullptr;
+  const QString type = property->GetPanelWidget();
+  if (type == "DelaunayFlipSourceList")
+  {
+    return new SourceList(proxy, property, parentWidget);
+  }
+  if (type == "DelaunayFlipArrayList")
+  {
+    return new ArrayList(proxy, property, parentWidget);
+  }
+  return nullptr;
 }
 
 pqPropertyWidget* pqDelaunayFlipClient::createWidgetForPropertyGroup(
   vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parentWidget)
 {
   const QString type = group->GetPanelWidget();
-  return type == "DelaunayFlipLiveControls" ? new LiveControls(proxy, parentWidget)
-    : type == "DelaunayFlipSummary"
-    ? static_cast<pqPropertyWidget*>(new Summary(proxy, parentWidget))
-    : nullptr;
+  if (type == "DelaunayFlipLiveControls")
+  {
+    return new LiveControls(proxy, parentWidget);
+  }
+  if (type == "DelaunayFlipSummary")
+  {
+    return new Summary(proxy, parentWidget);
+  }
+  return nullptr;
 }
 
 #include "pqDelaunayFlipClient.moc"

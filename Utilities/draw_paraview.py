@@ -23,18 +23,6 @@ def arrange(client):
     client.window.resizeDocks(panel, [820, 130], QtCore.Qt.Orientation.Vertical)
 
 
-def show_mesh(source):
-    view = simple.GetActiveViewOrCreate("RenderView")
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground, view.Background = 0, [1, 1, 1]
-    display = simple.GetDisplayProperties(source, view)
-    display.EdgeColor = [0.1, 0.1, 0.1]
-    display.SetScalarBarVisibility(view, True)
-    bar = simple.GetScalarBar(simple.GetColorTransferFunction(NAME), view)
-    bar.TitleColor = bar.LabelColor = [0, 0, 0]
-    bar.RangeLabelFormat, bar.WindowLocation = "%.0f", "Upper Right Corner"
-
-
 def look_at_mesh(view, zoom):
     view.CameraPosition, view.CameraFocalPoint = [0.5, -1.0, 1.9], [0.5, 0.5, 0.0]
     view.CameraViewUp, view.CameraViewAngle = [0.0, 0.0, 1.0], 30.0
@@ -82,8 +70,10 @@ def session(client):
     arrange(client)
     yield from apply(client)
     flip = simple.GetActiveSource()
-    show_mesh(flip)
     view = simple.GetActiveView()
+    view.OrientationAxesVisibility = 0
+    legend = simple.GetScalarBar(simple.GetColorTransferFunction(NAME), view)
+    legend.WindowLocation = "Upper Right Corner"
     look_at_mesh(view, 1.5)
     yield idle(0.3)
     Panel(client).click("LiveUpdate")

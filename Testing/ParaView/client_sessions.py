@@ -35,6 +35,9 @@ def use_menu(client):
     """Creates the filter from the menu and applies it with its defaults."""
     where = client.find_actions("Delaunay Flip")
     expect({"Alphabetical", "Delaunay Flip"} <= set(where), f"menu entries: {list(where)}")
+    for text in ("Delaunay Flip", "Delaunay From Points", "Delaunay Flip Statistics"):
+        icon = client.find_actions(text)["Delaunay Flip"].icon()
+        expect(not icon.pixmap(32, 32).isNull(), f"{text} has no icon")
     client.choose("Delaunay Flip", "Delaunay Flip")
     yield lambda: simple.GetActiveSource().GetXMLName() == "DelaunayFlip"
     client.apply()
@@ -64,7 +67,34 @@ def look_at_panel(client, panel):
     expect(flip_colors.ApplyPreset("Smallest angle", False), "no preset")
     expect((flip_colors.RGBPoints[0], flip_colors.RGBPoints[-4]) == (0, 60), flip_colors.RGBPoints)
     yield from choose_preset(client)
+    expect_plain_legend()
     client.save_picture("applied.png")
+
+
+def expect_edges(flip, representation):
+    """How a mesh is shown at first. Edges are grey; ParaView's are blue, as good triangles are."""
+    display = simple.GetDisplayProperties(flip)
+    expect(display.Representation == representation, display.Representation)
+    red, green, blue = display.EdgeColor
+    expect(red == green == blue < 0.5, display.EdgeColor)
+
+
+def look_at_large_mesh(client):
+    """Edges would cover a mesh of many triangles."""
+    grid = simple.Triangulate(Input=simple.Plane(XResolution=120, YResolution=90))
+    flip = yield from start_filter(client, grid)
+    client.apply()
+    yield has_converged(flip)
+    expect_edges(flip, "Surface")
+
+
+def expect_plain_legend():
+    """The ends of the legend are 0 and 60, not 0.0e+00 and 6.0e+01."""
+    colors = simple.GetColorTransferFunction("Smallest angle after (degrees)")
+    legend = simple.GetScalarBar(colors, simple.GetActiveView())
+    expect(legend.RangeLabelFormat in ("%g", "{:g}"), legend.RangeLabelFormat)
+    other = simple.GetScalarBar(simple.GetColorTransferFunction("Side"), simple.GetActiveView())
+    expect("e" in other.RangeLabelFormat, other.RangeLabelFormat)
 
 
 def choose_preset(client):
@@ -117,11 +147,11 @@ def use_filter(client):
     yield idle(0.2)
     yield from use_menu(client)
     flip = simple.GetActiveSource()
-    shown = simple.GetDisplayProperties(flip).Representation
-    expect(shown == "Surface With Edges", shown)
+    expect_edges(flip, "Surface With Edges")
     panel = Panel(client)
     yield from look_at_panel(client, panel)
     yield from watch_live(client, panel, flip)
+    yield from look_at_large_mesh(client)
 
 
 def read_results(panel, flip):
@@ -130,7 +160,8 @@ def read_results(panel, flip):
     lines = [line.split(": ", 1) for line in flip.Summary.splitlines()]
     expect([title for title, _ in lines if title == "flips"], flip.Summary)
     for title, text in [*lines, ("where", flip.BackendUsed)]:
-        expect(title in shown and html.escape(text, quote=False) in shown, f"{title}: {shown}")
+        text = html.escape(text, quote=False).replace("-&gt;", "&rarr;")
+        expect(title in shown and text in shown, f"{title}: {shown}")
     for widget in panel.find_all("Summary"):
         expect(not isinstance(widget, (QtWidgets.QLineEdit, QtWidgets.QTextEdit)), "it can be edited")
     expect(any(label.text().endswith("<b>Last Update</b></html>")
@@ -201,6 +232,20 @@ def choose_constraints(client, panel, flip):
     yield lambda: choices.currentText() == "(none)"
 
 
+def choose_regions(client, panel, flip):
+    """Region Array says None where none is chosen, and can be set back to it."""
+    choices = panel.find("RegionArray", QtWidgets.QComboBox)
+    texts = [choices.itemText(i) for i in range(choices.count())]
+    expect(texts == ["None", "Side"] and choices.currentText() == "None", texts)
+    edge = {15, 29}  # between two regions
+    for text, name, triangles in (("Side", "Side", 2), ("None", "", 0)):
+        panel.choose("RegionArray", text)
+        client.apply()
+        yield lambda: count_edges(flip, edge) == triangles
+        yield idle(0.3)
+        expect((flip.RegionArray, choices.currentText()) == (name, text), flip.RegionArray)
+
+
 def omit_loops(panel, flip):
     """The list of constraints omits sources downstream of the filter, which would make a loop."""
     simple.SetActiveSource(flip)
@@ -242,6 +287,7 @@ def use_panel(client):
     read_results(panel, flip)
     look_at_color_by(flip)
     yield from choose_constraints(client, panel, flip)
+    yield from choose_regions(client, panel, flip)
     yield from omit_loops(panel, flip)
     yield from use_buttons(client, panel, flip)
     read_results(panel, flip)
@@ -252,25 +298,39 @@ def use_panel(client):
     read_results(panel, flip)
 
 
-def read_view(view):
+def find_texts(view):
     """All texts that the render view shows."""
     props = view.SMProxy.GetClientSideObject().GetNonCompositedRenderer().GetViewProps()
     shown = [props.GetItemAsObject(i) for i in range(props.GetNumberOfItems())]
-    return "\n".join(prop.GetText() for prop in shown
-                     if prop.IsA("vtkTextRepresentation") and prop.GetVisibility())
+    return [prop for prop in shown if prop.IsA("vtkTextRepresentation") and prop.GetVisibility()]
+
+
+def read_view(view):
+    return "\n".join(prop.GetText() for prop in find_texts(view))
+
+
+def expect_room(view):
+    """No text is clipped."""
+    renderer = view.SMProxy.GetClientSideObject().GetNonCompositedRenderer()
+    for prop in find_texts(view):
+        size = [0.0, 0.0]
+        prop.GetTextActor().GetSize(renderer, size)
+        room = renderer.GetSize()
+        expect(0 < size[0] < room[0] and 0 < size[1] < room[1], f"{size} in {room}")
 
 
 def expect_text(flip):
     """The text in all views agrees with the panel."""
-    for text in map(read_view, simple.GetViews()):
+    for view in simple.GetViews():
+        text = read_view(view)
         expect(text.split() == flip.Summary.split(), f"{text}\ninstead of\n{flip.Summary}")
-        expect(all(len(line) <= 70 for line in text.splitlines()), text)
+        expect_room(view)
 
 
 def use_statistics(client):
     """Delaunay Flip Statistics: a text in the render view, which follows a live run, also in another
     view and after other filters; and how a state restores it."""
-    client.window.resize(1500, 800)
+    client.window.resize(1300, 800)
     mesh = read_mesh("long.vtp")
     flip = yield from start_filter(client, mesh)
     client.apply()
@@ -308,12 +368,16 @@ def use_statistics(client):
     nothing = "no statistics: no triangles, or not a mesh of Delaunay Flip"
     expect(read_view(view) == nothing, read_view(view))
     simple.GetDisplayProperties(statistics).Justification = "Right"
+    simple.GetDisplayProperties(flip).Representation = "Surface"
     simple.SaveState(os.path.join(FOLDER, "state.pvsm"))
     simple.ResetSession()
     simple.LoadState(os.path.join(FOLDER, "state.pvsm"))
     statistics = simple.FindSource("DelaunayFlipStatistics1")
     restored = simple.GetDisplayProperties(statistics, simple.GetViews()[0]).Justification
     expect(restored == "Right", restored)
+    flip = simple.FindSource("DelaunayFlip1")
+    restored = simple.GetDisplayProperties(flip, simple.GetViews()[0]).Representation
+    expect(restored == "Surface", restored)
 
 
 def use_points(client):
@@ -327,6 +391,12 @@ def use_points(client):
     panel.write("Alpha", "0.03")
     client.apply()
     yield lambda: points.GetDataInformation().GetNumberOfCells() < 1900
+    yield from start_filter(client, points, "Delaunay Flip Statistics")
+    client.apply()
+    yield idle(0.5)
+    expect_text(points)
+    text = read_view(simple.GetActiveView())
+    expect("removed: 0 triangles outside" in text and "bad edges" not in text, text)
     client.save_picture("points.png")
 
 
