@@ -4,7 +4,9 @@
 meshes are those of the command, which is built with another VTK."""
 
 import os
+import re
 import subprocess
+import textwrap
 import unittest
 
 from paraview import simple
@@ -13,6 +15,7 @@ from PluginTesting import (
     PluginTest, fetch, get_edges, get_triangles, main, make_fan, make_line,
     refresh)
 
+HERE = os.path.dirname(os.path.abspath(__file__))
 COMMAND = os.environ["DELAUNAYFLIP_COMMAND"]
 COLUMNS = ["Iteration", "Tested", "NonDelaunay", "Flipped", "Excluded", "Blocked",
            "MinimumAngle", "Seconds"]
@@ -95,6 +98,18 @@ class Outputs(PluginTest):
             arrays = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
             for name in ("Converged", "StopReason", "TotalFlips", "NonDelaunayEdges", "Backend"):
                 self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:" + name), name)
+
+
+class WithoutPlugin(PluginTest):
+    def test_programmable_filter(self):
+        """The script in the documentation."""
+        with open(os.path.join(HERE, "..", "..", "Documentation", "start", "paraview.md"),
+                  encoding="utf-8") as page:
+            script = re.search(r"Its \*Script\*:\n\n((    .*\n|\n)+)", page.read()).group(1)
+        flip = simple.ProgrammableFilter(
+            Input=self.read(make_fan(20)), Script=textwrap.dedent(script))
+        self.assertEqual(get_triangles(fetch(flip)),
+                         get_triangles(fetch(self.flip(self.read(make_fan(20))))))
 
 
 @unittest.skipUnless(os.path.exists(COMMAND), f"skipped: no command {COMMAND}")
