@@ -165,7 +165,8 @@ def _list_set_flags(mesh):
             continue
         flags = [numpy.zeros(len(block), dtype=bool) for block in mesh.cells]
         for one, ids in zip(flags, members):
-            one[numpy.asarray([] if ids is None else ids, dtype=int)] = True
+            chosen = numpy.asarray([] if ids is None else ids)
+            one[chosen if chosen.dtype == bool else chosen.astype(int)] = True
         yield flags
 
 

@@ -109,7 +109,7 @@ def triangulate(
             edges of the mesh. Its polygons, and lines that end where they begin, are rings of the
             outline. Its points are added, with their data, where they are new.
         outline, holes: As for delaunayflip.triangulate; or a PolyData, whose polygons and lines are
-            rings.
+            rings. Each line must end where it begins; `strip()` of a PolyData joins its parts.
         hole_seeds, ring_rule: As for delaunayflip.triangulate.
         lines_as_segments: Whether the lines of `cloud` become edges, too.
         closed_lines_as_rings: If False, closed lines of the segments are only edges, such as contours.
@@ -252,6 +252,9 @@ def _list_rings(name, given):
     """The polygons and lines of a mesh as rings of coordinates; what is no mesh as it is."""
     if not hasattr(given, "GetPolys"):
         return given
+    if given.GetNumberOfPoints() and not given.GetNumberOfLines() + given.GetNumberOfPolys():
+        raise ValueError(f"{name} must have polygons or closed lines, which are its rings; it has "
+                         f"{given.GetNumberOfPoints()} points and no such cells")
     surface = vtk_of(given).read(given)
     rings = []
     for kind in ("Lines", "Polys"):
@@ -260,7 +263,8 @@ def _list_rings(name, given):
         for number, (start, end) in enumerate(zip(cells.offsets[:-1], cells.offsets[1:])):
             ring = surface.points[cells.corners[start:end]]
             if kind == "Lines" and len(ring) and not numpy.array_equal(ring[0], ring[-1]):
-                raise ValueError(f"{name}: line {number} does not end where it begins, so it is no ring")
+                raise ValueError(f"{name}: line {number} does not end where it begins, so it is no ring; "
+                                 "mesh.strip() joins lines that follow each other")
             rings.append(ring)
     return rings
 

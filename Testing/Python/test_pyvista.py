@@ -100,6 +100,7 @@ class MeshIO(unittest.TestCase):
                 (one, labels, {}, None, LONG), (one, bare, {}, None, SHORT),
                 (one, bare, {}, "mine", LONG), (one, labels, sets, "medit:ref", SHORT),
                 (one, {}, sets, None, LONG), (one, {}, sets, 0, SHORT),
+                (one, {}, {"flags": [numpy.array([False, True])]}, None, LONG),
                 (one, {}, {"all": [[0, 1]], "none": [None]}, None, SHORT)):
             with self.subTest(data=data, sets=cell_sets, regions=regions):
                 mesh = meshio.Mesh(KITE, cells, cell_data=data, cell_sets=cell_sets)
@@ -241,8 +242,10 @@ class PyVista(unittest.TestCase):
         self.assertEqual((made.n_points, made.point_data.keys()), (204, []))
         with self.assertWarnsRegex(UserWarning, r"1 ring without an area, left out \(first: ring 1 of holes"):
             self.assertEqual(measure(outline=outer, holes=[lake, [[2, 2], [3, 3]]]), 64)
-        with self.assertRaisesRegex(ValueError, "outline: line 0 does not end where it begins"):
+        with self.assertRaisesRegex(ValueError, r"outline: line 0 does not end where it begins.*strip\(\)"):
             measure(outline=self.pyvista.Line())
+        with self.assertRaisesRegex(ValueError, "holes must have polygons or closed lines"):
+            measure(holes=self.pyvista.PolyData(outer))
         with self.assertRaisesRegex(TypeError, "outline must be .* not str"):
             measure(outline="even-odd")
         with self.assertRaisesRegex(TypeError, "segments must be a pyvista.PolyData, not UniformGrid|ImageData"):
