@@ -77,8 +77,8 @@ std::string InSingular(const std::string& what)
     { "constraint edges that cannot be inserted because they cross ",
       "constraint edge that cannot be inserted because it crosses " },
     { "constraint edges ", "constraint edge " },
-    { "segments that cross an earlier one or end ",
-      "segment that crosses an earlier one or ends " },
+    { "segments that cross ", "segment that crosses " },
+    { "segments that end ", "segment that ends " },
     { "segments ", "segment " },
     { "hole seeds ", "hole seed " },
     { "rings ", "ring " },
@@ -99,6 +99,38 @@ std::string CountDefect(const Defect& defect)
     (defect.Count == 1 ? InSingular(defect.What) : defect.What);
 }
 
+/// The first ids of a defect, e.g. "3, 8, 11", "3-9, 4-5" or "3-9 crosses segment 12 (points 1 and
+/// 4)".
+std::string ListFirstIds(const Defect& defect)
+{
+  std::string text;
+  const std::size_t width = defect.Ids == DefectIds::PointPairs ? 2 : 1;
+  for (std::size_t i = 0; i + width <= defect.FirstIds.size(); i += width)
+  {
+    text += (text.empty() ? "" : ", ") + std::to_string(defect.FirstIds[i]);
+    if (width == 2)
+    {
+      text += "-" + std::to_string(defect.FirstIds[i + 1]);
+    }
+    if (i / width < defect.Crossed.size())
+    {
+      const bool isSegment = defect.What.rfind("segment", 0) == 0;
+      const char* noun = isSegment ? "segment" : "constraint";
+      text += " " + DescribeCrossed(defect.Crossed[i / width], noun);
+    }
+  }
+  return text;
+}
+
+}
+
+std::string DescribeCrossed(const CrossedEdge& crossed, const std::string& noun)
+{
+  const std::string ends =
+    std::to_string(crossed.Ends[0]) + " and " + std::to_string(crossed.Ends[1]);
+  return crossed.Number < 0
+    ? "crosses the edge of points " + ends
+    : "crosses " + noun + " " + std::to_string(crossed.Number) + " (points " + ends + ")";
 }
 
 std::string DescribeDefects(const std::vector<Defect>& defects)
@@ -107,13 +139,8 @@ std::string DescribeDefects(const std::vector<Defect>& defects)
   for (const Defect& defect : defects)
   {
     text += (text.empty() ? "" : "; ") + CountDefect(defect);
-    const bool isPaired = defect.Ids == DefectIds::PointPairs;
-    for (std::size_t i = 0; i < defect.FirstIds.size(); ++i)
-    {
-      const char* next = isPaired && i % 2 == 1 ? "-" : ", ";
-      text += (i == 0 ? " (first: " : next) + std::to_string(defect.FirstIds[i]);
-    }
-    text += defect.FirstIds.empty() ? "" : ")";
+    const std::string first = ListFirstIds(defect);
+    text += first.empty() ? "" : " (first: " + first + ")";
   }
   return text;
 }

@@ -64,6 +64,17 @@ enum class DefectIds
   Rings ///< The caller's numbers.
 };
 
+/// What a segment or constraint would cross, although it stays.
+struct CrossedEdge
+{
+  /// The number of an earlier segment, or of another constraint, among the caller's; -1: an edge of
+  /// the mesh that stays for another reason.
+  std::int64_t Number = -1;
+  std::int64_t Ends[2] = { -1, -1 }; ///< The points between which it lies.
+};
+
+constexpr std::int64_t MostNamedIds = 3; ///< Of a kind of defect.
+
 /// A kind of defect in the input: how often it occurs, and where first.
 struct Defect
 {
@@ -71,6 +82,7 @@ struct Defect
   std::int64_t Count = 0; ///< How many.
   std::vector<std::int64_t> FirstIds; ///< At most three, ascending; empty if ids would not help.
   DefectIds Ids = DefectIds::Triangles;
+  std::vector<CrossedEdge> Crossed = {}; ///< By pair of ids; empty if the reason is another one.
 };
 
 struct FlipReport
@@ -187,6 +199,10 @@ DELAUNAYFLIP_EXPORT std::string DescribeTolerance(const FlipOptions& options, Ge
 /// The defects as one sentence, e.g. "12 zero-area triangles (first: 3, 8, 11); ..."; empty if
 /// none.
 DELAUNAYFLIP_EXPORT std::string DescribeDefects(const std::vector<Defect>& defects);
+
+/// Why a segment cannot be inserted, e.g. "crosses segment 12 (points 1 and 4)".
+/// @param noun of what has the number.
+std::string DescribeCrossed(const CrossedEdge& crossed, const std::string& noun);
 
 /// What was done, in lines of a title, ": " and a text; "" without triangles.
 DELAUNAYFLIP_EXPORT std::string Summarize(const FlipReport& report);

@@ -113,6 +113,7 @@ struct ConstraintPath
   VertexId From, To;
   std::int64_t Flips = 0;
   TriangleId Bar = NoTriangle; ///< Where the path IsBarred.
+  HalfEdgeId Crossed = NoHalfEdge; ///< The edge if it CrossesFixedEdge.
 
   /// A part of the path from a vertex to the next one on it.
   struct Segment
@@ -313,6 +314,7 @@ private:
     {
       if (this->Mesh.IsFixed(crossed))
       {
+        this->Crossed = crossed;
         const bool isRim = this->Mesh.Edges.CornerOfHalfEdge[crossed ^ 1u] == NoCorner;
         return this->Fail(isRim ? PathResult::LeavesMesh : PathResult::CrossesFixedEdge);
       }

@@ -35,6 +35,7 @@ struct SegmentEdge
   bool IsOnLeft; ///< Whether Side is to the left of the segment.
   bool IsOnBoundary; ///< Whether only one side has a triangle.
   bool IsFirst; ///< Whether no segment before has become the same edge.
+  std::uint32_t Segment; ///< The index of its segment.
 };
 
 /// What is left of a triangulation.

@@ -92,19 +92,6 @@ struct CoordinateBox
       format(this->Low[1]) + " to " + format(this->High[1]);
   }
 };
-
-/// Pairs of point ids of the first three segments.
-std::vector<std::int64_t> ListFirstEnds(
-  const PointInput& caller, const std::vector<Segment>& segments)
-{
-  std::vector<std::int64_t> ends;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, segments.size()); ++i)
-  {
-    const std::int64_t* pair = caller.Segments + 2 * segments[i].Number;
-    ends.insert(ends.end(), { pair[0], pair[1] });
-  }
-  return ends;
-}
 }
 
 PointRun::PointRun(const PointInput& input, const PointOptions& options)
@@ -417,24 +404,50 @@ void PointRun::TurnSegments(
   }
 }
 
-/// Says why a segment of a ring is refused.
-void PointRun::FailOnRefused(const Segment& ofRing)
+/// Finds out why segments are refused, and what those cross that messages name.
+/// @throws InvalidMesh if one is of a ring.
+void PointRun::ExplainRefused(LoadedMesh& mesh)
 {
-  const std::int64_t* pair = this->Caller.Segments + 2 * ofRing.Number;
-  const std::string where = "the segment of ring " + std::to_string(ofRing.Ring) + " from point " +
-    std::to_string(pair[0]) + " to point " + std::to_string(pair[1]);
-  std::string why =
-    " crosses an earlier segment: with SplitCrossings both get a point where they cross";
-  if (this->Options.SplitCrossings)
-  {
-    why = " crosses an earlier segment, even after ten rounds of splitting";
-  }
+  std::sort(this->Refused.begin(), this->Refused.end(),
+    [](const RefusedSegment& a, const RefusedSegment& b) { return a.Index < b.Index; });
+  const bool hasTriangles = mesh.GetInputReport().Triangles > 0;
   const PlaneArray points = this->GetOnHost();
-  if (!IsFinitePoint(points, pair[0]) || !IsFinitePoint(points, pair[1]))
+  std::vector<RefusedSegment*> named;
+  RefusedSegment* ofRing = nullptr;
+  for (RefusedSegment& one : this->Refused)
   {
-    why = " cannot be inserted: a coordinate of an end is NaN or infinite";
+    const bool areFinite =
+      IsFinitePoint(points, one.Refused.From) && IsFinitePoint(points, one.Refused.To);
+    const RefusalKind ofFinite =
+      hasTriangles ? RefusalKind::CrossesEarlier : RefusalKind::NoTriangulation;
+    one.Why = areFinite ? ofFinite : RefusalKind::NotFinite;
+    const bool isFirstOfRing = !ofRing && one.Refused.Ring >= 0;
+    ofRing = isFirstOfRing ? &one : ofRing;
+    if (one.Why == RefusalKind::CrossesEarlier && (isFirstOfRing || SizeOf(named) < MostNamedIds))
+    {
+      named.push_back(&one);
+    }
   }
-  throw InvalidMesh(where + why, ofRing.Number, pair[0]);
+  if (!named.empty())
+  {
+    mesh.ViewOnHost(
+      [&](const PointMeshView& view)
+      {
+        for (RefusedSegment* one : named)
+        {
+          const std::uint32_t crossed = FindCrossed(view, points, this->Edges, *one);
+          const std::int64_t number = this->Segments[crossed].Number;
+          const std::int64_t* ends = this->Caller.Segments + 2 * number;
+          one->Crossed = { number, { ends[0], ends[1] } };
+        }
+      });
+  }
+  if (ofRing)
+  {
+    const std::int64_t number = ofRing->Refused.Number;
+    throw InvalidMesh(DescribeRefusal(*ofRing, this->Caller.Segments, this->Options.SplitCrossings),
+      number, this->Caller.Segments[2 * number]);
+  }
 }
 
 bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
@@ -458,13 +471,9 @@ bool PointRun::Insert(LoadedMesh& mesh, const ProgressObserver& observer)
       isComplete = !observer || observer(static_cast<double>(this->Taken) / all);
       return isComplete;
     });
-  std::sort(this->Refused.begin(), this->Refused.end(),
-    [](const Segment& a, const Segment& b) { return a.Number < b.Number; });
-  const auto ofRing = std::find_if(this->Refused.begin(), this->Refused.end(),
-    [](const Segment& segment) { return segment.Ring >= 0; });
-  if (ofRing != this->Refused.end())
+  if (!this->Refused.empty())
   {
-    this->FailOnRefused(*ofRing);
+    this->ExplainRefused(mesh);
   }
   this->Inserted = isComplete;
   return isComplete;
@@ -476,17 +485,18 @@ void PointRun::Take(const InsertedSegments& made)
   auto side = made.Sides.begin();
   for (const std::int32_t edges : made.NumberOfEdges)
   {
-    const Segment& segment = this->Segments[this->Taken++];
+    const auto index = static_cast<std::uint32_t>(this->Taken++);
+    const Segment& segment = this->Segments[index];
     if (edges == InsertedSegments::Refused)
     {
-      this->Refused.push_back(segment);
+      this->Refused.push_back({ segment, index });
     }
     for (std::int32_t i = 0; i < edges; ++i, ++side)
     {
       const EdgeId edge = EdgeOf(side->Side);
       this->Seen.resize(std::max<std::size_t>(this->Seen.size(), edge + 1));
-      this->Edges.push_back(
-        { side->Side, segment.Ring, side->IsOnLeft != 0, side->IsOnHull != 0, !this->Seen[edge] });
+      this->Edges.push_back({ side->Side, segment.Ring, side->IsOnLeft != 0, side->IsOnHull != 0,
+        !this->Seen[edge], index });
       this->Seen[edge] = true;
     }
   }
@@ -611,15 +621,13 @@ void PointRun::AddTo(FlipReport& report, LoadedMesh& mesh) const
   add("duplicate points skipped", repeated,
     [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
   add("points nearer than the tolerance to one with a lower id", counts.TooNear, isNear);
+  AddDefects(this->Refused, this->Caller.Segments, this->Options.SplitCrossings, report.Defects);
   const bool isMesh = report.Triangles + this->Kept.Outside + this->Kept.Large > 0;
-  for (const Defect& defect :
-    { Defect{ isMesh ? "segments that cross an earlier one or end at a point that is not finite"
-                     : "segments between points without a triangle",
-        counts.RefusedSegments, ListFirstEnds(this->Caller, this->Refused), DefectIds::PointPairs },
-      { "hole seeds outside of all triangles", this->Kept.SeedsOutside, {}, DefectIds::Points },
-      this->FindRingsWithoutArea(),
-      { "points without a triangle: there are fewer than three places, or all are on one line",
-        isMesh ? 0 : report.Points, {}, DefectIds::Points } })
+  for (const Defect& defect : { Defect{ "hole seeds outside of all triangles",
+                                  this->Kept.SeedsOutside, {}, DefectIds::Points },
+         this->FindRingsWithoutArea(),
+         { "points without a triangle: there are fewer than three places, or all are on one line",
+           isMesh ? 0 : report.Points, {}, DefectIds::Points } })
   {
     AddDefect(defect, report.Defects);
   }

@@ -7,6 +7,7 @@
 #include "LoadedMesh.h"
 #include "Outline.h"
 #include "PointTriangulation.h"
+#include "RefusedSegments.h"
 #include "SegmentCrossings.h"
 
 #include <algorithm>
@@ -93,7 +94,7 @@ private:
   void PrepareRings(const LoadedMesh& mesh);
   bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
   void TurnSegments(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
-  [[noreturn]] void FailOnRefused(const Segment& ofRing);
+  void ExplainRefused(LoadedMesh& mesh);
   Defect FindRingsWithoutArea() const;
   void Take(const InsertedSegments& made);
   Defect DescribeLoss() const;
@@ -114,7 +115,7 @@ private:
   std::int64_t Flips = 0; ///< That inserted segments.
   std::vector<SegmentEdge> Edges;
   std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
-  std::vector<Segment> Refused;
+  std::vector<RefusedSegment> Refused;
   KeptTriangles Kept;
   Defect Loss; ///< If none of the points that matter is left.
 };

@@ -43,10 +43,13 @@ void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defec
     Defect defect{ Reasons[i], 0, {}, DefectIds::PointPairs };
     for (const RefusedConstraint& one : refused)
     {
-      constexpr std::int64_t Named = 3;
-      if (one.Why == static_cast<Refusal>(i) && defect.Count++ < Named)
+      if (one.Why == static_cast<Refusal>(i) && defect.Count++ < MostNamedIds)
       {
         defect.FirstIds.insert(defect.FirstIds.end(), std::begin(one.Ends), std::end(one.Ends));
+        if (one.Why == Refusal::CrossesFixedEdge)
+        {
+          defect.Crossed.push_back(one.Crossed);
+        }
       }
     }
     if (defect.Count > 0)
@@ -130,6 +133,13 @@ MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const Thread
 
 namespace
 {
+/// An edge that a constraint has become.
+struct InsertedEdge
+{
+  VertexId From, To;
+  std::int64_t Constraint; ///< Its number.
+};
+
 /// Inserts constraints into any planar mesh, one after the other.
 class Inserter
 {
@@ -166,8 +176,9 @@ public:
   }
 
   /// Makes the constraint between two vertices an edge or a chain of edges, and fixes these.
-  PathResult Insert(VertexId from, VertexId to)
+  PathResult Insert(VertexId from, VertexId to, std::int64_t constraint)
   {
+    this->Crossed = NoHalfEdge;
     if (!this->Mesh.IsFinite(from) || !this->Mesh.IsFinite(to))
     {
       return PathResult::LeavesMesh;
@@ -179,14 +190,23 @@ public:
     }
     ConstraintPath path{ this->Mesh, { this->First.data(), this->Others.data() }, &this->Table,
       from, to };
-    const PathResult result = this->Insert(path);
+    const PathResult result = this->Insert(path, constraint);
     this->Flips += path.Flips;
+    this->Crossed = path.Crossed;
+    this->Crossings += this->HasCrossed() ? 1 : 0;
     return result;
   }
 
-  /// The vertices at the ends of the edges that constraints have become, in the order of insertion
-  /// and from start to end.
-  const std::vector<std::pair<VertexId, VertexId>>& GetEdges() const { return this->Edges; }
+  /// The edges that constraints have become, in the order of insertion and from start to end.
+  const std::vector<InsertedEdge>& GetEdges() const { return this->Edges; }
+  /// Whether the last constraint crosses a fixed edge, and how many have done so.
+  bool HasCrossed() const { return this->Crossed != NoHalfEdge; }
+  std::int64_t GetNumberOfCrossings() const { return this->Crossings; }
+  /// The ends of that edge.
+  std::pair<VertexId, VertexId> GetCrossed() const
+  {
+    return { this->Mesh.GetStart(this->Crossed), this->Mesh.GetEnd(this->Crossed) };
+  }
   std::int64_t GetNumberOfFlips() const { return this->Flips; }
 
 private:
@@ -202,7 +222,7 @@ private:
     this->Others.push_back(std::exchange(this->Others[vertex], added));
   }
 
-  PathResult Insert(ConstraintPath& path)
+  PathResult Insert(ConstraintPath& path, std::int64_t constraint)
   {
     std::vector<ConstraintPath::Segment> segments;
     PathResult result = PathResult::IsBarred;
@@ -229,7 +249,8 @@ private:
     for (const ConstraintPath::Segment& segment : segments)
     {
       this->Mesh.Edges.States[EdgeOf(segment.Side)] = EdgeState::Fixed;
-      this->Edges.emplace_back(this->Mesh.GetStart(segment.Side), this->Mesh.GetEnd(segment.Side));
+      this->Edges.push_back(
+        { this->Mesh.GetStart(segment.Side), this->Mesh.GetEnd(segment.Side), constraint });
     }
     return result;
   }
@@ -278,9 +299,58 @@ private:
   const EdgeTableView Table;
   std::vector<CornerId> First; ///< VertexFans::First. Others is VertexFans::Others.
   std::vector<std::uint32_t> Others;
-  std::vector<std::pair<VertexId, VertexId>> Edges;
+  std::vector<InsertedEdge> Edges;
+  HalfEdgeId Crossed = NoHalfEdge;
+  std::int64_t Crossings = 0;
   std::int64_t Flips = 0;
 };
+
+void AddEnds(const std::vector<InsertedEdge>& edges, const SpatialOrderView& ranks,
+  std::vector<std::int64_t>& ends)
+{
+  for (const InsertedEdge& edge : edges)
+  {
+    ends.insert(ends.end(), { ranks.GetVertex(edge.From), ranks.GetVertex(edge.To) });
+  }
+}
+
+/// The edge that the last constraint crosses, and the first constraint that keeps it, if one does.
+CrossedEdge FindCrossed(
+  const TriangleMesh& mesh, const SpatialOrderView& ranks, const Inserter& flips)
+{
+  const auto [start, end] = flips.GetCrossed();
+  CrossedEdge crossed{ -1, { ranks.GetVertex(start), ranks.GetVertex(end) } };
+  const std::uint64_t key = EdgeKey(start, end);
+  std::int64_t first = mesh.NumberOfConstraintEdges;
+  for (const InsertedEdge& edge : flips.GetEdges())
+  {
+    first = EdgeKey(edge.From, edge.To) == key ? std::min(first, edge.Constraint) : first;
+  }
+  for (std::int64_t i = 0; i < first; ++i)
+  {
+    const std::int64_t* ends = mesh.ConstraintEdges + 2 * i;
+    const bool isThis = mesh.ConstraintsToInsert[i] == 0 &&
+      EdgeKey(ranks.GetRank(ends[0]), ranks.GetRank(ends[1])) == key;
+    first = isThis ? i : first;
+  }
+  if (first < mesh.NumberOfConstraintEdges)
+  {
+    const std::int64_t* ends = mesh.ConstraintEdges + 2 * first;
+    crossed = { first, { ends[0], ends[1] } };
+  }
+  return crossed;
+}
+
+/// Finds what the last of the refused constraints crosses, if a message will name it.
+void NameCrossed(const TriangleMesh& mesh, const SpatialOrderView& ranks, const Inserter& flips,
+  std::vector<RefusedConstraint>& refused)
+{
+  const std::int64_t crossings = flips.GetNumberOfCrossings();
+  if (flips.HasCrossed() && crossings <= MostNamedIds)
+  {
+    refused.back().Crossed = FindCrossed(mesh, ranks, flips);
+  }
+}
 }
 
 namespace
@@ -398,7 +468,7 @@ ConstraintInsertion::ConstraintInsertion(
     const std::int64_t* ends = mesh.ConstraintEdges + 2 * wanted;
     const VertexId from = ranks.GetRank(ends[0]), to = ranks.GetRank(ends[1]);
     const bool isEdge = !missing.IsMissing[wanted] && flips.HasEdge(from, to);
-    const PathResult result = flips.Insert(from, to);
+    const PathResult result = flips.Insert(from, to, wanted);
     if (result != PathResult::Found && isEdge) // at points that are not finite, or coincide
     {
       this->Edges.insert(this->Edges.end(), ends, ends + 2);
@@ -406,12 +476,10 @@ ConstraintInsertion::ConstraintInsertion(
     else
     {
       this->Take(mesh, wanted, result, missing.IsMissing[wanted]);
+      NameCrossed(mesh, ranks, flips, this->Refused);
     }
   }
-  for (const auto& [from, to] : flips.GetEdges())
-  {
-    this->Edges.insert(this->Edges.end(), { ranks.GetVertex(from), ranks.GetVertex(to) });
-  }
+  AddEnds(flips.GetEdges(), ranks, this->Edges);
   this->Flips = flips.GetNumberOfFlips();
   if (this->Flips > 0)
   {

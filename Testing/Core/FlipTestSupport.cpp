@@ -343,11 +343,12 @@ void ExpectSameDefects(const std::vector<Defect>& a, const std::vector<Defect>& 
   ASSERT_EQ(a.size(), b.size()) << DescribeDefects(a) << " and " << DescribeDefects(b);
   for (std::size_t i = 0; i < a.size(); ++i)
   {
-    const auto& [what, count, firstIds, ids] = b[i];
+    const auto& [what, count, firstIds, ids, crossed] = b[i];
     EXPECT_EQ(a[i].What, what);
     EXPECT_EQ(a[i].Count, count) << what;
     EXPECT_EQ(a[i].FirstIds, firstIds) << what;
     EXPECT_EQ(a[i].Ids, ids) << what;
+    EXPECT_EQ(DescribeDefects({ a[i] }), DescribeDefects({ b[i] })) << crossed.size();
   }
 }
 

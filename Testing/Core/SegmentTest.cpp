@@ -48,16 +48,50 @@ Drawing DrawRandom(std::mt19937& random, std::size_t points, std::size_t segment
 }
 
 /// The segments that are refused: those that cross an earlier one that is not.
-Pairs ListRefused(const Drawing& drawing)
+/// @param crossed receives for each the number of the first one that it crosses.
+Pairs ListRefused(const Drawing& drawing, std::vector<std::int64_t>* crossed = nullptr)
 {
-  Pairs taken, refused;
-  for (const auto& segment : drawing.Segments)
+  Pairs refused;
+  std::vector<std::int64_t> taken;
+  for (std::size_t i = 0; i < drawing.Segments.size(); ++i)
   {
-    const bool crosses = std::any_of(taken.begin(), taken.end(),
-      [&](const auto& earlier) { return DoCross(drawing.Points, earlier, segment); });
-    (crosses ? refused : taken).push_back(segment);
+    const auto& segment = drawing.Segments[i];
+    const auto found = std::find_if(taken.begin(), taken.end(),
+      [&](std::int64_t j) { return DoCross(drawing.Points, drawing.Segments[j], segment); });
+    if (found == taken.end())
+    {
+      taken.push_back(static_cast<std::int64_t>(i));
+      continue;
+    }
+    refused.push_back(segment);
+    if (crossed)
+    {
+      crossed->push_back(*found);
+    }
   }
   return refused;
+}
+
+/// The report names the first segments that are refused, and which ones they cross.
+void ExpectNamed(const Drawing& drawing, const FlipReport& report)
+{
+  std::vector<std::int64_t> crossed;
+  const Pairs refused = ListRefused(drawing, &crossed);
+  ASSERT_EQ(static_cast<std::int64_t>(refused.size()), report.FromPoints.RefusedSegments);
+  const auto defect = std::find_if(report.Defects.begin(), report.Defects.end(),
+    [](const Defect& one) { return !one.Crossed.empty(); });
+  ASSERT_EQ(refused.empty(), defect == report.Defects.end());
+  const std::size_t named = std::min<std::size_t>(refused.size(), 3);
+  ASSERT_EQ(named, refused.empty() ? 0 : defect->Crossed.size());
+  for (std::size_t i = 0; i < named; ++i)
+  {
+    const auto& other = drawing.Segments[crossed[i]];
+    EXPECT_EQ(crossed[i], defect->Crossed[i].Number);
+    EXPECT_EQ(other[0], defect->Crossed[i].Ends[0]);
+    EXPECT_EQ(other[1], defect->Crossed[i].Ends[1]);
+    EXPECT_EQ(refused[i][0], defect->FirstIds[2 * i]);
+    EXPECT_EQ(refused[i][1], defect->FirstIds[2 * i + 1]);
+  }
 }
 
 /// The area of triangles, times two. Exact for small integers.
@@ -84,8 +118,7 @@ TEST(Segments, OnSmallGrids)
     if (!result.Triangles.empty())
     {
       ExpectConstrainedDelaunay(drawing.Points, result);
-      ASSERT_EQ(static_cast<std::int64_t>(ListRefused(drawing).size()),
-        result.Report.FromPoints.RefusedSegments);
+      ExpectNamed(drawing, result.Report);
     }
     ASSERT_FALSE(HasFailure()) << "case " << i;
   }
@@ -167,7 +200,7 @@ TEST(Segments, InManyPoints)
   const Triangulation result = Triangulate(drawing);
   ExpectConstrainedDelaunay(drawing.Points, result);
   const Pairs refused = ListRefused(drawing);
-  EXPECT_EQ(static_cast<std::int64_t>(refused.size()), result.Report.FromPoints.RefusedSegments);
+  ExpectNamed(drawing, result.Report);
 
   // No four points lie on a circle, so CGAL's mesh must be the same.
   std::vector<std::int64_t> taken;
@@ -189,8 +222,10 @@ TEST(Segments, NameWhatIsWrong)
   const FlipReport report = Triangulate(drawing).Report;
   EXPECT_EQ(2, report.FromPoints.RefusedSegments);
   EXPECT_EQ(1, report.FromPoints.SegmentEdges);
-  EXPECT_EQ("1 point with NaN or infinite coordinates (first: 4); 2 segments that cross an earlier "
-            "one or end at a point that is not finite (first: 3-1, 0-4)",
+  EXPECT_EQ(
+    "1 point with NaN or infinite coordinates (first: 4); 1 segment that crosses an earlier "
+    "one: with SplitCrossings both get a point where they cross (first: 3-1 crosses segment "
+    "0 (points 0 and 2)); 1 segment that ends at a point that is not finite (first: 0-4)",
     DescribeDefects(report.Defects));
   Drawing line;
   line.Points = { { 0, 0 }, { 1, 1 }, { 2, 2 } };
@@ -393,8 +428,8 @@ TEST(Outline, ReportsBrokenRings)
   drawing = Drawing();
   drawing.AddRing(Square(0, 0, 4));
   drawing.AddRing(Square(2, 2, 4));
-  EXPECT_EQ("the segment of ring 1 from point 4 to point 5 crosses an earlier segment: with "
-            "SplitCrossings both get a point where they cross",
+  EXPECT_EQ("the segment of ring 1 from point 4 to point 5 crosses segment 1 (points 1 and "
+            "2): with SplitCrossings both get a point where they cross",
     GetMessage<InvalidMesh>([&] { Triangulate(drawing); }));
   drawing.Points[5][1] = NAN;
   EXPECT_EQ(

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RefusedSegments.h"
+
+#include "ExactPredicates.h"
+
+#include <algorithm>
+
+namespace delaunayflip
+{
+
+namespace
+{
+PlanePoint GetPlace(const PlaneArray& points, std::int64_t id)
+{
+  return { points.Get(id, 0), points.Get(id, 1), 0.0 };
+}
+
+/// Whether the points c and d lie on different sides of the line through a and b.
+bool AreApart(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  return FindOrientation(a, b, c) * FindOrientation(a, b, d) < 0;
+}
+
+/// What helps where segments cross.
+const char* GetRemedy(bool wereSplit)
+{
+  return wereSplit ? ", even after ten rounds of splitting"
+                   : ": with SplitCrossings both get a point where they cross";
+}
+}
+
+std::uint32_t FindCrossed(const PointMeshView& mesh, const PlaneArray& points,
+  const std::vector<SegmentEdge>& edges, const RefusedSegment& refused)
+{
+  const PlanePoint from = GetPlace(points, refused.Refused.From);
+  const PlanePoint to = GetPlace(points, refused.Refused.To);
+  const auto found = std::find_if(edges.begin(), edges.end(),
+    [&](const SegmentEdge& edge)
+    {
+      const PlanePoint start = GetPlace(points, mesh.Ids[mesh.GetStart(edge.Side)]);
+      const PlanePoint end = GetPlace(points, mesh.Ids[mesh.GetEnd(edge.Side)]);
+      return AreApart(from, to, start, end) && AreApart(start, end, from, to);
+    });
+  return found == edges.end() ? refused.Index : found->Segment;
+}
+
+void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* ends,
+  bool wereSplit, std::vector<Defect>& defects)
+{
+  const std::string reasons[] = {
+    std::string("segments that cross an earlier one") + GetRemedy(wereSplit),
+    "segments that end at a point that is not finite", "segments between points without a triangle"
+  };
+  for (const RefusalKind why :
+    { RefusalKind::CrossesEarlier, RefusalKind::NotFinite, RefusalKind::NoTriangulation })
+  {
+    Defect defect{ reasons[static_cast<int>(why)], 0, {}, DefectIds::PointPairs };
+    for (const RefusedSegment& one : refused)
+    {
+      if (one.Why == why && defect.Count++ < MostNamedIds)
+      {
+        const std::int64_t* pair = ends + 2 * one.Refused.Number;
+        defect.FirstIds.insert(defect.FirstIds.end(), pair, pair + 2);
+        defect.Crossed.push_back(one.Crossed);
+      }
+    }
+    if (why != RefusalKind::CrossesEarlier)
+    {
+      defect.Crossed.clear();
+    }
+    AddDefect(defect, defects);
+  }
+}
+
+std::string DescribeRefusal(const RefusedSegment& ofRing, const std::int64_t* ends, bool wereSplit)
+{
+  const std::int64_t* pair = ends + 2 * ofRing.Refused.Number;
+  const std::string which = "the segment of ring " + std::to_string(ofRing.Refused.Ring) +
+    " from point " + std::to_string(pair[0]) + " to point " + std::to_string(pair[1]);
+  switch (ofRing.Why)
+  {
+    case RefusalKind::CrossesEarlier:
+      return which + " " + DescribeCrossed(ofRing.Crossed, "segment") + GetRemedy(wereSplit);
+    case RefusalKind::NotFinite:
+      return which + " cannot be inserted: a coordinate of an end is NaN or infinite";
+    case RefusalKind::NoTriangulation:
+      break;
+  }
+  return which + " cannot be inserted: there are no triangles";
+}
+
+}

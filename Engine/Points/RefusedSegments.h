@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_REFUSEDSEGMENTS_H
+#define DELAUNAYFLIP_REFUSEDSEGMENTS_H
+
+#include "FlipReport.h"
+#include "Outline.h"
+#include "SegmentCrossings.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Why a segment is not inserted.
+enum class RefusalKind : char
+{
+  CrossesEarlier, ///< It crosses a segment that was inserted before it.
+  NotFinite, ///< A coordinate of an end is NaN or infinite.
+  NoTriangulation ///< There are fewer than three places, or all are on one line.
+};
+
+struct RefusedSegment
+{
+  Segment Refused;
+  std::uint32_t Index; ///< Among the prepared segments.
+  RefusalKind Why = RefusalKind::CrossesEarlier;
+  /// Only of those that a message names. A segment that a segment crosses is the first one by its
+  /// number, so it does not depend on the order in which threads or a GPU have inserted them.
+  CrossedEdge Crossed = {};
+};
+
+/// @param edges what segments have become, in the order of the segments.
+/// @returns the first segment before a refused one that crosses it; its index.
+std::uint32_t FindCrossed(const PointMeshView& mesh, const PlaneArray& points,
+  const std::vector<SegmentEdge>& edges, const RefusedSegment& refused);
+
+/// Adds a defect for every reason, which names the first segments.
+/// @param refused by their numbers. @param ends of the caller's segments, pairs of point ids.
+void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* ends,
+  bool wereSplit, std::vector<Defect>& defects);
+
+/// Says why a segment of a ring is refused.
+std::string DescribeRefusal(const RefusedSegment& ofRing, const std::int64_t* ends, bool wereSplit);
+
+}
+
+#endif
