@@ -129,27 +129,33 @@ std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, boo
   return text;
 }
 
+Defect FindShortArrays(
+  vtkDataSetAttributes* data, vtkIdType tuples, const std::string& kind, const std::string& fate)
+{
+  std::vector<std::string> names;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() < tuples)
+    {
+      names.push_back('"' + GetName(array) + '"');
+    }
+  }
+  return { kind + (names.size() == 1 ? " array" : " arrays") + fate + ": " + Join(names, ", "),
+    static_cast<std::int64_t>(names.size()), {} };
+}
+
 std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool cellsPass)
 {
   std::vector<Defect> defects;
-  const auto addShort =
-    [&](const std::string& kind, vtkDataSetAttributes* data, vtkIdType tuples, bool pass)
+  const auto addShort = [&](
+                          const char* kind, vtkDataSetAttributes* data, vtkIdType tuples, bool pass)
   {
-    std::vector<std::string> names;
-    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    const Defect found = FindShortArrays(data, tuples, kind,
+      std::string(" with too few tuples ") + (pass ? "passed unchanged" : "left out"));
+    if (found.Count > 0)
     {
-      vtkAbstractArray* array = data->GetAbstractArray(i);
-      if (array->GetNumberOfTuples() < tuples)
-      {
-        names.push_back('"' + GetName(array) + '"');
-      }
-    }
-    if (!names.empty())
-    {
-      defects.push_back(
-        { kind + (names.size() == 1 ? " array" : " arrays") + " with too few tuples " +
-            (pass ? "passed unchanged" : "left out") + ": " + Join(names, ", "),
-          static_cast<std::int64_t>(names.size()), {} });
+      defects.push_back(found);
     }
   };
   addShort("point", mesh->GetPointData(), mesh->GetNumberOfPoints(), pointsPass);

@@ -6,9 +6,12 @@
 #include "EngineExport.h"
 #include "FlipReport.h"
 
+#include "vtkType.h"
+
 #include <string>
 #include <vector>
 
+class vtkDataSetAttributes;
 class vtkFieldData;
 class vtkPolyData;
 
@@ -55,6 +58,13 @@ struct UpdateSummary
 /// @param hasTolerance whether the user has set one.
 DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
   const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
+
+/// Arrays with fewer tuples than there are points or cells, as a defect, of which there may be
+/// none.
+/// @param kind of the arrays, "point" or "cell". @param fate what is wrong with them, and what
+/// became of them.
+Defect FindShortArrays(
+  vtkDataSetAttributes* data, vtkIdType tuples, const std::string& kind, const std::string& fate);
 
 /// Lists point and cell arrays that have too few tuples, and ghost arrays that are ignored.
 /// @param pointsPass whether such point arrays pass. Otherwise they are left out.

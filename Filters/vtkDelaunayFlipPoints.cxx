@@ -148,6 +148,7 @@ public:
     AddDefect(this->DescribeFlatPoints(), report.Defects);
     const auto malformed = ListMalformedArrays(this->Given, !this->AddsPoints(), true);
     report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
+    AddDefect(this->ShortArrays, report.Defects);
     return report;
   }
 
@@ -297,8 +298,11 @@ private:
     }
     if (added->GetNumberOfIds() > 0)
     {
+      vtkPointData* data = segments->GetPointData();
       AppendPoints(this->Given, segments->GetPoints(), added,
-        TakeWholeArrays(segments->GetPointData(), otherPoints.Count), this->Cloud);
+        TakeWholeArrays(data, otherPoints.Count), this->Cloud);
+      this->ShortArrays = FindShortArrays(
+        data, otherPoints.Count, "point", " of the second input with too few tuples left out");
     }
     return ids;
   }
@@ -426,6 +430,7 @@ private:
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
   std::vector<std::int64_t> Segments; ///< Pairs of ids.
   std::vector<std::int32_t> Rings; ///< One number per segment.
+  Defect ShortArrays; ///< Of the second input.
   std::size_t FirstOther = 0; ///< Of Segments, where those of the second input begin.
   std::vector<std::int64_t> FlatPoints; ///< See FindFlatPoints.
   PointInput Input; ///< Views of these.

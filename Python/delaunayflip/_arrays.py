@@ -11,7 +11,7 @@ import numpy
 
 from . import _library
 from ._library import TYPES, InvalidMesh
-from ._options import show
+from ._options import shorten, show
 
 _KNOWN_TYPES = {numpy.dtype(name): name for name in TYPES}
 _FEWEST_EXPECTED = 1 << 16  # bytes of an array that a session is told of
@@ -201,7 +201,7 @@ def as_array(name, values):
         return numpy.asarray(values)
     except _CONVERSION_ERRORS as error:
         kind = ValueError if isinstance(error, (ValueError, OverflowError)) else TypeError
-        raise kind(f"{name} cannot be made an array: {error}") from error
+        raise kind(f"{name} cannot be made an array: {shorten(str(error))}") from error
 
 
 def _choose_type(array, *kinds):

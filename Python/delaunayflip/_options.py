@@ -64,11 +64,26 @@ class Options(typing.TypedDict, total=False):
 
 _SHORT = reprlib.Repr()
 _SHORT.maxother = _SHORT.maxstring = 60
+_LONGEST = 120  # of a text by another library
 
 
 def show(value):
-    """The value for a message: one line, and only the beginning of what is long."""
-    return " ".join(_SHORT.repr(value).split())
+    """The value for a message, in one line: the beginning of a text, a number or a short list of such;
+    the type of everything else, with its shape if it has one, because it may be a whole dataset."""
+    items = value if isinstance(value, (list, tuple)) and len(value) <= _SHORT.maxlist else [value]
+    if all(item is None or isinstance(item, (str, bytes, numbers.Number, numpy.generic)) for item in items):
+        return " ".join(_SHORT.repr(value).split())
+    shape = getattr(value, "shape", None)
+    if isinstance(shape, tuple):
+        return f"{type(value).__name__} of shape {tuple(shape)}"
+    size = f" of length {len(value)}" if isinstance(value, (list, tuple, dict, set)) else ""
+    return type(value).__name__ + size
+
+
+def shorten(text):
+    """The text in one line, and only its beginning if it is long."""
+    line = " ".join(text.split())
+    return line if len(line) <= _LONGEST else line[:_LONGEST] + "..."
 
 
 CHOICES = {name: typing.get_args(Options.__annotations__[name])

@@ -46,7 +46,9 @@ class Property(
     def convert(self, value):
         """The value that a setter stores."""
         if isinstance(self.default, str):
-            return "" if value is None else str(value)
+            if not isinstance(value, (str, type(None))):  # str(value) may tell all of a dataset
+                raise TypeError(f"{self.name} must be a str or None, not {type(value).__name__}")
+            return value or ""
         if isinstance(self.default, bool):
             return bool(value)
         value = float(value) if isinstance(self.default, float) else operator.index(value)

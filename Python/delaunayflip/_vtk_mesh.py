@@ -375,6 +375,9 @@ class Cloud(Input):
         texts = [report.defects] if report.defects else []
         texts += _describe_short(data.GetPointData(), count, "point",
                                 "left out" if is_grown else "passed unchanged")
+        if len(self._sources):
+            texts += _describe_short(self._others.GetPointData(), self._others.GetNumberOfPoints(),
+                                     "point", "left out", " of the second input")
         return "; ".join(texts)
 
     def _extend_data(self, data, count):
@@ -449,11 +452,11 @@ def _find_ghost_fault(ghosts):
     return "with several components" if ghosts.GetNumberOfComponents() != 1 else ""
 
 
-def _describe_short(data, tuples, kind, fate):
+def _describe_short(data, tuples, kind, fate, where=""):
     names = [array.GetName() or "" for array in _list_arrays(data)
              if array.GetNumberOfTuples() < tuples]
     if not names:
         return []
     listed = join([f'"{name}"' for name in names], ", ")
     word = "array" if len(names) == 1 else "arrays"
-    return [f"{len(names)} {kind} {word} with too few tuples {fate}: {listed}"]
+    return [f"{len(names)} {kind} {word}{where} with too few tuples {fate}: {listed}"]

@@ -143,7 +143,7 @@ def _number_regions(mesh, given, count):
             raise ValueError(f"regions: the mesh has no cell data {given!r}; it has {listed}")
         columns = [_gather(mesh, mesh.cell_data[given])]
     else:
-        return numpy.full(count, given) if numpy.ndim(given) == 0 else given
+        return numpy.full(count, given) if _arrays.as_array("regions", given).ndim == 0 else given
     numbers = numpy.zeros(count, dtype=numpy.int64)
     for column in columns:
         labels = numpy.unique(number_tuples(column) if column.ndim > 1 else column, return_inverse=True)[1]

@@ -22,7 +22,7 @@ import pyvista
 
 from ._library import InvalidOptions
 from ._session import smallest_angles as _angles_of_arrays
-from ._options import Array, Numbers, OnIteration, Progress, check_integer, make_options
+from ._options import Array, Numbers, OnIteration, Progress, check_integer, make_options, show
 from ._options import Options as _Options
 from ._points import triangulate as _triangulate_arrays
 from ._rings import RingRule, Rings
@@ -276,7 +276,10 @@ def _open(mesh, constraints, options, progress=None):
         _require_mesh("constraints", constraints)
     flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
              for name in SETTINGS[:-1] if name in options}
-    regions = options.pop("region_array", None) or ""
+    regions = options.pop("region_array", None)
+    regions = "" if regions is None else regions
+    if not isinstance(regions, str):
+        raise TypeError(f"region_array must be the name of a cell array, not {show(regions)}")
     if regions and regions not in mesh.cell_data:
         listed = ", ".join(map(repr, mesh.cell_data)) or "none"
         raise InvalidOptions(

@@ -342,6 +342,22 @@ class Errors(unittest.TestCase):
                 self.assertLess(len(str(caught.exception)), 200)
                 self.assertNotIn("\n", str(caught.exception))
         self.assertEqual(delaunayflip.flip(numpy.ma.array(POINTS), TRIANGLES).report.total_flips, 1)
+
+        class Table:
+            shape = (10**5, 3)
+
+            def __repr__(self):
+                return "Table with 1 2 3 4 5 6 7 8 9\n" * 10**5
+
+            def __array__(self, *_arguments, **_keywords):
+                raise TypeError(f"no array: {self}")
+
+        for name, wanted in (("tolerance", "not Table of shape \\(100000, 3\\)$"),
+                             ("backend", "not Table of shape"), ("points", "no array: Table.{100,}[.]{3}$"),
+                             ("devices", "not Table of shape"), ("progress", "not Table of shape")):
+            with self.assertRaisesRegex((TypeError, ValueError), wanted) as caught:
+                delaunayflip.flip(**{"points": POINTS, "triangles": TRIANGLES, name: Table()})
+            self.assertLess(len(str(caught.exception)), 200)
         with self.assertRaises(delaunayflip.InvalidMesh) as caught:
             delaunayflip.flip(POINTS, numpy.array([[0, 1, 2], [0, 2, 2**64 - 1]], numpy.uint64))
         self.assertEqual((caught.exception.cell, caught.exception.point), (1, 2**64 - 1))

@@ -448,6 +448,17 @@ class SamePoints(Pair, unittest.TestCase):
             self.expect_same(
                 cross, lambda points: (points.LinesAsSegmentsOn(), points.SplitCrossingsOn()))
 
+    def test_arrays_of_the_second_input_that_are_too_short(self):
+        cloud, segments = make_cloud(), make_segments(make_cloud(), float)
+        add_array(segments.GetPointData(), "Short", numpy.arange(3))
+        told = self.expect_same(cloud, lambda points: points.SetSegmentsData(segments))
+        self.assertIn('1 point array of the second input with too few tuples left out: "Short"',
+                      told["warnings"][0])
+        same = make_cloud()  # none of whose points is added
+        add_array(same.GetPointData(), "Short", numpy.arange(3))
+        told = self.expect_same(cloud, lambda points: points.SetSegmentsData(same))
+        self.assertNotIn("too few tuples", told["warnings"][0])
+
     def test_points_of_the_second_input_alone(self):
         segments = make_segments(make_cloud(9), numpy.float32)
         told = self.expect_same(vtkPolyData(), lambda points: points.SetSegmentsData(segments))

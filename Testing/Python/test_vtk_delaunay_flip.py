@@ -457,6 +457,13 @@ class Properties(unittest.TestCase):
                 self.assertEqual({line for line in after if after[line] != before.get(line)}, {name})
 
 
+    def test_names_of_arrays_are_texts(self):
+        for mesh in (vtkPolyData(), numpy.zeros(3)):
+            with self.assertRaises(TypeError) as caught:
+                vtkDelaunayFlip().SetRegionArray(mesh)
+            self.assertLess(len(str(caught.exception)), 100)
+
+
 class FromPoints(unittest.TestCase):
 
     def test_points_and_a_breakline(self):
