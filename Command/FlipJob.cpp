@@ -11,6 +11,7 @@
 #include "InputRepair.h"
 #include "MeshFiles.h"
 #include "OutputFiles.h"
+#include "RoundedDigits.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkBoundingBox.h>
@@ -558,6 +559,13 @@ private:
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
     this->Run.Summary = WithOptions(this->Filter->GetSummary(), this->Settings.MergePoints);
+    const bool mayRound = report.GeometryUsed == GeometryKind::Surface &&
+      report.Tolerance == "automatic" && report.NonDelaunayBefore > 0;
+    if (mayRound)
+    {
+      const std::size_t place = this->Run.Summary.find("geometry: ");
+      this->Run.Summary.insert(place, AdviseTolerance(this->Input));
+    }
     if (report.Triangles == 0)
     {
       report.Points = this->Filter->GetOutput()->GetNumberOfPoints();

@@ -155,6 +155,39 @@ class Summary(CommandTest):
         self.assertIn("hint            100 % of the inner edges have more than two triangles and are kept; flip the "
                       "parts that meet there one by one, and more can flip\n", self.succeed(path, "out.vtk").stdout)
 
+    def test_coordinates_with_few_digits(self):
+        """A hint names a tolerance where they make edges bad, in text or in what was made from it."""
+        def torus(form):
+            """Of trapezoids, whose diagonals are both as good, with coordinates of this form."""
+            rows, columns = 40, 60
+            points, cells = [], []
+            for i in range(rows):
+                for j in range(columns):
+                    a, b = 2 * math.pi * (i + 0.3) / rows, 2 * math.pi * (j + 0.2) / columns
+                    place = ((30 + 10 * math.cos(a)) * math.cos(b), (30 + 10 * math.cos(a)) * math.sin(b),
+                             10 * math.sin(a))
+                    points.append([float(form % x) for x in place])
+                    here, below = i * columns, (i + 1) % rows * columns
+                    next_column = (j + 1) % columns
+                    cells += [(here + j, here + next_column, below + next_column),
+                              (here + j, below + next_column, below + j)]
+            text = "".join(f"v {form} {form} {form}\n" % tuple(point) for point in points)
+            return points, cells, text + "".join("f %d %d %d\n" % tuple(1 + k for k in ids) for ids in cells)
+
+        hint = re.compile(r"^hint +coordinates are rounded to (\d) digits, .*; --tolerance ([\d.e-]+) ", re.M)
+        for form, digits in (("%.6g", 6), ("%.3f", 5), ("%.9g", None), ("%.17g", None)):
+            points, cells, text = torus(form)
+            self.write("in.obj", text)
+            for path in ("in.obj", self.write_mesh(make_mesh(points, cells), "in.vtk")):
+                found = hint.search(self.succeed(path, "out.vtk").stdout)
+                self.assertEqual(found and int(found[1]), digits, (form, path))
+                if found:
+                    before = self.report(path, "out.vtk")["non_delaunay_before"]
+                    after = self.report(path, "out.vtk", "--tolerance", found[2])
+                    self.assertGreater(before, 100)
+                    self.assertLess(after["non_delaunay_before"], before / 10)
+                    self.assertNotIn("hint", self.succeed(path, "out.vtk", "--tolerance", found[2]).stdout)
+
     def test_no_triangles(self):
         path = self.write_mesh(make_mesh([(0, 0, 0)], []), "in.vtk")
         text = self.succeed(path, "out.vtk").stdout
