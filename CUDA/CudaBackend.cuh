@@ -26,15 +26,15 @@
 namespace delaunayflip
 {
 
-/// The order in which the parts of an array are copied. Every GPU in turn copies a part of its
-/// share of a slice, so that all of them copy at the same time.
-/// @returns the part of a turn, or -1 if there is none.
+/// The order in which the parts of an array are copied. One GPU after the other copies a part of
+/// its share of a slice, so that all of them copy at the same time.
+/// @returns the part that is copied as number i, or -1 if there is none.
 inline std::int64_t FindPart(
-  std::int64_t turn, std::int64_t parts, std::int64_t partsPerSlice, std::int64_t devices)
+  std::int64_t i, std::int64_t parts, std::int64_t partsPerSlice, std::int64_t devices)
 {
   const std::int64_t share = (partsPerSlice + devices - 1) / devices;
-  const std::int64_t slice = turn / (share * devices);
-  const std::int64_t inSlice = turn % (share * devices);
+  const std::int64_t slice = i / (share * devices);
+  const std::int64_t inSlice = i % (share * devices);
   const std::int64_t place = inSlice % devices * share + inSlice / devices;
   const std::int64_t part = slice * partsPerSlice + place;
   return place < partsPerSlice && part < parts ? part : -1;
@@ -111,7 +111,8 @@ __global__ void __launch_bounds__(ThreadsPerBlock)
   using Reduce = cub::BlockReduce<int, ThreadsPerBlock>;
   __shared__ typename Reduce::TempStorage storage;
   const std::int64_t i = items.GetFirst();
-  const int total = Reduce(storage).Sum(i < items.Last ? static_cast<int>(count(i)) : 0);
+  const int own = i < items.Last ? static_cast<int>(count(i)) : 0;
+  const int total = Reduce(storage).Sum(own);
   if (threadIdx.x == 0)
   {
     countOfTile[items.GetTile()] = total;
@@ -126,8 +127,9 @@ __global__ void __launch_bounds__(ThreadsPerBlock) ForEachNumberedKernel(
   using Scan = cub::BlockScan<int, ThreadsPerBlock>;
   __shared__ typename Scan::TempStorage storage;
   const std::int64_t i = items.GetFirst();
+  const int own = i < items.Last ? static_cast<int>(count(i)) : 0;
   int before = 0;
-  Scan(storage).ExclusiveSum(i < items.Last ? static_cast<int>(count(i)) : 0, before);
+  Scan(storage).ExclusiveSum(own, before);
   if (i < items.Last)
   {
     visit(i, firstOfTile[items.GetTile()] + before);
@@ -367,9 +369,15 @@ public:
         return id == static_cast<std::int32_t>(id) ? static_cast<std::int32_t>(id) : -1;
       });
     local.Mesh.Triangles = TriangleArray(local.Triangles.Data(), triangles.Count);
-    local.Mesh.Points = points.Floats
-      ? PointArray(this->Bring(points.Floats, 3 * points.Count, local.Floats), points.Count)
-      : PointArray(this->Bring(points.Doubles, 3 * points.Count, local.Doubles), points.Count);
+    const std::int64_t numbers = 3 * points.Count;
+    if (points.Floats)
+    {
+      local.Mesh.Points = { this->Bring(points.Floats, numbers, local.Floats), points.Count };
+    }
+    else
+    {
+      local.Mesh.Points = { this->Bring(points.Doubles, numbers, local.Doubles), points.Count };
+    }
     return local;
   }
 
@@ -381,9 +389,14 @@ public:
     this->WaitFor(mesh.Stream);
     local.IsOnHost = false;
     local.Mesh.Triangles = mesh.Triangles;
-    local.Mesh.Points = points.Floats
-      ? PointArray(this->WithZ(points.Floats, points, local.Floats), points.Count)
-      : PointArray(this->WithZ(points.Doubles, points, local.Doubles), points.Count);
+    if (points.Floats)
+    {
+      local.Mesh.Points = { this->WithZ(points.Floats, points, local.Floats), points.Count };
+    }
+    else
+    {
+      local.Mesh.Points = { this->WithZ(points.Doubles, points, local.Doubles), points.Count };
+    }
     return local;
   }
 
@@ -393,8 +406,12 @@ public:
   {
     const auto fill = [&](const OutputSlice& ids)
     {
-      const std::int64_t first = areInOrder ? ids.First / 3 : 0;
-      const std::int64_t last = areInOrder ? (ids.Last + 2) / 3 : triangles.Count;
+      std::int64_t first = 0, last = triangles.Count;
+      if (areInOrder)
+      {
+        first = ids.First / 3;
+        last = (ids.Last + 2) / 3;
+      }
       this->ForEach(
         last - first, [=] __device__(std::int64_t i) { store(first + i, IdSlice{ ids }); });
     };
@@ -404,7 +421,14 @@ public:
         [ids](std::int64_t i, std::uint32_t id)
         { ids[i] = static_cast<std::remove_pointer_t<decltype(ids)>>(id); });
     };
-    triangles.Ids32 ? download(triangles.Ids32) : download(triangles.Ids64);
+    if (triangles.Ids32)
+    {
+      download(triangles.Ids32);
+    }
+    else
+    {
+      download(triangles.Ids64);
+    }
   }
 
   template <typename Store>
@@ -450,47 +474,54 @@ public:
 
   int CountDevices() const { return static_cast<int>(this->Context->Devices.size()); }
 
-  /// Calls launch(stream, part), which launches a kernel, on each of the first `parts` GPUs.
-  template <typename LaunchPart>
-  void LaunchOnEach(int parts, const LaunchPart& launch) const
+  /// Calls launch(stream, device), which launches a kernel, on each of the first `devices` GPUs.
+  template <typename LaunchShare>
+  void LaunchOnEach(int devices, const LaunchShare& launch) const
   {
-    if (parts > 1)
+    if (devices > 1)
     {
       this->Context->Fork();
     }
     Launch(this->GetStream(), [&](cudaStream_t stream) { launch(stream, 0); });
-    for (int part = 1; part < parts; ++part)
+    for (int device = 1; device < devices; ++device)
     {
-      const DeviceStreams& other = this->Context->Others[part - 1];
+      const DeviceStreams& other = this->Context->Others[device - 1];
       const CurrentDevice current(other.Device);
-      Launch(other.Stream, [&](cudaStream_t stream) { launch(stream, part); });
+      Launch(other.Stream, [&](cudaStream_t stream) { launch(stream, device); });
     }
-    if (parts > 1)
+    if (devices > 1)
     {
       this->Context->Join();
     }
   }
 
-  /// Calls launch(stream, items, part), which launches a kernel, for the items of every GPU.
+  /// Calls launch(stream, items, device), which launches a kernel, for the items of every GPU.
   template <typename LaunchItems>
   void LaunchShared(std::int64_t size, const LaunchItems& launch) const
   {
     // Fewer are done by one GPU before another would begin.
     constexpr std::int64_t SmallestShared = std::int64_t(1) << 18;
-    const int parts = size < SmallestShared ? 1 : this->CountDevices();
+    const int devices = size < SmallestShared ? 1 : this->CountDevices();
     if (size > 0)
     {
-      this->LaunchOnEach(parts,
-        [&](cudaStream_t stream, int part) {
-          launch(stream, { FirstOf(part, parts, size), FirstOf(part + 1, parts, size) }, part);
+      this->LaunchOnEach(devices,
+        [&](cudaStream_t stream, int device)
+        {
+          const ItemRange items{ FirstOf(device, devices, size),
+            FirstOf(device + 1, devices, size) };
+          launch(stream, items, device);
         });
     }
   }
 
-  /// The first item of a part; they are as large as the parts of an array (SharedMemory).
-  static std::int64_t FirstOf(int part, int parts, std::int64_t size)
+  /// The first item of a GPU. It has as many items as elements of a shared array (SharedMemory).
+  static std::int64_t FirstOf(int device, int devices, std::int64_t size)
   {
-    return part == parts ? size : size * part / parts / ThreadsPerBlock * ThreadsPerBlock;
+    if (device == devices)
+    {
+      return size;
+    }
+    return size * device / devices / ThreadsPerBlock * ThreadsPerBlock;
   }
 
   /// The caller's points with three coordinates each: as they are, or copied to `wide`. Public
@@ -568,14 +599,14 @@ private:
     constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(T);
     const std::int64_t parts = (size + Step - 1) / Step;
     const std::int64_t devices = this->CountDevices();
-    const std::int64_t turns = (parts + devices - 1) / devices * devices;
+    const std::int64_t copies = (parts + devices - 1) / devices * devices;
     this->Context->Fork();
-    for (std::int64_t turn = 0; turn < turns; ++turn)
+    for (std::int64_t copy = 0; copy < copies; ++copy)
     {
-      const std::int64_t begin = FindPart(turn, parts, parts, devices) * Step;
+      const std::int64_t begin = FindPart(copy, parts, parts, devices) * Step;
       if (begin >= 0)
       {
-        const StagingBuffer& buffer = this->Context->GetBuffer(turn);
+        const StagingBuffer& buffer = this->Context->GetBuffer(copy);
         const std::int64_t count = std::min(Step, size - begin);
         auto* values = static_cast<T*>(buffer.Memory.Get());
         WaitForCopy(buffer);
@@ -596,40 +627,50 @@ private:
     using Value = std::uint32_t;
     constexpr std::int64_t LargestStep = CudaContext::StagingBytes / sizeof(Value);
     constexpr std::int64_t SmallestStep = LargestStep / 16;
-    const std::int64_t steps = areInOrder ? 16 : 4; // about
-    const std::int64_t most = areInOrder ? std::numeric_limits<std::int64_t>::max() : 8; // slices
+    std::int64_t steps = 4; // about
+    std::int64_t mostSlices = 8;
+    if (areInOrder)
+    {
+      steps = 16;
+      mostSlices = std::numeric_limits<std::int64_t>::max();
+    }
     const std::int64_t step = std::clamp(size / steps + 1, SmallestStep, LargestStep);
     const std::int64_t parts = (size + step - 1) / step;
-    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts - 1) / most + 1);
+    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts - 1) / mostSlices + 1);
     const std::int64_t sliceSize = partsPerSlice * step;
     Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
     const std::int64_t ahead = this->Context->CountBuffers() - 1; // copied while one is converted
     const std::int64_t devices = this->CountDevices();
-    const std::int64_t turnsPerSlice = (partsPerSlice + devices - 1) / devices * devices;
-    const std::int64_t turns = (parts + partsPerSlice - 1) / partsPerSlice * turnsPerSlice;
-    const auto find = [&](std::int64_t turn)
-    { return turn >= 0 && turn < turns ? FindPart(turn, parts, partsPerSlice, devices) : -1; };
-    for (std::int64_t turn = 0; turn < turns + ahead; ++turn)
+    const std::int64_t copiesPerSlice = (partsPerSlice + devices - 1) / devices * devices;
+    const std::int64_t copies = (parts + partsPerSlice - 1) / partsPerSlice * copiesPerSlice;
+    for (std::int64_t i = 0; i < copies + ahead; ++i)
     {
-      const std::int64_t fetched = find(turn);
-      const std::int64_t drained = find(turn - ahead);
-      if (turn < turns && turn % turnsPerSlice == 0)
+      std::int64_t fetched = -1, drained = -1;
+      if (i < copies)
       {
-        const std::int64_t first = turn / turnsPerSlice * sliceSize;
+        fetched = FindPart(i, parts, partsPerSlice, devices);
+      }
+      if (i >= ahead)
+      {
+        drained = FindPart(i - ahead, parts, partsPerSlice, devices);
+      }
+      if (i < copies && i % copiesPerSlice == 0)
+      {
+        const std::int64_t first = i / copiesPerSlice * sliceSize;
         this->Context->Join();
         fill(OutputSlice{ values.Data(), first, std::min(size, first + sliceSize) });
         this->Context->Fork();
       }
       if (fetched >= 0)
       {
-        const StagingBuffer& buffer = this->Context->GetBuffer(turn);
+        const StagingBuffer& buffer = this->Context->GetBuffer(i);
         const std::int64_t begin = fetched * step;
         StartCopy(buffer, buffer.Memory, values.Data() + begin % sliceSize,
           std::min(step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
       }
       if (drained >= 0)
       {
-        const StagingBuffer& buffer = this->Context->GetBuffer(turn - ahead);
+        const StagingBuffer& buffer = this->Context->GetBuffer(i - ahead);
         const auto* staged = static_cast<const Value*>(buffer.Memory.Get());
         const std::int64_t begin = drained * step;
         WaitForCopy(buffer);
@@ -727,7 +768,11 @@ Array<std::uint32_t> CudaBackend::SortIndices(std::int64_t size, const KeyOf& ke
   // One GPU sorts.
   Array<std::uint32_t> order = this->MakeIndices(size);
   this->SortBy<std::uint32_t>(order, size, KeyBits, keyOf);
-  return this->CountDevices() == 1 ? std::move(order) : this->Share(order);
+  if (this->CountDevices() > 1)
+  {
+    return this->Share(order);
+  }
+  return order;
 }
 
 }

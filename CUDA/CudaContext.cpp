@@ -137,8 +137,8 @@ CudaContext::CudaContext(const std::vector<int>& devices)
   {
     const std::size_t device = slot % devices.size();
     const CurrentDevice owner(devices[device]);
-    this->Staging.push_back(
-      { device == 0 ? this->Stream : this->Others[device - 1].Stream, PageLocked(), MakeEvent() });
+    const cudaStream_t stream = device == 0 ? this->Stream : this->Others[device - 1].Stream;
+    this->Staging.push_back({ stream, PageLocked(), MakeEvent() });
   }
 }
 
@@ -150,9 +150,9 @@ CudaContext::~CudaContext()
   }
 }
 
-const StagingBuffer& CudaContext::GetBuffer(std::int64_t turn)
+const StagingBuffer& CudaContext::GetBuffer(std::int64_t i)
 {
-  StagingBuffer& buffer = this->Staging[turn % this->Staging.size()];
+  StagingBuffer& buffer = this->Staging[i % this->Staging.size()];
   if (!buffer.Memory)
   {
     void* memory = nullptr;
@@ -165,12 +165,21 @@ const StagingBuffer& CudaContext::GetBuffer(std::int64_t turn)
 
 Memory& CudaContext::GetMemory() const
 {
-  return this->Shared ? static_cast<Memory&>(*this->Shared) : *this->Pool;
+  if (this->Shared)
+  {
+    return *this->Shared;
+  }
+  return *this->Pool;
 }
 
 std::size_t CudaContext::TakePeak()
 {
-  return this->Pool->TakePeak() + (this->Shared ? this->Shared->TakePeak() : 0);
+  std::size_t peak = this->Pool->TakePeak();
+  if (this->Shared)
+  {
+    peak += this->Shared->TakePeak();
+  }
+  return peak;
 }
 
 void CudaContext::LetWait(cudaStream_t stream, cudaStream_t other, cudaEvent_t event)
@@ -217,11 +226,19 @@ ContextLease LeaseContext(const std::vector<int>& devices)
     {
       const auto found = std::find_if(contexts.begin(), contexts.end(),
         [&](const auto& context) { return context->Devices == devices; });
-      ContextLease taken(found == contexts.end() ? nullptr : found->release());
-      contexts.erase(found, found == contexts.end() ? found : found + 1);
+      ContextLease taken;
+      if (found != contexts.end())
+      {
+        taken.reset(found->release());
+        contexts.erase(found);
+      }
       return taken;
     });
-  return idle ? std::move(idle) : ContextLease(new CudaContext(devices));
+  if (idle)
+  {
+    return idle;
+  }
+  return ContextLease(new CudaContext(devices));
 }
 
 void ContextReturn::operator()(CudaContext* context) const noexcept

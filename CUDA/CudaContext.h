@@ -99,7 +99,7 @@ struct StagingBuffer
 /// What a run needs besides its mesh: a stream, memory, and page-locked buffers for copies between
 /// host and device. One run at a time uses a context; then it is kept for the next run.
 ///
-/// With several GPUs the first has the stream in whose order all work is done. The others take part
+/// With several GPUs the first has the stream that gives all work its order. The others take part
 /// in single launches: they wait for what is in that stream, and it waits for them.
 class CudaContext
 {
@@ -114,9 +114,9 @@ public:
   CudaContext(const CudaContext&) = delete;
   CudaContext& operator=(const CudaContext&) = delete;
 
-  /// The buffers in turn. Their memory is allocated when it is needed, because that takes
-  /// milliseconds.
-  const StagingBuffer& GetBuffer(std::int64_t turn);
+  /// The buffer for copy number i: all buffers are used, one after the other. Their memory is
+  /// allocated when it is needed, because that takes milliseconds.
+  const StagingBuffer& GetBuffer(std::int64_t i);
   std::int64_t CountBuffers() const { return static_cast<std::int64_t>(this->Staging.size()); }
 
   /// Where arrays are.
@@ -147,7 +147,7 @@ public:
   std::unique_ptr<SharedMemory> Shared; ///< Null if there is one GPU.
 
 private:
-  std::vector<StagingBuffer> Staging; ///< The GPUs have them in turn.
+  std::vector<StagingBuffer> Staging; ///< One of every GPU, in their order, then the next ones.
 };
 
 /// Makes a device current in the calling thread, and restores the previous one.

@@ -64,7 +64,7 @@ public:
     std::uint32_t** const kinds[EdgeBits::Kinds] = { &this->Bits.FixedOrDeferred,
       &this->Bits.Candidates, &this->Bits.Bad, &this->Bits.Winners, &this->Bits.BlockedByEdge,
       &this->Bits.BlockedByShape };
-    const int own = mayBlock ? EdgeBits::Kinds : EdgeBits::Kinds - 1;
+    const int own = EdgeBits::Kinds - int(!mayBlock);
     for (int kind = 0; kind < own; ++kind)
     {
       this->Words[kind] = backend.MakeArray<std::uint32_t>(this->NumberOfWords);
@@ -90,15 +90,25 @@ public:
     this->Backend.ForEach(this->NumberOfWords,
       [=] __device__(std::int64_t word)
       {
-        std::uint32_t fixed = isFirst ? 0 : bits.FixedOrDeferred[word], candidates = 0;
+        std::uint32_t fixed = 0, candidates = 0;
         for (int i = 0; i < 32; ++i)
         {
           const std::int64_t edge = 32 * word + i;
-          const bool isInside = edge < edges && (states || corners[2 * edge + 1] != NoCorner);
-          const EdgeState without = isInside ? EdgeState::Candidate : EdgeState::Fixed;
-          const EdgeState state = isInside && states ? states[edge] : without;
-          fixed |= state == EdgeState::Fixed ? 1u << i : 0;
-          candidates |= state == EdgeState::Candidate ? 1u << i : 0;
+          EdgeState state = EdgeState::Fixed;
+          if (edge < edges && states)
+          {
+            state = states[edge];
+          }
+          else if (edge < edges && corners[2 * edge + 1] != NoCorner)
+          {
+            state = EdgeState::Candidate;
+          }
+          fixed |= std::uint32_t(state == EdgeState::Fixed) << i;
+          candidates |= std::uint32_t(state == EdgeState::Candidate) << i;
+        }
+        if (!isFirst)
+        {
+          fixed |= bits.FixedOrDeferred[word];
         }
         bits.FixedOrDeferred[word] = fixed;
         bits.Candidates[word] = candidates;
@@ -192,7 +202,8 @@ public:
 
   // Public because device lambdas require it.
 
-  /// Chunk c has the edges whose smallest corner it has at first. Edges are numbered in that order.
+  /// Chunk c has the edges that have their smallest corner in it at first. Edges are numbered in
+  /// that order.
   void CutIntoChunks()
   {
     DeviceChunk* chunks = this->Chunks.Data();
@@ -226,9 +237,16 @@ protected:
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
   {
     const bool measure = plan.MeasureFirst || plan.MeasureAll;
-    const std::int64_t most = measure ? 1 : std::min<std::int64_t>(plan.Iterations, MostIterations);
-    const std::int64_t freshSlots =
-      this->Guard.IsActive() ? std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft()) : 0;
+    std::int64_t most = std::min<std::int64_t>(plan.Iterations, MostIterations);
+    if (measure)
+    {
+      most = 1;
+    }
+    std::int64_t freshSlots = 0;
+    if (this->Guard.IsActive())
+    {
+      freshSlots = std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft());
+    }
     const IterationLimits limits{ static_cast<int>(most), this->Found.Bad,
       static_cast<long long>(freshSlots) };
     std::vector<IterationCounts> iterations =
@@ -275,13 +293,19 @@ private:
 
   auto* GetDetectKernel() const
   {
-    return this->Guard.IsActive() ? DetectAllKernel<Rule, true>
-                                  : DetectAllKernel<Rule, Rule::IsInSpace>;
+    if (this->Guard.IsActive())
+    {
+      return DetectAllKernel<Rule, true>;
+    }
+    return DetectAllKernel<Rule, Rule::IsInSpace>;
   }
   auto* GetIterateKernel() const
   {
-    return this->Guard.IsActive() ? IterateKernel<Rule, true>
-                                  : IterateKernel<Rule, Rule::IsInSpace>;
+    if (this->Guard.IsActive())
+    {
+      return IterateKernel<Rule, true>;
+    }
+    return IterateKernel<Rule, Rule::IsInSpace>;
   }
 
   /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also
@@ -308,12 +332,15 @@ private:
     return fewest;
   }
 
-  /// Only as many blocks as have work: with fewer blocks, waits are shorter.
+  /// Takes only as many blocks as have work, because waits of fewer blocks are shorter.
   void PlanGrid()
   {
-    this->Parts = this->Mesh.NumberOfEdges < SmallestShared ? 1 : this->Backend.CountDevices();
+    if (this->Mesh.NumberOfEdges >= SmallestShared)
+    {
+      this->Devices = this->Backend.CountDevices();
+    }
     const std::int64_t blocks = std::min(
-      { MostIterateBlocks / this->Parts, this->CountResidentBlocks(this->GetIterateKernel()),
+      { MostIterateBlocks / this->Devices, this->CountResidentBlocks(this->GetIterateKernel()),
         this->CountResidentBlocks(this->GetDetectKernel()) });
     std::int64_t parts = this->Bits.CountUnits();
     for (; this->Splits < EdgeUnits::MostSplits && 2 * parts <= blocks * LoopWarps; parts *= 2)
@@ -321,7 +348,11 @@ private:
       ++this->Splits;
     }
     // One block is faster in two steps than two blocks that wait for each other.
-    const std::int64_t wanted = parts <= 2 * LoopWarps ? 1 : (parts + LoopWarps - 1) / LoopWarps;
+    std::int64_t wanted = 1;
+    if (parts > 2 * LoopWarps)
+    {
+      wanted = (parts + LoopWarps - 1) / LoopWarps;
+    }
     this->GridBlocks = static_cast<int>(std::min(blocks, wanted));
   }
 
@@ -341,30 +372,34 @@ private:
       this->Backend.CountDevices() * this->CountTeamStates());
   }
 
-  /// The number of team states per GPU. With several GPUs so many that those of each are in its
-  /// memory.
+  /// The number of team states per GPU. With several GPUs there are so many that those of each are
+  /// in its memory.
   std::int64_t CountTeamStates() const
   {
-    constexpr std::int64_t LargePart = (std::int64_t(4) << 20) / sizeof(TeamState);
-    return this->Backend.CountDevices() > 1 ? std::max<std::int64_t>(this->Teams, LargePart)
-                                            : this->Teams;
+    constexpr std::int64_t Many = (std::int64_t(4) << 20) / sizeof(TeamState);
+    if (this->Backend.CountDevices() > 1)
+    {
+      return std::max<std::int64_t>(this->Teams, Many);
+    }
+    return this->Teams;
   }
 
-  /// What a GPU does of a launch.
-  /// @param parts the number of GPUs.
+  /// The share of a launch that one of several GPUs has.
   /// @param teams the first of its team states.
-  LoopView<Rule> View(int part, int parts, std::int64_t teams)
+  LoopView<Rule> View(int device, int devices, std::int64_t teams)
   {
     Results* results = this->DeviceResults.Data();
     const auto edges = [&](int of)
     {
-      const std::int64_t units = this->Bits.CountUnits() * of / parts;
+      const std::int64_t units = this->Bits.CountUnits() * of / devices;
       return static_cast<EdgeId>(std::min(units << EdgeUnits::UnitBits, this->Mesh.NumberOfEdges));
     };
-    const auto chunks = [&](int of) { return static_cast<int>(this->NumberOfChunks * of / parts); };
+    const auto chunks = [&](int of)
+    { return static_cast<int>(this->NumberOfChunks * of / devices); };
     return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(), this->Splits,
-      this->Parts, edges(part), edges(part + 1), this->Chunks.Data(), chunks(part),
-      chunks(part + 1), this->TeamStates.Data() + teams, results->Sums, &results->IterationsDone };
+      this->Devices, edges(device), edges(device + 1), this->Chunks.Data(), chunks(device),
+      chunks(device + 1), this->TeamStates.Data() + teams, results->Sums,
+      &results->IterationsDone };
   }
 
   /// Clears the counters of the kernels.
@@ -375,7 +410,7 @@ private:
       this->TeamStates.Data(), 0, static_cast<std::int64_t>(this->TeamStates.Size()));
   }
 
-  /// Launches a kernel whose blocks wait for each other.
+  /// Launches a kernel that makes its blocks wait for each other.
   template <typename... Parameters, typename... Arguments>
   static void LaunchTogether(
     cudaStream_t stream, int blocks, void (*kernel)(Parameters...), const Arguments&... arguments)
@@ -397,16 +432,16 @@ private:
   const Results& LaunchOnMesh(void (*kernel)(Parameters...), const Arguments&... arguments)
   {
     this->Prepare();
-    this->Backend.LaunchOnEach(this->Parts,
-      [&](cudaStream_t stream, int part)
+    this->Backend.LaunchOnEach(this->Devices,
+      [&](cudaStream_t stream, int device)
       {
         LaunchTogether(
-          stream, this->GridBlocks, kernel, this->View(part, this->Parts, 0), arguments...);
+          stream, this->GridBlocks, kernel, this->View(device, this->Devices, 0), arguments...);
       });
     const Results& results = this->FetchResults();
-    if (results.IterationsDone == 0 && this->Parts > 1)
+    if (results.IterationsDone == 0 && this->Devices > 1)
     {
-      this->Parts = 1;
+      this->Devices = 1;
       return this->LaunchOnMesh(kernel, arguments...);
     }
     return results;
@@ -457,14 +492,14 @@ private:
   void LaunchChunks(int iterations, std::vector<IterationCounts>& total)
   {
     this->Prepare();
-    const int parts = this->Backend.CountDevices();
-    this->Backend.LaunchOnEach(parts,
-      [&](cudaStream_t stream, int part)
+    const int devices = this->Backend.CountDevices();
+    this->Backend.LaunchOnEach(devices,
+      [&](cudaStream_t stream, int device)
       {
         if constexpr (!Rule::IsInSpace)
         {
           LaunchTogether(stream, this->Teams * this->BlocksOfTeam, RunChunksKernel<Rule>,
-            this->View(part, parts, part * this->CountTeamStates()), this->BlocksOfTeam,
+            this->View(device, devices, device * this->CountTeamStates()), this->BlocksOfTeam,
             iterations);
         }
       });
@@ -487,7 +522,7 @@ private:
   CoordinateRange Range;
   EdgeGuard Guard;
   const CudaBackend& Backend;
-  int Parts = 1; ///< GPUs that make iterations on the whole mesh.
+  int Devices = 1; ///< GPUs that make iterations on the whole mesh.
   int GridBlocks = 1; ///< Thread blocks on each of them.
   int Teams = 1;
   int BlocksOfTeam = 1;

@@ -56,7 +56,8 @@ struct StripSorter<Real, CudaBackend>
     const int lost = std::max(0, RealBits + stripBits - 64);
     const auto keyOf = [=] __device__(Real x, Real y)
     {
-      const std::uint64_t strip = IsFinite(x) && IsFinite(y) ? findStrip(y) : unused;
+      const bool isFinite = IsFinite(x) && IsFinite(y);
+      const std::uint64_t strip = isFinite ? findStrip(y) : unused;
       return strip << (RealBits - lost) | OrderedBits(x) >> lost;
     };
 
@@ -85,11 +86,13 @@ struct StripSorter<Real, CudaBackend>
             static_cast<Real>(points.Get(ids[i], 1)) };
         });
       const auto keyAt = [=] __device__(std::int64_t i) { return keyOf(places[i].U, places[i].V); };
-      const std::int64_t unsorted = byAll
-        ? 0
-        : backend.template Sum<std::int64_t>(count,
-            [=] __device__(std::int64_t i, std::int64_t & sum)
-            { sum += SortEqualKeys(i, count, places, ids, keyAt) ? 0 : 1; });
+      if (byAll)
+      {
+        break;
+      }
+      const std::int64_t unsorted = backend.template Sum<std::int64_t>(count,
+        [=] __device__(std::int64_t i, std::int64_t & sum)
+        { sum += int(!SortEqualKeys(i, count, places, ids, keyAt)); });
       if (unsorted == 0)
       {
         break;
@@ -116,8 +119,9 @@ struct StripSorter<Real, CudaBackend>
     backend.ForEach(count + 1,
       [=] __device__(std::int64_t i)
       {
+        const std::int64_t first = i > 0 ? stripOf(i - 1) + 1 : 0;
         const std::int64_t strip = i < count ? stripOf(i) : strips;
-        for (std::int64_t next = i > 0 ? stripOf(i - 1) + 1 : 0; next <= strip; ++next)
+        for (std::int64_t next = first; next <= strip; ++next)
         {
           starts[next] = static_cast<std::uint32_t>(i);
         }
@@ -150,10 +154,10 @@ struct StripSorter<Real, CudaBackend>
     {
       const CoordinatePair<Real> place = places[i];
       const VertexId id = ids[i];
+      const auto isBefore = [&](const CoordinatePair<Real>& other)
+      { return place.U < other.U || (place.U == other.U && place.V < other.V); };
       std::int64_t to = i;
-      for (; to > first &&
-           (place.U != places[to - 1].U ? place.U < places[to - 1].U : place.V < places[to - 1].V);
-           --to)
+      for (; to > first && isBefore(places[to - 1]); --to)
       {
         places[to] = places[to - 1];
         ids[to] = ids[to - 1];
@@ -181,8 +185,8 @@ struct StoreIdStep
   }
 };
 
-/// Stores the triangles that flips have changed since the last time, of which `Written` has the
-/// numbers of flips. A triangle that stays costs two reads and no write. The lanes of a warp have
+/// Stores the triangles that flips have changed since the last time; `Written` has their numbers of
+/// flips at that time. A triangle that stays costs two reads and no write. The lanes of a warp have
 /// neighbouring triangles, and share the ids of those that have changed, so that the three of a
 /// triangle go to memory together.
 struct StoreChangedStep
@@ -216,7 +220,7 @@ struct StoreChangedStep
   }
 };
 
-/// Also stores into arrays in the memory of its device.
+/// A mesh that also stores into arrays in the memory of its device.
 class CudaMesh : public MeshOnBackend<CudaBackend>
 {
 public:
@@ -228,10 +232,13 @@ public:
     const StoreStep all = this->GetStoreStep();
     constexpr std::int64_t lanes = StoreChangedStep::Lanes;
     const std::int64_t full = (triangles.Count + lanes - 1) / lanes * lanes;
-    return written
-      ? this->StoreHere(triangles.Data(), full, triangles, stream, StoreChangedStep{ all, written })
-      : this->StoreHere(
-          triangles.Data(), 3 * triangles.Count, triangles, stream, StoreIdStep{ all });
+    if (written)
+    {
+      return this->StoreHere(
+        triangles.Data(), full, triangles, stream, StoreChangedStep{ all, written });
+    }
+    return this->StoreHere(
+      triangles.Data(), 3 * triangles.Count, triangles, stream, StoreIdStep{ all });
   }
 
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) const override

@@ -99,8 +99,11 @@ struct DriverFunction
         const cudaError_t error =
           cudaGetDriverEntryPoint(name, &this->Found, cudaEnableDefault, &status);
 #endif
-        const bool isFound = status == cudaDriverEntryPointSuccess && this->Found;
-        return error != cudaSuccess || isFound ? error : cudaErrorNotSupported;
+        if (error == cudaSuccess && (status != cudaDriverEntryPointSuccess || !this->Found))
+        {
+          return cudaErrorNotSupported;
+        }
+        return error;
       });
   }
 
@@ -298,8 +301,8 @@ void* SharedMemory::Map(std::size_t part) const
   return reinterpret_cast<void*>(base);
 }
 
-/// Waits for the stream, in whose order all GPUs work: the driver does not know whether one of them
-/// still uses the memory.
+/// Waits for the stream that gives the work of all GPUs its order: the driver does not know whether
+/// one of them still uses the memory.
 void SharedMemory::Unmap(void* memory, std::size_t part) const noexcept
 {
   const Driver& driver = Driver::Get();

@@ -12,8 +12,8 @@
 #include <cstdint>
 
 /// @file
-/// What the loop's kernels share: the states of edges as bits, worklists of the edges whose bit is
-/// set, and the view of it all.
+/// What the loop's kernels share: the states of edges as bits, worklists of the edges with a set
+/// bit, and the view of it all.
 
 namespace delaunayflip
 {
@@ -30,7 +30,8 @@ struct EdgeBits
   std::uint32_t* Winners; ///< Bad edges that flip in this iteration.
   /// While iterations run within chunks, which have no guard, these are the deferred edges.
   std::uint32_t* BlockedByEdge;
-  /// Also those blocked by their deviation. With a rule that blocks none it is the array above.
+  /// Includes the edges that their deviation blocks. With a rule that blocks none it is the array
+  /// above.
   std::uint32_t* BlockedByShape;
 
   static constexpr int Kinds = 6;
@@ -46,10 +47,10 @@ struct EdgeBits
 };
 
 //------------------------------------------------------------------------------
-// The edges of a range whose bit is set. A warp takes units of 256 edges, one byte of bits per
-// lane, and lists the edges whose bit is set, in order, so that neighbours in the mesh are
-// neighbours in the warp. Then it works on the list. Where a warp has few units, all warps of the
-// block share one list, so that they have equal work.
+// The edges of a range that have a bit set. A warp takes units of 256 edges, one byte of bits per
+// lane, and lists the edges with a set bit, in order, so that neighbours in the mesh are neighbours
+// in the warp. Then it works on the list. If a warp has few units, all warps of the block share one
+// list, so that they have equal work.
 
 /// A lane's eight edges of a unit.
 struct EdgeByte
@@ -109,12 +110,12 @@ protected:
     const unsigned unit = part >> this->Splits;
     const EdgeId edge = this->IsSpread ? this->FindSpread(unit) : unit * UnitSize + 8 * lane;
     const unsigned lanesOfPart = WarpSize >> this->Splits;
-    unsigned mask = lane / lanesOfPart == (part & ((1u << this->Splits) - 1)) ? 0xFF : 0;
-    mask &=
-      edge < this->First ? (this->First - edge < 8 ? 0xFFu << (this->First - edge) : 0) : mask;
-    mask &=
-      edge + 8 > this->Last ? (this->Last > edge ? 0xFFu >> (edge + 8 - this->Last) : 0) : mask;
-    return { edge / 8, mask & 0xFF };
+    const unsigned partOfUnit = part & ((1u << this->Splits) - 1);
+    if (lane / lanesOfPart != partOfUnit)
+    {
+      return { edge / 8, 0 };
+    }
+    return { edge / 8, this->GetMask(edge) };
   }
 
   /// The position of a warp in its units, or in parts of them.
@@ -157,7 +158,10 @@ protected:
     for (unsigned distance = 1; distance < WarpSize; distance *= 2)
     {
       const int other = __shfl_up_sync(WholeWarp, end, distance);
-      end += lane >= distance ? other : 0;
+      if (lane >= distance)
+      {
+        end += other;
+      }
     }
     return end;
   }
@@ -185,8 +189,30 @@ protected:
 private:
   __device__ unsigned CountUnits() const
   {
-    const unsigned first = this->First >> UnitBits;
-    return this->First < this->Last ? ((this->Last - 1) >> UnitBits) + 1 - first : 0;
+    if (this->First >= this->Last)
+    {
+      return 0;
+    }
+    return ((this->Last - 1) >> UnitBits) + 1 - (this->First >> UnitBits);
+  }
+
+  /// The bits of those of eight edges, from `edge` on, that belong to the range.
+  __device__ unsigned GetMask(EdgeId edge) const
+  {
+    if (edge + 8 <= this->First || edge >= this->Last)
+    {
+      return 0;
+    }
+    unsigned mask = 0xFF;
+    if (edge < this->First)
+    {
+      mask <<= this->First - edge;
+    }
+    if (edge + 8 > this->Last)
+    {
+      mask &= 0xFFu >> (edge + 8 - this->Last);
+    }
+    return mask & 0xFF;
   }
 
   /// The first edge of this lane.
@@ -313,7 +339,7 @@ struct LoopView
   EdgeGuardView Guard;
   EdgeBits Bits;
   int Splits; ///< 2^Splits warps share a unit.
-  int Parts; ///< How many GPUs iterate on the whole mesh together.
+  int Devices; ///< How many GPUs iterate on the whole mesh together.
   EdgeId FirstEdge, LastEdge; ///< The range of this GPU.
   DeviceChunk* Chunks;
   int FirstChunk, LastChunk; ///< The range of this GPU.

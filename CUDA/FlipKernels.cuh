@@ -4,7 +4,7 @@
 #define DELAUNAYFLIP_FLIPKERNELS_CUH
 
 #include "Atomics.h"
-#include "FlipPhases.cuh"
+#include "CudaPasses.cuh"
 #include "Team.cuh"
 
 /// @file
@@ -14,10 +14,97 @@ namespace delaunayflip
 {
 
 //------------------------------------------------------------------------------
-// Iterations with few bad edges. The detection lists the bad edges with everything that a choice
-// reads except the states of the neighbours, which do not change before the next detection. So
-// winners may flip while other threads still choose, and there are fewer dependent loads, which
-// are most of the time of such an iteration.
+// An iteration. It begins with the choice, because the detection before it has found the bad edges.
+
+/// A detection, passes 1 to 3.
+template <bool IsGuarded, typename Rule, typename Worklist>
+__device__ void RunDetection(
+  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
+{
+  [[maybe_unused]] const bool isUncertain =
+    JudgeCandidates<IsGuarded>(loop, worklist, team); // pass 1
+  if constexpr (!Rule::IsInSpace)
+  {
+    if (worklist.IsAny(isUncertain))
+    {
+      ResolveUncertain(loop, worklist, team); // pass 1, exactly
+    }
+  }
+  if (IsGuarded)
+  {
+    __syncwarp(); // a warp guards the units that it judged
+    GuardBadEdges(loop, worklist, team); // pass 2
+  }
+  team.Wait(iteration); // pass 3: adds what all threads have counted
+}
+
+/// The choice and the flips, passes 4 to 6.
+template <bool IsGuarded, typename Rule, typename Worklist>
+__device__ void RunFlips(const LoopView<Rule>& loop, const Worklist& worklist, Team& team)
+{
+  if constexpr (!IsGuarded)
+  {
+    ChooseAndFlip(loop, worklist, team); // passes 4 and 6
+  }
+  else
+  {
+    ChooseAndClaim(loop, worklist, team); // passes 4 and 5
+    team.Wait();
+    Confirm(loop, worklist, team); // pass 5
+    team.Wait();
+    FlipWinners(loop, worklist, team); // pass 6
+  }
+  team.Wait();
+}
+
+/// A detection on the whole mesh, counted in Sums[0], and a count of all bad and blocked edges, in
+/// Sums[1].
+template <typename Rule, bool IsGuarded>
+__global__ void __launch_bounds__(LoopThreads, LoopBlocks)
+  DetectAllKernel(const __grid_constant__ LoopView<Rule> loop)
+{
+  Team team(loop.Teams, gridDim.x, loop.Devices);
+  if (!team.Meet())
+  {
+    return;
+  }
+  const WarpWorklist worklist = loop.GetWorklist();
+  RunDetection<IsGuarded>(loop, worklist, team, &loop.Sums[0]);
+  CountAll(loop, worklist, team);
+  team.Wait(&loop.Sums[1]);
+  if (team.IsFirstThread())
+  {
+    *loop.IterationsDone = 1;
+  }
+}
+
+/// Iterations within chunks: a team takes a chunk through all of them, while the chunk is in the
+/// cache, then the next chunk. They are counted in Sums; Sums[iterations] gets the bad and blocked
+/// edges from before.
+template <typename Rule>
+__global__ void __launch_bounds__(LoopThreads, LoopBlocks)
+  RunChunksKernel(const __grid_constant__ LoopView<Rule> loop, int blocksOfTeam, int iterations)
+{
+  Team team(loop.Teams, blocksOfTeam);
+  const int teams = gridDim.x / blocksOfTeam;
+  for (int c = loop.FirstChunk + team.GetIndex(); c < loop.LastChunk; c += teams)
+  {
+    const BlockWorklist worklist = loop.GetWorklist(loop.Chunks[c]);
+    CountAll(loop, worklist, team);
+    team.Wait(&loop.Sums[iterations]);
+    for (int i = 0; i < iterations; ++i)
+    {
+      RunFlips<false>(loop, worklist, team);
+      RunDetection<false>(loop, worklist, team, &loop.Sums[i]);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+// The exception: iterations with few bad edges. The detection lists the bad edges with everything
+// that a choice reads except the states of the neighbours, which do not change before the next
+// detection. So winners may flip while other threads still choose, and there are fewer dependent
+// loads, which are most of the time of such an iteration.
 
 /// The bad edges that a block has found, in shared memory.
 class BadList
@@ -46,7 +133,11 @@ public:
       return -1;
     }
     const unsigned lane = threadIdx.x % WarpSize;
-    int place = lane == 0 ? atomicAdd(&GetTeamMemory().NumberListed, __popc(bad)) : 0;
+    int place = 0;
+    if (lane == 0)
+    {
+      place = atomicAdd(&GetTeamMemory().NumberListed, __popc(bad));
+    }
     place = __shfl_sync(WholeWarp, place, 0) + __popc(bad & ((1u << lane) - 1));
     if (!isBad || place >= room)
     {
@@ -62,9 +153,12 @@ public:
 template <bool IsGuarded, typename Rule>
 __device__ int GetMostListed(const LoopView<Rule>& loop, const Team& team)
 {
-  const unsigned blocks = team.GetNumberOfThreads() / LoopThreads * loop.Parts;
-  const int claims = static_cast<int>(loop.Guard.Claims.Size / blocks);
-  return IsGuarded && claims < MostListed ? claims : MostListed;
+  if (!IsGuarded)
+  {
+    return MostListed;
+  }
+  const unsigned blocks = team.GetNumberOfThreads() / LoopThreads * loop.Devices;
+  return min(MostListed, static_cast<int>(loop.Guard.Claims.Size / blocks));
 }
 
 /// Does what RunDetection does, and lists the bad edges. Bad edges that are not candidates are
@@ -93,7 +187,7 @@ __device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
         found.Outer = GetOuterHalfEdges(loop.Mesh, corners.A, corners.B);
         quad = loop.Mesh.GetQuad(corners);
         state = JudgeAndNote(loop, edge, quad, IsGuarded, counts);
-        blockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
+        blockedByEdge += unsigned(state == EdgeState::BlockedByEdge);
       }
       const int place = BadList::Add(state == EdgeState::Bad, found, room);
       isShort = isShort || (state == EdgeState::Bad && place < 0);
@@ -102,7 +196,7 @@ __device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
         bool isContested = false;
         BadList::GetClaim(place) =
           loop.Guard.Claims.Claim(quad.A, quad.B, Priority(edge), isContested);
-        contested += isContested ? 1 : 0;
+        contested += unsigned(isContested);
       }
     });
   counts.AddTo<Rule>(team);
@@ -185,7 +279,6 @@ __device__ bool FlipListed(const LoopView<Rule>& loop, const Team& team)
 }
 
 //------------------------------------------------------------------------------
-
 /// The most waits per iteration: three in RunFlips, with a guard, one in RunDetection, and one for
 /// lists that are not used.
 constexpr int MostWaits = 5;
@@ -198,61 +291,6 @@ constexpr int MostIterations = 128;
 constexpr int MostIterateBlocks = TeamNews::MostArrivals / (MostIterations * MostWaits);
 static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at the same wait");
 static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");
-
-/// Passes 4 to 6.
-template <bool IsGuarded, typename Rule, typename Worklist>
-__device__ void RunFlips(const LoopView<Rule>& loop, const Worklist& worklist, Team& team)
-{
-  if constexpr (!IsGuarded)
-  {
-    ChooseAndFlip(loop, worklist, team);
-  }
-  else
-  {
-    ChooseAndClaim(loop, worklist, team);
-    team.Wait();
-    Confirm(loop, worklist, team);
-    team.Wait();
-    FlipWinners(loop, worklist, team);
-  }
-  team.Wait();
-}
-
-/// Passes 1 to 3.
-template <bool IsGuarded, typename Rule, typename Worklist>
-__device__ void RunDetection(
-  const LoopView<Rule>& loop, const Worklist& worklist, Team& team, IterationSums* iteration)
-{
-  delaunayflip::Detect<IsGuarded>(loop, worklist, team);
-  if (IsGuarded)
-  {
-    // A warp guards the units that it judged.
-    __syncwarp();
-    GuardBadEdges(loop, worklist, team);
-  }
-  team.Wait(iteration);
-}
-
-/// A detection on the whole mesh, counted in Sums[0], and a count of all bad and blocked edges, in
-/// Sums[1].
-template <typename Rule, bool IsGuarded>
-__global__ void __launch_bounds__(LoopThreads, LoopBlocks)
-  DetectAllKernel(const __grid_constant__ LoopView<Rule> loop)
-{
-  Team team(loop.Teams, gridDim.x, loop.Parts);
-  if (!team.Meet())
-  {
-    return;
-  }
-  const WarpWorklist worklist = loop.GetWorklist();
-  RunDetection<IsGuarded>(loop, worklist, team, &loop.Sums[0]);
-  CountAll(loop, worklist, team);
-  team.Wait(&loop.Sums[1]);
-  if (team.IsFirstThread())
-  {
-    *loop.IterationsDone = 1;
-  }
-}
 
 /// When a launch of IterateKernel ends: when no bad edge is left, or at a limit.
 struct IterationLimits
@@ -275,7 +313,7 @@ public:
   __device__ Iterations(const LoopView<Rule>& loop, const IterationLimits& limits)
     : Loop(loop),
       Limits(limits),
-      Members(loop.Teams, gridDim.x, loop.Parts, loop.Splits > 0),
+      Members(loop.Teams, gridDim.x, loop.Devices, loop.Splits > 0),
       Bad(limits.Bad),
       // A quarter of the room, because bad edges are not spread evenly.
       MostToList(Members.GetNumberOfThreads() / LoopThreads * (MostListed / 4))
@@ -348,7 +386,10 @@ private:
       isShort = isShort && LoadSum(*iteration, IterationSum::Contested) == 0;
     }
     // After a list was too short, lists are tried again when there are half as many bad edges.
-    this->MostToList = isShort ? this->Bad / 2 : this->MostToList;
+    if (isShort)
+    {
+      this->MostToList = this->Bad / 2;
+    }
   }
 
   /// Whether there is an edge that a device cannot decide. The thread that found it has warned.
@@ -380,28 +421,6 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   if (iterations.IsFirstThread())
   {
     *loop.IterationsDone = done;
-  }
-}
-
-/// Iterations within chunks: a team takes a chunk through all of them, while the chunk is in the
-/// cache, then the next chunk. They are counted in Sums; Sums[iterations] gets the bad and blocked
-/// edges from before.
-template <typename Rule>
-__global__ void __launch_bounds__(LoopThreads, LoopBlocks)
-  RunChunksKernel(const __grid_constant__ LoopView<Rule> loop, int blocksOfTeam, int iterations)
-{
-  Team team(loop.Teams, blocksOfTeam);
-  const int teams = gridDim.x / blocksOfTeam;
-  for (int c = loop.FirstChunk + team.GetIndex(); c < loop.LastChunk; c += teams)
-  {
-    const BlockWorklist worklist = loop.GetWorklist(loop.Chunks[c]);
-    CountAll(loop, worklist, team);
-    team.Wait(&loop.Sums[iterations]);
-    for (int i = 0; i < iterations; ++i)
-    {
-      RunFlips<false>(loop, worklist, team);
-      RunDetection<false>(loop, worklist, team, &loop.Sums[i]);
-    }
   }
 }
 

@@ -15,7 +15,7 @@ enum class IterationSum
 {
   Flipped,
   FreshSlots, ///< Slots of the guard table that were empty.
-  FreedSlots, ///< Those that are empty now.
+  FreedSlots, ///< Slots of the guard table that are empty now.
   LostInserts, ///< New edges that found no room in the guard table.
   Tested,
   Uncertain, ///< Edges that a device cannot decide.
@@ -78,7 +78,8 @@ struct TeamNews
   __device__ static TeamNews Make(bool warns, int badChange)
   {
     const auto change = static_cast<unsigned long long>(static_cast<long long>(badChange));
-    return { 1ull + (change << ArrivalBits) + ((warns ? 1ull : 0ull) << WarningShift) };
+    const auto warnings = static_cast<unsigned long long>(warns);
+    return { 1ull + (change << ArrivalBits) + (warnings << WarningShift) };
   }
   __device__ bool HasArrived(unsigned expected) const
   {
@@ -90,7 +91,7 @@ struct TeamNews
   __device__ unsigned GetWarnings() const
   {
     // A negative number has borrowed from the bits above it.
-    const unsigned borrowed = this->GetBadChange() < 0 ? 1 : 0;
+    const auto borrowed = unsigned(this->GetBadChange() < 0);
     const auto warnings = static_cast<unsigned>(this->Value >> WarningShift);
     return (warnings + borrowed) & ((1u << WarningBits) - 1);
   }
@@ -179,12 +180,12 @@ class Team
 {
 public:
   /// Blocks [team * size, (team + 1) * size) of the grid are a team.
-  /// @param parts how many GPUs have launched such a grid for the team, each with its own edges.
+  /// @param devices how many GPUs have launched such a grid for the team, each with its own edges.
   /// @param hasFewEdges whether there is too little work for the first-level caches to matter.
-  __device__ Team(TeamState* states, unsigned size, unsigned parts = 1, bool hasFewEdges = false)
+  __device__ Team(TeamState* states, unsigned size, unsigned devices = 1, bool hasFewEdges = false)
     : State(&states[blockIdx.x / size]),
       Size(size),
-      Parts(parts),
+      Devices(devices),
       HasFewEdges(hasFewEdges)
   {
     TeamMemory& memory = GetTeamMemory();
@@ -218,7 +219,7 @@ public:
   {
     constexpr unsigned long long Patience = 2000000000; // nanoseconds
     constexpr unsigned Unknown = 0, Together = 1, Apart = 2;
-    if (this->Parts == 1)
+    if (this->Devices == 1)
     {
       return true;
     }
@@ -230,12 +231,15 @@ public:
       unsigned verdict = Unknown;
       while (verdict == Unknown)
       {
-        const bool areAll = AtomicLoad(&this->State->Present) == this->Size * this->Parts;
+        const bool areAll = AtomicLoad(&this->State->Present) == this->Size * this->Devices;
         const bool isLate = GetNanoseconds() - start > Patience;
-        verdict = areAll || isLate
-          ? AtomicCompareExchange(&this->State->Verdict, Unknown, areAll ? Together : Apart)
-          : AtomicLoad(&this->State->Verdict);
-        verdict = verdict == Unknown && (areAll || isLate) ? (areAll ? Together : Apart) : verdict;
+        verdict = AtomicLoad(&this->State->Verdict);
+        if (verdict == Unknown && (areAll || isLate))
+        {
+          const unsigned own = areAll ? Together : Apart;
+          const unsigned before = AtomicCompareExchange(&this->State->Verdict, Unknown, own);
+          verdict = before == Unknown ? own : before;
+        }
       }
       isTogether = verdict == Together;
     }
@@ -311,8 +315,11 @@ private:
     {
       TeamMemory& memory = GetTeamMemory();
       const TeamNews own = TeamNews::Make(memory.Warns != 0, memory.BadChange);
-      const TeamNews all =
-        this->CountBlocks() > 1 ? this->Arrive(own) : TeamNews{ memory.News.Value + own.Value };
+      TeamNews all{ memory.News.Value + own.Value };
+      if (this->CountBlocks() > 1)
+      {
+        all = this->Arrive(own);
+      }
       memory.IsWarned = all.GetWarnings() != memory.News.GetWarnings();
       memory.News = all;
       memory.Warns = 0;
@@ -326,7 +333,7 @@ private:
   {
     const unsigned expected = GetTeamMemory().Expected += this->CountBlocks();
     unsigned long long* arrivals = &this->State->Arrivals;
-    const bool isShared = this->Parts > 1;
+    const bool isShared = this->Devices > 1;
     AddRelease(arrivals, own.Value, isShared);
     TeamNews news{};
     // An acquire flushes the first-level cache, which another block may be using. So this waits
@@ -359,7 +366,7 @@ private:
     }
   }
 
-  __device__ unsigned CountBlocks() const { return this->Size * this->Parts; }
+  __device__ unsigned CountBlocks() const { return this->Size * this->Devices; }
 
   __device__ static unsigned GetSum(IterationSum sum)
   {
@@ -368,7 +375,7 @@ private:
 
   TeamState* State;
   unsigned Size; ///< Blocks on this GPU.
-  unsigned Parts; ///< GPUs.
+  unsigned Devices; ///< GPUs.
   bool HasFewEdges;
 };
 

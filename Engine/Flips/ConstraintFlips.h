@@ -102,8 +102,8 @@ enum class PathResult
 /// The path of a constraint through a mesh. It begins at a vertex, and a segment of it ends at each
 /// vertex that it meets.
 ///
-/// A flip replaces two triangles by two that turn to the same side, and makes no edge that exists.
-/// So any mesh stays as valid as it was, and flips for a constraint that cannot be inserted do no
+/// A flip replaces two triangles by two of the same orientation, and makes no edge that exists. So
+/// any mesh stays as valid as it was, and flips for a constraint that cannot be inserted do no
 /// harm. Several threads may flip at a time for paths that have no triangle in common.
 struct ConstraintPath
 {
@@ -121,8 +121,8 @@ struct ConstraintPath
     PathResult Result;
     VertexId Start = 0, End = 0;
     /// If the segment is an edge, one of its sides. If it crosses triangles, the first edge of
-    /// their left or right rim, depending on how they turn: a half-edge of the first triangle. It
-    /// runs towards the segment's start, as all half-edges of a rim do.
+    /// their left or right rim, depending on their orientation: a half-edge of the first triangle.
+    /// It runs towards the segment's start, as all half-edges of a rim do.
     HalfEdgeId Side = NoHalfEdge;
     bool IsEdge = false;
     bool IsForward = false; ///< Whether Side is that of an edge and runs along the path.
@@ -206,29 +206,34 @@ private:
     VertexId End = 0;
     bool IsForward = false;
     CornerId Through = NoCorner; ///< Across the edge opposite this corner.
-    int Triangles = 0; ///< That it can go through.
+    int Triangles = 0; ///< How many it can go through.
     TriangleId Bar = NoTriangle;
-    VertexId Seen = NoTriangle; ///< The last vertex whose side was found, and its side.
-    int Side = 0;
+    VertexId LastVertex = NoVertex; ///< The vertex last examined.
+    int SideOfLast = 0; ///< The side on which LastVertex lies.
   };
 
   /// The side of the constraint on which a vertex lies; 0: on its line.
   DELAUNAYFLIP_HOST_DEVICE int FindSide(VertexId vertex) const
   {
-    return vertex == this->From || vertex == this->To
-      ? 0
-      : this->Mesh.FindTurn(this->From, this->To, vertex);
+    if (vertex == this->From || vertex == this->To)
+    {
+      return 0;
+    }
+    return this->Mesh.FindOrientation(this->From, this->To, vertex);
   }
 
-  /// Whether `b` lies further on than `a`, but not beyond the end. Both are on the line.
+  /// Whether `b`, a vertex on the line, lies further on than `a`, another one, but not beyond the
+  /// end.
   DELAUNAYFLIP_HOST_DEVICE bool IsAhead(VertexId a, VertexId b) const
   {
     const PlanePoint p = this->Mesh.GetPoint(a);
     const PlanePoint q = this->Mesh.GetPoint(b);
     const PlanePoint end = this->Mesh.GetPoint(this->To);
-    return IsLexicographicallyLess(this->Mesh.GetPoint(this->From), end)
-      ? IsLexicographicallyLess(p, q) && !IsLexicographicallyLess(end, q)
-      : IsLexicographicallyLess(q, p) && !IsLexicographicallyLess(q, end);
+    if (IsLexicographicallyLess(this->Mesh.GetPoint(this->From), end))
+    {
+      return IsLexicographicallyLess(p, q) && !IsLexicographicallyLess(end, q);
+    }
+    return IsLexicographicallyLess(q, p) && !IsLexicographicallyLess(q, end);
   }
 
   DELAUNAYFLIP_HOST_DEVICE Segment Fail(PathResult result, TriangleId bar = NoTriangle)
@@ -245,9 +250,12 @@ private:
       [&](CornerId corner)
       {
         this->AddExits(corner, exits);
-        const bool hasOne = exits.Along != NoHalfEdge || exits.Triangles > 0;
-        return this->Mesh.IsTriangulation ? hasOne
-                                          : exits.Along != NoHalfEdge && exits.End == this->To;
+        const bool hasEdge = exits.Along != NoHalfEdge;
+        if (this->Mesh.IsTriangulation)
+        {
+          return hasEdge || exits.Triangles > 0;
+        }
+        return hasEdge && exits.End == this->To;
       });
     if (exits.Along != NoHalfEdge)
     {
@@ -261,8 +269,11 @@ private:
     {
       return this->Fail(PathResult::Overlaps);
     }
-    return exits.Bar == NoTriangle ? this->Fail(PathResult::LeavesMesh)
-                                   : this->Fail(PathResult::IsBarred, exits.Bar);
+    if (exits.Bar != NoTriangle)
+    {
+      return this->Fail(PathResult::IsBarred, exits.Bar);
+    }
+    return this->Fail(PathResult::LeavesMesh);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void AddExits(CornerId corner, Exits& exits) const
@@ -275,19 +286,25 @@ private:
     {
       return;
     }
-    const int nextSide = next == exits.Seen ? exits.Side : this->FindSide(next);
+    const bool isKnown = next == exits.LastVertex;
+    const int nextSide = isKnown ? exits.SideOfLast : this->FindSide(next);
     const int previousSide = this->FindSide(previous);
-    exits.Seen = previous;
-    exits.Side = previousSide;
+    exits.LastVertex = previous;
+    exits.SideOfLast = previousSide;
     this->AddEdge(at, next, nextSide, PlaneMesh::Previous(corner), exits);
     this->AddEdge(at, previous, previousSide, PlaneMesh::Next(corner), exits);
     if (nextSide * previousSide < 0)
     {
-      const int turn = this->Mesh.FindTurnAt(corner);
-      const bool leads = turn * previousSide > 0;
-      exits.Through = leads ? corner : exits.Through;
-      exits.Triangles += leads ? 1 : 0;
-      exits.Bar = turn == 0 ? TriangleOf(corner) : exits.Bar;
+      const int orientation = this->Mesh.FindOrientationAt(corner);
+      if (orientation == 0)
+      {
+        exits.Bar = TriangleOf(corner);
+      }
+      else if (orientation == previousSide)
+      {
+        exits.Through = corner;
+        ++exits.Triangles;
+      }
     }
   }
 
@@ -308,35 +325,39 @@ private:
   template <typename Cross>
   DELAUNAYFLIP_HOST_DEVICE Segment CrossTriangles(VertexId at, CornerId corner, const Cross& cross)
   {
-    const int turn = this->Mesh.FindTurnAt(corner);
+    const int orientation = this->Mesh.FindOrientationAt(corner);
     HalfEdgeId crossed = this->Mesh.GetHalfEdge(corner);
     while (true)
     {
       if (this->Mesh.IsFixed(crossed))
       {
         this->Crossed = crossed;
-        const bool isRim = this->Mesh.Edges.CornerOfHalfEdge[crossed ^ 1u] == NoCorner;
-        return this->Fail(isRim ? PathResult::LeavesMesh : PathResult::CrossesFixedEdge);
+        const bool isBoundary = this->Mesh.Edges.CornerOfHalfEdge[crossed ^ 1u] == NoCorner;
+        return this->Fail(isBoundary ? PathResult::LeavesMesh : PathResult::CrossesFixedEdge);
       }
       cross(crossed);
       const CornerId across = this->Mesh.FindAcross(crossed);
-      const int turnAcross = this->Mesh.FindTurnAt(across);
-      if (turnAcross != turn)
+      const int orientationAcross = this->Mesh.FindOrientationAt(across);
+      if (orientationAcross == 0)
       {
-        return turnAcross == 0 ? this->Fail(PathResult::IsBarred, TriangleOf(across))
-                               : this->Fail(PathResult::Overlaps);
+        return this->Fail(PathResult::IsBarred, TriangleOf(across));
+      }
+      if (orientationAcross != orientation)
+      {
+        return this->Fail(PathResult::Overlaps);
       }
       const VertexId vertex = this->Mesh.GetVertex(across);
-      const int side = turn * this->FindSide(vertex);
+      const int side = orientation * this->FindSide(vertex);
+      if (side == 0 && (vertex == this->To || this->IsAhead(at, vertex)))
+      {
+        return { PathResult::Found, at, vertex, this->Mesh.GetHalfEdge(PlaneMesh::Next(corner)) };
+      }
       if (side == 0)
       {
-        // If the vertex is not ahead, the walk has passed its end in another layer.
-        return vertex == this->To || this->IsAhead(at, vertex) ? Segment{ PathResult::Found, at,
-          vertex, this->Mesh.GetHalfEdge(PlaneMesh::Next(corner)) }
-                                                               : this->Fail(PathResult::Overlaps);
+        return this->Fail(PathResult::Overlaps); // the walk has passed its end in another layer
       }
-      crossed =
-        this->Mesh.GetHalfEdge(side > 0 ? PlaneMesh::Next(across) : PlaneMesh::Previous(across));
+      const CornerId next = side > 0 ? PlaneMesh::Next(across) : PlaneMesh::Previous(across);
+      crossed = this->Mesh.GetHalfEdge(next);
     }
   }
 
@@ -348,13 +369,14 @@ private:
   /// @returns false where triangles overlap so that there is none.
   DELAUNAYFLIP_HOST_DEVICE bool Straighten(Segment& segment)
   {
-    const int turn = this->Mesh.FindTurnAt(this->Mesh.Edges.CornerOfHalfEdge[segment.Side]);
+    const int orientation =
+      this->Mesh.FindOrientationAt(this->Mesh.Edges.CornerOfHalfEdge[segment.Side]);
     HalfEdgeId& last = segment.Side;
     while (this->Mesh.GetStart(last) != segment.End)
     {
-      HalfEdgeId next = this->FindNextOfRim(last, turn);
+      HalfEdgeId next = this->FindNextOfRim(last, orientation);
       bool hasBefore = true;
-      while (hasBefore && this->IsEar(last, next, turn))
+      while (hasBefore && this->IsEar(last, next, orientation))
       {
         if (!this->CutEar(last, next))
         {
@@ -364,7 +386,10 @@ private:
         const CornerId corner = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[last]);
         next = this->Mesh.GetHalfEdge(corner) ^ 1u;
         hasBefore = this->Mesh.GetEnd(next) != segment.Start;
-        last = hasBefore ? this->FindPreviousOfRim(next, turn) : last;
+        if (hasBefore)
+        {
+          last = this->FindPreviousOfRim(next, orientation);
+        }
       }
       last = next;
     }
@@ -373,10 +398,10 @@ private:
 
   /// The half-edge of the rim that ends where another one starts: around that vertex, the first
   /// edge that does not lead across the segment.
-  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId FindNextOfRim(HalfEdgeId side, int turn) const
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId FindNextOfRim(HalfEdgeId side, int orientation) const
   {
     CornerId corner = PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[side]);
-    while (turn * this->FindSide(this->Mesh.GetVertex(PlaneMesh::Previous(corner))) < 0)
+    while (orientation * this->FindSide(this->Mesh.GetVertex(PlaneMesh::Previous(corner))) < 0)
     {
       corner = this->Mesh.FindNextAround(corner);
     }
@@ -384,10 +409,10 @@ private:
   }
 
   /// The half-edge of the rim that starts where another one ends.
-  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId FindPreviousOfRim(HalfEdgeId side, int turn) const
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId FindPreviousOfRim(HalfEdgeId side, int orientation) const
   {
     CornerId corner = PlaneMesh::Previous(this->Mesh.Edges.CornerOfHalfEdge[side]);
-    while (turn * this->FindSide(this->Mesh.GetVertex(PlaneMesh::Next(corner))) < 0)
+    while (orientation * this->FindSide(this->Mesh.GetVertex(PlaneMesh::Next(corner))) < 0)
     {
       corner = this->Mesh.FindPreviousAround(corner);
     }
@@ -395,11 +420,11 @@ private:
   }
 
   /// Whether the triangles at the vertex between two half-edges of a rim cover less than half a
-  /// turn.
-  DELAUNAYFLIP_HOST_DEVICE bool IsEar(HalfEdgeId first, HalfEdgeId second, int turn) const
+  /// circle.
+  DELAUNAYFLIP_HOST_DEVICE bool IsEar(HalfEdgeId first, HalfEdgeId second, int orientation) const
   {
-    return this->Mesh.FindTurn(this->Mesh.GetEnd(first), this->Mesh.GetStart(first),
-             this->Mesh.GetStart(second)) == -turn;
+    return this->Mesh.FindOrientation(this->Mesh.GetEnd(first), this->Mesh.GetStart(first),
+             this->Mesh.GetStart(second)) == -orientation;
   }
 
   /// Flips edges away from the vertex between two half-edges of a rim, until one triangle is left
@@ -411,8 +436,8 @@ private:
     HalfEdgeId side = this->Mesh.GetHalfEdge(PlaneMesh::Next(corner));
     while (side != second)
     {
-      const CornerId before =
-        corner == getStart() ? NoCorner : this->Mesh.FindPreviousAround(corner);
+      const bool isFirst = corner == getStart();
+      const CornerId before = isFirst ? NoCorner : this->Mesh.FindPreviousAround(corner);
       if (this->TryFlip(EdgeOf(side)))
       {
         corner = before == NoCorner ? getStart() : before;
@@ -437,12 +462,11 @@ private:
     int side = 1;
     if (!this->Mesh.IsTriangulation)
     {
-      const int upper = this->Mesh.FindTurn(quad.A, quad.P, quad.Q);
-      const int lower = this->Mesh.FindTurn(quad.B, quad.Q, quad.P);
-      side = upper * lower < 0 ? 0 : (upper != 0 ? upper : lower);
+      side = JoinOrientations(this->Mesh.FindOrientation(quad.A, quad.P, quad.Q),
+        this->Mesh.FindOrientation(quad.B, quad.Q, quad.P));
     }
-    return side != 0 && this->Mesh.FindTurn(quad.A, quad.P, quad.B) == side &&
-      this->Mesh.FindTurn(quad.B, quad.Q, quad.A) == side;
+    return side != 0 && this->Mesh.FindOrientation(quad.A, quad.P, quad.B) == side &&
+      this->Mesh.FindOrientation(quad.B, quad.Q, quad.A) == side;
   }
 };
 

@@ -44,7 +44,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
   triangle.Flips += OneFlip;
 }
 
-/*! Turns edge p-q of the quad into a-b:
+/*! Flips edge p-q of the quad, which becomes a-b:
 
              a                      a
            /   \                  / | \

@@ -125,9 +125,9 @@ private:
 /// by the mesh. Eight slots are a group, and their tags are one word. A search looks at one group
 /// after the other until one has an empty slot. It begins near the place that the pair's smaller
 /// vertex has in the order of vertices, so that neighbours in the mesh share cache lines. After two
-/// groups there it continues at places given by a hash of the whole pair: first among groups where
-/// no search begins, most of whose slots are empty, so that it soon ends, then anywhere. So
-/// searches are short whatever the vertex degrees.
+/// groups there it continues at places given by a hash of the whole pair. These are first among
+/// spare groups, where no search begins. Most slots of these are empty, so that the search soon
+/// ends. After some it continues anywhere. So searches are short whatever the vertex degrees.
 ///
 /// A slot becomes empty again only in a group that has another empty one, which no search has
 /// passed; else it stays removed until an edge uses it. Edges are inserted and removed at the same
@@ -155,8 +155,8 @@ struct GuardTableView
     DELAUNAYFLIP_HOST_DEVICE Path(const GuardTableView& table, VertexId a, VertexId b)
       : Table(table)
     {
-      const VertexId smaller = a < b ? a : b;
-      const VertexId larger = a < b ? b : a;
+      const VertexId smaller = std::min(a, b);
+      const VertexId larger = std::max(a, b);
       this->Scattered = Scatter(larger + Scatter(smaller));
       this->Tag = FirstTag + (this->Scattered >> 8) % (256 - FirstTag);
       const std::uint64_t home = (std::uint64_t(smaller) * table.Stride) >> StrideBits;
@@ -191,7 +191,11 @@ struct GuardTableView
     /// Home h of the table, or one of the first for those that follow the last.
     DELAUNAYFLIP_HOST_DEVICE std::uint32_t Wrap(std::uint32_t h) const
     {
-      return h < this->Table.Homes ? h : h % this->Table.Homes;
+      if (h < this->Table.Homes)
+      {
+        return h;
+      }
+      return h % this->Table.Homes;
     }
 
     const GuardTableView& Table;
@@ -203,7 +207,7 @@ struct GuardTableView
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(VertexId a, VertexId b) const
   {
-    const std::uint64_t home = (std::uint64_t(a < b ? a : b) * this->Stride) >> StrideBits;
+    const std::uint64_t home = (std::uint64_t(std::min(a, b)) * this->Stride) >> StrideBits;
     delaunayflip::Prefetch(&this->Tags[home < this->Homes ? home : 0]);
   }
 
@@ -239,7 +243,7 @@ struct GuardTableView
         if (seen == path.Tags)
         {
           AtomicStore(&this->Edges[path.Group * GroupSize + slot], edge);
-          return GetTag(seen, slot) == Empty ? 1 : 0;
+          return int(GetTag(seen, slot) == Empty);
         }
         path.Tags = seen;
       }
@@ -274,10 +278,11 @@ private:
     for (;;)
     {
       const bool hasEmpty = Match(tags, Empty) != 0;
-      const std::uint64_t seen = this->Exchange(group, tags, slot, hasEmpty ? Empty : Removed);
+      const unsigned tag = hasEmpty ? Empty : Removed;
+      const std::uint64_t seen = this->Exchange(group, tags, slot, tag);
       if (seen == tags)
       {
-        return hasEmpty ? 1 : 0;
+        return int(hasEmpty);
       }
       tags = seen;
     }
@@ -403,9 +408,7 @@ public:
       static_cast<std::uint32_t>(this->NumberOfHomes),
       (std::uint64_t(this->NumberOfHomes) << GuardTableView::StrideBits) /
         std::max<std::int64_t>(1, this->NumberOfVertices) };
-    const unsigned char* shared =
-      this->SharedVertices.Size() > 0 ? this->SharedVertices.Data() : nullptr;
-    return { { table, shared },
+    return { { table, this->SharedVertices.Data() },
       { this->Claims.Data(), static_cast<std::uint32_t>(this->Claims.Size()) } };
   }
 
@@ -452,7 +455,7 @@ private:
   Array<std::uint64_t> Claims;
   Array<unsigned char> SharedVertices;
   std::int64_t NumberOfHomes = 0; ///< Groups of slots where searches begin.
-  std::int64_t UsedSlots = 0; ///< Those that are not empty.
+  std::int64_t UsedSlots = 0; ///< Slots that are not empty.
   std::int64_t NumberOfVertices = 0;
 };
 

@@ -33,11 +33,13 @@ int FindChunkBits(std::int64_t triangles)
 }
 
 FlipLoop::FlipLoop(std::int64_t triangles, bool hasGuard)
-  : ChunkBits(FindChunkBits(triangles)),
-    NumberOfChunks(
-      hasGuard || triangles <= SmallestChunkedMesh ? 0 : ((triangles - 1) >> this->ChunkBits) + 1),
-    ChunkIterationsLeft(this->HasChunks() ? ChunkIterations : 0)
+  : ChunkBits(FindChunkBits(triangles))
 {
+  if (!hasGuard && triangles > SmallestChunkedMesh)
+  {
+    this->NumberOfChunks = ((triangles - 1) >> this->ChunkBits) + 1;
+    this->ChunkIterationsLeft = ChunkIterations;
+  }
 }
 
 const StepCounts& FlipLoop::Detect()
@@ -80,7 +82,11 @@ std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
     iterations[0].Blocked = this->Found.GetBlocked();
   }
   this->Detect();
-  return iterations.empty() ? this->IterateMesh(plan) : iterations;
+  if (iterations.empty())
+  {
+    return this->IterateMesh(plan);
+  }
+  return iterations;
 }
 
 }

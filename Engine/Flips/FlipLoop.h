@@ -47,12 +47,12 @@ struct AdvancePlan
 /// The loop, on top of what a backend provides. Between calls the mesh is valid.
 ///
 /// An iteration has these passes. Each runs for all its edges at once and ends before the next
-/// begins; the same numbers stand in FlipSteps.h and where the backends run the passes.
+/// begins; the same numbers stand in EdgePasses.h and where the backends run the passes.
 ///
 /// 1. Judge the candidates by floating-point arithmetic, and resolve exactly those that it cannot
 ///    decide.
-/// 2. Guard, where flips could make an edge that exists: block bad edges whose new edge exists, and
-///    free those whose obstacle has gone.
+/// 2. Guard, where flips could make an edge that exists: block the bad edges that would, and free
+///    those that no longer would.
 /// 3. Count the bad and the blocked edges. None bad: the loop has converged.
 /// 4. Choose an independent set of the bad edges by their priorities.
 /// 5. Claim and confirm, only with a guard: one of two winners that would make the same edge waits.
@@ -74,8 +74,8 @@ public:
   /// The first detection.
   const StepCounts& Detect();
 
-  /// After the mesh was changed from outside, with the state Candidate where edges must be judged
-  /// again. Detect must follow.
+  /// Takes over what has changed in the mesh outside the loop. Edges that must be judged again have
+  /// the state Candidate. Detect must follow.
   void Restart();
 
   /// The counts of the last detection.
@@ -114,11 +114,11 @@ protected:
   virtual std::vector<IterationCounts> IterateChunks(const AdvancePlan& plan) = 0;
 
   int ChunkBits; ///< 2^ChunkBits triangles per chunk.
-  std::int64_t NumberOfChunks; ///< 0: no iterations within chunks.
+  std::int64_t NumberOfChunks = 0; ///< 0: no iterations within chunks.
   StepCounts Found;
 
 private:
-  std::int64_t ChunkIterationsLeft;
+  std::int64_t ChunkIterationsLeft = 0;
 };
 
 /// The type of a backend's loop for a rule: LoopOf<Backend, Rule>::Type.

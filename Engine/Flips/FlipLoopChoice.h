@@ -27,7 +27,7 @@ inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion
   }
   const PlaneProjection& plane = survey.Projection;
   const bool byAngles = criterion == CriterionKind::OppositeAngles;
-  const int components = byAngles || plane.Tilted ? 3 : 2;
+  const int components = 2 + int(byAngles || plane.Tilted);
   return { { plane.AxisU, plane.AxisV, plane.AxisW }, components, asFloat && components == 2,
     byAngles && survey.Geometry == GeometryKind::PlanarXY,
     survey.Geometry == GeometryKind::Planar && survey.NonFinitePoints.Count > 0 };
@@ -51,17 +51,20 @@ struct RuleChoice
   }
 
   /// Calls visit(rule) for packed coordinates (PlanPacking), of one type or the other.
-  /// @param uniformSide the side to which all triangles turn, if they do (PlanarSurvey).
+  /// @param uniformSide PlanarSurvey::UniformSide.
   template <typename Function>
   auto Visit(
     const float* floats, const double* doubles, int uniformSide, const Function& visit) const
   {
+    if (this->IsSurface && floats)
+    {
+      return visit(
+        SurfaceRule<float>{ { floats, this->Tolerance, this->Range }, this->MaximumDeviation });
+    }
     if (this->IsSurface)
     {
-      return floats ? visit(SurfaceRule<float>{
-                        { floats, this->Tolerance, this->Range }, this->MaximumDeviation })
-                    : visit(SurfaceRule<double>{
-                        { doubles, this->Tolerance, this->Range }, this->MaximumDeviation });
+      return visit(
+        SurfaceRule<double>{ { doubles, this->Tolerance, this->Range }, this->MaximumDeviation });
     }
     if (this->ByAngles)
     {
@@ -72,9 +75,13 @@ struct RuleChoice
       return visit(
         PlanarRule<double, 3>{ doubles, uniformSide, this->IsCanonical, this->FiltersApply });
     }
-    return floats
-      ? visit(PlanarRule<float, 2>{ floats, uniformSide, this->IsCanonical, this->FiltersApply })
-      : visit(PlanarRule<double, 2>{ doubles, uniformSide, this->IsCanonical, this->FiltersApply });
+    if (floats)
+    {
+      return visit(
+        PlanarRule<float, 2>{ floats, uniformSide, this->IsCanonical, this->FiltersApply });
+    }
+    return visit(
+      PlanarRule<double, 2>{ doubles, uniformSide, this->IsCanonical, this->FiltersApply });
   }
 
   bool IsSurface, ByAngles, IsTilted, IsCanonical, FiltersApply;

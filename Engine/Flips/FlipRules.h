@@ -26,33 +26,64 @@ enum class SignKind
 };
 
 template <SignKind Kind>
-DELAUNAYFLIP_HOST_DEVICE int FindTurnBy(
+DELAUNAYFLIP_HOST_DEVICE int FindOrientationBy(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
-  return Kind == SignKind::Exact ? ExactOrientation(a, b, c) : FilteredOrientation(a, b, c);
+  if constexpr (Kind == SignKind::Exact)
+  {
+    return ExactOrientation(a, b, c);
+  }
+  else
+  {
+    return FilteredOrientation(a, b, c);
+  }
 }
 
-/// The side to which the two triangles of a quad turn: 1 or -1; 0 if they turn to different sides
-/// or neither has an area; or UncertainSign. `strict` receives whether both have an area.
+template <SignKind Kind, bool Tilted>
+DELAUNAYFLIP_HOST_DEVICE int FindInCircleBy(const PlanePoint (&apqb)[4])
+{
+  if constexpr (Kind == SignKind::Exact)
+  {
+    return ExactInCircle(apqb, Tilted);
+  }
+  else
+  {
+    return FilteredInCircle<Tilted>(apqb[0], apqb[1], apqb[2], apqb[3]);
+  }
+}
+
+/// The common orientation of two triangles, one of which may have no area; 0 if they have different
+/// ones or neither has an area.
+DELAUNAYFLIP_HOST_DEVICE inline int JoinOrientations(int upper, int lower)
+{
+  if (upper * lower < 0)
+  {
+    return 0;
+  }
+  return upper != 0 ? upper : lower;
+}
+
+/// The orientation of the two triangles of a quad: 1 or -1; 0 if they have different ones or
+/// neither has an area; or UncertainSign. `strict` receives whether both have an area.
 template <SignKind Kind>
 DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint (&apqb)[4], bool& strict)
 {
-  const int upper = FindTurnBy<Kind>(apqb[0], apqb[1], apqb[2]);
-  const int lower = FindTurnBy<Kind>(apqb[3], apqb[2], apqb[1]);
+  const int upper = FindOrientationBy<Kind>(apqb[0], apqb[1], apqb[2]);
+  const int lower = FindOrientationBy<Kind>(apqb[3], apqb[2], apqb[1]);
   strict = upper != 0 && lower != 0;
   if (upper == UncertainSign || lower == UncertainSign)
   {
     return UncertainSign;
   }
-  return upper * lower < 0 ? 0 : (upper != 0 ? upper : lower);
+  return JoinOrientations(upper, lower);
 }
 
-/// BlockedByShape unless both triangles of the flipped quad turn to `side`.
+/// BlockedByShape unless both triangles of the flipped quad have orientation `side`.
 template <SignKind Kind>
 DELAUNAYFLIP_HOST_DEVICE EdgeState CheckConvex(const PlanePoint (&apqb)[4], int side)
 {
-  const int left = FindTurnBy<Kind>(apqb[0], apqb[1], apqb[3]);
-  const int right = FindTurnBy<Kind>(apqb[3], apqb[2], apqb[0]);
+  const int left = FindOrientationBy<Kind>(apqb[0], apqb[1], apqb[3]);
+  const int right = FindOrientationBy<Kind>(apqb[3], apqb[2], apqb[0]);
   if (left == UncertainSign || right == UncertainSign)
   {
     return EdgeState::Uncertain;
@@ -66,28 +97,44 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess(
   return a.U < b.U || (a.U == b.U && a.V < b.V);
 }
 
+/// Exchanges two points unless they are in lexicographic order, which along a line is their order
+/// on it.
+DELAUNAYFLIP_HOST_DEVICE inline void Sort(PlanePoint& first, PlanePoint& last)
+{
+  if (!IsLexicographicallyLess(first, last))
+  {
+    const PlanePoint larger = first;
+    first = last;
+    last = larger;
+  }
+}
+
 /// Whether the edge p-q spans both opposite vertices, so that the flip shortens it. Either may lie
-/// at an end of it. Both triangles have no area, and the four points lie in one line.
+/// at an end of it. The two triangles have no area, and the four points lie in one line.
 DELAUNAYFLIP_HOST_DEVICE inline bool SpansOpposite(const PlanePoint (&apqb)[4])
 {
-  // Along a line the lexicographic order is that of the points on it.
-  const bool forward = IsLexicographicallyLess(apqb[1], apqb[2]);
-  const PlanePoint first = forward ? apqb[1] : apqb[2];
-  const PlanePoint last = forward ? apqb[2] : apqb[1];
-  const bool sorted = IsLexicographicallyLess(apqb[0], apqb[3]);
-  const PlanePoint lower = sorted ? apqb[0] : apqb[3];
-  const PlanePoint upper = sorted ? apqb[3] : apqb[0];
+  PlanePoint first = apqb[1], last = apqb[2];
+  Sort(first, last);
+  PlanePoint lower = apqb[0], upper = apqb[3];
+  Sort(lower, upper);
   const bool startsLater = IsLexicographicallyLess(first, lower);
   const bool endsEarlier = IsLexicographicallyLess(upper, last);
   return !IsLexicographicallyLess(lower, first) && !IsLexicographicallyLess(last, upper) &&
     (startsLater || endsEarlier);
 }
 
+/// Bad if a condition holds, else Good. This is a selection instead of a branch, which would be
+/// mispredicted half of the time.
+DELAUNAYFLIP_HOST_DEVICE inline EdgeState BadIf(bool isBad)
+{
+  return isBad ? EdgeState::Bad : EdgeState::Good;
+}
+
 /// The canonical diagonal of four points on a circle is the one without the lexicographically
 /// largest point.
 DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest(const PlanePoint (&apqb)[4])
 {
-  // Not a reference to the larger one: for that a device would have to store the points in memory.
+  // This takes no reference to the larger one, for which a device would store the points in memory.
   const auto isBelow = [&](const PlanePoint& point)
   { return IsLexicographicallyLess(point, apqb[1]) || IsLexicographicallyLess(point, apqb[2]); };
   return isBelow(apqb[0]) && isBelow(apqb[3]);
@@ -105,7 +152,7 @@ struct PlanarRule
   static constexpr bool IsInSpace = false;
 
   const Real* Coordinates; ///< Components numbers per vertex.
-  int UniformSide; ///< 1 or -1 when every triangle turns to that side, 0 if unknown.
+  int UniformSide; ///< 1 or -1 when every triangle has that orientation, 0 if unknown.
   bool Canonical; ///< Whether ties are decided instead of kept.
   bool FiltersApply; ///< Whether coordinates are in the range of the filters.
 
@@ -129,7 +176,11 @@ struct PlanarRule
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
-    return this->FiltersApply ? this->Decide<SignKind::Filtered>(quad) : EdgeState::Uncertain;
+    if (!this->FiltersApply)
+    {
+      return EdgeState::Uncertain;
+    }
+    return this->Decide<SignKind::Filtered>(quad);
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
@@ -138,7 +189,7 @@ struct PlanarRule
   }
 
 private:
-  /// In the plane, if in-circle > 0, one triangle has an area, and the other is not turned over,
+  /// In the plane, if in-circle > 0, one triangle has an area, and the other is not folded over,
   /// the quad is strictly convex. With a tilted lift, points off the plane can break this.
   template <SignKind Kind>
   DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(const Quad& quad) const
@@ -146,25 +197,30 @@ private:
     const PlanePoint apqb[4] = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
       this->Get(quad.B) };
     bool strict = true;
-    const int side = this->UniformSide != 0 ? this->UniformSide : FindSide<Kind>(apqb, strict);
-    const int inCircle = Kind == SignKind::Exact
-      ? ExactInCircle(apqb, Tilted)
-      : FilteredInCircle<Tilted>(apqb[0], apqb[1], apqb[2], apqb[3]);
+    int side = this->UniformSide;
+    if (side == 0)
+    {
+      side = FindSide<Kind>(apqb, strict);
+    }
+    const int inCircle = FindInCircleBy<Kind, Tilted>(apqb);
     if (side == UncertainSign || inCircle == UncertainSign)
     {
       return EdgeState::Uncertain;
     }
-    // A selection instead of a branch, which would be mispredicted half of the time.
-    EdgeState state = inCircle * side > 0 ? EdgeState::Bad : EdgeState::Good;
     if (side == 0)
     {
-      return !strict && SpansOpposite(apqb) ? EdgeState::Bad : EdgeState::Good;
+      return BadIf(!strict && SpansOpposite(apqb));
     }
+    EdgeState state = BadIf(inCircle * side > 0);
     if (inCircle == 0 && this->Canonical && strict)
     {
-      state = EdgeHoldsLargest(apqb) ? EdgeState::Bad : EdgeState::Good;
+      state = BadIf(EdgeHoldsLargest(apqb));
     }
-    return Tilted && state == EdgeState::Bad ? CheckConvex<Kind>(apqb, side) : state;
+    if (Tilted && state == EdgeState::Bad)
+    {
+      return CheckConvex<Kind>(apqb, side);
+    }
+    return state;
   }
 };
 
@@ -239,7 +295,11 @@ struct PlanarAngleRule : AnglePoints<double>
   DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
   {
     const AngleSum sum(this->Get(quad));
-    return this->ExceedsPi(quad, sum) ? EdgeState::Uncertain : EdgeState::Good;
+    if (this->ExceedsPi(quad, sum))
+    {
+      return EdgeState::Uncertain;
+    }
+    return EdgeState::Good;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
@@ -251,7 +311,7 @@ struct PlanarAngleRule : AnglePoints<double>
     const int side = FindSide<SignKind::Exact>(apqb, strict);
     if (side == 0)
     {
-      return !strict && SpansOpposite(apqb) ? EdgeState::Bad : EdgeState::Good;
+      return BadIf(!strict && SpansOpposite(apqb));
     }
     return CheckConvex<SignKind::Exact>(apqb, side);
   }
@@ -287,9 +347,11 @@ struct SurfaceRule : AnglePoints<Real>
     {
       return EdgeState::BlockedByShape;
     }
-    return this->MaximumDeviation < INFINITY && this->MovesTooFar(quad)
-      ? EdgeState::BlockedByDeviation
-      : EdgeState::Bad;
+    if (this->MaximumDeviation < INFINITY && this->MovesTooFar(quad))
+    {
+      return EdgeState::BlockedByDeviation;
+    }
+    return EdgeState::Bad;
   }
 
   DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const

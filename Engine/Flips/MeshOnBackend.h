@@ -67,8 +67,12 @@ struct NeighborStep
     const TriangleRecord& triangle = this->Triangles[i / 3];
     const int slot = static_cast<int>(i % 3);
     const CornerId across = this->CornerOfHalfEdge[GetAt(triangle.HalfEdges, slot) ^ 1u];
-    target.Set(std::int64_t(3) * triangle.InputTriangle + slot,
-      across == NoCorner ? NoTriangle : this->Triangles[TriangleOf(across)].InputTriangle);
+    TriangleId neighbor = NoTriangle;
+    if (across != NoCorner)
+    {
+      neighbor = this->Triangles[TriangleOf(across)].InputTriangle;
+    }
+    target.Set(std::int64_t(3) * triangle.InputTriangle + slot, neighbor);
   }
 };
 
@@ -103,16 +107,15 @@ public:
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);
     progress.Reach(survey.Geometry, BuildStep::Ordered);
-    const bool isSurface = survey.Geometry == GeometryKind::Surface;
     EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
     const PointArray& points = input.Local.Points;
     this->Points = PackPoints(points, this->Order.View(),
       PlanPacking(survey, options.Criterion, points.Floats != nullptr), this->Backend);
     local.DropPoints(); // the caller's points are not needed any more
-    const PackedPointsView packed = this->Points.View();
-    const std::int64_t count = isSurface ? mesh.Points.Count : 0;
-    edges.Packed =
-      packed.Floats ? PointArray(packed.Floats, count) : PointArray(packed.Doubles, count);
+    if (survey.Geometry == GeometryKind::Surface)
+    {
+      edges.Packed = this->Points.View().GetPoints();
+    }
     // This is the peak of memory use, with the caller's triangles and the engine's. So a device
     // first frees what can be recomputed.
     if (BackendT::MemoryIsScarce)
@@ -134,7 +137,7 @@ public:
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
     built.Table = EdgeTable(); // frees its memory
-    this->Turns = survey.Turns;
+    this->Orientations = survey.Orientations;
     FlipReport& report = this->Report;
     report.Points = mesh.Points.Count;
     report.Triangles = mesh.Triangles.Count;
@@ -163,8 +166,14 @@ public:
     BackendT backend, const BuildProgress& progress)
     : Backend(std::move(backend))
   {
-    points.Floats ? this->Triangulate<float>(points, isLocal, points.Floats, options, progress)
-                  : this->Triangulate<double>(points, isLocal, points.Doubles, options, progress);
+    if (points.Floats)
+    {
+      this->Triangulate<float>(points, isLocal, points.Floats, options, progress);
+    }
+    else
+    {
+      this->Triangulate<double>(points, isLocal, points.Doubles, options, progress);
+    }
   }
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
@@ -201,7 +210,11 @@ public:
       {
         for (std::int64_t i = piece * Piece; i < std::min(count, (piece + 1) * Piece); ++i)
         {
-          ids[i] = used.empty() ? i : (used[i] == NoVertex ? -1 : std::int64_t(used[i]));
+          ids[i] = i;
+          if (!used.empty())
+          {
+            ids[i] = used[i] == NoVertex ? -1 : std::int64_t(used[i]);
+          }
         }
       });
   }
@@ -209,8 +222,14 @@ public:
   void Divide(const BuildProgress& progress) override
   {
     this->StartPolls(progress);
-    this->Places.Floats ? this->Divide(this->Places.Floats, progress)
-                        : this->Divide(this->Places.Doubles, progress);
+    if (this->Places.Floats)
+    {
+      this->Divide(this->Places.Floats, progress);
+    }
+    else
+    {
+      this->Divide(this->Places.Doubles, progress);
+    }
   }
 
   void InsertSegments(
@@ -253,24 +272,33 @@ public:
     auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
     auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
     const auto ids = fetch(this->Order.VertexOfRank.Data(), this->Points.Count);
-    const auto floats =
-      fetch(this->Places.Floats, this->Places.Floats ? 2 * this->Points.Count : 0);
-    const auto doubles =
-      fetch(this->Places.Doubles, this->Places.Doubles ? 2 * this->Points.Count : 0);
     view.Edges = { triangles.data(), corners.data(), states.data() };
-    view.Places = this->Places.Floats ? PlaneArray(floats.data(), this->Points.Count, 2)
-                                      : PlaneArray(doubles.data(), this->Points.Count, 2);
     view.Ids = ids.data();
-    use(view);
+    const auto useWith = [&](const auto& places)
+    {
+      view.Places = PlaneArray(places.data(), this->Points.Count, 2);
+      use(view);
+    };
+    if (this->Places.Floats)
+    {
+      useWith(fetch(this->Places.Floats, 2 * this->Points.Count));
+    }
+    else
+    {
+      useWith(fetch(this->Places.Doubles, 2 * this->Points.Count));
+    }
   }
 
   Defect FindTurnedTriangles() const override
   {
     const bool wasHeightField =
-      this->Report.GeometryUsed == GeometryKind::Surface && this->Turns.AreNearlyUniform();
-    return wasHeightField
-      ? delaunayflip::FindTurnedTriangles(this->Mesh, this->Points, this->Turns, this->Backend)
-      : Defect();
+      this->Report.GeometryUsed == GeometryKind::Surface && this->Orientations.AreNearlyUniform();
+    if (!wasHeightField)
+    {
+      return Defect();
+    }
+    return delaunayflip::FindTurnedTriangles(
+      this->Mesh, this->Points, this->Orientations, this->Backend);
   }
 
   bool KeepsSliver() override
@@ -302,9 +330,13 @@ public:
     this->Backend.ForEach(static_cast<std::int64_t>(this->UsedPoint.Size()),
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
-        if (used[i] != i)
+        if (used[i] == NoVertex)
         {
-          placeOf[i] = used[i] == NoVertex ? NoVertex : placeOf[used[i]];
+          placeOf[i] = NoVertex;
+        }
+        else if (used[i] != i)
+        {
+          placeOf[i] = placeOf[used[i]];
         }
       });
     return places;
@@ -357,7 +389,7 @@ protected:
   FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
 
 private:
-  /// Asks the observer also within steps, which may take seconds, and in the loop.
+  /// Lets the observer be asked also within steps, which may take seconds, and in the loop.
   void StartPolls(const BuildProgress& progress)
   {
     if constexpr (BackendT::IsOnHost)
@@ -374,10 +406,11 @@ private:
     this->StartPolls(progress);
     StripPoints<Real> sorted;
     {
-      const std::int64_t numbers = points.Count > 0 ? (points.Count - 1) * points.Stride + 2 : 0;
-      Array<Real> copy = this->Backend.template MakeArray<Real>(isLocal ? 0 : numbers);
-      if (!isLocal)
+      Array<Real> copy;
+      if (!isLocal && points.Count > 0)
       {
+        const std::int64_t numbers = (points.Count - 1) * points.Stride + 2;
+        copy = this->Backend.template MakeArray<Real>(numbers);
         this->Backend.Upload(values, numbers, copy.Data());
         points = PlaneArray(copy.Data(), points.Count, points.Stride);
       }
@@ -411,17 +444,19 @@ private:
     report.Points = points.Count;
     report.Triangles = this->Mesh.NumberOfTriangles;
     report.Edges.Edges = this->Mesh.NumberOfEdges;
-    report.Edges.Boundary = this->Mesh.NumberOfTriangles > 0 ? mesh.HullEdges : 0;
-    report.Edges.Fixed = report.Edges.Boundary;
-    report.EulerCharacteristic =
-      report.Triangles > 0 ? places - report.Edges.Edges + report.Triangles : 0;
+    if (report.Triangles > 0)
+    {
+      report.Edges.Boundary = mesh.HullEdges;
+      report.Edges.Fixed = mesh.HullEdges;
+      report.EulerCharacteristic = places - report.Edges.Edges + report.Triangles;
+    }
     report.GeometryUsed = Plane;
     report.GeometryReason = "points are triangulated in the plane";
     report.Backend = this->Backend.GetName();
     report.Tolerance = DescribeTolerance(options, Plane);
     report.FromPoints.NotFinite = points.Count - finite;
     report.FromPoints.Repeated = finite - places;
-    // All triangles turn to the left and none overlap, so that flips need no guard.
+    // All triangles are counter-clockwise and none overlap, so that flips need no guard.
     this->Range = survey.Range;
     this->FiltersApply = survey.FiltersApply;
     this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
@@ -437,7 +472,7 @@ private:
   }
 
   /// Makes the loop that suits the mesh, and measures the smallest angle.
-  /// @returns the triangles without area or turned over.
+  /// @returns the triangles without area or with another orientation than most.
   std::vector<Defect> ChooseLoop(
     const MeshSurvey& survey, const FlipOptions& options, const TriangleMesh& mesh)
   {
@@ -470,9 +505,11 @@ private:
     const AngleSums angles = this->Loop->MeasureAngles();
     KeepAnglesBefore(angles, this->Report);
     KeepAnglesAfter(angles, this->Report);
-    return isSurface && angles.Largest == INFINITY
-      ? std::vector<Defect>{ FindZeroAreaTriangles(this->Mesh, this->Points, this->Backend) }
-      : defects;
+    if (isSurface && angles.Largest == INFINITY)
+    {
+      defects = { FindZeroAreaTriangles(this->Mesh, this->Points, this->Backend) };
+    }
+    return defects;
   }
 
   template <typename Real>
@@ -492,7 +529,7 @@ private:
   bool FiltersApply = false; ///< For a mesh from points: whether the rule's do.
   PlaneArray Places; ///< For a mesh from points: a view of Points.
   Array<VertexId> UsedPoint; ///< What MergePlaces returned.
-  TurnSample Turns;
+  OrientationSample Orientations;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;
 };

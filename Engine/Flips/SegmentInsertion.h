@@ -45,6 +45,18 @@ struct SegmentItem
   }
 };
 
+/// The data that threads prefetch for an item, each kind some items after the one before it,
+/// because it is found there.
+enum class PrefetchStage
+{
+  Item,
+  Ends, ///< Its two points, and a corner of the first.
+  FirstTriangle, ///< The triangle of that corner.
+  CornersAcross, ///< The corners on the other side of its edges.
+  TrianglesAcross, ///< The triangles of these.
+  Count
+};
+
 /// What is done to the items of a list in a round, step by step. All segments that are left find
 /// their paths and claim the triangles that these cross. One of several claims on a triangle wins;
 /// the others are beaten. A path that runs along an edge shares it with others that do, but not
@@ -84,13 +96,16 @@ struct SegmentRound
       const std::uint32_t before = AtomicMin(&this->Claims[triangle], claim);
       if (before != claim)
       {
-        this->Beat(before < claim ? claim : before);
+        this->Beat(std::max(before, claim));
       }
     };
     const PathResult result = this->StartPath(item).Walk(
       [&](const ConstraintPath::Segment& segment)
       {
-        item.First = edges == 0 ? segment : item.First;
+        if (edges == 0)
+        {
+          item.First = segment;
+        }
         ++edges;
       },
       [&](HalfEdgeId side)
@@ -98,8 +113,15 @@ struct SegmentRound
         claimTriangle(side);
         claimTriangle(side ^ 1u);
       });
-    item.NumberOfEdges = result == PathResult::Found ? edges : 0;
-    item.State = result == PathResult::Found ? SegmentItem::Waiting : SegmentItem::Refused;
+    if (result == PathResult::Found)
+    {
+      item.NumberOfEdges = edges;
+    }
+    else
+    {
+      item.NumberOfEdges = 0;
+      item.State = SegmentItem::Refused;
+    }
   }
 
   /// Stores the path of a segment. Where the path runs along an edge, an earlier segment in one of
@@ -170,46 +192,54 @@ struct SegmentRound
     item.State = SegmentItem::Inserted;
   }
 
-  /// Requests what Claim will read of an item, the later stages what those before lead to.
-  void Prefetch(std::int64_t i, int stage) const
+  /// Prefetches what Claim will read of an item.
+  void PrefetchClaim(std::int64_t i, PrefetchStage stage) const
   {
     const SegmentItem& item = this->Items[this->List[i]];
-    const CornerId* first = &this->Fans.First[item.From];
-    const TriangleRecord* triangles = this->Mesh.Edges.Triangles;
-    if (stage == 0)
+    if (stage == PrefetchStage::Item)
     {
       delaunayflip::Prefetch(&item);
+      return;
     }
-    else if (stage == 1)
+    const CornerId* first = &this->Fans.First[item.From];
+    if (stage == PrefetchStage::Ends)
     {
       delaunayflip::Prefetch(first);
       this->Mesh.PrefetchPoint(item.From);
       this->Mesh.PrefetchPoint(item.To);
+      return;
     }
-    else if (stage == 2)
+    const TriangleRecord* triangles = this->Mesh.Edges.Triangles;
+    const TriangleRecord* triangle = &triangles[TriangleOf(*first)];
+    if (stage == PrefetchStage::FirstTriangle)
     {
-      delaunayflip::Prefetch(&triangles[TriangleOf(*first)]);
+      delaunayflip::Prefetch(triangle);
+      return;
     }
-    else
+    for (const HalfEdgeId side : triangle->HalfEdges)
     {
-      for (const HalfEdgeId side : triangles[TriangleOf(*first)].HalfEdges)
+      const CornerId* across = &this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+      if (stage == PrefetchStage::CornersAcross)
       {
-        const CornerId* across = &this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
-        delaunayflip::Prefetch(
-          stage == 3 ? static_cast<const void*>(across) : &triangles[TriangleOf(*across)]);
+        delaunayflip::Prefetch(across);
+      }
+      else
+      {
+        delaunayflip::Prefetch(&triangles[TriangleOf(*across)]);
       }
     }
   }
 
-  /// Prefetches for Flip. Other threads may be changing what its path leads to.
-  void PrefetchFlip(std::int64_t i, int stage) const
+  /// Prefetches what Decide, Flip and Fix will read: the item, and later, instead of its ends, the
+  /// triangles that its path crosses. Other threads may be changing what the path leads to.
+  void PrefetchFlip(std::int64_t i, PrefetchStage stage) const
   {
     const SegmentItem& item = this->Items[this->List[i]];
-    if (stage == 0)
+    if (stage == PrefetchStage::Item)
     {
       delaunayflip::Prefetch(&item);
     }
-    else if (stage == 1 && this->IsWinner(item))
+    else if (stage == PrefetchStage::Ends && this->IsWinner(item))
     {
       delaunayflip::Prefetch(&this->Mesh.Edges.CornerOfHalfEdge[item.First.Side]);
       for (const TriangleId triangle : item.Crossed)
@@ -243,10 +273,17 @@ struct SegmentStep
   SegmentRound Round;
   StepKind Step;
 
-  /// Requests what an item that is to come reads, the later stages what those before lead to.
-  void Prefetch(std::int64_t i, int stage) const
+  /// Prefetches what the step will read of an item.
+  void Prefetch(std::int64_t i, PrefetchStage stage) const
   {
-    this->Step == Claim ? this->Round.Prefetch(i, stage) : this->Round.PrefetchFlip(i, stage);
+    if (this->Step == Claim)
+    {
+      this->Round.PrefetchClaim(i, stage);
+    }
+    else
+    {
+      this->Round.PrefetchFlip(i, stage);
+    }
   }
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t& flips) const
@@ -263,7 +300,14 @@ struct SegmentStep
     }
     else if (this->Round.IsWinner(item))
     {
-      this->Step == Flip ? this->Round.Flip(item, flips) : this->Round.Fix(item);
+      if (this->Step == Flip)
+      {
+        this->Round.Flip(item, flips);
+      }
+      else
+      {
+        this->Round.Fix(item);
+      }
     }
   }
 };
@@ -277,15 +321,16 @@ struct SegmentStep
 template <typename Backend>
 struct SegmentInsertion
 {
-  /// @param edges its triangles turn to the left. @param placeOf of every point its place, or
+  /// @param edges its triangles are counter-clockwise. @param placeOf for every point its place, or
   /// NoVertex. It and the places are in the memory of the backend.
   SegmentInsertion(
     EdgeMesh& edges, const PlaneArray& places, const VertexId* placeOf, const Backend& backend)
     : Device(backend),
       PlaceOf(placeOf),
-      Size{ edges.NumberOfTriangles, edges.NumberOfEdges },
+      NumberOfTriangles(edges.NumberOfTriangles),
+      NumberOfEdges(edges.NumberOfEdges),
       Corners(backend.template MakeArray<CornerId>(places.Count)),
-      Claims(backend.template MakeArray<std::uint32_t>(this->Size[0])),
+      Claims(backend.template MakeArray<std::uint32_t>(edges.NumberOfTriangles)),
       Failed(backend.template MakeArray<std::int32_t>(1)),
       Round{ { edges.View(), places, true, this->Failed.Data() }, { this->Corners.Data() },
         this->Claims.Data() }
@@ -324,7 +369,7 @@ struct SegmentInsertion
     // Any corner of a vertex will do: a path does not depend on where the search for it begins.
     const EdgeMeshView edges = this->Round.Mesh.Edges;
     CornerId* corners = this->Corners.Data();
-    this->Device.ForEach(this->Size[0],
+    this->Device.ForEach(this->NumberOfTriangles,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
       {
         for (int slot = 0; slot < 3; ++slot)
@@ -333,11 +378,18 @@ struct SegmentInsertion
             MakeCorner(static_cast<TriangleId>(t), slot));
         }
       });
-    // The loop of a device has states of its own.
-    this->Device.ForEach(Backend::IsOnHost ? 0 : this->Size[1],
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e) {
-        edges.States[e] = edges.States[e] == EdgeState::Fixed ? EdgeState::Fixed : EdgeState::Good;
-      });
+    // The loop of a device has states of its own, so these are as old as the mesh.
+    if constexpr (!Backend::IsOnHost)
+    {
+      this->Device.ForEach(this->NumberOfEdges,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e)
+        {
+          if (edges.States[e] != EdgeState::Fixed)
+          {
+            edges.States[e] = EdgeState::Good;
+          }
+        });
+    }
   }
 
   InsertedSegments InsertBatch(const std::uint32_t* ends, std::int64_t size)
@@ -350,17 +402,21 @@ struct SegmentInsertion
     const std::uint32_t* point = points.Data();
     const VertexId* placeOf = this->PlaceOf;
     SegmentItem* items = this->Items.Data();
-    const bool isEmpty = this->Size[0] == 0;
+    const bool isEmpty = this->NumberOfTriangles == 0;
     this->Device.ForEach(size,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
         const VertexId from = placeOf[point[2 * i]], to = placeOf[point[2 * i + 1]];
-        const bool isRefused = from == NoVertex || to == NoVertex || isEmpty;
-        items[i] = { from, to,
-          isRefused      ? SegmentItem::Refused
-            : from == to ? SegmentItem::Inserted
-                         : SegmentItem::Waiting,
-          0, 0, {}, {}, nullptr };
+        SegmentItem::StateKind state = SegmentItem::Waiting;
+        if (from == NoVertex || to == NoVertex || isEmpty)
+        {
+          state = SegmentItem::Refused;
+        }
+        else if (from == to)
+        {
+          state = SegmentItem::Inserted;
+        }
+        items[i] = { from, to, state, 0, 0, {}, {}, nullptr };
       });
     this->RunRounds(size);
     return this->Fetch(size);
@@ -374,9 +430,11 @@ struct SegmentInsertion
     Array<std::uint32_t> all = this->Device.template SortIndices<SortKeyBits>(size,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
-        return items[i].State != SegmentItem::Waiting
-          ? 0u
-          : static_cast<std::uint32_t>((std::uint64_t(items[i].From) << SortKeyBits) / places);
+        if (items[i].State != SegmentItem::Waiting)
+        {
+          return 0u;
+        }
+        return static_cast<std::uint32_t>((std::uint64_t(items[i].From) << SortKeyBits) / places);
       });
     std::int64_t count = size;
     all = this->ListWaiting(all.Data(), count);
@@ -398,12 +456,12 @@ struct SegmentInsertion
     }
   }
 
-  /// Those of a list that wait. @param count receives their number.
+  /// Lists the items of a list that wait. @param count receives their number.
   Array<std::uint32_t> ListWaiting(const std::uint32_t* list, std::int64_t& count)
   {
     const SegmentItem* items = this->Items.Data();
     const auto countOf = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    { return items[list[i]].State == SegmentItem::Waiting ? 1 : 0; };
+    { return int(items[list[i]].State == SegmentItem::Waiting); };
     const typename Backend::Numbering numbering = this->Device.Count(count, countOf);
     Array<std::uint32_t> waiting = this->Device.template MakeArray<std::uint32_t>(numbering.Total);
     std::uint32_t* to = waiting.Data();
@@ -459,8 +517,8 @@ struct SegmentInsertion
       constexpr std::uint32_t None = 0xFFFFFFFFu;
       round.FirstClaim = None;
       std::uint32_t* claims = this->Claims.Data();
-      this->Device.ForEach(
-        this->Size[0], [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { claims[i] = None; });
+      this->Device.ForEach(this->NumberOfTriangles,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { claims[i] = None; });
     }
     round.EndClaim = round.FirstClaim;
     round.FirstClaim -= static_cast<std::uint32_t>(size);
@@ -479,7 +537,8 @@ struct SegmentInsertion
         {
           std::int64_t sum = 0;
           // What each item reads is far from what others do.
-          constexpr std::int64_t Ahead = 4, Stages = 5;
+          constexpr std::int64_t Ahead = 4;
+          constexpr auto Stages = static_cast<std::int64_t>(PrefetchStage::Count);
           for (std::int64_t i = begin - Stages * Ahead; i < end; ++i)
           {
             for (std::int64_t stage = 0; stage < Stages; ++stage)
@@ -487,7 +546,7 @@ struct SegmentInsertion
               const std::int64_t next = i + (Stages - stage) * Ahead;
               if (next >= begin && next < end)
               {
-                work.Prefetch(next, static_cast<int>(stage));
+                work.Prefetch(next, static_cast<PrefetchStage>(stage));
               }
             }
             if (i >= begin)
@@ -521,14 +580,17 @@ struct SegmentInsertion
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
         SegmentItem& item = items[i];
-        count[i] = item.State == SegmentItem::Refused ? InsertedSegments::Refused
-                                                      : static_cast<int>(item.NumberOfEdges);
+        count[i] = static_cast<int>(item.NumberOfEdges);
+        if (item.State == SegmentItem::Refused)
+        {
+          count[i] = InsertedSegments::Refused;
+        }
         for (std::uint32_t j = 0; j < item.NumberOfEdges; ++j)
         {
           const ConstraintPath::Segment& made = item.GetPath()[j];
           // The side of a path across triangles runs towards its start.
-          side[number + j] = { made.Side, made.IsForward ? 1u : 0u,
-            corners[made.Side ^ 1u] == NoCorner ? 1u : 0u };
+          const bool isOnHull = corners[made.Side ^ 1u] == NoCorner;
+          side[number + j] = { made.Side, std::uint32_t(made.IsForward), std::uint32_t(isOnHull) };
         }
       });
     InsertedSegments result;
@@ -548,7 +610,7 @@ struct SegmentInsertion
 
   const Backend& Device;
   const VertexId* PlaceOf;
-  const std::int64_t Size[2]; ///< Numbers of triangles and edges.
+  const std::int64_t NumberOfTriangles, NumberOfEdges;
   Array<CornerId> Corners; ///< One of every place.
   Array<std::uint32_t> Claims;
   Array<std::int32_t> Failed;

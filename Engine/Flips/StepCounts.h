@@ -16,11 +16,11 @@ struct StepCounts
   std::int64_t Tested = 0;
   std::int64_t Uncertain = 0;
   std::int64_t Bad = 0;
-  std::int64_t BlockedByShape = 0; ///< Also those blocked by their deviation.
+  std::int64_t BlockedByShape = 0; ///< Including the edges that their deviation blocks.
   std::int64_t BlockedByEdge = 0;
   std::int64_t Flipped = 0;
   std::int64_t FreshSlots = 0; ///< Slots of the guard table that were empty.
-  std::int64_t FreedSlots = 0; ///< Those that are empty now.
+  std::int64_t FreedSlots = 0; ///< Slots of the guard table that are empty now.
   std::int64_t LostInserts = 0; ///< New edges that found no room in the guard table.
 
   std::int64_t GetBlocked() const { return this->BlockedByShape + this->BlockedByEdge; }

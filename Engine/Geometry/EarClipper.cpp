@@ -56,7 +56,7 @@ public:
     this->Broken = this->CountVertices() - static_cast<std::int64_t>(this->Order.size());
     // A power of two brings the largest coordinate to 1 .. 2. What underflows changes by less than
     // the filters allow for.
-    const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+    const int exponent = -ExponentOf(largest);
     for (const PlaneVector& v : vertices)
     {
       this->Scaled.push_back({ std::scalbn(v[0], exponent), std::scalbn(v[1], exponent), 0.0 });
@@ -75,8 +75,8 @@ public:
     }
   }
 
-  /// Fits leaves again, and other nodes when half of their vertices are gone: n log^2 n steps in
-  /// all.
+  /// Removes a vertex. Fits leaves again, and other nodes when half of their vertices are gone, so
+  /// that all removals together take n log^2 n steps.
   void Remove(std::int64_t vertex)
   {
     const std::int64_t place = this->PlaceOf[vertex];
@@ -96,16 +96,16 @@ public:
       {
         this->Fit(range);
       }
-      range = place < range.GetMiddle() ? range.GetLeft() : range.GetRight();
+      range = range.GetChild(place >= range.GetMiddle());
     }
   }
 
   bool HasBroken() const { return this->Broken > 0; }
 
-  /// A vertex that is left and lies in the closed triangle but not at the place of a corner; or
-  /// Nobody. If there are several, one of them, scattered so that it is seldom the next to be
-  /// removed.
-  /// @param corners three vertices that turn left.
+  /// Finds a vertex that is left and lies in the closed triangle but not at the place of a corner;
+  /// or Nobody. If there are several, it finds one of them, scattered so that it is seldom the next
+  /// to be removed.
+  /// @param corners three vertices, counter-clockwise.
   std::int64_t FindInside(const std::array<std::int64_t, 3>& corners) const
   {
     const auto& [a, b, c] = corners;
@@ -135,8 +135,14 @@ private:
 
     bool IsLeaf() const { return this->End - this->Begin <= LeafSize; }
     std::int64_t GetMiddle() const { return (this->Begin + this->End) / 2; }
-    NodeRange GetLeft() const { return { 2 * this->Index, this->Begin, this->GetMiddle() }; }
-    NodeRange GetRight() const { return { 2 * this->Index + 1, this->GetMiddle(), this->End }; }
+    NodeRange GetChild(bool second) const
+    {
+      if (second)
+      {
+        return { 2 * this->Index + 1, this->GetMiddle(), this->End };
+      }
+      return { 2 * this->Index, this->Begin, this->GetMiddle() };
+    }
   };
 
   struct Triangle
@@ -165,8 +171,8 @@ private:
       std::nth_element(begin + range.Begin, begin + range.GetMiddle(), begin + range.End,
         [&](std::int64_t v, std::int64_t w)
         { return Along(direction, this->Scaled[v]) < Along(direction, this->Scaled[w]); });
-      this->MakeNodes(range.GetLeft());
-      this->MakeNodes(range.GetRight());
+      this->MakeNodes(range.GetChild(false));
+      this->MakeNodes(range.GetChild(true));
     }
   }
 
@@ -199,10 +205,16 @@ private:
       [&](std::int64_t vertex)
       {
         const double at = Along(direction, this->Scaled[vertex]);
-        extent.First = at < extent.Lower ? vertex : extent.First;
-        extent.Last = at > extent.Upper ? vertex : extent.Last;
-        extent.Lower = std::min(extent.Lower, at);
-        extent.Upper = std::max(extent.Upper, at);
+        if (at < extent.Lower)
+        {
+          extent.Lower = at;
+          extent.First = vertex;
+        }
+        if (at > extent.Upper)
+        {
+          extent.Upper = at;
+          extent.Last = vertex;
+        }
       });
     return extent;
   }
@@ -221,9 +233,11 @@ private:
     const PlanePoint& first = this->Scaled[longer.First];
     const PlanePoint& last = this->Scaled[longer.Last];
     const double length = std::hypot(last.U - first.U, last.V - first.V);
-    const PlanePoint direction = length > 0.0
-      ? PlanePoint{ (last.U - first.U) / length, (last.V - first.V) / length, 0.0 }
-      : PlanePoint{ 1.0, 0.0, 0.0 };
+    PlanePoint direction = { 1.0, 0.0, 0.0 };
+    if (length > 0.0)
+    {
+      direction = { (last.U - first.U) / length, (last.V - first.V) / length, 0.0 };
+    }
     const Extent along = this->FindExtent(range, direction);
     const Extent across = this->FindExtent(range, { -direction.V, direction.U, 0.0 });
     constexpr double Margin = 0x1p-47; // more than the rounding of all these numbers, below 4
@@ -240,8 +254,10 @@ private:
     this->ForVertices(range,
       [&](std::int64_t vertex)
       {
-        const bool isThere = this->Vertices[vertex] == this->Vertices[u.First];
-        node.OnlyPlace = isThere ? node.OnlyPlace : Nobody;
+        if (this->Vertices[vertex] != this->Vertices[u.First])
+        {
+          node.OnlyPlace = Nobody;
+        }
       });
   }
 
@@ -270,14 +286,23 @@ private:
     if (range.IsLeaf())
     {
       std::int64_t found = Nobody;
-      this->ForVertices(
-        range, [&](std::int64_t v) { found = this->IsInside(v, triangle) ? v : found; });
+      this->ForVertices(range,
+        [&](std::int64_t vertex)
+        {
+          if (this->IsInside(vertex, triangle))
+          {
+            found = vertex;
+          }
+        });
       return found;
     }
-    const bool right = this->Scatter() >> 63 != 0;
-    const std::int64_t found = this->Search(right ? range.GetRight() : range.GetLeft(), triangle);
-    return found != Nobody ? found
-                           : this->Search(right ? range.GetLeft() : range.GetRight(), triangle);
+    const bool secondFirst = this->Scatter() >> 63 != 0;
+    const std::int64_t found = this->Search(range.GetChild(secondFirst), triangle);
+    if (found != Nobody)
+    {
+      return found;
+    }
+    return this->Search(range.GetChild(!secondFirst), triangle);
   }
 
   bool IsInside(std::int64_t vertex, const Triangle& triangle) const
@@ -287,12 +312,12 @@ private:
     {
       return false;
     }
-    const auto turn = [&](int from, int to)
+    const auto orientation = [&](int from, int to)
     {
       return Orientation(this->Vertices[triangle.Corners[from]].data(),
         this->Vertices[triangle.Corners[to]].data(), this->Vertices[vertex].data());
     };
-    return turn(0, 1) >= 0 && turn(1, 2) >= 0 && turn(2, 0) >= 0;
+    return orientation(0, 1) >= 0 && orientation(1, 2) >= 0 && orientation(2, 0) >= 0;
   }
 
   const std::vector<PlaneVector>& Vertices;
@@ -362,7 +387,10 @@ private:
     while (!this->Candidates.empty() && !this->Tree.HasBroken() && this->ReportProgress())
     {
       auto next = this->Candidates.lower_bound(from);
-      next = next == this->Candidates.end() ? this->Candidates.begin() : next;
+      if (next == this->Candidates.end())
+      {
+        next = this->Candidates.begin();
+      }
       if (this->IsEar(*next))
       {
         return *next;

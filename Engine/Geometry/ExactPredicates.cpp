@@ -30,7 +30,11 @@ Integer ToInteger(double value)
   Integer result = static_cast<long long>(std::ldexp(fraction, MantissaBits));
   const int shift = exponent - MantissaBits - SmallestExponent;
   // Subnormal numbers end in as many zero bits as the shift is negative.
-  return shift >= 0 ? Integer(result << shift) : Integer(result >> -shift);
+  if (shift < 0)
+  {
+    return result >> -shift;
+  }
+  return result << shift;
 }
 
 struct WidePoint
@@ -77,30 +81,40 @@ namespace
 {
 int DecideInCircle(const PlanePoint (&points)[4], bool tilted)
 {
-  bool inRange = true, finite = true;
+  bool inRange = true;
   for (const PlanePoint& p : points)
   {
-    inRange = inRange && IsInFilterRange(p) && std::fabs(p.W) <= LargestFilteredCoordinate;
-    finite = finite && IsFinite(p);
-  }
-  if (inRange)
-  {
-    const auto filter = tilted ? FilteredInCircle<true> : FilteredInCircle<false>;
-    const int sign = filter(points[0], points[1], points[2], points[3]);
-    if (sign != UncertainSign)
+    if (!IsFinite(p))
     {
-      return sign;
+      return 0;
     }
+    inRange = inRange && IsInFilterRange(p) && std::fabs(p.W) <= LargestFilteredCoordinate;
   }
-  return finite ? ExactInCircle(points, tilted) : 0;
+  int sign = UncertainSign;
+  if (inRange && tilted)
+  {
+    sign = FilteredInCircle<true>(points[0], points[1], points[2], points[3]);
+  }
+  else if (inRange)
+  {
+    sign = FilteredInCircle<false>(points[0], points[1], points[2], points[3]);
+  }
+  if (sign != UncertainSign)
+  {
+    return sign;
+  }
+  return ExactInCircle(points, tilted);
 }
 }
 
 int Orientation(const double a[2], const double b[2], const double c[2])
 {
   const PlanePoint points[3] = { { a[0], a[1], 0.0 }, { b[0], b[1], 0.0 }, { c[0], c[1], 0.0 } };
-  const bool finite = IsFinite(points[0]) && IsFinite(points[1]) && IsFinite(points[2]);
-  return finite ? FindOrientation(points[0], points[1], points[2]) : 0;
+  if (!IsFinite(points[0]) || !IsFinite(points[1]) || !IsFinite(points[2]))
+  {
+    return 0;
+  }
+  return FindOrientation(points[0], points[1], points[2]);
 }
 
 int InCircle(const double a[2], const double b[2], const double c[2], const double d[2])

@@ -47,41 +47,49 @@ struct Integer512
 DELAUNAYFLIP_HOST_DEVICE inline Integer256 operator+(const Integer256& a, const Integer256& b)
 {
   const Unsigned128 low = a.Low + b.Low;
-  const Integer128 carry = low < a.Low ? 1 : 0;
+  const auto carry = Integer128(low < a.Low);
   return { a.High + b.High + carry, low };
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline Integer256 operator-(const Integer256& a, const Integer256& b)
 {
-  const Integer128 borrow = a.Low < b.Low ? 1 : 0;
+  const auto borrow = Integer128(a.Low < b.Low);
   return { a.High - b.High - borrow, a.Low - b.Low };
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline Integer512 operator+(const Integer512& a, const Integer512& b)
 {
   const Unsigned128 low = a.Low.Low + b.Low.Low;
-  const Unsigned128 lowCarry = low < a.Low.Low ? 1 : 0;
+  const auto lowCarry = Unsigned128(low < a.Low.Low);
   // At most one of the two additions wraps: the first leaves at most 2^128 - 2 when it does.
   const Unsigned128 partial = a.Low.High + b.Low.High;
   const Unsigned128 middle = partial + lowCarry;
-  const Unsigned128 carry = partial < a.Low.High || middle < partial ? 1 : 0;
+  const auto carry = Unsigned128(partial < a.Low.High || middle < partial);
   return { a.High + b.High + Integer256{ 0, carry }, { middle, low } };
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline int SignOf(Integer128 value)
 {
-  return value < 0 ? -1 : (value > 0 ? 1 : 0);
+  return int(value > 0) - int(value < 0);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline int SignOf(const Integer256& value)
 {
-  return value.High < 0 ? -1 : ((value.High | static_cast<Integer128>(value.Low)) != 0 ? 1 : 0);
+  if (value.High < 0)
+  {
+    return -1;
+  }
+  return int((value.High | static_cast<Integer128>(value.Low)) != 0);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline int SignOf(const Integer512& value)
 {
   const int high = SignOf(value.High);
-  return high != 0 ? high : ((value.Low.High | value.Low.Low) != 0 ? 1 : 0);
+  if (high != 0)
+  {
+    return high;
+  }
+  return int((value.Low.High | value.Low.Low) != 0);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline Integer128 Multiply(std::int64_t a, std::int64_t b)
@@ -104,7 +112,8 @@ DELAUNAYFLIP_HOST_DEVICE inline Integer256 Multiply(Integer128 a, Integer128 b)
     (static_cast<Unsigned128>(middle) << 64) | static_cast<std::uint64_t>(low) };
 }
 
-/// Any a, b: a sum of two numbers below 2^64 and a product of two such numbers is below 2^128.
+/// For any a and b: a sum of two numbers below 2^64 and a product of two such numbers is below
+/// 2^128.
 DELAUNAYFLIP_HOST_DEVICE inline Unsigned256 MultiplyUnsigned(Unsigned128 a, Unsigned128 b)
 {
   const auto aHigh = static_cast<std::uint64_t>(a >> 64);
@@ -118,11 +127,15 @@ DELAUNAYFLIP_HOST_DEVICE inline Unsigned256 MultiplyUnsigned(Unsigned128 a, Unsi
     (second << 64) | static_cast<std::uint64_t>(low) };
 }
 
-/// Any a, b. The bits of a negative a, read as unsigned, are 2^128 too many.
+/// For any a and b. The bits of a negative a, read as unsigned, are 2^128 too many.
 DELAUNAYFLIP_HOST_DEVICE inline Integer256 MultiplyMixed(Integer128 a, Unsigned128 b)
 {
-  const Unsigned256 product = MultiplyUnsigned(static_cast<Unsigned128>(a), b);
-  return { static_cast<Integer128>(product.High - (a < 0 ? b : 0)), product.Low };
+  Unsigned256 product = MultiplyUnsigned(static_cast<Unsigned128>(a), b);
+  if (a < 0)
+  {
+    product.High -= b;
+  }
+  return { static_cast<Integer128>(product.High), product.Low };
 }
 
 /// -2^254 <= a, b < 2^254: as for 128 bits, the high halves suit Multiply and the middle stays
@@ -133,7 +146,8 @@ DELAUNAYFLIP_HOST_DEVICE inline Integer512 Multiply(const Integer256& a, const I
   const Integer256 middle =
     MultiplyMixed(a.High, b.Low) + MultiplyMixed(b.High, a.Low) + Integer256{ 0, low.High };
   // middle.High goes up with its sign.
-  const Integer256 carried = { middle.High < 0 ? -1 : 0, static_cast<Unsigned128>(middle.High) };
+  const Integer128 sign = -Integer128(middle.High < 0);
+  const Integer256 carried = { sign, static_cast<Unsigned128>(middle.High) };
   return { Multiply(a.High, b.High) + carried, { middle.Low, low.Low } };
 }
 
@@ -152,10 +166,17 @@ struct DoubleParts
     constexpr int Bias = 1075;
     const std::uint64_t bits = GetBits(value);
     const int biased = static_cast<int>(bits >> (MantissaBits - 1)) & 0x7FF;
-    const bool subnormal = biased == 0; // or zero; has the exponent of the smallest normal numbers
-    this->Mantissa = (bits & (HiddenBit - 1)) | (subnormal ? 0 : HiddenBit);
-    this->Exponent = (subnormal ? 1 : biased) - Bias;
+    this->Mantissa = bits & (HiddenBit - 1);
+    this->Exponent = biased - Bias;
     this->Negative = (bits >> 63) != 0;
+    if (biased == 0)
+    {
+      this->Exponent = 1 - Bias; // zero and subnormal numbers have that of the smallest normal ones
+    }
+    else
+    {
+      this->Mantissa |= HiddenBit;
+    }
   }
 
   DELAUNAYFLIP_HOST_DEVICE int CountTrailingZeros() const
@@ -189,15 +210,21 @@ public:
   template <typename... Points>
   DELAUNAYFLIP_HOST_DEVICE explicit FixedPointUnit(bool tilted, const Points&... points)
   {
-    ((this->Include(points.U), this->Include(points.V), this->Include(tilted ? points.W : 0.0)),
-      ...);
+    ((this->Include(points.U), this->Include(points.V)), ...);
+    if (tilted)
+    {
+      (this->Include(points.W), ...);
+    }
   }
 
   DELAUNAYFLIP_HOST_DEVICE void Include(double value)
   {
     const DoubleParts parts(value);
     const int lastBit = parts.Exponent + parts.CountTrailingZeros();
-    this->Exponent = parts.Mantissa != 0 && lastBit < this->Exponent ? lastBit : this->Exponent;
+    if (parts.Mantissa != 0 && lastBit < this->Exponent)
+    {
+      this->Exponent = lastBit;
+    }
   }
 
   /// An included value in units, if that is below 2^125 in magnitude; otherwise clears `fits`.
@@ -206,14 +233,26 @@ public:
     constexpr int LargestShift = 125 - DoubleParts::MantissaBits;
     const DoubleParts parts(value);
     const int shift = parts.Exponent - this->Exponent;
-    const bool inRange = shift <= LargestShift;
-    fits = fits && inRange;
-    // A shift to the right loses only zeros, because the value is a multiple of the unit. The mask
-    // is for zero itself, whose exponent may be lower by any amount.
-    const int down = shift < 0 ? -shift & 63 : 0;
-    const int up = shift > 0 && inRange ? shift : 0;
-    const auto magnitude = static_cast<Integer128>(Unsigned128(parts.Mantissa >> down) << up);
-    return parts.Negative ? -magnitude : magnitude;
+    auto magnitude = static_cast<Integer128>(parts.Mantissa);
+    if (shift > LargestShift)
+    {
+      fits = false;
+    }
+    else if (shift >= 0)
+    {
+      magnitude <<= shift;
+    }
+    else
+    {
+      // This loses only zeros, because the value is a multiple of the unit. The mask is for zero
+      // itself, since its exponent may be lower by any amount.
+      magnitude >>= -shift & 63;
+    }
+    if (parts.Negative)
+    {
+      return -magnitude;
+    }
+    return magnitude;
   }
 
 private:
@@ -260,14 +299,14 @@ public:
     : Unit(unit),
       U(unit.Convert(origin.U, this->Fits)),
       V(unit.Convert(origin.V, this->Fits)),
-      W(tilted ? unit.Convert(origin.W, this->Fits) : 0),
-      Tilted(tilted)
+      Tilted(tilted),
+      W(this->ConvertW(origin))
   {
   }
 
   DELAUNAYFLIP_HOST_DEVICE FixedPointOffset<Integer> OffsetOf(const PlanePoint& p)
   {
-    const Integer128 w = this->Tilted ? this->Unit.Convert(p.W, this->Fits) : 0;
+    const Integer128 w = this->ConvertW(p);
     return { this->Narrow(this->Unit.Convert(p.U, this->Fits) - this->U),
       this->Narrow(this->Unit.Convert(p.V, this->Fits) - this->V), this->Narrow(w - this->W),
       this->Narrow(w + this->W) };
@@ -276,6 +315,16 @@ public:
   DELAUNAYFLIP_HOST_DEVICE bool AllFit() const { return this->Fits; }
 
 private:
+  /// W of a point in units; 0 if it does not belong to the lift.
+  DELAUNAYFLIP_HOST_DEVICE Integer128 ConvertW(const PlanePoint& p)
+  {
+    if (!this->Tilted)
+    {
+      return 0;
+    }
+    return this->Unit.Convert(p.W, this->Fits);
+  }
+
   DELAUNAYFLIP_HOST_DEVICE Integer Narrow(Integer128 value)
   {
     constexpr Integer128 Largest = Integer128(1) << (8 * sizeof(Integer) - 2);
@@ -285,12 +334,13 @@ private:
 
   bool Fits = true;
   const FixedPointUnit Unit;
-  const Integer128 U, V, W;
+  const Integer128 U, V;
   const bool Tilted;
+  const Integer128 W;
 };
 
-/// The turn of a, b, c in (u, v), or UncertainSign if they do not fit. Here and below points are
-/// passed by value, because compilers for GPUs store what a call refers to in memory.
+/// The orientation of a, b, c in (u, v), or UncertainSign if they do not fit. Here and below points
+/// are passed by value, because compilers for GPUs store what a call refers to in memory.
 ///
 /// Multiply accepts offsets below 2^126; the difference of their products is below 2^253.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointOrientation(
@@ -300,7 +350,11 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline int FixedPointOrientation
   FixedPointFrame<Integer128> frame(unit, c, false);
   const auto first = frame.OffsetOf(a);
   const auto second = frame.OffsetOf(b);
-  return frame.AllFit() ? SignOf(MinorOf(first, second)) : UncertainSign;
+  if (!frame.AllFit())
+  {
+    return UncertainSign;
+  }
+  return SignOf(MinorOf(first, second));
 }
 
 /// Sign of the in-circle determinant of a, b, c, d, or UncertainSign where their offsets do not fit
@@ -336,43 +390,54 @@ DELAUNAYFLIP_HOST_DEVICE inline int FixedPointInCircle(const PlanePoint (&points
 {
   const int sign =
     FixedPointInCircleIn<std::int64_t>(points[0], points[1], points[2], points[3], tilted);
-  return sign != UncertainSign
-    ? sign
-    : FixedPointInCircleIn<Integer128>(points[0], points[1], points[2], points[3], tilted);
+  if (sign != UncertainSign)
+  {
+    return sign;
+  }
+  return FixedPointInCircleIn<Integer128>(points[0], points[1], points[2], points[3], tilted);
 }
 
-/// Turn of a, b, c in (u, v). UncertainSign only on a device, where wide integers are needed.
+/// Orientation of a, b, c in (u, v). UncertainSign only on a device, where wide integers are
+/// needed.
 DELAUNAYFLIP_HOST_DEVICE inline int ExactOrientation(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
   const int sign = FixedPointOrientation(a, b, c);
-#if defined(__CUDA_ARCH__)
-  return sign;
-#else
-  return sign != UncertainSign ? sign : WideOrientation(a, b, c);
+#if !defined(__CUDA_ARCH__)
+  if (sign == UncertainSign)
+  {
+    return WideOrientation(a, b, c);
+  }
 #endif
+  return sign;
 }
 
 /// Sign of the in-circle determinant; `tilted` adds W to the lift. UncertainSign as above.
 DELAUNAYFLIP_HOST_DEVICE inline int ExactInCircle(const PlanePoint (&points)[4], bool tilted)
 {
   const int sign = FixedPointInCircle(points, tilted);
-#if defined(__CUDA_ARCH__)
-  return sign;
-#else
-  return sign != UncertainSign ? sign : WideInCircle(points, tilted);
+#if !defined(__CUDA_ARCH__)
+  if (sign == UncertainSign)
+  {
+    return WideInCircle(points, tilted);
+  }
 #endif
+  return sign;
 }
 
-/// Turn of a, b, c in (u, v), filtered, then exact: for coordinates of any size. UncertainSign only
-/// on a device.
+/// Orientation of a, b, c in (u, v), filtered, then exact: for coordinates of any size.
+/// UncertainSign only on a device.
 DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
   const int sign = FilteredOrientation(a, b, c);
   const bool certain =
     sign != UncertainSign && IsInFilterRange(a) && IsInFilterRange(b) && IsInFilterRange(c);
-  return certain ? sign : ExactOrientation(a, b, c);
+  if (certain)
+  {
+    return sign;
+  }
+  return ExactOrientation(a, b, c);
 }
 
 }

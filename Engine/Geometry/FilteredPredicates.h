@@ -17,6 +17,16 @@ namespace delaunayflip
 /// Whether a number is neither NaN nor infinite. Only then is its difference with itself 0.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(double number) { return number - number == 0.0; }
 
+/// The power of two below a positive number, as std::ilogb; 0 for numbers that have none.
+DELAUNAYFLIP_HOST_DEVICE inline int ExponentOf(double number)
+{
+  if (number > 0.0 && IsFinite(number))
+  {
+    return std::ilogb(number);
+  }
+  return 0;
+}
+
 struct Vector3
 {
   double X = 0.0, Y = 0.0, Z = 0.0;
@@ -94,16 +104,17 @@ DELAUNAYFLIP_HOST_DEVICE inline double GetBound(double error)
   return error + SmallestCertifiable;
 }
 
-/// Without branches, which would be mispredicted half of the time.
+/// The sign of a determinant, or UncertainSign if the error may exceed it. This has no branches,
+/// because they would be mispredicted half of the time.
 DELAUNAYFLIP_HOST_DEVICE inline int CertifiedSign(double determinant, double error)
 {
   const double bound = GetBound(error);
-  const int positive = determinant > bound ? 1 : 0;
-  const int negative = -determinant > bound ? 1 : 0;
+  const int positive = int(determinant > bound);
+  const int negative = int(-determinant > bound);
   return positive - negative + UncertainSign * (1 - positive - negative);
 }
 
-/// Turn of a, b, c in (u, v), or UncertainSign.
+/// Orientation of a, b, c in (u, v), or UncertainSign.
 DELAUNAYFLIP_HOST_DEVICE inline int FilteredOrientation(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
 {
@@ -131,9 +142,14 @@ DELAUNAYFLIP_HOST_DEVICE inline FilteredDeterminant InCircleDeterminant(
   const auto addTerm = [&](double u, double v, double atP, double first, double second)
   {
     const double square = u * u + v * v;
-    const double w = (atP - d.W) * (atP + d.W);
-    const double lift = Tilted ? square + w : square;
-    const double magnitude = Tilted ? square + std::fabs(w) : square;
+    double lift = square;
+    double magnitude = square;
+    if constexpr (Tilted)
+    {
+      const double w = (atP - d.W) * (atP + d.W);
+      lift += w;
+      magnitude += std::fabs(w);
+    }
     determinant.Value += lift * (first - second);
     determinant.Permanent += magnitude * (std::fabs(first) + std::fabs(second));
   };
@@ -151,8 +167,8 @@ DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
 {
   const FilteredDeterminant determinant = InCircleDeterminant<Tilted>(a, b, c, d);
-  return CertifiedSign(
-    determinant.Value, (Tilted ? TiltedInCircleBound : InCircleBound) * determinant.Permanent);
+  constexpr double Bound = Tilted ? TiltedInCircleBound : InCircleBound;
+  return CertifiedSign(determinant.Value, Bound * determinant.Permanent);
 }
 
 }

@@ -81,9 +81,12 @@ DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangent(
   {
     return -INFINITY;
   }
-  const double atBOrC = atB > atC ? atB : atC;
-  const double largest = atA > atBOrC ? atA : atBOrC;
-  return squaredArea > 0.0 ? largest * largest / squaredArea : INFINITY;
+  if (!(squaredArea > 0.0))
+  {
+    return INFINITY;
+  }
+  const double largest = std::max(std::max(atC, atB), atA);
+  return largest * largest / squaredArea;
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangent(
@@ -101,9 +104,7 @@ inline double ToDegrees(double squaredCotangent)
   {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  return squaredCotangent == INFINITY
-    ? 0.0
-    : std::atan2(1.0, std::sqrt(squaredCotangent)) / DegreesToRadians;
+  return std::atan2(1.0, std::sqrt(squaredCotangent)) / DegreesToRadians; // 0 if it is infinite
 }
 
 /// The points of a polygon relative to its first one, scaled by a power of two such that products
@@ -126,7 +127,8 @@ DELAUNAYFLIP_HOST_DEVICE void LoadScaledOffsets(
   double largest = 0.0;
   forEach([&](double&, double x, double) { largest = std::max(largest, std::fabs(x)); });
   // The difference of two finite numbers may be infinite, that of their halves may not.
-  const double unit = largest > 0.5 * std::numeric_limits<double>::max() ? 0.5 : 1.0;
+  const bool mayOverflow = largest > 0.5 * std::numeric_limits<double>::max();
+  const double unit = mayOverflow ? 0.5 : 1.0;
   largest = 0.0;
   forEach(
     [&](double& offset, double x, double origin)
@@ -134,10 +136,16 @@ DELAUNAYFLIP_HOST_DEVICE void LoadScaledOffsets(
       offset = unit * x - unit * origin;
       largest = std::max(largest, std::fabs(offset));
     });
-  const int exponent = largest > 0.0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
-  const double scale = std::scalbn(1.0, -exponent); // infinite if all offsets are subnormal
-  forEach([&](double& offset, double, double)
-    { offset = std::isfinite(scale) ? scale * offset : std::scalbn(offset, -exponent); });
+  const int exponent = ExponentOf(largest);
+  const double scale = std::scalbn(1.0, -exponent);
+  if (std::isfinite(scale))
+  {
+    forEach([&](double& offset, double, double) { offset *= scale; });
+  }
+  else // all offsets are subnormal
+  {
+    forEach([&](double& offset, double, double) { offset = std::scalbn(offset, -exponent); });
+  }
 }
 
 /// What is measured of the angles of some triangles, with operator+= so that Sum can compute it.
@@ -152,27 +160,27 @@ struct AngleSums
   DELAUNAYFLIP_HOST_DEVICE static unsigned char Grade(double squaredCotangent)
   {
     constexpr double At10 = 32.16343747752636, At20 = 7.548632170413032, At30 = 3.0;
-    return (squaredCotangent > At10 ? 1 : 0) + (squaredCotangent > At20 ? 1 : 0) +
-      (squaredCotangent > At30 ? 1 : 0);
+    return static_cast<unsigned char>(
+      int(squaredCotangent > At10) + int(squaredCotangent > At20) + int(squaredCotangent > At30));
   }
 
   DELAUNAYFLIP_HOST_DEVICE void Count(unsigned char grade, std::int64_t triangles)
   {
-    this->Below30 += grade > 0 ? triangles : 0;
-    this->Below20 += grade > 1 ? triangles : 0;
-    this->Below10 += grade > 2 ? triangles : 0;
+    this->Below30 += int(grade > 0) * triangles;
+    this->Below20 += int(grade > 1) * triangles;
+    this->Below10 += int(grade > 2) * triangles;
   }
 
   /// Adds a triangle.
   DELAUNAYFLIP_HOST_DEVICE void Add(double squaredCotangent)
   {
-    this->Largest = squaredCotangent > this->Largest ? squaredCotangent : this->Largest;
+    this->Largest = std::max(this->Largest, squaredCotangent);
     this->Count(Grade(squaredCotangent), 1);
   }
 
   DELAUNAYFLIP_HOST_DEVICE AngleSums& operator+=(const AngleSums& other)
   {
-    this->Largest = other.Largest > this->Largest ? other.Largest : this->Largest;
+    this->Largest = std::max(this->Largest, other.Largest);
     this->Below10 += other.Below10;
     this->Below20 += other.Below20;
     this->Below30 += other.Below30;
@@ -188,8 +196,8 @@ struct AngleTolerance
 {
   double Sine = 0.0; ///< The sine of a fixed tolerance.
   double Cosine = 1.0;
-  double Precision =
-    0.0; ///< FloatPrecision or DoublePrecision: automatic, beside a fixed one of 0.
+  /// FloatPrecision or DoublePrecision for an automatic tolerance, beside a fixed one of 0.
+  double Precision = 0.0;
 };
 
 /// The distance between a normal number of type float or double and the next one is at most this
@@ -231,7 +239,7 @@ struct AngleSum
     return this->Cosine > 0.0 ? INFINITY : -this->Sine;
   }
 
-  /// Both times |ap| |aq| |bp| |bq|.
+  /// These are both times |ap| |aq| |bp| |bq|.
   double Sine, Cosine;
   bool BothObtuse;
   bool MayVanish; ///< Lengths are so small that their products may have lost bits.
@@ -253,18 +261,16 @@ private:
 /// The distance from the origin of the quad's farthest point.
 DELAUNAYFLIP_HOST_DEVICE inline double FindFarthest(const QuadPoints& quad)
 {
-  const double a = Dot(quad.A, quad.A), b = Dot(quad.B, quad.B);
-  const double p = Dot(quad.P, quad.P), q = Dot(quad.Q, quad.Q);
-  const double atAB = a > b ? a : b;
-  const double atPQ = p > q ? p : q;
-  return std::sqrt(atAB > atPQ ? atAB : atPQ);
+  const double atAB = std::max(Dot(quad.B, quad.B), Dot(quad.A, quad.A));
+  const double atPQ = std::max(Dot(quad.Q, quad.Q), Dot(quad.P, quad.P));
+  return std::sqrt(std::max(atPQ, atAB));
 }
 
 /// Whether the angle sum of a quad may really be pi or less, if each coordinate of its points may
 /// be off by a unit in its last place. If every point lies at most m from the origin, it moves by
-/// at most d = precision * m. A vector of length l turns by at most asin(2 d / l) when both its
-/// ends move by d. The sum changes by at most the turns of the four legs of its angles, and asin is
-/// convex and 0 at 0, so that these are together at most
+/// at most d = precision * m. A vector of length l rotates by at most asin(2 d / l) when its two
+/// ends move by d. The sum changes by at most the rotations of the four legs of its angles, and
+/// asin is convex and 0 at 0, so that these are together at most
 ///
 ///     asin(t), t = 2 d (1/|ap| + 1/|aq| + 1/|bp| + 1/|bq|).
 ///

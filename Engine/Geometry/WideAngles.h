@@ -6,6 +6,7 @@
 #include "HostDevice.h"
 #include "SurfaceAngles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -62,9 +63,8 @@ DELAUNAYFLIP_HOST_DEVICE inline Vector3 operator*(double factor, const Vector3& 
 
 DELAUNAYFLIP_HOST_DEVICE inline double LargestComponent(const Vector3& a)
 {
-  const double x = std::fabs(a.X), y = std::fabs(a.Y), z = std::fabs(a.Z);
-  const double xOrY = x > y ? x : y;
-  return xOrY > z ? xOrY : z;
+  const double xOrY = std::max(std::fabs(a.Y), std::fabs(a.X));
+  return std::max(std::fabs(a.Z), xOrY);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(const Vector3& a)
@@ -102,8 +102,11 @@ DELAUNAYFLIP_HOST_DEVICE inline WideVector MakeWide(const Vector3& vector, int e
 DELAUNAYFLIP_HOST_DEVICE inline WideVector Subtract(const Vector3& b, const Vector3& a)
 {
   const Vector3 difference = b - a;
-  return LargestComponent(difference) < INFINITY ? MakeWide(difference)
-                                                 : MakeWide(0.5 * b - 0.5 * a, 1);
+  if (LargestComponent(difference) < INFINITY)
+  {
+    return MakeWide(difference);
+  }
+  return MakeWide(0.5 * b - 0.5 * a, 1);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline WideVector Cross(const WideVector& a, const WideVector& b)
@@ -111,13 +114,21 @@ DELAUNAYFLIP_HOST_DEVICE inline WideVector Cross(const WideVector& a, const Wide
   return MakeWide(Cross(a.Vector, b.Vector), a.Exponent + b.Exponent);
 }
 
+/// a + b, if a has an exponent at least as large as that of b, or b is 0.
+DELAUNAYFLIP_HOST_DEVICE inline WideVector AddToLonger(const WideVector& a, const WideVector& b)
+{
+  const double factor = std::scalbn(1.0, b.Exponent - a.Exponent);
+  return MakeWide(a.Vector + factor * b.Vector, a.Exponent);
+}
+
 DELAUNAYFLIP_HOST_DEVICE inline WideVector Add(const WideVector& a, const WideVector& b)
 {
   const bool isLonger = a.Exponent > b.Exponent || !(LargestComponent(b.Vector) > 0.0);
-  const WideVector longer = isLonger && LargestComponent(a.Vector) > 0.0 ? a : b;
-  const WideVector other = isLonger && LargestComponent(a.Vector) > 0.0 ? b : a;
-  const double factor = std::scalbn(1.0, other.Exponent - longer.Exponent);
-  return MakeWide(longer.Vector + factor * other.Vector, longer.Exponent);
+  if (isLonger && LargestComponent(a.Vector) > 0.0)
+  {
+    return AddToLonger(a, b);
+  }
+  return AddToLonger(b, a);
 }
 
 /// Normal of triangle a, b, c; its length is twice the area.
@@ -159,7 +170,11 @@ DELAUNAYFLIP_HOST_DEVICE inline double DivideLengths(const WideVector& a, const 
 
 DELAUNAYFLIP_HOST_DEVICE inline WideVector FindLonger(const WideVector& a, const WideVector& b)
 {
-  return DivideLengths(a, b) > 1.0 ? a : b;
+  if (DivideLengths(a, b) > 1.0)
+  {
+    return a;
+  }
+  return b;
 }
 
 /// IsNoise, for SumWide.
@@ -235,7 +250,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void BringNearOne(Vector3& a, Vector3& b, Vector
     return;
   }
   const WideVector ab = Subtract(b, a), ac = Subtract(c, a);
-  const int exponent = ab.Exponent > ac.Exponent ? ab.Exponent : ac.Exponent;
+  const int exponent = std::max(ab.Exponent, ac.Exponent);
   a = {};
   b = std::scalbn(1.0, ab.Exponent - exponent) * ab.Vector;
   c = std::scalbn(1.0, ac.Exponent - exponent) * ac.Vector;
@@ -250,7 +265,7 @@ DELAUNAYFLIP_HOST_DEVICE inline double LargestSquaredCotangentWide(
     return -INFINITY;
   }
   const WideVector ab = Subtract(b, a), ac = Subtract(c, a), bc = Subtract(c, b);
-  const int exponent = ab.Exponent > ac.Exponent ? ab.Exponent : ac.Exponent;
+  const int exponent = std::max(ab.Exponent, ac.Exponent);
   const auto scaled = [exponent](const WideVector& edge)
   { return std::scalbn(1.0, edge.Exponent - exponent) * edge.Vector; };
   const Vector3 x = scaled(ab), y = scaled(ac), z = scaled(bc);

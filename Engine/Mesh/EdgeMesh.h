@@ -20,8 +20,8 @@
 /// entry of Opposites, and the end vertices are the triangle's other two.
 ///
 /// A word belongs to the triangle that it names: a flip that owns its two triangles writes the
-/// words of their outer edges on its own side and never reads the far side's, so flips of disjoint
-/// triangle pairs race nowhere and the paper's repair phase (Sec. 3.2) has nothing to do.
+/// words of their outer edges on its own side and never reads the far side's. So flips of disjoint
+/// triangle pairs race nowhere, and the repair that the paper needs (Sec. 3.2) has nothing to do.
 
 namespace delaunayflip
 {
@@ -35,6 +35,7 @@ using CornerId = std::uint32_t;
 /// No corner: the far side of a boundary edge, or of one incident triangle of a non-manifold edge.
 constexpr CornerId NoCorner = 0xFFFFFFFFu;
 
+constexpr VertexId NoVertex = 0xFFFFFFFFu;
 constexpr EdgeId NoEdge = 0xFFFFFFFFu;
 constexpr TriangleId NoTriangle = 0xFFFFFFFFu;
 
@@ -49,7 +50,7 @@ enum class EdgeState : std::uint8_t
   BlockedByShape, ///< Bad, but the flip would fold the mesh over.
   BlockedByEdge, ///< Bad, but the new edge already exists. May become free when others flip.
   Bad, ///< Violates the criterion and may flip.
-  Excluded, ///< A bad edge whose neighbour has flipped while other edges still choose.
+  Excluded, ///< A bad edge next to one that has flipped, while other edges still choose.
   Candidate, ///< To be judged: new, or an incident triangle changed.
   Uncertain ///< The filter could not decide; exact arithmetic must.
 };
@@ -98,7 +99,8 @@ constexpr std::uint32_t OneFlip = 1u << 7;
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t GetAt(const std::uint32_t (&values)[3], int slot)
 {
 #if DELAUNAYFLIP_ON_DEVICE
-  return slot == 0 ? values[0] : (slot == 1 ? values[1] : values[2]);
+  const std::uint32_t firstOrSecond = slot == 0 ? values[0] : values[1];
+  return slot == 2 ? values[2] : firstOrSecond;
 #else
   return values[slot];
 #endif
@@ -125,7 +127,7 @@ using TriangleAccess = TriangleRecord&;
 using ConstTriangleAccess = const TriangleRecord&;
 #endif
 
-/// Both words of an edge.
+/// The two words of an edge.
 struct alignas(8) CornerPair
 {
   CornerId A, B;
@@ -237,8 +239,8 @@ struct AuditStep
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t e, std::int64_t& sum) const
   {
     const CornerId* corners = &this->CornerOfHalfEdge[2 * e];
-    const int sides = corners[1] == NoCorner ? 1 : 2;
-    const bool isFixed = this->States ? this->States[e] == EdgeState::Fixed : sides == 1;
+    const int sides = 1 + int(corners[1] != NoCorner);
+    const bool isFixed = this->IsFixed(e, sides);
     bool isSound = sides == 2 || isFixed;
     VertexId found[2][3]; // the opposite vertex, and the ends in the direction of the triangle
     for (int side = 0; side < sides && isSound; ++side)
@@ -256,9 +258,20 @@ struct AuditStep
     {
       const bool opposed = found[0][1] == found[1][2] && found[0][2] == found[1][1];
       const bool alike = found[0][1] == found[1][1] && found[0][2] == found[1][2];
-      isSound = isFixed ? opposed || alike : opposed && found[0][0] != found[1][0];
+      const bool mayFlip = opposed && found[0][0] != found[1][0];
+      isSound = mayFlip || (isFixed && (opposed || alike));
     }
     sum += isSound ? sides : -1;
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE bool IsFixed(std::int64_t e, int sides) const
+  {
+    if (this->States)
+    {
+      return this->States[e] == EdgeState::Fixed;
+    }
+    return sides == 1;
   }
 };
 

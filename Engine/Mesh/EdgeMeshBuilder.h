@@ -98,8 +98,8 @@ struct FixEdgeStep
       return;
     }
     const CornerRole role = GetRole(triangle, SlotOf(corner));
-    sums.Boundary += role == CornerRole::Alone ? 1 : 0;
-    sums.OneOfMany += role == CornerRole::OneOfMany ? 1 : 0;
+    sums.Boundary += int(role == CornerRole::Alone);
+    sums.OneOfMany += int(role == CornerRole::OneOfMany);
     if (role != CornerRole::Leader || this->MustStay(edge, sums))
     {
       this->Mesh.States[edge] = EdgeState::Fixed;
@@ -118,21 +118,26 @@ private:
     const bool duplicate = quad.A == quad.B;
     const bool region =
       this->Regions && this->Regions[a.InputTriangle] != this->Regions[b.InputTriangle];
-    bool feature = false;
-    if (this->HasFeatures && !wronglyWound)
-    {
-      const auto load = [this](VertexId rank)
-      { return LoadPoint(this->Points, this->Order.GetVertex(rank)); };
-      const QuadPoints points{ load(quad.A), load(quad.P), load(quad.Q), load(quad.B) };
-      feature = IsWide(this->Range, points) ? IsSharpWide(points, this->FeatureCosine)
-                                            : IsSharp(points, this->FeatureCosine);
-    }
-    sums.WronglyWound += wronglyWound ? 1 : 0;
-    sums.Region += region ? 1 : 0;
-    sums.Duplicate += duplicate ? 1 : 0;
-    sums.Feature += feature ? 1 : 0;
+    const bool feature = this->HasFeatures && !wronglyWound && this->IsFeature(quad);
+    sums.WronglyWound += int(wronglyWound);
+    sums.Region += int(region);
+    sums.Duplicate += int(duplicate);
+    sums.Feature += int(feature);
     return wronglyWound || duplicate || region || feature ||
       ((a.Flips | b.Flips) & UntouchableBit) != 0;
+  }
+
+  /// Whether the edge of a quad is sharper than the feature angle.
+  DELAUNAYFLIP_HOST_DEVICE bool IsFeature(const Quad& quad) const
+  {
+    const auto load = [this](VertexId rank)
+    { return LoadPoint(this->Points, this->Order.GetVertex(rank)); };
+    const QuadPoints points{ load(quad.A), load(quad.P), load(quad.Q), load(quad.B) };
+    if (IsWide(this->Range, points))
+    {
+      return IsSharpWide(points, this->FeatureCosine);
+    }
+    return IsSharp(points, this->FeatureCosine);
   }
 };
 
@@ -142,11 +147,14 @@ bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backen
 {
   const bool hasFeatures =
     input.Survey.Geometry == GeometryKind::Surface && input.FeatureAngle < 180.0;
-  const bool arePacked = input.Packed.Count > 0;
-  const FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions,
-    arePacked ? input.Packed : input.Input.Local.Points,
-    arePacked ? SpatialOrderView{} : input.Order.View(), input.Survey.Range, hasFeatures,
+  FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions, input.Input.Local.Points,
+    input.Order.View(), input.Survey.Range, hasFeatures,
     std::cos(input.FeatureAngle * DegreesToRadians) };
+  if (input.Packed.Count > 0)
+  {
+    step.Points = input.Packed;
+    step.Order = SpatialOrderView{};
+  }
   const FixedSums sums = backend.template Sum<FixedSums>(result.Edges.NumberOfEdges, step);
   EdgeCounts& counts = result.Counts;
   counts.Boundary = sums.Boundary;
@@ -186,11 +194,11 @@ struct SortedTriangle
     : Slot(triangle.InputTriangle)
   {
     const std::uint32_t* v = triangle.Vertices;
-    const std::uint32_t low = v[0] < v[1] ? v[0] : v[1];
-    const std::uint32_t high = v[0] < v[1] ? v[1] : v[0];
-    this->Vertices[0] = v[2] < low ? v[2] : low;
-    this->Vertices[1] = v[2] < low ? low : (v[2] < high ? v[2] : high);
-    this->Vertices[2] = v[2] < high ? high : v[2];
+    const std::uint32_t low = std::min(v[0], v[1]);
+    const std::uint32_t high = std::max(v[0], v[1]);
+    this->Vertices[0] = std::min(low, v[2]);
+    this->Vertices[1] = std::max(low, std::min(high, v[2]));
+    this->Vertices[2] = std::max(high, v[2]);
   }
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetHash() const
   {
@@ -203,7 +211,7 @@ struct SortedTriangle
   }
 };
 
-/// Those of the `suspects` whose vertices are those of one in a smaller slot.
+/// Finds the `suspects` that have the vertices of one in a smaller slot.
 template <typename Backend>
 IdSample FindRepeated(const SortedTriangle* suspects, std::int64_t count, const Backend& backend)
 {
@@ -241,7 +249,7 @@ Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
 {
   const EdgeMeshView mesh = edges.View();
   const auto count = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-  { return MayBeRepeated(mesh, t) ? 1 : 0; };
+  { return int(MayBeRepeated(mesh, t)); };
   const typename Backend::Numbering numbering = backend.Count(edges.NumberOfTriangles, count);
   IdSample repeated; // none in a clean mesh
   if (numbering.Total > 0)
@@ -311,20 +319,24 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, ConstraintSums & part)
     {
       const VertexId a = order.GetRank(points[2 * i]), b = order.GetRank(points[2 * i + 1]);
-      const std::uint32_t slot = a == b ? EdgeTableView::NoSlot : table.Find(EdgeKey(a, b));
+      if (a == b)
+      {
+        return;
+      }
+      const std::uint32_t slot = table.Find(EdgeKey(a, b));
       if (slot == EdgeTableView::NoSlot)
       {
-        part.Missing += a == b ? 0 : 1;
+        ++part.Missing;
         return;
       }
       constexpr CornerId Seen = 0xFFFFFFFDu;
       const CornerId second = AtomicExchange(&table.Second[slot], Seen);
-      part.Found += second == Seen ? 0 : 1;
+      part.Found += int(second != Seen);
       if (second != Seen && second != ManyCorners)
       {
         const CornerId corner = table.First[slot];
         const EdgeId edge = EdgeOf(mesh.Triangles[TriangleOf(corner)].HalfEdges[SlotOf(corner)]);
-        part.NewlyFixed += mesh.States[edge] == EdgeState::Fixed ? 0 : 1;
+        part.NewlyFixed += int(mesh.States[edge] != EdgeState::Fixed);
         mesh.States[edge] = EdgeState::Fixed;
       }
     });
@@ -376,8 +388,8 @@ struct PairStep
         AtomicExchange(second, ManyCorners) != ManyCorners;
     }
     const bool isEdge = !IsLoop(triangle, slot);
-    sums.Edges += isEdge && inserted ? 1 : 0;
-    sums.NonManifold += isEdge && many ? 1 : 0;
+    sums.Edges += int(isEdge && inserted);
+    sums.NonManifold += int(isEdge && many);
     triangle.HalfEdges[slot] = entry;
   }
 };
@@ -503,8 +515,8 @@ struct LoadStep
     const std::int64_t p = this->Mesh.Triangles.Get(own, 0);
     const std::int64_t q = this->Mesh.Triangles.Get(own, 1);
     const std::int64_t r = this->Mesh.Triangles.Get(own, 2);
-    // No edge may flip: by request of the caller, because of a repeated id, or because a coordinate
-    // is not finite.
+    // Its edges must not flip: the caller says so, it has a repeated id, or a coordinate is not
+    // finite.
     const bool isUntouchable =
       (this->Mesh.FrozenTriangles && this->Mesh.FrozenTriangles[own] != 0) || p == q || q == r ||
       r == p ||
@@ -512,14 +524,14 @@ struct LoadStep
         (this->Uses[p] == PointUse::NotFinite || this->Uses[q] == PointUse::NotFinite ||
           this->Uses[r] == PointUse::NotFinite));
     record.InputTriangle = own;
-    record.Flips = isUntouchable ? UntouchableBit : 0;
+    record.Flips = int(isUntouchable) * UntouchableBit;
     record.Vertices[0] = this->Order.GetRank(p);
     record.Vertices[1] = this->Order.GetRank(q);
     record.Vertices[2] = this->Order.GetRank(r);
   }
 };
 
-/// Loads the triangles in the engine's order, the first part of an edge mesh. After this the ids of
+/// Loads the triangles in the engine's order, with which an edge mesh begins. After this the ids of
 /// the input and the order of its triangles are not needed any more.
 template <typename Backend>
 EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
@@ -527,8 +539,7 @@ EdgeMesh LoadTriangles(const EdgeMeshInput& input, const Backend& backend)
   EdgeMesh edges;
   const TriangleMesh mesh = input.Input.Local;
   const SpatialOrderView order = input.Order.View();
-  const bool allFinite = input.Survey.NonFinitePoints.Count == 0;
-  const PointUse* uses = allFinite ? nullptr : input.Survey.Uses.Data();
+  const PointUse* uses = input.Survey.GetUsesIfNeeded();
   edges.NumberOfTriangles = mesh.Triangles.Count;
   edges.Triangles = backend.template MakeArray<TriangleRecord>(mesh.Triangles.Count);
   TriangleRecord* triangles = edges.Triangles.Data();
@@ -595,7 +606,10 @@ typename Backend::Numbering PairByTable(
     {
       return numbering;
     }
-    expected = slices > 1 ? expected : 2 * expected + 1;
+    if (slices == 1)
+    {
+      expected = 2 * expected + 1;
+    }
     slices = 1;
   }
   throw std::logic_error("the edge table runs full; please report this with the mesh");
@@ -620,14 +634,19 @@ typename Backend::Numbering PairCorners(
     result.Counts.NonManifold = sums.NonManifold;
     return numbering;
   }
-  // In triangles. Slices take time, which matters in small meshes; but surfaces take most memory.
-  constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20;
-  constexpr std::int64_t SmallestHalved = std::int64_t(1) << 17;
+  // Slices take time, which matters in small meshes; but surfaces take most memory.
+  constexpr std::int64_t SmallestSliced = std::int64_t(1) << 20; // triangles
+  constexpr std::int64_t SmallestHalved = std::int64_t(1) << 17; // triangles of a surface
   const std::int64_t triangles = result.Edges.NumberOfTriangles;
-  const bool isHalved =
-    input.Survey.Geometry == GeometryKind::Surface && triangles >= SmallestHalved;
-  const int most = backend.CountTableSlices();
-  const int slices = triangles >= SmallestSliced ? most : std::min(most, isHalved ? 2 : 1);
+  int slices = 1;
+  if (triangles >= SmallestSliced)
+  {
+    slices = backend.CountTableSlices();
+  }
+  else if (triangles >= SmallestHalved && input.Survey.Geometry == GeometryKind::Surface)
+  {
+    slices = std::min(backend.CountTableSlices(), 2);
+  }
   numbering = PairByTable(input, result, slices, backend);
   if (Backend::MemoryIsScarce)
   {

@@ -23,8 +23,8 @@ namespace delaunayflip
 DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t EdgeKey(VertexId a, VertexId b)
 {
   // Two selections instead of a branch, which would be mispredicted half of the time.
-  const VertexId smaller = a < b ? a : b;
-  const VertexId larger = a < b ? b : a;
+  const VertexId smaller = std::min(a, b);
+  const VertexId larger = std::max(a, b);
   return (std::uint64_t(smaller) << 32) | larger;
 }
 
@@ -38,8 +38,8 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t Scatter(std::uint32_t x)
   return x ^ (x >> 16);
 }
 
-/// The vertices [First, Last) of the engine's order. A table may be restricted to the edges whose
-/// smaller vertex is in such a slice.
+/// The vertices [First, Last) of the engine's order. A table may be restricted to the edges with
+/// their smaller vertex in such a slice.
 struct VertexSlice
 {
   VertexId First, Last;
@@ -62,8 +62,8 @@ struct EdgeTableView
   static constexpr std::uint64_t Empty = ~std::uint64_t(0);
   static constexpr std::uint64_t Removed = Empty - 1;
   static constexpr std::uint32_t NoSlot = 0xFFFFFFFFu;
-  static constexpr std::uint32_t NearSlots =
-    64; ///< The edges of a vertex are spread over this many slots.
+  /// The edges of a vertex are spread over this many slots.
+  static constexpr std::uint32_t NearSlots = 64;
   static constexpr std::uint32_t NearProbes = 8;
   static constexpr std::uint32_t FarSlots = 1u << 12;
   static constexpr int StrideBits = 24;
@@ -80,7 +80,11 @@ struct EdgeTableView
     const std::uint64_t home =
       (std::uint64_t(smaller - this->Slice.First) * this->Stride) >> StrideBits;
     const std::uint64_t slot = home + scattered % NearSlots;
-    return static_cast<std::uint32_t>(slot < this->Capacity ? slot : slot % this->Capacity);
+    if (slot < this->Capacity)
+    {
+      return static_cast<std::uint32_t>(slot);
+    }
+    return static_cast<std::uint32_t>(slot % this->Capacity);
   }
 
   /// Calls visit(slot, key there) for the slots at which `key` may be, in the order of search,
@@ -96,15 +100,19 @@ struct EdgeTableView
     for (std::uint32_t probe = 0; probe < NearProbes + FarSlots; ++probe)
     {
       std::uint64_t slot = std::uint64_t(near) + probe;
-      slot = slot < this->Capacity ? slot : slot - this->Capacity;
+      if (slot >= this->Capacity)
+      {
+        slot -= this->Capacity;
+      }
       if (probe >= NearProbes)
       {
-        // Scattered, because vertices with many edges fill thousands of consecutive slots.
+        // Slots are scattered, because vertices with many edges fill thousands of consecutive ones.
         scattered = Scatter(scattered + 0x9e3779b9u);
         slot = (std::uint64_t(scattered) * this->Capacity) >> 32;
       }
       const auto found = static_cast<std::uint32_t>(slot);
-      if (visit(found, loads ? AtomicLoad(&this->Keys[found]) : Empty))
+      const std::uint64_t there = loads ? AtomicLoad(&this->Keys[found]) : Empty;
+      if (visit(found, there))
       {
         return found;
       }
@@ -282,7 +290,7 @@ DELAUNAYFLIP_HOST_DEVICE inline int CountLeaders(const TriangleRecord& triangle)
   int leaders = 0;
   for (int slot = 0; slot < 3; ++slot)
   {
-    leaders += GetRole(triangle, slot) == CornerRole::Follower ? 0 : 1;
+    leaders += int(GetRole(triangle, slot) != CornerRole::Follower);
   }
   return leaders;
 }
@@ -298,13 +306,14 @@ DELAUNAYFLIP_HOST_DEVICE inline void SetRole(
       static_cast<int>(CornerRole::Leader) == 1 && static_cast<int>(CornerRole::Alone) == 2 &&
       static_cast<int>(CornerRole::OneOfMany) == 3,
     "without branches, the two special ids being larger than any corner");
-  const std::uint32_t role = (MakeCorner(static_cast<TriangleId>(t), slot) < other ? 1 : 0) +
-    (other == NoCorner ? 1 : 0) + (other == ManyCorners ? 2 : 0);
+  const bool isSmaller = MakeCorner(static_cast<TriangleId>(t), slot) < other;
+  const std::uint32_t role =
+    int(isSmaller) + int(other == NoCorner) + 2 * int(other == ManyCorners);
   triangle.Flips |= role << (2 * slot);
   triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
 }
 
-/// Sets the roles of all three corners, whose HalfEdges hold the other corners.
+/// Sets the roles of all three corners. The triangle's HalfEdges hold the other corners.
 /// @returns the number of edges that the triangle leads.
 DELAUNAYFLIP_HOST_DEVICE inline int SetRoles(TriangleRecord& triangle, std::int64_t t)
 {

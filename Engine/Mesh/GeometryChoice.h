@@ -44,7 +44,7 @@ struct PlaneScale
     {
       largest = std::max({ largest, std::fabs(box.Lower[axis]), std::fabs(box.Upper[axis]) });
     }
-    const int exponent = largest > 0.0 ? -std::ilogb(largest) : 0;
+    const int exponent = -ExponentOf(largest);
     this->Factors[0] = std::scalbn(1.0, exponent / 2);
     this->Factors[1] = std::scalbn(1.0, exponent - exponent / 2);
   }
@@ -82,9 +82,10 @@ struct Farthest
   }
 };
 
-/// The turn of a, b, c in x and y. Also 0 if the filter finds almost no area and fixed-point
-/// integers do not suffice, because a device has no wider ones.
-DELAUNAYFLIP_HOST_DEVICE inline int FindTurn(const Vector3& a, const Vector3& b, const Vector3& c)
+/// The orientation of a, b, c in x and y. It is also 0 if the filter finds almost no area and
+/// fixed-point integers do not suffice, because a device has no wider ones.
+DELAUNAYFLIP_HOST_DEVICE inline int FindOrientationXY(
+  const Vector3& a, const Vector3& b, const Vector3& c)
 {
   const PlanePoint p{ a.X, a.Y, 0.0 }, q{ b.X, b.Y, 0.0 }, r{ c.X, c.Y, 0.0 };
   int sign = FilteredOrientation(p, q, r);
@@ -92,7 +93,11 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindTurn(const Vector3& a, const Vector3& b,
   {
     sign = FixedPointOrientation(p, q, r);
   }
-  return sign == UncertainSign ? 0 : sign;
+  if (sign == UncertainSign)
+  {
+    return 0;
+  }
+  return sign;
 }
 
 /// Whether a triangle slopes below 45 degrees: its plane or, of a sliver, its three edges. A sliver
@@ -115,22 +120,22 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsGentle(const Vector3 (&corners)[3], const
   {
     const Vector3 edge = corners[(slot + 1) % 3] - corners[slot];
     const double square = Dot(edge, edge);
-    // Without branches, which could not be predicted.
+    // There are no branches, because they could not be predicted.
     isSliver |= squaredArea < Fifth * Fifth * square * square;
     areEdgesGentle &= edge.Z * edge.Z < edge.X * edge.X + edge.Y * edge.Y;
   }
   return isSliver && areEdgesGentle;
 }
 
-struct TurnSums
+struct OrientationSums
 {
-  TurnSample Turns; ///< In x and y.
+  OrientationSample Orientations; ///< In x and y.
   /// Area in space, in units of 2^-60: of all triangles, and of those that slope below 45 degrees.
   Integer128 All = 0, Gentle = 0;
 
-  DELAUNAYFLIP_HOST_DEVICE TurnSums& operator+=(const TurnSums& part)
+  DELAUNAYFLIP_HOST_DEVICE OrientationSums& operator+=(const OrientationSums& part)
   {
-    this->Turns += part.Turns;
+    this->Orientations += part.Orientations;
     this->All += part.All;
     this->Gentle += part.Gentle;
     return *this;
@@ -166,8 +171,8 @@ struct ScaledTriangles
   }
 };
 
-/// Adds up the turn, area and slope of a triangle.
-struct TurnStep
+/// Adds up the orientation, area and slope of a triangle.
+struct OrientationStep
 {
   ScaledTriangles Triangles;
   double Factor; ///< Power of two that brings the scaled bounding box's diagonal to 1 .. 2.
@@ -179,7 +184,7 @@ struct TurnStep
     this->Triangles.Prefetch(i * this->Stride);
   }
 
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, TurnSums& sums) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, OrientationSums& sums) const
   {
     const std::int64_t t = i * this->Stride;
     if (!this->Triangles.IsFinite(t))
@@ -188,12 +193,15 @@ struct TurnStep
     }
     const Vector3 corners[3] = { this->GetCorner(t, 0), this->GetCorner(t, 1),
       this->GetCorner(t, 2) };
-    sums.Turns.Note(FindTurn(corners[0], corners[1], corners[2]), t);
+    sums.Orientations.Note(FindOrientationXY(corners[0], corners[1], corners[2]), t);
     const Vector3 normal = AreaVector(corners[0], corners[1], corners[2]);
     const double area = Length(normal) * this->Factor * this->Factor; // below 4
     const auto units = static_cast<std::int64_t>(0x1p60 * area);
     sums.All += units;
-    sums.Gentle += IsGentle(corners, normal) ? units : 0;
+    if (IsGentle(corners, normal))
+    {
+      sums.Gentle += units;
+    }
   }
 
 private:
@@ -204,23 +212,27 @@ private:
     {
       return p;
     }
-    return this->Up == 1 ? Vector3{ p.Z, p.X, p.Y } : Vector3{ p.Y, p.Z, p.X };
+    if (this->Up == 1)
+    {
+      return { p.Z, p.X, p.Y };
+    }
+    return { p.Y, p.Z, p.X };
   }
 };
 
 /// Adds the angles of a triangle's corners, in x and y, to the sums of its points.
 ///
-/// An angle is the difference of two directions. Both triangles of an edge compute the same number
-/// for its direction. So the angles around an inner point add up exactly to a whole number of
-/// turns; at the boundary, to within the rounding of two directions. Triangles that are turned over
-/// count as negative.
+/// An angle is the difference of two directions. The two triangles of an edge compute the same
+/// number for its direction. So the angles around an inner point add up exactly to a whole number
+/// of circles; at the boundary, to within the rounding of two directions. Clockwise triangles count
+/// as negative.
 struct StarStep
 {
-  static constexpr std::uint32_t QuarterTurn = 1u << 22;
-  static constexpr std::uint32_t FullTurn = 4 * QuarterTurn;
+  static constexpr std::uint32_t QuarterCircle = 1u << 22;
+  static constexpr std::uint32_t FullCircle = 4 * QuarterCircle;
 
   ScaledTriangles Triangles;
-  std::uint32_t* Angles; ///< One sum per point, modulo 2^32, for stars of up to 128 turns.
+  std::uint32_t* Angles; ///< One sum per point, modulo 2^32, for stars of up to 128 circles.
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
@@ -240,8 +252,8 @@ struct StarStep
     const Vector3 a = this->Triangles.GetCorner(t, 0);
     const Vector3 b = this->Triangles.GetCorner(t, 1);
     const Vector3 c = this->Triangles.GetCorner(t, 2);
-    const int turn = FindTurn(a, b, c);
-    if (turn == 0)
+    const int orientation = FindOrientationXY(a, b, c);
+    if (orientation == 0)
     {
       return;
     }
@@ -250,40 +262,43 @@ struct StarStep
     for (int slot = 0; slot < 3; ++slot)
     {
       AtomicAdd(&this->Angles[this->Triangles.Mesh.Triangles.Get(t, slot)],
-        FindAngle(directions[slot], directions[(slot + 2) % 3], turn));
+        FindAngle(directions[slot], directions[(slot + 2) % 3], orientation));
     }
   }
 
 private:
-  /// From 0 (along x) to FullTurn, increasing with the angle. The directions from a to b and from b
-  /// to a differ by exactly half a turn.
+  /// From 0 (along x) to FullCircle, increasing with the angle. The directions from a to b and from
+  /// b to a differ by exactly half a circle.
   DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindDirection(const Vector3& a, const Vector3& b)
   {
     const double x = b.X - a.X;
     const double y = b.Y - a.Y;
     const double sum = std::fabs(x) + std::fabs(y);
-    const double share = sum > 0.0 ? std::fabs(y) / sum : 0.0;
-    const auto part = static_cast<std::uint32_t>(QuarterTurn * share);
+    if (!(sum > 0.0))
+    {
+      return 0;
+    }
+    const auto fromAxis = static_cast<std::uint32_t>(QuarterCircle * (std::fabs(y) / sum));
     if (y >= 0.0)
     {
-      return x >= 0.0 ? part : 2 * QuarterTurn - part;
+      return x >= 0.0 ? fromAxis : 2 * QuarterCircle - fromAxis;
     }
-    return x < 0.0 ? 2 * QuarterTurn + part : FullTurn - part;
+    return x < 0.0 ? 2 * QuarterCircle + fromAxis : FullCircle - fromAxis;
   }
 
   /// The angle of a corner, from the directions to the next point and from the previous one: up to
-  /// half a turn, to the side to which the triangle turns. Rounding may exceed this range a little.
+  /// half a circle, with the sign of the orientation. Rounding may exceed this range a little.
   DELAUNAYFLIP_HOST_DEVICE static std::uint32_t FindAngle(
-    std::uint32_t toNext, std::uint32_t fromPrevious, int turn)
+    std::uint32_t toNext, std::uint32_t fromPrevious, int orientation)
   {
-    const std::uint32_t angle = (fromPrevious + 2 * QuarterTurn - toNext) & (FullTurn - 1);
-    const std::uint32_t most = turn > 0 ? 3 * QuarterTurn : QuarterTurn;
-    return angle < most ? angle : angle - FullTurn;
+    const std::uint32_t angle = (fromPrevious + 2 * QuarterCircle - toNext) & (FullCircle - 1);
+    const std::uint32_t most = orientation > 0 ? 3 * QuarterCircle : QuarterCircle;
+    return angle < most ? angle : angle - FullCircle;
   }
 };
 
-/// Where a backend knows only a piece of the mesh, an overload adds what other pieces have summed
-/// at the points that they share with this one.
+/// If a backend knows only a part of the mesh, an overload adds what other parts have summed at the
+/// points that they share with this one.
 template <typename Backend>
 void JoinPointSums(const Backend&, std::uint32_t*)
 {
@@ -293,26 +308,31 @@ void JoinPointSums(const Backend&, std::uint32_t*)
 /// @param times how many times as high, at least.
 inline bool IsHigherThanWide(const BoundingBox& box, double times = 1.0)
 {
-  // Half of each number where the box is so wide that its extent would overflow. The halves of the
+  // All numbers are halved if the box is so wide that its extent would overflow. The halves of the
   // smallest numbers would be rounded.
   const double largest = std::max(
     { box.Upper[0], box.Upper[1], box.Upper[2], -box.Lower[0], -box.Lower[1], -box.Lower[2] });
-  const double unit = largest > 0.5 * std::numeric_limits<double>::max() ? 0.5 : 1.0;
+  const bool mayOverflow = largest > 0.5 * std::numeric_limits<double>::max();
+  const double unit = mayOverflow ? 0.5 : 1.0;
   const auto extent = [&](int axis) { return unit * box.Upper[axis] - unit * box.Lower[axis]; };
   return extent(2) > times * extent(0) && extent(2) > times * extent(1);
 }
 
 /// "12 of 30000 triangles face the other way and 7 have no area".
-inline std::string DescribeStrays(const TurnSample& turns)
+inline std::string DescribeStrays(const OrientationSample& orientations)
 {
-  const std::string all = " of " + std::to_string(turns.Count()) + " triangles";
-  const std::string flat = std::to_string(turns.Flat.Count);
-  if (turns.GetOthers().Count == 0)
+  const std::string all = " of " + std::to_string(orientations.Count()) + " triangles";
+  const std::string flat = std::to_string(orientations.Flat.Count);
+  if (orientations.GetOthers().Count == 0)
   {
     return flat + all + " have no area";
   }
-  return std::to_string(turns.GetOthers().Count) + all + " face the other way" +
-    (turns.Flat.Count > 0 ? " and " + flat + " have no area" : "");
+  std::string strays = std::to_string(orientations.GetOthers().Count) + all + " face the other way";
+  if (orientations.Flat.Count > 0)
+  {
+    strays += " and " + flat + " have no area";
+  }
+  return strays;
 }
 
 /// Sets a survey's geometry, the reason, and what depends on the geometry.
@@ -324,8 +344,7 @@ public:
     : Input(input),
       Survey(survey),
       Backend(backend),
-      Triangles{ input.Local, survey.NonFinitePoints.Count == 0 ? nullptr : survey.Uses.Data(),
-        PlaneScale(survey.Box) }
+      Triangles{ input.Local, survey.GetUsesIfNeeded(), PlaneScale(survey.Box) }
   {
   }
 
@@ -337,7 +356,7 @@ public:
       this->Take(requested, AsRequested);
       if (requested == GeometryKind::Surface)
       {
-        this->Survey.Turns = this->SumTurns().Turns;
+        this->Survey.Orientations = this->SumOrientations().Orientations;
       }
     }
     else if (!this->TakePlane(requested))
@@ -402,29 +421,28 @@ public:
       PlanarTolerance * this->Triangles.Scale.FindDiagonal(box) * Length(normal);
   }
 
-  /// How triangles turn in x and y, and how steep they are.
+  /// How triangles are oriented in x and y, and how steep they are.
   /// @param up another axis: in the two that follow it, with heights along it.
   /// @param atMost about how many triangles are taken, evenly.
-  TurnSums SumTurns(
+  OrientationSums SumOrientations(
     int up = 2, std::int64_t atMost = std::numeric_limits<std::int64_t>::max()) const
   {
     // The square of the factor must not overflow; areas in smaller boxes vanish anyway.
     constexpr int SmallestExponent = -500;
     const double length = this->Triangles.Scale.FindDiagonal(this->Survey.Box);
-    const double factor =
-      length > 0.0 ? std::scalbn(1.0, -std::max(std::ilogb(length), SmallestExponent)) : 1.0;
+    const double factor = std::scalbn(1.0, -std::max(ExponentOf(length), SmallestExponent));
     const std::int64_t all = this->Input.Local.Triangles.Count;
     const std::int64_t stride = std::max<std::int64_t>(1, all / atMost);
-    return this->Backend.template Sum<TurnSums>(
-      (all + stride - 1) / stride, TurnStep{ this->Triangles, factor, up, stride });
+    return this->Backend.template Sum<OrientationSums>(
+      (all + stride - 1) / stride, OrientationStep{ this->Triangles, factor, up, stride });
   }
 
-  /// The points around which triangles turn more than once.
+  /// The points around which triangles wind more than once.
   IdSample FindOverlaps() const
   {
     // At both ends of an open fan, directions are rounded.
     constexpr std::int64_t Slack = 8;
-    const int side = this->Survey.Turns.GetSide();
+    const int side = this->Survey.Orientations.GetSide();
     const std::int64_t points = this->Input.Local.Points.Count;
     Array<std::uint32_t> angles = this->Backend.template MakeArray<std::uint32_t>(points);
     std::uint32_t* angleOfPoint = angles.Data();
@@ -437,7 +455,7 @@ public:
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, IdSample & sum)
       {
         const std::int64_t angle = static_cast<std::int32_t>(angleOfPoint[i]);
-        if (side * angle > StarStep::FullTurn + Slack)
+        if (side * angle > StarStep::FullCircle + Slack)
         {
           sum.Note(i);
         }
@@ -452,8 +470,11 @@ private:
   void Take(GeometryKind geometry, const std::string& reason)
   {
     this->Survey.Geometry = geometry;
-    this->Survey.GeometryReason =
-      reason + (geometry == GeometryKind::Surface ? "" : "; the feature angle has no effect");
+    this->Survey.GeometryReason = reason;
+    if (geometry != GeometryKind::Surface)
+    {
+      this->Survey.GeometryReason += "; the feature angle has no effect";
+    }
   }
 
   void TakePlane(int axis, bool isTilted, const char* reason)
@@ -477,9 +498,10 @@ private:
     if (this->FindPlane(normal, off))
     {
       const double x = std::fabs(normal.X), y = std::fabs(normal.Y), z = std::fabs(normal.Z);
-      const int axis = z >= x && z >= y ? 2 : (y >= x ? 1 : 0);
-      this->TakePlane(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis],
-        isRequested ? AsRequested : "all points lie in one plane");
+      const int axisOfXY = y >= x ? 1 : 0;
+      const int axis = z >= x && z >= y ? 2 : axisOfXY;
+      const char* reason = isRequested ? AsRequested : "all points lie in one plane";
+      this->TakePlane(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis], reason);
       return true;
     }
     if (isRequested)
@@ -494,31 +516,38 @@ private:
   }
 
   /// Chooses PlanarXY for what can only be terrain, else Surface. Flipping terrain as a surface
-  /// turns triangles over in x and y if units are mixed or slopes are steep; flipping steep
+  /// folds triangles over in x and y if units are mixed or slopes are steep; flipping steep
   /// surfaces by their projection ruins them.
   void TakeSpace()
   {
-    const TurnSums sums = this->SumTurns();
-    const TurnSample& turns = this->Survey.Turns = sums.Turns;
+    const OrientationSums sums = this->SumOrientations();
+    this->Survey.Orientations = sums.Orientations;
+    const OrientationSample& orientations = this->Survey.Orientations;
     const bool isHigh = IsHigherThanWide(this->Survey.Box);
-    // Only mixed units extend like that, of a globe, say, cut where x jumps from 180 to -180.
-    const bool mayStray = IsHigherThanWide(this->Survey.Box, 10.0) && turns.AreNearlyUniform();
-    const int gentle = // percent, rounded down
-      sums.All > 0 ? static_cast<int>(100 * sums.Gentle / sums.All) : 0;
+    // A mesh extends like that only in mixed units, as a globe that is cut where x jumps from 180
+    // to -180.
+    const bool mayStray =
+      IsHigherThanWide(this->Survey.Box, 10.0) && orientations.AreNearlyUniform();
+    // In percent, rounded down.
+    const auto gentle = static_cast<int>(100 * sums.Gentle / std::max<Integer128>(1, sums.All));
     const bool suits = isHigh || gentle >= MostlyGentle;
     const std::string slopes = std::to_string(gentle) + " % of its area slopes below 45 degrees";
-    const std::string field = "a height field over x and y" +
-      (turns.CountStrays() > 0 ? ", although " + DescribeStrays(turns) + " there" : std::string());
-    if (turns.GetSide() == 0)
+    std::string field = "a height field over x and y";
+    if (orientations.CountStrays() > 0)
+    {
+      field += ", although " + DescribeStrays(orientations) + " there";
+    }
+    if (orientations.GetSide() == 0)
     {
       this->Take(
         GeometryKind::Surface, "no triangle has area in x and y" + this->AdviseOtherHeights());
     }
-    else if (!turns.AreUniform() && !mayStray)
+    else if (!orientations.AreUniform() && !mayStray)
     {
+      const std::string advice =
+        orientations.AreNearlyUniform() ? Advice : this->AdviseOtherHeights();
       this->Take(GeometryKind::Surface,
-        "not a height field: seen from above, " + DescribeStrays(turns) +
-          (turns.AreNearlyUniform() ? Advice : this->AdviseOtherHeights()));
+        "not a height field: seen from above, " + DescribeStrays(orientations) + advice);
       this->WarnOfStrays();
     }
     else if (!suits)
@@ -528,8 +557,8 @@ private:
     }
     else if (!this->RefuseOverlaps())
     {
-      this->Take(GeometryKind::PlanarXY,
-        field + ", and " + (isHigh ? "z extends further than x and y" : slopes));
+      const std::string reason = isHigh ? "z extends further than x and y" : slopes;
+      this->Take(GeometryKind::PlanarXY, field + ", and " + reason);
     }
   }
 
@@ -539,13 +568,13 @@ private:
     constexpr std::int64_t Sample = 1000; // triangles, which tell that most meshes are none
     for (const int up : { 1, 0 })
     {
-      const TurnSums sample = this->SumTurns(up, Sample);
-      if (10 * sample.Turns.CountStrays() > sample.Turns.Count())
+      const OrientationSample sample = this->SumOrientations(up, Sample).Orientations;
+      if (10 * sample.CountStrays() > sample.Count())
       {
         continue;
       }
-      const TurnSums sums = this->SumTurns(up);
-      if (sums.Turns.AreUniform() && 100 * sums.Gentle >= MostlyGentle * sums.All)
+      const OrientationSums sums = this->SumOrientations(up);
+      if (sums.Orientations.AreUniform() && 100 * sums.Gentle >= MostlyGentle * sums.All)
       {
         const std::string axis = up == 1 ? "y" : "x";
         return "; " + axis + " looks like the height of terrain: if it is, exchange " + axis +
@@ -555,24 +584,29 @@ private:
     return "";
   }
 
-  /// Where they are few, and all that keeps the mesh from being a height field.
+  /// Warns if there are few strays, and only they keep the mesh from being a height field.
   void WarnOfStrays()
   {
-    const TurnSample& turns = this->Survey.Turns;
-    if (turns.CountStrays() > 0 && turns.AreNearlyUniform())
+    const OrientationSample& orientations = this->Survey.Orientations;
+    if (orientations.CountStrays() == 0 || !orientations.AreNearlyUniform())
     {
-      const bool areTurned = turns.GetOthers().Count > 0;
-      std::string what = areTurned ? "triangles that face the other way seen from above"
-                                   : "triangles without area in x and y";
-      if (areTurned && turns.Flat.Count > 0)
-      {
-        what += ", and " + std::to_string(turns.Flat.Count) + " that have no area there";
-      }
-      this->Survey.NearlyHeightField = MakeDefect(what +
-          ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
-          "planar-xy",
-        areTurned ? turns.GetOthers() : turns.Flat);
+      return;
     }
+    std::string what = "triangles without area in x and y";
+    IdSample strays = orientations.Flat;
+    if (orientations.GetOthers().Count > 0)
+    {
+      what = "triangles that face the other way seen from above";
+      strays = orientations.GetOthers();
+      if (orientations.Flat.Count > 0)
+      {
+        what += ", and " + std::to_string(orientations.Flat.Count) + " that have no area there";
+      }
+    }
+    this->Survey.NearlyHeightField = MakeDefect(what +
+        ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
+        "planar-xy",
+      strays);
   }
 
   /// Whether stars overlap.
@@ -583,9 +617,10 @@ private:
     {
       return false;
     }
+    const std::string points = overlaps.Count == 1 ? " point" : " points";
     this->Take(GeometryKind::Surface,
       "not a height field: seen from above, triangles overlap around " +
-        std::to_string(overlaps.Count) + (overlaps.Count == 1 ? " point" : " points"));
+        std::to_string(overlaps.Count) + points);
     this->Survey.NearlyHeightField = MakeDefect("points whose triangles overlap in x and y, so "
                                                 "the mesh, nearly a height field, is flipped "
                                                 "as a surface; if it is terrain, use planar-xy",
@@ -612,15 +647,15 @@ struct TurnedSums
   }
 };
 
-/// How many more triangles turn to the less common side in x and y than at first.
+/// Finds how many more triangles have the less common orientation in x and y than at first.
 /// @param points the points in space.
 template <typename Backend>
 Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
-  const TurnSample& before, const Backend& backend)
+  const OrientationSample& before, const Backend& backend)
 {
   const TriangleRecord* triangles = mesh.Triangles.Data();
   const PackedPointsView packed = points.View();
-  const int side = before.GetSide(); // to which most triangles turned at first
+  const int side = before.GetSide(); // the orientation of most triangles at first
   const TurnedSums sums = backend.template Sum<TurnedSums>(mesh.NumberOfTriangles,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, TurnedSums & sum)
     {
@@ -633,7 +668,7 @@ Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
         return;
       }
       BringNearOne(a, b, c);
-      if (FindTurn(a, b, c) == -side)
+      if (FindOrientationXY(a, b, c) == -side)
       {
         ++sum.All;
         if (triangle.Flips >= OneFlip)

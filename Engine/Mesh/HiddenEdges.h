@@ -23,7 +23,7 @@ struct HiddenSums
 {
   std::int64_t WronglyWound = 0; ///< Edges that are wrongly wound, and else bad.
   /// Corners opposite to non-manifold edges with more than 90 degrees. A bad edge has such a
-  /// corner. Only those of triangles that have not flipped: a flip does not move the roles of
+  /// corner. Triangles that have flipped do not count, because a flip does not move the roles of
   /// corners.
   std::int64_t ObtuseCorners = 0;
 
@@ -52,11 +52,11 @@ struct HiddenEdgeSurvey
     }
     if (corners.B != NoCorner)
     {
-      sums.WronglyWound += this->IsWronglyWoundAndBad(corners) ? 1 : 0;
+      sums.WronglyWound += int(this->IsWronglyWoundAndBad(corners));
     }
     else if (triangle.Flips < OneFlip && GetRole(triangle, slot) == CornerRole::OneOfMany)
     {
-      sums.ObtuseCorners += this->IsObtuse(triangle, slot) ? 1 : 0;
+      sums.ObtuseCorners += int(this->IsObtuse(triangle, slot));
     }
   }
 

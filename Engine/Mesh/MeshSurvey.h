@@ -12,6 +12,7 @@
 #include "TriangleMesh.h"
 #include "WideAngles.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -73,18 +74,30 @@ private:
   }
 };
 
-/// Triangles by the side to which they turn when seen along an axis.
-struct TurnSample
+/// Triangles by their orientation when seen along an axis.
+struct OrientationSample
 {
-  IdSample Left, Right, Flat; ///< Flat: without area.
+  IdSample Left; ///< Counter-clockwise, with orientation 1.
+  IdSample Right; ///< Clockwise, with orientation -1.
+  IdSample Flat; ///< Without area.
 
-  /// @param turn positive: to the left.
-  DELAUNAYFLIP_HOST_DEVICE void Note(int turn, std::int64_t triangle)
+  DELAUNAYFLIP_HOST_DEVICE void Note(int orientation, std::int64_t triangle)
   {
-    (turn == 0 ? this->Flat : (turn > 0 ? this->Left : this->Right)).Note(triangle);
+    if (orientation > 0)
+    {
+      this->Left.Note(triangle);
+    }
+    else if (orientation < 0)
+    {
+      this->Right.Note(triangle);
+    }
+    else
+    {
+      this->Flat.Note(triangle);
+    }
   }
 
-  DELAUNAYFLIP_HOST_DEVICE TurnSample& operator+=(const TurnSample& part)
+  DELAUNAYFLIP_HOST_DEVICE OrientationSample& operator+=(const OrientationSample& part)
   {
     this->Left += part.Left;
     this->Right += part.Right;
@@ -92,17 +105,22 @@ struct TurnSample
     return *this;
   }
 
-  /// The side to which most turn: 1 or -1; 0 if no triangle has area.
+  /// The orientation of most triangles: 1 or -1; 0 if none has area.
   int GetSide() const
   {
-    const bool hasArea = this->Left.Count + this->Right.Count > 0;
-    return !hasArea ? 0 : (this->Left.Count >= this->Right.Count ? 1 : -1);
+    if (this->Left.Count + this->Right.Count == 0)
+    {
+      return 0;
+    }
+    return this->Left.Count >= this->Right.Count ? 1 : -1;
   }
-  /// Those that turn to the other side.
-  const IdSample& GetOthers() const { return this->GetSide() < 0 ? this->Left : this->Right; }
+  /// The triangles with the other orientation.
+  const IdSample& GetOthers() const { return this->GetOthers(this->GetSide()); }
+  /// The triangles with another orientation than `side`.
+  const IdSample& GetOthers(int side) const { return side < 0 ? this->Left : this->Right; }
   std::int64_t Count() const { return this->Left.Count + this->Right.Count + this->Flat.Count; }
   std::int64_t CountStrays() const { return this->GetOthers().Count + this->Flat.Count; }
-  /// Whether all triangles, except at most one in 1,000, turn to one side.
+  /// Whether all triangles, except at most one in 1,000, have one orientation.
   bool AreUniform() const
   {
     return this->GetSide() != 0 && 1000 * this->CountStrays() <= this->Count();
@@ -170,8 +188,8 @@ struct BoundingBox
   /// NaN changes nothing.
   DELAUNAYFLIP_HOST_DEVICE void Include(int axis, double lower, double upper)
   {
-    this->Lower[axis] = lower < this->Lower[axis] ? lower : this->Lower[axis];
-    this->Upper[axis] = upper > this->Upper[axis] ? upper : this->Upper[axis];
+    this->Lower[axis] = std::min(this->Lower[axis], lower);
+    this->Upper[axis] = std::max(this->Upper[axis], upper);
   }
 };
 
@@ -179,26 +197,39 @@ struct MeshSurvey
 {
   GeometryKind Geometry = GeometryKind::Surface; ///< Never Auto.
   std::string GeometryReason; ///< FlipReport::GeometryReason.
-  TurnSample Turns; ///< In x and y, of the finite triangles of surfaces, and if Auto needed them.
+  /// In x and y, of the finite triangles of surfaces, and if Auto needed them.
+  OrientationSample Orientations;
   PlaneProjection Projection; ///< For the planar kinds.
   Array<PointUse> Uses; ///< One per point, in the backend's memory.
   std::int64_t UsedPoints = 0;
   BoundingBox Box{ {}, {} }; ///< Holds the used, finite points; all 0 without any.
-  double SmallestMagnitude = INFINITY; ///< That of their coordinates, 0 aside.
+  double SmallestMagnitude = INFINITY; ///< The smallest of their coordinates, without 0.
   bool FiltersApply = true; ///< Coordinates are in the range of FilteredPredicates.h.
-  CoordinateRange Range = CoordinateRange::Usual; ///< That of the used, finite points.
+  CoordinateRange Range = CoordinateRange::Usual; ///< The range of the used, finite points.
   double Precision = DoublePrecision; ///< By the type of the caller's coordinates.
   Defect NonFinitePoints;
   Defect RepeatedIds;
   Defect NearlyHeightField; ///< What kept Auto from PlanarXY, if it was little.
+
+  /// Uses, or null if all used points are finite.
+  const PointUse* GetUsesIfNeeded() const
+  {
+    return this->NonFinitePoints.Count > 0 ? this->Uses.Data() : nullptr;
+  }
 };
 
 /// Whether x, y and z of a point are finite; for PlanarXY only x and y matter.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(
   const PointArray& points, std::int64_t point, GeometryKind geometry)
 {
-  const double z = geometry == GeometryKind::PlanarXY ? 0.0 : points.Get(point, 2);
-  return IsFinite(points.Get(point, 0)) && IsFinite(points.Get(point, 1)) && IsFinite(z);
+  return IsFinite(points.Get(point, 0)) && IsFinite(points.Get(point, 1)) &&
+    (geometry == GeometryKind::PlanarXY || IsFinite(points.Get(point, 2)));
+}
+
+/// How many coordinates of a point matter: for PlanarXY only x and y.
+DELAUNAYFLIP_HOST_DEVICE inline int CountAxes(GeometryKind geometry)
+{
+  return geometry == GeometryKind::PlanarXY ? 2 : 3;
 }
 
 }

@@ -60,7 +60,10 @@ struct PointSurvey : BoundingBox
   }
   DELAUNAYFLIP_HOST_DEVICE void IncludeMagnitude(double magnitude)
   {
-    this->Smallest = magnitude > 0.0 && magnitude < this->Smallest ? magnitude : this->Smallest;
+    if (magnitude > 0.0 && magnitude < this->Smallest)
+    {
+      this->Smallest = magnitude;
+    }
   }
 
   DELAUNAYFLIP_HOST_DEVICE PointSurvey& operator+=(const PointSurvey& part)
@@ -80,7 +83,7 @@ struct PointSurvey : BoundingBox
 inline void ResolveRange(MeshSurvey& survey)
 {
   double largest = 0.0;
-  for (int axis = 0; axis < (survey.Geometry == GeometryKind::PlanarXY ? 2 : 3); ++axis)
+  for (int axis = 0; axis < CountAxes(survey.Geometry); ++axis)
   {
     largest =
       std::max({ largest, std::fabs(survey.Box.Lower[axis]), std::fabs(survey.Box.Upper[axis]) });
@@ -134,11 +137,14 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
     PointIds given; // as the caller gave them: a backend may have narrowed its own
     for (int slot = 0; slot < 3; ++slot)
     {
-      given[slot] = input.IsOnHost
-        ? input.Caller.Triangles.Get(first, slot)
-        : backend.template Sum<std::int64_t>(1,
-            [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t, std::int64_t & sum)
-            { sum += mesh.Triangles.Get(first, slot); });
+      if (input.IsOnHost)
+      {
+        given[slot] = input.Caller.Triangles.Get(first, slot);
+        continue;
+      }
+      given[slot] = backend.template Sum<std::int64_t>(1,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t, std::int64_t & sum)
+        { sum += mesh.Triangles.Get(first, slot); });
     }
     ThrowInvalidId(given, first, mesh.Points.Count);
   }

@@ -26,16 +26,16 @@ namespace delaunayflip
 /// What is counted in a planar mesh.
 struct PlaneSums
 {
-  TurnSample Turns;
-  std::int64_t UncertainTurns = 0; ///< A device cannot tell.
+  OrientationSample Orientations;
+  std::int64_t UncertainOrientations = 0; ///< A device cannot tell.
   std::int64_t SeveralFans = 0; ///< Fans at vertices that have another one.
   std::int64_t Covers = 0; ///< Corners that cover their vertex's direction.
   std::int64_t UncertainCovers = 0; ///< A device cannot tell.
 
   DELAUNAYFLIP_HOST_DEVICE PlaneSums& operator+=(const PlaneSums& part)
   {
-    this->Turns += part.Turns;
-    this->UncertainTurns += part.UncertainTurns;
+    this->Orientations += part.Orientations;
+    this->UncertainOrientations += part.UncertainOrientations;
     this->SeveralFans += part.SeveralFans;
     this->Covers += part.Covers;
     this->UncertainCovers += part.UncertainCovers;
@@ -43,21 +43,20 @@ struct PlaneSums
   }
 };
 
-/// Examines how triangles turn and, of a mesh whose triangles all turn to one side, whether the
-/// stars cover no direction twice.
+/// Examines the orientation of triangles and, if all have the same one, whether the stars cover no
+/// direction twice.
 ///
-/// Around an inner vertex the triangles turn a whole number of times: as often as they cross the
-/// direction +u, which comparisons of coordinates decide. At the boundary, the direction of the
-/// fan's first edge must be covered only once. So every used vertex has at least one corner that
-/// covers its direction. It is exactly one for each if there are as many such corners as vertices.
+/// The triangles around an inner vertex wind around it a whole number of times: as often as they
+/// cross the direction +u, which comparisons of coordinates decide. At the boundary, the direction
+/// of the fan's first edge must be covered only once. So every used vertex has at least one corner
+/// that covers its direction. It is exactly one for each if there are as many such corners as
+/// vertices.
 struct StarSurvey
 {
-  static constexpr VertexId NoVertex = 0xFFFFFFFFu;
-
   EdgeMeshView Mesh;
   PackedPointsView Points;
   VertexId* FanStarts; ///< At the boundary, the end of the fan's first edge.
-  bool ExaminesStars; ///< Else only turns.
+  bool ExaminesStars; ///< False: it examines orientations only.
 
   /// Notes where a fan starts, if the edge is a boundary edge.
   DELAUNAYFLIP_HOST_DEVICE void NoteFan(EdgeId edge, PlaneSums& sums) const
@@ -68,7 +67,7 @@ struct StarSurvey
       const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corner)];
       const VertexId from = triangle.Vertices[NextSlot(SlotOf(corner))];
       const VertexId to = triangle.Vertices[PreviousSlot(SlotOf(corner))];
-      sums.SeveralFans += AtomicExchange(&this->FanStarts[from], to) == NoVertex ? 0 : 1;
+      sums.SeveralFans += int(AtomicExchange(&this->FanStarts[from], to) != NoVertex);
     }
   }
 
@@ -99,10 +98,10 @@ struct StarSurvey
     const int side = FindOrientation(p[0], p[1], p[2]);
     if (side == UncertainSign)
     {
-      ++sums.UncertainTurns;
+      ++sums.UncertainOrientations;
       return;
     }
-    sums.Turns.Note(side, triangle.InputTriangle);
+    sums.Orientations.Note(side, triangle.InputTriangle);
     if (!this->ExaminesStars || side == 0)
     {
       return;
@@ -111,19 +110,19 @@ struct StarSurvey
       this->FanStarts[v[2]] == NoVertex;
     if (isInner)
     {
-      sums.Covers += CoverPositiveU(p, side) ? 1 : 0;
+      sums.Covers += int(CoverPositiveU(p, side));
       return;
     }
     for (int slot = 0; slot < 3; ++slot)
     {
-      sums.Covers += this->Covers(v, p, slot, side, sums) ? 1 : 0;
+      sums.Covers += int(this->Covers(v, p, slot, side, sums));
     }
   }
 
   /// Whether direction v-p lies in the half plane v > 0, or on its border with u > 0.
   DELAUNAYFLIP_HOST_DEVICE static bool IsUpper(const PlanePoint& v, const PlanePoint& p)
   {
-    // Without branches, which would be mispredicted half of the time.
+    // There are no branches, because they would be mispredicted half of the time.
     return ((p.V > v.V) | ((p.V == v.V) & (p.U > v.U))) != 0;
   }
 
@@ -132,9 +131,9 @@ private:
   /// edges, two go up or two go down.
   DELAUNAYFLIP_HOST_DEVICE static bool CoverPositiveU(const PlanePoint (&p)[3], int side)
   {
-    const int up =
-      (IsUpper(p[0], p[1]) ? 1 : 0) + (IsUpper(p[1], p[2]) ? 1 : 0) + (IsUpper(p[2], p[0]) ? 1 : 0);
-    return up == (side > 0 ? 1 : 2);
+    const int up = int(IsUpper(p[0], p[1])) + int(IsUpper(p[1], p[2])) + int(IsUpper(p[2], p[0]));
+    const int wanted = side > 0 ? 1 : 2;
+    return up == wanted;
   }
 
   /// Whether the corner at a slot covers where the fan starts; at an inner vertex, whether it
@@ -150,7 +149,7 @@ private:
     {
       const bool firstUpper = IsUpper(v, first);
       const bool lastUpper = IsUpper(v, last);
-      return side > 0 ? !firstUpper && lastUpper : firstUpper && !lastUpper;
+      return firstUpper != lastUpper && lastUpper == (side > 0);
     }
     if (start == vertices[NextSlot(slot)])
     {
@@ -159,7 +158,7 @@ private:
     const PlanePoint t = this->Points.GetPlanePoint(start);
     const int afterFirst = FindOrientation(v, first, t);
     const int beforeLast = FindOrientation(v, t, last);
-    sums.UncertainCovers += afterFirst == UncertainSign || beforeLast == UncertainSign ? 1 : 0;
+    sums.UncertainCovers += int(afterFirst == UncertainSign || beforeLast == UncertainSign);
     if (afterFirst == 0)
     {
       return IsUpper(v, first) == IsUpper(v, t);
@@ -170,7 +169,7 @@ private:
 
 struct PlanarSurvey
 {
-  /// 1 or -1 if every triangle strictly turns to that side, which flips do not change; else 0.
+  /// 1 or -1 if every triangle has that orientation, which flips do not change; else 0.
   int UniformSide = 0;
 
   /// Whether the triangles around every vertex cover no direction twice. Then no two edges at a
@@ -178,16 +177,19 @@ struct PlanarSurvey
   /// Flips do not change this, because they keep the angle around a vertex.
   bool StarsAreSimple = false;
 
-  TurnSample Turns;
+  OrientationSample Orientations;
 
-  /// Triangles without area, and those that turn to the less common side, unless `side` says which
-  /// side is common.
+  /// Lists the triangles without area, and those with another orientation than most.
+  /// @param side the orientation of most triangles; 0: it is found here.
   std::vector<Defect> ListDefects(int side) const
   {
-    const int common = side != 0 ? side : this->Turns.GetSide();
-    return { MakeDefect("triangles without area", this->Turns.Flat),
-      MakeDefect("triangles that face the other way than most",
-        common < 0 ? this->Turns.Left : this->Turns.Right) };
+    if (side == 0)
+    {
+      side = this->Orientations.GetSide();
+    }
+    return { MakeDefect("triangles without area", this->Orientations.Flat),
+      MakeDefect(
+        "triangles that face the other way than most", this->Orientations.GetOthers(side)) };
   }
 };
 
@@ -200,30 +202,33 @@ template <typename Backend>
 PlanarSurvey SurveyPlane(EdgeMesh& mesh, const PackedPoints& points, bool skipStars,
   std::int64_t usedPoints, const Backend& backend)
 {
-  Array<VertexId> fanStarts = backend.template MakeArray<VertexId>(skipStars ? 0 : points.Count);
-  StarSurvey step{ mesh.View(), points.View(), fanStarts.Data(), !skipStars };
+  Array<VertexId> fanStarts;
+  StarSurvey step{ mesh.View(), points.View(), nullptr, !skipStars };
   PlaneSums fans;
   if (!skipStars)
   {
-    backend.ForEach(points.Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v) { step.FanStarts[v] = StarSurvey::NoVertex; });
+    fanStarts = backend.template MakeArray<VertexId>(points.Count);
+    step.FanStarts = fanStarts.Data();
+    backend.ForEach(
+      points.Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v) { step.FanStarts[v] = NoVertex; });
     fans = backend.template Sum<PlaneSums>(mesh.NumberOfEdges,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, PlaneSums & part)
       { step.NoteFan(static_cast<EdgeId>(e), part); });
   }
   step.ExaminesStars = !skipStars && fans.SeveralFans == 0;
   const PlaneSums sums = backend.template Sum<PlaneSums>(mesh.NumberOfTriangles, step);
-  const TurnSample& turns = sums.Turns;
-  const bool uniform = turns.Flat.Count == 0 && (turns.Left.Count == 0 || turns.Right.Count == 0);
-  if (sums.UncertainTurns > 0 || (uniform && sums.UncertainCovers > 0))
+  const OrientationSample& orientations = sums.Orientations;
+  const bool uniform =
+    orientations.Flat.Count == 0 && (orientations.Left.Count == 0 || orientations.Right.Count == 0);
+  if (sums.UncertainOrientations > 0 || (uniform && sums.UncertainCovers > 0))
   {
     throw BeyondDevice();
   }
   PlanarSurvey survey;
-  survey.Turns = turns;
+  survey.Orientations = orientations;
   if (uniform)
   {
-    survey.UniformSide = turns.Right.Count == 0 ? 1 : -1;
+    survey.UniformSide = orientations.Right.Count == 0 ? 1 : -1;
     survey.StarsAreSimple = step.ExaminesStars && sums.Covers == usedPoints;
   }
   return survey;

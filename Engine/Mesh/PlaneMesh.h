@@ -17,9 +17,10 @@ struct PlaneMesh
 {
   EdgeMeshView Edges;
   PlaneArray Places;
-  /// Whether it is known to be a triangulation: all triangles turn to the left, and none overlap.
+  /// Whether it is known to be a triangulation: all triangles are counter-clockwise, and none
+  /// overlap.
   bool IsTriangulation = false;
-  std::int32_t* Failed = nullptr; ///< Set to 1 where a device cannot decide a turn.
+  std::int32_t* Failed = nullptr; ///< Set to 1 where a device cannot decide an orientation.
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPoint(VertexId vertex) const
   {
@@ -34,18 +35,19 @@ struct PlaneMesh
     return delaunayflip::IsFinite(this->GetPoint(vertex));
   }
 
-  /// Turn of the finite points a, b, c, exactly: 1, 0 or -1.
-  DELAUNAYFLIP_HOST_DEVICE int FindTurn(VertexId a, VertexId b, VertexId c) const
+  /// Orientation of the finite points a, b, c, exactly: 1, 0 or -1.
+  DELAUNAYFLIP_HOST_DEVICE int FindOrientation(VertexId a, VertexId b, VertexId c) const
   {
-    const int turn = FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
+    const int orientation =
+      delaunayflip::FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
 #if DELAUNAYFLIP_ON_DEVICE
-    if (turn == UncertainSign)
+    if (orientation == UncertainSign)
     {
       *this->Failed = 1;
       return 0;
     }
 #endif
-    return turn;
+    return orientation;
   }
 
   DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(CornerId corner) const
@@ -61,12 +63,15 @@ struct PlaneMesh
   {
     return MakeCorner(TriangleOf(corner), PreviousSlot(SlotOf(corner)));
   }
-  DELAUNAYFLIP_HOST_DEVICE int FindTurnAt(CornerId corner) const
+  /// Orientation of the triangle of a corner.
+  DELAUNAYFLIP_HOST_DEVICE int FindOrientationAt(CornerId corner) const
   {
-    return this->IsTriangulation
-      ? 1
-      : this->FindTurn(this->GetVertex(corner), this->GetVertex(Next(corner)),
-          this->GetVertex(Previous(corner)));
+    if (this->IsTriangulation)
+    {
+      return 1;
+    }
+    return this->FindOrientation(
+      this->GetVertex(corner), this->GetVertex(Next(corner)), this->GetVertex(Previous(corner)));
   }
 
   /// The triangle's side of the edge opposite a corner; it runs from the next vertex to the
@@ -106,7 +111,7 @@ struct PlaneMesh
     const CornerId across = this->FindAcross(this->GetHalfEdge(Next(corner)));
     return across == NoCorner ? NoCorner : Next(across);
   }
-  /// The one before.
+  /// The corner before it, or NoCorner.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindPreviousAround(CornerId corner) const
   {
     const CornerId across = this->FindAcross(this->GetHalfEdge(Previous(corner)));

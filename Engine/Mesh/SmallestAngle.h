@@ -33,7 +33,7 @@ struct LargestValue
 
   DELAUNAYFLIP_HOST_DEVICE LargestValue& operator+=(const LargestValue& other)
   {
-    this->Value = other.Value > this->Value ? other.Value : this->Value;
+    this->Value = std::max(this->Value, other.Value);
     return *this;
   }
 };
@@ -44,8 +44,11 @@ DELAUNAYFLIP_HOST_DEVICE inline double MeasureSquaredCotangent(
 {
   const double largest = LargestSquaredCotangent(a, b, c);
   // A triangle seems to have no area also if the squares of its lengths vanish.
-  return largest == INFINITY || IsWide(range, a, b, c) ? LargestSquaredCotangentWide(a, b, c)
-                                                       : largest;
+  if (largest == INFINITY || IsWide(range, a, b, c))
+  {
+    return LargestSquaredCotangentWide(a, b, c);
+  }
+  return largest;
 }
 
 inline void KeepAnglesBefore(const AngleSums& angles, FlipReport& report)
@@ -64,7 +67,7 @@ inline void KeepAnglesAfter(const AngleSums& angles, FlipReport& report)
   report.TrianglesBelow30After = angles.Below30;
 }
 
-/// The same in the coordinates of a rule.
+/// Measures the angles of triangles in the coordinates of a rule.
 template <typename Rule>
 struct AngleSurvey
 {
@@ -118,7 +121,7 @@ struct KeptEdgeSurvey
     constexpr double SquaredCotangentOfSlivers = 130.0; // a little more than five degrees
     const double atA = this->Measure(TriangleOf(corners.A));
     const double atB = this->Measure(TriangleOf(corners.B));
-    const double atWorst = atA > atB ? atA : atB;
+    const double atWorst = std::max(atB, atA);
     if (!(atWorst > SquaredCotangentOfSlivers && atA > -INFINITY && atB > -INFINITY))
     {
       return;
@@ -157,7 +160,7 @@ bool KeepsWorstSliver(EdgeMesh& mesh, const PackedPoints& points, CoordinateRang
     (kept == largest ||
       backend.template Sum<std::int64_t>(mesh.NumberOfTriangles,
         [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t & worse)
-        { worse += survey.Measure(t) > kept ? 1 : 0; }) < Worst);
+        { worse += int(survey.Measure(t) > kept); }) < Worst);
 }
 
 /// The smallest angle of triangle t of a mesh, in degrees; NaN if a coordinate is not finite or a
@@ -175,7 +178,7 @@ DELAUNAYFLIP_HOST_DEVICE inline double FindSmallestAngle(
     }
   }
   double x[3][3] = {};
-  LoadScaledOffsets(mesh.Points, ids, 3, geometry == GeometryKind::PlanarXY ? 2 : 3, x);
+  LoadScaledOffsets(mesh.Points, ids, 3, CountAxes(geometry), x);
   // Products of edges are cotangents times twice the area: the largest is at the smallest angle.
   double largest = -INFINITY;
   Vector3 first, second; // the edges there

@@ -78,8 +78,11 @@ struct SpatialOrder
   void RestoreVertices(const Backend& backend)
   {
     const auto count = static_cast<std::int64_t>(this->RankOfVertex.Size());
-    this->VertexOfRank =
-      count > 0 ? backend.template MakeArray<VertexId>(count) : Array<VertexId>();
+    if (count == 0)
+    {
+      return;
+    }
+    this->VertexOfRank = backend.template MakeArray<VertexId>(count);
     InvertPermutation(this->RankOfVertex.Data(), count, this->VertexOfRank.Data(), backend);
   }
 };
@@ -92,11 +95,20 @@ template <int Axes>
 DELAUNAYFLIP_HOST_DEVICE std::uint32_t SpreadBits(std::uint32_t x)
 {
   static_assert(Axes == 2 || Axes == 3, "bits move by 1 or 2 times 8, 4, 2 and 1");
-  constexpr bool IsPlane = Axes == 2;
-  x = (x | (x << 8 * (Axes - 1))) & (IsPlane ? 0x00ff00ffu : 0x030000ffu);
-  x = (x | (x << 4 * (Axes - 1))) & (IsPlane ? 0x0f0f0f0fu : 0x0300f00fu);
-  x = (x | (x << 2 * (Axes - 1))) & (IsPlane ? 0x33333333u : 0x030c30c3u);
-  return (x | (x << (Axes - 1))) & (IsPlane ? 0x55555555u : 0x09249249u);
+  if constexpr (Axes == 2)
+  {
+    x = (x | (x << 8)) & 0x00ff00ffu;
+    x = (x | (x << 4)) & 0x0f0f0f0fu;
+    x = (x | (x << 2)) & 0x33333333u;
+    return (x | (x << 1)) & 0x55555555u;
+  }
+  else
+  {
+    x = (x | (x << 16)) & 0x030000ffu;
+    x = (x | (x << 8)) & 0x0300f00fu;
+    x = (x | (x << 4)) & 0x030c30c3u;
+    return (x | (x << 2)) & 0x09249249u;
+  }
 }
 
 /// Position along the Hilbert curve of a cell, each coordinate of `bits` bits (Skilling,
@@ -129,21 +141,21 @@ DELAUNAYFLIP_HOST_DEVICE std::uint32_t HilbertIndex(std::uint32_t (&cell)[Axes],
   return index;
 }
 
-/// How the plane's Hilbert curve is turned from level to level, for all levels at once: bit i of
-/// every word belongs to level i. A turn has two bits: E, whether it exchanges the axes, and I,
-/// whether it inverts both. Each level maps the turn that it finds by an affine map over the field
-/// of two elements:
+/// How the plane's Hilbert curve is oriented from level to level, for all levels at once: bit i of
+/// every word belongs to level i. An orientation has two bits: E, whether the axes are exchanged,
+/// and I, whether both are inverted. Each level maps the orientation that it finds by an affine map
+/// over the field of two elements:
 ///
 ///     E' = EE E + EI I + E0,  I' = IE E + II I + I0
-struct HilbertTurns
+struct HilbertOrientations
 {
   std::uint32_t EE, EI, E0, IE, II, I0;
 
   /// Composes every level's map with that of the level `distance` above it, so that maps span twice
   /// the distance.
-  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE HilbertTurns Follow(int distance) const
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE HilbertOrientations Follow(int distance) const
   {
-    // Levels above the first leave the turn as it is.
+    // Levels above the first leave the orientation as it is.
     const std::uint32_t ee = ~(~this->EE >> distance), ii = ~(~this->II >> distance);
     const std::uint32_t ei = this->EI >> distance, ie = this->IE >> distance;
     const std::uint32_t e0 = this->E0 >> distance, i0 = this->I0 >> distance;
@@ -153,33 +165,37 @@ struct HilbertTurns
   }
 };
 
-/// The index in the plane. It doubles the distance over which turns are known, which takes a third
-/// of the time.
+/// The index in the plane. It doubles the distance over which orientations are known, which takes a
+/// third of the time.
 /// @param u, v of at most 16 bits.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t HilbertIndex(
   std::uint32_t u, std::uint32_t v, int bits)
 {
   const std::uint32_t levels = (std::uint32_t(1) << bits) - 1;
-  // A cell in the lower half of the second axis, once this is turned, exchanges the axes; in the
+  // A cell in the lower half of the second axis, once this is oriented, exchanges the axes; in the
   // upper half of the first, too, it also inverts both.
   const std::uint32_t differ = u ^ v;
-  HilbertTurns turns{ ~differ, levels, ~v & levels, differ, ~differ, differ & ~v };
+  HilbertOrientations all{ ~differ, levels, ~v & levels, differ, ~differ, differ & ~v };
   for (int distance = 1; distance < bits; distance *= 2)
   {
-    turns = turns.Follow(distance);
+    all = all.Follow(distance);
   }
-  const std::uint32_t exchanged = turns.E0 >> 1;
-  const std::uint32_t inverted = turns.I0 >> 1;
-  const std::uint32_t turnedU = u ^ inverted ^ (exchanged & differ);
-  return (SpreadBits<2>(turnedU) << 1) | SpreadBits<2>(differ);
+  const std::uint32_t exchanged = all.E0 >> 1;
+  const std::uint32_t inverted = all.I0 >> 1;
+  const std::uint32_t orientedU = u ^ inverted ^ (exchanged & differ);
+  return (SpreadBits<2>(orientedU) << 1) | SpreadBits<2>(differ);
 }
 
 /// The cell, of 2^bits, of a coordinate in [lower, lower + width]; 0 if it is not in it or NaN.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t CellOf(double x, double lower, double width, int bits)
 {
   const double cells = static_cast<double>(1u << bits);
-  const double position = width > 0.0 ? (x - lower) / width * cells : 0.0;
-  return position > 0.0 ? static_cast<std::uint32_t>(std::min(position, cells - 1.0)) : 0;
+  const double position = (x - lower) / width * cells;
+  if (width > 0.0 && position > 0.0)
+  {
+    return static_cast<std::uint32_t>(std::min(position, cells - 1.0));
+  }
+  return 0;
 }
 
 //------------------------------------------------------------------------------
@@ -191,7 +207,7 @@ struct OrderingFrame
   GeometryKind Geometry;
   PlaneProjection Projection;
 
-  /// Cell of a point along an axis. Half of each number, so that a box as wide as the range of
+  /// Cell of a point along an axis. All numbers are halved, so that a box as wide as the range of
   /// double does not overflow.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetCell(
     const PointArray& points, std::int64_t point, int axis, int bits) const
@@ -287,6 +303,15 @@ struct PackedPointsView : CoordinateArray
   {
     return { this->Get(vertex, 0), this->Get(vertex, 1), 0.0 };
   }
+  /// All points, if they have three components.
+  PointArray GetPoints() const
+  {
+    if (this->Floats)
+    {
+      return { this->Floats, this->Count };
+    }
+    return { this->Doubles, this->Count };
+  }
   /// In the plane z is 0.
   DELAUNAYFLIP_HOST_DEVICE Vector3 GetPosition(VertexId vertex) const
   {
@@ -311,9 +336,11 @@ struct PackedPoints
 
   PackedPointsView View() const
   {
-    return { this->IsFloat() ? CoordinateArray(this->Floats.Data(), this->Count)
-                             : CoordinateArray(this->Doubles.Data(), this->Count),
-      this->Components };
+    if (this->IsFloat())
+    {
+      return { CoordinateArray(this->Floats.Data(), this->Count), this->Components };
+    }
+    return { CoordinateArray(this->Doubles.Data(), this->Count), this->Components };
   }
 };
 
@@ -333,7 +360,11 @@ struct PackingPlan
     {
       return NAN;
     }
-    return this->Flat && component == 2 ? 0.0 : points.Get(point, this->Axes[component]);
+    if (this->Flat && component == 2)
+    {
+      return 0.0;
+    }
+    return points.Get(point, this->Axes[component]);
   }
 };
 
@@ -375,7 +406,14 @@ PackedPoints PackPoints(const PointArray& points, const SpatialOrderView& order,
     array = backend.template MakeArray<Real>(plan.Components * points.Count);
     backend.ForEach(points.Count, PackStep<Real>{ points, order, plan, array.Data() });
   };
-  plan.AsFloat ? pack(packed.Floats) : pack(packed.Doubles);
+  if (plan.AsFloat)
+  {
+    pack(packed.Floats);
+  }
+  else
+  {
+    pack(packed.Doubles);
+  }
   return packed;
 }
 

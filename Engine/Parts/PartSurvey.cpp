@@ -481,7 +481,7 @@ struct StarTurnStep
       isFinite = isFinite && IsFinite(p[slot]);
     }
     const int side = isFinite ? FindOrientation(p[0], p[1], p[2]) : 0;
-    sums.Turns.Note(side, t);
+    sums.Orientations.Note(side, t);
     const int up = (StarSurvey::IsUpper(p[0], p[1]) ? 1 : 0) |
       (StarSurvey::IsUpper(p[1], p[2]) ? 2 : 0) | (StarSurvey::IsUpper(p[2], p[0]) ? 4 : 0);
     // Where a left turn covers +u, the edges to and from the corner go down; a right turn, up. No
@@ -581,9 +581,9 @@ void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBa
     mesh.Triangles.Count, StarTurnStep{ mesh, survey.Projection, keys.Closed.data() });
   sums.Covers -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
   sums = SumOverRanks(group, sums);
-  whole.Side = sums.Turns.GetSide() < 0 ? -1 : 1;
+  whole.Side = sums.Orientations.GetSide() < 0 ? -1 : 1;
   whole.StarsAreSimple = false;
-  if (sums.Turns.CountStrays() != 0 || sums.Covers != 0)
+  if (sums.Orientations.CountStrays() != 0 || sums.Covers != 0)
   {
     return;
   }

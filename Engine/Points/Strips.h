@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_STRIPS_H
 
 #include "Array.h"
+#include "BinarySearch.h"
 #include "EdgeMesh.h"
 #include "FilteredPredicates.h"
 #include "HostDevice.h"
@@ -26,26 +27,9 @@
 namespace delaunayflip
 {
 
-constexpr VertexId NoVertex = 0xFFFFFFFFu;
-
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(const PlaneArray& points, std::int64_t point)
 {
   return IsFinite(points.Get(point, 0)) && IsFinite(points.Get(point, 1));
-}
-
-/// The end of the first numbers of a range, for which `isBefore` is true; it is false for the
-/// others.
-template <typename Number, typename IsBefore>
-DELAUNAYFLIP_HOST_DEVICE Number FindEnd(Number first, Number last, const IsBefore& isBefore)
-{
-  while (first < last)
-  {
-    const Number middle = first + (last - first) / 2;
-    const bool before = isBefore(middle);
-    first = before ? middle + 1 : first;
-    last = before ? last : middle;
-  }
-  return first;
 }
 
 /// Finds the strip of a y in constant time where points are spread evenly: a table of equal cells

@@ -29,9 +29,15 @@ constexpr const char* Reasons[] = {
 
 Refusal ToRefusal(PathResult result)
 {
-  return result == PathResult::LeavesMesh
-    ? Refusal::LeavesMesh
-    : (result == PathResult::CrossesFixedEdge ? Refusal::CrossesFixedEdge : Refusal::MeetsOverlap);
+  switch (result)
+  {
+    case PathResult::LeavesMesh:
+      return Refusal::LeavesMesh;
+    case PathResult::CrossesFixedEdge:
+      return Refusal::CrossesFixedEdge;
+    default:
+      return Refusal::MeetsOverlap;
+  }
 }
 
 }
@@ -260,7 +266,7 @@ private:
   bool RemoveBar(ConstraintPath& path) const
   {
     std::vector<EdgeId> sides;
-    for (TriangleId flat = path.Bar; this->Mesh.FindTurnAt(MakeCorner(flat, 0)) == 0;)
+    for (TriangleId flat = path.Bar; this->Mesh.FindOrientationAt(MakeCorner(flat, 0)) == 0;)
     {
       const HalfEdgeId side = this->GetLongSide(flat);
       if (side == NoHalfEdge || this->Mesh.IsFixed(side) ||
@@ -355,15 +361,18 @@ void NameCrossed(const TriangleMesh& mesh, const SpatialOrderView& ranks, const 
 
 namespace
 {
-/// The ends of the constraints of a mesh whose numbers are chosen.
+/// Lists the ends of the constraints of a mesh that are chosen by their numbers.
 template <typename Choice>
 std::vector<std::int64_t> ListEnds(const TriangleMesh& mesh, const Choice& isChosen)
 {
   std::vector<std::int64_t> listed;
   for (std::int64_t i = 0; i < mesh.NumberOfConstraintEdges; ++i)
   {
-    const std::int64_t* ends = mesh.ConstraintEdges + 2 * i;
-    listed.insert(listed.end(), ends, isChosen(i) ? ends + 2 : ends);
+    if (isChosen(i))
+    {
+      const std::int64_t* ends = mesh.ConstraintEdges + 2 * i;
+      listed.insert(listed.end(), ends, ends + 2);
+    }
   }
   return listed;
 }
@@ -432,8 +441,8 @@ ConstraintInsertion::ConstraintInsertion(
     return;
   }
 
-  // What the caller wants inserted is fixed in its turn, even if it is an edge already. Otherwise
-  // it would depend on the triangles which of two constraints that cross is refused.
+  // What the caller wants inserted is fixed when it comes to it, even if it is an edge already.
+  // Otherwise it would depend on the triangles which of two constraints that cross is refused.
   this->Edges = ListEnds(mesh, [&](std::int64_t i) { return mesh.ConstraintsToInsert[i] == 0; });
   std::vector<std::int64_t> first = this->Edges;
   const std::int64_t* noEdge = mesh.ConstraintEdges + 2 * missing.First.front();
@@ -522,13 +531,19 @@ TriangleMesh ConstraintInsertion::GetMesh(const TriangleMesh& caller) const
 FlipOptions ConstraintInsertion::GetOptions(const FlipOptions& caller) const
 {
   FlipOptions options = caller;
-  options.Geometry = this->HasFlips() ? this->Geometry : caller.Geometry;
+  if (this->HasFlips())
+  {
+    options.Geometry = this->Geometry;
+  }
   return options;
 }
 
 void ConstraintInsertion::AddTo(FlipReport& report) const
 {
-  report.GeometryReason = this->HasFlips() ? this->GeometryReason : report.GeometryReason;
+  if (this->HasFlips())
+  {
+    report.GeometryReason = this->GeometryReason;
+  }
   report.InsertedConstraints = SizeOf(this->Tried) - SizeOf(this->Refused);
   report.ConstraintFlips = this->Flips;
   report.UnmatchedConstraints += SizeOf(this->Refused);

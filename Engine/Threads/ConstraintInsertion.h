@@ -108,7 +108,7 @@ private:
 struct MissingConstraints
 {
   std::vector<std::int64_t> First; ///< Their numbers, ascending; of equal ones the first.
-  std::vector<std::int64_t> Wanted; ///< The same of all that are to be inserted, edges or not.
+  std::vector<std::int64_t> Wanted; ///< The numbers of all that are to be inserted, edges or not.
   std::vector<bool> IsMissing; ///< For every constraint edge; also of equal ones.
 };
 

@@ -122,7 +122,7 @@ private:
       std::uint32_t place =
         static_cast<std::uint32_t>((((key * 0x9e3779b97f4a7c15u) >> 32) * capacity) >> 32);
       std::uint64_t seen = keys[place];
-      // Both tests in one branch, because whether an edge is new cannot be predicted.
+      // This makes two tests in one branch, because whether an edge is new cannot be predicted.
       while (std::min(seen ^ key, seen ^ Empty) != 0)
       {
         place = (place + 1) & (capacity - 1);

@@ -5,7 +5,7 @@
 
 #include "EdgeMesh.h"
 #include "ThreadBackend.h"
-#include "ThreadSteps.h"
+#include "ThreadPasses.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -26,8 +26,8 @@ namespace delaunayflip
 
 constexpr std::int64_t StatesPerSet = 64;
 
-/// Which of 64 states are wanted, by the bytes of machine words. Other threads may change states
-/// meanwhile whose bits the caller ignores.
+/// Finds which of 64 states are wanted, by the bytes of machine words. Other threads may meanwhile
+/// change states, if the caller ignores their bits.
 inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
 {
   using Word __attribute__((may_alias)) = std::uint64_t;
@@ -54,7 +54,7 @@ class EdgeWorklist
 {
 public:
   /// Edges [first, last), every unit active.
-  /// @param mayBlock whether steps may leave edges blocked.
+  /// @param mayBlock whether passes may leave edges blocked.
   EdgeWorklist(const EdgeState* states, std::int64_t first, std::int64_t last, bool mayBlock)
     : States(states),
       MayBlock(mayBlock),
@@ -65,18 +65,18 @@ public:
   {
   }
 
-  /// The flags, which steps set for the units of edges that they make candidates.
+  /// The flags, which passes set for the units of edges that they make candidates.
   UnitFlags GetFlags() { return { this->Flags.data(), this->FirstUnit }; }
 
   void ActivateAll() { std::fill(this->Flags.begin(), this->Flags.end(), 1); }
 
-  /// Runs steps on the candidates of flagged units: all steps on a few units, then on the
-  /// next. So no step may write what another edge's step reads. Then lists and counts the bad
+  /// Runs passes on the candidates of flagged units: all passes on a few units, then on the
+  /// next. So no pass may write what another edge's pass reads. Then lists and counts the bad
   /// edges. Units with a bad or blocked edge stay flagged. @returns the counts.
-  template <typename... Steps>
-  StepCounts Detect(const ThreadBackend& backend, const Steps&... steps)
+  template <typename... Passes>
+  StepCounts Detect(const ThreadBackend& backend, const Passes&... passes)
   {
-    // So few units that a mesh of 50,000 points has tasks for many threads.
+    // A task has so few units that a mesh of 50,000 points has tasks for many threads.
     constexpr std::int64_t WantedTasks = 64;
     this->Gather();
     const auto units = static_cast<std::int64_t>(this->Units.size());
@@ -84,48 +84,48 @@ public:
     // A unit takes the time of many edges, and each flip has made four candidates.
     const std::int64_t edges = units * UnitSize / 16 + 4 * this->Listed;
     const StepCounts found =
-      this->ForTasks(backend, edges, [&](Task& task) { return this->DetectIn(task, steps...); });
+      this->ForTasks(backend, edges, [&](Task& task) { return this->DetectIn(task, passes...); });
     this->Listed = found.Bad;
     return found;
   }
 
   /// Detects on the calling thread, as all functions without a backend do.
-  template <typename... Steps>
-  StepCounts Detect(const Steps&... steps)
+  template <typename... Passes>
+  StepCounts Detect(const Passes&... passes)
   {
     this->Gather();
     this->Divide(static_cast<std::int64_t>(this->Flags.size()) + 1);
-    return this->Tasks.empty() ? StepCounts{} : this->DetectIn(this->Tasks[0], steps...);
+    return this->Tasks.empty() ? StepCounts{} : this->DetectIn(this->Tasks[0], passes...);
   }
 
-  /// Removes edges for which the step returns false from the lists.
-  void Choose(const ThreadBackend& backend, const ChooseStep& step)
+  /// Removes edges for which the pass returns false from the lists.
+  void Choose(const ThreadBackend& backend, const ChoosePass& pass)
   {
     this->ForTasks(backend, this->Listed,
       [&](Task& task)
       {
-        ChooseIn(task, step, [](std::int64_t, std::int64_t) {});
+        ChooseIn(task, pass, [](std::int64_t, std::int64_t) {});
         return StepCounts();
       });
   }
 
   /// Chooses winners, which claim their new edges.
-  void ChooseAndClaim(const ThreadBackend& backend, const ChooseAndClaimStep& step)
+  void ChooseAndClaim(const ThreadBackend& backend, const ChooseAndClaimPass& pass)
   {
     this->ForTasks(backend, this->Listed,
       [&](Task& task)
       {
         task.Slots.resize(task.Size);
-        ChooseIn(task, step,
+        ChooseIn(task, pass,
           [&](std::int64_t begin, std::int64_t end)
           {
             for (std::int64_t i = begin; i < end; ++i)
             {
-              step.PrefetchClaim(task.Edges[i]);
+              pass.PrefetchClaim(task.Edges[i]);
             }
             for (std::int64_t i = begin; i < end; ++i)
             {
-              task.Slots[i] = step.Claim(task.Edges[i]);
+              task.Slots[i] = pass.Claim(task.Edges[i]);
             }
           });
         return StepCounts();
@@ -133,33 +133,33 @@ public:
   }
 
   /// Flips the edges of the lists. Edges with claims flip only if they hold them.
-  /// @returns the step's counts.
-  template <typename Step>
-  StepCounts Flip(const ThreadBackend& backend, const Step& step)
+  /// @returns the pass's counts.
+  template <typename Pass>
+  StepCounts Flip(const ThreadBackend& backend, const Pass& pass)
   {
     return this->ForTasks(backend, this->Listed,
       [&](Task& task)
       {
         StepCounts counts;
-        ForEdges(step, task.Edges.data(), task.Size,
+        ForEdges(pass, task.Edges.data(), task.Size,
           [&](std::int64_t i, const Quad& quad)
           {
-            if constexpr (std::is_same_v<Step, ConfirmAndFlipStep>)
+            if constexpr (std::is_same_v<Pass, ConfirmAndFlipPass>)
             {
-              step(task.Edges[i], quad, task.Slots[i], counts);
+              pass(task.Edges[i], quad, task.Slots[i], counts);
             }
             else
             {
-              step(task.Edges[i], quad, counts);
+              pass(task.Edges[i], quad, counts);
             }
           });
         return counts;
       });
   }
 
-  /// Filters the lists by the step's choice and runs the step on the winners, a few edges at a
+  /// Filters the lists by the pass's choice and runs the pass on the winners, a few edges at a
   /// time, so that what the choice has read is still in the cache. On the calling thread.
-  StepCounts ChooseAndFlip(const ChooseAndFlipStep& step)
+  StepCounts ChooseAndFlip(const ChooseAndFlipPass& pass)
   {
     StepCounts counts;
     EdgeId winners[ChoicesAtOnce + 1];
@@ -168,18 +168,18 @@ public:
     {
       for (int i = 0; i < size; ++i)
       {
-        step(winners[i], counts);
+        pass(winners[i], counts);
       }
       size = 0;
     };
     for (Task& task : this->Tasks)
     {
       EdgeId* edges = task.Edges.data();
-      ForEdges(step, edges, task.Size,
+      ForEdges(pass, edges, task.Size,
         [&](std::int64_t i, const OuterHalfEdges& outer)
         {
           winners[size] = edges[i];
-          size += step.Choose(edges[i], outer) ? 1 : 0;
+          size += int(pass.Choose(edges[i], outer));
           if (size == ChoicesAtOnce)
           {
             flip();
@@ -193,7 +193,7 @@ public:
 private:
   static constexpr int UnitBits = UnitFlags::UnitBits;
   static constexpr std::int64_t UnitSize = std::int64_t(1) << UnitBits;
-  /// Whose edges a step works on together.
+  /// A pass works on the edges of so many units together.
   static constexpr std::int64_t UnitsPerGroup = 8;
   static constexpr std::int64_t SetSize = StatesPerSet;
   /// Edges between the request for a cache line and its use.
@@ -261,19 +261,19 @@ private:
       [&](std::int64_t task, std::int64_t) { return work(this->Tasks[task]); }, 1);
   }
 
-  /// Keeps the edges that the step chooses. Calls settle(begin, end) for every few of them, so that
+  /// Keeps the edges that the pass chooses. Calls settle(begin, end) for every few of them, so that
   /// what the choice has read is still in the cache.
-  template <typename Step, typename Settle>
-  static void ChooseIn(Task& task, const Step& step, const Settle& settle)
+  template <typename Pass, typename Settle>
+  static void ChooseIn(Task& task, const Pass& pass, const Settle& settle)
   {
     EdgeId* edges = task.Edges.data();
     std::int64_t kept = 0, settled = 0;
-    ForEdges(step, edges, task.Size,
+    ForEdges(pass, edges, task.Size,
       [&](std::int64_t i, const OuterHalfEdges& outer)
       {
         const EdgeId edge = edges[i];
         edges[kept] = edge;
-        kept += step(edge, outer) ? 1 : 0;
+        kept += int(pass(edge, outer));
         if (kept == settled + ChoicesAtOnce)
         {
           settle(settled, kept);
@@ -284,15 +284,15 @@ private:
     task.Size = kept;
   }
 
-  template <typename... Steps>
-  StepCounts DetectIn(Task& task, const Steps&... steps)
+  template <typename... Passes>
+  StepCounts DetectIn(Task& task, const Passes&... passes)
   {
     StepCounts counts;
     for (std::int64_t begin = task.Begin; begin < task.End; begin += UnitsPerGroup)
     {
       StepCounts group;
       const std::int64_t end = std::min(task.End, begin + UnitsPerGroup);
-      (this->RunOnUnits(steps, begin, end, group), ...);
+      (this->RunOnUnits(passes, begin, end, group), ...);
       for (std::int64_t i = begin; i < end; ++i)
       {
         this->ListBad(this->Units[i], task.Edges, group);
@@ -304,10 +304,10 @@ private:
     return counts;
   }
 
-  /// Calls work(i, item) with what the step loads for each edge. Before that, prefetches the edge's
+  /// Calls work(i, item) with what the pass loads for each edge. Before that, prefetches the edge's
   /// words, then its triangles, then what those refer to. Writes to the padding at the end.
-  template <typename Step, typename Work>
-  static void ForEdges(const Step& step, EdgeId* edges, std::int64_t size, const Work& work)
+  template <typename Pass, typename Work>
+  static void ForEdges(const Pass& pass, EdgeId* edges, std::int64_t size, const Work& work)
   {
     constexpr std::int64_t Ahead = PrefetchDistance;
     if (size == 0)
@@ -316,13 +316,13 @@ private:
     }
     std::fill_n(edges + size, Padding, edges[size - 1]);
     const auto request = [&](std::int64_t i)
-    { Prefetch(&step.Mesh.CornerOfHalfEdge[std::size_t(2) * edges[i]]); };
-    const auto requestTriangles = [&](std::int64_t i) { PrefetchTriangles(step.Mesh, edges[i]); };
-    decltype(step.Load(0)) items[Ahead];
+    { Prefetch(&pass.Mesh.CornerOfHalfEdge[std::size_t(2) * edges[i]]); };
+    const auto requestTriangles = [&](std::int64_t i) { PrefetchTriangles(pass.Mesh, edges[i]); };
+    decltype(pass.Load(0)) items[Ahead];
     const auto load = [&](std::int64_t i)
     {
-      items[i % Ahead] = step.Load(edges[i]);
-      step.Prefetch(items[i % Ahead]);
+      items[i % Ahead] = pass.Load(edges[i]);
+      pass.Prefetch(items[i % Ahead]);
     };
     for (std::int64_t i = 0; i < std::min(size, 3 * Ahead); ++i)
     {
@@ -345,42 +345,42 @@ private:
     }
   }
 
-  template <typename Step>
-  void RunOnUnits(const Step& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
+  template <typename Pass>
+  void RunOnUnits(const Pass& pass, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
     EdgeId edges[UnitsPerGroup * UnitSize + Padding];
-    const std::int64_t size = this->FindAll(Step::Wanted, begin, end, edges);
+    const std::int64_t size = this->FindAll(Pass::Wanted, begin, end, edges);
     ForEdges(
-      step, edges, size, [&](std::int64_t i, const auto& item) { step(edges[i], item, counts); });
+      pass, edges, size, [&](std::int64_t i, const auto& item) { pass(edges[i], item, counts); });
   }
 
   template <typename Real>
-  void RunOnUnits(const JudgeStep<PlanarRule<Real, 2>>& step, std::int64_t begin, std::int64_t end,
+  void RunOnUnits(const JudgePass<PlanarRule<Real, 2>>& pass, std::int64_t begin, std::int64_t end,
     StepCounts& counts)
   {
     using Batch = InCircleBatch<Real>;
-    if (!Batch::Suits(step.Decision))
+    if (!Batch::Suits(pass.Decision))
     {
-      this->RunOnUnits<JudgeStep<PlanarRule<Real, 2>>>(step, begin, end, counts);
+      this->RunOnUnits<JudgePass<PlanarRule<Real, 2>>>(pass, begin, end, counts);
       return;
     }
     EdgeId edges[UnitsPerGroup * UnitSize + Padding];
     const std::int64_t size =
-      this->FindAll(JudgeStep<PlanarRule<Real, 2>>::Wanted, begin, end, edges);
-    Batch batch(step.Mesh, step.Decision);
+      this->FindAll(JudgePass<PlanarRule<Real, 2>>::Wanted, begin, end, edges);
+    Batch batch(pass.Mesh, pass.Decision);
     ForEdges(batch, edges, size,
       [&](std::int64_t i, const auto& item) { batch.Add(edges, i, item, counts); });
     batch.Finish(edges, size, counts);
   }
 
-  /// Not inlined, because exact arithmetic is seldom needed.
+  /// This is not inlined, because exact arithmetic is seldom needed.
   template <typename Rule>
   void RunOnUnits(
-    const ResolveStep<Rule>& step, std::int64_t begin, std::int64_t end, StepCounts& counts)
+    const ResolvePass<Rule>& pass, std::int64_t begin, std::int64_t end, StepCounts& counts)
   {
     if (counts.Uncertain > 0)
     {
-      this->RunOnUnits<ResolveStep<Rule>>(step, begin, end, counts);
+      this->RunOnUnits<ResolvePass<Rule>>(pass, begin, end, counts);
     }
   }
 
@@ -390,13 +390,17 @@ private:
     EdgeId edges[UnitSize];
     const std::int64_t found =
       this->Find({ EdgeState::BlockedByDeviation, EdgeState::Bad }, unit, edges);
-    std::int64_t bad = this->MayBlock ? 0 : found, byEdge = 0;
-    for (std::int64_t i = 0; i < found && this->MayBlock; ++i)
+    std::int64_t bad = found, byEdge = 0;
+    if (this->MayBlock)
     {
-      const EdgeState state = this->States[edges[i]];
-      edges[bad] = edges[i];
-      bad += state == EdgeState::Bad ? 1 : 0;
-      byEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
+      bad = 0;
+      for (std::int64_t i = 0; i < found; ++i)
+      {
+        const EdgeState state = this->States[edges[i]];
+        edges[bad] = edges[i];
+        bad += int(state == EdgeState::Bad);
+        byEdge += int(state == EdgeState::BlockedByEdge);
+      }
     }
     list.insert(list.end(), edges, edges + bad);
     counts.Bad += bad;
@@ -426,8 +430,14 @@ private:
     for (std::int64_t base = first / SetSize * SetSize; base < last; base += SetSize)
     {
       std::uint64_t set = MatchStates(this->States + base, wanted);
-      set &= base < first ? all << (first - base) : all;
-      set &= base + SetSize > last ? all >> (base + SetSize - last) : all;
+      if (base < first)
+      {
+        set &= all << (first - base);
+      }
+      if (base + SetSize > last)
+      {
+        set &= all >> (base + SetSize - last);
+      }
       for (; set != 0; set &= set - 1)
       {
         *end++ = static_cast<EdgeId>(base + __builtin_ctzll(set));

@@ -40,8 +40,8 @@ struct ThreadNumbering
 /// std::thread under ThreadSanitizer, which cannot see into the packaged oneTBB.
 ///
 /// A backend is the parameter of the algorithms' templates. It has ForEach, Sum, Count with
-/// ForEachNumbered, SortIndices, and arrays in its own memory. Work is divided into pieces whose
-/// bounds depend only on the problem, so no result depends on the number of threads.
+/// ForEachNumbered, SortIndices, and arrays in its own memory. The bounds of the pieces into which
+/// work is divided depend only on the problem, so no result depends on the number of threads.
 class ThreadBackend
 {
 public:
@@ -308,7 +308,7 @@ public:
   };
   LocalMesh Localize(const TriangleMesh& mesh) const { return { mesh }; }
 
-  /// Touches the pages of memory whose contents are lost, so that the system provides them.
+  /// Touches the pages of memory, so that the system provides them. The contents are lost.
   void TouchPages(void* memory, std::int64_t bytes) const
   {
     constexpr std::int64_t Page = 4096, PagesPerTask = 64;

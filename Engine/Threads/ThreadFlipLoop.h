@@ -9,7 +9,7 @@
 #include "FlipLoop.h"
 #include "SmallestAngle.h"
 #include "ThreadBackend.h"
-#include "ThreadSteps.h"
+#include "ThreadPasses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,43 +64,49 @@ protected:
   /// Passes 1 to 3.
   StepCounts DetectAll() override
   {
+    const JudgePass<Rule> judge = this->Judge(); // pass 1
+    const ResolvePass<Rule> resolve = this->Resolve(); // pass 1, exactly
+    if (!this->Guard.IsActive())
+    {
+      return this->Worklist.Detect(this->Backend, judge, resolve); // and pass 3: counts
+    }
+    const GuardPass guard{ { this->Mesh.View() }, this->Guard.View().Edges }; // pass 2
+    return this->Worklist.Detect(this->Backend, judge, resolve, guard); // and pass 3: counts
+  }
+
+  /// Passes 4 to 6, and the detection for the next iteration.
+  std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
+  {
     const EdgeMeshView mesh = this->Mesh.View();
-    return this->Guard.IsActive()
-      ? this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve(),
-          GuardStep{ { mesh }, this->Guard.View().Edges })
-      : this->Worklist.Detect(this->Backend, this->Judge(), this->Resolve());
+    const FlipPass flip{ { mesh }, this->Worklist.GetFlags() };
+    StepCounts flips;
+    if (!this->Guard.IsActive())
+    {
+      this->Worklist.Choose(this->Backend, { mesh }); // pass 4
+      flips = this->Worklist.Flip(this->Backend, flip); // pass 6
+    }
+    else
+    {
+      const EdgeGuardView guard = this->Guard.View();
+      const ConfirmAndFlipPass confirmAndFlip{ flip, guard };
+      this->Worklist.ChooseAndClaim(this->Backend, { { mesh }, guard.Claims }); // passes 4 and 5
+      flips = this->Worklist.Flip(this->Backend, confirmAndFlip); // passes 5 and 6
+      this->Guard.Maintain(flips, this->Mesh, this->Backend);
+    }
+    IterationCounts iteration{ this->Found.Tested, this->Found.Bad, this->Found.GetBlocked(),
+      flips.Flipped };
+    if (plan.MeasureFirst || plan.MeasureAll)
+    {
+      iteration.SquaredCotangent = this->MeasureAngles().Largest;
+    }
+    this->Detect();
+    return { iteration };
   }
 
   void TakeStates() override
   {
     this->Worklist.ActivateAll();
     this->Measured.Angles.Largest = -INFINITY;
-  }
-
-  std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
-  {
-    const EdgeMeshView mesh = this->Mesh.View();
-    const FlipStep flip{ { mesh }, this->Worklist.GetFlags() };
-    StepCounts flips;
-    if (this->Guard.IsActive())
-    {
-      const EdgeGuardView guard = this->Guard.View();
-      // Passes 4 and 5, then 5 and 6.
-      this->Worklist.ChooseAndClaim(this->Backend, { { mesh }, guard.Claims });
-      flips = this->Worklist.Flip(this->Backend, ConfirmAndFlipStep{ flip, guard });
-      this->Guard.Maintain(flips, this->Mesh, this->Backend);
-    }
-    else
-    {
-      this->Worklist.Choose(this->Backend, { mesh }); // pass 4
-      flips = this->Worklist.Flip(this->Backend, flip); // pass 6
-    }
-    const double angle =
-      plan.MeasureFirst || plan.MeasureAll ? this->MeasureAngles().Largest : -INFINITY;
-    const IterationCounts iteration{ this->Found.Tested, this->Found.Bad, this->Found.GetBlocked(),
-      flips.Flipped, angle };
-    this->Detect();
-    return { iteration };
   }
 
   std::vector<IterationCounts> IterateChunks(const AdvancePlan& plan) override
@@ -122,8 +128,8 @@ protected:
   }
 
 private:
-  /// Triangles [FirstTriangle, LastTriangle), and the edges whose smallest corner was in them at
-  /// first. While flips happen only within chunks, these include every edge within the chunk.
+  /// Triangles [FirstTriangle, LastTriangle), and the edges that had their smallest corner in them
+  /// at first. While flips happen only within chunks, these include every edge within the chunk.
   struct Chunk
   {
     std::int64_t FirstTriangle, LastTriangle;
@@ -138,7 +144,10 @@ private:
 
     GradedTriangles& operator+=(const GradedTriangles& other)
     {
-      this->Worst = other.Angles.Largest > this->Angles.Largest ? other.Worst : this->Worst;
+      if (other.Angles.Largest > this->Angles.Largest)
+      {
+        this->Worst = other.Worst;
+      }
       this->Angles += other.Angles;
       return *this;
     }
@@ -147,8 +156,8 @@ private:
   /// Measures triangles again, and counts how the numbers of small angles change.
   struct GradeSurvey : AngleSurvey<Rule>
   {
-    unsigned char* Grades; ///< Of every triangle AngleSums::Grade, when it was last measured.
-    bool MeasuresAll; ///< Else only the changed ones.
+    unsigned char* Grades; ///< AngleSums::Grade of every triangle, when it was last measured.
+    bool MeasuresAll; ///< False: it measures only the changed triangles.
 
     bool IsChanged(std::int64_t triangle) const
     {
@@ -166,7 +175,10 @@ private:
       if (this->MeasuresAll || this->IsChanged(triangle))
       {
         const double own = this->Measure(triangle);
-        sum.Worst = own > sum.Angles.Largest ? triangle : sum.Worst;
+        if (own > sum.Angles.Largest)
+        {
+          sum.Worst = triangle;
+        }
         sum.Angles.Count(this->Grades[triangle], -1);
         sum.Angles.Add(own);
         this->Grades[triangle] = AngleSums::Grade(own);
@@ -174,8 +186,8 @@ private:
     }
   };
 
-  JudgeStep<Rule> Judge() const { return { { this->Mesh.View() }, this->Decision }; }
-  ResolveStep<Rule> Resolve() const { return { { this->Mesh.View() }, this->Decision }; }
+  JudgePass<Rule> Judge() const { return { { this->Mesh.View() }, this->Decision }; }
+  ResolvePass<Rule> Resolve() const { return { { this->Mesh.View() }, this->Decision }; }
 
   void CutIntoChunks()
   {
@@ -196,7 +208,7 @@ private:
     const EdgeMeshView mesh = this->Mesh.View();
     const AngleSurvey<Rule> angles = this->Angles();
     EdgeWorklist worklist(mesh.States, chunk.FirstEdge, chunk.LastEdge, Rule::MayBlock);
-    const ChooseAndFlipStep flip{ { { mesh }, worklist.GetFlags() } };
+    const ChooseAndFlipPass flip{ { { mesh }, worklist.GetFlags() } };
     StepCounts found = worklist.Detect();
     std::vector<IterationCounts> counts(plan.Iterations);
     for (std::int64_t i = 0; i < plan.Iterations; ++i)

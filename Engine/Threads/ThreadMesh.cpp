@@ -25,8 +25,15 @@ struct StripSorter<Real, ThreadBackend>
 
     bool operator<(const Item& other) const
     {
-      return this->X != other.X ? this->X < other.X
-                                : (this->Y != other.Y ? this->Y < other.Y : this->Id < other.Id);
+      if (this->X != other.X)
+      {
+        return this->X < other.X;
+      }
+      if (this->Y != other.Y)
+      {
+        return this->Y < other.Y;
+      }
+      return this->Id < other.Id;
     }
   };
 
@@ -95,11 +102,11 @@ struct StripSorter<Real, ThreadBackend>
       return;
     }
     Item* const middle = first + (last - first) / 2;
-    // A task, so that an observer is asked after it.
+    // This is a task, so that an observer is asked after it.
     backend.ForTasks(1, [&](std::int64_t) { std::nth_element(first, middle, last); });
-    backend.ForTasks(2,
-      [&](std::int64_t half)
-      { SortStrip(half == 0 ? first : middle, half == 0 ? middle : last, store, backend); });
+    Item* const bounds[3] = { first, middle, last };
+    backend.ForTasks(
+      2, [&](std::int64_t half) { SortStrip(bounds[half], bounds[half + 1], store, backend); });
   }
 };
 
@@ -169,8 +176,11 @@ std::vector<std::int64_t> FindFixedEdges(
 std::vector<std::int64_t> ListInnerFixedEdges(
   const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts)
 {
-  return counts.Fixed > counts.Boundary ? ListFixedEdges(mesh, options, {}, true)
-                                        : std::vector<std::int64_t>();
+  if (counts.Fixed <= counts.Boundary)
+  {
+    return {};
+  }
+  return ListFixedEdges(mesh, options, {}, true);
 }
 
 GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options)

@@ -4,7 +4,7 @@
 #include "CornerPairing.h"
 #include "EdgeGuard.h"
 #include "EdgeMeshBuilder.h"
-#include "FlipSteps.h"
+#include "EdgePasses.h"
 #include "FlipTestSupport.h"
 #include "MeshSurveyBuilder.h"
 #include "SpatialOrder.h"

@@ -5,7 +5,8 @@
 
 licences: every source file begins with the two SPDX lines (after a #! line, if any).
 sizes: no file of the repository is over 1 MB.
-words: the libraries never print to standard output and never end the process.
+words: the libraries never print to standard output and never end the process; the engine has one
+word for each idea (CONTRIBUTING.md, Words).
 markdown: lines of text are under 100 columns. Tables, pictures, code and the targets of links may
 be wider.
 release: the citation and the changelog have the version that CMakeLists.txt has.
@@ -43,6 +44,8 @@ FORBIDDEN = re.compile(
     r"\b(?:_?exit|quick_exit|abort|terminate|printf|puts)\s*\(|\bstd::cout\b|\bstdout\b")
 COMMENT_OR_STRING = re.compile(
     r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
+TWINS = {"phase": "pass", "cloud": "points"}  # words for what has another name already
+TWIN_FOLDERS = ("CUDA/", "Engine/")
 MARKDOWN_CODE = re.compile(r"^```.*?^```|(?:\A|(?<=\n\n))(?: {4}[^\n]*\n)+", re.DOTALL | re.MULTILINE)
 LINK_TARGET = re.compile(r"\]\([^)]*\)")
 
@@ -107,10 +110,15 @@ def list_lines(root, path, left_out):
 
 
 def check_words(root):
+    nothing = re.compile(r"(?!)")
     for path in list_files(root, CPP_SUFFIXES):
         if path.startswith(LIBRARY_FOLDERS):
             for where, line in list_lines(root, path, COMMENT_OR_STRING):
                 yield from (f"{where}: {word}" for word in FORBIDDEN.findall(line))
+        if path.startswith(TWIN_FOLDERS):
+            for where, line in list_lines(root, path, nothing):
+                yield from (f"{where}: {twin}: say {word}" for twin, word in TWINS.items()
+                            if twin in line.lower())
 
 
 def check_markdown(root):

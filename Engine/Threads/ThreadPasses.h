@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_THREADSTEPS_H
-#define DELAUNAYFLIP_THREADSTEPS_H
+#ifndef DELAUNAYFLIP_THREADPASSES_H
+#define DELAUNAYFLIP_THREADPASSES_H
 
 #include "Atomics.h"
 #include "EdgeFlip.h"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
+#include "EdgePasses.h"
 #include "FilteredPredicates.h"
 #include "FlipRules.h"
-#include "FlipSteps.h"
 #include "HostDevice.h"
 #include "StepCounts.h"
 
@@ -17,11 +17,11 @@
 #include <cstring>
 
 /// @file
-/// The steps that a worklist of threads runs, each for one edge. Steps of passes 1 and 2 say which
-/// states they want; the others run on the bad edges or on the winners. A step may run for all
-/// edges at once; its comment says what it writes that others may read at the same time. Load(edge)
-/// reads what a step needs first, and Prefetch requests what operator() will read, one level of
-/// indirection ahead.
+/// The passes (FlipLoop.h) that a worklist of threads runs, each for one edge. Those of a detection
+/// say which states they want; the others run on the bad edges or on the winners. A pass may run
+/// for all edges at once; its comment says what it writes that others may read at the same time.
+/// Load(edge) reads what a pass needs first, and Prefetch requests what operator() will read, one
+/// level of indirection ahead.
 
 namespace delaunayflip
 {
@@ -45,8 +45,8 @@ struct UnitFlags
   }
 };
 
-/// The base of steps on quads.
-struct QuadStep
+/// The base of passes on quads.
+struct QuadPass
 {
   EdgeMeshView Mesh;
 
@@ -55,9 +55,9 @@ struct QuadStep
 };
 
 /// Pass 1: judges candidates by floating-point arithmetic. Writes the edge's own state, which no
-/// other edge's step reads.
+/// other edge's pass reads.
 template <typename Rule>
-struct JudgeStep : QuadStep
+struct JudgePass : QuadPass
 {
   Rule Decision;
 
@@ -74,13 +74,13 @@ struct JudgeStep : QuadStep
     const EdgeState state = this->Decision.Judge(quad);
     AtomicStore(&this->Mesh.States[edge], state);
     ++counts.Tested;
-    counts.Uncertain += state == EdgeState::Uncertain ? 1 : 0;
+    counts.Uncertain += int(state == EdgeState::Uncertain);
   }
 };
 
-/// Pass 1: judges exactly the edges that JudgeStep could not decide. Writes the edge's own state.
+/// Pass 1: judges exactly the edges that JudgePass could not decide. Writes the edge's own state.
 template <typename Rule>
-struct ResolveStep : QuadStep
+struct ResolvePass : QuadPass
 {
   Rule Decision;
 
@@ -91,10 +91,10 @@ struct ResolveStep : QuadStep
   }
 };
 
-/// Pass 2: blocks bad edges whose flip would make an edge that exists, and frees those whose
-/// obstacle has gone. Reads the guard table, which does not change meanwhile; writes the edge's own
+/// Pass 2: blocks a bad edge if its flip would make an edge that exists, and frees it if it no
+/// longer would. Reads the guard table, which does not change meanwhile; writes the edge's own
 /// state.
-struct GuardStep : QuadStep
+struct GuardPass : QuadPass
 {
   GuardedEdges Edges;
 
@@ -108,7 +108,7 @@ struct GuardStep : QuadStep
 
 /// Pass 4: chooses an independent set: a bad edge wins if no bad edge of its two triangles has a
 /// smaller priority. Reads the states of neighbours, which do not change meanwhile.
-struct ChooseStep
+struct ChoosePass
 {
   EdgeMeshView Mesh;
 
@@ -144,7 +144,7 @@ private:
 
 /// Passes 4 and 5 with a guard: chooses likewise, and winners claim the edge that they would make
 /// (EdgeGuard.h).
-struct ChooseAndClaimStep : ChooseStep
+struct ChooseAndClaimPass : ChoosePass
 {
   EdgeClaims Claims;
 
@@ -165,7 +165,7 @@ struct ChooseAndClaimStep : ChooseStep
 /// Pass 6: flips the winners, which share no triangle, and makes their outer edges candidates. Two
 /// flips may mark the same outer edge, both with the same value. A fixed or deferred edge keeps its
 /// state.
-struct FlipStep : QuadStep
+struct FlipPass : QuadPass
 {
   UnitFlags Active;
 
@@ -183,7 +183,7 @@ protected:
   {
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.QA]);
     delaunayflip::Prefetch(&this->Mesh.CornerOfHalfEdge[outer.PB]);
-    ChooseStep{ this->Mesh }.Prefetch(outer);
+    ChoosePass{ this->Mesh }.Prefetch(outer);
   }
 
   /// @param excluded the new state of outer edges that are bad.
@@ -219,13 +219,13 @@ private:
 
 /// Passes 5 and 6 with a guard: if winners have the same new edge, only the holder of the claim
 /// flips. The others wait, and stay bad.
-struct ConfirmAndFlipStep : FlipStep
+struct ConfirmAndFlipPass : FlipPass
 {
   EdgeGuardView Guard;
 
   void Prefetch(const Quad& quad) const
   {
-    this->FlipStep::Prefetch(quad);
+    this->FlipPass::Prefetch(quad);
     this->Guard.Claims.Prefetch(quad.A, quad.B);
     this->Guard.Edges.Table.Prefetch(quad.A, quad.B);
     this->Guard.Edges.Table.Prefetch(quad.P, quad.Q);
@@ -242,22 +242,22 @@ struct ConfirmAndFlipStep : FlipStep
   }
 };
 
-/// Passes 4 and 6 in one, for a single thread. Makes the same flips as ChooseStep for all edges
-/// followed by FlipStep. A bad edge next to one that has flipped becomes Excluded, which still
+/// Passes 4 and 6 in one, for a single thread. Makes the same flips as ChoosePass for all edges
+/// followed by FlipPass. A bad edge next to one that has flipped becomes Excluded, which still
 /// counts as bad when its neighbours choose. So choices depend on the states before the first flip,
 /// and nothing that the choice of an edge reads changes before it, unless the edge is excluded.
-struct ChooseAndFlipStep : FlipStep
+struct ChooseAndFlipPass : FlipPass
 {
   DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges Load(EdgeId edge) const
   {
-    return ChooseStep{ this->Mesh }.Load(edge);
+    return ChoosePass{ this->Mesh }.Load(edge);
   }
   void Prefetch(const OuterHalfEdges& outer) const { this->PrefetchOuter(outer); }
   /// @returns whether the edge wins.
   bool Choose(EdgeId edge, const OuterHalfEdges& outer) const
   {
     return AtomicLoad(&this->Mesh.States[edge]) == EdgeState::Bad &&
-      ChooseStep{ this->Mesh }(edge, outer);
+      ChoosePass{ this->Mesh }(edge, outer);
   }
   void operator()(EdgeId edge, StepCounts& counts) const
   {
@@ -265,8 +265,8 @@ struct ChooseAndFlipStep : FlipStep
   }
 };
 
-/// JudgeStep in the plane if all triangles turn to one side: collects the points of several edges
-/// and judges the edges together, in the lanes of vector registers.
+/// JudgePass in the plane if all triangles have one orientation: collects the points of several
+/// edges and judges the edges together, in the lanes of vector registers.
 template <typename Real>
 class InCircleBatch
 {
@@ -281,7 +281,8 @@ public:
 
   static bool Suits(const Rule& rule) { return rule.UniformSide != 0 && rule.FiltersApply; }
 
-  /// A triangle, with its vertices in any order of the same turn, and the vertex opposite to it.
+  /// A triangle, with its vertices in any order of the same orientation, and the vertex opposite to
+  /// it.
   struct Vertices
   {
     VertexId Ids[4];
@@ -350,7 +351,7 @@ private:
     for (std::int64_t i = 0; i < size; ++i)
     {
       AtomicStore(&this->Mesh.States[edges[i]], static_cast<EdgeState>(states[i]));
-      counts.Uncertain += states[i] == Uncertain ? 1 : 0;
+      counts.Uncertain += int(states[i] == Uncertain);
     }
   }
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_FLIPPHASES_CUH
-#define DELAUNAYFLIP_FLIPPHASES_CUH
+#ifndef DELAUNAYFLIP_CUDAPASSES_CUH
+#define DELAUNAYFLIP_CUDAPASSES_CUH
 
 #include "Atomics.h"
 #include "DeviceWorklist.cuh"
 #include "EdgeMesh.h"
-#include "FlipSteps.h"
+#include "EdgePasses.h"
 #include "StepCounts.h"
 #include "Team.cuh"
 
@@ -14,12 +14,228 @@
 #include <cstdint>
 
 /// @file
-/// The passes of an iteration (FlipLoop.h), on a worklist of the device. Within a pass a thread
-/// works on one edge at a time. Results depend only on the order of the passes, which the team's
-/// waits keep.
+/// The passes of an iteration (FlipLoop.h), on a worklist of the device; FlipKernels.cuh runs them.
+/// Within a pass a thread works on one edge at a time. Results depend only on the order of the
+/// passes, which the team's waits keep.
 
 namespace delaunayflip
 {
+
+//------------------------------------------------------------------------------
+// Pass 1: judge the candidates.
+
+/// Records the state of an edge that was judged. @returns whether the edge is bad.
+template <typename Rule>
+__device__ bool NoteState(
+  const LoopView<Rule>& loop, EdgeId edge, EdgeState state, unsigned& blockedByShape)
+{
+  if (state == EdgeState::BlockedByEdge)
+  {
+    EdgeBits::Set(loop.Bits.BlockedByEdge, edge);
+  }
+  if (state == EdgeState::Bad)
+  {
+    EdgeBits::Set(loop.Bits.Bad, edge);
+  }
+  if (Rule::MayBlock &&
+    (state == EdgeState::BlockedByShape || state == EdgeState::BlockedByDeviation))
+  {
+    EdgeBits::Set(loop.Bits.BlockedByShape, edge);
+    ++blockedByShape;
+  }
+  return state == EdgeState::Bad;
+}
+
+/// Judges exactly the edges that JudgeCandidates could not decide and left as candidates. This is a
+/// separate function, because it is large and seldom called: inlined it would take the registers of
+/// everything else there.
+template <typename Rule, typename Worklist>
+__device__ __noinline__ void ResolveUncertain(
+  const LoopView<Rule>& loop, Worklist worklist, Team team)
+{
+  unsigned uncertain = 0, isBad = 0, isBlockedByShape = 0;
+  worklist.Run(
+    team, loop.Mesh,
+    [&](const EdgeByte& byte)
+    {
+      const unsigned marked = byte.Load(loop.Bits.Candidates);
+      const unsigned fixedOrDeferred = byte.Load(loop.Bits.FixedOrDeferred);
+      byte.Clear(loop.Bits.Candidates, marked, marked);
+      return marked & ~fixedOrDeferred;
+    },
+    [&](EdgeId edge, const CornerPair& corners)
+    {
+      if (edge == NoEdge)
+      {
+        return;
+      }
+      const EdgeState state = loop.Decision.JudgeExactly(loop.Mesh.GetQuad(corners));
+      isBad += unsigned(NoteState(loop, edge, state, isBlockedByShape));
+      uncertain += unsigned(state == EdgeState::Uncertain);
+    });
+  team.Warn(uncertain > 0);
+  team.Add(IterationSum::Uncertain, uncertain);
+  team.Add(IterationSum::IsBad, isBad);
+  team.Add(IterationSum::IsBlockedByShape, isBlockedByShape);
+}
+
+/// The counts of a thread in a detection.
+struct DetectionCounts
+{
+  unsigned Tested = 0, WasBad = 0, IsBad = 0, WasBlockedByShape = 0, IsBlockedByShape = 0;
+  bool Uncertain = false;
+
+  template <typename Rule>
+  __device__ void AddTo(const Team& team) const
+  {
+    team.Add(IterationSum::Tested, this->Tested);
+    team.Add(IterationSum::WasBad, this->WasBad);
+    team.Add(IterationSum::IsBad, this->IsBad);
+    if (Rule::MayBlock)
+    {
+      team.Add(IterationSum::WasBlockedByShape, this->WasBlockedByShape);
+      team.Add(IterationSum::IsBlockedByShape, this->IsBlockedByShape);
+    }
+  }
+};
+
+/// Judges an edge by floating-point arithmetic. An edge that this cannot decide stays a candidate.
+/// @param asksGuard whether the guard decides about a bad edge, too.
+template <typename Rule>
+__device__ EdgeState JudgeAndNote(const LoopView<Rule>& loop, EdgeId edge, const Quad& quad,
+  bool asksGuard, DetectionCounts& counts)
+{
+  EdgeState state = loop.Decision.Judge(quad);
+  if (asksGuard && state == EdgeState::Bad)
+  {
+    state = DecideByGuard(loop.Guard.Edges, loop.Mesh, quad);
+  }
+  if (state == EdgeState::Uncertain)
+  {
+    EdgeBits::Set(loop.Bits.Candidates, edge);
+    counts.Uncertain = true;
+  }
+  counts.IsBad += unsigned(NoteState(loop, edge, state, counts.IsBlockedByShape));
+  return state;
+}
+
+/// Takes the edges to judge from a byte and clears their bits: its candidates and, with takeBad,
+/// the other bad edges and those that the guard blocks. Edges that have flipped since the last
+/// detection are no longer bad.
+template <bool IsGuarded, typename Rule>
+__device__ unsigned TakeCandidates(
+  const LoopView<Rule>& loop, const EdgeByte& byte, bool takeBad, DetectionCounts& counts)
+{
+  // All loads are issued before any result is used.
+  const EdgeBits& bits = loop.Bits;
+  const unsigned marked = byte.Load(bits.Candidates);
+  const unsigned fixedOrDeferred = byte.Load(bits.FixedOrDeferred);
+  const unsigned winners = byte.Load(bits.Winners);
+  const unsigned seenBad = byte.Load(bits.Bad);
+  const unsigned blockedByShape = Rule::MayBlock ? byte.Load(bits.BlockedByShape) : 0;
+  const unsigned blockedByEdge = IsGuarded ? byte.Load(bits.BlockedByEdge) : 0;
+  const unsigned candidates = marked & ~fixedOrDeferred;
+  const unsigned bad = seenBad & ~winners;
+  unsigned judged = candidates;
+  if (takeBad)
+  {
+    judged |= bad | blockedByEdge;
+  }
+  byte.Clear(bits.Candidates, marked, marked);
+  byte.Clear(bits.Winners, winners, winners);
+  byte.Clear(bits.Bad, seenBad, winners | (judged & bad));
+  byte.Clear(bits.BlockedByShape, blockedByShape, candidates & blockedByShape);
+  byte.Clear(bits.BlockedByEdge, blockedByEdge, judged & blockedByEdge);
+  counts.Tested += __popc(candidates);
+  counts.WasBad += __popc(judged & bad);
+  counts.WasBlockedByShape += __popc(candidates & blockedByShape);
+  return judged;
+}
+
+/// Judges the candidates by floating-point arithmetic.
+/// @returns whether this thread could not decide some of them.
+template <bool IsGuarded, typename Rule, typename Worklist>
+__device__ bool JudgeCandidates(
+  const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
+{
+  DetectionCounts counts;
+  worklist.Run(
+    team, loop.Mesh,
+    [&](const EdgeByte& byte) { return TakeCandidates<IsGuarded>(loop, byte, false, counts); },
+    [&](EdgeId edge, const CornerPair& corners)
+    {
+      if (edge != NoEdge)
+      {
+        JudgeAndNote(loop, edge, loop.Mesh.GetQuad(corners), false, counts);
+      }
+    });
+  counts.AddTo<Rule>(team);
+  return counts.Uncertain;
+}
+
+//------------------------------------------------------------------------------
+// Pass 2: guard.
+
+/// Checks every edge that is bad or blocked by the guard again, and blocks or frees it.
+template <typename Rule, typename Worklist>
+__device__ void GuardBadEdges(
+  const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
+{
+  const EdgeBits& bits = loop.Bits;
+  unsigned wasBad = 0, allBad = 0, allBlockedByEdge = 0;
+  worklist.Run(
+    team, loop.Mesh,
+    [&](const EdgeByte& byte)
+    {
+      const unsigned bad = byte.Load(bits.Bad);
+      const unsigned blockedByEdge = byte.Load(bits.BlockedByEdge);
+      byte.Clear(bits.Bad, bad, bad);
+      byte.Clear(bits.BlockedByEdge, blockedByEdge, blockedByEdge);
+      wasBad += __popc(bad);
+      return bad | blockedByEdge;
+    },
+    [&](EdgeId edge, const CornerPair& corners)
+    {
+      if (edge == NoEdge)
+      {
+        return;
+      }
+      const bool isBad =
+        DecideByGuard(loop.Guard.Edges, loop.Mesh, loop.Mesh.GetQuad(corners)) == EdgeState::Bad;
+      EdgeBits::Set(isBad ? bits.Bad : bits.BlockedByEdge, edge);
+      allBad += unsigned(isBad);
+      allBlockedByEdge += unsigned(!isBad);
+    });
+  team.Add(IterationSum::WasBad, wasBad);
+  team.Add(IterationSum::IsBad, allBad);
+  team.Add(IterationSum::AllBlockedByEdge, allBlockedByEdge);
+}
+
+//------------------------------------------------------------------------------
+// Pass 3: count. Passes 1 and 2 count what they change, so that all edges are counted only once.
+
+/// Counts the bad and the blocked edges in a range.
+template <typename Rule, typename Worklist>
+__device__ void CountAll(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
+{
+  unsigned bad = 0, blockedByShape = 0, blockedByEdge = 0;
+  worklist.Run(
+    team, loop.Mesh,
+    [&](const EdgeByte& byte)
+    {
+      bad += __popc(byte.Load(loop.Bits.Bad));
+      if (Rule::MayBlock)
+      {
+        blockedByShape += __popc(byte.Load(loop.Bits.BlockedByShape));
+      }
+      blockedByEdge += __popc(byte.Load(loop.Bits.BlockedByEdge));
+      return 0u;
+    },
+    [](EdgeId, const CornerPair&) {});
+  team.Add(IterationSum::AllBad, bad);
+  team.Add(IterationSum::AllBlockedByShape, blockedByShape);
+  team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
+}
 
 //------------------------------------------------------------------------------
 // How the threads of a warp load the triangles that they flip, and store them.
@@ -91,20 +307,20 @@ __device__ inline void StorePaired(
   const uint4 second{ record.HalfEdges[0], record.HalfEdges[1], record.HalfEdges[2], record.Flips };
   const auto exchange = [](std::uint32_t value) { return __shfl_xor_sync(WholeWarp, value, 1); };
   const TriangleId other = exchange(triangle);
+  // The even lane stores the first halves of both records, the odd lane the second halves.
   const uint4 mine = isOdd ? second : first;
   const uint4 given = isOdd ? first : second;
   const uint4 taken{ exchange(given.x), exchange(given.y), exchange(given.z), exchange(given.w) };
-  auto* halves = reinterpret_cast<uint4*>(triangles);
+  auto* halves = reinterpret_cast<uint4*>(triangles) + int(isOdd);
   const TriangleId ofEven = isOdd ? other : triangle;
   const TriangleId ofOdd = isOdd ? triangle : other;
-  const int half = isOdd ? 1 : 0;
   if (ofEven != NoTriangle)
   {
-    StoreHalf(&halves[2 * std::size_t(ofEven) + half], isOdd ? taken : mine);
+    StoreHalf(&halves[2 * std::size_t(ofEven)], isOdd ? taken : mine);
   }
   if (ofOdd != NoTriangle)
   {
-    StoreHalf(&halves[2 * std::size_t(ofOdd) + half], isOdd ? mine : taken);
+    StoreHalf(&halves[2 * std::size_t(ofOdd)], isOdd ? mine : taken);
   }
 }
 
@@ -175,7 +391,7 @@ struct RecordPair
 };
 
 //------------------------------------------------------------------------------
-// Passes 4 to 6, which choose and flip.
+// Passes 4 to 6: choose, claim and confirm, flip.
 
 /// Makes the outer edges of a flip candidates.
 template <typename Rule>
@@ -199,8 +415,8 @@ __device__ bool Wins(const LoopView<Rule>& loop, EdgeId edge, const OuterHalfEdg
   return IsFirst(edge, outer, ap, qa, pb, bq);
 }
 
-/// Chooses among the bad edges and flips the winners. These stay marked as bad until the next
-/// detection, because other choices depend on it.
+/// Passes 4 and 6 in one: chooses among the bad edges and flips the winners. These stay marked as
+/// bad until the next detection, because other choices depend on it.
 ///
 /// So a thread may examine an edge while a neighbour flips. The edge must lose then, and it does,
 /// whether the thread reads its words and triangles from before that flip or from after it. Before
@@ -240,7 +456,7 @@ __device__ void ChooseAndFlip(
   team.Add(IterationSum::Flipped, flips);
 }
 
-/// Chooses without flipping: winners claim their new edges. Sets Winners.
+/// Passes 4 and 5: chooses without flipping, and winners claim their new edges. Sets Winners.
 template <typename Rule, typename Worklist>
 __device__ void ChooseAndClaim(
   const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
@@ -259,7 +475,7 @@ __device__ void ChooseAndClaim(
     });
 }
 
-/// Winners that lost their claim stay bad.
+/// Pass 5: removes the winners that lost their claim; they stay bad.
 template <typename Rule, typename Worklist>
 __device__ void Confirm(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
@@ -291,7 +507,7 @@ __device__ void AddFlips(const Team& team, const StepCounts& counts)
   }
 }
 
-/// Flips the winners of a Confirm and makes their outer edges candidates.
+/// Pass 6: flips the winners of a Confirm and makes their outer edges candidates.
 template <typename Rule, typename Worklist>
 __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
 {
@@ -301,8 +517,11 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
     [&](const EdgeByte& byte)
     {
       const unsigned winners = byte.Load(loop.Bits.Winners);
-      byte.Clear(loop.Bits.Winners, winners, winners);
-      byte.Clear(loop.Bits.Bad, winners ? byte.Load(loop.Bits.Bad) : 0, winners);
+      if (winners != 0)
+      {
+        byte.Clear(loop.Bits.Winners, winners, winners);
+        byte.Clear(loop.Bits.Bad, byte.Load(loop.Bits.Bad), winners);
+      }
       return winners;
     },
     [&](EdgeId edge, const CornerPair& corners)
@@ -326,213 +545,6 @@ __device__ void FlipWinners(const LoopView<Rule>& loop, const Worklist& worklist
       }
     });
   AddFlips<true>(team, counts);
-}
-
-//------------------------------------------------------------------------------
-// Passes 1 to 3, which judge edges and count the bad ones.
-
-/// Records the state of an edge that was judged. @returns whether the edge is bad.
-template <typename Rule>
-__device__ bool NoteState(
-  const LoopView<Rule>& loop, EdgeId edge, EdgeState state, unsigned& blockedByShape)
-{
-  if (state == EdgeState::BlockedByEdge)
-  {
-    EdgeBits::Set(loop.Bits.BlockedByEdge, edge);
-  }
-  if (state == EdgeState::Bad)
-  {
-    EdgeBits::Set(loop.Bits.Bad, edge);
-  }
-  if (Rule::MayBlock &&
-    (state == EdgeState::BlockedByShape || state == EdgeState::BlockedByDeviation))
-  {
-    EdgeBits::Set(loop.Bits.BlockedByShape, edge);
-    ++blockedByShape;
-  }
-  return state == EdgeState::Bad;
-}
-
-/// Judges exactly the edges that Detect could not decide and left as candidates. A separate
-/// function, because it is large and seldom called: inlined into Detect's loop it would take the
-/// registers of everything else there.
-template <typename Rule, typename Worklist>
-__device__ __noinline__ void ResolveUncertain(
-  const LoopView<Rule>& loop, Worklist worklist, Team team)
-{
-  unsigned uncertain = 0, isBad = 0, isBlockedByShape = 0;
-  worklist.Run(
-    team, loop.Mesh,
-    [&](const EdgeByte& byte)
-    {
-      const unsigned marked = byte.Load(loop.Bits.Candidates);
-      const unsigned fixedOrDeferred = byte.Load(loop.Bits.FixedOrDeferred);
-      byte.Clear(loop.Bits.Candidates, marked, marked);
-      return marked & ~fixedOrDeferred;
-    },
-    [&](EdgeId edge, const CornerPair& corners)
-    {
-      if (edge == NoEdge)
-      {
-        return;
-      }
-      const EdgeState state = loop.Decision.JudgeExactly(loop.Mesh.GetQuad(corners));
-      isBad += NoteState(loop, edge, state, isBlockedByShape) ? 1 : 0;
-      uncertain += state == EdgeState::Uncertain ? 1 : 0;
-    });
-  team.Warn(uncertain > 0);
-  team.Add(IterationSum::Uncertain, uncertain);
-  team.Add(IterationSum::IsBad, isBad);
-  team.Add(IterationSum::IsBlockedByShape, isBlockedByShape);
-}
-
-/// The counts of a thread in a detection.
-struct DetectionCounts
-{
-  unsigned Tested = 0, WasBad = 0, IsBad = 0, WasBlockedByShape = 0, IsBlockedByShape = 0;
-  bool Uncertain = false;
-
-  template <typename Rule>
-  __device__ void AddTo(const Team& team) const
-  {
-    team.Add(IterationSum::Tested, this->Tested);
-    team.Add(IterationSum::WasBad, this->WasBad);
-    team.Add(IterationSum::IsBad, this->IsBad);
-    if (Rule::MayBlock)
-    {
-      team.Add(IterationSum::WasBlockedByShape, this->WasBlockedByShape);
-      team.Add(IterationSum::IsBlockedByShape, this->IsBlockedByShape);
-    }
-  }
-};
-
-/// Judges an edge by floating-point arithmetic. An edge that this cannot decide stays a candidate.
-/// @param asksGuard whether the guard decides about a bad edge, too.
-template <typename Rule>
-__device__ EdgeState JudgeAndNote(const LoopView<Rule>& loop, EdgeId edge, const Quad& quad,
-  bool asksGuard, DetectionCounts& counts)
-{
-  EdgeState state = loop.Decision.Judge(quad);
-  if (asksGuard && state == EdgeState::Bad)
-  {
-    state = DecideByGuard(loop.Guard.Edges, loop.Mesh, quad);
-  }
-  if (state == EdgeState::Uncertain)
-  {
-    EdgeBits::Set(loop.Bits.Candidates, edge);
-    counts.Uncertain = true;
-  }
-  counts.IsBad += NoteState(loop, edge, state, counts.IsBlockedByShape) ? 1 : 0;
-  return state;
-}
-
-/// Takes the edges to judge from a byte and clears their bits: its candidates and, with takeBad,
-/// the other bad edges and those that the guard blocks. Edges that have flipped since the last
-/// detection are no longer bad.
-template <bool IsGuarded, typename Rule>
-__device__ unsigned TakeCandidates(
-  const LoopView<Rule>& loop, const EdgeByte& byte, bool takeBad, DetectionCounts& counts)
-{
-  // All loads are issued before any result is used.
-  const EdgeBits& bits = loop.Bits;
-  const unsigned marked = byte.Load(bits.Candidates);
-  const unsigned fixedOrDeferred = byte.Load(bits.FixedOrDeferred);
-  const unsigned winners = byte.Load(bits.Winners);
-  const unsigned seenBad = byte.Load(bits.Bad);
-  const unsigned blockedByShape = Rule::MayBlock ? byte.Load(bits.BlockedByShape) : 0;
-  const unsigned blockedByEdge = IsGuarded ? byte.Load(bits.BlockedByEdge) : 0;
-  const unsigned candidates = marked & ~fixedOrDeferred;
-  const unsigned bad = seenBad & ~winners;
-  byte.Clear(bits.Candidates, marked, marked);
-  byte.Clear(bits.Winners, winners, winners);
-  byte.Clear(bits.Bad, seenBad, takeBad ? seenBad : winners | (candidates & bad));
-  byte.Clear(bits.BlockedByShape, blockedByShape, candidates & blockedByShape);
-  byte.Clear(
-    bits.BlockedByEdge, blockedByEdge, takeBad ? blockedByEdge : candidates & blockedByEdge);
-  counts.Tested += __popc(candidates);
-  counts.WasBad += __popc(takeBad ? bad : candidates & bad);
-  counts.WasBlockedByShape += __popc(candidates & blockedByShape);
-  return takeBad ? candidates | bad | blockedByEdge : candidates;
-}
-
-/// Judges the candidates.
-template <bool IsGuarded, typename Rule, typename Worklist>
-__device__ void Detect(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
-{
-  DetectionCounts counts;
-  worklist.Run(
-    team, loop.Mesh,
-    [&](const EdgeByte& byte) { return TakeCandidates<IsGuarded>(loop, byte, false, counts); },
-    [&](EdgeId edge, const CornerPair& corners)
-    {
-      if (edge != NoEdge)
-      {
-        JudgeAndNote(loop, edge, loop.Mesh.GetQuad(corners), false, counts);
-      }
-    });
-  counts.AddTo<Rule>(team);
-  if constexpr (!Rule::IsInSpace)
-  {
-    if (worklist.IsAny(counts.Uncertain))
-    {
-      ResolveUncertain(loop, worklist, team);
-    }
-  }
-}
-
-/// Checks every edge that is bad or blocked by the guard again, and blocks or frees it.
-template <typename Rule, typename Worklist>
-__device__ void GuardBadEdges(
-  const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
-{
-  const EdgeBits& bits = loop.Bits;
-  unsigned wasBad = 0, allBad = 0, allBlockedByEdge = 0;
-  worklist.Run(
-    team, loop.Mesh,
-    [&](const EdgeByte& byte)
-    {
-      const unsigned bad = byte.Load(bits.Bad);
-      const unsigned blockedByEdge = byte.Load(bits.BlockedByEdge);
-      byte.Clear(bits.Bad, bad, bad);
-      byte.Clear(bits.BlockedByEdge, blockedByEdge, blockedByEdge);
-      wasBad += __popc(bad);
-      return bad | blockedByEdge;
-    },
-    [&](EdgeId edge, const CornerPair& corners)
-    {
-      if (edge == NoEdge)
-      {
-        return;
-      }
-      const bool isBad =
-        DecideByGuard(loop.Guard.Edges, loop.Mesh, loop.Mesh.GetQuad(corners)) == EdgeState::Bad;
-      EdgeBits::Set(isBad ? bits.Bad : bits.BlockedByEdge, edge);
-      allBad += isBad ? 1 : 0;
-      allBlockedByEdge += isBad ? 0 : 1;
-    });
-  team.Add(IterationSum::WasBad, wasBad);
-  team.Add(IterationSum::IsBad, allBad);
-  team.Add(IterationSum::AllBlockedByEdge, allBlockedByEdge);
-}
-
-/// Counts the bad and the blocked edges in a range.
-template <typename Rule, typename Worklist>
-__device__ void CountAll(const LoopView<Rule>& loop, const Worklist& worklist, const Team& team)
-{
-  unsigned bad = 0, blockedByShape = 0, blockedByEdge = 0;
-  worklist.Run(
-    team, loop.Mesh,
-    [&](const EdgeByte& byte)
-    {
-      bad += __popc(byte.Load(loop.Bits.Bad));
-      blockedByShape += Rule::MayBlock ? __popc(byte.Load(loop.Bits.BlockedByShape)) : 0;
-      blockedByEdge += __popc(byte.Load(loop.Bits.BlockedByEdge));
-      return 0u;
-    },
-    [](EdgeId, const CornerPair&) {});
-  team.Add(IterationSum::AllBad, bad);
-  team.Add(IterationSum::AllBlockedByShape, blockedByShape);
-  team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
 }
 
 }

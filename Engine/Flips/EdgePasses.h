@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DELAUNAYFLIP_FLIPSTEPS_H
-#define DELAUNAYFLIP_FLIPSTEPS_H
+#ifndef DELAUNAYFLIP_EDGEPASSES_H
+#define DELAUNAYFLIP_EDGEPASSES_H
 
+#include "BinarySearch.h"
 #include "EdgeFlip.h"
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "FlipRules.h"
 #include "HostDevice.h"
 #include "StepCounts.h"
-#include "Strips.h"
 
 #include <cstdint>
 
@@ -26,8 +26,11 @@ DELAUNAYFLIP_HOST_DEVICE inline EdgeState DecideByGuard(
 {
   const unsigned char* shared = edges.SharedVertices;
   const bool isUnknown = shared && (shared[quad.A] & shared[quad.B]) != 0;
-  return isUnknown || edges.Table.Has(mesh, quad.A, quad.B) ? EdgeState::BlockedByEdge
-                                                            : EdgeState::Bad;
+  if (isUnknown || edges.Table.Has(mesh, quad.A, quad.B))
+  {
+    return EdgeState::BlockedByEdge;
+  }
+  return EdgeState::Bad;
 }
 
 /// Counts the edges of EdgeState::BlockedByDeviation, which the passes count with BlockedByShape.
@@ -43,16 +46,15 @@ std::int64_t CountDeviating(EdgeMesh& mesh, const Rule& rule, const Backend& bac
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
       {
         const auto edge = static_cast<EdgeId>(i);
-        sum += view.States[edge] != EdgeState::Fixed &&
-            rule.Judge(view.GetQuad(edge)) == EdgeState::BlockedByDeviation
-          ? 1
-          : 0;
+        const bool deviates = view.States[edge] != EdgeState::Fixed &&
+          rule.Judge(view.GetQuad(edge)) == EdgeState::BlockedByDeviation;
+        sum += int(deviates);
       });
   }
   return count;
 }
 
-/// The first edge whose first corner belongs to `triangle` or a later one, before any flip.
+/// The first edge that has its first corner in `triangle` or a later one, before any flip.
 DELAUNAYFLIP_HOST_DEVICE inline std::int64_t FindFirstEdge(
   const CornerId* words, std::int64_t edges, std::int64_t triangle)
 {
@@ -82,13 +84,13 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFirst(
 DELAUNAYFLIP_HOST_DEVICE inline void UpdateGuard(
   const GuardedEdges& edges, EdgeId edge, const Quad& quad, StepCounts& counts)
 {
-  // Both searches begin before either ends.
+  // The two searches begin before either ends.
   const GuardTableView::Path from = edges.Table.Find(quad.P, quad.Q);
   GuardTableView::Path to = edges.Table.Find(quad.A, quad.B);
   counts.FreedSlots += edges.Table.Remove(edge, from);
   const int used = edges.Table.Insert(edge, to);
-  counts.FreshSlots += used > 0 ? 1 : 0;
-  counts.LostInserts += used < 0 ? 1 : 0;
+  counts.FreshSlots += int(used > 0);
+  counts.LostInserts += int(used < 0);
 }
 
 }
