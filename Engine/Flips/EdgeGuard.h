@@ -155,8 +155,9 @@ struct GuardTableView
     DELAUNAYFLIP_HOST_DEVICE Path(const GuardTableView& table, VertexId a, VertexId b)
       : Table(table)
     {
-      const VertexId smaller = std::min(a, b);
-      const VertexId larger = std::max(a, b);
+      const std::uint64_t key = EdgeKey(a, b);
+      const auto smaller = static_cast<VertexId>(key >> 32);
+      const auto larger = static_cast<VertexId>(key);
       this->Scattered = Scatter(larger + Scatter(smaller));
       this->Tag = FirstTag + (this->Scattered >> 8) % (256 - FirstTag);
       const std::uint64_t home = (std::uint64_t(smaller) * table.Stride) >> StrideBits;
@@ -191,11 +192,7 @@ struct GuardTableView
     /// Home h of the table, or one of the first for those that follow the last.
     DELAUNAYFLIP_HOST_DEVICE std::uint32_t Wrap(std::uint32_t h) const
     {
-      if (h < this->Table.Homes)
-      {
-        return h;
-      }
-      return h % this->Table.Homes;
+      return h < this->Table.Homes ? h : h % this->Table.Homes;
     }
 
     const GuardTableView& Table;
@@ -207,7 +204,8 @@ struct GuardTableView
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(VertexId a, VertexId b) const
   {
-    const std::uint64_t home = (std::uint64_t(std::min(a, b)) * this->Stride) >> StrideBits;
+    const std::uint64_t smaller = EdgeKey(a, b) >> 32;
+    const std::uint64_t home = (smaller * this->Stride) >> StrideBits;
     delaunayflip::Prefetch(&this->Tags[home < this->Homes ? home : 0]);
   }
 

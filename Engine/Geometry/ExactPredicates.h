@@ -221,10 +221,8 @@ public:
   {
     const DoubleParts parts(value);
     const int lastBit = parts.Exponent + parts.CountTrailingZeros();
-    if (parts.Mantissa != 0 && lastBit < this->Exponent)
-    {
-      this->Exponent = lastBit;
-    }
+    const bool isLower = parts.Mantissa != 0 && lastBit < this->Exponent;
+    this->Exponent = isLower ? lastBit : this->Exponent;
   }
 
   /// An included value in units, if that is below 2^125 in magnitude; otherwise clears `fits`.
@@ -233,26 +231,15 @@ public:
     constexpr int LargestShift = 125 - DoubleParts::MantissaBits;
     const DoubleParts parts(value);
     const int shift = parts.Exponent - this->Exponent;
-    auto magnitude = static_cast<Integer128>(parts.Mantissa);
-    if (shift > LargestShift)
-    {
-      fits = false;
-    }
-    else if (shift >= 0)
-    {
-      magnitude <<= shift;
-    }
-    else
-    {
-      // This loses only zeros, because the value is a multiple of the unit. The mask is for zero
-      // itself, since its exponent may be lower by any amount.
-      magnitude >>= -shift & 63;
-    }
-    if (parts.Negative)
-    {
-      return -magnitude;
-    }
-    return magnitude;
+    const bool inRange = shift <= LargestShift;
+    fits = fits && inRange;
+    // Selections instead of branches, which would be mispredicted. A shift to the right loses only
+    // zeros, because the value is a multiple of the unit. The mask is for zero itself, since its
+    // exponent may be lower by any amount.
+    const int down = shift < 0 ? -shift & 63 : 0;
+    const int up = shift > 0 && inRange ? shift : 0;
+    const auto magnitude = static_cast<Integer128>(Unsigned128(parts.Mantissa >> down) << up);
+    return parts.Negative ? -magnitude : magnitude;
   }
 
 private:
