@@ -5,142 +5,26 @@
 #include "DataArrays.h"
 #include "UpdateReport.h"
 
-#include "vtkPoints.h"
-#include "vtkStringArray.h"
-
-#include <algorithm>
-#include <cstring>
+#include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace delaunayflip
 {
 namespace
 {
 
-Stamps StampPoints(vtkPolyData* mesh)
+Stamps StampPoints(const FlipRequest& request)
 {
   Stamps stamps;
-  stamps.AddPoints(mesh);
+  stamps.AddPoints(request.Input);
   return stamps;
 }
 
-UpdatePlan MakePlan(const FlipRequest& request, bool isWarm)
-{
-  vtkPolyData* mesh = request.Input;
-  const bool hasPolygons = mesh->GetNumberOfStrips() > 0 ||
-    mesh->GetPolys()->GetNumberOfConnectivityIds() != 3 * mesh->GetNumberOfPolys();
-  const bool hasConstraints =
-    request.Constraints || (request.Settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0);
-  return { { isWarm, hasPolygons, hasConstraints, !request.Settings.RegionArray.empty(), true, true,
-             request.WantsAngles },
-    request.Progress };
-}
-
-}
-
-vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
-{
-  auto mesh = vtkSmartPointer<vtkPolyData>::New();
-  mesh->ShallowCopy(input);
-  if (vtkPoints* points = input->GetPoints())
-  {
-    vtkNew<vtkPoints> copy;
-    copy->SetDataType(points->GetDataType()); // to which DeepCopy rounds
-    copy->DeepCopy(points);
-    mesh->SetPoints(copy);
-  }
-  return mesh;
-}
-
-//------------------------------------------------------------------------------
-void Stamps::AddArray(vtkAbstractArray* array, vtkObject* owner, vtkMTimeType since)
-{
-  this->All.push_back({ array, owner, 0, array ? array->GetNumberOfValues() : 0 });
-  this->All.back().Time = std::max(since, this->All.back().FindTime());
-}
-
-void Stamps::AddCells(vtkCellArray* cells)
-{
-  this->AddArray(cells->GetOffsetsArray(), cells);
-  this->AddArray(cells->GetConnectivityArray(), cells);
-}
-
-void Stamps::AddPoints(vtkPolyData* mesh, vtkMTimeType since)
-{
-  vtkPoints* points = mesh->GetPoints();
-  this->AddArray(points ? points->GetData() : nullptr, points, since);
-}
-
-void Stamps::AddArrays(vtkFieldData* data)
-{
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    this->AddArray(data->GetAbstractArray(i));
-  }
-  if (auto* attributes = vtkDataSetAttributes::SafeDownCast(data))
-  {
-    int numbers[vtkDataSetAttributes::NUM_ATTRIBUTES];
-    attributes->GetAttributeIndices(numbers);
-    std::for_each(
-      std::begin(numbers), std::end(numbers), [this](int number) { this->AddNumber(number); });
-  }
-}
-
-bool Stamps::Fit(const Stamps& now) const
-{
-  return std::equal(this->All.begin(), this->All.end(), now.All.begin(), now.All.end(),
-    [](const Stamp& a, const Stamp& b) { return a.Fits(b); });
-}
-
-vtkMTimeType Stamps::Stamp::FindTime() const
-{
-  return std::max(
-    this->Array ? this->Array->GetMTime() : 0, this->Owner ? this->Owner->GetMTime() : 0);
-}
-
-/// Values are compared only if they are in different memory and nobody has changed them since.
-bool Stamps::Stamp::Fits(const Stamp& now) const
-{
-  vtkAbstractArray* a = this->Array;
-  vtkAbstractArray* b = now.Array;
-  if (this->Count == now.Count && this->Time == now.Time)
-  {
-    return true;
-  }
-  if (!a || !b || a == b || a->GetNumberOfValues() != now.Count || this->Count != now.Count ||
-    this->FindTime() > this->Time || a->GetDataType() != b->GetDataType() ||
-    a->GetNumberOfComponents() != b->GetNumberOfComponents() || GetName(a) != GetName(b))
-  {
-    return false;
-  }
-  if (auto* texts = vtkStringArray::SafeDownCast(a))
-  {
-    const auto* first = texts->GetPointer(0);
-    return std::equal(first, first + now.Count, vtkStringArray::SafeDownCast(b)->GetPointer(0));
-  }
-  const auto size = static_cast<std::size_t>(a->GetDataTypeSize()); // 0: of bits
-  return size > 0 && vtkDataArray::SafeDownCast(a) && a->HasStandardMemoryLayout() &&
-    b->HasStandardMemoryLayout() &&
-    (now.Count == 0 ||
-      (a->GetVoidPointer(0) != b->GetVoidPointer(0) &&
-        std::memcmp(a->GetVoidPointer(0), b->GetVoidPointer(0), size * now.Count) == 0));
-}
-
-//------------------------------------------------------------------------------
-FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
-  : UpdateRun(std::move(plan)),
-    Asked(request),
-    Edges(StampEdges(request)),
-    Points(StampPoints(request.Input)),
-    Current(ShareMesh(request.Input)),
-    Constraints(request.Constraints ? ShareMesh(request.Constraints) : nullptr),
-    Origin(request.IsLive ? CopyPoints(Current) : Current),
-    Bridge(Origin, Constraints, request.Settings, this->Plan)
-{
-}
-
-/// Attributes matter only as region labels and ghosts, and verts only by their number.
-Stamps FlipRun::StampEdges(const FlipRequest& request)
+/// Stamps all but points that decides which edges exist and which are fixed. Attributes matter only
+/// as region labels and ghosts, and verts only by their number.
+Stamps StampEdges(const FlipRequest& request)
 {
   Stamps stamps;
   stamps.AddNumber(request.Input->GetNumberOfPoints());
@@ -151,39 +35,151 @@ Stamps FlipRun::StampEdges(const FlipRequest& request)
   vtkCellData* data = request.Input->GetCellData();
   stamps.AddArray(data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
   stamps.AddArray(data->GetAbstractArray(request.Settings.RegionArray.c_str()));
-  if (request.Constraints)
+  if (request.Others)
   {
-    stamps.AddCells(request.Constraints->GetPolys());
-    stamps.AddCells(request.Constraints->GetLines());
-    if (request.Constraints->GetPoints() != request.Input->GetPoints())
+    stamps.AddCells(request.Others->GetPolys());
+    stamps.AddCells(request.Others->GetLines());
+    if (request.Others->GetPoints() != request.Input->GetPoints())
     {
-      stamps.AddPoints(request.Constraints);
+      stamps.AddPoints(request.Others);
     }
   }
   return stamps;
 }
 
-//------------------------------------------------------------------------------
-void FlipRun::OpenSession(Start start)
+UpdatePlan MakePlan(const FlipRequest& request, bool isWarm)
 {
-  this->Begin = std::move(start);
-  FlipOptions options = this->Asked.Options;
-  // A warm start finds no feature edges of its own: its fixed edges include them.
-  options.FeatureAngle = this->IsWarm() ? 180.0 : options.FeatureAngle;
-  this->Room = this->Asked.IsLive ? nullptr : this->Bridge.MakeRoom();
-  try
-  {
-    this->Session = std::make_unique<FlipSession>(
-      this->GetMesh(this->Begin), options, this->GetProgress(), ListMemory(this->Room));
-  }
-  catch (const InvalidMesh&)
-  {
-    this->Bridge.RequireValidIds(); // its error names the cell, not the triangle
-    throw;
-  }
+  vtkPolyData* mesh = request.Input;
+  const bool hasPolygons = mesh->GetNumberOfStrips() > 0 ||
+    mesh->GetPolys()->GetNumberOfConnectivityIds() != 3 * mesh->GetNumberOfPolys();
+  const bool hasConstraints =
+    request.Others || (request.Settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0);
+  return { { isWarm, hasPolygons, hasConstraints, !request.Settings.RegionArray.empty(), true, true,
+             request.WantsAngles },
+    request.Progress };
 }
 
-TriangleMesh FlipRun::GetMesh(const Start& start) const
+/// What has changed since the last update.
+enum class InputChange
+{
+  Nothing,
+  Points, ///< Nothing but these.
+  Mesh
+};
+
+/// Where a warm start begins. It is empty for other runs.
+struct RunStart
+{
+  GeometryKind Geometry = GeometryKind::Auto;
+  std::vector<std::int64_t> Triangles; ///< Vertex ids, three per slot.
+  std::vector<std::int64_t> FixedEdges; ///< Pairs of vertex ids.
+  FlipReport Report; ///< What the last run did.
+};
+
+/// The run of a vtkDelaunayFlip.
+class FlipRun : public UpdateRun
+{
+public:
+  /// Reads the input. The session is not open yet.
+  FlipRun(const FlipRequest& request, UpdatePlan plan);
+
+  FlipReport GetReport() const override;
+  bool Store(vtkPolyData* output) const override;
+
+  InputChange FindChange(const FlipRequest& request) const;
+
+  /// Goes on with an input that has only other attributes.
+  void Renew(const FlipRequest& request);
+
+  /// The triangles as they are now, for a warm start.
+  /// @throws RunAborted.
+  RunStart GetEnd(const ProgressObserver& progress) const;
+
+  /// Whether Auto chooses the geometry of a warm start both for the triangles that flips have made
+  /// and, as it does without LiveUpdate, for those of the input. A surface has feature edges that a
+  /// plane does not have, so the fixed edges are not right in another geometry.
+  bool KeepsGeometry(const RunStart& start) const;
+
+  /// @throws as FlipSession's constructor.
+  void OpenSession(RunStart start);
+
+private:
+  TriangleMesh GetMesh(const RunStart& start) const;
+  bool IsWarm() const { return !this->Begin.Triangles.empty(); }
+  void AddUnmatchedConstraints(FlipReport& report) const;
+
+  FlipRequest Asked; ///< Its meshes may be gone.
+  Stamps Edges; ///< See StampEdges.
+  Stamps Points;
+  vtkSmartPointer<vtkPolyData> Current; ///< The input as it was at the last update.
+  vtkSmartPointer<vtkPolyData> Constraints; ///< Null without a second input.
+  vtkSmartPointer<vtkPolyData> Origin; ///< With points that no later update moves.
+  PolyDataBridge Bridge; ///< To the origin. The session has views of its arrays.
+  RunStart Begin; ///< The session has views of its arrays, too.
+};
+
+FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
+  : UpdateRun(std::move(plan)),
+    Asked(request),
+    Edges(StampEdges(request)),
+    Points(StampPoints(request)),
+    Current(ShareMesh(request.Input)),
+    Constraints(request.Others ? ShareMesh(request.Others) : nullptr),
+    Origin(request.IsLive ? CopyPoints(Current) : Current),
+    Bridge(Origin, Constraints, request.Settings, this->Plan)
+{
+}
+
+InputChange FlipRun::FindChange(const FlipRequest& request) const
+{
+  const bool isSameMesh = this->Asked.Options == request.Options &&
+    this->Asked.Settings == request.Settings && this->Edges.Fit(StampEdges(request));
+  if (!isSameMesh)
+  {
+    return InputChange::Mesh;
+  }
+  if (!this->Points.Fit(StampPoints(request)))
+  {
+    return InputChange::Points;
+  }
+  return InputChange::Nothing;
+}
+
+void FlipRun::Renew(const FlipRequest& request)
+{
+  this->Current = ShareMesh(request.Input);
+  this->Asked = request;
+}
+
+//------------------------------------------------------------------------------
+RunStart FlipRun::GetEnd(const ProgressObserver& progress) const
+{
+  const TriangleMesh mesh = this->Bridge.GetMesh();
+  RunStart start;
+  start.Report = this->GetReport();
+  start.Triangles.resize(3 * mesh.Triangles.Count);
+  this->Session->StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
+  if (this->IsWarm())
+  {
+    start.Geometry = this->Begin.Geometry;
+    start.FixedEdges = this->Begin.FixedEdges;
+  }
+  else
+  {
+    start.Geometry = start.Report.GeometryUsed;
+    start.FixedEdges = FindFixedEdges(mesh, this->Asked.Options, progress);
+  }
+  return start;
+}
+
+bool FlipRun::KeepsGeometry(const RunStart& start) const
+{
+  const auto find = [this](const RunStart& begin)
+  { return FindGeometry(this->GetMesh(begin), this->Asked.Options); };
+  return find(RunStart()) == start.Geometry && find(start) == start.Geometry;
+}
+
+TriangleMesh FlipRun::GetMesh(const RunStart& start) const
 {
   TriangleMesh mesh = this->Bridge.GetMesh();
   if (!start.Triangles.empty())
@@ -196,54 +192,28 @@ TriangleMesh FlipRun::GetMesh(const Start& start) const
   return mesh;
 }
 
-bool FlipRun::ContinueOrStart(std::unique_ptr<UpdateRun>& run, const FlipRequest& request)
+void FlipRun::OpenSession(RunStart start)
 {
-  auto* last = static_cast<FlipRun*>(run.get());
-  const bool fits = last && last->Asked.Options == request.Options &&
-    last->Asked.Settings == request.Settings && last->Edges.Fit(StampEdges(request));
-  if (fits && last->Points.Fit(StampPoints(request.Input)))
+  this->Begin = std::move(start);
+  FlipOptions options = this->Asked.Options;
+  if (this->IsWarm())
   {
-    last->Current = ShareMesh(request.Input);
-    last->Asked = request;
-    return true;
+    options.FeatureAngle = 180.0; // none: the fixed edges include the feature edges
   }
-  UpdatePlan plan = MakePlan(request, fits);
-  Start start;
-  if (fits)
+  if (!this->Asked.IsLive)
   {
-    start = last->GetEnd(plan.For(UpdatePlan::FixedEdges));
+    this->Room = this->Bridge.MakeRoom();
   }
-  else
+  try
   {
-    run.reset(); // its memory may be needed
+    this->Session = std::make_unique<FlipSession>(
+      this->GetMesh(this->Begin), options, this->GetProgress(), ListMemory(this->Room));
   }
-  std::unique_ptr<FlipRun> made(new FlipRun(request, std::move(plan)));
-  // A warm start keeps its geometry, since a surface has feature edges that a plane does not have.
-  // So Auto must choose this geometry both for the triangles that flips have made and, as it does
-  // without LiveUpdate, for those of the input.
-  const auto keepsGeometry = [&](const Start& begin)
-  { return FindGeometry(made->GetMesh(begin), request.Options) == start.Geometry; };
-  if (fits && (!keepsGeometry(Start()) || !keepsGeometry(start)))
+  catch (const InvalidMesh&)
   {
-    start = Start();
+    this->Bridge.RequireValidIds(); // its error names the cell, not the triangle
+    throw;
   }
-  run.reset(); // its memory may be needed
-  made->OpenSession(std::move(start));
-  run = std::move(made);
-  return false;
-}
-
-FlipRun::Start FlipRun::GetEnd(const ProgressObserver& progress) const
-{
-  const TriangleMesh mesh = this->Bridge.GetMesh();
-  Start start;
-  start.Report = this->GetReport();
-  start.Geometry = this->IsWarm() ? this->Begin.Geometry : start.Report.GeometryUsed;
-  start.Triangles.resize(3 * mesh.Triangles.Count);
-  this->Session->StoreTriangles(MutableTriangleArray(start.Triangles.data(), mesh.Triangles.Count));
-  start.FixedEdges =
-    this->IsWarm() ? this->Begin.FixedEdges : FindFixedEdges(mesh, this->Asked.Options, progress);
-  return start;
 }
 
 //------------------------------------------------------------------------------
@@ -258,32 +228,43 @@ FlipReport FlipRun::GetReport() const
     report.InsertedConstraints = first.InsertedConstraints;
     report.ConstraintFlips = first.ConstraintFlips;
   }
-  else if (const std::int64_t count = this->Bridge.GetConstraints().Unmatched)
+  else
   {
-    report.UnmatchedConstraints += count;
-    const std::string& stranger = this->Bridge.GetConstraints().FirstStranger;
-    report.Defects.push_back({ "constraint edges of the second input that the mesh does not have" +
-        (stranger.empty()
-            ? ""
-            : ": ends are not points of the mesh (coordinates must be equal, not just "
-              "close), first " +
-              stranger),
-      count, {}, DefectIds::Points });
+    this->AddUnmatchedConstraints(report);
   }
+  const TriangleSlots& slots = this->Bridge.GetSlots();
   this->Bridge.NumberCells(report.Defects);
-  if (this->Bridge.GetSlots().NoTriangles.Count > 0)
+  if (slots.NoTriangles.Count > 0)
   {
-    report.Defects.push_back(this->Bridge.GetSlots().NoTriangles);
+    report.Defects.push_back(slots.NoTriangles);
   }
-  const auto malformed = ListMalformedArrays(this->Current, true, this->Bridge.GetSlots().InPlace);
+  const auto malformed = ListMalformedArrays(this->Current, true, slots.InPlace);
   report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
   return report;
 }
 
+void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
+{
+  const ConstraintEdges& constraints = this->Bridge.GetConstraints();
+  if (constraints.Unmatched == 0)
+  {
+    return;
+  }
+  std::string text = "constraint edges of the second input that the mesh does not have";
+  if (!constraints.FirstStranger.empty())
+  {
+    text +=
+      ": ends are not points of the mesh (coordinates must be equal, not just close), first " +
+      constraints.FirstStranger;
+  }
+  report.UnmatchedConstraints += constraints.Unmatched;
+  report.Defects.push_back({ text, constraints.Unmatched, {}, DefectIds::Points });
+}
+
 bool FlipRun::Store(vtkPolyData* output) const
 {
-  this->Bridge.Store(
-    *this->Session, this->Room ? this->Room : this->Bridge.MakeRoom(), this->Current, output);
+  const auto room = this->Room ? this->Room : this->Bridge.MakeRoom();
+  this->Bridge.Store(*this->Session, room, this->Current, output);
   if (this->Asked.WantsFlipCounts)
   {
     this->Bridge.StoreFlipCounts(*this->Session, output);
@@ -301,6 +282,45 @@ bool FlipRun::Store(vtkPolyData* output) const
   {
     return false;
   }
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool FlipRequest::HasWork() const
+{
+  return this->Input->GetNumberOfPolys() > 0 || this->Input->GetNumberOfStrips() > 0;
+}
+
+bool FlipRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) const
+{
+  auto* last = static_cast<FlipRun*>(run.get());
+  const InputChange change = last ? last->FindChange(*this) : InputChange::Mesh;
+  if (change == InputChange::Nothing)
+  {
+    last->Renew(*this);
+    return true;
+  }
+  const bool isWarm = change == InputChange::Points;
+  UpdatePlan plan = MakePlan(*this, isWarm);
+  RunStart start;
+  if (isWarm)
+  {
+    start = last->GetEnd(plan.For(UpdatePlan::FixedEdges));
+  }
+  else
+  {
+    run.reset(); // its memory may be needed
+  }
+  auto made = std::make_unique<FlipRun>(*this, std::move(plan));
+  if (isWarm && !made->KeepsGeometry(start))
+  {
+    start = RunStart();
+  }
+  run.reset(); // its memory may be needed
+  made->OpenSession(std::move(start));
+  run = std::move(made);
+  return false;
 }
 
 }

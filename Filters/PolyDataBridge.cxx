@@ -59,23 +59,6 @@ void UseHugePages([[maybe_unused]] vtkDataArray* values)
 #endif
 }
 
-template <typename Id>
-void Fill(const FlipSession& session, vtkCellArray* cells)
-{
-  const vtkIdType count = cells->GetNumberOfCells();
-  auto* offsets = static_cast<Id*>(cells->GetOffsetsArray()->GetVoidPointer(0));
-  vtkSMPTools::For(0, count + 1,
-    [offsets](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        offsets[i] = static_cast<Id>(3 * i);
-      }
-    });
-  auto* ids = static_cast<Id*>(cells->GetConnectivityArray()->GetVoidPointer(0));
-  session.StoreTriangles(MutableTriangleArray(ids, count));
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -481,7 +464,29 @@ std::vector<ResultMemory> ListMemory(vtkCellArray* room)
 
 void FillTriangles(const FlipSession& session, vtkCellArray* room)
 {
-  room->IsStorage64Bit() ? Fill<std::int64_t>(session, room) : Fill<std::int32_t>(session, room);
+  const vtkIdType count = room->GetNumberOfCells();
+  const auto fill = [&](auto* offsets, auto* ids)
+  {
+    vtkSMPTools::For(0, count + 1,
+      [offsets](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType i = begin; i < end; ++i)
+        {
+          offsets[i] = static_cast<std::decay_t<decltype(*offsets)>>(3 * i);
+        }
+      });
+    session.StoreTriangles(MutableTriangleArray(ids, count));
+  };
+  void* offsets = room->GetOffsetsArray()->GetVoidPointer(0);
+  void* ids = room->GetConnectivityArray()->GetVoidPointer(0);
+  if (room->IsStorage64Bit())
+  {
+    fill(static_cast<std::int64_t*>(offsets), static_cast<std::int64_t*>(ids));
+  }
+  else
+  {
+    fill(static_cast<std::int32_t*>(offsets), static_cast<std::int32_t*>(ids));
+  }
 }
 
 bool UsesWideIds(vtkPolyData* mesh)

@@ -75,26 +75,33 @@ const char* vtkDelaunayFlip::GetGeometryReason() const
 }
 
 //------------------------------------------------------------------------------
-FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints, bool isLive)
+FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints)
 {
-  FlipOptions options;
-  options.Geometry = static_cast<GeometryKind>(this->Geometry);
-  options.Criterion = static_cast<CriterionKind>(this->Criterion);
-  options.TieRule = static_cast<TieRuleKind>(this->TieRule);
-  options.Backend = static_cast<BackendKind>(this->Backend);
-  options.Tolerance = this->Tolerance;
-  options.FeatureAngle = this->FeatureAngle;
-  options.MaximumDeviation = this->MaximumDeviation;
-  options.MaximumIterations = this->MaximumIterations;
-  options.NumberOfThreads = this->NumberOfThreads;
-  options.Device = this->DeviceId;
-  options.Devices = ParseDevices(this->Devices);
-  options.NumberOfPieces = this->NumberOfPieces;
-  options.TrackQuality = this->TrackQuality;
-  return { mesh, constraints,
-    { { this->LinesAsConstraints, this->InsertLines, this->InsertConstraints }, this->Triangulate,
-      this->RegionArray },
-    options, isLive, this->GenerateFlipCount, this->GenerateQuality, this->MakeProgress() };
+  FlipRequest request;
+  this->FillRequest(request);
+  request.Input = mesh;
+  request.Others = constraints;
+  request.Settings.LinesAsConstraints = this->LinesAsConstraints;
+  request.Settings.InsertLines = this->InsertLines;
+  request.Settings.InsertConstraints = this->InsertConstraints;
+  request.Settings.Triangulate = this->Triangulate;
+  request.Settings.RegionArray = this->RegionArray;
+  request.Options.Geometry = static_cast<GeometryKind>(this->Geometry);
+  request.Options.Criterion = static_cast<CriterionKind>(this->Criterion);
+  request.Options.TieRule = static_cast<TieRuleKind>(this->TieRule);
+  request.Options.Backend = static_cast<BackendKind>(this->Backend);
+  request.Options.Tolerance = this->Tolerance;
+  request.Options.FeatureAngle = this->FeatureAngle;
+  request.Options.MaximumDeviation = this->MaximumDeviation;
+  request.Options.MaximumIterations = this->MaximumIterations;
+  request.Options.NumberOfThreads = this->NumberOfThreads;
+  request.Options.Device = this->DeviceId;
+  request.Options.Devices = ParseDevices(this->Devices);
+  request.Options.NumberOfPieces = this->NumberOfPieces;
+  request.Options.TrackQuality = this->TrackQuality;
+  request.WantsFlipCounts = this->GenerateFlipCount;
+  request.WantsAngles = this->GenerateQuality;
+  return request;
 }
 
 void vtkDelaunayFlip::FlipLeaves(
@@ -109,15 +116,11 @@ void vtkDelaunayFlip::FlipLeaves(
     mesh.Store(nullptr);
     return;
   }
+  FlipRequest request = this->MakeRequest(mesh.GetMesh(), edges);
+  request.IsLive = block.IsLive;
   vtkNew<vtkPolyData> flipped;
-  this->FlipMesh(mesh.GetMesh(), edges, block.IsLive, flipped);
+  this->Runs->Update(request, *this->Report, flipped);
   mesh.Store(flipped);
-}
-
-bool vtkDelaunayFlip::ContinueOrStart(
-  std::unique_ptr<UpdateRun>& run, vtkPolyData* mesh, vtkPolyData* constraints, bool isLive)
-{
-  return FlipRun::ContinueOrStart(run, this->MakeRequest(mesh, constraints, isLive));
 }
 
 //------------------------------------------------------------------------------

@@ -401,16 +401,13 @@ protected:
   void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& constraints,
     delaunayflip::UpdateSummary& summary) override;
-  bool ContinueOrStart(std::unique_ptr<delaunayflip::UpdateRun>& run, vtkPolyData* mesh,
-    vtkPolyData* constraints, bool isLive) override;
   bool HasTolerance() const override { return this->Tolerance >= 0.0; }
 
   /**
-   * What is asked of the flips of a mesh.
+   * Asks for the flips of a mesh, all at once.
    * @param constraints may be null.
    */
-  delaunayflip::FlipRequest MakeRequest(
-    vtkPolyData* mesh, vtkPolyData* constraints, bool isLive = false);
+  delaunayflip::FlipRequest MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints);
 #endif
 
   int Geometry = GEOMETRY_AUTO;

@@ -4,12 +4,13 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
-#include "FlipRun.h"
 #include "MeshBlocks.h"
 #include "UpdatePipeline.h"
 #include "UpdateReport.h"
+#include "UpdateRun.h"
 
 #include "vtkCompositeDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
@@ -25,7 +26,6 @@
 #endif
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -74,33 +74,12 @@ bool IsBatchProgram()
 #endif
 }
 
-/// Calls FlipSession::Advance for as many iterations as fit into `seconds`, at least one.
-bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer,
-  const ProgressObserver& progress)
-{
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  double elapsed = 0.0;
-  double iterations = 1.0;
-  bool isRunning = false;
-  do
-  {
-    const double before = elapsed;
-    isRunning = session.Advance(static_cast<std::int64_t>(iterations), observer, progress);
-    elapsed = std::chrono::duration<double>(Clock::now() - start).count();
-    // Batches of iterations are faster than single ones, above all on a GPU. But an iteration may
-    // take longer than those before, so batches grow slowly.
-    const double fitting = (seconds - elapsed) * iterations / (elapsed - before);
-    iterations = std::min(fitting, 2.0 * iterations);
-  } while (isRunning && iterations >= 1.0);
-  return isRunning;
-}
-
 }
 
 //------------------------------------------------------------------------------
 vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
-  : Report(new FlipReport),
+  : Runs(new RunKeeper),
+    Report(new FlipReport),
     SizeOfBlocks(vtkDataObject::CELL)
 {
   this->SetNumberOfInputPorts(2);
@@ -109,7 +88,7 @@ vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
 
 vtkDelaunayFlipAlgorithm::~vtkDelaunayFlipAlgorithm()
 {
-  this->Run.reset();
+  this->Runs->Drop(false);
   if (this->GetStopReason() != STOP_REASON_NOT_STARTED) // it may have memory of a GPU
   {
     this->ReleaseDeviceMemory();
@@ -201,10 +180,10 @@ int vtkDelaunayFlipAlgorithm::RequestDataObject(
 //------------------------------------------------------------------------------
 bool vtkDelaunayFlipAlgorithm::Advance()
 {
-  const bool continues = this->LiveUpdate && this->CanContinue;
+  const bool continues = this->LiveUpdate && this->Runs->CanContinue;
   if (continues)
   {
-    this->Next = NextUpdate::StepAndStore;
+    this->Runs->Next = RunKeeper::UpdateKind::StepAndStore;
     this->Modified();
   }
   return continues;
@@ -220,35 +199,38 @@ bool vtkDelaunayFlipAlgorithm::AdvanceSession()
     last->ShallowCopy(output);
   }
   this->Advance();
-  this->Next = NextUpdate::Step;
+  this->Runs->Next = RunKeeper::UpdateKind::Step;
   const bool works = this->GetExecutive()->Update(0) != 0;
-  if (this->Next == NextUpdate::Store)
+  if (this->GetMeshIsWithheld())
   {
     output->ShallowCopy(last);
     this->Modified();
   }
   else
   {
-    this->Next = NextUpdate::StepAndStore;
+    this->Runs->Next = RunKeeper::UpdateKind::StepAndStore;
   }
   return works;
 }
 
-const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const
+bool vtkDelaunayFlipAlgorithm::GetMeshIsWithheld() const
 {
-  return this->Run ? this->Run->Session.get() : nullptr;
+  return this->Runs->Next == RunKeeper::UpdateKind::Store;
 }
+
+const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const { return this->Runs->GetSession(); }
 
 void vtkDelaunayFlipAlgorithm::Restart()
 {
-  this->DropRun(true);
+  this->Runs->Drop(true);
   this->IsRestarted = true;
   this->Modified();
 }
 
 bool vtkDelaunayFlipAlgorithm::GetNeedsUpdate()
 {
-  const bool isUnderWay = this->Run && this->Report->StopReason == StopReasonKind::Running;
+  const bool isUnderWay =
+    this->Runs->HasRun() && this->Report->StopReason == StopReasonKind::Running;
   return isUnderWay && !this->Paused && this->Advance();
 }
 
@@ -365,20 +347,20 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     }
     if (!isLive)
     {
-      this->DropRun(false); // of an earlier mesh
+      this->Runs->Drop(false); // of an earlier mesh
     }
     StoreResults(blocks, structure, output);
   }
   catch (...)
   {
-    this->DropRun(false);
+    this->Runs->Drop(false);
     output->Initialize();
     summary = UpdateSummary();
     summary.AddFailure("");
   }
   if (this->IsRestarted)
   {
-    this->DropRun(true);
+    this->Runs->Drop(true);
   }
   this->SetProgressShiftScale(0.0, 1.0);
   AddIterationColumns(this->IsSilent ? FlipReport() : summary.Report, "", table->GetRowData());
@@ -390,13 +372,6 @@ int vtkDelaunayFlipAlgorithm::RequestData(
   return 1;
 }
 
-void vtkDelaunayFlipAlgorithm::DropRun(bool canContinue)
-{
-  this->Run.reset();
-  this->CanContinue = canContinue;
-  this->Next = NextUpdate::StepAndStore;
-}
-
 /// VTK has told of it, and has not asked for an update.
 void vtkDelaunayFlipAlgorithm::RefuseInput(const std::string& why)
 {
@@ -404,7 +379,7 @@ void vtkDelaunayFlipAlgorithm::RefuseInput(const std::string& why)
   {
     return;
   }
-  this->DropRun(false);
+  this->Runs->Drop(false);
   UpdateSummary summary;
   summary.Failure = FailureKind::Mesh;
   summary.Errors.push_back({ "", why });
@@ -451,7 +426,7 @@ std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(
     blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram() &&
       this->GetOutputInformation(0)->Get(Asked::UPDATE_NUMBER_OF_PIECES()) <= 1;
   }
-  if (!this->Run) // live updates give each warning once
+  if (!this->Runs->HasRun()) // live updates give each warning once
   {
     summary.Warnings = ListMisfits(blocks, others);
   }
@@ -468,7 +443,7 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
   }
   catch (...)
   {
-    this->DropRun(false);
+    this->Runs->Drop(false);
     *this->Report = FlipReport();
     summary.AddFailure(block.Name);
     for (BlockLeaf& leaf : block.Leaves)
@@ -480,99 +455,33 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
   }
   const std::string trouble =
     DescribeTrouble(*this->Report, this->MaximumIterations >= 0, this->HasTolerance());
-  // Live updates give each warning once.
-  if (!trouble.empty() && !(this->Run && this->Run->Warning == trouble))
+  const bool isNew = this->Runs->IsNewWarning(trouble); // live updates give each warning once
+  if (isNew && !trouble.empty())
   {
     summary.Warnings.push_back({ block.Name, trouble });
-  }
-  if (this->Run)
-  {
-    this->Run->Warning = trouble;
   }
   AddReport(summary.Report, *this->Report);
 }
 
 //------------------------------------------------------------------------------
-ProgressObserver vtkDelaunayFlipAlgorithm::MakeProgress()
+void vtkDelaunayFlipAlgorithm::FillRequest(UpdateRequest& request)
 {
-  return [this](double fraction)
+  request.IterationsPerUpdate = this->IterationsPerUpdate;
+  request.IsAborted = [this]() { return IsAbortRequested(this); };
+  request.Progress = [this](double fraction)
   {
     // The share of the whole update, of which this mesh may be a part. It must not go back where a
     // session is advanced again and again.
     const double scale = this->GetProgressScale();
     const double share = this->GetProgressShift() + scale * fraction;
-    this->UpdateProgress(share < this->GetProgress() && scale > 0.0
-        ? (this->GetProgress() - this->GetProgressShift()) / scale
-        : fraction);
+    const bool goesBack = share < this->GetProgress() && scale > 0.0;
+    if (goesBack)
+    {
+      fraction = (this->GetProgress() - this->GetProgressShift()) / scale;
+    }
+    this->UpdateProgress(fraction);
     return !IsAbortRequested(this);
   };
-}
-
-void vtkDelaunayFlipAlgorithm::FlipMesh(
-  vtkPolyData* mesh, vtkPolyData* others, bool isLive, vtkPolyData* output)
-{
-  std::unique_ptr<UpdateRun> run = std::move(this->Run); // which observers may reset
-  *this->Report = FlipReport();
-  const NextUpdate asked = std::exchange(this->Next, NextUpdate::StepAndStore);
-  const bool couldContinue = std::exchange(this->CanContinue, false);
-  const bool hasWork = this->SizeOfBlocks == vtkDataObject::POINT
-    ? mesh->GetNumberOfPoints() > 0 || (others && others->GetNumberOfPoints() > 0)
-    : mesh->GetNumberOfPolys() > 0 || mesh->GetNumberOfStrips() > 0;
-  if (!hasWork)
-  {
-    this->Report->StopReason = StopReasonKind::Converged;
-    output->ShallowCopy(mesh);
-    return;
-  }
-  if (!isLive)
-  {
-    run.reset(); // before another takes as much memory
-  }
-  try
-  {
-    if (IsAbortRequested(this))
-    {
-      throw RunAborted(); // in another block
-    }
-    const bool isSame = this->ContinueOrStart(run, mesh, others, isLive);
-    *this->Report = run->GetReport();
-    const bool storesOnly = isSame && asked == NextUpdate::Store;
-    bool isRunning = storesOnly && couldContinue;
-    const bool isStopped = !isSame && this->Report->StopReason == StopReasonKind::Aborted;
-    if (!storesOnly && !isStopped)
-    {
-      const FlipObserver observer = [this](const IterationRecord& record)
-      {
-        this->Report->Iterations.push_back(record);
-        this->Report->TotalFlips += record.Flipped;
-        return true;
-      };
-      constexpr double Seconds = 0.05; // as documented in the header
-      isRunning = isLive && this->IterationsPerUpdate == 0
-        ? AdvanceFor(*run->Session, Seconds, observer, run->GetProgress())
-        : run->Session->Advance(
-            isLive ? this->IterationsPerUpdate : -1, observer, run->GetProgress());
-    }
-    const bool isWithheld = isSame && asked == NextUpdate::Step;
-    this->Next = isWithheld ? NextUpdate::Store : NextUpdate::StepAndStore;
-    const bool isWhole = isWithheld || run->Store(output);
-    // Not before: a GPU may fail while its result is fetched.
-    *this->Report = run->GetReport();
-    this->Report->StopReason = isWhole ? this->Report->StopReason : StopReasonKind::Aborted;
-    AddFieldData(*this->Report, output->GetFieldData());
-    this->CanContinue =
-      isLive && (isRunning || this->Report->StopReason == StopReasonKind::Aborted);
-  }
-  catch (const RunAborted&) // before there are triangles to put out
-  {
-    this->Report->StopReason = StopReasonKind::Aborted;
-    output->ShallowCopy(mesh);
-    this->CanContinue = isLive;
-  }
-  if (isLive)
-  {
-    this->Run = std::move(run);
-  }
 }
 
 //------------------------------------------------------------------------------

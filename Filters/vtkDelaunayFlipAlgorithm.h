@@ -16,7 +16,6 @@
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
 
-#include <functional> // For std::function
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 #include <vector> // For std::vector
@@ -26,9 +25,10 @@ class vtkTable;
 namespace delaunayflip
 {
 class FlipSession;
-class UpdateRun;
+class RunKeeper;
 struct FlipReport;
 struct MeshBlock;
+struct UpdateRequest;
 struct UpdateSummary;
 }
 
@@ -276,7 +276,7 @@ public:
    */
 #ifndef __VTK_WRAP__
   bool AdvanceSession();
-  bool GetMeshIsWithheld() const { return this->Next == NextUpdate::Store; }
+  bool GetMeshIsWithheld() const;
   const delaunayflip::FlipSession* GetSession() const;
 #endif
   ///@}
@@ -307,32 +307,25 @@ protected:
     const std::vector<delaunayflip::MeshBlock>& others, delaunayflip::UpdateSummary& summary);
 
   /**
-   * Flips a block by FlipMesh, stores its results, and adds warnings beside those of the report.
-   * May throw.
+   * Flips a block: reads its mesh, updates the run, and stores the results. Adds warnings beside
+   * those of the report. May throw.
    * @param others the blocks of the second input.
    */
   virtual void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& others, delaunayflip::UpdateSummary& summary) = 0;
 
   /**
-   * Makes `run` the run for a mesh.
-   * @param others of the second input, or null.
-   * @returns whether it stayed itself.
-   */
-  virtual bool ContinueOrStart(std::unique_ptr<delaunayflip::UpdateRun>& run, vtkPolyData* mesh,
-    vtkPolyData* others, bool isLive) = 0;
-
-  /**
    * Whether the user has set a tolerance of angles.
    */
   virtual bool HasTolerance() const { return false; }
 
-  void FlipMesh(vtkPolyData* mesh, vtkPolyData* others, bool isLive, vtkPolyData* output);
-
   /**
-   * Tells of progress, and returns whether to go on.
+   * Gives a request what does not depend on the mesh: how many iterations an update makes, and how
+   * it reports progress and is aborted.
    */
-  std::function<bool(double)> MakeProgress();
+  void FillRequest(delaunayflip::UpdateRequest& request);
+
+  std::unique_ptr<delaunayflip::RunKeeper> Runs;
 
   /// During an update that of the current mesh, afterwards the sum over all meshes.
   std::unique_ptr<delaunayflip::FlipReport> Report;
@@ -353,42 +346,17 @@ protected:
 private:
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector);
-  void DropRun(bool canContinue);
   void FlipBlock(delaunayflip::MeshBlock& block, const std::vector<delaunayflip::MeshBlock>& others,
     delaunayflip::UpdateSummary& summary);
   void Keep(const delaunayflip::UpdateSummary& summary);
   void Publish(const delaunayflip::UpdateSummary& summary);
   void RefuseInput(const std::string& why);
 
-  enum class NextUpdate
-  {
-    StepAndStore,
-    Step,
-    Store
-  };
-
   std::string ErrorMessage;
   std::string StopReasonText; ///< After an error.
   std::string Summary;
-  // The states of a filter, beside its options and what it tells of the last update:
-  //
-  //   IsAtWork  Run   Next          CanContinue  what happens
-  //   true      any   any           any          an update is running; another one is refused
-  //   false     null  StepAndStore  true         new or restarted: the next update begins a run
-  //   false     null  StepAndStore  false        after a failure or without LiveUpdate: the same,
-  //                                              but Advance() asks for none
-  //   false     set   StepAndStore  true         the next update makes a step and puts the mesh out
-  //   false     set   StepAndStore  false        at the end: it puts the mesh out
-  //   false     any   Step          any          only within AdvanceSession(): a set Run makes a
-  //                                              step and puts nothing out
-  //   false     set   Store         any          after that: it puts the mesh out, without a step
-  //
-  // A change of the input or of an option begins a run, whatever the state.
-  bool IsAtWork = false;
-  bool IsRestarted = false; ///< Since the last update began.
-  bool CanContinue = true; ///< Whether another step can change the mesh.
-  NextUpdate Next = NextUpdate::StepAndStore;
-  std::unique_ptr<delaunayflip::UpdateRun> Run; ///< For LiveUpdate.
+  bool IsAtWork = false; ///< An update is running, and another one is refused.
+  bool IsRestarted = false; ///< Restart() was called since the last update began.
 
   vtkDelaunayFlipAlgorithm(const vtkDelaunayFlipAlgorithm&) = delete;
   void operator=(const vtkDelaunayFlipAlgorithm&) = delete;

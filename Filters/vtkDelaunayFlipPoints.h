@@ -97,6 +97,11 @@
 class vtkAbstractTransform;
 class vtkPointSet;
 
+namespace delaunayflip
+{
+struct TriangulationRequest;
+}
+
 class VTKDELAUNAYFLIPFILTERS_EXPORT vtkDelaunayFlipPoints : public vtkDelaunayFlipAlgorithm
 {
 public:
@@ -240,8 +245,9 @@ protected:
   void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& segments,
     delaunayflip::UpdateSummary& summary) override;
-  bool ContinueOrStart(std::unique_ptr<delaunayflip::UpdateRun>& run, vtkPolyData* cloud,
-    vtkPolyData* segments, bool isLive) override;
+
+  /// Asks for the triangles of a dataset. The meshes of the request are not set yet.
+  delaunayflip::TriangulationRequest MakeRequest(vtkPointSet* input);
 #endif
 
   int Projection = PROJECTION_XY;
@@ -256,8 +262,6 @@ protected:
   bool ClosedLinesAsRings = true;
 
 private:
-  vtkMTimeType TimeOfBlock = 0; ///< When the block at hand was modified.
-
   vtkDelaunayFlipPoints(const vtkDelaunayFlipPoints&) = delete;
   void operator=(const vtkDelaunayFlipPoints&) = delete;
 };

@@ -285,7 +285,7 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
 {
   const auto mesh = ShareMesh(request.Input);
   const bool isEmpty = mesh->GetNumberOfPolys() == 0 && mesh->GetNumberOfStrips() == 0;
-  const auto constraints = GatherConstraints(request.Constraints, mesh, group);
+  const auto constraints = GatherConstraints(request.Others, mesh, group);
   BridgeSettings settings = request.Settings;
   if (isEmpty)
   {

@@ -1,0 +1,581 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TriangulationRun.h"
+
+#include "ConstraintEdges.h"
+#include "DataArrays.h"
+#include "PolyDataBridge.h"
+#include "UpdateReport.h"
+
+#include "vtkAbstractTransform.h"
+#include "vtkMath.h"
+#include "vtkPlane.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkTransform.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// The rotation that takes the plane of the points to that of x and y. Points that are not finite
+/// do not matter.
+vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points)
+{
+  vtkNew<vtkPoints> finite;
+  finite->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    const double* x = points->GetPoint(i);
+    if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+    {
+      finite->InsertNextPoint(x);
+    }
+  }
+  double origin[3], normal[3] = { 0.0, 0.0, 1.0 }, axis[3];
+  vtkPlane::ComputeBestFittingPlane(finite, origin, normal);
+  if (normal[2] < 0.0)
+  {
+    vtkMath::MultiplyScalar(normal, -1.0);
+  }
+  const double up[3] = { 0.0, 0.0, 1.0 };
+  vtkMath::Cross(normal, up, axis);
+  auto rotation = vtkSmartPointer<vtkTransform>::New();
+  rotation->RotateWXYZ(
+    vtkMath::DegreesFromRadians(std::atan2(vtkMath::Norm(axis), normal[2])), axis);
+  return rotation;
+}
+
+/// The finite heights of the first points. Low exceeds High if there are none.
+struct HeightRange
+{
+  double Low = INFINITY, High = -INFINITY;
+
+  HeightRange(const PointArray& points, vtkIdType count)
+  {
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const double height = points.Get(i, 2);
+      if (std::isfinite(height))
+      {
+        this->Low = std::min(this->Low, height);
+        this->High = std::max(this->High, height);
+      }
+    }
+  }
+
+  bool IsEmpty() const { return this->Low > this->High; }
+  bool IsZero() const { return this->Low == 0.0 && this->High == 0.0; }
+};
+
+/// Whether two requests have the same options. Their inputs may differ.
+bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& b)
+{
+  const auto tie = [](const TriangulationRequest& r)
+  {
+    const PointOptions& o = r.Options;
+    return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
+      r.FirstHole, o.PointTolerance, o.SplitCrossings, o.RingRule, o.Alpha, o.LongestEdge);
+  };
+  const FlipOptions& first = a.Options;
+  const FlipOptions& second = b.Options;
+  return tie(a) == tie(b) && first == second;
+}
+
+/// Stamps the points of the first input.
+Stamps StampPoints(const TriangulationRequest& request)
+{
+  Stamps stamps;
+  stamps.AddPoints(request.Input, request.InputTime);
+  return stamps;
+}
+
+/// Stamps all arrays of both inputs but these points.
+Stamps StampArrays(const TriangulationRequest& request)
+{
+  Stamps stamps;
+  for (vtkPolyData* given : { request.Input, request.Others })
+  {
+    if (!given)
+    {
+      continue;
+    }
+    if (given == request.Others)
+    {
+      stamps.AddPoints(given);
+    }
+    stamps.AddCells(given->GetVerts());
+    stamps.AddCells(given->GetLines());
+    stamps.AddCells(given->GetPolys());
+    stamps.AddArrays(given->GetPointData());
+    stamps.AddArrays(given->GetFieldData());
+  }
+  return stamps;
+}
+
+/// The segments of both inputs, as pairs of ids of points. Points of the second input that are new
+/// come after those of the first one.
+class SegmentList
+{
+public:
+  /// @param points receives those of the first input and the new ones.
+  SegmentList(const TriangulationRequest& request, vtkPolyData* given, vtkPolyData* points,
+    const ProgressObserver& progress)
+    : Given(given),
+      Points(points)
+  {
+    const vtkIdType count = given->GetNumberOfPoints();
+    this->AddCells(
+      given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, CellKind::Line);
+    this->FirstOther = this->Ends.size();
+    if (!request.Others)
+    {
+      return;
+    }
+    const auto segments = ShareMesh(request.Others); // which observers cannot take away
+    std::vector<double> storage, otherStorage;
+    const PointArray own = ViewPoints(given, storage);
+    const PointArray others = ViewPoints(segments, otherStorage);
+    std::vector<vtkIdType> ids; // empty if the cells name points of the first input
+    vtkIdType size = count;
+    if (others.Count > 0 && !HaveSameBits(own, others))
+    {
+      ids = this->AddPoints(own, others, segments, progress);
+      size = others.Count;
+    }
+    const CellKind kindOfLines = request.ClosedLinesAsRings ? CellKind::LineOrRing : CellKind::Line;
+    PointIdCheck check{ "segment cell", segments->GetNumberOfVerts(), size };
+    this->AddCells(segments->GetLines(), check, ids, kindOfLines);
+    check.FirstCell += segments->GetNumberOfLines();
+    this->AddCells(segments->GetPolys(), check, ids, CellKind::Ring);
+  }
+
+  /// Finds the added points of lines, outlines or holes, each of the three by itself, that have
+  /// z = 0 throughout, while the given points have other heights.
+  std::vector<std::int64_t> FindFlatPoints(vtkIdType firstHole) const
+  {
+    std::vector<std::int64_t> flat;
+    std::vector<double> storage;
+    const PointArray points = ViewPoints(this->Points, storage);
+    const vtkIdType given = this->Given->GetNumberOfPoints();
+    const HeightRange heights(points, given);
+    if (points.Count == given || heights.IsEmpty() || heights.IsZero())
+    {
+      return flat;
+    }
+    enum
+    {
+      OfLines,
+      OfOutlines,
+      OfHoles,
+      Kinds
+    };
+    const auto getKind = [&](std::size_t end)
+    {
+      const std::int32_t ring = this->Rings[end / 2];
+      if (ring < 0)
+      {
+        return OfLines;
+      }
+      return firstHole >= 0 && ring >= firstHole ? OfHoles : OfOutlines;
+    };
+    bool isFlat[Kinds] = { true, true, true };
+    for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
+    {
+      isFlat[getKind(end)] &= points.Get(this->Ends[end], 2) == 0.0;
+    }
+    std::vector<bool> isListed(points.Count, false);
+    for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
+    {
+      const std::int64_t point = this->Ends[end];
+      if (point >= given && isFlat[getKind(end)] && !isListed[point])
+      {
+        isListed[point] = true;
+        flat.push_back(point);
+      }
+    }
+    return flat;
+  }
+
+  std::vector<std::int64_t> Ends; ///< Pairs of ids.
+  std::vector<std::int32_t> Rings; ///< One number per segment.
+  Defect ShortArrays; ///< Point arrays of the second input that are left out.
+
+private:
+  enum class CellKind
+  {
+    Line,
+    LineOrRing, ///< A line that ends where it begins is a ring.
+    Ring
+  };
+
+  /// @param ids are those of the points that the cells name. Empty: the cells name them by these.
+  void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
+    CellKind kind)
+  {
+    std::vector<vtkIdType> path;
+    VisitCells(cells, check,
+      [&](vtkIdType cell, vtkIdList* points)
+      {
+        path.assign(points->begin(), points->end());
+        if (!ids.empty())
+        {
+          std::transform(
+            path.begin(), path.end(), path.begin(), [&ids](vtkIdType id) { return ids[id]; });
+        }
+        const bool isRing =
+          kind == CellKind::Ring || (kind == CellKind::LineOrRing && this->IsClosed(path));
+        const bool isOpen = !path.empty() && (path.size() == 1 || path.front() != path.back());
+        if (kind == CellKind::Ring && isOpen)
+        {
+          path.push_back(path.front());
+        }
+        this->AddPath(path, isRing, static_cast<std::int32_t>(check.FirstCell + cell));
+      });
+  }
+
+  /// Rings have the numbers of their cells.
+  void AddPath(const std::vector<vtkIdType>& path, bool isRing, std::int32_t cell)
+  {
+    constexpr std::int32_t NoRing = -1;
+    for (std::size_t i = 1; i < path.size(); ++i)
+    {
+      if (path[i - 1] != path[i] || isRing)
+      {
+        this->Ends.insert(this->Ends.end(), { path[i - 1], path[i] });
+        this->Rings.push_back(isRing ? cell : NoRing);
+      }
+    }
+  }
+
+  /// Whether a line of three or more points ends at the place where it begins.
+  bool IsClosed(const std::vector<vtkIdType>& path) const
+  {
+    if (path.size() < 3)
+    {
+      return false;
+    }
+    std::array<double, 3> first, last;
+    this->Points->GetPoint(path.front(), first.data());
+    this->Points->GetPoint(path.back(), last.data());
+    return path.front() == path.back() || first == last;
+  }
+
+  /// Adds the points of the segments where they are new. @returns the id of each.
+  std::vector<vtkIdType> AddPoints(const PointArray& own, const PointArray& others,
+    vtkPolyData* segments, const ProgressObserver& observer)
+  {
+    PointPlaces places(own.Floats || others.Floats);
+    std::vector<vtkIdType> ids(others.Count);
+    for (vtkIdType i = 0; i < others.Count; ++i)
+    {
+      ids[i] = places.Add(others, i); // at first the number of its place
+    }
+    std::vector<vtkIdType> first(places.GetNumberOfPlaces(), PointPlaces::None);
+    WorkProgress progress(observer, own.Count);
+    for (vtkIdType i = own.Count - 1; i >= 0; --i)
+    {
+      const std::int64_t place = places.Find(own, i);
+      if (place != PointPlaces::None)
+      {
+        first[place] = i;
+      }
+      progress.Add();
+    }
+    vtkNew<vtkIdList> added;
+    for (vtkIdType i = 0; i < others.Count; ++i)
+    {
+      vtkIdType& id = first[ids[i]];
+      if (id == PointPlaces::None)
+      {
+        id = own.Count + added->InsertNextId(i);
+      }
+      ids[i] = id;
+    }
+    if (added->GetNumberOfIds() > 0)
+    {
+      vtkPointData* data = segments->GetPointData();
+      AppendPoints(this->Given, segments->GetPoints(), added, TakeWholeArrays(data, others.Count),
+        this->Points);
+      this->ShortArrays = FindShortArrays(
+        data, others.Count, "point", " of the second input with too few tuples left out");
+    }
+    return ids;
+  }
+
+  vtkPolyData* Given;
+  vtkPolyData* Points;
+  std::size_t FirstOther = 0; ///< Where the ends of the second input begin.
+};
+
+//------------------------------------------------------------------------------
+/// Triangulates points.
+class TriangulationRun : public UpdateRun
+{
+public:
+  explicit TriangulationRun(const TriangulationRequest& request);
+
+  FlipReport GetReport() const override;
+  bool Store(vtkPolyData* output) const override;
+
+  /// Whether the request is for the same triangles.
+  bool Fits(const TriangulationRequest& request) const;
+
+  /// Goes on with the points as they are stamped now.
+  void Renew(const TriangulationRequest& request) { this->StampedPoints = StampPoints(request); }
+
+private:
+  bool HasCopyOf(vtkPolyData* points) const;
+  bool AddsPoints() const;
+  vtkSmartPointer<vtkCellArray> MakeRoom() const;
+  Defect DescribeFlatPoints() const;
+  PlaneArray Project();
+  void AddCrossings(vtkPolyData* output) const;
+  void InterpolateData(vtkPointData* data) const;
+
+  TriangulationRequest Asked; ///< Its meshes may be gone.
+  Stamps StampedPoints;
+  Stamps StampedArrays;
+  vtkSmartPointer<vtkPolyData> Given; ///< The input.
+  vtkSmartPointer<vtkPolyData> Points; ///< The input with the points of the segments.
+  SegmentList Segments;
+  std::vector<std::int64_t> FlatPoints; ///< See SegmentList::FindFlatPoints.
+  std::vector<double> Storage; ///< Points that cannot be viewed in place.
+  vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
+  PointInput View; ///< Views of these.
+};
+
+vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->ShallowCopy(mesh);
+  return copy;
+}
+
+TriangulationRun::TriangulationRun(const TriangulationRequest& request)
+  : UpdateRun(
+      { { false, false, request.Others != nullptr, false, true, true, false }, request.Progress }),
+    Asked(request),
+    StampedPoints(StampPoints(request)),
+    StampedArrays(StampArrays(request)),
+    Given(request.IsLive ? CopyPoints(request.Input) : CopyShallow(request.Input)),
+    Points(CopyShallow(Given)),
+    Segments(request, Given, Points, this->Plan.For(UpdatePlan::Constraints)),
+    FlatPoints(Segments.FindFlatPoints(request.FirstHole))
+{
+  this->View.Points = this->Project();
+  this->View.Segments = this->Segments.Ends.data();
+  this->View.NumberOfSegments = static_cast<std::int64_t>(this->Segments.Rings.size());
+  this->View.Rings = this->Segments.Rings.data();
+  this->View.FirstAdded = this->Given->GetNumberOfPoints();
+  if (request.FirstHole >= 0)
+  {
+    this->View.FirstHole =
+      static_cast<std::int32_t>(std::min<vtkIdType>(request.FirstHole, VTK_INT_MAX));
+  }
+  this->Session = std::make_unique<FlipSession>(this->View, request.Options, this->GetProgress());
+  if (!request.IsLive)
+  {
+    this->Room = this->MakeRoom();
+    for (const ResultMemory& memory : ListMemory(this->Room))
+    {
+      this->Session->Expect(memory.First, memory.Bytes);
+    }
+  }
+}
+
+bool TriangulationRun::Fits(const TriangulationRequest& request) const
+{
+  return HaveSameOptions(this->Asked, request) && this->StampedArrays.Fit(StampArrays(request)) &&
+    (this->StampedPoints.Fit(StampPoints(request)) || this->HasCopyOf(request.Input));
+}
+
+/// Whether these are the points that a live run has copied. A filter upstream whose output was
+/// released may have been executed again and have put out the same points.
+bool TriangulationRun::HasCopyOf(vtkPolyData* points) const
+{
+  std::vector<double> storage, others;
+  return this->Asked.IsLive &&
+    HaveSameBits(ViewPoints(this->Given, storage), ViewPoints(points, others));
+}
+
+/// A view of the points, or of a projection of them.
+PlaneArray TriangulationRun::Project()
+{
+  vtkSmartPointer<vtkAbstractTransform> projection = this->Asked.Transform;
+  if (!projection && this->Asked.FitsPlane)
+  {
+    projection = FitPlane(this->Points->GetPoints());
+  }
+  if (projection)
+  {
+    this->Projected->SetDataTypeToDouble();
+    projection->TransformPoints(this->Points->GetPoints(), this->Projected);
+    return { static_cast<const double*>(this->Projected->GetVoidPointer(0)),
+      this->Points->GetNumberOfPoints(), 3 };
+  }
+  const PointArray xyz = ViewPoints(this->Points, this->Storage);
+  if (xyz.Floats)
+  {
+    return { xyz.Floats, xyz.Count, 3 };
+  }
+  return { xyz.Doubles, xyz.Count, 3 };
+}
+
+//------------------------------------------------------------------------------
+FlipReport TriangulationRun::GetReport() const
+{
+  FlipReport report = this->Session->GetReport();
+  report.Points += static_cast<std::int64_t>(this->Session->GetAddedPoints().size());
+  AddDefect(this->DescribeFlatPoints(), report.Defects);
+  const auto malformed = ListMalformedArrays(this->Given, !this->AddsPoints(), true);
+  report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
+  AddDefect(this->Segments.ShortArrays, report.Defects);
+  return report;
+}
+
+bool TriangulationRun::AddsPoints() const
+{
+  return this->Points->GetPoints() != this->Given->GetPoints() ||
+    !this->Session->GetAddedPoints().empty();
+}
+
+/// Counts the flat points that triangles use.
+Defect TriangulationRun::DescribeFlatPoints() const
+{
+  if (this->FlatPoints.empty() || this->Session->GetReport().Triangles == 0)
+  {
+    return {};
+  }
+  std::vector<std::int64_t> used(this->Points->GetNumberOfPoints());
+  this->Session->StoreUsedPoints(used.data());
+  const auto count = std::count_if(this->FlatPoints.begin(), this->FlatPoints.end(),
+    [&](std::int64_t point) { return used[point] == point; });
+  std::vector<double> storage;
+  const PointArray points = ViewPoints(this->Given, storage);
+  const HeightRange heights(points, points.Count);
+  constexpr int Digits = 6;
+  const std::string text =
+    "points of segments without heights (z = 0 throughout; the given points have z = " +
+    FormatNumber(heights.Low, Digits) + " to " + FormatNumber(heights.High, Digits) +
+    "): the mesh goes to z = 0 there; if it should not, give them heights, for example those of "
+    "the nearest points";
+  return { text, count, {}, DefectIds::Points };
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkCellArray> TriangulationRun::MakeRoom() const
+{
+  return MakeRoomForTriangles(this->Session->GetReport().Triangles, sizeof(vtkIdType) == 8);
+}
+
+bool TriangulationRun::Store(vtkPolyData* output) const
+{
+  output->SetPoints(this->Points->GetPoints());
+  output->GetPointData()->ShallowCopy(this->Points->GetPointData());
+  output->GetFieldData()->ShallowCopy(this->Points->GetFieldData());
+  AddPointFieldData(this->Session->GetReport().FromPoints, output->GetFieldData());
+  if (!this->Session->GetAddedPoints().empty())
+  {
+    this->AddCrossings(output);
+  }
+  if (this->AddsPoints())
+  {
+    DemoteGlobalIds(output->GetPointData());
+  }
+  vtkSmartPointer<vtkCellArray> triangles = this->Room;
+  if (!triangles || triangles->GetNumberOfCells() != this->Session->GetReport().Triangles)
+  {
+    triangles = this->MakeRoom(); // triangles may have been removed since the room was made
+  }
+  FillTriangles(*this->Session, triangles);
+  output->SetPolys(triangles);
+  return true;
+}
+
+/// Adds the points where segments cross to an output.
+void TriangulationRun::AddCrossings(vtkPolyData* output) const
+{
+  const std::vector<AddedPoint>& crossings = this->Session->GetAddedPoints();
+  const vtkIdType first = this->Points->GetNumberOfPoints();
+  const auto size = static_cast<vtkIdType>(crossings.size());
+  vtkNew<vtkPoints> zeros;
+  zeros->SetNumberOfPoints(size);
+  zeros->GetData()->Fill(0.0);
+  AppendPoints(this->Points, zeros, MakeRange(0, size), nullptr, output);
+  this->InterpolateData(output->GetPointData());
+  vtkDataArray* xyz = output->GetPoints()->GetData();
+  const bool isProjected = this->Projected->GetNumberOfPoints() > 0;
+  for (vtkIdType i = 0; i < size; ++i)
+  {
+    const AddedPoint& point = crossings[i];
+    double place[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      // InterpolateTuple would make infinite floats finite.
+      place[axis] = (1.0 - point.Share) * xyz->GetComponent(point.From, axis) +
+        point.Share * xyz->GetComponent(point.To, axis);
+    }
+    if (!isProjected)
+    {
+      place[0] = point.X;
+      place[1] = point.Y;
+    }
+    xyz->SetTuple(first + i, place);
+  }
+}
+
+/// Gives the crossings the data between those of two points, except labels of points.
+void TriangulationRun::InterpolateData(vtkPointData* data) const
+{
+  const std::vector<AddedPoint>& crossings = this->Session->GetAddedPoints();
+  vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
+    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (std::count(std::begin(labels), std::end(labels), array) > 0)
+    {
+      continue;
+    }
+    vtkIdType next = this->Points->GetNumberOfPoints();
+    for (const AddedPoint& point : crossings)
+    {
+      array->InterpolateTuple(next++, point.From, array, point.To, array, point.Share);
+    }
+  }
+}
+
+}
+
+//------------------------------------------------------------------------------
+bool TriangulationRequest::HasWork() const
+{
+  return this->Input->GetNumberOfPoints() > 0 ||
+    (this->Others && this->Others->GetNumberOfPoints() > 0);
+}
+
+bool TriangulationRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) const
+{
+  auto* last = static_cast<TriangulationRun*>(run.get());
+  if (last && last->Fits(*this))
+  {
+    last->Renew(*this);
+    return true;
+  }
+  run.reset(); // its memory may be needed
+  run = std::make_unique<TriangulationRun>(*this);
+  return false;
+}
+
+}

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef UpdateRun_h
+#define UpdateRun_h
+
+#include "DelaunayFlip.h"
+#include "UpdateProgress.h"
+
+#include "vtkCellArray.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkFieldData;
+
+namespace delaunayflip
+{
+
+class UpdateRun;
+
+/// What an update asks for.
+struct UpdateRequest
+{
+  virtual ~UpdateRequest() = default;
+
+  /// Whether there are triangles, or points from which to make them.
+  virtual bool HasWork() const = 0;
+
+  /// Makes `run` the run for this request. It stays the same run if the request has not changed,
+  /// apart from attributes. Otherwise, or if it is null, it becomes another one.
+  /// @returns whether it stayed the same run.
+  /// @throws as FlipSession's constructor. After RunAborted, `run` is what it was, or null.
+  virtual bool ContinueOrStart(std::unique_ptr<UpdateRun>& run) const = 0;
+
+  vtkPolyData* Input = nullptr;
+  vtkPolyData* Others = nullptr; ///< The second input, or null.
+  bool IsLive = false; ///< More updates will follow, and points may be moved in place between them.
+  vtkIdType IterationsPerUpdate = 1; ///< Of a live run; 0 stands for those that fit into 50 ms.
+  ProgressObserver Progress; ///< Kept by the run.
+  std::function<bool()> IsAborted; ///< Asked before a run begins.
+};
+
+/// A mesh that is flipped at once or, in a live update, a few iterations at a time, with an output
+/// after each step.
+class UpdateRun
+{
+public:
+  explicit UpdateRun(UpdatePlan plan)
+    : Plan(std::move(plan))
+  {
+  }
+  virtual ~UpdateRun() = default;
+  UpdateRun(const UpdateRun&) = delete;
+  UpdateRun& operator=(const UpdateRun&) = delete;
+
+  /// Makes all iterations or, in a live update, those of a step.
+  /// @param report receives each iteration when it is done, for observers of the progress.
+  /// @returns whether there is more to do.
+  bool Advance(const UpdateRequest& request, FlipReport& report);
+
+  /// What has happened so far. Its defects name cells of the input.
+  virtual FlipReport GetReport() const = 0;
+
+  /// Writes the mesh as it is now.
+  /// @returns false when the observer stopped it. Then there are no angles.
+  virtual bool Store(vtkPolyData* output) const = 0;
+
+  const FlipSession* GetSession() const { return this->Session.get(); }
+
+  std::string Warning; ///< The text of the last warning.
+
+protected:
+  ProgressObserver GetProgress() const { return this->Plan.For(UpdatePlan::Session); }
+
+  UpdatePlan Plan;
+  vtkSmartPointer<vtkCellArray> Room; ///< For the only output, unless the run is live.
+  std::unique_ptr<FlipSession> Session; ///< May still touch the room when it is destroyed.
+};
+
+/// Makes the runs of a filter. In a live update it keeps the run until the next update.
+///
+/// Its states between two updates:
+///
+///     run   next          can continue  what the next update does
+///     null  StepAndStore  yes           begins a run; the filter is new or was restarted
+///     null  StepAndStore  no            the same, after a failure or without a live update; but
+///                                       nobody is told that there is more to do
+///     kept  StepAndStore  yes           makes a step and puts the mesh out
+///     kept  StepAndStore  no            puts the mesh out, at the end of the run
+///     any   Step          any           makes a step of a kept run and puts nothing out
+///     kept  Store         any           puts the mesh out after such a step
+///
+/// A change of the input or of an option begins another run, whatever the state.
+class RunKeeper
+{
+public:
+  enum class UpdateKind
+  {
+    StepAndStore,
+    Step,
+    Store
+  };
+
+  /// Flips a mesh. Observers may call any other function meanwhile.
+  /// @param report receives what happens while it happens.
+  /// @throws what a run throws. The caller then drops the run.
+  void Update(const UpdateRequest& request, FlipReport& report, vtkPolyData* output);
+
+  /// Frees the run, if there is one.
+  /// @param canContinue whether the next update is asked for as a step of a live run.
+  void Drop(bool canContinue);
+
+  bool HasRun() const { return this->Run != nullptr; }
+
+  /// The session of the run; null if there is no run.
+  const FlipSession* GetSession() const;
+
+  /// Keeps the text of a warning.
+  /// @returns whether it differs from the last one about this run, or there is no run.
+  bool IsNewWarning(const std::string& text);
+
+  bool CanContinue = true; ///< Whether another step can change the mesh.
+  UpdateKind Next = UpdateKind::StepAndStore; ///< What the next update does.
+
+private:
+  std::unique_ptr<UpdateRun> Run;
+};
+
+//------------------------------------------------------------------------------
+/// Makes a shallow copy that has points of its own.
+vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input);
+
+/// How the arrays of an input were, to find out whether they have changed since.
+class Stamps
+{
+public:
+  void AddNumber(vtkIdType number) { this->All.push_back({ nullptr, nullptr, 0, number }); }
+
+  /// @param array may be null.
+  /// @param owner may be marked as modified instead of the array.
+  /// @param since is another time at which the array may have been modified.
+  void AddArray(vtkAbstractArray* array, vtkObject* owner = nullptr, vtkMTimeType since = 0);
+  void AddCells(vtkCellArray* cells);
+  void AddPoints(vtkPolyData* mesh, vtkMTimeType since = 0);
+
+  /// Adds the arrays, and which of them are active.
+  void AddArrays(vtkFieldData* data);
+
+  /// Whether these arrays are the same objects and unchanged, or others with the same values. A
+  /// reader makes others if its output was released and it is executed again.
+  bool Fit(const Stamps& now) const;
+
+private:
+  struct Stamp
+  {
+    vtkSmartPointer<vtkAbstractArray> Array;
+    vtkSmartPointer<vtkObject> Owner;
+    vtkMTimeType Time; ///< No two objects ever have the same one.
+    vtkIdType Count; ///< How many values: cells grow in place without being marked as modified.
+
+    vtkMTimeType FindTime() const;
+    bool Fits(const Stamp& now) const;
+    bool MayHaveSameValues(const Stamp& now) const;
+    bool HasSameValues(const Stamp& now) const;
+  };
+
+  std::vector<Stamp> All;
+};
+
+}
+
+#endif
