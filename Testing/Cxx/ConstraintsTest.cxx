@@ -309,7 +309,7 @@ TEST(ConstraintInsertion, OfTheSecondInputByDefault)
   filter->SetConstraintsData(MakeLines(Lines));
   const std::string warning = RunToWarning(filter);
   ExpectHolds(warning, "1 constraint edge");
-  ExpectHolds(warning, "(first: 16-39)");
+  ExpectHolds(warning, "(first: 16-39 crosses constraint 0 (points 0 and 50))");
   vtkPolyData* output = filter->GetOutput();
   EXPECT_TRUE(HasEdges(output, FirstChain));
   EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), GetNumbers(mesh->GetCellData(), "Number"));
@@ -357,12 +357,15 @@ TEST(ConstraintInsertion, FollowsTheOrderOfTheInput)
   EXPECT_EQ(Constrain(places, byPlace).second, 1);
   EXPECT_FALSE(HasEdges(places->GetOutput(), FirstChain));
   EXPECT_EQ(places->GetNumberOfInsertedConstraintEdges(), 1);
-  ExpectHolds(places.GetWarnings()[0], "(first: 0-50)");
+  ExpectHolds(places.GetWarnings()[0], "(first: 0-50 crosses constraint 0 (points 16 and 39))");
   mesh->SetLines(MakeCells({ { 16, 39 } }));
   WatchedFilter filter(mesh);
   filter->InsertLinesOn(); // which come before the second input
   EXPECT_EQ(Constrain(filter, MakeLines({ { 50, 7 }, { 0, 50 } })).second, 2);
   EXPECT_FALSE(HasEdges(filter->GetOutput(), FirstChain));
   EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 1);
-  ExpectHolds(filter.GetWarnings()[0], "(first: 7-50, 0-50)");
+  ExpectHolds(filter.GetWarnings()[0],
+    "(first: 7-50 crosses constraint 0 (points 16 and 39), 0-50 crosses constraint 0 (points 16 "
+    "and "
+    "39))");
 }
