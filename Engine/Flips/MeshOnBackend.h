@@ -516,8 +516,9 @@ private:
   void Divide(const Real* coordinates, const BuildProgress& progress)
   {
     std::int64_t hullEdges = 0; // the same as before
-    this->Mesh = DividePlaces(reinterpret_cast<const CoordinatePair<Real>*>(coordinates),
-      this->Points.Count, this->Backend, progress, hullEdges);
+    this->Mesh =
+      TriangulateByDivideAndConquer(reinterpret_cast<const CoordinatePair<Real>*>(coordinates),
+        this->Points.Count, this->Backend, progress, hullEdges);
     this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
   }
 

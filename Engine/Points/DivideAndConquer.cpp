@@ -6,6 +6,7 @@
 #include "FlipReport.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <future>
@@ -19,9 +20,9 @@ namespace
 using Edge = std::uint32_t; ///< A directed edge; e ^ 1 runs the other way.
 constexpr Edge None = ~Edge(0);
 constexpr std::chrono::milliseconds Pause(50); ///< Between questions to the caller.
-/// Of places, for which one thread does all. A thread more would take longer to start than it
+/// One thread triangulates up to this many places. A second one would take longer to start than it
 /// saves.
-constexpr std::uint32_t SmallestShared = 1 << 13;
+constexpr std::uint32_t MostForOneThread = 1 << 13;
 
 struct Place
 {
@@ -43,26 +44,26 @@ struct HullPoint
   Edge Leaving;
 };
 
-/// A set of points.
-struct Part
+/// A set of points that has been triangulated.
+struct Subset
 {
-  HullPoint Ends[2][2]; ///< By axis, the first and the last point.
+  HullPoint Ends[2][2]; ///< By axis: the first and the last point.
   Edge FreeHead = None, FreeTail = None; ///< The edges that are not used, linked by Next.
 };
 
-class Divider
+class Triangulator
 {
 public:
-  Divider(std::int64_t count, const Division& division)
-    : Caller(division),
+  Triangulator(std::int64_t count, const DivideAndConquerCaller& caller)
+    : Caller(caller),
       Count(static_cast<std::uint32_t>(count)),
-      Places(count, division.Host),
-      Sides(6 * count, division.Host)
+      Places(count, caller.Host),
+      Sides(6 * count, caller.Host)
   {
   }
 
   /// Solves on the calling thread, which asks meanwhile.
-  DividedPoints SolveHere()
+  PointTriangles SolveHere()
   {
     this->AsksItself = true;
     return this->Solve();
@@ -73,9 +74,9 @@ public:
   /// About the share of Solve that is done.
   double GetShare() const { return static_cast<double>(this->Solved) / this->Count; }
 
-  DividedPoints Solve()
+  PointTriangles Solve()
   {
-    this->ForPieces(this->Count,
+    this->ForTasks(this->Count,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -95,7 +96,11 @@ private:
   /// By (x, y), or by (y, -x): the same order turned by a quarter.
   static bool IsBefore(const Place& p, const Place& q, int axis)
   {
-    return axis == 0 ? (p.U != q.U ? p.U < q.U : p.V < q.V) : (p.V != q.V ? p.V < q.V : p.U > q.U);
+    if (axis == 0)
+    {
+      return p.U < q.U || (p.U == q.U && p.V < q.V);
+    }
+    return p.V < q.V || (p.V == q.V && p.U > q.U);
   }
 
   static bool IsLeftOf(const Place& p, const Place& q) { return IsBefore(p, q, 0); }
@@ -112,18 +117,20 @@ private:
     return { this->Places[place].U, this->Places[place].V, 0.0 };
   }
 
-  int Turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
+  int Orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
   {
     const PlanePoint points[3] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c) };
     const int sign = FilteredOrientation(points[0], points[1], points[2]);
-    return sign != UncertainSign && this->FiltersApply
-      ? sign
-      : ExactOrientation(points[0], points[1], points[2]);
+    if (sign != UncertainSign && this->FiltersApply)
+    {
+      return sign;
+    }
+    return ExactOrientation(points[0], points[1], points[2]);
   }
   /// 1: a point is left of an edge; -1: right.
   int FindSide(Edge e, std::uint32_t point) const
   {
-    return this->Turn(this->Origin(e), this->Destination(e), point);
+    return this->Orient(this->Origin(e), this->Destination(e), point);
   }
 
   bool IsInCircle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const
@@ -131,7 +138,11 @@ private:
     const PlanePoint points[4] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c),
       this->GetPoint(d) };
     const int sign = FilteredInCircle(points[0], points[1], points[2], points[3]);
-    return (sign != UncertainSign && this->FiltersApply ? sign : ExactInCircle(points, false)) > 0;
+    if (sign != UncertainSign && this->FiltersApply)
+    {
+      return sign > 0;
+    }
+    return ExactInCircle(points, false) > 0;
   }
 
   //----------------------------------------------------------------------------
@@ -141,10 +152,10 @@ private:
     this->Sides[next].Previous = e;
   }
 
-  Edge MakeEdge(Part& part, std::uint32_t from, std::uint32_t to)
+  Edge MakeEdge(Subset& set, std::uint32_t from, std::uint32_t to)
   {
-    const Edge e = part.FreeHead;
-    part.FreeHead = this->Next(e);
+    const Edge e = set.FreeHead;
+    set.FreeHead = this->Next(e);
     this->Sides[e] = { from, e, e };
     this->Sides[e ^ 1] = { to, e ^ 1, e ^ 1 };
     return e;
@@ -159,28 +170,31 @@ private:
   }
 
   /// A new edge from the destination of `a` to the origin of `b`, left of both.
-  Edge Connect(Part& part, Edge a, Edge b)
+  Edge Connect(Subset& set, Edge a, Edge b)
   {
-    const Edge e = this->MakeEdge(part, this->Destination(a), this->Origin(b));
+    const Edge e = this->MakeEdge(set, this->Destination(a), this->Origin(b));
     this->Splice(e, this->NextLeft(a));
     this->Splice(e ^ 1, b);
     return e;
   }
 
-  void Delete(Part& part, Edge e)
+  void Delete(Subset& set, Edge e)
   {
     this->Splice(e, this->Previous(e));
     this->Splice(e ^ 1, this->Previous(e ^ 1));
     e &= ~Edge(1);
-    this->Sides[e] = { None, part.FreeHead, None };
-    part.FreeTail = part.FreeHead == None ? e : part.FreeTail;
-    part.FreeHead = e;
+    this->Sides[e] = { None, set.FreeHead, None };
+    if (set.FreeHead == None)
+    {
+      set.FreeTail = e;
+    }
+    set.FreeHead = e;
   }
 
   //----------------------------------------------------------------------------
-  /// Triangulates a range of places. It is cut where a strip begins, and one strip in the order of
-  /// x.
-  Part Solve(std::uint32_t begin, std::uint32_t end, bool isStrip)
+  /// Triangulates a range of places. It is cut where a strip begins, and one strip is cut in the
+  /// order of x.
+  Subset Solve(std::uint32_t begin, std::uint32_t end, bool isStrip)
   {
     const std::uint32_t size = end - begin;
     isStrip = isStrip || this->JoinsFew(begin, end);
@@ -188,19 +202,24 @@ private:
     {
       return this->SolveFew(begin, end);
     }
-    const int axis = isStrip ? 0 : 1;
-    const std::uint32_t middle = isStrip ? begin + size / 2 : this->FindStrip(begin, end);
-    Part halves[2];
+    int axis = 0;
+    std::uint32_t bounds[3] = { begin, begin + size / 2, end };
+    if (!isStrip)
+    {
+      axis = 1;
+      bounds[1] = this->FindStrip(begin, end);
+    }
+    Subset halves[2];
     const auto solve = [&](std::int64_t i)
     {
-      const std::uint32_t first = i == 0 ? begin : middle, last = i == 0 ? middle : end;
-      halves[i] = this->Solve(first, last, isStrip);
-      if (size > SmallestShared && last - first <= SmallestShared)
+      const std::uint32_t half = bounds[i + 1] - bounds[i];
+      halves[i] = this->Solve(bounds[i], bounds[i + 1], isStrip);
+      if (size > MostForOneThread && half <= MostForOneThread)
       {
-        this->Solved += last - first;
+        this->Solved += half;
       }
     };
-    if (size > SmallestShared)
+    if (size > MostForOneThread)
     {
       this->Run(2, solve);
     }
@@ -212,8 +231,8 @@ private:
     return this->Merge(halves[0], halves[1], axis);
   }
 
-  /// Joins the strips of a range to one if they are few: then fewer edges are made and deleted than
-  /// by merges of thin parts. If there are more, the cut nearest to the middle leaves at least two
+  /// Joins the strips of a range to one if they are few. Then fewer edges are made and deleted than
+  /// by merges of thin sets. If there are more, the cut nearest to the middle leaves at least two
   /// places on each side.
   /// @returns whether the range is one strip now.
   bool JoinsFew(std::uint32_t begin, std::uint32_t end)
@@ -265,62 +284,85 @@ private:
   }
 
   /// Two or three sorted places.
-  Part SolveFew(std::uint32_t begin, std::uint32_t end)
+  Subset SolveFew(std::uint32_t begin, std::uint32_t end)
   {
-    Part part{ {}, 6 * begin, 6 * end - 2 };
-    for (Edge e = part.FreeHead; e < part.FreeTail; e += 2)
+    Subset set{ {}, 6 * begin, 6 * end - 2 };
+    for (Edge e = set.FreeHead; e < set.FreeTail; e += 2)
     {
       this->Sides[e] = { None, e + 2, None };
     }
-    this->Sides[part.FreeTail] = { None, None, None };
-    const Edge a = this->MakeEdge(part, begin, begin + 1);
-    Edge leaving[3] = { a, a ^ 1, None }; // hull edges, of each point
+    this->Sides[set.FreeTail] = { None, None, None };
+    const Edge a = this->MakeEdge(set, begin, begin + 1);
+    std::array<Edge, 3> leaving{ a, a ^ 1, None }; // by point: the edge of the hull
     if (end - begin == 3)
     {
-      const Edge b = this->MakeEdge(part, begin + 1, begin + 2);
+      const Edge b = this->MakeEdge(set, begin + 1, begin + 2);
       this->Splice(a ^ 1, b);
-      const int turn = this->Turn(begin, begin + 1, begin + 2);
-      const Edge c = turn != 0 ? this->Connect(part, b, a) : b ^ 1;
-      leaving[0] = turn < 0 ? c ^ 1 : a;
-      leaving[1] = turn < 0 ? a ^ 1 : b;
-      leaving[2] = turn < 0 ? b ^ 1 : c;
+      const int orientation = this->Orient(begin, begin + 1, begin + 2);
+      leaving = { a, b, b ^ 1 }; // if the points are on one line
+      if (orientation > 0)
+      {
+        leaving[2] = this->Connect(set, b, a);
+      }
+      else if (orientation < 0)
+      {
+        const Edge c = this->Connect(set, b, a);
+        leaving = { c ^ 1, a ^ 1, b ^ 1 };
+      }
     }
     for (int i = 0; i < 2; ++i)
     {
-      part.Ends[i][0] = part.Ends[i][1] = { begin, leaving[0] };
+      set.Ends[i][0] = set.Ends[i][1] = { begin, leaving[0] };
       for (std::uint32_t k = 1; k < end - begin; ++k)
       {
         const HullPoint point{ begin + k, leaving[k] };
-        this->TakeEnds(i, { point, point }, part);
+        this->TakeEnds(i, { point, point }, set);
       }
     }
-    return part;
+    return set;
   }
 
-  /// Replaces the ends of a part by others that are further out.
-  void TakeEnds(int axis, const HullPoint (&ends)[2], Part& part) const
+  /// Replaces the ends of a set by others that are further out.
+  void TakeEnds(int axis, const HullPoint (&ends)[2], Subset& set) const
   {
     const auto isBefore = [&](const HullPoint& a, const HullPoint& b)
     { return IsBefore(this->Places[a.At], this->Places[b.At], axis); };
-    HullPoint(&own)[2] = part.Ends[axis];
-    own[0] = isBefore(ends[0], own[0]) ? ends[0] : own[0];
-    own[1] = isBefore(own[1], ends[1]) ? ends[1] : own[1];
+    HullPoint(&own)[2] = set.Ends[axis];
+    if (isBefore(ends[0], own[0]))
+    {
+      own[0] = ends[0];
+    }
+    if (isBefore(own[1], ends[1]))
+    {
+      own[1] = ends[1];
+    }
   }
 
-  Part Merge(const Part& left, const Part& right, int axis)
+  /// The edges of two sets that are not used become those of their union.
+  void JoinFreeEdges(const Subset& left, const Subset& right, Subset& set)
   {
-    Part part = left;
-    for (int i = 0; i < 2; ++i)
+    if (left.FreeHead == None)
     {
-      this->TakeEnds(i, right.Ends[i], part);
+      set.FreeHead = right.FreeHead;
+      set.FreeTail = right.FreeTail;
     }
-    part.FreeHead = left.FreeHead == None ? right.FreeHead : left.FreeHead;
-    part.FreeTail = right.FreeHead == None ? left.FreeTail : right.FreeTail;
-    if (left.FreeHead != None && right.FreeHead != None)
+    else if (right.FreeHead != None)
     {
       this->Sides[left.FreeTail].Next = right.FreeHead;
+      set.FreeTail = right.FreeTail;
     }
-    // Out of the last point clockwise: the edge before the one counter-clockwise.
+  }
+
+  Subset Merge(const Subset& left, const Subset& right, int axis)
+  {
+    Subset set = left;
+    for (int i = 0; i < 2; ++i)
+    {
+      this->TakeEnds(i, right.Ends[i], set);
+    }
+    this->JoinFreeEdges(left, right, set);
+    // The edge of the hull that leaves the last point clockwise precedes the one that leaves it
+    // counter-clockwise.
     Edge l = this->Previous(left.Ends[axis][1].Leaving), r = right.Ends[axis][0].Leaving;
     for (;;) // the lower common tangent
     {
@@ -337,56 +379,66 @@ private:
         break;
       }
     }
-    Edge base = this->Connect(part, r ^ 1, l);
-    this->ReplaceEnds(base ^ 1, part);
+    Edge base = this->Connect(set, r ^ 1, l);
+    this->ReplaceEnds(base ^ 1, set);
     for (;;)
     {
       this->Check();
-      const Edge leftCandidate = this->FindCandidate(part, base, true);
-      const Edge rightCandidate = this->FindCandidate(part, base, false);
+      const Edge leftCandidate = this->FindCandidate(set, base, true);
+      const Edge rightCandidate = this->FindCandidate(set, base, false);
       if (leftCandidate == None && rightCandidate == None)
       {
-        this->ReplaceEnds(base, part); // now the upper tangent
-        return part;
+        this->ReplaceEnds(base, set); // now the upper tangent
+        return set;
       }
       const bool takesRight = leftCandidate == None ||
         (rightCandidate != None &&
           this->IsInCircle(this->Destination(leftCandidate), this->Origin(leftCandidate),
             this->Origin(rightCandidate), this->Destination(rightCandidate)));
-      base = takesRight ? this->Connect(part, rightCandidate, base ^ 1)
-                        : this->Connect(part, base ^ 1, leftCandidate ^ 1);
+      if (takesRight)
+      {
+        base = this->Connect(set, rightCandidate, base ^ 1);
+      }
+      else
+      {
+        base = this->Connect(set, base ^ 1, leftCandidate ^ 1);
+      }
     }
   }
 
   /// Takes a new edge of the hull into the ends.
-  void ReplaceEnds(Edge made, Part& part) const
+  void ReplaceEnds(Edge made, Subset& set) const
   {
-    for (auto& ends : part.Ends)
+    for (auto& ends : set.Ends)
     {
       for (HullPoint& end : ends)
       {
-        end.Leaving = end.At == this->Origin(made) ? made : end.Leaving;
+        if (end.At == this->Origin(made))
+        {
+          end.Leaving = made;
+        }
       }
     }
   }
 
   /// The next edge above the base on one side, after the edges that are not Delaunay any more have
   /// been deleted; None if there is none above it.
-  Edge FindCandidate(Part& part, Edge base, bool isLeft)
+  Edge FindCandidate(Subset& set, Edge base, bool isLeft)
   {
-    const auto step = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
-    const Edge last = isLeft ? base ^ 1 : base; // which comes round again
-    Edge candidate = step(last);
+    // The edges around this end of the base, which comes round again.
+    const auto follow = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
+    const Edge last = isLeft ? base ^ 1 : base;
+    Edge candidate = follow(last);
     if (this->FindSide(base, this->Destination(candidate)) >= 0)
     {
       return None;
     }
-    for (Edge next = step(candidate); next != last &&
+    for (Edge next = follow(candidate); next != last &&
          this->IsInCircle(this->Destination(base), this->Origin(base), this->Destination(candidate),
            this->Destination(next));
-         next = step(candidate))
+         next = follow(candidate))
     {
-      this->Delete(part, candidate);
+      this->Delete(set, candidate);
       candidate = next;
     }
     return candidate;
@@ -428,18 +480,18 @@ private:
     }
   }
 
-  /// Calls work(piece, first, end) for pieces of [0, size), on threads.
+  /// Calls work(task, first, end) for ranges of [0, size), on threads.
   template <typename Work>
-  void ForPieces(std::size_t size, const Work& work) const
+  void ForTasks(std::size_t size, const Work& work) const
   {
-    this->Run(static_cast<std::int64_t>((size + Piece - 1) / Piece),
-      [&](std::int64_t i) { work(i, i * Piece, std::min(size, (i + 1) * Piece)); });
+    this->Run(static_cast<std::int64_t>((size + TaskSize - 1) / TaskSize),
+      [&](std::int64_t i) { work(i, i * TaskSize, std::min(size, (i + 1) * TaskSize)); });
   }
 
-  DividedPoints Collect(const Part& whole) const
+  PointTriangles Collect(const Subset& whole) const
   {
     const auto sides = static_cast<Edge>(6 * std::size_t(this->Count));
-    // Of the triangle on the left, if there is one.
+    // By side: the corner of the triangle on the left, if there is one.
     Array<CornerId> cornerOf(sides, this->Caller.Host);
     Array<bool> isLeading(sides, this->Caller.Host);
     const Edge outside = whole.Ends[0][0].Leaving ^ 1u;
@@ -456,28 +508,28 @@ private:
       return e < third && this->NextLeft(third) == e && e != outside && second != outside &&
         third != outside;
     };
-    std::vector<std::int64_t> usedOf(sides / Piece + 1, 0), firstOf(sides / Piece + 2, 0);
-    this->ForPieces(sides,
-      [&](std::size_t piece, std::size_t first, std::size_t end)
+    std::vector<std::int64_t> usedOf(sides / TaskSize + 1, 0), firstOf(sides / TaskSize + 2, 0);
+    this->ForTasks(sides,
+      [&](std::size_t task, std::size_t first, std::size_t end)
       {
         for (std::size_t i = first; i < end; ++i)
         {
           const auto e = static_cast<Edge>(i);
           cornerOf[e] = NoCorner;
-          usedOf[piece] += isUsed(e) ? 1 : 0;
+          usedOf[task] += isUsed(e) ? 1 : 0;
           isLeading[e] = isUsed(e) && leads(e);
-          firstOf[piece + 1] += isLeading[e] ? 1 : 0;
+          firstOf[task + 1] += isLeading[e] ? 1 : 0;
         }
       });
     std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
     const auto triangles = static_cast<std::size_t>(firstOf.back());
-    DividedPoints made{ Array<TriangleRecord>(triangles, this->Caller.Host),
+    PointTriangles made{ Array<TriangleRecord>(triangles, this->Caller.Host),
       std::accumulate(usedOf.begin(), usedOf.end(), -3 * firstOf.back()) };
     const auto placeOf = [&](Edge side) { return this->Places[this->Origin(side)].Number; };
-    this->ForPieces(sides,
-      [&](std::size_t piece, std::size_t begin, std::size_t end)
+    this->ForTasks(sides,
+      [&](std::size_t task, std::size_t begin, std::size_t end)
       {
-        auto number = static_cast<TriangleId>(firstOf[piece]);
+        auto number = static_cast<TriangleId>(firstOf[task]);
         for (std::size_t i = begin; i < end; ++i)
         {
           const auto first = static_cast<Edge>(i);
@@ -493,7 +545,7 @@ private:
           }
         }
       });
-    this->ForPieces(triangles,
+    this->ForTasks(triangles,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -508,45 +560,46 @@ private:
   }
 
   /// How many sides or triangles a task has.
-  static constexpr std::size_t Piece = std::size_t(1) << 16;
+  static constexpr std::size_t TaskSize = std::size_t(1) << 16;
 
-  const Division& Caller;
+  const DivideAndConquerCaller& Caller;
   const std::uint32_t Count;
-  Array<Place> Places; ///< In the order of the parts.
-  Array<Side> Sides; ///< Of edge e; e ^ 1 is its other side.
+  Array<Place> Places; ///< In the order in which strips have been joined.
+  Array<Side> Sides; ///< By directed edge.
   std::atomic<bool> FiltersApply{ true };
   std::atomic<bool> IsStopped{ false };
   bool AsksItself = false; ///< Then all is done on one thread.
-  mutable std::uint32_t Calls = 0; ///< Of Ask.
+  mutable std::uint32_t Calls = 0; ///< How often Ask was called.
   mutable std::chrono::steady_clock::time_point NextQuestion =
     std::chrono::steady_clock::now() + Pause;
-  /// Places in parts that one thread has solved. Not in the cache line of what all threads read.
+  /// How many places single threads have solved. It is in another cache line than what all threads
+  /// read.
   alignas(64) std::atomic<std::uint32_t> Solved{ 0 };
 };
 }
 
-DividedPoints DivideAndConquer(std::int64_t count, const Division& division)
+PointTriangles DivideAndConquer(std::int64_t count, const DivideAndConquerCaller& caller)
 {
-  Divider divider(count, division);
-  if (count <= SmallestShared)
+  Triangulator triangulator(count, caller);
+  if (count <= MostForOneThread)
   {
-    return divider.SolveHere();
+    return triangulator.SolveHere();
   }
-  // On a thread beside this one, or if the system has none left on this one.
-  std::future<DividedPoints> divided = std::async([&]() { return divider.Solve(); });
+  // It runs on a thread beside this one, or on this one if the system has none left.
+  std::future<PointTriangles> made = std::async([&]() { return triangulator.Solve(); });
   try
   {
-    while (divided.wait_for(Pause) == std::future_status::timeout)
+    while (made.wait_for(Pause) == std::future_status::timeout)
     {
-      division.Tell(divider.GetShare());
+      caller.Tell(triangulator.GetShare());
     }
   }
   catch (...)
   {
-    divider.Stop();
+    triangulator.Stop();
     throw; // once it has ended
   }
-  return divided.get();
+  return made.get();
 }
 
 }

@@ -12,26 +12,27 @@
 /// @file
 /// The Delaunay triangulation of points on the host, by divide and conquer (Guibas and Stolfi, ACM
 /// Transactions on Graphics 4, 1985): strips are cut in the order of x, and merged in that of y. It
-/// takes O(n log n) steps whatever the points are. Where strips leave a start from which flips are
-/// a long chain, as for points along curves, this takes over.
+/// takes O(n log n) time whatever the points are. It takes over where strips leave a start from
+/// which flips are a long chain, as for points along curves.
 
 namespace delaunayflip
 {
 
 /// What DivideAndConquer needs of its caller.
-struct Division
+struct DivideAndConquerCaller
 {
   /// Calls work(task) for task = 0 .. count - 1, on threads.
   std::function<void(std::int64_t count, const std::function<void(std::int64_t)>& work)> Run;
   /// A place, on any thread.
   std::function<CoordinatePair<double>(std::int64_t)> GetPlace;
-  /// Is told the share of the work that is done, on the calling thread, every twentieth of a
+  /// Receives the share of the work that is done, on the calling thread, every twentieth of a
   /// second. It may throw, which ends the work.
   std::function<void(double)> Tell;
   Memory& Host; ///< Thread-safe.
 };
 
-struct DividedPoints
+/// A triangulation of places.
+struct PointTriangles
 {
   /// Vertices are numbers of places; HalfEdges hold the other corners, or NoCorner.
   Array<TriangleRecord> Triangles;
@@ -39,9 +40,9 @@ struct DividedPoints
 };
 
 /// Triangulates places, no two of which are equal, in the order of strips (Strips.h). All triangles
-/// turn to the left and have an area; no point is inside a circumcircle. Which of two diagonals is
-/// used for four points on a circle depends on the order of the places.
-DividedPoints DivideAndConquer(std::int64_t count, const Division& division);
+/// are counter-clockwise and have an area. No point is inside a circumcircle. Which of two
+/// diagonals is used for four points on a circle depends on the order of the places.
+PointTriangles DivideAndConquer(std::int64_t count, const DivideAndConquerCaller& caller);
 
 }
 

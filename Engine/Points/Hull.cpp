@@ -3,71 +3,98 @@
 #include "Hull.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace delaunayflip
 {
 
-std::vector<BoundaryPart> ListBoundary(
-  const std::vector<std::uint32_t>& starts, const std::vector<Gap>& gaps)
+namespace
 {
-  std::vector<BoundaryPart> parts;
-  const auto firstSlot = [&](std::size_t gap)
-  { return std::int64_t(starts[gap]) + starts[gap + 1] - starts[1]; };
-  const auto addEnd = [&](std::size_t gap, bool isRight)
-  {
-    const std::uint32_t run = isRight ? gaps[gap].RightRun : gaps[gap].LeftRun;
-    const bool rises = isRight ? !gaps[gap].RightIsLower : !gaps[gap].LeftIsLower;
-    // The outermost places of the two chains.
-    const std::uint32_t lower = isRight ? starts[gap + 1] - 1 : starts[gap];
-    const std::uint32_t upper = isRight ? starts[gap + 2] - 1 : starts[gap + 1];
-    const std::uint32_t own = rises ? upper : lower;
-    const std::int64_t slot = isRight ? firstSlot(gap + 1) - run : firstSlot(gap) + run;
-    parts.push_back({ isRight ? own - run + 1 : own, isRight ? own : own + run - 1, rises,
-      rises == isRight, rises ? lower : upper, LabelDiagonal(starts.back(), slot) });
-  };
-  parts.push_back({ 0, starts[1] - 1, true, false });
-  for (std::size_t gap = 0; gap < gaps.size(); ++gap)
-  {
-    addEnd(gap, true);
-  }
-  parts.push_back({ starts[starts.size() - 2], starts.back() - 1, false, false });
-  for (std::size_t gap = gaps.size(); gap-- > 0;)
-  {
-    addEnd(gap, false);
-  }
-  return parts;
+/// The first slot of a gap, counted through all gaps.
+std::int64_t FindFirstSlot(const std::vector<std::uint32_t>& starts, std::size_t gap)
+{
+  return std::int64_t(starts[gap]) + starts[gap + 1] - starts[1];
 }
 
-std::vector<BoundaryPiece> CutIntoPieces(const std::vector<BoundaryPart>& parts)
+/// The section at the left end of a gap.
+BoundarySection MakeLeftSection(
+  const std::vector<std::uint32_t>& starts, std::size_t gap, const Gap& measured)
 {
-  constexpr std::uint32_t LongestPiece = 256; // one thread of a GPU takes about a millisecond
-  std::vector<BoundaryPiece> pieces;
-  std::uint32_t begin = 0;
-  for (const BoundaryPart& part : parts)
+  const std::uint32_t lower = starts[gap];
+  const std::uint32_t upper = starts[gap + 1];
+  const std::uint32_t run = measured.LeftRun;
+  const CornerId diagonal = LabelDiagonal(starts.back(), FindFirstSlot(starts, gap) + run);
+  if (measured.LeftIsLower)
   {
-    for (std::uint32_t first = part.First; first < part.Last; first += LongestPiece)
+    return { lower, lower + run - 1, false, true, upper, diagonal };
+  }
+  return { upper, upper + run - 1, true, false, lower, diagonal };
+}
+
+/// The section at the right end of a gap.
+BoundarySection MakeRightSection(
+  const std::vector<std::uint32_t>& starts, std::size_t gap, const Gap& measured)
+{
+  const std::uint32_t lower = starts[gap + 1] - 1;
+  const std::uint32_t upper = starts[gap + 2] - 1;
+  const std::uint32_t run = measured.RightRun;
+  const CornerId diagonal = LabelDiagonal(starts.back(), FindFirstSlot(starts, gap + 1) - run);
+  if (measured.RightIsLower)
+  {
+    return { lower - run + 1, lower, false, false, upper, diagonal };
+  }
+  return { upper - run + 1, upper, true, true, lower, diagonal };
+}
+}
+
+std::vector<BoundarySection> ListBoundary(
+  const std::vector<std::uint32_t>& starts, const std::vector<Gap>& gaps)
+{
+  std::vector<BoundarySection> sections;
+  sections.push_back({ 0, starts[1] - 1, true, false });
+  for (std::size_t gap = 0; gap < gaps.size(); ++gap)
+  {
+    sections.push_back(MakeRightSection(starts, gap, gaps[gap]));
+  }
+  sections.push_back({ starts[starts.size() - 2], starts.back() - 1, false, false });
+  for (std::size_t gap = gaps.size(); gap-- > 0;)
+  {
+    sections.push_back(MakeLeftSection(starts, gap, gaps[gap]));
+  }
+  return sections;
+}
+
+std::vector<BoundaryStretch> CutIntoStretches(const std::vector<BoundarySection>& sections)
+{
+  constexpr std::uint32_t LongestStretch = 256; // one thread of a GPU takes about a millisecond
+  std::vector<BoundaryStretch> stretches;
+  std::uint32_t begin = 0;
+  for (const BoundarySection& section : sections)
+  {
+    for (std::uint32_t first = section.First; first < section.Last; first += LongestStretch)
     {
-      const std::uint32_t size = std::min(part.Last - first, LongestPiece) + 1;
-      pieces.push_back({ first, size, part.Rises, begin, 0, NoCorner });
+      const std::uint32_t size = std::min(section.Last - first, LongestStretch) + 1;
+      stretches.push_back({ first, size, section.Rises, begin, 0, NoCorner });
       begin += size - 2;
     }
   }
-  return pieces;
+  return stretches;
 }
 
-Boundary JoinPieces(const std::vector<BoundaryPart>& parts, const std::vector<LabelledVertex>& left)
+Boundary JoinStretches(
+  const std::vector<BoundarySection>& sections, const std::vector<LabelledVertex>& left)
 {
   Boundary boundary;
   auto next = left.begin();
   std::vector<LabelledVertex> chain;
-  for (const BoundaryPart& part : parts)
+  for (const BoundarySection& section : sections)
   {
-    chain = { { part.First, NoCorner } };
-    while (chain.back().Vertex != part.Last)
+    chain = { { section.First, NoCorner } };
+    while (chain.back().Vertex != section.Last)
     {
       chain.push_back(*next++);
     }
-    if (!part.Rises)
+    if (!section.Rises)
     {
       std::reverse(chain.begin(), chain.end());
       for (std::size_t i = chain.size() - 1; i > 0; --i)
@@ -75,17 +102,18 @@ Boundary JoinPieces(const std::vector<BoundaryPart>& parts, const std::vector<La
         chain[i].Label = chain[i - 1].Label; // now it comes before the other end of its edge
       }
     }
-    chain.front().Label = part.Diagonal; // only used if the other place comes before it
-    if (part.Other != NoVertex)
+    chain.front().Label = section.Diagonal; // only used if the other place comes before it
+    if (section.Other != NoVertex)
     {
-      chain.insert(part.OtherIsFirst ? chain.begin() : chain.end(), { part.Other, part.Diagonal });
+      const auto where = section.OtherIsFirst ? chain.begin() : chain.end();
+      chain.insert(where, { section.Other, section.Diagonal });
     }
     for (const LabelledVertex& vertex : chain)
     {
       boundary.Places.push_back(vertex.Vertex);
       boundary.Labels.push_back(vertex.Label);
     }
-    boundary.PartEnds.push_back(boundary.Places.size());
+    boundary.SectionEnds.push_back(boundary.Places.size());
   }
   return boundary;
 }
@@ -102,7 +130,7 @@ HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePai
   // Cuts a path that leads from `left` through all other vertices, and keeps what is left of it.
   const auto cut = [&](VertexId left, std::vector<LabelledVertex>& path)
   {
-    EarCutter<double> cutter{ chains, { &path.front().Vertex, &path.front().Label, 2 },
+    EarCutter<double> cutter{ chains, PathList(path.data()),
       static_cast<std::uint32_t>(path.size() - 1), left, path.back().Vertex, path.back().Label,
       true, NoCorner, next };
     cutter.Cut();
@@ -110,26 +138,26 @@ HullTriangles FillHull(const Boundary& boundary, const std::vector<CoordinatePai
     path.resize(cutter.Size);
     path.push_back({ cutter.Right, cutter.LastLabel });
   };
-  std::vector<LabelledVertex> whole, part;
+  std::vector<LabelledVertex> whole, section;
   std::size_t begin = 0;
-  for (const std::size_t end : boundary.PartEnds)
+  for (const std::size_t end : boundary.SectionEnds)
   {
-    part.clear();
+    section.clear();
     for (std::size_t i = begin + 1; i < end; ++i)
     {
-      part.push_back({ static_cast<VertexId>(i), boundary.Labels[i] });
+      section.push_back({ static_cast<VertexId>(i), boundary.Labels[i] });
     }
-    if (!part.empty())
+    if (!section.empty())
     {
-      cut(static_cast<VertexId>(begin), part);
-      whole.insert(whole.end(), part.begin(), part.end());
+      cut(static_cast<VertexId>(begin), section);
+      whole.insert(whole.end(), section.begin(), section.end());
     }
     begin = end;
   }
   const auto isLower = [&](const LabelledVertex& first, const LabelledVertex& second)
   {
     const CoordinatePair<double>&a = places[first.Vertex], &b = places[second.Vertex];
-    return a.V != b.V ? a.V < b.V : a.U < b.U;
+    return std::tie(a.V, a.U) < std::tie(b.V, b.U);
   };
   std::rotate(
     whole.begin(), std::min_element(whole.begin(), whole.end(), isLower) + 1, whole.end());

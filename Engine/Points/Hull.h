@@ -9,51 +9,53 @@
 #include <vector>
 
 /// @file
-/// The third part of a triangulation of points: what lies between the outermost chains and
+/// The third step of a triangulation of points fills what lies between the outermost chains and
 /// diagonals and the convex hull.
 ///
-/// The parts of the outer boundary are the lowest chain, the highest one, and the two ends of every
-/// gap. First the chains of each part are cut into short pieces, which are filled alone, on a
-/// backend: of a ring, half of the points are in them. What is left is short, so the host does the
-/// rest for every backend. It fills each part alone. Then the whole boundary rises from its lowest
-/// point to its highest and falls back, so that cutting ears along all of it ends at the convex
-/// hull. Without filling the parts first that is not valid: triangles would overlap.
+/// The sections of the outer boundary are the lowest chain, the highest one, and the two ends of
+/// every gap. First the chain of each section is cut into short stretches, which are filled alone,
+/// on a backend. Where the points are a ring, half of them are in stretches. What is left is short,
+/// so the host does the rest for every backend. It fills each section alone. Then the whole
+/// boundary rises from its lowest point to its highest and falls back, so that cutting ears along
+/// all of it ends at the convex hull. Triangles would overlap if the sections were not filled
+/// first.
 
 namespace delaunayflip
 {
 
-/// A part of the outer boundary, which is counter-clockwise: places of a chain and, joined to them
-/// by a diagonal, perhaps one of another chain.
-struct BoundaryPart
+/// A section of the outer boundary, which is counter-clockwise: places of a chain and, joined to
+/// them by a diagonal, perhaps one of another chain.
+struct BoundarySection
 {
-  std::uint32_t First, Last; ///< Of the chain.
+  std::uint32_t First, Last; ///< The places of the chain.
   bool Rises; ///< Whether the boundary goes from First to Last, so that it is below the chain.
-  bool OtherIsFirst;
-  std::uint32_t Other = NoVertex;
-  CornerId Diagonal = NoCorner; ///< Its label.
+  bool OtherIsFirst; ///< Whether the boundary reaches Other before the places of the chain.
+  std::uint32_t Other = NoVertex; ///< The place of the other chain.
+  CornerId Diagonal = NoCorner; ///< The label of the diagonal.
 };
 
 /// @param starts, gaps as in ChainView.
-std::vector<BoundaryPart> ListBoundary(
+std::vector<BoundarySection> ListBoundary(
   const std::vector<std::uint32_t>& starts, const std::vector<Gap>& gaps);
 
-/// Cuts the chains of all parts into pieces.
-std::vector<BoundaryPiece> CutIntoPieces(const std::vector<BoundaryPart>& parts);
+/// Cuts the chains of all sections into stretches.
+std::vector<BoundaryStretch> CutIntoStretches(const std::vector<BoundarySection>& sections);
 
 /// The outer boundary.
 struct Boundary
 {
   std::vector<std::uint32_t> Places;
-  std::vector<CornerId> Labels; ///< Of the edge before each place in its part.
-  std::vector<std::size_t> PartEnds; ///< A part begins with the place where the one before ends.
+  std::vector<CornerId> Labels; ///< By place: the label of the edge before it in its section.
+  /// A section begins with the place where the one before ends.
+  std::vector<std::size_t> SectionEnds;
 };
 
-/// The boundary after its pieces have been filled.
-/// @param left of all pieces.
-Boundary JoinPieces(
-  const std::vector<BoundaryPart>& parts, const std::vector<LabelledVertex>& left);
+/// The boundary after its stretches have been filled.
+/// @param left what is left of all stretches.
+Boundary JoinStretches(
+  const std::vector<BoundarySection>& sections, const std::vector<LabelledVertex>& left);
 
-/// The triangles outside of all mountains and pieces.
+/// The triangles outside of all mountains and stretches.
 struct HullTriangles
 {
   /// Vertices are places, half-edges are labels of the edges, corners as in the whole mesh.

@@ -8,6 +8,7 @@
 #include "HostDevice.h"
 #include "Strips.h"
 
+#include <algorithm>
 #include <cstdint>
 
 /// @file
@@ -15,11 +16,12 @@
 ///
 /// The points of two neighbouring chains, merged by (x, y), are the slots of their gap. Wherever
 /// two consecutive slots are of different chains, the segment between their points crosses nothing:
-/// this is a diagonal. The diagonals cut the gap into mountains: a mountain is a run of slots of
-/// one chain and, as its base, the edge of the other chain that spans it. (Fournier and Montuno,
-/// ACM Transactions on Graphics 3, 1984; Chazelle and Incerpi, the same volume.) A run of k points
-/// is triangulated by k triangles, by cutting ears. The runs at the two ends of a gap have no base;
-/// what lies beyond the outermost diagonals is left to Hull.h.
+/// this is a diagonal. The diagonals cut the gap into mountains, which the literature calls
+/// unimonotone polygons: a mountain is a run of slots of one chain and, as its base, the edge of
+/// the other chain that spans it. (Fournier and Montuno, ACM Transactions on Graphics 3, 1984;
+/// Chazelle and Incerpi, the same volume.) A run of k points is triangulated by k triangles, by
+/// cutting ears. The runs at the two ends of a gap have no base. Hull.h fills what lies beyond the
+/// outermost diagonals.
 
 namespace delaunayflip
 {
@@ -50,15 +52,16 @@ template <typename Real>
 struct ChainView
 {
   const CoordinatePair<Real>* Places;
-  const std::uint32_t* Starts; ///< Of every chain its first place, and the number of places.
+  const std::uint32_t* Starts; ///< By chain: its first place. The number of places comes last.
   std::int64_t Chains;
-  std::uint32_t Count; ///< Of all places.
-  const Gap* Gaps; ///< Of every chain but the last one.
+  std::uint32_t Count; ///< How many places there are.
+  const Gap* Gaps; ///< By chain: the gap above it. The last chain has none.
   TriangleRecord* Triangles;
   TriangleId FirstTriangle; ///< The number of Triangles[0].
-  CornerPair*
-    Sides; ///< Of every edge of a chain (below, above) and diagonal (left, right); or null.
-  std::int32_t* Failed; ///< Set to 1 if a device cannot decide a turn.
+  /// The corners on both sides of every edge of a chain (below, above) and of every diagonal (left,
+  /// right); or null.
+  CornerPair* Sides;
+  std::int32_t* Failed; ///< Set to 1 if a device cannot decide an orientation.
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPoint(VertexId place) const
   {
@@ -66,7 +69,7 @@ struct ChainView
     return { point.U, point.V, 0.0 };
   }
 
-  DELAUNAYFLIP_HOST_DEVICE int Turn(VertexId a, VertexId b, VertexId c) const
+  DELAUNAYFLIP_HOST_DEVICE int Orient(VertexId a, VertexId b, VertexId c) const
   {
     const int sign = FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
     if (sign == UncertainSign)
@@ -109,11 +112,13 @@ struct ChainView
       // Edges of chains lead to the right where their places ascend, diagonals up.
       const bool isDiagonal = label >> 2 >= this->Count;
       const bool isSecond = ((from < to) == isDiagonal) == onRight;
-      (isSecond ? this->Sides[label >> 2].B : this->Sides[label >> 2].A) = corner;
+      CornerPair& sides = this->Sides[label >> 2];
+      CornerId& side = isSecond ? sides.B : sides.A;
+      side = corner;
     }
   }
 
-  /// Does so for all edges of a triangle, whose HalfEdges are their labels.
+  /// Does so for all edges of a triangle. Its HalfEdges are the labels of its edges.
   DELAUNAYFLIP_HOST_DEVICE void AttachTriangle(TriangleId number) const
   {
     const TriangleRecord triangle = this->GetTriangle(number);
@@ -132,16 +137,21 @@ DELAUNAYFLIP_HOST_DEVICE Gap MeasureGap(const ChainView<Real>& chains, std::int6
   const std::uint32_t lower = chains.Starts[gap];
   const std::uint32_t upper = chains.Starts[gap + 1];
   const std::uint32_t end = chains.Starts[gap + 2];
-  // The first of the lower chain that does not come before a place of the upper one, and the
-  // reverse.
-  const auto endOfLower = [&](std::uint32_t place)
-  { return FindEnd(lower, upper, [&](auto other) { return chains.IsBefore(other, place); }); };
-  const auto endOfUpper = [&](std::uint32_t place)
-  { return FindEnd(upper, end, [&](auto other) { return !chains.IsBefore(place, other); }); };
-  const std::uint32_t fromUpper = endOfUpper(lower) - upper;
-  const std::uint32_t lowerAtEnd = upper - endOfLower(end - 1);
-  return { fromUpper > 0 ? fromUpper : endOfLower(upper) - lower,
-    lowerAtEnd > 0 ? lowerAtEnd : end - endOfUpper(upper - 1), fromUpper == 0, lowerAtEnd > 0, 0 };
+  // How many places of one chain come before a place of the other one.
+  const auto countLower = [&](std::uint32_t place)
+  {
+    return FindEnd(lower, upper, [&](auto other) { return chains.IsBefore(other, place); }) - lower;
+  };
+  const auto countUpper = [&](std::uint32_t place) {
+    return FindEnd(upper, end, [&](auto other) { return !chains.IsBefore(place, other); }) - upper;
+  };
+  // The first slots are of one chain, and so are the last ones: one of two counts is 0.
+  const std::uint32_t lowerAtBegin = countLower(upper);
+  const std::uint32_t upperAtBegin = countUpper(lower);
+  const std::uint32_t lowerAtEnd = (upper - lower) - countLower(end - 1);
+  const std::uint32_t upperAtEnd = (end - upper) - countUpper(upper - 1);
+  return { lowerAtBegin + upperAtBegin, lowerAtEnd + upperAtEnd, lowerAtBegin > 0, lowerAtEnd > 0,
+    0 };
 }
 
 /// A vertex of a path, and the label of the edge before it.
@@ -151,24 +161,58 @@ struct LabelledVertex
   CornerId Label;
 };
 
-/// The vertices of a path between its two ends, and the labels of the edges before them.
-struct EarPath
+/// The list from which an EarCutter works: the inner vertices of a path with their labels.
+struct PathList
 {
   VertexId* Vertices;
   CornerId* Labels;
-  std::uint32_t Stride; ///< 1, 2 in a LabelledVertex, or that of triangles that are made later.
+  std::uint32_t Stride; ///< From one vertex, or label, to the next.
+
+  /// A list in memory of its own.
+  DELAUNAYFLIP_HOST_DEVICE explicit PathList(LabelledVertex* memory)
+    : Vertices(&memory->Vertex),
+      Labels(&memory->Label),
+      Stride(sizeof(LabelledVertex) / sizeof(VertexId))
+  {
+  }
+  /// A list in two members of the triangles that are made from it. A vertex of the list makes one
+  /// triangle, so there is room. Both members get their values later (NumberJoinedEdges).
+  DELAUNAYFLIP_HOST_DEVICE explicit PathList(TriangleRecord* triangles)
+    : Vertices(&triangles->InputTriangle),
+      Labels(&triangles->Flips),
+      Stride(TriangleStride)
+  {
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsInTriangles() const { return this->Stride == TriangleStride; }
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(std::uint32_t i) const
+  {
+    return this->Vertices[std::size_t(i) * this->Stride];
+  }
+  DELAUNAYFLIP_HOST_DEVICE CornerId GetLabel(std::uint32_t i) const
+  {
+    return this->Labels[std::size_t(i) * this->Stride];
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Set(std::uint32_t i, VertexId vertex, CornerId label) const
+  {
+    this->Vertices[std::size_t(i) * this->Stride] = vertex;
+    this->Labels[std::size_t(i) * this->Stride] = label;
+  }
+
+private:
+  static constexpr std::uint32_t TriangleStride = sizeof(TriangleRecord) / sizeof(VertexId);
 };
 
-/// A path of vertices from left to right of which ears are cut until only what is convex, or in a
-/// mountain its base, is left.
+/// A path of vertices from left to right. Ears are cut from it until it is convex. From a mountain
+/// they are cut until its base is left.
 template <typename Real>
 struct EarCutter
 {
   const ChainView<Real>& Chains;
-  EarPath Path;
-  std::uint32_t Size; ///< Of the path without its ends.
+  PathList List;
+  std::uint32_t Size; ///< How many vertices are in the list, which is the path without its ends.
   VertexId Left, Right;
-  CornerId LastLabel; ///< Of the edge before Right.
+  CornerId LastLabel; ///< The label of the edge before Right.
   bool IsOnRight; ///< Whether the triangles are right of the path (a run above its base).
   CornerId Base; ///< The label of a mountain's base, NoCorner for other paths.
   TriangleId Next; ///< The number of the next triangle.
@@ -188,39 +232,51 @@ struct EarCutter
   }
 
 private:
-  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(std::uint32_t i) const
+  /// The vertex of the list at `i`, or Right after its last one.
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertexOrRight(std::uint32_t i) const
   {
-    return this->Path.Vertices[std::size_t(i) * this->Path.Stride];
+    return i == this->Size ? this->Right : this->List.GetVertex(i);
   }
-  DELAUNAYFLIP_HOST_DEVICE CornerId GetLabel(std::uint32_t i) const
+  /// The label of the edge before this vertex.
+  DELAUNAYFLIP_HOST_DEVICE CornerId GetLabelOrLast(std::uint32_t i) const
   {
-    return this->Path.Labels[std::size_t(i) * this->Path.Stride];
+    return i == this->Size ? this->LastLabel : this->List.GetLabel(i);
   }
-  DELAUNAYFLIP_HOST_DEVICE void Set(std::uint32_t i, VertexId vertex, CornerId label) const
+  /// The vertex of the list before `i`, or Left before its first one.
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertexBefore(std::uint32_t i) const
   {
-    this->Path.Vertices[std::size_t(i) * this->Path.Stride] = vertex;
-    this->Path.Labels[std::size_t(i) * this->Path.Stride] = label;
+    return i == 0 ? this->Left : this->List.GetVertex(i - 1);
   }
 
   DELAUNAYFLIP_HOST_DEVICE bool IsEar(VertexId a, VertexId b, VertexId c) const
   {
-    return this->Chains.Turn(a, b, c) == (this->IsOnRight ? -1 : 1);
+    const int earOrientation = this->IsOnRight ? -1 : 1;
+    return this->Chains.Orient(a, b, c) == earOrientation;
   }
 
   /// Makes a triangle of two consecutive edges. @returns the label of the edge that replaces them.
   DELAUNAYFLIP_HOST_DEVICE CornerId Emit(
     VertexId a, VertexId b, VertexId c, CornerId first, CornerId second)
   {
-    const bool swaps = this->IsOnRight;
     const TriangleId number = this->Next++;
-    TriangleRecord& made = this->Chains.GetTriangle(number);
-    const bool isWhole = this->Path.Stride <= 2; // else the rest of it may be part of the path
-    made = { { a, swaps ? c : b, swaps ? b : c }, isWhole ? number : made.InputTriangle,
-      { second, swaps ? first : this->Base, swaps ? this->Base : first },
-      isWhole ? 0 : made.Flips };
-    this->Chains.Attach(first, a, b, swaps, MakeCorner(number, swaps ? 1 : 2));
-    this->Chains.Attach(second, b, c, swaps, MakeCorner(number, 0));
-    return MakeCorner(number, swaps ? 2 : 1);
+    TriangleRecord made{ { a, b, c }, number, { second, this->Base, first }, 0 };
+    int slotOfB = 1, slotOfC = 2;
+    if (this->IsOnRight) // a, c, b is counter-clockwise
+    {
+      made = { { a, c, b }, number, { second, first, this->Base }, 0 };
+      slotOfB = 2;
+      slotOfC = 1;
+    }
+    TriangleRecord& record = this->Chains.GetTriangle(number);
+    if (this->List.IsInTriangles())
+    {
+      made.InputTriangle = record.InputTriangle;
+      made.Flips = record.Flips;
+    }
+    record = made;
+    this->Chains.Attach(first, a, b, this->IsOnRight, MakeCorner(number, slotOfC));
+    this->Chains.Attach(second, b, c, this->IsOnRight, MakeCorner(number, 0));
+    return MakeCorner(number, slotOfB);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void CutRound()
@@ -230,26 +286,24 @@ private:
     VertexId previous = this->Left;
     for (std::uint32_t i = 0; i < this->Size;)
     {
-      const VertexId here = this->GetVertex(i);
-      const CornerId label = this->GetLabel(i);
-      const bool isLast = i + 1 == this->Size;
-      const VertexId next = isLast ? this->Right : this->GetVertex(i + 1);
+      const VertexId here = this->List.GetVertex(i);
+      const CornerId label = this->List.GetLabel(i);
+      const VertexId next = this->GetVertexOrRight(i + 1);
       if (!isSure && !this->IsEar(previous, here, next))
       {
-        this->Set(kept++, here, label);
+        this->List.Set(kept++, here, label);
         previous = here;
         ++i;
         continue;
       }
-      const CornerId nextLabel = isLast ? this->LastLabel : this->GetLabel(i + 1);
-      const CornerId made = this->Emit(previous, here, next, label, nextLabel);
-      if (isLast)
+      const CornerId made = this->Emit(previous, here, next, label, this->GetLabelOrLast(i + 1));
+      if (i + 1 == this->Size)
       {
         this->LastLabel = made;
       }
       else
       {
-        this->Set(kept++, next, made);
+        this->List.Set(kept++, next, made);
         previous = next;
       }
       i += 2;
@@ -257,103 +311,117 @@ private:
     this->Size = kept;
   }
 
+  /// The stack is the beginning of the list.
   DELAUNAYFLIP_HOST_DEVICE void CutByStack()
   {
     std::uint32_t top = 0;
     for (std::uint32_t i = 0; i <= this->Size; ++i)
     {
-      const bool isLast = i == this->Size;
-      const VertexId next = isLast ? this->Right : this->GetVertex(i);
-      CornerId label = isLast ? this->LastLabel : this->GetLabel(i);
+      const VertexId next = this->GetVertexOrRight(i);
+      CornerId label = this->GetLabelOrLast(i);
       while (top > 0)
       {
-        const VertexId before = top > 1 ? this->GetVertex(top - 2) : this->Left;
-        const VertexId here = this->GetVertex(top - 1);
+        const VertexId before = this->GetVertexBefore(top - 1);
+        const VertexId here = this->List.GetVertex(top - 1);
         if (!this->IsEar(before, here, next))
         {
           break;
         }
-        label = this->Emit(before, here, next, this->GetLabel(top - 1), label);
+        label = this->Emit(before, here, next, this->List.GetLabel(top - 1), label);
         --top;
       }
-      if (isLast)
+      if (i == this->Size)
       {
         this->LastLabel = label;
         break;
       }
-      this->Set(top++, next, label);
+      this->List.Set(top++, next, label);
     }
     this->Size = top;
   }
 };
 
-/// Triangulates the mountain of `size` places from `first` on.
-/// @param base the places of the other chain before and after them.
-template <typename Real>
-DELAUNAYFLIP_HOST_DEVICE void CutMountain(const ChainView<Real>& chains, std::uint32_t first,
-  std::uint32_t size, const std::uint32_t (&base)[2], bool isAbove, std::int64_t slot,
-  TriangleId triangle)
+/// A run of slots over its base.
+struct Mountain
 {
-  // The records of the triangles hold long paths. A device would write these to memory often.
+  std::uint32_t First, Size; ///< The places of the run.
+  std::uint32_t Base[2]; ///< The places of the other chain before and after them.
+  bool IsAbove; ///< Whether the run is above its base.
+  std::int64_t Slot; ///< The slot of its first place.
+};
+
+/// Triangulates a mountain.
+/// @param triangle the number of its first triangle.
+template <typename Real>
+DELAUNAYFLIP_HOST_DEVICE void CutMountain(
+  const ChainView<Real>& chains, const Mountain& mountain, TriangleId triangle)
+{
+  // A short list fits into registers and caches. Only long ones are in the triangles, because a
+  // device would write these to memory often.
   constexpr std::uint32_t LongestOwn = 8;
-  std::uint32_t own[2][LongestOwn];
-  TriangleRecord& record = chains.Triangles[triangle];
-  const bool isLong = size > LongestOwn;
-  const EarPath path{ isLong ? &record.InputTriangle : own[0], isLong ? &record.Flips : own[1],
-    isLong ? static_cast<std::uint32_t>(sizeof(record) / sizeof(VertexId)) : 1 };
-  for (std::uint32_t i = 0; i < size; ++i)
+  LabelledVertex own[LongestOwn];
+  PathList list(own);
+  if (mountain.Size > LongestOwn)
   {
-    path.Vertices[i * path.Stride] = first + i;
-    path.Labels[i * path.Stride] =
-      i > 0 ? LabelChainEdge(first + i) : LabelDiagonal(chains.Count, slot);
+    list = PathList(&chains.Triangles[triangle]);
   }
-  const CornerId baseLabel = LabelChainEdge(base[1]);
-  EarCutter<Real> cutter{ chains, path, size, base[0], base[1],
-    LabelDiagonal(chains.Count, slot + size), isAbove, baseLabel, triangle };
+  list.Set(0, mountain.First, LabelDiagonal(chains.Count, mountain.Slot));
+  for (std::uint32_t i = 1; i < mountain.Size; ++i)
+  {
+    list.Set(i, mountain.First + i, LabelChainEdge(mountain.First + i));
+  }
+  const CornerId baseLabel = LabelChainEdge(mountain.Base[1]);
+  EarCutter<Real> cutter{ chains, list, mountain.Size, mountain.Base[0], mountain.Base[1],
+    LabelDiagonal(chains.Count, mountain.Slot + mountain.Size), mountain.IsAbove, baseLabel,
+    triangle };
   cutter.Cut();
-  chains.Attach(baseLabel, base[0], base[1], !isAbove, cutter.LastLabel);
+  chains.Attach(baseLabel, mountain.Base[0], mountain.Base[1], !mountain.IsAbove, cutter.LastLabel);
 }
 
 /// A stretch of a chain on the outer boundary, of at least two places.
-struct BoundaryPiece
+struct BoundaryStretch
 {
   std::uint32_t First, Size; ///< Places.
   bool IsAbove; ///< Whether what is outside lies below it.
-  std::uint32_t Begin; ///< How many inner places the pieces before have.
-  std::uint32_t Made; ///< Triangles.
+  std::uint32_t Begin; ///< How many inner places the stretches before it have.
+  std::uint32_t Made; ///< How many triangles it has.
   CornerId LastLabel;
 };
 
-/// Cuts ears off a piece alone.
-/// @param chains its triangles are of no mesh yet. The first of the piece's is number Begin.
-/// @param path what is left of the piece, from Begin on.
+/// Cuts ears off a stretch alone.
+/// @param chains has triangles that are of no mesh yet. The first one of the stretch is number
+/// Begin.
+/// @param path receives what is left of the stretch, from Begin on.
 template <typename Real>
-DELAUNAYFLIP_HOST_DEVICE void CutPiece(
-  const ChainView<Real>& chains, BoundaryPiece& piece, LabelledVertex* path)
+DELAUNAYFLIP_HOST_DEVICE void CutStretch(
+  const ChainView<Real>& chains, BoundaryStretch& stretch, LabelledVertex* path)
 {
-  const std::uint32_t size = piece.Size - 2, last = piece.First + piece.Size - 1;
-  LabelledVertex* own = path + piece.Begin;
+  const std::uint32_t size = stretch.Size - 2, last = stretch.First + stretch.Size - 1;
+  const PathList list(path + stretch.Begin);
   for (std::uint32_t i = 0; i < size; ++i)
   {
-    own[i] = { piece.First + 1 + i, LabelChainEdge(piece.First + 1 + i) };
+    const std::uint32_t place = stretch.First + 1 + i;
+    list.Set(i, place, LabelChainEdge(place));
   }
-  EarCutter<Real> cutter{ chains, { &own->Vertex, &own->Label, 2 }, size, piece.First, last,
-    LabelChainEdge(last), piece.IsAbove, NoCorner, piece.Begin };
+  EarCutter<Real> cutter{ chains, list, size, stretch.First, last, LabelChainEdge(last),
+    stretch.IsAbove, NoCorner, stretch.Begin };
   cutter.Cut();
-  piece.Made = cutter.Next - piece.Begin;
-  piece.LastLabel = cutter.LastLabel;
+  stretch.Made = cutter.Next - stretch.Begin;
+  stretch.LastLabel = cutter.LastLabel;
 }
 
-/// Makes the triangles of a piece part of the mesh.
-/// @param made the first of them, as made by CutPiece; path as there.
-/// @param left what is left of the piece. Its last vertex comes last, the first one not at all.
+/// Makes the triangles of a stretch part of the mesh.
+/// @param made the first of them, as made by CutStretch; path as there.
+/// @param left receives what is left of the stretch. Its last vertex comes last. Its first one is
+/// left out.
 template <typename Real>
-DELAUNAYFLIP_HOST_DEVICE void MovePiece(const ChainView<Real>& chains, const BoundaryPiece& piece,
-  const LabelledVertex* path, const TriangleRecord* made, TriangleId first, LabelledVertex* left)
+DELAUNAYFLIP_HOST_DEVICE void MoveStretch(const ChainView<Real>& chains,
+  const BoundaryStretch& stretch, const LabelledVertex* path, const TriangleRecord* made,
+  TriangleId first, LabelledVertex* left)
 {
   const auto renumber = [&](CornerId label)
-  { return IsOpen(label) ? label : label + 4 * (first - piece.Begin); };
-  for (std::uint32_t i = 0; i < piece.Made; ++i)
+  { return IsOpen(label) ? label : label + 4 * (first - stretch.Begin); };
+  for (std::uint32_t i = 0; i < stretch.Made; ++i)
   {
     TriangleRecord triangle = made[i];
     for (CornerId& label : triangle.HalfEdges)
@@ -363,13 +431,104 @@ DELAUNAYFLIP_HOST_DEVICE void MovePiece(const ChainView<Real>& chains, const Bou
     chains.Triangles[first + i] = triangle;
     chains.AttachTriangle(first + i);
   }
-  const std::uint32_t size = piece.Size - 2 - piece.Made;
+  const std::uint32_t size = stretch.Size - 2 - stretch.Made;
   for (std::uint32_t i = 0; i < size; ++i)
   {
-    const LabelledVertex& vertex = path[piece.Begin + i];
+    const LabelledVertex& vertex = path[stretch.Begin + i];
     left[i] = { vertex.Vertex, renumber(vertex.Label) };
   }
-  left[size] = { piece.First + piece.Size - 1, renumber(piece.LastLabel) };
+  left[size] = { stretch.First + stretch.Size - 1, renumber(stretch.LastLabel) };
+}
+
+/// Goes through the slots of a gap, which is a merge of its two chains.
+template <typename Real>
+struct SlotCursor
+{
+  const ChainView<Real>& Chains;
+  std::uint32_t Begins[2], Ends[2]; ///< The places of the lower and the upper chain.
+  std::uint32_t Places[2]; ///< The next place of either chain.
+
+  /// Starts at a slot, which is found by a binary search on the merge path.
+  /// @param before how many slots of the gap are before it.
+  DELAUNAYFLIP_HOST_DEVICE SlotCursor(
+    const ChainView<Real>& chains, std::int64_t gap, std::uint32_t before)
+    : Chains(chains),
+      Begins{ chains.Starts[gap], chains.Starts[gap + 1] },
+      Ends{ chains.Starts[gap + 1], chains.Starts[gap + 2] }
+  {
+    const std::uint32_t lowerSize = this->Ends[0] - this->Begins[0];
+    const std::uint32_t upperSize = this->Ends[1] - this->Begins[1];
+    const std::uint32_t lowerBefore = FindEnd(before - std::min(before, upperSize),
+      std::min(before, lowerSize),
+      [&](std::uint32_t count)
+      { return chains.IsBefore(this->Begins[0] + count, this->Begins[1] + (before - count) - 1); });
+    this->Places[0] = this->Begins[0] + lowerBefore;
+    this->Places[1] = this->Begins[1] + (before - lowerBefore);
+  }
+
+  /// The chain of the slot: 0 is the lower one, 1 the upper one.
+  DELAUNAYFLIP_HOST_DEVICE int GetChain() const
+  {
+    if (this->Places[0] == this->Ends[0])
+    {
+      return 1;
+    }
+    const bool isUpper =
+      this->Places[1] < this->Ends[1] && !this->Chains.IsBefore(this->Places[0], this->Places[1]);
+    return isUpper ? 1 : 0;
+  }
+
+  /// The chain of the slot before.
+  DELAUNAYFLIP_HOST_DEVICE int GetChainBefore() const
+  {
+    if (this->Places[0] == this->Begins[0])
+    {
+      return 1;
+    }
+    const bool isUpper = this->Places[1] > this->Begins[1] &&
+      this->Chains.IsBefore(this->Places[0] - 1, this->Places[1] - 1);
+    return isUpper ? 1 : 0;
+  }
+
+  /// The run of slots of one chain that begins here. The cursor goes to its end.
+  /// @param slot the number of the slot.
+  DELAUNAYFLIP_HOST_DEVICE Mountain TakeRun(int chain, std::int64_t slot)
+  {
+    const std::uint32_t first = this->Places[chain];
+    while (this->GetChain() == chain)
+    {
+      ++this->Places[chain];
+    }
+    const std::uint32_t other = this->Places[1 - chain];
+    return { first, this->Places[chain] - first, { other - 1, other }, chain == 1, slot };
+  }
+};
+
+/// Triangulates the mountains of a gap that begin in a range of slots.
+/// @param slot the first slot of the range. No run at an end of the gap is in the range.
+template <typename Real>
+DELAUNAYFLIP_HOST_DEVICE void CutMountainsOfGap(
+  const ChainView<Real>& chains, std::int64_t gap, std::int64_t slot, std::int64_t end)
+{
+  const std::int64_t firstSlot = chains.FirstSlot(gap);
+  const std::int64_t firstMountain = firstSlot + chains.Gaps[gap].LeftRun;
+  SlotCursor<Real> cursor(chains, gap, static_cast<std::uint32_t>(slot - firstSlot));
+  int previous = cursor.GetChainBefore();
+  while (slot < end)
+  {
+    const int chain = cursor.GetChain();
+    if (chain == previous) // it began before the range
+    {
+      ++cursor.Places[chain];
+      ++slot;
+      continue;
+    }
+    const Mountain mountain = cursor.TakeRun(chain, slot);
+    CutMountain(chains, mountain,
+      static_cast<TriangleId>(chains.Gaps[gap].FirstTriangle + (slot - firstMountain)));
+    slot += mountain.Size;
+    previous = chain;
+  }
 }
 
 /// Triangulates all mountains that begin in a range of slots.
@@ -383,58 +542,11 @@ DELAUNAYFLIP_HOST_DEVICE void CutMountains(
     1;
   for (std::int64_t slot = begin; slot < end; ++gap)
   {
-    const std::uint32_t lower = chains.Starts[gap], upper = chains.Starts[gap + 1];
-    const std::uint32_t last = chains.Starts[gap + 2];
-    const std::int64_t firstSlot = chains.FirstSlot(gap);
-    const std::int64_t nextGap = firstSlot + (last - lower);
+    const std::int64_t nextGap = chains.FirstSlot(gap + 1);
+    const std::int64_t firstMountain = chains.FirstSlot(gap) + chains.Gaps[gap].LeftRun;
     const std::int64_t endOfMountains = nextGap - chains.Gaps[gap].RightRun;
-    slot =
-      slot > firstSlot + chains.Gaps[gap].LeftRun ? slot : firstSlot + chains.Gaps[gap].LeftRun;
-    // How many of the slots before are of the lower chain: on the merge path.
-    const auto before = static_cast<std::uint32_t>(slot - firstSlot);
-    const std::uint32_t a = FindEnd(before > last - upper ? before - (last - upper) : 0,
-      before < upper - lower ? before : upper - lower,
-      [&](std::uint32_t lowerOnes)
-      { return chains.IsBefore(lower + lowerOnes, upper + (before - lowerOnes) - 1); });
-    std::uint32_t place[2] = { lower + a, upper + (before - a) };
-    const std::uint32_t ends[2] = { upper, last };
-    const auto chainAt = [&]()
-    {
-      return place[0] == ends[0] || (place[1] < ends[1] && !chains.IsBefore(place[0], place[1]))
-        ? 1
-        : 0;
-    };
-    int previous =
-      place[0] == lower || (place[1] > upper && chains.IsBefore(place[0] - 1, place[1] - 1)) ? 1
-                                                                                             : 0;
-    const std::int64_t stop = end < endOfMountains ? end : endOfMountains;
-    while (slot < stop)
-    {
-      const int chain = chainAt();
-      if (chain == previous)
-      {
-        ++place[chain];
-        ++slot;
-        continue;
-      }
-      const std::uint32_t first = place[chain];
-      while (chainAt() == chain)
-      {
-        ++place[chain];
-      }
-      const std::uint32_t size = place[chain] - first;
-      const std::uint32_t base[2] = { place[1 - chain] - 1, place[1 - chain] };
-      CutMountain(chains, first, size, base, chain == 1, slot,
-        static_cast<TriangleId>(
-          chains.Gaps[gap].FirstTriangle + (slot - firstSlot) - chains.Gaps[gap].LeftRun));
-      slot += size;
-      previous = chain;
-    }
-    slot = slot < nextGap ? nextGap : slot;
-    if (end < nextGap)
-    {
-      break;
-    }
+    CutMountainsOfGap(chains, gap, std::max(slot, firstMountain), std::min(end, endOfMountains));
+    slot = nextGap;
   }
 }
 

@@ -81,8 +81,9 @@ public:
     const bool hasOutline = this->HasOutline();
     for (unsigned char& fate : fates)
     {
-      const bool isOutside = fate == Outside || (fate == InNoRing && this->AnyTurnsLeft);
-      fate = fate == InHole || (hasOutline && isOutside) ? 1 : 0;
+      const bool isOutside = fate == Outside || (fate == InNoRing && this->AnyIsCounterClockwise);
+      const bool isRemoved = fate == InHole || (hasOutline && isOutside);
+      fate = isRemoved ? 1 : 0;
     }
     return fates;
   }
@@ -93,7 +94,10 @@ public:
     std::vector<std::int32_t> numbers;
     for (const auto& [number, ring] : this->Rings)
     {
-      numbers.insert(numbers.end(), ring.HasArea ? 0 : 1, number);
+      if (!ring.HasArea)
+      {
+        numbers.push_back(number);
+      }
     }
     return numbers;
   }
@@ -109,8 +113,8 @@ private:
   {
     Inside,
     InHole,
-    Outside, ///< Of the outline.
-    InNoRing, ///< Of the outline, where its orientation decides.
+    Outside, ///< Outside of the outline.
+    InNoRing, ///< In no ring of the outline, where the orientation of rings decides.
     Unknown
   };
 
@@ -120,9 +124,16 @@ private:
     for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Before[i])
     {
       const SegmentEdge& segment = this->Segments[i];
-      const int step = segment.IsOnLeft == (segment.Side == side) ? 1 : -1;
-      this->Rings[segment.Ring].Winding += step;
-      (segment.Ring >= this->FirstHole ? this->HoleWinding : this->OutlineWinding) += step;
+      const int change = segment.IsOnLeft == (segment.Side == side) ? 1 : -1;
+      this->Rings[segment.Ring].Winding += change;
+      if (segment.Ring >= this->FirstHole)
+      {
+        this->HoleWinding += change;
+      }
+      else
+      {
+        this->OutlineWinding += change;
+      }
     }
   }
 
@@ -133,22 +144,27 @@ private:
     {
       const std::int32_t number = this->Segments[i].Ring;
       Ring& ring = this->Rings[number];
-      ring.HasArea = ring.HasArea || ring.Winding != 0;
-      this->AnyTurnsLeft = this->AnyTurnsLeft || (ring.Winding > 0 && number < this->FirstHole);
+      ring.HasArea |= ring.Winding != 0;
+      this->AnyIsCounterClockwise |= ring.Winding > 0 && number < this->FirstHole;
     }
   }
 
   FateKind Judge(RingRuleKind rule) const
   {
-    const auto isInside = [rule](std::int64_t winding)
-    { return rule == RingRuleKind::EvenOdd ? winding % 2 != 0 : winding != 0; };
+    const bool isEvenOdd = rule == RingRuleKind::EvenOdd;
+    const auto isInside = [=](std::int64_t winding)
+    { return winding != 0 && (!isEvenOdd || winding % 2 != 0); };
     if (isInside(this->HoleWinding))
     {
       return InHole;
     }
-    if (rule == RingRuleKind::Orientation && this->OutlineWinding <= 0)
+    if (rule == RingRuleKind::Orientation && this->OutlineWinding < 0)
     {
-      return this->OutlineWinding == 0 ? InNoRing : Outside;
+      return Outside;
+    }
+    if (rule == RingRuleKind::Orientation && this->OutlineWinding == 0)
+    {
+      return InNoRing;
     }
     return isInside(this->OutlineWinding) ? Inside : Outside;
   }
@@ -166,11 +182,11 @@ private:
   const std::vector<SegmentEdge>& Segments;
   const std::int32_t FirstHole;
   std::map<std::int32_t, Ring> Rings; ///< By their numbers.
-  std::vector<std::int64_t> Last; ///< By edge the last of its segments that are part of a ring.
-  std::vector<std::int64_t> Before; ///< By segment the one before it.
+  std::vector<std::int64_t> Last; ///< By edge: the last of its segments that belong to a ring.
+  std::vector<std::int64_t> Before; ///< By segment: the one before it.
   /// How often the rings of a set wind around the triangle at hand, all together.
   std::int64_t OutlineWinding = 0, HoleWinding = 0;
-  bool AnyTurnsLeft = false; ///< Of the outlines.
+  bool AnyIsCounterClockwise = false; ///< Whether an outline is.
 };
 
 class Remover
@@ -267,7 +283,12 @@ public:
     }
     for (std::int32_t& number : kept.Numbers)
     {
-      number = number != 0 ? -1 : static_cast<std::int32_t>(kept.Count++);
+      const bool isRemoved = number != 0;
+      number = -1;
+      if (!isRemoved)
+      {
+        number = static_cast<std::int32_t>(kept.Count++);
+      }
     }
     for (std::int64_t e = 0; e < this->Mesh.NumberOfEdges; ++e)
     {
@@ -277,9 +298,11 @@ public:
     }
     for (std::int64_t place = 0; place < this->Mesh.NumberOfPlaces; ++place)
     {
-      const bool isGiven = static_cast<std::int64_t>(this->Mesh.Ids[place]) < firstAdded;
       kept.Used += isUsed[place];
-      kept.UsedGiven += isGiven ? isUsed[place] : 0;
+      if (static_cast<std::int64_t>(this->Mesh.Ids[place]) < firstAdded)
+      {
+        kept.UsedGiven += isUsed[place];
+      }
     }
     kept.EulerCharacteristic = kept.Used - kept.Edges + kept.Count;
   }
@@ -292,7 +315,10 @@ public:
     {
       const int triangles = this->CountKept(EdgeOf(segment.Side));
       segment.IsOnBoundary = triangles == 1;
-      kept.insert(kept.end(), triangles > 0 ? 1 : 0, segment);
+      if (triangles > 0)
+      {
+        kept.push_back(segment);
+      }
     }
     return kept;
   }
@@ -335,7 +361,8 @@ private:
     return alpha > 0.0 && !(0.5 * bc <= alpha * sine);
   }
 
-  /// Of each seed the triangle that it is in, of several the first; NoTriangle if it is in none.
+  /// Finds the triangle that each seed is in. It is the first of several, and NoTriangle if there
+  /// is none.
   std::vector<TriangleId> FindTriangles(const double* seeds, std::int64_t count) const
   {
     std::vector<std::int64_t> order(count); // by x
@@ -361,7 +388,10 @@ private:
         {
           isInside = FindOrientation(corners[slot], corners[NextSlot(slot)], seed) >= 0;
         }
-        found[*next] = isInside ? static_cast<TriangleId>(t) : found[*next];
+        if (isInside)
+        {
+          found[*next] = static_cast<TriangleId>(t);
+        }
       }
     }
     return found;

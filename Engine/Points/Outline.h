@@ -12,7 +12,7 @@
 #include <vector>
 
 /// @file
-/// Which triangles of a triangulation of points are not part of the result.
+/// Finds the triangles of a triangulation of points that do not belong to the result.
 
 namespace delaunayflip
 {
@@ -23,8 +23,8 @@ struct PointMeshView : PlaneMesh
   std::int64_t NumberOfTriangles;
   std::int64_t NumberOfEdges;
   std::int64_t NumberOfPlaces;
-  const VertexId* Ids; ///< Of every place the point that is used there.
-  CoordinateRange Range; ///< Of the places.
+  const VertexId* Ids; ///< By place: the point that is used there.
+  CoordinateRange Range; ///< The range of the places.
 };
 
 /// An edge that a segment has become.
@@ -49,7 +49,7 @@ struct KeptTriangles
   std::vector<std::int32_t> RingsWithoutArea; ///< Their numbers; they have removed nothing.
   std::int64_t Used = 0; ///< Points of the triangles that are kept.
   std::int64_t UsedGiven = 0; ///< Those of them before PointInput::FirstAdded.
-  std::int64_t Edges = 0, Boundary = 0; ///< Of the triangles that are kept.
+  std::int64_t Edges = 0, Boundary = 0; ///< How many edges the triangles that are kept have.
   std::int64_t EulerCharacteristic = 0;
   AngleSums Angles;
 };

@@ -15,7 +15,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -26,8 +26,8 @@
 namespace delaunayflip
 {
 
-/// A triangulation of points. Vertices are the places of Points, in its order; all triangles turn
-/// to the left and have an area.
+/// A triangulation of points. Vertices are the places of Points, in its order. All triangles are
+/// counter-clockwise and have an area.
 template <typename Real>
 struct PointMesh
 {
@@ -104,20 +104,21 @@ MeshSurvey SurveyPlaces(StripPoints<Real>& points, const Backend& backend)
   return survey;
 }
 
-/// The coordinates of the first `size` places, or of those that are listed.
+/// The coordinates of some places, which are listed.
 template <typename Real, typename Backend>
 std::vector<CoordinatePair<double>> FetchPlaces(const CoordinatePair<Real>* places,
-  const std::uint32_t* listOnHost, std::int64_t size, const Backend& backend)
+  const std::vector<std::uint32_t>& list, const Backend& backend)
 {
-  Array<std::uint32_t> listed = backend.template MakeArray<std::uint32_t>(listOnHost ? size : 0);
-  backend.Upload(listOnHost, listOnHost ? size : 0, listed.Data());
+  const auto size = static_cast<std::int64_t>(list.size());
+  Array<std::uint32_t> listed = backend.template MakeArray<std::uint32_t>(size);
+  backend.Upload(list.data(), size, listed.Data());
   Array<CoordinatePair<double>> gathered = backend.template MakeArray<CoordinatePair<double>>(size);
-  const std::uint32_t* list = listOnHost ? listed.Data() : nullptr;
+  const std::uint32_t* numbers = listed.Data();
   CoordinatePair<double>* to = gathered.Data();
   backend.ForEach(size,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
     {
-      const CoordinatePair<Real> place = places[list ? list[i] : i];
+      const CoordinatePair<Real> place = places[numbers[i]];
       to[i] = { place.U, place.V };
     });
   std::vector<CoordinatePair<double>> coordinates(size);
@@ -145,7 +146,7 @@ struct PointMeshBuilder
       this->Mesh.Edges.Triangles.Data(), 0, this->Sides.Data(), this->Failed.Data() };
   }
 
-  /// Calls work(i) for i = 0 .. count - 1, each of which may be long.
+  /// Calls work(i) for i = 0 .. count - 1. Each call may be long.
   template <typename Work>
   void ForTasks(std::int64_t count, const Work& work) const
   {
@@ -183,10 +184,11 @@ struct PointMeshBuilder
     return triangles;
   }
 
-  /// Whether runs are long, by a sample of neighbours in a chain: how many have no place of another
-  /// chain between them. Half of them where points are spread at random or along the strips, two of
-  /// three on a lattice 10 times as wide as high, three of four and more on contours, spirals, scan
-  /// lines and rows across the strips, from which flips make no fewer flips for a long time.
+  /// Whether runs are long. This takes a sample of neighbours in a chain, and counts how many have
+  /// no place of another chain between them. They are half of all where points are spread at random
+  /// or along the strips, two of three on a lattice 10 times as wide as high, and three of four or
+  /// more on contours, spirals, scan lines and rows across the strips. There the number of flips
+  /// per iteration falls slowly.
   bool HasLongRuns()
   {
     constexpr std::int64_t Fewest = 1 << 6, Most = 1 << 12, PointsPerSample = 16;
@@ -206,7 +208,10 @@ struct PointMeshBuilder
             [&](std::uint32_t next) { return chains.IsBefore(next, own); });
         };
         const bool isSame = place + 1 < chains.Starts[end];
-        sum += isSame && countBefore(place) == countBefore(place + 1) ? 1 : 0;
+        if (isSame && countBefore(place) == countBefore(place + 1))
+        {
+          ++sum;
+        }
       });
     return 100 * alone > 71 * samples;
   }
@@ -214,12 +219,12 @@ struct PointMeshBuilder
   /// Whether flips from the strips would take longer than divide and conquer. This depends on the
   /// points alone, so that every backend chooses the same way.
   /// @param onBoundary how many points are on the boundary of the strips.
-  /// @param filtersApply whether most of their geometry is decided without exact arithmetic, which
-  /// takes so long that only the number of decisions counts.
+  /// @param filtersApply whether most of their geometry is decided without exact arithmetic. Exact
+  /// arithmetic takes so long that only the number of decisions counts.
   bool IsLongForFlips(std::int64_t onBoundary, bool filtersApply)
   {
     constexpr std::int64_t Fewest = 256; // below, both take microseconds
-    constexpr std::int64_t Most = 1 << 15; // of points for which flips on a GPU save little
+    constexpr std::int64_t Most = 1 << 15; // below, flips on a GPU save little
     const std::int64_t points = this->Mesh.Points.Count;
     if (points < Fewest)
     {
@@ -255,31 +260,37 @@ struct PointMeshBuilder
       });
   }
 
-  /// Fills the pieces of the outer boundary, each alone.
+  /// Fills the stretches of the outer boundary, each alone.
   /// @param firstTriangle the number of the first triangle to make; then of the next.
   /// @returns what is left of them.
-  std::vector<LabelledVertex> FillPieces(
-    std::vector<BoundaryPiece> pieces, std::int64_t& firstTriangle)
+  std::vector<LabelledVertex> FillStretches(
+    std::vector<BoundaryStretch> stretches, std::int64_t& firstTriangle)
   {
-    const auto count = static_cast<std::int64_t>(pieces.size());
-    const std::int64_t inner =
-      count > 0 ? std::int64_t(pieces.back().Begin) + pieces.back().Size - 2 : 0;
-    Array<BoundaryPiece> local = this->Device.template MakeArray<BoundaryPiece>(count);
+    const auto count = static_cast<std::int64_t>(stretches.size());
+    std::int64_t inner = 0;
+    if (count > 0)
+    {
+      inner = std::int64_t(stretches.back().Begin) + stretches.back().Size - 2;
+    }
+    Array<BoundaryStretch> local = this->Device.template MakeArray<BoundaryStretch>(count);
+    ChainView<Real> alone = this->View();
+    alone.Sides = nullptr;
     // Mountains are cut later, so there is room where their triangles will be, as a rule.
     const std::int64_t needed = inner + (inner + 3) / 4;
-    Array<TriangleRecord> own =
-      this->Device.template MakeArray<TriangleRecord>(needed > firstTriangle ? needed : 0);
-    ChainView<Real> alone = this->View();
-    alone.Triangles = needed > firstTriangle ? own.Data() : alone.Triangles;
+    Array<TriangleRecord> own;
+    if (needed > firstTriangle)
+    {
+      own = this->Device.template MakeArray<TriangleRecord>(needed);
+      alone.Triangles = own.Data();
+    }
     static_assert(sizeof(TriangleRecord) == 4 * sizeof(LabelledVertex), "in the last fourth");
     auto* const path = reinterpret_cast<LabelledVertex*>(alone.Triangles + inner);
-    this->Device.Upload(pieces.data(), count, local.Data());
-    BoundaryPiece* piece = local.Data();
-    alone.Sides = nullptr;
+    this->Device.Upload(stretches.data(), count, local.Data());
+    BoundaryStretch* stretch = local.Data();
     this->ForTasks(
-      count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { CutPiece(alone, piece[i], path); });
+      count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { CutStretch(alone, stretch[i], path); });
     const auto countMade = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    { return static_cast<int>(piece[i].Made); };
+    { return static_cast<int>(stretch[i].Made); };
     const typename Backend::Numbering numbering = this->Device.Count(count, countMade);
     Array<std::uint32_t> numbers = this->Device.template MakeArray<std::uint32_t>(count);
     std::uint32_t* firstOf = numbers.Data();
@@ -294,8 +305,8 @@ struct PointMeshBuilder
     this->ForTasks(count,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
-        MovePiece(chains, piece[i], path, alone.Triangles + piece[i].Begin, base + firstOf[i],
-          leftOf + (piece[i].Begin - firstOf[i] + i));
+        MoveStretch(chains, stretch[i], path, alone.Triangles + stretch[i].Begin, base + firstOf[i],
+          leftOf + (stretch[i].Begin - firstOf[i] + i));
       });
     std::vector<LabelledVertex> onHost(rest);
     this->Device.Download(left.Data(), rest, onHost.data());
@@ -312,7 +323,7 @@ struct PointMeshBuilder
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t task)
       {
         const std::int64_t end = (task + 1) * Grain;
-        CutMountains(chains, task * Grain, end < slots ? end : slots);
+        CutMountains(chains, task * Grain, std::min(end, slots));
       });
   }
 
@@ -333,23 +344,29 @@ struct PointMeshBuilder
 /// Triangulates at least three places by divide and conquer, on the host. No edge is bad then.
 /// @param places as in StripPoints. @param hullEdges receives their number.
 template <typename Real, typename Backend>
-EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
+EdgeMesh TriangulateByDivideAndConquer(const CoordinatePair<Real>* places, std::int64_t count,
   const Backend& backend, const BuildProgress& progress, std::int64_t& hullEdges)
 {
-  const std::vector<CoordinatePair<double>> fetched =
-    FetchPlaces(places, nullptr, Backend::IsOnHost ? 0 : count, backend);
+  std::vector<CoordinatePair<Real>> fetched;
+  const CoordinatePair<Real>* onHost = places;
+  if constexpr (!Backend::IsOnHost)
+  {
+    fetched.resize(count);
+    backend.Download(places, count, fetched.data());
+    onHost = fetched.data();
+  }
   const auto run = [&](std::int64_t tasks, const std::function<void(std::int64_t)>& work)
   { backend.ForTasks(tasks, work); };
-  const auto getPlace = [&](std::int64_t i) {
-    return Backend::IsOnHost ? CoordinatePair<double>{ places[i].U, places[i].V } : fetched[i];
+  const auto getPlace = [=](std::int64_t i) {
+    return CoordinatePair<double>{ onHost[i].U, onHost[i].V };
   };
   const auto tell = [&](double share)
   { progress.Reach(BuildStep::Loaded, BuildStep::Fixed, share); };
-  DividedPoints divided = DivideAndConquer(count, { run, getPlace, tell, backend.GetHostMemory() });
-  hullEdges = divided.HullEdges;
+  PointTriangles made = DivideAndConquer(count, { run, getPlace, tell, backend.GetHostMemory() });
+  hullEdges = made.HullEdges;
   EdgeMesh edges;
-  edges.NumberOfTriangles = static_cast<std::int64_t>(divided.Triangles.Size());
-  edges.Triangles = std::move(divided.Triangles);
+  edges.NumberOfTriangles = static_cast<std::int64_t>(made.Triangles.Size());
+  edges.Triangles = std::move(made.Triangles);
   if constexpr (!Backend::IsOnHost)
   {
     Array<TriangleRecord> onDevice =
@@ -362,10 +379,10 @@ EdgeMesh DividePlaces(const CoordinatePair<Real>* places, std::int64_t count,
   return edges;
 }
 
-/// Triangulates the places of points by strips; or by divide and conquer where flips from there
-/// would be a long chain. Of many points these are those that are nearly all on the boundary of the
-/// strips, as where they lie along one curve, and those of which few are and runs are long. Of few
-/// points these are those with long runs or with one strip.
+/// Triangulates the places of points by strips, or by divide and conquer where flips from the
+/// strips would be a long chain. Many points go to divide and conquer if nearly all of them are on
+/// the boundary of the strips, as where they lie along one curve, or if few of them are there and
+/// runs are long. Few points do so if runs are long or if there is one strip.
 /// @param filtersApply as in IsLongForFlips.
 template <typename Real, typename Backend>
 PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, bool filtersApply, const Backend& backend,
@@ -378,19 +395,23 @@ PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, bool filtersApply, cons
   std::int32_t failed = 0;
   backend.Upload(&failed, 1, builder.Failed.Data());
   std::int64_t triangles = builder.MeasureGaps();
-  const std::vector<BoundaryPart> parts = ListBoundary(builder.HostStarts, builder.HostGaps);
-  const std::int64_t onBoundary = std::accumulate(parts.begin(), parts.end(), std::int64_t(0),
-    [](std::int64_t sum, const BoundaryPart& part) { return sum + part.Last - part.First + 2; });
+  const std::vector<BoundarySection> sections = ListBoundary(builder.HostStarts, builder.HostGaps);
+  std::int64_t onBoundary = 0;
+  for (const BoundarySection& section : sections)
+  {
+    onBoundary += std::int64_t(section.Last) - section.First + 2;
+  }
   if (builder.IsLongForFlips(onBoundary, filtersApply))
   {
-    mesh.Edges =
-      DividePlaces(mesh.Points.Places(), mesh.Points.Count, backend, progress, mesh.HullEdges);
+    mesh.Edges = TriangulateByDivideAndConquer(
+      mesh.Points.Places(), mesh.Points.Count, backend, progress, mesh.HullEdges);
     return mesh;
   }
   builder.MakeArrays(triangles + onBoundary);
-  const Boundary boundary = JoinPieces(parts, builder.FillPieces(CutIntoPieces(parts), triangles));
-  const std::vector<CoordinatePair<double>> places = FetchPlaces(mesh.Points.Places(),
-    boundary.Places.data(), static_cast<std::int64_t>(boundary.Places.size()), backend);
+  const Boundary boundary =
+    JoinStretches(sections, builder.FillStretches(CutIntoStretches(sections), triangles));
+  const std::vector<CoordinatePair<double>> places =
+    FetchPlaces(mesh.Points.Places(), boundary.Places, backend);
   builder.CutAllMountains();
   // A device still cuts mountains meanwhile.
   builder.StoreHull(FillHull(boundary, places, static_cast<TriangleId>(triangles)), triangles);

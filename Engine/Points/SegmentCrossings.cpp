@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace delaunayflip
@@ -46,16 +47,31 @@ Rounded Round(const Fraction& fraction, int exponent, bool toFloat)
   const Integer magnitude = abs(fraction.Numerator);
   const int shift =
     62 + static_cast<int>(msb(fraction.Denominator)) - static_cast<int>(msb(magnitude));
-  const Integer above = shift > 0 ? Integer(magnitude << shift) : magnitude;
-  const Integer below = shift < 0 ? Integer(fraction.Denominator << -shift) : fraction.Denominator;
+  Integer above = magnitude;
+  Integer below = fraction.Denominator;
+  if (shift > 0)
+  {
+    above <<= shift;
+  }
+  else
+  {
+    below <<= -shift;
+  }
   Integer quotient, rest;
   divide_qr(above, below, quotient, rest);
   const std::int64_t bits = static_cast<std::int64_t>(quotient) | (rest != 0 ? 1 : 0);
-  const double rounded =
-    toFloat ? static_cast<double>(static_cast<float>(bits)) : static_cast<double>(bits);
+  auto rounded = static_cast<double>(bits);
+  if (toFloat)
+  {
+    rounded = static_cast<double>(static_cast<float>(bits));
+  }
   const auto off = static_cast<std::int64_t>(
     static_cast<std::uint64_t>(rounded) - static_cast<std::uint64_t>(bits));
-  return { std::ldexp(fraction.Numerator < 0 ? -rounded : rounded, exponent - shift),
+  if (fraction.Numerator < 0)
+  {
+    rounded = -rounded;
+  }
+  return { std::ldexp(rounded, exponent - shift),
     std::ldexp(std::fabs(static_cast<double>(off)), exponent - shift) };
 }
 
@@ -71,9 +87,16 @@ struct Crossing
 Integer ToInteger(double value, int exponent)
 {
   const DoubleParts parts(value);
-  const Integer magnitude = Integer(parts.Mantissa)
-    << (parts.Mantissa == 0 ? 0 : parts.Exponent - exponent);
-  return parts.Negative ? Integer(-magnitude) : magnitude;
+  if (parts.Mantissa == 0)
+  {
+    return 0;
+  }
+  const Integer magnitude = Integer(parts.Mantissa) << (parts.Exponent - exponent);
+  if (parts.Negative)
+  {
+    return -magnitude;
+  }
+  return magnitude;
 }
 
 class Splitter
@@ -111,7 +134,7 @@ private:
     return { added.X, added.Y, 0.0 };
   }
 
-  /// Of a segment, in x and y.
+  /// The range of a segment in x and y.
   struct Box
   {
     std::array<double, 2> Low, High;
@@ -123,7 +146,7 @@ private:
   {
     std::sort(boxes.begin(), boxes.end(),
       [axis](const Box& a, const Box& b)
-      { return a.Low[axis] != b.Low[axis] ? a.Low[axis] < b.Low[axis] : a.Segment < b.Segment; });
+      { return std::tie(a.Low[axis], a.Segment) < std::tie(b.Low[axis], b.Segment); });
     std::int64_t pairs = 0;
     for (auto box = boxes.begin(); box != boxes.end(); ++box)
     {
@@ -196,7 +219,10 @@ private:
     {
       for (const double value : { end.U, end.V })
       {
-        unit = value != 0.0 ? std::min(unit, DoubleParts(value).Exponent) : unit;
+        if (value != 0.0)
+        {
+          unit = std::min(unit, DoubleParts(value).Exponent);
+        }
       }
     }
     Integer x[4], y[4];
@@ -236,7 +262,11 @@ private:
     for (std::int64_t i = 0; i < this->CountPoints(); ++i)
     {
       const PlanePoint place = this->At(i);
-      const auto found = IsFinite(place) ? pointAt.find({ place.U, place.V }) : pointAt.end();
+      if (!IsFinite(place))
+      {
+        continue;
+      }
+      const auto found = pointAt.find({ place.U, place.V });
       if (found != pointAt.end() && found->second == None)
       {
         found->second = i;
@@ -260,7 +290,7 @@ private:
     return points;
   }
 
-  /// Of the points, and of those that have been added.
+  /// How many points there are with those that have been added.
   std::int64_t CountPoints() const
   {
     return this->Points.Count + static_cast<std::int64_t>(this->Result.Added.size());
@@ -290,7 +320,7 @@ private:
     }
     std::sort(cuts.begin(), cuts.end(),
       [](const Cut& a, const Cut& b)
-      { return a.Segment != b.Segment ? a.Segment < b.Segment : a.Share < b.Share; });
+      { return std::tie(a.Segment, a.Share) < std::tie(b.Segment, b.Share); });
     std::vector<Segment> split;
     auto cut = cuts.begin();
     for (std::size_t i = 0; i < this->Result.Segments.size(); ++i)

@@ -18,13 +18,14 @@ struct Segment
 {
   std::int64_t From, To; ///< Ids of points.
   std::int32_t Ring; ///< -1: none.
-  std::int64_t Number; ///< Of the caller's segment.
+  std::int64_t Number; ///< The number of the caller's segment.
 };
 
+/// Segments that do not cross each other.
 struct SplitSegments
 {
   std::vector<Segment> Segments; ///< In the order of those that were given.
-  std::vector<AddedPoint> Added;
+  std::vector<AddedPoint> Added; ///< The points at which segments were split.
   double LargestShift = 0.0; ///< How far rounding has moved a point at most.
 };
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 /// @file
-/// The first part of a triangulation of points: horizontal strips, and in each strip a chain.
+/// The first step of a triangulation of points makes horizontal strips, and in each strip a chain.
 ///
 /// A strip holds the points whose y is in a range. No value of y is in two strips. In a strip the
 /// points are sorted by (x, y), so that joined in this order they are a chain that never turns back
@@ -33,7 +33,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(const PlaneArray& points, std
 }
 
 /// Finds the strip of a y in constant time where points are spread evenly: a table of equal cells
-/// narrows a binary search. Plain pointers to StripBounds.
+/// narrows a binary search. It points to the arrays of StripBounds.
 struct StripFinder
 {
   const double* Bounds;
@@ -45,9 +45,9 @@ struct StripFinder
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindCell(double y) const
   {
     const double cell = (0.5 * y - this->HalfLower) * this->Scale;
-    return cell > 0.0
-      ? (cell < this->Cells - 1 ? static_cast<std::uint32_t>(cell) : this->Cells - 1)
-      : 0;
+    const double last = this->Cells - 1;
+    // The order of the arguments matters: NaN becomes 0.
+    return static_cast<std::uint32_t>(std::min(std::max(0.0, cell), last));
   }
 
   /// The strip: how many of the bounds are not above y.
@@ -62,7 +62,8 @@ struct StripFinder
 struct StripBounds
 {
   std::vector<double> Bounds; ///< Ascending.
-  std::vector<std::uint32_t> FirstOfCell; ///< Of every cell its first bound, and their number.
+  /// By cell: its first bound. The number of bounds comes last.
+  std::vector<std::uint32_t> FirstOfCell;
   double HalfLower = 0.0, Scale = 0.0;
 
   explicit StripBounds(std::vector<double> bounds)
@@ -74,7 +75,10 @@ struct StripBounds
       this->HalfLower = 0.5 * this->Bounds.front();
       const double scale = static_cast<double>(2 * this->Bounds.size()) /
         (0.5 * this->Bounds.back() - this->HalfLower);
-      this->Scale = std::isfinite(scale) ? scale : 0.0; // one cell
+      if (std::isfinite(scale)) // else there is one cell
+      {
+        this->Scale = scale;
+      }
     }
     const StripFinder finder = this->View();
     for (const double bound : this->Bounds)
@@ -99,7 +103,7 @@ struct StripPoints
 {
   Array<Real> Coordinates; ///< x and y of every point.
   Array<VertexId> Ids; ///< The caller's.
-  Array<std::uint32_t> Starts; ///< Of every strip the first point, and the number of points.
+  Array<std::uint32_t> Starts; ///< By strip: its first point. The number of points comes last.
   std::int64_t Count = 0;
   std::int64_t Strips = 0;
 
@@ -124,7 +128,7 @@ DELAUNAYFLIP_HOST_DEVICE inline std::int64_t PickSample(std::uint64_t i, std::in
 }
 
 /// Half of the distance over which the middle 98 of 100 sorted values are spread. Outliers do not
-/// count, and half of it cannot overflow.
+/// count. The whole distance could overflow.
 inline double FindSpread(const std::vector<double>& sorted)
 {
   const std::size_t tail = sorted.size() / 100;
@@ -135,14 +139,18 @@ inline double FindSpread(const std::vector<double>& sorted)
 /// sqrt(count * height / width) strips.
 inline std::int64_t CountStrips(std::int64_t count, double width, double height)
 {
-  const double ratio = height > 0.0 ? (width > 0.0 ? height / width : INFINITY) : 0.0;
+  double ratio = 0.0;
+  if (height > 0.0)
+  {
+    ratio = height / width; // infinite where the width is 0
+  }
   const double strips = std::sqrt(static_cast<double>(count) * ratio);
   const double most = static_cast<double>(count) / 2.0;
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::min(strips, most) + 0.5));
 }
 
-/// One coordinate of up to `size` of the points, of all if there are no more, sorted; without
-/// points that are not finite.
+/// One coordinate of up to `size` of the points, sorted. All points are taken if there are no more.
+/// Points that are not finite are left out.
 template <typename Backend>
 std::vector<double> SampleAxis(
   const PlaneArray& points, int axis, std::int64_t size, const Backend& backend)
@@ -176,7 +184,7 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
     return StripBounds({});
   }
   std::vector<double> ys;
-  // As many as a square has; where that does not suffice, the second sample does.
+  // The first sample is large enough for a square. The second one is as large as is needed.
   auto strips = static_cast<std::int64_t>(std::sqrt(static_cast<double>(points.Count)));
   for (std::int64_t size = 0; size < std::min(points.Count, SamplesPerStrip * strips);)
   {
@@ -189,13 +197,15 @@ StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
     strips = CountStrips(points.Count, FindSpread(xs), FindSpread(ys));
   }
   std::vector<double> bounds;
+  double previous = ys.front();
   for (std::int64_t strip = 1; strip < strips; ++strip)
   {
     const double bound = ys[static_cast<std::size_t>(
       static_cast<double>(ys.size()) * static_cast<double>(strip) / static_cast<double>(strips))];
-    if (bound > (bounds.empty() ? ys.front() : bounds.back()))
+    if (bound > previous)
     {
       bounds.push_back(bound);
+      previous = bound;
     }
   }
   return StripBounds(std::move(bounds));
@@ -208,7 +218,7 @@ DELAUNAYFLIP_HOST_DEVICE bool IsFirstAtPlace(const CoordinatePair<Real>* places,
   return i == 0 || places[i].U != places[i - 1].U || places[i].V != places[i - 1].V;
 }
 
-/// Keeps of the points at equal places that with the lowest id.
+/// Keeps one of the points at equal places, which is the one with the lowest id.
 /// @param callerPoints the number of the caller's points.
 /// @returns for each of the caller's points the id of the point that is used at its place, NoVertex
 /// for one that is not finite; empty if all points are used.
@@ -239,13 +249,14 @@ Array<VertexId> MergePlaces(
   backend.ForEachNumbered(numbering, count, isFirst,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
     {
-      const bool first = IsFirstAtPlace(places, i);
-      toNumbers[i] = static_cast<std::uint32_t>(first ? number : number - 1);
-      if (first)
+      if (!IsFirstAtPlace(places, i))
       {
-        toPlaces[number] = places[i];
-        toIds[number] = ids[i];
+        toNumbers[i] = static_cast<std::uint32_t>(number - 1);
+        return;
       }
+      toNumbers[i] = static_cast<std::uint32_t>(number);
+      toPlaces[number] = places[i];
+      toIds[number] = ids[i];
     });
   const std::uint32_t* starts = strips.Starts.Data();
   std::uint32_t* toStarts = kept.Starts.Data();

@@ -293,7 +293,7 @@ TEST(PointTriangulation, DivideAndConquerOfSmallGrids)
       continue;
     }
     HostMemory memory;
-    const DividedPoints divided = DivideAndConquer(static_cast<std::int64_t>(points.size()),
+    const PointTriangles divided = DivideAndConquer(static_cast<std::int64_t>(points.size()),
       { [](std::int64_t size, const std::function<void(std::int64_t)>& work)
         {
           for (std::int64_t task = 0; task < size; ++task)
@@ -368,9 +368,8 @@ TEST(PointTriangulation, DivideAndConquerAsks)
     }
   };
   HostMemory memory;
-  const Division division{ run, getPlace, tell, memory };
-  const DividedPoints divided =
-    DivideAndConquer(static_cast<std::int64_t>(places.size()), division);
+  const DivideAndConquerCaller caller{ run, getPlace, tell, memory };
+  const PointTriangles divided = DivideAndConquer(static_cast<std::int64_t>(places.size()), caller);
   EXPECT_EQ(2 * places.size() - 2 - divided.HullEdges, divided.Triangles.Size());
   const int all = tasks;
   ASSERT_LE(static_cast<std::size_t>(all), told.size());
@@ -379,7 +378,7 @@ TEST(PointTriangulation, DivideAndConquerAsks)
   EXPECT_EQ(1.0, told.back());
   most = count + 2;
   tasks = 0;
-  EXPECT_THROW(DivideAndConquer(static_cast<std::int64_t>(places.size()), division), RunAborted);
+  EXPECT_THROW(DivideAndConquer(static_cast<std::int64_t>(places.size()), caller), RunAborted);
   EXPECT_GT(all / 2, tasks);
 }
 
