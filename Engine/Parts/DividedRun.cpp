@@ -8,7 +8,7 @@
 #include "InputChecks.h"
 #include "MeshSurveyBuilder.h"
 #include "PartMesh.h"
-#include "Records.h"
+#include "PartReports.h"
 #include "SeamSurvey.h"
 #include "SmallestAngle.h"
 #include "SubMesh.h"
@@ -28,11 +28,11 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// About the share of the time that passes before the first region.
+/// About the share of the time that passes before the first neighbourhood.
 constexpr double PartsShare = 0.9;
 
-/// On surfaces, where nothing proves that flips end, at most this many regions are flipped.
-constexpr std::int64_t MostRegions = 1000;
+/// On surfaces, where nothing proves that flips end, at most this many neighbourhoods are flipped.
+constexpr std::int64_t MostNeighbourhoods = 1000;
 
 ConstraintInsertion InsertConstraints(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
@@ -49,10 +49,10 @@ ConstraintInsertion InsertConstraints(
 }
 
 /// First each part is flipped by itself. The edges between parts, the seam edges, are treated as
-/// boundary edges and do not flip. Then the triangles around the points of seam edges, a region,
-/// are flipped as one mesh. If flips reach points at the border of the region, the triangles around
-/// these points are the next region. The run ends when no flip has reached a border. So every edge
-/// is judged after the last flip of a triangle next to it.
+/// boundary edges and do not flip. Then the triangles around the points of seam edges are flipped
+/// as one mesh, which is the neighbourhood of these points. If flips reach points at its border,
+/// the triangles around these points are the next neighbourhood. The run ends when no flip has
+/// reached a border. So every edge is judged after the last flip of a triangle next to it.
 class PartsInTurn : public DividedRun
 {
 public:
@@ -112,7 +112,7 @@ public:
     this->JoinParts();
     if (this->Report.StopReason == StopReasonKind::Converged)
     {
-      this->FlipRegions();
+      this->FlipNeighbourhoods();
     }
     this->CountRest();
     this->AddDefects();
@@ -141,13 +141,23 @@ private:
     if (!given.Data())
     {
       this->FlipCounts.resize(count);
-      this->Ids32 = this->Threads.MakeArray<std::int32_t>(mesh.Triangles.Ids32 ? 3 * count : 0);
-      this->Ids64 = this->Threads.MakeArray<std::int64_t>(mesh.Triangles.Ids32 ? 0 : 3 * count);
-      this->Triangles = mesh.Triangles.Ids32 ? MutableTriangleArray(this->Ids32.Data(), count)
-                                             : MutableTriangleArray(this->Ids64.Data(), count);
+      this->MakeIds(mesh.Triangles.Ids32 != nullptr, count);
     }
     CopyTriangles(this->Mesh.Triangles, this->Triangles, this->Threads);
     this->Mesh.Triangles = AsConst(this->Triangles);
+  }
+
+  /// Makes an array for triangles.
+  void MakeIds(bool have32Bits, std::int64_t count)
+  {
+    if (have32Bits)
+    {
+      this->Ids32 = this->Threads.MakeArray<std::int32_t>(3 * count);
+      this->Triangles = MutableTriangleArray(this->Ids32.Data(), count);
+      return;
+    }
+    this->Ids64 = this->Threads.MakeArray<std::int64_t>(3 * count);
+    this->Triangles = MutableTriangleArray(this->Ids64.Data(), count);
   }
 
   SubMesh GetPart(int number) const
@@ -258,7 +268,7 @@ private:
   {
     // One worker prepares a part while another's is on the GPU.
     const int devices = static_cast<int>(this->Options.Devices.size());
-    const int workers = devices == 0 ? 1 : std::min(this->Parts, 2 * devices);
+    const int workers = std::max(1, std::min(this->Parts, 2 * devices));
     std::vector<int> turns;
     for (int worker = 0; worker < workers && devices > 0; ++worker)
     {
@@ -339,8 +349,11 @@ private:
     const std::int64_t count = part.GetNumberOfTriangles();
     Array<std::int32_t> flips = this->Threads.MakeArray<std::int32_t>(count);
     session.StoreFlipCounts(flips.Data());
-    this->Threads.ForEach(this->FlipCounts.empty() ? 0 : count,
-      [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += flips[t]; });
+    if (!this->FlipCounts.empty())
+    {
+      this->Threads.ForEach(
+        count, [&](std::int64_t t) { this->FlipCounts[part.GetSlot(t)] += flips[t]; });
+    }
     return flips;
   }
 
@@ -371,34 +384,34 @@ private:
   }
 
   //------------------------------------------------------------------------------
-  void FlipRegions()
+  void FlipNeighbourhoods()
   {
     PointSet active = std::move(this->Seam);
     active.Number(this->Threads);
-    for (std::int64_t regions = 1;
-         active.GetSize() > 0 && this->Report.StopReason == StopReasonKind::Converged; ++regions)
+    for (std::int64_t number = 1;
+         active.GetSize() > 0 && this->Report.StopReason == StopReasonKind::Converged; ++number)
     {
-      if (regions > MostRegions && this->Survey.Geometry == GeometryKind::Surface)
+      if (number > MostNeighbourhoods && this->Survey.Geometry == GeometryKind::Surface)
       {
         this->Report.StopReason = StopReasonKind::IterationLimit;
         return;
       }
-      const double share = PartsShare + (1.0 - PartsShare) * (1.0 - 1.0 / double(regions));
-      active = this->FlipRegion(active,
+      const double share = PartsShare + (1.0 - PartsShare) * (1.0 - 1.0 / double(number));
+      active = this->FlipNeighbourhood(active,
         [&](double part)
         { return !this->Progress || this->Progress(share + part * (1.0 - share) / 2.0); });
     }
   }
 
   /// Flips the triangles around some points, as one mesh.
-  /// @returns the points around which edges must be judged next: those at the border of the region
-  /// that flips have reached. A flip that would join two points at the border, which may have an
-  /// edge elsewhere, waits; a triangle beside it has changed, or the edge would not be bad, so one
-  /// of the two is reached.
-  PointSet FlipRegion(const PointSet& active, const ProgressObserver& progress)
+  /// @returns the points around which edges must be judged next: those at the border of the
+  /// neighbourhood that flips have reached. A flip that would join two points at the border waits,
+  /// because they may have an edge elsewhere. A triangle beside it has changed, or the edge would
+  /// not be bad. So one of the two points is reached.
+  PointSet FlipNeighbourhood(const PointSet& active, const ProgressObserver& progress)
   {
     const TriangleArray& triangles = this->Mesh.Triangles;
-    PointSet inner(this->Mesh.Points.Count, this->Threads); // all of whose triangles belong to it
+    PointSet inner(this->Mesh.Points.Count, this->Threads); // points inside of the neighbourhood
     ForEachCorner(triangles.Count, this->Threads,
       [&](std::int64_t t, int slot)
       {
@@ -407,18 +420,20 @@ private:
           inner.Add(triangles.Get(t, slot));
         }
       });
-    SubMesh region = this->GetTrianglesAt(inner);
-    region.FixEdges(this->Fixed);
+    SubMesh around = this->GetTrianglesAt(inner);
+    around.FixEdges(this->Fixed);
     if (this->Survey.NeedsGuard())
     {
-      region.GuardPoints([&](std::int64_t point) { return !inner.Has(point); });
+      around.GuardPoints([&](std::int64_t point) { return !inner.Has(point); });
     }
     FlipOptions options = this->GetCountingOptions();
-    const auto made = SizeOf(this->Report.Iterations);
-    options.MaximumIterations = this->Options.MaximumIterations < 0
-      ? -1
-      : std::max<std::int64_t>(0, this->Options.MaximumIterations - made);
-    FlipSession session(region.View(false), options, progress);
+    options.MaximumIterations = this->Options.MaximumIterations;
+    if (options.MaximumIterations >= 0)
+    {
+      const std::int64_t left = options.MaximumIterations - SizeOf(this->Report.Iterations);
+      options.MaximumIterations = std::max<std::int64_t>(0, left);
+    }
+    FlipSession session(around.View(false), options, progress);
     if (session.GetReport().StopReason != StopReasonKind::Aborted)
     {
       session.Advance(-1, {}, progress);
@@ -431,20 +446,23 @@ private:
       row.MinimumAngle = NaN;
       this->Report.Iterations.push_back(row);
     }
-    this->Report.Rounds += report.TotalFlips > 0 ? 1 : 0;
+    if (report.TotalFlips > 0)
+    {
+      ++this->Report.Rounds;
+    }
     this->Report.StopReason = report.StopReason;
     this->Report.BuildSeconds += report.BuildSeconds;
     this->Report.FlipSeconds += report.FlipSeconds;
     this->HasBadEdges = this->HasBadEdges || report.NonDelaunayAfter > 0;
 
-    const Array<std::int32_t> flips = this->TakeTriangles(session, region);
-    region.Store(this->Triangles);
+    const Array<std::int32_t> flips = this->TakeTriangles(session, around);
+    around.Store(this->Triangles);
     PointSet next(this->Mesh.Points.Count, this->Threads);
-    for (std::int64_t t = 0; t < region.GetNumberOfTriangles(); ++t)
+    for (std::int64_t t = 0; t < around.GetNumberOfTriangles(); ++t)
     {
       for (int slot = 0; slot < 3 && flips[t] > 0; ++slot)
       {
-        const std::int64_t point = region.GetPoint(t, slot);
+        const std::int64_t point = around.GetPoint(t, slot);
         if (!inner.Has(point))
         {
           next.Add(point);
@@ -460,7 +478,10 @@ private:
   {
     PiecesReport& report = this->Report;
     AddCounts(report.Edges, this->Seams.Edges, 1);
-    report.NonDelaunayBefore += this->AreCounted ? this->Seams.NonDelaunayAfter : 0;
+    if (this->AreCounted)
+    {
+      report.NonDelaunayBefore += this->Seams.NonDelaunayAfter;
+    }
     if (report.Rounds > 1)
     {
       const TriangleMesh& mesh = this->Mesh;
@@ -505,10 +526,13 @@ private:
     this->Report.NonDelaunayAfter = totals.NonDelaunayAfter;
     this->Report.BlockedByShape = totals.BlockedByShape;
     this->Report.BlockedByDeviation = totals.BlockedByDeviation;
-    // A part does not know all edges that exist. After the last flip nothing else blocks any.
-    this->Report.BlockedByEdge = this->Report.Converged()
-      ? totals.NonDelaunayAfter - totals.BlockedByShape - totals.BlockedByDeviation
-      : totals.BlockedByEdge;
+    this->Report.BlockedByEdge = totals.BlockedByEdge;
+    if (this->Report.Converged())
+    {
+      // A part does not know all edges that exist. After the last flip nothing else blocks any.
+      this->Report.BlockedByEdge =
+        totals.NonDelaunayAfter - totals.BlockedByShape - totals.BlockedByDeviation;
+    }
   }
 
   /// What is known of the whole mesh takes the place of what parts have found.

@@ -32,7 +32,8 @@ struct DividedRun
 };
 
 /// Inserts the constraints, surveys the mesh as a whole, divides it, and copies its triangles.
-/// @param triangles receives the triangles, as FlipInPieces says. Empty: arrays of the result do.
+/// @param triangles receives the triangles, as FlipInPieces says. If it is empty, arrays of the
+/// result do.
 /// @throws as FlipInPieces; RunAborted. Then nothing has been copied.
 std::unique_ptr<DividedRun> DivideMesh(const TriangleMesh& mesh, const FlipOptions& options,
   const ProgressObserver& progress, const MutableTriangleArray& triangles = {});

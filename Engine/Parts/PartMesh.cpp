@@ -40,7 +40,14 @@ void PointStars::Add(const PartCorner& corner, std::int32_t point)
 void PointStars::Remove(const PartCorner& corner, std::int32_t point)
 {
   const Link link = this->Links[3 * corner.Triangle + corner.Slot];
-  (link.Previous != None ? this->Links[link.Previous].Next : this->First[point]) = link.Next;
+  if (link.Previous != None)
+  {
+    this->Links[link.Previous].Next = link.Next;
+  }
+  else
+  {
+    this->First[point] = link.Next;
+  }
   if (link.Next != None)
   {
     this->Links[link.Next].Previous = link.Previous;
@@ -133,7 +140,10 @@ void PartMesh::BeginRounds(const MarkedEdges& marks)
       PartTriangle& triangle = this->Triangles[at.Triangle];
       for (int slot = 0; slot < 3; ++slot)
       {
-        triangle.SetMarks(slot, triangle.HasEdge(slot, a, b) ? mark : triangle.GetMarks(slot));
+        if (triangle.HasEdge(slot, a, b))
+        {
+          triangle.SetMarks(slot, mark);
+        }
       }
       return false;
     };
@@ -193,7 +203,8 @@ void PartMesh::SetSeam(const PartCorner& corner)
 void PartMesh::ClearSeam(const PartCorner& corner)
 {
   PartTriangle& triangle = this->Triangles[corner.Triangle];
-  triangle.SetMarks(corner.Slot, triangle.Has(FixedMark, corner.Slot) ? FixedMark : 0);
+  triangle.SetMarks(
+    corner.Slot, static_cast<unsigned char>(triangle.GetMarks(corner.Slot) & FixedMark));
   this->LostSeams.push_back(this->GetKeys(triangle.GetEdge(corner.Slot)));
 }
 
@@ -217,7 +228,7 @@ PartCorner PartMesh::FindMate(const PartCorner& corner) const
 /// A corner opposite to an edge between two points, in any triangle but one; or none.
 PartCorner PartMesh::FindEdge(std::int32_t start, std::int32_t end, std::int64_t except) const
 {
-  PartCorner found{ -1, 0 };
+  PartCorner found;
   this->Stars.FindAtEither(start, end,
     [&](const PartCorner& at)
     {
@@ -236,15 +247,21 @@ PartCorner PartMesh::FindEdge(std::int32_t start, std::int32_t end, std::int64_t
 
 PartCorner PartMesh::FindOpenMate(const PartCorner& corner) const
 {
-  const bool isOpen = this->Triangles[corner.Triangle].GetMarks(corner.Slot) == 0;
-  return isOpen ? this->FindMate(corner) : PartCorner{ -1, 0 };
+  if (this->Triangles[corner.Triangle].GetMarks(corner.Slot) != 0)
+  {
+    return {};
+  }
+  return this->FindMate(corner);
 }
 
 void PartMesh::PrefetchPoints(std::int64_t triangle) const
 {
   for (const std::int32_t point : this->Triangles[triangle].Points)
   {
-    this->Given.Prefetch(point < this->Given.Count ? point : 0);
+    if (point < this->Given.Count)
+    {
+      this->Given.Prefetch(point);
+    }
   }
 }
 
@@ -286,7 +303,7 @@ std::int64_t PartMesh::Receive(const TravellingTriangle& packed)
   this->Triangles.push_back(packed.Triangle);
   PartTriangle& triangle = this->Triangles[t];
   triangle.IsNoted = false;
-  triangle.Step = TriangleStep::None;
+  triangle.Visit = VisitState::None;
   for (int slot = 0; slot < 3; ++slot)
   {
     triangle.Points[slot] = this->FindOrAddPoint(packed.Keys[slot], packed.Coordinates[slot]);

@@ -11,6 +11,7 @@
 #include "Records.h"
 #include "TriangleMesh.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +28,7 @@ using PointPair = std::array<std::int64_t, 2>;
 
 inline PointPair MakePair(std::int64_t a, std::int64_t b)
 {
-  return a < b ? PointPair{ a, b } : PointPair{ b, a };
+  return { std::min(a, b), std::max(a, b) };
 }
 
 struct PairHash
@@ -50,7 +51,7 @@ enum EdgeMark : unsigned char
 };
 
 /// The state of a triangle in an iteration of a round (RoundFlips).
-enum class TriangleStep : unsigned char
+enum class VisitState : unsigned char
 {
   None,
   Listed, ///< Its edges will be judged in this iteration.
@@ -67,7 +68,7 @@ struct PartTriangle
   unsigned char Marks;
   bool HasLeft; ///< It is on another rank now, and its place is empty.
   bool IsNoted; ///< In the list of changed triangles.
-  TriangleStep Step;
+  VisitState Visit;
 
   /// The marks of one edge, shifted to slot 0; SetMarks takes them in the same form.
   unsigned char GetMarks(int slot) const
@@ -96,11 +97,11 @@ struct PartTriangle
 
 using PartTriangles = HostVector<PartTriangle>;
 
-/// A triangle of a rank and one of its corners.
+/// A triangle of a rank and one of its corners; no corner by default.
 struct PartCorner
 {
-  std::int64_t Triangle; ///< -1: there is none.
-  int Slot;
+  std::int64_t Triangle = -1; ///< -1: there is none.
+  int Slot = 0;
 
   bool operator<(const PartCorner& other) const
   {
@@ -108,7 +109,7 @@ struct PartCorner
   }
 };
 
-/// The marks (EdgeMark, of slot 0) of the edges of a part, by the ends of the edges.
+/// The marks of the edges of a part (EdgeMark, shifted to slot 0), by the ends of the edges.
 using MarkedEdges = PairMap<unsigned char>;
 
 /// The star of every point of a rank: the corners of triangles at the point. The stars are linked
@@ -228,8 +229,8 @@ public:
   {
     return ends[0] != ends[1] && this->IsShared(ends[0]) && this->IsShared(ends[1]);
   }
-  /// The keys of all points, with flags of those at which other ranks may have triangles. Without
-  /// the flags of Used and Closed.
+  /// The keys of all points, with flags of those at which other ranks may have triangles. Used and
+  /// Closed are empty.
   const PointKeys& GetPointKeys() const { return this->Points; }
   std::int32_t GetRank() const { return this->Rank; }
 

@@ -4,6 +4,7 @@
 #include "DelaunayFlip.h"
 #include "HostMemory.h"
 #include "PartMesh.h"
+#include "PartReports.h"
 #include "PartSurvey.h"
 #include "PieceFlip.h"
 #include "Records.h"
@@ -63,8 +64,9 @@ struct WaitedFlips
   std::vector<PointPair> Gone; ///< The ends of these edges before the flip.
 };
 
-/// Finds the inner edges of some triangles whose two opposite points are both shared, that are bad
-/// and whose flip would not fold the mesh over, in the order of the later of their triangles.
+/// Finds inner edges of some triangles that must wait. Both points opposite to such an edge are
+/// shared, and it is bad, and its flip would not fold the mesh over. The edges are in the order of
+/// the later of their triangles.
 std::vector<WaitingFlip> FindWaiting(
   PartMesh& mesh, std::vector<std::int64_t> triangles, const QuadJudge& judge)
 {
@@ -76,12 +78,17 @@ std::vector<WaitingFlip> FindWaiting(
     for (int slot = 0; slot < 3 && !mesh.Triangles[t].HasLeft; ++slot)
     {
       const PartCorner corner{ t, slot };
-      const PartCorner mate = mesh.IsShared(mesh.Triangles[t].Points[slot])
-        ? mesh.FindOpenMate(corner)
-        : PartCorner{ -1, 0 };
-      const bool isNew = mate.Triangle > t ||
-        (mate.Triangle >= 0 &&
-          !std::binary_search(triangles.begin(), triangles.end(), mate.Triangle));
+      if (!mesh.IsShared(mesh.Triangles[t].Points[slot]))
+      {
+        continue;
+      }
+      const PartCorner mate = mesh.FindOpenMate(corner);
+      if (mate.Triangle < 0)
+      {
+        continue;
+      }
+      const bool isNew =
+        mate.Triangle > t || !std::binary_search(triangles.begin(), triangles.end(), mate.Triangle);
       if (isNew && mesh.IsShared(mesh.Triangles[mate.Triangle].Points[mate.Slot]) &&
         judge.Judge(mesh, corner, mate) == EdgeState::Bad)
       {
@@ -172,9 +179,17 @@ public:
     {
       const std::int64_t slot = triangles[t].Origin - first;
       const bool isOwn = slot >= 0 && slot < count;
-      if (!triangles[t].HasLeft)
+      if (triangles[t].HasLeft)
       {
-        (isOwn ? order[slot] : order.emplace_back()) = static_cast<std::uint32_t>(t);
+        continue;
+      }
+      if (isOwn)
+      {
+        order[slot] = static_cast<std::uint32_t>(t);
+      }
+      else
+      {
+        order.push_back(static_cast<std::uint32_t>(t));
       }
     }
     std::sort(order.begin() + count, order.end(),
@@ -281,9 +296,10 @@ private:
   /// Whether no rank has stopped.
   bool MayGoOn()
   {
+    const bool isAborted = this->StopReason == StopReasonKind::Aborted;
+    const bool isAtLimit = this->StopReason == StopReasonKind::IterationLimit;
     const bool isUncounted = this->Own.Triangles > 0 && this->Own.Edges.Edges == 0;
-    const std::vector<std::int64_t> own{ this->StopReason == StopReasonKind::Aborted ? 1 : 0,
-      this->StopReason == StopReasonKind::IterationLimit ? 1 : 0, isUncounted ? 1 : 0,
+    const std::vector<std::int64_t> own{ isAborted, isAtLimit, isUncounted,
       this->CountRows() - this->EarlierRows };
     this->EarlierRows = this->CountRows();
     const std::vector<std::int64_t> most = FindMaxima(this->Job.Group, own);
@@ -357,8 +373,8 @@ private:
   }
 
   /// Flips waiting edges as far as the guard allows. Other edges can have become bad only where
-  /// triangles have changed. Removes from `test` the seam edges whose flip would make an edge that
-  /// exists or that another flip makes, and those whose triangle has just changed. All ranks must
+  /// triangles have changed. Seam edges are removed from `test` if their flip would make an edge
+  /// that exists or that another flip makes, or if their triangle has just changed. All ranks must
   /// call this together.
   WaitedFlips FlipWaiting(SeamTest& test)
   {
@@ -409,9 +425,11 @@ private:
   {
     const StopWatch watch;
     const double rounds = static_cast<double>(this->Whole.Rounds);
-    const std::int64_t limit = this->Job.Options.MaximumIterations >= 0
-      ? this->EarlierRows + this->Job.Options.MaximumIterations - this->Iterations
-      : this->CountRows() + SizeOf(this->Mesh.Triangles) + SafetyMargin;
+    std::int64_t limit = this->CountRows() + SizeOf(this->Mesh.Triangles) + SafetyMargin;
+    if (this->Job.Options.MaximumIterations >= 0)
+    {
+      limit = this->EarlierRows + this->Job.Options.MaximumIterations - this->Iterations;
+    }
     while (!flips.AreDone() && this->StopReason == StopReasonKind::Converged)
     {
       if (!this->Tell(1.0 - (1.0 - FirstShare) / (1.0 + rounds)))
@@ -420,7 +438,10 @@ private:
       }
       else if (this->CountRows() >= limit)
       {
-        this->StopReason = flips.HasBad() ? StopReasonKind::IterationLimit : this->StopReason;
+        if (flips.HasBad())
+        {
+          this->StopReason = StopReasonKind::IterationLimit;
+        }
         break;
       }
       else
@@ -478,9 +499,10 @@ private:
       for (int slot = 0; slot < 3 && !this->Mesh.Triangles[t].HasLeft; ++slot)
       {
         const PartCorner mate = this->Mesh.FindOpenMate({ t, slot });
-        const EdgeState state =
-          mate.Triangle > t ? flips.Judge({ t, slot }, mate) : EdgeState::Good;
-        CountState(state, this->Own);
+        if (mate.Triangle > t)
+        {
+          CountState(flips.Judge({ t, slot }, mate), this->Own);
+        }
       }
     }
   }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartSurvey.h"
 
-#include "Atomics.h"
 #include "EdgeMeshBuilder.h"
 #include "ExactPredicates.h"
 #include "FlipError.h"
@@ -14,325 +13,18 @@
 #include "SurfaceAngles.h"
 #include "TriangleAngles.h"
 
-#include <array>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
 
 namespace delaunayflip
 {
 
 namespace
 {
-/// The place of a point: its global number, or the bits of its three coordinates. Points of
-/// different ranks can be the same point only if their places are equal.
-using Place = std::array<std::uint64_t, 3>;
-
-std::uint64_t GetHash(const Place& place)
-{
-  return ScatterBits(place[0] + ScatterBits(place[1] + ScatterBits(place[2])));
-}
-
-bool Holds(const BoundingBox& box, const double (&x)[3])
-{
-  bool holds = true;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    holds = holds && box.Lower[axis] <= x[axis] && x[axis] <= box.Upper[axis];
-  }
-  return holds;
-}
-
-/// A point of one rank that another may have, too.
-struct Candidate
-{
-  Place At;
-  std::int64_t Key; ///< Its key if it is not shared.
-  std::int32_t Rank;
-  bool IsUnused; ///< It has no triangles.
-  bool IsInside; ///< It has no number and is not at the border of its part.
-};
-
-/// What is known of the points of a piece.
-class PiecePoints
-{
-public:
-  /// @param haveNumbers whether all pieces that have points give numbers.
-  PiecePoints(const MeshPiece& piece, bool haveNumbers, const ThreadBackend& threads)
-    : Mesh(piece.Mesh),
-      Used(Mesh.Points.Count, 0),
-      Numbers(haveNumbers ? piece.PointNumbers : nullptr),
-      Fans(threads.MakeArray<std::uint64_t>(Mesh.Points.Count))
-  {
-    threads.ForEach(this->Mesh.Points.Count, [&](std::int64_t i) { this->Fans[i] = 0; });
-    threads.ForEach(this->Mesh.Triangles.Count,
-      [&](std::int64_t t)
-      {
-        std::int64_t ids[3];
-        std::uint64_t bits[3];
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          ids[slot] = this->Mesh.Triangles.Get(t, slot);
-          bits[slot] = ScatterBits(ids[slot]);
-        }
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          // Around a closed fan every neighbour is once the next one and once the previous one.
-          __atomic_fetch_add(
-            &this->Fans[ids[slot]], bits[(slot + 1) % 3] - bits[(slot + 2) % 3], __ATOMIC_RELAXED);
-          AtomicStore<unsigned char>(&this->Used[ids[slot]], 1);
-        }
-      });
-    for (std::int64_t i = 0; i < 2 * this->Mesh.NumberOfConstraintEdges; ++i)
-    {
-      const std::int64_t end = this->Mesh.ConstraintEdges[i];
-      this->Fans[end] = this->Used[end] != 0 ? this->Fans[end] : 1;
-    }
-  }
-
-  bool HaveNumbers() const { return this->Numbers != nullptr; }
-  /// Whether the triangles of a point form a closed fan.
-  bool IsClosed(std::int64_t point) const
-  {
-    return this->Used[point] != 0 && this->Fans[point] == 0;
-  }
-  /// Whether a point is at the border of the part: its triangles do not form a closed fan, or it
-  /// has none and is the end of a constraint. Also true where triangles are not wound consistently.
-  bool IsAtBorder(std::int64_t point) const { return this->Fans[point] != 0; }
-  /// Whether a point must be matched with points of other ranks: a triangle has it, or it is the
-  /// end of a constraint.
-  bool IsWanted(std::int64_t point) const
-  {
-    return this->Used[point] != 0 || this->IsAtBorder(point);
-  }
-
-  /// @returns whether the coordinates are numbers.
-  bool GetPosition(std::int64_t point, double (&x)[3]) const
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      x[axis] = this->Mesh.Points.Get(point, axis) + 0.0; // -0 becomes 0
-    }
-    return !std::isnan(x[0]) && !std::isnan(x[1]) && !std::isnan(x[2]);
-  }
-  /// @returns whether a point has a place: a number, or coordinates without NaN.
-  bool FindPlace(std::int64_t point, Place& place) const
-  {
-    if (this->Numbers)
-    {
-      place = { static_cast<std::uint64_t>(this->Numbers[point]), 0, 0 };
-      return true;
-    }
-    double x[3];
-    const bool isPlace = this->GetPosition(point, x);
-    std::memcpy(place.data(), x, sizeof(x));
-    return isPlace;
-  }
-
-  /// Calls add(candidate) for the wanted points for which isAsked(place) is true or that are at the
-  /// border.
-  /// @param firstKey of the piece.
-  template <typename IsAsked, typename Add>
-  void List(std::int64_t firstKey, int rank, const IsAsked& isAsked, const Add& add) const
-  {
-    for (std::int64_t i = 0; i < this->Mesh.Points.Count; ++i)
-    {
-      Place place{};
-      if (this->IsWanted(i) && this->FindPlace(i, place) && (this->IsAtBorder(i) || isAsked(place)))
-      {
-        const bool isInside = !this->Numbers && !this->IsAtBorder(i);
-        add({ place, firstKey + i, rank, this->Used[i] == 0, isInside });
-      }
-    }
-  }
-
-  const TriangleMesh& Mesh;
-  std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
-
-private:
-  const std::int64_t* Numbers; ///< One per point, or null.
-  /// One number per point: 0 if its triangles form a closed fan, or closed fans, or it has none and
-  /// is not the end of a constraint.
-  Array<std::uint64_t> Fans;
-};
-
-/// Calls visit(same) for the candidates at each place, if several ranks have it and one of them is
-/// not inside its part: first those with triangles, then the others; each group by key, hence by
-/// rank.
-/// @returns how many are not visited because a rank has several at one place.
-template <typename Visit>
-std::int64_t ForEachShared(std::vector<Candidate> all, const Visit& visit)
-{
-  const auto order = [](const Candidate& a) { return std::tie(a.At, a.IsUnused, a.Key); };
-  std::sort(all.begin(), all.end(),
-    [&](const Candidate& a, const Candidate& b) { return order(a) < order(b); });
-  std::int64_t ambiguous = 0;
-  const auto join = [&](const Candidate* begin, const Candidate* end)
-  {
-    // Only one point without triangles counts per rank, and none if it has one with triangles.
-    std::vector<Candidate> list;
-    bool isRepeated = false;
-    for (const Candidate* one = begin; one != end; ++one)
-    {
-      const bool isKnown = std::any_of(
-        list.begin(), list.end(), [=](const Candidate& other) { return other.Rank == one->Rank; });
-      if (!one->IsUnused || !isKnown)
-      {
-        list.push_back(*one);
-        isRepeated = isRepeated || isKnown;
-      }
-    }
-    if (list.front().Rank == list.back().Rank ||
-      std::all_of(list.begin(), list.end(), [](const Candidate& one) { return one.IsInside; }))
-    {
-      return;
-    }
-    if (isRepeated)
-    {
-      ambiguous += SizeOf(list);
-      return;
-    }
-    visit(list);
-  };
-  ForEachRun(
-    all, [](const Candidate& a, const Candidate& b) { return a.At == b.At; }, join);
-  return ambiguous;
-}
-
-/// Asks the ranks whose box holds a point of this one whether they have it, too: a border point, or
-/// any point if points have numbers. It may be inside their part: where three sheets of a
-/// non-manifold mesh meet, two may be on one rank; and sheets that lie on each other may have the
-/// same points.
-/// @returns the hashes of the places, for each rank.
-RecordLists<std::uint64_t> AskForPoints(const PiecePoints& points, PieceGroup& group)
-{
-  if (group.GetSize() == 1)
-  {
-    return RecordLists<std::uint64_t>(1); // without a pass over all points
-  }
-  BoundingBox used;
-  double x[3];
-  for (std::int64_t i = 0; i < points.Mesh.Points.Count; ++i)
-  {
-    points.GetPosition(i, x);
-    for (int axis = 0; axis < 3 && points.Used[i] != 0; ++axis)
-    {
-      used.Include(axis, x[axis], x[axis]);
-    }
-  }
-  const RecordLists<BoundingBox> boxes = GatherRecords(group, std::vector<BoundingBox>{ used });
-  RecordLists<std::uint64_t> questions(boxes.size());
-  for (std::int64_t i = 0; i < points.Mesh.Points.Count; ++i)
-  {
-    Place place{};
-    if (!(points.HaveNumbers() ? points.IsWanted(i) : points.IsAtBorder(i)) ||
-      !points.FindPlace(i, place))
-    {
-      continue;
-    }
-    const bool isSomewhere = points.GetPosition(i, x);
-    for (int rank = 0; rank < group.GetSize(); ++rank)
-    {
-      if (rank != group.GetRank() && (!isSomewhere || Holds(boxes[rank].front(), x)))
-      {
-        questions[rank].push_back(GetHash(place));
-      }
-    }
-  }
-  return questions;
-}
-}
-
-PointKeys MatchPoints(const MeshPiece& piece, PieceGroup& group, const ThreadBackend& threads)
-{
-  const std::int64_t count = piece.Mesh.Points.Count;
-  const bool lacksNumbers = !piece.PointNumbers && count > 0;
-  PiecePoints points(piece, SumOverRanks(group, std::int64_t(lacksNumbers ? 1 : 0)) == 0, threads);
-  PointKeys keys;
-  keys.Owners = RankNumbers(count, group);
-  const std::int64_t first = keys.Owners.Firsts[group.GetRank()];
-  std::vector<std::uint64_t> asked = Join(ExchangeRecords(group, AskForPoints(points, group)));
-  std::sort(asked.begin(), asked.end());
-  RecordLists<Candidate> toHome(group.GetSize());
-  points.List(
-    first, group.GetRank(), // another place with the same hash is only sent in vain
-    [&](const Place& place)
-    { return std::binary_search(asked.begin(), asked.end(), GetHash(place)); },
-    [&](const Candidate& one) { toHome[GetHome(GetHash(one.At), group)].push_back(one); });
-  // Now this rank is the home of places. An answer is the key that the rank has sent, and that of
-  // the owner.
-  RecordLists<PointPair> answers(group.GetSize());
-  keys.UsedPoints = std::count(points.Used.begin(), points.Used.end(), 1);
-  keys.Ambiguous = ForEachShared(Join(ExchangeRecords(group, toHome)),
-    [&](const std::vector<Candidate>& same)
-    {
-      const Candidate& owner = same.front();
-      for (const Candidate& one : same)
-      {
-        if (!owner.IsUnused)
-        {
-          keys.Repeated += one.Key == owner.Key ? 0 : 1;
-          keys.UsedPoints -= one.Key == owner.Key || one.IsUnused ? 0 : 1;
-          answers[one.Rank].push_back({ one.Key, owner.Key });
-        }
-      }
-    });
-  keys.Keys.resize(count);
-  keys.Shared.resize(count);
-  keys.Closed.resize(count);
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    keys.Keys[i] = first + i;
-    keys.Closed[i] = points.IsClosed(i) ? 1 : 0;
-  }
-  for (const auto& [own, key] : Join(ExchangeRecords(group, answers)))
-  {
-    keys.Keys[own - first] = key;
-    keys.Shared[own - first] = 1;
-    keys.Closed[own - first] = 0;
-  }
-  for (std::int64_t* sum : { &keys.Repeated, &keys.UsedPoints, &keys.Ambiguous })
-  {
-    *sum = SumOverRanks(group, *sum);
-  }
-  keys.Used = std::move(points.Used);
-  return keys;
-}
-
-JoinedPoints JoinPoints(const std::vector<MeshPiece>& pieces)
-{
-  const bool haveNumbers = std::all_of(pieces.begin(), pieces.end(),
-    [](const MeshPiece& piece) { return piece.PointNumbers || piece.Mesh.Points.Count == 0; });
-  const ThreadBackend threads(1);
-  JoinedPoints joined;
-  std::vector<Candidate> all;
-  for (std::size_t number = 0; number < pieces.size(); ++number)
-  {
-    const auto first = SizeOf(joined.Same);
-    PiecePoints(pieces[number], haveNumbers, threads)
-      .List(
-        first, static_cast<int>(number), [](const Place&) { return true; },
-        [&](const Candidate& one) { all.push_back(one); });
-    joined.Same.resize(joined.Same.size() + pieces[number].Mesh.Points.Count);
-    std::iota(joined.Same.begin() + first, joined.Same.end(), first);
-  }
-  joined.Ambiguous = ForEachShared(std::move(all),
-    [&](const std::vector<Candidate>& same)
-    {
-      std::int64_t least = same.front().Key;
-      for (const Candidate& one : same)
-      {
-        least = std::min(least, one.Key);
-      }
-      for (const Candidate& one : same)
-      {
-        joined.Same[one.Key] = least;
-      }
-    });
-  return joined;
-}
-
-//------------------------------------------------------------------------------
-namespace
-{
-/// Threads whose sums are those of all ranks, so that a survey decides alike on all of them.
+/// A backend that adds up sums over all ranks, so that a survey decides alike on all of them.
 class GroupBackend : public ThreadBackend
 {
 public:
@@ -380,6 +72,53 @@ void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
   }
 }
 
+std::string Write(bool value) { return value ? "on" : "off"; }
+
+std::string Write(double value)
+{
+  std::ostringstream text;
+  text << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
+  return text.str();
+}
+}
+
+void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
+  const std::vector<std::pair<std::string, std::string>>& more)
+{
+  std::vector<std::pair<std::string, std::string>> all = {
+    { "Geometry", ToString(options.Geometry) },
+    { "Criterion", options.Criterion == CriterionKind::InCircle ? "in-circle" : "opposite-angles" },
+    { "TieRule", options.TieRule == TieRuleKind::Keep ? "keep" : "canonical" },
+    { "Tolerance", Write(options.Tolerance) },
+    { "FeatureAngle", Write(options.FeatureAngle) },
+    { "MaximumDeviation", Write(options.MaximumDeviation) },
+    { "MaximumIterations", std::to_string(options.MaximumIterations) },
+    { "TrackQuality", Write(options.TrackQuality) },
+  };
+  all.insert(all.end(), more.begin(), more.end());
+  Message own;
+  for (const auto& option : all)
+  {
+    Put(own, option.second);
+  }
+  std::vector<MessageReader> ranks;
+  for (Message& message : group.Gather(own))
+  {
+    ranks.emplace_back(std::move(message));
+  }
+  for (const auto& option : all)
+  {
+    const auto first = ranks[0].Get<std::string>();
+    for (std::size_t rank = 1; rank < ranks.size(); ++rank)
+    {
+      const auto value = ranks[rank].Get<std::string>();
+      if (value != first)
+      {
+        throw InvalidOptions(option.first + " is '" + first + "' on rank 0, but '" + value +
+          "' on rank " + std::to_string(rank) + "; set it to the same on all ranks");
+      }
+    }
+  }
 }
 
 void CheckParts(const MeshPiece& piece, const FlipOptions& options, PieceGroup& group)
@@ -432,8 +171,8 @@ PartSurvey SurveyParts(
     [](unsigned char isUsed) { return isUsed != 0 ? PointUse::Used : PointUse::Unused; });
   SurveyPointsAndGeometry(found, MeshInput{ mesh, mesh }, options.Geometry, backend);
   CheckTieRule(options, found.Geometry);
-  const std::int64_t doubles = mesh.Points.Count > 0 && !mesh.Points.Floats ? 1 : 0;
-  PartSurvey survey(std::move(found), SumOverRanks(group, doubles) == 0);
+  const bool hasDoubles = mesh.Points.Count > 0 && !mesh.Points.Floats;
+  PartSurvey survey(std::move(found), !IsOnAnyRank(group, hasDoubles));
   survey.NearlyHeightField.FirstIds.clear(); // of other ranks
   if (survey.Geometry != GeometryKind::Surface)
   {
@@ -454,10 +193,10 @@ PlanePoint GetPlace(
   return place;
 }
 
-/// Counts how a triangle turns, and which of its corners at closed points cover the direction +u.
-/// The triangles around a closed point turn around it a whole number of times. If its star is
-/// simple, +u is covered once.
-struct StarTurnStep
+/// Adds the orientation of a triangle, and counts its corners at closed points that cover the
+/// direction +u. The triangles around a closed point go around it a whole number of times. If its
+/// star is simple, +u is covered once.
+struct StarSum
 {
   const TriangleMesh& Mesh;
   const PlaneProjection& Plane;
@@ -482,10 +221,12 @@ struct StarTurnStep
     }
     const int side = isFinite ? FindOrientation(p[0], p[1], p[2]) : 0;
     sums.Orientations.Note(side, t);
-    const int up = (StarSurvey::IsUpper(p[0], p[1]) ? 1 : 0) |
-      (StarSurvey::IsUpper(p[1], p[2]) ? 2 : 0) | (StarSurvey::IsUpper(p[2], p[0]) ? 4 : 0);
-    // Where a left turn covers +u, the edges to and from the corner go down; a right turn, up. No
-    // branches, which would be mispredicted half of the time.
+    // Whether the three edges go up, as bits.
+    const auto goesUp = [&](int from, int to) { return int(StarSurvey::IsUpper(p[from], p[to])); };
+    const int up = goesUp(0, 1) | goesUp(1, 2) << 1 | goesUp(2, 0) << 2;
+    // Where the corner of a counter-clockwise triangle covers +u, the edges to it and from it go
+    // down. Those of a clockwise one go up. Tables take the place of branches, which would be
+    // mispredicted half of the time.
     constexpr int Corner[8] = { 0, 2, 0, 1, 1, 0, 2, 0 };
     constexpr int IsOneUp = 0b00010110, IsTwoUp = 0b01101000;
     const int covers = ((side > 0 ? IsOneUp : IsTwoUp) >> up) & 1;
@@ -508,22 +249,26 @@ struct Wedge
   bool Covers(const PlanePoint& place) const
   {
     const int afterFirst = FindOrientation(this->Apex, this->First, place);
-    return afterFirst == 0
-      ? StarSurvey::IsUpper(this->Apex, this->First) == StarSurvey::IsUpper(this->Apex, place)
-      : afterFirst > 0 && FindOrientation(this->Apex, place, this->Last) > 0;
+    if (afterFirst == 0)
+    {
+      return StarSurvey::IsUpper(this->Apex, this->First) == StarSurvey::IsUpper(this->Apex, place);
+    }
+    return afterFirst > 0 && FindOrientation(this->Apex, place, this->Last) > 0;
   }
   /// The order of wedges around a point, by their first directions.
   bool IsBefore(const Wedge& other) const
   {
     const bool isUpper = StarSurvey::IsUpper(this->Apex, this->First);
-    return isUpper == StarSurvey::IsUpper(this->Apex, other.First)
-      ? FindOrientation(this->Apex, this->First, other.First) > 0
-      : isUpper;
+    if (isUpper != StarSurvey::IsUpper(this->Apex, other.First))
+    {
+      return isUpper;
+    }
+    return FindOrientation(this->Apex, this->First, other.First) > 0;
   }
 };
 
 /// The wedges of a rank: at shared points for the homes of these, the others for this rank.
-/// @param survey has the side to which all triangles turn.
+/// @param survey has the orientation of all triangles.
 RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PartSurvey& survey,
   const PointKeys& keys, const ThreadBackend& threads, const PieceGroup& group)
 {
@@ -545,8 +290,8 @@ RecordLists<Wedge> ListWedges(const TriangleMesh& mesh, const PartSurvey& survey
       const int first = (slot + (survey.Whole.Side > 0 ? 1 : 2)) % 3;
       const auto place = [&](int corner) { return GetPlace(mesh, survey.Projection, t, corner); };
       const Wedge wedge{ keys.Keys[point], place(slot), place(first), place(3 - slot - first) };
-      const int home =
-        keys.Shared[point] ? GetHome(ScatterBits(wedge.Key), group) : group.GetRank();
+      const bool isShared = keys.Shared[point] != 0;
+      const int home = isShared ? GetHome(ScatterBits(wedge.Key), group) : group.GetRank();
       toHome[home].push_back(wedge);
     }
   }
@@ -578,7 +323,7 @@ void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBa
 {
   WholeMesh& whole = survey.Whole;
   PlaneSums sums = threads.Sum<PlaneSums>(
-    mesh.Triangles.Count, StarTurnStep{ mesh, survey.Projection, keys.Closed.data() });
+    mesh.Triangles.Count, StarSum{ mesh, survey.Projection, keys.Closed.data() });
   sums.Covers -= std::count(keys.Closed.begin(), keys.Closed.end(), 1);
   sums = SumOverRanks(group, sums);
   whole.Side = sums.Orientations.GetSide() < 0 ? -1 : 1;
@@ -595,7 +340,7 @@ void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBa
   ForEachRun(
     wedges, [](const Wedge& a, const Wedge& b) { return a.Key == b.Key; },
     [&](Wedge* begin, Wedge* end) { areApart = areApart && AreApart(begin, end); });
-  whole.StarsAreSimple = SumOverRanks(group, std::int64_t(areApart ? 0 : 1)) == 0;
+  whole.StarsAreSimple = !IsOnAnyRank(group, !areApart);
 }
 
 }

@@ -7,7 +7,7 @@
 #include "MeshSurvey.h"
 #include "PieceFlip.h"
 #include "PieceGroup.h"
-#include "Records.h"
+#include "PointMatching.h"
 #include "SmallestAngle.h"
 #include "ThreadBackend.h"
 #include "TriangleMesh.h"
@@ -19,40 +19,14 @@
 namespace delaunayflip
 {
 
-/// The keys of points. A key is a number that stands for one point of the whole mesh: all ranks
-/// that have the point use the same key.
-struct PointKeys
-{
-  RankNumbers Owners; ///< For each key a rank that has the point from the start.
-  HostVector<std::int64_t> Keys; ///< One per point of this rank.
-  std::vector<unsigned char> Shared; ///< One flag per point: whether another rank has it, too.
-  std::vector<unsigned char> Used; ///< One flag per point: whether a triangle has it.
-  /// One flag per point: whether it is not shared and its triangles form a closed fan.
-  std::vector<unsigned char> Closed;
-
-  // These are about the whole mesh:
-  std::int64_t Repeated = 0; ///< Points of all ranks that a lower rank has, too.
-  std::int64_t UsedPoints = 0; ///< Points of triangles, each once.
-  /// Points that coincide with others of their rank and with a point of another rank.
-  std::int64_t Ambiguous = 0;
-};
-
-/// Finds the points that several ranks have: points with the same global number or, without such
-/// numbers, with the same coordinates if at least one of them is at the border of a part. A point
-/// without triangles that is the end of a constraint counts as a border point. Two points with the
-/// same number that are inside their parts are found if each of them lies in the bounding box of
-/// the other one's rank.
-PointKeys MatchPoints(
-  const MeshPiece& piece, PieceGroup& group, const ThreadBackend& threads = ThreadBackend(1));
-
-/// What is known of the whole mesh; the same on all ranks.
+/// The survey of the whole mesh, which is the same on all ranks.
 struct PartSurvey : MeshSurvey
 {
-  WholeMesh Whole; ///< With the same plane; without SharedPoints.
+  WholeMesh Whole; ///< Has the same plane, and no SharedPoints.
   bool IsFloat = true; ///< Whether all ranks that have points have coordinates of type float.
 
   PartSurvey() = default;
-  /// Without StarsAreSimple. Drops the values of single points.
+  /// Drops the values of single points. StarsAreSimple is not known yet.
   PartSurvey(MeshSurvey found, bool isFloat);
 
   /// Whether a flip could make an edge that already exists on some rank. Then flips need a guard
@@ -121,11 +95,12 @@ struct PartJob
   const ProgressObserver& Progress;
 };
 
-/// Sets Side and StarsAreSimple of the whole mesh: whether all its triangles strictly turn to the
-/// same side in the plane, and the triangles around every point cover no direction twice. Then
-/// flips need no guard (PlanarSurvey::StarsAreSimple), neither in the whole mesh nor in a part,
-/// where the star of a point has some of the same triangles. All ranks must call this together.
-/// @param keys of which only Keys, Shared and Closed matter.
+/// Sets Side and StarsAreSimple of the whole mesh. Its stars are simple if all its triangles have
+/// the same strict orientation in the plane, and the triangles around every point cover no
+/// direction twice. Then flips need no guard (PlanarSurvey::StarsAreSimple) in the whole mesh. They
+/// need none in a part either, where the star of a point has some of the same triangles. All ranks
+/// must call this together.
+/// @param keys with Keys, Shared and Closed.
 void SurveyStars(const TriangleMesh& mesh, const PointKeys& keys, const ThreadBackend& threads,
   PieceGroup& group, PartSurvey& survey);
 

@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_RECORDS_H
 #define DELAUNAYFLIP_RECORDS_H
 
-#include "FlipReport.h"
 #include "PieceFlip.h"
 #include "PieceGroup.h"
 
@@ -14,8 +13,8 @@
 #include <vector>
 
 /// @file
-/// What ranks tell each other: messages made of records, which are plain structs with the same
-/// memory layout on all ranks, and reports of the whole mesh.
+/// Ranks send each other messages made of records, which are plain structs with the same memory
+/// layout on all ranks.
 
 namespace delaunayflip
 {
@@ -97,6 +96,12 @@ Value SumOverRanks(PieceGroup& group, const Value& value)
   return sum;
 }
 
+/// Whether something is true on at least one rank.
+inline bool IsOnAnyRank(PieceGroup& group, bool isHere)
+{
+  return SumOverRanks(group, std::int64_t(isHere)) > 0;
+}
+
 /// Returns, for each value, the largest of all ranks.
 template <typename Value>
 std::vector<Value> FindMaxima(PieceGroup& group, std::vector<Value> values)
@@ -147,27 +152,6 @@ inline int GetHome(std::uint64_t hash, const PieceGroup& group)
 {
   return static_cast<int>(hash % static_cast<std::uint64_t>(group.GetSize()));
 }
-
-//------------------------------------------------------------------------------
-/// Adds up the reports of all ranks. All ranks get the same result. Texts that differ are listed.
-/// Iterations with the same number are joined, without their smallest angles.
-FlipReport JoinReports(const FlipReport& report, PieceGroup& group);
-
-/// Joins the reports of the parts of a mesh of one process. Each time is the largest of all parts.
-FlipReport JoinReports(const std::vector<FlipReport>& reports);
-
-/// Completes the report of the whole mesh once its edges and the smallest angle are known.
-/// @param isCounted whether all edges have been counted.
-void CompleteReport(FlipReport& report, std::int64_t usedPoints, bool isCounted);
-
-/// Adds the edges that a report counts, by their kinds and after the last flip.
-/// @param factor 1 to add, -1 to subtract.
-///
-/// The sum over all parts counts seam edges wrongly: each is a boundary edge of several parts. To
-/// correct the sum, add the counts of triangles at seams, taken as one mesh, and subtract the
-/// counts of the same triangles, taken part by part. Then edges inside a part cancel out, and a
-/// seam edge is counted once.
-void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor);
 
 }
 

@@ -7,16 +7,16 @@ namespace delaunayflip
 
 void CountState(EdgeState state, FlipReport& counts)
 {
-  counts.NonDelaunayAfter += state != EdgeState::Good ? 1 : 0;
-  counts.BlockedByShape += state == EdgeState::BlockedByShape ? 1 : 0;
-  counts.BlockedByDeviation += state == EdgeState::BlockedByDeviation ? 1 : 0;
-  counts.BlockedByEdge += state == EdgeState::BlockedByEdge ? 1 : 0;
+  counts.NonDelaunayAfter += state != EdgeState::Good;
+  counts.BlockedByShape += state == EdgeState::BlockedByShape;
+  counts.BlockedByDeviation += state == EdgeState::BlockedByDeviation;
+  counts.BlockedByEdge += state == EdgeState::BlockedByEdge;
 }
 
 /// Brings the sides up to date.
 void SeamTester::Update(PartMesh& mesh, const std::vector<std::int64_t>& changed, PieceGroup& group)
 {
-  // What has changed, for the homes of the edges. One without a corner has lost its triangle here.
+  // Changes go to the homes of the edges. An edge without a corner has lost its triangle here.
   constexpr std::int64_t HasNone = -1;
   RecordLists<SeamTriangle> toHome(group.GetSize());
   const auto tell = [&](const SeamTriangle& seam)
@@ -64,15 +64,18 @@ SeamTest SeamTester::Run(PartMesh& mesh, const std::vector<std::int64_t>& change
     const EdgeState state = judge.Judge(one, other);
     one.IsToTest = other.IsToTest = state != EdgeState::Good;
     CountState(state, result.Counts);
-    countOfBad += state == EdgeState::Bad ? 1 : 0;
-    for (int i = 0; i < 2 && state == EdgeState::Bad; ++i)
+    if (state != EdgeState::Bad)
     {
-      const SeamTriangle& own = i == 0 ? one : other;
-      BadSeam seam{ own.Corner / 3, own.Ends, MakePair(one.Opposite, other.Opposite), {},
-        i == 0 ? other.Rank : one.Rank };
-      std::copy_n(one.Places[0], 3, seam.Place);
-      toRank[own.Rank].push_back(seam);
+      return;
     }
+    ++countOfBad;
+    BadSeam seam{ one.Corner / 3, one.Ends, MakePair(one.Opposite, other.Opposite), {},
+      other.Rank };
+    std::copy_n(one.Places[0], 3, seam.Place);
+    toRank[one.Rank].push_back(seam);
+    seam.Triangle = other.Corner / 3;
+    seam.OtherRank = one.Rank;
+    toRank[other.Rank].push_back(seam);
   };
   DoTogether(group,
     [&]()
@@ -99,7 +102,7 @@ namespace
 /// Divides the bad seam edges between two ranks into two halves by their places.
 struct SeamCut
 {
-  int Axis; ///< Along which the edges extend most.
+  int Axis; ///< The axis along which the edges extend most.
   double Median;
 };
 
@@ -109,8 +112,8 @@ double GetPlace(const BadSeam* seam, int axis)
   return std::isnan(seam->Place[axis]) ? 0.0 : seam->Place[axis];
 }
 
-/// By the other rank. Both ranks find the same halves, because they have got the same edges and
-/// places.
+/// Finds a cut for each other rank. Both ranks find the same halves, because they have got the same
+/// edges and places.
 /// @param bad the bad seam edges of this rank.
 std::unordered_map<int, SeamCut> CutSeams(const std::vector<BadSeam>& bad)
 {
@@ -130,6 +133,11 @@ std::unordered_map<int, SeamCut> CutSeams(const std::vector<BadSeam>& bad)
   }
   return cuts;
 }
+
+int ChooseRank(int one, int other, bool isLower)
+{
+  return isLower ? std::min(one, other) : std::max(one, other);
+}
 }
 
 std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSeam>& bad,
@@ -148,14 +156,15 @@ std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSea
   for (const BadSeam& seam : bad)
   {
     const bool toLower = rule.ToLower != (rule.InHalves && isInSecond(seam));
-    const int receiver = toLower ? std::min(rank, seam.OtherRank) : std::max(rank, seam.OtherRank);
+    const int receiver = ChooseRank(rank, seam.OtherRank, toLower);
     int& best = receivers.emplace(seam.Triangle, receiver).first->second;
-    best = rule.ToLower ? std::min(best, receiver) : std::max(best, receiver);
+    best = ChooseRank(best, receiver, rule.ToLower);
   }
   std::vector<std::int64_t> toJudge, leaving;
   for (const auto& [triangle, receiver] : receivers)
   {
-    (receiver == rank ? toJudge : leaving).push_back(triangle);
+    std::vector<std::int64_t>& list = receiver == rank ? toJudge : leaving;
+    list.push_back(triangle);
   }
   moved = SumOverRanks(group, SizeOf(leaving));
 
@@ -184,8 +193,11 @@ std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSea
     toJudge.push_back(t);
     for (int slot = 0; slot < 3; ++slot)
     {
-      const bool isSeam = mesh.Triangles[t].Has(SeamMark, slot);
-      const PartCorner mate = isSeam ? mesh.FindMate({ t, slot }) : PartCorner{ -1, 0 };
+      if (!mesh.Triangles[t].Has(SeamMark, slot))
+      {
+        continue;
+      }
+      const PartCorner mate = mesh.FindMate({ t, slot });
       if (mate.Triangle >= 0) // the edge is an inner edge again
       {
         mesh.ClearSeam({ t, slot });
@@ -199,10 +211,10 @@ std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSea
 //------------------------------------------------------------------------------
 void RoundFlips::Add(std::int64_t triangle)
 {
-  TriangleStep& step = this->Mesh.Triangles[triangle].Step;
-  if (step != TriangleStep::Next)
+  VisitState& visit = this->Mesh.Triangles[triangle].Visit;
+  if (visit != VisitState::Next)
   {
-    step = TriangleStep::Next;
+    visit = VisitState::Next;
     this->Next.push_back(triangle);
   }
 }
@@ -213,7 +225,7 @@ IterationRecord RoundFlips::Iterate()
   const std::vector<std::int64_t> listed = std::exchange(this->Next, {});
   for (const std::int64_t t : listed)
   {
-    this->Mesh.Triangles[t].Step = TriangleStep::Listed;
+    this->Mesh.Triangles[t].Visit = VisitState::Listed;
   }
   for (std::size_t i = 0; i < listed.size(); ++i)
   {
@@ -223,8 +235,11 @@ IterationRecord RoundFlips::Iterate()
   }
   for (const std::int64_t t : listed)
   {
-    TriangleStep& step = this->Mesh.Triangles[t].Step;
-    step = step == TriangleStep::Next ? step : TriangleStep::None;
+    VisitState& visit = this->Mesh.Triangles[t].Visit;
+    if (visit != VisitState::Next)
+    {
+      visit = VisitState::None;
+    }
   }
   record.NonDelaunay = record.Flipped + record.Blocked;
   return record;
@@ -235,17 +250,17 @@ IterationRecord RoundFlips::Iterate()
 void RoundFlips::Visit(std::int64_t t, IterationRecord& record)
 {
   const PartTriangle& triangle = this->Mesh.Triangles[t];
-  for (int slot = 0; slot < 3 && triangle.Step == TriangleStep::Listed; ++slot)
+  for (int slot = 0; slot < 3 && triangle.Visit == VisitState::Listed; ++slot)
   {
     const PartCorner one{ t, slot };
     const PartCorner other = this->Mesh.FindOpenMate(one);
-    if (other.Triangle < 0 || this->Mesh.Triangles[other.Triangle].Step >= TriangleStep::Visited)
+    if (other.Triangle < 0 || this->Mesh.Triangles[other.Triangle].Visit >= VisitState::Visited)
     {
       continue;
     }
     const EdgeState state = this->Judge(one, other);
     ++record.Tested;
-    record.Blocked += state != EdgeState::Good && state != EdgeState::Bad ? 1 : 0;
+    record.Blocked += state != EdgeState::Good && state != EdgeState::Bad;
     if (state == EdgeState::Bad)
     {
       const PointPair edge{ triangle.GetStart(slot), triangle.GetEnd(slot) };
@@ -259,9 +274,9 @@ void RoundFlips::Visit(std::int64_t t, IterationRecord& record)
       ++record.Flipped;
     }
   }
-  if (triangle.Step == TriangleStep::Listed)
+  if (triangle.Visit == VisitState::Listed)
   {
-    this->Mesh.Triangles[t].Step = TriangleStep::Visited;
+    this->Mesh.Triangles[t].Visit = VisitState::Visited;
   }
 }
 
@@ -284,11 +299,17 @@ bool RoundFlips::HasBad()
 EdgeState RoundFlips::Judge(const PartCorner& one, const PartCorner& other) const
 {
   const EdgeState state = this->Rule.Judge(this->Mesh, one, other);
+  if (!this->NeedsGuard || state != EdgeState::Bad)
+  {
+    return state;
+  }
   const std::int32_t a = this->Mesh.Triangles[one.Triangle].Points[one.Slot];
   const std::int32_t b = this->Mesh.Triangles[other.Triangle].Points[other.Slot];
-  const bool isForbidden = this->NeedsGuard && state == EdgeState::Bad &&
-    ((this->Mesh.IsShared(a) && this->Mesh.IsShared(b)) || this->Mesh.HasEdge(a, b));
-  return isForbidden ? EdgeState::BlockedByEdge : state;
+  if ((this->Mesh.IsShared(a) && this->Mesh.IsShared(b)) || this->Mesh.HasEdge(a, b))
+  {
+    return EdgeState::BlockedByEdge;
+  }
+  return state;
 }
 
 void RoundFlips::AddFreed(const PointPair& edge)

@@ -13,7 +13,7 @@
 #include <vector>
 
 /// @file
-/// The steps of a round: all seam edges are tested, triangles at bad ones move, and ranks flip.
+/// What happens in a round: all seam edges are tested, triangles at bad ones move, and ranks flip.
 
 namespace delaunayflip
 {
@@ -60,7 +60,8 @@ private:
   std::map<std::pair<PointPair, std::int32_t>, SeamTriangle> Sides;
 };
 
-/// Which of the two ranks of a bad seam edge gets its triangles: its receiver.
+/// The rule that chooses the receiver of a bad seam edge: the one of its two ranks that gets its
+/// triangles.
 struct MoveRule
 {
   bool ToLower; ///< The lower one, else the higher.
@@ -72,8 +73,8 @@ struct MoveRule
 /// Moves triangles so that at least one bad seam edge becomes an inner edge. A triangle with
 /// several bad edges goes to the lowest of their receivers (ToLower), or to the highest.
 ///
-/// So take the bad edges with the lowest receiver of all. Both triangles of each go to that rank,
-/// and these edges become inner edges.
+/// Consider the bad edges with the lowest receiver of all. Both triangles of each go to that rank,
+/// so these edges become inner edges.
 /// @param bad the bad seam edges of this rank.
 /// @param moved receives the number of triangles that have moved, over all ranks.
 /// @returns the triangles of this rank whose edges must now be judged.

@@ -3,6 +3,7 @@
 #include "SeamSurvey.h"
 
 #include "DelaunayFlip.h"
+#include "PartReports.h"
 
 namespace delaunayflip
 {
@@ -32,8 +33,8 @@ SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t t, int slot)
   seam.Rank = mesh.GetRank();
   seam.IsToTest = true;
   seam.RunsForward = mesh.GetKey(triangle.GetStart(slot)) == seam.Ends[0];
-  mesh.GetPosition(triangle.GetStart(slot), seam.Places[seam.RunsForward ? 0 : 1]);
-  mesh.GetPosition(triangle.GetEnd(slot), seam.Places[seam.RunsForward ? 1 : 0]);
+  mesh.GetPosition(triangle.GetStart(slot), seam.Places[seam.GetStart()]);
+  mesh.GetPosition(triangle.GetEnd(slot), seam.Places[1 - seam.GetStart()]);
   mesh.GetPosition(triangle.Points[slot], seam.Places[2]);
   return seam;
 }
@@ -67,8 +68,8 @@ EdgeState QuadJudge::Judge(const SeamTriangle& one, const SeamTriangle& other) c
 {
   double apqb[4][3];
   std::copy_n(one.Places[2], 3, apqb[0]);
-  std::copy_n(one.Places[one.RunsForward ? 0 : 1], 3, apqb[1]);
-  std::copy_n(one.Places[one.RunsForward ? 1 : 0], 3, apqb[2]);
+  std::copy_n(one.Places[one.GetStart()], 3, apqb[1]);
+  std::copy_n(one.Places[1 - one.GetStart()], 3, apqb[2]);
   std::copy_n(other.Places[2], 3, apqb[3]);
   return this->Judge(apqb);
 }
@@ -118,12 +119,12 @@ public:
     this->AddPoint(begin->Places[1]);
     for (const SeamTriangle* one = begin; one != end; ++one)
     {
-      const int start = one->RunsForward ? 0 : 1;
+      const int start = one->GetStart();
       this->Triangles.insert(
         this->Triangles.end(), { first + start, first + 1 - start, this->CountPoints() });
       this->AddPoint(one->Places[2]);
       this->Regions.push_back(one->Region);
-      this->Frozen.push_back(one->IsFrozen ? 1 : 0);
+      this->Frozen.push_back(one->IsFrozen);
       isConstraint = isConstraint || one->IsConstraint;
     }
     if (isConstraint)
@@ -160,11 +161,13 @@ private:
   void Visit(const Function& visit) const
   {
     TriangleMesh mesh;
-    const bool isFloat = this->Job.Survey.IsFloat;
-    const std::vector<float> floats(
-      this->Points.begin(), isFloat ? this->Points.end() : this->Points.begin());
-    mesh.Points = isFloat ? PointArray(floats.data(), this->CountPoints())
-                          : PointArray(this->Points.data(), this->CountPoints());
+    mesh.Points = PointArray(this->Points.data(), this->CountPoints());
+    std::vector<float> floats;
+    if (this->Job.Survey.IsFloat)
+    {
+      floats.assign(this->Points.begin(), this->Points.end());
+      mesh.Points = PointArray(floats.data(), this->CountPoints());
+    }
     mesh.Triangles = TriangleArray(this->Triangles.data(), SizeOf(this->Triangles) / 3);
     mesh.Regions = this->Regions.data();
     mesh.FrozenTriangles = this->Frozen.data();
@@ -236,7 +239,7 @@ RecordLists<SeamAnswer> JudgeSeams(
   for (const Edge& edge : edges)
   {
     const bool isSeam = edge.IsQuad && !isFixed[edge.Point];
-    seams.Seams += isSeam ? 1 : 0;
+    seams.Seams += isSeam;
     for (const SeamTriangle* one = edge.Begin; one != edge.End; ++one)
     {
       const auto here = std::count_if(
@@ -314,8 +317,10 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   this->Mesh.NumberOfConstraintEdges = SizeOf(this->ToInsert);
   this->Mesh.ConstraintsToInsert = this->ToInsert.data();
   this->Mesh.Whole = job.Survey.Whole;
-  const bool isGuarded = job.Survey.NeedsGuard() && job.Group.GetSize() > 1;
-  this->Mesh.Whole.SharedPoints = isGuarded ? part.GetPointKeys().Shared.data() : nullptr;
+  if (job.Survey.NeedsGuard() && job.Group.GetSize() > 1)
+  {
+    this->Mesh.Whole.SharedPoints = part.GetPointKeys().Shared.data();
+  }
   this->Insert(job);
   this->FindFates(part);
   this->Mesh = this->Insertion.GetMesh(this->Mesh);
@@ -323,12 +328,16 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   {
     part.Take(this->Mesh.Triangles);
   }
-  // Returns the fate of a constraint between shared points, entered if new; null for others.
-  const auto getFate = [&](std::int64_t constraint)
+  // Returns the fate of a constraint between shared points, which is entered if it is new. Others
+  // have none.
+  const auto getFate = [&](std::int64_t constraint) -> char*
   {
     const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * constraint;
-    const bool areShared = part.AreShared({ ends[0], ends[1] });
-    return areShared ? &this->Fates[part.GetKeys({ ends[0], ends[1] })] : nullptr;
+    if (!part.AreShared({ ends[0], ends[1] }))
+    {
+      return nullptr;
+    }
+    return &this->Fates[part.GetKeys({ ends[0], ends[1] })];
   };
   for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
   {
@@ -339,8 +348,11 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   for (std::int64_t i = 0; i < this->Mesh.NumberOfConstraintEdges; ++i)
   {
     const std::int64_t* ends = this->Mesh.ConstraintEdges + 2 * i;
-    const bool isHere = !getFate(i) || *getFate(i) >= IsEdge;
-    this->Edges.insert(this->Edges.end(), ends, isHere ? ends + 2 : ends);
+    const char* fate = getFate(i);
+    if (!fate || *fate >= IsEdge)
+    {
+      this->Edges.insert(this->Edges.end(), ends, ends + 2);
+    }
   }
   this->Mesh.ConstraintEdges = this->Edges.data();
   this->Mesh.NumberOfConstraintEdges = SizeOf(this->Edges) / 2;
@@ -357,13 +369,15 @@ PartConstraints::PartConstraints(const PartJob& job, PartMesh& part)
   }
   for (RefusedConstraint& one : this->Refused)
   {
-    const bool leavesPart = one.Why == Refusal::LeavesMesh && job.Group.GetSize() > 1;
-    one.Why = leavesPart ? Refusal::LeavesPart : one.Why;
+    if (one.Why == Refusal::LeavesMesh && job.Group.GetSize() > 1)
+    {
+      one.Why = Refusal::LeavesPart;
+    }
   }
 }
 
-/// Lists the constraints whose two points this rank has: its own, and those between shared points
-/// that any rank has given.
+/// Lists the constraints that have both points on this rank: its own, and those between shared
+/// points that any rank has given.
 /// @returns the latter of all ranks.
 PartConstraints::SharedConstraints PartConstraints::List(const PartJob& job, const PartMesh& part)
 {
@@ -376,12 +390,12 @@ PartConstraints::SharedConstraints PartConstraints::List(const PartJob& job, con
     if (part.AreShared({ ends[0], ends[1] }))
     {
       const PointPair keys = part.GetKeys({ ends[0], ends[1] });
-      own.push_back({ keys[0], keys[1], isToInsert ? 1 : 0 });
+      own.push_back({ keys[0], keys[1], isToInsert });
     }
     else
     {
       this->Ends.insert(this->Ends.end(), ends, ends + 2);
-      this->ToInsert.push_back(isToInsert ? 1 : 0);
+      this->ToInsert.push_back(isToInsert);
     }
   }
   SharedConstraints shared;
@@ -396,7 +410,7 @@ PartConstraints::SharedConstraints PartConstraints::List(const PartJob& job, con
     if (from >= 0 && to >= 0)
     {
       this->Ends.insert(this->Ends.end(), { from, to });
-      this->ToInsert.push_back(isToInsert ? 1 : 0);
+      this->ToInsert.push_back(isToInsert);
     }
   }
   return shared;
@@ -418,13 +432,15 @@ void PartConstraints::Insert(const PartJob& job)
     }
   };
   DoTogether(job.Group, insert);
-  this->IsAborted = SumOverRanks(job.Group, std::int64_t(this->IsAborted ? 1 : 0)) > 0;
+  this->IsAborted = IsOnAnyRank(job.Group, this->IsAborted);
   if (this->IsAborted)
   {
     this->Insertion = ConstraintInsertion(); // or what other ranks have inserted is dropped
   }
-  const auto tried = static_cast<std::int64_t>(this->Insertion.GetTried().size());
-  this->Share = SumOverRanks(job.Group, tried) > 0 ? InsertionShare : 0.0;
+  if (IsOnAnyRank(job.Group, !this->Insertion.GetTried().empty()))
+  {
+    this->Share = InsertionShare;
+  }
 }
 
 /// Counts what this rank has inserted and refused, except between shared points.
@@ -464,14 +480,19 @@ void PartConstraints::CountShared(const SharedConstraints& shared, const std::ve
   for (const auto& [ends, isToInsert] : shared)
   {
     const char fate = *next++;
-    this->NumberInserted += fate == Inserted ? 1 : 0;
-    const bool isRefused = isToInsert && !this->IsAborted;
-    if (fate < IsEdge && isRefused)
+    if (fate >= IsEdge)
+    {
+      this->NumberInserted += fate == Inserted;
+    }
+    else if (isToInsert && !this->IsAborted)
     {
       this->Refused.push_back(
         { { ends[0], ends[1] }, static_cast<Refusal>(std::max(0, fate - 1)) });
     }
-    this->Unmatched += fate < IsEdge && !isRefused ? 1 : 0;
+    else
+    {
+      ++this->Unmatched;
+    }
   }
 }
 

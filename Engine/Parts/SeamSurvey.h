@@ -38,9 +38,12 @@ struct SeamTriangle
   bool IsFrozen;
   bool IsConstraint; ///< Whether its rank knows of a constraint along the edge.
   bool IsToTest; ///< For SeamTester: it has not been tested, or was not good.
+
+  /// The one of the two ends, 0 or 1, from which it runs through the edge.
+  int GetStart() const { return this->RunsForward ? 0 : 1; }
 };
 
-/// The triangle, for its edge opposite to corner `slot`. Takes it as not frozen and in no region.
+/// The triangle, for its edge opposite to corner `slot`. It is not frozen and in no region.
 SeamTriangle MakeSeamTriangle(const PartMesh& mesh, std::int64_t triangle, int slot);
 
 /// Judges single edges by the rules of the engine (FlipRules.h).
@@ -64,11 +67,11 @@ private:
   RuleChoice Rule;
 };
 
-/// What is known about the edges with triangles on several ranks before the first flip. Decided
-/// once for all ranks.
+/// What is known about the edges with triangles on several ranks before the first flip. It is
+/// decided once for all ranks.
 struct SeamSurvey
 {
-  MarkedEdges Marks; ///< Marks of those that have triangles on this rank.
+  MarkedEdges Marks; ///< The marks of those that have triangles on this rank.
   /// Two ids for each of those that have two triangles here and are fixed because of others.
   std::vector<std::int64_t> ToFix;
   FlipReport Totals; ///< Edges to be added to the counts of this rank (AddEdges).

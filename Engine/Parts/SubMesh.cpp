@@ -65,13 +65,18 @@ SubMesh::SubMesh(
 }
 
 /// Copies tuples of the mesh.
-/// @param from may be null: then nothing is copied. @param ids of `count` tuples.
+/// @param from may be null: then nothing is copied.
+/// @param ids the numbers of `count` tuples.
 template <typename T>
 void SubMesh::Take(
   const T* from, const std::int64_t* ids, std::int64_t count, int components, Array<T>& to) const
 {
-  to = this->Engine.MakeArray<T>(from ? components * count : 0);
-  this->Engine.ForEach(from ? count : 0,
+  if (!from)
+  {
+    return;
+  }
+  to = this->Engine.MakeArray<T>(components * count);
+  this->Engine.ForEach(count,
     [&](std::int64_t i)
     { std::copy_n(from + components * ids[i], components, to.Data() + components * i); });
 }
@@ -94,15 +99,21 @@ TriangleMesh SubMesh::View(bool withLabels) const
 {
   const auto points = static_cast<std::int64_t>(this->PointOf.Size());
   TriangleMesh mesh;
-  mesh.Points = this->Whole.Points.Floats ? PointArray(this->Floats.Data(), points)
-                                          : PointArray(this->Doubles.Data(), points);
+  mesh.Points = PointArray(this->Doubles.Data(), points);
+  if (this->Whole.Points.Floats)
+  {
+    mesh.Points = PointArray(this->Floats.Data(), points);
+  }
   mesh.Triangles = TriangleArray(this->Ids.Data(), this->GetNumberOfTriangles());
   mesh.ConstraintEdges = this->Edges.data();
   mesh.NumberOfConstraintEdges = SizeOf(this->Edges) / 2;
   mesh.Whole = this->Whole.Whole;
-  mesh.Whole.SharedPoints = this->Shared.Size() > 0 ? this->Shared.Data() : nullptr;
-  mesh.Regions = withLabels && this->Whole.Regions ? this->Regions.Data() : nullptr;
-  mesh.FrozenTriangles = withLabels && this->Whole.FrozenTriangles ? this->Frozen.Data() : nullptr;
+  mesh.Whole.SharedPoints = this->Shared.Data(); // null if there is none, as below
+  if (withLabels)
+  {
+    mesh.Regions = this->Regions.Data();
+    mesh.FrozenTriangles = this->Frozen.Data();
+  }
   return mesh;
 }
 
@@ -119,13 +130,12 @@ public:
     constexpr std::int64_t LargestSample = 1 << 20;
     const std::int64_t triangles = mesh.Triangles.Count;
     const bool isSample = triangles > LargestSample;
-    std::vector<Center> centers(isSample ? LargestSample : triangles);
+    std::vector<Center> centers(std::min(triangles, LargestSample));
     for (std::size_t i = 0; i < centers.size(); ++i)
     {
-      // Scattered, because neighbours in the array may be neighbours in space.
-      const auto t = isSample ? static_cast<std::int64_t>(ScatterBits(i) % triangles)
-                              : static_cast<std::int64_t>(i);
-      centers[i] = GetCenter(mesh, t);
+      // A sample is scattered, because neighbours in the array may be neighbours in space.
+      const std::uint64_t t = isSample ? ScatterBits(i) % triangles : i;
+      centers[i] = GetCenter(mesh, static_cast<std::int64_t>(t));
     }
     this->First = this->Divide(centers.data(), centers.data() + centers.size(), 0, parts);
   }
@@ -165,7 +175,10 @@ private:
       {
         center[axis] += mesh.Points.Get(mesh.Triangles.Get(triangle, slot), axis);
       }
-      center[axis] = std::isnan(center[axis]) ? 0.0 : center[axis];
+      if (std::isnan(center[axis]))
+      {
+        center[axis] = 0.0;
+      }
     }
     return center;
   }

@@ -136,7 +136,7 @@ public:
   /// The id in the mesh of a point.
   std::int64_t GetPointId(std::int64_t number) const { return this->PointOf[number]; }
 
-  /// Fixes edges whose two ends are both in the sub-mesh, and ignores the others.
+  /// Fixes edges that have both ends in the sub-mesh, and ignores the others.
   /// @param ends of the edges: two point ids of the mesh for each.
   void FixEdges(const std::vector<std::int64_t>& ends);
 
@@ -147,7 +147,7 @@ public:
   {
     this->Shared = this->Engine.template MakeArray<unsigned char>(this->PointOf.Size());
     this->PointIds.ForEach(this->Engine,
-      [&](std::int64_t point, std::int32_t number) { this->Shared[number] = has(point) ? 1 : 0; });
+      [&](std::int64_t point, std::int32_t number) { this->Shared[number] = has(point); });
   }
 
   /// Views of the arrays of this object.

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Records.h"
+#include "PartReports.h"
 
-#include "FlipError.h"
-
-#include <iomanip>
-#include <sstream>
+#include <algorithm>
+#include <limits>
 
 namespace delaunayflip
 {
@@ -14,7 +12,7 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-// What is joined beside the members of AddTotals.
+// The members that are joined beside those of AddTotals.
 constexpr double FlipReport::*Smallest[] = { &FlipReport::MinimumAngleBefore,
   &FlipReport::MinimumAngleAfter };
 constexpr double FlipReport::*Largest[] = { &FlipReport::BuildSeconds, &FlipReport::FlipSeconds };
@@ -64,57 +62,6 @@ std::vector<FlipReport> GatherReports(const FlipReport& own, PieceGroup& group)
 }
 }
 
-namespace
-{
-std::string Write(bool value) { return value ? "on" : "off"; }
-
-std::string Write(double value)
-{
-  std::ostringstream text;
-  text << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
-  return text.str();
-}
-}
-
-void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
-  const std::vector<std::pair<std::string, std::string>>& more)
-{
-  std::vector<std::pair<std::string, std::string>> all = {
-    { "Geometry", ToString(options.Geometry) },
-    { "Criterion", options.Criterion == CriterionKind::InCircle ? "in-circle" : "opposite-angles" },
-    { "TieRule", options.TieRule == TieRuleKind::Keep ? "keep" : "canonical" },
-    { "Tolerance", Write(options.Tolerance) },
-    { "FeatureAngle", Write(options.FeatureAngle) },
-    { "MaximumDeviation", Write(options.MaximumDeviation) },
-    { "MaximumIterations", std::to_string(options.MaximumIterations) },
-    { "TrackQuality", Write(options.TrackQuality) },
-  };
-  all.insert(all.end(), more.begin(), more.end());
-  Message own;
-  for (const auto& option : all)
-  {
-    Put(own, option.second);
-  }
-  std::vector<MessageReader> ranks;
-  for (Message& message : group.Gather(own))
-  {
-    ranks.emplace_back(std::move(message));
-  }
-  for (const auto& option : all)
-  {
-    const auto first = ranks[0].Get<std::string>();
-    for (std::size_t rank = 1; rank < ranks.size(); ++rank)
-    {
-      const auto value = ranks[rank].Get<std::string>();
-      if (value != first)
-      {
-        throw InvalidOptions(option.first + " is '" + first + "' on rank 0, but '" + value +
-          "' on rank " + std::to_string(rank) + "; set it to the same on all ranks");
-      }
-    }
-  }
-}
-
 //------------------------------------------------------------------------------
 void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor)
 {
@@ -128,8 +75,12 @@ void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor)
 
 void CompleteReport(FlipReport& report, std::int64_t usedPoints, bool isCounted)
 {
-  report.Edges = isCounted ? report.Edges : EdgeCounts();
-  report.EulerCharacteristic = isCounted ? usedPoints - report.Edges.Edges + report.Triangles : 0;
+  report.EulerCharacteristic = usedPoints - report.Edges.Edges + report.Triangles;
+  if (!isCounted)
+  {
+    report.Edges = EdgeCounts();
+    report.EulerCharacteristic = 0;
+  }
   if (!report.Iterations.empty())
   {
     report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
