@@ -209,7 +209,11 @@ inline ProgressObserver ToProgress(const delaunayflip_callbacks* given)
 {
   const delaunayflip_callbacks c = ToCallbacks(given);
   const auto call = [c](double share) { return c.progress(share, c.user) != 0; };
-  return c.progress ? ProgressObserver(call) : nullptr;
+  if (!c.progress)
+  {
+    return nullptr;
+  }
+  return call;
 }
 
 inline FlipObserver ToObserver(const delaunayflip_callbacks* given)
@@ -220,7 +224,11 @@ inline FlipObserver ToObserver(const delaunayflip_callbacks* given)
     const delaunayflip_iteration copy = ToC(record);
     return c.iteration(&copy, c.user) != 0;
   };
-  return c.iteration ? FlipObserver(call) : nullptr;
+  if (!c.iteration)
+  {
+    return nullptr;
+  }
+  return call;
 }
 
 /// Calls visit(member, the report's) for the numbers that a C struct and a report have in common.

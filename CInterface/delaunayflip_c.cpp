@@ -43,11 +43,23 @@ delaunayflip_status Fail(
 
 delaunayflip_status StatusOf(const std::exception& error)
 {
-  return dynamic_cast<const InvalidCall*>(&error)     ? DELAUNAYFLIP_INVALID_CALL
-    : dynamic_cast<const InvalidOptions*>(&error)     ? DELAUNAYFLIP_INVALID_OPTIONS
-    : dynamic_cast<const MeshTooLarge*>(&error)       ? DELAUNAYFLIP_MESH_TOO_LARGE
-    : dynamic_cast<const BackendUnavailable*>(&error) ? DELAUNAYFLIP_BACKEND_UNAVAILABLE
-                                                      : DELAUNAYFLIP_FAILED;
+  if (dynamic_cast<const InvalidCall*>(&error))
+  {
+    return DELAUNAYFLIP_INVALID_CALL;
+  }
+  if (dynamic_cast<const InvalidOptions*>(&error))
+  {
+    return DELAUNAYFLIP_INVALID_OPTIONS;
+  }
+  if (dynamic_cast<const MeshTooLarge*>(&error))
+  {
+    return DELAUNAYFLIP_MESH_TOO_LARGE;
+  }
+  if (dynamic_cast<const BackendUnavailable*>(&error))
+  {
+    return DELAUNAYFLIP_BACKEND_UNAVAILABLE;
+  }
+  return DELAUNAYFLIP_FAILED;
 }
 
 /// Does the work. No exception may leave a C function: its message becomes the last error.
@@ -81,7 +93,7 @@ delaunayflip_status Try(const Work& work)
   }
 }
 
-/// The same for work with a session, which must not be null.
+/// Does work with a session, which must not be null.
 template <typename Work>
 delaunayflip_status TryWith(const delaunayflip_session* session, const Work& work)
 {
@@ -157,13 +169,13 @@ struct delaunayflip_session
   FlipSession Session;
   bool IsFromPoints = false;
   std::int64_t NumberOfTriangles = 0;
-  const std::int64_t* TriangleNumbers = nullptr; ///< Of the caller, or null.
+  const std::int64_t* TriangleNumbers = nullptr; ///< The caller's, or null.
   KeptReport Report;
 };
 
 namespace
 {
-/// The same as TryWith for work with a session from points, which writes `count(report)` values.
+/// Does work with a session from points, which writes `count(report)` values.
 template <typename Count, typename Work>
 delaunayflip_status TryWithPoints(
   const delaunayflip_session* session, const void* target, const Count& count, const Work& work)

@@ -8,7 +8,24 @@
 
 /** @file
  * The engine's C interface, in the shared library libdelaunayflip: for C, and for every language
- * that can call C (Python's ctypes, Julia, Rust, Fortran, ...).
+ * that can call C (Python's ctypes, Julia, Rust, Fortran, ...). This flips a mesh of two triangles,
+ * and fills a report:
+ *
+ *     const double xyz[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+ *     int64_t ids[] = { 0, 1, 2, 0, 2, 3 };
+ *     delaunayflip_mesh mesh;
+ *     delaunayflip_mesh_init(&mesh);
+ *     mesh.points = xyz;
+ *     mesh.number_of_points = 4;
+ *     mesh.triangles = ids;
+ *     mesh.number_of_triangles = 2;
+ *     delaunayflip_report report;
+ *     delaunayflip_report_init(&report);
+ *     if (delaunayflip_flip(&mesh, NULL, NULL, ids, &report) != DELAUNAYFLIP_OK)
+ *     {
+ *       puts(delaunayflip_error_message());
+ *     }
+ *     report.total_flips; // 1
  *
  * Rules that hold for all of it:
  *
@@ -236,7 +253,7 @@ extern "C"
     int64_t hidden_by_winding; /**< Edges that are wrongly wound and would else be bad. */
     /** Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there. */
     int64_t obtuse_at_non_manifold;
-    int64_t points_used; /**< Of sessions from points: how many triangles have in the end. */
+    int64_t points_used; /**< For sessions from points: how many of them triangles have. */
     /** Triangles with an angle below so many degrees, or without area; before: 0 from points. */
     int64_t triangles_below_10_before;
     int64_t triangles_below_10_after;
@@ -277,9 +294,9 @@ extern "C"
   typedef enum
   {
     DELAUNAYFLIP_EVEN_ODD = 0, /**< A path to infinity crosses the rings an odd number of times. */
-    DELAUNAYFLIP_NONZERO = 1, /**< The turns of the rings around it do not add up to 0. */
-    DELAUNAYFLIP_ORIENTATION = 2 /**< In the outline: more counter-clockwise turns; if it has no
-                                    counter-clockwise ring, no turns. In holes: as NONZERO. */
+    DELAUNAYFLIP_NONZERO = 1, /**< The winding numbers of the rings do not add up to 0. */
+    DELAUNAYFLIP_ORIENTATION = 2 /**< In the outline: they add up to more than 0 or, if no ring is
+                                    counter-clockwise, to 0. In holes: as NONZERO. */
   } delaunayflip_ring_rule; /**< When a place is inside a set of rings. */
 
   /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each
@@ -318,7 +335,7 @@ extern "C"
   /** Triangulates points in x and y: a session that begins with a valid triangulation of all
    * places, which delaunayflip_advance makes Delaunay; then it inserts the segments and removes
    * what is outside. Geometry, criterion and tie rule of the options are not used: the triangles
-   * depend on the points alone, not on their order. They turn counter-clockwise and have an area.
+   * depend on the points alone, not on their order. They are counter-clockwise and have an area.
    * If several points are at one place, the one with the lowest id is used. Points with NaN or
    * infinite x or y are not used. When nothing is left to do, the report's number_of_triangles says
    * how many triangles to store; it is 0 if all places lie on one line. All arrays must stay as
@@ -435,13 +452,13 @@ extern "C"
   void delaunayflip_polygons_init(delaunayflip_polygons* polygons);
 
   /** Splits polygons over the points of `mesh`, whose other members have no effect, into triangles
-   * that keep their winding. Of more than three corners, those that repeat the one before them are
-   * dropped first, and the last ones if they repeat the first. A polygon of n corners gives n - 2
-   * triangles, or none if n < 3; their point ids, three each, are written to `triangles` in the
-   * order of the polygons, which needs room for as many as there are with repeated corners. A quad
-   * is divided along its first diagonal, unless that runs outside it; a larger polygon becomes a
-   * fan if it is convex, else its ears are clipped. `callbacks` may be null; if `progress` returns
-   * 0 the call fails with DELAUNAYFLIP_STOPPED. */
+   * that keep their winding. If there are more than three corners, those that repeat the one before
+   * them are dropped first, and the last ones if they repeat the first. A polygon of n corners
+   * gives n - 2 triangles, or none if n < 3. Their point ids, three each, are written to
+   * `triangles` in the order of the polygons. There must be room for as many as there are with
+   * repeated corners. A quad is divided along its first diagonal, unless that runs outside it. A
+   * larger polygon becomes a fan if it is convex, else its ears are clipped. `callbacks` may be
+   * null. If `progress` returns 0 the call fails with DELAUNAYFLIP_STOPPED. */
   delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,
     const delaunayflip_polygons* polygons, const delaunayflip_callbacks* callbacks,
     int64_t* triangles);

@@ -11,8 +11,16 @@
 #include <vector>
 
 /// @file
-/// Whether there is a GPU, and its memory. Part of every build; without the CUDA backend there is
-/// no GPU.
+/// Finds GPUs, and frees their memory. Every build has these functions. Without the CUDA backend
+/// there is no GPU.
+///
+///     FlipOptions options;
+///     if (CountCudaDevices() > 1)
+///     {
+///       options.Devices = ParseDevices("all"); // they share each mesh, and need NVLink
+///     }
+///     ReleaseCudaMemory(); // after a run, if another library needs the memory
+///     HasCudaDevice() == (CountCudaDevices() > 0); // true
 
 namespace delaunayflip
 {
@@ -40,8 +48,8 @@ DELAUNAYFLIP_EXPORT std::vector<int> ParseDevices(const std::string& list);
 /// that exist keep theirs.
 DELAUNAYFLIP_EXPORT void ReleaseCudaMemory();
 
-/// The most device memory, in bytes, that a single run has used, of all that have ended since the
-/// last call. 0 without the backend.
+/// The most device memory, in bytes, that a single run has used, among all runs that have ended
+/// since the last call. 0 without the backend.
 DELAUNAYFLIP_EXPORT std::size_t TakePeakCudaMemory();
 
 }

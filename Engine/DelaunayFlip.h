@@ -16,18 +16,27 @@
 #include <vector>
 
 /// @file
-/// The main header of the engine. FlipToDelaunay flips a mesh in one call. A FlipSession does it
-/// step by step, and also makes meshes from points:
+/// The main header of the engine. FlipToDelaunay flips a mesh in one call:
 ///
-///     using namespace delaunayflip;
-///     std::vector<float> xyz{ 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
-///     std::vector<std::int32_t> ids{ 0, 1, 2, 0, 2, 3 };
+///     const double xyz[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+///     std::int32_t ids[] = { 0, 1, 2, 0, 2, 3 };
 ///     TriangleMesh mesh;
-///     mesh.Points = PointArray(xyz.data(), 4);
-///     mesh.Triangles = TriangleArray(ids.data(), 2);
-///     const FlipReport report = FlipToDelaunay(mesh, {}, MutableTriangleArray(ids.data(), 2));
+///     mesh.Points = PointArray(xyz, 4);
+///     mesh.Triangles = TriangleArray(ids, 2);
+///     const FlipReport report = FlipToDelaunay(mesh, {}, MutableTriangleArray(ids, 2));
+///     report.TotalFlips; // 1
 ///
-/// Now `ids` has the two better triangles, and report.TotalFlips is 1.
+/// Now `ids` has two better triangles. A FlipSession flips a mesh a few iterations at a time:
+///
+///     FlipSession session(mesh, FlipOptions());
+///     while (session.Advance(10))
+///     {
+///       session.StoreTriangles(MutableTriangleArray(ids, 2)); // and show them, for example
+///     }
+///     session.GetReport().Converged(); // true
+///
+/// It can also make a mesh from points (PointTriangulation.h). In the examples of these headers a
+/// comment after an expression is its value, and all names are in the namespace delaunayflip.
 
 namespace delaunayflip
 {
@@ -59,9 +68,9 @@ public:
   /// StopReason is Aborted and the triangles are those of the input; the next Advance builds again.
   /// @param progress is kept: if a GPU fails in a later call, it can stop the CPU from repeating
   /// the run. The report and the triangles are then as above.
-  /// @param expected is announced as by Expect, but its pages are touched from the beginning, while
-  /// the GPU builds the edge mesh. It must stay until the first Advance returns, or until the
-  /// session is destroyed without one.
+  /// @param expected is memory that is announced as by Expect, but its pages are touched from the
+  /// beginning, while the GPU builds the edge mesh. It must stay until the first Advance returns,
+  /// or until the session is destroyed without one.
   /// @throws InvalidMesh, InvalidOptions, MeshTooLarge, BackendUnavailable, std::bad_alloc.
   FlipSession(const TriangleMesh& mesh, const FlipOptions& options,
     const ProgressObserver& progress = {}, const std::vector<ResultMemory>& expected = {});

@@ -8,16 +8,26 @@
 #include <cstdint>
 
 /// @file
-/// Meshes whose arrays are in the memory of a GPU, for programs that have them there already and
-/// want the result there. FlipSession and FlipToDelaunay (DelaunayFlip.h) accept them. Nothing here
-/// owns or copies, and no header of CUDA is needed.
+/// A DeviceMesh has its arrays in the memory of a GPU, for programs that have them there already
+/// and want the result there. FlipSession and FlipToDelaunay (DelaunayFlip.h) accept it. Nothing
+/// here owns or copies, and no header of CUDA is needed.
+///
+///     const auto flip = [](const float* xyz, std::int64_t points, std::int32_t* ids,
+///                         std::int64_t triangles)
+///     {
+///       DeviceMesh mesh;
+///       mesh.Points = DevicePointArray(xyz, points);
+///       mesh.Triangles = TriangleArray(ids, triangles);
+///       return FlipToDelaunay(mesh, {}, MutableTriangleArray(ids, triangles));
+///     };
 
 namespace delaunayflip
 {
 
-/// A stream of CUDA, by which the engine's work is ordered with the caller's: what the caller has
-/// put into the stream before a call of the engine is done before the engine reads or writes the
-/// caller's arrays. When a call of the engine returns, its results are there for any stream.
+/// A stream of CUDA, by which the engine's work is ordered with the caller's. The work that the
+/// caller has put into the stream before a call of the engine is done before the engine reads or
+/// writes the caller's arrays. When a call of the engine returns, its results are there for any
+/// stream.
 struct DeviceStream
 {
   void* Handle = nullptr; ///< A cudaStream_t or CUstream; null: the default stream.

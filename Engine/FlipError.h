@@ -12,6 +12,20 @@
 /// @file
 /// The exceptions of the engine. Each message says what is wrong, where, and what to do. If memory
 /// runs out, std::bad_alloc is thrown.
+///
+///     const double xyz[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+///     std::int32_t ids[] = { 0, 1, 7 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz, 3);
+///     mesh.Triangles = TriangleArray(ids, 1);
+///     try
+///     {
+///       FlipToDelaunay(mesh, {}, MutableTriangleArray(ids, 1));
+///     }
+///     catch (const InvalidMesh& error)
+///     {
+///       error.Point; // 7
+///     }
 
 namespace delaunayflip
 {

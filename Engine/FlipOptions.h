@@ -9,7 +9,19 @@
 #include <vector>
 
 /// @file
-/// The options of a run. The defaults suit any triangle mesh.
+/// The options of a run. The defaults suit any triangle mesh. Set a member to change one:
+///
+///     const double xyz[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+///     std::int32_t ids[] = { 0, 1, 2, 0, 2, 3 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz, 4);
+///     mesh.Triangles = TriangleArray(ids, 2);
+///     FlipOptions options;
+///     options.Geometry = GeometryKind::Surface;
+///     options.FeatureAngle = 60.0;
+///     options.MaximumIterations = 0; // tests all edges, and makes no flips
+///     const FlipReport report = FlipToDelaunay(mesh, options, MutableTriangleArray(ids, 2));
+///     report.NonDelaunayAfter; // 1
 
 namespace delaunayflip
 {
@@ -22,9 +34,9 @@ enum class GeometryKind
   /// them (mixed units) or 95 % of the area in space slopes less than 45 degrees; the slope is that
   /// of a triangle's plane or, for slivers, of the steepest edge. In a height field all triangles,
   /// except at most one in 1,000, have area in x and y and face the same side, and the triangles
-  /// around any point turn at most once. If z extends more than ten times as far as x and as y, one
-  /// in five may have no area, and one in 100 of the others may face the other side, as where an
-  /// ocean crosses 180 degrees. Else Surface. FlipReport::GeometryReason says why.
+  /// around any point go around it at most once. If z extends more than ten times as far as x and
+  /// as y, one in five may have no area, and one in 100 of the others may face the other side, as
+  /// where an ocean crosses 180 degrees. Else Surface. FlipReport::GeometryReason says why.
   Auto,
   Planar, ///< In the plane of the points, in any orientation; an error if there is none.
   PlanarXY, ///< By x and y alone, for terrain.
@@ -40,7 +52,7 @@ enum class CriterionKind
                  ///< it.
 };
 
-/// What happens to an edge whose four points lie exactly on one circle.
+/// What happens to an edge if its four points lie exactly on one circle.
 enum class TieRuleKind
 {
   Keep, ///< It stays: a Delaunay mesh comes back bit-identical.

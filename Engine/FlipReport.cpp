@@ -22,6 +22,16 @@ const char* GetName(const char* const (&names)[Size], Kind kind)
   const auto i = static_cast<std::size_t>(kind);
   return i < Size ? names[i] : "unknown";
 }
+
+/// Adds an item to a list in words.
+void Append(std::string& list, const std::string& item, const char* separator)
+{
+  if (!list.empty())
+  {
+    list += separator;
+  }
+  list += item;
+}
 }
 
 std::string FormatNumber(double value, int digits)
@@ -107,7 +117,7 @@ std::string ListFirstIds(const Defect& defect)
   const std::size_t width = defect.Ids == DefectIds::PointPairs ? 2 : 1;
   for (std::size_t i = 0; i + width <= defect.FirstIds.size(); i += width)
   {
-    text += (text.empty() ? "" : ", ") + std::to_string(defect.FirstIds[i]);
+    Append(text, std::to_string(defect.FirstIds[i]), ", ");
     if (width == 2)
     {
       text += "-" + std::to_string(defect.FirstIds[i + 1]);
@@ -138,9 +148,12 @@ std::string DescribeDefects(const std::vector<Defect>& defects)
   std::string text;
   for (const Defect& defect : defects)
   {
-    text += (text.empty() ? "" : "; ") + CountDefect(defect);
+    Append(text, CountDefect(defect), "; ");
     const std::string first = ListFirstIds(defect);
-    text += first.empty() ? "" : " (first: " + first + ")";
+    if (!first.empty())
+    {
+      text += " (first: " + first + ")";
+    }
   }
   return text;
 }
@@ -185,7 +198,7 @@ void AddTotals(FlipReport& sum, const FlipReport& part)
     const std::string listed = ", " + sum.*text + ", ";
     if (!(part.*text).empty() && listed.find(", " + part.*text + ", ") == std::string::npos)
     {
-      sum.*text += ((sum.*text).empty() ? "" : ", ") + part.*text;
+      Append(sum.*text, part.*text, ", ");
     }
   }
   for (const Defect& defect : part.Defects)
@@ -215,9 +228,15 @@ void AddIterations(FlipReport& sum, const FlipReport& other)
     // A mesh that made fewer iterations keeps its last angle. NaN stands for unknown.
     const auto getAngle = [i](const FlipReport& report, std::size_t iterations)
     {
-      return !HasAngles(report) ? std::numeric_limits<double>::infinity()
-        : i < iterations        ? report.Iterations[i].MinimumAngle
-                                : report.MinimumAngleAfter;
+      if (!HasAngles(report))
+      {
+        return std::numeric_limits<double>::infinity();
+      }
+      if (i < iterations)
+      {
+        return report.Iterations[i].MinimumAngle;
+      }
+      return report.MinimumAngleAfter;
     };
     const double a = getAngle(sum, made), b = getAngle(other, other.Iterations.size());
     const bool isKnown = !std::isnan(a + b) && (HasAngles(sum) || HasAngles(other));
@@ -292,8 +311,16 @@ std::string Count(std::int64_t number, const std::string& singular)
   {
     text.insert(end - 3, ",");
   }
-  return text + (singular.empty() ? "" : " ") + singular +
-    (number == 1 || singular.empty() ? "" : "s");
+  if (singular.empty())
+  {
+    return text;
+  }
+  text += " " + singular;
+  if (number != 1)
+  {
+    text += "s";
+  }
+  return text;
 }
 
 namespace
@@ -304,12 +331,19 @@ std::string Degrees(double angle) { return angle == angle ? FormatNumber(angle, 
 /// " (1,000 boundary, 6 constraints)"; kinds of which there are none are left out.
 std::string List(std::initializer_list<std::pair<const char*, std::int64_t>> kinds)
 {
-  std::string text;
+  std::string list;
   for (const auto& [kind, count] : kinds)
   {
-    text += count > 0 ? (text.empty() ? " (" : ", ") + Count(count, "") + " " + kind : "";
+    if (count > 0)
+    {
+      Append(list, Count(count, "") + " " + kind, ", ");
+    }
   }
-  return text + (text.empty() ? "" : ")");
+  if (list.empty())
+  {
+    return list;
+  }
+  return " (" + list + ")";
 }
 
 bool IsFromPoints(const FlipReport& report)
@@ -395,21 +429,29 @@ std::string DescribeConstraints(const FlipReport& flip)
 std::string DescribePoints(const FlipReport& flip)
 {
   const PointCounts& counts = flip.FromPoints;
-  const auto add = [](const std::string& text, std::int64_t count, const std::string& what)
-  { return count > 0 ? text + ", " + Count(count) + " " + what : text; };
+  const auto add = [](std::string& text, std::int64_t count, const char* what)
+  {
+    if (count > 0)
+    {
+      text += ", " + Count(count) + " " + what;
+    }
+  };
   const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
   std::string points = Count(counts.Used) + " used";
-  points = add(points, counts.Repeated, "repeated");
-  points = add(points, counts.TooNear, "too near to another");
-  points = add(points, counts.NotFinite, "not finite");
-  points = add(points, flip.Points - unused - counts.Used, "without a triangle");
+  add(points, counts.Repeated, "repeated");
+  add(points, counts.TooNear, "too near to another");
+  add(points, counts.NotFinite, "not finite");
+  add(points, flip.Points - unused - counts.Used, "without a triangle");
   std::string text = "points: " + points + '\n';
   if (counts.SegmentEdges + counts.RefusedSegments > 0)
   {
     std::string segments = Count(counts.SegmentEdges, "edge");
-    segments = add(segments, counts.RefusedSegments, "refused");
-    text += "segments: " + segments +
-      (counts.Crossings > 0 ? ", " + Count(counts.Crossings, "crossing") + " added" : "") + '\n';
+    add(segments, counts.RefusedSegments, "refused");
+    if (counts.Crossings > 0)
+    {
+      segments += ", " + Count(counts.Crossings, "crossing") + " added";
+    }
+    text += "segments: " + segments + '\n';
   }
   if (counts.OutsideTriangles + counts.LargeTriangles > 0)
   {
@@ -479,8 +521,11 @@ std::string Summarize(const FlipReport& report)
     return "";
   }
   // What has become better comes first. From points nothing has.
-  return IsFromPoints(report) ? DescribeMesh(report) + DescribeResult(report)
-                              : DescribeResult(report) + DescribeMesh(report);
+  if (IsFromPoints(report))
+  {
+    return DescribeMesh(report) + DescribeResult(report);
+  }
+  return DescribeResult(report) + DescribeMesh(report);
 }
 
 }

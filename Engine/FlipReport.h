@@ -13,7 +13,21 @@
 #include <vector>
 
 /// @file
-/// What a run did, and what it found in the input.
+/// A FlipReport says what a run did, and what it found in the input:
+///
+///     const double xyz[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+///     std::int32_t ids[] = { 0, 1, 2, 0, 2, 3 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz, 4);
+///     mesh.Triangles = TriangleArray(ids, 2);
+///     const FlipReport report = FlipToDelaunay(mesh, {}, MutableTriangleArray(ids, 2));
+///     report.NonDelaunayBefore; // 1
+///     report.NonDelaunayAfter; // 0
+///     report.Edges.Boundary; // 4
+///     report.Defects.empty(); // true
+///     Count(report.TotalFlips, "flip"); // "1 flip"
+///
+/// Summarize writes it in lines of text.
 
 namespace delaunayflip
 {
@@ -129,7 +143,7 @@ struct FlipReport
   bool KeepsSliver = false;
   // What hides bad edges; 0 for points, and for meshes in parts.
   std::int64_t DuplicateTriangles = 0; ///< Triangles with the three points of an earlier one.
-  /// Edges that are wrongly wound at the end, and whose opposite angles sum to more than pi.
+  /// Edges that are wrongly wound at the end, and have opposite angles of more than pi together.
   std::int64_t HiddenByWinding = 0;
   /// Angles above 90 degrees opposite to non-manifold edges at the end, of triangles that have not
   /// flipped. An edge that would be bad has one.

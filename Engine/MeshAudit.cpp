@@ -62,7 +62,7 @@ struct Side
 {
   VertexPair Ends; ///< Ascending.
   std::int64_t Triangle;
-  int Slot; ///< Of the vertex opposite the side.
+  int Slot; ///< The slot of the vertex opposite the side.
   bool Reversed; ///< The triangle runs from the larger end to the smaller.
 };
 
@@ -157,15 +157,18 @@ public:
     {
       return !this->IsFeature(quad) && this->HasLargeAngles(quad);
     }
-    const int upper = this->Turn(quad[0], quad[1], quad[2]);
-    const int lower = this->Turn(quad[3], quad[2], quad[1]);
+    const int upper = this->Orient(quad[0], quad[1], quad[2]);
+    const int lower = this->Orient(quad[3], quad[2], quad[1]);
     const bool byAngles = this->Options.Criterion == CriterionKind::OppositeAngles;
     if (upper == 0 && lower == 0)
     {
       return this->SpansOpposite(quad) && (!byAngles || this->HasLargeAngles(quad));
     }
-    return byAngles ? upper + lower != 0 && this->HasLargeAngles(quad)
-                    : (upper + lower) * this->JudgeInCircle(quad) > 0;
+    if (byAngles)
+    {
+      return upper + lower != 0 && this->HasLargeAngles(quad);
+    }
+    return (upper + lower) * this->JudgeInCircle(quad) > 0;
   }
 
 private:
@@ -200,7 +203,7 @@ private:
     return { projected.U, projected.V, projected.W };
   }
 
-  int Turn(std::int64_t a, std::int64_t b, std::int64_t c) const
+  int Orient(std::int64_t a, std::int64_t b, std::int64_t c) const
   {
     return Orientation(this->Project(a).data(), this->Project(b).data(), this->Project(c).data());
   }
@@ -209,11 +212,14 @@ private:
   {
     const auto a = this->Project(quad[0]), p = this->Project(quad[1]);
     const auto q = this->Project(quad[2]), b = this->Project(quad[3]);
-    return this->Projection.Tilted ? InCircleTilted(a.data(), p.data(), q.data(), b.data())
-                                   : InCircle(a.data(), p.data(), q.data(), b.data());
+    if (this->Projection.Tilted)
+    {
+      return InCircleTilted(a.data(), p.data(), q.data(), b.data());
+    }
+    return InCircle(a.data(), p.data(), q.data(), b.data());
   }
 
-  /// Of a quad without area: whether its edge runs from end to end of it, and further than the edge
+  /// Whether the edge of a quad without area runs from end to end of it, and further than the edge
   /// that a flip would make.
   bool SpansOpposite(const std::array<std::int64_t, 4>& quad) const
   {
@@ -257,23 +263,26 @@ private:
     for (int i = 0; i < 4; ++i)
     {
       quarters[i] = 0.25 * LoadPoint(this->Mesh.Points, quad[i]);
-      quarters[i].Z = this->Geometry == GeometryKind::PlanarXY ? 0.0 : quarters[i].Z;
+      if (this->Geometry == GeometryKind::PlanarXY)
+      {
+        quarters[i].Z = 0.0;
+      }
       farthest = std::max(farthest, Hypot(quarters[i]));
     }
     const double epsilon = this->Mesh.Points.Floats ? std::numeric_limits<float>::epsilon()
                                                     : std::numeric_limits<double>::epsilon();
-    double turns = 0.0;
+    double sine = 0.0;
     for (int apex : { 0, 3 })
     {
       for (int end : { 1, 2 })
       {
         const double moved = 2.0 * epsilon * farthest; // of one end relative to the other
-        turns += moved / Hypot(quarters[end] - quarters[apex]);
+        sine += moved / Hypot(quarters[end] - quarters[apex]);
       }
     }
     // The rounding of the engine's test is less than this.
-    turns += 32.0 * std::numeric_limits<double>::epsilon();
-    return turns < 1.0 ? std::asin(turns) : std::numeric_limits<double>::infinity();
+    sine += 32.0 * std::numeric_limits<double>::epsilon();
+    return sine < 1.0 ? std::asin(sine) : std::numeric_limits<double>::infinity();
   }
 
   /// Whether the normals differ by more than the feature angle; never next to an empty triangle.

@@ -13,6 +13,17 @@
 /// @file
 /// The invariants of a triangle mesh as functions. They are computed from the triangles alone, by
 /// sorting vertex pairs, and so check the flip engine independently.
+///
+///     const double xyz[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+///     std::int32_t ids[] = { 0, 1, 2, 0, 2, 3 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz, 4);
+///     mesh.Triangles = TriangleArray(ids, 2);
+///     CountEdges(mesh.Triangles).Boundary; // 4
+///     EulerCharacteristic(mesh.Triangles); // 1
+///     CountNonDelaunayEdges(mesh, {}); // 1
+///     FlipToDelaunay(mesh, {}, MutableTriangleArray(ids, 2));
+///     CountNonDelaunayEdges(mesh, {}); // 0
 
 namespace delaunayflip
 {

@@ -15,8 +15,20 @@
 #include <vector>
 
 /// @file
-/// Flips one mesh that is divided among several ranks: every rank holds a piece, and the edges
-/// between pieces flip too.
+/// Flips one mesh in pieces. FlipPiece does so on several ranks, which are processes or threads:
+/// every rank holds a piece, and the edges between pieces flip too. FlipInPieces divides a mesh of
+/// one process, and flips one piece after the other:
+///
+///     const double xyz[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+///     std::int32_t ids[] = { 0, 1, 2, 0, 2, 3 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz, 4);
+///     mesh.Triangles = TriangleArray(ids, 2);
+///     FlipOptions options;
+///     options.NumberOfPieces = 2;
+///     const PiecesReport report = FlipInPieces(mesh, options, MutableTriangleArray(ids, 2));
+///     report.SeamEdges; // 1
+///     report.TotalFlips; // 1
 
 namespace delaunayflip
 {
@@ -65,10 +77,10 @@ struct FlippedPiece
 };
 
 /// @returns for each triangle, in their order, the rank and the slot in which it was given.
-/// @param rank the one whose piece this is.
+/// @param rank the rank that has this piece.
 DELAUNAYFLIP_EXPORT std::vector<PieceOrigin> ListOrigins(const FlippedPiece& flipped, int rank);
 
-/// Which points of several pieces are the same.
+/// Tells which points of several pieces are the same.
 struct JoinedPoints
 {
   /// For each point of all pieces, numbered one piece behind the other: the first that is the same.
@@ -78,13 +90,13 @@ struct JoinedPoints
   std::int64_t Ambiguous = 0;
 };
 
-/// Finds the points of pieces of one process that are the same: those with the same number or, if a
-/// piece with points has no numbers, at the same place, if at least one of them is at the border of
-/// its piece. Points that neither a triangle nor a constraint has are not compared.
+/// Finds the points of pieces of one process that are the same. They have the same number. If a
+/// piece with points has no numbers, they are at the same place, and at least one of them is at the
+/// border of its piece. Points that neither a triangle nor a constraint has are not compared.
 /// @param pieces with valid ids.
 DELAUNAYFLIP_EXPORT JoinedPoints JoinPoints(const std::vector<MeshPiece>& pieces);
 
-/// What happened to the whole mesh; the same on every rank.
+/// The report of the whole mesh, which is the same on every rank.
 struct PiecesReport : FlipReport
 {
   /// How often the pieces flipped and then tested the edges between them. 1: no such edge was bad.
@@ -106,13 +118,13 @@ DELAUNAYFLIP_EXPORT void RequireSameOptions(const FlipOptions& options, PieceGro
 /// Flips a mesh to the end, or until a progress observer of any rank stops it. All ranks of the
 /// group must call this together, with the same options (see RequireSameOptions).
 /// FlipOptions::NumberOfPieces and TrackQuality have no effect: the smallest angle is known before
-/// the first iteration and after the last. What ranks do at the same time is one iteration, of
-/// which FlipOptions::MaximumIterations are made at most, over all rounds.
+/// the first iteration and after the last. Iterations of several ranks at the same time count as
+/// one. FlipOptions::MaximumIterations of them are made at most, over all rounds.
 ///
 /// In planar geometry with TieRuleKind::Canonical the triangles with an area are those that one
 /// rank would make. Otherwise the result depends on how the mesh is divided, and on nothing else.
 /// @param flipped receives this rank's piece. Its contents are lost, and its memory is used again,
-/// so the piece must not refer to its arrays. What it holds after an exception is undefined.
+/// so the piece must not refer to its arrays. Its contents are undefined after an exception.
 /// @throws on every rank if one fails, with its number: what FlipSession's constructor and
 /// RequireSameOptions throw.
 DELAUNAYFLIP_EXPORT PiecesReport FlipPiece(const MeshPiece& piece, const FlipOptions& options,

@@ -26,7 +26,7 @@ struct GroupBroken
 {
 };
 
-/// What the threads of a group share.
+/// The messages and locks that the threads of a group share.
 struct MessageBoard
 {
   MessageBoard(int size, const std::vector<int>& turnOf)
@@ -39,10 +39,10 @@ struct MessageBoard
   std::vector<std::vector<Message>> Messages; ///< By the rank that sends them, then by receiver.
   std::vector<std::mutex> Turns;
   const std::vector<int>& TurnOf; ///< By rank; or empty.
-  std::mutex Mutex; ///< Of what follows.
+  std::mutex Mutex; ///< Guards what follows.
   std::condition_variable Changed;
   std::size_t Waiting = 0;
-  long Phase = 0;
+  long Meeting = 0;
   std::exception_ptr Failure; ///< The first.
 };
 
@@ -88,15 +88,15 @@ private:
   void Wait()
   {
     std::unique_lock<std::mutex> lock(this->Board.Mutex);
-    const long phase = this->Board.Phase;
+    const long meeting = this->Board.Meeting;
     if (++this->Board.Waiting == this->Board.Messages.size())
     {
       this->Board.Waiting = 0;
-      ++this->Board.Phase;
+      ++this->Board.Meeting;
       this->Board.Changed.notify_all();
     }
     this->Board.Changed.wait(
-      lock, [&]() { return this->Board.Phase != phase || this->Board.Failure; });
+      lock, [&]() { return this->Board.Meeting != meeting || this->Board.Failure; });
     if (this->Board.Failure)
     {
       throw GroupBroken();
@@ -130,7 +130,10 @@ void RunInThreads(
   const auto fail = [&board]() // keeps the first failure, and wakes all
   {
     const std::lock_guard<std::mutex> lock(board.Mutex);
-    board.Failure = board.Failure ? board.Failure : std::current_exception();
+    if (!board.Failure)
+    {
+      board.Failure = std::current_exception();
+    }
     board.Changed.notify_all();
   };
   const auto run = [&](int rank) noexcept
@@ -187,7 +190,28 @@ enum FailureKind : char
   Other
 };
 
-/// What a rank tells of the exception that is being handled.
+FailureKind FindKind(const std::exception& error)
+{
+  if (dynamic_cast<const InvalidOptions*>(&error))
+  {
+    return Options;
+  }
+  if (dynamic_cast<const InvalidMesh*>(&error))
+  {
+    return Mesh;
+  }
+  if (dynamic_cast<const MeshTooLarge*>(&error))
+  {
+    return Size;
+  }
+  if (dynamic_cast<const BackendUnavailable*>(&error))
+  {
+    return Backend;
+  }
+  return Other;
+}
+
+/// The message to other ranks about the exception that is being handled.
 Message PackException()
 try
 {
@@ -208,11 +232,7 @@ try
   catch (const std::exception& error)
   {
     text = error.what();
-    kind = dynamic_cast<const InvalidOptions*>(&error)  ? Options
-      : dynamic_cast<const InvalidMesh*>(&error)        ? Mesh
-      : dynamic_cast<const MeshTooLarge*>(&error)       ? Size
-      : dynamic_cast<const BackendUnavailable*>(&error) ? Backend
-                                                        : Other;
+    kind = FindKind(error);
   }
   catch (...)
   {
@@ -226,21 +246,28 @@ catch (const std::bad_alloc&)
 }
 
 /// Throws if a rank has failed: the exception of the first of these, which names it.
-/// @param all what the ranks have told.
+/// @param all the messages of the ranks.
 void ThrowFirst(const std::vector<Message>& all)
 {
   bool isAborted = false;
   for (std::size_t rank = 0; rank < all.size(); ++rank)
   {
-    const char kind = all[rank].empty() ? char(Other) : all[rank].back();
+    const bool hasText = !all[rank].empty(); // else it had no memory for one
+    const char kind = hasText ? all[rank].back() : char(Other);
     isAborted = isAborted || kind == Abort;
     if (kind == None || kind == Abort)
     {
       continue;
     }
-    std::string text = all.size() > 1 ? "rank " + std::to_string(rank) + ": " : "";
-    text +=
-      all[rank].empty() ? "not enough memory" : std::string(all[rank].begin(), all[rank].end() - 1);
+    std::string text = "not enough memory";
+    if (hasText)
+    {
+      text.assign(all[rank].begin(), all[rank].end() - 1);
+    }
+    if (all.size() > 1)
+    {
+      text = "rank " + std::to_string(rank) + ": " + text;
+    }
     switch (kind)
     {
       case Options:
@@ -261,7 +288,7 @@ void ThrowFirst(const std::vector<Message>& all)
   }
 }
 
-/// Another group, whose ranks all learn of it if one of them fails between two calls.
+/// Another group. All its ranks learn of it if one of them fails between two calls.
 ///
 /// Whatever the others call next, their first message to the group below is that of a Gather, with
 /// a character more that says whether the rank has failed. So a rank that has can answer it without

@@ -15,7 +15,17 @@
 #include <vector>
 
 /// @file
-/// How the ranks that hold the pieces of one mesh talk to each other.
+/// The ranks that hold the pieces of one mesh send each other messages through a PieceGroup:
+///
+///     RunInThreads(2,
+///       [](PieceGroup& group)
+///       {
+///         Message message;
+///         Put(message, 10 * group.GetRank());
+///         const std::vector<Message> all = group.Gather(message);
+///         MessageReader(all[0]).Get<int>(); // 0
+///         MessageReader(all[1]).Get<int>(); // 10
+///       });
 
 namespace delaunayflip
 {
@@ -106,8 +116,8 @@ public:
   /// Sends a message to all ranks. @returns those of all ranks, in their order.
   virtual std::vector<Message> Gather(const Message& message) = 0;
 
-  /// Calls `work`, which may take long and needs no other rank. A group whose ranks share a device
-  /// calls it when it is this rank's turn.
+  /// Calls `work`, which may take long and needs no other rank. If ranks of the group share a
+  /// device, the group calls it when it is this rank's turn.
   virtual void Work(const std::function<void()>& work) { work(); }
 };
 

@@ -10,10 +10,20 @@
 #include <cstdint>
 
 /// @file
-/// What a FlipSession needs to triangulate points in the plane, and how it treats them.
+/// A FlipSession triangulates points in the plane. It takes a PointInput and PointOptions:
+///
+///     const double xy[] = { 0, 0, 1, 0, 0, 1, 1, 1.5 };
+///     PointInput points;
+///     points.Points = PlaneArray(xy, 4, 2);
+///     FlipSession session(points, PointOptions());
+///     session.Advance();
+///     const std::int64_t count = session.GetReport().Triangles;
+///     std::vector<std::int32_t> ids(3 * count);
+///     session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+///     count; // 2
 ///
 /// **Points.** If several points are at one place, the one with the lowest id is used. Points with
-/// NaN or infinite coordinates are not used. All triangles turn counter-clockwise and have an area;
+/// NaN or infinite coordinates are not used. All triangles are counter-clockwise and have an area.
 /// n places with h on the hull have 2 n - 2 - h triangles. The triangles depend on the places and
 /// the segments alone, not on the order of the points: ties are canonical.
 ///
@@ -24,10 +34,11 @@
 ///
 /// **Rings** are closed polygons of segments, in any direction. There are two sets of them: the
 /// outline, and the holes (PointInput::FirstHole). PointOptions::RingRule says what is inside a
-/// set. What is inside the outline, or everything if there is none, and not inside the holes is
-/// kept; the rest is removed, then the regions of hole seeds, then what Alpha and LongestEdge say.
-/// A ring without an area, such as one of fewer than three places or with all of them on one line,
-/// is left out and reported: its segments are segments of no ring.
+/// set. The triangles inside the outline and not inside the holes are kept. Without an outline, all
+/// triangles not inside the holes are. The rest is removed, then the triangles around hole seeds,
+/// then those that Alpha and LongestEdge name. A ring without an area, such as one of fewer than
+/// three places or with all of them on one line, is left out and reported: its segments are
+/// segments of no ring.
 
 namespace delaunayflip
 {
@@ -36,11 +47,10 @@ namespace delaunayflip
 enum class RingRuleKind
 {
   EvenOdd, ///< If a path from there to infinity crosses the rings an odd number of times.
-  NonZero, ///< If the counter-clockwise turns of the rings around it differ from the clockwise
-           ///< ones.
-  /// As for vtkDelaunay2D's Source: inside the outline if it has more counter-clockwise turns
-  /// around the place than clockwise ones, or, if no ring of the outline is counter-clockwise, if
-  /// it has none. Inside the holes by NonZero.
+  NonZero, ///< If the sum of the rings' winding numbers around it is not 0.
+  /// The rule of vtkDelaunay2D's Source. A place is inside the outline if the sum of the winding
+  /// numbers is positive or, if no ring of the outline is counter-clockwise, if it is 0. It is
+  /// inside the holes by NonZero.
   Orientation
 };
 
@@ -55,7 +65,7 @@ struct PointInput
 
   /// For every segment the number of its ring, from 0 to INT32_MAX - 1, or -1 for a segment that is
   /// part of no ring. Null: there are no rings. The segments of a ring may run in any direction. If
-  /// it varies, they are turned to that of the first one.
+  /// it varies, the direction of the first one holds for all.
   const std::int32_t* Rings = nullptr;
   /// Rings from this number on are holes; those before are the outline.
   std::int32_t FirstHole = INT32_MAX;
@@ -89,8 +99,8 @@ struct PointOptions : FlipOptions
 
   RingRuleKind RingRule = RingRuleKind::EvenOdd;
 
-  /// Triangles whose circumcircle has a larger radius are removed, unless one of their edges is a
-  /// segment. 0 (default): none.
+  /// Triangles with a larger circumradius are removed, unless one of their edges is a segment. 0
+  /// (default): none.
   double Alpha = 0.0;
 
   /// Triangles with a longer edge are removed in the same way. 0 (default): none.

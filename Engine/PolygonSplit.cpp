@@ -93,7 +93,7 @@ int CompareNormals(const std::array<SpaceVector, 4>& quad, int first)
   return dot > 0.0 ? 1 : -1;
 }
 
-int Turn(const std::vector<PlaneVector>& polygon, std::int64_t a, std::int64_t b, std::int64_t c)
+int Orient(const std::vector<PlaneVector>& polygon, std::int64_t a, std::int64_t b, std::int64_t c)
 {
   return Orientation(polygon[a].data(), polygon[b].data(), polygon[c].data());
 }
@@ -104,21 +104,21 @@ bool PrefersSecondDiagonal(
 {
   std::array<SpaceVector, 4> offsets;
   LoadScaledOffsets(points, ids, 4, 3, offsets);
-  const bool firstIsInside = Turn(quad, 0, 1, 2) > 0 && Turn(quad, 0, 2, 3) > 0;
-  const bool secondIsInside = Turn(quad, 1, 2, 3) > 0 && Turn(quad, 1, 3, 0) > 0;
+  const bool firstIsInside = Orient(quad, 0, 1, 2) > 0 && Orient(quad, 0, 2, 3) > 0;
+  const bool secondIsInside = Orient(quad, 1, 2, 3) > 0 && Orient(quad, 1, 3, 0) > 0;
   return (CompareNormals(offsets, 0) < 0 && CompareNormals(offsets, 1) > 0) ||
     (secondIsInside && !firstIsInside);
 }
 
-/// Whether no corner turns right and no triangle of the fan is empty.
+/// Whether no corner is clockwise and no triangle of the fan is empty.
 bool IsConvex(const std::vector<PlaneVector>& polygon)
 {
   const auto count = static_cast<std::int64_t>(polygon.size());
   for (std::int64_t i = 0; i < count; ++i)
   {
     const std::int64_t next = (i + 1) % count;
-    if (Turn(polygon, i, next, (i + 2) % count) < 0 ||
-      (i > 0 && next > 0 && Turn(polygon, 0, i, next) <= 0))
+    if (Orient(polygon, i, next, (i + 2) % count) < 0 ||
+      (i > 0 && next > 0 && Orient(polygon, 0, i, next) <= 0))
     {
       return false;
     }
@@ -169,7 +169,7 @@ std::vector<std::int64_t> DropRepeats(const std::int64_t* ids, std::int64_t coun
   return different;
 }
 
-/// As SplitPolygon, for vertices without repetitions.
+/// Does what SplitPolygon does, for vertices without repetitions.
 bool Split(const PointArray& points, const std::int64_t* ids, std::int64_t count,
   std::vector<std::int64_t>& triangles, const ProgressObserver& progress)
 {
@@ -220,17 +220,15 @@ void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double 
   LoadScaledOffsets(points, ids, 3, 3, offsets);
   SpaceVector area = AreaVector(offsets);
   const int axis = DominantAxis(area);
-  // Twice, because the area vector of a needle may be so small that its length is inexact at first.
-  for (int pass = 0; pass < 2; ++pass)
+  const auto divideBy = [&](double length)
   {
-    const double length = pass == 0
-      ? std::abs(area[axis])
-      : std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
-    for (int i = 0; i < 3; ++i)
+    for (double& component : area)
     {
-      area[i] = length > 0.0 ? area[i] / length : 0.0;
+      component = length > 0.0 ? component / length : 0.0;
     }
-  }
+  };
+  divideBy(std::abs(area[axis])); // the area of a needle may be so small that its length is inexact
+  divideBy(std::sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]));
   const bool isValid = std::isfinite(area[0] + area[1] + area[2]) && HasArea(points, ids, axis);
   for (int i = 0; i < 3; ++i)
   {

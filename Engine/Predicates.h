@@ -6,20 +6,28 @@
 #include "EngineExport.h"
 
 /// @file
-/// Exact signs of orientation and in-circle determinants, for any finite double coordinates: by a
-/// floating-point filter with a proven error bound (Shewchuk 1997); if that cannot decide, by
-/// fixed-point integers of at most 512 bits; if the exponents spread too far for those, by integers
-/// of any width. Never wrong by rounding, overflow or underflow. 0 if a coordinate is NaN or
-/// infinite.
+/// Exact signs of orientation and in-circle determinants, for any finite double coordinates. A
+/// floating-point filter with a proven error bound (Shewchuk 1997) comes first. If it cannot
+/// decide, fixed-point integers of at most 512 bits do. If the exponents spread too far for those,
+/// integers of any width do. The signs are never wrong by rounding, overflow or underflow. They are
+/// 0 if a coordinate is NaN or infinite.
+///
+///     const double a[] = { 0, 0 }, b[] = { 1, 0 }, c[] = { 1, 1 }, d[] = { 0, 1 };
+///     Orientation(a, b, c); // 1
+///     Orientation(a, c, b); // -1
+///     InCircle(a, b, c, d); // 0
+///     const double inside[] = { 0.5, 0.1 };
+///     InCircle(a, b, c, inside); // 1
 
 namespace delaunayflip
 {
 
-/// The turn of the path a, b, c in the plane: +1 left (counter-clockwise), -1 right, 0 collinear.
+/// The orientation of a, b, c in the plane: +1 counter-clockwise, -1 clockwise, 0 collinear.
 DELAUNAYFLIP_EXPORT int Orientation(const double a[2], const double b[2], const double c[2]);
 
 /// The sign of the in-circle determinant: +1 if `d` lies inside the circle through the
-/// counter-clockwise triangle a, b, c, -1 outside, 0 on it; the opposite for clockwise a, b, c.
+/// counter-clockwise triangle a, b, c, -1 outside, 0 on it. The signs are the other way round if
+/// a, b, c is clockwise.
 DELAUNAYFLIP_EXPORT int InCircle(
   const double a[2], const double b[2], const double c[2], const double d[2]);
 

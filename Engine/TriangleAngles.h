@@ -9,7 +9,17 @@
 #include "TriangleMesh.h"
 
 /// @file
-/// The triangles of a mesh one by one: their point ids and their quality.
+/// Looks at the triangles of a mesh one by one: at their point ids and their quality.
+///
+///     const double xyz[] = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+///     const std::int32_t ids[] = { 0, 1, 2 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz, 3);
+///     mesh.Triangles = TriangleArray(ids, 1);
+///     RequireValidIds(mesh);
+///     double degrees;
+///     FindSmallestAngles(mesh, GeometryKind::Surface, 1, &degrees);
+///     std::round(degrees); // 45.0
 
 namespace delaunayflip
 {

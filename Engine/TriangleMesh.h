@@ -8,7 +8,18 @@
 #include <cstdint>
 
 /// @file
-/// The input of the engine: views of arrays that belong to the caller. Nothing here owns or copies.
+/// A TriangleMesh is the input of the engine. It consists of views of arrays that belong to the
+/// caller. Nothing here owns or copies.
+///
+///     const float xyz[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
+///     std::int64_t ids[] = { 0, 1, 2, 0, 2, 3 };
+///     const std::int64_t stays[] = { 0, 2 };
+///     TriangleMesh mesh;
+///     mesh.Points = PointArray(xyz, 4);
+///     mesh.Triangles = TriangleArray(ids, 2);
+///     mesh.ConstraintEdges = stays;
+///     mesh.NumberOfConstraintEdges = 1;
+///     FlipToDelaunay(mesh, {}, MutableTriangleArray(ids, 2)).TotalFlips; // 0
 
 namespace delaunayflip
 {
@@ -166,7 +177,7 @@ struct FixedEdges
   const unsigned char* FrozenTriangles = nullptr;
 };
 
-/// What is known about the larger mesh of which a mesh is a piece (PieceFlip.h).
+/// A mesh that is a piece of a larger one has this information about the larger one (PieceFlip.h).
 struct WholeMesh
 {
   /// The plane of the larger mesh, for GeometryKind::Planar: the axis, 0 to 2, to which its normal
@@ -174,17 +185,17 @@ struct WholeMesh
   int PlaneAxis = -1;
   bool PlaneIsTilted = false;
 
-  /// In planar geometry: whether all triangles strictly turn to the same side, and those around
+  /// In planar geometry: whether all triangles have the same strict orientation, and those around
   /// every point cover no direction twice. Then flips cannot make an edge that exists.
   bool StarsAreSimple = false;
 
-  /// In planar geometry: the side to which most triangles of the larger mesh turn, 1 (left) or -1.
-  /// 0: that to which most of these do.
+  /// In planar geometry: the orientation of most triangles of the larger mesh, 1
+  /// (counter-clockwise) or -1. 0: that of most triangles of this mesh.
   int Side = 0;
 
-  /// One set of bits per point, or null: the places outside this piece, whatever they are, where
-  /// the point may have edges. A flip that would join two points with a common bit is blocked, as
-  /// by an edge that exists.
+  /// One set of bits per point, or null. Each bit stands for a part of the larger mesh outside of
+  /// this piece, where the point may have edges. A flip that would join two points with a common
+  /// bit is blocked, as by an edge that exists.
   const unsigned char* SharedPoints = nullptr;
 };
 
