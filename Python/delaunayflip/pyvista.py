@@ -251,6 +251,9 @@ def _require_mesh(name, mesh):
 def _list_rings(name, given):
     """The polygons and lines of a mesh as rings of coordinates; what is no mesh as it is."""
     if not hasattr(given, "GetPolys"):
+        if hasattr(given, "GetDataObjectType"):
+            raise TypeError(f"{name} must be a pyvista.PolyData or rings of points, not "
+                            f"{type(given).__name__}")
         return given
     if given.GetNumberOfPoints() and not given.GetNumberOfLines() + given.GetNumberOfPolys():
         raise ValueError(f"{name} must have polygons or closed lines, which are its rings; it has "

@@ -246,6 +246,8 @@ class PyVista(unittest.TestCase):
             measure(outline=self.pyvista.Line())
         with self.assertRaisesRegex(ValueError, "holes must have polygons or closed lines"):
             measure(holes=self.pyvista.PolyData(outer))
+        with self.assertRaisesRegex(TypeError, "outline must be a pyvista.PolyData .* not MultiBlock"):
+            measure(outline=self.pyvista.MultiBlock())
         with self.assertRaisesRegex(TypeError, "outline must be .* not str"):
             measure(outline="even-odd")
         with self.assertRaisesRegex(TypeError, "segments must be a pyvista.PolyData, not UniformGrid|ImageData"):
