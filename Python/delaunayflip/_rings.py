@@ -44,8 +44,18 @@ def _is_ring(name, given):
     else:
         items = [_arrays.as_array(name, item) for item in given]
         shapes, kinds = {item.shape for item in items}, {item.dtype.kind for item in items}
-    are_spatial = shapes == {(3,)} and "f" in kinds  # three integers may be a ring of ids
+    are_spatial = shapes == {(3,)} and "f" in kinds
+    if shapes == {(3,)} and not are_spatial and len(given) > 2:
+        _require_ids(name, given)
     return shapes in ({()}, {(2,)}) or are_spatial
+
+
+def _require_ids(name, rows):
+    """Three integers each are rings of ids, but those of no ring are equal."""
+    ids = numpy.sort(_arrays.as_array(name, rows), axis=1)
+    if (ids[:, 1:] == ids[:, :-1]).any():
+        raise ValueError(f"{name}: rows of three integers are rings of point ids, but some of these rows name "
+                         "a point twice; if they are coordinates, give them as floats")
 
 
 def _read_ring(name, ring):

@@ -142,6 +142,7 @@ class Triangulate(unittest.TestCase):
         spatial = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, .5]]  # integers first
         self.assertEqual(area(outline=spatial), 1)
         for name, values, error, text in (
+                ("outline", numpy.array(spatial, int), ValueError, "outline: rows of three .* as floats"),
                 ("outline", numpy.ma.masked_equal([0, 1, 2, 3], 3), ValueError, "outline has masked"),
                 ("holes", [numpy.ma.masked_equal(square, .9)], ValueError, "holes has masked"),
                 ("holes", numpy.ma.masked_equal(square, .9), ValueError, "holes has masked"),
