@@ -5,10 +5,10 @@
  * @brief   statistics of vtkDelaunayFlip as a text for a render view
  *
  * The input is the mesh of vtkDelaunayFlip, with its statistics as field data. The output is a
- * table with one string in a column Text, which ParaView draws in its render views: iterations,
- * flips, bad edges left, the smallest angle if it is known, and whether the run continues. During a
- * live run the text is updated with every frame. For another mesh the text says that there are no
- * statistics. Only a build for ParaView has this class.
+ * table with one string in a column Text, which ParaView draws in its render views: the summary of
+ * the update, with lines broken for half of a window. During a live run the text is updated with
+ * every frame. For another mesh the text says that there are no statistics. Only a build for
+ * ParaView has this class.
  */
 #ifndef vtkDelaunayFlipText_h
 #define vtkDelaunayFlipText_h
