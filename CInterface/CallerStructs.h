@@ -176,6 +176,24 @@ inline MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int
   return ToIds<MutableTriangleArray, std::int32_t, std::int64_t>(ids, triangles, type);
 }
 
+/// Calls visit(member, the engine's) for each option, but for the devices, which are a text.
+template <typename Struct, typename Options, typename Visit>
+void ForEachOption(Struct& c, Options& options, const Visit& visit)
+{
+  visit(c.geometry, options.Geometry);
+  visit(c.criterion, options.Criterion);
+  visit(c.tie_rule, options.TieRule);
+  visit(c.backend, options.Backend);
+  visit(c.tolerance, options.Tolerance);
+  visit(c.feature_angle, options.FeatureAngle);
+  visit(c.maximum_deviation, options.MaximumDeviation);
+  visit(c.maximum_iterations, options.MaximumIterations);
+  visit(c.number_of_threads, options.NumberOfThreads);
+  visit(c.device, options.Device);
+  visit(c.number_of_pieces, options.NumberOfPieces);
+  visit(c.track_quality, options.TrackQuality);
+}
+
 /// The engine's defaults where `given` is null.
 inline FlipOptions ToOptions(const delaunayflip_options* given)
 {
@@ -184,12 +202,16 @@ inline FlipOptions ToOptions(const delaunayflip_options* given)
     return {};
   }
   const delaunayflip_options c = Complete(given, delaunayflip_options_init);
-  return { ToEnumeration(c.geometry, GeometryKind::Surface, "geometry"),
-    ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion"),
-    ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule"),
-    ToEnumeration(c.backend, BackendKind::Threads, "backend"), c.tolerance, c.feature_angle,
-    c.maximum_deviation, c.maximum_iterations, c.number_of_threads, c.device,
-    ParseDevices(c.devices ? c.devices : ""), c.number_of_pieces, c.track_quality != 0 };
+  ToEnumeration(c.geometry, GeometryKind::Surface, "geometry");
+  ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion");
+  ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
+  ToEnumeration(c.backend, BackendKind::Threads, "backend");
+  FlipOptions options;
+  ForEachOption(c, options,
+    [](const auto& wanted, auto& option)
+    { option = static_cast<std::decay_t<decltype(option)>>(wanted); });
+  options.Devices = ParseDevices(c.devices ? c.devices : "");
+  return options;
 }
 
 inline delaunayflip_iteration ToC(const IterationRecord& record)
@@ -231,66 +253,37 @@ inline FlipObserver ToObserver(const delaunayflip_callbacks* given)
   return call;
 }
 
-/// Calls visit(member, the report's) for the numbers that a C struct and a report have in common.
-template <typename Struct, typename Report, typename Visit>
-void ForEachNumber(Struct& c, Report& report, const Visit& visit)
+/// Calls visit(bytes, number) for each number of a report, with its place in the C struct: there
+/// the numbers follow one another in the order of ForEachNumber, with 8 bytes each.
+template <typename Byte, typename Report, typename Visit>
+void ForEachPlace(Byte* c, Report& report, const Visit& visit)
 {
-  visit(c.total_flips, report.TotalFlips);
-  visit(c.total_excluded, report.TotalExcluded);
-  visit(c.total_blocked, report.TotalBlocked);
-  visit(c.non_delaunay_before, report.NonDelaunayBefore);
-  visit(c.non_delaunay_after, report.NonDelaunayAfter);
-  visit(c.blocked_by_shape, report.BlockedByShape);
-  visit(c.blocked_by_edge, report.BlockedByEdge);
-  visit(c.minimum_angle_before, report.MinimumAngleBefore);
-  visit(c.minimum_angle_after, report.MinimumAngleAfter);
-  visit(c.build_seconds, report.BuildSeconds);
-  visit(c.flip_seconds, report.FlipSeconds);
-  visit(c.number_of_points, report.Points);
-  visit(c.number_of_triangles, report.Triangles);
-  visit(c.edges, report.Edges.Edges);
-  visit(c.boundary_edges, report.Edges.Boundary);
-  visit(c.non_manifold_edges, report.Edges.NonManifold);
-  visit(c.wrongly_wound_edges, report.Edges.WronglyWound);
-  visit(c.feature_edges, report.Edges.Feature);
-  visit(c.constraint_edges, report.Edges.Constraint);
-  visit(c.region_edges, report.Edges.Region);
-  visit(c.fixed_edges, report.Edges.Fixed);
-  visit(c.unmatched_constraints, report.UnmatchedConstraints);
-  visit(c.inserted_constraints, report.InsertedConstraints);
-  visit(c.constraint_flips, report.ConstraintFlips);
-  visit(c.euler_characteristic, report.EulerCharacteristic);
-  visit(c.points_not_finite, report.FromPoints.NotFinite);
-  visit(c.points_repeated, report.FromPoints.Repeated);
-  visit(c.points_too_near, report.FromPoints.TooNear);
-  visit(c.segment_edges, report.FromPoints.SegmentEdges);
-  visit(c.segments_refused, report.FromPoints.RefusedSegments);
-  visit(c.crossings, report.FromPoints.Crossings);
-  visit(c.largest_shift, report.FromPoints.LargestShift);
-  visit(c.triangles_outside, report.FromPoints.OutsideTriangles);
-  visit(c.triangles_large, report.FromPoints.LargeTriangles);
-  visit(c.keeps_sliver, report.KeepsSliver);
-  visit(c.blocked_by_deviation, report.BlockedByDeviation);
-  visit(c.duplicate_triangles, report.DuplicateTriangles);
-  visit(c.hidden_by_winding, report.HiddenByWinding);
-  visit(c.obtuse_at_non_manifold, report.ObtuseAtNonManifold);
-  visit(c.points_used, report.FromPoints.Used);
-  visit(c.triangles_below_10_before, report.TrianglesBelow10Before);
-  visit(c.triangles_below_10_after, report.TrianglesBelow10After);
-  visit(c.triangles_below_20_before, report.TrianglesBelow20Before);
-  visit(c.triangles_below_20_after, report.TrianglesBelow20After);
-  visit(c.triangles_below_30_before, report.TrianglesBelow30Before);
-  visit(c.triangles_below_30_after, report.TrianglesBelow30After);
+  Byte* place = c + offsetof(delaunayflip_report, total_flips);
+  ForEachNumber(
+    [&](const char*, NumberKind, auto& number)
+    {
+      visit(place, number);
+      place += sizeof(std::int64_t);
+    },
+    report);
 }
+
+/// A number as the C struct has it.
+template <typename Number>
+using NumberInC = std::conditional_t<std::is_floating_point<Number>::value, double, std::int64_t>;
 
 /// A report with the numbers of a C struct, for Summarize.
 inline FlipReport ToReport(const delaunayflip_report* given)
 {
   const delaunayflip_report c = Complete(given, delaunayflip_report_init);
   FlipReport report;
-  ForEachNumber(c, report,
-    [](const auto& number, auto& known)
-    { known = static_cast<std::decay_t<decltype(known)>>(number); });
+  ForEachPlace(reinterpret_cast<const char*>(&c), report,
+    [](const char* place, auto& number)
+    {
+      NumberInC<std::decay_t<decltype(number)>> value;
+      std::memcpy(&value, place, sizeof(value));
+      number = static_cast<std::decay_t<decltype(number)>>(value);
+    });
   report.GeometryUsed = ToEnumeration(c.geometry_used, GeometryKind::Mixed, "geometry");
   report.GeometryReason = c.geometry_reason ? c.geometry_reason : "";
   report.StopReason = ToEnumeration(c.stop_reason, StopReasonKind::Running, "stop_reason");
@@ -323,7 +316,12 @@ public:
     this->Defects = DescribeDefects(this->Report.Defects);
     delaunayflip_report c;
     delaunayflip_report_init(&c);
-    ForEachNumber(c, report, [](auto& number, const auto& known) { number = known; });
+    ForEachPlace(reinterpret_cast<char*>(&c), report,
+      [](char* place, const auto& number)
+      {
+        const NumberInC<std::decay_t<decltype(number)>> value = number;
+        std::memcpy(place, &value, sizeof(value));
+      });
     c.geometry_used = static_cast<std::int32_t>(report.GeometryUsed);
     c.geometry_reason = this->Report.GeometryReason.c_str();
     c.backend = this->Report.Backend.c_str();

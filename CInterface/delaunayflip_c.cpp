@@ -14,6 +14,7 @@
 #include <functional>
 #include <new>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -249,12 +250,9 @@ extern "C"
   {
     const FlipOptions defaults;
     *options = MakeEmpty<delaunayflip_options>();
-    options->tolerance = defaults.Tolerance;
-    options->feature_angle = defaults.FeatureAngle;
-    options->maximum_deviation = defaults.MaximumDeviation;
-    options->maximum_iterations = defaults.MaximumIterations;
-    options->number_of_threads = defaults.NumberOfThreads;
-    options->device = defaults.Device;
+    ForEachOption(*options, defaults,
+      [](auto& wanted, const auto& option)
+      { wanted = static_cast<std::decay_t<decltype(wanted)>>(option); });
   }
 
   void delaunayflip_report_init(delaunayflip_report* report)

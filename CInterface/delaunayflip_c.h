@@ -234,26 +234,26 @@ extern "C"
     double minimum_angle_after;
     double build_seconds;
     double flip_seconds;
-    int64_t number_of_points; /**< Points of the caller. */
-    int64_t number_of_triangles;
-    /** For sessions from points: this and what follows up to triangles_large. */
+    int64_t points; /**< How many the caller has given. */
+    int64_t triangles;
+    /** For sessions from points: this and what follows up to large_triangles. */
     int64_t points_not_finite; /**< Points with NaN or infinite coordinates. */
-    int64_t points_repeated; /**< Points at the place of one with a lower id. */
+    int64_t repeated_points; /**< Points at the place of one with a lower id. */
     int64_t points_too_near; /**< Points within the tolerance of one with a lower id. */
     int64_t segment_edges; /**< Edges that segments have become, each once; not removed ones. */
-    int64_t segments_refused; /**< They cross earlier ones, or an end is not finite. */
+    int64_t refused_segments; /**< They cross earlier ones, or an end is not finite. */
     int64_t crossings; /**< Points added where segments cross. */
     double largest_shift; /**< How far rounding has moved one of these at most. */
-    int64_t triangles_outside; /**< Removed outside rings and around hole seeds. */
-    int64_t triangles_large; /**< Removed by alpha and longest_edge. */
+    int64_t outside_triangles; /**< Removed outside rings and around hole seeds. */
+    int64_t large_triangles; /**< Removed by alpha and longest_edge. */
     int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
                                the smallest angles, with one below 5 degrees; else 0. */
-    int64_t blocked_by_deviation; /**< Those left that maximum_deviation blocks. */
+    int64_t blocked_by_deviation; /**< Those left that the bound on deviation blocks. */
     int64_t duplicate_triangles; /**< Triangles with the three points of an earlier one. */
     int64_t hidden_by_winding; /**< Edges that are wrongly wound and would else be bad. */
     /** Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there. */
     int64_t obtuse_at_non_manifold;
-    int64_t points_used; /**< For sessions from points: how many of them triangles have. */
+    int64_t used_points; /**< For sessions from points: how many of them triangles have. */
     /** Triangles with an angle below so many degrees, or without area; before: 0 from points. */
     int64_t triangles_below_10_before;
     int64_t triangles_below_10_after;
@@ -337,7 +337,7 @@ extern "C"
    * what is outside. Geometry, criterion and tie rule of the options are not used: the triangles
    * depend on the points alone, not on their order. They are counter-clockwise and have an area.
    * If several points are at one place, the one with the lowest id is used. Points with NaN or
-   * infinite x or y are not used. When nothing is left to do, the report's number_of_triangles says
+   * infinite x or y are not used. When nothing is left to do, the report's triangles says
    * how many triangles to store; it is 0 if all places lie on one line. All arrays must stay as
    * long as the session.
    */

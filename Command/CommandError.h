@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 /// @file
 /// How the command ends, and words for its messages.
@@ -43,7 +44,24 @@ public:
 /// A number and its unit, e.g. "1 point" or "2 points".
 inline std::string Counted(std::int64_t count, const std::string& noun)
 {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+  const std::string one = std::to_string(count) + " " + noun;
+  return count == 1 ? one : one + "s";
+}
+
+/// The words in their order, e.g. "Material, Group".
+template <typename Word>
+std::string JoinWords(const std::vector<Word>& words, const std::string& separator = ", ")
+{
+  std::string text;
+  for (const Word& word : words)
+  {
+    if (!text.empty())
+    {
+      text += separator;
+    }
+    text += word;
+  }
+  return text;
 }
 
 /// Whether memory was lacking: for an array, even one larger than any memory, or for the stack of a

@@ -121,17 +121,6 @@ std::string WithOptions(const std::string& message, bool mergesPoints)
   return text;
 }
 
-/// E.g. "Material, Group".
-std::string JoinWords(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-  {
-    text += (text.empty() ? "" : ", ") + word;
-  }
-  return text;
-}
-
 /// The engine's report, and the times of the steps outside it.
 struct RunReport
 {
@@ -148,61 +137,24 @@ std::string MakeJson(const RunReport& run)
 {
   const FlipReport& flip = run.Flip;
   nlohmann::ordered_json json;
-  json["points"] = flip.Points;
-  json["triangles"] = flip.Triangles;
-  json["edges"] = flip.Edges.Edges;
-  json["boundary_edges"] = flip.Edges.Boundary;
-  json["fixed_edges"] = flip.Edges.Fixed;
-  json["non_manifold_edges"] = flip.Edges.NonManifold;
-  json["feature_edges"] = flip.Edges.Feature;
-  json["region_edges"] = flip.Edges.Region;
-  json["constraint_edges"] = flip.Edges.Constraint;
-  json["unmatched_constraint_edges"] = flip.UnmatchedConstraints;
-  json["inserted_constraint_edges"] = flip.InsertedConstraints;
-  json["constraint_flips"] = flip.ConstraintFlips;
-  json["keeps_sliver"] = flip.KeepsSliver;
-  json["duplicate_triangles"] = flip.DuplicateTriangles;
-  json["hidden_by_winding"] = flip.HiddenByWinding;
-  json["obtuse_at_non_manifold"] = flip.ObtuseAtNonManifold;
-  if (run.IsFromPoints)
-  {
-    const PointCounts& counts = flip.FromPoints;
-    json["from_points"] = { { "used", counts.Used }, { "not_finite", counts.NotFinite },
-      { "repeated", counts.Repeated }, { "too_near", counts.TooNear },
-      { "segment_edges", counts.SegmentEdges }, { "refused_segments", counts.RefusedSegments },
-      { "crossings", counts.Crossings }, { "largest_shift", counts.LargestShift },
-      { "outside_triangles", counts.OutsideTriangles },
-      { "large_triangles", counts.LargeTriangles } };
-  }
-  json["geometry"] = ToString(flip.GeometryUsed);
+  json["stop_reason"] = ToString(flip.StopReason);
+  json["converged"] = flip.Converged();
+  json["geometry_used"] = ToString(flip.GeometryUsed);
   json["geometry_reason"] = flip.GeometryReason;
   json["tolerance"] = flip.Tolerance;
   json["backend"] = flip.Backend;
-  if (!flip.Fallback.empty())
+  json["fallback"] = flip.Fallback;
+  json["number_of_iterations"] = flip.Iterations.size();
+  const auto add = [&](const char* name, NumberKind kind, const auto& number)
   {
-    json["fallback"] = flip.Fallback;
-  }
-  json["iterations"] = flip.Iterations.size();
-  json["total_flips"] = flip.TotalFlips;
-  json["total_excluded"] = flip.TotalExcluded;
-  json["total_blocked"] = flip.TotalBlocked;
-  json["non_delaunay_before"] = flip.NonDelaunayBefore;
-  json["non_delaunay_after"] = flip.NonDelaunayAfter;
-  json["blocked_by_shape"] = flip.BlockedByShape;
-  json["blocked_by_deviation"] = flip.BlockedByDeviation;
-  json["blocked_by_edge"] = flip.BlockedByEdge;
-  json["min_angle_before_deg"] = flip.MinimumAngleBefore;
-  json["min_angle_after_deg"] = flip.MinimumAngleAfter;
-  json["triangles_below_10_before"] = flip.TrianglesBelow10Before;
-  json["triangles_below_10_after"] = flip.TrianglesBelow10After;
-  json["triangles_below_20_before"] = flip.TrianglesBelow20Before;
-  json["triangles_below_20_after"] = flip.TrianglesBelow20After;
-  json["triangles_below_30_before"] = flip.TrianglesBelow30Before;
-  json["triangles_below_30_after"] = flip.TrianglesBelow30After;
-  json["converged"] = flip.Converged();
-  json["stop_reason"] = ToString(flip.StopReason);
-  json["seconds"] = { { "read", run.ReadSeconds }, { "build", flip.BuildSeconds },
-    { "flip", flip.FlipSeconds }, { "write", run.WriteSeconds } };
+    if (kind != NumberKind::Points || run.IsFromPoints)
+    {
+      json[name] = number;
+    }
+  };
+  ForEachNumber(add, flip);
+  json["read_seconds"] = run.ReadSeconds;
+  json["write_seconds"] = run.WriteSeconds;
   json["warnings"] = run.Warnings;
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
@@ -238,9 +190,27 @@ std::string MakeSummary(const RunReport& run)
   const FlipReport& flip = run.Flip;
   text << std::fixed << std::setprecision(3) << "time            read " << run.ReadSeconds
        << " s, edges " << flip.BuildSeconds << " s, flips " << flip.FlipSeconds << " s, write "
-       << run.WriteSeconds << " s" << (flip.Backend.empty() ? "" : " (" + flip.Backend + ")")
-       << '\n';
+       << run.WriteSeconds << " s";
+  if (!flip.Backend.empty())
+  {
+    text << " (" << flip.Backend << ")";
+  }
+  text << '\n';
   return text.str();
+}
+
+/// @param failure a vtkDelaunayFlip::FailureType.
+ExitCode ExitCodeOf(int failure)
+{
+  switch (failure)
+  {
+    case vtkDelaunayFlip::FAILURE_OPTIONS:
+      return ExitCode::WrongUsage;
+    case vtkDelaunayFlip::FAILURE_BACKEND:
+      return ExitCode::NoBackend;
+    default:
+      return ExitCode::BadFile;
+  }
 }
 
 /// The work from reading to the report, one function per step.
@@ -276,11 +246,13 @@ public:
     this->Run.ReadSeconds = SecondsSince(start);
     const bool hasTriangles =
       this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() > 0;
-    if (hasTriangles == this->Settings.FromPoints)
+    if (hasTriangles && this->Settings.FromPoints)
     {
-      this->Note(this->Settings.Input +
-        (hasTriangles ? ": its triangles are not used, only its points"
-                      : ": contains no triangles; --from-points makes them"));
+      this->Note(this->Settings.Input + ": its triangles are not used, only its points");
+    }
+    if (!hasTriangles && !this->Settings.FromPoints)
+    {
+      this->Note(this->Settings.Input + ": contains no triangles; --from-points makes them");
     }
   }
 
@@ -350,10 +322,13 @@ private:
   void ShowProgress()
   {
     const vtkIdType iterations = this->Filter->GetNumberOfIterations();
-    this->Bar.Show(this->Filter->GetProgress(),
-      iterations == 0 ? "finding edges"
-                      : "iteration " + std::to_string(iterations) + ", " +
-          Counted(this->Filter->GetTotalFlips(), "flip"));
+    std::string text = "finding edges";
+    if (iterations > 0)
+    {
+      text = "iteration " + std::to_string(iterations) + ", " +
+        Counted(this->Filter->GetTotalFlips(), "flip");
+    }
+    this->Bar.Show(this->Filter->GetProgress(), text);
   }
 
   vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path)
@@ -404,7 +379,7 @@ private:
     }
   }
 
-  /// Of points: breaklines and rings, as one mesh.
+  /// Reads breaklines and rings, which become one mesh.
   void ReadSegments()
   {
     const vtkNew<vtkAppendPolyData> all;
@@ -425,7 +400,10 @@ private:
         this->Note(path + ": its coordinates are rounded to floats, as those of the points are");
       }
       const auto segments = MakeSegments(mesh, path, file == &files.Constraints);
-      this->OutlineRings += file == &files.Outline ? segments->GetNumberOfPolys() : 0;
+      if (file == &files.Outline)
+      {
+        this->OutlineRings = segments->GetNumberOfPolys();
+      }
       all->AddInputData(segments);
       mostArrays = std::max(mostArrays, mesh->GetPointData()->GetNumberOfArrays());
     }
@@ -517,14 +495,14 @@ private:
       return warning;
     }
     const std::string numbers = found[2].str();
-    std::string names;
+    std::vector<std::string> names;
     for (std::sregex_iterator each(numbers.begin(), numbers.end(), number), end; each != end;
          ++each)
     {
       const auto [path, ring] = this->FindRing(each->str());
-      names += (names.empty() ? "" : ", ") + ring + " of " + path;
+      names.push_back(ring + " of " + path);
     }
-    return found.prefix().str() + found[1].str() + names + found.suffix().str();
+    return found.prefix().str() + found[1].str() + JoinWords(names) + found.suffix().str();
   }
 
   void ThrowErrors()
@@ -546,10 +524,7 @@ private:
       {
         throw std::runtime_error(text); // main says of which file, and what was being done
       }
-      throw CommandError(failure == vtkDelaunayFlip::FAILURE_OPTIONS ? ExitCode::WrongUsage
-          : failure == vtkDelaunayFlip::FAILURE_BACKEND              ? ExitCode::NoBackend
-                                                                     : ExitCode::BadFile,
-        this->Settings.Input + ": " + text);
+      throw CommandError(ExitCodeOf(failure), this->Settings.Input + ": " + text);
     }
   }
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 #include <limits>
-#include <tuple>
+#include <type_traits>
 #include <vector>
 
 /// @file
@@ -131,15 +131,37 @@ struct FlipOptions
   bool TrackQuality = false;
 };
 
+/// Calls visit(name, isForAll, option...) for each option, with those of all structs side by side.
+///
+/// The name is that of the C struct. isForAll is std::true_type where all ranks that share a mesh
+/// must have the same value, and std::false_type where each chooses for its own machine.
+template <typename Visit, typename... Options>
+void ForEachOption(const Visit& visit, Options&... options)
+{
+  constexpr std::true_type forAll;
+  constexpr std::false_type forOne;
+  visit("geometry", forAll, options.Geometry...);
+  visit("criterion", forAll, options.Criterion...);
+  visit("tie_rule", forAll, options.TieRule...);
+  visit("backend", forOne, options.Backend...);
+  visit("tolerance", forAll, options.Tolerance...);
+  visit("feature_angle", forAll, options.FeatureAngle...);
+  visit("maximum_deviation", forAll, options.MaximumDeviation...);
+  visit("maximum_iterations", forAll, options.MaximumIterations...);
+  visit("number_of_threads", forOne, options.NumberOfThreads...);
+  visit("device", forOne, options.Device...);
+  visit("devices", forOne, options.Devices...);
+  visit("number_of_pieces", forOne, options.NumberOfPieces...);
+  visit("track_quality", forAll, options.TrackQuality...);
+}
+
 inline bool operator==(const FlipOptions& a, const FlipOptions& b)
 {
-  const auto tie = [](const FlipOptions& o)
-  {
-    return std::tie(o.Geometry, o.Criterion, o.TieRule, o.Backend, o.Tolerance, o.FeatureAngle,
-      o.MaximumDeviation, o.MaximumIterations, o.NumberOfThreads, o.Device, o.Devices,
-      o.NumberOfPieces, o.TrackQuality);
-  };
-  return tie(a) == tie(b);
+  bool isSame = true;
+  ForEachOption([&](const char*, auto, const auto& one, const auto& other)
+    { isSame = isSame && one == other; },
+    a, b);
+  return isSame;
 }
 
 }

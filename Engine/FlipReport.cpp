@@ -3,12 +3,14 @@
 #include "FlipReport.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <iterator>
 #include <locale>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 namespace delaunayflip
@@ -53,6 +55,18 @@ const char* ToString(GeometryKind geometry)
 {
   constexpr const char* Names[] = { "auto", "planar", "planar-xy", "surface", "mixed" };
   return GetName(Names, geometry);
+}
+
+std::string ToCamelCase(const std::string& name)
+{
+  std::string text;
+  std::istringstream words(name);
+  for (std::string word; std::getline(words, word, '_');)
+  {
+    word[0] = static_cast<char>(std::toupper(word[0]));
+    text += word;
+  }
+  return text;
 }
 
 std::string DescribeTolerance(const FlipOptions& options, GeometryKind used)
@@ -183,11 +197,14 @@ void AddCounts(EdgeCounts& sum, const EdgeCounts& part, std::int64_t factor)
 
 void AddTotals(FlipReport& sum, const FlipReport& part)
 {
-  for (const auto total : ReportTotals)
+  const auto add = [](const char*, NumberKind kind, auto& total, const auto& more)
   {
-    sum.*total += part.*total;
-  }
-  AddCounts(sum.Edges, part.Edges, 1);
+    if (IsSummed(kind) && std::is_integral<std::decay_t<decltype(more)>>::value)
+    {
+      total += more;
+    }
+  };
+  ForEachNumber(add, sum, part);
   if (part.Triangles > 0)
   {
     sum.MinimumAngleBefore = std::fmin(sum.MinimumAngleBefore, part.MinimumAngleBefore);
@@ -268,12 +285,16 @@ void AddReport(FlipReport& sum, const FlipReport& other)
     sum.MinimumAngleBefore = sum.MinimumAngleAfter = std::numeric_limits<double>::quiet_NaN();
   }
   AddTotals(sum, other);
-  sum.BuildSeconds += other.BuildSeconds;
-  sum.FlipSeconds += other.FlipSeconds;
-  sum.KeepsSliver = sum.KeepsSliver || other.KeepsSliver;
-  sum.DuplicateTriangles += other.DuplicateTriangles;
-  sum.HiddenByWinding += other.HiddenByWinding;
-  sum.ObtuseAtNonManifold += other.ObtuseAtNonManifold;
+  const double largestShift = std::max(sum.FromPoints.LargestShift, other.FromPoints.LargestShift);
+  const auto add = [](const char*, NumberKind kind, auto& total, const auto& more)
+  {
+    if (!IsSummed(kind))
+    {
+      total += more;
+    }
+  };
+  ForEachNumber(add, sum, other);
+  sum.FromPoints.LargestShift = largestShift;
   if (sum.GeometryUsed == GeometryKind::Auto)
   {
     sum.GeometryUsed = other.GeometryUsed;
@@ -282,15 +303,6 @@ void AddReport(FlipReport& sum, const FlipReport& other)
   {
     sum.GeometryUsed = GeometryKind::Mixed;
   }
-  using Found = PointCounts;
-  for (const auto count : { &Found::Used, &Found::NotFinite, &Found::Repeated, &Found::TooNear,
-         &Found::SegmentEdges, &Found::RefusedSegments, &Found::Crossings, &Found::OutsideTriangles,
-         &Found::LargeTriangles })
-  {
-    sum.FromPoints.*count += other.FromPoints.*count;
-  }
-  sum.FromPoints.LargestShift =
-    std::max(sum.FromPoints.LargestShift, other.FromPoints.LargestShift);
   using Reason = StopReasonKind;
   for (const Reason worse :
     { Reason::Aborted, Reason::IterationLimit, Reason::Running, Reason::Converged })

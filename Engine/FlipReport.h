@@ -126,7 +126,7 @@ struct FlipReport
   std::int64_t NonDelaunayBefore = 0; ///< Bad edges before the first iteration that are not fixed.
   std::int64_t NonDelaunayAfter = 0; ///< Bad edges that are left, blocked or not.
   std::int64_t BlockedByShape = 0; ///< Those left whose flip would fold the mesh over.
-  std::int64_t BlockedByDeviation = 0; ///< Those left that FlipOptions::MaximumDeviation blocks.
+  std::int64_t BlockedByDeviation = 0; ///< Those left that a bound on deviation blocks.
   std::int64_t BlockedByEdge = 0; ///< Those left whose flip would repeat an edge.
   double MinimumAngleBefore = 0.0; ///< Degrees; 0 with a degenerate triangle; NaN without
                                    ///< triangles, and of a session from points.
@@ -162,7 +162,8 @@ struct FlipReport
   std::vector<Defect> Defects;
 };
 
-// The members that are summed when reports are joined, and the texts that are listed.
+// The members that are summed when reports are joined, and the texts that are listed. The numbers
+// of the report itself are those of ForEachNumber.
 
 constexpr std::int64_t EdgeCounts::*EdgeKinds[] = { &EdgeCounts::Edges, &EdgeCounts::Boundary,
   &EdgeCounts::NonManifold, &EdgeCounts::WronglyWound, &EdgeCounts::Feature,
@@ -172,17 +173,84 @@ constexpr std::int64_t IterationRecord::*IterationTotals[] = { &IterationRecord:
   &IterationRecord::NonDelaunay, &IterationRecord::Flipped, &IterationRecord::Excluded,
   &IterationRecord::Blocked };
 
-constexpr std::int64_t FlipReport::*ReportTotals[] = { &FlipReport::Points, &FlipReport::Triangles,
-  &FlipReport::UnmatchedConstraints, &FlipReport::InsertedConstraints, &FlipReport::ConstraintFlips,
-  &FlipReport::EulerCharacteristic, &FlipReport::TotalFlips, &FlipReport::TotalExcluded,
-  &FlipReport::TotalBlocked, &FlipReport::NonDelaunayBefore, &FlipReport::NonDelaunayAfter,
-  &FlipReport::BlockedByShape, &FlipReport::BlockedByDeviation, &FlipReport::BlockedByEdge,
-  &FlipReport::TrianglesBelow10Before, &FlipReport::TrianglesBelow10After,
-  &FlipReport::TrianglesBelow20Before, &FlipReport::TrianglesBelow20After,
-  &FlipReport::TrianglesBelow30Before, &FlipReport::TrianglesBelow30After };
-
 constexpr std::string FlipReport::*ReportTexts[] = { &FlipReport::GeometryReason,
   &FlipReport::Tolerance, &FlipReport::Backend, &FlipReport::Fallback };
+
+/// Which numbers of a report belong together.
+enum class NumberKind
+{
+  Main, ///< Of every mesh, and in VTK's field data.
+  Mesh, ///< Of every mesh.
+  Whole, ///< Of a mesh that is not in parts; else 0.
+  Points, ///< Of a mesh that was made from points; else 0.
+  Seconds ///< A time, which differs between runs.
+};
+
+/// Whether the number of a mesh in parts is the sum over the parts.
+inline bool IsSummed(NumberKind kind)
+{
+  return kind == NumberKind::Main || kind == NumberKind::Mesh;
+}
+
+/// Calls visit(name, kind, number...) for each number, with those of all reports side by side.
+///
+/// The name is that of the C struct, of Python and of the command's JSON. Field data has it in
+/// upper camel case. The order is that of delaunayflip_report, which needs it.
+template <typename Visit, typename... Reports>
+void ForEachNumber(const Visit& visit, Reports&... reports)
+{
+  constexpr NumberKind main = NumberKind::Main;
+  constexpr NumberKind mesh = NumberKind::Mesh;
+  constexpr NumberKind whole = NumberKind::Whole;
+  constexpr NumberKind points = NumberKind::Points;
+  constexpr NumberKind seconds = NumberKind::Seconds;
+  visit("total_flips", main, reports.TotalFlips...);
+  visit("total_excluded", mesh, reports.TotalExcluded...);
+  visit("total_blocked", mesh, reports.TotalBlocked...);
+  visit("non_delaunay_before", mesh, reports.NonDelaunayBefore...);
+  visit("non_delaunay_after", main, reports.NonDelaunayAfter...);
+  visit("blocked_by_shape", main, reports.BlockedByShape...);
+  visit("blocked_by_edge", main, reports.BlockedByEdge...);
+  visit("edges", mesh, reports.Edges.Edges...);
+  visit("boundary_edges", mesh, reports.Edges.Boundary...);
+  visit("non_manifold_edges", main, reports.Edges.NonManifold...);
+  visit("wrongly_wound_edges", mesh, reports.Edges.WronglyWound...);
+  visit("feature_edges", mesh, reports.Edges.Feature...);
+  visit("constraint_edges", main, reports.Edges.Constraint...);
+  visit("region_edges", mesh, reports.Edges.Region...);
+  visit("fixed_edges", main, reports.Edges.Fixed...);
+  visit("unmatched_constraints", main, reports.UnmatchedConstraints...);
+  visit("inserted_constraints", main, reports.InsertedConstraints...);
+  visit("constraint_flips", main, reports.ConstraintFlips...);
+  visit("euler_characteristic", mesh, reports.EulerCharacteristic...);
+  visit("minimum_angle_before", mesh, reports.MinimumAngleBefore...);
+  visit("minimum_angle_after", mesh, reports.MinimumAngleAfter...);
+  visit("build_seconds", seconds, reports.BuildSeconds...);
+  visit("flip_seconds", seconds, reports.FlipSeconds...);
+  visit("points", mesh, reports.Points...);
+  visit("triangles", mesh, reports.Triangles...);
+  visit("points_not_finite", points, reports.FromPoints.NotFinite...);
+  visit("repeated_points", points, reports.FromPoints.Repeated...);
+  visit("points_too_near", points, reports.FromPoints.TooNear...);
+  visit("segment_edges", points, reports.FromPoints.SegmentEdges...);
+  visit("refused_segments", points, reports.FromPoints.RefusedSegments...);
+  visit("crossings", points, reports.FromPoints.Crossings...);
+  visit("largest_shift", points, reports.FromPoints.LargestShift...);
+  visit("outside_triangles", points, reports.FromPoints.OutsideTriangles...);
+  visit("large_triangles", points, reports.FromPoints.LargeTriangles...);
+  visit("keeps_sliver", whole, reports.KeepsSliver...);
+  visit("blocked_by_deviation", main, reports.BlockedByDeviation...);
+  visit("duplicate_triangles", whole, reports.DuplicateTriangles...);
+  visit("hidden_by_winding", whole, reports.HiddenByWinding...);
+  visit("obtuse_at_non_manifold", whole, reports.ObtuseAtNonManifold...);
+  visit("used_points", points, reports.FromPoints.Used...);
+  visit("triangles_below_10_before", main, reports.TrianglesBelow10Before...);
+  visit("triangles_below_10_after", main, reports.TrianglesBelow10After...);
+  visit("triangles_below_20_before", main, reports.TrianglesBelow20Before...);
+  visit("triangles_below_20_after", main, reports.TrianglesBelow20After...);
+  visit("triangles_below_30_before", main, reports.TrianglesBelow30Before...);
+  visit("triangles_below_30_after", main, reports.TrianglesBelow30After...);
+}
 
 /// Called on the calling thread for every iteration; returning false aborts the run. Some
 /// iterations run in batches: the first 12 of large planar meshes, and on a GPU up to 128, but no
@@ -206,6 +274,9 @@ DELAUNAYFLIP_EXPORT const char* ToString(StopReasonKind reason);
 
 /// "auto", "planar", "planar-xy", "surface" or "mixed".
 DELAUNAYFLIP_EXPORT const char* ToString(GeometryKind geometry);
+
+/// E.g. "TotalFlips" for "total_flips".
+DELAUNAYFLIP_EXPORT std::string ToCamelCase(const std::string& name);
 
 /// FlipReport::Tolerance of a run with these options in that geometry.
 DELAUNAYFLIP_EXPORT std::string DescribeTolerance(const FlipOptions& options, GeometryKind used);

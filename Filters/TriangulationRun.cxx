@@ -484,7 +484,7 @@ bool TriangulationRun::Store(vtkPolyData* output) const
   output->SetPoints(this->Points->GetPoints());
   output->GetPointData()->ShallowCopy(this->Points->GetPointData());
   output->GetFieldData()->ShallowCopy(this->Points->GetFieldData());
-  AddPointFieldData(this->Session->GetReport().FromPoints, output->GetFieldData());
+  AddPointFieldData(this->Session->GetReport(), output->GetFieldData());
   if (!this->Session->GetAddedPoints().empty())
   {
     this->AddCrossings(output);

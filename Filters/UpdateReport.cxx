@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <type_traits>
 
 namespace delaunayflip
 {
@@ -233,32 +234,35 @@ void AddCount(const char* name, std::int64_t count, vtkFieldData* data)
   AddValue<vtkIdTypeArray>(name, count, data);
 }
 
+namespace
+{
+
+/// Adds an array for each number of a kind.
+void AddNumbers(const FlipReport& report, NumberKind wanted, vtkFieldData* data)
+{
+  const auto add = [&](const char* name, NumberKind kind, auto number)
+  {
+    using Array = std::conditional_t<std::is_floating_point<decltype(number)>::value,
+      vtkDoubleArray, vtkIdTypeArray>;
+    if (kind == wanted)
+    {
+      AddValue<Array>(ToCamelCase(name).c_str(), number, data);
+    }
+  };
+  ForEachNumber(add, report);
+}
+
+}
+
 void AddFieldData(const FlipReport& report, vtkFieldData* data)
 {
   const auto addText = [&](const char* name, const std::string& text)
   { AddValue<vtkStringArray>(name, text, data); };
-  const auto addCount = [&](const char* name, std::int64_t count) { AddCount(name, count, data); };
   // The totals first: ParaView lists no field data when the first array is empty.
   AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0, data);
   addText("StopReason", ToString(report.StopReason));
   addText("Summary", Summarize(report));
-  addCount("TotalFlips", report.TotalFlips);
-  addCount("NonDelaunayEdges", report.NonDelaunayAfter);
-  addCount("BlockedByShape", report.BlockedByShape);
-  addCount("BlockedByDeviation", report.BlockedByDeviation);
-  addCount("BlockedByEdge", report.BlockedByEdge);
-  addCount("TrianglesBelow10Before", report.TrianglesBelow10Before);
-  addCount("TrianglesBelow10After", report.TrianglesBelow10After);
-  addCount("TrianglesBelow20Before", report.TrianglesBelow20Before);
-  addCount("TrianglesBelow20After", report.TrianglesBelow20After);
-  addCount("TrianglesBelow30Before", report.TrianglesBelow30Before);
-  addCount("TrianglesBelow30After", report.TrianglesBelow30After);
-  addCount("FixedEdges", report.Edges.Fixed);
-  addCount("NonManifoldEdges", report.Edges.NonManifold);
-  addCount("ConstraintEdges", report.Edges.Constraint);
-  addCount("UnmatchedConstraintEdges", report.UnmatchedConstraints);
-  addCount("InsertedConstraintEdges", report.InsertedConstraints);
-  addCount("ConstraintFlips", report.ConstraintFlips);
+  AddNumbers(report, NumberKind::Main, data);
   addText("GeometryUsed", ToString(report.GeometryUsed));
   addText("GeometryReason", report.GeometryReason);
   addText("Tolerance", report.Tolerance);
@@ -277,19 +281,9 @@ void AddFieldData(const FlipReport& report, vtkFieldData* data)
 #endif
 }
 
-void AddPointFieldData(const PointCounts& counts, vtkFieldData* data)
+void AddPointFieldData(const FlipReport& report, vtkFieldData* data)
 {
-  const auto add = [&](const char* name, std::int64_t count) { AddCount(name, count, data); };
-  add("UsedPoints", counts.Used);
-  add("PointsNotFinite", counts.NotFinite);
-  add("RepeatedPoints", counts.Repeated);
-  add("PointsTooNear", counts.TooNear);
-  add("SegmentEdges", counts.SegmentEdges);
-  add("RefusedSegments", counts.RefusedSegments);
-  add("CrossingPoints", counts.Crossings);
-  add("OutsideTriangles", counts.OutsideTriangles);
-  add("LargeTriangles", counts.LargeTriangles);
-  AddValue<vtkDoubleArray>("LargestShift", counts.LargestShift, data);
+  AddNumbers(report, NumberKind::Points, data);
 }
 
 }

@@ -87,8 +87,8 @@ DELAUNAYFLIP_EXPORT void AddFieldData(const FlipReport& report, vtkFieldData* da
 /// Adds an array of one count.
 DELAUNAYFLIP_EXPORT void AddCount(const char* name, std::int64_t count, vtkFieldData* data);
 
-/// Adds an array for each count of a mesh from points.
-void AddPointFieldData(const PointCounts& counts, vtkFieldData* data);
+/// Adds an array for each number of a mesh from points.
+void AddPointFieldData(const FlipReport& report, vtkFieldData* data);
 
 }
 

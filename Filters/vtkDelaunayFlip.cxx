@@ -29,12 +29,12 @@ vtkIdType vtkDelaunayFlip::GetNumberOfConstraintEdges() const
   return this->GetReport().Edges.Constraint;
 }
 
-vtkIdType vtkDelaunayFlip::GetNumberOfUnmatchedConstraintEdges() const
+vtkIdType vtkDelaunayFlip::GetNumberOfUnmatchedConstraints() const
 {
   return this->GetReport().UnmatchedConstraints;
 }
 
-vtkIdType vtkDelaunayFlip::GetNumberOfInsertedConstraintEdges() const
+vtkIdType vtkDelaunayFlip::GetNumberOfInsertedConstraints() const
 {
   return this->GetReport().InsertedConstraints;
 }
@@ -44,20 +44,14 @@ vtkIdType vtkDelaunayFlip::GetNumberOfConstraintFlips() const
   return this->GetReport().ConstraintFlips;
 }
 
-vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByShape() const
-{
-  return this->GetReport().BlockedByShape;
-}
+vtkIdType vtkDelaunayFlip::GetBlockedByShape() const { return this->GetReport().BlockedByShape; }
 
-vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByDeviation() const
+vtkIdType vtkDelaunayFlip::GetBlockedByDeviation() const
 {
   return this->GetReport().BlockedByDeviation;
 }
 
-vtkIdType vtkDelaunayFlip::GetNumberOfEdgesBlockedByEdge() const
-{
-  return this->GetReport().BlockedByEdge;
-}
+vtkIdType vtkDelaunayFlip::GetBlockedByEdge() const { return this->GetReport().BlockedByEdge; }
 
 int vtkDelaunayFlip::GetGeometryUsed() const
 {

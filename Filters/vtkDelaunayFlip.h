@@ -27,15 +27,14 @@
  * Output port 1: a vtkTable with one row per iteration and the columns Iteration, Tested,
  * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
  * and Seconds. Port 0 has the same columns as field data, unless there are no rows, and arrays with
- * one value each:
- * Converged, StopReason, Summary, TotalFlips, NonDelaunayEdges, BlockedByShape, BlockedByDeviation,
- * BlockedByEdge, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraintEdges,
- * InsertedConstraintEdges, ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic",
- * the value, or "none" if the in-circle predicate decides) and Backend. In the field data each name
- * begins with
- * "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short names pass.
- * Such arrays of an earlier update, and those of GenerateFlipCount and GenerateQuality, do not
- * pass.
+ * one value each: Converged, StopReason, Summary, TotalFlips, NonDelaunayAfter, BlockedByShape,
+ * BlockedByDeviation, BlockedByEdge, TrianglesBelow10Before, TrianglesBelow10After and so on for 20
+ * and 30 degrees, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraints,
+ * InsertedConstraints, ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic", the
+ * value, or "none" if the in-circle predicate decides) and Backend. In the field data each name
+ * begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short
+ * names pass. Such arrays of an earlier update, and those of GenerateFlipCount and GenerateQuality,
+ * do not pass.
  *
  * Edges that never flip: boundary, non-manifold and wrongly wound edges, feature edges of surfaces
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
@@ -361,8 +360,8 @@ public:
    * counts as unmatched once for each block that does not have it.
    */
   vtkIdType GetNumberOfConstraintEdges() const;
-  vtkIdType GetNumberOfUnmatchedConstraintEdges() const;
-  vtkIdType GetNumberOfInsertedConstraintEdges() const;
+  vtkIdType GetNumberOfUnmatchedConstraints() const;
+  vtkIdType GetNumberOfInsertedConstraints() const;
   vtkIdType GetNumberOfConstraintFlips() const;
   ///@}
 
@@ -372,9 +371,9 @@ public:
    * blocks, and those whose flip would make an edge that exists already. The rest, if any, could
    * still flip: the update ended early.
    */
-  vtkIdType GetNumberOfEdgesBlockedByShape() const;
-  vtkIdType GetNumberOfEdgesBlockedByDeviation() const;
-  vtkIdType GetNumberOfEdgesBlockedByEdge() const;
+  vtkIdType GetBlockedByShape() const;
+  vtkIdType GetBlockedByDeviation() const;
+  vtkIdType GetBlockedByEdge() const;
   ///@}
 
   ///@{

@@ -242,7 +242,7 @@ vtkIdType vtkDelaunayFlipAlgorithm::GetNumberOfIterations() const
 
 vtkIdType vtkDelaunayFlipAlgorithm::GetTotalFlips() const { return this->Report->TotalFlips; }
 
-vtkIdType vtkDelaunayFlipAlgorithm::GetNumberOfNonDelaunayEdges() const
+vtkIdType vtkDelaunayFlipAlgorithm::GetNonDelaunayAfter() const
 {
   return this->Report->NonDelaunayAfter;
 }

@@ -187,7 +187,7 @@ public:
    * How many bad edges, neither locally Delaunay nor fixed, are left after the last update; the sum
    * over blocks.
    */
-  vtkIdType GetNumberOfNonDelaunayEdges() const;
+  vtkIdType GetNonDelaunayAfter() const;
 
   /**
    * Whether the last update ended because an iteration found no edge that may flip.

@@ -31,7 +31,7 @@
  * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each, whose
  * names begin with "DelaunayFlip:", too: UsedPoints, PointsNotFinite, RepeatedPoints, PointsTooNear
  * (see PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
- * CrossingPoints (those added where segments cross), LargestShift (how far rounding has moved one
+ * Crossings (the points added where segments cross), LargestShift (how far rounding has moved one
  * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by
  * Alpha and LongestEdge).
  *

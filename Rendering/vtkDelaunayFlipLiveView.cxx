@@ -564,7 +564,7 @@ std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
                                    : "all blocks in one step";
   const std::string counts = isInput ? Count(this->Mapper->GetNumberOfTriangles(), "triangle")
                                      : Count(this->Filter->GetTotalFlips(), "flip") + ", " +
-      Count(this->Filter->GetNumberOfNonDelaunayEdges(), "bad edge") + " left";
+      Count(this->Filter->GetNonDelaunayAfter(), "bad edge") + " left";
   const FlipReport& report = this->Filter->GetReport();
   const double angle = isInput ? this->Mapper->GetSmallestAngle()
     : report.Triangles > 0     ? report.MinimumAngleAfter

@@ -12,26 +12,23 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-// The members that are joined beside those of AddTotals.
-constexpr double FlipReport::*Smallest[] = { &FlipReport::MinimumAngleBefore,
-  &FlipReport::MinimumAngleAfter };
 constexpr double FlipReport::*Largest[] = { &FlipReport::BuildSeconds, &FlipReport::FlipSeconds };
 
 template <typename Report, typename Visit>
 void ForEachMember(Report& report, const Visit& visit)
 {
-  const auto visitAll = [&](auto& object, const auto& members)
+  const auto visitNumber = [&visit](const char*, NumberKind kind, auto& number)
   {
-    for (const auto member : members)
+    if (IsSummed(kind) || kind == NumberKind::Seconds)
     {
-      visit(object.*member);
+      visit(number);
     }
   };
-  visitAll(report, ReportTotals);
-  visitAll(report.Edges, EdgeKinds);
-  visitAll(report, Smallest);
-  visitAll(report, Largest);
-  visitAll(report, ReportTexts);
+  ForEachNumber(visitNumber, report);
+  for (const auto text : ReportTexts)
+  {
+    visit(report.*text);
+  }
   visit(report.Iterations);
 }
 

@@ -72,6 +72,17 @@ void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
   }
 }
 
+std::string Write(GeometryKind geometry) { return ToString(geometry); }
+
+std::string Write(CriterionKind criterion)
+{
+  return criterion == CriterionKind::InCircle ? "in-circle" : "opposite-angles";
+}
+
+std::string Write(TieRuleKind rule) { return rule == TieRuleKind::Keep ? "keep" : "canonical"; }
+
+std::string Write(std::int64_t value) { return std::to_string(value); }
+
 std::string Write(bool value) { return value ? "on" : "off"; }
 
 std::string Write(double value)
@@ -85,16 +96,15 @@ std::string Write(double value)
 void RequireSameOptions(const FlipOptions& options, PieceGroup& group,
   const std::vector<std::pair<std::string, std::string>>& more)
 {
-  std::vector<std::pair<std::string, std::string>> all = {
-    { "Geometry", ToString(options.Geometry) },
-    { "Criterion", options.Criterion == CriterionKind::InCircle ? "in-circle" : "opposite-angles" },
-    { "TieRule", options.TieRule == TieRuleKind::Keep ? "keep" : "canonical" },
-    { "Tolerance", Write(options.Tolerance) },
-    { "FeatureAngle", Write(options.FeatureAngle) },
-    { "MaximumDeviation", Write(options.MaximumDeviation) },
-    { "MaximumIterations", std::to_string(options.MaximumIterations) },
-    { "TrackQuality", Write(options.TrackQuality) },
+  std::vector<std::pair<std::string, std::string>> all;
+  const auto add = [&all](const char* name, auto isForAll, const auto& option)
+  {
+    if constexpr (decltype(isForAll)::value)
+    {
+      all.emplace_back(ToCamelCase(name), Write(option));
+    }
   };
+  ForEachOption(add, options);
   all.insert(all.end(), more.begin(), more.end());
   Message own;
   for (const auto& option : all)

@@ -149,7 +149,7 @@ int Run(int argc, char** argv, vtkMultiProcessController* controller)
   if (rank == 0)
   {
     std::cout << flip->GetTotalFlips() << " flips in " << flip->GetNumberOfRounds() << " rounds on "
-              << ranks << " ranks, " << flip->GetNumberOfNonDelaunayEdges() << " bad edges left\n";
+              << ranks << " ranks, " << flip->GetNonDelaunayAfter() << " bad edges left\n";
   }
   return Write(flip->GetOutput(), files[0].c_str(), controller) ? 0 : 3;
 }

@@ -132,7 +132,7 @@ int main(int argc, char* argv[])
   flip->SetGeometryToPlanarXY(); // terrain: only x and y decide
   flip->Update();
   std::cout << flip->GetTotalFlips() << " flips in " << flip->GetNumberOfIterations()
-            << " iterations, " << flip->GetNumberOfNonDelaunayEdges() << " bad edges left\n";
+            << " iterations, " << flip->GetNonDelaunayAfter() << " bad edges left\n";
 
   const bool isWritten = WriteMesh(flip, folder + "/FlipTerrain.vtp");
   if (!isWritten || !WritePicture(flip, folder + "/FlipTerrain.png"))

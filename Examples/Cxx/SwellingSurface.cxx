@@ -181,7 +181,7 @@ int main(int argc, char* argv[])
               "left, %s\n",
     settings.Frames, static_cast<long long>(mesh->GetNumberOfPoints()), seconds,
     settings.Frames / seconds, static_cast<long long>(flips),
-    static_cast<long long>(flip->GetNumberOfNonDelaunayEdges()), flip->GetBackendUsed());
+    static_cast<long long>(flip->GetNonDelaunayAfter()), flip->GetBackendUsed());
   if (settings.HasWindow)
   {
     std::fflush(stdout);

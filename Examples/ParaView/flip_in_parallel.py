@@ -27,7 +27,7 @@ def main():
         sys.exit(f"error: {flip.StopReason}")
     simple.SaveData(sys.argv[2], proxy=flip, DataMode="Binary")
     print(f"{flip.TotalFlips} flips in {flip.NumberOfRounds} rounds, "
-          f"{flip.NumberOfNonDelaunayEdges} bad edges left", flush=True)
+          f"{flip.NonDelaunayAfter} bad edges left", flush=True)
 
 
 main()

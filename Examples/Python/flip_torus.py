@@ -117,7 +117,7 @@ def main():
     flip.SetFeatureAngle(180.0)  # a smooth surface: sharp edges are due to bad triangles
     flip.Update()
     print(flip.GetTotalFlips(), "flips in", flip.GetNumberOfIterations(), "iterations,",
-          flip.GetNumberOfNonDelaunayEdges(), "bad edges left")
+          flip.GetNonDelaunayAfter(), "bad edges left")
 
     if not (write_mesh(flip, folder + "/torus.vtp") and write_picture(flip, folder + "/torus.png")):
         print(f"error: {folder}: cannot be written to", file=sys.stderr)

@@ -37,4 +37,4 @@ segments = numpy.concatenate([numpy.c_[start, start + 1] for start in (first, fi
 terrain = delaunayflip.triangulate(
     points, segments, outline=make_circle(0.5, 0.5, 0.5, 60), holes=[make_circle(0.5, 0.2, 0.08, 20)])
 print(f"{len(terrain.triangles)} triangles, {len(terrain.segments)} edges along segments,",
-      f"{terrain.report.triangles_outside} triangles outside removed")
+      f"{terrain.report.outside_triangles} triangles outside removed")

@@ -76,12 +76,6 @@ Points = make_struct("Points", (
 Polygons = make_struct("Polygons", (
     (c_int64, "size number_of_polygons"), (c_void_p, "offsets corners triangle_counts")))
 
-Options = make_struct("Options", (
-    (c_int64, "size"), (c_int32, "geometry criterion tie_rule backend"),
-    (c_double, "tolerance feature_angle"), (c_int64, "maximum_iterations"),
-    (c_int32, "number_of_threads device track_quality number_of_pieces"), (c_char_p, "devices"),
-    (c_double, "maximum_deviation")))
-
 Iteration = make_struct("Iteration", (
     (c_int64, "iteration tested non_delaunay flipped excluded blocked"),
     (c_double, "minimum_angle seconds")))

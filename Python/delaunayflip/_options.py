@@ -6,6 +6,7 @@ import numbers
 import operator
 import reprlib
 import typing
+from ctypes import c_char_p, c_double, c_int32, c_int64
 
 import numpy
 import numpy.typing
@@ -45,21 +46,21 @@ OnIteration = typing.Callable[[typing.Dict[str, typing.Any]], typing.Optional[bo
 
 
 class Options(typing.TypedDict, total=False):
-    """The keywords of `flip` that a Session takes too."""
+    """The keywords of `flip` that a Session takes too, in the order of the header's options."""
 
     geometry: Geometry
     criterion: Criterion
     tie_rule: TieRule
+    backend: Backend
     tolerance: float
     feature_angle: float
-    maximum_deviation: float
     maximum_iterations: int
-    backend: Backend
     threads: int
     device: int
-    devices: Devices
-    pieces: int
     track_quality: bool
+    pieces: int
+    devices: Devices
+    maximum_deviation: float
 
 
 _SHORT = reprlib.Repr()
@@ -88,20 +89,27 @@ def shorten(text):
 
 CHOICES = {name: typing.get_args(Options.__annotations__[name])
            for name in ("geometry", "criterion", "tie_rule", "backend")}
+#: The members of the struct that have another name than their keyword.
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
+_TYPES = {float: c_double, Devices: c_char_p}  # all others are 32-bit integers, but for a count
+#: delaunayflip_options.
+Struct = _library.make_struct("Options", (
+    (c_int64, "size"),
+    *((c_int64 if name == "maximum_iterations" else _TYPES.get(kind, c_int32), _NAMES.get(name, name))
+      for name, kind in Options.__annotations__.items())))
 _RANGES = {"maximum_iterations": (-1, 2**63 - 1), "threads": (0, 2**31 - 1),
            "device": (-1, 2**31 - 1), "pieces": (0, 255)}
 
 
 def make_options(function=None, **keywords):
-    """A _library.Options with the engine's defaults for options that are not given. `function`: one
+    """A Struct with the engine's defaults for options that are not given. `function`: one
     whose defaults are the engine's; these are passed over, which takes less time.
 
     Raises:
         TypeError: A keyword that is no option, or a value of a wrong type.
         ValueError: A word that is not among the choices, or a number out of range.
     """
-    options = _library.make(_library.Options)
+    options = _library.make(Struct)
     known = {name for name, _ in options._fields_} - {"size"}
     defaults = function.__kwdefaults__ if function else {}
     for keyword, value in keywords.items():

@@ -210,7 +210,7 @@ class Input:
         """Adds those of them that triangles use to the defects."""
         are_used = True if used is None else used[self.flat_points] == self.flat_points
         count = numpy.count_nonzero(numpy.broadcast_to(are_used, self.flat_points.shape))
-        if count == 0 or report.number_of_triangles == 0:
+        if count == 0 or report.triangles == 0:
             return report
         low, high = float(self.heights.min()), float(self.heights.max())
         self.trouble.append(
@@ -222,13 +222,13 @@ class Input:
 
     def make_room(self, report):
         """Arrays for the triangles that a report counts and for their neighbors."""
-        shape = (report.number_of_triangles, 3)
+        shape = (report.triangles, 3)
         return [_arrays.make_empty(self.points, shape, "int32") for _ in range(2)]
 
     def store(self, handle, room):
         """The Triangulation of a session that has ended. `room`: from make_room."""
         report = _report.read(handle)
-        if len(room[0]) != report.number_of_triangles:
+        if len(room[0]) != report.triangles:
             room = self.make_room(report)
         triangles, neighbors = room
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
@@ -245,13 +245,13 @@ class Input:
             self.trouble = [report.defects]
         if report.crossings:
             points = self._add_crossings(handle, report.crossings)
-            report = dataclasses.replace(report, number_of_points=len(points))
+            report = dataclasses.replace(report, points=len(points))
         iterations = _report.read_iterations(handle, report)
         return Triangulation(points, triangles, neighbors, edges, iterations, report, used)
 
     def _is_nothing_left(self, report, triangles):
         """Whether triangles are removed, and none is left that has one of the caller's points."""
-        if report.triangles_outside + report.triangles_large == 0:
+        if report.outside_triangles + report.large_triangles == 0:
             return False
         if len(triangles) == 0:
             return True
@@ -263,7 +263,7 @@ class Input:
     def _find_used_points(self, handle, report):
         """The used point of each one, also of those at crossings; None if these are the points
         themselves, so that nothing has to come from a GPU."""
-        if not (report.points_not_finite or report.points_repeated or report.points_too_near):
+        if not (report.points_not_finite or report.repeated_points or report.points_too_near):
             return None
         count = len(self.points)
         used = numpy.arange(count + report.crossings)

@@ -15,22 +15,8 @@ from ._options import CHOICES
 ITERATION = numpy.dtype(
     [(name, "f8" if kind is ctypes.c_double else "i8") for name, kind in _library.Iteration._fields_]
 )
-# What VTK's field data and tables tell, by their names.
+# What VTK's field data tells, by their names.
 FIELD_PREFIX = "DelaunayFlip:"
-COUNTS = {"TotalFlips": "total_flips", "NonDelaunayEdges": "non_delaunay_after",
-          "BlockedByShape": "blocked_by_shape", "BlockedByDeviation": "blocked_by_deviation",
-          "BlockedByEdge": "blocked_by_edge",
-          **{f"TrianglesBelow{angle}{when}": f"triangles_below_{angle}_{when.lower()}"
-             for angle in (10, 20, 30) for when in ("Before", "After")},
-          "FixedEdges": "fixed_edges", "NonManifoldEdges": "non_manifold_edges",
-          "ConstraintEdges": "constraint_edges",
-          "UnmatchedConstraintEdges": "unmatched_constraints",
-          "InsertedConstraintEdges": "inserted_constraints", "ConstraintFlips": "constraint_flips"}
-POINT_COUNTS = {"UsedPoints": "points_used", "PointsNotFinite": "points_not_finite",
-                "RepeatedPoints": "points_repeated", "PointsTooNear": "points_too_near",
-                "SegmentEdges": "segment_edges", "RefusedSegments": "segments_refused",
-                "CrossingPoints": "crossings", "OutsideTriangles": "triangles_outside",
-                "LargeTriangles": "triangles_large", "LargestShift": "largest_shift"}
 TEXTS = {"GeometryReason": "geometry_reason", "Tolerance": "tolerance", "Backend": "backend"}
 
 #: In the order of the header.
@@ -78,24 +64,24 @@ class Report:
     minimum_angle_after: float
     build_seconds: float
     flip_seconds: float
-    number_of_points: int = 0
-    number_of_triangles: int = 0
+    points: int = 0
+    triangles: int = 0
     points_not_finite: int = 0  #: Points left out of a triangulation: NaN or infinity.
-    points_repeated: int = 0  #: Points at the place of one with a lower id.
+    repeated_points: int = 0  #: Points at the place of one with a lower id.
     points_too_near: int = 0  #: Points within the tolerance of one with a lower id.
     segment_edges: int = 0  #: Edges of the mesh that segments have become.
-    segments_refused: int = 0  #: They cross earlier ones, or an end is not finite.
+    refused_segments: int = 0  #: They cross earlier ones, or an end is not finite.
     crossings: int = 0  #: Points added where segments cross.
     largest_shift: float = 0.0  #: How far rounding has moved one of these at most.
-    triangles_outside: int = 0  #: Removed outside the outline and in holes.
-    triangles_large: int = 0  #: Removed by alpha and longest_edge.
+    outside_triangles: int = 0  #: Removed outside the outline and in holes.
+    large_triangles: int = 0  #: Removed by alpha and longest_edge.
     keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
-    blocked_by_deviation: int = 0  #: Of non_delaunay_after, those that maximum_deviation blocks.
+    blocked_by_deviation: int = 0  #: Those left that the bound on deviation blocks.
     duplicate_triangles: int = 0  #: Triangles with the three points of an earlier one.
     hidden_by_winding: int = 0  #: Edges that are wrongly wound and would else be bad.
     #: Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there.
     obtuse_at_non_manifold: int = 0
-    points_used: int = 0  #: Of a triangulation of points: how many its triangles have.
+    used_points: int = 0  #: How many points the triangles of a triangulation have.
     triangles_below_10_before: int = 0  #: With an angle below 10 degrees; 0 from points, as below.
     triangles_below_10_after: int = 0
     triangles_below_20_before: int = 0
@@ -109,6 +95,15 @@ class Report:
         return self.stop_reason == "converged"
 
 
+# Numbers that VTK's field data has, with their names in upper camel case: those of every mesh, and those
+# of a triangulation of points.
+MAIN_NUMBERS = ("total_flips", "non_delaunay_after", "blocked_by_shape", "blocked_by_edge", "non_manifold_edges",
+                "constraint_edges", "fixed_edges", "unmatched_constraints", "inserted_constraints",
+                "constraint_flips", "blocked_by_deviation",
+                *(field.name for field in dataclasses.fields(Report) if field.name.startswith("triangles_below_")))
+POINT_NUMBERS = ("points_not_finite", "repeated_points", "points_too_near", "segment_edges",
+                 "refused_segments", "crossings", "largest_shift", "outside_triangles", "large_triangles",
+                 "used_points")
 _TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
 _NAMES = tuple(field.name for field in dataclasses.fields(Report))
 _TEXTS = [field.name for field in dataclasses.fields(Report)[2:] if field.type is str]
@@ -168,7 +163,7 @@ class Totals:
         """The totals of a run. `unmatched` more constraints than it knows have no edge."""
         totals = cls()
         totals.iterations = iterations
-        if not report.number_of_triangles:  # all were removed, but some had angles
+        if not report.triangles:  # all were removed, but some had angles
             report = dataclasses.replace(
                 report, minimum_angle_before=numpy.nan, minimum_angle_after=numpy.nan)
         totals.report = dataclasses.replace(
@@ -211,7 +206,12 @@ class Totals:
     def list_columns(self):
         """(name, values) with a value per iteration."""
         for name in ITERATION.names:
-            yield name.title().replace("_", ""), numpy.ascontiguousarray(self.iterations[name])
+            yield to_camel_case(name), numpy.ascontiguousarray(self.iterations[name])
+
+    def list_numbers(self, names):
+        """(name, number) of VTK's field data."""
+        for name in names:
+            yield to_camel_case(name), getattr(self.report, name)
 
     def list_fields(self):
         """(name, value) of VTK's field data: numbers, texts, then columns; None: not an array. ParaView
@@ -219,13 +219,16 @@ class Totals:
         yield "Converged", numpy.int32(self.report.converged)
         yield "StopReason", self.report.stop_reason
         yield "Summary", self.summarize()
-        for name, count in COUNTS.items():
-            yield name, getattr(self.report, count)
+        yield from self.list_numbers(MAIN_NUMBERS)
         yield "GeometryUsed", self.report.geometry_used
         for name, text in TEXTS.items():
             yield name, getattr(self.report, text)
         for name, values in self.list_columns():
             yield name, values if len(values) else None
+
+
+def to_camel_case(name):
+    return name.title().replace("_", "")
 
 
 def _join_iterations(a, b):

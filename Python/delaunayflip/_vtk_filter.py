@@ -18,9 +18,10 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._options import CHOICES
+from ._options import CHOICES, Options
 from ._points import triangulate
-from ._report import COUNTS, FIELD_PREFIX, GEOMETRIES, ITERATION, POINT_COUNTS, Totals, describe
+from ._report import (
+    FIELD_PREFIX, GEOMETRIES, ITERATION, MAIN_NUMBERS, POINT_NUMBERS, Totals, describe, to_camel_case)
 from ._rings import RING_RULES
 from ._vtk_mesh import CELL_ARRAYS, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 
@@ -286,7 +287,7 @@ class Filter(VTKPythonAlgorithmBase):
                 ("", "LiveUpdate needs the filter in C++; this one, in Python, makes all flips at once"))
         pieces = self.GetOutputInformation(0).Get(
             vtkStreamingDemandDrivenPipeline.UPDATE_NUMBER_OF_PIECES()) or 1
-        if pieces > 1 and self._sum.report.number_of_triangles and self.kind is vtkPolyData:
+        if pieces > 1 and self._sum.report.triangles and self.kind is vtkPolyData:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
     def _warn_of_misfits(self, source, others):
@@ -470,7 +471,7 @@ def _copy(source):
 
 def count_answers(prefix, *names):
     """Methods that return counts of the last update's report, by their names in the field data."""
-    fields = {**COUNTS, **POINT_COUNTS}
+    fields = {to_camel_case(name): name for name in MAIN_NUMBERS + POINT_NUMBERS}
     return {f"Get{prefix}{name}": lambda self, field=fields[name]: getattr(self._totals.report, field)
             for name in names}
 
@@ -490,7 +491,7 @@ _COMMON_ANSWERS = {
     "GetFailure": lambda self: self._failure,
     "GetErrorMessage": lambda self: describe(self._errors),
     "GetErrorCode": lambda self: _UNKNOWN_ERROR if self._failure else 0,
-    **count_answers("", "TotalFlips"), **count_answers("NumberOf", "NonDelaunayEdges"),
+    **count_answers("", "TotalFlips", "NonDelaunayAfter"),
 }
 
 
@@ -565,9 +566,7 @@ class vtkDelaunayFlip(Filter):
         try:
             settings = {name: getattr(self, name) for name in SETTINGS}
             data = MeshInput(mesh, constraints, self._observe_part(0.02), **settings)
-            session = data.open(progress=observe, **self._get_options(
-                *CHOICES, "tolerance", "feature_angle", "maximum_deviation", "devices", "pieces",
-                "track_quality"))
+            session = data.open(progress=observe, **self._get_options(*Options.__annotations__))
         except _library.Stopped:
             return self._pass(mesh, output, "aborted")
         with session:
@@ -587,9 +586,9 @@ _ANSWERS = {
     "GetGeometryUsed": lambda self: GEOMETRIES.index(self._totals.report.geometry_used),
     "GetGeometryUsedAsString": lambda self: self._totals.report.geometry_used,
     "GetGeometryReason": lambda self: self._totals.report.geometry_reason,
-    **count_answers("NumberOf", "ConstraintEdges", "UnmatchedConstraintEdges",
-                    "InsertedConstraintEdges", "ConstraintFlips"),
-    **count_answers("NumberOfEdges", "BlockedByShape", "BlockedByDeviation", "BlockedByEdge"),
+    **count_answers("NumberOf", "ConstraintEdges", "UnmatchedConstraints",
+                    "InsertedConstraints", "ConstraintFlips"),
+    **count_answers("", "BlockedByShape", "BlockedByDeviation", "BlockedByEdge"),
 }
 finish(vtkDelaunayFlip, _PROPERTIES, _ANSWERS)
 

@@ -9,7 +9,7 @@ import numpy
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
 from ._points import Input
-from ._report import FIELD_PREFIX, POINT_COUNTS, Totals, describe_trouble, join
+from ._report import FIELD_PREFIX, POINT_NUMBERS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
 from ._surface import NONE, Constraints, Slots, Surface, join_corners, number_places, number_tuples
 
@@ -369,9 +369,9 @@ class Cloud(Input):
             points.SetData(vtk.support.numpy_to_vtk(result.points, deep=True))
             output.SetPoints(points)
             self._extend_data(output.GetPointData(), count)
-        counts = [(name, getattr(report, field)) for name, field in POINT_COUNTS.items()]
+        totals = Totals.of_run(report, result.iterations)
         vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX,
-                       [*counts, *Totals.of_run(report, result.iterations).list_fields()])
+                       [*totals.list_numbers(POINT_NUMBERS), *totals.list_fields()])
         texts = [report.defects] if report.defects else []
         texts += _describe_short(data.GetPointData(), count, "point",
                                 "left out" if is_grown else "passed unchanged")

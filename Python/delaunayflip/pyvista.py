@@ -65,10 +65,9 @@ def flip(
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add the cell arrays "Smallest angle before (degrees)" and "... after (degrees)".
         progress, on_iteration: Functions, as for delaunayflip.flip; returning False aborts.
-        **options: geometry, criterion, tie_rule, tolerance, feature_angle, maximum_deviation,
-            maximum_iterations, backend, threads, device, devices, pieces and track_quality as for
-            delaunayflip.flip; region_array: a cell array, edges between its values stay; lines_as_constraints,
-            insert_lines, insert_constraints and triangulate as in vtkDelaunayFlip.
+        **options: Options of delaunayflip.flip, such as geometry and feature_angle. region_array: a
+            cell array; edges between its values stay. lines_as_constraints, insert_lines,
+            insert_constraints and triangulate as in vtkDelaunayFlip.
 
     Returns:
         The mesh. Its field data tells what was done, e.g. "DelaunayFlip:TotalFlips".

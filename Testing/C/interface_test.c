@@ -392,7 +392,7 @@ static void TestRings(void)
     CHECK(
       strstr(GetReport(session).defects, "1 ring without an area, left out (first: 2)") != NULL);
     CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT32) == DELAUNAYFLIP_OK);
-    for (t = 0; t < GetReport(session).number_of_triangles; ++t)
+    for (t = 0; t < GetReport(session).triangles; ++t)
     {
       const double* a = places + 2 * triangles[3 * t];
       const double* b = places + 2 * triangles[3 * t + 1];

@@ -31,7 +31,7 @@ class RealDataTest(CommandTest):
         self.assertIn(result.returncode, (0, 4), result.stderr)
         again = read_report(self.path("again.json"))
         self.assertEqual([again[key] for key in KEPT], [report[key] for key in KEPT], name)
-        self.assertEqual(again["min_angle_before_deg"], report["min_angle_after_deg"], name)
+        self.assertEqual(again["minimum_angle_before"], report["minimum_angle_after"], name)
         return report
 
     def about(self, value, expected, name, share=0.05):
@@ -53,12 +53,12 @@ PLANAR = [
     ("su2_cht_3cyl_mixed.vtk", XY, {"triangles": 66718, "total_flips": 12047,
      "non_delaunay_before": 12047, "non_delaunay_after": 0}),  # clockwise quads
     (ALASKA, XY, {"non_delaunay_before": 5196, "non_delaunay_after": 0, "about": 5575}),
-    (ALASKA, (), {"geometry": "planar-xy", "total_flips": 5588, "non_delaunay_after": 0,
+    (ALASKA, (), {"geometry_used": "planar-xy", "total_flips": 5588, "non_delaunay_after": 0,
      "because": "z extends further than x and y"}),
     (UTM, XY, {"total_flips": 0, "non_delaunay_before": 0}),  # every diagonal is an exact tie
-    (UTM, (), {"geometry": "planar-xy", "total_flips": 0,
+    (UTM, (), {"geometry_used": "planar-xy", "total_flips": 0,
      "because": "100 % of its area slopes below 45 degrees"}),
-    (TERRAIN, (), {"geometry": "planar-xy", "non_delaunay_after": 0,
+    (TERRAIN, (), {"geometry_used": "planar-xy", "non_delaunay_after": 0,
      "because": "99 % of its area slopes below 45 degrees"}),
     (TERRAIN, XY, {"non_delaunay_before": 34770, "non_delaunay_after": 0, "about": 335500,
      "edges": 179726, "boundary_edges": 271}),
@@ -147,7 +147,7 @@ class Surfaces(RealDataTest):
         self.about(report["non_delaunay_before"], known.bad, f"{name}: bad", known.share)
         self.about(report["total_flips"], known.flips, f"{name}: flips", known.share)
         self.assertLessEqual(report["non_delaunay_after"], known.left, name)
-        self.assertGreaterEqual(report["min_angle_after_deg"], report["min_angle_before_deg"])
+        self.assertGreaterEqual(report["minimum_angle_after"], report["minimum_angle_before"])
         return report
 
     def test_scans_and_parts(self):
@@ -163,7 +163,7 @@ class Surfaces(RealDataTest):
             with self.subTest(name):
                 report = self.check(name, known)
                 self.assertEqual(report["total_flips"], known.flips)
-                self.assertEqual(report["iterations"], 1 if known.flips else 0)
+                self.assertEqual(report["number_of_iterations"], 1 if known.flips else 0)
 
     def test_feature_edges(self):
         report = self.flip("dtc_ship_hull.stl", "--feature-angle", "10", *AS_GIVEN)

@@ -42,7 +42,7 @@ class Backends(BackendTest):
         for mesh in (self.small, self.large):
             report, lines = self.run_on(mesh)
             self.assertEqual(lines, [])
-            self.assertNotIn("fallback", report)
+            self.assertEqual(report["fallback"], "")
             self.assertRegex(report["backend"], r"^(Threads: \d+|CUDA: .+)$")
 
     def test_device_is_nothing_to_the_cpu(self):
@@ -73,7 +73,6 @@ class Fallback(BackendTest):
         report, lines = self.run_on(self.large, env=with_old_driver())
         self.assertEqual(self.content("out.vtk"), expected)
         self.assertRegex(report["backend"], r"^Threads: \d+$")
-        self.assertEqual(list(report).index("fallback"), list(report).index("backend") + 1)
         self.assertRegex(report["fallback"], "^CUDA could not .*update NVIDIA's driver$")
         warning = "warning: the GPU could not be used, the CPU did the work: "
         self.assertEqual(lines, [warning + report["fallback"]])
@@ -81,7 +80,7 @@ class Fallback(BackendTest):
     def test_a_small_mesh_does_not_ask_for_a_gpu(self):
         report, lines = self.run_on(self.small, env=with_old_driver())
         self.assertEqual(lines, [])
-        self.assertNotIn("fallback", report)
+        self.assertEqual(report["fallback"], "")
 
     def test_forced_does_not_fall_back(self):
         arguments = (self.large, "out.vtk", "--backend", "cuda")

@@ -134,7 +134,7 @@ class Success(CommandTest):
         report = self.report(mesh, "out.vtk", "--max-iterations", "2", code=4)
         self.assertEqual(report["stop_reason"], "iteration limit")
         self.assertFalse(report["converged"])
-        self.assertEqual((report["iterations"], report["total_flips"]), (2, 3))
+        self.assertEqual((report["number_of_iterations"], report["total_flips"]), (2, 3))
         self.assertGreater(report["non_delaunay_after"], 0)
         self.assertEqual(len(triangles_of(self.read_mesh("out.vtk"))), 6)
 
@@ -144,7 +144,7 @@ class Success(CommandTest):
         for text, iterations in (("010", 10), ("08", 8), ("+9", 9), ("-01", 37), ("000", 0)):
             report = self.report(
                 *(mesh, "out.vtk", "--max-iterations", text), code=0 if iterations > 30 else 4)
-            self.assertEqual(report["iterations"], iterations, text)
+            self.assertEqual(report["number_of_iterations"], iterations, text)
         backend = self.report(mesh, "out.vtk", "--backend", "threads", "--threads", "010")["backend"]
         self.assertEqual(backend, "Threads: 10")
         for text in ("0x10", "1e1", "10.0", "", " 10", "1 0", "+-1", "99999999999999999999"):

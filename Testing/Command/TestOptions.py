@@ -31,8 +31,8 @@ class Options(CommandTest):
         mesh = make_mesh(tall, [(0, 1, 3), (1, 2, 3)])
         path = self.write_mesh(mesh, "in.vtk")
         lines = self.write_mesh(make_mesh(tall, [], [(0, 2)]), "lines.vtk")
-        counts = ("inserted_constraint_edges", "constraint_flips", "constraint_edges",
-                  "unmatched_constraint_edges")
+        counts = ("inserted_constraints", "constraint_flips", "constraint_edges",
+                  "unmatched_constraints")
 
         def constrain(*arguments):
             report = self.report(path, "out.vtk", *arguments)
@@ -222,10 +222,10 @@ class Options(CommandTest):
         path = self.write_mesh(mesh, "in.vtk")
         for geometry in ("planar-xy", "surface"):
             report = self.report(path, "out.vtk", "--geometry", geometry)
-            self.assertEqual(report["geometry"], geometry)
-        self.assertEqual(self.report(path, "out.vtk")["geometry"], "planar-xy")
+            self.assertEqual(report["geometry_used"], geometry)
+        self.assertEqual(self.report(path, "out.vtk")["geometry_used"], "planar-xy")
         flat = self.write_mesh(bumpy_grid(6, 0), "flat.vtk")
-        self.assertEqual(self.report(flat, "out.vtk")["geometry"], "planar")
+        self.assertEqual(self.report(flat, "out.vtk")["geometry_used"], "planar")
 
     def test_pieces(self):
         path = self.write_mesh(bad_mesh(23), "in.vtk")

@@ -263,9 +263,8 @@ class Results(PointTest):
         _, result = self.triangulate("in.csv")
         self.assertIn("points          6 used, 1 repeated, 2 not finite\n", result.stdout)
         report = self.report("in.csv", "out.vtk", "--from-points", "--point-tolerance", 0.1)
-        counts = report["from_points"]
-        self.assertEqual(counts["repeated"] + counts["too_near"], 2)
-        self.assertEqual(counts["not_finite"], 2)
+        self.assertEqual(report["repeated_points"] + report["points_too_near"], 2)
+        self.assertEqual(report["points_not_finite"], 2)
         self.assertEqual(report["triangles"], 4)
 
     def test_bad_edges_that_are_left(self):

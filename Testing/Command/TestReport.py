@@ -4,34 +4,39 @@
 
 import csv
 import math
+import pathlib
 import re
 
 from CommandTesting import CommandTest, bad_mesh, bumpy_grid, make_mesh, turns_of, worst_case
 
-KEYS = [
-    *("points", "triangles", "edges", "boundary_edges", "fixed_edges", "non_manifold_edges"),
-    *("feature_edges", "region_edges", "constraint_edges", "unmatched_constraint_edges"),
-    *("inserted_constraint_edges", "constraint_flips", "keeps_sliver"),
-    *("duplicate_triangles", "hidden_by_winding", "obtuse_at_non_manifold"),
-    *("geometry", "geometry_reason", "tolerance", "backend", "iterations"),
-    *("total_flips", "total_excluded", "total_blocked"),
-    *("non_delaunay_before", "non_delaunay_after", "blocked_by_shape"),
-    *("blocked_by_deviation", "blocked_by_edge"),
-    *("min_angle_before_deg", "min_angle_after_deg"),
-    *("triangles_below_10_before", "triangles_below_10_after", "triangles_below_20_before"),
-    *("triangles_below_20_after", "triangles_below_30_before", "triangles_below_30_after"),
-    *("converged", "stop_reason", "seconds", "warnings"),
-]
+HEADER = pathlib.Path(__file__).resolve().parents[2] / "CInterface/delaunayflip_c.h"
+TEXTS = ["stop_reason", "converged", "geometry_used", "geometry_reason", "tolerance", "backend", "fallback"]
+
+
+def list_numbers():
+    """The names of the numbers of a report, from the C header, which Python follows, too."""
+    text = re.sub(r"/\*.*?\*/", "", HEADER.read_text(encoding="utf-8"), flags=re.S)
+    body = re.search(r"int64_t number_of_iterations;[^}]*(?=\} delaunayflip_report;)", text)[0]
+    return re.findall(r"(\w+);", body)
+
+
 COLUMNS = "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds"
 
 
 class Report(CommandTest):
     def test_keys(self):
-        report = self.report(self.write_mesh(worst_case(4), "in.vtk"), "out.vtk")
-        self.assertEqual(list(report), KEYS)
-        self.assertEqual(list(report["seconds"]), ["read", "build", "flip", "write"])
-        for seconds in report["seconds"].values():
-            self.assertGreaterEqual(seconds, 0.0)
+        """Each number has its name of the C header and of Python; from points there are more."""
+        path = self.write_mesh(worst_case(4), "in.vtk")
+        names = [*TEXTS, *list_numbers(), "read_seconds", "write_seconds", "warnings"]
+        report = self.report(path, "out.vtk", "--from-points")
+        self.assertEqual(list(report), names)
+        more = {name for name in names if re.search("_points|points_|^segment|segments$|^crossings|^largest_|"
+                                                    "^outside_|^large_", name)}
+        self.assertEqual(len(more), 10)
+        report = self.report(path, "out.vtk")
+        self.assertEqual(list(report), [name for name in names if name not in more])
+        for name in ("read_seconds", "build_seconds", "flip_seconds", "write_seconds"):
+            self.assertGreaterEqual(report[name], 0.0)
 
     def test_warnings(self):
         mesh = make_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 0, 1)])
@@ -50,7 +55,7 @@ class Report(CommandTest):
         report = self.report(self.write_mesh(worst_case(4), "in.vtk"), "out.vtk")
         expected = {
             **{"points": 8, "triangles": 6, "edges": 13, "boundary_edges": 8, "fixed_edges": 8},
-            **{"non_manifold_edges": 0, "geometry": "planar", "iterations": 5, "total_flips": 9},
+            **{"non_manifold_edges": 0, "geometry_used": "planar", "number_of_iterations": 5, "total_flips": 9},
             **{"total_blocked": 0, "tolerance": "none", "non_delaunay_before": 1, "non_delaunay_after": 0},
             **{"converged": True, "stop_reason": "converged"},
         }
@@ -59,8 +64,8 @@ class Report(CommandTest):
     def test_no_triangles(self):
         report = self.report(self.write_mesh(make_mesh([(0, 0, 0)], []), "in.vtk"), "out.vtk")
         self.assertEqual((report["points"], report["triangles"]), (1, 0))
-        self.assertIsNone(report["min_angle_before_deg"])
-        self.assertIsNone(report["min_angle_after_deg"])
+        self.assertIsNone(report["minimum_angle_before"])
+        self.assertIsNone(report["minimum_angle_after"])
 
 
 class Statistics(CommandTest):
@@ -87,14 +92,14 @@ class Statistics(CommandTest):
         rows = self.rows(bad_mesh(18))
         self.assertGreater(sum(self.column(rows, "Excluded")), 0)
         report = self.report(self.path("in.vtk"), "out.vtk")
-        self.assertEqual(report["iterations"], len(rows))
+        self.assertEqual(report["number_of_iterations"], len(rows))
         for key, name in (
             ("total_flips", "Flipped"),
             ("total_excluded", "Excluded"),
             ("total_blocked", "Blocked"),
         ):
             self.assertEqual(report[key], sum(self.column(rows, name)))
-        self.assertEqual(report["min_angle_after_deg"], float(rows[-1]["MinimumAngle"]))
+        self.assertEqual(report["minimum_angle_after"], float(rows[-1]["MinimumAngle"]))
 
 
 class Summary(CommandTest):

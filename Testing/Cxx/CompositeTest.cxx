@@ -75,17 +75,17 @@ TEST(Composite, BlockedEdgesAreSums)
   filter->SetFeatureAngle(180.0);
   filter->SetMaximumDeviation(0.2);
   filter.Run();
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 4);
+  EXPECT_EQ(filter->GetNonDelaunayAfter(), 4);
   EXPECT_EQ(GetTotal(filter.GetBlock(3), "BlockedByDeviation"), 1.0);
-  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByDeviation(), 1);
+  EXPECT_EQ(filter->GetBlockedByDeviation(), 1);
   EXPECT_EQ(GetTotal(filter.GetBlock(2), "BlockedByEdge"), 1.0);
   EXPECT_EQ(GetTotal(filter.GetBlock(1), "BlockedByShape"), 1.0);
-  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByEdge(), 2);
-  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByShape(), 1);
+  EXPECT_EQ(filter->GetBlockedByEdge(), 2);
+  EXPECT_EQ(filter->GetBlockedByShape(), 1);
   filter->SetMaximumDeviation(0.25);
   filter.Run();
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 3);
-  EXPECT_EQ(filter->GetNumberOfEdgesBlockedByDeviation(), 0);
+  EXPECT_EQ(filter->GetNonDelaunayAfter(), 3);
+  EXPECT_EQ(filter->GetBlockedByDeviation(), 0);
   filter->SetMaximumDeviation(-1.0);
   filter->Update();
   EXPECT_EQ(filter->GetFailure(), vtkDelaunayFlip::FAILURE_OPTIONS);
@@ -135,10 +135,10 @@ TEST(Composite, TheWorstStopReasonCounts)
   EXPECT_STREQ(filter->GetGeometryUsedAsString(), "mixed");
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
   EXPECT_FALSE(filter->GetConverged());
-  EXPECT_EQ(GetTotal(filter.GetBlock(0), "NonDelaunayEdges"), CountViolations(filter.GetBlock(0)));
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(),
-    GetTotal(filter.GetBlock(0), "NonDelaunayEdges") +
-      GetTotal(filter.GetBlock(2), "NonDelaunayEdges"));
+  EXPECT_EQ(GetTotal(filter.GetBlock(0), "NonDelaunayAfter"), CountViolations(filter.GetBlock(0)));
+  EXPECT_EQ(filter->GetNonDelaunayAfter(),
+    GetTotal(filter.GetBlock(0), "NonDelaunayAfter") +
+      GetTotal(filter.GetBlock(2), "NonDelaunayAfter"));
 }
 
 TEST(Composite, ABlockThatFailsLeavesTheOthers)

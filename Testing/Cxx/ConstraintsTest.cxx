@@ -42,9 +42,9 @@ Counts Constrain(WatchedFilter& filter, vtkPolyData* constraints)
   vtkPolyData* output = filter.Run();
   EXPECT_TRUE(filter.GetErrors().empty());
   const Counts counts(
-    filter->GetNumberOfConstraintEdges(), filter->GetNumberOfUnmatchedConstraintEdges());
+    filter->GetNumberOfConstraintEdges(), filter->GetNumberOfUnmatchedConstraints());
   EXPECT_EQ(counts.first, GetTotal(output, "ConstraintEdges"));
-  EXPECT_EQ(counts.second, GetTotal(output, "UnmatchedConstraintEdges"));
+  EXPECT_EQ(counts.second, GetTotal(output, "UnmatchedConstraints"));
   EXPECT_EQ(filter.GetWarnings().size(), counts.second > 0 ? 1u : 0u);
   return counts;
 }
@@ -229,7 +229,7 @@ TEST(Constraints, WarmStartsKeepThemAndTheirCounts)
     filter.RunToTheEnd();
     EXPECT_TRUE(HasEdge(filter->GetOutput(), 0, 2));
     EXPECT_EQ(filter->GetNumberOfConstraintEdges(), 1);
-    EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
+    EXPECT_EQ(filter->GetNumberOfUnmatchedConstraints(), 1);
   }
 }
 
@@ -313,11 +313,11 @@ TEST(ConstraintInsertion, OfTheSecondInputByDefault)
   vtkPolyData* output = filter->GetOutput();
   EXPECT_TRUE(HasEdges(output, FirstChain));
   EXPECT_EQ(GetNumbers(output->GetCellData(), "Number"), GetNumbers(mesh->GetCellData(), "Number"));
-  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 2);
-  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraints(), 2);
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraints(), 1);
   EXPECT_GE(filter->GetNumberOfConstraintEdges(), 3);
   EXPECT_GT(filter->GetNumberOfConstraintFlips(), 0);
-  EXPECT_EQ(GetTotal(output, "InsertedConstraintEdges"), 2);
+  EXPECT_EQ(GetTotal(output, "InsertedConstraints"), 2);
   EXPECT_EQ(GetTotal(output, "ConstraintFlips"), filter->GetNumberOfConstraintFlips());
   double flips = 0.0;
   for (vtkIdType row = 0; row < filter->GetIterations()->GetNumberOfRows(); ++row)
@@ -327,8 +327,8 @@ TEST(ConstraintInsertion, OfTheSecondInputByDefault)
   EXPECT_EQ(flips, filter->GetTotalFlips());
   filter->InsertConstraintsOff();
   EXPECT_FALSE(HasEdges(filter.Run(), FirstChain));
-  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 0);
-  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 3);
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraints(), 0);
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraints(), 3);
   EXPECT_EQ(filter->GetTotalFlips(), 0);
 }
 
@@ -338,10 +338,10 @@ TEST(ConstraintInsertion, OfLinesOnRequest)
   mesh->SetLines(MakeCells(Lines));
   WatchedFilter filter(mesh);
   EXPECT_FALSE(HasEdges(filter.Run(), FirstChain));
-  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 3);
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraints(), 3);
   filter->InsertLinesOn();
   EXPECT_TRUE(HasEdges(filter.Run(), FirstChain));
-  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraintEdges(), 1);
+  EXPECT_EQ(filter->GetNumberOfUnmatchedConstraints(), 1);
   filter->LinesAsConstraintsOff();
   EXPECT_FALSE(HasEdges(filter.Run(), FirstChain));
   EXPECT_EQ(filter->GetNumberOfConstraintEdges(), 0);
@@ -356,14 +356,14 @@ TEST(ConstraintInsertion, FollowsTheOrderOfTheInput)
   WatchedFilter places(mesh);
   EXPECT_EQ(Constrain(places, byPlace).second, 1);
   EXPECT_FALSE(HasEdges(places->GetOutput(), FirstChain));
-  EXPECT_EQ(places->GetNumberOfInsertedConstraintEdges(), 1);
+  EXPECT_EQ(places->GetNumberOfInsertedConstraints(), 1);
   ExpectHolds(places.GetWarnings()[0], "(first: 0-50 crosses constraint 0 (points 16 and 39))");
   mesh->SetLines(MakeCells({ { 16, 39 } }));
   WatchedFilter filter(mesh);
   filter->InsertLinesOn(); // which come before the second input
   EXPECT_EQ(Constrain(filter, MakeLines({ { 50, 7 }, { 0, 50 } })).second, 2);
   EXPECT_FALSE(HasEdges(filter->GetOutput(), FirstChain));
-  EXPECT_EQ(filter->GetNumberOfInsertedConstraintEdges(), 1);
+  EXPECT_EQ(filter->GetNumberOfInsertedConstraints(), 1);
   ExpectHolds(filter.GetWarnings()[0],
     "(first: 7-50 crosses constraint 0 (points 16 and 39), 0-50 crosses constraint 0 (points 16 "
     "and "

@@ -75,8 +75,8 @@ TEST(LiveUpdate, EveryStepGivesAValidMesh)
     EXPECT_EQ(GetTotal(output, "Iteration", iterations - 1), iterations);
     EXPECT_GT(filter->GetTotalFlips(), flips);
     flips = filter->GetTotalFlips();
-    EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
-    EXPECT_EQ(filter->GetConverged(), filter->GetNumberOfNonDelaunayEdges() == 0);
+    EXPECT_EQ(CountViolations(output), filter->GetNonDelaunayAfter());
+    EXPECT_EQ(filter->GetConverged(), filter->GetNonDelaunayAfter() == 0);
     EXPECT_STREQ(filter->GetStopReasonAsString(), filter->GetConverged() ? "converged" : "running");
     filter.Run(); // nobody asks for another step
     EXPECT_EQ(filter->GetNumberOfIterations(), iterations);
@@ -381,7 +381,7 @@ TEST(MovedPoints, KeepTheirPrecision)
     filter.RunToTheEnd();
     EXPECT_TRUE(filter->GetConverged());
     EXPECT_GT(filter->GetTotalFlips(), 0);
-    EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+    EXPECT_EQ(filter->GetNonDelaunayAfter(), 0);
     EXPECT_EQ(FlipAtOnceXY(filter->GetOutput()), filter.GetPolygons());
   }
   EXPECT_TRUE(filter.GetWarnings().empty());

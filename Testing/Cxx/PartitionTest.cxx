@@ -186,7 +186,7 @@ TEST(Partitions, AreFlippedAsOneMesh)
     const Parts parts = filter.UpdateCleanly();
     EXPECT_EQ(Join(parts), FlipUndivided(mesh));
     ExpectOwnData(mesh, given, parts);
-    EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+    EXPECT_EQ(filter->GetNonDelaunayAfter(), 0);
     for (const auto& part : parts)
     {
       EXPECT_EQ(part->GetFieldData()->GetArray("DelaunayFlip:TotalFlips")->GetComponent(0, 0),

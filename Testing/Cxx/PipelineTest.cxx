@@ -117,8 +117,8 @@ TEST(Pipeline, RequestedLimitGivesNoWarning)
     EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ITERATION_LIMIT);
     EXPECT_EQ(filter->GetNumberOfIterations(), limit);
     EXPECT_EQ(filter->GetIterations()->GetNumberOfRows(), limit);
-    EXPECT_GT(filter->GetNumberOfNonDelaunayEdges(), 0);
-    EXPECT_EQ(CountViolations(output), filter->GetNumberOfNonDelaunayEdges());
+    EXPECT_GT(filter->GetNonDelaunayAfter(), 0);
+    EXPECT_EQ(CountViolations(output), filter->GetNonDelaunayAfter());
     EXPECT_EQ(GetCells(output->GetPolys()) == GetCells(mesh->GetPolys()), limit == 0);
   }
 }

@@ -285,7 +285,7 @@ TEST(FromPoints, Crossings)
     ASSERT_NE(output->GetPointData()->GetPedigreeIds(), nullptr);
     EXPECT_EQ(output->GetPointData()->GetPedigreeIds()->GetVariantValue(4).ToInt(), 0);
     EXPECT_EQ(output->GetPointData()->GetArray(ghosts->GetName())->GetTuple1(4), 0.0);
-    EXPECT_EQ(GetTotal(output, "CrossingPoints"), 1.0);
+    EXPECT_EQ(GetTotal(output, "Crossings"), 1.0);
     ExpectHolds(filter->GetSummary(), "mesh: 5 points, ");
     EXPECT_EQ(filter.GetPolygons().size(), 4u);
     EXPECT_EQ(cloud->GetNumberOfPoints(), 4);

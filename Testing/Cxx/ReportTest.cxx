@@ -83,14 +83,14 @@ TEST(Report, TotalsAreReadBackAndInTheFieldData)
   EXPECT_EQ(filter->GetGeometryUsed(), vtkDelaunayFlip::GEOMETRY_PLANAR);
   EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_CONVERGED);
   const std::pair<const char*, double> totals[] = { { "Converged", 1 }, { "TotalFlips", 9 },
-    { "NonDelaunayEdges", 0 }, { "TrianglesBelow10Before", 6 }, { "TrianglesBelow10After", 4 },
+    { "NonDelaunayAfter", 0 }, { "TrianglesBelow10Before", 6 }, { "TrianglesBelow10After", 4 },
     { "FixedEdges", 8 }, { "NonManifoldEdges", 0 } }; // 8 of 13
   for (const auto& [name, value] : totals)
   {
     EXPECT_EQ(GetTotal(output, name), value) << name;
   }
   EXPECT_EQ(filter->GetTotalFlips(), 9);
-  EXPECT_EQ(filter->GetNumberOfNonDelaunayEdges(), 0);
+  EXPECT_EQ(filter->GetNonDelaunayAfter(), 0);
   EXPECT_TRUE(filter->GetConverged());
   const std::tuple<const char*, std::string, const char*> texts[] = {
     { "StopReason", "converged", filter->GetStopReasonAsString() },

@@ -240,7 +240,7 @@ void Judge(const RanksCase& drawn, const std::vector<vtkSmartPointer<RankFilter>
     Require(filter->GetFailure() == first->GetFailure() &&
         filter->GetTotalFlips() == first->GetTotalFlips() &&
         filter->GetNumberOfIterations() == first->GetNumberOfIterations() &&
-        filter->GetNumberOfNonDelaunayEdges() == first->GetNumberOfNonDelaunayEdges() &&
+        filter->GetNonDelaunayAfter() == first->GetNonDelaunayAfter() &&
         filter->GetStopReason() == first->GetStopReason(),
       "ranks report different results");
     triangles += GetResult(filter) ? GetResult(filter)->GetNumberOfPolys() : 0;

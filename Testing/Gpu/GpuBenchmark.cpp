@@ -435,7 +435,7 @@ private:
     }
     row["flips"] = filter->GetTotalFlips();
     row["iterations"] = filter->GetNumberOfIterations();
-    row["left"] = filter->GetNumberOfNonDelaunayEdges();
+    row["left"] = filter->GetNonDelaunayAfter();
     row["note"] = "Update()";
   }
 #endif

@@ -186,7 +186,7 @@ void TimeMovingPoints(std::int64_t points, const Arguments& arguments)
       {
         plane.Swell(0.05 * ++frame);
         scene.View->Step();
-        return scene.Filter->GetNumberOfNonDelaunayEdges() == 0;
+        return scene.Filter->GetNonDelaunayAfter() == 0;
       });
   }
 }

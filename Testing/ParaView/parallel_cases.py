@@ -74,7 +74,7 @@ def run(case, folder):
     return {
         "ranks": write_ranks(flip, os.path.join(folder, case)), "flips": flip.TotalFlips,
         "rounds": flip.NumberOfRounds, "moved": flip.NumberOfMovedTriangles,
-        "bad": flip.NumberOfNonDelaunayEdges, "stopped": flip.StopReason,
+        "bad": flip.NonDelaunayAfter, "stopped": flip.StopReason,
         "geometry": flip.GeometryUsed, "iterations": flip.NumberOfIterations,
         "flipped": get_flipped(fetch(flip, 1)), "errors": messages.text.count("ERROR"),
         "warnings": messages.text.count("Warning"), "text": messages.text}

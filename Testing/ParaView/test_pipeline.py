@@ -51,7 +51,7 @@ class Inputs(PluginTest):
         refresh(flip)
         self.assertIn(kept, get_edges(fetch(flip)))
         self.assertEqual(flip.NumberOfConstraintEdges, 1)
-        self.assertEqual(flip.NumberOfUnmatchedConstraintEdges, 0)
+        self.assertEqual(flip.NumberOfUnmatchedConstraints, 0)
         flip.Constraints = None
         self.assertNotIn(kept, get_edges(fetch(flip)))
 
@@ -93,10 +93,10 @@ class Outputs(PluginTest):
         self.assertEqual((again.NumberOfIterations, again.TotalFlips), (0, 0))
         for flip in (self.filter, again):
             self.assertEqual((flip.StopReason, flip.Converged, flip.GeometryUsed,
-                              flip.NumberOfNonDelaunayEdges), ("converged", 1, "planar", 0))
+                              flip.NonDelaunayAfter), ("converged", 1, "planar", 0))
             self.assertRegex(flip.BackendUsed, "^Threads: [0-9]+$")
             arrays = flip.GetDataInformation().DataInformation.GetFieldDataInformation()
-            for name in ("Converged", "StopReason", "TotalFlips", "NonDelaunayEdges", "Backend"):
+            for name in ("Converged", "StopReason", "TotalFlips", "NonDelaunayAfter", "Backend"):
                 self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:" + name), name)
 
 

@@ -41,7 +41,7 @@ def draw_pairs(points, triangles, owners, count, are_within):
 
 
 def describe_all(flip):
-    return {**describe(flip, []), "inserted": flip.GetNumberOfInsertedConstraintEdges()}
+    return {**describe(flip, []), "inserted": flip.GetNumberOfInsertedConstraints()}
 
 
 def add_lines(piece, used, points, pairs):

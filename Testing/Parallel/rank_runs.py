@@ -55,11 +55,11 @@ def make_own_piece(points, triangles, kind, ids=True):
 
 def describe(flip, said):
     return {
-        "flips": flip.GetTotalFlips(), "left": flip.GetNumberOfNonDelaunayEdges(),
+        "flips": flip.GetTotalFlips(), "left": flip.GetNonDelaunayAfter(),
         "rounds": flip.GetNumberOfRounds() if isinstance(flip, delaunayflip.vtkPDelaunayFlip) else 0,
         "stopped": flip.GetStopReasonAsString(), "geometry": flip.GetGeometryUsedAsString(),
         "constraints": flip.GetNumberOfConstraintEdges(),
-        "unmatched": flip.GetNumberOfUnmatchedConstraintEdges(), "error": flip.GetErrorMessage(),
+        "unmatched": flip.GetNumberOfUnmatchedConstraints(), "error": flip.GetErrorMessage(),
         "iterations": flip.GetNumberOfIterations(), "said": said}
 
 
@@ -132,6 +132,6 @@ def same(points, triangles, kind="space", ids=True, options=None, unique=True):
             facts["same"] = rank_meshes.are_same(after, alone.GetOutput())
         again = flip_alone(points, after, {**options, "FeatureAngle": 180.0})
         facts["again"] = again.GetTotalFlips()
-        facts["left again"] = again.GetNumberOfNonDelaunayEdges()
+        facts["left again"] = again.GetNonDelaunayAfter()
         facts["geometry alone"] = alone.GetGeometryUsedAsString()
     return facts

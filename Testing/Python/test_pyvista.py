@@ -207,7 +207,7 @@ class PyVista(unittest.TestCase):
         self.assertEqual((bare.n_points, bare.n_cells), (50, same.n_cells))
 
     def test_rings(self):
-        """As arrays they are those of delaunayflip.triangulate; as meshes, polygons or closed lines."""
+        """Rings are arrays as for delaunayflip.triangulate, or polygons or closed lines of a mesh."""
         import delaunayflip.pyvista
         cloud = self.pyvista.PolyData(numpy.random.default_rng(4).random((200, 3)) * [12, 12, 1])
         lower = numpy.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])

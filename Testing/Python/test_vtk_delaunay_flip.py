@@ -304,7 +304,7 @@ class Observers(unittest.TestCase):
         self.assertTrue(watched.filter.GetConverged())
 
     def test_a_handler_of_signals_may_ask_to_abort(self):
-        """As the page Start in Python says of Ctrl-C, which comes while an observer runs."""
+        """The page Start in Python tells how to end an update by Ctrl-C, which comes in an observer."""
         watched = Watched(make_bad_mesh())
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(
             signal.SIGINT, lambda *_: watched.filter.SetAbortExecute(1)))
