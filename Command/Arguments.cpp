@@ -78,14 +78,16 @@ private:
     std::istringstream words(option.get_description());
     for (std::string word; words >> word;)
     {
-      const bool isFirst = line.size() == Column;
-      if (!isFirst && line.size() + 1 + word.size() > Width)
+      if (line.size() > Column && line.size() + 1 + word.size() > Width)
       {
         text += line + '\n';
-        line = std::string(Column, ' ') + word;
-        continue;
+        line = std::string(Column, ' ');
       }
-      line += (isFirst ? "" : " ") + word;
+      if (line.size() > Column)
+      {
+        line += ' ';
+      }
+      line += word;
     }
     return text + line + '\n';
   }
@@ -131,7 +133,10 @@ CLI::Validator Within(T low, T high, const std::string& range)
     {
       return text + " is not " + range;
     }
-    text = std::is_integral_v<T> ? std::to_string(value) : text;
+    if (std::is_integral_v<T>)
+    {
+      text = std::to_string(value);
+    }
     return std::string();
   };
   return CLI::Validator(check, "");
@@ -207,7 +212,11 @@ void AddStayOptions(CLI::App& app, Arguments& arguments)
       [&arguments](std::string& text)
       {
         arguments.DeviationIsPercent = !text.empty() && text.back() == '%';
-        std::string number = text.substr(0, text.size() - (arguments.DeviationIsPercent ? 1 : 0));
+        std::string number = text;
+        if (arguments.DeviationIsPercent)
+        {
+          number.pop_back();
+        }
         if (!Within(0.0, std::numeric_limits<double>::infinity(), "")(number).empty())
         {
           return text + " is not a length of 0 or more, or a percentage such as 1%";
@@ -361,11 +370,14 @@ std::string ExplainAngle(const CLI::App& app)
 {
   const std::vector<std::string> words = app.remaining();
   const auto found = std::find_if(words.begin(), words.end(), AsksForAngle);
-  return found == words.end() ? ""
-                              : found->substr(0, found->find('=')) +
-      ": flips guarantee no smallest angle. They choose the best triangles for the points that "
-      "are there. Only a program that adds or moves points can promise an angle: a mesh generator "
-      "with Delaunay refinement, for example Triangle, Gmsh or CGAL. Flip after it";
+  if (found == words.end())
+  {
+    return "";
+  }
+  return found->substr(0, found->find('=')) +
+    ": flips guarantee no smallest angle. They choose the best triangles for the points that "
+    "are there. Only a program that adds or moves points can promise an angle: a mesh generator "
+    "with Delaunay refinement, for example Triangle, Gmsh or CGAL. Flip after it";
 }
 
 /// "; did you mean --geometry?" if a word that is no option begins like one.

@@ -120,8 +120,16 @@ ChildOutcome ChildProcess::Wait(int child)
       break;
     }
   }
-  return { WIFEXITED(status) ? WEXITSTATUS(status) : 0, WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-    interruptedBy, *this->Shared };
+  ChildOutcome outcome{ 0, 0, interruptedBy, *this->Shared };
+  if (WIFEXITED(status))
+  {
+    outcome.ExitCode = WEXITSTATUS(status);
+  }
+  if (WIFSIGNALED(status))
+  {
+    outcome.KilledBy = WTERMSIG(status);
+  }
+  return outcome;
 }
 
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Console.h"
 
+#include "CommandError.h"
+
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -62,15 +64,15 @@ vtkStandardNewMacro(CollectingWindow);
 /// Joins the lines; repeated lines appear once.
 std::string Joined(const std::vector<std::string>& lines)
 {
-  std::string joined;
-  for (auto line = lines.begin(); line != lines.end(); ++line)
+  std::vector<std::string> different;
+  for (const std::string& line : lines)
   {
-    if (std::find(lines.begin(), line, *line) == line)
+    if (std::find(different.begin(), different.end(), line) == different.end())
     {
-      joined += (joined.empty() ? "" : "; ") + *line;
+      different.push_back(line);
     }
   }
-  return joined;
+  return JoinWords(different, "; ");
 }
 
 bool IsAboutVersion(const std::string& warning)
@@ -87,7 +89,11 @@ CollectingWindow* Window()
 /// On a terminal, first erases a progress bar.
 void PrintLine(const std::string& line)
 {
-  std::cerr << (isatty(STDERR_FILENO) ? "\r\033[K" : "") << WithoutControls(line) << std::endl;
+  if (isatty(STDERR_FILENO))
+  {
+    std::cerr << "\r\033[K";
+  }
+  std::cerr << WithoutControls(line) << std::endl;
 }
 
 }

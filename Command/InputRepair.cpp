@@ -224,7 +224,10 @@ RepairedMesh Orient(vtkPolyData* mesh)
     {
       mesh->GetPolys()->GetCellAtId(cell, before);
       oriented->GetCellAtId(cell, after);
-      turned += std::equal(before->begin(), before->end(), after->begin()) ? 0 : 1;
+      if (!std::equal(before->begin(), before->end(), after->begin()))
+      {
+        ++turned;
+      }
     }
     repaired.Result.Mesh->SetPolys(oriented);
   }

@@ -45,7 +45,7 @@ std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& 
 std::string LostArrays(
   const std::string& what, vtkFieldData* data, const std::vector<vtkAbstractArray*>& kept)
 {
-  std::string names;
+  std::vector<std::string> names;
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
     vtkAbstractArray* const array = data->GetAbstractArray(index);
@@ -53,10 +53,10 @@ std::string LostArrays(
     const bool isOwn = name.rfind("DelaunayFlip:", 0) == 0; // of an earlier run
     if (!isOwn && std::find(kept.begin(), kept.end(), array) == kept.end())
     {
-      names += (names.empty() ? "" : ", ") + name;
+      names.push_back(name);
     }
   }
-  return names.empty() ? names : what + " (" + names + ")";
+  return names.empty() ? "" : what + " (" + JoinWords(names) + ")";
 }
 
 namespace
@@ -334,7 +334,10 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
             path + ": line " + std::to_string(cell) +
               " does not end where it begins, so it is no ring");
         }
-        ids.resize(ids.size() - (first == last && size > 1 ? 1 : 0));
+        if (first == last && size > 1)
+        {
+          ids.pop_back();
+        }
       }
       else if (!areLines && size > 0)
       {
@@ -349,7 +352,14 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
   made->SetPoints(mesh->GetPoints());
   made->SetStrips(mesh->GetStrips()); // so that the filter warns of them
   made->GetPointData()->ShallowCopy(mesh->GetPointData());
-  (areBreaklines ? made->SetLines(segments) : made->SetPolys(segments));
+  if (areBreaklines)
+  {
+    made->SetLines(segments);
+  }
+  else
+  {
+    made->SetPolys(segments);
+  }
   return made;
 }
 
@@ -378,7 +388,11 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format)
   {
     // The user does not know the temporary file, so the message does not name it.
     problem = error.what();
-    problem.erase(0, problem.rfind(path + ": ", 0) == 0 ? path.size() + 2 : 0);
+    const std::string beginning = path + ": ";
+    if (problem.rfind(beginning, 0) == 0)
+    {
+      problem.erase(0, beginning.size());
+    }
   }
   throw std::runtime_error(problem + ExplainFailedWrite(path));
 }
@@ -389,13 +403,29 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
   {
     return {};
   }
-  std::string list;
-  const auto add = [&list](const std::string& loss)
-  { list += (list.empty() || loss.empty() ? "" : ", ") + loss; };
+  std::vector<std::string> losses;
+  const auto add = [&losses](const std::string& loss)
+  {
+    if (!loss.empty())
+    {
+      losses.push_back(loss);
+    }
+  };
   const auto addCount = [&add](const std::string& what, std::int64_t count)
-  { add(count > 0 ? what + " (" + std::to_string(count) + ")" : ""); };
-  addCount("lines", format == MeshFormat::STL ? mesh->GetNumberOfLines() : 0);
-  addCount("verts", format == MeshFormat::OBJ ? 0 : mesh->GetNumberOfVerts());
+  {
+    if (count > 0)
+    {
+      add(what + " (" + std::to_string(count) + ")");
+    }
+  };
+  if (format == MeshFormat::STL)
+  {
+    addCount("lines", mesh->GetNumberOfLines());
+  }
+  if (format != MeshFormat::OBJ)
+  {
+    addCount("verts", mesh->GetNumberOfVerts());
+  }
   if (format == MeshFormat::STL)
   {
     const PointLosses points(mesh);
@@ -404,9 +434,12 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
     {
       std::array<char, 32> move{};
       std::snprintf(move.data(), move.size(), "%.2g", points.LargestMove);
-      add("double precision of the points (coordinates change by up to " +
-        std::string(move.data()) +
-        (points.Fallen > 0 ? ", " + Counted(points.Fallen, "point") + " fall on others)" : ")"));
+      std::string change = "coordinates change by up to " + std::string(move.data());
+      if (points.Fallen > 0)
+      {
+        change += ", " + Counted(points.Fallen, "point") + " fall on others";
+      }
+      add("double precision of the points (" + change + ")");
     }
   }
   HeldArrays held; // nothing, by a .stl
@@ -421,7 +454,7 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
   add(LostArrays("point data", mesh->GetPointData(), held.OfPoints));
   add(LostArrays("cell data", mesh->GetCellData(), held.OfCells));
   add(LostArrays("field data", mesh->GetFieldData(), held.OfField));
-  return list;
+  return JoinWords(losses);
 }
 
 }

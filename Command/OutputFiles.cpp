@@ -56,7 +56,8 @@ void CopyOwner(const std::string& from, const std::string& to)
     errno = 0; // both stay the caller's
   }
   // Set-user-ID and similar bits were meant for the original owner.
-  chmod(to.c_str(), status.st_mode & (isOwned ? 07777 : 0777));
+  const mode_t bits = isOwned ? 07777 : 0777;
+  chmod(to.c_str(), status.st_mode & bits);
 }
 
 }
@@ -152,10 +153,11 @@ PendingFile::~PendingFile()
   {
     std::rename(this->Backup.c_str(), this->Resolved.c_str());
   }
-  for (const std::string& name :
-    { this->Temporary, this->Backup, this->IsNew ? this->Resolved.string() : "" })
+  unlink(this->Temporary.c_str());
+  unlink(this->Backup.c_str());
+  if (this->IsNew)
   {
-    unlink(name.c_str());
+    unlink(this->Resolved.c_str());
   }
 }
 
@@ -168,17 +170,24 @@ void PendingFile::Write(const std::string& text) const
   const std::string& path = this->Temporary.empty() ? this->Target : this->Temporary;
   const int file = this->OpenFile >= 0 ? dup(this->OpenFile) : open(path.c_str(), O_WRONLY);
   std::size_t done = 0;
-  ssize_t size = file < 0 ? -1 : 1;
-  while (size > 0 && done < text.size())
+  while (file >= 0 && done < text.size())
   {
-    size = write(file, text.data() + done, text.size() - done);
-    done += size > 0 ? static_cast<std::size_t>(size) : 0;
+    const ssize_t size = write(file, text.data() + done, text.size() - done);
+    if (size <= 0)
+    {
+      break;
+    }
+    done += static_cast<std::size_t>(size);
   }
   const int problem = errno;
   if (file < 0 || close(file) != 0 || done < text.size())
   {
-    this->Fail(std::strerror(problem) +
-      (this->Temporary.empty() ? std::string() : ExplainFailedWrite(path)));
+    std::string reason = std::strerror(problem);
+    if (!this->Temporary.empty())
+    {
+      reason += ExplainFailedWrite(path);
+    }
+    this->Fail(reason);
   }
 }
 

@@ -34,7 +34,8 @@ int Guarded(const Function& work, const Description& describe)
   }
   catch (const std::exception& error)
   {
-    PrintError(describe() + (IsLackOfMemory(error) ? "not enough memory" : error.what()));
+    const char* const problem = IsLackOfMemory(error) ? "not enough memory" : error.what();
+    PrintError(describe() + problem);
   }
   return static_cast<int>(ExitCode::BadFile);
 }
@@ -42,21 +43,33 @@ int Guarded(const Function& work, const Description& describe)
 /// The file that was in use and what was being done to it, as the beginning of a message.
 std::string DescribeWork(const Arguments& arguments, Phase phase)
 {
-  const char* const flip = arguments.FromPoints ? "triangulated: " : "flipped: ";
-  return phase == Phase::Reading ? arguments.Input + ": cannot be read: "
-    : phase == Phase::Flipping   ? arguments.Input + ": cannot be " + flip
-                                 : arguments.Output + ": cannot be written: ";
+  if (phase == Phase::Reading)
+  {
+    return arguments.Input + ": cannot be read: ";
+  }
+  if (phase == Phase::Flipping)
+  {
+    const char* const flip = arguments.FromPoints ? "triangulated: " : "flipped: ";
+    return arguments.Input + ": cannot be " + flip;
+  }
+  return arguments.Output + ": cannot be written: ";
 }
 
 /// Says what the child was doing when a signal killed it, and what may have caused that.
 std::string ExplainDeath(
   const Arguments& arguments, const OutputFiles& files, const ChildOutcome& outcome)
 {
-  const Phase phase = outcome.LastPhase;
-  return DescribeWork(arguments, phase) + "it crashed (" + strsignal(outcome.KilledBy) + ")" +
-    (phase == Phase::Reading       ? "; the file is probably truncated or corrupt"
-        : phase == Phase::Flipping ? "; was there enough memory? Nothing was written"
-                                   : ExplainFailedWrite(files.Mesh.GetTemporary()));
+  const std::string crash =
+    DescribeWork(arguments, outcome.LastPhase) + "it crashed (" + strsignal(outcome.KilledBy) + ")";
+  switch (outcome.LastPhase)
+  {
+    case Phase::Reading:
+      return crash + "; the file is probably truncated or corrupt";
+    case Phase::Flipping:
+      return crash + "; was there enough memory? Nothing was written";
+    default:
+      return crash + ExplainFailedWrite(files.Mesh.GetTemporary());
+  }
 }
 
 int Finish(const Arguments& arguments, OutputFiles& files, const ChildOutcome& outcome)

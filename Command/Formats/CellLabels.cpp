@@ -95,8 +95,11 @@ StoredLabels::StoredLabels(vtkPolyData* mesh, const std::string& array)
   }
   const double* const range = numbers->GetRange(0);
   const bool fits = range[0] >= 0.0 && range[1] < static_cast<double>(texts->GetNumberOfValues());
-  this->Numbers = fits ? numbers : nullptr;
-  this->Texts = fits ? texts : nullptr;
+  if (fits)
+  {
+    this->Numbers = numbers;
+    this->Texts = texts;
+  }
 }
 
 }

@@ -67,15 +67,21 @@ void InputFile::CopyPipe()
   std::FILE* const copy = std::tmpfile();
   std::vector<char> buffer(1 << 20);
   std::size_t total = 0;
-  ssize_t size = copy ? 1 : -1;
+  if (!copy)
+  {
+    this->FailToRead();
+  }
+  ssize_t size = 1;
   while (size > 0 && total <= most)
   {
     size = read(this->Descriptor, buffer.data(), buffer.size());
-    const auto bytes = static_cast<std::size_t>(std::max<ssize_t>(size, 0));
-    total += bytes;
-    size = write(fileno(copy), buffer.data(), bytes) == size ? size : -1;
+    if (size < 0 || write(fileno(copy), buffer.data(), static_cast<std::size_t>(size)) != size)
+    {
+      this->FailToRead();
+    }
+    total += static_cast<std::size_t>(size);
   }
-  if (size < 0 || dup2(fileno(copy), this->Descriptor) < 0)
+  if (dup2(fileno(copy), this->Descriptor) < 0)
   {
     this->FailToRead();
   }
@@ -124,7 +130,11 @@ std::string_view Trimmed(std::string_view word)
     word.remove_suffix(1);
   }
   const bool isQuoted = word.size() > 1 && word.front() == '"' && word.back() == '"';
-  return isQuoted ? word.substr(1, word.size() - 2) : word;
+  if (isQuoted)
+  {
+    word = word.substr(1, word.size() - 2);
+  }
+  return word;
 }
 
 }
@@ -139,7 +149,10 @@ TextLines::TextLines(const InputFile& file, bool isObj)
     file.Fail("is text in UTF-16; save it as UTF-8");
   }
   const std::string_view mark = "\xEF\xBB\xBF";
-  this->Rest.remove_prefix(this->Rest.substr(0, mark.size()) == mark ? mark.size() : 0);
+  if (this->Rest.substr(0, mark.size()) == mark)
+  {
+    this->Rest.remove_prefix(mark.size());
+  }
 }
 
 bool TextLines::Next()
@@ -159,7 +172,10 @@ bool TextLines::Next()
       line = line.substr(0, line.find('#'));
       const std::size_t last = line.find_last_not_of(" \t\v\f");
       isContinued = last != line.npos && line[last] == '\\';
-      line = isContinued ? line.substr(0, last) : line;
+      if (isContinued)
+      {
+        line = line.substr(0, last);
+      }
     }
     this->Split(line);
   }

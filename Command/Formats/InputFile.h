@@ -22,9 +22,12 @@ namespace delaunayflip
 template <typename T>
 std::errc ReadNumber(std::string_view word, T& value)
 {
-  const bool hasPlus = word.substr(0, 1) == "+" && word.substr(0, 2) != "+-";
+  if (word.substr(0, 1) == "+" && word.substr(0, 2) != "+-")
+  {
+    word.remove_prefix(1);
+  }
   const char* const end = word.data() + word.size();
-  const auto [last, error] = std::from_chars(word.data() + (hasPlus ? 1 : 0), end, value);
+  const auto [last, error] = std::from_chars(word.data(), end, value);
   return last == end ? error : std::errc::invalid_argument;
 }
 

@@ -42,6 +42,9 @@ constexpr const char* Elements[] = { "vertex (v)", "texture coordinate (vt)", "n
 constexpr const char* LabelKeywords[] = { "usemtl", "g", "o" };
 constexpr const char* LabelArrays[] = { "Material", "Group", "Object" };
 
+/// The lines of cells, in the order of the fewest points: one, two and three.
+constexpr std::string_view CellKeywords = "plf";
+
 /// The place of a word among the keywords; 3 for others.
 std::size_t FindKind(std::string_view word)
 {
@@ -106,14 +109,14 @@ public:
         result.Warnings.push_back(missing);
       }
     }
-    std::string list;
+    std::vector<std::string> losses;
     for (const auto& [what, count] : this->LeftOut)
     {
-      list += (list.empty() ? "left out " : ", ") + what + " (" + std::to_string(count) + ")";
+      losses.push_back(what + " (" + std::to_string(count) + ")");
     }
-    if (!list.empty())
+    if (!losses.empty())
     {
-      result.Warnings.push_back(list);
+      result.Warnings.push_back("left out " + JoinWords(losses));
     }
     return result;
   }
@@ -126,15 +129,18 @@ private:
     {
       this->ReadVector(kind);
     }
-    else if (keyword == "p" || keyword == "l" || keyword == "f")
+    else if (const std::size_t cell = CellKeywords.find(keyword);
+             keyword.size() == 1 && cell != CellKeywords.npos)
     {
-      this->ReadCell(keyword == "p" ? 1 : keyword == "l" ? 2 : 3);
+      this->ReadCell(cell + 1);
     }
     else if (const auto* const label =
                std::find(std::begin(LabelKeywords), std::end(LabelKeywords), keyword);
              label != std::end(LabelKeywords))
     {
-      this->Labels[label - LabelKeywords].Set(this->JoinWords());
+      const auto& words = this->Lines.Words;
+      this->Labels[label - LabelKeywords].Set(
+        JoinWords(std::vector<std::string_view>(words.begin() + 1, words.end()), " "));
     }
     else if (std::all_of(keyword.begin(), keyword.end(),
                [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; }))
@@ -145,17 +151,6 @@ private:
     {
       this->Lines.Fail("not a line of an OBJ file");
     }
-  }
-
-  /// The words of a line after its keyword.
-  std::string JoinWords() const
-  {
-    std::string text;
-    for (std::size_t i = 1; i < this->Lines.Words.size(); ++i)
-    {
-      text += (i > 1 ? " " : "") + std::string(this->Lines.Words[i]);
-    }
-    return text;
   }
 
   /// A vertex may have a weight after its coordinates, and then a color. The second texture
@@ -172,7 +167,11 @@ private:
     for (std::size_t i = 0; i < std::max(count, components); ++i)
     {
       const bool isMissing = kind == 1 && i > 0 && i >= count;
-      const double value = isMissing ? 0.0 : this->Lines.Number<double>(i + 1);
+      double value = 0.0;
+      if (!isMissing)
+      {
+        value = this->Lines.Number<double>(i + 1);
+      }
       if (i < components)
       {
         this->Values[kind].push_back(value);
@@ -287,11 +286,16 @@ private:
         isKnown[corner[0]] = true;
       }
     }
-    if (!values.empty() && !agree)
+    if (values.empty())
     {
-      this->LeftOut[kind == 1 ? "vt" : "vn"] = this->Sizes[kind];
+      return nullptr;
     }
-    return values.empty() || !agree ? nullptr : MakeVectors(name, ofPoints, size);
+    if (!agree)
+    {
+      this->LeftOut[Keywords[kind]] = this->Sizes[kind];
+      return nullptr;
+    }
+    return MakeVectors(name, ofPoints, size);
   }
 
   TextLines Lines;
@@ -313,14 +317,18 @@ std::array<vtkDataArray*, 3> FindArrays(vtkPolyData* mesh)
   vtkPointData* const data = mesh->GetPointData();
   const auto fit = [mesh](vtkDataArray* array, int fewest)
   {
-    const int components = array ? array->GetNumberOfComponents() : 0;
-    const bool fits = components >= fewest && components <= 3;
-    return fits && array->GetNumberOfTuples() >= mesh->GetNumberOfPoints() ? array : nullptr;
+    const bool fits = array && array->GetNumberOfComponents() >= fewest &&
+      array->GetNumberOfComponents() <= 3 &&
+      array->GetNumberOfTuples() >= mesh->GetNumberOfPoints();
+    return fits ? array : nullptr;
   };
   vtkDataArray* colors = fit(data->GetArray("Colors"), 3);
   for (vtkDataArray* array : { data->GetArray("RGB"), data->GetScalars() })
   {
-    colors = fit(array, 3) && array->GetDataType() == VTK_UNSIGNED_CHAR ? array : colors;
+    if (fit(array, 3) && array->GetDataType() == VTK_UNSIGNED_CHAR)
+    {
+      colors = array;
+    }
   }
   return { colors, fit(data->GetTCoords(), 1), fit(data->GetNormals(), 3) };
 }
@@ -362,7 +370,12 @@ private:
     const auto isSpecial = [](unsigned char letter)
     { return std::iscntrl(letter) || letter == '#' || letter == '\\'; };
     std::replace_if(text.begin(), text.end(), isSpecial, '_');
-    this->Out << LabelKeywords[kind] << (text.empty() ? "" : " ") << text << '\n';
+    this->Out << LabelKeywords[kind];
+    if (!text.empty())
+    {
+      this->Out << ' ' << text;
+    }
+    this->Out << '\n';
   }
 
   std::ostream& Out;
@@ -417,14 +430,16 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
   }
   LabelWriter labels(mesh, out);
   vtkIdType cell = 0;
-  for (vtkCellArray* cells : { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys() })
+  for (const auto& [letter, cells] : { std::pair('p', mesh->GetVerts()),
+         std::pair('l', mesh->GetLines()), std::pair('f', mesh->GetPolys()) })
   {
-    const bool isPolygons = cells == mesh->GetPolys();
+    const char keyword = letter;
+    const bool isPolygons = letter == 'f';
     ForEachCell(cells,
       [&](vtkIdType size, const vtkIdType* points)
       {
         labels.Begin(cell++);
-        out << (isPolygons ? 'f' : cells == mesh->GetLines() ? 'l' : 'p');
+        out << keyword;
         for (vtkIdType i = 0; i < size; ++i)
         {
           PutNumber(out, points[i] + 1, ' ');
@@ -434,7 +449,10 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
           }
           if (isPolygons && normals)
           {
-            out << (texture ? "" : "/");
+            if (!texture)
+            {
+              out << '/';
+            }
             PutNumber(out, points[i] + 1, '/');
           }
         }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DataArrays.h"
 #include "Formats.h"
 
 #include <vtkCellData.h>
@@ -166,8 +167,12 @@ private:
       else if (keyword == "property" && !this->Elements.empty())
       {
         std::vector<PlyProperty>& properties = this->Elements.back().Properties;
-        PlyProperty property{ this->Word(isList ? 4 : 2), this->TypeAt(isList ? 3 : 1) };
-        property.CountType = isList ? this->TypeAt(2) : VTK_VOID;
+        const std::size_t type = isList ? 3 : 1;
+        PlyProperty property{ this->Word(type + 1), this->TypeAt(type) };
+        if (isList)
+        {
+          property.CountType = this->TypeAt(2);
+        }
         isRight = IsInteger(property.CountType) && !Find(properties, property.Name);
         properties.push_back(property);
       }
@@ -187,7 +192,11 @@ private:
 
   std::string Word(std::size_t place) const
   {
-    return std::string(place < this->Lines.Words.size() ? this->Lines.Words[place] : "");
+    if (place >= this->Lines.Words.size())
+    {
+      return "";
+    }
+    return std::string(this->Lines.Words[place]);
   }
 
   int TypeAt(std::size_t place) const
@@ -201,6 +210,31 @@ private:
     return found->second;
   }
 
+  /// Whether a property has the points of a face, or one of an edge.
+  static bool IsOfCell(const PlyElement& element, const PlyProperty& property)
+  {
+    const std::string& name = property.Name;
+    const bool isList = property.CountType != VTK_VOID;
+    const bool areCorners =
+      element.Name == "face" && isList && (name == "vertex_indices" || name == "vertex_index");
+    const bool isEnd =
+      element.Name == "edge" && !isList && (name == "vertex1" || name == "vertex2");
+    return IsInteger(property.Type) && (areCorners || isEnd);
+  }
+
+  /// @param found how many properties of the element are of cells.
+  void RequireCells(const PlyElement& element, int found) const
+  {
+    if (element.Name == "face" && found != 1)
+    {
+      this->File.Fail("its element face needs one list of vertex_indices");
+    }
+    if (element.Name == "edge" && found != 2)
+    {
+      this->File.Fail("its element edge needs vertex1 and vertex2");
+    }
+  }
+
   void ReadElement(PlyElement& element)
   {
     const bool isVertex = element.Name == "vertex";
@@ -209,15 +243,16 @@ private:
     vtkPolyData* const mesh = this->Result.Mesh;
     vtkPointData* const data = mesh->GetPointData();
     int found = 0; // properties that are of a cell
-    std::string others;
+    std::vector<std::string> others;
     for (PlyProperty& property : element.Properties)
     {
       const std::string& name = property.Name;
       const bool isList = property.CountType != VTK_VOID;
-      property.IsOfCell = IsInteger(property.Type) &&
-        (isList ? isFace && (name == "vertex_indices" || name == "vertex_index")
-                : isEdge && (name == "vertex1" || name == "vertex2"));
-      found += property.IsOfCell ? 1 : 0;
+      property.IsOfCell = IsOfCell(element, property);
+      if (property.IsOfCell)
+      {
+        ++found;
+      }
       const bool isLabel = isFace && IsInteger(property.Type);
       if ((isVertex || isLabel) && !isList)
       {
@@ -237,14 +272,10 @@ private:
       }
       else if (!property.IsOfCell)
       {
-        others += (others.empty() ? "" : ", ") + name;
+        others.push_back(name);
       }
     }
-    if (found != (isFace ? 1 : isEdge ? 2 : 0))
-    {
-      this->File.Fail("its element " + element.Name + " needs " +
-        (isFace ? "one list of vertex_indices" : "vertex1 and vertex2"));
-    }
+    this->RequireCells(element, found);
     const vtkNew<vtkCellArray> cells;
     for (std::uint64_t row = 0; row < element.Count && !element.Properties.empty(); ++row)
     {
@@ -266,13 +297,18 @@ private:
         data->RemoveArray(Coordinates.Array.c_str());
       }
     }
-    else if (found > 0)
+    else if (isFace)
     {
-      (isFace ? mesh->SetPolys(cells) : mesh->SetLines(cells));
+      mesh->SetPolys(cells);
+    }
+    else if (isEdge)
+    {
+      mesh->SetLines(cells);
     }
     if (!others.empty())
     {
-      this->Result.Warnings.push_back("left out " + others + " of the element " + element.Name);
+      this->Result.Warnings.push_back(
+        "left out " + JoinWords(others) + " of the element " + element.Name);
     }
   }
 
@@ -311,7 +347,11 @@ private:
     }
     for (const PlyProperty& property : element.Properties)
     {
-      const double length = property.CountType != VTK_VOID ? this->Next(property.CountType) : 1.0;
+      double length = 1.0;
+      if (property.CountType != VTK_VOID)
+      {
+        length = this->Next(property.CountType);
+      }
       for (double i = 0.0; i != length; ++i) // the file ends before a wrong length is reached
       {
         const double value = this->Next(property.Type);
@@ -361,7 +401,10 @@ private:
       this->File.Fail("ends before its last value (truncated or corrupt)");
     }
     this->Lines.Rest.remove_prefix(sizeof(T));
-    std::reverse(bytes, this->IsSwapped ? bytes + sizeof(T) : bytes);
+    if (this->IsSwapped)
+    {
+      std::reverse(bytes, bytes + sizeof(T));
+    }
     return value;
   }
 
@@ -396,7 +439,11 @@ int TypeFor(vtkDataArray* array)
 /// The names by which other programs know an array, else its own, as one word.
 Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
 {
-  std::string name = array->GetName() && *array->GetName() ? array->GetName() : "values";
+  std::string name = GetName(array);
+  if (name.empty())
+  {
+    name = "values";
+  }
   const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
   for (const PlyGroup& group : Groups)
   {
@@ -432,13 +479,16 @@ std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh)
   {
     vtkDataArray* const array = data->GetArray(index);
     const bool isWhole = array && array->GetNumberOfTuples() >= mesh->GetNumberOfPoints();
-    const int type = isWhole ? TypeFor(array) : VTK_VOID;
-    const Names names = type == VTK_VOID ? Names() : PropertyNames(data, array);
+    if (!isWhole || TypeFor(array) == VTK_VOID)
+    {
+      continue;
+    }
+    const Names names = PropertyNames(data, array);
     const bool isTaken = std::any_of(names.begin(), names.end(),
       [&columns](const std::string& name) { return Find(columns, name); });
     for (std::size_t component = 0; component < names.size() && !isTaken; ++component)
     {
-      columns.push_back({ names[component], type, array, static_cast<int>(component) });
+      columns.push_back({ names[component], TypeFor(array), array, static_cast<int>(component) });
     }
   }
   return columns;
@@ -462,14 +512,18 @@ std::vector<PlyProperty> PlanFaceColumns(vtkPolyData* mesh)
     {
       const double* const range = array->GetRange(0);
       const bool fits = range[0] >= VTK_INT_MIN && range[1] <= VTK_INT_MAX;
-      type = fits ? VTK_INT : VTK_VOID;
+      if (!fits)
+      {
+        continue;
+      }
+      type = VTK_INT;
     }
     const Names names = PropertyNames(data, array);
     const bool isTaken = std::any_of(names.begin(), names.end(),
       [&columns](const std::string& name)
       { return Find(columns, name) || name == "vertex_indices" || name == "vertex_index"; });
     const bool isOne = names.size() == 1 || names[0] == "red";
-    for (std::size_t i = 0; i < names.size() && !isTaken && isOne && type != VTK_VOID; ++i)
+    for (std::size_t i = 0; i < names.size() && !isTaken && isOne; ++i)
     {
       columns.push_back({ names[i], type, array, static_cast<int>(i) });
     }
@@ -546,8 +600,14 @@ void WritePly(vtkPolyData* mesh, const std::string& path)
   ForEachCell(mesh->GetPolys(),
     [&](vtkIdType count, const vtkIdType* points)
     {
-      isShort ? WriteNumber(out, static_cast<std::uint8_t>(count))
-              : WriteNumber(out, static_cast<std::int32_t>(count));
+      if (isShort)
+      {
+        WriteNumber(out, static_cast<std::uint8_t>(count));
+      }
+      else
+      {
+        WriteNumber(out, static_cast<std::int32_t>(count));
+      }
       std::for_each(points, points + count,
         [&out](vtkIdType point) { WriteNumber(out, static_cast<std::int32_t>(point)); });
       WriteRow(out, ofFaces, cell++);

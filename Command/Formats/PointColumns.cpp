@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointColumns.h"
 
+#include "CommandError.h"
 #include "InputFile.h"
 
 #include <algorithm>
@@ -57,7 +58,10 @@ std::string Simplified(std::string_view name)
   {
     const std::string unit = lower.substr(last + 1);
     const bool isUnit = unit == "m" || unit == "ft" || unit == "km" || unit == "deg";
-    lower.resize(isUnit ? last : lower.size());
+    if (isUnit)
+    {
+      lower.resize(last);
+    }
   }
   const auto isOther = [](unsigned char letter) { return !std::isalnum(letter); };
   lower.erase(std::remove_if(lower.begin(), lower.end(), isOther), lower.end());
@@ -89,8 +93,8 @@ std::size_t ColumnNumber(std::string_view word)
 
 ChosenColumns::ChosenColumns(const std::string& list)
 {
-  std::istringstream words(list + (list.empty() ? "" : ","));
-  for (std::string word; std::getline(words, word, ',');)
+  std::istringstream words(list + ","); // else nothing would follow a comma at the end
+  for (std::string word; !list.empty() && std::getline(words, word, ',');)
   {
     const std::size_t begin = std::min(word.find_first_not_of(' '), word.size());
     this->Columns.push_back(word.substr(begin, word.find_last_not_of(' ') + 1 - begin));
@@ -134,7 +138,14 @@ Places ChosenColumns::Find(const Words& names) const
       return {};
     }
     areAllNames = areAllNames && isName;
-    places.push_back(isName ? static_cast<std::size_t>(found - names.begin()) : number - 1);
+    if (isName)
+    {
+      places.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    else
+    {
+      places.push_back(number - 1);
+    }
   }
   if (this->AreNumbers() && !areAllNames)
   {
@@ -155,8 +166,11 @@ Places FindKnownColumns(const Words& names)
     const std::size_t y = FindOneOf(family.Y, simple);
     if (x < none && y < none)
     {
-      const std::size_t own = FindOneOf(family.Z, simple);
-      const std::size_t z = own < none ? own : FindOneOf(Heights, simple);
+      std::size_t z = FindOneOf(family.Z, simple);
+      if (z == none)
+      {
+        z = FindOneOf(Heights, simple);
+      }
       return z < none ? Places{ x, y, z } : Places{ x, y };
     }
   }
@@ -166,11 +180,12 @@ Places FindKnownColumns(const Words& names)
 std::string Quoted(const Words& names)
 {
   constexpr std::size_t most = 10;
-  std::string text;
+  std::vector<std::string> quoted;
   for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
   {
-    text += (i == 0 ? "'" : ", '") + std::string(names[i]) + "'";
+    quoted.push_back("'" + std::string(names[i]) + "'");
   }
+  const std::string text = JoinWords(quoted);
   return names.size() > most ? text + " and others" : text;
 }
 

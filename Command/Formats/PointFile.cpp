@@ -23,10 +23,10 @@ namespace
 /// The first lines of a file of points.
 struct PointHeader
 {
-  Words Names; ///< Of the columns; empty if the file names none.
+  Words Names; ///< Names of the columns; empty if the file names none.
   bool IsComment = false; ///< Whether a comment names them.
-  char Separator = ' '; ///< Of the names.
-  std::string Separators = ";,"; ///< Of the lines after it: the first that a line has.
+  char Separator = ' '; ///< What separates the names.
+  std::string Separators = ";,"; ///< A line of points is split at the first that it has.
 };
 
 bool IsNumber(std::string_view word)
@@ -104,7 +104,10 @@ Words WordsOfComment(const TextLines& lines)
   found.erase(found.begin(), std::find_if_not(found.begin(), found.end(), isEmpty));
   found[0].remove_prefix(found[0][0] == '#' ? 1 : 2);
   found[0].remove_prefix(std::min(found[0].find_first_not_of(' '), found[0].size()));
-  found.erase(found.begin(), found.begin() + (found[0].empty() ? 1 : 0));
+  if (found[0].empty())
+  {
+    found.erase(found.begin());
+  }
   return found;
 }
 
@@ -141,8 +144,7 @@ bool IsLineOfNames(const TextLines& lines, const ChosenColumns& chosen)
   }
   if (!chosen.IsEmpty())
   {
-    const Places places = chosen.Find(words);
-    return chosen.AreNumbers() ? !AreValues(words, chosen.Find({})) : !places.empty();
+    return chosen.AreNumbers() ? !AreValues(words, chosen.Find({})) : !chosen.Find(words).empty();
   }
   const Places places = FindKnownColumns(words);
   TextLines next = lines;
@@ -157,9 +159,8 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
   bool isFirst = true;
   while (lines.Next())
   {
-    const char named = isFirst ? NamedSeparator(lines) : '\0';
-    isFirst = false;
-    if (named != '\0')
+    const char named = NamedSeparator(lines);
+    if (std::exchange(isFirst, false) && named != '\0')
     {
       header.Separators = named;
       continue;
@@ -183,8 +184,10 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
       hasNames = true;
       header.Names = lines.Words;
       header.IsComment = false;
-      const std::string own = lines.Separator == ' ' ? "" : std::string(1, lines.Separator);
-      header.Separators = own + header.Separators;
+      if (lines.Separator != ' ')
+      {
+        header.Separators.insert(0, 1, lines.Separator);
+      }
       continue;
     }
     SplitValues(lines, header.Separators);
@@ -259,8 +262,9 @@ private:
       const auto last = std::max_element(this->Columns.begin(), this->Columns.end());
       if (this->Columns.empty() || *last >= this->Count)
       {
+        const std::string unnamed = std::to_string(this->Count) + " without names";
         this->Lines.FailFile("--columns names another column than there are: " +
-          (names.empty() ? std::to_string(this->Count) + " without names" : Quoted(names)));
+          (names.empty() ? unnamed : Quoted(names)));
       }
     }
     else if (!names.empty())
@@ -301,7 +305,11 @@ private:
     Words taken, others;
     for (const std::size_t column : this->Columns)
     {
-      taken.push_back(column < names.size() ? names[column] : std::string_view());
+      taken.emplace_back();
+      if (column < names.size())
+      {
+        taken.back() = names[column];
+      }
     }
     for (std::size_t i = 0; i < names.size(); ++i)
     {
@@ -314,21 +322,28 @@ private:
       taken.begin(), taken.end(), [](std::string_view name) { return name.size() == 1; });
     if (!names.empty() && !this->HasChoice && !isPlain)
     {
-      this->Notes.push_back(
-        "took " + Quoted(taken) + " as x, y" + (this->Columns.size() == 3 ? ", z" : ""));
+      const char* const axes = this->Columns.size() == 3 ? "x, y, z" : "x, y";
+      this->Notes.push_back("took " + Quoted(taken) + " as " + axes);
     }
     const bool lacksHeight = this->Columns.size() == 2 && !this->HasChoice;
-    if (!others.empty())
+    this->TellsOthers = others.empty() && names.empty() && this->Count > this->Columns.size();
+    if (!others.empty() && lacksHeight)
     {
-      this->Warnings.push_back("left out the columns " + Quoted(others) +
-        (lacksHeight ? "; no name is known as that of z, so z is 0" : ""));
+      this->Warnings.push_back(
+        "left out the columns " + Quoted(others) + "; no name is known as that of z, so z is 0");
     }
-    else if (names.empty() && this->Count > this->Columns.size())
+    else if (!others.empty())
     {
-      this->TellsOthers = true;
-      this->Warnings.push_back(this->HasChoice
-          ? "left out all columns but those of --columns"
-          : "left out the columns from number " + std::to_string(this->Columns.size() + 1) + " on");
+      this->Warnings.push_back("left out the columns " + Quoted(others));
+    }
+    else if (this->TellsOthers && this->HasChoice)
+    {
+      this->Warnings.emplace_back("left out all columns but those of --columns");
+    }
+    else if (this->TellsOthers)
+    {
+      this->Warnings.push_back(
+        "left out the columns from number " + std::to_string(this->Columns.size() + 1) + " on");
     }
   }
 
@@ -348,7 +363,11 @@ private:
     const auto text = std::find_if_not(words.begin(), words.end(), IsNumber);
     const auto last = std::find_if(words.rbegin(), words.rend(), IsNumber);
     const bool hasNames = !this->Header.Names.empty() || this->HasChoice;
-    return static_cast<std::size_t>(hasNames ? words.rend() - last : text - words.begin());
+    if (hasNames)
+    {
+      return static_cast<std::size_t>(words.rend() - last);
+    }
+    return static_cast<std::size_t>(text - words.begin());
   }
 
   void ReadLines()
@@ -401,17 +420,29 @@ private:
       this->HasIntegers && !first.empty() && first.find_first_not_of("0123456789") == first.npos;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      this->Coordinates->InsertNextValue(
-        i < this->Columns.size() ? this->ReadCoordinate(this->Columns[i], i) : 0.0);
+      double coordinate = 0.0;
+      if (i < this->Columns.size())
+      {
+        coordinate = this->ReadCoordinate(this->Columns[i], i);
+      }
+      this->Coordinates->InsertNextValue(coordinate);
     }
   }
 
   double ReadCoordinate(std::size_t column, std::size_t axis)
   {
     Words& words = this->Lines.Words;
-    const std::string_view word = column < words.size() ? words[column] : std::string_view();
+    std::string_view word;
+    if (column < words.size())
+    {
+      word = words[column];
+    }
     const bool hasPoint = word.find('.') != word.npos;
-    const std::string text = word.find(',') == word.npos ? "" : WithPoint(word);
+    std::string text;
+    if (word.find(',') != word.npos)
+    {
+      text = WithPoint(word);
+    }
     const bool hasComma = !text.empty();
     this->HasPoints = this->HasPoints || hasPoint;
     this->HasCommas = this->HasCommas || hasComma;
@@ -455,11 +486,14 @@ private:
     const bool haveFractions = this->HasFractions[1] && this->HasFractions[2];
     if (counts || (hasMore && areDifferent && haveFractions))
     {
-      this->Lines.FailFile(
-        std::string("its first column looks like numbers of points, not like x, "
-                    "and no line names the columns; say which are x, y and z: ") +
-        (hasMore ? "--columns 2,3,4, or 3,2,4 where northing comes before easting, or 1,2,3"
-                 : "--columns 2,3 or 1,2,3"));
+      std::string remedy = "--columns 2,3 or 1,2,3";
+      if (hasMore)
+      {
+        remedy = "--columns 2,3,4, or 3,2,4 where northing comes before easting, or 1,2,3";
+      }
+      this->Lines.FailFile("its first column looks like numbers of points, not like x, and no line "
+                           "names the columns; say which are x, y and z: " +
+        remedy);
     }
   }
 
@@ -467,7 +501,7 @@ private:
   PointHeader Header;
   const bool HasChoice; ///< Whether the user chose the columns.
   Places Columns;
-  std::size_t Count = 0; ///< Of the columns of the first point.
+  std::size_t Count = 0; ///< How many columns the first point has.
   std::size_t Numbers = 0; ///< How many numbers the first point begins with.
   bool TellsOthers = false; ///< Whether a warning tells of the columns at the end.
   bool HasIntegers = true; ///< Whether the first column has only integers without a sign.

@@ -88,16 +88,6 @@ std::string KeywordOf(const std::vector<std::string_view>& words)
   return keyword;
 }
 
-std::string NameOfSolid(const std::vector<std::string_view>& words)
-{
-  std::string name;
-  for (std::size_t i = 1; i < words.size(); ++i)
-  {
-    name += (i > 1 ? " " : "") + std::string(words[i]);
-  }
-  return name;
-}
-
 /// Where there are several solids, they become labels.
 void ReadText(const InputFile& file, CornerMesh& mesh, FileMesh& result)
 {
@@ -117,7 +107,9 @@ void ReadText(const InputFile& file, CornerMesh& mesh, FileMesh& result)
       if (isOpen)
       {
         ++solids;
-        labels.SetNew(NameOfSolid(lines.Words));
+        const auto& words = lines.Words;
+        labels.SetNew(
+          JoinWords(std::vector<std::string_view>(words.begin() + 1, words.end()), " "));
       }
       continue;
     }
@@ -165,7 +157,14 @@ FileMesh ReadStl(const InputFile& file)
   }
   CornerMesh mesh(isBinary ? VTK_FLOAT : VTK_DOUBLE);
   FileMesh result;
-  isBinary ? ReadBinary(bytes, mesh, result) : ReadText(file, mesh, result);
+  if (isBinary)
+  {
+    ReadBinary(bytes, mesh, result);
+  }
+  else
+  {
+    ReadText(file, mesh, result);
+  }
   result.Mesh->SetPoints(mesh.Points);
   result.Mesh->SetPolys(mesh.Triangles);
   return result;

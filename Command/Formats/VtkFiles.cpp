@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Console.h"
+#include "DataArrays.h"
 #include "Formats.h"
 
 #include <vtkCellData.h>
@@ -51,9 +52,13 @@ namespace
 [[noreturn]] void FailOnType(const InputFile& file, const std::string& type)
 {
   const bool isImage = type == "STRUCTURED_POINTS" || type == "ImageData";
-  file.Fail("holds " + type.substr(0, 40) + ", not a surface mesh (PolyData); ParaView's " +
-    (isImage ? "Warp By Scalar makes terrain of an image of heights, and " : "") +
-    "Extract Surface (vtkDataSetSurfaceFilter) extracts one");
+  std::string remedy = "Extract Surface (vtkDataSetSurfaceFilter) extracts one";
+  if (isImage)
+  {
+    remedy = "Warp By Scalar makes terrain of an image of heights, and " + remedy;
+  }
+  file.Fail(
+    "holds " + type.substr(0, 40) + ", not a surface mesh (PolyData); ParaView's " + remedy);
 }
 
 /// Discards what is written to stderr while the result lives: the output of a crashing reader helps
@@ -84,9 +89,13 @@ FileMesh Run(Reader* reader, const InputFile& file)
   const std::string problems = TakeVTKProblems();
   FileMesh result;
   result.Mesh = reader->GetOutput();
-  if (!problems.empty() || !result.Mesh)
+  if (!problems.empty())
   {
-    file.Fail("cannot be read: " + (problems.empty() ? "it contains no mesh" : problems));
+    file.Fail("cannot be read: " + problems);
+  }
+  if (!result.Mesh)
+  {
+    file.Fail("cannot be read: it contains no mesh");
   }
   return result;
 }
@@ -150,7 +159,11 @@ std::map<std::string, std::array<vtkIdType, 2>> ReadHeaders(std::string_view byt
     {
       // From version 5 on, the number of offsets, which is one more.
       const bool isLarger = hasOffsets && keyword != "POINTS";
-      headers[keyword][0] += isLarger ? std::max<vtkIdType>(count - 1, 0) : count;
+      if (isLarger)
+      {
+        count = std::max<vtkIdType>(count - 1, 0);
+      }
+      headers[keyword][0] += count;
       headers[keyword][1] += size;
     }
   }
@@ -232,7 +245,10 @@ private:
       if (name.rfind("NumberOf", 0) == 0)
       {
         const vtkIdType count = this->ReadCount(name, element->GetAttributeValue(i));
-        this->Announced[name] += isPiece ? count : 0;
+        if (isPiece)
+        {
+          this->Announced[name] += count;
+        }
       }
     }
   }
@@ -267,10 +283,12 @@ private:
     {
       return false;
     }
-    const int isText = IsText(element) ? 1 : 0;
-    return element->GetScalarAttribute("offset", offset)
-      ? this->XMLParser->ReadAppendedData(offset, values, count - 1, 2, type) > 1
-      : this->XMLParser->ReadInlineData(element, isText, values, count - 1, 2, type) > 1;
+    if (element->GetScalarAttribute("offset", offset))
+    {
+      return this->XMLParser->ReadAppendedData(offset, values, count - 1, 2, type) > 1;
+    }
+    const int isText = static_cast<int>(IsText(element));
+    return this->XMLParser->ReadInlineData(element, isText, values, count - 1, 2, type) > 1;
   }
 };
 
@@ -336,7 +354,7 @@ void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
   for (int index = 0; index < data->GetNumberOfArrays(); ++index)
   {
     vtkAbstractArray* const array = data->GetAbstractArray(index);
-    const std::string name = array->GetName() ? array->GetName() : "";
+    const std::string name = GetName(array);
     const auto require = [&name](bool isTrue, const std::string& fault)
     {
       if (!isTrue)
@@ -454,9 +472,16 @@ FileMesh ReadLegacy(const InputFile& file)
     if (header != headers.end())
     {
       RequireCount(file, section, header->second[0], count.Number);
-      const vtkIdType size = count.Cells ? count.Cells->GetNumberOfConnectivityIds() : 0;
-      RequireCount(file, section + ", all integers", header->second[1],
-        size + (hasOffsets || !count.Cells ? 0 : count.Number));
+      vtkIdType integers = 0;
+      if (count.Cells)
+      {
+        integers = count.Cells->GetNumberOfConnectivityIds();
+      }
+      if (count.Cells && !hasOffsets)
+      {
+        integers += count.Number;
+      }
+      RequireCount(file, section + ", all integers", header->second[1], integers);
     }
   }
   return result;

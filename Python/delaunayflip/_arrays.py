@@ -18,89 +18,89 @@ _FEWEST_EXPECTED = 1 << 16  # bytes of an array that a session is told of
 _CONVERSION_ERRORS = (TypeError, ValueError, OverflowError, RuntimeError, BufferError)
 
 
-# Each class has the functions of a library that the package needs; there are no objects of it.
+class _HostArrays:
+    """Arrays of NumPy."""
 
-
-class _NumPy:
-    def make_empty(like, shape, dtype):
+    def make_empty(self, like, shape, dtype):
         return numpy.empty(shape, dtype)
 
-    def get_stream(array):
+    def get_stream(self, array):
         return None
 
-    def to_host(array):
+    def to_host(self, array):
         return array
 
-    def can_be_written(array):
+    def can_be_written(self, array):
         return array.flags.carray
 
 
-class _OnDevice:
-    @classmethod
-    def take(cls, name, array, types, columns):
+class _DeviceArrays:
+    """Arrays of a library that has them in the memory of a GPU."""
+
+    def take(self, name, array, types, columns):
         """The array, without gaps. Requires one of these types, and so many columns."""
-        array = cls.as_contiguous(array)
+        array = self.as_contiguous(array)
         if type_of(array) not in types:
             raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {type_of(array)}")
         if len(array.shape) != 2 or array.shape[1] not in columns:
             raise _shape_error(name, array, " or ".join(f"(n, {count})" for count in columns))
         return array
 
-    @classmethod
-    def can_be_written(cls, array):
+    def can_be_written(self, array):
         """Whether it is contiguous, too."""
         is_read_only = array.__cuda_array_interface__["data"][1]
-        return not is_read_only and address(cls.as_contiguous(array)) == address(array)
+        return not is_read_only and address(self.as_contiguous(array)) == address(array)
 
 
-class _CuPy(_OnDevice):
-    def as_contiguous(array):
+class _CupyArrays(_DeviceArrays):
+    def as_contiguous(self, array):
         return importlib.import_module("cupy").ascontiguousarray(array)
 
-    def make_empty(like, shape, dtype):
+    def make_empty(self, like, shape, dtype):
         with like.device:
             return importlib.import_module("cupy").empty(shape, dtype)
 
-    def get_stream(array):
+    def get_stream(self, array):
         with array.device:
             return importlib.import_module("cupy").cuda.get_current_stream().ptr
 
-    def to_host(array):
+    def to_host(self, array):
         return array.get()
 
 
-class _Torch(_OnDevice):
-    def as_contiguous(array):
+class _TorchArrays(_DeviceArrays):
+    def as_contiguous(self, array):
         return array.detach().contiguous()
 
-    def make_empty(like, shape, dtype):
+    def make_empty(self, like, shape, dtype):
         torch = importlib.import_module("torch")
         return torch.empty(shape, dtype=getattr(torch, dtype), device=like.device)
 
-    def get_stream(array):
+    def get_stream(self, array):
         return importlib.import_module("torch").cuda.current_stream(array.device).cuda_stream
 
-    def to_host(array):
+    def to_host(self, array):
         return array.detach().cpu().numpy()
 
 
-class _Numba(_OnDevice):
-    def as_contiguous(array):
+class _NumbaArrays(_DeviceArrays):
+    def as_contiguous(self, array):
         if not array.is_c_contiguous():
             raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
         return array
 
-    def make_empty(like, shape, dtype):
+    def make_empty(self, like, shape, dtype):
         return importlib.import_module("numba.cuda").device_array(shape, dtype)
 
-    def get_stream(array):
+    def get_stream(self, array):
         return array.__cuda_array_interface__.get("stream") or 0
 
-    def to_host(array):
+    def to_host(self, array):
         return array.copy_to_host()
 
 
-_ADAPTERS = {"cupy": _CuPy, "torch": _Torch, "numba": _Numba}
+_HOST = _HostArrays()
+_ADAPTERS = {"cupy": _CupyArrays(), "torch": _TorchArrays(), "numba": _NumbaArrays()}
 _VIEWERS = ("cupy", "torch")  # can view arrays of other libraries
 _DLPACK_MEMORIES = (2, 13)  # DLPack's numbers for CUDA's memory, and for managed memory
 
@@ -143,17 +143,17 @@ def _view(name, array, library):
 
 
 def _adapt(array):
-    """The functions for an array, and the array as they take it."""
+    """The adapter for an array, and the array as it takes it."""
     if not _is_on_device(array):
-        return _NumPy, array
+        return _HOST, array
     library = _choose_library(array)
     return _ADAPTERS[library], _view("the array", array, library)
 
 
 def to_host(array):
     """The array, or None, in the host's memory: a copy if it is on a GPU."""
-    functions, array = _adapt(array)
-    return functions.to_host(array)
+    adapter, array = _adapt(array)
+    return adapter.to_host(array)
 
 
 def make_empty(like, shape, dtype):
@@ -163,12 +163,13 @@ def make_empty(like, shape, dtype):
 
 def find_memory(array):
     """Where an array is, and the stream that orders it, for the engine."""
-    functions, array = _adapt(array)
-    return _library.HOST if functions is _NumPy else _library.CUDA, functions.get_stream(array)
+    adapter, array = _adapt(array)
+    memory = _library.HOST if adapter is _HOST else _library.CUDA
+    return memory, adapter.get_stream(array)
 
 
 def address(array):
-    """Of an array of NumPy, or of one on a GPU; 0 if it is empty."""
+    """Where an array of NumPy, or one on a GPU, begins; 0 if it is empty."""
     if isinstance(array, numpy.ndarray):
         return array.ctypes.data if array.size else 0
     return array.__cuda_array_interface__["data"][0]
@@ -218,9 +219,9 @@ def _convert(array, kind):
 def as_plane(points, name="points"):
     """Points of shape (n, 2) or (n, 3), float32 or float64; other numbers become float64. Those on a
     device stay there."""
-    functions, points = _adapt(points)
-    if functions is not _NumPy:
-        return functions.take(name, points, ("float32", "float64"), (3, 2))
+    adapter, points = _adapt(points)
+    if adapter is not _HOST:
+        return adapter.take(name, points, ("float32", "float64"), (3, 2))
     points = as_array(name, points)
     if points.size == 0 and points.ndim < 2:
         points = numpy.empty((0, 3))
@@ -352,8 +353,8 @@ def expect(session, *arrays):
 
 def store(name, session, target, *types):
     """Writes what a function of the engine stores to an array that fits."""
-    functions, target = _adapt(target)
-    way, stream = ("", ()) if functions is _NumPy else ("_on_device", (functions.get_stream(target),))
+    adapter, target = _adapt(target)
+    way, stream = ("", ()) if adapter is _HOST else ("_on_device", (adapter.get_stream(target),))
     _library.call(f"store_{name}{way}", session, address(target), *types, *stream)
 
 
@@ -364,11 +365,11 @@ def store_triangles(session, target, count):
         TypeError: The target is no plain array of NumPy, and not on a GPU.
         ValueError: It is not a contiguous (m, 3) array of int32 or int64 that can be written.
     """
-    functions, target = _adapt(target)
-    if functions is _NumPy and (
+    adapter, target = _adapt(target)
+    if adapter is _HOST and (
             not isinstance(target, numpy.ndarray) or isinstance(target, numpy.ma.MaskedArray)):
         raise TypeError(f"target must be an array of NumPy or on a GPU, not {type(target).__name__}")
-    fits = tuple(target.shape) == (count, 3) and functions.can_be_written(target)
+    fits = tuple(target.shape) == (count, 3) and adapter.can_be_written(target)
     kind = type_of(target) if fits else None
     if kind not in ("int32", "int64"):
         raise ValueError(f"target must be a contiguous ({count}, 3) array of int32 or int64 in native "

@@ -177,7 +177,8 @@ def _split(polygons, points, progress):
 
 
 def _split_strips(strips):
-    """The same, without triangles that name a point twice, as strips do to continue elsewhere."""
+    """Splits strips. Leaves out triangles that name a point twice, by which a strip continues
+    elsewhere."""
     counts = numpy.maximum(strips.sizes - 2, 0)
     steps = _count_up(counts)
     first = numpy.repeat(strips.offsets[:-1], counts) + steps

@@ -515,7 +515,8 @@ TEST(GeometryChoice, TurnedTrianglesAreToldOfAtTheEnd)
   EXPECT_EQ(expected, CountTurnedOver(session.GetReport()));
 }
 
-/// As most programs for pictures and games write it; a dome, a sphere and a tube are no terrain.
+/// Most programs for pictures and games write such heights; a dome, a sphere and a tube are no
+/// terrain.
 TEST(GeometryChoice, NamesTheHeightsOfTerrainWhereTheyAreNotZ)
 {
   const std::string advice = " looks like the height of terrain: if it is, exchange ";

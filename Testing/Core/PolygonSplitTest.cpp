@@ -463,7 +463,7 @@ TEST(SplitPolygon, UsesTheGivenIdsAndAppends)
   EXPECT_EQ((Ids{ 7, 1, 2, 4, 1, 4, 5 }), triangles);
 }
 
-/// As the corners of triangles written as quads, and of rings closed by their first point.
+/// Triangles written as quads, and rings closed by their first point, have such corners.
 TEST(SplitPolygon, DropsRepeatedCorners)
 {
   const std::vector<double> points = { 0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 1, 1, 0 };
