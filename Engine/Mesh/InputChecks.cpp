@@ -105,7 +105,11 @@ std::vector<int> ParseDevices(const std::string& list)
     return devices;
   }
   std::vector<int> devices;
-  std::istringstream words(list + (list.empty() ? "" : ","));
+  if (list.empty())
+  {
+    return devices;
+  }
+  std::istringstream words(list + ",");
   for (std::string word; std::getline(words, word, ',');)
   {
     std::istringstream stream(word);

@@ -35,7 +35,7 @@ struct RefusedConstraint
 {
   std::int64_t Ends[2]; ///< Point ids.
   Refusal Why;
-  CrossedEdge Crossed = {}; ///< Of the first ones that cross an edge.
+  CrossedEdge Crossed = {}; ///< Known for the first ones that cross an edge.
 };
 
 /// Adds a defect for every reason, which names the first constraints.
