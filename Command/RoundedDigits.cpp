@@ -32,7 +32,7 @@ constexpr vtkIdType SampleSize = 10000; ///< Points and cells that are looked at
 struct Decimal
 {
   int Digits; ///< Significant ones.
-  int Exponent; ///< Of ten, of the first digit.
+  int Exponent; ///< The power of ten of the first digit.
 
   int GetDigits() const { return this->Digits; }
   /// How many digits are behind the point.

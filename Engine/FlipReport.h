@@ -87,7 +87,7 @@ struct CrossedEdge
   std::int64_t Ends[2] = { -1, -1 }; ///< The points between which it lies.
 };
 
-constexpr std::int64_t MostNamedIds = 3; ///< Of a kind of defect.
+constexpr std::int64_t MostNamedIds = 3; ///< How many of each kind of defect.
 
 /// A kind of defect in the input: how often it occurs, and where first.
 struct Defect
@@ -179,10 +179,10 @@ constexpr std::string FlipReport::*ReportTexts[] = { &FlipReport::GeometryReason
 /// Which numbers of a report belong together.
 enum class NumberKind
 {
-  Main, ///< Of every mesh, and in VTK's field data.
-  Mesh, ///< Of every mesh.
-  Whole, ///< Of a mesh that is not in parts; else 0.
-  Points, ///< Of a mesh that was made from points; else 0.
+  Main, ///< Every mesh has it, and VTK's field data.
+  Mesh, ///< Every mesh has it.
+  Whole, ///< A mesh that is not in parts has it; else it is 0.
+  Points, ///< A mesh that was made from points has it; else it is 0.
   Seconds ///< A time, which differs between runs.
 };
 

@@ -81,7 +81,7 @@ struct ConstraintSettings
 {
   bool LinesAsConstraints = true; ///< The lines of the mesh are constraints.
   bool InsertLines = false; ///< Those that are no edges of the mesh are inserted.
-  bool InsertConstraints = true; ///< The same for the edges of the second input.
+  bool InsertConstraints = true; ///< Whether edges of the second input are inserted.
 };
 
 /// Edges that must stay.
