@@ -61,10 +61,9 @@ void TryOptions(vtkDelaunayFlip* filter)
   options.TieRule = static_cast<TieRuleKind>(filter->GetTieRule());
   options.Backend = static_cast<BackendKind>(filter->GetBackend());
   options.Device = filter->GetDeviceId();
-  options.NumberOfPieces = 1; // a session of several looks for a GPU when it flips
   try
   {
-    FlipSession(TriangleMesh(), options);
+    CheckOptionsAndBackend(options);
   }
   catch (const BackendUnavailable& error)
   {

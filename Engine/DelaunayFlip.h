@@ -41,6 +41,8 @@
 namespace delaunayflip
 {
 
+class SessionRun;
+
 /// New memory in the host for a result. The system takes longer to provide its pages than storing
 /// the result takes.
 struct ResultMemory
@@ -161,9 +163,13 @@ public:
   void StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const;
 
 private:
-  struct Work;
-  std::unique_ptr<Work> Own;
+  std::unique_ptr<SessionRun> Run;
 };
+
+/// Checks options before there is a mesh: their values, whether they fit together, and, with
+/// BackendKind::CUDA, whether the GPU can be used.
+/// @throws InvalidOptions, BackendUnavailable.
+DELAUNAYFLIP_EXPORT void CheckOptionsAndBackend(const FlipOptions& options);
 
 /// Finds the interior edges (edges with two triangles) that never flip in a run with these options,
 /// including those of inserted constraints. To keep exactly these edges fixed after points have

@@ -78,7 +78,7 @@ public:
   /// Triangulates the points of a mesh from points again, by divide and conquer on the host. Then
   /// no edge is bad. FlipLoop::Detect must follow.
   /// @throws RunAborted.
-  virtual void Divide(const BuildProgress& progress) = 0;
+  virtual void DivideAndConquer(const BuildProgress& progress) = 0;
 
   /// Inserts segments into a mesh from points, one after the other, if they cross none before them.
   /// FlipLoop::Detect must follow.

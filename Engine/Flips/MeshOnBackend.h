@@ -219,16 +219,16 @@ public:
       });
   }
 
-  void Divide(const BuildProgress& progress) override
+  void DivideAndConquer(const BuildProgress& progress) override
   {
     this->StartPolls(progress);
     if (this->Places.Floats)
     {
-      this->Divide(this->Places.Floats, progress);
+      this->DivideAndConquer(this->Places.Floats, progress);
     }
     else
     {
-      this->Divide(this->Places.Doubles, progress);
+      this->DivideAndConquer(this->Places.Doubles, progress);
     }
   }
 
@@ -513,7 +513,7 @@ private:
   }
 
   template <typename Real>
-  void Divide(const Real* coordinates, const BuildProgress& progress)
+  void DivideAndConquer(const Real* coordinates, const BuildProgress& progress)
   {
     std::int64_t hullEdges = 0; // the same as before
     this->Mesh =

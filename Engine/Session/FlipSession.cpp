@@ -1,32 +1,99 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SessionWork.h"
+#include "DelaunayFlip.h"
 
-#include "SubMesh.h"
-#include "ThreadBackend.h"
+#include "Array.h"
+#include "InputChecks.h"
+#include "MeshRun.h"
+#include "PiecesRun.h"
+#include "PointRun.h"
 
-#include <numeric>
+#include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
 {
 
+namespace
+{
+std::unique_ptr<SessionRun> MakeRun(const TriangleMesh& mesh, const FlipOptions& options,
+  const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
+{
+  CheckOptions(options);
+  if (CountPieces(options, mesh.Triangles.Count) > 1)
+  {
+    return std::make_unique<PiecesRun>(mesh, options, progress);
+  }
+  return std::make_unique<MeshRun>(CallerMesh(mesh), options, progress, expected);
+}
+
+std::unique_ptr<SessionRun> MakeRun(
+  const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
+{
+  const CallerMesh caller(mesh);
+  if (options.NumberOfPieces > 1)
+  {
+    throw InvalidOptions("a mesh in the memory of a GPU cannot be flipped in several pieces");
+  }
+  CheckOptions(options);
+  return std::make_unique<MeshRun>(caller, options, progress);
+}
+
+/// @throws InvalidOptions
+PointRun& RequirePoints(SessionRun& run)
+{
+  auto* points = dynamic_cast<PointRun*>(&run);
+  if (points == nullptr)
+  {
+    throw InvalidOptions("the session is not one from points");
+  }
+  return *points;
+}
+
+/// An array in the memory of a device, ordered by a stream.
+template <typename Value>
+struct DeviceArray
+{
+  Value* Values;
+  std::int64_t Size;
+  DeviceStream Stream;
+};
+
+/// Writes values into device memory by store(), which says whether it could, or else by
+/// storeOnHost(values) and a copy.
+/// @param what the array, for messages.
+template <typename Value, typename Store, typename StoreOnHost>
+void StoreOnDevice(
+  DeviceArray<Value> values, const char* what, const Store& store, const StoreOnHost& storeOnHost)
+{
+  RequireOnDevice(values.Values, values.Size, what);
+  if (!store() && values.Size > 0)
+  {
+    std::vector<Value> all(values.Size);
+    storeOnHost(all.data());
+    CopyMemory(all.data(), values.Size * static_cast<std::int64_t>(sizeof(Value)), values.Values,
+      values.Stream);
+  }
+}
+}
+
 FlipSession::FlipSession(const TriangleMesh& mesh, const FlipOptions& options,
   const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
-  : Own(std::make_unique<Work>(CallerMesh(mesh), options, progress, expected))
+  : Run(MakeRun(mesh, options, progress, expected))
 {
 }
 
 FlipSession::FlipSession(
   const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Own(std::make_unique<Work>(CallerMesh(mesh), options, progress))
+  : Run(MakeRun(mesh, options, progress))
 {
 }
 
 FlipSession::FlipSession(
   const PointInput& points, const PointOptions& options, const ProgressObserver& progress)
-  : Own(std::make_unique<Work>(points, options, progress))
+  : Run(std::make_unique<PointRun>(points, options, progress))
 {
 }
 
@@ -36,190 +103,42 @@ FlipSession& FlipSession::operator=(FlipSession&&) noexcept = default;
 
 bool FlipSession::Advance(
   std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
-try
 {
-  Work& work = *this->Own;
-  const TemporaryValue<ProgressObserver> told(work.Observer, progress);
-  if (work.IsDivided)
-  {
-    return work.FlipDivided(iterations, observer, progress);
-  }
-  if (!work.Loaded)
-  {
-    work.Build();
-  }
-  work.TouchExpected();
-  const std::vector<std::future<void>> touching = std::exchange(work.Touching, {});
-  FlipReport& report = work.Report;
-  const StopWatch watch;
-  const double secondsBefore = report.FlipSeconds;
-  const std::int64_t made = work.CountIterations();
-  const std::int64_t limit = iterations < 0 ? NoLimit : made + std::min(iterations, NoLimit - made);
-  work.Resume();
-  work.InsertIfDone();
-  work.IsMeasured = work.IsMeasured && !work.Cloud; // triangles may be removed
-  work.AreSliversKnown = false;
-  while (work.IsRunning() && work.CountIterations() < limit)
-  {
-    // At least one iteration; with observers no more than they can wait for.
-    const StopWatch batchWatch;
-    const std::int64_t first = work.CountIterations();
-    const std::int64_t most = std::min(limit, work.GetIterationLimit()) - first;
-    const AdvancePlan plan{ observer || progress ? std::min(most, work.GetBatch()) : most,
-      first == 0, work.Options.TrackQuality };
-    const TemporaryValue<bool> stoppable(work.MayStop, first == 0);
-    const std::vector<IterationCounts> batch =
-      work.OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
-    work.IsMeasured = false;
-    work.KeepFound(work.Loaded->GetLoop().GetFound());
-    work.Keep(batch, batchWatch.GetSeconds());
-#if !defined(NDEBUG)
-    // Now that the iterations are in the report: the CPU repeats those where the GPU fails here.
-    work.OnBackend([](const LoadedMesh& mesh) { mesh.Audit(); });
-#endif
-    work.Resume();
-    work.DivideIfLong();
-    work.InsertIfDone();
-    bool continues = true;
-    for (std::int64_t i = first; observer && i < work.CountIterations(); ++i)
-    {
-      continues = observer(report.Iterations[i]) && continues;
-    }
-    continues = continues &&
-      (!work.IsRunning() ||
-        work.Progress.TellFlips(progress, report, work.Found.Bad, work.GetIterationLimit()));
-    if (!continues && work.IsRunning())
-    {
-      report.StopReason = StopReasonKind::Aborted;
-    }
-  }
-  if (!work.IsRunning())
-  {
-    work.MeasureEnd();
-  }
-  report.FlipSeconds = secondsBefore + watch.GetSeconds();
-  if (!work.IsRunning() && report.StopReason != StopReasonKind::Aborted)
-  {
-    work.Progress.Tell(progress, 1.0);
-  }
-  return work.IsRunning();
-}
-catch (const RunAborted&)
-{
-  this->Own->Abort();
-  return false;
-}
-catch (...)
-{
-  this->Own->Reset(); // forgets what is half done
-  throw;
+  return this->Run->Advance(iterations, observer, progress);
 }
 
-void FlipSession::Expect(void* memory, std::int64_t bytes)
-{
-  this->Own->Expected.push_back({ memory, bytes });
-}
+void FlipSession::Expect(void* memory, std::int64_t bytes) { this->Run->Expect({ memory, bytes }); }
 
-const FlipReport& FlipSession::GetReport() const
-{
-  Work& work = *this->Own;
-  try
-  {
-    if (work.Loaded)
-    {
-      work.MeasureEnd();
-      work.Report.Backend = work.Loaded->GetInputReport().Backend;
-      work.Report.Fallback = work.Fallback;
-    }
-  }
-  catch (const RunAborted&)
-  {
-    work.Abort();
-  }
-  catch (...)
-  {
-    work.Reset();
-    throw;
-  }
-  return work.Report;
-}
+const FlipReport& FlipSession::GetReport() const { return this->Run->GetReport(); }
 
-/// Into the caller's input nothing is written until the whole result is known.
 void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 {
-  Work& work = *this->Own;
-  const auto store = [&](const LoadedMesh& mesh)
-  {
-    const auto write = [&](auto* ids)
-    {
-      work.StoreKept(3, ids, work.Mesh.HasTriangles(ids),
-        [&](auto* all)
-        { mesh.StoreTriangles(MutableTriangleArray(all, mesh.GetInputReport().Triangles)); });
-    };
-    triangles.Ids32 ? write(triangles.Ids32) : write(triangles.Ids64);
-  };
-  if (!work.TryOnBackend(store))
-  {
-    CopyTriangles(work.Divided ? AsConst(work.Divided->Triangles) : work.Mesh.GetOnHost().Triangles,
-      triangles, ThreadBackend(work.Options.NumberOfThreads));
-  }
-}
-
-void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
-{
-  Work& work = *this->Own;
-  const PointRun& points = work.RequirePoints();
-  const auto store = [&](const LoadedMesh& mesh)
-  {
-    work.StoreKept(3, neighbors, false,
-      [&](std::int32_t* all)
-      {
-        mesh.StoreNeighbors(all);
-        points.Renumber(all, 3 * mesh.GetInputReport().Triangles);
-      });
-  };
-  work.TryOnBackend(store);
-}
-
-void FlipSession::StoreUsedPoints(std::int64_t* ids) const
-{
-  const PointRun& points = this->Own->RequirePoints();
-  if (!this->Own->TryOnBackend([&](const LoadedMesh& mesh) { points.StoreUsedPoints(mesh, ids); }))
-  {
-    std::iota(ids, ids + this->Own->Report.Points, std::int64_t(0));
-  }
-}
-
-const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
-{
-  return this->Own->RequirePoints().GetAddedPoints();
-}
-
-std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
-{
-  const PointRun& points = this->Own->RequirePoints();
-  std::vector<std::int64_t> pairs;
-  this->Own->TryOnBackend([&](LoadedMesh& mesh) { pairs = points.ListSegmentEdges(mesh); });
-  return pairs;
+  this->Run->StoreTriangles(triangles);
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 {
-  Work& work = *this->Own;
-  const auto store = [&](const LoadedMesh& mesh)
-  { work.StoreKept(1, counts, false, [&](std::int32_t* all) { mesh.StoreFlipCounts(all); }); };
-  if (work.TryOnBackend(store))
-  {
-    work.Insertion.AddFlipCounts(counts);
-  }
-  else if (work.Divided)
-  {
-    std::copy(work.Divided->FlipCounts.begin(), work.Divided->FlipCounts.end(), counts);
-  }
-  else
-  {
-    std::fill_n(counts, work.Mesh.CountTriangles(), 0);
-  }
+  this->Run->StoreFlipCounts(counts);
+}
+
+void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
+{
+  RequirePoints(*this->Run).StoreNeighbors(neighbors);
+}
+
+void FlipSession::StoreUsedPoints(std::int64_t* ids) const
+{
+  RequirePoints(*this->Run).StoreUsedPoints(ids);
+}
+
+const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
+{
+  return RequirePoints(*this->Run).GetAddedPoints();
+}
+
+std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
+{
+  return RequirePoints(*this->Run).ListSegmentEdges();
 }
 
 void FlipSession::StoreTriangles(
@@ -227,41 +146,51 @@ void FlipSession::StoreTriangles(
 {
   const auto write = [&](auto* ids)
   {
-    this->Own->StoreOnDevice(
+    StoreOnDevice(
       DeviceArray<std::remove_pointer_t<decltype(ids)>>{ ids, 3 * triangles.Count, stream },
       "the array for triangles is",
-      [&](const LoadedMesh& mesh)
-      {
-        // Divide and conquer makes other triangles, of no flips.
-        return mesh.StoreTrianglesOnDevice(triangles, stream, this->Own->Cloud ? nullptr : written);
-      },
+      [&] { return this->Run->StoreTrianglesOnDevice(triangles, stream, written); },
       [&](auto* host) { this->StoreTriangles(MutableTriangleArray(host, triangles.Count)); });
   };
-  triangles.Ids32 ? write(triangles.Ids32) : write(triangles.Ids64);
+  if (triangles.Ids32)
+  {
+    write(triangles.Ids32);
+  }
+  else
+  {
+    write(triangles.Ids64);
+  }
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stream) const
 {
-  Work& work = *this->Own;
-  const std::int64_t size = work.Cloud ? work.Report.Triangles : work.Mesh.CountTriangles();
-  work.StoreOnDevice(
+  const std::int64_t size = this->Run->CountTriangles();
+  StoreOnDevice(
     DeviceArray<std::int32_t>{ counts, size, stream }, "the array for flip counts is",
-    [&](const LoadedMesh& mesh)
-    { return !work.Insertion.HasFlips() && mesh.StoreFlipCountsOnDevice(counts, stream); },
+    [&] { return this->Run->StoreFlipCountsOnDevice(counts, stream); },
     [this](std::int32_t* host) { this->StoreFlipCounts(host); });
 }
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const
 {
-  this->Own->RequirePoints();
-  this->Own->StoreOnDevice(
-    DeviceArray<std::int32_t>{ neighbors, 3 * this->Own->Report.Triangles, stream },
-    "the array for neighbours is",
-    [&](const LoadedMesh& mesh) { return mesh.StoreNeighborsOnDevice(neighbors, stream); },
-    [this](std::int32_t* host) { this->StoreNeighbors(host); });
+  PointRun& run = RequirePoints(*this->Run);
+  StoreOnDevice(
+    DeviceArray<std::int32_t>{ neighbors, 3 * run.CountTriangles(), stream },
+    "the array for neighbours is", [&] { return run.StoreNeighborsOnDevice(neighbors, stream); },
+    [&run](std::int32_t* host) { run.StoreNeighbors(host); });
 }
 
 //------------------------------------------------------------------------------
+void CheckOptionsAndBackend(const FlipOptions& options)
+{
+  CheckOptions(options);
+  CheckTieRule(options, options.Geometry);
+  if (options.Backend == BackendKind::CUDA)
+  {
+    LoadOnCuda(TriangleMesh(), options, {}); // says why the GPU cannot be used
+  }
+}
+
 namespace
 {
 /// Runs a new session and calls store(session).

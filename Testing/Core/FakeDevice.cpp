@@ -110,7 +110,10 @@ public:
     return true;
   }
   void ViewOnHost(const HostView& view) override { this->Engine->ViewOnHost(view); }
-  void Divide(const BuildProgress& progress) override { this->Engine->Divide(progress); }
+  void DivideAndConquer(const BuildProgress& progress) override
+  {
+    this->Engine->DivideAndConquer(progress);
+  }
   void InsertSegments(
     const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) override
   {

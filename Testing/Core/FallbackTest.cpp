@@ -4,6 +4,7 @@
 #include "FlipTestSupport.h"
 #include "MeshDivision.h"
 #include "PieceFlip.h"
+#include "PointRun.h"
 #include "TestDevice.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -177,6 +180,52 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
     {
     }
   }
+}
+
+/// The names of the stages in the journal of a finished run, and how much of each was done.
+std::vector<std::pair<std::string, std::int64_t>> ListJournal(const LoadedRun& run)
+{
+  std::vector<std::pair<std::string, std::int64_t>> entries;
+  for (const LoadedRun::Entry& entry : run.GetJournal())
+  {
+    entries.emplace_back(run.GetStages()[entry.Stage].Name, entry.Count);
+  }
+  return entries;
+}
+
+TEST(Journal, KeepsWhatChangesTheMesh)
+{
+  using Entries = std::vector<std::pair<std::string, std::int64_t>>;
+  std::vector<double> spread, curve;
+  for (int i = 0; i < 250; ++i)
+  {
+    const double radius = std::sqrt(i), x = 0.01 + 0.04 * i;
+    spread.insert(spread.end(), { std::cos(2.4 * i) * radius, std::sin(2.4 * i) * radius });
+    curve.insert(curve.end(), { 1000.0 * x, 1000.0 / x });
+  }
+  const std::vector<std::int64_t> segments = { 0, 200, 20, 150 };
+  const auto run = [&](const std::vector<double>& xy)
+  {
+    PointInput input{ PlaneArray(xy.data(), static_cast<std::int64_t>(xy.size()) / 2, 2) };
+    input.Segments = segments.data();
+    input.NumberOfSegments = 2;
+    PointOptions options{ OnBackend(BackendKind::Threads) };
+    options.LongestEdge = 5.0;
+    PointRun made(input, options, {});
+    while (made.Advance(1, {}, {}))
+    {
+    }
+    return std::pair(ListJournal(made), SizeOf(made.GetReport().Iterations));
+  };
+  const auto [entries, iterations] = run(spread);
+  ASSERT_EQ(5u, entries.size());
+  const std::int64_t around = entries[3].second;
+  const Entries expected = { { "test all edges", 0 }, { "flip", iterations - around },
+    { "insert segments", 2 }, { "flip around segments", around }, { "cut triangles off", 0 } };
+  EXPECT_EQ(expected, entries);
+  const Entries divided = run(curve).first;
+  EXPECT_EQ("divide and conquer if flips are long", divided.front().first);
+  EXPECT_EQ("insert segments", divided.at(1).first);
 }
 
 TEST_F(FallbackTest, AnExceptionInTheRepetitionForgetsIt)

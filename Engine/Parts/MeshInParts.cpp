@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DividedRun.h"
+#include "MeshInParts.h"
 
 #include "ConstraintInsertion.h"
 #include "DelaunayFlip.h"
@@ -28,9 +28,6 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-/// About the share of the time that passes before the first neighbourhood.
-constexpr double PartsShare = 0.9;
-
 /// On surfaces, where nothing proves that flips end, at most this many neighbourhoods are flipped.
 constexpr std::int64_t MostNeighbourhoods = 1000;
 
@@ -53,7 +50,7 @@ ConstraintInsertion InsertConstraints(
 /// as one mesh, which is the neighbourhood of these points. If flips reach points at its border,
 /// the triangles around these points are the next neighbourhood. The run ends when no flip has
 /// reached a border. So every edge is judged after the last flip of a triangle next to it.
-class PartsInTurn : public DividedRun
+class PartsInTurn : public MeshInParts
 {
 public:
   PartsInTurn(const TriangleMesh& mesh, const FlipOptions& options,
@@ -100,20 +97,31 @@ public:
     this->Insertion.AddTo(this->Report);
   }
 
-  void FlipAll(const ProgressObserver& progress) override
+  void ExamineSeams() override
+  {
+    this->Seam = this->FindSeamPoints();
+    this->CountSeams();
+  }
+
+  void FlipParts(const ProgressObserver& progress) override
   {
     const double begin = this->Insertion.GetShare();
-    this->IsFresh = false;
     this->Progress = [&progress, begin](double share)
     { return !progress || progress(begin + (1.0 - begin) * share); };
-    this->Seam = this->FindSeamPoints();
-    this->ExamineSeams();
-    this->FlipParts();
+    this->FlipEachPart();
     this->JoinParts();
+  }
+
+  void FlipSeams() override
+  {
     if (this->Report.StopReason == StopReasonKind::Converged)
     {
       this->FlipNeighbourhoods();
     }
+  }
+
+  void Complete() override
+  {
     this->CountRest();
     this->AddDefects();
     this->Insertion.AddTo(this->Report);
@@ -125,10 +133,6 @@ public:
     this->Insertion = ConstraintInsertion();
     this->PartOf = Array<unsigned char>();
     this->Fixed = std::vector<std::int64_t>();
-    if (progress && this->IsOver())
-    {
-      progress(1.0);
-    }
   }
 
 private:
@@ -223,7 +227,7 @@ private:
   }
 
   /// Before the first flip: counts seam edges, finds the fixed ones, and missing constraints.
-  void ExamineSeams()
+  void CountSeams()
   {
     FlipOptions options = this->GetCountingOptions();
     options.FeatureAngle = this->Options.FeatureAngle;
@@ -264,7 +268,7 @@ private:
   }
 
   //------------------------------------------------------------------------------
-  void FlipParts()
+  void FlipEachPart()
   {
     // One worker prepares a part while another's is on the GPU.
     const int devices = static_cast<int>(this->Options.Devices.size());
@@ -582,28 +586,10 @@ private:
 };
 }
 
-std::unique_ptr<DividedRun> DivideMesh(const TriangleMesh& mesh, const FlipOptions& options,
+std::unique_ptr<MeshInParts> CutIntoParts(const TriangleMesh& mesh, const FlipOptions& options,
   const ProgressObserver& progress, const MutableTriangleArray& triangles)
 {
   return std::make_unique<PartsInTurn>(mesh, options, progress, triangles);
-}
-
-PiecesReport FlipInPieces(const TriangleMesh& mesh, const FlipOptions& options,
-  const MutableTriangleArray& triangles, const ProgressObserver& progress)
-try
-{
-  const std::unique_ptr<DividedRun> run = DivideMesh(mesh, options, progress, triangles);
-  run->FlipAll(progress);
-  return run->Report;
-}
-catch (const RunAborted&) // before the first flip
-{
-  CopyTriangles(mesh.Triangles, triangles, ThreadBackend(options.NumberOfThreads));
-  PiecesReport report;
-  report.Points = mesh.Points.Count;
-  report.Triangles = mesh.Triangles.Count;
-  report.StopReason = StopReasonKind::Aborted;
-  return report;
 }
 
 }

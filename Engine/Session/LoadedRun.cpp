@@ -1,0 +1,406 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LoadedRun.h"
+
+#include "CudaDevice.h"
+#include "FlipError.h"
+#include "SmallestAngle.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+namespace delaunayflip
+{
+
+LoadedRun::LoadedRun(const FlipOptions& options, const ProgressObserver& progress)
+  : Options(options)
+{
+  this->Observer = progress;
+}
+
+bool LoadedRun::Begin()
+try
+{
+  this->Reset();
+  this->SinceBegin = StopWatch();
+  const auto flips = std::find_if(this->Stages.begin(), this->Stages.end(),
+    [](const Stage& stage) { return stage.Stop != OnStop::Forgets; });
+  this->RunStages(flips - this->Stages.begin());
+  return true;
+}
+catch (const RunAborted&)
+{
+  this->Abort();
+  return false;
+}
+catch (...)
+{
+  this->Reset();
+  throw;
+}
+
+bool LoadedRun::Advance(
+  std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
+try
+{
+  const TemporaryValue<ProgressObserver> told(this->Observer, progress);
+  const TemporaryValue<FlipObserver> toldOfIterations(this->IterationObserver, observer);
+  if (!this->Loaded && !this->Begin())
+  {
+    return false;
+  }
+  this->TouchExpected();
+  const std::vector<std::future<void>> touching = std::exchange(this->Touching, {});
+  const StopWatch watch;
+  const double secondsBefore = this->Report.FlipSeconds;
+  const std::int64_t made = this->CountIterations();
+  this->Limit = NoLimit;
+  if (iterations >= 0)
+  {
+    this->Limit = made + std::min(iterations, NoLimit - made);
+  }
+  if (!this->IsOver())
+  {
+    this->WasStopped = false;
+    this->AreKeptEdgesKnown = false;
+    this->Report.StopReason = StopReasonKind::Running;
+    if (!this->RunStages(this->Stages.size()) && this->WasStopped)
+    {
+      this->Report.StopReason = StopReasonKind::Aborted;
+    }
+  }
+  this->Report.FlipSeconds = secondsBefore + watch.GetSeconds();
+  if (this->IsOver())
+  {
+    this->Progress.Tell(progress, 1.0);
+  }
+  return this->Report.StopReason == StopReasonKind::Running;
+}
+catch (const RunAborted&)
+{
+  this->Abort();
+  return false;
+}
+catch (...)
+{
+  this->Reset(); // forgets what is half done
+  throw;
+}
+
+const FlipReport& LoadedRun::GetReport()
+try
+{
+  if (this->Loaded)
+  {
+    this->Measure();
+  }
+  return this->Report;
+}
+catch (const RunAborted&)
+{
+  this->Abort();
+  return this->Report;
+}
+catch (...)
+{
+  this->Reset();
+  throw;
+}
+
+//------------------------------------------------------------------------------
+bool LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
+{
+  bool wantsCuda = this->Options.Backend == BackendKind::CUDA;
+  if (this->Options.Backend == BackendKind::Auto)
+  {
+    wantsCuda = isOnDevice || (triangles >= SmallestMeshForCuda && HasCudaDevice());
+  }
+  this->OnCuda = wantsCuda;
+  if (wantsCuda)
+  {
+    try
+    {
+      this->Loaded = this->LoadOn(BackendKind::CUDA);
+    }
+    catch (const BackendUnavailable& error)
+    {
+      this->FallBack(error);
+    }
+  }
+  else
+  {
+    this->Loaded = this->LoadOn(BackendKind::Threads);
+  }
+  const std::string fallback = this->Report.Fallback;
+  this->Report = this->Loaded->GetInputReport();
+  this->Report.Fallback = fallback;
+  this->Report.BuildSeconds = this->SinceBegin.GetSeconds();
+  return true;
+}
+
+bool LoadedRun::TestAllEdges()
+{
+  FlipReport& report = this->Report;
+  this->Building.Reach(report.GeometryUsed, BuildStep::Measured);
+  const StopWatch watch;
+  this->KeepFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
+  this->Note(0);
+  this->AreAnglesKnown = true; // since the mesh was loaded
+  report.NonDelaunayBefore = report.NonDelaunayAfter;
+  report.FlipSeconds = watch.GetSeconds();
+  this->Building.Reach(report.GeometryUsed, BuildStep::Tested);
+  double shareOfLater = 0.0;
+  for (std::size_t later = this->Current + 1; later < this->Stages.size(); ++later)
+  {
+    shareOfLater += this->Stages[later].Share;
+  }
+  this->Progress.StartFlips(this->Found.Bad, report.BuildSeconds, report.FlipSeconds, shareOfLater);
+  this->ListDefects();
+  return true;
+}
+
+void LoadedRun::RepeatTest(LoadedMesh& mesh)
+{
+  this->Building.Reach(this->Report.GeometryUsed, BuildStep::Measured);
+  mesh.GetLoop().Detect();
+  this->Building.Reach(this->Report.GeometryUsed, BuildStep::Tested);
+}
+
+bool LoadedRun::Flip()
+{
+  while (this->HasMoreFlips())
+  {
+    if (!this->MayIterate())
+    {
+      return false;
+    }
+    const std::int64_t first = this->CountIterations();
+    this->RunBatch();
+    this->TellIterations(first, this->HasMoreFlips());
+  }
+  return true;
+}
+
+void LoadedRun::RepeatFlips(LoadedMesh& mesh, std::int64_t iterations)
+{
+  for (std::int64_t done = 0; done < iterations;)
+  {
+    done += SizeOf(mesh.GetLoop().Advance({ 1, false, false }));
+    this->Building.Tell(0.0);
+  }
+}
+
+bool LoadedRun::MeasureEnd()
+{
+  const bool hasConverged = this->Found.Bad == 0;
+  this->Report.StopReason =
+    hasConverged ? StopReasonKind::Converged : StopReasonKind::IterationLimit;
+  this->Measure();
+  return true;
+}
+
+//------------------------------------------------------------------------------
+void LoadedRun::Note(std::int64_t count)
+{
+  if (this->Journal.empty() || this->Journal.back().Stage != this->Current)
+  {
+    this->Journal.push_back({ this->Current, 0 });
+  }
+  this->Journal.back().Count += count;
+  this->AreAnglesKnown = false;
+}
+
+/// Replaces a GPU that has failed by threads. To be called while the error is handled.
+void LoadedRun::FallBack(const BackendUnavailable& error)
+{
+  if (this->Options.Backend == BackendKind::CUDA)
+  {
+    throw;
+  }
+  this->Report.Fallback = error.what();
+  try
+  {
+    this->Replay();
+  }
+  catch (...)
+  {
+    this->Reset();
+    throw;
+  }
+}
+
+/// Loads the mesh onto threads, and repeats there what the journal says.
+void LoadedRun::Replay()
+{
+  const TemporaryValue<bool> forgets(this->MayForget, true);
+  this->OnCuda = false;
+  this->Loaded.reset(); // frees its memory first
+  this->Loaded = this->LoadOn(BackendKind::Threads);
+  this->Report.Backend = this->Loaded->GetInputReport().Backend;
+  for (const Entry& entry : this->Journal)
+  {
+    this->Stages[entry.Stage].Repeat(*this->Loaded, entry.Count);
+  }
+}
+
+void LoadedRun::Reset()
+{
+  this->Loaded.reset();
+  this->Journal.clear();
+  this->Current = 0;
+  this->Report = FlipReport();
+}
+
+/// Forgets all after an observer has stopped the run before there is a mesh to show for it: while
+/// one is built, or while the CPU repeats what a GPU has lost.
+void LoadedRun::Abort()
+{
+  this->Reset();
+  this->Report.StopReason = StopReasonKind::Aborted;
+}
+
+void LoadedRun::TouchExpected()
+{
+  std::vector<ResultMemory> expected = std::exchange(this->Expected, {});
+  if (expected.empty() || !this->OnCuda)
+  {
+    return;
+  }
+  // Measured on an H100 with 16 cores: with more threads the copies to the GPU wait.
+  constexpr int Most = 4;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (this->Options.NumberOfThreads > 0)
+  {
+    threads = std::min(threads, this->Options.NumberOfThreads);
+  }
+  const auto touch = [blocks = std::move(expected), number = std::min(threads, Most)]()
+  {
+    const ThreadBackend backend(number);
+    for (const ResultMemory& block : blocks)
+    {
+      backend.TouchPages(block.First, block.Bytes);
+    }
+  };
+  try
+  {
+    this->Touching.push_back(std::async(std::launch::async, touch));
+  }
+  catch (const std::exception&) // there is no thread left
+  {
+  }
+}
+
+//------------------------------------------------------------------------------
+std::int64_t LoadedRun::GetIterationLimit() const
+{
+  if (this->Options.MaximumIterations >= 0)
+  {
+    return this->Options.MaximumIterations;
+  }
+  constexpr std::int64_t SafetyMargin = 1000; // beyond the number of triangles
+  const bool mayCycle = this->Report.GeometryUsed == GeometryKind::Surface ||
+    this->Options.Criterion == CriterionKind::OppositeAngles;
+  return mayCycle ? this->Report.Triangles + SafetyMargin : NoLimit;
+}
+
+/// Makes at least one iteration; with observers no more than they can wait for.
+void LoadedRun::RunBatch()
+{
+  const StopWatch watch;
+  const std::int64_t first = this->CountIterations();
+  std::int64_t most = std::min(this->Limit, this->GetIterationLimit()) - first;
+  if (this->IterationObserver || this->Observer)
+  {
+    most = std::min(most, this->GetBatch());
+  }
+  const AdvancePlan plan{ most, first == 0, this->Options.TrackQuality };
+  const TemporaryValue<bool> forgets(this->MayForget, first == 0);
+  const std::vector<IterationCounts> batch =
+    this->OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
+  this->Note(SizeOf(batch));
+  this->KeepFound(this->Loaded->GetLoop().GetFound());
+  this->Keep(batch, watch.GetSeconds());
+#if !defined(NDEBUG)
+  // Now that the iterations are in the journal: the CPU repeats those where the GPU fails here.
+  this->OnBackend([](const LoadedMesh& mesh) { mesh.Audit(); });
+#endif
+}
+
+void LoadedRun::TellIterations(std::int64_t first, bool hasMore)
+{
+  bool continues = true;
+  for (std::int64_t i = first; this->IterationObserver && i < this->CountIterations(); ++i)
+  {
+    continues = this->IterationObserver(this->Report.Iterations[i]) && continues;
+  }
+  if (continues && hasMore)
+  {
+    continues = this->Progress.TellFlips(
+      this->Observer, this->Report, this->Found.Bad, this->GetIterationLimit());
+  }
+  this->WasStopped = !continues;
+}
+
+void LoadedRun::KeepFound(const StepCounts& found)
+{
+  FlipReport& report = this->Report;
+  this->Found = found;
+  report.NonDelaunayAfter = found.Bad + found.GetBlocked();
+  report.BlockedByShape = found.BlockedByShape;
+  const bool isUnknown = found.BlockedByShape > 0 && this->Options.MaximumDeviation < INFINITY;
+  report.BlockedByDeviation = isUnknown ? -1 : 0; // Measure counts
+  report.BlockedByEdge = found.BlockedByEdge;
+}
+
+void LoadedRun::Keep(const std::vector<IterationCounts>& batch, double seconds)
+{
+  FlipReport& report = this->Report;
+  const double secondsPerIteration = seconds / static_cast<double>(batch.size());
+  this->Progress.KeepTime(secondsPerIteration);
+  for (const IterationCounts& counts : batch)
+  {
+    IterationRecord record;
+    record.Iteration = this->CountIterations() + 1;
+    record.Tested = counts.Tested;
+    record.NonDelaunay = counts.Bad + counts.Blocked;
+    record.Blocked = counts.Blocked;
+    record.Flipped = counts.Flipped;
+    record.Excluded = counts.Bad - counts.Flipped;
+    record.MinimumAngle = ToDegrees(counts.SquaredCotangent);
+    record.Seconds = secondsPerIteration;
+    report.Iterations.push_back(record);
+    report.TotalFlips += record.Flipped;
+    report.TotalExcluded += record.Excluded;
+    report.TotalBlocked += record.Blocked;
+  }
+}
+
+/// The smallest angle is known after the first and the last iteration. If a run stops in between,
+/// it takes a pass over the mesh, made only when the report is requested.
+void LoadedRun::Measure()
+{
+  FlipReport& report = this->Report;
+  if (report.BlockedByDeviation < 0)
+  {
+    report.BlockedByDeviation =
+      this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().CountBlockedByDeviation(); });
+    report.BlockedByShape = this->Found.BlockedByShape - report.BlockedByDeviation;
+  }
+  if (this->AreAnglesKnown)
+  {
+    return;
+  }
+  KeepAnglesAfter(
+    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().MeasureAngles(); }), report);
+  this->AreAnglesKnown = true;
+  this->ListDefects();
+  if (report.StopReason != StopReasonKind::Running && !report.Iterations.empty())
+  {
+    report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
+    AddDefect(this->OnBackend([](const LoadedMesh& mesh) { return mesh.FindTurnedTriangles(); }),
+      report.Defects);
+  }
+}
+
+}

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_LOADEDRUN_H
+#define DELAUNAYFLIP_LOADEDRUN_H
+
+#include "BuildProgress.h"
+#include "LoadedMesh.h"
+#include "RunProgress.h"
+#include "SessionRun.h"
+#include "ThreadBackend.h"
+
+#include <cstdint>
+#include <future>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace delaunayflip
+{
+
+constexpr std::int64_t NoLimit = std::numeric_limits<std::int64_t>::max();
+
+/// A run whose mesh is loaded onto a backend: what the runs of a mesh and of points have in common.
+/// BackendKind::Auto uses a GPU if there is one and the mesh is large enough. A journal keeps what
+/// stages have done to the loaded mesh. If the GPU fails, at any time, the journal is replayed on
+/// threads, with the same bits, and the run continues there.
+class LoadedRun : public SessionRun
+{
+public:
+  bool Advance(
+    std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress) final;
+  void Expect(const ResultMemory& memory) final { this->Expected.push_back(memory); }
+  const FlipReport& GetReport() final;
+
+  /// How much of a stage has changed the loaded mesh.
+  struct Entry
+  {
+    std::size_t Stage; ///< Its number.
+    std::int64_t Count; ///< What Stage::Repeat takes.
+  };
+  const std::vector<Entry>& GetJournal() const { return this->Journal; }
+
+protected:
+  LoadedRun(const FlipOptions& options, const ProgressObserver& progress);
+
+  //------------------------------------------------------------------------------
+  // What a run adds.
+
+  /// @param backend CUDA or Threads.
+  virtual std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) = 0;
+
+  /// Forgets everything but the caller's input.
+  virtual void Reset();
+
+  /// Lists the defects of the input, without what flips have caused, and what is not about flips.
+  virtual void ListDefects() = 0;
+
+  /// Measures what the report has beside the counts of iterations. Only reads the mesh, and only
+  /// if it has changed since.
+  virtual void Measure();
+
+  /// How many iterations observers can wait for.
+  virtual std::int64_t GetBatch() const { return this->Progress.GetBatch(); }
+
+  //------------------------------------------------------------------------------
+  // Stages.
+
+  /// @param triangles about their number.
+  bool Load(bool isOnDevice, std::int64_t triangles);
+  bool TestAllEdges();
+  void RepeatTest(LoadedMesh& mesh);
+
+  /// Flips until no bad edge or no iteration is left.
+  bool Flip();
+  void RepeatFlips(LoadedMesh& mesh, std::int64_t iterations);
+
+  /// Measures the mesh at the end of a run.
+  bool MeasureEnd();
+
+  //------------------------------------------------------------------------------
+  // What stages and getters consist of.
+
+  /// Begins anew, and ends before the first flip. An observer may stop it.
+  /// @returns whether it was not stopped.
+  bool Begin();
+
+  /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
+  /// @throws BackendUnavailable with BackendKind::CUDA.
+  template <typename Function>
+  auto OnBackend(const Function& work)
+  {
+    try
+    {
+      const std::unique_ptr<DeviceScope> current = this->Loaded->MakeCurrent();
+      return work(*this->Loaded);
+    }
+    catch (const BackendUnavailable& error)
+    {
+      this->FallBack(error);
+    }
+    return work(*this->Loaded);
+  }
+
+  /// The same for a getter, if a mesh is loaded.
+  /// @returns whether it was called and no observer stopped it.
+  template <typename Function>
+  bool TryOnBackend(const Function& work)
+  {
+    try
+    {
+      if (this->Loaded)
+      {
+        this->OnBackend(work);
+      }
+    }
+    catch (const RunAborted&)
+    {
+      this->Abort();
+    }
+    return this->Loaded != nullptr;
+  }
+
+  /// The same for a getter that writes to device memory: @returns whether store(mesh) could.
+  template <typename Store>
+  bool TryOnDevice(const Store& store)
+  {
+    bool isStored = false;
+    this->TryOnBackend([&](const LoadedMesh& mesh) { isStored = store(mesh); });
+    return isStored;
+  }
+
+  /// Adds to the journal that the current stage has changed the mesh.
+  void Note(std::int64_t count);
+
+  /// Begins to touch the pages of the memory that is expected, if a GPU flips.
+  void TouchExpected();
+
+  bool HasMoreFlips() const
+  {
+    return this->Found.Bad > 0 && this->CountIterations() < this->GetIterationLimit();
+  }
+  bool MayIterate() const { return !this->WasStopped && this->CountIterations() < this->Limit; }
+  std::int64_t CountIterations() const { return SizeOf(this->Report.Iterations); }
+  void RunBatch();
+  /// Tells observers of the iterations from one on, and notes whether they stop the run.
+  void TellIterations(std::int64_t first, bool hasMore);
+  void KeepFound(const StepCounts& found);
+
+  FlipOptions Options;
+  BuildProgress Building; ///< Of the loading, and of what divide and conquer does later.
+  std::unique_ptr<LoadedMesh> Loaded; ///< None if the build was stopped.
+  std::vector<Entry> Journal; ///< What has happened to the loaded mesh.
+  RunProgress Progress;
+  StepCounts Found; ///< The counts of the last detection.
+
+  // What is known of the mesh as it is; Measure finds out the rest.
+  bool AreAnglesKnown = true;
+  bool AreKeptEdgesKnown = false; ///< Whether what kept edges hide is known.
+
+private:
+  void FallBack(const BackendUnavailable& error);
+  void Replay();
+  void Abort();
+  std::int64_t GetIterationLimit() const;
+  void Keep(const std::vector<IterationCounts>& batch, double seconds);
+
+  FlipObserver IterationObserver; ///< Of the Advance under way.
+  std::int64_t Limit = 0; ///< The number of iterations at which it returns.
+  StopWatch SinceBegin;
+  bool OnCuda = false; ///< Whether a GPU has the mesh.
+  std::vector<ResultMemory> Expected; ///< Announced memory that nobody touches yet.
+  std::vector<std::future<void>> Touching; ///< Their destructors wait for the end.
+};
+
+}
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshRun.h"
+
+#include "Array.h"
+#include "HostMemory.h"
+#include "InputChecks.h"
+#include "SubMesh.h"
+
+#include <algorithm>
+
+namespace delaunayflip
+{
+
+void MeshRun::ListStages()
+{
+  const auto flips = [this](LoadedMesh& loaded, std::int64_t iterations)
+  { this->RepeatFlips(loaded, iterations); };
+  const auto test = [this](LoadedMesh& loaded, std::int64_t) { this->RepeatTest(loaded); };
+  this->Stages = {
+    { "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
+      [this] { return this->InsertConstraints(); }, {} },
+    { "load", OnStop::Forgets, 0.0, [this] { return this->LoadMesh(); }, {} },
+    { "test all edges", OnStop::Forgets, 0.0, [this] { return this->TestAllEdges(); }, test },
+    { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
+    { "measure", OnStop::Ignores, 0.0, [this] { return this->MeasureEnd(); }, {} },
+  };
+}
+
+MeshRun::MeshRun(const CallerMesh& mesh, const FlipOptions& options,
+  const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
+  : LoadedRun(options, progress),
+    Mesh(mesh)
+{
+  CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
+  this->Options.Device = mesh.ChooseDevice(options.Device);
+  this->ListStages();
+  for (const ResultMemory& memory : expected)
+  {
+    this->Expect(memory);
+  }
+  this->Begin();
+}
+
+/// On the host, before a backend is chosen. They become edges by flips, so other constraints are
+/// not crossed.
+bool MeshRun::InsertConstraints()
+{
+  const auto tell = [this](double share)
+  { return !this->MayForget || this->Progress.Tell(this->Observer, share); };
+  this->Start = this->Mesh;
+  if (ConstraintInsertion::IsRequested(this->Mesh.GetFixedEdges()))
+  {
+    const TriangleMesh& mesh = this->Mesh.GetOnHost();
+    this->Insertion = ConstraintInsertion(mesh, this->Options,
+      [&](double share) { return tell(ConstraintInsertion::ShareOfRun * share); });
+    this->Start = CallerMesh(this->Insertion.GetMesh(mesh));
+  }
+  const double begin = this->Insertion.GetShare();
+  this->Building =
+    BuildProgress([tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
+  return true;
+}
+
+bool MeshRun::LoadMesh()
+{
+  this->Load(this->Start->GetOnDevice() != nullptr, this->Mesh.CountTriangles());
+  this->Insertion.AddTo(this->Report);
+  return true;
+}
+
+std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
+{
+  const FlipOptions options = this->Insertion.GetOptions(this->Options);
+  if (backend == BackendKind::Threads)
+  {
+    return LoadOnThreads(this->Start->GetOnHost(), options, this->Building);
+  }
+  this->TouchExpected();
+  const DeviceMesh* device = this->Start->GetOnDevice();
+  if (device)
+  {
+    return LoadOnCuda(*device, options, this->Building);
+  }
+  return LoadOnCuda(this->Start->GetOnHost(), options, this->Building);
+}
+
+void MeshRun::Reset()
+{
+  LoadedRun::Reset();
+  this->Start.reset();
+  this->Insertion = ConstraintInsertion();
+  this->Report.Points = this->Mesh.CountPoints();
+  this->Report.Triangles = this->Mesh.CountTriangles();
+}
+
+void MeshRun::ListDefects()
+{
+  FlipReport& report = this->Report;
+  report.Defects = this->Loaded->GetInputReport().Defects;
+  AddDefects(this->Insertion.GetRefused(), report.Defects);
+  const EdgeCounts& edges = report.Edges;
+  if (report.Triangles > 1 && edges.Edges > 0 && edges.Boundary == edges.Edges)
+  {
+    report.Defects.push_back({ "triangles of which no two share an edge, so that none can flip: "
+                               "merge points that lie at the same place",
+      report.Triangles, {}, DefectIds::Points });
+  }
+}
+
+/// While edges flip it is not known what kept edges hide in the end.
+void MeshRun::Measure()
+{
+  if (!this->AreKeptEdgesKnown)
+  {
+    FlipReport& report = this->Report;
+    const EdgeCounts& edges = report.Edges;
+    const bool isRunning = report.StopReason == StopReasonKind::Running;
+    report.KeepsSliver = !isRunning && edges.Feature + edges.Constraint > 0 &&
+      this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
+    HiddenSums hidden;
+    if (!isRunning && edges.WronglyWound + edges.NonManifold > 0)
+    {
+      hidden = this->OnBackend([](LoadedMesh& mesh) { return mesh.CountHidden(); });
+    }
+    report.HiddenByWinding = hidden.WronglyWound;
+    report.ObtuseAtNonManifold = hidden.ObtuseCorners;
+    this->AreKeptEdgesKnown = true;
+  }
+  LoadedRun::Measure();
+}
+
+//------------------------------------------------------------------------------
+/// Into the caller's input nothing is written until the whole result is known.
+void MeshRun::StoreTriangles(const MutableTriangleArray& triangles)
+{
+  const auto store = [&](const LoadedMesh& mesh)
+  {
+    const auto storeAtOnce = [&](auto* ids)
+    {
+      HostMemory memory;
+      Array<std::remove_pointer_t<decltype(ids)>> all(3 * triangles.Count, memory);
+      mesh.StoreTriangles(MutableTriangleArray(all.Data(), triangles.Count));
+      std::copy_n(all.Data(), all.Size(), ids);
+    };
+    if (!this->Mesh.HasTriangles(triangles.Data()))
+    {
+      mesh.StoreTriangles(triangles);
+    }
+    else if (triangles.Ids32)
+    {
+      storeAtOnce(triangles.Ids32);
+    }
+    else
+    {
+      storeAtOnce(triangles.Ids64);
+    }
+  };
+  if (!this->TryOnBackend(store))
+  {
+    CopyTriangles(
+      this->Mesh.GetOnHost().Triangles, triangles, ThreadBackend(this->Options.NumberOfThreads));
+  }
+}
+
+void MeshRun::StoreFlipCounts(std::int32_t* counts)
+{
+  if (this->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreFlipCounts(counts); }))
+  {
+    this->Insertion.AddFlipCounts(counts);
+    return;
+  }
+  std::fill_n(counts, this->Mesh.CountTriangles(), 0);
+}
+
+bool MeshRun::StoreTrianglesOnDevice(
+  const MutableTriangleArray& triangles, const DeviceStream& stream, std::int32_t* written)
+{
+  return this->TryOnDevice([&](const LoadedMesh& mesh)
+    { return mesh.StoreTrianglesOnDevice(triangles, stream, written); });
+}
+
+/// The flips of an insertion are counted on the host.
+bool MeshRun::StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream)
+{
+  return !this->Insertion.HasFlips() &&
+    this->TryOnDevice(
+      [&](const LoadedMesh& mesh) { return mesh.StoreFlipCountsOnDevice(counts, stream); });
+}
+
+}

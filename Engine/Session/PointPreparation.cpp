@@ -1,0 +1,411 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointPreparation.h"
+
+#include "Array.h"
+#include "FlipError.h"
+#include "InputChecks.h"
+#include "LoadedMesh.h"
+#include "Predicates.h"
+#include "Strips.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// How many points pass between two calls of an observer.
+constexpr std::int64_t Batch = 1 << 14;
+
+void Tell(const ProgressObserver& observer)
+{
+  if (observer && !observer(0.0))
+  {
+    throw RunAborted();
+  }
+}
+
+/// The number of a segment's ring; -1: none.
+std::int32_t GetRing(const PointInput& input, std::int64_t segment)
+{
+  return input.Rings ? input.Rings[segment] : -1;
+}
+
+void CheckInput(const PointInput& input, const PointOptions& options)
+{
+  for (const double length : { options.PointTolerance, options.Alpha, options.LongestEdge })
+  {
+    if (!(length >= 0.0 && length < INFINITY))
+    {
+      throw InvalidOptions(
+        "the point tolerance, alpha and the longest edge must be finite and 0 or more");
+    }
+  }
+  if (options.NumberOfPieces > 1)
+  {
+    throw InvalidOptions(
+      "points cannot be triangulated in several pieces: gather them in one process first");
+  }
+  for (std::int64_t i = 0; i < 2 * input.NumberOfSegments; ++i)
+  {
+    const std::int64_t point = input.Segments[i];
+    if (point < 0 || point >= input.Points.Count)
+    {
+      std::string name = "segment " + std::to_string(i / 2);
+      if (GetRing(input, i / 2) >= 0)
+      {
+        name = "ring " + std::to_string(GetRing(input, i / 2));
+      }
+      throw InvalidMesh(name + " names point " + std::to_string(point) + ", but there are " +
+          DescribePoints(input.Points.Count),
+        i / 2, point);
+    }
+  }
+  for (std::int64_t i = 0; i < 2 * input.NumberOfHoleSeeds; ++i)
+  {
+    if (!IsFinite(input.HoleSeeds[i]))
+    {
+      throw InvalidOptions(
+        "hole seed " + std::to_string(i / 2) + " has a coordinate that is NaN or infinite");
+    }
+  }
+}
+
+}
+
+PreparedPoints::PreparedPoints(const PointInput& input, const PointOptions& options)
+  : Caller(input),
+    Options(options),
+    Prepared(input)
+{
+  CheckInput(input, options);
+}
+
+void PreparedPoints::Prepare(const ProgressObserver& observer)
+{
+  if (this->IsPrepared)
+  {
+    return;
+  }
+  const PointInput& input = this->Caller;
+  this->Segments.clear();
+  if (this->Options.PointTolerance > 0.0 && this->NearPoint.empty())
+  {
+    this->GetOnHost();
+    this->FindNearPoints(observer);
+    this->CopyPoints(); // so that no crossing uses a point that is not used
+  }
+  for (std::int64_t i = 0; i < input.NumberOfSegments; ++i)
+  {
+    const std::int64_t* ends = input.Segments + 2 * i;
+    this->Segments.push_back(
+      { this->GetNear(ends[0]), this->GetNear(ends[1]), GetRing(input, i), i });
+  }
+  if (this->Options.SplitCrossings && !this->Segments.empty())
+  {
+    SplitSegments split =
+      SplitCrossings(this->GetOnHost(), std::move(this->Segments), [&] { Tell(observer); });
+    this->Segments = std::move(split.Segments);
+    this->Added = std::move(split.Added);
+    const std::int64_t points = input.Points.Count + SizeOf(this->Added);
+    CheckMeshSize(2 * points, points, "");
+    this->Counts.Crossings = SizeOf(this->Added);
+    this->Counts.LargestShift = split.LargestShift;
+    this->CopyPoints();
+  }
+  this->IsPrepared = true;
+}
+
+PlaneArray PreparedPoints::GetOnHost()
+{
+  if (this->Prepared.OnDevice)
+  {
+    const PlaneArray& points = this->Caller.Points;
+    std::int64_t numbers = 0;
+    if (points.Count > 0)
+    {
+      numbers = (points.Count - 1) * points.Stride + 2;
+    }
+    const auto copy = [&](const auto* values, auto& copied)
+    {
+      copied.resize(numbers);
+      CopyMemory(values, numbers * static_cast<std::int64_t>(sizeof(*values)), copied.data(),
+        this->Caller.Stream);
+      return PlaneArray(copied.data(), points.Count, points.Stride);
+    };
+    if (points.Floats)
+    {
+      this->Prepared.Points = copy(points.Floats, this->Floats);
+    }
+    else
+    {
+      this->Prepared.Points = copy(points.Doubles, this->Doubles);
+    }
+    this->Prepared.OnDevice = false;
+  }
+  return this->Prepared.Points;
+}
+
+/// Finds for every point the one that is used instead of it: the first with a lower id that is used
+/// and nearer than the tolerance, but not at the same place, because these are merged anyway. A
+/// grid of cells as wide as the tolerance limits the search.
+void PreparedPoints::FindNearPoints(const ProgressObserver& observer)
+{
+  const PlaneArray points = this->Prepared.Points;
+  const double tolerance = this->Options.PointTolerance;
+  struct Hash
+  {
+    std::size_t operator()(const std::pair<double, double>& cell) const
+    {
+      return std::hash<double>()(cell.first) * 0x9E3779B97F4A7C15u +
+        std::hash<double>()(cell.second);
+    }
+  };
+  std::unordered_map<std::pair<double, double>, std::int64_t, Hash> lastIn; // used point of a cell
+  std::vector<std::int64_t> before(points.Count, -1); // the used point of the same cell before
+  std::vector<std::int64_t> nearPoint(points.Count);
+  std::int64_t tooNear = 0;
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    if (i % Batch == 0)
+    {
+      Tell(observer);
+    }
+    nearPoint[i] = i;
+    if (!IsFinitePoint(points, i))
+    {
+      continue;
+    }
+    // Beyond 2^53 cells from 0 all other doubles are farther away than the tolerance.
+    const auto findCell = [&](double value)
+    {
+      const double cell = std::floor(value / tolerance);
+      return std::fabs(cell) < 0x1p53 ? cell : value;
+    };
+    const double x = points.Get(i, 0), y = points.Get(i, 1);
+    const double column = findCell(x), row = findCell(y);
+    for (int cell = 0; cell < 9; ++cell)
+    {
+      const auto found = lastIn.find({ column + (cell % 3 - 1), row + (cell / 3 - 1) });
+      if (found == lastIn.end())
+      {
+        continue;
+      }
+      for (std::int64_t j = found->second; j >= 0; j = before[j])
+      {
+        if (std::hypot(points.Get(j, 0) - x, points.Get(j, 1) - y) < tolerance)
+        {
+          nearPoint[i] = std::min(nearPoint[i], j);
+        }
+      }
+    }
+    if (nearPoint[i] == i)
+    {
+      std::int64_t& last = lastIn.emplace(std::pair(column, row), -1).first->second;
+      before[i] = std::exchange(last, i);
+    }
+    else if (points.Get(nearPoint[i], 0) == x && points.Get(nearPoint[i], 1) == y)
+    {
+      nearPoint[i] = i;
+    }
+    else
+    {
+      ++tooNear;
+    }
+  }
+  this->NearPoint = std::move(nearPoint);
+  this->Counts.TooNear = tooNear;
+}
+
+/// Makes the points to triangulate, if they are not those of the caller.
+void PreparedPoints::CopyPoints()
+{
+  if (this->Added.empty() && this->Counts.TooNear == 0)
+  {
+    return;
+  }
+  if (this->Caller.Points.Floats)
+  {
+    this->CopyCoordinates(this->Floats);
+  }
+  else
+  {
+    this->CopyCoordinates(this->Doubles);
+  }
+}
+
+/// Points that are too near become NaN, so that they are not used.
+template <typename Real>
+void PreparedPoints::CopyCoordinates(std::vector<Real>& copy)
+{
+  const PlaneArray points = this->Prepared.Points;
+  const auto added = SizeOf(this->Added);
+  std::vector<Real> made(2 * (points.Count + added));
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    made[2 * i] = this->IsNear(i) ? NAN : static_cast<Real>(points.Get(i, 0));
+    made[2 * i + 1] = static_cast<Real>(points.Get(i, 1));
+  }
+  for (std::int64_t i = 0; i < added; ++i)
+  {
+    made[2 * (points.Count + i)] = static_cast<Real>(this->Added[i].X);
+    made[2 * (points.Count + i) + 1] = static_cast<Real>(this->Added[i].Y);
+  }
+  copy = std::move(made);
+  this->Prepared.Points = PlaneArray(copy.data(), points.Count + added, 2);
+}
+
+//------------------------------------------------------------------------------
+void PreparedPoints::PrepareRings(const LoadedMesh& mesh)
+{
+  if (!this->Prepared.Rings)
+  {
+    return;
+  }
+  std::vector<std::int64_t> used(this->Prepared.Points.Count);
+  mesh.StoreUsedPoints(used.data());
+  this->LeftOutRings.clear();
+  std::map<std::int32_t, std::vector<std::size_t>> rings; // by their numbers, indices of segments
+  for (std::int64_t i = 0; i < this->Prepared.NumberOfSegments; ++i)
+  {
+    if (this->Prepared.Rings[i] >= 0)
+    {
+      rings[this->Prepared.Rings[i]]; // of some nothing is left, such as of one at a single place
+    }
+  }
+  for (std::size_t i = 0; i < this->Segments.size(); ++i)
+  {
+    if (this->Segments[i].Ring >= 0)
+    {
+      rings[this->Segments[i].Ring].push_back(i);
+    }
+  }
+  for (const auto& [number, ring] : rings)
+  {
+    if (this->MayHaveArea(ring, used))
+    {
+      this->TurnSegments(ring, used);
+      continue;
+    }
+    this->LeftOutRings.push_back(number);
+    for (const std::size_t i : ring)
+    {
+      this->Segments[i].Ring = -1;
+    }
+  }
+}
+
+/// Whether the places of a ring are not on one line. True if one is not finite.
+/// @param used by point the one that is used at its place. @param ring indices of its segments.
+bool PreparedPoints::MayHaveArea(
+  const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)
+{
+  const PlaneArray points = this->GetOnHost();
+  std::vector<std::array<double, 2>> line; // two places of the ring
+  for (const std::size_t i : ring)
+  {
+    for (const std::int64_t point : { this->Segments[i].From, this->Segments[i].To })
+    {
+      const std::array<double, 2> place = { points.Get(point, 0), points.Get(point, 1) };
+      const bool isOff =
+        line.size() == 2 && Orientation(line[0].data(), line[1].data(), place.data()) != 0;
+      if (used[point] < 0 || isOff)
+      {
+        return true;
+      }
+      if (line.empty() || (line.size() == 1 && line[0] != place))
+      {
+        line.push_back(place);
+      }
+    }
+  }
+  return false;
+}
+
+/// Turns segments of a ring so that as many begin as end at each place.
+/// @throws InvalidMesh if it is not closed.
+void PreparedPoints::TurnSegments(
+  const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)
+{
+  std::map<std::int64_t, std::int64_t> surplus; // by place, the ends minus the beginnings there
+  std::map<std::int64_t, std::vector<std::size_t>> waiting; // by place, its segments
+  for (const std::size_t i : ring)
+  {
+    const Segment& segment = this->Segments[i];
+    const std::int64_t from = used[segment.From], to = used[segment.To];
+    surplus[from] -= 1;
+    surplus[to] += 1;
+    if (from != to)
+    {
+      waiting[from].push_back(i);
+      waiting[to].push_back(i);
+    }
+  }
+  for (const std::size_t i : ring)
+  {
+    const Segment& segment = this->Segments[i];
+    for (const std::int64_t point : { segment.From, segment.To })
+    {
+      if (waiting[used[point]].size() % 2 != 0)
+      {
+        throw InvalidMesh("ring " + std::to_string(segment.Ring) + " is not closed at point " +
+            std::to_string(point) + ": close it, or make its segments part of no ring",
+          segment.Number, point);
+      }
+    }
+  }
+  if (std::all_of(
+        surplus.begin(), surplus.end(), [](const auto& item) { return item.second == 0; }))
+  {
+    return;
+  }
+  for (auto& [place, segments] : waiting)
+  {
+    std::reverse(segments.begin(), segments.end()); // the first ones are taken first
+  }
+  std::set<std::size_t> taken;
+  for (const std::size_t first : ring)
+  {
+    std::int64_t place = used[this->Segments[first].From];
+    waiting[place].push_back(first);
+    for (std::vector<std::size_t>* here = &waiting[place]; !here->empty(); here = &waiting[place])
+    {
+      const std::size_t i = here->back();
+      here->pop_back();
+      if (taken.insert(i).second)
+      {
+        Segment& segment = this->Segments[i];
+        if (used[segment.From] != place)
+        {
+          std::swap(segment.From, segment.To);
+        }
+        place = used[segment.To];
+      }
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void PreparedPoints::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
+{
+  if (this->Prepared.Points.Count == this->Caller.Points.Count && this->NearPoint.empty())
+  {
+    mesh.StoreUsedPoints(ids);
+    return;
+  }
+  std::vector<std::int64_t> used(this->Prepared.Points.Count);
+  mesh.StoreUsedPoints(used.data());
+  for (std::int64_t i = 0; i < this->Caller.Points.Count; ++i)
+  {
+    ids[i] = used[this->GetNear(i)];
+  }
+}
+
+}

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_POINTPREPARATION_H
+#define DELAUNAYFLIP_POINTPREPARATION_H
+
+#include "FlipReport.h"
+#include "PointTriangulation.h"
+#include "SegmentCrossings.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+class LoadedMesh;
+
+/// The caller's points and segments as they are triangulated: without points that are too near to
+/// others, with points where segments cross, and with rings that run in one direction.
+class PreparedPoints
+{
+public:
+  /// Checks the input. @throws InvalidMesh, InvalidOptions.
+  PreparedPoints(const PointInput& input, const PointOptions& options);
+
+  /// Finds points that are too near to others, and splits segments that cross, if that is wanted
+  /// and not done.
+  /// @throws BackendUnavailable; RunAborted.
+  void Prepare(const ProgressObserver& observer);
+
+  /// Leaves out rings without an area: their segments become segments of no ring. Turns those of
+  /// the others to one direction.
+  /// @param mesh is made of the points, so that it knows which of them are at the same place.
+  /// @throws InvalidMesh if one of the others is not closed.
+  void PrepareRings(const LoadedMesh& mesh);
+
+  const PointInput& GetCaller() const { return this->Caller; }
+  const PointOptions& GetOptions() const { return this->Options; }
+
+  /// The points to triangulate; behind those of the caller, the added ones.
+  const PointInput& GetInput() const { return this->Prepared; }
+  /// Returns the points of GetInput() in the host's memory, where it copies them from a GPU.
+  PlaneArray GetOnHost();
+
+  const std::vector<Segment>& GetSegments() const { return this->Segments; }
+  const std::vector<AddedPoint>& GetAdded() const { return this->Added; }
+  /// The numbers of the rings that PrepareRings has left out.
+  const std::vector<std::int32_t>& GetLeftOutRings() const { return this->LeftOutRings; }
+  /// Only what the preparation counts.
+  const PointCounts& GetCounts() const { return this->Counts; }
+
+  /// The point that is used instead of one that is too near to it; else the point itself.
+  std::int64_t GetNear(std::int64_t point) const
+  {
+    return this->NearPoint.empty() ? point : this->NearPoint[point];
+  }
+  bool IsNear(std::int64_t point) const { return this->GetNear(point) != point; }
+
+  /// The same as FlipSession's.
+  void StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const;
+
+private:
+  void FindNearPoints(const ProgressObserver& observer);
+  void CopyPoints();
+  template <typename Real>
+  void CopyCoordinates(std::vector<Real>& copy);
+  bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
+  void TurnSegments(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
+
+  PointInput Caller;
+  PointOptions Options;
+  PointInput Prepared; ///< Its points are the caller's, or one of the copies.
+  std::vector<float> Floats;
+  std::vector<double> Doubles;
+  std::vector<std::int64_t> NearPoint; ///< By point, what GetNear returns; empty: not looked for.
+  std::vector<AddedPoint> Added;
+  std::vector<Segment> Segments;
+  std::vector<std::int32_t> LeftOutRings;
+  PointCounts Counts;
+  bool IsPrepared = false;
+};
+
+}
+
+#endif

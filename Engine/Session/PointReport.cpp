@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointReport.h"
+
+#include "InputChecks.h"
+#include "SmallestAngle.h"
+#include "Strips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// A box around places.
+struct CoordinateBox
+{
+  double Low[2] = { INFINITY, INFINITY };
+  double High[2] = { -INFINITY, -INFINITY };
+
+  void Add(double x, double y)
+  {
+    if (IsFinite(x) && IsFinite(y))
+    {
+      this->Low[0] = std::min(this->Low[0], x);
+      this->Low[1] = std::min(this->Low[1], y);
+      this->High[0] = std::max(this->High[0], x);
+      this->High[1] = std::max(this->High[1], y);
+    }
+  }
+
+  std::string Describe() const
+  {
+    constexpr int Digits = 10; // of a map's coordinates, down to millimetres
+    const auto format = [](double value) { return FormatNumber(value, Digits); };
+    return "x " + format(this->Low[0]) + " to " + format(this->High[0]) + ", y " +
+      format(this->Low[1]) + " to " + format(this->High[1]);
+  }
+};
+
+/// Rings without an area, as a defect.
+Defect FindRingsWithoutArea(const PreparedPoints& points, const KeptTriangles& kept)
+{
+  const std::vector<std::int32_t>& leftOut = points.GetLeftOutRings();
+  std::vector<std::int64_t> numbers(leftOut.begin(), leftOut.end());
+  numbers.insert(numbers.end(), kept.RingsWithoutArea.begin(), kept.RingsWithoutArea.end());
+  std::sort(numbers.begin(), numbers.end());
+  const std::int64_t count = SizeOf(numbers);
+  numbers.resize(std::min<std::int64_t>(3, count));
+  return { "rings without an area, left out", count, numbers, DefectIds::Rings };
+}
+
+/// Counts what was prepared, inserted and removed.
+void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResult& result)
+{
+  PointCounts& counts = report.FromPoints;
+  const PointCounts& prepared = points.GetCounts();
+  const std::int64_t notFinite = counts.NotFinite - prepared.TooNear;
+  const std::int64_t repeated = counts.Repeated;
+  const std::int64_t places =
+    points.GetInput().Points.Count - notFinite - repeated - prepared.TooNear;
+  counts = prepared;
+  counts.NotFinite = notFinite;
+  counts.Repeated = repeated;
+  std::int64_t inside = 0; // of these edges
+  for (const SegmentEdge& edge : result.Edges)
+  {
+    counts.SegmentEdges += static_cast<std::int64_t>(edge.IsFirst);
+    inside += static_cast<std::int64_t>(edge.IsFirst && !edge.IsOnBoundary);
+  }
+  counts.RefusedSegments = SizeOf(result.Refused);
+  if (report.Triangles > 0)
+  {
+    counts.Used = places;
+  }
+  counts.OutsideTriangles = result.Kept.Outside;
+  counts.LargeTriangles = result.Kept.Large;
+  report.Points = points.GetCaller().Points.Count;
+  report.InsertedConstraints = static_cast<std::int64_t>(result.Taken - result.Refused.size());
+  report.UnmatchedConstraints = counts.RefusedSegments;
+  report.ConstraintFlips = result.Flips;
+  report.Edges.Constraint = counts.SegmentEdges;
+  if (result.HasRemoved())
+  {
+    counts.Used = result.Kept.Used;
+    report.Triangles = result.Kept.Count;
+    report.Edges.Edges = result.Kept.Edges;
+    report.Edges.Boundary = result.Kept.Boundary;
+    report.EulerCharacteristic = result.Kept.EulerCharacteristic;
+    KeepAnglesAfter(result.Kept.Angles, report);
+  }
+  report.Edges.Fixed = report.Edges.Boundary + inside;
+}
+
+/// Points that are not used, each kind with the ids of the first three.
+void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedPoints& points)
+{
+  const PointCounts& counts = report.FromPoints;
+  std::vector<std::int64_t> used;
+  if (counts.NotFinite + counts.Repeated > 0)
+  {
+    used.resize(points.GetInput().Points.Count);
+    mesh.StoreUsedPoints(used.data());
+  }
+  const auto add = [&](const char* what, std::int64_t count, const auto& isListed)
+  {
+    Defect defect{ what, count, {}, DefectIds::Points };
+    for (std::int64_t i = 0; count > 0 && defect.FirstIds.size() < 3 && i < report.Points; ++i)
+    {
+      if (isListed(i))
+      {
+        defect.FirstIds.push_back(i);
+      }
+    }
+    AddDefect(defect, report.Defects);
+  };
+  add("points with NaN or infinite coordinates", counts.NotFinite,
+    [&](std::int64_t i) { return used[i] < 0 && !points.IsNear(i); });
+  add("duplicate points skipped", counts.Repeated,
+    [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
+  add("points nearer than the tolerance to one with a lower id", counts.TooNear,
+    [&](std::int64_t i) { return points.IsNear(i); });
+}
+}
+
+bool IsLost(const PointInput& input, const KeptTriangles& kept)
+{
+  if (kept.Outside + kept.Large == 0)
+  {
+    return false;
+  }
+  return input.FirstAdded > 0 ? kept.UsedGiven == 0 : kept.Count == 0;
+}
+
+Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept)
+{
+  const PointInput& input = points.GetInput();
+  const PointInput& caller = points.GetCaller();
+  std::int64_t given = std::min(input.FirstAdded, caller.Points.Count);
+  if (given == 0)
+  {
+    given = caller.Points.Count;
+  }
+  CoordinateBox cloud, segments, seeds;
+  for (std::int64_t i = 0; i < given; ++i)
+  {
+    cloud.Add(input.Points.Get(i, 0), input.Points.Get(i, 1));
+  }
+  for (const Segment& segment : points.GetSegments())
+  {
+    segments.Add(input.Points.Get(segment.From, 0), input.Points.Get(segment.From, 1));
+    segments.Add(input.Points.Get(segment.To, 0), input.Points.Get(segment.To, 1));
+  }
+  for (std::int64_t i = 0; i < caller.NumberOfHoleSeeds; ++i)
+  {
+    seeds.Add(caller.HoleSeeds[2 * i], caller.HoleSeeds[2 * i + 1]);
+  }
+  std::string left = "only those between points of segments are left";
+  if (kept.Count == 0)
+  {
+    left = "none is left";
+  }
+  std::string text = "points without a triangle, because triangles are removed (" +
+    std::to_string(kept.Outside) + " outside, " + std::to_string(kept.Large) +
+    " too large): " + left + "; these points lie in " + cloud.Describe();
+  if (!points.GetSegments().empty())
+  {
+    text += ", the segments in " + segments.Describe();
+  }
+  if (caller.NumberOfHoleSeeds > 0)
+  {
+    text += ", the hole seeds in " + seeds.Describe();
+  }
+  return { text, given, {}, DefectIds::Points };
+}
+
+void AddPointsTo(
+  FlipReport& report, LoadedMesh& mesh, const PreparedPoints& points, const PointResult& result)
+{
+  const KeptTriangles& kept = result.Kept;
+  AddCounts(report, points, result);
+  AddUnusedPoints(report, mesh, points);
+  AddDefects(result.Refused, points.GetCaller().Segments, points.GetOptions().SplitCrossings,
+    report.Defects);
+  std::int64_t pointsWithoutMesh = 0;
+  if (report.Triangles + kept.Outside + kept.Large == 0)
+  {
+    pointsWithoutMesh = report.Points;
+  }
+  for (const Defect& defect :
+    { Defect{ "hole seeds outside of all triangles", kept.SeedsOutside, {}, DefectIds::Points },
+      FindRingsWithoutArea(points, kept),
+      Defect{
+        "points without a triangle: there are fewer than three places, or all are on one line",
+        pointsWithoutMesh, {}, DefectIds::Points },
+      result.Loss })
+  {
+    AddDefect(defect, report.Defects);
+  }
+}
+
+}

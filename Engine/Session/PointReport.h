@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_POINTREPORT_H
+#define DELAUNAYFLIP_POINTREPORT_H
+
+#include "LoadedMesh.h"
+#include "Outline.h"
+#include "PointPreparation.h"
+#include "RefusedSegments.h"
+
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// What is reported about points beside flips.
+
+namespace delaunayflip
+{
+
+/// What the insertion of segments and the removal of triangles have done to a mesh from points.
+struct PointResult
+{
+  std::size_t Taken = 0; ///< How many segments are inserted or refused; they are the first ones.
+  std::int64_t Flips = 0; ///< That inserted segments.
+  std::vector<SegmentEdge> Edges;
+  std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
+  std::vector<RefusedSegment> Refused;
+  KeptTriangles Kept;
+  Defect Loss; ///< If none of the points that matter is left.
+
+  bool HasRemoved() const { return !this->Kept.Numbers.empty(); }
+};
+
+/// Whether triangles are removed, and none of the points that were given for themselves is left.
+bool IsLost(const PointInput& input, const KeptTriangles& kept);
+
+/// That none of the given points is left, and where they and what was to cut them lie.
+/// @param points are in the host's memory.
+Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept);
+
+/// Adds what is not about flips to a report whose other counts are those of the loaded mesh.
+void AddPointsTo(
+  FlipReport& report, LoadedMesh& mesh, const PreparedPoints& points, const PointResult& result);
+
+}
+
+#endif

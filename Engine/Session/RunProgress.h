@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_RUNPROGRESS_H
+#define DELAUNAYFLIP_RUNPROGRESS_H
+
+#include "FlipReport.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// The progress of a run that its observer is told, and how many iterations to make before it is
+/// told again.
+class RunProgress
+{
+public:
+  /// Tells the observer a fraction of the run, or the last fraction if that is larger.
+  /// @returns false if the observer asks to stop.
+  bool Tell(const ProgressObserver& observer, double fraction)
+  {
+    this->Told = std::max(this->Told, fraction);
+    return !observer || observer(this->Told);
+  }
+
+  /// Called when the build is done.
+  /// @param badEdges the number of edges that may flip.
+  /// @param buildSeconds the time without the test that found them.
+  /// @param rest the share of the progress of what follows the flips.
+  void StartFlips(std::int64_t badEdges, double buildSeconds, double testSeconds, double rest)
+  {
+    this->BadEdgesBefore = badEdges;
+    this->Rest = rest;
+    this->ToldBeforeFlips = this->Told;
+    this->SecondsPerIteration = TestsPerIteration * testSeconds;
+    this->SecondsBetweenCalls =
+      std::max(LeastSecondsBetweenCalls, BuildsBetweenCalls * buildSeconds);
+  }
+
+  /// @param report has the iterations up to now, at least one.
+  /// @param badEdges the number of edges that may flip next.
+  /// @param limit the most iterations of the run. @returns the same as Tell.
+  bool TellFlips(const ProgressObserver& observer, const FlipReport& report, std::int64_t badEdges,
+    std::int64_t limit)
+  {
+    const double byLimit =
+      static_cast<double>(report.Iterations.size()) / static_cast<double>(limit);
+    const double share = std::max(byLimit, this->EstimateFlipped(report, badEdges));
+    const double all = 1.0 - this->Rest - this->ToldBeforeFlips;
+    return this->Tell(observer, this->ToldBeforeFlips + all * share);
+  }
+
+  /// @param share of what follows the flips. @returns the same as Tell.
+  bool TellRest(const ProgressObserver& observer, double share)
+  {
+    return this->Tell(observer, 1.0 - this->Rest * (1.0 - share));
+  }
+
+  /// How many iterations, at least one, observers can wait for.
+  std::int64_t GetBatch() const
+  {
+    constexpr double Most = 1e6;
+    const double batch = this->SecondsBetweenCalls / std::max(this->SecondsPerIteration, 1e-9);
+    return static_cast<std::int64_t>(std::clamp(batch, 1.0, Most));
+  }
+
+  void KeepTime(double secondsPerIteration) { this->SecondsPerIteration = secondsPerIteration; }
+
+private:
+  /// The more iterations in chunks run together, the faster they are. So observers of large meshes
+  /// wait longer: for this share of the time that the build took.
+  static constexpr double LeastSecondsBetweenCalls = 0.1;
+  static constexpr double BuildsBetweenCalls = 0.5;
+
+  /// The first iterations that span the mesh take up to this many times as long as the test of all
+  /// edges.
+  static constexpr double TestsPerIteration = 3.0;
+
+  /// If bad edges do not become fewer, this many more iterations are expected than have been made.
+  static constexpr double SpareIterations = 20.0;
+  /// The share of all flips that have been made. Bad edges have decreased by some mean factor per
+  /// iteration, and they, and flips with them, are expected to continue so; every bad edge takes a
+  /// flip. If they have not decreased, as many more iterations are expected as have been made.
+  double EstimateFlipped(const FlipReport& report, std::int64_t badEdges) const
+  {
+    const auto iterations = static_cast<double>(report.Iterations.size());
+    const double left = static_cast<double>(badEdges) / static_cast<double>(this->BadEdgesBefore);
+    const double factor =
+      std::min(std::pow(left, 1.0 / iterations), 1.0 - 1.0 / (iterations + SpareIterations));
+    const double expected =
+      static_cast<double>(report.Iterations.back().Flipped) * factor / (1.0 - factor);
+    const auto flipped = static_cast<double>(report.TotalFlips);
+    return flipped / (flipped + std::max(expected, static_cast<double>(badEdges)));
+  }
+
+  double Told = 0.0;
+  double ToldBeforeFlips = 0.0;
+  double Rest = 0.0; ///< The share of the run after the flips.
+  std::int64_t BadEdgesBefore = 0;
+  double SecondsPerIteration = 0.0;
+  double SecondsBetweenCalls = 0.0;
+};
+
+}
+
+#endif

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SESSIONRUN_H
+#define DELAUNAYFLIP_SESSIONRUN_H
+
+#include "DelaunayFlip.h"
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+class LoadedMesh;
+
+/// What becomes of a run if an observer asks it to stop during a stage.
+enum class OnStop
+{
+  Forgets, ///< It is forgotten. The next Advance begins anew.
+  /// Its mesh is valid and stays. The next Advance continues with the stage; with several pieces it
+  /// begins anew.
+  KeepsMesh,
+  Ignores ///< It goes on, because the result is not complete without the stage.
+};
+
+/// One of the things that a run does, in their order.
+struct Stage
+{
+  const char* Name;
+  OnStop Stop;
+  /// About the share of the progress that the stage takes if it has something to do. It is 0 if the
+  /// stage is short, if BuildProgress tells its share, and for the flips of a mesh, which take the
+  /// rest.
+  double Share;
+  /// Does what is left of the stage. @returns whether the stage is complete. If not, the
+  /// iterations of the caller are spent, or an observer has stopped the run.
+  std::function<bool()> Work;
+  /// Changes a mesh that is loaded again as Work has changed the first one. Empty if Work does not
+  /// change the mesh. @param count how much of the stage was done: iterations or segments.
+  std::function<void(LoadedMesh&, std::int64_t count)> Repeat;
+};
+
+/// Gives a variable another value for as long as this lives.
+template <typename Value>
+class TemporaryValue
+{
+public:
+  TemporaryValue(Value& variable, const Value& value)
+    : Variable(variable),
+      Before(std::exchange(variable, value))
+  {
+  }
+  ~TemporaryValue() { this->Variable = std::move(this->Before); }
+  TemporaryValue(const TemporaryValue&) = delete;
+  TemporaryValue& operator=(const TemporaryValue&) = delete;
+
+private:
+  Value& Variable;
+  Value Before;
+};
+
+/// What a FlipSession owns: a list of stages, and how far it is. Only stages change the mesh. The
+/// functions do what those of FlipSession do. Getters are not const, because a GPU may fail while
+/// it is asked: then the same mesh is made again on threads, or an observer forgets it.
+class SessionRun
+{
+public:
+  virtual ~SessionRun() = default;
+  SessionRun(const SessionRun&) = delete;
+  SessionRun& operator=(const SessionRun&) = delete;
+
+  virtual bool Advance(
+    std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress) = 0;
+  virtual void Expect(const ResultMemory&) {}
+
+  virtual const FlipReport& GetReport() = 0;
+  virtual void StoreTriangles(const MutableTriangleArray& triangles) = 0;
+  virtual void StoreFlipCounts(std::int32_t* counts) = 0;
+
+  /// The same for device memory. @returns false, and writes nothing, if the values have to be
+  /// copied from the host.
+  virtual bool StoreTrianglesOnDevice(
+    const MutableTriangleArray&, const DeviceStream&, std::int32_t*)
+  {
+    return false;
+  }
+  virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
+
+  /// How many triangles the Store functions write.
+  std::int64_t CountTriangles() const { return this->Report.Triangles; }
+
+  const std::vector<Stage>& GetStages() const { return this->Stages; }
+
+protected:
+  SessionRun() = default;
+
+  /// Does the stages from the current one on, up to the one with this number.
+  /// @returns whether all are complete.
+  bool RunStages(std::size_t end)
+  {
+    for (; this->Current < end; ++this->Current)
+    {
+      const Stage& stage = this->Stages[this->Current];
+      const TemporaryValue<bool> forgets(this->MayForget, stage.Stop == OnStop::Forgets);
+      const bool stopsHere = this->WasStopped && stage.Stop == OnStop::KeepsMesh;
+      if (stopsHere || !stage.Work())
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool IsOver() const { return this->Current == this->Stages.size(); }
+
+  FlipReport Report;
+  std::vector<Stage> Stages;
+  std::size_t Current = 0; ///< The number of the stage that comes next or is not complete.
+  ProgressObserver Observer; ///< Of the call under way, else the constructor's.
+  bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
+  bool MayForget = false; ///< Whether the observer may stop what is under way, and all is lost.
+};
+
+}
+
+#endif
