@@ -251,7 +251,8 @@ extern "C"
     int64_t blocked_by_deviation; /**< Those left that the bound on deviation blocks. */
     int64_t duplicate_triangles; /**< Triangles with the three points of an earlier one. */
     int64_t hidden_by_winding; /**< Edges that are wrongly wound and would else be bad. */
-    /** Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there. */
+    /** Angles above 90 degrees opposite to non-manifold edges at first: bad edges may hide there.
+     */
     int64_t obtuse_at_non_manifold;
     int64_t used_points; /**< For sessions from points: how many of them triangles have. */
     /** Triangles with an angle below so many degrees, or without area; before: 0 from points. */

@@ -145,8 +145,8 @@ struct FlipReport
   std::int64_t DuplicateTriangles = 0; ///< Triangles with the three points of an earlier one.
   /// Edges that are wrongly wound at the end, and have opposite angles of more than pi together.
   std::int64_t HiddenByWinding = 0;
-  /// Angles above 90 degrees opposite to non-manifold edges at the end, of triangles that have not
-  /// flipped. An edge that would be bad has one.
+  /// Angles above 90 degrees opposite to non-manifold edges before the first flip. An edge that
+  /// would be bad has one.
   std::int64_t ObtuseAtNonManifold = 0;
 
   StopReasonKind StopReason = StopReasonKind::NotStarted;

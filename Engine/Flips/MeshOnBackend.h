@@ -150,6 +150,8 @@ public:
     report.Tolerance = DescribeTolerance(options, survey.Geometry);
     report.Backend = this->Backend.GetName();
     const std::vector<Defect> made = this->ChooseLoop(survey, options, mesh);
+    const bool mayHide = built.Counts.NonManifold > 0;
+    report.ObtuseAtNonManifold = mayHide ? this->CountHidden().ObtuseCorners : 0;
     std::vector<Defect> defects{ survey.NonFinitePoints, survey.RepeatedIds,
       survey.NearlyHeightField, built.DuplicateTriangles,
       { "constraint edges that are not edges of the mesh", built.MissingConstraints, {},

@@ -23,8 +23,7 @@ struct HiddenSums
 {
   std::int64_t WronglyWound = 0; ///< Edges that are wrongly wound, and else bad.
   /// Corners opposite to non-manifold edges with more than 90 degrees. A bad edge has such a
-  /// corner. Triangles that have flipped do not count, because a flip does not move the roles of
-  /// corners.
+  /// corner. This is right before the first flip only: a flip does not move the roles of corners.
   std::int64_t ObtuseCorners = 0;
 
   DELAUNAYFLIP_HOST_DEVICE HiddenSums& operator+=(const HiddenSums& part)
@@ -54,7 +53,7 @@ struct HiddenEdgeSurvey
     {
       sums.WronglyWound += int(this->IsWronglyWoundAndBad(corners));
     }
-    else if (triangle.Flips < OneFlip && GetRole(triangle, slot) == CornerRole::OneOfMany)
+    else if (GetRole(triangle, slot) == CornerRole::OneOfMany)
     {
       sums.ObtuseCorners += int(this->IsObtuse(triangle, slot));
     }

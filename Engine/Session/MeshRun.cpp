@@ -118,13 +118,12 @@ void MeshRun::Measure()
     const bool isRunning = report.StopReason == StopReasonKind::Running;
     report.KeepsSliver = !isRunning && edges.Feature + edges.Constraint > 0 &&
       this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
-    HiddenSums hidden;
-    if (!isRunning && edges.WronglyWound + edges.NonManifold > 0)
+    report.HiddenByWinding = 0;
+    if (!isRunning && edges.WronglyWound > 0)
     {
-      hidden = this->OnBackend([](LoadedMesh& mesh) { return mesh.CountHidden(); });
+      const auto count = [](LoadedMesh& mesh) { return mesh.CountHidden(); };
+      report.HiddenByWinding = this->OnBackend(count).WronglyWound;
     }
-    report.HiddenByWinding = hidden.WronglyWound;
-    report.ObtuseAtNonManifold = hidden.ObtuseCorners;
     this->AreKeptEdgesKnown = true;
   }
   LoadedRun::Measure();

@@ -79,7 +79,7 @@ class Report:
     blocked_by_deviation: int = 0  #: Those left that the bound on deviation blocks.
     duplicate_triangles: int = 0  #: Triangles with the three points of an earlier one.
     hidden_by_winding: int = 0  #: Edges that are wrongly wound and would else be bad.
-    #: Angles above 90 degrees opposite to non-manifold edges: bad edges may hide there.
+    #: Angles above 90 degrees opposite to non-manifold edges at first: bad edges may hide there.
     obtuse_at_non_manifold: int = 0
     used_points: int = 0  #: How many points the triangles of a triangulation have.
     triangles_below_10_before: int = 0  #: With an angle below 10 degrees; 0 from points, as below.

@@ -300,6 +300,18 @@ TEST(Surface, MoebiusStripsStayOneSided)
   }
 }
 
+/// Three triangles at an edge, of which one has an obtuse angle and flips with a fourth.
+TEST(Surface, ObtuseAnglesAtNonManifoldEdgesAreThoseOfTheInput)
+{
+  OwnedMesh<double> mesh;
+  mesh.Points = { 0, 0, 0, 4, 0, 0, 2, 0.5, 0, 0.9, 0.3, 0, 2, 0, 3, 2, 0, -3 };
+  mesh.Triangles = { 0, 1, 2, 0, 2, 3, 0, 1, 4, 0, 1, 5 };
+  const FlipReport report = FlipSurface(mesh).Report;
+  EXPECT_EQ(1, report.TotalFlips);
+  EXPECT_EQ(1, report.Edges.NonManifold);
+  EXPECT_EQ(1, report.ObtuseAtNonManifold);
+}
+
 TEST(Surface, DuplicateTrianglesKeepTheirEdges)
 {
   for (bool reversed : { false, true })
