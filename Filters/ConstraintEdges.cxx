@@ -29,7 +29,8 @@ bool PointPlaces::Read(const PointArray& points, std::int64_t point, Place& plac
     {
       return false;
     }
-    place[axis] = (this->AsFloats ? static_cast<double>(static_cast<float>(x)) : x) + 0.0;
+    const double rounded = this->AsFloats ? static_cast<float>(x) : x;
+    place[axis] = rounded + 0.0; // makes 0 of -0
   }
   return true;
 }
@@ -42,7 +43,10 @@ std::int64_t PointPlaces::Add(const PointArray& points, std::int64_t point)
     return this->NumberOfPlaces++;
   }
   const auto added = this->Numbers.emplace(place, this->NumberOfPlaces);
-  this->NumberOfPlaces += added.second ? 1 : 0;
+  if (added.second)
+  {
+    ++this->NumberOfPlaces;
+  }
   return added.first->second;
 }
 
@@ -82,7 +86,7 @@ void AddPaths(vtkCellArray* cells, bool areClosed, const PointIdCheck& check,
     });
 }
 
-/// Adds the edges along lines and polygons of a second input, whose ids must be below
+/// Adds the edges along lines and polygons of a second input. Their ids must be below
 /// `numberOfPoints`.
 void AddAllPaths(vtkPolyData* others, vtkIdType numberOfPoints, const ProgressObserver& progress,
   std::vector<PointPair>& pairs)
@@ -109,9 +113,17 @@ void RemoveRepeated(std::vector<PointPair>& pairs, std::vector<unsigned char>& f
   {
     const auto added = known.emplace(pairs[i], kept);
     const std::size_t place = added.first->second;
-    flags[place] = added.second ? flags[i] : flags[place] | flags[i];
-    pairs[place] = pairs[i];
-    kept += added.second ? 1 : 0;
+    const bool isNew = added.second;
+    if (isNew)
+    {
+      pairs[place] = pairs[i];
+      flags[place] = flags[i];
+      ++kept;
+    }
+    else
+    {
+      flags[place] |= flags[i];
+    }
     work.Add();
   }
   pairs.resize(kept);
@@ -130,7 +142,11 @@ void AddCrowdedEdges(std::vector<PointPair>& crowded, const std::vector<std::int
     return isPoint ? placeOf[point] : PointPlaces::None;
   };
   std::vector<PointPair> found;
-  const std::int64_t sides = crowded.empty() ? 0 : 3 * triangles.Count;
+  if (crowded.empty())
+  {
+    return;
+  }
+  const std::int64_t sides = 3 * triangles.Count;
   WorkProgress work(progress, sides);
   for (std::int64_t side = 0; side < sides; ++side)
   {
@@ -154,12 +170,16 @@ void AddCrowdedEdges(std::vector<PointPair>& crowded, const std::vector<std::int
 std::string DescribeEdge(const PointArray& points, std::int64_t from, std::int64_t to)
 {
   std::ostringstream text;
-  text << std::setprecision(points.Floats ? 7 : 10);
-  for (const std::int64_t end : { from, to })
+  const int digits = points.Floats ? 7 : 10;
+  const auto write = [&](std::int64_t end)
   {
-    text << (end == from ? "from (" : " to (") << points.Get(end, 0) << ", " << points.Get(end, 1)
-         << ", " << points.Get(end, 2) << ')';
-  }
+    text << '(' << points.Get(end, 0) << ", " << points.Get(end, 1) << ", " << points.Get(end, 2)
+         << ')';
+  };
+  text << std::setprecision(digits) << "from ";
+  write(from);
+  text << " to ";
+  write(to);
   return text.str();
 }
 
@@ -178,9 +198,13 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   const auto number = [&](std::int64_t point)
   {
     std::int64_t& place = placeOfOther[point];
-    return place = place == PointPlaces::None ? places.Add(others, point) : place;
+    if (place == PointPlaces::None)
+    {
+      place = places.Add(others, point);
+    }
+    return place;
   };
-  std::vector<PointPair> wanted; // of places
+  std::vector<PointPair> wanted; // pairs of places
   WorkProgress numbering(MakePart(progress, 0.0, 0.32), static_cast<vtkIdType>(pairs.size()));
   for (const PointPair& pair : pairs)
   {
@@ -191,7 +215,7 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   std::vector<unsigned char> noFlags(wanted.size());
   RemoveRepeated(wanted, noFlags, MakePart(progress, 0.32, 0.54));
 
-  std::vector<std::int64_t> placeOf(mesh.Points.Count); // or None
+  std::vector<std::int64_t> placeOf(mesh.Points.Count); // some are None
   WorkProgress finding(MakePart(progress, 0.54, 0.9), mesh.Points.Count);
   constexpr vtkIdType Chunk = 32768; // some milliseconds
   for (vtkIdType chunk = 0; chunk < mesh.Points.Count; chunk += Chunk)
@@ -219,8 +243,9 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   for (const PointPair& pair : pairs)
   {
     const std::int64_t from = placeOfOther[pair[0]], to = placeOfOther[pair[1]];
-    edges.AreHere.push_back(pointsAt[from] > 0 && pointsAt[to] > 0 ? 1 : 0);
-    if (edges.AreHere.back() == 0 && from != to && edges.FirstStranger.empty())
+    const bool areHere = pointsAt[from] > 0 && pointsAt[to] > 0;
+    edges.AreHere.push_back(static_cast<char>(areHere));
+    if (!areHere && from != to && edges.FirstStranger.empty())
     {
       edges.FirstStranger = DescribeEdge(others, pair[0], pair[1]);
     }
@@ -229,12 +254,15 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   for (const PointPair& pair : wanted)
   {
     const std::int64_t points = pointsAt[pair[0]] * pointsAt[pair[1]];
-    edges.Unmatched += points == 0 ? 1 : 0;
-    if (points == 1)
+    if (points == 0)
+    {
+      ++edges.Unmatched;
+    }
+    else if (points == 1)
     {
       AddPair(firstAt[pair[0]], firstAt[pair[1]], edges.Pairs);
     }
-    else if (points > 1)
+    else
     {
       crowded.push_back(pair);
     }
@@ -251,11 +279,11 @@ ConstraintEdges FindConstraintEdges(const TriangleMesh& mesh, vtkPolyData* input
   if (settings.LinesAsConstraints)
   {
     vtkCellArray* lines = input->GetLines();
-    WorkProgress work(
-      MakePart(progress, 0.0, others ? 0.0 : 0.5), lines->GetNumberOfConnectivityIds());
+    const double end = others ? 0.0 : 0.5; // beside others the lines take no time
+    WorkProgress work(MakePart(progress, 0.0, end), lines->GetNumberOfConnectivityIds());
     AddPaths(lines, false, { "line, cell", input->GetNumberOfVerts(), mesh.Points.Count }, work,
       edges.Pairs);
-    edges.ToInsert.resize(edges.Pairs.size(), settings.InsertLines ? 1 : 0);
+    edges.ToInsert.resize(edges.Pairs.size(), settings.InsertLines);
   }
   if (others)
   {
@@ -273,7 +301,7 @@ ConstraintEdges FindConstraintEdges(const TriangleMesh& mesh, vtkPolyData* input
       AddAllPaths(others, points.Count, MakePart(progress, 0.0, 0.07), pairs);
       MatchPlaces(points, pairs, mesh, MakePart(progress, 0.07, 0.7), edges);
     }
-    edges.ToInsert.resize(edges.Pairs.size(), settings.InsertConstraints ? 1 : 0);
+    edges.ToInsert.resize(edges.Pairs.size(), settings.InsertConstraints);
   }
   RemoveRepeated(edges.Pairs, edges.ToInsert, MakePart(progress, 0.7, 1.0));
   return edges;
@@ -282,8 +310,12 @@ ConstraintEdges FindConstraintEdges(const TriangleMesh& mesh, vtkPolyData* input
 vtkSmartPointer<vtkPolyData> MakeLines(
   const std::vector<std::array<double, 3>>& ends, bool areFloats)
 {
+  if (ends.empty())
+  {
+    return nullptr;
+  }
   vtkNew<vtkPoints> points;
-  points->SetDataType(areFloats ? VTK_FLOAT : VTK_DOUBLE);
+  points->SetDataType(FindPointType(areFloats));
   vtkNew<vtkCellArray> lines;
   for (std::size_t i = 0; i < ends.size(); i += 2)
   {
@@ -293,7 +325,7 @@ vtkSmartPointer<vtkPolyData> MakeLines(
   auto made = vtkSmartPointer<vtkPolyData>::New();
   made->SetPoints(points);
   made->SetLines(lines);
-  return ends.empty() ? nullptr : made;
+  return made;
 }
 
 vtkSmartPointer<vtkPolyData> JoinConstraints(
@@ -303,10 +335,12 @@ vtkSmartPointer<vtkPolyData> JoinConstraints(
   bool areFloats = true;
   for (const auto& [edges, mesh] : sources)
   {
-    vtkPoints* points = (edges->GetNumberOfPoints() > 0 || !mesh ? edges : mesh)->GetPoints();
+    const bool namesMesh = mesh && edges->GetNumberOfPoints() == 0;
+    vtkPolyData* named = namesMesh ? mesh : edges;
+    vtkPoints* points = named->GetPoints();
     areFloats = areFloats && (!points || points->GetDataType() == VTK_FLOAT);
     std::vector<PointPair> pairs;
-    AddAllPaths(edges, points ? points->GetNumberOfPoints() : 0, {}, pairs);
+    AddAllPaths(edges, named->GetNumberOfPoints(), {}, pairs);
     for (const PointPair& pair : pairs)
     {
       points->GetPoint(pair[0], ends.emplace_back().data());

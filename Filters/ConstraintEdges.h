@@ -90,7 +90,7 @@ struct ConstraintEdges
   std::vector<PointPair> Pairs; ///< Unique, in the order given, the smaller id of each pair first.
   std::vector<unsigned char> ToInsert; ///< One flag per pair, as in TriangleMesh.
   std::int64_t Unmatched = 0; ///< How many edges of the second input the mesh does not have.
-  std::vector<char> AreHere; ///< By edge of the second input, whether the mesh has both ends.
+  std::vector<char> AreHere; ///< One flag per edge of the second input: the mesh has both ends.
   std::string FirstStranger; ///< The first of them with an end that is no point of the mesh: where.
 };
 
@@ -108,7 +108,8 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> MakeLines(
 
 /// The edges along the lines and polygons of several second inputs, as lines with points of their
 /// own; null if there are none.
-/// @param sources each with the mesh whose points it names if it has none; or null.
+/// @param sources are pairs of a second input and a mesh, or null. An input without points names
+/// points of that mesh.
 /// @throws InvalidMesh.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> JoinConstraints(
   const std::vector<std::pair<vtkPolyData*, vtkPolyData*>>& sources);

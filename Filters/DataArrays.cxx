@@ -109,7 +109,16 @@ void PointIdCheck::ThrowOutOfRange(vtkIdType cell, vtkIdType id) const
 }
 
 //------------------------------------------------------------------------------
-std::string GetName(vtkAbstractArray* array) { return array->GetName() ? array->GetName() : ""; }
+std::string GetName(vtkAbstractArray* array)
+{
+  const char* name = array->GetName();
+  return name ? name : "";
+}
+
+void SetName(const std::string& name, vtkAbstractArray* array)
+{
+  array->SetName(name.empty() ? nullptr : name.c_str());
+}
 
 vtkSmartPointer<vtkDataSetAttributes> TakeWholeArrays(vtkDataSetAttributes* data, vtkIdType tuples)
 {
@@ -161,7 +170,10 @@ int FindAttributes(vtkDataSetAttributes* data, vtkAbstractArray* array)
   int attributes = 0;
   for (int i = 0; i < vtkDataSetAttributes::NUM_ATTRIBUTES; ++i)
   {
-    attributes |= data->GetAbstractAttribute(i) == array ? 1 << i : 0;
+    if (data->GetAbstractAttribute(i) == array)
+    {
+      attributes |= 1 << i;
+    }
   }
   return attributes;
 }
@@ -218,14 +230,15 @@ void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
     { return AreAlike(other, array) && taken.count(other) == 0; };
     const auto find = [&]()
     {
-      vtkSmartPointer<vtkAbstractArray> found;
-      for (int k = 0; k < data->GetNumberOfArrays() && !found; ++k)
+      for (int k = 0; k < data->GetNumberOfArrays(); ++k)
       {
         vtkAbstractArray* other = data->GetAbstractArray(k);
-        const bool isFound = GetName(other) == name && (!name.empty() || fits(other));
-        found = isFound ? other : nullptr;
+        if (GetName(other) == name && (!name.empty() || fits(other)))
+        {
+          return vtkSmartPointer<vtkAbstractArray>(other);
+        }
       }
-      return found;
+      return vtkSmartPointer<vtkAbstractArray>();
     };
     vtkSmartPointer<vtkAbstractArray> target = find();
     while (target && !fits(target))
@@ -236,7 +249,7 @@ void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
     if (!target)
     {
       target = MakeZeros(array, size);
-      target->SetName(name.empty() ? nullptr : name.c_str());
+      SetName(name, target);
       AddAttributes(data, data->AddArray(target), FindAttributes(own, array));
     }
     taken.insert(target);
@@ -263,7 +276,7 @@ vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkI
   vtkPoints* typical = given > 0 ? mesh->GetPoints() : more;
   auto points = vtkSmartPointer<vtkPoints>::New();
   // Integers would cut what is added.
-  points->SetDataType(typical->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE);
+  points->SetDataType(FindPointType(typical->GetDataType() == VTK_FLOAT));
   points->SetNumberOfPoints(size);
   if (given > 0)
   {

@@ -89,7 +89,8 @@ void VisitEdges(vtkCellArray* cells, bool areClosed, const PointIdCheck& check, 
     {
       const vtkIdType count = ids->GetNumberOfIds();
       const bool isClosed = areClosed && count > 2;
-      for (vtkIdType i = 0; i < (isClosed ? count : count - 1); ++i)
+      const vtkIdType edges = isClosed ? count : count - 1;
+      for (vtkIdType i = 0; i < edges; ++i)
       {
         visit(cell, ids->GetId(i), ids->GetId((i + 1) % count), isClosed);
       }
@@ -97,8 +98,34 @@ void VisitEdges(vtkCellArray* cells, bool areClosed, const PointIdCheck& check, 
 }
 
 //------------------------------------------------------------------------------
-/// "" for an array without a name.
+/// The values, or null if there are none.
+template <typename Value>
+const Value* ViewValues(const std::vector<Value>& values)
+{
+  return values.empty() ? nullptr : values.data();
+}
+
+/// Gives a cell array without cells ids of 64 or 32 bits.
+inline void SetWidth(vtkCellArray* cells, bool areWide)
+{
+  if (areWide)
+  {
+    cells->Use64BitStorage();
+  }
+  else
+  {
+    cells->Use32BitStorage();
+  }
+}
+
+/// VTK's number of the type of coordinates.
+inline int FindPointType(bool areFloats) { return areFloats ? VTK_FLOAT : VTK_DOUBLE; }
+
+/// The name of an array; "" if it has none.
 DELAUNAYFLIP_EXPORT std::string GetName(vtkAbstractArray* array);
+
+/// Names an array, or takes its name away if it is "".
+DELAUNAYFLIP_EXPORT void SetName(const std::string& name, vtkAbstractArray* array);
 
 /// A shallow copy without the arrays that have fewer than `tuples` tuples: they would be read past
 /// their end.

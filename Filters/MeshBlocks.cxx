@@ -40,6 +40,32 @@ vtkDataObjectTree* GetTree(vtkDataObject* data)
   return vtkUniformGridAMR::SafeDownCast(data) ? nullptr : vtkDataObjectTree::SafeDownCast(data);
 }
 
+/// What messages call a leaf: "block 3 (wing)", or "block 3" if it has no name.
+std::string DescribeLeaf(vtkDataObjectTreeIterator* leaf, unsigned int number)
+{
+  std::string text = "block " + std::to_string(number);
+  if (leaf->HasCurrentMetaData())
+  {
+    const char* name = leaf->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME());
+    if (name && *name)
+    {
+      text += std::string(" (") + name + ")";
+    }
+  }
+  return text;
+}
+
+/// The number of a child in the place of its block. The partitions that are not empty have one
+/// place, and each empty one has another.
+std::int64_t FindPlace(std::int64_t child, bool isPartition, bool isEmpty)
+{
+  if (!isPartition)
+  {
+    return child;
+  }
+  return isEmpty ? -1 - child : 0;
+}
+
 /// @param number the flat index of the tree, and then of its last node.
 void AddLeaves(vtkDataObjectTree* tree, int elements, std::vector<std::int64_t> place,
   unsigned int& number, std::vector<MeshBlock>& blocks)
@@ -57,28 +83,31 @@ void AddLeaves(vtkDataObjectTree* tree, int elements, std::vector<std::int64_t> 
   {
     ++number;
     vtkDataObject* data = child->GetCurrentDataObject();
-    const double size = data ? static_cast<double>(data->GetNumberOfElements(elements)) : 0.0;
-    const bool isJoined = arePartitions && size > 0.0;
-    place.back() = isJoined ? 0 : arePartitions ? -1 - i : i;
+    if (!data)
+    {
+      continue;
+    }
+    const auto size = static_cast<double>(data->GetNumberOfElements(elements));
+    place.back() = FindPlace(i, arePartitions, size == 0.0);
     if (vtkDataObjectTree* inner = GetTree(data))
     {
       AddLeaves(inner, elements, place, number, blocks);
+      continue;
     }
-    else if (data)
+    const std::string name = DescribeLeaf(child, number);
+    const bool isJoined = arePartitions && size > 0.0;
+    std::size_t own = blocks.size();
+    if (isJoined)
     {
-      vtkInformation* about = child->HasCurrentMetaData() ? child->GetCurrentMetaData() : nullptr;
-      const char* text = about ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
-      const std::string name =
-        "block " + std::to_string(number) + (text && *text ? std::string(" (") + text + ")" : "");
-      if (!isJoined || joined == None)
-      {
-        joined = isJoined ? blocks.size() : joined;
-        blocks.push_back({ place, name, 0.0, false, {} });
-      }
-      MeshBlock& block = isJoined ? blocks[joined] : blocks.back();
-      block.Size += size;
-      block.Leaves.push_back({ data, number, name, nullptr });
+      joined = std::min(joined, own);
+      own = joined;
     }
+    if (own == blocks.size())
+    {
+      blocks.push_back({ place, name, 0.0, false, {} });
+    }
+    blocks[own].Size += size;
+    blocks[own].Leaves.push_back({ data, number, name, nullptr });
   }
 }
 
@@ -94,11 +123,37 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
   }
   else
   {
-    std::vector<std::int64_t> place(vtkCompositeDataSet::SafeDownCast(input) ? 1 : 0);
+    const bool isComposite = vtkCompositeDataSet::SafeDownCast(input) != nullptr;
+    std::vector<std::int64_t> place(static_cast<std::size_t>(isComposite));
     const auto size = static_cast<double>(input->GetNumberOfElements(elements));
     blocks.push_back({ place, "", size, false, { { input, number, "", nullptr } } });
   }
   return blocks;
+}
+
+namespace
+{
+
+/// Says what of a leaf of the second input is ignored; "" if nothing.
+/// @param fits whether the first input has something at the same place.
+std::string DescribeMisfit(const BlockLeaf& leaf, bool fits)
+{
+  if (!fits)
+  {
+    return "nothing of the first input is at the same place, ignored";
+  }
+  auto* mesh = vtkPolyData::SafeDownCast(leaf.Data);
+  if (!mesh)
+  {
+    return "not a vtkPolyData, ignored";
+  }
+  if (mesh->GetNumberOfStrips() > 0)
+  {
+    return "triangle strips ignored";
+  }
+  return "";
+}
+
 }
 
 std::vector<Note> ListMisfits(
@@ -115,15 +170,11 @@ std::vector<Note> ListMisfits(
     const bool fits = other.Place.empty() || places.count({}) > 0 || places.count(other.Place) > 0;
     for (const BlockLeaf& leaf : other.Leaves)
     {
-      auto* mesh = vtkPolyData::SafeDownCast(leaf.Data);
-      const std::string fault = !fits   ? "nothing of the first input is at the same place, ignored"
-        : !mesh                         ? "not a vtkPolyData, ignored"
-        : mesh->GetNumberOfStrips() > 0 ? "triangle strips ignored"
-                                        : "";
+      const std::string fault = DescribeMisfit(leaf, fits);
       if (!fault.empty() && leaf.Data->GetNumberOfElements(vtkDataObject::CELL) > 0)
       {
-        notes.push_back(
-          { leaf.Name + (leaf.Name.empty() ? "" : " of the ") + "second input", fault });
+        const std::string prefix = leaf.Name.empty() ? "" : leaf.Name + " of the ";
+        notes.push_back({ prefix + "second input", fault });
       }
     }
   }
@@ -249,7 +300,7 @@ vtkSmartPointer<vtkIntArray> CopyCells(const MeshList& meshes,
   copy->GetCellData()->Initialize();
   for (std::size_t kind = 0; kind < copied.size(); ++kind)
   {
-    areWide ? copied[kind]->Use64BitStorage() : copied[kind]->Use32BitStorage();
+    SetWidth(copied[kind], areWide);
     for (std::size_t k = 0; k < meshes.size(); ++k)
     {
       const auto arrays = ListCells(meshes[k]);
@@ -302,16 +353,15 @@ std::vector<vtkSmartPointer<vtkIdList>> AddPoints(
       std::make_unique<PolyDataBridge>(mesh, nullptr, BridgeSettings(), UpdatePlan({}, {})));
     bridges.back()->RequireValidIds();
     numbers.push_back(ReadPointNumbers(mesh));
-    pieces.push_back(
-      { bridges.back()->GetMesh(), numbers.back().empty() ? nullptr : numbers.back().data() });
+    pieces.push_back({ bridges.back()->GetMesh(), ViewValues(numbers.back()) });
     areFloats = areFloats && (!mesh->GetPoints() || mesh->GetPoints()->GetDataType() == VTK_FLOAT);
   }
   const JoinedPoints found = JoinPoints(pieces);
   ambiguous = found.Ambiguous;
-  std::vector<vtkIdType> all; // of the points of all partitions, in the joined mesh
+  std::vector<vtkIdType> all; // ids in the joined mesh for the points of all partitions
   std::vector<vtkSmartPointer<vtkIdList>> ids;
   vtkNew<vtkPoints> points;
-  points->SetDataType(areFloats ? VTK_FLOAT : VTK_DOUBLE);
+  points->SetDataType(FindPointType(areFloats));
   for (const auto& mesh : partitions)
   {
     ids.push_back(vtkSmartPointer<vtkIdList>::New());
@@ -319,8 +369,9 @@ std::vector<vtkSmartPointer<vtkIdList>> AddPoints(
     {
       const std::int64_t same = found.Same[all.size()];
       const bool isKnown = same < static_cast<std::int64_t>(all.size());
-      all.push_back(isKnown ? all[same] : points->InsertNextPoint(mesh->GetPoint(i)));
-      ids.back()->InsertNextId(all.back());
+      const vtkIdType id = isKnown ? all[same] : points->InsertNextPoint(mesh->GetPoint(i));
+      all.push_back(id);
+      ids.back()->InsertNextId(id);
     }
   }
   joined->SetPoints(points);
@@ -425,9 +476,15 @@ MeshList DividePartitions(vtkPolyData* flipped, vtkIntArray* owners, const MeshL
   for (std::size_t k = 0; k < partitions.size(); ++k)
   {
     vtkPolyData* own = partitions[k];
-    vtkNew<vtkIdList> ids; // of its points in the joined mesh
+    vtkNew<vtkIdList> ids; // the ids of its points in the joined mesh
     const auto take = [&](std::size_t, vtkIdType id)
-    { return local[id] != None ? local[id] : local[id] = ids->InsertNextId(id); };
+    {
+      if (local[id] == None)
+      {
+        local[id] = ids->InsertNextId(id);
+      }
+      return local[id];
+    };
     for (const vtkIdType id : *points[k])
     {
       local[id] = ids->InsertNextId(id);
@@ -508,8 +565,11 @@ BlockMesh::BlockMesh(MeshBlock& block, const std::string& regions, bool dropsDup
   }
   else if (!this->Meshes.empty())
   {
-    this->Joined.Mesh =
-      dropsDuplicates ? DropDuplicateCells(this->Meshes.front()) : this->Meshes.front();
+    this->Joined.Mesh = this->Meshes.front();
+    if (dropsDuplicates)
+    {
+      this->Joined.Mesh = DropDuplicateCells(this->Joined.Mesh);
+    }
   }
 }
 
@@ -519,12 +579,14 @@ std::vector<Note> BlockMesh::ListNotes(bool ofArrays) const
   bool areAllSurfaces = true;
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
-    const bool isAsked = this->Surfaces[i] && (this->IsJoined() || ofArrays);
-    const std::string text =
-      isAsked ? DescribeDefects(ListMalformedArrays(this->Surfaces[i], false, false)) : "";
-    if (!text.empty())
+    if (this->Surfaces[i] && (this->IsJoined() || ofArrays))
     {
-      notes.push_back({ this->Block.Leaves[i].Name, text });
+      const std::string text =
+        DescribeDefects(ListMalformedArrays(this->Surfaces[i], false, false));
+      if (!text.empty())
+      {
+        notes.push_back({ this->Block.Leaves[i].Name, text });
+      }
     }
     areAllSurfaces = areAllSurfaces && this->Surfaces[i];
   }
@@ -551,7 +613,9 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
   {
     auto* edges = vtkPolyData::SafeDownCast(leaf.Data);
     const bool isOfAll = leaf.Number == 0;
-    if (this->IsJoined() ? isOfAll && edges->GetNumberOfPoints() > 0 : leaves.size() == 1)
+    const bool isOnly = !this->IsJoined() && leaves.size() == 1;
+    const bool isForJoined = this->IsJoined() && isOfAll && edges->GetNumberOfPoints() > 0;
+    if (isOnly || isForJoined)
     {
       return edges;
     }
@@ -565,7 +629,8 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
     }
     if (sources.size() == before)
     {
-      sources.emplace_back(edges, this->IsJoined() ? nullptr : this->GetMesh());
+      vtkPolyData* mesh = this->IsJoined() ? nullptr : this->GetMesh();
+      sources.emplace_back(edges, mesh);
     }
   }
   return JoinConstraints(sources);
@@ -574,9 +639,9 @@ vtkSmartPointer<vtkPolyData> BlockMesh::FindConstraints(
 void BlockMesh::Store(vtkPolyData* flipped)
 {
   MeshList results{ flipped };
-  const char* name = this->IsJoined() ? this->Joined.Owners->GetName() : nullptr;
-  if (flipped && name)
+  if (flipped && this->IsJoined() && this->Joined.Owners->GetName())
   {
+    const char* name = this->Joined.Owners->GetName();
     vtkCellData* data = flipped->GetCellData();
     const vtkSmartPointer<vtkIntArray> owners = vtkIntArray::SafeDownCast(data->GetArray(name));
     data->RemoveArray(name);
@@ -586,13 +651,17 @@ void BlockMesh::Store(vtkPolyData* flipped)
   for (std::size_t i = 0; i < this->Surfaces.size(); ++i)
   {
     BlockLeaf& leaf = this->Block.Leaves[i];
-    if (flipped && this->Surfaces[i])
+    if (!flipped || !this->Surfaces[i])
     {
-      leaf.Result = next != results.end() ? *next++ : vtkSmartPointer<vtkPolyData>::New();
+      leaf.Result = Hold(leaf.Data);
+    }
+    else if (next != results.end())
+    {
+      leaf.Result = *next++;
     }
     else
     {
-      leaf.Result = Hold(leaf.Data);
+      leaf.Result = vtkSmartPointer<vtkPolyData>::New();
     }
   }
 }

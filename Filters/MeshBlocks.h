@@ -45,18 +45,19 @@ struct MeshBlock
 /// are blocks of their own.
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
-/// What of the second input is ignored.
+/// Lists what is ignored of the second input.
 DELAUNAYFLIP_EXPORT std::vector<Note> ListMisfits(
   const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others);
 
-/// The leaves of the second input, all polygonal, that are for a block: that of a single dataset,
-/// whose number is 0, or those at the same place.
+/// Lists the polygonal leaves of the second input that are for a block. A single dataset has one
+/// leaf, number 0, which is for all blocks. Leaves of composite data are for the block at the same
+/// place.
 /// @param what begins the message if they cannot be composite.
 /// @throws InvalidOptions.
 std::vector<BlockLeaf> ListOthers(
   const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what);
 
-/// A shallow copy, whose leaves and arrays observers cannot take away; null for null.
+/// Makes a shallow copy; null for null. Observers cannot take its leaves and arrays away.
 vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data);
 
 /// Gives `output`, which is of the same type, the structure of `input` and the results of the
@@ -74,8 +75,8 @@ struct JoinedMesh
   std::vector<vtkSmartPointer<vtkIdList>> Points; ///< For each partition, its points in the mesh.
   vtkSmartPointer<vtkIntArray> Owners; ///< Its partition for each cell, by which it is divided.
 
-  /// Points that coincide with others of their partition, and with one of another: it is not known
-  /// which of them are meant.
+  /// The number of points that coincide with others of their partition and with one of another. It
+  /// is not known which of them are meant.
   vtkIdType Ambiguous = 0;
 };
 
@@ -94,9 +95,9 @@ public:
   BlockMesh(const BlockMesh&) = delete;
   BlockMesh& operator=(const BlockMesh&) = delete;
 
-  /// What to warn of.
-  /// @param ofArrays also of malformed arrays of a single leaf; else these are told of when it is
-  /// flipped.
+  /// Lists the warnings about the block.
+  /// @param ofArrays adds malformed arrays of a single leaf. Otherwise the report of its flips has
+  /// them.
   std::vector<Note> ListNotes(bool ofArrays = false) const;
 
   /// Null if the block is none.

@@ -34,12 +34,16 @@ namespace
 /// E.g. "it has \"Side\", \"Material\"".
 std::string ListNames(vtkCellData* data)
 {
-  std::string names;
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  if (data->GetNumberOfArrays() == 0)
   {
-    names += (i > 0 ? ", \"" : "it has \"") + GetName(data->GetAbstractArray(i)) + '"';
+    return "it has none";
   }
-  return names.empty() ? "it has none" : names;
+  std::string names = "it has \"" + GetName(data->GetAbstractArray(0)) + '"';
+  for (int i = 1; i < data->GetNumberOfArrays(); ++i)
+  {
+    names += ", \"" + GetName(data->GetAbstractArray(i)) + '"';
+  }
+  return names;
 }
 
 /// Asks for pages of 2 MiB instead of 4 KiB in new memory, because each page is allocated and
@@ -86,16 +90,25 @@ bool AreTriangleOffsets(const Id* offsets, vtkIdType count)
   return are;
 }
 
-/// Views cells whose ids are of type VtkId, for the engine of type Id, if all are triangles.
+/// Whether all cells have three points. Offsets in plain memory are of type VtkId.
+template <typename VtkId>
+bool AreTriangles(vtkCellArray* cells)
+{
+  using ArrayT = vtkAOSDataArrayTemplate<VtkId>;
+  if (auto* offsets = vtkArrayDownCast<ArrayT>(cells->GetOffsetsArray()))
+  {
+    return AreTriangleOffsets(offsets->GetPointer(0), offsets->GetNumberOfValues());
+  }
+  return cells->IsValid() && cells->IsHomogeneous() == 3;
+}
+
+/// Views cells as triangles, if all of them are. VTK has ids of type VtkId, and the engine of Id.
 template <typename VtkId, typename Id>
 bool ViewTriangles(vtkCellArray* cells, TriangleArray& triangles)
 {
-  using ArrayT = vtkAOSDataArrayTemplate<VtkId>;
-  auto* ids = vtkArrayDownCast<ArrayT>(cells->GetConnectivityArray());
-  auto* offsets = vtkArrayDownCast<ArrayT>(cells->GetOffsetsArray());
+  auto* ids = vtkArrayDownCast<vtkAOSDataArrayTemplate<VtkId>>(cells->GetConnectivityArray());
   if (!ids || ids->GetNumberOfValues() != 3 * cells->GetNumberOfCells() ||
-    !(offsets ? AreTriangleOffsets(offsets->GetPointer(0), offsets->GetNumberOfValues())
-              : cells->IsValid() && cells->IsHomogeneous() == 3))
+    !AreTriangles<VtkId>(cells))
   {
     return false;
   }
@@ -125,7 +138,10 @@ TriangleSlots::TriangleSlots(
     return;
   }
   this->NoTriangles.What = "polygons with fewer than three different points";
-  this->NoTriangles.What += triangulate ? ", left out" : "";
+  if (triangulate)
+  {
+    this->NoTriangles.What += ", left out";
+  }
   WorkProgress split(progress,
     polygons->GetNumberOfConnectivityIds() + mesh->GetStrips()->GetNumberOfConnectivityIds());
   VisitCells(polygons, check(this->FirstPolygon),
@@ -146,8 +162,11 @@ TriangleSlots::TriangleSlots(
       else if (size > 3)
       {
         const std::vector<std::int64_t> corners(ids->begin(), ids->end());
-        const ProgressObserver observer =
-          size < LargePolygon ? ProgressObserver() : split.ForNext(size);
+        ProgressObserver observer;
+        if (size >= LargePolygon)
+        {
+          observer = split.ForNext(size);
+        }
         if (!SplitPolygon(points, corners.data(), size, this->Ids, observer))
         {
           throw RunAborted();
@@ -214,7 +233,7 @@ void TriangleSlots::AddTriangles(vtkIdType cell, vtkIdType count, bool stays)
       this->Polygons.push_back({ cell, static_cast<vtkIdType>(this->Cells.size()) });
     }
     this->Cells.push_back(cell);
-    this->Frozen.push_back(stays ? 1 : 0);
+    this->Frozen.push_back(static_cast<unsigned char>(stays));
   }
   this->AreDivided = this->AreDivided || (count > 1 && !stays);
 }
@@ -286,7 +305,7 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
   }
   WorkProgress progress(observer, array->GetNumberOfTuples());
   std::map<std::string, std::int32_t> known;
-  std::vector<std::int32_t> labels; // of cells
+  std::vector<std::int32_t> labels; // one per cell
   const auto label = [&](const std::string& key)
   {
     const auto found = known.emplace(key, static_cast<std::int32_t>(known.size()));
@@ -338,11 +357,14 @@ TriangleMesh PolyDataBridge::GetMesh() const
   mesh.Points = this->Points;
   mesh.Triangles = this->Slots.Triangles;
   const std::vector<PointPair>& pairs = this->Constraints.Pairs;
-  mesh.ConstraintEdges = pairs.empty() ? nullptr : pairs.front().data();
-  mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(pairs.size());
-  mesh.ConstraintsToInsert = pairs.empty() ? nullptr : this->Constraints.ToInsert.data();
-  mesh.Regions = this->Regions.empty() ? nullptr : this->Regions.data();
-  mesh.FrozenTriangles = this->Slots.Frozen.empty() ? nullptr : this->Slots.Frozen.data();
+  if (!pairs.empty())
+  {
+    mesh.ConstraintEdges = pairs.front().data();
+    mesh.NumberOfConstraintEdges = static_cast<std::int64_t>(pairs.size());
+    mesh.ConstraintsToInsert = this->Constraints.ToInsert.data();
+  }
+  mesh.Regions = ViewValues(this->Regions);
+  mesh.FrozenTriangles = ViewValues(this->Slots.Frozen);
   return mesh;
 }
 
@@ -366,9 +388,11 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkCellArray> PolyDataBridge::MakeRoom() const
 {
-  return this->Slots.ArePolygonsTriangles()
-    ? MakeRoomForTriangles(this->Slots.Triangles.Count, UsesWideIds(this->Mesh))
-    : nullptr;
+  if (!this->Slots.ArePolygonsTriangles())
+  {
+    return nullptr;
+  }
+  return MakeRoomForTriangles(this->Slots.Triangles.Count, UsesWideIds(this->Mesh));
 }
 
 void PolyDataBridge::Store(const FlipSession& session, const vtkSmartPointer<vtkCellArray>& room,
@@ -436,12 +460,12 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide)
 {
-  // Offsets are not shared with the input, whose cells may grow in place later: the output would
+  // Offsets are not shared with the input. Its cells may grow in place later, and the output would
   // then have more offsets than connectivity.
   auto room = vtkSmartPointer<vtkCellArray>::New();
   // There may be more connectivity than 32-bit offsets can number.
   const bool needsWide = areWide || 3 * count > std::numeric_limits<std::int32_t>::max();
-  needsWide ? room->Use64BitStorage() : room->Use32BitStorage();
+  SetWidth(room, needsWide);
   room->ResizeExact(count, 3 * count);
   UseHugePages(room->GetOffsetsArray());
   UseHugePages(room->GetConnectivityArray());
@@ -500,7 +524,7 @@ vtkSmartPointer<vtkCellArray> BuildPolygons(
 {
   const vtkIdType first = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  UsesWideIds(mesh) ? cells->Use64BitStorage() : cells->Use32BitStorage();
+  SetWidth(cells, UsesWideIds(mesh));
   cells->AllocateEstimate(static_cast<vtkIdType>(polygons.size()), 3);
   vtkNew<vtkIdList> ids;
   for (const OutputPolygon& polygon : polygons)
@@ -602,9 +626,12 @@ void RenewNormals(vtkPolyData* output, const FindChange& findChange)
           double normal[3], winding[3];
           TriangleNormal(points, before, winding);
           normals->GetTuple(first + polygon, normal);
-          const double side = vtkMath::Dot(winding, normal) < 0.0 ? -1.0 : 1.0;
+          const bool wasReversed = vtkMath::Dot(winding, normal) < 0.0;
           TriangleNormal(points, ids, normal);
-          vtkMath::MultiplyScalar(normal, side);
+          if (wasReversed)
+          {
+            vtkMath::MultiplyScalar(normal, -1.0);
+          }
           normals->SetTuple(first + polygon, normal);
         }
       }

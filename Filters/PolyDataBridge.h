@@ -158,7 +158,8 @@ public:
 
   // Without regions both are empty.
   std::vector<std::int32_t> Regions; ///< A label per triangle. May be changed.
-  std::vector<std::string> RegionKeys; ///< By label: equal for equal values, also in other meshes.
+  std::vector<std::string>
+    RegionKeys; ///< One per label. Equal values have equal keys in all meshes.
 
 private:
   void LabelRegions(const std::string& name, const ProgressObserver& progress);

@@ -400,8 +400,8 @@ bool TriangulationRun::Fits(const TriangulationRequest& request) const
     (this->StampedPoints.Fit(StampPoints(request)) || this->HasCopyOf(request.Input));
 }
 
-/// Whether these are the points that a live run has copied. A filter upstream whose output was
-/// released may have been executed again and have put out the same points.
+/// Whether these are the points that a live run has copied. If the output of a filter upstream was
+/// released, it may have been executed again and have put out the same points.
 bool TriangulationRun::HasCopyOf(vtkPolyData* points) const
 {
   std::vector<double> storage, others;

@@ -19,13 +19,16 @@ namespace
 
 constexpr const char* NotMade = " was not made: see the errors of what makes it";
 
-/// What is wrong with the data of an input port; "" if nothing. The second input is optional.
+/// Describes what is wrong with the data of an input port; "" if nothing. The second input is
+/// optional.
 std::string DescribeFault(vtkAlgorithm* filter, int port, vtkInformationVector* inputs)
 {
-  const std::string name = port == 0 ? "input" : "second input";
+  const std::string names[] = { "input", "second input" };
+  const std::string faultsWithoutData[] = { "there is no input", "" };
+  const std::string& name = names[port];
   if (inputs->GetNumberOfInformationObjects() == 0)
   {
-    return port == 0 ? "there is no input" : "";
+    return faultsWithoutData[port];
   }
   vtkDataObject* data = vtkDataObject::GetData(inputs);
   if (!data)
@@ -41,7 +44,11 @@ std::string DescribeFault(vtkAlgorithm* filter, int port, vtkInformationVector* 
     {
       return "";
     }
-    wanted += (wanted.empty() ? "" : " or ") + type;
+    if (!wanted.empty())
+    {
+      wanted += " or ";
+    }
+    wanted += type;
   }
   return "the " + name + " is a " + data->GetClassName() + "; it must be a " + wanted;
 }
@@ -74,7 +81,11 @@ vtkTypeBool UpdatePipeline::ProcessRequest(
     {
       fault = DescribeFault(this->Algorithm, 1, inputs[1]);
     }
-    this->OnRefusal(fault.empty() ? std::string("an input") + NotMade : fault);
+    if (fault.empty())
+    {
+      fault = std::string("an input") + NotMade;
+    }
+    this->OnRefusal(fault);
   }
   return works;
 }

@@ -13,8 +13,8 @@ class vtkAlgorithm;
 namespace delaunayflip
 {
 
-/// The executive of the filters. VTK does not ask a filter for an update whose input is missing or
-/// wrong, so the filter is told by this.
+/// The executive of the filters. VTK asks a filter for no update if its input is missing or wrong,
+/// so this class tells the filter why.
 class UpdatePipeline : public vtkCompositeDataPipeline
 {
 public:

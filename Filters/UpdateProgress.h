@@ -89,21 +89,23 @@ public:
     double sum = 0.0;
     for (int part = 0; part < NumberOfParts; ++part)
     {
-      sum += has[part] ? Durations[part] : 0.0;
-      this->Ends[part] = sum;
+      if (has[part])
+      {
+        sum += Durations[part];
+      }
+      this->Ends[part + 1] = sum;
     }
   }
 
   ProgressObserver For(Part part) const
   {
-    const double all = this->Ends[NumberOfParts - 1];
-    return MakePart(
-      this->Observer, part == 0 ? 0.0 : this->Ends[part - 1] / all, this->Ends[part] / all);
+    const double all = this->Ends[NumberOfParts];
+    return MakePart(this->Observer, this->Ends[part] / all, this->Ends[part + 1] / all);
   }
 
 private:
   ProgressObserver Observer;
-  double Ends[NumberOfParts];
+  double Ends[NumberOfParts + 1] = {}; ///< Where each part begins, and where the last one ends.
 };
 
 }

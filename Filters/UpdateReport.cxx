@@ -27,18 +27,20 @@ namespace delaunayflip
 namespace
 {
 
-/// Joins the first items, and says how many more there are.
+/// Joins the first items, and says how many more there are. There must be at least one.
 std::string Join(const std::vector<std::string>& items, const char* separator)
 {
   constexpr std::size_t Most = 3; // places named per text, and texts
-  std::string text;
-  for (std::size_t i = 0; i < std::min(items.size(), Most); ++i)
+  std::string text = items.front();
+  for (std::size_t i = 1; i < std::min(items.size(), Most); ++i)
   {
-    text += (i == 0 ? "" : separator) + items[i];
+    text += separator + items[i];
   }
-  return items.size() > Most
-    ? text + separator + "and " + std::to_string(items.size() - Most) + " more"
-    : text;
+  if (items.size() > Most)
+  {
+    text += separator + ("and " + std::to_string(items.size() - Most)) + " more";
+  }
+  return text;
 }
 
 /// The kind and the text of the exception that is being handled.
@@ -78,6 +80,10 @@ std::pair<FailureKind, std::string> DescribeException()
 
 std::string Describe(const std::vector<Note>& notes)
 {
+  if (notes.empty())
+  {
+    return "";
+  }
   std::vector<std::string> texts;
   std::vector<std::vector<std::string>> places;
   for (const Note& note : notes)
@@ -93,7 +99,10 @@ std::string Describe(const std::vector<Note>& notes)
   for (std::size_t i = 0; i < texts.size(); ++i)
   {
     const std::string where = Join(places[i], ", ");
-    texts[i] = where.empty() ? texts[i] : where + ": " + texts[i];
+    if (!where.empty())
+    {
+      texts[i] = where + ": " + texts[i];
+    }
   }
   return Join(texts, "; ");
 }
@@ -111,7 +120,14 @@ void UpdateSummary::AddFailure(const std::string& where)
 std::string DescribeTrouble(const FlipReport& report, bool hasAskedForLimit, bool hasTolerance)
 {
   std::string text = DescribeDefects(report.Defects);
-  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  const auto add = [&text](const std::string& more)
+  {
+    if (!text.empty())
+    {
+      text += "; ";
+    }
+    text += more;
+  };
   if (report.StopReason == StopReasonKind::IterationLimit && !hasAskedForLimit)
   {
     add("stopped by the safety limit of " + std::to_string(report.Iterations.size()) +
@@ -142,8 +158,13 @@ Defect FindShortArrays(
       names.push_back('"' + GetName(array) + '"');
     }
   }
-  return { kind + (names.size() == 1 ? " array" : " arrays") + fate + ": " + Join(names, ", "),
-    static_cast<std::int64_t>(names.size()), {} };
+  if (names.empty())
+  {
+    return {};
+  }
+  const std::string arrays = names.size() == 1 ? " array" : " arrays";
+  return { kind + arrays + fate + ": " + Join(names, ", "), static_cast<std::int64_t>(names.size()),
+    {} };
 }
 
 std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool cellsPass)
@@ -152,12 +173,8 @@ std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool
   const auto addShort = [&](
                           const char* kind, vtkDataSetAttributes* data, vtkIdType tuples, bool pass)
   {
-    const Defect found = FindShortArrays(data, tuples, kind,
-      std::string(" with too few tuples ") + (pass ? "passed unchanged" : "left out"));
-    if (found.Count > 0)
-    {
-      defects.push_back(found);
-    }
+    const std::string fate = pass ? "passed unchanged" : "left out";
+    AddDefect(FindShortArrays(data, tuples, kind, " with too few tuples " + fate), defects);
   };
   addShort("point", mesh->GetPointData(), mesh->GetNumberOfPoints(), pointsPass);
   addShort("cell", mesh->GetCellData(), mesh->GetNumberOfCells(), cellsPass);
@@ -185,7 +202,7 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
     }
     if (prefix.empty() || !report.Iterations.empty())
     {
-      data->AddArray(array); // of field data, VTK 9.7 cannot read empty arrays of ids from a .vtk
+      data->AddArray(array); // VTK 9.7 cannot read empty arrays of ids in field data of a .vtk
     }
   };
   const auto addCount = [&](const char* name, std::int64_t IterationRecord::*member)
@@ -259,7 +276,7 @@ void AddFieldData(const FlipReport& report, vtkFieldData* data)
   const auto addText = [&](const char* name, const std::string& text)
   { AddValue<vtkStringArray>(name, text, data); };
   // The totals first: ParaView lists no field data when the first array is empty.
-  AddValue<vtkIntArray>("Converged", report.Converged() ? 1 : 0, data);
+  AddValue<vtkIntArray>("Converged", static_cast<int>(report.Converged()), data);
   addText("StopReason", ToString(report.StopReason));
   addText("Summary", Summarize(report));
   AddNumbers(report, NumberKind::Main, data);

@@ -16,7 +16,7 @@ class vtkFieldData;
 class vtkPolyData;
 
 /// @file
-/// What an update tells of itself: messages and arrays.
+/// The messages and arrays that say what an update did.
 
 namespace delaunayflip
 {
@@ -54,15 +54,16 @@ struct UpdateSummary
   DELAUNAYFLIP_EXPORT void AddFailure(const std::string& where);
 };
 
-/// What to warn the user of, or empty. Reaching a requested iteration limit is not worth a warning.
+/// Describes what the user is warned of; "" if nothing. A requested iteration limit that was
+/// reached is not worth a warning.
 /// @param hasTolerance whether the user has set one.
 DELAUNAYFLIP_EXPORT std::string DescribeTrouble(
   const FlipReport& report, bool hasAskedForLimit, bool hasTolerance);
 
-/// Arrays with fewer tuples than there are points or cells, as a defect, of which there may be
-/// none.
-/// @param kind of the arrays, "point" or "cell". @param fate what is wrong with them, and what
-/// became of them.
+/// Describes the arrays that have fewer tuples than there are points or cells. The count of the
+/// defect is 0 if there are none.
+/// @param kind is "point" or "cell". @param fate says what is wrong with them, and what became of
+/// them.
 Defect FindShortArrays(
   vtkDataSetAttributes* data, vtkIdType tuples, const std::string& kind, const std::string& fate);
 

@@ -18,7 +18,7 @@ namespace delaunayflip
 namespace
 {
 
-constexpr double StepSeconds = 0.05; // as the documentation of IterationsPerUpdate says
+constexpr double StepSeconds = 0.05; // the documentation of IterationsPerUpdate says this
 
 /// Calls FlipSession::Advance for as many iterations as fit into `seconds`, at least one.
 bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observer,
@@ -112,7 +112,10 @@ void RunKeeper::Update(const UpdateRequest& request, FlipReport& report, vtkPoly
       report.StopReason = StopReasonKind::Aborted;
     }
     AddFieldData(report, output->GetFieldData());
-    this->Next = kind == UpdateKind::Step ? UpdateKind::Store : UpdateKind::StepAndStore;
+    if (kind == UpdateKind::Step)
+    {
+      this->Next = UpdateKind::Store;
+    }
     this->CanContinue =
       request.IsLive && (isRunning || report.StopReason == StopReasonKind::Aborted);
   }

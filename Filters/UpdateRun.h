@@ -40,7 +40,7 @@ struct UpdateRequest
   vtkPolyData* Input = nullptr;
   vtkPolyData* Others = nullptr; ///< The second input, or null.
   bool IsLive = false; ///< More updates will follow, and points may be moved in place between them.
-  vtkIdType IterationsPerUpdate = 1; ///< Of a live run; 0 stands for those that fit into 50 ms.
+  vtkIdType IterationsPerUpdate = 1; ///< If the run is live; 0: as many as fit into 50 ms.
   ProgressObserver Progress; ///< Kept by the run.
   std::function<bool()> IsAborted; ///< Asked before a run begins.
 };

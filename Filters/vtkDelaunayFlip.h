@@ -51,8 +51,8 @@
  *
  * @warning
  * Points that belong to no triangle stay unused: nothing is inserted. On surfaces the result is
- * Delaunay in the sense of opposite-angle sums. An edge whose flip would fold the surface over, or
- * create an edge that exists already, stays and is reported as blocked.
+ * Delaunay in the sense of opposite-angle sums. An edge stays and is reported as blocked if its
+ * flip would fold the surface over, or create an edge that exists already.
  *
  * @warning
  * Points and triangles of the input are viewed, not copied. Observers may stop, remove, replace or
@@ -178,7 +178,7 @@ public:
 
   ///@{
   /**
-   * What happens to an edge whose four points lie exactly on one circle. KEEP (default) leaves it,
+   * What happens to an edge if its four points lie exactly on one circle. KEEP (default) leaves it,
    * so that a Delaunay mesh comes back bit-identical. CANONICAL makes the result independent of the
    * input's triangles if nothing overlaps and no edge is left blocked; only flat triangles along
    * fixed edges may differ. It needs planar geometry and the in-circle criterion; otherwise the
@@ -367,9 +367,9 @@ public:
 
   ///@{
   /**
-   * Why such edges are left: those whose flip would fold the mesh over, those that MaximumDeviation
-   * blocks, and those whose flip would make an edge that exists already. The rest, if any, could
-   * still flip: the update ended early.
+   * Why bad edges are left. A flip would fold the mesh over, or MaximumDeviation blocks it, or it
+   * would make an edge that exists already. The rest, if any, could still flip: the update ended
+   * early.
    */
   vtkIdType GetBlockedByShape() const;
   vtkIdType GetBlockedByDeviation() const;

@@ -133,7 +133,8 @@ int vtkDelaunayFlipAlgorithm::FillInputPortInformation(int port, vtkInformation*
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? this->InputType : "vtkPolyData");
+  const char* types[] = { this->InputType, "vtkPolyData" };
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
   // Otherwise the executive would run the filter once per block, and no sums could be made.
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
@@ -141,7 +142,8 @@ int vtkDelaunayFlipAlgorithm::FillInputPortInformation(int port, vtkInformation*
 
 int vtkDelaunayFlipAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkDataObject");
+  const char* types[] = { "vtkDataObject", "vtkTable" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
 
@@ -161,17 +163,20 @@ vtkTypeBool vtkDelaunayFlipAlgorithm::ProcessRequest(
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
-/// Port 0: composite data of the input's type, or a mesh.
+/// Port 0 has composite data of the input's type, or a mesh.
 int vtkDelaunayFlipAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]);
-  const char* type = blocks ? blocks->GetClassName() : "vtkPolyData";
-  vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  if (!output || std::strcmp(type, output->GetClassName()) != 0)
+  const vtkNew<vtkPolyData> mesh;
+  vtkDataObject* type = mesh;
+  if (auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]))
   {
-    const auto made = vtkSmartPointer<vtkDataObject>::Take(
-      blocks ? static_cast<vtkDataObject*>(blocks->NewInstance()) : vtkPolyData::New());
+    type = blocks;
+  }
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  if (!output || std::strcmp(type->GetClassName(), output->GetClassName()) != 0)
+  {
+    const auto made = vtkSmartPointer<vtkDataObject>::Take(type->NewInstance());
     outputVector->GetInformationObject(0)->Set(vtkDataObject::DATA_OBJECT(), made);
   }
   return 1;
@@ -254,14 +259,20 @@ bool vtkDelaunayFlipAlgorithm::GetConverged() const
 
 int vtkDelaunayFlipAlgorithm::GetStopReason() const
 {
-  return this->Failure != FAILURE_NONE ? static_cast<int>(STOP_REASON_FAILED)
-                                       : static_cast<int>(this->Report->StopReason);
+  if (this->Failure != FAILURE_NONE)
+  {
+    return STOP_REASON_FAILED;
+  }
+  return static_cast<int>(this->Report->StopReason);
 }
 
 const char* vtkDelaunayFlipAlgorithm::GetStopReasonAsString() const
 {
-  return this->Failure != FAILURE_NONE ? this->StopReasonText.c_str()
-                                       : ToString(this->Report->StopReason);
+  if (this->Failure != FAILURE_NONE)
+  {
+    return this->StopReasonText.c_str();
+  }
+  return ToString(this->Report->StopReason);
 }
 
 const char* vtkDelaunayFlipAlgorithm::GetErrorMessage() const { return this->ErrorMessage.c_str(); }
@@ -347,7 +358,7 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     }
     if (!isLive)
     {
-      this->Runs->Drop(false); // of an earlier mesh
+      this->Runs->Drop(false); // it was the run of an earlier mesh
     }
     StoreResults(blocks, structure, output);
   }
@@ -363,16 +374,17 @@ int vtkDelaunayFlipAlgorithm::RequestData(
     this->Runs->Drop(true);
   }
   this->SetProgressShiftScale(0.0, 1.0);
-  AddIterationColumns(this->IsSilent ? FlipReport() : summary.Report, "", table->GetRowData());
+  const FlipReport& shown = this->IsSilent ? FlipReport() : summary.Report;
+  AddIterationColumns(shown, "", table->GetRowData());
   this->Publish(summary);
   // From VTK 9.3 on the executive does not end a request to abort with the update that obeyed it.
   this->SetAbortExecute(0);
-  // Even after an error: 0 would keep filters downstream from executing, and a representation of
-  // ParaView that did not execute ignores all later changes.
+  // An error does not make it 0: that would keep filters downstream from executing, and a
+  // representation of ParaView that did not execute ignores all later changes.
   return 1;
 }
 
-/// VTK has told of it, and has not asked for an update.
+/// VTK has given the error, and has not asked for an update.
 void vtkDelaunayFlipAlgorithm::RefuseInput(const std::string& why)
 {
   if (this->IsAtWork) // an update within an update was refused
@@ -399,8 +411,16 @@ void vtkDelaunayFlipAlgorithm::Keep(const UpdateSummary& summary)
   this->Failure = static_cast<int>(summary.Failure);
   this->ErrorMessage = Describe(summary.Errors);
   this->StopReasonText = "failed: " + this->ErrorMessage;
-  this->Summary = this->Failure ? this->StopReasonText + "\n" : Summarize(*this->Report);
-  this->SetErrorCode(this->Failure ? vtkErrorCode::UnknownError : vtkErrorCode::NoError);
+  if (this->Failure != FAILURE_NONE)
+  {
+    this->Summary = this->StopReasonText + "\n";
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+  }
+  else
+  {
+    this->Summary = Summarize(*this->Report);
+    this->SetErrorCode(vtkErrorCode::NoError);
+  }
 }
 
 void vtkDelaunayFlipAlgorithm::Publish(const UpdateSummary& summary)
@@ -448,9 +468,14 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
     summary.AddFailure(block.Name);
     for (BlockLeaf& leaf : block.Leaves)
     {
-      leaf.Result = leaf.Data->IsA(this->InputType)
-        ? vtkSmartPointer<vtkDataObject>::Take(vtkPolyData::New())
-        : Hold(leaf.Data);
+      if (leaf.Data->IsA(this->InputType))
+      {
+        leaf.Result = vtkSmartPointer<vtkPolyData>::New();
+      }
+      else
+      {
+        leaf.Result = Hold(leaf.Data);
+      }
     }
   }
   const std::string trouble =

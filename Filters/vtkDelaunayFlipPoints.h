@@ -4,11 +4,11 @@
  * @class   vtkDelaunayFlipPoints
  * @brief   make a Delaunay mesh from points, with or without segments, by parallel edge flips
  *
- * vtkDelaunayFlipPoints joins points to triangles in x and y, or in another plane (see Projection):
- * first to a valid mesh, whose edges then flip until all of them are Delaunay. The result is exact,
- * and depends on the places of the points and the segments alone: not on the order of the points,
- * nor on threads or GPUs. Where four or more points lie on one circle, the triangles are those of
- * vtkDelaunayFlip with the canonical tie rule.
+ * vtkDelaunayFlipPoints joins points to triangles in x and y, or in another plane (see Projection).
+ * They are a valid mesh first. Its edges then flip until all of them are Delaunay. The result is
+ * exact, and depends on the places of the points and the segments alone: not on the order of the
+ * points, nor on threads or GPUs. Where four or more points lie on one circle, the triangles are
+ * those of vtkDelaunayFlip with the canonical tie rule.
  *
  * Input port 0: any vtkPointSet; its cells do not matter, but see LinesAsSegments. Port 1,
  * optional: the segments, a vtkPolyData. Its lines become edges of the mesh, such as the breaklines
@@ -28,7 +28,7 @@
  * pedigree ids, since they are no longer unique. Port 1: the table of iterations, as of
  * vtkDelaunayFlip.
  *
- * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each, whose
+ * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each. Their
  * names begin with "DelaunayFlip:", too: UsedPoints, PointsNotFinite, RepeatedPoints, PointsTooNear
  * (see PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
  * Crossings (the points added where segments cross), LargestShift (how far rounding has moved one
@@ -136,8 +136,8 @@ public:
 
   ///@{
   /**
-   * A transform of the points, whose x and y are then joined, or null (default). The points of the
-   * output are not transformed.
+   * A transform of the points, or null (default). Points are joined by their x and y after it. The
+   * points of the output are not transformed.
    */
   virtual void SetTransform(vtkAbstractTransform* transform);
   vtkGetObjectMacro(Transform, vtkAbstractTransform);
@@ -145,8 +145,8 @@ public:
 
   ///@{
   /**
-   * Remove triangles whose circumcircle has a larger radius, or that have a longer edge; 0
-   * (default): none. Triangles at a segment stay. Both are measured in the plane.
+   * Remove triangles that have a circumcircle with a larger radius, or a longer edge; 0 (default):
+   * none. Triangles at a segment stay. Both are measured in the plane.
    */
   vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Alpha, double);
@@ -233,7 +233,7 @@ public:
   ///@}
 
   /**
-   * Also when the transform was modified.
+   * The time when the filter or its transform was modified, whichever is later.
    */
   vtkMTimeType GetMTime() override;
 

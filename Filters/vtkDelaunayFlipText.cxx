@@ -28,8 +28,11 @@ std::string Wrap(const std::string& text)
 std::string Describe(vtkFieldData* data)
 {
   auto* summary = vtkStringArray::SafeDownCast(data->GetAbstractArray("DelaunayFlip:Summary"));
-  return summary ? Wrap(summary->GetValue(0))
-                 : "no statistics: no triangles, or not a mesh of Delaunay Flip";
+  if (!summary)
+  {
+    return "no statistics: no triangles, or not a mesh of Delaunay Flip";
+  }
+  return Wrap(summary->GetValue(0));
 }
 
 }

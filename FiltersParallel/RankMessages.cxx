@@ -22,7 +22,7 @@ namespace delaunayflip
 namespace
 {
 
-constexpr int Tag = 5707; // of no other message of VTK or ParaView
+constexpr int Tag = 5707; // no other message of VTK or ParaView has it
 constexpr std::size_t LargestPart = std::size_t(1) << 30; // MPI counts with 32 bits
 
 void Require(int isDone)
@@ -60,8 +60,10 @@ public:
       {
         for (int rank = 0; rank < ranks; ++rank)
         {
-          received[rank].resize(
-            rank == own ? 0 : all[static_cast<std::size_t>(rank) * ranks + own]);
+          if (rank != own)
+          {
+            received[rank].resize(all[static_cast<std::size_t>(rank) * ranks + own]);
+          }
         }
       });
     received[own] = std::move(messages[own]);
@@ -70,12 +72,19 @@ public:
     for (int step = 1; step < 2 * ranks; ++step)
     {
       const int other = own ^ step;
-      for (const bool sends : { own<other, own> other })
+      if (other >= ranks)
       {
-        if (other < ranks)
-        {
-          this->Pass(sends ? messages[other] : received[other], sends, other);
-        }
+        continue;
+      }
+      if (own < other)
+      {
+        this->Send(messages[other], other);
+        this->Receive(received[other], other);
+      }
+      else
+      {
+        this->Receive(received[other], other);
+        this->Send(messages[other], other);
       }
     }
     return received;
@@ -116,15 +125,22 @@ public:
   }
 
 private:
-  /// Sends a message to a rank, or receives one of known size from it.
-  void Pass(Message& message, bool sends, int rank)
+  void Send(const Message& message, int rank)
   {
     for (std::size_t at = 0; at < message.size(); at += LargestPart)
     {
-      char* bytes = message.data() + at;
       const auto size = static_cast<vtkIdType>(std::min(LargestPart, message.size() - at));
-      Require(sends ? this->Controller->Send(bytes, size, rank, Tag)
-                    : this->Controller->Receive(bytes, size, rank, Tag));
+      Require(this->Controller->Send(message.data() + at, size, rank, Tag));
+    }
+  }
+
+  /// @param message has the size of what is received.
+  void Receive(Message& message, int rank)
+  {
+    for (std::size_t at = 0; at < message.size(); at += LargestPart)
+    {
+      const auto size = static_cast<vtkIdType>(std::min(LargestPart, message.size() - at));
+      Require(this->Controller->Receive(message.data() + at, size, rank, Tag));
     }
   }
 
@@ -167,8 +183,11 @@ namespace
 /// How many bytes the values of an array of a standard layout take.
 std::int64_t CountBytes(vtkDataArray* array)
 {
-  return array->GetDataType() == VTK_BIT ? (array->GetNumberOfValues() + 7) / 8
-                                         : array->GetNumberOfValues() * array->GetDataTypeSize();
+  if (array->GetDataType() == VTK_BIT)
+  {
+    return (array->GetNumberOfValues() + 7) / 8;
+  }
+  return array->GetNumberOfValues() * array->GetDataTypeSize();
 }
 
 /// Writes tuples of all arrays.
@@ -207,7 +226,7 @@ vtkSmartPointer<vtkDataSetAttributes> GetTuples(Message message, vtkIdType count
     const auto name = reader.Get<std::string>();
     const auto [type, components, attributes] = reader.Get<std::array<int, 3>>();
     const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
-    array->SetName(name.empty() ? nullptr : name.c_str());
+    SetName(name, array);
     array->SetNumberOfComponents(components);
     array->SetNumberOfTuples(count);
     if (auto* numbers = vtkArrayDownCast<vtkDataArray>(array))
@@ -240,7 +259,7 @@ MessageReader GatherAll(const Message& message, PieceGroup& group)
 
 bool IsOnAnyRank(bool flag, PieceGroup& group)
 {
-  const std::vector<Message> flags = group.Gather(Message(1, flag ? 1 : 0));
+  const std::vector<Message> flags = group.Gather(Message(1, static_cast<char>(flag)));
   return std::any_of(
     flags.begin(), flags.end(), [](const Message& one) { return one.front() != 0; });
 }

@@ -37,27 +37,37 @@ vtkPDelaunayFlip::vtkPDelaunayFlip()
 vtkPDelaunayFlip::~vtkPDelaunayFlip() { this->SetController(nullptr); }
 
 //------------------------------------------------------------------------------
+bool vtkPDelaunayFlip::HasSeveralProcesses() const
+{
+  return this->Controller && this->Controller->GetNumberOfProcesses() > 1;
+}
+
 std::unique_ptr<PieceGroup> vtkPDelaunayFlip::MakeGroup()
 {
-  const bool isShared = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-  return isShared ? MakeControllerGroup(this->Controller) : nullptr;
+  if (!this->HasSeveralProcesses())
+  {
+    return nullptr;
+  }
+  return MakeControllerGroup(this->Controller);
 }
 
 /// Several processes gather the pieces of the second input.
 int vtkPDelaunayFlip::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1
-    ? this->vtkPolyDataAlgorithm::RequestUpdateExtent(request, inputVector, outputVector)
-    : this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  if (this->HasSeveralProcesses())
+  {
+    return this->vtkPolyDataAlgorithm::RequestUpdateExtent(request, inputVector, outputVector);
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
 
 //------------------------------------------------------------------------------
 namespace
 {
 
-/// The constraints of all ranks as lines, each once: every rank may have all of them, or a part.
-/// Null if there are none.
+/// Gathers the constraints of all ranks as lines, each once; null if there are none. Every rank may
+/// have all of them, or a part.
 vtkSmartPointer<vtkPolyData> GatherConstraints(
   vtkPolyData* constraints, vtkPolyData* mesh, PieceGroup& group)
 {
@@ -75,7 +85,7 @@ vtkSmartPointer<vtkPolyData> GatherConstraints(
   for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
   {
     const auto from = reader.Get<std::array<double, 3>>(), to = reader.Get<std::array<double, 3>>();
-    Message key; // of bytes, since coordinates may be NaN
+    Message key; // compared as bytes, since coordinates may be NaN
     Put(key, std::min(from, to));
     Put(key, std::max(from, to));
     if (from != to && known.insert(key).second)
@@ -86,7 +96,8 @@ vtkSmartPointer<vtkPolyData> GatherConstraints(
   return MakeLines(ends, areFloats);
 }
 
-/// How many constraint edges have two ends that no rank has together; all ranks get the same.
+/// Counts the constraint edges with two ends that no rank has together. All ranks get the same
+/// number.
 /// @param areHere by constraint, whether this rank has both ends.
 std::int64_t CountElsewhere(const std::vector<char>& areHere, PieceGroup& group)
 {
@@ -153,7 +164,7 @@ public:
       Flipped(flipped),
       Group(group)
   {
-    // The polygons that stayed, in their order, then those received.
+    // The polygons that stayed come first, in their order, then those received.
     const std::vector<std::int64_t>& gone = flipped.GoneTriangles;
     for (vtkIdType i = 0; i < this->Slots.GetNumberOfPolygons(); ++i)
     {
@@ -213,7 +224,7 @@ public:
   void AddAngles(GeometryKind geometry, int threads, vtkPolyData* output) const
   {
     TriangleMesh mesh = this->Bridge.GetMesh();
-    vtkNew<vtkDoubleArray> first; // of the slots that this rank had
+    vtkNew<vtkDoubleArray> first; // one per slot that this rank had
     first->SetName("Smallest angle before (degrees)");
     first->SetNumberOfTuples(mesh.Triangles.Count);
     FindSmallestAngles(mesh, geometry, threads, first->GetPointer(0), {});
@@ -235,7 +246,7 @@ public:
   }
 
 private:
-  /// The points of the mesh, then those received, with their data.
+  /// Writes the points of the mesh, then those received, with their data.
   void StorePoints(vtkPolyData* output) const
   {
     const vtkIdType given = this->Mesh->GetNumberOfPoints();
@@ -252,7 +263,7 @@ private:
       return;
     }
     vtkNew<vtkPoints> points;
-    points->SetDataType(this->Flipped.AreFloats ? VTK_FLOAT : VTK_DOUBLE);
+    points->SetDataType(FindPointType(this->Flipped.AreFloats));
     for (vtkIdType i = 0; i < count; ++i)
     {
       points->InsertNextPoint(this->Flipped.ReceivedCoordinates.data() + 3 * i);
@@ -278,7 +289,7 @@ private:
 
 /// Flips a mesh of which every rank of the group has a piece, and writes this rank's piece. All
 /// ranks must call this together, within RunTogether.
-/// @param request whose input may be empty.
+/// @param request may have an empty input.
 /// @returns the report of the whole mesh.
 /// @throws InvalidMesh, InvalidOptions and so on.
 PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyData* output)
@@ -305,18 +316,20 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
     return nothing;
   }
   const std::vector<std::int64_t> numbers = ReadPointNumbers(mesh);
-  const MeshPiece piece{ bridge.GetMesh(), numbers.empty() ? nullptr : numbers.data() };
+  const MeshPiece piece{ bridge.GetMesh(), ViewValues(numbers) };
   const std::int64_t elsewhere = CountElsewhere(bridge.GetConstraints().AreHere, group);
   FlippedPiece flipped;
   PiecesReport report = FlipPiece(piece, request.Options, group, flipped, request.Progress);
   if (elsewhere > 0)
   {
     report.UnmatchedConstraints += elsewhere;
-    report.Defects.push_back({ request.Settings.InsertConstraints && group.GetSize() > 1
-        ? "constraint edges of the second input whose two ends no rank has together: insert "
-          "constraints before the mesh is divided"
-        : "constraint edges of the second input that the mesh does not have",
-      elsewhere, {}, DefectIds::Points });
+    std::string text = "constraint edges of the second input that the mesh does not have";
+    if (request.Settings.InsertConstraints && group.GetSize() > 1)
+    {
+      text = "constraint edges of the second input whose two ends no rank has together: insert "
+             "constraints before the mesh is divided";
+    }
+    report.Defects.push_back({ text, elsewhere, {}, DefectIds::Points });
   }
   AddSum(bridge.GetSlots().NoTriangles, group, report);
   const PieceOutput writer(mesh, bridge, flipped, group);
@@ -332,7 +345,8 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
   return report;
 }
 
-/// The blocks that any rank has, in the same order on all ranks, each with the leaves of this rank.
+/// Lists the blocks that any rank has, in one order on all ranks, each with the leaves of this
+/// rank.
 std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup& group)
 {
   Message message;
@@ -367,14 +381,18 @@ std::vector<MeshBlock> ShareBlocks(const std::vector<MeshBlock>& own, PieceGroup
   return blocks;
 }
 
-/// The notes of all ranks, in their order, with the rank's number.
+/// Gathers the notes of all ranks, in their order, with the rank's number.
 std::vector<Note> ShareNotes(const std::vector<Note>& own, PieceGroup& group)
 {
   Message message;
   for (const Note& note : own)
   {
-    Put(message,
-      "rank " + std::to_string(group.GetRank()) + (note.Where.empty() ? "" : ", " + note.Where));
+    std::string where = "rank " + std::to_string(group.GetRank());
+    if (!note.Where.empty())
+    {
+      where += ", " + note.Where;
+    }
+    Put(message, where);
     Put(message, note.Text);
   }
   std::vector<Note> notes;
@@ -443,8 +461,8 @@ void vtkPDelaunayFlip::FlipLeaves(
       return;
     }
     vtkNew<vtkPolyData> empty, flipped;
-    const PiecesReport report = FlipPieces(
-      this->MakeRequest(mesh.GetMesh() ? mesh.GetMesh() : empty.Get(), edges), told, flipped);
+    vtkPolyData* own = mesh.GetMesh() ? mesh.GetMesh() : empty.Get();
+    const PiecesReport report = FlipPieces(this->MakeRequest(own, edges), told, flipped);
     AddCount("Rounds", report.Rounds, flipped->GetFieldData());
     AddCount("MovedTriangles", report.MovedTriangles, flipped->GetFieldData());
     AddFieldData(report, flipped->GetFieldData());

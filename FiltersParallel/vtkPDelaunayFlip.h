@@ -115,6 +115,8 @@ protected:
   vtkIdType NumberOfMovedTriangles = 0;
 
 private:
+  bool HasSeveralProcesses() const;
+
   std::unique_ptr<delaunayflip::PieceGroup> Group; ///< The last update's; null for one process.
 
   vtkPDelaunayFlip(const vtkPDelaunayFlip&) = delete;

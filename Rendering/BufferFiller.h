@@ -46,12 +46,12 @@ public:
 /// @throws std::exception that says why it cannot fill it.
 using FillerMaker = std::unique_ptr<BufferFiller> (*)(vtkDelaunayFlip* filter, unsigned int buffer);
 
-/// By CUDA, for sessions on the GPU that draws.
+/// Makes a filler that uses CUDA, for sessions on the GPU that draws.
 VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller(
   vtkDelaunayFlip* filter, unsigned int buffer);
 
-/// What mappers use where they need not fill from the host: MakeCudaFiller, or what a test has put
-/// in its place.
+/// Mappers use this where they need not fill from the host. It is MakeCudaFiller, or what a test
+/// has put in its place.
 VTKDELAUNAYFLIPRENDERING_EXPORT extern FillerMaker DeviceFillerMaker;
 
 }

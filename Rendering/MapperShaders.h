@@ -21,8 +21,8 @@ void main()
 }
 )";
 
-/// A pixel's distance from an edge is that of its place from the line, by how far places are apart
-/// from pixel to pixel.
+/// A pixel's distance from an edge is the distance of its place from the line, divided by the
+/// distance of places from pixel to pixel.
 constexpr const char* FragmentShader = R"(//VTK::System::Dec
 //VTK::Output::Dec
 in vec3 drawnPlace;

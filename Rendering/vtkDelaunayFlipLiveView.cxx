@@ -56,14 +56,34 @@ std::string Wrap(const std::string& text, std::size_t width = 60)
 {
   std::istringstream words(text);
   std::string wrapped;
-  std::string word;
-  for (std::size_t begin = 0; words >> word; wrapped += word)
+  words >> wrapped;
+  std::size_t begin = 0; // the last line begins here
+  for (std::string word; words >> word; wrapped += word)
   {
     const bool fits = wrapped.size() - begin + 1 + word.size() <= width;
-    wrapped += wrapped.empty() ? "" : fits ? " " : "\n";
-    begin = fits ? begin : wrapped.size();
+    if (fits)
+    {
+      wrapped += ' ';
+    }
+    else
+    {
+      wrapped += '\n';
+      begin = wrapped.size();
+    }
   }
   return wrapped;
+}
+
+/// A line about the smallest angle; "" if it is NaN.
+std::string DescribeAngle(double degrees)
+{
+  if (std::isnan(degrees))
+  {
+    return "";
+  }
+  char line[64];
+  std::snprintf(line, sizeof(line), "\nsmallest angle %.2f degrees", degrees);
+  return line;
 }
 
 /// Writes the picture in a window to a PNG file. Encodes it in memory first, because VTK's writer
@@ -311,11 +331,12 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   this->Mapper->SetZeroCopy(this->ZeroCopy);
   this->Mapper->BeginStep();
   const bool works = filter->AdvanceSession();
-  const int state = works ? filter->GetStopReason() : vtkDelaunayFlip::STOP_REASON_FAILED;
-  const bool hasFailed = state == vtkDelaunayFlip::STOP_REASON_FAILED;
+  const int state = filter->GetStopReason();
+  const bool hasFailed = !works || state == vtkDelaunayFlip::STOP_REASON_FAILED;
   const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
-  const bool isUnderWay = isNew && state == vtkDelaunayFlip::STOP_REASON_RUNNING;
-  const bool goesOn = isUnderWay || (isNew && state == vtkDelaunayFlip::STOP_REASON_ABORTED);
+  const bool isUnderWay = isNew && works && state == vtkDelaunayFlip::STOP_REASON_RUNNING;
+  const bool isAborted = isNew && works && state == vtkDelaunayFlip::STOP_REASON_ABORTED;
+  const bool goesOn = isUnderWay || isAborted;
   if (!hasFailed && !(goesOn && this->Mapper->DrawsRun()))
   {
     filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
@@ -326,7 +347,10 @@ bool vtkDelaunayFlipLiveView::TakeStep()
     return false; // An observer of the filter has ended the run.
   }
   const bool isEnd = !goesOn && (isNew || hasFailed || this->IsRunning());
-  this->TimerId = isUnderWay ? this->TimerId : 0;
+  if (!isUnderWay)
+  {
+    this->TimerId = 0;
+  }
   this->HasFailed = hasFailed;
   if (isNew && !hasFailed)
   {
@@ -381,7 +405,11 @@ vtkRenderer* vtkDelaunayFlipLiveView::GetRenderer() const { return this->Rendere
 bool vtkDelaunayFlipLiveView::AwaitStep()
 {
   const auto interval = static_cast<unsigned long>(this->FrameInterval);
-  this->TimerId = this->Interactor ? this->Interactor->CreateOneShotTimer(interval) : 0;
+  this->TimerId = 0;
+  if (this->Interactor)
+  {
+    this->TimerId = this->Interactor->CreateOneShotTimer(interval);
+  }
   if (this->TimerId == 0)
   {
     vtkErrorMacro("The interactor has no timer.");
@@ -409,26 +437,43 @@ void vtkDelaunayFlipLiveView::OnTimer(vtkObject*, unsigned long, void* id)
   }
 }
 
+void vtkDelaunayFlipLiveView::RunOrPause()
+{
+  if (this->IsRunning())
+  {
+    this->Pause();
+  }
+  else
+  {
+    this->Run();
+  }
+}
+
+void vtkDelaunayFlipLiveView::ShowOrHideEdges()
+{
+  const bool areShown = this->Actor->GetProperty()->GetEdgeVisibility() != 0;
+  this->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
+}
+
 bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
 {
   using Self = vtkDelaunayFlipLiveView;
   static const std::map<std::string, void (*)(Self*)> actions = {
-    { "space", [](Self* self) { self->IsRunning() ? self->Pause() : self->Run(); } },
+    { "space", [](Self* self) { self->RunOrPause(); } },
     { "n", [](Self* self) { self->Step(); } },
     { "b", [](Self* self) { self->Restart(); } },
     { "k", [](Self* self) { self->SetColorBy((self->ColorBy + 1) % (COLOR_BY_FLIP_COUNT + 1)); } },
-    { "g",
-      [](Self* self)
-      {
-        const bool areShown = self->Actor->GetProperty()->GetEdgeVisibility() != 0;
-        self->SetEdgeVisibility(areShown ? EDGE_VISIBILITY_OFF : EDGE_VISIBILITY_ON);
-      } },
+    { "g", [](Self* self) { self->ShowOrHideEdges(); } },
     { "i", [](Self* self) { self->SetShowStatistics(!self->ShowStatistics); } },
     { "d", [](Self* self) { self->SetShowDrawing(!self->ShowDrawing); } },
   };
   const char* key = this->Interactor->GetKeySym();
-  const auto action = actions.find(key ? key : "");
-  if (action == actions.end() || this->Interactor->GetControlKey())
+  if (!key || this->Interactor->GetControlKey())
+  {
+    return false;
+  }
+  const auto action = actions.find(key);
+  if (action == actions.end())
   {
     return false;
   }
@@ -444,7 +489,7 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
 //------------------------------------------------------------------------------
 // What is drawn: a mesh, its colour scale, and texts.
 
-/// Along the axis in which the mesh is flat, else along z.
+/// Looks along the axis in which the mesh is flat, else along z.
 void vtkDelaunayFlipLiveView::LookAtMesh()
 {
   if (this->Renderer->IsActiveCameraCreated() || this->Mapper->GetNumberOfTriangles() == 0)
@@ -455,16 +500,21 @@ void vtkDelaunayFlipLiveView::LookAtMesh()
   int axis = 2;
   for (const int flat : { 0, 1, 2 })
   {
-    axis = box.GetLength(flat) < 1e-3 * box.GetMaxLength() ? flat : axis;
+    if (box.GetLength(flat) < 1e-3 * box.GetMaxLength())
+    {
+      axis = flat;
+    }
   }
+  // It looks from below in y, so that x points to the right.
+  constexpr double positions[3][3] = { { 1.0, 0.0, 0.0 }, { 0.0, -1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
+  constexpr double ups[3][3] = { { 0.0, 0.0, 1.0 }, { 0.0, 0.0, 1.0 }, { 0.0, 1.0, 0.0 } };
   vtkCamera* camera = this->Renderer->GetActiveCamera();
-  // From below in y, so that x points to the right.
-  camera->SetPosition(axis == 0 ? 1.0 : 0.0, axis == 1 ? -1.0 : 0.0, axis == 2 ? 1.0 : 0.0);
-  camera->SetViewUp(0.0, axis == 2 ? 1.0 : 0.0, axis == 2 ? 0.0 : 1.0);
+  camera->SetPosition(positions[axis]);
+  camera->SetViewUp(ups[axis]);
   this->Renderer->ResetCamera();
 }
 
-/// A mesh, or all blocks of a composite one.
+/// Shows a mesh, or all blocks of a composite one.
 void vtkDelaunayFlipLiveView::ShowMesh(vtkDataObject* mesh)
 {
   const auto blocks = vtkCompositeDataSet::GetDataSets<vtkPolyData>(mesh);
@@ -532,7 +582,8 @@ void vtkDelaunayFlipLiveView::ArrangeTexts()
   const double more = 1.2 * static_cast<double>(std::count(keys.begin(), keys.end(), '\n'));
   const double unit = static_cast<double>(FontSize) / std::max(1, size[1]);
   this->Keys->SetInput(keys.c_str());
-  this->Scale->SetPosition(0.2, unit * (this->Keys->GetVisibility() ? 2.0 + more : 0.4));
+  const double lines = this->Keys->GetVisibility() ? 2.0 + more : 0.4; // below the scale
+  this->Scale->SetPosition(0.2, unit * lines);
   this->Scale->SetHeight(3.6 * unit);
   const double* rgb = this->Renderer->GetBackground();
   const bool isDark = 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2] < 0.5;
@@ -541,40 +592,60 @@ void vtkDelaunayFlipLiveView::ArrangeTexts()
   this->Status->GetTextProperty()->SetColor(this->HasFailed ? Red : ink);
 }
 
-/// Two or three lines. A failure, and how the mesh is drawn, take as many as their reasons need.
+/// Describes the frame in two or three lines. A failure, and how the mesh is drawn, take as many as
+/// their reasons need.
 std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
 {
-  const std::string drawing = this->ShowDrawing ? "\n" + Wrap(this->GetDrawing()) : "";
+  std::string text;
   if (this->HasFailed)
   {
-    // The filter has no counts now, and no message if it was its source that failed.
-    const std::string reason = this->Filter->GetErrorMessage();
-    return Wrap("failed: " + (reason.empty() ? "no input" : reason)) + "\nthe mesh of frame " +
-      Count(this->FrameNumber) + drawing;
+    text = this->DescribeFailure();
   }
-  const bool isInput = this->FrameNumber == 0;
-  const bool mayGoOn =
-    isInput || this->Filter->GetStopReason() == vtkDelaunayFlip::STOP_REASON_RUNNING;
-  const std::string state = !mayGoOn ? this->Filter->GetStopReasonAsString()
-    : isRunning                      ? "running"
-                                     : "paused";
-  const bool isOne = vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)) != nullptr;
-  const std::string mesh = isInput ? "input"
-    : isOne                        ? "iteration " + Count(this->Filter->GetNumberOfIterations())
-                                   : "all blocks in one step";
-  const std::string counts = isInput ? Count(this->Mapper->GetNumberOfTriangles(), "triangle")
-                                     : Count(this->Filter->GetTotalFlips(), "flip") + ", " +
-      Count(this->Filter->GetNonDelaunayAfter(), "bad edge") + " left";
-  const FlipReport& report = this->Filter->GetReport();
-  const double angle = isInput ? this->Mapper->GetSmallestAngle()
-    : report.Triangles > 0     ? report.MinimumAngleAfter
-                               : std::nan("");
-  char line[64] = "";
-  if (!std::isnan(angle))
+  else if (this->FrameNumber == 0)
   {
-    std::snprintf(line, sizeof(line), "\nsmallest angle %.2f degrees", angle);
+    const std::string state = isRunning ? "running" : "paused";
+    text = "input, " + state + "\n" + Count(this->Mapper->GetNumberOfTriangles(), "triangle") +
+      DescribeAngle(this->Mapper->GetSmallestAngle());
   }
-  return mesh + ", " + state + "\n" + counts + line + drawing;
+  else
+  {
+    text = this->DescribeStep(isRunning);
+  }
+  if (this->ShowDrawing)
+  {
+    text += "\n" + Wrap(this->GetDrawing());
+  }
+  return text;
+}
+
+/// The filter has no counts now, and no message if it was its source that failed.
+std::string vtkDelaunayFlipLiveView::DescribeFailure() const
+{
+  std::string reason = this->Filter->GetErrorMessage();
+  if (reason.empty())
+  {
+    reason = "no input";
+  }
+  return Wrap("failed: " + reason) + "\nthe mesh of frame " + Count(this->FrameNumber);
+}
+
+std::string vtkDelaunayFlipLiveView::DescribeStep(bool isRunning) const
+{
+  std::string state = isRunning ? "running" : "paused";
+  if (this->Filter->GetStopReason() != vtkDelaunayFlip::STOP_REASON_RUNNING)
+  {
+    state = this->Filter->GetStopReasonAsString();
+  }
+  std::string mesh = "all blocks in one step";
+  if (vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)))
+  {
+    mesh = "iteration " + Count(this->Filter->GetNumberOfIterations());
+  }
+  const FlipReport& report = this->Filter->GetReport();
+  const std::string angle =
+    report.Triangles > 0 ? DescribeAngle(report.MinimumAngleAfter) : std::string();
+  return mesh + ", " + state + "\n" + Count(this->Filter->GetTotalFlips(), "flip") + ", " +
+    Count(this->Filter->GetNonDelaunayAfter(), "bad edge") + " left" + angle;
 }
 
 //------------------------------------------------------------------------------

@@ -94,8 +94,8 @@ public:
 
   ///@{
   /**
-   * The interactor whose timer and keys control the run and whose render window shows it; required,
-   * with its window. Setting another one ends the run; Start() or Run() begins with it.
+   * The interactor. Its timer and keys control the run, and its render window shows it. It is
+   * required, with its window. Setting another one ends the run; Start() or Run() begins with it.
    */
   void SetInteractor(vtkRenderWindowInteractor* interactor);
   vtkRenderWindowInteractor* GetInteractor() const;
@@ -254,6 +254,8 @@ private:
   void ShowMesh(vtkDataObject* mesh);
   void ArrangeTexts();
   std::string DescribeStatus(bool isRunning);
+  std::string DescribeFailure() const;
+  std::string DescribeStep(bool isRunning) const;
   bool BeginIfNeeded();
   void Attach();
   void Detach();
@@ -261,6 +263,8 @@ private:
   void ShowFrame(int number);
   bool AwaitStep();
   void OnTimer(vtkObject* caller, unsigned long event, void* id);
+  void RunOrPause();
+  void ShowOrHideEdges();
   bool OnKey(vtkObject* caller, unsigned long event, void* data);
 
   vtkSmartPointer<vtkDelaunayFlip> Filter;

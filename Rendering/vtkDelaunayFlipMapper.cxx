@@ -47,7 +47,7 @@ using Buffer = vtkOpenGLBufferObject;
 namespace
 {
 
-constexpr int MostPlanes = 6; ///< As many as VTK's own mapper has.
+constexpr int MostPlanes = 6; ///< VTK's own mapper has as many.
 constexpr int Bands = 12; ///< How many colours there are.
 constexpr const char* NoRun = "there is no live run of one mesh of triangles";
 
@@ -60,18 +60,25 @@ void FillTable(vtkLookupTable* table, double largestCount)
     0.25, 0.0, 0.49 };
   double angleColors[] = { 0.70, 0.09, 0.17, 0.94, 0.54, 0.38, 0.99, 0.86, 0.78, 0.82, 0.90, 0.94,
     0.40, 0.66, 0.81, 0.13, 0.40, 0.67 };
-  const bool isOfAngles = largestCount < 0.0;
-  vtkNew<vtkColorTransferFunction> colors; // of the numbers of bands
-  isOfAngles ? colors->BuildFunctionFromTable(0, Bands - 1, 6, angleColors)
-             : colors->BuildFunctionFromTable(0, Bands - 1, 5, countColors);
+  vtkNew<vtkColorTransferFunction> colors; // by the number of a band
+  double largest = 60.0; // degrees
+  if (largestCount < 0.0)
+  {
+    colors->BuildFunctionFromTable(0, Bands - 1, 6, angleColors);
+  }
+  else
+  {
+    colors->BuildFunctionFromTable(0, Bands - 1, 5, countColors);
+    // It is rounded up to a multiple of four for whole labels at its quarters.
+    largest = 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0);
+  }
   table->SetNumberOfTableValues(Bands);
   for (int i = 0; i < Bands; ++i)
   {
     const double* rgb = colors->GetColor(i);
     table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
   }
-  // The largest count is rounded up to a multiple of four for whole labels at its quarters.
-  table->SetRange(0.0, isOfAngles ? 60.0 : 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0));
+  table->SetRange(0.0, largest);
 }
 
 /// A texture that tells when it is released. Its window does that before it goes.
@@ -145,12 +152,15 @@ struct vtkDelaunayFlipMapper::Parts
   double TableKind = -1.0; ///< What the table was filled for: a largest count, or -1 for angles.
   bool HasWarned = false;
 
-  /// The session whose triangles are the faces; or null.
+  /// The session that has the triangles of the faces, or null.
   const FlipSession* FindSession() const
   {
     const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
-    const bool fits = session && session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
-    return fits ? session : nullptr;
+    if (session && session->GetReport().Triangles != this->Faces->GetNumberOfPolys())
+    {
+      return nullptr;
+    }
+    return session;
   }
 
   /// The faces are a copy of the mesh, which shares arrays, if its polygons are triangles, as in
@@ -192,7 +202,10 @@ struct vtkDelaunayFlipMapper::Parts
       {
         double x[3];
         points->GetPoint(i, x);
-        areUsed[i] = areUsed[i] != 0 && std::all_of(std::begin(x), std::end(x), isFinite) ? 1 : 0;
+        if (!std::all_of(std::begin(x), std::end(x), isFinite))
+        {
+          areUsed[i] = 0;
+        }
       }
       vtkBoundingBox::ComputeBounds(points, areUsed.data(), bounds);
     }
@@ -252,7 +265,8 @@ struct vtkDelaunayFlipMapper::Parts
       return;
     }
     const double half = 0.5 * this->Box.GetDiagonalLength();
-    this->Unit = half > 0.0 && std::isfinite(half) ? half : 1.0;
+    const bool isUsable = half > 0.0 && std::isfinite(half);
+    this->Unit = isUsable ? half : 1.0;
     this->Box.GetCenter(this->Center);
     std::vector<float> places(3 * static_cast<std::size_t>(this->PointCount));
     vtkSMPTools::For(0, this->PointCount,
@@ -275,10 +289,15 @@ struct vtkDelaunayFlipMapper::Parts
   /// filter has failed, its session is gone, but the mesh in the buffers stays.
   void Fill(const FlipSession* session, bool allowsDevice)
   {
-    if (!session || !allowsDevice)
+    if (!session)
     {
       this->Filler.reset();
-      this->Obstacle = session ? "ZeroCopy is off" : NoRun;
+      this->Obstacle = NoRun;
+    }
+    else if (!allowsDevice)
+    {
+      this->Filler.reset();
+      this->Obstacle = "ZeroCopy is off";
     }
     else if (!this->Filler && this->MayUseDevice)
     {
@@ -288,8 +307,14 @@ struct vtkDelaunayFlipMapper::Parts
     }
     if (this->IsBehind)
     {
-      this->Filler ? this->Filler->Fill(*session, std::exchange(this->IsNew, false))
-                   : this->UploadTriangles(session);
+      if (this->Filler)
+      {
+        this->Filler->Fill(*session, std::exchange(this->IsNew, false));
+      }
+      else
+      {
+        this->UploadTriangles(session);
+      }
       if (this->ByFlipCount)
       {
         this->UploadFlipCounts(session);
@@ -427,7 +452,11 @@ double vtkDelaunayFlipMapper::GetSmallestAngle()
 
 std::string vtkDelaunayFlipMapper::GetDrawing() const
 {
-  return this->Own->Filler ? "drawn without copies" : "drawn from copies: " + this->Own->Obstacle;
+  if (this->Own->Filler)
+  {
+    return "drawn without copies";
+  }
+  return "drawn from copies: " + this->Own->Obstacle;
 }
 
 /// If something is drawn before the end of the step, the buffer is given back for that.
@@ -541,7 +570,7 @@ void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   {
     return;
   }
-  // Null, and VTK gives an error, if OpenGL does not compile it.
+  // It is null, and VTK gives an error, if OpenGL does not compile it.
   if (auto* program =
         window->GetShaderCache()->ReadyShaderProgram(VertexShader, FragmentShader, ""))
   {
@@ -551,7 +580,7 @@ void vtkDelaunayFlipMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
   }
 }
 
-/// Where the triangles are drawn, and where they are cut off.
+/// Says where the triangles are drawn, and where they are cut off.
 void vtkDelaunayFlipMapper::SetPlaces(
   vtkShaderProgram* program, vtkRenderer* renderer, vtkMatrix4x4* dataToWorld)
 {
@@ -595,17 +624,25 @@ void vtkDelaunayFlipMapper::SetColors(vtkShaderProgram* program, vtkProperty* pr
   }
   program->SetUniform3fv("bands", Bands, bands);
   program->SetUniformf("bandsPerUnit", static_cast<float>(Bands / table->GetRange()[1]));
-  const int colorBy =
-    this->Own->ByFlipCount ? COLOR_BY_FLIP_COUNT : std::min<int>(this->ColorBy, 1);
-  program->SetUniformi("colorBy", isReadable ? colorBy : COLOR_BY_SOLID);
+  int colorBy = COLOR_BY_SOLID;
+  float edgeWidth = 0.0f;
+  if (isReadable)
+  {
+    const int notByFlipCount = std::min<int>(this->ColorBy, COLOR_BY_SMALLEST_ANGLE);
+    colorBy = this->Own->ByFlipCount ? COLOR_BY_FLIP_COUNT : notByFlipCount;
+    edgeWidth = property->GetEdgeVisibility() ? 0.5f * property->GetLineWidth() : 0.0f;
+  }
+  float light[2] = { 1.0f, 0.0f };
+  if (property->GetLighting())
+  {
+    light[0] = static_cast<float>(property->GetAmbient());
+    light[1] = static_cast<float>(property->GetDiffuse());
+  }
+  program->SetUniformi("colorBy", colorBy);
   program->SetUniform3f("plainColor", property->GetColor());
-  const bool isLit = property->GetLighting();
-  const float light[2] = { isLit ? static_cast<float>(property->GetAmbient()) : 1.0f,
-    isLit ? static_cast<float>(property->GetDiffuse()) : 0.0f };
   program->SetUniform2f("light", light);
   program->SetUniform3f("edgeColor", property->GetEdgeColor());
-  program->SetUniformf("edgeWidth",
-    property->GetEdgeVisibility() && isReadable ? 0.5f * property->GetLineWidth() : 0.0f);
+  program->SetUniformf("edgeWidth", edgeWidth);
 }
 
 void vtkDelaunayFlipMapper::PrintSelf(ostream& os, vtkIndent indent)

@@ -365,7 +365,6 @@ TEST(ConstraintInsertion, FollowsTheOrderOfTheInput)
   EXPECT_FALSE(HasEdges(filter->GetOutput(), FirstChain));
   EXPECT_EQ(filter->GetNumberOfInsertedConstraints(), 1);
   ExpectHolds(filter.GetWarnings()[0],
-    "(first: 7-50 crosses constraint 0 (points 16 and 39), 0-50 crosses constraint 0 (points 16 "
-    "and "
-    "39))");
+    "(first: 7-50 crosses constraint 0 (points 16 and 39), "
+    "0-50 crosses constraint 0 (points 16 and 39))");
 }
