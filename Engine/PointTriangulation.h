@@ -38,7 +38,8 @@
 /// triangles not inside the holes are. The rest is removed, then the triangles around hole seeds,
 /// then those that Alpha and LongestEdge name. A ring without an area, such as one of fewer than
 /// three places or with all of them on one line, is left out and reported: its segments are
-/// segments of no ring.
+/// segments of no ring. By EvenOdd a ring with the edges of an earlier one of its set is left out,
+/// too, because both together would enclose nothing.
 
 namespace delaunayflip
 {
@@ -94,7 +95,8 @@ struct PointOptions : FlipOptions
 
   /// Whether segments that cross are split where they do. The point is the exact crossing, rounded
   /// once to the precision of the points; a point that is there already is used. Up to 10 rounds,
-  /// because the halves may cross others; what then still crosses is refused.
+  /// because the halves may cross others, or fewer where crossings multiply; what then still
+  /// crosses is refused.
   bool SplitCrossings = false;
 
   RingRuleKind RingRule = RingRuleKind::EvenOdd;

@@ -47,7 +47,8 @@
  * conflict. One that crosses an earlier one is refused and counted, and a warning names the first
  * ones; with SplitCrossings both are split where they cross. If a segment of a ring is refused, the
  * update fails, and the error names the ring: its number is its cell id. Rings without an area,
- * such as those of two points, are left out, with a warning; their segments stay.
+ * such as those of two points, are left out, with a warning; their segments stay. By EVEN_ODD so is
+ * a ring with the edges of an earlier one, such as a polygon and its line.
  *
  * The heights of added points are those of the second input. If its lines, outlines or holes have
  * z = 0 throughout, and the points of the first input do not, a warning counts the added points:

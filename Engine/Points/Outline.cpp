@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace delaunayflip
@@ -17,12 +18,39 @@ namespace delaunayflip
 
 namespace
 {
+/// The numbers of rings with the edges of an earlier one of their set. By EvenOdd both together
+/// would enclose nothing.
+std::set<std::int32_t> FindRepeatedRings(
+  const std::vector<SegmentEdge>& segments, std::int32_t firstHole)
+{
+  std::map<std::int32_t, std::vector<EdgeId>> edgesOf; // by the numbers of the rings
+  for (const SegmentEdge& segment : segments)
+  {
+    if (segment.Ring >= 0)
+    {
+      edgesOf[segment.Ring].push_back(EdgeOf(segment.Side));
+    }
+  }
+  std::set<std::pair<bool, std::vector<EdgeId>>> known;
+  std::set<std::int32_t> repeated;
+  for (auto& [number, edges] : edgesOf)
+  {
+    std::sort(edges.begin(), edges.end());
+    if (!known.emplace(number >= firstHole, std::move(edges)).second)
+    {
+      repeated.insert(number);
+    }
+  }
+  return repeated;
+}
+
 /// Goes from triangle to triangle, and back, and counts how often each ring winds around them.
 class RingWalk
 {
 public:
-  RingWalk(
-    const PointMeshView& mesh, const std::vector<SegmentEdge>& segments, const PointInput& input)
+  /// @param leftOut numbers of rings.
+  RingWalk(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments,
+    const PointInput& input, const std::set<std::int32_t>& leftOut)
     : Mesh(mesh),
       Segments(segments),
       FirstHole(input.FirstHole),
@@ -31,7 +59,7 @@ public:
   {
     for (std::size_t i = 0; i < segments.size(); ++i)
     {
-      if (segments[i].Ring >= 0)
+      if (segments[i].Ring >= 0 && leftOut.count(segments[i].Ring) == 0)
       {
         this->Rings[segments[i].Ring];
         this->Before[i] =
@@ -199,15 +227,21 @@ public:
   {
   }
 
-  /// @returns the numbers of rings without an area.
-  std::vector<std::int32_t> RemoveOutside(const PointInput& input, RingRuleKind rule)
+  /// Also tells which rings are left out.
+  void RemoveOutside(const PointInput& input, RingRuleKind rule, KeptTriangles& kept)
   {
-    RingWalk walk(this->Mesh, this->Segments, input);
+    std::set<std::int32_t> repeated;
+    if (rule == RingRuleKind::EvenOdd)
+    {
+      repeated = FindRepeatedRings(this->Segments, input.FirstHole);
+    }
+    kept.RepeatedRings.assign(repeated.begin(), repeated.end());
+    RingWalk walk(this->Mesh, this->Segments, input, repeated);
     if (walk.HasRings())
     {
       this->IsRemoved = walk.FindOutside(rule);
     }
-    return walk.ListRingsWithoutArea();
+    kept.RingsWithoutArea = walk.ListRingsWithoutArea();
   }
 
   /// Removes what can be reached from the seeds without crossing a segment. @returns how many seeds
@@ -414,7 +448,7 @@ KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
 {
   KeptTriangles kept;
   Remover remover(mesh, segments);
-  kept.RingsWithoutArea = remover.RemoveOutside(input, options.RingRule);
+  remover.RemoveOutside(input, options.RingRule, kept);
   if (input.NumberOfHoleSeeds > 0)
   {
     kept.SeedsOutside = remover.RemoveHoles(input.HoleSeeds, input.NumberOfHoleSeeds);

@@ -25,7 +25,7 @@ bool AreApart(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, con
 /// What helps where segments cross.
 const char* GetRemedy(bool wereSplit)
 {
-  return wereSplit ? ", even after ten rounds of splitting"
+  return wereSplit ? ", even after splitting"
                    : ": with SplitCrossings both get a point where they cross";
 }
 }

@@ -111,10 +111,12 @@ public:
   SplitSegments Run(const std::function<void()>& check)
   {
     constexpr int Rounds = 10;
+    std::size_t most = 0; // pairs of a round
     for (int round = 0; round < Rounds; ++round)
     {
       const std::vector<std::pair<std::size_t, std::size_t>> pairs = this->FindPairs(check);
-      if (pairs.empty())
+      most = round == 0 ? 4 * pairs.size() + 1000 : most;
+      if (pairs.empty() || pairs.size() > most)
       {
         break;
       }

@@ -30,7 +30,8 @@ struct SplitSegments
 };
 
 /// Splits segments where they cross each other, in up to ten rounds: points are rounded, so halves
-/// may cross again. Segments that meet at a point, or overlap, do not cross.
+/// may cross again. It ends where crossings multiply, as of segments that overlap nearly along a
+/// line. Segments that meet at a point, or overlap, do not cross.
 /// @param check is called now and then, and may throw.
 SplitSegments SplitCrossings(
   const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check);

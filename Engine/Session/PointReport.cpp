@@ -41,16 +41,21 @@ struct CoordinateBox
   }
 };
 
-/// Rings without an area, as a defect.
-Defect FindRingsWithoutArea(const PreparedPoints& points, const KeptTriangles& kept)
+/// Rings that are left out, as a defect.
+Defect NameRings(const char* what, std::vector<std::int32_t> numbers)
 {
-  const std::vector<std::int32_t>& leftOut = points.GetLeftOutRings();
-  std::vector<std::int64_t> numbers(leftOut.begin(), leftOut.end());
-  numbers.insert(numbers.end(), kept.RingsWithoutArea.begin(), kept.RingsWithoutArea.end());
   std::sort(numbers.begin(), numbers.end());
   const std::int64_t count = SizeOf(numbers);
-  numbers.resize(std::min<std::int64_t>(3, count));
-  return { "rings without an area, left out", count, numbers, DefectIds::Rings };
+  numbers.resize(std::min<std::int64_t>(MostNamedIds, count));
+  return { what, count, { numbers.begin(), numbers.end() }, DefectIds::Rings };
+}
+
+std::vector<std::int32_t> ListRingsWithoutArea(
+  const PreparedPoints& points, const KeptTriangles& kept)
+{
+  std::vector<std::int32_t> numbers = points.GetLeftOutRings();
+  numbers.insert(numbers.end(), kept.RingsWithoutArea.begin(), kept.RingsWithoutArea.end());
+  return numbers;
 }
 
 /// Counts what was prepared, inserted and removed.
@@ -192,7 +197,8 @@ void AddPointsTo(
   }
   for (const Defect& defect :
     { Defect{ "hole seeds outside of all triangles", kept.SeedsOutside, {}, DefectIds::Points },
-      FindRingsWithoutArea(points, kept),
+      NameRings("rings without an area, left out", ListRingsWithoutArea(points, kept)),
+      NameRings("rings with the edges of an earlier one, left out", kept.RepeatedRings),
       Defect{
         "points without a triangle: there are fewer than three places, or all are on one line",
         pointsWithoutMesh, {}, DefectIds::Points },

@@ -16,7 +16,7 @@ from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, make_options, to_number)
 from ._report import Report
 from ._rings import (
-    RING_RULES, RingRule, Rings, find_rings_without_area, list_rings, name_rings)
+    RING_RULES, RingRule, Rings, find_left_out_rings, list_rings, name_rings)
 from ._session import run
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -69,10 +69,10 @@ def triangulate(
             points is split there; one that crosses an earlier one is refused and reported.
         outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of
             point ids, or of coordinates, which become points: (k, 2), where z = 0, or (k, 3) of floats. It
-            may end with its first point. Rings without an area are left out, with a warning.
+            may end with its first point. One without an area, or a second one with the same edges by
+            "evenodd", is left out, with a warning.
         holes: A ring, or a list of rings, of the same kinds: what is inside them is removed.
-        hole_seeds: (k, 2) places: what can be reached from there without crossing a segment is
-            removed.
+        hole_seeds: (k, 2) places: what is reached from there without crossing a segment is removed.
         ring_rule: When a place is inside a set of rings. "evenodd": if a path to infinity crosses them
             an odd number of times. "nonzero": if their turns around the place do not add up to 0.
             "orientation": as "nonzero", but of the outline only counter-clockwise turns count as
@@ -239,7 +239,7 @@ class Input:
         points = self.points
         if report.defects:
             report = dataclasses.replace(report, defects=self.explain(report.defects))
-            self.trouble += find_rings_without_area(report.defects)
+            self.trouble += find_left_out_rings(report.defects)
         report = self._report_flat_points(report, used)
         if self._is_nothing_left(report, triangles):
             self.trouble = [report.defects]

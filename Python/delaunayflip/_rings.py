@@ -74,10 +74,10 @@ def name_rings(text, names):
         return names.get(int(found[1]), found[0])
 
     text = re.sub(r"\bring (\d+)", name, text)
-    return re.sub(r"(?<=an area, left out \(first: )[\d, ]+",
+    return re.sub(r"(?<=, left out \(first: )[\d, ]+",
                   lambda found: re.sub(r"(\d+)", name, found[0]), text)
 
 
-def find_rings_without_area(defects):
-    """What the text of a report's defects says of them: a list of one text, or an empty one."""
-    return re.findall(r"\d+ rings? without an area, left out[^;]*", defects)
+def find_left_out_rings(defects):
+    """What the text of a report's defects says of them: a list of texts."""
+    return re.findall(r"\d+ rings? [^;]*, left out[^;]*", defects)

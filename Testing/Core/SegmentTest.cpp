@@ -308,6 +308,26 @@ TEST(SplitCrossings, UsesNoPointThatIsNotUsed)
   EXPECT_EQ((Pairs{ { 0, 6 }, { 6, 1 }, { 2, 6 }, { 6, 3 } }), result.Edges);
 }
 
+/// Segments along a line, but for rounding, get ever more crossings.
+TEST(SplitCrossings, EndsWhereCrossingsMultiply)
+{
+  std::mt19937 random(1);
+  Drawing drawing;
+  for (int i = 0; i < 28; ++i)
+  {
+    const auto y = static_cast<double>(random() % 200);
+    drawing.Points.push_back({ y / 3.0, y });
+    if (i > 0)
+    {
+      drawing.Segments.push_back({ i - 1, i });
+    }
+  }
+  drawing.Points.push_back({ 0.0, 200.0 });
+  const Triangulation result = Triangulate(drawing, With(&PointOptions::SplitCrossings, true));
+  EXPECT_LT(result.Added.size(), 20000u);
+  EXPECT_LT(0, result.Report.FromPoints.RefusedSegments);
+}
+
 TEST(SplitCrossings, RoundsOnceAndUsesPointsThatAreThere)
 {
   const PointOptions options = With(&PointOptions::SplitCrossings, true);
@@ -520,6 +540,27 @@ TEST(Outline, RingsWithoutAreaAreLeftOut)
     EXPECT_EQ("1 ring without an area, left out (first: 1)",
       DescribeDefects({ result.Report.Defects.back() }));
   }
+}
+
+/// Also where the second one runs the other way and has more corners.
+TEST(Outline, RingsThatAreGivenTwiceCountOnce)
+{
+  Drawing drawing;
+  drawing.Points = Square(0, 0, 20);
+  Places again = Square(2, 2, 10, true);
+  again.insert(again.begin() + 1, { 6, 12 });
+  for (const Places& ring : { Square(2, 2, 10), again, Square(4, 4, 3), Square(4, 4, 3) })
+  {
+    drawing.AddRing(ring);
+  }
+  drawing.FirstHole = 2;
+  const Triangulation result = Triangulate(drawing);
+  EXPECT_EQ(2.0 * 91, SumArea(drawing.Points, result.Triangles));
+  EXPECT_EQ("2 rings with the edges of an earlier one, left out (first: 1, 3)",
+    DescribeDefects({ result.Report.Defects.back() }));
+  const Triangulation turns =
+    Triangulate(drawing, With(&PointOptions::RingRule, RingRuleKind::NonZero));
+  EXPECT_TRUE(turns.Triangles.empty()); // the outline turns both ways
 }
 
 /// Edges of two segments, those of the boundary, and removed ones.

@@ -139,6 +139,9 @@ class Triangulate(unittest.TestCase):
                     self.assertAlmostEqual(area(**{name: ring}), whole)
                 self.assertRegex(
                     result.report.defects, rf"rings? without an area, left out \(first: ring 0 of {name}")
+        with self.assertWarnsRegex(
+                UserWarning, r"1 ring with the edges .*, left out \(first: ring 1 of holes\)"):
+            self.assertAlmostEqual(area(holes=[triangle, triangle]), whole - 0.02)
         spatial = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, .5]]  # integers first
         self.assertEqual(area(outline=spatial), 1)
         for name, values, error, text in (
