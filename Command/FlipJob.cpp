@@ -245,11 +245,15 @@ public:
     this->Run.ReadSeconds = SecondsSince(start);
     const bool hasTriangles =
       this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() > 0;
-    if (hasTriangles && this->Settings.FromPoints)
+    if (this->Input->GetNumberOfPoints() == 0)
+    {
+      this->Note(this->Settings.Input + ": is empty: it has no points");
+    }
+    else if (hasTriangles && this->Settings.FromPoints)
     {
       this->Note(this->Settings.Input + ": its triangles are not used, only its points");
     }
-    if (!hasTriangles && !this->Settings.FromPoints)
+    else if (!hasTriangles && !this->Settings.FromPoints)
     {
       this->Note(this->Settings.Input + ": contains no triangles; --from-points makes them");
     }
@@ -487,7 +491,7 @@ private:
   /// A warning of the filter that names rings by their files.
   std::string NameRings(const std::string& warning) const
   {
-    static const std::regex list("(an area, left out \\(first: )([\\d, ]+)"), number("\\d+");
+    static const std::regex list("( rings? [^;]*, left out \\(first: )([\\d, ]+)"), number("\\d+");
     std::smatch found;
     if (!std::regex_search(warning, found, list))
     {
@@ -501,7 +505,8 @@ private:
       const auto [path, ring] = this->FindRing(each->str());
       names.push_back(ring + " of " + path);
     }
-    return found.prefix().str() + found[1].str() + JoinWords(names) + found.suffix().str();
+    return found.prefix().str() + found[1].str() + JoinWords(names) +
+      this->NameRings(found.suffix().str());
   }
 
   void ThrowErrors()

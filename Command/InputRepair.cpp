@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -55,6 +56,68 @@ void CopyTuples(vtkDataSetAttributes* given, vtkIdType tuples, vtkIdList* ids,
   AddTuples(TakeWholeArrays(given, tuples), ids, MakeRange(0, count), count, data);
 }
 
+/// The corners without those that are the same as the one before them.
+void DropRepeats(std::vector<vtkIdType>& corners)
+{
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  while (corners.size() > 1 && corners.front() == corners.back())
+  {
+    corners.pop_back();
+  }
+}
+
+/// The mesh with strips split into triangles, and with polygons whose corners differ from the one
+/// before them, as far as three are left.
+FileMesh MakePlain(vtkPolyData* mesh)
+{
+  const vtkNew<vtkCellArray> polygons;
+  vtkIdType cell = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
+  const auto sources = MakeRange(0, cell);
+  bool isPlain = mesh->GetNumberOfStrips() == 0;
+  std::vector<vtkIdType> corners;
+  ForEachCell(mesh->GetPolys(),
+    [&](vtkIdType size, const vtkIdType* given)
+    {
+      corners.assign(given, given + size);
+      DropRepeats(corners);
+      if (corners.size() < 3)
+      {
+        corners.assign(given, given + size);
+      }
+      const auto left = static_cast<vtkIdType>(corners.size());
+      isPlain = isPlain && left == size;
+      polygons->InsertNextCell(left, corners.data());
+      sources->InsertNextId(cell++);
+    });
+  ForEachCell(mesh->GetStrips(),
+    [&](vtkIdType size, const vtkIdType* given)
+    {
+      for (vtkIdType i = 0; i + 2 < size; ++i)
+      {
+        const vtkIdType odd = i % 2; // every other triangle of a strip is wound the other way
+        corners = { given[i + odd], given[i + 1 - odd], given[i + 2] };
+        DropRepeats(corners);
+        if (corners.size() == 3)
+        {
+          polygons->InsertNextCell(3, corners.data());
+          sources->InsertNextId(cell);
+        }
+      }
+      ++cell;
+    });
+  FileMesh result;
+  result.Mesh->ShallowCopy(mesh);
+  if (!isPlain)
+  {
+    result.Mesh->SetPolys(polygons);
+    result.Mesh->SetStrips(vtkNew<vtkCellArray>());
+    CopyTuples(
+      mesh->GetCellData(), cell, sources, "cell", result.Mesh->GetCellData(), result.Warnings);
+    DemoteGlobalIds(result.Mesh->GetCellData());
+  }
+  return result;
+}
+
 /// Leaves out the polygons for which `isLeftOut(size, ids)` holds, with their data.
 /// @returns how many these are.
 template <typename IsLeftOut>
@@ -89,14 +152,63 @@ vtkIdType LeaveOut(vtkPolyData* mesh, const IsLeftOut& isLeftOut, FileMesh& resu
   return count;
 }
 
-/// The corners without those that are the same as the one before them.
-void DropRepeats(std::vector<vtkIdType>& corners)
+/// A number for each polygon, the same for those that are joined by edges of two polygons.
+std::vector<vtkIdType> FindConnected(vtkCellArray* polygons)
 {
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  while (corners.size() > 1 && corners.front() == corners.back())
+  std::vector<std::array<vtkIdType, 3>> sides; // the ends of an edge, the smaller first; a polygon
+  vtkIdType polygon = 0;
+  ForEachCell(polygons,
+    [&](vtkIdType size, const vtkIdType* corners)
+    {
+      for (vtkIdType i = 0; i < size; ++i)
+      {
+        const auto [low, high] = std::minmax({ corners[i], corners[(i + 1) % size] });
+        sides.push_back({ low, high, polygon });
+      }
+      ++polygon;
+    });
+  std::sort(sides.begin(), sides.end());
+  std::vector<vtkIdType> joined(polygon);
+  std::iota(joined.begin(), joined.end(), 0);
+  const auto find = [&joined](vtkIdType number)
   {
-    corners.pop_back();
+    for (; joined[number] != number; number = joined[number])
+    {
+      joined[number] = joined[joined[number]];
+    }
+    return number;
+  };
+  for (auto side = sides.begin(); side != sides.end();)
+  {
+    const auto end = std::find_if(side, sides.end(),
+      [&side](const auto& other) { return other[0] != (*side)[0] || other[1] != (*side)[1]; });
+    if (end - side == 2)
+    {
+      const auto [first, last] = std::minmax({ find((*side)[2]), find((*std::next(side))[2]) });
+      joined[last] = first;
+    }
+    side = end;
   }
+  std::transform(joined.begin(), joined.end(), joined.begin(), find);
+  return joined;
+}
+
+/// The polygons, of which those that are to be turned over are.
+vtkSmartPointer<vtkCellArray> TurnOver(vtkCellArray* polygons, const std::vector<bool>& areTurned)
+{
+  auto made = vtkSmartPointer<vtkCellArray>::New();
+  std::vector<vtkIdType> corners;
+  ForEachCell(polygons,
+    [&](vtkIdType size, const vtkIdType* given)
+    {
+      corners.assign(given, given + size);
+      if (areTurned[made->GetNumberOfCells()])
+      {
+        std::reverse(corners.begin(), corners.end());
+      }
+      made->InsertNextCell(size, corners.data());
+    });
+  return made;
 }
 
 vtkSmartPointer<vtkCellArray> Renumber(
@@ -196,41 +308,62 @@ RepairedMesh DropDuplicates(vtkPolyData* mesh)
     }
     return !known.insert(corners).second;
   };
+  const FileMesh plain = MakePlain(mesh);
   RepairedMesh repaired;
-  const vtkIdType count = LeaveOut(mesh, isKnown, repaired.Result);
+  repaired.Result.Warnings = plain.Warnings;
+  const vtkIdType count = LeaveOut(plain.Mesh, isKnown, repaired.Result);
   repaired.Note = Counted(count, "polygon") + " left out as duplicates";
   return repaired;
 }
 
 RepairedMesh Orient(vtkPolyData* mesh)
 {
+  RepairedMesh repaired;
+  repaired.Result = MakePlain(mesh);
+  vtkCellArray* const given = repaired.Result.Mesh->GetPolys();
   const vtkNew<vtkPolyData> polygons;
   polygons->SetPoints(mesh->GetPoints());
-  polygons->SetPolys(mesh->GetPolys());
+  polygons->SetPolys(given);
   const vtkNew<vtkPolyDataNormals> normals;
   normals->SetInputData(polygons);
   normals->SplittingOff();
   normals->ConsistencyOn();
   normals->NonManifoldTraversalOff();
   normals->Update();
-  RepairedMesh repaired;
-  repaired.Result.Mesh->ShallowCopy(mesh);
   vtkCellArray* const oriented = normals->GetOutput()->GetPolys();
-  vtkIdType turned = 0;
-  if (oriented->GetNumberOfCells() == mesh->GetNumberOfPolys())
+  const vtkIdType count = given->GetNumberOfCells();
+  std::vector<bool> areTurned(count);
+  if (oriented->GetNumberOfCells() == count)
   {
     const vtkNew<vtkIdList> before, after;
-    for (vtkIdType cell = 0; cell < oriented->GetNumberOfCells(); ++cell)
+    for (vtkIdType cell = 0; cell < count; ++cell)
     {
-      mesh->GetPolys()->GetCellAtId(cell, before);
+      given->GetCellAtId(cell, before);
       oriented->GetCellAtId(cell, after);
-      if (!std::equal(before->begin(), before->end(), after->begin()))
-      {
-        ++turned;
-      }
+      areTurned[cell] = !std::equal(before->begin(), before->end(), after->begin());
     }
-    repaired.Result.Mesh->SetPolys(oriented);
   }
+  // If most polygons of a part have been turned over, turn over the others of it instead.
+  const std::vector<vtkIdType> parts = FindConnected(given);
+  std::vector<vtkIdType> surplus(count); // by part, how many more have been turned over than not
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    if (areTurned[cell])
+    {
+      ++surplus[parts[cell]];
+    }
+    else
+    {
+      --surplus[parts[cell]];
+    }
+  }
+  vtkIdType turned = 0;
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    areTurned[cell] = areTurned[cell] != (surplus[parts[cell]] > 0);
+    turned += static_cast<vtkIdType>(areTurned[cell]);
+  }
+  repaired.Result.Mesh->SetPolys(TurnOver(given, areTurned));
   repaired.Note = Counted(turned, "polygon") + " turned over to be wound like " +
     (turned == 1 ? "its" : "their") + " neighbours";
   return repaired;

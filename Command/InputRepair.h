@@ -28,11 +28,11 @@ struct RepairedMesh
 RepairedMesh MergeEqualPoints(vtkPolyData* mesh);
 
 /// Leaves out triangles and polygons with the corners of an earlier one, in the same order or
-/// backwards, as on the two sides of a thin part.
+/// backwards, as on the two sides of a thin part. Strips become triangles.
 RepairedMesh DropDuplicates(vtkPolyData* mesh);
 
 /// Turns triangles and polygons over so that those on two sides of an edge are wound the same way.
-/// The first one of each connected part stays as it is. Strips stay, too.
+/// Of each connected part the fewer ones are turned over. Strips become triangles.
 RepairedMesh Orient(vtkPolyData* mesh);
 
 }

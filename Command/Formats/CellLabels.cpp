@@ -8,6 +8,9 @@
 #include <vtkNew.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
+#include <functional>
+
 namespace delaunayflip
 {
 
@@ -79,7 +82,11 @@ void CellLabels::Store(FileMesh& file) const
   }
   file.Mesh->GetCellData()->AddArray(numbers);
   file.Mesh->GetFieldData()->AddArray(texts);
-  file.AddLabels(numbers);
+  const std::vector<int>& ofFaces = this->OfCells[2];
+  if (std::adjacent_find(ofFaces.begin(), ofFaces.end(), std::not_equal_to<>()) != ofFaces.end())
+  {
+    file.Labels.push_back(this->Array);
+  }
 }
 
 StoredLabels::StoredLabels(vtkPolyData* mesh, const std::string& array)

@@ -34,7 +34,7 @@ const ColumnFamily Families[] = {
   { { "easting", "eastings", "east", "utmeasting", "utme", "utmx", "rechtswert" },
     { "northing", "northings", "north", "utmnorthing", "utmn", "utmy", "hochwert" }, {} },
   { { "lon", "long", "longitude", "lng" }, { "lat", "latitude" }, {} },
-  { { "e" }, { "n" }, {} },
+  { { "e" }, { "n" }, { "z", "u" } },
 };
 
 const Names Heights = { "z", "zcoord", "zcoordinate", "coordz", "pointz", "elevation", "elev",

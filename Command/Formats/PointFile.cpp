@@ -80,12 +80,21 @@ char NamedSeparator(const TextLines& lines)
   return isOne ? text[4] : '\0';
 }
 
-/// Splits a line of numbers. Tabs separate numbers with decimal commas.
+/// Whether words are numbers that may have decimal commas, each between two digits.
+bool MayHaveDecimalCommas(const Words& words)
+{
+  const auto isOne = [](std::string_view word)
+  { return IsValue(word) && word.front() != ',' && word.back() != ','; };
+  return words.size() > 1 && std::all_of(words.begin(), words.end(), isOne);
+}
+
+/// Splits a line of numbers. Tabs separate numbers with decimal commas. So do blanks if what is
+/// between the commas are no numbers.
 void SplitValues(TextLines& lines, const std::string& separators)
 {
-  const bool mayHaveCommas = lines.Text.find('\t') != lines.Text.npos &&
+  const bool mayHaveCommas =
     lines.Text.find(',') != lines.Text.npos && lines.Text.find(';') == lines.Text.npos;
-  if (mayHaveCommas)
+  if (mayHaveCommas && lines.Text.find('\t') != lines.Text.npos)
   {
     lines.SeparateBy("\t");
     if (std::count_if(lines.Words.begin(), lines.Words.end(), IsValue) >= 2)
@@ -94,6 +103,15 @@ void SplitValues(TextLines& lines, const std::string& separators)
     }
   }
   lines.SeparateBy(separators);
+  if (mayHaveCommas && !std::all_of(lines.Words.begin(), lines.Words.end(), IsNumber))
+  {
+    lines.SeparateBy("");
+    if (MayHaveDecimalCommas(lines.Words))
+    {
+      return;
+    }
+    lines.SeparateBy(separators);
+  }
 }
 
 /// The words of a comment without its mark.

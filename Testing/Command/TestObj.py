@@ -63,6 +63,8 @@ class Obj(ArrayTest):
         self.write("one.obj", "usemtl red\n" + SQUARE + "f 1 2 3\nf 1 3 4\n")
         self.assertEqual(self.succeed("one.obj", "out.obj").stderr, "")
         self.assertIn("usemtl red\nf 1 2 3\nf ", self.content("out.obj").decode())
+        self.write("line.obj", "usemtl red\n" + SQUARE + "f 1 2 3\nf 1 3 4\nusemtl blue\nl 1 2\n")
+        self.assertEqual(self.succeed("line.obj", "out.obj").stderr, "")
 
     def test_normals_and_texture_that_do_not_exist(self):
         for kind, element, faces in (

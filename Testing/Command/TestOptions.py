@@ -7,7 +7,7 @@ import os
 import resource
 
 from CommandTesting import (
-    CommandTest, bad_mesh, bumpy_grid, cells_of, make_mesh, make_values, points_of, triangle_set,
+    CommandTest, bad_mesh, bumpy_grid, cells_of, make_cells, make_mesh, make_values, points_of, triangle_set,
     triangles_of, values_of)
 
 # Divided along its long diagonal.
@@ -133,6 +133,29 @@ class Options(CommandTest):
         out = self.read_mesh("out.vtk")
         self.assertEqual(values_of(out.GetCellData().GetArray("cell")), [0, 1])
         self.assertTrue(self.has_edge(1, 3))
+
+    def test_repairs_of_strips_and_repeated_corners(self):
+        """Strips and polygons that repeat a corner are repaired as triangles are."""
+        mesh = make_mesh(KITE, [(0, 1, 2, 2), (0, 3, 2), (0, 0, 3, 2)])
+        mesh.SetStrips(make_cells([(1, 0, 2)]))
+        mesh.GetCellData().AddArray(make_values("vtkIntArray", "cell", [(i,) for i in range(4)]))
+        path = self.write_mesh(mesh, "in.vtk")
+        result = self.succeed(path, "out.vtk", "--drop-duplicates", "--orient")
+        self.assertIn("in.vtk: 2 polygons left out as duplicates\n", result.stderr)
+        self.assertIn("in.vtk: 1 polygon turned over", result.stderr)
+        self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
+        self.assertEqual(values_of(self.read_mesh("out.vtk").GetCellData().GetArray("cell")), [0, 1])
+
+    def test_fewer_triangles_are_turned_over(self):
+        """Also if they come first; in each connected part."""
+        apart = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (.5, .4, 0)]
+        fan = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)]
+        cells = [fan[0][::-1], *fan[1:], *[(a + 5, c + 5, b + 5) for a, b, c in fan]]
+        mesh = make_mesh([*apart, *[(x + 5, y, z) for x, y, z in apart]], cells)
+        path = self.write_mesh(mesh, "in.vtk")
+        result = self.succeed(path, "out.vtk", "--orient", "--max-iterations", "0")
+        self.assertIn("in.vtk: 1 polygon turned over", result.stderr)
+        self.assertEqual(triangles_of(self.read_mesh("out.vtk"))[1:], cells[1:])
 
     def test_winding_is_made_consistent(self):
         mesh = make_mesh(KITE, [KITE_CELLS[0], KITE_CELLS[1][::-1]], [(0, 1)])

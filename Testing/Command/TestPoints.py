@@ -101,13 +101,13 @@ class Files(PointTest):
         self.expect("in.csv", rows, PLACES, "left out the columns " + listed)
 
     def test_known_names(self):
-        for names in ("X_COORD,Y_COORD,Z_COORD", "POINT_X,POINT_Y,Elev", "lon,lat,h", "E,N,Z",
+        for names in ("X_COORD,Y_COORD,Z_COORD", "POINT_X,POINT_Y,Elev", "lon,lat,h", "E,N,Z", "e,n,u",
                       "Easting (m),Northing (m),Elevation (m)", "Longitude,Latitude,height",
                       "Points:0,Points:1,Points:2", "utm_e,utm_n,z_m", "x,y,altitude"):
             x, y, z = names.split(",")
             told = f"took '{x}', '{y}', '{z}' as x, y, z"
             rows = text_of([(9.5, *p) for p in PLACES], ",", "FID," + names)
-            self.expect("in.csv", rows, PLACES, "left out the columns 'FID'" if x == "E" else told)
+            self.expect("in.csv", rows, PLACES, "left out the columns 'FID'" if len(x) == 1 and y != "y" else told)
             rows = text_of([(9.5, *p[::-1]) for p in PLACES], ";", f"Height error;{z};{y};{x}")
             self.expect("in.csv", rows, PLACES, "left out the columns 'Height error'")
         rows = text_of([(*p, 7, 8) for p in PLACES], ",", "x,y,z,lon,lat")
@@ -181,7 +181,7 @@ class Files(PointTest):
 
     def test_spreadsheets(self):
         comma = [text_of([(x + 0.5, y, z, x) for x, y, z in PLACES], s).replace(".", ",")
-                 for s in ";\t"]
+                 for s in ";\t "]
         expected = [(x + 0.5, y, z) for x, y, z in PLACES]
         for text in comma:
             self.expect("in.txt", text, expected, "left out the columns from number 4 on")
@@ -393,12 +393,14 @@ class Segments(PointTest):
         """They are left out, and one warning counts them, with the names of the first ones."""
         outline = [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)]
         rings = self.rings("some.vtk", outline, [(1, 1, 0), (2, 1, 0)], [(1, 1, 0)])
-        lines = self.rings("lines.vtk", [(1, 2, 0), (3, 2, 0), (2, 2, 0)])
+        lines = self.rings("lines.vtk", [(1, 2, 0), (3, 2, 0), (2, 2, 0)],
+                           *2 * [[(4, 4, 0), (4, 4.5, 0), (4.5, 4, 0)]])
         mesh, result = self.triangulate("in.xyz", "--outline", rings, "--holes", lines)
         self.assertEqual(area_of(mesh), 9)
         self.assertEqual(result.stderr.count("warning: "), 1)
         self.assertIn("3 rings without an area, left out (first: ring 1 of some.vtk, ring 2 of some.vtk, "
-                      "ring 0 of lines.vtk)", result.stderr)
+                      "ring 0 of lines.vtk); 1 ring with the edges of an earlier one, left out (first: "
+                      "ring 2 of lines.vtk)", result.stderr)
 
     def test_ring_that_is_crossed(self):
         good = [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0), (2.5, 1.5, 0)]
@@ -477,6 +479,11 @@ class Usage(PointTest):
         path = self.write_mesh(make_mesh(PLACES, []), "in.vtk")
         result = self.succeed(path, "out.vtk")
         self.assertIn("no triangles; --from-points makes them", result.stderr)
+        path = self.write_mesh(make_mesh([], []), "in.vtk")
+        for options in ([], ["--from-points"]):
+            told = self.succeed(path, "out.vtk", *options).stderr
+            self.assertIn("in.vtk: is empty: it has no points\n", told)
+            self.assertNotIn("--from-points", told)
 
     def test_points_where_a_mesh_is_needed(self):
         self.write("in.xyz", text_of(PLACES))
