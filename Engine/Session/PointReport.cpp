@@ -149,10 +149,10 @@ Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept)
   {
     given = caller.Points.Count;
   }
-  CoordinateBox cloud, segments, seeds;
+  CoordinateBox places, segments, seeds;
   for (std::int64_t i = 0; i < given; ++i)
   {
-    cloud.Add(input.Points.Get(i, 0), input.Points.Get(i, 1));
+    places.Add(input.Points.Get(i, 0), input.Points.Get(i, 1));
   }
   for (const Segment& segment : points.GetSegments())
   {
@@ -170,7 +170,7 @@ Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept)
   }
   std::string text = "points without a triangle, because triangles are removed (" +
     std::to_string(kept.Outside) + " outside, " + std::to_string(kept.Large) +
-    " too large): " + left + "; these points lie in " + cloud.Describe();
+    " too large): " + left + "; these points lie in " + places.Describe();
   if (!points.GetSegments().empty())
   {
     text += ", the segments in " + segments.Describe();

@@ -45,9 +45,7 @@ FORBIDDEN = re.compile(
 COMMENT_OR_STRING = re.compile(
     r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
 TWINS = {"phase": "pass", "cloud": "points"}  # words for what has another name already
-TWIN_FOLDERS = (
-    "CInterface/", "CUDA/", "Engine/Flips/", "Engine/Geometry/", "Engine/Mesh/", "Engine/Parts/",
-    "Engine/Points/", "Engine/Threads/")
+TWIN_FOLDERS = ("CInterface/", "CUDA/", "Engine/")
 MARKDOWN_CODE = re.compile(r"^```.*?^```|(?:\A|(?<=\n\n))(?: {4}[^\n]*\n)+", re.DOTALL | re.MULTILINE)
 LINK_TARGET = re.compile(r"\]\([^)]*\)")
 
