@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_MOUNTAINS_H
 #define DELAUNAYFLIP_MOUNTAINS_H
 
+#include "Atomics.h"
 #include "EdgeMesh.h"
 #include "ExactPredicates.h"
 #include "HostDevice.h"
@@ -104,7 +105,7 @@ struct ChainView
     {
       if (TriangleOf(label) >= this->FirstTriangle)
       {
-        this->GetTriangle(TriangleOf(label)).HalfEdges[SlotOf(label)] = corner;
+        AtomicStore(&this->GetTriangle(TriangleOf(label)).HalfEdges[SlotOf(label)], corner);
       }
     }
     else if (this->Sides && label != NoCorner)
@@ -118,14 +119,17 @@ struct ChainView
     }
   }
 
-  /// Does so for all edges of a triangle. Its HalfEdges are the labels of its edges.
+  /// Does so for all edges of a triangle. Its HalfEdges are the labels of its edges. A neighbour
+  /// may be attached at the same time: then a label is read before or after that, with the same
+  /// result.
   DELAUNAYFLIP_HOST_DEVICE void AttachTriangle(TriangleId number) const
   {
-    const TriangleRecord triangle = this->GetTriangle(number);
+    const TriangleRecord& triangle = this->GetTriangle(number);
     for (int slot = 0; slot < 3; ++slot)
     {
-      this->Attach(triangle.HalfEdges[slot], triangle.Vertices[NextSlot(slot)],
-        triangle.Vertices[PreviousSlot(slot)], false, MakeCorner(number, slot));
+      const CornerId label = AtomicLoad(&triangle.HalfEdges[slot]);
+      this->Attach(label, triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)],
+        false, MakeCorner(number, slot));
     }
   }
 };
