@@ -252,14 +252,6 @@ void LoadedRun::Reset()
   this->Report = FlipReport();
 }
 
-/// Forgets all after an observer has stopped the run before there is a mesh to show for it: while
-/// one is built, or while the CPU repeats what a GPU has lost.
-void LoadedRun::Abort()
-{
-  this->Reset();
-  this->Report.StopReason = StopReasonKind::Aborted;
-}
-
 void LoadedRun::TouchExpected()
 {
   std::vector<ResultMemory> expected = std::exchange(this->Expected, {});

@@ -50,8 +50,7 @@ protected:
   /// @param backend CUDA or Threads.
   virtual std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) = 0;
 
-  /// Forgets everything but the caller's input.
-  virtual void Reset();
+  void Reset() override;
 
   /// Lists the defects of the input, without what flips have caused, and what is not about flips.
   virtual void ListDefects() = 0;
@@ -161,7 +160,6 @@ protected:
 private:
   void FallBack(const BackendUnavailable& error);
   void Replay();
-  void Abort();
   std::int64_t GetIterationLimit() const;
   void Keep(const std::vector<IterationCounts>& batch, double seconds);
 

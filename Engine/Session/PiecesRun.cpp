@@ -79,12 +79,6 @@ void PiecesRun::Reset()
   this->Report.Triangles = this->Mesh.Triangles.Count;
 }
 
-void PiecesRun::Abort()
-{
-  this->Reset();
-  this->Report.StopReason = StopReasonKind::Aborted;
-}
-
 bool PiecesRun::Advance(
   std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
 try

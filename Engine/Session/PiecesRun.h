@@ -33,8 +33,7 @@ private:
   void ListStages();
   void Cut();
   void Begin();
-  void Reset();
-  void Abort();
+  void Reset() override;
 
   TriangleMesh Mesh;
   FlipOptions Options;

@@ -115,6 +115,17 @@ protected:
 
   bool IsOver() const { return this->Current == this->Stages.size(); }
 
+  /// Forgets everything but the caller's input.
+  virtual void Reset() = 0;
+
+  /// Forgets all after an observer has stopped the run before there is a mesh to show for it: while
+  /// one is built, or while the CPU repeats what a GPU has lost.
+  void Abort()
+  {
+    this->Reset();
+    this->Report.StopReason = StopReasonKind::Aborted;
+  }
+
   FlipReport Report;
   std::vector<Stage> Stages;
   std::size_t Current = 0; ///< The number of the stage that comes next or is not complete.
