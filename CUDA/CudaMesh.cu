@@ -253,6 +253,24 @@ public:
       neighbors, 3 * this->GetInputReport().Triangles, stream, this->GetNeighborStep());
   }
 
+  bool Ask(const RunQuery& asked, const ProgressObserver& observer) override
+  {
+    if (asked.Query.OnDevice)
+    {
+      this->GetBackend().WaitFor(asked.Query.Stream);
+    }
+    return MeshOnBackend::Ask(asked, observer);
+  }
+
+  bool CanAnswerInPlace(const PlaceQuery& query) const override
+  {
+    const void* const arrays[] = { query.Places.Data(), query.Triangles, query.Values,
+      query.Results };
+    return std::all_of(std::begin(arrays), std::end(arrays),
+      [&](const void* array)
+      { return !array || FindDeviceOf(array) == this->GetBackend().GetContext().Device; });
+  }
+
 private:
   /// Stores if the memory is that of the device. @returns whether it is.
   template <typename Target, typename Store>

@@ -8,6 +8,7 @@
 #include "FlipError.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "Interpolation.h"
 #include "PointTriangulation.h"
 #include "TriangleMesh.h"
 
@@ -144,6 +145,14 @@ public:
   /// Returns the edges that segments have become, as pairs of point ids, in the order and direction
   /// of the segments, each once. Empty until they are inserted. For sessions from points.
   std::vector<std::int64_t> ListSegmentEdges() const;
+
+  /// Answers a query about places: see PlaceQuery. Nothing in the session changes. Triangles that
+  /// an outline, holes or options have removed are outside. For sessions from points.
+  /// @param progress is told the share of the places that is done.
+  /// @returns false if that has asked to stop; then some results are missing.
+  /// @throws InvalidOptions if the session is not one from points, if the query's numbers are out
+  /// of range, or for natural neighbours while there are bad edges; BackendUnavailable.
+  bool Ask(const PlaceQuery& query, const ProgressObserver& progress = {}) const;
 
   /// Writes, for every triangle slot, in how many flips it took part: GetReport().Triangles
   /// numbers.

@@ -11,6 +11,7 @@
 #include "FlipReport.h"
 #include "HiddenEdges.h"
 #include "Outline.h"
+#include "RunQuery.h"
 #include "TriangleMesh.h"
 
 #include <cstdint>
@@ -70,6 +71,13 @@ public:
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
   virtual void StoreNeighbors(std::int32_t* neighbors) const = 0;
   virtual void StoreUsedPoints(std::int64_t* ids) const = 0;
+
+  /// Answers a query about a mesh from points that has triangles. The query's arrays are in the
+  /// memory of the backend (CanAnswerInPlace) or of the host.
+  /// @param observer is told the share of the places that is done.
+  /// @returns whether it was not stopped.
+  virtual bool Ask(const RunQuery& asked, const ProgressObserver& observer) = 0;
+  virtual bool CanAnswerInPlace(const PlaceQuery&) const { return false; }
 
   /// Calls view(mesh) with a mesh from points, in the memory of the host.
   using HostView = std::function<void(const PointMeshView&)>;

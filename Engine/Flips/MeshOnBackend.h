@@ -14,6 +14,7 @@
 #include "LoadedMesh.h"
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
+#include "PlaceAsker.h"
 #include "PlanarSurvey.h"
 #include "PointMesh.h"
 #include "SegmentInsertion.h"
@@ -247,22 +248,21 @@ public:
     this->Loop->Restart();
   }
 
+  bool Ask(const RunQuery& asked, const ProgressObserver& observer) override
+  {
+    this->RequireStates();
+    return this->Asker.Answer(this->ViewHere(), asked, this->Backend, observer);
+  }
+
   void ViewOnHost(const HostView& use) override
   {
-    EdgeMesh& mesh = this->Mesh;
-    PointMeshView view;
-    view.NumberOfTriangles = mesh.NumberOfTriangles;
-    view.NumberOfEdges = mesh.NumberOfEdges;
-    view.NumberOfPlaces = this->Points.Count;
-    view.Range = this->Range;
+    PointMeshView view = this->ViewHere();
     if constexpr (BackendT::IsOnHost)
     {
-      view.Edges = mesh.View();
-      view.Places = this->Places;
-      view.Ids = this->Order.VertexOfRank.Data();
       use(view);
       return;
     }
+    EdgeMesh& mesh = this->Mesh;
     const auto fetch = [&](const auto* values, std::int64_t size)
     {
       std::vector<std::remove_const_t<std::remove_pointer_t<decltype(values)>>> copy(size);
@@ -391,6 +391,20 @@ protected:
   FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
 
 private:
+  /// A view of a mesh from points, in the memory of the backend.
+  PointMeshView ViewHere()
+  {
+    PointMeshView view;
+    view.Edges = this->Mesh.View();
+    view.Places = this->Places;
+    view.NumberOfTriangles = this->Mesh.NumberOfTriangles;
+    view.NumberOfEdges = this->Mesh.NumberOfEdges;
+    view.NumberOfPlaces = this->Points.Count;
+    view.Ids = this->Order.VertexOfRank.Data();
+    view.Range = this->Range;
+    return view;
+  }
+
   /// Lets the observer be asked also within steps, which may take seconds, and in the loop.
   void StartPolls(const BuildProgress& progress)
   {
@@ -522,6 +536,7 @@ private:
       TriangulateByDivideAndConquer(reinterpret_cast<const CoordinatePair<Real>*>(coordinates),
         this->Points.Count, this->Backend, progress, hullEdges);
     this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
+    this->Asker = PlaceAsker<BackendT>();
   }
 
   BackendT Backend;
@@ -532,6 +547,7 @@ private:
   bool FiltersApply = false; ///< For a mesh from points: whether the rule's do.
   PlaneArray Places; ///< For a mesh from points: a view of Points.
   Array<VertexId> UsedPoint; ///< What MergePlaces returned.
+  PlaceAsker<BackendT> Asker;
   OrientationSample Orientations;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;

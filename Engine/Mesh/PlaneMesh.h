@@ -35,19 +35,24 @@ struct PlaneMesh
     return delaunayflip::IsFinite(this->GetPoint(vertex));
   }
 
-  /// Orientation of the finite points a, b, c, exactly: 1, 0 or -1.
-  DELAUNAYFLIP_HOST_DEVICE int FindOrientation(VertexId a, VertexId b, VertexId c) const
+  /// Returns a sign. One that a device could not decide becomes 0 and sets Failed.
+  DELAUNAYFLIP_HOST_DEVICE int RequireSign(int sign) const
   {
-    const int orientation =
-      delaunayflip::FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
 #if DELAUNAYFLIP_ON_DEVICE
-    if (orientation == UncertainSign)
+    if (sign == UncertainSign)
     {
       *this->Failed = 1;
       return 0;
     }
 #endif
-    return orientation;
+    return sign;
+  }
+
+  /// Orientation of the finite points a, b, c, exactly: 1, 0 or -1.
+  DELAUNAYFLIP_HOST_DEVICE int FindOrientation(VertexId a, VertexId b, VertexId c) const
+  {
+    return this->RequireSign(
+      delaunayflip::FindOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c)));
   }
 
   DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(CornerId corner) const

@@ -116,6 +116,11 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
   this->Run->StoreTriangles(triangles);
 }
 
+bool FlipSession::Ask(const PlaceQuery& query, const ProgressObserver& progress) const
+{
+  return RequirePoints(*this->Run).Ask(query, progress);
+}
+
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 {
   this->Run->StoreFlipCounts(counts);

@@ -33,6 +33,9 @@ public:
   const std::vector<AddedPoint>& GetAddedPoints() const { return this->Points.GetAdded(); }
   std::vector<std::int64_t> ListSegmentEdges();
 
+  /// The same as FlipSession's. (PointAnswers.cpp)
+  bool Ask(const PlaceQuery& query, const ProgressObserver& progress);
+
 private:
   void ListStages();
   bool Prepare();
@@ -46,6 +49,7 @@ private:
   void ExplainRefused(LoadedMesh& mesh);
   bool CutOff();
   void RemoveTriangles(LoadedMesh& mesh);
+  bool Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
   void Reset() override;

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PLACEASKER_H
+#define DELAUNAYFLIP_PLACEASKER_H
+
+#include "FlipError.h"
+#include "FlipOptions.h"
+#include "Outline.h"
+#include "PlaceQuery.h"
+#include "RunQuery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// Answers queries about a triangulation of points in a backend's memory, block by block. Keeps
+/// what later queries can use again.
+template <typename Backend>
+class PlaceAsker
+{
+public:
+  /// @param mesh in the memory of the backend; edges have states.
+  /// @param observer is told the share of the places that is done.
+  /// @returns whether it was not stopped. @throws BeyondDevice.
+  bool Answer(const PointMeshView& mesh, const RunQuery& asked, const Backend& backend,
+    const ProgressObserver& observer)
+  {
+    PlaneMesh plane{ mesh.Edges, mesh.Places };
+    plane.IsTriangulation = true;
+    if (this->Grid.Cells.Size() == 0)
+    {
+      this->Grid = BuildPlaceGrid(plane, mesh.NumberOfTriangles, backend);
+    }
+    const std::int32_t none = 0;
+    const LocalCopy<std::int32_t> failed(&none, 1, true, backend);
+    plane.Failed = failed.GetWritable();
+    const std::vector<std::int32_t>& numbers = asked.Numbers;
+    const LocalCopy<std::int32_t> numbersHere(
+      numbers.data(), SizeOf(numbers), !numbers.empty(), backend);
+    const AskedMesh here{ plane, this->Grid.View(), numbersHere.Get() };
+
+    const PlaceQuery& query = asked.Query;
+    const bool wantsValues = query.Values != nullptr;
+    const LocalCopy<double> valuesHere(query.Values, asked.NumberOfPoints * query.Components,
+      wantsValues && !query.OnDevice, backend);
+    PlaceBoundary boundary;
+    if (wantsValues && query.Outside == OutsideKind::Nearest)
+    {
+      boundary =
+        BuildPlaceBoundary(plane, mesh.NumberOfEdges, here.Numbers, this->Grid.Frame, backend);
+    }
+    const AskedValues values{ query.OnDevice ? query.Values : valuesHere.Get(), mesh.Ids,
+      query.Components, query.Method == InterpolationKind::Natural, boundary.View(mesh.Places) };
+
+    const std::int64_t count = query.CountPlaces();
+    for (std::int64_t first = 0; first < count; first += MostAtATime)
+    {
+      if (observer && !observer(static_cast<double>(first) / static_cast<double>(count)))
+      {
+        return false;
+      }
+      this->AnswerBlock(here, values, query, first, backend);
+    }
+    std::int32_t hasFailed = 0;
+    backend.Download(failed.Get(), 1, &hasFailed);
+    if (hasFailed != 0)
+    {
+      throw BeyondDevice();
+    }
+    return true;
+  }
+
+  /// Public for nvcc.
+  static void AnswerHere(const AskedMesh& asked, const AskedValues& values, const PlaceBlock& block,
+    std::int64_t count, const Backend& backend)
+  {
+    backend.ForEach(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        const PlanePoint place = block.GetPlace(i);
+        const FoundPlace found = asked.Find(place);
+        if (block.Triangles)
+        {
+          block.Triangles[i] = asked.GetNumber(found);
+        }
+        if (block.Results)
+        {
+          values.Interpolate(asked, place, found, block.Results + i * values.Components);
+        }
+      });
+  }
+
+private:
+  /// So many that a GPU is busy, and so few that they need little memory.
+  static constexpr std::int64_t MostAtATime = 1 << 20;
+
+  /// Values of the host's in the backend's memory.
+  template <typename T>
+  class LocalCopy
+  {
+  public:
+    /// @param isWanted otherwise there is no copy.
+    LocalCopy(const T* host, std::int64_t size, bool isWanted, const Backend& backend)
+    {
+      if (isWanted)
+      {
+        this->Copy = backend.template MakeArray<T>(size);
+        backend.Upload(host, size, this->Copy.Data());
+      }
+    }
+
+    /// Null without a copy.
+    const T* Get() const { return this->Copy.Data(); }
+    T* GetWritable() const { return const_cast<T*>(this->Copy.Data()); }
+
+  private:
+    Array<T> Copy;
+  };
+
+  static void AnswerBlock(const AskedMesh& asked, const AskedValues& values,
+    const PlaceQuery& query, std::int64_t first, const Backend& backend)
+  {
+    const std::int64_t count = std::min(MostAtATime, query.CountPlaces() - first);
+    const PlaceBlock block = CutBlock(query, first, count);
+    if (Backend::IsOnHost || query.OnDevice)
+    {
+      AnswerHere(asked, values, block, count, backend);
+      return;
+    }
+    PlaceBlock here = block;
+    const std::int64_t numbers = (count - 1) * block.Places.Stride + 2;
+    const LocalCopy<float> floats(
+      block.Places.Floats, numbers, block.Places.Floats != nullptr, backend);
+    const LocalCopy<double> doubles(
+      block.Places.Doubles, numbers, block.Places.Doubles != nullptr, backend);
+    here.Places.Floats = floats.Get();
+    here.Places.Doubles = doubles.Get();
+    Array<std::int32_t> triangles;
+    if (block.Triangles)
+    {
+      triangles = backend.template MakeArray<std::int32_t>(count);
+    }
+    Array<double> results;
+    const std::int64_t size = count * query.Components;
+    if (block.Results)
+    {
+      results = backend.template MakeArray<double>(size);
+    }
+    here.Triangles = triangles.Data();
+    here.Results = results.Data();
+    AnswerHere(asked, values, here, count, backend);
+    backend.Download(here.Triangles, block.Triangles ? count : 0, block.Triangles);
+    backend.Download(here.Results, block.Results ? size : 0, block.Results);
+  }
+
+  PlaceGrid Grid;
+};
+
+}
+
+#endif

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PLACEQUERY_H
+#define DELAUNAYFLIP_PLACEQUERY_H
+
+#include "Interpolation.h"
+#include "PlaceBoundary.h"
+#include "PlaceGrid.h"
+#include "PlaceWalk.h"
+#include "PlaceWeights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+/// @file
+/// What both backends do for one place. The public query is in Interpolation.h.
+
+namespace delaunayflip
+{
+
+/// A triangulation of points that can be asked.
+struct AskedMesh
+{
+  PlaneMesh Mesh;
+  PlaceGridView Grid;
+  const std::int32_t* Numbers; ///< Of its triangles in the output, -1 if removed; null: their own.
+
+  /// Finds a place. It is outside if it is not finite, or if its triangles are removed.
+  DELAUNAYFLIP_HOST_DEVICE FoundPlace Find(const PlanePoint& place) const
+  {
+    if (!this->Grid.Frame.Box.Has(place))
+    {
+      return FoundPlace();
+    }
+    const FoundPlace found = WalkToPlace(this->Mesh, place, this->Grid.FindStart(place));
+    if (found.IsOutside() || (found.OnEdges == 0 && !this->Numbers))
+    {
+      return found;
+    }
+    return ChooseTriangle(this->Mesh, found, this->Numbers);
+  }
+
+  /// The number of the triangle in the output, or -1.
+  DELAUNAYFLIP_HOST_DEVICE std::int32_t GetNumber(const FoundPlace& found) const
+  {
+    if (found.IsOutside())
+    {
+      return -1;
+    }
+    return this->Numbers ? this->Numbers[found.Triangle]
+                         : static_cast<std::int32_t>(found.Triangle);
+  }
+};
+
+/// Values of the points, for functions of both backends.
+struct AskedValues
+{
+  const double* Values;
+  const VertexId* PointOfVertex;
+  int Components;
+  bool IsNatural;
+  PlaceBoundaryView Boundary; ///< Without edges: what is outside has no value.
+
+  DELAUNAYFLIP_HOST_DEVICE const double* At(VertexId vertex) const
+  {
+    return this->Values + std::int64_t(this->PointOfVertex[vertex]) * this->Components;
+  }
+
+  /// Interpolates at a place. @param result receives one value for each component.
+  DELAUNAYFLIP_HOST_DEVICE void Interpolate(
+    const AskedMesh& asked, const PlanePoint& place, const FoundPlace& found, double* result) const
+  {
+    if (found.IsOutside())
+    {
+      this->TakeNearest(place, result);
+      return;
+    }
+    double sum = 0.0;
+    const auto add = [&](VertexId vertex, double weight)
+    {
+      sum += weight;
+      const double* value = this->At(vertex);
+      for (int i = 0; i < this->Components; ++i)
+      {
+        result[i] += weight * value[i];
+      }
+    };
+    this->Fill(result, 0.0);
+    bool isDone = false;
+    if (this->IsNatural)
+    {
+      // At vertices, on the hull and on segments there are none.
+      isDone = VisitNaturalWeights(asked.Mesh, place, found.Triangle, add) && sum != 0.0;
+    }
+    if (!isDone)
+    {
+      sum = 0.0;
+      this->Fill(result, 0.0);
+      VisitLinearWeights(asked.Mesh, place, found, add);
+    }
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] /= sum;
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE void TakeNearest(const PlanePoint& place, double* result) const
+  {
+    if (this->Boundary.NumberOfEdges == 0 || !delaunayflip::IsFinite(place))
+    {
+      this->Fill(result, NAN);
+      return;
+    }
+    const NearestOnBoundary nearest = this->Boundary.FindNearest(place);
+    const double* from = this->At(nearest.Edge.From);
+    const double* to = this->At(nearest.Edge.To);
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] = (1.0 - nearest.ShareOfTo) * from[i] + nearest.ShareOfTo * to[i];
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void Fill(double* result, double value) const
+  {
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] = value;
+    }
+  }
+};
+
+/// Consecutive places of a query, with their results in the memory of a backend.
+struct PlaceBlock
+{
+  PlaneArray Places;
+  PlaceRaster Raster; ///< Instead of Places, if it has cells.
+  std::int64_t FirstCell = 0; ///< Of the raster, in this block.
+  std::int32_t* Triangles = nullptr;
+  double* Results = nullptr;
+
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPlace(std::int64_t i) const
+  {
+    if (this->Raster.Columns > 0)
+    {
+      const std::int64_t cell = this->FirstCell + i;
+      return { this->Raster.Get(cell, 0), this->Raster.Get(cell, 1), 0.0 };
+    }
+    return { this->Places.Get(i, 0), this->Places.Get(i, 1), 0.0 };
+  }
+};
+
+/// Returns the places of a query from `first` on, `count` of them.
+inline PlaceBlock CutBlock(const PlaceQuery& query, std::int64_t first, std::int64_t count)
+{
+  PlaceBlock block;
+  block.Raster = query.Raster;
+  block.FirstCell = first;
+  const std::int64_t numbers = query.Places.Stride * first;
+  if (query.Raster.CountCells() == 0 && query.Places.Floats)
+  {
+    block.Places = PlaneArray(query.Places.Floats + numbers, count, query.Places.Stride);
+  }
+  if (query.Raster.CountCells() == 0 && query.Places.Doubles)
+  {
+    block.Places = PlaneArray(query.Places.Doubles + numbers, count, query.Places.Stride);
+  }
+  if (query.Triangles)
+  {
+    block.Triangles = query.Triangles + first;
+  }
+  if (query.Values)
+  {
+    block.Results = query.Results + first * query.Components;
+  }
+  return block;
+}
+
+}
+
+#endif

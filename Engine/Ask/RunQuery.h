@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_RUNQUERY_H
+#define DELAUNAYFLIP_RUNQUERY_H
+
+#include "Interpolation.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A query, and what a run knows that a mesh does not.
+struct RunQuery
+{
+  const PlaceQuery& Query;
+  /// By triangle, its number in the output, or -1 if it is removed. Empty: its own.
+  const std::vector<std::int32_t>& Numbers;
+  std::int64_t NumberOfPoints; ///< With added ones: the query has values for each.
+};
+
+}
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_INTERPOLATION_H
+#define DELAUNAYFLIP_INTERPOLATION_H
+
+#include "DeviceMesh.h"
+#include "TriangleMesh.h"
+
+#include <cstdint>
+
+/// @file
+/// What a triangulation of points can be asked: the triangles that places lie in, and values there
+/// from values at the points. FlipSession::Ask answers:
+///
+///     bool InterpolateHeights(delaunayflip::PlaneArray points, const double* heights,
+///       delaunayflip::PlaneArray places, double* heightsAtPlaces)
+///     {
+///       delaunayflip::PointInput input;
+///       input.Points = points;
+///       delaunayflip::FlipSession session(input, delaunayflip::PointOptions());
+///       session.Advance();
+///       delaunayflip::PlaceQuery query;
+///       query.Places = places;
+///       query.Values = heights; // one per point
+///       query.Results = heightsAtPlaces; // one per place, NaN outside
+///       return session.Ask(query);
+///     }
+
+namespace delaunayflip
+{
+
+/// How values between points are found. Both methods reproduce linear functions, and both give the
+/// value of a point at its place.
+enum class InterpolationKind
+{
+  /// Linear in each triangle.
+  Linear,
+  /// Sibson's natural neighbours: the value of each neighbour counts as much as the area that a new
+  /// point at the place would take from its Voronoi cell. Smooth except at the points. Neighbours
+  /// behind a segment do not count; near a segment values approach what is linear along it.
+  Natural
+};
+
+/// What a place has that is in no triangle.
+enum class OutsideKind
+{
+  NotANumber,
+  /// The value, linear along edges, at the nearest place on the boundary of the triangles. A place
+  /// that is not finite has NaN. Takes longer the more boundary edges there are.
+  Nearest
+};
+
+/// Places at the centres of the cells of a raster, row by row. Cell (column, row) is at
+/// Origin + (column, row) * Step, each product and sum rounded once to double precision.
+struct PlaceRaster
+{
+  double Origin[2] = { 0.0, 0.0 }; ///< The centre of the first cell.
+  double Step[2] = { 1.0, 1.0 }; ///< May be negative.
+  std::int64_t Columns = 0; ///< Along x.
+  std::int64_t Rows = 0; ///< Along y.
+
+  std::int64_t CountCells() const { return this->Columns * this->Rows; }
+
+  /// A coordinate, 0 (x) or 1 (y), of the centre of a cell.
+  DELAUNAYFLIP_HOST_DEVICE double Get(std::int64_t cell, int axis) const
+  {
+    const std::int64_t row = cell / this->Columns;
+    const std::int64_t index = axis == 0 ? cell - row * this->Columns : row;
+    return this->Origin[axis] + static_cast<double>(index) * this->Step[axis] + 0.0;
+  }
+};
+
+/// Places in the plane, and what is wanted there.
+struct PlaceQuery
+{
+  PlaneArray Places; ///< In any order. Neighbouring ones one after the other are faster.
+  PlaceRaster Raster; ///< Instead of Places, if it has cells.
+
+  /// By place, the lowest number of a triangle that has it inside or on its boundary; -1 if there
+  /// is none. Null: not wanted.
+  std::int32_t* Triangles = nullptr;
+
+  /// Components values for each point of the input and after them for each of
+  /// FlipSession::GetAddedPoints, interleaved. Null: only Triangles are wanted.
+  const double* Values = nullptr;
+  int Components = 1;
+  InterpolationKind Method = InterpolationKind::Linear;
+  OutsideKind Outside = OutsideKind::NotANumber;
+  /// Components values for each place.
+  double* Results = nullptr;
+
+  /// Whether all arrays are in the memory of one GPU, ordered by Stream; else in the host's.
+  bool OnDevice = false;
+  DeviceStream Stream{};
+
+  std::int64_t CountPlaces() const
+  {
+    return this->Raster.CountCells() > 0 ? this->Raster.CountCells() : this->Places.Count;
+  }
+};
+
+}
+
+#endif
