@@ -96,6 +96,16 @@ void CheckMeshSize(std::int64_t triangles, std::int64_t points, const char* reme
   }
 }
 
+void CheckPointCount(std::int64_t points)
+{
+  constexpr std::int64_t Most = LargestMesh / 2; // There are fewer than two triangles per point.
+  if (points > Most)
+  {
+    throw MeshTooLarge("there are " + std::to_string(points) + " points; at most " +
+      std::to_string(Most) + " can be triangulated at once");
+  }
+}
+
 std::vector<int> ParseDevices(const std::string& list)
 {
   if (list == "all")

@@ -26,6 +26,10 @@ int CountPieces(const FlipOptions& options, std::int64_t triangles);
 void CheckMeshSize(std::int64_t triangles, std::int64_t points,
   const char* remedy = "in one piece; flip the mesh in more pieces");
 
+/// Throws MeshTooLarge if the triangulation of this many points may have too many triangles for
+/// 32-bit half-edges.
+void CheckPointCount(std::int64_t points);
+
 /// Which points there are, for a message: "points 0 to 9" or "no points".
 inline std::string DescribePoints(std::int64_t points)
 {

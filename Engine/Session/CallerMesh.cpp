@@ -25,7 +25,7 @@ CallerMesh::CallerMesh(const DeviceMesh& mesh)
   this->Host.Triangles.Count = mesh.Triangles.Count;
 }
 
-const TriangleMesh& CallerMesh::GetOnHost()
+const TriangleMesh& CallerMesh::CopyToHost()
 {
   if (!this->Device || !this->Copies.empty())
   {
@@ -80,25 +80,27 @@ int RequireOnDevice(const void* memory, std::int64_t size, const char* what)
   return device;
 }
 
+int JoinDevice(int chosen, const void* memory, std::int64_t size, const char* what)
+{
+  const int device = RequireOnDevice(memory, size, what);
+  if (chosen >= 0 && device >= 0 && device != chosen)
+  {
+    throw InvalidOptions(std::string(what) + " in the memory of GPU " + std::to_string(device) +
+      ", but GPU " + std::to_string(chosen) + " was requested or has other arrays of the input");
+  }
+  return std::max(chosen, device);
+}
+
 int CallerMesh::ChooseDevice(int requested) const
 {
-  int chosen = requested;
-  const auto join = [&](const auto& array, const char* what)
+  if (!this->Device)
   {
-    const int device = RequireOnDevice(array.Data(), array.Count, what);
-    if (chosen >= 0 && device >= 0 && device != chosen)
-    {
-      throw InvalidOptions(std::string(what) + " in the memory of GPU " + std::to_string(device) +
-        ", but GPU " + std::to_string(chosen) + " has other arrays of the mesh or was requested");
-    }
-    chosen = std::max(chosen, device);
-  };
-  if (this->Device)
-  {
-    join(this->Device->Points, "the points are");
-    join(this->Device->Triangles, "the triangles are");
+    return requested;
   }
-  return chosen;
+  const DevicePointArray& points = this->Device->Points;
+  const auto& triangles = this->Device->Triangles;
+  const int chosen = JoinDevice(requested, points.Data(), points.Count, "the points are");
+  return JoinDevice(chosen, triangles.Data(), triangles.Count, "the triangles are");
 }
 
 }

@@ -30,7 +30,7 @@ public:
   const FixedEdges& GetFixedEdges() const { return this->Host; }
 
   /// Whether this array in the host's memory is that of the triangles.
-  bool HasTriangles(const void* ids) const { return ids && ids == this->Host.Triangles.Data(); }
+  bool IsTriangleArray(const void* ids) const { return ids && ids == this->Host.Triangles.Data(); }
 
   /// The arrays in device memory; null if they are in the host's.
   const DeviceMesh* GetOnDevice() const { return this->Device ? &*this->Device : nullptr; }
@@ -38,7 +38,7 @@ public:
   /// The arrays in the host's memory. They are copied from a device in the first call; the copies
   /// belong to this object and to those copied from it later.
   /// @throws BackendUnavailable.
-  const TriangleMesh& GetOnHost();
+  const TriangleMesh& CopyToHost();
 
   /// The GPU to use: `requested`, or if that is -1 the one that has the arrays.
   /// @throws InvalidOptions if another GPU, or none, has them.
@@ -54,6 +54,10 @@ private:
 /// @returns CUDA's number of the GPU that has an array, or -1 if the array is empty.
 /// @throws InvalidOptions if no GPU has it.
 int RequireOnDevice(const void* memory, std::int64_t size, const char* what);
+
+/// The GPU for a run: `chosen`, or if that is -1 the one that has this array; -1 if neither is
+/// known. @throws InvalidOptions if another GPU, or none, has the array.
+int JoinDevice(int chosen, const void* memory, std::int64_t size, const char* what);
 
 }
 

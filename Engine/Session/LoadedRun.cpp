@@ -108,8 +108,15 @@ catch (...)
   throw;
 }
 
+bool LoadedRun::RunStage(const Stage& stage)
+{
+  const TemporaryValue<bool> forgets(this->MayForget, stage.Stop == OnStop::Forgets);
+  const bool stopsHere = this->WasStopped && stage.Stop == OnStop::KeepsMesh;
+  return !stopsHere && stage.Work();
+}
+
 //------------------------------------------------------------------------------
-bool LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
+void LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
 {
   bool wantsCuda = this->Options.Backend == BackendKind::CUDA;
   if (this->Options.Backend == BackendKind::Auto)
@@ -136,16 +143,15 @@ bool LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
   this->Report = this->Loaded->GetInputReport();
   this->Report.Fallback = fallback;
   this->Report.BuildSeconds = this->SinceBegin.GetSeconds();
-  return true;
 }
 
-bool LoadedRun::TestAllEdges()
+void LoadedRun::TestAllEdges()
 {
   FlipReport& report = this->Report;
   this->Building.Reach(report.GeometryUsed, BuildStep::Measured);
   const StopWatch watch;
-  this->KeepFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
-  this->Note(0);
+  this->RecordFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
+  this->RecordChange(0);
   this->AreAnglesKnown = true; // since the mesh was loaded
   report.NonDelaunayBefore = report.NonDelaunayAfter;
   report.FlipSeconds = watch.GetSeconds();
@@ -157,7 +163,6 @@ bool LoadedRun::TestAllEdges()
   }
   this->Progress.StartFlips(this->Found.Bad, report.BuildSeconds, report.FlipSeconds, shareOfLater);
   this->ListDefects();
-  return true;
 }
 
 void LoadedRun::RepeatTest(LoadedMesh& mesh)
@@ -167,9 +172,10 @@ void LoadedRun::RepeatTest(LoadedMesh& mesh)
   this->Building.Reach(this->Report.GeometryUsed, BuildStep::Tested);
 }
 
-bool LoadedRun::Flip()
+bool LoadedRun::Flip(const std::function<bool()>& givesUp)
 {
-  while (this->HasMoreFlips())
+  bool isOver = !this->HasMoreFlips();
+  while (!isOver)
   {
     if (!this->MayIterate())
     {
@@ -177,7 +183,8 @@ bool LoadedRun::Flip()
     }
     const std::int64_t first = this->CountIterations();
     this->RunBatch();
-    this->TellIterations(first, this->HasMoreFlips());
+    isOver = (givesUp && givesUp()) || !this->HasMoreFlips();
+    this->TellIterations(first, !isOver);
   }
   return true;
 }
@@ -191,17 +198,16 @@ void LoadedRun::RepeatFlips(LoadedMesh& mesh, std::int64_t iterations)
   }
 }
 
-bool LoadedRun::MeasureEnd()
+void LoadedRun::MeasureEnd()
 {
   const bool hasConverged = this->Found.Bad == 0;
   this->Report.StopReason =
     hasConverged ? StopReasonKind::Converged : StopReasonKind::IterationLimit;
   this->Measure();
-  return true;
 }
 
 //------------------------------------------------------------------------------
-void LoadedRun::Note(std::int64_t count)
+void LoadedRun::RecordChange(std::int64_t count)
 {
   if (this->Journal.empty() || this->Journal.back().Stage != this->Current)
   {
@@ -249,6 +255,7 @@ void LoadedRun::Reset()
   this->Loaded.reset();
   this->Journal.clear();
   this->Current = 0;
+  this->Progress = RunProgress();
   this->Report = FlipReport();
 }
 
@@ -310,9 +317,9 @@ void LoadedRun::RunBatch()
   const TemporaryValue<bool> forgets(this->MayForget, first == 0);
   const std::vector<IterationCounts> batch =
     this->OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });
-  this->Note(SizeOf(batch));
-  this->KeepFound(this->Loaded->GetLoop().GetFound());
-  this->Keep(batch, watch.GetSeconds());
+  this->RecordChange(SizeOf(batch));
+  this->RecordFound(this->Loaded->GetLoop().GetFound());
+  this->RecordIterations(batch, watch.GetSeconds());
 #if !defined(NDEBUG)
   // Now that the iterations are in the journal: the CPU repeats those where the GPU fails here.
   this->OnBackend([](const LoadedMesh& mesh) { mesh.Audit(); });
@@ -334,7 +341,7 @@ void LoadedRun::TellIterations(std::int64_t first, bool hasMore)
   this->WasStopped = !continues;
 }
 
-void LoadedRun::KeepFound(const StepCounts& found)
+void LoadedRun::RecordFound(const StepCounts& found)
 {
   FlipReport& report = this->Report;
   this->Found = found;
@@ -345,11 +352,11 @@ void LoadedRun::KeepFound(const StepCounts& found)
   report.BlockedByEdge = found.BlockedByEdge;
 }
 
-void LoadedRun::Keep(const std::vector<IterationCounts>& batch, double seconds)
+void LoadedRun::RecordIterations(const std::vector<IterationCounts>& batch, double seconds)
 {
   FlipReport& report = this->Report;
   const double secondsPerIteration = seconds / static_cast<double>(batch.size());
-  this->Progress.KeepTime(secondsPerIteration);
+  this->Progress.RecordTime(secondsPerIteration);
   for (const IterationCounts& counts : batch)
   {
     IterationRecord record;

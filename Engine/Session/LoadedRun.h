@@ -39,6 +39,7 @@ public:
     std::size_t Stage; ///< Its number.
     std::int64_t Count; ///< What Stage::Repeat takes.
   };
+  /// For tests.
   const std::vector<Entry>& GetJournal() const { return this->Journal; }
 
 protected:
@@ -49,8 +50,6 @@ protected:
 
   /// @param backend CUDA or Threads.
   virtual std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) = 0;
-
-  void Reset() override;
 
   /// Lists the defects of the input, without what flips have caused, and what is not about flips.
   virtual void ListDefects() = 0;
@@ -63,19 +62,28 @@ protected:
   virtual std::int64_t GetBatch() const { return this->Progress.GetBatch(); }
 
   //------------------------------------------------------------------------------
+  // What a run overrides.
+
+  void Reset() override;
+  bool RunStage(const Stage& stage) override;
+
+  //------------------------------------------------------------------------------
   // Stages.
 
   /// @param triangles about their number.
-  bool Load(bool isOnDevice, std::int64_t triangles);
-  bool TestAllEdges();
+  void Load(bool isOnDevice, std::int64_t triangles);
+  void TestAllEdges();
   void RepeatTest(LoadedMesh& mesh);
 
   /// Flips until no bad edge or no iteration is left.
-  bool Flip();
+  /// @param givesUp is asked after each batch of iterations whether flips end here; it may take
+  /// iterations out of the report.
+  /// @returns whether they have ended.
+  bool Flip(const std::function<bool()>& givesUp = {});
   void RepeatFlips(LoadedMesh& mesh, std::int64_t iterations);
 
   /// Measures the mesh at the end of a run.
-  bool MeasureEnd();
+  void MeasureEnd();
 
   //------------------------------------------------------------------------------
   // What stages and getters consist of.
@@ -122,7 +130,7 @@ protected:
 
   /// The same for a getter that writes to device memory: @returns whether store(mesh) could.
   template <typename Store>
-  bool TryOnDevice(const Store& store)
+  bool TryStoreOnDevice(const Store& store)
   {
     bool isStored = false;
     this->TryOnBackend([&](const LoadedMesh& mesh) { isStored = store(mesh); });
@@ -130,7 +138,7 @@ protected:
   }
 
   /// Adds to the journal that the current stage has changed the mesh.
-  void Note(std::int64_t count);
+  void RecordChange(std::int64_t count);
 
   /// Begins to touch the pages of the memory that is expected, if a GPU flips.
   void TouchExpected();
@@ -142,9 +150,9 @@ protected:
   bool MayIterate() const { return !this->WasStopped && this->CountIterations() < this->Limit; }
   std::int64_t CountIterations() const { return SizeOf(this->Report.Iterations); }
   void RunBatch();
-  /// Tells observers of the iterations from one on, and notes whether they stop the run.
+  /// Tells observers of the iterations from one on, and records whether they stop the run.
   void TellIterations(std::int64_t first, bool hasMore);
-  void KeepFound(const StepCounts& found);
+  void RecordFound(const StepCounts& found);
 
   FlipOptions Options;
   BuildProgress Building; ///< Of the loading, and of what divide and conquer does later.
@@ -152,6 +160,8 @@ protected:
   std::vector<Entry> Journal; ///< What has happened to the loaded mesh.
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last detection.
+  bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
+  bool MayForget = false; ///< Whether the observer may stop what is under way, and all is lost.
 
   // What is known of the mesh as it is; Measure finds out the rest.
   bool AreAnglesKnown = true;
@@ -161,7 +171,7 @@ private:
   void FallBack(const BackendUnavailable& error);
   void Replay();
   std::int64_t GetIterationLimit() const;
-  void Keep(const std::vector<IterationCounts>& batch, double seconds);
+  void RecordIterations(const std::vector<IterationCounts>& batch, double seconds);
 
   FlipObserver IterationObserver; ///< Of the Advance under way.
   std::int64_t Limit = 0; ///< The number of iterations at which it returns.

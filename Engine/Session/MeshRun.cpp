@@ -19,11 +19,11 @@ void MeshRun::ListStages()
   const auto test = [this](LoadedMesh& loaded, std::int64_t) { this->RepeatTest(loaded); };
   this->Stages = {
     { "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
-      [this] { return this->InsertConstraints(); }, {} },
-    { "load", OnStop::Forgets, 0.0, [this] { return this->LoadMesh(); }, {} },
-    { "test all edges", OnStop::Forgets, 0.0, [this] { return this->TestAllEdges(); }, test },
+      Whole([this] { this->InsertConstraints(); }), {} },
+    { "load", OnStop::Forgets, 0.0, Whole([this] { this->LoadMesh(); }), {} },
+    { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
     { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
-    { "measure", OnStop::Ignores, 0.0, [this] { return this->MeasureEnd(); }, {} },
+    { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), {} },
   };
 }
 
@@ -42,16 +42,15 @@ MeshRun::MeshRun(const CallerMesh& mesh, const FlipOptions& options,
   this->Begin();
 }
 
-/// On the host, before a backend is chosen. They become edges by flips, so other constraints are
-/// not crossed.
-bool MeshRun::InsertConstraints()
+/// Makes constraints edges by flips, on the host, before a backend is chosen.
+void MeshRun::InsertConstraints()
 {
   const auto tell = [this](double share)
   { return !this->MayForget || this->Progress.Tell(this->Observer, share); };
   this->Start = this->Mesh;
   if (ConstraintInsertion::IsRequested(this->Mesh.GetFixedEdges()))
   {
-    const TriangleMesh& mesh = this->Mesh.GetOnHost();
+    const TriangleMesh& mesh = this->Mesh.CopyToHost();
     this->Insertion = ConstraintInsertion(mesh, this->Options,
       [&](double share) { return tell(ConstraintInsertion::ShareOfRun * share); });
     this->Start = CallerMesh(this->Insertion.GetMesh(mesh));
@@ -59,14 +58,12 @@ bool MeshRun::InsertConstraints()
   const double begin = this->Insertion.GetShare();
   this->Building =
     BuildProgress([tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
-  return true;
 }
 
-bool MeshRun::LoadMesh()
+void MeshRun::LoadMesh()
 {
   this->Load(this->Start->GetOnDevice() != nullptr, this->Mesh.CountTriangles());
   this->Insertion.AddTo(this->Report);
-  return true;
 }
 
 std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
@@ -74,7 +71,7 @@ std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
   const FlipOptions options = this->Insertion.GetOptions(this->Options);
   if (backend == BackendKind::Threads)
   {
-    return LoadOnThreads(this->Start->GetOnHost(), options, this->Building);
+    return LoadOnThreads(this->Start->CopyToHost(), options, this->Building);
   }
   this->TouchExpected();
   const DeviceMesh* device = this->Start->GetOnDevice();
@@ -82,7 +79,7 @@ std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
   {
     return LoadOnCuda(*device, options, this->Building);
   }
-  return LoadOnCuda(this->Start->GetOnHost(), options, this->Building);
+  return LoadOnCuda(this->Start->CopyToHost(), options, this->Building);
 }
 
 void MeshRun::Reset()
@@ -130,7 +127,8 @@ void MeshRun::Measure()
 }
 
 //------------------------------------------------------------------------------
-/// Into the caller's input nothing is written until the whole result is known.
+/// If the caller stores to the input's own array, nothing is written there before the whole result
+/// is known.
 void MeshRun::StoreTriangles(const MutableTriangleArray& triangles)
 {
   const auto store = [&](const LoadedMesh& mesh)
@@ -142,7 +140,7 @@ void MeshRun::StoreTriangles(const MutableTriangleArray& triangles)
       mesh.StoreTriangles(MutableTriangleArray(all.Data(), triangles.Count));
       std::copy_n(all.Data(), all.Size(), ids);
     };
-    if (!this->Mesh.HasTriangles(triangles.Data()))
+    if (!this->Mesh.IsTriangleArray(triangles.Data()))
     {
       mesh.StoreTriangles(triangles);
     }
@@ -158,7 +156,7 @@ void MeshRun::StoreTriangles(const MutableTriangleArray& triangles)
   if (!this->TryOnBackend(store))
   {
     CopyTriangles(
-      this->Mesh.GetOnHost().Triangles, triangles, ThreadBackend(this->Options.NumberOfThreads));
+      this->Mesh.CopyToHost().Triangles, triangles, ThreadBackend(this->Options.NumberOfThreads));
   }
 }
 
@@ -175,7 +173,7 @@ void MeshRun::StoreFlipCounts(std::int32_t* counts)
 bool MeshRun::StoreTrianglesOnDevice(
   const MutableTriangleArray& triangles, const DeviceStream& stream, std::int32_t* written)
 {
-  return this->TryOnDevice([&](const LoadedMesh& mesh)
+  return this->TryStoreOnDevice([&](const LoadedMesh& mesh)
     { return mesh.StoreTrianglesOnDevice(triangles, stream, written); });
 }
 
@@ -183,7 +181,7 @@ bool MeshRun::StoreTrianglesOnDevice(
 bool MeshRun::StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream)
 {
   return !this->Insertion.HasFlips() &&
-    this->TryOnDevice(
+    this->TryStoreOnDevice(
       [&](const LoadedMesh& mesh) { return mesh.StoreFlipCountsOnDevice(counts, stream); });
 }
 

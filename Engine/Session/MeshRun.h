@@ -14,7 +14,7 @@ namespace delaunayflip
 {
 
 /// The run of a mesh in one piece. Its stages are listed in ListStages.
-class MeshRun : public LoadedRun
+class MeshRun final : public LoadedRun
 {
 public:
   /// @throws as FlipSession's constructor.
@@ -29,8 +29,8 @@ public:
 
 private:
   void ListStages();
-  bool InsertConstraints();
-  bool LoadMesh();
+  void InsertConstraints();
+  void LoadMesh();
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
   void Reset() override;
   void ListDefects() override;

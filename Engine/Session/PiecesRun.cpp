@@ -19,24 +19,16 @@ constexpr std::size_t StagesOfBegin = 1;
 
 void PiecesRun::ListStages()
 {
-  const auto whole = [](const auto& work) -> std::function<bool()>
-  {
-    return [work]
-    {
-      work();
-      return true;
-    };
-  };
   this->Stages = {
     { "insert constraints and cut the mesh into parts", OnStop::Forgets,
-      ConstraintInsertion::ShareOfRun, whole([this] { this->Cut(); }), {} },
+      ConstraintInsertion::ShareOfRun, Whole([this] { this->Cut(); }), {} },
     { "examine the edges between parts", OnStop::Ignores, 0.0,
-      whole([this] { this->Parts->ExamineSeams(); }), {} },
+      Whole([this] { this->Parts->ExamineSeams(); }), {} },
     { "flip each part", OnStop::KeepsMesh, MeshInParts::PartsShare,
-      whole([this] { this->Parts->FlipParts(this->Observer); }), {} },
+      Whole([this] { this->Parts->FlipParts(this->Observer); }), {} },
     { "flip around the edges between parts", OnStop::KeepsMesh, 1.0 - MeshInParts::PartsShare,
-      whole([this] { this->Parts->FlipSeams(); }), {} },
-    { "count what is left", OnStop::Ignores, 0.0, whole([this] { this->Parts->Complete(); }), {} },
+      Whole([this] { this->Parts->FlipSeams(); }), {} },
+    { "count what is left", OnStop::Ignores, 0.0, Whole([this] { this->Parts->Complete(); }), {} },
   };
 }
 

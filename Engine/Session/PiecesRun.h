@@ -14,7 +14,7 @@ namespace delaunayflip
 /// The run of a mesh in several pieces. Its stages are listed in ListStages. One call of
 /// Advance does them all, whatever the number of iterations. If it is stopped, the next one begins
 /// anew.
-class PiecesRun : public SessionRun
+class PiecesRun final : public SessionRun
 {
 public:
   /// @param triangles as CutIntoParts takes them.

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -98,7 +97,7 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
   this->Segments.clear();
   if (this->Options.PointTolerance > 0.0 && this->NearPoint.empty())
   {
-    this->GetOnHost();
+    this->CopyToHost();
     this->FindNearPoints(observer);
     this->CopyPoints(); // so that no crossing uses a point that is not used
   }
@@ -111,11 +110,10 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
   if (this->Options.SplitCrossings && !this->Segments.empty())
   {
     SplitSegments split =
-      SplitCrossings(this->GetOnHost(), std::move(this->Segments), [&] { Tell(observer); });
+      SplitCrossings(this->CopyToHost(), std::move(this->Segments), [&] { Tell(observer); });
     this->Segments = std::move(split.Segments);
     this->Added = std::move(split.Added);
-    const std::int64_t points = input.Points.Count + SizeOf(this->Added);
-    CheckMeshSize(2 * points, points, "");
+    CheckPointCount(input.Points.Count + SizeOf(this->Added));
     this->Counts.Crossings = SizeOf(this->Added);
     this->Counts.LargestShift = split.LargestShift;
     this->CopyPoints();
@@ -123,7 +121,7 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
   this->IsPrepared = true;
 }
 
-PlaneArray PreparedPoints::GetOnHost()
+PlaneArray PreparedPoints::CopyToHost()
 {
   if (this->Prepared.OnDevice)
   {
@@ -307,7 +305,7 @@ void PreparedPoints::PrepareRings(const LoadedMesh& mesh)
 bool PreparedPoints::MayHaveArea(
   const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)
 {
-  const PlaneArray points = this->GetOnHost();
+  const PlaneArray points = this->CopyToHost();
   std::vector<std::array<double, 2>> line; // two places of the ring
   for (const std::size_t i : ring)
   {
@@ -335,7 +333,7 @@ void PreparedPoints::TurnSegments(
   const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)
 {
   std::map<std::int64_t, std::int64_t> surplus; // by place, the ends minus the beginnings there
-  std::map<std::int64_t, std::vector<std::size_t>> waiting; // by place, its segments
+  SegmentsByPlace waiting;
   for (const std::size_t i : ring)
   {
     const Segment& segment = this->Segments[i];
@@ -361,11 +359,19 @@ void PreparedPoints::TurnSegments(
       }
     }
   }
-  if (std::all_of(
-        surplus.begin(), surplus.end(), [](const auto& item) { return item.second == 0; }))
+  const bool isOneWay =
+    std::all_of(surplus.begin(), surplus.end(), [](const auto& item) { return item.second == 0; });
+  if (!isOneWay)
   {
-    return;
+    this->WalkRing(ring, used, waiting);
   }
+}
+
+/// Walks along the segments of a ring, each once, and turns those that are met at their end.
+/// @param waiting the segments at each place, which is used up.
+void PreparedPoints::WalkRing(const std::vector<std::size_t>& ring,
+  const std::vector<std::int64_t>& used, SegmentsByPlace& waiting)
+{
   for (auto& [place, segments] : waiting)
   {
     std::reverse(segments.begin(), segments.end()); // the first ones are taken first
@@ -375,10 +381,10 @@ void PreparedPoints::TurnSegments(
   {
     std::int64_t place = used[this->Segments[first].From];
     waiting[place].push_back(first);
-    for (std::vector<std::size_t>* here = &waiting[place]; !here->empty(); here = &waiting[place])
+    while (!waiting[place].empty())
     {
-      const std::size_t i = here->back();
-      here->pop_back();
+      const std::size_t i = waiting[place].back();
+      waiting[place].pop_back();
       if (taken.insert(i).second)
       {
         Segment& segment = this->Segments[i];

@@ -8,6 +8,7 @@
 #include "SegmentCrossings.h"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace delaunayflip
@@ -40,7 +41,7 @@ public:
   /// The points to triangulate; behind those of the caller, the added ones.
   const PointInput& GetInput() const { return this->Prepared; }
   /// Returns the points of GetInput() in the host's memory, where it copies them from a GPU.
-  PlaneArray GetOnHost();
+  PlaneArray CopyToHost();
 
   const std::vector<Segment>& GetSegments() const { return this->Segments; }
   const std::vector<AddedPoint>& GetAdded() const { return this->Added; }
@@ -66,6 +67,9 @@ private:
   void CopyCoordinates(std::vector<Real>& copy);
   bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
   void TurnSegments(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
+  using SegmentsByPlace = std::map<std::int64_t, std::vector<std::size_t>>;
+  void WalkRing(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used,
+    SegmentsByPlace& waiting);
 
   PointInput Caller;
   PointOptions Options;

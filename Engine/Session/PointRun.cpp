@@ -27,12 +27,13 @@ void PointRun::ListStages()
   const auto remove = [this](LoadedMesh& mesh, std::int64_t) { this->RemoveTriangles(mesh); };
 
   this->Stages = {
-    { "prepare points and segments", OnStop::Forgets, 0.0, [this] { return this->Prepare(); }, {} },
-    { "triangulate", OnStop::Forgets, 0.0, [this] { return this->Triangulate(); }, {} },
-    { "test all edges", OnStop::Forgets, 0.0, [this] { return this->TestAllEdges(); }, test },
-    { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->FlipUnlessLong(); }, flips },
-    { "divide and conquer if flips are long", OnStop::Forgets, 0.0,
-      [this] { return this->ReplaceIfLong(); }, divide },
+    { "prepare points and segments", OnStop::Forgets, 0.0, Whole([this] { this->Prepare(); }), {} },
+    { "triangulate", OnStop::Forgets, 0.0, Whole([this] { this->Triangulate(); }), {} },
+    { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
+    { "flip", OnStop::KeepsMesh, 0.0,
+      [this] { return this->Flip([this] { return this->GivesUpFlips(); }); }, flips },
+    { "divide and conquer if flips are slow", OnStop::Forgets, 0.0,
+      Whole([this] { this->ReplaceSlowFlips(); }), divide },
   };
   // In the Delaunay triangulation segments cross few edges, and many are edges already.
   if (this->Points.GetCaller().NumberOfSegments > 0)
@@ -43,9 +44,9 @@ void PointRun::ListStages()
       { "flip around segments", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips });
   }
   this->Stages.push_back(
-    { "cut triangles off", OnStop::Ignores, 0.0, [this] { return this->CutOff(); }, remove });
+    { "cut triangles off", OnStop::Ignores, 0.0, Whole([this] { this->CutOff(); }), remove });
   this->Stages.push_back(
-    { "measure", OnStop::Ignores, 0.0, [this] { return this->MeasureEnd(); }, {} });
+    { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), {} });
 }
 
 PointRun::PointRun(
@@ -54,15 +55,11 @@ PointRun::PointRun(
     Points(input, options)
 {
   CheckOptions(options);
-  constexpr std::int64_t MostToDouble = std::int64_t(1) << 40; // and far more than are supported
-  CheckMeshSize(2 * std::min(input.Points.Count, MostToDouble), input.Points.Count, "");
+  CheckPointCount(input.Points.Count);
   if (input.OnDevice)
   {
-    const int device = RequireOnDevice(input.Points.Data(), input.Points.Count, "the points are");
-    if (device >= 0)
-    {
-      this->Options.Device = device;
-    }
+    this->Options.Device =
+      JoinDevice(options.Device, input.Points.Data(), input.Points.Count, "the points are");
   }
   this->Options.Geometry = GeometryKind::PlanarXY;
   this->Options.Criterion = CriterionKind::InCircle;
@@ -72,18 +69,17 @@ PointRun::PointRun(
   this->Begin();
 }
 
-bool PointRun::Prepare()
+void PointRun::Prepare()
 {
   this->Points.Prepare(this->Observer);
   this->Building = BuildProgress([this](double share)
     { return !this->MayForget || this->Progress.Tell(this->Observer, share); });
-  return true;
 }
 
-bool PointRun::Triangulate()
+void PointRun::Triangulate()
 {
   const PointInput& input = this->Points.GetInput();
-  return this->Load(input.OnDevice, 2 * input.Points.Count);
+  this->Load(input.OnDevice, 2 * input.Points.Count);
 }
 
 std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)
@@ -93,31 +89,13 @@ std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)
   {
     return LoadOnCuda(this->Points.GetInput(), this->Options, this->Building);
   }
-  return LoadOnThreads(this->Points.GetOnHost(), this->Options, this->Building);
+  return LoadOnThreads(this->Points.CopyToHost(), this->Options, this->Building);
 }
 
 //------------------------------------------------------------------------------
-bool PointRun::FlipUnlessLong()
-{
-  while (!this->AreFlipsLong && this->HasMoreFlips())
-  {
-    if (!this->MayIterate())
-    {
-      return false;
-    }
-    const std::int64_t first = this->CountIterations();
-    this->RunBatch();
-    this->AreFlipsLong = this->DropIterationsBeyondLong();
-    this->TellIterations(first, !this->AreFlipsLong && this->HasMoreFlips());
-  }
-  return true;
-}
-
-/// Flips are long once they have taken as long as divide and conquer would: their chains go on for
-/// as long as the points lie along curves. Takes iterations beyond that out of the report: they
-/// belong to a batch, whose size depends on the backend.
-/// @returns whether the flips are long and not over.
-bool PointRun::DropIterationsBeyondLong()
+/// Flips are slow once they have taken as long as divide and conquer would: their chains go on for
+/// as long as the points lie along curves.
+bool PointRun::GivesUpFlips()
 {
   // Measured on one thread: divide and conquer takes as long as about 8 flips per point, an
   // iteration as long as some hundred flips.
@@ -126,37 +104,47 @@ bool PointRun::DropIterationsBeyondLong()
   constexpr std::int64_t Fewest = 10000, Most = 100000;
   const std::int64_t points = this->Points.GetInput().Points.Count;
   const std::int64_t allowed = FlipsPerPoint * points + std::clamp(points, Fewest, Most);
-  std::vector<IterationRecord>& made = this->Report.Iterations;
+  const std::vector<IterationRecord>& made = this->Report.Iterations;
   std::int64_t done = 0;
   std::size_t iterations = 0;
   while (iterations < made.size() && done < allowed)
   {
     done += made[iterations++].Flipped + FlipsPerIteration;
   }
-  if (done < allowed || (iterations == made.size() && !this->HasMoreFlips()))
+  const bool isOver = iterations == made.size() && !this->HasMoreFlips();
+  this->AreFlipsSlow = done >= allowed && !isOver;
+  if (this->AreFlipsSlow)
   {
-    return false;
+    this->DropIterations(iterations);
   }
-  for (; made.size() > iterations; made.pop_back())
+  return this->AreFlipsSlow;
+}
+
+/// Takes all iterations but the first ones out of the report. They were made only because they
+/// belong to the same batch, and the size of a batch depends on the backend.
+/// @param left how many stay.
+void PointRun::DropIterations(std::size_t left)
+{
+  FlipReport& report = this->Report;
+  for (; report.Iterations.size() > left; report.Iterations.pop_back())
   {
-    this->Report.TotalFlips -= made.back().Flipped;
-    this->Report.TotalExcluded -= made.back().Excluded;
-    this->Report.TotalBlocked -= made.back().Blocked;
+    const IterationRecord& dropped = report.Iterations.back();
+    report.TotalFlips -= dropped.Flipped;
+    report.TotalExcluded -= dropped.Excluded;
+    report.TotalBlocked -= dropped.Blocked;
   }
-  return true;
 }
 
 /// The triangles are made anew, so what has been done before does not count any more.
-bool PointRun::ReplaceIfLong()
+void PointRun::ReplaceSlowFlips()
 {
-  if (this->AreFlipsLong)
+  if (this->AreFlipsSlow)
   {
     this->Journal.clear();
     this->OnBackend([this](LoadedMesh& mesh) { this->DivideAndConquer(mesh); });
-    this->Note(0);
-    this->KeepFound(this->Loaded->GetLoop().GetFound());
+    this->RecordChange(0);
+    this->RecordFound(this->Loaded->GetLoop().GetFound());
   }
-  return true;
 }
 
 void PointRun::DivideAndConquer(LoadedMesh& mesh)
@@ -189,8 +177,8 @@ bool PointRun::InsertSegments()
   if (before < all)
   {
     this->OnBackend([&](LoadedMesh& mesh) { this->InsertUpTo(all, mesh, tell); });
-    this->Note(static_cast<std::int64_t>(this->Result.Taken - before));
-    this->KeepFound(this->Loaded->GetLoop().GetFound());
+    this->RecordChange(static_cast<std::int64_t>(this->Result.Taken - before));
+    this->RecordFound(this->Loaded->GetLoop().GetFound());
   }
   return this->Result.Taken == all;
 }
@@ -257,7 +245,7 @@ void PointRun::ExplainRefused(LoadedMesh& mesh)
   std::vector<RefusedSegment>& refused = this->Result.Refused;
   std::sort(refused.begin(), refused.end(),
     [](const RefusedSegment& a, const RefusedSegment& b) { return a.Index < b.Index; });
-  const PlaneArray points = this->Points.GetOnHost();
+  const PlaneArray points = this->Points.CopyToHost();
   std::vector<RefusedSegment*> named;
   RefusedSegment* ofRing = nullptr;
   for (RefusedSegment& one : refused)
@@ -304,14 +292,13 @@ void PointRun::ExplainRefused(LoadedMesh& mesh)
 }
 
 //------------------------------------------------------------------------------
-bool PointRun::CutOff()
+void PointRun::CutOff()
 {
   if (MayRemove(this->Points.GetInput(), this->Points.GetOptions()))
   {
     this->OnBackend([this](LoadedMesh& mesh) { this->RemoveTriangles(mesh); });
-    this->Note(0);
+    this->RecordChange(0);
   }
-  return true;
 }
 
 /// They stay in the loaded mesh, which knows nothing of this, and are left out of what is stored.
@@ -323,7 +310,7 @@ void PointRun::RemoveTriangles(LoadedMesh& mesh)
     { kept = KeepTriangles(view, input, this->Points.GetOptions(), this->Result.Edges); });
   if (IsLost(input, kept))
   {
-    this->Points.GetOnHost();
+    this->Points.CopyToHost();
     this->Result.Loss = DescribeLoss(this->Points, kept);
   }
 }
@@ -332,7 +319,7 @@ void PointRun::Reset()
 {
   LoadedRun::Reset();
   this->Result = PointResult();
-  this->AreFlipsLong = false;
+  this->AreFlipsSlow = false;
   this->Report.Points = this->Points.GetCaller().Points.Count;
 }
 
@@ -419,21 +406,21 @@ bool PointRun::StoreTrianglesOnDevice(
   const MutableTriangleArray& triangles, const DeviceStream& stream, std::int32_t*)
 {
   return !this->Result.HasRemoved() &&
-    this->TryOnDevice([&](const LoadedMesh& mesh)
+    this->TryStoreOnDevice([&](const LoadedMesh& mesh)
       { return mesh.StoreTrianglesOnDevice(triangles, stream, nullptr); });
 }
 
 bool PointRun::StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream)
 {
   return !this->Result.HasRemoved() &&
-    this->TryOnDevice(
+    this->TryStoreOnDevice(
       [&](const LoadedMesh& mesh) { return mesh.StoreFlipCountsOnDevice(counts, stream); });
 }
 
 bool PointRun::StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream)
 {
   return !this->Result.HasRemoved() &&
-    this->TryOnDevice(
+    this->TryStoreOnDevice(
       [&](const LoadedMesh& mesh) { return mesh.StoreNeighborsOnDevice(neighbors, stream); });
 }
 

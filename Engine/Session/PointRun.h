@@ -15,7 +15,7 @@ namespace delaunayflip
 {
 
 /// The run of points in the plane. Its stages are listed in ListStages.
-class PointRun : public LoadedRun
+class PointRun final : public LoadedRun
 {
 public:
   /// @throws as FlipSession's constructor.
@@ -38,16 +38,17 @@ public:
 
 private:
   void ListStages();
-  bool Prepare();
-  bool Triangulate();
-  bool FlipUnlessLong();
-  bool ReplaceIfLong();
+  void Prepare();
+  void Triangulate();
+  bool GivesUpFlips();
+  void DropIterations(std::size_t left);
+  void ReplaceSlowFlips();
   void DivideAndConquer(LoadedMesh& mesh);
   bool InsertSegments();
   void InsertUpTo(std::size_t end, LoadedMesh& mesh, const ProgressObserver& observer);
   void Take(const InsertedSegments& made);
   void ExplainRefused(LoadedMesh& mesh);
-  bool CutOff();
+  void CutOff();
   void RemoveTriangles(LoadedMesh& mesh);
   bool Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
@@ -55,14 +56,13 @@ private:
   void Reset() override;
   void ListDefects() override;
   std::int64_t GetBatch() const override;
-  bool DropIterationsBeyondLong();
 
   template <typename Value, typename Store>
   void StoreKept(int width, Value* values, const Store& store);
 
   PreparedPoints Points;
   PointResult Result; ///< What was done to the loaded mesh beside flips.
-  bool AreFlipsLong = false; ///< Whether divide and conquer takes over.
+  bool AreFlipsSlow = false; ///< Whether divide and conquer takes over.
 };
 
 }

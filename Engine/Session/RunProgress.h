@@ -66,7 +66,7 @@ public:
     return static_cast<std::int64_t>(std::clamp(batch, 1.0, Most));
   }
 
-  void KeepTime(double secondsPerIteration) { this->SecondsPerIteration = secondsPerIteration; }
+  void RecordTime(double secondsPerIteration) { this->SecondsPerIteration = secondsPerIteration; }
 
 private:
   /// The more iterations in chunks run together, the faster they are. So observers of large meshes
@@ -78,11 +78,13 @@ private:
   /// edges.
   static constexpr double TestsPerIteration = 3.0;
 
-  /// If bad edges do not become fewer, this many more iterations are expected than have been made.
+  /// If the bad edges have not become fewer, as many more iterations are expected as have been
+  /// made, and this many besides.
   static constexpr double SpareIterations = 20.0;
-  /// The share of all flips that have been made. Bad edges have decreased by some mean factor per
-  /// iteration, and they, and flips with them, are expected to continue so; every bad edge takes a
-  /// flip. If they have not decreased, as many more iterations are expected as have been made.
+
+  /// The share of all flips that have been made. So far the number of bad edges has changed by some
+  /// mean factor per iteration. The numbers of bad edges and of flips are expected to shrink by
+  /// this factor from now on, and every bad edge to take at least one flip.
   double EstimateFlipped(const FlipReport& report, std::int64_t badEdges) const
   {
     const auto iterations = static_cast<double>(report.Iterations.size());

@@ -25,7 +25,7 @@ enum class OnStop
   Ignores ///< It goes on, because the result is not complete without the stage.
 };
 
-/// One of the things that a run does, in their order.
+/// One of the things that a run does. They are done in their order.
 struct Stage
 {
   const char* Name;
@@ -41,6 +41,17 @@ struct Stage
   /// change the mesh. @param count how much of the stage was done: iterations or segments.
   std::function<void(LoadedMesh&, std::int64_t count)> Repeat;
 };
+
+/// The work of a stage that is done at once and is complete then. @param work returns nothing.
+template <typename Function>
+std::function<bool()> Whole(const Function& work)
+{
+  return [work]
+  {
+    work();
+    return true;
+  };
+}
 
 /// Gives a variable another value for as long as this lives.
 template <typename Value>
@@ -91,6 +102,7 @@ public:
   /// How many triangles the Store functions write.
   std::int64_t CountTriangles() const { return this->Report.Triangles; }
 
+  /// For tests.
   const std::vector<Stage>& GetStages() const { return this->Stages; }
 
 protected:
@@ -100,18 +112,15 @@ protected:
   /// @returns whether all are complete.
   bool RunStages(std::size_t end)
   {
-    for (; this->Current < end; ++this->Current)
+    while (this->Current < end && this->RunStage(this->Stages[this->Current]))
     {
-      const Stage& stage = this->Stages[this->Current];
-      const TemporaryValue<bool> forgets(this->MayForget, stage.Stop == OnStop::Forgets);
-      const bool stopsHere = this->WasStopped && stage.Stop == OnStop::KeepsMesh;
-      if (stopsHere || !stage.Work())
-      {
-        return false;
-      }
+      ++this->Current;
     }
-    return true;
+    return this->Current >= end;
   }
+
+  /// @returns whether the stage is complete.
+  virtual bool RunStage(const Stage& stage) { return stage.Work(); }
 
   bool IsOver() const { return this->Current == this->Stages.size(); }
 
@@ -130,8 +139,6 @@ protected:
   std::vector<Stage> Stages;
   std::size_t Current = 0; ///< The number of the stage that comes next or is not complete.
   ProgressObserver Observer; ///< Of the call under way, else the constructor's.
-  bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
-  bool MayForget = false; ///< Whether the observer may stop what is under way, and all is lost.
 };
 
 }

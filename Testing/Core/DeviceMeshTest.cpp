@@ -267,6 +267,10 @@ TEST_F(DeviceMeshTest, RefusesOtherMemoryAndShapes)
     expectRefused([&](DeviceMesh& mesh) { mesh.Points.Components = components; });
   }
   expectRefused([](DeviceMesh&) {}, 77);
+  PointInput points;
+  points.Points = PlaneArray(device.Points.Data(), this->Mesh.NumberOfPoints(), 3);
+  points.OnDevice = true;
+  EXPECT_THROW(FlipSession(points, PointOptions{ With(&FlipOptions::Device, 77) }), InvalidOptions);
   const FlipSession session(device.View(), {});
   std::vector<std::int32_t> host(this->Mesh.Triangles.size());
   const MutableTriangleArray result(host.data(), this->Mesh.NumberOfTriangles());

@@ -224,7 +224,7 @@ TEST(Journal, KeepsWhatChangesTheMesh)
     { "insert segments", 2 }, { "flip around segments", around }, { "cut triangles off", 0 } };
   EXPECT_EQ(expected, entries);
   const Entries divided = run(curve).first;
-  EXPECT_EQ("divide and conquer if flips are long", divided.front().first);
+  EXPECT_EQ("divide and conquer if flips are slow", divided.front().first);
   EXPECT_EQ("insert segments", divided.at(1).first);
 }
 

@@ -168,6 +168,10 @@ TEST(TooLargeMeshes, AreRefusedUnread)
   TriangleMesh mesh = grid.View();
   mesh.Triangles.Count = std::int64_t(1) << 40;
   EXPECT_THROW(MakeSession(mesh), MeshTooLarge);
+  PointInput points;
+  points.Points = PlaneArray(grid.Points.data(), std::int64_t(1) << 62, 2);
+  EXPECT_EQ("there are 4611686018427387904 points; at most 357913941 can be triangulated at once",
+    GetMessage<MeshTooLarge>([&] { FlipSession(points, PointOptions()); }));
 }
 
 /// A forced backend runs or is refused; it is never replaced silently.
