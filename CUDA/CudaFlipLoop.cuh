@@ -247,10 +247,10 @@ protected:
     {
       freshSlots = std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft());
     }
-    const IterationLimits limits{ static_cast<int>(most), this->Found.Bad,
+    const IterationPlan iterationPlan{ static_cast<int>(most), this->Found.Bad,
       static_cast<long long>(freshSlots) };
     std::vector<IterationCounts> iterations =
-      this->ReadIterations(this->LaunchOnMesh(this->GetIterateKernel(), limits), freshSlots);
+      this->ReadIterations(this->LaunchOnMesh(this->GetIterateKernel(), iterationPlan), freshSlots);
     if (measure)
     {
       iterations.back().SquaredCotangent = this->MeasureAngles().Largest;
@@ -295,17 +295,17 @@ private:
   {
     if (this->Guard.IsActive())
     {
-      return DetectAllKernel<Rule, true>;
+      return DetectAllKernel<true, Rule>;
     }
-    return DetectAllKernel<Rule, Rule::IsInSpace>;
+    return DetectAllKernel<Rule::IsInSpace, Rule>;
   }
   auto* GetIterateKernel() const
   {
     if (this->Guard.IsActive())
     {
-      return IterateKernel<Rule, true>;
+      return IterateKernel<true, Rule>;
     }
-    return IterateKernel<Rule, Rule::IsInSpace>;
+    return IterateKernel<Rule::IsInSpace, Rule>;
   }
 
   /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also

@@ -30,7 +30,7 @@ __device__ void RunDetection(
       ResolveUncertain(loop, worklist, team); // pass 1, exactly
     }
   }
-  if (IsGuarded)
+  if constexpr (IsGuarded)
   {
     __syncwarp(); // a warp guards the units that it judged
     GuardBadEdges(loop, worklist, team); // pass 2
@@ -57,9 +57,9 @@ __device__ void RunFlips(const LoopView<Rule>& loop, const Worklist& worklist, T
   team.Wait();
 }
 
-/// A detection on the whole mesh, counted in Sums[0], and a count of all bad and blocked edges, in
-/// Sums[1].
-template <typename Rule, bool IsGuarded>
+/// A detection on the whole mesh, which is counted in Sums[0]. Sums[1] gets the number of all bad
+/// and blocked edges.
+template <bool IsGuarded, typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   DetectAllKernel(const __grid_constant__ LoopView<Rule> loop)
 {
@@ -78,9 +78,9 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   }
 }
 
-/// Iterations within chunks: a team takes a chunk through all of them, while the chunk is in the
-/// cache, then the next chunk. They are counted in Sums; Sums[iterations] gets the bad and blocked
-/// edges from before.
+/// Iterations within chunks. A team makes all iterations of a chunk, while the chunk is in the
+/// cache, and then those of the next one. They are counted in Sums[0] and so on. Sums[iterations]
+/// gets the bad and blocked edges from before them.
 template <typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
   RunChunksKernel(const __grid_constant__ LoopView<Rule> loop, int blocksOfTeam, int iterations)
@@ -101,10 +101,10 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks)
 }
 
 //------------------------------------------------------------------------------
-// The exception: iterations with few bad edges. The detection lists the bad edges with everything
+// Iterations with few bad edges are an exception. Their detection lists the bad edges, with all
 // that a choice reads except the states of the neighbours, which do not change before the next
-// detection. So winners may flip while other threads still choose, and there are fewer dependent
-// loads, which are most of the time of such an iteration.
+// detection. So winners may flip while other threads still choose. There are also fewer dependent
+// loads, which take most of the time of such an iteration.
 
 /// The bad edges that a block has found, in shared memory.
 class BadList
@@ -124,7 +124,7 @@ public:
   }
 
   /// Adds the bad edges among those of the warp's lanes, as long as there is room for them.
-  /// @returns where, or -1: then a bad edge found no room.
+  /// @returns the place of this lane's edge in the list; -1 if it is not bad or found no room.
   __device__ static int Add(bool isBad, const BadEdge& edge, int room)
   {
     const unsigned bad = __ballot_sync(WholeWarp, isBad);
@@ -148,22 +148,25 @@ public:
   }
 };
 
-/// The most edges that a block lists. With a guard they all claim their new edges, so that there
-/// must be room for the claims of all blocks.
+/// The most edges that a block lists. With a guard each of them claims its new edge, so there must
+/// be room for the claims of all blocks.
 template <bool IsGuarded, typename Rule>
 __device__ int GetMostListed(const LoopView<Rule>& loop, const Team& team)
 {
-  if (!IsGuarded)
+  if constexpr (!IsGuarded)
   {
     return MostListed;
   }
-  const unsigned blocks = team.GetNumberOfThreads() / LoopThreads * loop.Devices;
-  return min(MostListed, static_cast<int>(loop.Guard.Claims.Size / blocks));
+  else
+  {
+    const unsigned blocks = team.GetNumberOfThreads() / LoopThreads * loop.Devices;
+    return min(MostListed, static_cast<int>(loop.Guard.Claims.Size / blocks));
+  }
 }
 
-/// Does what RunDetection does, and lists the bad edges. Bad edges that are not candidates are
-/// judged again to be listed; they do not count as tested. With a guard all of them claim their new
-/// edges already. Warns if the list is too short or a claim is contested.
+/// Does what RunDetection does, and lists the bad edges. To be listed, bad edges that are not
+/// candidates are judged again, but do not count as tested. With a guard each bad edge already
+/// claims its new edge here. Warns if the list is too short or a claim is contested.
 template <bool IsGuarded, typename Rule>
 __device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
 {
@@ -206,21 +209,21 @@ __device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
     if (worklist.IsAny(counts.Uncertain))
     {
       ResolveUncertain(loop, worklist, team);
-      if (IsGuarded)
+      if constexpr (IsGuarded)
       {
         GuardBadEdges(loop, worklist, team);
       }
       return;
     }
   }
-  if (IsGuarded)
+  if constexpr (IsGuarded)
   {
     team.Add(IterationSum::AllBlockedByEdge, blockedByEdge);
     team.Add(IterationSum::Contested, contested);
   }
 }
 
-/// Releases the claims of the listed edges, which are not made then.
+/// Releases the claims of the listed edges, if these do not flip.
 template <typename Rule>
 __device__ void ReleaseListed(const LoopView<Rule>& loop, const Team& team)
 {
@@ -231,8 +234,8 @@ __device__ void ReleaseListed(const LoopView<Rule>& loop, const Team& team)
   }
 }
 
-/// Flips those of the listed edges that win; with a guard no two of them have claimed the same
-/// edge. They stay marked as bad until the next DetectAndList, because other choices depend on it.
+/// Flips the listed edges that win. With a guard no two listed edges have claimed the same edge.
+/// They stay marked as bad until the next DetectAndList, because other choices depend on it.
 /// @returns whether a new edge found no room in the guard's table.
 template <bool IsGuarded, typename Rule>
 __device__ bool FlipListed(const LoopView<Rule>& loop, const Team& team)
@@ -252,7 +255,7 @@ __device__ bool FlipListed(const LoopView<Rule>& loop, const Team& team)
       bad = BadList::Get(i);
       const RecordPair records(loop.Mesh, bad.Corners);
       flips = Wins(loop, bad.Edge, bad.Outer);
-      if (IsGuarded)
+      if constexpr (IsGuarded)
       {
         loop.Guard.Claims.ReleaseSlot(BadList::GetClaim(i));
       }
@@ -268,7 +271,7 @@ __device__ bool FlipListed(const LoopView<Rule>& loop, const Team& team)
       ++counts.Flipped;
       EdgeBits::Set(loop.Bits.Winners, bad.Edge);
       MarkOuter(loop, bad.Outer);
-      if (IsGuarded)
+      if constexpr (IsGuarded)
       {
         UpdateGuard(loop.Guard.Edges, bad.Edge, quad, counts);
       }
@@ -279,7 +282,7 @@ __device__ bool FlipListed(const LoopView<Rule>& loop, const Team& team)
 }
 
 //------------------------------------------------------------------------------
-/// The most waits per iteration: three in RunFlips, with a guard, one in RunDetection, and one for
+/// The most waits per iteration: three in RunFlips with a guard, one in RunDetection, and one for
 /// lists that are not used.
 constexpr int MostWaits = 5;
 
@@ -292,12 +295,13 @@ constexpr int MostIterateBlocks = TeamNews::MostArrivals / (MostIterations * Mos
 static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at the same wait");
 static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");
 
-/// When a launch of IterateKernel ends: when no bad edge is left, or at a limit.
-struct IterationLimits
+/// What a launch of IterateKernel starts from, and its limits. It ends when no bad edge is left, or
+/// at a limit.
+struct IterationPlan
 {
-  int Iterations; ///< The most iterations.
-  long long Bad; ///< The number of bad edges at the start.
-  long long FreshSlots; ///< The most slots of the guard table that may come into use.
+  int Iterations; ///< It makes at most so many.
+  long long BadAtStart; ///< The number of bad edges at the start.
+  long long FreshSlots; ///< So many slots of the guard table may come into use.
 };
 
 __device__ inline long long LoadSum(const IterationSums& iteration, IterationSum sum)
@@ -306,21 +310,21 @@ __device__ inline long long LoadSum(const IterationSums& iteration, IterationSum
 }
 
 /// Iterations on the whole mesh, as one thread runs them.
-template <typename Rule, bool IsGuarded>
+template <bool IsGuarded, typename Rule>
 class Iterations
 {
 public:
-  __device__ Iterations(const LoopView<Rule>& loop, const IterationLimits& limits)
+  __device__ Iterations(const LoopView<Rule>& loop, const IterationPlan& plan)
     : Loop(loop),
-      Limits(limits),
+      Plan(plan),
       Members(loop.Teams, gridDim.x, loop.Devices, loop.Splits > 0),
-      Bad(limits.Bad),
+      Bad(plan.BadAtStart),
       // A quarter of the room, because bad edges are not spread evenly.
       MostToList(Members.GetNumberOfThreads() / LoopThreads * (MostListed / 4))
   {
   }
 
-  /// @returns how many; 0 if several GPUs were to make them and do not run at the same time.
+  /// @returns how many were made; 0 if several GPUs share them and do not run at the same time.
   __device__ int Run()
   {
     int done = 0;
@@ -329,7 +333,7 @@ public:
       IterationSums* iteration = &this->Loop.Sums[done++];
       this->Flip();
       this->Detect(iteration);
-      isRunning = this->Bad > 0 && done < this->Limits.Iterations && this->HasRoom &&
+      isRunning = this->Bad > 0 && done < this->Plan.Iterations && this->HasRoom &&
         !this->IsUncertain(iteration);
     }
     if (IsGuarded && this->IsListed)
@@ -375,17 +379,17 @@ private:
       RunDetection<IsGuarded>(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
       this->IsWarned = this->Members.IsWarned();
     }
-    this->Bad = this->Limits.Bad + this->Members.GetBadChange();
+    this->Bad = this->Plan.BadAtStart + this->Members.GetBadChange();
     bool isShort = list && !this->IsListed;
     if (IsGuarded && !this->IsListed)
     {
       this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots) -
         LoadSum(*iteration, IterationSum::FreedSlots);
-      this->HasRoom = this->FreshSlots <= this->Limits.FreshSlots &&
+      this->HasRoom = this->FreshSlots <= this->Plan.FreshSlots &&
         LoadSum(*iteration, IterationSum::LostInserts) == 0;
       isShort = isShort && LoadSum(*iteration, IterationSum::Contested) == 0;
     }
-    // After a list was too short, lists are tried again when there are half as many bad edges.
+    // After a list that was too short, lists are tried again once half of the bad edges are left.
     if (isShort)
     {
       this->MostToList = this->Bad / 2;
@@ -399,24 +403,26 @@ private:
   }
 
   const LoopView<Rule>& Loop;
-  const IterationLimits& Limits;
+  const IterationPlan& Plan;
   Team Members;
   bool IsListed = false; ///< Whether the lists of all blocks hold all bad edges.
-  bool IsWarned = false; ///< In the last detection.
-  long long Bad; ///< Edges.
-  long long MostToList; ///< Up to this many bad edges, detections make lists.
-  long long FreshSlots = 0;
+  bool IsWarned = false; ///< Whether a thread has warned in the last detection.
+  long long Bad; ///< The number of bad edges that the last detection has found.
+  long long MostToList; ///< Detections make lists of at most so many bad edges.
+  long long FreshSlots = 0; ///< How many slots of the guard's table have come into use.
   bool HasRoom = true; ///< False if the guard's table must be rebuilt.
-  bool HasLost = false; ///< Whether this thread has just made an edge that found no room in it.
+  /// Whether this thread has just made an edge that found no room in the guard's table.
+  bool HasLost = false;
 };
 
-/// Iterations on the whole mesh after a detection, each counted in an entry of Sums. If the guard's
-/// table must be rebuilt, the last detection may have missed edges that found no room in it.
-template <typename Rule, bool IsGuarded>
+/// Iterations on the whole mesh after a detection. Each is counted in an entry of Sums. If the
+/// guard's table must be rebuilt, the last detection may have missed edges that found no room in
+/// it.
+template <bool IsGuarded, typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
-  const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationLimits limits)
+  const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationPlan plan)
 {
-  Iterations<Rule, IsGuarded> iterations(loop, limits);
+  Iterations<IsGuarded, Rule> iterations(loop, plan);
   const int done = iterations.Run();
   if (iterations.IsFirstThread())
   {
