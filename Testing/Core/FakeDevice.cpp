@@ -93,6 +93,10 @@ public:
     this->Engine->StoreNeighbors(neighbors);
   }
   void StoreUsedPoints(std::int64_t* ids) const override { this->Engine->StoreUsedPoints(ids); }
+  bool Ask(const RunQuery& asked, const ProgressObserver& observer) override
+  {
+    return this->Engine->Ask(asked, observer);
+  }
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream&, std::int32_t*) const override
   {
