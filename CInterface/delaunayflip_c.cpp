@@ -184,7 +184,7 @@ delaunayflip_status TryWithPoints(
   return TryWith(session,
     [&]()
     {
-      Require(session->IsFromPoints, "the session is not from points");
+      Require(session->IsFromPoints, "this session was not made from points");
       Require(target || std::invoke(count, session->Session.GetReport()) == 0, "an array is null");
       work();
     });

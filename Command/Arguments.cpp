@@ -174,7 +174,7 @@ void AddReadOptions(CLI::App& app, Arguments& arguments)
     "Of triangles with the same three corners keep only the first. All others would keep their "
     "edges from flipping");
   app.add_flag("--orient", arguments.Orient,
-    "Turn triangles over, as few as can be, so that neighbours are wound the same way. Edges "
+    "Turn over as few triangles as possible so that neighbours are wound the same way. Edges "
     "between triangles that are wound differently never flip");
 }
 

@@ -247,7 +247,7 @@ public:
       this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() > 0;
     if (this->Input->GetNumberOfPoints() == 0)
     {
-      this->Note(this->Settings.Input + ": is empty: it has no points");
+      this->Note(this->Settings.Input + ": is empty: it contains no points");
     }
     else if (hasTriangles && this->Settings.FromPoints)
     {
@@ -345,7 +345,7 @@ private:
       format == MeshFormat::VTK || format == MeshFormat::VTP || format == MeshFormat::PLY;
     if (file.Mesh->GetNumberOfPoints() == 0 && !mayBeEmpty)
     {
-      throw CommandError(ExitCode::BadFile, path + ": is empty: it has no points");
+      throw CommandError(ExitCode::BadFile, path + ": is empty: it contains no points");
     }
     return this->Take(file, path);
   }

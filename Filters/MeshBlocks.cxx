@@ -140,7 +140,7 @@ std::string DescribeMisfit(const BlockLeaf& leaf, bool fits)
 {
   if (!fits)
   {
-    return "nothing of the first input is at the same place, ignored";
+    return "ignored, because the first input has nothing at this place";
   }
   auto* mesh = vtkPolyData::SafeDownCast(leaf.Data);
   if (!mesh)

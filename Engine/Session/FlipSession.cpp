@@ -47,7 +47,7 @@ PointRun& RequirePoints(SessionRun& run)
   auto* points = dynamic_cast<PointRun*>(&run);
   if (points == nullptr)
   {
-    throw InvalidOptions("the session is not one from points");
+    throw InvalidOptions("this session was not made from points");
   }
   return *points;
 }

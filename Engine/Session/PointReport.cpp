@@ -100,7 +100,7 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
   report.Edges.Fixed = report.Edges.Boundary + inside;
 }
 
-/// Points that are not used, each kind with the ids of the first three.
+/// Adds points that are not used, each kind with the ids of the first ones.
 void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedPoints& points)
 {
   const PointCounts& counts = report.FromPoints;
@@ -113,7 +113,8 @@ void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedP
   const auto add = [&](const char* what, std::int64_t count, const auto& isListed)
   {
     Defect defect{ what, count, {}, DefectIds::Points };
-    for (std::int64_t i = 0; count > 0 && defect.FirstIds.size() < 3 && i < report.Points; ++i)
+    const std::int64_t most = std::min(count, MostNamedIds);
+    for (std::int64_t i = 0; SizeOf(defect.FirstIds) < most && i < report.Points; ++i)
     {
       if (isListed(i))
       {
@@ -163,14 +164,14 @@ Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept)
   {
     seeds.Add(caller.HoleSeeds[2 * i], caller.HoleSeeds[2 * i + 1]);
   }
-  std::string left = "only those between points of segments are left";
-  if (kept.Count == 0)
+  std::string removed = "all triangles";
+  if (kept.Count > 0)
   {
-    left = "none is left";
+    removed += " but those between points of segments";
   }
-  std::string text = "points without a triangle, because triangles are removed (" +
+  std::string text = "points without a triangle, because " + removed + " were removed (" +
     std::to_string(kept.Outside) + " outside, " + std::to_string(kept.Large) +
-    " too large): " + left + "; these points lie in " + places.Describe();
+    " too large); the points lie in " + places.Describe();
   if (!points.GetSegments().empty())
   {
     text += ", the segments in " + segments.Describe();

@@ -294,7 +294,7 @@ class Filter(VTKPythonAlgorithmBase):
         """Warns of what of the second input is ignored."""
         places = _list_leaves(source)
         for place, (name, data) in _list_leaves(others).items():
-            fault = ("nothing of the first input is at the same place, ignored"
+            fault = ("ignored, because the first input has nothing at this place"
                      if place and () not in places and place not in places
                      else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
                      else "triangle strips ignored" if data.GetNumberOfStrips() else "")

@@ -482,7 +482,7 @@ class Usage(PointTest):
         path = self.write_mesh(make_mesh([], []), "in.vtk")
         for options in ([], ["--from-points"]):
             told = self.succeed(path, "out.vtk", *options).stderr
-            self.assertIn("in.vtk: is empty: it has no points\n", told)
+            self.assertIn("in.vtk: is empty: it contains no points\n", told)
             self.assertNotIn("--from-points", told)
 
     def test_points_where_a_mesh_is_needed(self):

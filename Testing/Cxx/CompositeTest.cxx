@@ -221,7 +221,7 @@ TEST(Composite, WhatIsIgnoredOfTheSecondInputIsToldOf)
     return RunToWarning(filter);
   };
   ExpectHolds(warn(MakeBlocks({ MakeRhombus() }), MakeBlocks({ MakeBlocks({ line }) })),
-    "block 2 of the second input: nothing of the first input is at the same place, ignored");
+    "block 2 of the second input: ignored, because the first input has nothing at this place");
   ExpectHolds(warn(MakeBlocks({ MakeRhombus(), MakeRhombus() }), MakeBlocks({ line, grid })),
     "block 2 of the second input: not a vtkPolyData, ignored");
   ExpectHolds(warn(MakeRhombus(), strip), "second input: triangle strips ignored");

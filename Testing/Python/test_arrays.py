@@ -181,9 +181,9 @@ class Triangulate(unittest.TestCase):
         there, here = [[500, 0], [510, 0], [510.5, 1]], [[1, .1], [9, .1], [9, .9], [1, .9]]
         box = "these points lie in x 0 to 10, y 0 to 1"
         for options, used, texts in (
-                ({"outline": there}, 3, ["only those between", box, "the segments in x 500 to 510.5, y 0 to 1"]),
-                ({"outline": here, "holes": [here]}, 0, ["none is left", "the segments in x 1 to 9, y 0.1 to"]),
-                ({"longest_edge": 1e-9}, 0, ["none is left", box]),
+                ({"outline": there}, 3, ["all triangles but those between", box, "the segments in x 500 to 510.5, y 0 to 1"]),
+                ({"outline": here, "holes": [here]}, 0, ["all triangles were removed", "the segments in x 1 to 9, y 0.1 to"]),
+                ({"longest_edge": 1e-9}, 0, ["all triangles were removed", box]),
                 ({"outline": here}, None, [])):
             with warnings.catch_warnings(record=True) as told:
                 warnings.simplefilter("always")

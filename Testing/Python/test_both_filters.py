@@ -324,7 +324,7 @@ class Same(Pair, unittest.TestCase):
         constraints.SetBlock(0, image)
         constraints.SetBlock(2, make_polygon_mesh())
         told = self.expect_same(blocks, lambda flip: flip.SetInputDataObject(1, constraints))
-        for number, text in (3, "nothing of the first input is at the same place"), (1, "not a vtkPolyData"):
+        for number, text in (3, "ignored, because the first input has nothing at this place"), (1, "not a vtkPolyData"):
             self.assertIn(f"block {number} of the second input: {text}", told["warnings"][0])
         told = self.expect_same(
             make_rhombus(), lambda flip: flip.SetConstraintsData(make_polygon_mesh()))
@@ -522,7 +522,7 @@ class SamePoints(Pair, unittest.TestCase):
         self.assertIn("81 points without a triangle", told["warnings"][0])
         self.assertIn("x 0 to 8, y 0 to 8, the segments in x 50 to 60, y 0 to 9", told["warnings"][0])
         told = self.expect_same(cloud, lambda points: points.SetLongestEdge(0.5))
-        self.assertIn("none is left", told["warnings"][0])
+        self.assertIn("all triangles were removed", told["warnings"][0])
 
     def test_lines_of_the_input(self):
         cloud = make_cloud(40)
