@@ -179,7 +179,7 @@ class Triangulate(unittest.TestCase):
         points = numpy.random.default_rng(5).random((100, 2)) * [10, 1]
         points[:2] = [[0, 0], [10, 1]]
         there, here = [[500, 0], [510, 0], [510.5, 1]], [[1, .1], [9, .1], [9, .9], [1, .9]]
-        box = "these points lie in x 0 to 10, y 0 to 1"
+        box = "the points lie in x 0 to 10, y 0 to 1"
         for options, used, texts in (
                 ({"outline": there}, 3, ["all triangles but those between", box, "the segments in x 500 to 510.5, y 0 to 1"]),
                 ({"outline": here, "holes": [here]}, 0, ["all triangles were removed", "the segments in x 1 to 9, y 0.1 to"]),
