@@ -91,16 +91,24 @@ Enumeration ToEnumeration(std::int32_t value, Enumeration last, const std::strin
   return static_cast<Enumeration>(value);
 }
 
-/// The points as `Array`. Its constructors take the components too, if they are given.
+/// The coordinates of points or places as `Array`. Its constructors take the components too, if
+/// they are given. @param name "point" or "place".
+template <typename Array, typename... Components>
+Array ToCoordinates(const void* values, std::int64_t count, std::int32_t type,
+  const std::string& name, Components... components)
+{
+  RequireArray(values, count, name + "s");
+  Require(type == DELAUNAYFLIP_FLOAT32 || type == DELAUNAYFLIP_FLOAT64,
+    (name + "_type is neither DELAUNAYFLIP_FLOAT32 nor DELAUNAYFLIP_FLOAT64").c_str());
+  return type == DELAUNAYFLIP_FLOAT32
+    ? Array(static_cast<const float*>(values), count, components...)
+    : Array(static_cast<const double*>(values), count, components...);
+}
+
 template <typename Array, typename Struct, typename... Components>
 Array ToPoints(const Struct& c, Components... components)
 {
-  RequireArray(c.points, c.number_of_points, "points");
-  Require(c.point_type == DELAUNAYFLIP_FLOAT32 || c.point_type == DELAUNAYFLIP_FLOAT64,
-    "point_type is neither DELAUNAYFLIP_FLOAT32 nor DELAUNAYFLIP_FLOAT64");
-  return c.point_type == DELAUNAYFLIP_FLOAT32
-    ? Array(static_cast<const float*>(c.points), c.number_of_points, components...)
-    : Array(static_cast<const double*>(c.points), c.number_of_points, components...);
+  return ToCoordinates<Array>(c.points, c.number_of_points, c.point_type, "point", components...);
 }
 
 inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c)
@@ -160,6 +168,32 @@ inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptio
 {
   return { options, c.point_tolerance, c.split_crossings != 0,
     ToEnumeration(c.ring_rule, RingRuleKind::Orientation, "ring_rule"), c.alpha, c.longest_edge };
+}
+
+/// Views of the arrays of a query, and its numbers.
+inline PlaceQuery ToQuery(const delaunayflip_query* given)
+{
+  const delaunayflip_query c = Complete(given, delaunayflip_query_init);
+  const InterpolationKind method = ToEnumeration(c.method, InterpolationKind::Natural, "method");
+  const OutsideKind outside = ToEnumeration(c.outside, OutsideKind::Nearest, "outside");
+  PlaceQuery query;
+  query.Raster = { { c.origin_x, c.origin_y }, { c.step_x, c.step_y }, c.columns, c.rows };
+  if (c.columns == 0 || c.rows == 0)
+  {
+    Require(c.place_components >= 2, "place_components is less than 2");
+    query.Places = ToCoordinates<PlaneArray>(
+      c.places, c.number_of_places, c.place_type, "place", c.place_components);
+  }
+  Require(!c.values || c.results, "results is null, but there are values");
+  query.Triangles = c.triangles;
+  query.Values = c.values;
+  query.Components = c.value_components;
+  query.Method = method;
+  query.Outside = outside;
+  query.Results = c.results;
+  query.OnDevice = IsOnDevice(c.memory);
+  query.Stream = { c.stream };
+  return query;
 }
 
 /// Views of the arrays of a complete mesh in device memory.

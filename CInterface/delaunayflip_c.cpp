@@ -246,6 +246,15 @@ extern "C"
     points->first_added = PointInput().FirstAdded;
   }
 
+  void delaunayflip_query_init(delaunayflip_query* query)
+  {
+    *query = MakeEmpty<delaunayflip_query>();
+    query->place_type = DELAUNAYFLIP_FLOAT64;
+    query->place_components = 2;
+    query->step_x = query->step_y = 1.0;
+    query->value_components = 1;
+  }
+
   void delaunayflip_options_init(delaunayflip_options* options)
   {
     const FlipOptions defaults;
@@ -349,6 +358,19 @@ extern "C"
       {
         const std::vector<std::int64_t> all = session->Session.ListSegmentEdges();
         std::copy(all.begin(), all.end(), pairs);
+      });
+  }
+
+  delaunayflip_status delaunayflip_ask(delaunayflip_session* session,
+    const delaunayflip_query* query, const delaunayflip_callbacks* callbacks)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        if (!session->Session.Ask(ToQuery(query), ToProgress(callbacks)))
+        {
+          throw RunAborted();
+        }
       });
   }
 

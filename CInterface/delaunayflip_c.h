@@ -35,7 +35,8 @@
  * - A struct begins with its size in bytes. Call its `_init` function before you set members. Newer
  *   headers only add members at the end, so a program compiled with an older header works with a
  *   newer library. Enumerations are passed as int32_t.
- * - Points, triangles and results may be in the memory of a GPU; everything else is in the host's.
+ * - Points, triangles, queries and results may be in the memory of a GPU; everything else is in the
+ *   host's.
  *   Such arrays are read or written after the work that is already in the caller's stream. When a
  *   function returns, its results are complete.
  * - Arrays belong to the caller. The library neither keeps nor frees them, except that a session
@@ -367,6 +368,65 @@ extern "C"
    * of the segments: 2 * segment_edges of the report. For sessions from points. */
   delaunayflip_status delaunayflip_store_segment_edges(
     delaunayflip_session* session, int64_t* pairs);
+
+  typedef enum
+  {
+    DELAUNAYFLIP_LINEAR = 0, /**< Linear in each triangle. */
+    DELAUNAYFLIP_NATURAL = 1 /**< Sibson's natural neighbours: smooth except at the points. */
+  } delaunayflip_method; /**< How values between points are found. */
+
+  typedef enum
+  {
+    DELAUNAYFLIP_OUTSIDE_NAN = 0,
+    DELAUNAYFLIP_OUTSIDE_NEAREST = 1 /**< The value at the nearest place on the boundary. */
+  } delaunayflip_outside; /**< What a place has that is in no triangle. */
+
+  /** Places in x and y, given one by one or as the centres of the cells of a raster, and what is
+   * wanted there. Interpolation.h describes each member in full. */
+  typedef struct
+  {
+    int64_t size;
+    const void* places; /**< place_components numbers per place: x, y and, without effect, more. */
+    int64_t number_of_places;
+    int32_t place_type; /**< DELAUNAYFLIP_FLOAT32 or DELAUNAYFLIP_FLOAT64. [FLOAT64] */
+    int32_t place_components; /**< At least 2. [2] */
+    int64_t columns; /**< Of the raster, along x; if there are cells, they replace the places. */
+    int64_t rows; /**< Along y. The cells are numbered row by row. */
+    double origin_x; /**< The centre of the first cell. */
+    double origin_y;
+    double step_x; /**< From one cell to the next; may be negative. [1] */
+    double step_y; /**< [1] */
+    int32_t* triangles; /**< Receives the triangle of each place, the lowest number if there are
+                           several, or -1 outside; null: not wanted. */
+    const double* values; /**< value_components numbers for each point, and after them for each
+                             added one; null: only the triangles are wanted. */
+    double* results; /**< Receives value_components numbers for each place. */
+    int32_t value_components; /**< [1] */
+    int32_t method; /**< A delaunayflip_method. [LINEAR] */
+    int32_t outside; /**< A delaunayflip_outside. [OUTSIDE_NAN] */
+    int32_t memory; /**< A delaunayflip_memory: where all four arrays are. [HOST] */
+    void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
+  } delaunayflip_query;
+
+  void delaunayflip_query_init(delaunayflip_query* query);
+
+  /** Answers in which triangles places are, and what values they have between those of the points.
+   * For sessions from points, after delaunayflip_advance. With heights for the points, one each,
+   * these are the heights of a raster of 100 by 50 cells:
+   *
+   *     delaunayflip_query query;
+   *     delaunayflip_query_init(&query);
+   *     query.columns = 100;
+   *     query.rows = 50;
+   *     query.values = heights;
+   *     query.results = raster;
+   *     delaunayflip_ask(session, &query, NULL);
+   *
+   * Triangles that an outline, holes or options have removed are outside. Natural neighbours need a
+   * session that has nothing left to flip. `callbacks` may be null. If `progress` returns 0, the
+   * call fails with DELAUNAYFLIP_STOPPED, and some results are written. */
+  delaunayflip_status delaunayflip_ask(delaunayflip_session* session,
+    const delaunayflip_query* query, const delaunayflip_callbacks* callbacks);
 
   /** Runs at most `iterations` more iterations; -1: until nothing is left to flip or a limit is
    * reached.

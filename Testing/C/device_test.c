@@ -5,6 +5,7 @@
 
 #include <cuda_runtime_api.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +86,38 @@ static void TestSession(const delaunayflip_mesh* mesh)
   CHECK(cudaFree(counts) == cudaSuccess);
 }
 
+/** Points, places, values and results are all on the GPU. */
+static void TestQuery(const delaunayflip_mesh* mesh)
+{
+  const double values[] = { 0, 2, 4, 2 }; /* x */
+  const float places[] = { 1, 0.25, 2, 0.5, 9, 9 };
+  double results[3];
+  delaunayflip_session* session;
+  delaunayflip_points points;
+  delaunayflip_query query;
+  delaunayflip_points_init(&points);
+  points.points = mesh->points;
+  points.number_of_points = 4;
+  points.point_type = DELAUNAYFLIP_FLOAT32;
+  points.memory = DELAUNAYFLIP_CUDA;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  delaunayflip_query_init(&query);
+  query.memory = DELAUNAYFLIP_CUDA;
+  query.places = Upload(places, sizeof(places));
+  query.number_of_places = 3;
+  query.place_type = DELAUNAYFLIP_FLOAT32;
+  query.values = Upload(values, sizeof(values));
+  query.results = Upload(values, sizeof(results));
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_OK);
+  CHECK(cudaMemcpy(results, query.results, sizeof(results), cudaMemcpyDeviceToHost) == cudaSuccess);
+  CHECK(fabs(results[0] - 1) < 1e-12 && fabs(results[1] - 2) < 1e-12 && isnan(results[2]));
+  delaunayflip_close(session);
+  CHECK(cudaFree((void*)query.places) == cudaSuccess);
+  CHECK(cudaFree((void*)query.values) == cudaSuccess);
+  CHECK(cudaFree(query.results) == cudaSuccess);
+}
+
 int main(void)
 {
   delaunayflip_mesh mesh;
@@ -96,6 +129,7 @@ int main(void)
   mesh = MakeMesh();
   TestFlip(&mesh);
   TestSession(&mesh);
+  TestQuery(&mesh);
   CHECK(cudaFree((void*)mesh.points) == cudaSuccess);
   CHECK(cudaFree((void*)mesh.triangles) == cudaSuccess);
   printf("passed\n");

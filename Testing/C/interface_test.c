@@ -3,6 +3,7 @@
  */
 #include "check.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -407,6 +408,84 @@ static void TestRings(void)
   CHECK(strstr(delaunayflip_error_message(), "ring_rule") != NULL);
 }
 
+/** Places and rasters, with two linear functions, which are reproduced. */
+static void TestQueries(void)
+{
+  const double xy[] = { 0, 0, 4, 0, 4, 4, 0, 4, 1, 2 };
+  const double values[] = { 0, 0, 4, 8, 8, 8, 4, 0, 3, 2 }; /* x + y and 2 x */
+  const float places[] = { 1, 1, 9, 3, 0.5, 9, 7, 2, 9 };
+  double results[12] = { 0 };
+  int32_t triangles[6], ids[12];
+  int i;
+  delaunayflip_points points;
+  delaunayflip_query query;
+  delaunayflip_callbacks callbacks;
+  delaunayflip_session* session = NULL;
+  Log log = { 0, 1, 0.0 };
+  delaunayflip_points_init(&points);
+  points.points = xy;
+  points.number_of_points = 5;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_triangles(session, ids, DELAUNAYFLIP_INT32) == DELAUNAYFLIP_OK);
+  delaunayflip_query_init(&query);
+  query.places = places;
+  query.number_of_places = 3;
+  query.place_type = DELAUNAYFLIP_FLOAT32;
+  query.place_components = 3;
+  query.triangles = triangles;
+  query.values = values;
+  query.value_components = 2;
+  query.results = results;
+  for (query.method = 0; query.method < 2; ++query.method)
+  {
+    CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_OK);
+    CHECK(fabs(results[0] - 2) < 1e-12 && fabs(results[1] - 2) < 1e-12);
+    CHECK(fabs(results[2] - 3.5) < 1e-12 && fabs(results[3] - 6) < 1e-12);
+    CHECK(isnan(results[4]) && isnan(results[5]));
+    CHECK(triangles[0] >= 0 && triangles[1] >= 0 && triangles[2] == -1);
+  }
+  query.method = DELAUNAYFLIP_LINEAR;
+  query.outside = DELAUNAYFLIP_OUTSIDE_NEAREST;
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_OK);
+  CHECK(fabs(results[4] - 6) < 1e-12 && fabs(results[5] - 8) < 1e-12); /* as at (4, 2) */
+  query.places = NULL;
+  query.columns = 3;
+  query.rows = 2;
+  query.origin_x = 0.5;
+  query.origin_y = 3.5;
+  query.step_y = -2;
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_OK);
+  for (i = 0; i < 6; ++i)
+  {
+    const double x = 0.5 + i % 3, y = i < 3 ? 3.5 : 1.5;
+    CHECK(triangles[i] >= 0 && fabs(results[2 * i] - (x + y)) < 1e-12);
+    CHECK(fabs(results[2 * i + 1] - 2 * x) < 1e-12);
+  }
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = LogProgress;
+  callbacks.user = &log;
+  CHECK(delaunayflip_ask(session, &query, &callbacks) == DELAUNAYFLIP_STOPPED);
+  query.rows = -1;
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  query.rows = 0; /* so that the places count, which are null */
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(strcmp(delaunayflip_error_message(), "places is null") == 0);
+  query.rows = 2;
+  query.method = 2;
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  query.method = DELAUNAYFLIP_NATURAL;
+  query.outside = -1;
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  query.outside = DELAUNAYFLIP_OUTSIDE_NAN;
+  query.results = NULL;
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  query.size = 0;
+  CHECK(delaunayflip_ask(session, &query, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_ask(session, NULL, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  delaunayflip_close(session);
+}
+
 int main(void)
 {
   TestFlipsSquare();
@@ -422,5 +501,6 @@ int main(void)
   TestPolygons();
   TestPoints();
   TestRings();
+  TestQueries();
   return 0;
 }
