@@ -171,8 +171,8 @@ void AddReadOptions(CLI::App& app, Arguments& arguments)
     "each triangle. The merged point keeps the data of the first one. Triangles that collapse, "
     "and points that no cell uses, are left out");
   app.add_flag("--drop-duplicates", arguments.DropDuplicates,
-    "Of triangles with the same three corners keep only the first. All others would keep their "
-    "edges from flipping");
+    "Keep only the first of several triangles with the same three corners. Otherwise their edges "
+    "could not flip");
   app.add_flag("--orient", arguments.Orient,
     "Turn over as few triangles as possible so that neighbours are wound the same way. Edges "
     "between triangles that are wound differently never flip");
@@ -193,8 +193,8 @@ void AddJudgeOptions(CLI::App& app, Arguments& arguments)
   AddValue(app, "--tolerance", Set(arguments, &vtkDelaunayFlip::SetTolerance), "RADIANS",
     Within(-1.0, -1.0, "automatic (-1)") |
       Within(0.0, std::nextafter(1.0, 0.0), "an angle from 0 to less than 1 radian"),
-    "How far an opposite-angle sum may exceed pi, in radians; -1: automatic, for each edge as much "
-    "as the rounding of its points can explain [-1]");
+    "How far an opposite-angle sum may exceed pi, in radians; -1 (automatic): for each edge as "
+    "much as the rounding of its points can explain [-1]");
   AddChoice(app, "--tie-rule", Set(arguments, &vtkDelaunayFlip::SetTieRule),
     { "keep", "canonical" },
     "Edges whose four points lie on one circle: keep them, or make the result independent of the "
@@ -274,7 +274,8 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "of times, or if their turns around the place do not add up to 0 [evenodd]");
   app.add_flag_callback("--split-crossings",
     Set(arguments, &vtkDelaunayFlipPoints::SplitCrossingsOn),
-    "Add a point where segments cross. Else one that crosses an earlier one is left out");
+    "Add a point where segments cross. Otherwise a segment that crosses an earlier one is left "
+    "out");
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
   AddValue(app, "--alpha", Set(arguments, &vtkDelaunayFlipPoints::SetAlpha), "RADIUS", length,
     "Remove triangles whose circumcircle has a larger radius; 0: none [0]");
@@ -282,7 +283,8 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     length, "Remove triangles that have a longer edge; 0: none [0]");
   AddValue(app, "--point-tolerance", Set(arguments, &vtkDelaunayFlipPoints::SetPointTolerance),
     "LENGTH", length,
-    "Leave out points nearer than this to one before them; 0: those at the same place [0]");
+    "Leave out points that are nearer than this to an earlier one; 0: only those at the same "
+    "place [0]");
   AddChoice(app, "--projection", Set(arguments, &vtkDelaunayFlipPoints::SetProjection),
     { "xy", "plane" },
     "Where points are joined: by x and y, or in the plane that fits them best [xy]");
