@@ -216,8 +216,8 @@ extern "C"
     int64_t total_blocked;
     int64_t non_delaunay_before; /**< Bad edges of the input that are not fixed. */
     int64_t non_delaunay_after; /**< Bad edges left, flippable or blocked. */
-    int64_t blocked_by_shape; /**< Those left whose flip would fold the mesh over. */
-    int64_t blocked_by_edge; /**< Those left whose flip would repeat an edge. */
+    int64_t blocked_by_shape; /**< Bad edges left: their flip would fold the mesh over. */
+    int64_t blocked_by_edge; /**< Bad edges left: their flip would repeat an edge. */
     int64_t edges;
     int64_t boundary_edges;
     int64_t non_manifold_edges;
@@ -249,7 +249,7 @@ extern "C"
     int64_t large_triangles; /**< Removed by alpha and longest_edge. */
     int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
                                the smallest angles, with one below 5 degrees; else 0. */
-    int64_t blocked_by_deviation; /**< Those left that the bound on deviation blocks. */
+    int64_t blocked_by_deviation; /**< Bad edges left: the bound on deviation blocks them. */
     int64_t duplicate_triangles; /**< Triangles with the three points of an earlier one. */
     int64_t hidden_by_winding; /**< Edges that are wrongly wound and would else be bad. */
     /** Angles above 90 degrees opposite to non-manifold edges at first: bad edges may hide there.

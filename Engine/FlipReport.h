@@ -125,9 +125,9 @@ struct FlipReport
   std::int64_t TotalBlocked = 0;
   std::int64_t NonDelaunayBefore = 0; ///< Bad edges before the first iteration that are not fixed.
   std::int64_t NonDelaunayAfter = 0; ///< Bad edges that are left, blocked or not.
-  std::int64_t BlockedByShape = 0; ///< Those left whose flip would fold the mesh over.
-  std::int64_t BlockedByDeviation = 0; ///< Those left that a bound on deviation blocks.
-  std::int64_t BlockedByEdge = 0; ///< Those left whose flip would repeat an edge.
+  std::int64_t BlockedByShape = 0; ///< Bad edges left: their flip would fold the mesh over.
+  std::int64_t BlockedByDeviation = 0; ///< Bad edges left: a bound on deviation blocks them.
+  std::int64_t BlockedByEdge = 0; ///< Bad edges left: their flip would repeat an edge.
   double MinimumAngleBefore = 0.0; ///< Degrees; 0 with a degenerate triangle; NaN without
                                    ///< triangles, and of a session from points.
   double MinimumAngleAfter = 0.0;

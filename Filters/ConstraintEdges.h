@@ -91,7 +91,7 @@ struct ConstraintEdges
   std::vector<unsigned char> ToInsert; ///< One flag per pair, as in TriangleMesh.
   std::int64_t Unmatched = 0; ///< How many edges of the second input the mesh does not have.
   std::vector<char> AreHere; ///< One flag per edge of the second input: the mesh has both ends.
-  std::string FirstStranger; ///< The first of them with an end that is no point of the mesh: where.
+  std::string FirstStranger; ///< Where the first edge lies that has an end which is no point.
 };
 
 /// Finds the edges along the lines of the mesh and along the lines and polygons of the others. The

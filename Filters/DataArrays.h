@@ -136,8 +136,8 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkDataSetAttributes> TakeWholeArrays(
 /// each tuple. Such an array is ignored.
 bool IsWrongGhostArray(vtkAbstractArray* array);
 
-/// The ghost types of the cells, of which there may be too few; null if there are none that are not
-/// ignored.
+/// The ghost types of the cells, which may be fewer than the cells. Null if there are none or they
+/// are ignored.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkUnsignedCharArray> FindGhosts(vtkPolyData* mesh);
 
 //------------------------------------------------------------------------------

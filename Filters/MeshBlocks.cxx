@@ -134,7 +134,7 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
 namespace
 {
 
-/// Says what of a leaf of the second input is ignored; "" if nothing.
+/// Says which part of a leaf of the second input is ignored, and why; "" if none is.
 /// @param fits whether the first input has something at the same place.
 std::string DescribeMisfit(const BlockLeaf& leaf, bool fits)
 {

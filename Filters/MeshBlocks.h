@@ -27,12 +27,12 @@ struct BlockLeaf
   vtkSmartPointer<vtkDataObject> Result; ///< The leaf of the output.
 };
 
-/// A block of the input that is one mesh, or none: a leaf, the partitions of a dataset, or all of
-/// it.
+/// A block of the input: a leaf, the partitions of a dataset, or the whole input. It is one mesh or
+/// no mesh.
 struct MeshBlock
 {
   /// Where it is in composite data: the numbers of children, from the root on. The partitions of a
-  /// dataset that are not empty are at one place, whatever their numbers. Empty if it is all.
+  /// dataset that are not empty are at one place. Empty if the block is the whole input.
   std::vector<std::int64_t> Place;
   std::string Name; ///< In messages.
   double Size = 0.0; ///< How many cells, or points, it has.
@@ -41,8 +41,8 @@ struct MeshBlock
 };
 
 /// The blocks of an input, in the order of their first leaves.
-/// @param elements what they are measured by: vtkDataObject::CELL or POINT. Partitions without any
-/// are blocks of their own.
+/// @param elements what measures their sizes: vtkDataObject::CELL or POINT. A partition without any
+/// is a block of its own.
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
 /// Lists what is ignored of the second input.
@@ -100,7 +100,7 @@ public:
   /// them.
   std::vector<Note> ListNotes(bool ofArrays = false) const;
 
-  /// Null if the block is none.
+  /// Null if the block is no mesh.
   vtkPolyData* GetMesh() const { return this->Joined.Mesh; }
 
   /// All of the second input, or its leaves at the same place; null if there are none.
@@ -118,9 +118,9 @@ private:
   bool IsJoined() const { return this->Meshes.size() > 1; }
 
   MeshBlock& Block;
-  MeshList Surfaces; ///< One per leaf; null if it is none.
-  MeshList Meshes; ///< Those that are.
-  JoinedMesh Joined; ///< All of them, or the only one.
+  MeshList Surfaces; ///< One per leaf; null for a leaf that is no surface.
+  MeshList Meshes; ///< The surfaces without the nulls.
+  JoinedMesh Joined; ///< The only mesh, or all of them joined.
 };
 
 }

@@ -196,12 +196,12 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkCellArray> BuildPolygons(
 
 /// Writes the cells of an output, and their data, that are made from cells of the mesh: verts,
 /// lines, the data of polygons, and strips.
-/// @param received the data of as many polygons, the last ones, that are not of this mesh.
+/// @param received the data of the last polygons, which are not made from cells of this mesh.
 DELAUNAYFLIP_EXPORT void StoreCells(vtkPolyData* mesh, const TriangleSlots& slots,
   const std::vector<OutputPolygon>& polygons, vtkDataSetAttributes* received, vtkPolyData* output);
 
-/// Whether flips have changed this polygon of an output, a triangle. @param ids its points.
-/// @param before receives what its points were; they stay `ids` if that is not known.
+/// Whether flips have changed this triangle, a polygon of an output. @param ids its points.
+/// @param before receives its points before the flips; they stay `ids` if these are not known.
 using FindChange =
   std::function<bool(vtkIdType polygon, const std::int64_t ids[3], std::int64_t before[3])>;
 

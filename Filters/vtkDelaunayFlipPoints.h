@@ -12,21 +12,21 @@
  *
  * Input port 0: any vtkPointSet; its cells do not matter, but see LinesAsSegments. Port 1,
  * optional: the segments, a vtkPolyData. Its lines become edges of the mesh, such as the breaklines
- * of a terrain. Its polygons too, and its lines that end where they begin (see ClosedLinesAsRings),
- * and they are rings of the outline or of holes (see RingRule, FirstHole): what is not inside the
- * outline, or inside the holes, is removed. Without an outline all is inside. If this input has no
- * points, or the same points as the first input (the same number and bits), its point ids are those
- * of the first input, as with the source of vtkDelaunay2D. Otherwise a point at the place of one of
- * the first input is that point, and the others are added. Places are compared as vtkDelaunayFlip
- * does: x, y and z must be equal, after rounding to float if one of the inputs has float points.
+ * of a terrain. So do its polygons, and its lines that end where they begin (ClosedLinesAsRings).
+ * These are also rings of the outline or of holes (see RingRule, FirstHole): what is outside the
+ * outline, or inside a hole, is removed. Without an outline everything is inside. If this input has
+ * no points, or the points of the first input (the same number and bits), its point ids are those
+ * of the first input, as with the source of vtkDelaunay2D. Otherwise a point of it that lies at the
+ * place of a point of the first input is that point, and all others are added. Places are compared
+ * as by vtkDelaunayFlip: x, y and z must be equal, as floats if one of the inputs has float points.
  *
  * Output port 0: a vtkPolyData with all points of the input, in their order and with their point
- * data, and triangles, which turn counter-clockwise in the plane. Without added points it shares
- * the vtkPoints object of the input, but not in live updates. Added points come last: those of the
- * second input with their z and point data, where arrays that only one of the inputs has are 0 or
- * empty for the points of the other; then those where segments cross. Global point ids then become
- * pedigree ids, since they are no longer unique. Port 1: the table of iterations, as of
- * vtkDelaunayFlip.
+ * data, and triangles, which are counter-clockwise in the plane. Without added points it shares
+ * the vtkPoints object of the input, but not in live updates. Added points come last. First are
+ * those of the second input with their z and point data; an array that only one input has is 0 or
+ * empty for the points of the other. Then come those where segments cross. Global point ids become
+ * pedigree ids if points are added, since they are no longer unique. Port 1: the table of
+ * iterations, as of vtkDelaunayFlip.
  *
  * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each. Their
  * names begin with "DelaunayFlip:", too: UsedPoints, PointsNotFinite, RepeatedPoints, PointsTooNear
@@ -35,20 +35,20 @@
  * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by
  * Alpha and LongestEdge).
  *
- * Not all points are used. If several are at one place in the plane, only the one with the lowest
- * id is, whatever their z. Points with a NaN or infinite coordinate are not, but z does not matter
- * in XY. Unused points stay in the output, and a warning counts them. n places with h of them on
- * the hull give 2 n - 2 - h triangles. If there are fewer than three places, or all lie on one
- * line, there are none, and a warning says why. So it does, with the boxes around points and
- * segments, if outlines, holes or lengths leave no triangle of a point of the first input.
+ * Some points are not used. If several are at one place in the plane, only the one with the lowest
+ * id is used, for any z. Points with a NaN or infinite coordinate are not used, but in XY their z
+ * does not matter. Unused points stay in the output, and a warning counts them. n places with h of
+ * them on the hull give 2 n - 2 - h triangles. If there are fewer than three places, or all lie on
+ * one line, there are no triangles, and a warning says why. A warning with the boxes around points
+ * and segments says if outlines, holes or lengths leave no triangle of a point of the first input.
  *
- * Segments are taken in the order of the cells: lines of the first input, lines, then polygons of
- * the second one. A segment through points is split there. One that overlaps an earlier one is no
- * conflict. One that crosses an earlier one is refused and counted, and a warning names the first
- * ones; with SplitCrossings both are split where they cross. If a segment of a ring is refused, the
+ * Segments are taken in the order of the cells: lines of the first input, then lines and then
+ * polygons of the second one. A segment through points is split there. Segments may overlap. One
+ * that crosses an earlier one is refused and counted, and a warning names the first such segments;
+ * with SplitCrossings both are split where they cross. If a segment of a ring is refused, the
  * update fails, and the error names the ring: its number is its cell id. Rings without an area,
- * such as those of two points, are left out, with a warning; their segments stay. By EVEN_ODD so is
- * a ring with the edges of an earlier one, such as a polygon and its line.
+ * such as those of two points, are left out, with a warning; their segments stay. With EVEN_ODD a
+ * ring with the edges of an earlier one, such as a polygon and its line, is left out, too.
  *
  * The heights of added points are those of the second input. If its lines, outlines or holes have
  * z = 0 throughout, and the points of the first input do not, a warning counts the added points:
@@ -121,8 +121,8 @@ public:
   ///@{
   /**
    * The plane in which the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that of
-   * vtkPlane::ComputeBestFittingPlane, seen from above; of thick clouds it is some degrees off that
-   * with the smallest sum of squared distances. A Transform replaces both.
+   * vtkPlane::ComputeBestFittingPlane, seen from above. For thick clouds it differs by some degrees
+   * from the plane with the smallest sum of squared distances. A Transform replaces both.
    */
   enum ProjectionType
   {

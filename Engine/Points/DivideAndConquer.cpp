@@ -93,7 +93,7 @@ public:
   }
 
 private:
-  /// By (x, y), or by (y, -x): the same order turned by a quarter.
+  /// Compares by (x, y), or by (y, -x), which is the order after a quarter turn.
   static bool IsBefore(const Place& p, const Place& q, int axis)
   {
     if (axis == 0)
@@ -406,7 +406,7 @@ private:
     }
   }
 
-  /// Takes a new edge of the hull into the ends.
+  /// Updates the ends of a set after a new edge of its hull has been made.
   void ReplaceEnds(Edge made, Subset& set) const
   {
     for (auto& ends : set.Ends)
@@ -425,7 +425,7 @@ private:
   /// been deleted; None if there is none above it.
   Edge FindCandidate(Subset& set, Edge base, bool isLeft)
   {
-    // The edges around this end of the base, which comes round again.
+    // Goes through the edges around this end of the base, until it comes back to the base.
     const auto follow = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
     const Edge last = isLeft ? base ^ 1 : base;
     Edge candidate = follow(last);
@@ -496,7 +496,7 @@ private:
     Array<bool> isLeading(sides, this->Caller.Host);
     const Edge outside = whole.Ends[0][0].Leaving ^ 1u;
     const auto isUsed = [&](Edge e) { return this->Origin(e & ~Edge(1)) != None; };
-    // Whether a side comes first of those of a triangle.
+    // Whether a side is the first one of its triangle.
     const auto leads = [&](Edge e)
     {
       const Edge second = this->NextLeft(e);

@@ -11,9 +11,9 @@
 
 /// @file
 /// The Delaunay triangulation of points on the host, by divide and conquer (Guibas and Stolfi, ACM
-/// Transactions on Graphics 4, 1985): strips are cut in the order of x, and merged in that of y. It
-/// takes O(n log n) time whatever the points are. It takes over where strips leave a start from
-/// which flips are a long chain, as for points along curves.
+/// Transactions on Graphics 4, 1985). Strips are cut in the order of x, and merged in the order of
+/// y. It takes O(n log n) time for any points. It is used if flips of the triangles between strips
+/// would be a long chain, as for points along curves.
 
 namespace delaunayflip
 {
@@ -23,7 +23,7 @@ struct DivideAndConquerCaller
 {
   /// Calls work(task) for task = 0 .. count - 1, on threads.
   std::function<void(std::int64_t count, const std::function<void(std::int64_t)>& work)> Run;
-  /// A place, on any thread.
+  /// Returns a place. It is called on any thread.
   std::function<CoordinatePair<double>(std::int64_t)> GetPlace;
   /// Receives the share of the work that is done, on the calling thread, every twentieth of a
   /// second. It may throw, which ends the work.

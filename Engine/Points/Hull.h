@@ -23,14 +23,14 @@
 namespace delaunayflip
 {
 
-/// A section of the outer boundary, which is counter-clockwise: places of a chain and, joined to
-/// them by a diagonal, perhaps one of another chain.
+/// A section of the outer boundary, which runs counter-clockwise. It has places of one chain. A
+/// diagonal may join them to one place of another chain.
 struct BoundarySection
 {
   std::uint32_t First, Last; ///< The places of the chain.
   bool Rises; ///< Whether the boundary goes from First to Last, so that it is below the chain.
   bool OtherIsFirst; ///< Whether the boundary reaches Other before the places of the chain.
-  std::uint32_t Other = NoVertex; ///< The place of the other chain.
+  std::uint32_t Other = NoVertex; ///< The place of the other chain, if there is one.
   CornerId Diagonal = NoCorner; ///< The label of the diagonal.
 };
 

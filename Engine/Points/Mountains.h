@@ -207,8 +207,8 @@ private:
   static constexpr std::uint32_t TriangleStride = sizeof(TriangleRecord) / sizeof(VertexId);
 };
 
-/// A path of vertices from left to right. Ears are cut from it until it is convex. From a mountain
-/// they are cut until its base is left.
+/// A path of vertices from left to right. Ears are cut from it until it is convex. The path of a
+/// mountain is cut until only the base is left.
 template <typename Real>
 struct EarCutter
 {
@@ -221,9 +221,9 @@ struct EarCutter
   CornerId Base; ///< The label of a mountain's base, NoCorner for other paths.
   TriangleId Next; ///< The number of the next triangle.
 
-  /// Rounds that cut every second ear, so that the triangles are balanced like a tournament: a
-  /// stack alone makes fans, the worst start for flips along a convex curve. When a round cuts
-  /// less than a quarter of the path, a stack does the rest, so that all is linear.
+  /// Cuts every second ear in a round, so that the triangles are balanced like a tournament. A
+  /// stack alone would make fans, the worst start for flips along a convex curve. When a round cuts
+  /// less than a quarter of the path, a stack does the rest, so that the time is linear.
   DELAUNAYFLIP_HOST_DEVICE void Cut()
   {
     for (bool goesOn = this->Size > 0; goesOn;)
@@ -386,7 +386,7 @@ DELAUNAYFLIP_HOST_DEVICE void CutMountain(
 struct BoundaryStretch
 {
   std::uint32_t First, Size; ///< Places.
-  bool IsAbove; ///< Whether what is outside lies below it.
+  bool IsAbove; ///< Whether the outside is below it.
   std::uint32_t Begin; ///< How many inner places the stretches before it have.
   std::uint32_t Made; ///< How many triangles it has.
   CornerId LastLabel;

@@ -45,7 +45,7 @@ inline void RequireComplete(const EdgeMesh& edges, std::int64_t places, std::int
   }
 }
 
-/// Numbers the edges, as BuildEdgeMesh does, of triangles whose HalfEdges hold the other corner of
+/// Numbers the edges of triangles as BuildEdgeMesh does. Their HalfEdges hold the other corner of
 /// each edge, or a label that says where it is. Edges with one triangle are fixed.
 /// @param sidesOfEdges ChainView::Sides; freed.
 template <typename Backend>
@@ -184,11 +184,11 @@ struct PointMeshBuilder
     return triangles;
   }
 
-  /// Whether runs are long. This takes a sample of neighbours in a chain, and counts how many have
-  /// no place of another chain between them. They are half of all where points are spread at random
-  /// or along the strips, two of three on a lattice 10 times as wide as high, and three of four or
-  /// more on contours, spirals, scan lines and rows across the strips. There the number of flips
-  /// per iteration falls slowly.
+  /// Whether runs are long. This takes a sample of neighbours in a chain, and counts the pairs with
+  /// no place of another chain between them. These are half of the pairs if points are spread at
+  /// random or along the strips, and two of three on a lattice 10 times as wide as high. They are
+  /// three of four or more on contours, spirals, scan lines and rows across the strips, where the
+  /// number of flips per iteration falls slowly.
   bool HasLongRuns()
   {
     constexpr std::int64_t Fewest = 1 << 6, Most = 1 << 12, PointsPerSample = 16;
@@ -379,10 +379,10 @@ EdgeMesh TriangulateByDivideAndConquer(const CoordinatePair<Real>* places, std::
   return edges;
 }
 
-/// Triangulates the places of points by strips, or by divide and conquer where flips from the
-/// strips would be a long chain. Many points go to divide and conquer if nearly all of them are on
-/// the boundary of the strips, as where they lie along one curve, or if few of them are there and
-/// runs are long. Few points do so if runs are long or if there is one strip.
+/// Triangulates the places of points by strips, or by divide and conquer if flips from the strips
+/// would be a long chain. Many points go to divide and conquer if nearly all of them are on the
+/// boundary of the strips, as along one curve, or if few of them are there and runs are long. Few
+/// points go to divide and conquer if runs are long or if there is one strip.
 /// @param filtersApply as in IsLongForFlips.
 template <typename Real, typename Backend>
 PointMesh<Real> BuildPointMesh(StripPoints<Real> strips, bool filtersApply, const Backend& backend,

@@ -24,14 +24,14 @@ struct Segment
 /// Segments that do not cross each other.
 struct SplitSegments
 {
-  std::vector<Segment> Segments; ///< In the order of those that were given.
+  std::vector<Segment> Segments; ///< In the order of the given segments.
   std::vector<AddedPoint> Added; ///< The points at which segments were split.
   double LargestShift = 0.0; ///< How far rounding has moved a point at most.
 };
 
-/// Splits segments where they cross each other, in up to ten rounds: points are rounded, so halves
-/// may cross again. It ends where crossings multiply, as of segments that overlap nearly along a
-/// line. Segments that meet at a point, or overlap, do not cross.
+/// Splits segments where they cross each other. New points are rounded, so the parts may cross
+/// again; up to ten rounds split them. It ends early where crossings multiply, as if segments
+/// overlap nearly along a line. Segments that meet at a point, or overlap, do not cross.
 /// @param check is called now and then, and may throw.
 SplitSegments SplitCrossings(
   const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check);

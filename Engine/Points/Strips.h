@@ -20,7 +20,7 @@
 /// @file
 /// The first step of a triangulation of points makes horizontal strips, and in each strip a chain.
 ///
-/// A strip holds the points whose y is in a range. No value of y is in two strips. In a strip the
+/// A strip holds the points with y in a range. No value of y is in two strips. In a strip the
 /// points are sorted by (x, y), so that joined in this order they are a chain that never turns back
 /// in x. Every chain lies strictly above the one before.
 
@@ -32,8 +32,8 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFinitePoint(const PlaneArray& points, std
   return IsFinite(points.Get(point, 0)) && IsFinite(points.Get(point, 1));
 }
 
-/// Finds the strip of a y in constant time where points are spread evenly: a table of equal cells
-/// narrows a binary search. It points to the arrays of StripBounds.
+/// Finds the strip of a y by a binary search, which a table of equal cells narrows. This takes
+/// constant time where points are spread evenly. It points to the arrays of StripBounds.
 struct StripFinder
 {
   const double* Bounds;
@@ -50,7 +50,7 @@ struct StripFinder
     return static_cast<std::uint32_t>(std::min(std::max(0.0, cell), last));
   }
 
-  /// The strip: how many of the bounds are not above y.
+  /// Returns the number of the strip, which is the number of bounds that are not above y.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t operator()(double y) const
   {
     const std::uint32_t* cell = this->FirstOfCell + this->FindCell(y);

@@ -46,8 +46,8 @@ class Report:
     total_blocked: int
     non_delaunay_before: int  #: Bad edges of the input; -1 if the run was aborted before the test.
     non_delaunay_after: int  #: Bad edges left, flippable or blocked; -1 as before.
-    blocked_by_shape: int  #: Those left whose flip would fold the mesh over.
-    blocked_by_edge: int  #: Those left whose flip would repeat an edge.
+    blocked_by_shape: int  #: Bad edges left: their flip would fold the mesh over.
+    blocked_by_edge: int  #: Bad edges left: their flip would repeat an edge.
     edges: int
     boundary_edges: int
     non_manifold_edges: int
@@ -76,7 +76,7 @@ class Report:
     outside_triangles: int = 0  #: Removed outside the outline and in holes.
     large_triangles: int = 0  #: Removed by alpha and longest_edge.
     keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
-    blocked_by_deviation: int = 0  #: Those left that the bound on deviation blocks.
+    blocked_by_deviation: int = 0  #: Bad edges left: the bound on deviation blocks them.
     duplicate_triangles: int = 0  #: Triangles with the three points of an earlier one.
     hidden_by_winding: int = 0  #: Edges that are wrongly wound and would else be bad.
     #: Angles above 90 degrees opposite to non-manifold edges at first: bad edges may hide there.
