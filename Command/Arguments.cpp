@@ -228,7 +228,7 @@ void AddStayOptions(CLI::App& app, Arguments& arguments)
     "On surfaces, an edge stays if its flip would move the surface by more than this: a length, or "
     "with a percent sign a share of the bounding box's diagonal (1%). Many flips can add up [inf]");
   AddFile(app, "--constraints", arguments.Constraints,
-    "A mesh file whose lines and polygons are edges that stay. Its point ids are the input's if "
+    "A file whose lines and polygons are edges that stay. Its point ids are the input's if "
     "it has the same points; otherwise points are matched by their coordinates. In the plane, "
     "edges that the input does not have are inserted by flips");
   app.add_flag_callback("--no-insert-constraints",
@@ -261,13 +261,17 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   app
     .add_option("--columns", arguments.Columns,
       "Which columns of a .xyz, .csv or .txt are x, y and perhaps z, by name or by number from 1: "
-      "x,y,z or 2,3,4 [those with known names, else the first ones]")
+      "x,y,z or 2,3,4 [those with known names, else the first ones]. Of a .shp and the like: the "
+      "attribute that is z")
     ->type_name("LIST")
-    ->check([](const std::string& list) { return ChosenColumns(list).FindFault(); });
+    ->check(
+      [](const std::string& list) {
+        return list.empty() || list.find(',') != list.npos ? ChosenColumns(list).FindFault() : "";
+      });
   AddFile(app, "--outline", arguments.Outline,
-    "A mesh file whose polygons and closed lines are rings: what is not inside them is removed");
+    "A file whose polygons and closed lines are rings: what is not inside them is removed");
   AddFile(app, "--holes", arguments.Holes,
-    "A mesh file whose polygons and closed lines are rings: what is inside them is removed");
+    "A file whose polygons and closed lines are rings: what is inside them is removed");
   AddChoice(app, "--ring-rule", Set(arguments, &vtkDelaunayFlipPoints::SetRingRule),
     { "evenodd", "nonzero" },
     "When a place is inside the rings of a file: if a path to infinity crosses them an odd number "
@@ -410,21 +414,37 @@ std::string SuggestOption(const CLI::App& app)
 void CheckFormats(Arguments& arguments)
 {
   arguments.OutputFormat = FormatOf(arguments.Output);
-  const bool isOfPoints = FormatOf(arguments.Input) == MeshFormat::Points;
+  const MeshFormat input = FormatOf(arguments.Input);
+  const bool isOfPoints = input == MeshFormat::Text || input == MeshFormat::Vector;
   if (!arguments.Columns.empty() && !isOfPoints)
   {
-    FailOnUsage(arguments.Input + ": --columns is for a .xyz, .csv or .txt");
+    FailOnUsage(arguments.Input + ": --columns is for a file of points, such as .csv or .shp");
+  }
+  const bool isHeight = arguments.Columns.find(',') == std::string::npos;
+  if (input == MeshFormat::Text && isHeight && !arguments.Columns.empty())
+  {
+    FailOnUsage("--columns: " + ChosenColumns("").FindFault());
+  }
+  if (input == MeshFormat::Vector && !isHeight)
+  {
+    FailOnUsage(
+      arguments.Input + ": --columns takes one attribute of such a file as z; x and y are known");
   }
   if (isOfPoints && !arguments.FromPoints)
   {
     FailOnUsage(arguments.Input + ": has points, but no triangles; --from-points makes them");
   }
-  for (const std::string& file :
-    { arguments.Output, arguments.Constraints, arguments.Outline, arguments.Holes })
+  const MeshFormat output = arguments.OutputFormat;
+  if (output == MeshFormat::Text || output == MeshFormat::Vector)
   {
-    if (!file.empty() && FormatOf(file) == MeshFormat::Points)
+    FailOnUsage(
+      arguments.Output + ": such a file holds no triangles; give a .vtk, .vtp, .ply, .stl or .obj");
+  }
+  for (const std::string& file : { arguments.Constraints, arguments.Outline, arguments.Holes })
+  {
+    if (!file.empty())
     {
-      FailOnUsage(file + ": such a file has points alone; give a .vtk, .vtp, .ply, .stl or .obj");
+      FormatOf(file); // fails for an unknown one before anything is read
     }
   }
 }
@@ -443,7 +463,7 @@ void CheckTogether(Arguments& arguments)
   std::set<std::filesystem::path> used;
   for (const std::string& file : { arguments.Constraints, arguments.Outline, arguments.Holes })
   {
-    used.insert(FollowLinks(file));
+    used.insert(FollowLinks(FileLayer(file).File));
   }
   for (const std::string& file : { arguments.Output, arguments.Statistics, arguments.Report })
   {
@@ -451,7 +471,7 @@ void CheckTogether(Arguments& arguments)
     {
       FailOnUsage(file + ": the same file is given for two purposes");
     }
-    used.insert(FollowLinks(arguments.Input));
+    used.insert(FollowLinks(FileLayer(arguments.Input).File));
   }
 }
 
@@ -461,7 +481,8 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
 {
   CLI::App app("Turns a triangle mesh into a Delaunay mesh by edge flips, or makes one from\n"
                "points. Points never move. Files: .vtk .vtp .ply .stl .obj, by extension; points\n"
-               "also .xyz .csv .txt. Defaults are in square brackets.\n\n"
+               "and lines also .xyz .csv .txt .shp .gpkg .geojson .dxf .fgb. Defaults are in\n"
+               "square brackets.\n\n"
                "Examples:\n"
                "  delaunay-flip scan.ply better.ply\n"
                "      flips a surface; edges sharper than 30 degrees stay\n"

@@ -237,7 +237,7 @@ public:
     else if (!this->Settings.Constraints.empty())
     {
       const std::string& path = this->Settings.Constraints;
-      this->Segments = MakeSegments(this->ReadFile(path), path, true);
+      this->Segments = MakeSegments(this->ReadFile(path, Content::Segments), path, true);
     }
     this->Repair(this->Settings.MergePoints, MergeEqualPoints);
     this->Repair(this->Settings.DropDuplicates, DropDuplicates);
@@ -334,11 +334,11 @@ private:
     this->Bar.Show(this->Filter->GetProgress(), text);
   }
 
-  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path)
+  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, Content content = Content::Mesh)
   {
     this->Bar.Begin(Phase::Reading, "reading " + path);
     const MeshFormat format = FormatOf(path);
-    const FileMesh file = ReadMesh(path, format, this->Settings.Columns);
+    const FileMesh file = ReadMesh(path, format, this->Settings.Columns, content);
     this->Bar.Clear();
     // The others say that they have nothing.
     const bool mayBeEmpty =
@@ -395,7 +395,7 @@ private:
       {
         continue;
       }
-      const vtkSmartPointer<vtkPolyData> mesh = this->ReadFile(path);
+      const vtkSmartPointer<vtkPolyData> mesh = this->ReadFile(path, Content::Segments);
       this->TakeExactPlaces(mesh);
       if (mesh->GetPoints()->GetDataType() == VTK_DOUBLE &&
         this->Input->GetPoints()->GetDataType() == VTK_FLOAT)

@@ -3,6 +3,7 @@
 #include "MeshFiles.h"
 
 #include "Formats.h"
+#include "GdalModule.h"
 #include "OutputFiles.h"
 
 #include <vtkCellData.h>
@@ -212,10 +213,37 @@ constexpr FormatRow Formats[] = {
   { ".ply", MeshFormat::PLY, ReadPly, WritePly },
   { ".stl", MeshFormat::STL, ReadStl, WriteStl },
   { ".obj", MeshFormat::OBJ, ReadObj, WriteObj },
-  { ".xyz", MeshFormat::Points, nullptr, nullptr },
-  { ".csv", MeshFormat::Points, nullptr, nullptr },
-  { ".txt", MeshFormat::Points, nullptr, nullptr },
+  { ".xyz", MeshFormat::Text, nullptr, nullptr },
+  { ".csv", MeshFormat::Text, nullptr, nullptr },
+  { ".txt", MeshFormat::Text, nullptr, nullptr },
 };
+
+/// A file format that GDAL reads.
+struct VectorRow
+{
+  const char* Extension;
+  const char* Driver; ///< GDAL's name of it.
+};
+
+constexpr VectorRow VectorFormats[] = {
+  { ".shp", "ESRI Shapefile" },
+  { ".gpkg", "GPKG" },
+  { ".geojson", "GeoJSON" },
+  { ".dxf", "DXF" },
+  { ".fgb", "FlatGeobuf" },
+};
+
+std::string ExtensionOf(const std::string& path)
+{
+  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
+}
+
+const VectorRow* FindVectorFormat(const std::string& file)
+{
+  const auto found = std::find_if(std::begin(VectorFormats), std::end(VectorFormats),
+    [&](const VectorRow& row) { return ExtensionOf(file) == row.Extension; });
+  return found == std::end(VectorFormats) ? nullptr : found;
+}
 
 const FormatRow& RowOf(MeshFormat format)
 {
@@ -243,6 +271,11 @@ std::string NameTheWay(const std::string& extension)
     return "; \"meshio convert\" converts between " + extension +
       " and .ply, and in Python delaunayflip.meshio.flip takes what meshio reads";
   }
+  if (isOneOf({ ".las", ".laz" }))
+  {
+    return "; in Python, delaunayflip.laspy.triangulate reads such files (pip install "
+           "'delaunayflip[lidar]')";
+  }
   if (isOneOf({ ".2dm", ".14", ".grd", ".gr3" }))
   {
     return "; in Python, delaunayflip.flip takes the points and triangles of such a file as arrays";
@@ -252,10 +285,27 @@ std::string NameTheWay(const std::string& extension)
 
 }
 
+FileLayer::FileLayer(const std::string& path)
+  : File(path)
+{
+  const std::size_t colon = path.find_last_of(':');
+  const bool namesLayer = colon != path.npos && FindVectorFormat(path.substr(0, colon)) &&
+    !vtksys::SystemTools::FileExists(path);
+  if (namesLayer)
+  {
+    this->File = path.substr(0, colon);
+    this->Layer = path.substr(colon + 1);
+  }
+}
+
 MeshFormat FormatOf(const std::string& path)
 {
-  const std::string extension =
-    vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
+  const std::string file = FileLayer(path).File;
+  if (FindVectorFormat(file))
+  {
+    return MeshFormat::Vector;
+  }
+  const std::string extension = ExtensionOf(file);
   for (const FormatRow& row : Formats)
   {
     if (extension == row.Extension)
@@ -265,8 +315,8 @@ MeshFormat FormatOf(const std::string& path)
   }
   throw CommandError(ExitCode::WrongUsage,
     path +
-      ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj, and for points "
-      ".xyz, .csv and .txt" +
+      ": unknown file extension; known are .vtk, .vtp, .ply, .stl and .obj, and for points and "
+      "lines .xyz, .csv, .txt, .shp, .gpkg, .geojson, .dxf and .fgb" +
       NameTheWay(extension));
 }
 
@@ -279,9 +329,38 @@ void FileMesh::AddLabels(vtkDataArray* array)
   }
 }
 
-FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string& columns)
+namespace
 {
-  const InputFile file(path);
+
+FileMesh ReadVectorFile(
+  const InputFile& file, const std::string& path, const std::string& height, Content content)
+{
+  const FileLayer layer(path);
+  VectorRequest request;
+  request.Path = file.GetPath();
+  request.Driver = FindVectorFormat(layer.File)->Driver;
+  request.Layer = layer.Layer;
+  request.AreSegments = content == Content::Segments;
+  if (!request.AreSegments)
+  {
+    request.Height = height;
+  }
+  try
+  {
+    return LoadGdal().ReadVectors(request);
+  }
+  catch (const std::runtime_error& error)
+  {
+    file.Fail(error.what());
+  }
+}
+
+}
+
+FileMesh ReadMesh(
+  const std::string& path, MeshFormat format, const std::string& columns, Content content)
+{
+  const InputFile file(FileLayer(path).File);
   const auto bytes = static_cast<double>(file.GetBytes().size());
   const double seconds = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
   // A file that asks for more ends the process, or an allocation fails. Text of one-digit numbers
@@ -292,8 +371,23 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string&
   const auto time = LowerLimit(RLIMIT_CPU, std::ceil(seconds + 30.0 + 5e-6 * bytes));
   try
   {
-    const bool isOfPoints = format == MeshFormat::Points;
-    FileMesh read = isOfPoints ? ReadPoints(file, columns) : RowOf(format).Read(file);
+    FileMesh read;
+    if (format == MeshFormat::Vector)
+    {
+      read = ReadVectorFile(file, path, columns, content);
+    }
+    else if (format == MeshFormat::Text && content == Content::Segments)
+    {
+      read = ReadTextLines(file);
+    }
+    else if (format == MeshFormat::Text)
+    {
+      read = ReadPoints(file, columns);
+    }
+    else
+    {
+      read = RowOf(format).Read(file);
+    }
     RequireValidIds(read.Mesh, file);
     return read;
   }

@@ -28,7 +28,18 @@ enum class MeshFormat
   PLY,
   STL,
   OBJ,
-  Points ///< .xyz, .csv or .txt: points alone; cannot be written.
+  Text, ///< .xyz, .csv or .txt: points, or lines of points; cannot be written.
+  Vector ///< .shp, .gpkg and the like, which GDAL reads: points, lines, polygons; not written.
+};
+
+/// A file and the layer of it that is named, as in survey.gpkg:roads; only a file that GDAL reads
+/// has layers.
+struct FileLayer
+{
+  explicit FileLayer(const std::string& path);
+
+  std::string File;
+  std::string Layer; ///< Empty: none is named.
 };
 
 /// The format of `path`, from its extension in upper or lower case.
@@ -47,10 +58,18 @@ struct FileMesh
   void AddLabels(vtkDataArray* array);
 };
 
+/// What of a file is read.
+enum class Content
+{
+  Mesh, ///< Also points that become one.
+  Segments ///< Lines and polygons, and in text lines of points with a number of their line.
+};
+
 /// Reads a surface mesh.
-/// @param columns of points: those of x, y and z, as --columns names them; empty: not named.
+/// @param columns what --columns names; empty: nothing.
 /// @throws CommandError (BadFile) that names the file and the reason.
-FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string& columns = "");
+FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string& columns = "",
+  Content content = Content::Mesh);
 
 /// Which points are corners of these cells.
 std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds);

@@ -13,8 +13,8 @@ set -euo pipefail
 engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
 # Debian's libvtk9-dev depends on everything that its find_package(VTK) needs, except the headers of
 # Python and of OpenGL.
-build=("${engine[@]}" libvtk9-dev python3-vtk9 python3-dev libgl-dev libcli11-dev
-  nlohmann-json3-dev)
+build=("${engine[@]}" libvtk9-dev libgdal-dev python3-vtk9 python3-dev libgl-dev
+  libcli11-dev nlohmann-json3-dev)
 demo=(python3-numpy python3-matplotlib)
 tests=(libgtest-dev libcgal-dev xvfb xauth git clang-format universal-ctags dpkg-dev file
   python3-numpy python3-matplotlib python3-venv valgrind openmpi-bin python3-mpi4py ccache)

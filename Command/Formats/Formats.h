@@ -34,6 +34,9 @@ FileMesh ReadObj(const InputFile& file);
 /// the first ones.
 FileMesh ReadPoints(const InputFile& file, const std::string& columns);
 
+/// Lines of points: x y [z] and the number of the line that a point is on.
+FileMesh ReadTextLines(const InputFile& file);
+
 /// Points in the same place become one, because a .stl repeats them for every triangle. A triangle
 /// that collapses stays a triangle.
 FileMesh ReadStl(const InputFile& file);

@@ -155,6 +155,15 @@ Places ChosenColumns::Find(const Words& names) const
   return places;
 }
 
+std::size_t FindLineColumn(const Words& names)
+{
+  std::vector<std::string> simple(names.size());
+  std::transform(names.begin(), names.end(), simple.begin(), Simplified);
+  return FindOneOf({ "line", "lineid", "lineno", "linenumber", "polyline", "ring", "ringid",
+                     "ringno", "ringnumber" },
+    simple);
+}
+
 Places FindKnownColumns(const Words& names)
 {
   std::vector<std::string> simple(names.size());

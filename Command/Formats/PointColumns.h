@@ -47,6 +47,10 @@ private:
 /// @returns an empty list if x or y has none.
 Places FindKnownColumns(const Words& names);
 
+/// The place of the column whose name is known as that of the number of a line, such as line or
+/// ring_id; the number of names if there is none.
+std::size_t FindLineColumn(const Words& names);
+
 /// Names in quotes, such as "'time', 'intensity'", but no more than ten.
 std::string Quoted(const Words& names);
 

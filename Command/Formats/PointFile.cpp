@@ -11,8 +11,9 @@
 #include <array>
 
 /// @file
-/// .xyz, .csv and .txt: a line of text for each point, x y [z] and perhaps more, perhaps after a
-/// line of names. Lines that begin with # or // are comments; the names may be in one.
+/// .xyz, .csv and .txt: a row of text for each point, x y [z] and perhaps more, perhaps after a
+/// line of names. Where points make lines, a column has the number of the line. Lines that begin
+/// with # or // are comments; the names may be in one.
 
 namespace delaunayflip
 {
@@ -221,10 +222,11 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
 class PointTable
 {
 public:
-  PointTable(TextLines& lines, const ChosenColumns& chosen)
+  PointTable(TextLines& lines, const ChosenColumns& chosen, bool areOfLines)
     : Lines(lines),
       Header(ReadHeader(lines, chosen)),
-      HasChoice(!chosen.IsEmpty())
+      HasChoice(!chosen.IsEmpty()),
+      AreOfLines(areOfLines)
   {
     this->Coordinates->SetNumberOfComponents(3);
     if (lines.Words.empty())
@@ -234,10 +236,14 @@ public:
     this->FitNames(chosen);
     this->ChooseColumns(chosen);
     this->ReadLines();
-    this->RefuseIds();
+    if (!areOfLines)
+    {
+      this->RefuseIds();
+    }
   }
 
   vtkNew<vtkDoubleArray> Coordinates;
+  std::vector<std::int64_t> LineNumbers; ///< Per point, if they are of lines.
   std::vector<std::string> Warnings;
   std::vector<std::string> Notes;
 
@@ -300,7 +306,29 @@ private:
       this->Columns.resize(std::min<std::size_t>(this->Count, 3), 2);
       this->RequireNumbers();
     }
+    if (this->AreOfLines)
+    {
+      this->ChooseLineColumn();
+    }
     this->TellColumns();
+  }
+
+  /// The numbers of lines are in a column of this name, or in the last one of x y [z] line.
+  void ChooseLineColumn()
+  {
+    const Words& names = this->Header.Names;
+    this->LineColumn = FindLineColumn(names);
+    const bool isPlain = names.empty() && (this->Count == 3 || this->Count == 4);
+    if (isPlain)
+    {
+      this->LineColumn = this->Count - 1;
+      this->Columns.resize(this->LineColumn);
+    }
+    else if (this->LineColumn == names.size())
+    {
+      this->Lines.FailFile("which of its columns has the number of the line that a point is on? "
+                           "The columns of such a file are x,y,line or x,y,z,line");
+    }
   }
 
   /// Without names, the first columns have numbers, or the user says which.
@@ -331,7 +359,9 @@ private:
     }
     for (std::size_t i = 0; i < names.size(); ++i)
     {
-      if (std::find(this->Columns.begin(), this->Columns.end(), i) == this->Columns.end())
+      const bool isTaken =
+        std::find(this->Columns.begin(), this->Columns.end(), i) != this->Columns.end();
+      if (!isTaken && !(this->AreOfLines && i == this->LineColumn))
       {
         others.push_back(names[i]);
       }
@@ -344,7 +374,8 @@ private:
       this->Notes.push_back("took " + Quoted(taken) + " as " + axes);
     }
     const bool lacksHeight = this->Columns.size() == 2 && !this->HasChoice;
-    this->TellsOthers = others.empty() && names.empty() && this->Count > this->Columns.size();
+    this->TellsOthers =
+      others.empty() && names.empty() && !this->AreOfLines && this->Count > this->Columns.size();
     if (!others.empty() && lacksHeight)
     {
       this->Warnings.push_back(
@@ -445,6 +476,10 @@ private:
       }
       this->Coordinates->InsertNextValue(coordinate);
     }
+    if (this->AreOfLines)
+    {
+      this->LineNumbers.push_back(this->Lines.Number<std::int64_t>(this->LineColumn));
+    }
   }
 
   double ReadCoordinate(std::size_t column, std::size_t axis)
@@ -518,7 +553,9 @@ private:
   TextLines& Lines;
   PointHeader Header;
   const bool HasChoice; ///< Whether the user chose the columns.
+  const bool AreOfLines; ///< Whether a column has the number of the line that a point is on.
   Places Columns;
+  std::size_t LineColumn = 0;
   std::size_t Count = 0; ///< How many columns the first point has.
   std::size_t Numbers = 0; ///< How many numbers the first point begins with.
   bool TellsOthers = false; ///< Whether a warning tells of the columns at the end.
@@ -534,11 +571,56 @@ FileMesh ReadPoints(const InputFile& file, const std::string& columns)
 {
   FileMesh result;
   TextLines lines(file);
-  const PointTable table(lines, ChosenColumns(columns));
+  const PointTable table(lines, ChosenColumns(columns), false);
   result.Warnings = table.Warnings;
   result.Notes = table.Notes;
   result.Mesh->SetPoints(vtkNew<vtkPoints>());
   result.Mesh->GetPoints()->SetData(table.Coordinates);
+  return result;
+}
+
+FileMesh ReadTextLines(const InputFile& file)
+{
+  FileMesh result;
+  TextLines text(file);
+  const PointTable table(text, ChosenColumns(""), true);
+  result.Warnings = table.Warnings;
+  result.Notes = table.Notes;
+  const vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  const vtkNew<vtkCellArray> lines;
+  const std::vector<std::int64_t>& numbers = table.LineNumbers;
+  const auto placeOf = [&table](std::size_t row)
+  {
+    std::array<double, 3> place;
+    table.Coordinates->GetTypedTuple(static_cast<vtkIdType>(row), place.data());
+    return place;
+  };
+  for (std::size_t begin = 0, end = 0; begin < numbers.size(); begin = end)
+  {
+    const std::int64_t number = numbers[begin];
+    end = static_cast<std::size_t>(std::find_if(numbers.begin() + begin, numbers.end(),
+                                     [=](auto each) { return each != number; }) -
+      numbers.begin());
+    if (end - begin == 1)
+    {
+      file.Fail("line " + std::to_string(number) +
+        " has one point; the points of a line are consecutive rows with the same number");
+    }
+    std::vector<vtkIdType> ids;
+    const bool isClosed = placeOf(begin) == placeOf(end - 1);
+    for (std::size_t row = begin; row < end - (isClosed ? 1 : 0); ++row)
+    {
+      ids.push_back(points->InsertNextPoint(placeOf(row).data()));
+    }
+    if (isClosed)
+    {
+      ids.push_back(ids.front());
+    }
+    lines->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+  }
+  result.Mesh->SetPoints(points);
+  result.Mesh->SetLines(lines);
   return result;
 }
 

@@ -45,7 +45,8 @@ class WrongUsage(CommandTest):
         self.fail_with(2, "in", "out.vtk", naming=known)
         for name, way in (("in.vtu", "Extract Surface"), ("in.off", "between .off and .ply"),
                           ("in.MSH", "delaunayflip.meshio.flip"), ("fort.14", "delaunayflip.flip"),
-                          ("in.2dm", "delaunayflip.flip"), ("in.gr3", "as arrays")):
+                          ("in.2dm", "delaunayflip.flip"), ("in.gr3", "as arrays"),
+                          ("in.LAZ", "delaunayflip.laspy.triangulate")):
             self.fail_with(2, name, "out.vtk", naming=[name, way])
 
     def test_choices(self):

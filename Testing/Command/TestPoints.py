@@ -485,11 +485,11 @@ class Usage(PointTest):
             self.assertIn("in.vtk: is empty: it contains no points\n", told)
             self.assertNotIn("--from-points", told)
 
-    def test_points_where_a_mesh_is_needed(self):
+    def test_files_for_other_purposes(self):
         self.write("in.xyz", text_of(PLACES))
         self.fail_with(2, "in.xyz", "out.csv", "--from-points", naming=["out.csv", ".vtp"])
         for option in ("--constraints", "--outline", "--holes"):
-            self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, "a.txt",
-                           naming=["a.txt", "points alone"])
+            self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, "a.tex",
+                           naming=["a.tex: unknown file extension"])
             self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, "out.vtk",
                            naming=["out.vtk", "two purposes"])

@@ -196,7 +196,7 @@ class Vtk(unittest.TestCase):
                 self.check(release)
 
     def test_newest_pyvista(self):
-        self.check("pyvista[io]", "imageio", "trimesh", "meshio", "nbclient", "ipykernel",
+        self.check("pyvista[io]", "imageio", "trimesh", "meshio", "laspy[lazrs]", "nbclient", "ipykernel",
                    modules=("test_pyvista", "test_vtk_delaunay_flip"))
 
     def test_cvista(self):

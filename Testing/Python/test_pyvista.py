@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The helpers for PyVista, trimesh and meshio, beside which the package must be installed, and the
+"""The helpers for PyVista, trimesh, meshio and laspy, beside which the package must be installed, and the
 notebook."""
 import doctest
 import importlib
@@ -37,7 +37,7 @@ def as_set(faces):
 class Docstrings(unittest.TestCase):
 
     def test_docstrings(self):
-        for other in ("pyvista", "trimesh", "meshio"):
+        for other in ("pyvista", "trimesh", "meshio", "laspy"):
             with self.subTest(other):
                 load(other)
                 results = doctest.testmod(importlib.import_module(f"delaunayflip.{other}"))

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_GDALMODULE_H
+#define DELAUNAYFLIP_GDALMODULE_H
+
+#include "MeshFiles.h"
+
+#include <string>
+
+/// @file
+/// What GDAL does for the command. It is in a library of its own, libdelaunayflip-gdal.so, which is
+/// loaded when a file needs it: GDAL brings sixty libraries, which take longer to load than a small
+/// mesh takes to flip, and the command also runs where GDAL is not installed.
+
+namespace delaunayflip
+{
+
+/// What to read from a file of points, lines and polygons.
+struct VectorRequest
+{
+  std::string Path;
+  std::string Driver; ///< GDAL's name of the format.
+  std::string Layer; ///< Empty: the only one; *: all.
+  std::string Height; ///< The attribute that is z; empty: z of the geometries.
+  bool AreSegments = false; ///< Whether only lines and polygons matter, not points with their data.
+};
+
+/// Methods throw std::runtime_error with GDAL's messages; the text does not name the file.
+class GdalModule
+{
+public:
+  virtual ~GdalModule() = default;
+
+  /// Points, lines, and each ring of polygons as a polygon. If there are points alone, their
+  /// numeric attributes become point data.
+  virtual FileMesh ReadVectors(const VectorRequest& request) const = 0;
+};
+
+/// @throws std::runtime_error that says what to install.
+const GdalModule& LoadGdal();
+
+}
+
+#endif

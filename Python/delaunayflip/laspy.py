@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Delaunay triangulations of LAS and LAZ files, by laspy."""
+import os
+import typing
+
+import laspy
+import numpy
+
+from ._points import Triangulation
+from ._points import triangulate as _triangulate
+
+#: Points that a call reads at once.
+CHUNK = 1 << 22
+
+
+def triangulate(
+    file: "typing.Union[str, os.PathLike[str], typing.BinaryIO, laspy.LasData]", *,
+    classes: typing.Optional[typing.Iterable[int]] = None, **options: typing.Any,
+) -> Triangulation:
+    """The Delaunay triangulation of the points of a LAS or LAZ file in x and y.
+
+    Points that their scanner or an operator has marked as withheld are left out. Only the points of
+    the chosen classes are kept in memory.
+
+    Args:
+        file: A path, an open binary file, or what laspy.read returns. A .laz needs lazrs or laszip,
+            which `pip install "delaunayflip[lidar]"` installs.
+        classes: The numbers of the classes to use, such as [2] for the ground; None: all.
+        **options: Those of delaunayflip.triangulate.
+
+    Returns:
+        The `Triangulation`; its points are x, y and z as float64, scaled as the file says.
+
+    Raises:
+        ValueError: The file has no point of these classes.
+        laspy.LaspyException: It is no such file, or there is no library that decompresses it.
+        The exceptions of delaunayflip.triangulate.
+
+    Example:
+        >>> import io
+        >>> import laspy
+        >>> import delaunayflip.laspy
+        >>> tile = laspy.create()
+        >>> tile.x, tile.y, tile.z = [0, 4, 4, 0, 2], [0, 0, 4, 4, 2], [1, 1, 1, 1, 30]
+        >>> tile.classification = [2, 2, 2, 2, 5]
+        >>> len(delaunayflip.laspy.triangulate(tile, classes=[2]).triangles)
+        2
+    """
+    wanted = None if classes is None else numpy.array(list(classes), dtype=numpy.int64)
+    if isinstance(file, laspy.LasData):
+        points = _select(file.points, wanted)
+        seen = numpy.unique(file.classification)
+    else:
+        with laspy.open(file, closefd=isinstance(file, (str, os.PathLike))) as reader:
+            chunks, seen = [], numpy.empty(0, dtype=numpy.int64)
+            for records in reader.chunk_iterator(CHUNK):
+                chunks.append(_select(records, wanted))
+                seen = numpy.union1d(seen, numpy.asarray(records.classification))
+            points = numpy.concatenate(chunks) if chunks else numpy.empty((0, 3))
+    if len(points) == 0:
+        listed = ", ".join(str(int(number)) for number in seen) or "none"
+        raise ValueError(f"no point of the classes {classes!r} that is not withheld; the file has the "
+                         f"classes {listed}")
+    return _triangulate(points, **options)
+
+
+def _select(records, wanted):
+    """The places of the records of these classes that are not withheld, (n, 3)."""
+    is_wanted = ~numpy.asarray(records.withheld, dtype=bool)
+    if wanted is not None:
+        is_wanted &= numpy.isin(numpy.asarray(records.classification), wanted)
+    return numpy.column_stack([numpy.asarray(records[axis])[is_wanted] for axis in "xyz"])

@@ -1,0 +1,247 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Points, breaklines and rings in shapefiles, GeoPackage, GeoJSON, DXF and FlatGeobuf, which GDAL
+reads, and lines in text."""
+
+import base64
+import json
+import math
+import os
+import sqlite3
+import struct
+import zlib
+
+from CommandTesting import points_of, triangles_of, values_of
+from TestPoints import PLACES, PointTest, area_of, edges_of, grid, text_of
+
+FLAT_GEOBUF = (  # PLACES, by GDAL
+    "eNpLS09iTktPYsxhYGBQYIAACQYZBg4GHgYWBlaoiACDCAMbUJyBgZGRgcEGSIsAMQ8Qw1SAAAsDLiDgAKOB2hkKgDgEbC"
+    "oMsDFwAXWzwcW4wGazAF3BBXYPxGxGuPoP9iCSCYtNlJnL4IBqLszdlJrLgcNcAQfKzBVwwB4OlJorgm4uLBwcAJ4lDVI=")
+SQUARE = [[0.5, 0.5], [3.5, 0.5], [3.5, 3.5], [0.5, 3.5], [0.5, 0.5]]
+HOLE = [[1.5, 1.5], [1.5, 2.5], [2.5, 2.5], [2.5, 1.5], [1.5, 1.5]]
+
+
+def geojson(*features):
+    """A file of pairs of a type of geometry and coordinates, and perhaps attributes."""
+    made = []
+    for kind, coordinates, *attributes in features:
+        key = "geometries" if kind == "GeometryCollection" else "coordinates"
+        geometry = kind and {"type": kind, key: coordinates}
+        made.append({"type": "Feature", "geometry": geometry,
+                     "properties": attributes[0] if attributes else {}})
+    return json.dumps({"type": "FeatureCollection", "features": made})
+
+
+def dxf(*entities):
+    """A drawing of pairs of a layer and places: a point, or a line."""
+    text = "0\nSECTION\n2\nENTITIES\n"
+    for layer, places in entities:
+        head = f"0\nPOINT\n8\n{layer}\n"
+        if len(places) > 1:
+            head = f"0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n8\n"
+            places = [f"0\nVERTEX\n8\n{layer}\n70\n32\n" + at(place) for place in places]
+            text += head + "".join(places) + f"0\nSEQEND\n8\n{layer}\n"
+        else:
+            text += head + at(places[0])
+    return text + "0\nENDSEC\n0\nEOF\n"
+
+
+def at(place):
+    return "10\n{}\n20\n{}\n30\n{}\n".format(*place)
+
+
+def shapefile(points):
+    """A .shp and a .shx of points with z."""
+    def header(length):
+        return struct.pack(">7i", 9994, 0, 0, 0, 0, 0, length) + struct.pack("<2i8d", 1000, 11, *[0] * 8)
+
+    records = index = b""
+    for number, point in enumerate(points, 1):
+        index += struct.pack(">2i", 50 + len(records) // 2, 18)
+        records += struct.pack(">2i", number, 18) + struct.pack("<i4d", 11, *point, 0)
+    return (header(50 + len(records) // 2) + records, header(50 + len(index) // 2) + index)
+
+
+def write_geopackage(path, **layers):
+    """A GeoPackage of layers of points with z."""
+    data = sqlite3.connect(path)
+    data.executescript("""
+        PRAGMA application_id = 1196444487; PRAGMA user_version = 10200;
+        CREATE TABLE gpkg_spatial_ref_sys (srs_name TEXT, srs_id INTEGER PRIMARY KEY,
+          organization TEXT, organization_coordsys_id INTEGER, definition TEXT, description TEXT);
+        INSERT INTO gpkg_spatial_ref_sys VALUES ('u', -1, 'NONE', -1, 'undefined', '');
+        CREATE TABLE gpkg_contents (table_name TEXT PRIMARY KEY, data_type TEXT, identifier TEXT,
+          description TEXT, last_change DATETIME, min_x REAL, min_y REAL, max_x REAL, max_y REAL,
+          srs_id INTEGER);
+        CREATE TABLE gpkg_geometry_columns (table_name TEXT PRIMARY KEY, column_name TEXT,
+          geometry_type_name TEXT, srs_id INTEGER, z TINYINT, m TINYINT);""")
+    for name, points in layers.items():
+        data.execute(f"CREATE TABLE {name} (fid INTEGER PRIMARY KEY, geom POINT)")
+        data.execute("INSERT INTO gpkg_contents (table_name, data_type, last_change, srs_id) "
+                     "VALUES (?, 'features', '2026-01-01T00:00:00Z', -1)", (name,))
+        data.execute("INSERT INTO gpkg_geometry_columns VALUES (?, 'geom', 'POINT', -1, 1, 0)", (name,))
+        for point in points:
+            blob = b"GP\0\1" + struct.pack("<i", -1) + struct.pack("<BI3d", 1, 1001, *point)
+            data.execute(f"INSERT INTO {name} (geom) VALUES (?)", (blob,))
+    data.commit()
+    data.close()
+
+
+class VectorTest(PointTest):
+    def setUp(self):
+        super().setUp()
+        self.write("points.geojson", geojson(*(("Point", place) for place in PLACES)))
+        told = self.run_command("points.geojson", "out.vtp", "--from-points").stderr
+        if "needs GDAL" in told:
+            self.skipTest(told)
+
+
+class Vectors(VectorTest):
+    def test_formats(self):
+        shp, shx = shapefile(PLACES)
+        self.write("points.shp", shp)
+        self.write("points.shx", shx)
+        write_geopackage(self.path("points.gpkg"), survey=PLACES)
+        self.write("points.dxf", dxf(*(("0", [place]) for place in PLACES)))
+        self.write("points.FGB", zlib.decompress(base64.b64decode(FLAT_GEOBUF)))
+        for name in ("geojson", "shp", "gpkg", "dxf", "FGB"):
+            mesh, result = self.triangulate("points." + name)
+            self.assertEqual(points_of(mesh), PLACES, name)
+            self.assertEqual(len(triangles_of(mesh)), 4)
+            self.assertEqual(result.stderr, "", name)
+
+    def test_attributes(self):
+        """Numbers are point data; of a flat file one may be the height."""
+        places = [("Point", place[:2], {"n": i, "name": "a", "elev": place[2] / 2})
+                  for i, place in enumerate(PLACES)]
+        del places[3][2]["n"]
+        self.write("in.geojson", geojson(*places))
+        mesh, result = self.triangulate("in.geojson")
+        self.assertEqual(points_of(mesh)[4], (2, 2, 0))
+        self.assertIn("no z, so z is 0; --columns NAME takes a numeric attribute as z: 'n', 'elev'\n",
+                      result.stderr)
+        data = mesh.GetPointData()
+        self.assertEqual([data.GetArrayName(i) for i in range(data.GetNumberOfArrays())], ["n", "elev"])
+        numbers = values_of(data.GetArray("n"))
+        self.assertTrue(math.isnan(numbers.pop(3)))
+        self.assertEqual(numbers, [0, 1, 2, 4])
+        mesh, result = self.triangulate("in.geojson", "--columns", "elev")
+        self.assertEqual([z for _, _, z in points_of(mesh)], [0.5, 1, 1.5, 2, 2.5])
+        self.assertEqual(result.stderr, "")
+        for code, choice, words in ((3, "name", ["no numeric attribute 'name'", "'n', 'elev'"]),
+                                    (3, "n", ["feature 3 has no value of 'n'"]),
+                                    (2, "x,y,elev", ["--columns takes one attribute"])):
+            self.fail_with(code, "in.geojson", "out.vtk", "--from-points", "--columns", choice,
+                           naming=["in.geojson", *words])
+
+    def test_lines_and_rings(self):
+        """Breaklines, and areas of several polygons with holes, as survey data come."""
+        self.write("in.xyz", text_of(grid(5)))
+        self.write("roads.geojson", geojson(
+            ("LineString", [[0, 0], [3, 1]]), ("MultiLineString", [[[0, 3], [4, 4]], [[1, 4], [4, 4]]]),
+            ("GeometryCollection", [{"type": "LineString", "coordinates": [[1, 0], [4, 1]]},
+                                    {"type": "Point", "coordinates": [0.25, 0.5]}]), (None, None)))
+        mesh, result = self.triangulate("in.xyz", "--constraints", "roads.geojson")
+        for edge in (((0, 0), (3, 1)), ((0, 3), (4, 4)), ((1, 0), (4, 1))):
+            self.assertIn(edge, edges_of(mesh))
+        self.assertIn("warning: roads.geojson: left out 1 feature without a geometry", result.stderr)
+        island = [[1.75, 1.75], [2.25, 1.75], [2.25, 2.25], [1.75, 1.75]]
+        self.write("area.geojson", geojson(("MultiPolygon", [[SQUARE, HOLE], [island]])))
+        for option, area in (("--outline", 8.125), ("--holes", 7.875)):
+            mesh, _ = self.triangulate("in.xyz", option, "area.geojson")
+            self.assertEqual(area_of(mesh), area)
+        self.write("open.geojson", geojson(("LineString", SQUARE), ("LineString", SQUARE[:4])))
+        self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "open.geojson",
+                       naming=["open.geojson: line 1 does not end where it begins"])
+        self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "points.geojson",
+                       naming=["points.geojson", "no lines or polygons"])
+
+    def test_layers(self):
+        write_geopackage(self.path("two.gpkg"), survey=PLACES, trees=[(1, 1, 9)])
+        self.write("in.dxf", dxf(*(("SURVEY", [place]) for place in PLACES), ("TREES", [(1, 1, 9)]),
+                                 ("Road", [(0, 0, 1), (2, 2, 5), (4, 4, 3)])))
+        for name, first, other in (("two.gpkg", "survey", "trees"), ("in.dxf", "SURVEY", "TREES")):
+            self.fail_with(3, name, "out.vtk", "--from-points",
+                           naming=[name, "several layers", f"'{first}', '{other}'", f":{first}"])
+            self.fail_with(3, name + ":rocks", "out.vtk", "--from-points",
+                           naming=[name, "no layer 'rocks'", f"'{first}', '{other}'"])
+            mesh, _ = self.triangulate(f"{name}:{first}")
+            self.assertEqual(points_of(mesh), PLACES)
+            mesh, _ = self.triangulate(name + ":*")
+            self.assertIn((1, 1, 9), points_of(mesh))
+        mesh, _ = self.triangulate("in.dxf:TREES", "--constraints", "in.dxf:Road")
+        self.assertEqual(len(points_of(mesh)), 4)
+        self.fail_with(2, "two.gpkg:survey", "out.vtk", "--from-points", "--report", "two.gpkg",
+                       naming=["two.gpkg", "two purposes"])
+
+    def test_bad_files(self):
+        """GDAL's messages are in the error, and nowhere else."""
+        shp, shx = shapefile(PLACES)
+        write_geopackage(self.path("good.gpkg"), survey=PLACES)
+        flat = zlib.decompress(base64.b64decode(FLAT_GEOBUF))
+        for name, content in (
+            ("a.shp", shp), ("b.shp", b""), ("a.geojson", "{"), ("b.geojson", "x\n\xff"),
+            ("c.geojson", '{"type": "FeatureCollection", "features": [{"type": "Feature", "geo'),
+            ("a.gpkg", self.content("good.gpkg")[:5000]), ("b.gpkg", "SQLite format 3\0"),
+            ("a.dxf", "0\nSECTION\n2\nENTITIES\n0\nPOINT\n10\n"), ("a.fgb", flat[:300]),
+            ("none.geojson", None), ("empty.geojson", geojson()),
+        ):
+            if content is not None:
+                self.write(name, content)
+            with self.subTest(name):
+                self.fail_with(3, name, "out.vtp", "--from-points", naming=[name])
+        os.mkdir(self.path("folder.shp"))
+        self.fail_with(3, "folder.shp", "out.vtp", "--from-points", naming=["is a folder"])
+        self.fail_with(2, "points.geojson", "out.vtp", naming=["no triangles; --from-points"])
+        self.fail_with(2, "points.geojson", "out.gpkg", "--from-points", naming=["out.gpkg", ".vtp"])
+
+    def test_without_gdal(self):
+        self.write("libdelaunayflip-gdal.so", "")
+        environment = dict(os.environ, LD_LIBRARY_PATH=self.folder)
+        self.fail_with(3, "points.geojson", "out.vtp", "--from-points", env=environment,
+                       naming=["points.geojson: needs GDAL", "libgdal"])
+
+
+class TextLines(PointTest):
+    """x,y[,z],line: consecutive points with one number are a line."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("in.xyz", text_of(grid(5)))
+
+    def test_breaklines(self):
+        for text in ("0,0,7\n3,1,7\n3.5,1.25,7\n1,0,2\n4,1,2\n",
+                     "0 0 0 7\n3 1 0 7\n3.5 1.25 5 7\n1 0 0 2\n4 1 0 2",
+                     "Line;y;x\n7;0;0\n7;1;3\n7;1,25;3,5\n2;0;1\n2;1;4\n",
+                     "x,y,z,ring_id\n0,0,0,7\n3,1,0,7\n3.5,1.25,5,7\n# a\n1,0,0,2\n4,1,0,2\n"):
+            self.write("lines.csv", text)
+            mesh, result = self.triangulate("in.xyz", "--constraints", "lines.csv")
+            edges = edges_of(mesh)
+            for edge in (((0, 0), (3, 1)), ((3, 1), (3.5, 1.25)), ((1, 0), (4, 1))):
+                self.assertIn(edge, edges)
+            self.assertEqual(len(points_of(mesh)), 26)
+            self.assertNotIn("warning", result.stderr)
+
+    def test_rings(self):
+        rows = [(*place, number) for number, ring in enumerate((SQUARE, HOLE)) for place in ring]
+        self.write("rings.csv", text_of(rows, ","))
+        for option, area in (("--outline", 8), ("--holes", 8)):
+            mesh, result = self.triangulate("in.xyz", option, "rings.csv")
+            self.assertEqual(area_of(mesh), area)
+            self.assertIn(" 33 points,", result.stdout)
+        self.write("rings.csv", text_of(rows[:-1], ","))
+        self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "rings.csv",
+                       naming=["rings.csv: line 1 does not end where it begins"])
+
+    def test_rows_that_are_no_lines(self):
+        for text, words in (
+            (text_of(PLACES, ","), ["line 1 has one point", "consecutive rows"]),
+            ("0,0,1\n1,1,1.5\n", ["line 2", "'1.5' is not a number"]),
+            ("0,0\n1,1\n", ["which of its columns has the number", "x,y,z,line"]),
+            ("x,y,z\n0,0,1\n1,1,1\n", ["which of its columns has the number"]),
+            ("0,0,1,1,1\n1,1,1,1,1\n", ["which of its columns has the number"]),
+            ("x,y,line\n0,0,1\n1,1,\n", ["line 3", "a number is missing"]),
+        ):
+            self.write("lines.csv", text)
+            self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--constraints", "lines.csv",
+                           naming=["lines.csv", *words])
