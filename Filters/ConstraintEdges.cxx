@@ -3,7 +3,7 @@
 #include "ConstraintEdges.h"
 
 #include "DataArrays.h"
-#include "UpdateProgress.h"
+#include "UpdateReport.h"
 
 #include "vtkPoints.h"
 #include "vtkPolyData.h"

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FlipRun.h"
-
 #include "DataArrays.h"
 #include "UpdateReport.h"
+#include "UpdateRequests.h"
 
 #include <cstdint>
 #include <string>

@@ -7,7 +7,6 @@
 #include "FlipError.h"
 #include "PieceFlip.h"
 #include "PolyDataBridge.h"
-#include "UpdateProgress.h"
 
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
@@ -131,6 +130,17 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
   return blocks;
 }
 
+std::vector<MeshBlock> ListOtherBlocks(vtkDataObject* input, int elements)
+{
+  std::vector<MeshBlock> blocks;
+  if (input)
+  {
+    blocks = ListMeshBlocks(input, elements);
+    blocks.resize(std::max<std::size_t>(1, blocks.size()), { { 0 }, "", 0.0, false, {} });
+  }
+  return blocks;
+}
+
 namespace
 {
 
@@ -156,8 +166,8 @@ std::string DescribeMisfit(const BlockLeaf& leaf, bool fits)
 
 }
 
-std::vector<Note> ListMisfits(
-  const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others)
+std::vector<Note> ListMisfits(const std::vector<MeshBlock>& blocks,
+  const std::vector<MeshBlock>& others, const std::string& name)
 {
   std::set<std::vector<std::int64_t>> places;
   for (const MeshBlock& block : blocks)
@@ -174,15 +184,15 @@ std::vector<Note> ListMisfits(
       if (!fault.empty() && leaf.Data->GetNumberOfElements(vtkDataObject::CELL) > 0)
       {
         const std::string prefix = leaf.Name.empty() ? "" : leaf.Name + " of the ";
-        notes.push_back({ prefix + "second input", fault });
+        notes.push_back({ prefix + name, fault });
       }
     }
   }
   return notes;
 }
 
-std::vector<BlockLeaf> ListOthers(
-  const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what)
+std::vector<BlockLeaf> ListOthers(const MeshBlock& block, const std::vector<MeshBlock>& others,
+  const std::string& what, const char* type)
 {
   std::vector<BlockLeaf> leaves;
   for (const MeshBlock& other : others)
@@ -195,7 +205,7 @@ std::vector<BlockLeaf> ListOthers(
     if (isOfAll || other.Place == block.Place)
     {
       std::copy_if(other.Leaves.begin(), other.Leaves.end(), std::back_inserter(leaves),
-        [](const BlockLeaf& leaf) { return vtkPolyData::SafeDownCast(leaf.Data) != nullptr; });
+        [type](const BlockLeaf& leaf) { return leaf.Data->IsA(type) != 0; });
     }
   }
   return leaves;

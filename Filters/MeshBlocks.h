@@ -45,17 +45,21 @@ struct MeshBlock
 /// is a block of its own.
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
-/// Lists what is ignored of the second input.
-DELAUNAYFLIP_EXPORT std::vector<Note> ListMisfits(
-  const std::vector<MeshBlock>& blocks, const std::vector<MeshBlock>& others);
+/// The same for another input than the first one, which may be null. Only null has no blocks.
+std::vector<MeshBlock> ListOtherBlocks(vtkDataObject* input, int elements);
 
-/// Lists the polygonal leaves of the second input that are for a block. A single dataset has one
-/// leaf, number 0, which is for all blocks. Leaves of composite data are for the block at the same
-/// place.
-/// @param what begins the message if they cannot be composite.
+/// Lists what is ignored of another input than the first one.
+/// @param name what messages call it.
+DELAUNAYFLIP_EXPORT std::vector<Note> ListMisfits(const std::vector<MeshBlock>& blocks,
+  const std::vector<MeshBlock>& others, const std::string& name = "second input");
+
+/// Lists the leaves of another input that are for a block. A single dataset has one leaf, number 0,
+/// which is for all blocks. Leaves of composite data are for the block at the same place.
+/// @param what begins the message if they cannot be composite. @param type other leaves are
+/// ignored.
 /// @throws InvalidOptions.
-std::vector<BlockLeaf> ListOthers(
-  const MeshBlock& block, const std::vector<MeshBlock>& others, const std::string& what);
+std::vector<BlockLeaf> ListOthers(const MeshBlock& block, const std::vector<MeshBlock>& others,
+  const std::string& what, const char* type = "vtkPolyData");
 
 /// Makes a shallow copy; null for null. Observers cannot take its leaves and arrays away.
 vtkSmartPointer<vtkDataObject> Hold(vtkDataObject* data);

@@ -7,7 +7,7 @@
 #include "FlipError.h"
 #include "PolygonSplit.h"
 #include "TriangleAngles.h"
-#include "UpdateProgress.h"
+#include "UpdateReport.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkFieldData.h"

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TriangulationRun.h"
-
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "PolyDataBridge.h"
 #include "UpdateReport.h"
+#include "UpdateRequests.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkMath.h"
@@ -28,13 +27,13 @@ namespace delaunayflip
 namespace
 {
 
-/// The rotation that takes the plane of the points to that of x and y. Points that are not finite
-/// do not matter.
-vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points)
+/// The rotation that takes the plane of the first points to that of x and y. Points that are not
+/// finite do not matter.
+vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points, vtkIdType count)
 {
   vtkNew<vtkPoints> finite;
   finite->SetDataTypeToDouble();
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  for (vtkIdType i = 0; i < count; ++i)
   {
     const double* x = points->GetPoint(i);
     if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
@@ -412,17 +411,12 @@ bool TriangulationRun::HasCopyOf(vtkPolyData* points) const
 /// A view of the points, or of a projection of them.
 PlaneArray TriangulationRun::Project()
 {
-  vtkSmartPointer<vtkAbstractTransform> projection = this->Asked.Transform;
-  if (!projection && this->Asked.FitsPlane)
-  {
-    projection = FitPlane(this->Points->GetPoints());
-  }
-  if (projection)
+  const vtkIdType count = this->Points->GetNumberOfPoints();
+  if (const auto projection = FindProjection(this->Asked, this->Points->GetPoints(), count))
   {
     this->Projected->SetDataTypeToDouble();
     projection->TransformPoints(this->Points->GetPoints(), this->Projected);
-    return { static_cast<const double*>(this->Projected->GetVoidPointer(0)),
-      this->Points->GetNumberOfPoints(), 3 };
+    return { static_cast<const double*>(this->Projected->GetVoidPointer(0)), count, 3 };
   }
   const PointArray xyz = ViewPoints(this->Points, this->Storage);
   if (xyz.Floats)
@@ -576,6 +570,16 @@ bool TriangulationRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) cons
   run.reset(); // its memory may be needed
   run = std::make_unique<TriangulationRun>(*this);
   return false;
+}
+
+vtkSmartPointer<vtkAbstractTransform> FindProjection(
+  const TriangulationRequest& request, vtkPoints* points, vtkIdType count)
+{
+  if (!request.Transform && request.FitsPlane)
+  {
+    return FitPlane(points, count);
+  }
+  return request.Transform;
 }
 
 }

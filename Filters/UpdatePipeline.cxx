@@ -19,16 +19,15 @@ namespace
 
 constexpr const char* NotMade = " was not made: see the errors of what makes it";
 
-/// Describes what is wrong with the data of an input port; "" if nothing. The second input is
-/// optional.
+/// Describes what is wrong with the data of an input port; "" if nothing.
 std::string DescribeFault(vtkAlgorithm* filter, int port, vtkInformationVector* inputs)
 {
-  const std::string names[] = { "input", "second input" };
-  const std::string faultsWithoutData[] = { "there is no input", "" };
+  const std::string names[] = { "input", "second input", "third input" };
   const std::string& name = names[port];
+  vtkInformation* info = filter->GetInputPortInformation(port);
   if (inputs->GetNumberOfInformationObjects() == 0)
   {
-    return faultsWithoutData[port];
+    return info->Has(vtkAlgorithm::INPUT_IS_OPTIONAL()) ? "" : "there is no " + name;
   }
   vtkDataObject* data = vtkDataObject::GetData(inputs);
   if (!data)
@@ -36,7 +35,6 @@ std::string DescribeFault(vtkAlgorithm* filter, int port, vtkInformationVector* 
     return "the " + name + NotMade;
   }
   std::string wanted;
-  vtkInformation* info = filter->GetInputPortInformation(port);
   for (int i = 0; i < info->Length(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE()); ++i)
   {
     const std::string type = info->Get(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), i);
@@ -76,10 +74,10 @@ vtkTypeBool UpdatePipeline::ProcessRequest(
   const vtkTypeBool works = this->Superclass::ProcessRequest(request, inputs, outputs);
   if (!works && this->Algorithm && this->OnRefusal)
   {
-    std::string fault = DescribeFault(this->Algorithm, 0, inputs[0]);
-    if (fault.empty())
+    std::string fault;
+    for (int port = 0; port < this->Algorithm->GetNumberOfInputPorts() && fault.empty(); ++port)
     {
-      fault = DescribeFault(this->Algorithm, 1, inputs[1]);
+      fault = DescribeFault(this->Algorithm, port, inputs[port]);
     }
     if (fault.empty())
     {

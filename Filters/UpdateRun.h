@@ -4,7 +4,7 @@
 #define UpdateRun_h
 
 #include "DelaunayFlip.h"
-#include "UpdateProgress.h"
+#include "UpdateReport.h"
 
 #include "vtkCellArray.h"
 #include "vtkPolyData.h"

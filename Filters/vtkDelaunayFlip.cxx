@@ -4,9 +4,9 @@
 
 #include "CudaDevice.h"
 #include "DelaunayFlip.h"
-#include "FlipRun.h"
 #include "MeshBlocks.h"
 #include "UpdateReport.h"
+#include "UpdateRequests.h"
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"

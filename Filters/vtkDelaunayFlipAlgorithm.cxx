@@ -80,7 +80,8 @@ bool IsBatchProgram()
 vtkDelaunayFlipAlgorithm::vtkDelaunayFlipAlgorithm()
   : Runs(new RunKeeper),
     Report(new FlipReport),
-    SizeOfBlocks(vtkDataObject::CELL)
+    SizeOfBlocks(vtkDataObject::CELL),
+    SizeOfOthers(vtkDataObject::CELL)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -163,15 +164,16 @@ vtkTypeBool vtkDelaunayFlipAlgorithm::ProcessRequest(
   return this->Superclass::ProcessRequest(request, inputVector, outputVector);
 }
 
-/// Port 0 has composite data of the input's type, or a mesh.
+/// Port 0 has a mesh, or data of the input's type.
 int vtkDelaunayFlipAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const vtkNew<vtkPolyData> mesh;
   vtkDataObject* type = mesh;
-  if (auto* blocks = vtkCompositeDataSet::GetData(inputVector[0]))
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  if (input && (this->KeepsType || vtkCompositeDataSet::SafeDownCast(input)))
   {
-    type = blocks;
+    type = input;
   }
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
   if (!output || std::strcmp(type->GetClassName(), output->GetClassName()) != 0)
@@ -329,12 +331,7 @@ int vtkDelaunayFlipAlgorithm::RequestData(
   {
     const auto structure = Hold(input);
     const auto second = Hold(vtkDataObject::GetData(inputVector[1]));
-    std::vector<MeshBlock> others;
-    if (second)
-    {
-      others = ListMeshBlocks(second, vtkDataObject::CELL);
-      others.resize(std::max<std::size_t>(1, others.size()), { { 0 }, "", 0.0, false, {} });
-    }
+    const std::vector<MeshBlock> others = ListOtherBlocks(second, this->SizeOfOthers);
     std::vector<MeshBlock> blocks = this->ListBlocks(
       vtkCompositeDataSet::SafeDownCast(input) ? structure : input, others, summary);
     double size = 0.0;
@@ -470,7 +467,9 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
     {
       if (leaf.Data->IsA(this->InputType))
       {
-        leaf.Result = vtkSmartPointer<vtkPolyData>::New();
+        const vtkNew<vtkPolyData> mesh;
+        vtkDataObject* type = this->KeepsType ? leaf.Data.Get() : mesh.Get();
+        leaf.Result.TakeReference(type->NewInstance());
       }
       else
       {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDelaunayFlipAlgorithm
- * @brief   what vtkDelaunayFlip and vtkDelaunayFlipPoints have in common
+ * @brief   what the filters have in common
  *
- * This is the base class of both filters. It has their common properties (where they run, for how
+ * This is the base class of the filters. It has their common properties (where they run, for how
  * many iterations, live updates) and tells what the last update did.
  *
  * @sa
- * vtkDelaunayFlip vtkDelaunayFlipPoints
+ * vtkDelaunayFlip vtkDelaunayFlipPoints vtkDelaunayFlipInterpolator
  */
 #ifndef vtkDelaunayFlipAlgorithm_h
 #define vtkDelaunayFlipAlgorithm_h
@@ -332,7 +332,9 @@ protected:
 #endif
 
   const char* InputType = "vtkPolyData"; ///< The first input's, unless it is composite.
+  bool KeepsType = false; ///< Output port 0 has the first input's type; else a vtkPolyData.
   int SizeOfBlocks; ///< What it is measured by: vtkDataObject::CELL (default) or POINT.
+  int SizeOfOthers; ///< The same for the second input.
   bool IsSilent = false; ///< Gives no messages and no rows of the table.
   int Backend = BACKEND_AUTO;
   int DeviceId = -1;

@@ -5,8 +5,8 @@
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "MeshBlocks.h"
-#include "TriangulationRun.h"
 #include "UpdateReport.h"
+#include "UpdateRequests.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkInformation.h"
@@ -21,28 +21,6 @@ using namespace delaunayflip;
 
 static_assert(
   static_cast<int>(RingRuleKind::Orientation) == vtkDelaunayFlipPoints::RING_RULE_ORIENTATION, "");
-
-namespace
-{
-
-/// The points of an input with their data and, if they are segments, its lines.
-vtkSmartPointer<vtkPolyData> ReadPoints(vtkPointSet* input, bool linesAsSegments)
-{
-  auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(input->GetPoints());
-  points->GetPointData()->ShallowCopy(input->GetPointData());
-  points->GetFieldData()->ShallowCopy(input->GetFieldData());
-  DropResults(points->GetFieldData());
-  auto* mesh = vtkPolyData::SafeDownCast(input);
-  if (linesAsSegments && mesh)
-  {
-    points->SetVerts(mesh->GetVerts()); // so that lines have their cell ids
-    points->SetLines(mesh->GetLines());
-  }
-  return points;
-}
-
-}
 
 vtkStandardNewMacro(vtkDelaunayFlipPoints);
 vtkCxxSetObjectMacro(vtkDelaunayFlipPoints, Transform, vtkAbstractTransform);
@@ -63,6 +41,34 @@ vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
 }
 
 //------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(vtkPointSet* input) const
+{
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(input->GetPoints());
+  points->GetPointData()->ShallowCopy(input->GetPointData());
+  points->GetFieldData()->ShallowCopy(input->GetFieldData());
+  DropResults(points->GetFieldData());
+  auto* mesh = vtkPolyData::SafeDownCast(input);
+  if (this->LinesAsSegments && mesh)
+  {
+    points->SetVerts(mesh->GetVerts()); // so that lines have their cell ids
+    points->SetLines(mesh->GetLines());
+  }
+  return points;
+}
+
+vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(
+  const MeshBlock& block, const std::vector<MeshBlock>& segments)
+{
+  const auto found = ListOthers(block, segments, "the segments of a single dataset");
+  if (found.size() > 1)
+  {
+    throw InvalidOptions("the segments are in several partitions; join them first, by "
+                         "vtkAppendPolyData, or Merge Blocks in ParaView");
+  }
+  return found.empty() ? nullptr : vtkPolyData::SafeDownCast(found.front().Data);
+}
+
 TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
 {
   TriangulationRequest request;
@@ -113,21 +119,16 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   {
     return;
   }
-  const auto others = ListOthers(block, segments, "the segments of a single dataset");
-  if (others.size() > 1)
-  {
-    throw InvalidOptions("the segments are in several partitions; join them first, by "
-                         "vtkAppendPolyData, or Merge Blocks in ParaView");
-  }
+  const auto others = FindSegments(block, segments);
   TriangulationRequest request = this->MakeRequest(given);
-  const auto points = ReadPoints(given, this->LinesAsSegments);
+  const auto points = this->ReadPoints(given);
   request.Input = points;
   request.IsLive = block.IsLive;
   // Segments that all blocks share make no mesh of their own in an empty one.
   const bool isEmptyBlock = !block.Place.empty() && given->GetNumberOfPoints() == 0;
-  if (!isEmptyBlock && !others.empty())
+  if (!isEmptyBlock)
   {
-    request.Others = vtkPolyData::SafeDownCast(others.front().Data);
+    request.Others = others;
   }
   this->Runs->Update(request, *this->Report, output);
   output->SetVerts(nullptr);

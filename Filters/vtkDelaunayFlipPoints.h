@@ -87,13 +87,14 @@
  * double; the rounded places are what is Delaunay. At most 357 million points.
  *
  * @sa
- * vtkDelaunayFlip vtkDelaunay2D
+ * vtkDelaunayFlip vtkDelaunayFlipInterpolator vtkDelaunay2D
  */
 #ifndef vtkDelaunayFlipPoints_h
 #define vtkDelaunayFlipPoints_h
 
 #include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
+#include "vtkSmartPointer.h" // For the points that are read
 
 class vtkAbstractTransform;
 class vtkPointSet;
@@ -114,8 +115,11 @@ public:
   /**
    * The segments, optional: see above.
    */
-  void SetSegmentsConnection(vtkAlgorithmOutput* port) { this->SetInputConnection(1, port); }
-  void SetSegmentsData(vtkPolyData* segments) { this->SetInputData(1, segments); }
+  void SetSegmentsConnection(vtkAlgorithmOutput* port)
+  {
+    this->SetInputConnection(this->SegmentsPort, port);
+  }
+  void SetSegmentsData(vtkPolyData* segments) { this->SetInputData(this->SegmentsPort, segments); }
   ///@}
 
   ///@{
@@ -249,8 +253,16 @@ protected:
 
   /// Asks for the triangles of a dataset. The meshes of the request are not set yet.
   delaunayflip::TriangulationRequest MakeRequest(vtkPointSet* input);
+
+  /// The points of an input with their data and, if they are segments, its lines.
+  vtkSmartPointer<vtkPolyData> ReadPoints(vtkPointSet* input) const;
+
+  /// The segments for a block; null if there are none. May throw.
+  static vtkSmartPointer<vtkPolyData> FindSegments(
+    const delaunayflip::MeshBlock& block, const std::vector<delaunayflip::MeshBlock>& segments);
 #endif
 
+  int SegmentsPort = 1;
   int Projection = PROJECTION_XY;
   vtkAbstractTransform* Transform = nullptr;
   double Alpha = 0.0;

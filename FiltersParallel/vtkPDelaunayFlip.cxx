@@ -5,12 +5,12 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "FlipError.h"
-#include "FlipRun.h"
 #include "MeshBlocks.h"
 #include "PieceFlip.h"
 #include "RankMessages.h"
 #include "TriangleAngles.h"
 #include "UpdateReport.h"
+#include "UpdateRequests.h"
 
 #include "vtkFieldData.h"
 #include "vtkMultiProcessController.h"

@@ -363,7 +363,7 @@ void pqDelaunayFlipClient::refresh(pqPipelineSource* source)
 {
   vtkSMProxy* proxy = source->getProxy();
   const QString name = proxy->GetXMLName();
-  if (name == "DelaunayFlip" || name == "DelaunayFromPoints")
+  if (name == "DelaunayFlip" || name == "DelaunayFromPoints" || name == "InterpolateFromPoints")
   {
     proxy->UpdatePropertyInformation();
     QSet<pqPipelineSource*> downstream;

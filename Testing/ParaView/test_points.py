@@ -86,6 +86,24 @@ class Points(PluginTest):
         refresh(points)
         self.assertEqual(len(get_triangles(fetch(points))), 12)
 
+    def test_interpolation(self):
+        """Onto an image, with an outline; the values are those of a plane."""
+        kite = self.read(make_data([(0, 0, 1), (8, 0, 9), (8, 8, 9), (0, 8, 1)]))
+        image = simple.Wavelet(WholeExtent=[0, 10, 0, 8, 0, 0])
+        with Messages() as messages:
+            values = simple.InterpolateFromPointsDelaunay(Input=image, Source=kite)
+            refresh(values)
+        self.assertEqual((values.StopReason, messages.text), ("converged", ""))
+        data = fetch(values).GetPointData()
+        mask, heights = (data.GetArray(name) for name in ("vtkValidPointMask", "Elevation"))
+        self.assertEqual([mask.GetTuple1(i) for i in range(11)], [1] * 9 + [0] * 2)
+        self.assertEqual([heights.GetValue(i) for i in range(9)], list(range(1, 10)))
+        self.assertIsNotNone(data.GetArray("RTData"))
+        values.Segments = self.read(make_data([(2, 2, 3), (6, 2, 7), (2, 6, 3)], (), [(0, 1, 2)]), "part.vtp")
+        refresh(values)
+        mask = fetch(values).GetPointData().GetArray("vtkValidPointMask")
+        self.assertEqual(sum(mask.GetTuple1(i) for i in range(99)), 15)
+
     def test_messages(self):
         line = make_data([(0, 0, 0), (1, 1, 0), (2, 2, 0)])
         _, text = self.apply(self.read(line))

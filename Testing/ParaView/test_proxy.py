@@ -16,10 +16,10 @@ from PluginTesting import Messages, PluginTest, main, refresh
 FILTERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Filters")
 
 
-def list_properties(name):
-    """The properties with both a setter and a getter in the headers of the class and its base."""
+def list_properties(*names):
+    """The properties with both a setter and a getter in the headers of a class and its bases."""
     header = ""
-    for each in (name, "vtkDelaunayFlipAlgorithm"):
+    for each in names:
         with open(os.path.join(FILTERS, each + ".h"), encoding="utf-8") as file:
             header += file.read().split("\nprotected:")[0]
 
@@ -40,7 +40,8 @@ def describe_class(name):
 
 class Proxy(PluginTest):
     name, label = "DelaunayFlip", "Delaunay Flip"
-    vtk_class = "vtkDelaunayFlip"
+    vtk_class, bases = "vtkDelaunayFlip", ("vtkDelaunayFlipAlgorithm",)
+    ports, is_live = ["Mesh", "Iterations"], True
     choices = {"Geometry": ["Auto", "Planar", "Planar XY", "Surface"],
                "Criterion": ["In-circle", "Opposite angles"],
                "TieRule": ["Keep", "Canonical"],
@@ -49,14 +50,16 @@ class Proxy(PluginTest):
     def setUp(self):
         super().setUp()
         self.proxy = getattr(simple, self.name)(Input=simple.Sphere())
-        self.of_class = list_properties(self.vtk_class) - {"Transform"}
+        self.of_class = list_properties(self.vtk_class, *self.bases) - {"Transform"}
+        if not self.is_live:
+            self.of_class -= {"LiveUpdate", "IterationsPerUpdate", "Paused"}
 
     def property(self, name):
         return self.proxy.SMProxy.GetProperty(name)
 
     def own_properties(self):
         names = self.proxy.ListProperties()
-        return [name for name in names if name not in ("Input", "Constraints", "Segments")]
+        return [name for name in names if name not in ("Input", "Constraints", "Segments", "Source")]
 
     def test_hints(self):
         """An entry in the menu, no view for the table, polling of live runs, movies."""
@@ -66,8 +69,8 @@ class Proxy(PluginTest):
         self.assertEqual(menu.GetAttribute("category"), "Delaunay Flip")
         view = hints.FindNestedElementByName("View")
         self.assertEqual((view.GetAttribute("type"), view.GetAttribute("port")), ("None", "1"))
-        self.assertIsNotNone(hints.FindNestedElementByName("LiveSource"))
-        self.assertEqual(self.property("MaximumIterations").GetAnimateable(), 1)
+        self.assertEqual(hints.FindNestedElementByName("LiveSource") is not None, self.is_live)
+        self.assertEqual(self.property("MaximumIterations").GetAnimateable(), self.is_live)
 
     def test_everything_is_documented(self):
         self.assertIn("Delaunay", self.proxy.SMProxy.GetDocumentation().GetLongHelp())
@@ -76,7 +79,7 @@ class Proxy(PluginTest):
             self.assertTrue(text and text.GetDescription().strip(), name)
 
     def test_every_property_of_the_class_is_there(self):
-        self.assertLessEqual({*self.choices, "LiveUpdate"}, self.of_class)
+        self.assertLessEqual({*self.choices, "NumberOfThreads"}, self.of_class)
         self.assertEqual(self.of_class - set(self.own_properties()), set())
 
     def test_defaults_are_those_of_the_class(self):
@@ -86,7 +89,7 @@ class Proxy(PluginTest):
             self.assertEqual(type(value)(defaults[name]), value, name)
 
     def test_numbers_and_choices_have_domains(self):
-        texts = {"Devices"}
+        texts = {"Devices", "ElevationArray"}
         for name in set(self.own_properties()) - texts:
             takes_values = self.property(name).IsA("vtkSMVectorProperty")
             if takes_values and not self.property(name).GetInformationOnly():
@@ -102,8 +105,7 @@ class Proxy(PluginTest):
             self.assertEqual(entries, list(zip(choices, range(len(choices)))))
 
     def test_ports(self):
-        self.assertEqual([self.proxy.SMProxy.GetOutputPortName(i) for i in range(2)],
-                         ["Mesh", "Iterations"])
+        self.assertEqual([self.proxy.SMProxy.GetOutputPortName(i) for i in range(2)], self.ports)
 
 
 class PointsProxy(Proxy):
@@ -111,6 +113,14 @@ class PointsProxy(Proxy):
     vtk_class = "vtkDelaunayFlipPoints"
     choices = {"RingRule": ["Even-odd", "Nonzero", "Orientation"],
                "Projection": ["XY", "Best-fitting plane"]}
+
+
+class InterpolatorProxy(Proxy):
+    name, label = "InterpolateFromPointsDelaunay", "Interpolate From Points (Delaunay)"
+    vtk_class = "vtkDelaunayFlipInterpolator"
+    bases = "vtkDelaunayFlipPoints", "vtkDelaunayFlipAlgorithm"
+    ports, is_live = ["Values", "Iterations"], False
+    choices = {"Method": ["Linear", "Natural"], "Outside": ["NaN", "Nearest"]}
 
 
 class PluginPath(unittest.TestCase):

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef UpdateRequests_h
+#define UpdateRequests_h
+
+#include "EngineExport.h"
+#include "PolyDataBridge.h"
+#include "UpdateRun.h"
+
+#include "vtkSmartPointer.h"
+
+#include <memory>
+
+class vtkAbstractTransform;
+class vtkPoints;
+
+/// @file
+/// What updates ask for. FlipRun.cxx and TriangulationRun.cxx do it.
+
+namespace delaunayflip
+{
+
+/// What an update of a vtkDelaunayFlip asks for. The second input has the constraints.
+struct DELAUNAYFLIP_EXPORT FlipRequest : UpdateRequest
+{
+  bool HasWork() const override;
+
+  /// If only points have been moved since the last update, the new run is a warm start: it begins
+  /// with the triangles of the last run and the edges that were fixed in it. Other new runs begin
+  /// with the triangles of the input.
+  bool ContinueOrStart(std::unique_ptr<UpdateRun>& run) const override;
+
+  BridgeSettings Settings;
+  FlipOptions Options;
+  bool WantsFlipCounts = false; ///< The output gets a cell array of flip counts.
+  bool WantsAngles = false; ///< The output gets cell arrays of smallest angles.
+};
+
+/// What an update of a vtkDelaunayFlipPoints asks for. The first input has the points, their data,
+/// and the lines that are segments. The second input has more segments.
+struct TriangulationRequest : UpdateRequest
+{
+  bool HasWork() const override;
+  bool ContinueOrStart(std::unique_ptr<UpdateRun>& run) const override;
+
+  vtkMTimeType InputTime = 0; ///< When the dataset with the points was modified.
+  vtkAbstractTransform* Transform = nullptr; ///< May be null.
+  vtkMTimeType TransformTime = 0; ///< When it was modified.
+  bool FitsPlane = false; ///< Points are projected to the plane that fits them best.
+  bool LinesAsSegments = false;
+  bool ClosedLinesAsRings = true;
+  vtkIdType FirstHole = -1;
+  PointOptions Options;
+};
+
+/// The projection in which these points are triangulated; null: that to x and y.
+/// @param count how many of the points count.
+vtkSmartPointer<vtkAbstractTransform> FindProjection(
+  const TriangulationRequest& request, vtkPoints* points, vtkIdType count);
+
+}
+
+#endif
