@@ -326,7 +326,7 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
     std::string text = "constraint edges of the second input that the mesh does not have";
     if (request.Settings.InsertConstraints && group.GetSize() > 1)
     {
-      text = "constraint edges of the second input whose two ends no rank has together: insert "
+      text = "constraint edges of the second input with ends that no rank has together: insert "
              "constraints before the mesh is divided";
     }
     report.Defects.push_back({ text, elsewhere, {}, DefectIds::Points });

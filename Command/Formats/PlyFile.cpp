@@ -467,7 +467,7 @@ Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
 }
 
 /// The properties of vertices. Leaves out arrays that a .ply cannot hold: strings, too large
-/// integers, and those whose names are used by the coordinates or by an earlier array.
+/// integers, and an array if the coordinates or an earlier array use its name.
 std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh)
 {
   vtkDataArray* const points = mesh->GetPoints()->GetData();

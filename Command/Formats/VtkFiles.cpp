@@ -273,7 +273,7 @@ private:
   }
 
   /// Whether an array of numbers has another value after its first `count`. Asks for the last of
-  /// these too: VTK 9.1 fails at the very end of compressed data whose blocks are all full.
+  /// these too: VTK 9.1 fails at the very end of compressed data if all of its blocks are full.
   bool HasMore(vtkXMLDataElement* element, vtkIdType count)
   {
     int type = 0;
@@ -394,8 +394,8 @@ void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
 }
 
 /// Changes what VTK's .vtk writer would spoil: ids, which it cuts to 32 bits, and bits of
-/// several components. Colors whose name it would not read back become an array that is not active,
-/// and so do the kinds of active arrays that it would leave out.
+/// several components. Colors with a name that VTK cannot read back are no longer active, and so
+/// are the kinds of active arrays that it would leave out.
 void PrepareForLegacy(vtkFieldData* data)
 {
   MakeBytes(data);

@@ -57,7 +57,7 @@ DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(
     Each triangle keeps two vertices and two edges in their slots; edges p-b and q-a change hands.
     Writes the records of t and s, `upper` and `lower`, and the words of their own four sides,
     nothing else. On a device store(0, t, record) and store(1, s, record) write the records.
-    @returns the outer half-edges, whose edges must be judged again. */
+    @returns the outer half-edges. Their edges must be judged again. */
 template <typename Store>
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges FlipEdge(
   const EdgeMeshView& mesh, EdgeId edge, const Quad& quad, TriangleAccess upper,

@@ -38,9 +38,9 @@ constexpr std::int64_t MostRounds = 1000;
 constexpr std::int64_t SafetyMargin = 1000;
 
 // The guard keeps a flip from making an edge that another rank has. Such an edge could only join
-// two shared points. So when ranks flip alone, they do not flip an edge whose flip would join two
-// shared points: the edge waits. Afterwards all ranks are asked whether the new edge exists. If it
-// does not, one rank may make it.
+// two shared points. So when ranks flip alone, they make no flip that would join two shared points:
+// the edge waits. Afterwards all ranks are asked whether the new edge exists. If it does not, one
+// rank may make it.
 
 /// An edge to flip, and the edge that this would make.
 struct FlipQuestion

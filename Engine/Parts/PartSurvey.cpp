@@ -244,8 +244,8 @@ struct StarSum
   }
 };
 
-/// A corner with its sides in counterclockwise order, at a point that is shared or whose triangles
-/// do not close around it.
+/// A corner with its sides in counterclockwise order, at a point that is shared or that triangles
+/// do not surround.
 struct Wedge
 {
   std::int64_t Key; ///< The point's key.

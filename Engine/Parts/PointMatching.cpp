@@ -204,9 +204,9 @@ std::int64_t ForEachShared(std::vector<Candidate> all, const Visit& visit)
   return ambiguous;
 }
 
-/// Asks the ranks whose box holds a point of this one whether they have it, too: a border point, or
-/// any point if points have numbers. It may be inside their part: where three sheets of a
-/// non-manifold mesh meet, two may be on one rank; and sheets that lie on each other may have the
+/// Asks other ranks whether they have a point of this one, if it is in their box. It is a border
+/// point, or any point if points have numbers. It may be inside their part: where three sheets of a
+/// non-manifold mesh meet, two may be on one rank. Sheets that lie on each other may also have the
 /// same points.
 /// @returns the hashes of the places, for each rank.
 RecordLists<std::uint64_t> AskForPoints(const PartPoints& points, PieceGroup& group)

@@ -139,7 +139,7 @@ void ForEachRun(std::vector<Item>& items, const IsSame& isSame, const Visit& vis
   }
 }
 
-/// A hash of a number, whose bits all depend on all bits of the number.
+/// A hash of a number. Each bit of the hash depends on all bits of the number.
 inline std::uint64_t ScatterBits(std::uint64_t bits)
 {
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;

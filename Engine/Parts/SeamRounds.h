@@ -37,13 +37,13 @@ void CountState(EdgeState state, FlipReport& counts);
 struct SeamTest
 {
   std::vector<BadSeam> Bad; ///< Those of this rank. Each is in the lists of both of its ranks.
-  FlipReport Counts; ///< Has the states of the edges whose home is this rank (CountState).
+  FlipReport Counts; ///< The states of the edges that have their home here (CountState).
   std::int64_t BadOfAll; ///< How many may flip, over all ranks, each counted once.
 };
 
 /// Finds the bad seam edges that may flip, as far as the shape of their quads tells. Keeps the seam
-/// edges whose home is this rank. So ranks send only triangles that have changed, and good edges
-/// are not tested again.
+/// edges that have their home on this rank. So ranks send only triangles that have changed, and
+/// good edges are not tested again.
 class SeamTester
 {
 public:
@@ -77,7 +77,7 @@ struct MoveRule
 /// so these edges become inner edges.
 /// @param bad the bad seam edges of this rank.
 /// @param moved receives the number of triangles that have moved, over all ranks.
-/// @returns the triangles of this rank whose edges must now be judged.
+/// @returns the triangles of this rank that have edges to judge now.
 std::vector<std::int64_t> MoveTriangles(PartMesh& mesh, const std::vector<BadSeam>& bad,
   const MoveRule& rule, PieceGroup& group, std::int64_t& moved);
 
@@ -97,8 +97,8 @@ public:
 
   /// Adds a triangle whose edges are to be judged.
   void Add(std::int64_t triangle);
-  /// Adds the triangles at the first end of this edge, now gone, whose edges could not flip while
-  /// the rank had it.
+  /// Adds the triangles at the first end of an edge that is gone. Some of their edges could not
+  /// flip while the rank had it.
   void AddFreed(const PointPair& edge);
 
   /// Whether no edge is left to be judged.

@@ -82,8 +82,8 @@ struct SeamSurvey
 /// caller's mesh after insertion of the constraints that are to be inserted; otherwise the caller's
 /// mesh.
 ///
-/// Each rank inserts the constraints that stay within its part. Several ranks may have those
-/// between shared points, so a rank tries all whose two points it has. A constraint that no rank
+/// Each rank inserts the constraints that stay within its part. Several ranks may have the two
+/// points of a constraint if these are shared, so each of them tries it. A constraint that no rank
 /// inserts counts as unmatched, once. Where flips need a guard, ranks insert nothing.
 class PartConstraints
 {

@@ -156,8 +156,8 @@ public:
 private:
   using Center = std::array<double, 3>;
 
-  /// Centres whose coordinate is below the value belong to the first of the two sides. A side is
-  /// the index of another cut or, if negative, the part ~side.
+  /// Centres with a coordinate below the value belong to the first of the two sides. A side is the
+  /// index of another cut or, if negative, the part ~side.
   struct Cut
   {
     int Axis;

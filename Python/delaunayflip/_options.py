@@ -102,8 +102,8 @@ _RANGES = {"maximum_iterations": (-1, 2**63 - 1), "threads": (0, 2**31 - 1),
 
 
 def make_options(function=None, **keywords):
-    """A Struct with the engine's defaults for options that are not given. `function`: one
-    whose defaults are the engine's; these are passed over, which takes less time.
+    """A Struct with the engine's defaults for options that are not given. If `function` has the
+    engine's defaults, options that are equal to them are passed over, which takes less time.
 
     Raises:
         TypeError: A keyword that is no option, or a value of a wrong type.

@@ -285,7 +285,7 @@ def flip(
         tolerance: Radians by which opposite angles must exceed pi to be bad, 0 to below 1; -1:
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.
-        maximum_deviation: On surfaces, edges stay whose flip would move the surface by more than
+        maximum_deviation: On surfaces, an edge stays if its flip would move the surface by more than
             this length, 0 or more. It holds per flip: many flips can add up.
         constraints: (k, 2) pairs of point ids: edges that must stay.
         insert_constraints: In the plane, flips turn missing constraints into edges; or (k,) flags.

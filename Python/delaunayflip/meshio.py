@@ -33,7 +33,7 @@ def flip(mesh: "meshio.Mesh", *, regions: Regions = None, return_report: typing.
 def flip(
     mesh: "meshio.Mesh", *, regions: Regions = None, return_report: bool = False, **options: typing.Any,
 ) -> "typing.Union[meshio.Mesh, typing.Tuple[meshio.Mesh, Report]]":
-    """A mesh with the same points, data and sets whose triangles are Delaunay.
+    """A mesh with the same points, data and sets, and with Delaunay triangles.
 
     Only cells of the type `triangle` flip. The mesh still fits together: an edge of triangles stays
     if it is also an edge of another cell, such as a line, a quad or a tetrahedron. Lines are not
@@ -99,7 +99,7 @@ def _add_constraints(pairs, options):
 
 
 def _find_shared_edges(triangles, others, count):
-    """The edges of the triangles whose ends are points of one other cell, (k, 2), and whether these
+    """The edges of the triangles that have both ends in one other cell, (k, 2), and whether these
     are all of their edges. Ids that no point has are passed over here."""
     inner = triangles[((triangles >= 0) & (triangles < count)).all(axis=1)].astype(numpy.int64)
     is_used = numpy.zeros(count + 1, dtype=bool)  # the last one stands for all other ids

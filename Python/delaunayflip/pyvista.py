@@ -104,7 +104,7 @@ def triangulate(
     Args:
         cloud: A dataset with points of its own, such as a PolyData or a PointSet; its cells do not
             matter.
-        segments: Pairs of point ids, as for delaunayflip.triangulate, or a PolyData whose lines become
+        segments: Pairs of point ids, as for delaunayflip.triangulate, or a PolyData. Its lines become
             edges of the mesh. Its polygons, and lines that end where they begin, are rings of the
             outline. Its points are added, with their data, where they are new.
         outline, holes: As for delaunayflip.triangulate; or a PolyData, whose polygons and lines are
