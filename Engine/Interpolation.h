@@ -12,19 +12,20 @@
 /// What a triangulation of points can be asked: the triangles that places lie in, and values there
 /// from values at the points. FlipSession::Ask answers:
 ///
-///     bool InterpolateHeights(delaunayflip::PlaneArray points, const double* heights,
-///       delaunayflip::PlaneArray places, double* heightsAtPlaces)
-///     {
-///       delaunayflip::PointInput input;
-///       input.Points = points;
-///       delaunayflip::FlipSession session(input, delaunayflip::PointOptions());
-///       session.Advance();
-///       delaunayflip::PlaceQuery query;
-///       query.Places = places;
-///       query.Values = heights; // one per point
-///       query.Results = heightsAtPlaces; // one per place, NaN outside
-///       return session.Ask(query);
-///     }
+///     const double points[] = { 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0 };
+///     const double heights[] = { 0.0, 10.0, 20.0, 30.0 };
+///     PointInput input;
+///     input.Points = PlaneArray(points, 4, 2);
+///     FlipSession session(input, PointOptions());
+///     session.Advance();
+///     const double place[] = { 0.5, 0.25 };
+///     double height = 0.0;
+///     PlaceQuery query;
+///     query.Places = PlaneArray(place, 1, 2);
+///     query.Values = heights; // one for each point
+///     query.Results = &height; // one for each place
+///     session.Ask(query); // true
+///     height; // 10.0
 
 namespace delaunayflip
 {

@@ -74,13 +74,38 @@ public:
     return true;
   }
 
-  /// Public for nvcc.
+  /// Sorts the places of a block by their cells, if most are far from the ones before. Then
+  /// triangles that are near each other are read at about the same time. Public for nvcc, as is the
+  /// next function.
+  /// @returns the order, or nothing.
+  static Array<std::uint32_t> SortPlaces(const PlaceGridFrame& frame, const PlaceBlock& block,
+    std::int64_t count, const Backend& backend)
+  {
+    constexpr std::int64_t Fewest = 1 << 14;
+    if (block.Raster.Columns > 0 || count < Fewest)
+    {
+      return {};
+    }
+    const auto far = backend.template Sum<std::int64_t>(count - 1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+      { sum += frame.AreNear(block.GetPlace(i), block.GetPlace(i + 1)) ? 0 : 1; });
+    if (2 * far < count)
+    {
+      return {};
+    }
+    return backend.template SortIndices<PlaceGridFrame::KeyBits>(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return frame.FindKey(block.GetPlace(i)); });
+  }
+
   static void AnswerHere(const AskedMesh& asked, const AskedValues& values, const PlaceBlock& block,
     std::int64_t count, const Backend& backend)
   {
+    const Array<std::uint32_t> sorted = SortPlaces(asked.Grid.Frame, block, count, backend);
+    const std::uint32_t* order = sorted.Data();
     backend.ForEach(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t k)
       {
+        const std::int64_t i = order ? order[k] : k;
         const PlanePoint place = block.GetPlace(i);
         const FoundPlace found = asked.Find(place);
         if (block.Triangles)

@@ -55,6 +55,9 @@ private:
 /// The box of a triangulation, cut into cells.
 struct PlaceGridFrame
 {
+  static constexpr int MostLevels = 12; ///< 4096 rows
+  static constexpr int KeyBits = 2 * MostLevels;
+
   PlaceBox Box;
   double CellsPerUnit[2] = { 0.0, 0.0 }; ///< In the finest grid; 0 if the box has no usable size.
   int Finest = 0; ///< The finest grid has 2^Finest rows and columns, the coarsest one cell.
@@ -90,10 +93,22 @@ struct PlaceGridFrame
     return ((std::int64_t(1) << (2 * level)) - 1) / 3;
   }
 
+  /// The number of a cell of the finest grid, row by row: KeyBits bits at most.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindKey(const PlanePoint& place) const
+  {
+    return (this->FindColumn(1, place.V) << this->Finest) + this->FindColumn(0, place.U);
+  }
   DELAUNAYFLIP_HOST_DEVICE std::int64_t FindCell(const PlanePoint& place) const
   {
-    return GetFirst(this->Finest) + (std::int64_t(this->FindColumn(1, place.V)) << this->Finest) +
-      this->FindColumn(0, place.U);
+    return GetFirst(this->Finest) + this->FindKey(place);
+  }
+
+  /// Whether two places are in the same cell or in neighbouring ones.
+  DELAUNAYFLIP_HOST_DEVICE bool AreNear(const PlanePoint& a, const PlanePoint& b) const
+  {
+    const std::uint32_t columns = this->FindColumn(0, a.U) - this->FindColumn(0, b.U);
+    const std::uint32_t rows = this->FindColumn(1, a.V) - this->FindColumn(1, b.V);
+    return columns + 1 <= 2 && rows + 1 <= 2; // from -1 to 1
   }
 };
 
@@ -163,10 +178,9 @@ struct PlaceGrid
 inline PlaceGridFrame MakePlaceGridFrame(const PlaceBox& box, std::int64_t count)
 {
   constexpr std::int64_t PlacesPerCell = 2;
-  constexpr int Most = 12; // 4096 rows
   PlaceGridFrame frame;
   frame.Box = box;
-  while (frame.Finest < Most && (PlacesPerCell << (2 * frame.Finest)) < count)
+  while (frame.Finest < PlaceGridFrame::MostLevels && (PlacesPerCell << (2 * frame.Finest)) < count)
   {
     ++frame.Finest;
   }

@@ -76,36 +76,44 @@ struct AskedValues
       this->TakeNearest(place, result);
       return;
     }
-    double sum = 0.0;
-    const auto add = [&](VertexId vertex, double weight)
+    // At vertices, on the hull and on segments there are no natural weights.
+    if (!this->IsNatural || !this->AddNatural(asked.Mesh, place, found.Triangle, result))
     {
-      sum += weight;
-      const double* value = this->At(vertex);
-      for (int i = 0; i < this->Components; ++i)
-      {
-        result[i] += weight * value[i];
-      }
-    };
-    this->Fill(result, 0.0);
-    bool isDone = false;
-    if (this->IsNatural)
-    {
-      // At vertices, on the hull and on segments there are none.
-      isDone = VisitNaturalWeights(asked.Mesh, place, found.Triangle, add) && sum != 0.0;
-    }
-    if (!isDone)
-    {
-      sum = 0.0;
       this->Fill(result, 0.0);
-      VisitLinearWeights(asked.Mesh, place, found, add);
-    }
-    for (int i = 0; i < this->Components; ++i)
-    {
-      result[i] /= sum;
+      VisitLinearWeights(asked.Mesh, place, found,
+        [&](VertexId vertex, double weight) { this->Add(vertex, weight, result); });
     }
   }
 
 private:
+  DELAUNAYFLIP_HOST_DEVICE void Add(VertexId vertex, double weight, double* result) const
+  {
+    const double* value = this->At(vertex);
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] += weight * value[i];
+    }
+  }
+
+  /// @returns whether rounding has left anything.
+  DELAUNAYFLIP_HOST_DEVICE bool AddNatural(
+    const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle, double* result) const
+  {
+    double sum = 0.0;
+    this->Fill(result, 0.0);
+    const bool isGood = VisitNaturalWeights(mesh, place, triangle,
+      [&](VertexId vertex, double weight)
+      {
+        sum += weight;
+        this->Add(vertex, weight, result);
+      });
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] /= sum;
+    }
+    return isGood && sum != 0.0;
+  }
+
   DELAUNAYFLIP_HOST_DEVICE void TakeNearest(const PlanePoint& place, double* result) const
   {
     if (this->Boundary.NumberOfEdges == 0 || !delaunayflip::IsFinite(place))

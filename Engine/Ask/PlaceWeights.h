@@ -8,10 +8,12 @@
 #include "ExactPredicates.h"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 /// @file
 /// How much the vertices around a place count for the value there. Weights are told vertex by
-/// vertex and need not add up to 1: who takes them divides by their sum.
+/// vertex. Linear ones add up to 1; natural ones do not, so their sum has to be divided by.
 ///
 /// Both methods reproduce linear functions. At a vertex, on an edge of the hull and on a segment
 /// only linear weights are defined; there natural ones approach them.
@@ -19,12 +21,24 @@
 namespace delaunayflip
 {
 
-/// A vector from a place, in twice the precision of double: U and V rounded, and the rest.
+/// A vector.
 struct PlaceOffset
 {
   double U, V;
-  double RestU = 0.0, RestV = 0.0;
 };
+
+/// A point, scaled so that products of differences neither overflow nor underflow.
+struct ScaledPoint
+{
+  double U, V;
+};
+
+/// a - origin, rounded.
+DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset Subtract(
+  const ScaledPoint& a, const ScaledPoint& origin)
+{
+  return { a.U - origin.U, a.V - origin.V };
+}
 
 /// The rounding error of the difference a - b, exactly (Knuth).
 DELAUNAYFLIP_HOST_DEVICE inline double GetDifferenceError(double a, double b, double difference)
@@ -43,62 +57,132 @@ DELAUNAYFLIP_HOST_DEVICE inline double GetProductError(double a, double b, doubl
   return aLow * bLow - (((product - aHigh * bHigh) - aLow * bHigh) - aHigh * bLow);
 }
 
-/// The cross product of two vectors, with a relative error of a few roundings even where the two
-/// products nearly cancel: slivers need it.
-DELAUNAYFLIP_HOST_DEVICE inline double CrossProduct(const PlaceOffset& a, const PlaceOffset& b)
+/// The cross product of two vectors.
+class CrossProduct
 {
-  constexpr double Cancelled = 1e-3; // the rest loses three of 16 digits at most
-  const double left = a.U * b.V;
-  const double right = a.V * b.U;
-  const double cross = left - right;
-  if (std::fabs(cross) > Cancelled * (std::fabs(left) + std::fabs(right)))
+public:
+  DELAUNAYFLIP_HOST_DEVICE CrossProduct(const PlaceOffset& a, const PlaceOffset& b)
+    : Left(a.U * b.V),
+      Right(a.V * b.U),
+      Value(Left - Right)
   {
-    return cross;
   }
-  const double ofProducts = GetProductError(a.U, b.V, left) - GetProductError(a.V, b.U, right);
-  const double ofRests = (a.U * b.RestV - a.V * b.RestU) + (a.RestU * b.V - a.RestV * b.U);
-  return cross + (ofProducts + ofRests);
+
+  /// Whether the value has lost more than three of 16 digits.
+  DELAUNAYFLIP_HOST_DEVICE bool IsCancelled() const
+  {
+    constexpr double Cancelled = 1e-3;
+    return !(std::fabs(this->Value) > Cancelled * (std::fabs(this->Left) + std::fabs(this->Right)));
+  }
+
+  /// What the rounding of the two products has taken from the value (Kahan).
+  DELAUNAYFLIP_HOST_DEVICE double GetRest(const PlaceOffset& a, const PlaceOffset& b) const
+  {
+    return GetProductError(a.U, b.V, this->Left) - GetProductError(a.V, b.U, this->Right);
+  }
+
+  double Left, Right, Value;
+};
+
+/// Twice the area of a triangle, with a relative error of a few roundings even if it is a sliver.
+DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(
+  const ScaledPoint& origin, const ScaledPoint& a, const ScaledPoint& b)
+{
+  const PlaceOffset toA = Subtract(a, origin);
+  const PlaceOffset toB = Subtract(b, origin);
+  const CrossProduct cross(toA, toB);
+  if (!cross.IsCancelled())
+  {
+    return cross.Value;
+  }
+  const double restUOfA = GetDifferenceError(a.U, origin.U, toA.U);
+  const double restVOfA = GetDifferenceError(a.V, origin.V, toA.V);
+  const double restUOfB = GetDifferenceError(b.U, origin.U, toB.U);
+  const double restVOfB = GetDifferenceError(b.V, origin.V, toB.V);
+  const double ofDifferences =
+    (toA.U * restVOfB - toA.V * restUOfB) + (restUOfA * toB.V - restVOfA * toB.U);
+  return cross.Value + (cross.GetRest(toA, toB) + ofDifferences);
 }
 
-/// A place and its triangle, with the scale at which products neither overflow nor underflow.
+/// The power of two by which a number that is not negative comes to be between 1 and 2; the largest
+/// one that is finite for the smallest numbers.
+DELAUNAYFLIP_HOST_DEVICE inline double InvertPowerOfTwo(double number)
+{
+  constexpr int MantissaBits = 52;
+  constexpr std::uint64_t TwiceTheBias = 2046;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &number, sizeof(bits));
+  std::uint64_t exponent = bits >> MantissaBits;
+  if (exponent >= TwiceTheBias) // its inverse would be too small to be a normal number
+  {
+    exponent = TwiceTheBias - 1;
+  }
+  const std::uint64_t inverse = (TwiceTheBias - exponent) << MantissaBits;
+  double power = 0.0;
+  std::memcpy(&power, &inverse, sizeof(power));
+  return power;
+}
+
+/// The scale for a place and what is around it, by the triangle that has it.
 class PlaceFrame
 {
 public:
   DELAUNAYFLIP_HOST_DEVICE PlaceFrame(
     const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle)
-    : Mesh(mesh),
-      Place(place)
+    : Mesh(mesh)
   {
     double largest = 0.0;
     for (int slot = 0; slot < 3; ++slot)
     {
       const PlanePoint point = mesh.GetPoint(mesh.GetVertex(MakeCorner(triangle, slot)));
-      const double u = std::fabs(0.5 * point.U - 0.5 * place.U);
-      const double v = std::fabs(0.5 * point.V - 0.5 * place.V);
-      largest = std::fmax(largest, std::fmax(u, v));
+      for (const double half : { 0.5 * point.U - 0.5 * place.U, 0.5 * point.V - 0.5 * place.V })
+      {
+        if (std::fabs(half) > largest)
+        {
+          largest = std::fabs(half);
+        }
+      }
     }
-    constexpr int Most = 900; // so that the scale itself is a normal number
-    const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
-    const int bounded = exponent < -Most ? -Most : (exponent > Most ? Most : exponent);
-    this->Scale = std::scalbn(1.0, -bounded);
+    this->Scale = InvertPowerOfTwo(largest);
+    this->Place = { place.U * this->Scale, place.V * this->Scale };
   }
 
-  DELAUNAYFLIP_HOST_DEVICE PlaceOffset GetOffset(VertexId vertex) const
+  DELAUNAYFLIP_HOST_DEVICE const ScaledPoint& GetPlace() const { return this->Place; }
+
+  DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetPoint(VertexId vertex) const
   {
     const PlanePoint point = this->Mesh.GetPoint(vertex);
-    const double u = point.U * this->Scale, placeU = this->Place.U * this->Scale;
-    const double v = point.V * this->Scale, placeV = this->Place.V * this->Scale;
-    PlaceOffset offset{ u - placeU, v - placeV };
-    offset.RestU = GetDifferenceError(u, placeU, offset.U);
-    offset.RestV = GetDifferenceError(v, placeV, offset.V);
-    return offset;
+    return { point.U * this->Scale, point.V * this->Scale };
   }
 
 private:
   const PlaneMesh& Mesh;
-  const PlanePoint& Place;
-  double Scale = 1.0;
+  ScaledPoint Place;
+  double Scale;
 };
+
+/// The length of a vector, by the sum of its components.
+DELAUNAYFLIP_HOST_DEVICE inline double FindSize(const PlaceOffset& offset)
+{
+  return std::fabs(offset.U) + std::fabs(offset.V);
+}
+
+/// The slot opposite the longest edge of a triangle.
+DELAUNAYFLIP_HOST_DEVICE inline int FindLongestEdge(const ScaledPoint (&points)[3])
+{
+  int longest = 0;
+  double largest = -1.0;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const double size = FindSize(Subtract(points[NextSlot(slot)], points[PreviousSlot(slot)]));
+    if (size > largest)
+    {
+      largest = size;
+      longest = slot;
+    }
+  }
+  return longest;
+}
 
 /// Calls visit(vertex, weight) for the three vertices of a triangle that has the place, or for
 /// fewer if it is on an edge or a vertex.
@@ -108,12 +192,12 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
 {
   const TriangleId triangle = found.Triangle;
   VertexId vertices[3];
-  PlaceOffset offsets[3];
+  ScaledPoint points[3];
   const PlaceFrame frame(mesh, place, triangle);
   for (int slot = 0; slot < 3; ++slot)
   {
     vertices[slot] = mesh.GetVertex(MakeCorner(triangle, slot));
-    offsets[slot] = frame.GetOffset(vertices[slot]);
+    points[slot] = frame.GetPoint(vertices[slot]);
   }
   const int vertex = found.FindVertexSlot();
   if (vertex >= 0)
@@ -121,63 +205,102 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
     visit(vertices[vertex], 1.0);
     return;
   }
-  const auto visitEdge = [&](int opposite)
-  {
-    const int from = NextSlot(opposite), to = PreviousSlot(opposite);
-    const double toFrom = std::fabs(offsets[from].U) + std::fabs(offsets[from].V);
-    const double toTo = std::fabs(offsets[to].U) + std::fabs(offsets[to].V);
-    visit(vertices[from], toTo);
-    visit(vertices[to], toFrom);
-  };
+  double areas[3];
+  double sum = 0.0;
   const int edge = found.FindEdgeSlot();
-  if (edge >= 0)
+  for (int slot = 0; slot < 3 && edge < 0; ++slot)
   {
-    visitEdge(edge);
+    const double area =
+      FindTwiceArea(frame.GetPlace(), points[NextSlot(slot)], points[PreviousSlot(slot)]);
+    areas[slot] = area > 0.0 ? area : 0.0;
+    sum += areas[slot];
+  }
+  constexpr double Measurable = 1e-28; // of a triangle whose size is about 1
+  if (sum > Measurable)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      visit(vertices[slot], areas[slot] / sum);
+    }
     return;
   }
-  for (int slot = 0; slot < 3; ++slot)
+  // On an edge, or in a triangle without a measurable area, which is as good as its longest edge.
+  const int opposite = edge >= 0 ? edge : FindLongestEdge(points);
+  const int from = NextSlot(opposite), to = PreviousSlot(opposite);
+  const double ofFrom = FindSize(Subtract(points[to], frame.GetPlace()));
+  const double ofTo = FindSize(Subtract(points[from], frame.GetPlace()));
+  double share = ofFrom / (ofFrom + ofTo);
+  if (ofFrom + ofTo == 0.0) // both have underflowed, since a third vertex is so far away
   {
-    const double area = CrossProduct(offsets[NextSlot(slot)], offsets[PreviousSlot(slot)]);
-    visit(vertices[slot], std::fmax(area, 0.0));
+    share = 0.5;
   }
+  visit(vertices[from], share);
+  visit(vertices[to], 1.0 - share);
 }
 
-/// The centre of the circle through a place and two vertices.
-DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(const PlaceOffset& a, const PlaceOffset& b)
-{
-  const double twice = 2.0 * CrossProduct(a, b);
-  const double aSquare = a.U * a.U + a.V * a.V;
-  const double bSquare = b.U * b.U + b.V * b.V;
-  return { (b.V * aSquare - a.V * bSquare) / twice, (a.U * bSquare - b.U * aSquare) / twice };
-}
-
-/// b - a.
-DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset Subtract(const PlaceOffset& b, const PlaceOffset& a)
-{
-  PlaceOffset difference{ b.U - a.U, b.V - a.V };
-  difference.RestU = GetDifferenceError(b.U, a.U, difference.U) + (b.RestU - a.RestU);
-  difference.RestV = GetDifferenceError(b.V, a.V, difference.V) + (b.RestV - a.RestV);
-  return difference;
-}
-
-/// The centre of the circle through three vertices.
+/// The centre of the circle through three points, as a vector from the first one.
 DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(
-  const PlaceOffset& a, const PlaceOffset& b, const PlaceOffset& c)
+  const ScaledPoint& origin, const ScaledPoint& a, const ScaledPoint& b)
 {
-  const PlaceOffset centre = FindCentre(Subtract(b, a), Subtract(c, a));
-  return { a.U + centre.U, a.V + centre.V };
+  const PlaceOffset toA = Subtract(a, origin);
+  const PlaceOffset toB = Subtract(b, origin);
+  const double factor = 0.5 / FindTwiceArea(origin, a, b);
+  const double squareA = toA.U * toA.U + toA.V * toA.V;
+  const double squareB = toB.U * toB.U + toB.V * toB.V;
+  return { (toB.V * squareA - toA.V * squareB) * factor,
+    (toA.U * squareB - toB.U * squareA) * factor };
 }
 
 /// The triangles with a place in their circumcircle that can be reached from the place without
 /// crossing a segment: the ones that an insertion of the place would replace. There is no vertex
-/// inside of them all, so that they form a tree, and their boundary is one ring.
+/// inside of them all, so that they form a tree, and their boundary is one ring. A walk along it
+/// comes to each triangle three times, so the centres of the first ones are kept.
 class PlaceCavity
 {
 public:
-  DELAUNAYFLIP_HOST_DEVICE PlaceCavity(const PlaneMesh& mesh, const PlanePoint& place)
+  DELAUNAYFLIP_HOST_DEVICE PlaceCavity(
+    const PlaneMesh& mesh, const PlanePoint& place, const PlaceFrame& frame)
     : Mesh(mesh),
-      Place(place)
+      Place(place),
+      Frame(frame)
   {
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetPoint(CornerId corner) const
+  {
+    return this->Frame.GetPoint(this->Mesh.GetVertex(corner));
+  }
+
+  /// The centre of the circle through the place and the ends of the edge opposite a corner, from
+  /// the place.
+  DELAUNAYFLIP_HOST_DEVICE PlaceOffset FindNewCentre(CornerId opposite) const
+  {
+    return FindCentre(this->Frame.GetPlace(), this->GetPoint(PlaneMesh::Next(opposite)),
+      this->GetPoint(PlaneMesh::Previous(opposite)));
+  }
+
+  /// The centre of the circumcircle of a triangle of the cavity, from the place.
+  DELAUNAYFLIP_HOST_DEVICE PlaceOffset GetCentre(TriangleId triangle)
+  {
+    const int index = this->FindKept(triangle);
+    if (index >= 0)
+    {
+      return { this->KeptCentres[index][0], this->KeptCentres[index][1] };
+    }
+    // Always from the same corner, so that all three vertices get the same bits.
+    const ScaledPoint first = this->GetPoint(MakeCorner(triangle, 0));
+    PlaceOffset centre = FindCentre(
+      first, this->GetPoint(MakeCorner(triangle, 1)), this->GetPoint(MakeCorner(triangle, 2)));
+    const PlaceOffset toFirst = Subtract(first, this->Frame.GetPlace());
+    centre = { toFirst.U + centre.U, toFirst.V + centre.V };
+    if (this->NumberOfKept < MostKept)
+    {
+      this->Kept[this->NumberOfKept] = triangle;
+      this->KeptCentres[this->NumberOfKept][0] = centre.U;
+      this->KeptCentres[this->NumberOfKept][1] = centre.V;
+      ++this->NumberOfKept;
+    }
+    return centre;
   }
 
   /// The corner on the other side of the edge opposite a corner of the cavity, if its triangle is
@@ -189,6 +312,10 @@ public:
     if (across == NoCorner || this->Mesh.IsFixed(side))
     {
       return NoCorner;
+    }
+    if (this->FindKept(TriangleOf(across)) >= 0)
+    {
+      return across;
     }
     const PlanePoint points[4] = { this->Mesh.GetPoint(this->Mesh.GetVertex(across)),
       this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Next(across))),
@@ -204,8 +331,26 @@ public:
   }
 
 private:
+  static constexpr int MostKept = 8;
+
+  DELAUNAYFLIP_HOST_DEVICE int FindKept(TriangleId triangle) const
+  {
+    for (int i = 0; i < this->NumberOfKept; ++i)
+    {
+      if (this->Kept[i] == triangle)
+      {
+        return i;
+      }
+    }
+    return -1;
+  }
+
   const PlaneMesh& Mesh;
   const PlanePoint& Place;
+  const PlaceFrame& Frame;
+  int NumberOfKept = 0;
+  TriangleId Kept[MostKept];
+  double KeptCentres[MostKept][2];
 };
 
 /// The area of a polygon by its corners, which are told one after the other, times two.
@@ -222,9 +367,13 @@ public:
   {
     // Corners may be very far away. The nearer one as the factor loses least.
     const PlaceOffset step = { corner.U - this->Last.U, corner.V - this->Last.V };
-    const double toLast = std::fabs(this->Last.U) + std::fabs(this->Last.V);
-    const double toCorner = std::fabs(corner.U) + std::fabs(corner.V);
-    this->Twice += CrossProduct(toCorner < toLast ? corner : this->Last, step);
+    const PlaceOffset& nearer = FindSize(corner) < FindSize(this->Last) ? corner : this->Last;
+    const CrossProduct cross(nearer, step);
+    this->Twice += cross.Value;
+    if (cross.IsCancelled())
+    {
+      this->Twice += cross.GetRest(nearer, step);
+    }
     this->Last = corner;
   }
 
@@ -250,13 +399,15 @@ public:
   {
     this->SumU += weight * offset.U;
     this->SumV += weight * offset.V;
-    this->Size += std::fabs(weight) * (std::fabs(offset.U) + std::fabs(offset.V));
+    this->Size += std::fabs(weight) * FindSize(offset);
   }
 
   DELAUNAYFLIP_HOST_DEVICE bool IsGood() const
   {
     constexpr double Tolerance = 1e-10;
-    return std::fabs(this->SumU) + std::fabs(this->SumV) <= Tolerance * this->Size; // not for NaN
+    constexpr double Least = 1e-200, Most = 1e200; // so that no sum underflows or overflows
+    const double sum = FindSize({ this->SumU, this->SumV }); // may be NaN
+    return sum <= Tolerance * this->Size && this->Size > Least && this->Size < Most;
   }
 
 private:
@@ -271,14 +422,8 @@ template <typename Visit>
 DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle, const Visit& visit)
 {
-  const PlaceCavity cavity(mesh, place);
   const PlaceFrame frame(mesh, place, triangle);
-  const auto getOffset = [&](CornerId corner) { return frame.GetOffset(mesh.GetVertex(corner)); };
-  const auto findNewCentre = [&](CornerId opposite)
-  {
-    return FindCentre(
-      getOffset(PlaneMesh::Next(opposite)), getOffset(PlaneMesh::Previous(opposite)));
-  };
+  PlaceCavity cavity(mesh, place, frame);
   WeightCheck check;
   // An edge of the boundary: always on across the next edge, until nothing is beyond.
   CornerId first = MakeCorner(triangle, 0);
@@ -289,7 +434,7 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
     within = cavity.FindWithin(first);
   }
   CornerId opposite = first; // of an edge of the boundary
-  PlaceOffset centre = findNewCentre(first);
+  PlaceOffset centre = cavity.FindNewCentre(first);
   do
   {
     // Around the vertex where this edge ends, to the edge of the boundary that begins there. The
@@ -299,17 +444,14 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
     within = opposite;
     while (within != NoCorner)
     {
-      // From the same corner for all three vertices, so that rounding is the same.
-      const TriangleId t = TriangleOf(within);
-      area.Add(FindCentre(
-        getOffset(MakeCorner(t, 0)), getOffset(MakeCorner(t, 1)), getOffset(MakeCorner(t, 2))));
+      area.Add(cavity.GetCentre(TriangleOf(within)));
       opposite = PlaneMesh::Next(within);
       within = cavity.FindWithin(opposite);
     }
-    centre = findNewCentre(opposite);
+    centre = cavity.FindNewCentre(opposite);
     area.Add(centre);
     const double weight = area.GetTwice();
-    check.Add(weight, frame.GetOffset(vertex));
+    check.Add(weight, Subtract(frame.GetPoint(vertex), frame.GetPlace()));
     visit(vertex, weight);
   } while (opposite != first);
   return check.IsGood();

@@ -106,9 +106,94 @@ void ExpectRightNumber(const PointCase& drawn, const Places& points, const Trian
   }
 }
 
+/// By rational numbers, the first triangle that has a place.
+std::int32_t FindTriangle(
+  const Places& points, const std::vector<std::int32_t>& triangles, const Place& place)
+{
+  for (std::size_t t = 0; t < triangles.size() / 3; ++t)
+  {
+    bool hasPlace = true;
+    for (int i = 0; i < 3 && hasPlace; ++i)
+    {
+      const Place& a = points[triangles[3 * t + i]];
+      const Place& b = points[triangles[3 * t + (i + 1) % 3]];
+      hasPlace = RationalTurn(ToPoint(a), ToPoint(b), ToPoint(place)) >= 0;
+    }
+    if (hasPlace)
+    {
+      return static_cast<std::int32_t>(t);
+    }
+  }
+  return -1;
+}
+
+/// Places are found in their triangles, and coordinates, as values, are interpolated right there.
+void ExpectRightAnswers(
+  const FlipSession& session, const Places& points, const std::vector<std::int32_t>& triangles)
+{
+  std::mt19937 random(static_cast<std::uint32_t>(points.size()));
+  const auto pick = [&] { return points[DrawIndex(random, points.size())]; };
+  Places places;
+  for (int i = 0; i < 4; ++i)
+  {
+    const Place a = pick(), b = pick(), c = pick();
+    places.push_back(a);
+    places.push_back({ a[0], b[1] });
+    places.push_back({ 0.5 * a[0] + 0.5 * b[0], 0.5 * a[1] + 0.5 * b[1] });
+    places.push_back(
+      { 0.5 * a[0] + 0.25 * b[0] + 0.25 * c[0], 0.5 * a[1] + 0.25 * b[1] + 0.25 * c[1] });
+  }
+  double size = 0.0;
+  for (const Place& point : points)
+  {
+    if (std::isfinite(point[0]) && std::isfinite(point[1]))
+    {
+      size = std::max({ size, std::fabs(point[0]), std::fabs(point[1]) });
+    }
+  }
+  // Sums of values near the largest numbers may overflow, and the smallest have few digits.
+  size = std::max(size, 1e-300);
+  const double scale = std::scalbn(1.0, -std::clamp(std::ilogb(size), -1000, 1000));
+  Places values = points;
+  for (Place& value : values)
+  {
+    value = { value[0] * scale, value[1] * scale };
+  }
+  for (const InterpolationKind method : { InterpolationKind::Linear, InterpolationKind::Natural })
+  {
+    std::vector<std::int32_t> found(places.size());
+    Places results(places.size());
+    PlaceQuery query;
+    query.Places = View(places);
+    query.Triangles = found.data();
+    query.Values = values.front().data();
+    query.Components = 2;
+    query.Method = method;
+    query.Results = results.front().data();
+    EXPECT_TRUE(session.Ask(query));
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const bool isFinite = std::isfinite(places[i][0]) && std::isfinite(places[i][1]);
+      const std::int32_t expected = isFinite ? FindTriangle(points, triangles, places[i]) : -1;
+      EXPECT_EQ(expected, found[i]) << places[i][0] << ' ' << places[i][1];
+      for (int axis = 0; axis < 2; ++axis)
+      {
+        EXPECT_EQ(expected < 0, std::isnan(results[i][axis]))
+          << places[i][0] << " " << places[i][1];
+        if (expected >= 0)
+        {
+          EXPECT_NEAR(places[i][axis] * scale, results[i][axis], 1e-8 * size * scale)
+            << places[i][0] << ' ' << places[i][1] << ": " << results[i][axis];
+        }
+      }
+    }
+  }
+}
+
 /// Reports a failure of GoogleTest for each promise that is broken: the result is the same on one
-/// thread and on several; triangles turn left and are constrained Delaunay; their number is right.
-/// An open ring, or one that crosses a segment, is an error.
+/// thread and on several; triangles turn left and are constrained Delaunay; their number is right;
+/// queries about places are answered right. An open ring, or one that crosses a segment, is an
+/// error.
 void JudgePointCase(const PointCase& drawn)
 {
   Triangulation result;
@@ -143,6 +228,8 @@ void JudgePointCase(const PointCase& drawn)
       [&](const auto& edge) { return mayLack && edges.count(Sorted(edge[0], edge[1])) == 0; }),
     kept.Edges.end());
   ExpectConstrainedDelaunay(points, kept);
+  ExpectRightAnswers(
+    FlipPoints(drawn.Input.View(), WithThreads(2, drawn.Options)), points, result.Triangles);
   ExpectRightNumber(drawn, points, result);
 }
 

@@ -26,7 +26,7 @@ options=(-DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_ENABLE_CUDA=ON
 if [ ! -f "$build/CMakeCache.txt" ] && command -v ninja >/dev/null; then
   options+=(-G Ninja)
 fi
-targets=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
+targets=(DelaunayFlipGpuTests DelaunayFlipCoreTests DelaunayFlipAskTests delaunay-flip-gpu-benchmark
   delaunay-flip-point-benchmark delaunay-flip-fuzz-points DelaunayFlipC
   delaunayflip-c-device-test "${@:2}")
 if cmake -S "$root" -B "$build" "${options[@]}" -DDELAUNAYFLIP_BUILD_VTK=ON; then

@@ -27,7 +27,8 @@ if [ "${1:-}" = --loader ]; then
   shift
 fi
 output=${1:-delaunay-flip-gpu.tar.gz}
-programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests delaunay-flip-gpu-benchmark
+programs=(DelaunayFlipGpuTests DelaunayFlipCoreTests DelaunayFlipAskTests
+  delaunay-flip-gpu-benchmark
   delaunay-flip-point-benchmark delaunay-flip-fuzz-points
   delaunayflip-c-device-test "${window[@]}")
 if [ ${#only[@]} -gt 0 ]; then programs=(delaunay-flip-gpu-benchmark "${window[@]}"); fi

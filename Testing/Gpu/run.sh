@@ -125,6 +125,7 @@ run_all_tests()
   run_tests gpu-tests DelaunayFlipGpuTests "$filter"
   export DELAUNAYFLIP_TEST_BACKEND=cuda # for tests that do not choose a backend
   run_tests engine-tests-on-cuda DelaunayFlipCoreTests "$filter"
+  run_tests query-tests-on-cuda DelaunayFlipAskTests "$filter"
   if [ -x "$programs/DelaunayFlipCxxTests" ]; then
     run_tests filter-tests-on-cuda DelaunayFlipCxxTests "$filter"
   else
@@ -161,7 +162,7 @@ run_sanitizer()
     else
       run_step "sanitizer-$tool" timeout 300 "$sanitizer" --tool "$tool" --error-exitcode 86 \
         "$programs/DelaunayFlipGpuTests" --gtest_brief=1 \
-        '--gtest_filter=SmallMeshTest.*:DeviceMesh*:DeviceLayoutTest*FewTriangles'
+        '--gtest_filter=SmallMeshTest.*:SmallAskTest.*:DeviceMesh*:DeviceLayoutTest*FewTriangles'
     fi
   done
 }

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuTestSupport.h"
+#include "PointSets.h"
+#include "PointTestSupport.h"
+#include "TestDevice.h"
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+/// @file
+/// Queries about places that a GPU answers, with the bits of the CPU.
+
+namespace delaunayflip
+{
+namespace
+{
+
+constexpr int Components = 2;
+
+struct Answers
+{
+  std::vector<std::int32_t> Triangles;
+  std::vector<double> Results;
+
+  explicit Answers(std::int64_t count)
+    : Triangles(count, -2),
+      Results(Components * count, -1.0)
+  {
+  }
+
+  void ExpectEqual(const Answers& other) const
+  {
+    EXPECT_EQ(this->Triangles, other.Triangles);
+    EXPECT_EQ(
+      0, std::memcmp(this->Results.data(), other.Results.data(), sizeof(double) * Results.size()));
+  }
+};
+
+/// A triangulation on each backend, and queries of all kinds about it.
+class TwoSessions
+{
+public:
+  explicit TwoSessions(const Drawing& drawing)
+    : Threads(Make(drawing, BackendKind::Threads)),
+      Gpu(Make(drawing, BackendKind::CUDA))
+  {
+    EXPECT_TRUE(IsOnGpu(this->Gpu.GetReport())) << this->Gpu.GetReport().Backend;
+    Places points = drawing.Points;
+    for (const AddedPoint& point : this->Threads.GetAddedPoints())
+    {
+      points.push_back({ point.X, point.Y });
+    }
+    for (const Place& point : points)
+    {
+      this->Values.push_back(std::sin(point[0]) + point[1]);
+      this->Values.push_back(point[0] * point[1]);
+    }
+  }
+
+  /// @param query its places.
+  void ExpectAgreement(PlaceQuery query) const
+  {
+    for (const InterpolationKind method : { InterpolationKind::Linear, InterpolationKind::Natural })
+    {
+      for (const OutsideKind outside : { OutsideKind::NotANumber, OutsideKind::Nearest })
+      {
+        query.Method = method;
+        query.Outside = outside;
+        const Answers expected = this->Ask(this->Threads, query);
+        this->Ask(this->Gpu, query).ExpectEqual(expected);
+        this->AskOnDevice(this->Gpu, query).ExpectEqual(expected);
+      }
+    }
+    EXPECT_TRUE(IsOnGpu(this->Gpu.GetReport())) << this->Gpu.GetReport().Backend;
+  }
+
+  /// A session on threads copies arrays that are on a GPU.
+  void ExpectThreadsTakeDeviceArrays(const PlaceQuery& query) const
+  {
+    this->AskOnDevice(this->Threads, query).ExpectEqual(this->Ask(this->Threads, query));
+  }
+
+private:
+  static FlipSession Make(const Drawing& drawing, BackendKind backend)
+  {
+    PointOptions options;
+    static_cast<FlipOptions&>(options) = OnBackend(backend);
+    FlipSession session(drawing.View(), options);
+    session.Advance();
+    return session;
+  }
+
+  Answers Ask(const FlipSession& session, PlaceQuery query) const
+  {
+    Answers answers(query.CountPlaces());
+    query.Values = this->Values.data();
+    query.Components = Components;
+    query.Results = answers.Results.data();
+    query.Triangles = answers.Triangles.data();
+    EXPECT_TRUE(session.Ask(query));
+    return answers;
+  }
+
+  Answers AskOnDevice(const FlipSession& session, PlaceQuery query) const
+  {
+    Answers answers(query.CountPlaces());
+    const DeviceValues<double> values(this->Values);
+    const DeviceValues<double> results(answers.Results);
+    const DeviceValues<std::int32_t> triangles(answers.Triangles);
+    std::vector<double> coordinates;
+    for (std::int64_t i = 0; i < query.Places.Count; ++i)
+    {
+      coordinates.push_back(query.Places.Get(i, 0));
+      coordinates.push_back(query.Places.Get(i, 1));
+    }
+    const DeviceValues<double> places(coordinates);
+    query.Places = PlaneArray(places.Data(), query.Places.Count, 2);
+    query.Values = values.Data();
+    query.Components = Components;
+    query.Results = results.Data();
+    query.Triangles = triangles.Data();
+    query.OnDevice = true;
+    EXPECT_TRUE(session.Ask(query));
+    answers.Results = results.Get();
+    answers.Triangles = triangles.Get();
+    return answers;
+  }
+
+  FlipSession Threads, Gpu;
+  std::vector<double> Values;
+};
+
+/// In the box of points and beside it, at points, and where no place is.
+Places DrawPlaces(const Places& points, std::size_t count)
+{
+  std::mt19937 random(5);
+  Places places = { { NAN, 0.0 }, { INFINITY, 1.0 }, { 1e300, -1e300 } };
+  while (places.size() < count)
+  {
+    const Place& a = points[DrawIndex(random, points.size())];
+    const Place& b = points[DrawIndex(random, points.size())];
+    const double share = DrawIndex(random, 1025) / 1024.0;
+    places.push_back(a);
+    places.push_back({ a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]) });
+    places.push_back({ a[0], b[1] });
+  }
+  return places;
+}
+
+void ExpectAgreement(std::size_t points, std::size_t places)
+{
+  for (const PointSet& set : ListPointSets())
+  {
+    SCOPED_TRACE(set.Name);
+    Drawing drawing;
+    drawing.Points = MakePlaces(set, static_cast<std::int64_t>(points));
+    const TwoSessions sessions(drawing);
+    const Places asked = DrawPlaces(drawing.Points, places);
+    PlaceQuery query;
+    query.Places = View(asked);
+    sessions.ExpectAgreement(query);
+    query.Raster.Columns = 37;
+    query.Raster.Rows = 29;
+    query.Raster.Step[0] = 0.03;
+    query.Raster.Step[1] = -0.04;
+    query.Raster.Origin[1] = 1.0;
+    sessions.ExpectAgreement(query);
+  }
+}
+
+class AskTest : public GpuTest
+{
+};
+
+TEST_F(AskTest, TheGpuGivesTheCpusAnswers) { ExpectAgreement(3000, 50000); }
+
+TEST_F(AskTest, WithSegmentsAndRemovedTriangles)
+{
+  std::mt19937 random(6);
+  Drawing drawing;
+  for (int i = 0; i < 2000; ++i)
+  {
+    drawing.Points.push_back(
+      { DrawIndex(random, 1000) / 1000.0, DrawIndex(random, 1000) / 1000.0 });
+  }
+  drawing.AddRing({ { 0.05, 0.05 }, { 0.95, 0.1 }, { 0.9, 0.9 }, { 0.1, 0.95 } });
+  drawing.FirstHole = 1;
+  drawing.AddRing({ { 0.4, 0.4 }, { 0.6, 0.4 }, { 0.5, 0.7 } });
+  const TwoSessions sessions(drawing);
+  const Places asked = DrawPlaces(drawing.Points, 100000);
+  PlaceQuery query;
+  query.Places = View(asked);
+  sessions.ExpectAgreement(query);
+  sessions.ExpectThreadsTakeDeviceArrays(query);
+}
+
+/// run.sh runs these under compute-sanitizer.
+class SmallAskTest : public GpuTest
+{
+};
+
+TEST_F(SmallAskTest, EveryKindOfQuery) { ExpectAgreement(60, 300); }
+
+}
+}
