@@ -12,6 +12,9 @@ With NumPy arrays:
     triangulation = delaunayflip.triangulate(points)
     triangulation.triangles  # of points that have none
 
+    height = delaunayflip.LinearInterpolator(points, heights)
+    height(places)  # values between points
+
 Arrays of CuPy, PyTorch, Numba and all libraries with DLPack are flipped where they are, also on a
 GPU.
 
@@ -34,9 +37,10 @@ import importlib.util
 import typing
 
 if typing.TYPE_CHECKING:
+    from ._interpolators import LinearInterpolator, NaturalNeighborInterpolator, griddata
     from ._library import (
-        BackendUnavailable, FlipError, InvalidMesh, InvalidOptions, MeshTooLarge, has_cuda_device,
-        release_cuda_memory)
+        BackendUnavailable, FlipError, InvalidMesh, InvalidOptions, MeshTooLarge, Stopped,
+        has_cuda_device, release_cuda_memory)
     from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
@@ -45,9 +49,10 @@ if typing.TYPE_CHECKING:
     __version__: str
 
 __all__ = [
-    "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "MeshTooLarge", "Report",
-    "Result", "Session", "Triangulation", "flip", "has_cuda_device", "release_cuda_memory",
-    "smallest_angles", "triangulate",
+    "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "LinearInterpolator",
+    "MeshTooLarge", "NaturalNeighborInterpolator", "Report", "Result", "Session", "Stopped",
+    "Triangulation", "flip", "griddata", "has_cuda_device", "release_cuda_memory", "smallest_angles",
+    "triangulate",
 ]
 if importlib.util.find_spec("vtkmodules"):
     __all__ += ["vtkDelaunayFlip", "vtkDelaunayFlipPoints"]
@@ -56,6 +61,8 @@ if importlib.util.find_spec("vtkmodules"):
 _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
     "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
+    "LinearInterpolator": "_interpolators", "NaturalNeighborInterpolator": "_interpolators",
+    "griddata": "_interpolators",
 }
 # The names of _vtk, and what they need beside VTK.
 _NEEDS = {

@@ -5,6 +5,7 @@ copied. What does not fit is a ValueError or TypeError that names the argument. 
 PyTorch and Numba in the memory of a GPU, and of other libraries by DLPack, stay there."""
 import importlib
 import importlib.util
+import math
 import sys
 
 import numpy
@@ -33,6 +34,15 @@ class _HostArrays:
     def can_be_written(self, array):
         return array.flags.carray
 
+    def join(self, x, y):
+        return numpy.stack(numpy.broadcast_arrays(as_array("x", x), as_array("y", y)), axis=-1)
+
+    def as_doubles(self, values):
+        values = as_array("values", values)
+        if values.dtype.kind not in "fiu":
+            raise TypeError(f"values must be real numbers, not {values.dtype}")
+        return _convert(values, numpy.float64)
+
 
 class _DeviceArrays:
     """Arrays of a library that has them in the memory of a GPU."""
@@ -56,6 +66,17 @@ class _CupyArrays(_DeviceArrays):
     def as_contiguous(self, array):
         return importlib.import_module("cupy").ascontiguousarray(array)
 
+    def as_doubles(self, values):
+        return importlib.import_module("cupy").ascontiguousarray(values, dtype="float64")
+
+    def join(self, x, y):
+        cupy = importlib.import_module("cupy")
+        return cupy.stack(cupy.broadcast_arrays(x, y), axis=-1)
+
+    def from_host(self, array, like):
+        with like.device:
+            return importlib.import_module("cupy").asarray(array)
+
     def make_empty(self, like, shape, dtype):
         with like.device:
             return importlib.import_module("cupy").empty(shape, dtype)
@@ -71,6 +92,16 @@ class _CupyArrays(_DeviceArrays):
 class _TorchArrays(_DeviceArrays):
     def as_contiguous(self, array):
         return array.detach().contiguous()
+
+    def as_doubles(self, values):
+        return self.as_contiguous(values).double()
+
+    def join(self, x, y):
+        torch = importlib.import_module("torch")
+        return torch.stack(torch.broadcast_tensors(x, y), dim=-1)
+
+    def from_host(self, array, like):
+        return importlib.import_module("torch").tensor(array, device=like.device)
 
     def make_empty(self, like, shape, dtype):
         torch = importlib.import_module("torch")
@@ -88,6 +119,17 @@ class _NumbaArrays(_DeviceArrays):
         if not array.is_c_contiguous():
             raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
         return array
+
+    def as_doubles(self, values):
+        if type_of(values) != "float64":
+            raise TypeError(f"values of Numba must be float64, not {type_of(values)}")
+        return self.as_contiguous(values)
+
+    def join(self, x, y):
+        raise TypeError("places of Numba must be one array, not two")
+
+    def from_host(self, array, like):
+        return importlib.import_module("numba.cuda").to_device(array)
 
     def make_empty(self, like, shape, dtype):
         return importlib.import_module("numba.cuda").device_array(shape, dtype)
@@ -168,6 +210,29 @@ def find_memory(array):
     return memory, adapter.get_stream(array)
 
 
+def move(array, like):
+    """The array in the memory of another one, for its library."""
+    adapter, like = _adapt(like)
+    own, array = _adapt(array)
+    if adapter is own:
+        return array
+    if adapter is _HOST:
+        return own.to_host(array)
+    if own is _HOST:
+        return adapter.from_host(array, like)
+    return _view("values", array, _library_name(like))
+
+
+def put(results, triangles, inside, values):
+    """Writes values, a number or an array like the results, where places are inside of triangles (0) or
+    outside (-1)."""
+    if _library_name(results) == "numba":
+        raise TypeError("arrays of Numba take no fill_value and no soft breaklines; cupy.asarray views "
+                        "them without a copy")
+    where = triangles >= 0 if inside == 0 else triangles < 0
+    results[where] = values[where] if hasattr(values, "shape") else values
+
+
 def address(array):
     """Where an array of NumPy, or one on a GPU, begins; 0 if it is empty."""
     if isinstance(array, numpy.ndarray):
@@ -230,6 +295,41 @@ def as_plane(points, name="points"):
     if points.dtype.kind not in "fiu":
         raise TypeError(f"{name} must be real numbers, not {points.dtype}")
     return _convert(points, _choose_type(points, numpy.float32, numpy.float64))
+
+
+def as_places(places):
+    """Places of shape (..., 2) or (..., 3) in two dimensions, as as_plane has points, and the shape of
+    values at them, one each."""
+    adapter, places = _adapt(places)
+    if adapter is _HOST:
+        places = as_array("places", places)
+    shape = tuple(places.shape)
+    if shape in ((0,), (2,)):
+        shape = (shape[0] // 2, 2)  # as in SciPy
+    if len(shape) < 2 or shape[-1] not in (2, 3):
+        raise _shape_error("places", places, "(..., 2)")
+    return as_plane(places.reshape((math.prod(shape[:-1]), shape[-1])), "places"), shape[:-1]
+
+
+def join_columns(x, y):
+    """Places from their coordinates, which are broadcast."""
+    are_on_device = [_is_on_device(x), _is_on_device(y)]
+    if not any(are_on_device):
+        return _HOST.join(x, y)
+    if not all(are_on_device):
+        raise TypeError("x and y must both be in the memory of the GPU")
+    library = _choose_library(x, y)
+    return _ADAPTERS[library].join(_view("x", x, library), _view("y", y, library))
+
+
+def as_values(values):
+    """Values of points in two dimensions, float64, and the shape of those of a point."""
+    adapter, values = _adapt(values)
+    values = adapter.as_doubles(values)
+    shape = tuple(values.shape)
+    if len(shape) == 0 or 0 in shape[1:]:
+        raise _shape_error("values", values, "(n,) or (n, ...), a row per point")
+    return values.reshape((shape[0], math.prod(shape[1:]))), shape[1:]
 
 
 def as_points(points):

@@ -35,7 +35,7 @@ class MeshTooLarge(FlipError, ValueError):
 
 
 class Stopped(FlipError):
-    """A callback stopped a call that cannot return a partial result."""
+    """An observer stopped a call that cannot return a partial result."""
 
 
 class BackendUnavailable(FlipError, RuntimeError):
@@ -75,6 +75,12 @@ Points = make_struct("Points", (
 
 Polygons = make_struct("Polygons", (
     (c_int64, "size number_of_polygons"), (c_void_p, "offsets corners triangle_counts")))
+
+Query = make_struct("Query", (
+    (c_int64, "size"), (c_void_p, "places"), (c_int64, "number_of_places"),
+    (c_int32, "place_type place_components"), (c_int64, "columns rows"),
+    (c_double, "origin_x origin_y step_x step_y"), (c_void_p, "triangles values results"),
+    (c_int32, "value_components method outside memory"), (c_void_p, "stream")))
 
 Iteration = make_struct("Iteration", (
     (c_int64, "iteration tested non_delaunay flipped excluded blocked"),

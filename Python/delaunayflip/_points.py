@@ -3,15 +3,18 @@
 """The Delaunay triangulation of points."""
 from __future__ import annotations  # help() shows types by their names
 
+import contextlib
 import dataclasses
 import functools
+import math
 import warnings
-from typing import Optional
+from typing import Any, Optional, Tuple, Union
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
+from ._ask import Answers, Field, Method, Outside, read_places, read_raster
 from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, make_options, to_number)
 from ._report import Report
@@ -21,7 +24,12 @@ from ._session import run
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Triangulation:
-    """What `triangulate` returns. Only the same object is equal: compare the arrays."""
+    """What `triangulate` returns. Only the same object is equal: compare the arrays.
+
+    It can be asked about places. The first question makes the engine's triangulation anew, which then
+    stays in memory as long as this object, and so do the first questions of copies. If many questions
+    are known to come, `LinearInterpolator` and `NaturalNeighborInterpolator` triangulate only once.
+    """
 
     #: (n, 2) or (n, 3): the points of the caller, then those of rings that are given by coordinates,
     #: then those where segments cross.
@@ -34,12 +42,55 @@ class Triangulation:
     iterations: Array  #: A row per iteration, structured; see Session.iterations.
     report: Report
     _used: Optional[Array] = dataclasses.field(repr=False)  # None: each point is used
+    _made_from: Tuple[Any, Any] = dataclasses.field(repr=False)  # arguments and keywords
 
     @functools.cached_property
     def used_points(self) -> Array:
         """(n,) int64: the point that is used at the place of each point; -1: it is not finite. After
         an abort before there are triangles, each point itself."""
         return numpy.arange(len(self.points)) if self._used is None else self._used
+
+    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
+        """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
+        the one with the lowest number. Places are given as to `LinearInterpolator`."""
+        return self._answers.locate(read_places(places), progress)
+
+    def interpolate(
+        self, values: Numbers, *places: Numbers, method: Method = "linear",
+        fill_value: float = math.nan, outside: Outside = "nan", progress: Optional[Progress] = None,
+    ) -> Array:
+        """Values at places from values at the points, which are given as to `LinearInterpolator`.
+
+        Args:
+            method: "linear", or "natural" for natural neighbours.
+        """
+        return self._make_field(values, method, fill_value, outside).find(read_places(places), progress)
+
+    def raster(
+        self, values: Numbers, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
+        method: Method = "linear", fill_value: float = math.nan, outside: Outside = "nan",
+        progress: Optional[Progress] = None,
+    ) -> Array:
+        """Values at the centres of the cells of a raster; see `LinearInterpolator.raster`."""
+        field = self._make_field(values, method, fill_value, outside)
+        return field.find(read_raster(origin, step, shape, field.values), progress)
+
+    def _make_field(self, values, method, fill_value, outside):
+        return Field(self._answers, values, method=method, fill_value=fill_value, outside=outside)
+
+    @functools.cached_property
+    def _answers(self):
+        if self.report.stop_reason == "aborted":
+            raise ValueError("the triangulation was stopped before its end, so it cannot be asked")
+        again, _ = run_points(*self._made_from, keeps=True)
+        if not numpy.array_equal(_arrays.to_host(again.triangles), _arrays.to_host(self.triangles)):
+            raise ValueError("the points or segments have been changed since they were triangulated; "
+                             "triangulate them again")
+        return again._answers
+
+    def __getstate__(self):
+        """Without the engine's memory, which cannot be copied."""
+        return {name: value for name, value in self.__dict__.items() if name != "_answers"}
 
 
 def triangulate(
@@ -104,24 +155,62 @@ def triangulate(
         >>> sorted(sorted(ids) for ids in result.triangles.tolist())
         [[0, 1, 2], [1, 2, 3]]
     """
-    given = points if isinstance(points, Input) else Input(
-        points, segments, outline=outline, holes=holes, hole_seeds=hole_seeds, ring_rule=ring_rule)
+    keywords = {
+        "segments": segments, "outline": outline, "holes": holes, "hole_seeds": hole_seeds,
+        "ring_rule": ring_rule, "alpha": alpha, "longest_edge": longest_edge,
+        "point_tolerance": point_tolerance, "split_crossings": split_crossings, "backend": backend,
+        "threads": threads, "device": device, "maximum_iterations": maximum_iterations}
+    result, trouble = run_points(points, keywords, progress, on_iteration)
+    if trouble:
+        warnings.warn(trouble, stacklevel=2)
+    return result
+
+
+def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
+    """The Triangulation of points, and the text of a warning, or "".
+
+    Args:
+        keywords: Those of `triangulate`.
+        keeps: Whether the session is kept for questions.
+    """
+    given, options = _prepare(points, **keywords)
+    with contextlib.ExitStack() as stack:
+        try:
+            handle, room = stack.enter_context(
+                run("open_points", given.struct, options, given.make_room, progress, on_iteration))
+            result = given.store(handle, room, (points, keywords))
+        except _library.InvalidMesh as error:
+            error.args = (given.explain(str(error)), *error.args[1:])
+            raise
+        if keeps:
+            result.__dict__["_answers"] = Answers(given, handle, stack.pop_all())
+    return result, "" if given is points else "; ".join(given.trouble)
+
+
+def _prepare(points, segments=None, *, alpha=0.0, longest_edge=0.0, point_tolerance=0.0,
+             split_crossings=False, backend="auto", threads=0, device=-1, maximum_iterations=-1, **rings):
+    """The Input with its struct, and the options, from the arguments of `triangulate`."""
+    given = points if isinstance(points, Input) else Input(points, segments, **rings)
     struct = given.struct
     struct.alpha, struct.longest_edge, struct.point_tolerance = (
         to_number(name, value) for name, value in (
             ("alpha", alpha), ("longest_edge", longest_edge), ("point_tolerance", point_tolerance)))
     struct.split_crossings = check_integer("split_crossings", split_crossings, 0, 1, "True or False")
-    options = make_options(triangulate, backend=backend, threads=threads,
-                           device=device, maximum_iterations=maximum_iterations)
-    try:
-        with run("open_points", struct, options, given.make_room, progress, on_iteration) as opened:
-            result = given.store(*opened)
-    except _library.InvalidMesh as error:
-        error.args = (given.explain(str(error)), *error.args[1:])
-        raise
-    if given is not points and given.trouble:
-        warnings.warn("; ".join(given.trouble), stacklevel=2)
-    return result
+    given.backend = {"backend": backend, "threads": threads, "device": device}
+    return given, make_options(triangulate, maximum_iterations=maximum_iterations, **given.backend)
+
+
+def interpolate_in_survey(points, values, places, backend):
+    """Values at places, linear in the triangulation of points alone; outside of it, those of the nearest
+    place on its boundary. Of shape (n, k). None if there are no triangles.
+
+    Args:
+        backend: Keywords that say where it runs.
+    """
+    survey, _ = run_points(points, backend, keeps=True)
+    if survey.report.triangles == 0:
+        return None
+    return survey.interpolate(values, places, outside="nearest")
 
 
 class Input:
@@ -130,7 +219,7 @@ class Input:
     split_option = "split_crossings"  #: What the caller calls PointOptions::SplitCrossings.
 
     def __init__(self, points, segments=None, *, ring_numbers=None, outline=None, holes=None,
-                 hole_seeds=None, ring_rule="evenodd"):
+                 hole_seeds=None, ring_rule="evenodd", heights=None):
         """`ring_numbers`: of the rings of the segments; -1: none."""
         self.struct, self.ends, self.new_points = _library.make(_library.Points), [], []
         points = _arrays.as_plane(points)
@@ -158,6 +247,7 @@ class Input:
         self.all_rings = numpy.concatenate(self.rings)
         self._fill_struct(count > 0, ring_rule)
         self.struct.first_added = given
+        self._keeps_heights = heights == "own"
         self.find_flat_points(given, self.all_segments, self.all_rings)
 
     def _fill_struct(self, has_rings, ring_rule):
@@ -195,7 +285,7 @@ class Input:
         """Finds the points behind the `given` ones that rings without z have, or that lines, outlines
         or holes have, each of the three by itself, if z = 0 throughout; where other heights are given."""
         self.flat_points = numpy.empty(0, dtype=numpy.int64)
-        if len(self.points) == given or self.points.shape[1] < 3:
+        if len(self.points) == given or self.points.shape[1] < 3 or self._keeps_heights:
             return
         heights = self.points[:, 2]
         self.heights = heights[:given][numpy.isfinite(heights[:given])]
@@ -225,7 +315,7 @@ class Input:
         shape = (report.triangles, 3)
         return [_arrays.make_empty(self.points, shape, "int32") for _ in range(2)]
 
-    def store(self, handle, room):
+    def store(self, handle, room, made_from):
         """The Triangulation of a session that has ended. `room`: from make_room."""
         report = _report.read(handle)
         if len(room[0]) != report.triangles:
@@ -247,7 +337,7 @@ class Input:
             points = self._add_crossings(handle, report.crossings)
             report = dataclasses.replace(report, points=len(points))
         iterations = _report.read_iterations(handle, report)
-        return Triangulation(points, triangles, neighbors, edges, iterations, report, used)
+        return Triangulation(points, triangles, neighbors, edges, iterations, report, used, made_from)
 
     def _is_nothing_left(self, report, triangles):
         """Whether triangles are removed, and none is left that has one of the caller's points."""
@@ -284,3 +374,28 @@ class Input:
             for i, (start, end, share) in enumerate(self.ends):  # of which one may be added before
                 points[first + i, 2] = (1 - share) * points[start, 2] + share * points[end, 2]
         return points
+
+    def complete_values(self, values):
+        """Values of all the session's points from those of the caller's, of shape (n, k): at points of
+        rings from the caller's points, at crossings along the earlier segment. Values of all points
+        are returned as they are."""
+        first, count = self.struct.first_added, len(self.points)
+        total = count + len(self.ends)
+        if len(values) == total:
+            return values
+        if len(values) not in (first, count):
+            more = f", or {total} with those that rings and crossings have added"
+            raise ValueError(f"values must have {first} rows, one for each point"
+                             f"{more if total > first else ''}; there are {len(values)}")
+        whole = numpy.empty((total, values.shape[1]))
+        whole[:len(values)] = given = _arrays.to_host(values)
+        if len(values) < count:
+            points = _arrays.to_host(self.points)
+            found = interpolate_in_survey(points[:first], given, points[first:], self.backend)
+            if found is None:
+                raise ValueError(f"values must have {count} rows, with those of the points of rings, because "
+                                 f"the {first} given points alone have no triangle; there are {len(values)}")
+            whole[first:count] = found
+        for place, (start, end, share) in enumerate(self.ends, count):
+            whole[place] = (1 - share) * whole[start] + share * whole[end]
+        return _arrays.move(whole, values)

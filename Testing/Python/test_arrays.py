@@ -23,7 +23,7 @@ import weakref
 import numpy
 
 import delaunayflip
-from delaunayflip import _arrays, _library, _options, _report, _session, _surface
+from delaunayflip import _arrays, _ask, _library, _options, _report, _session, _surface
 from lattice import sheared_lattice
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -638,7 +638,7 @@ class Header(unittest.TestCase):
         return [declaration.match(text).groups() for text in declarations if text]
 
     def test_structs(self):
-        for name in ("Mesh", "Options", "Iteration", "Report", "Callbacks", "Polygons"):
+        for name in ("Mesh", "Options", "Iteration", "Report", "Callbacks", "Polygons", "Query"):
             own = {"Report": _report.Struct, "Options": _options.Struct}
             struct = own.get(name) or getattr(_library, name)
             members = self.members(f"delaunayflip_{name.lower()}")
@@ -658,7 +658,7 @@ class Header(unittest.TestCase):
         self.assertEqual(delaunayflip.flip.__kwdefaults__["devices"], ())
 
     def test_enumerations(self):
-        enumerations = {**_options.CHOICES, "geometry": _report.GEOMETRIES,
+        enumerations = {**_options.CHOICES, "geometry": _report.GEOMETRIES, "method": _ask.METHODS,
                         "stop_reason": _library.STOP_REASONS}
         for name, words in enumerations.items():
             body = re.search(rf"typedef enum\s*\{{([^}}]*)\}} delaunayflip_{name};", self.HEADER)

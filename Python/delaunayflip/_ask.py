@@ -1,0 +1,164 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Queries about places: their triangles, and values between those of the points."""
+import contextlib
+import dataclasses
+import math
+import numbers
+import threading
+import typing
+
+import numpy
+
+from . import _arrays, _library
+from ._arrays import address
+from ._options import Array, check_integer, choose, show, to_number
+from ._session import observe
+
+Method = typing.Literal["linear", "natural"]
+Outside = typing.Literal["nan", "nearest", "error"]
+METHODS, OUTSIDES = typing.get_args(Method), typing.get_args(Outside)
+
+
+@dataclasses.dataclass
+class Places:
+    """Places of a query."""
+
+    members: dict  #: Of its struct.
+    shape: tuple  #: Of the results, before that of a point's values.
+    like: Array  #: An array in the memory of the results.
+
+
+def read_places(given):
+    """One array of shape (..., 2) or (..., 3), or two arrays, x and y."""
+    if len(given) == 1 and isinstance(given[0], tuple):
+        given = given[0]
+    if len(given) not in (1, 2):
+        raise TypeError("places are one array of shape (..., 2), or two arrays, x and y; there are "
+                        f"{len(given)}")
+    if len(given) == 1:
+        places, shape = _arrays.as_places(given[0])
+    else:
+        joined = _arrays.join_columns(*given)
+        places, shape = _arrays.as_places(joined)[0], tuple(joined.shape[:-1])
+    return Places({"places": address(places), "number_of_places": len(places),
+                   "place_type": _library.TYPES[_arrays.type_of(places)],
+                   "place_components": places.shape[1]}, shape, places)
+
+
+def read_raster(origin, step, shape, like):
+    """The centres of cells; `origin`: of the first one."""
+    origin_x, origin_y = _read_pair("origin", origin, [(2,)], "two finite numbers, x and y")
+    step_x, step_y = _read_pair("step", step, [(), (2,)], "one or two finite numbers, not 0")
+    if step_x == 0 or step_y == 0:
+        raise ValueError("step must not be 0")
+    if not isinstance(shape, (tuple, list)) or len(shape) != 2:
+        raise TypeError(f"shape must be (rows, columns), not {show(shape)}")
+    rows, columns = (check_integer("shape", size, 0, 2**40) for size in shape)
+    return Places({"rows": rows, "columns": columns, "origin_x": origin_x, "origin_y": origin_y,
+                   "step_x": step_x, "step_y": step_y}, (rows, columns), like)
+
+
+def _read_pair(name, given, shapes, wanted):
+    pair = _arrays.as_array(name, given)
+    if pair.shape not in shapes or pair.dtype.kind not in "fiu" or not numpy.isfinite(pair).all():
+        raise ValueError(f"{name} must be {wanted}, not {show(given)}")
+    return numpy.broadcast_to(pair, (2,)).astype(float).tolist()
+
+
+def halve(progress, start):
+    """An observer of a half of the work, which begins at the share `start`."""
+    return progress and (lambda share: progress(start + 0.5 * share))
+
+
+class Answers:
+    """A session of points that has ended its run and is kept to be asked. It ends with this object."""
+
+    def __init__(self, given, handle, opened):
+        """`given`: the Input, whose arrays the session reads. `opened`: closes the session."""
+        self.given, self._handle, self._opened = given, handle, opened
+        self._lock, self._asker = threading.Lock(), None
+
+    @contextlib.contextmanager
+    def _alone(self):
+        """Other threads wait. An observer would wait for itself."""
+        if self._asker == threading.get_ident():
+            raise RuntimeError("an observer cannot ask the triangulation that it observes")
+        with self._lock:
+            self._asker = threading.get_ident()
+            try:
+                yield
+            finally:
+                self._asker = None
+
+    def ask(self, places, field=None, wants_triangles=True, progress=None):
+        """The triangles at places, if wanted, and the values of a Field, in two dimensions.
+
+        Raises:
+            Stopped: An observer returned False.
+        """
+        struct, count = _library.make(_library.Query), math.prod(places.shape)
+        triangles = results = None
+        for name, value in places.members.items():
+            setattr(struct, name, value)
+        struct.memory, struct.stream = _arrays.find_memory(places.like)
+        if wants_triangles:
+            triangles = _arrays.make_empty(places.like, (count,), "int32")
+            struct.triangles = address(triangles)
+        if field:
+            values = field.get_near(places.like)
+            results = _arrays.make_empty(places.like, (count, values.shape[1]), "float64")
+            struct.values, struct.value_components = address(values), values.shape[1]
+            struct.results, struct.method = address(results), field.method
+            struct.outside = int(field.outside == "nearest")
+        with self._alone(), observe(progress) as callbacks:
+            if count:
+                _library.call("ask", self._handle, struct, callbacks)
+        return triangles, results
+
+    def locate(self, places, progress=None):
+        return self.ask(places, progress=progress)[0].reshape(places.shape)
+
+
+class Field:
+    """Values of the points of a session, and how they are interpolated."""
+
+    def __init__(self, answers, values, *, method, outside, fill_value, soft=None):
+        """`soft`: the Answers of the same points without segments, for the values inside."""
+        self._answers, self._soft = answers, soft
+        self.method = choose("method", method, METHODS)
+        self.outside = OUTSIDES[choose("outside", outside, OUTSIDES)]
+        self._fill_value = to_number("fill_value", fill_value)
+        if outside != "nan" and not math.isnan(self._fill_value):
+            raise ValueError(f"fill_value has no effect with outside={outside!r}; leave one of them out")
+        flat, self._shape = _arrays.as_values(values)
+        self.values = self._near = answers.given.complete_values(flat)
+
+    def get_near(self, like):
+        """The values in the memory of an array. The last copy is kept."""
+        near = self._near = _arrays.move(self._near, like)
+        return near
+
+    def find(self, places, progress=None):
+        """The values at places."""
+        is_filled = not math.isnan(self._fill_value)
+        wants_triangles = is_filled or self.outside == "error" or self._soft is not None
+        first = halve(progress, 0.0) if self._soft else progress
+        triangles, results = self._answers.ask(places, self, wants_triangles, first)
+        if self._soft:
+            inside = self._soft.ask(places, self, False, halve(progress, 0.5))[1]
+            _arrays.put(results, triangles, 0, inside)
+        if self.outside == "error":
+            _require_inside(_arrays.to_host(triangles) < 0, places.shape)
+        if is_filled:
+            _arrays.put(results, triangles, -1, self._fill_value)
+        return results.reshape(places.shape + self._shape)
+
+
+def _require_inside(is_outside, shape):
+    count = numpy.count_nonzero(is_outside)
+    if count:
+        first = numpy.unravel_index(numpy.argmax(is_outside), shape)
+        index = ", ".join(map(str, first))
+        raise ValueError(f"{count} of {is_outside.size} places {'is' if count == 1 else 'are'} outside of the "
+                         f"triangulation (first: index {index})")
