@@ -269,9 +269,9 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
         return list.empty() || list.find(',') != list.npos ? ChosenColumns(list).FindFault() : "";
       });
   AddFile(app, "--outline", arguments.Outline,
-    "A file whose polygons and closed lines are rings: what is not inside them is removed");
+    "A file whose polygons, and lines that close, are rings: what is not inside them is removed");
   AddFile(app, "--holes", arguments.Holes,
-    "A file whose polygons and closed lines are rings: what is inside them is removed");
+    "A file whose polygons, and lines that close, are rings: what is inside them is removed");
   AddChoice(app, "--ring-rule", Set(arguments, &vtkDelaunayFlipPoints::SetRingRule),
     { "evenodd", "nonzero" },
     "When a place is inside the rings of a file: if a path to infinity crosses them an odd number "

@@ -12,6 +12,7 @@
 #include "MeshFiles.h"
 #include "OutputFiles.h"
 #include "RoundedDigits.h"
+#include "SegmentLines.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkBoundingBox.h>
@@ -102,18 +103,27 @@ double DiagonalOf(vtkPolyData* mesh)
   return box.IsValid() ? std::hypot(box.GetLength(0), box.GetLength(1), box.GetLength(2)) : 0.0;
 }
 
-/// The filter's message with options of the command for properties of the filter.
-std::string WithOptions(const std::string& message, bool mergesPoints)
+/// The filter's message with options of the command for properties of the filter. It does not
+/// advise again what was asked for.
+std::string WithOptions(const std::string& message, const Arguments& given)
 {
   std::string text = message;
+  std::string withoutDuplicates = "leave them out (--drop-duplicates)";
+  if (given.DropDuplicates)
+  {
+    withoutDuplicates = "they are parts of larger polygons, so run --drop-duplicates on the output";
+  }
+  std::string withMerged = "--merge-points joins those that lie at the same place";
+  if (given.MergePoints)
+  {
+    withMerged = "no two edges lie at the same place, even after --merge-points";
+  }
   for (const auto& [property, option] :
     { std::pair("vtkPolyDataNormals with ConsistencyOn", "--orient"),
-      std::pair("leave out such duplicates", "leave them out (--drop-duplicates)"),
+      std::pair("leave out such duplicates", withoutDuplicates.c_str()),
       std::pair("\\bRegionArray\\b", "--region-array"), std::pair("\\bTolerance\\b", "--tolerance"),
       std::pair("\\bSplitCrossings\\b", "--split-crossings"),
-      std::pair("merge points that lie at the same place",
-        mergesPoints ? "no two edges lie at the same place, even after --merge-points"
-                     : "--merge-points joins those that lie at the same place") })
+      std::pair("merge points that lie at the same place", withMerged.c_str()) })
   {
     text = std::regex_replace(text, std::regex(std::string(property) + "(?!\")"), option);
   }
@@ -279,7 +289,7 @@ public:
     this->Bar.Clear();
     for (const std::string& warning : TakeVTKWarnings())
     {
-      this->Warn(this->NameRings(WithOptions(warning, this->Settings.MergePoints)));
+      this->Warn(this->NameRings(WithOptions(warning, this->Settings)));
     }
     this->ThrowErrors();
     this->TakeReport();
@@ -290,7 +300,7 @@ public:
     const auto start = Clock::now();
     this->Bar.Begin(Phase::Writing, "writing " + this->Settings.Output);
     vtkNew<vtkPolyData> mesh;
-    mesh->ShallowCopy(this->Filter->GetOutput());
+    mesh->ShallowCopy(this->Output);
     // These two may differ between runs; without them, equal meshes give equal files.
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
@@ -491,7 +501,8 @@ private:
   /// A warning of the filter that names rings by their files.
   std::string NameRings(const std::string& warning) const
   {
-    static const std::regex list("( rings? [^;]*, left out \\(first: )([\\d, ]+)"), number("\\d+");
+    static const std::regex list("( rings? [^;]*, (?:left out|counted once) \\(first: )([\\d, ]+)"),
+      number("\\d+");
     std::smatch found;
     if (!std::regex_search(warning, found, list))
     {
@@ -517,12 +528,12 @@ private:
     if (this->Settings.FromPoints && std::regex_search(errors, found, ofRing))
     {
       const auto [path, ring] = this->FindRing(found[1].str());
-      throw CommandError(ExitCode::BadFile,
-        path + ": " + ring + WithOptions(found[3].str(), this->Settings.MergePoints));
+      throw CommandError(
+        ExitCode::BadFile, path + ": " + ring + WithOptions(found[3].str(), this->Settings));
     }
     if (!errors.empty())
     {
-      const std::string text = WithOptions(errors, this->Settings.MergePoints);
+      const std::string text = WithOptions(errors, this->Settings);
       const int failure = this->Filter->GetFailure();
       if (failure == vtkDelaunayFlip::FAILURE_OTHER)
       {
@@ -537,20 +548,43 @@ private:
     this->Run.IsFromPoints = this->Settings.FromPoints;
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
-    this->Run.Summary = WithOptions(this->Filter->GetSummary(), this->Settings.MergePoints);
+    this->Run.Summary = WithOptions(this->Filter->GetSummary(), this->Settings);
+    this->Output->ShallowCopy(this->Filter->GetOutput());
     const bool mayRound = report.GeometryUsed == GeometryKind::Surface &&
       report.Tolerance == "automatic" && report.NonDelaunayBefore > 0;
     if (mayRound)
     {
-      const std::size_t place = this->Run.Summary.find("geometry: ");
-      this->Run.Summary.insert(place, AdviseTolerance(this->Input));
+      this->AdviseTolerance();
     }
     if (report.Triangles == 0)
     {
-      report.Points = this->Filter->GetOutput()->GetNumberOfPoints();
+      report.Points = this->Output->GetNumberOfPoints();
       this->Run.Summary = "mesh: " + Counted(report.Points, "point") + ", no triangles\n";
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
+    }
+  }
+
+  /// Advises one if the coordinates are rounded, and it leaves alone many of the bad edges.
+  void AdviseTolerance()
+  {
+    const RoundedCoordinates rounded = FindRounding(this->Input);
+    if (rounded.Tolerance > 0.0)
+    {
+      vtkDelaunayFlip* const filter = this->Settings.Flip;
+      filter->RemoveAllObservers();
+      filter->SetTolerance(rounded.Tolerance);
+      filter->SetMaximumIterations(0);
+      filter->Update();
+      TakeVTKWarnings();
+      constexpr std::int64_t Many = 10; // a tenth
+      const std::int64_t bad = this->Run.Flip.NonDelaunayBefore;
+      const std::int64_t left = filter->GetReport().NonDelaunayBefore;
+      if (TakeVTKErrors().empty() && Many * (bad - left) >= bad)
+      {
+        const std::size_t place = this->Run.Summary.find("geometry: ");
+        this->Run.Summary.insert(place, DescribeRounding(rounded));
+      }
     }
   }
 
@@ -561,6 +595,7 @@ private:
   vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
   vtkIdType OutlineRings = 0; ///< How many of the rings come first.
   vtkDelaunayFlipAlgorithm* const Filter;
+  const vtkNew<vtkPolyData> Output;
   RunReport Run;
 };
 

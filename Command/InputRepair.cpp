@@ -17,6 +17,7 @@
 #include <iterator>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <vector>
 
 namespace delaunayflip
@@ -64,6 +65,28 @@ void DropRepeats(std::vector<vtkIdType>& corners)
   {
     corners.pop_back();
   }
+}
+
+/// The corners without repeats, from a smallest one on and in the direction that compares as less:
+/// equal for polygons with the same boundary.
+std::vector<vtkIdType> FindSmallestOrder(std::vector<vtkIdType> corners)
+{
+  DropRepeats(corners);
+  std::vector<vtkIdType> smallest = corners;
+  for (int direction = 0; direction < 2; ++direction)
+  {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    for (std::size_t turns = 0; turns < corners.size(); ++turns)
+    {
+      if (corners.front() == smallest.front() || corners.front() < smallest.front())
+      {
+        smallest = std::min(smallest, corners);
+      }
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+    }
+    std::reverse(corners.begin(), corners.end());
+  }
+  return smallest;
 }
 
 /// The mesh with strips split into triangles, and with polygons whose corners differ from the one
@@ -152,23 +175,56 @@ vtkIdType LeaveOut(vtkPolyData* mesh, const IsLeftOut& isLeftOut, FileMesh& resu
   return count;
 }
 
-/// A number for each polygon, the same for those that are joined by edges of two polygons.
-std::vector<vtkIdType> FindConnected(vtkCellArray* polygons)
+/// An edge of exactly two polygons.
+struct SharedEdge
 {
-  std::vector<std::array<vtkIdType, 3>> sides; // the ends of an edge, the smaller first; a polygon
+  vtkIdType First, Second; ///< The polygons.
+  bool IsWrong; ///< Whether these are wound differently.
+};
+
+std::vector<SharedEdge> ListSharedEdges(vtkCellArray* polygons)
+{
+  struct Side
+  {
+    vtkIdType Low, High; ///< The ends.
+    vtkIdType Polygon;
+    bool IsAscending; ///< Whether the polygon runs from the low end to the high one.
+  };
+  std::vector<Side> sides;
   vtkIdType polygon = 0;
   ForEachCell(polygons,
     [&](vtkIdType size, const vtkIdType* corners)
     {
       for (vtkIdType i = 0; i < size; ++i)
       {
-        const auto [low, high] = std::minmax({ corners[i], corners[(i + 1) % size] });
-        sides.push_back({ low, high, polygon });
+        const vtkIdType start = corners[i];
+        const vtkIdType end = corners[(i + 1) % size];
+        sides.push_back({ std::min(start, end), std::max(start, end), polygon, start < end });
       }
       ++polygon;
     });
-  std::sort(sides.begin(), sides.end());
-  std::vector<vtkIdType> joined(polygon);
+  std::sort(sides.begin(), sides.end(),
+    [](const Side& a, const Side& b)
+    { return std::tie(a.Low, a.High, a.Polygon) < std::tie(b.Low, b.High, b.Polygon); });
+  std::vector<SharedEdge> edges;
+  for (auto side = sides.begin(); side != sides.end();)
+  {
+    const auto end = std::find_if(side, sides.end(),
+      [&side](const Side& other) { return other.Low != side->Low || other.High != side->High; });
+    if (end - side == 2)
+    {
+      const Side& other = *std::next(side);
+      edges.push_back({ side->Polygon, other.Polygon, side->IsAscending == other.IsAscending });
+    }
+    side = end;
+  }
+  return edges;
+}
+
+/// A number for each polygon, the same for those that are joined by shared edges.
+std::vector<vtkIdType> FindParts(const std::vector<SharedEdge>& edges, vtkIdType polygons)
+{
+  std::vector<vtkIdType> joined(polygons);
   std::iota(joined.begin(), joined.end(), 0);
   const auto find = [&joined](vtkIdType number)
   {
@@ -178,19 +234,90 @@ std::vector<vtkIdType> FindConnected(vtkCellArray* polygons)
     }
     return number;
   };
-  for (auto side = sides.begin(); side != sides.end();)
+  for (const SharedEdge& edge : edges)
   {
-    const auto end = std::find_if(side, sides.end(),
-      [&side](const auto& other) { return other[0] != (*side)[0] || other[1] != (*side)[1]; });
-    if (end - side == 2)
-    {
-      const auto [first, last] = std::minmax({ find((*side)[2]), find((*std::next(side))[2]) });
-      joined[last] = first;
-    }
-    side = end;
+    const auto [first, last] = std::minmax({ find(edge.First), find(edge.Second) });
+    joined[last] = first;
   }
   std::transform(joined.begin(), joined.end(), joined.begin(), find);
   return joined;
+}
+
+/// The polygons that VTK turns over. It fails at those that enclose nothing, so it does not see
+/// them.
+std::vector<bool> FindTurned(vtkPoints* points, vtkCellArray* given)
+{
+  const vtkNew<vtkCellArray> seen;
+  std::vector<vtkIdType> numbers, corners;
+  vtkIdType polygon = 0;
+  ForEachCell(given,
+    [&](vtkIdType size, const vtkIdType* ids)
+    {
+      corners.assign(ids, ids + size);
+      DropRepeats(corners);
+      if (corners.size() > 2)
+      {
+        seen->InsertNextCell(size, ids);
+        numbers.push_back(polygon);
+      }
+      ++polygon;
+    });
+  const vtkNew<vtkPolyData> polygons;
+  polygons->SetPoints(points);
+  polygons->SetPolys(seen);
+  const vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(polygons);
+  normals->SplittingOff();
+  normals->ConsistencyOn();
+  normals->NonManifoldTraversalOff();
+  normals->Update();
+  vtkCellArray* const oriented = normals->GetOutput()->GetPolys();
+  std::vector<bool> areTurned(polygon);
+  if (oriented->GetNumberOfCells() == seen->GetNumberOfCells())
+  {
+    const vtkNew<vtkIdList> before, after;
+    for (vtkIdType cell = 0; cell < seen->GetNumberOfCells(); ++cell)
+    {
+      seen->GetCellAtId(cell, before);
+      oriented->GetCellAtId(cell, after);
+      areTurned[numbers[cell]] = !std::equal(before->begin(), before->end(), after->begin());
+    }
+  }
+  return areTurned;
+}
+
+/// If most polygons of a part are to be turned over, turns over the others of it instead. Leaves a
+/// part alone if it would have no fewer wrong edges, as a Moebius band.
+void TurnFewer(vtkCellArray* polygons, std::vector<bool>& areTurned)
+{
+  const auto count = static_cast<vtkIdType>(areTurned.size());
+  const std::vector<SharedEdge> edges = ListSharedEdges(polygons);
+  const std::vector<vtkIdType> parts = FindParts(edges, count);
+  std::vector<vtkIdType> surplus(count); // by part, how many more are to be turned over than not
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    if (areTurned[cell])
+    {
+      ++surplus[parts[cell]];
+    }
+    else
+    {
+      --surplus[parts[cell]];
+    }
+  }
+  std::vector<vtkIdType> gain(count); // by part, how many fewer edges are wrong
+  for (const SharedEdge& edge : edges)
+  {
+    if (areTurned[edge.First] != areTurned[edge.Second])
+    {
+      gain[parts[edge.First]] += edge.IsWrong ? 1 : -1;
+    }
+  }
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    const vtkIdType part = parts[cell];
+    areTurned[cell] = gain[part] > 0 && areTurned[cell] != (surplus[part] > 0);
+  }
 }
 
 /// The polygons, of which those that are to be turned over are.
@@ -297,22 +424,15 @@ RepairedMesh MergeEqualPoints(vtkPolyData* mesh)
 RepairedMesh DropDuplicates(vtkPolyData* mesh)
 {
   std::set<std::vector<vtkIdType>> known;
-  const auto isKnown = [&known](vtkIdType size, const vtkIdType* ids)
-  {
-    // From the smallest corner to its smaller neighbour.
-    std::vector<vtkIdType> corners(ids, ids + size);
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    if (size > 2 && corners[1] > corners.back())
-    {
-      std::reverse(corners.begin() + 1, corners.end());
-    }
-    return !known.insert(corners).second;
+  const auto isKnown = [&known](vtkIdType size, const vtkIdType* ids) {
+    return !known.insert(FindSmallestOrder({ ids, ids + size })).second;
   };
   const FileMesh plain = MakePlain(mesh);
   RepairedMesh repaired;
   repaired.Result.Warnings = plain.Warnings;
   const vtkIdType count = LeaveOut(plain.Mesh, isKnown, repaired.Result);
-  repaired.Note = Counted(count, "polygon") + " left out as duplicates";
+  repaired.Note =
+    Counted(count, "polygon") + " left out as " + (count == 1 ? "a duplicate" : "duplicates");
   return repaired;
 }
 
@@ -321,48 +441,9 @@ RepairedMesh Orient(vtkPolyData* mesh)
   RepairedMesh repaired;
   repaired.Result = MakePlain(mesh);
   vtkCellArray* const given = repaired.Result.Mesh->GetPolys();
-  const vtkNew<vtkPolyData> polygons;
-  polygons->SetPoints(mesh->GetPoints());
-  polygons->SetPolys(given);
-  const vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(polygons);
-  normals->SplittingOff();
-  normals->ConsistencyOn();
-  normals->NonManifoldTraversalOff();
-  normals->Update();
-  vtkCellArray* const oriented = normals->GetOutput()->GetPolys();
-  const vtkIdType count = given->GetNumberOfCells();
-  std::vector<bool> areTurned(count);
-  if (oriented->GetNumberOfCells() == count)
-  {
-    const vtkNew<vtkIdList> before, after;
-    for (vtkIdType cell = 0; cell < count; ++cell)
-    {
-      given->GetCellAtId(cell, before);
-      oriented->GetCellAtId(cell, after);
-      areTurned[cell] = !std::equal(before->begin(), before->end(), after->begin());
-    }
-  }
-  // If most polygons of a part have been turned over, turn over the others of it instead.
-  const std::vector<vtkIdType> parts = FindConnected(given);
-  std::vector<vtkIdType> surplus(count); // by part, how many more have been turned over than not
-  for (vtkIdType cell = 0; cell < count; ++cell)
-  {
-    if (areTurned[cell])
-    {
-      ++surplus[parts[cell]];
-    }
-    else
-    {
-      --surplus[parts[cell]];
-    }
-  }
-  vtkIdType turned = 0;
-  for (vtkIdType cell = 0; cell < count; ++cell)
-  {
-    areTurned[cell] = areTurned[cell] != (surplus[parts[cell]] > 0);
-    turned += static_cast<vtkIdType>(areTurned[cell]);
-  }
+  std::vector<bool> areTurned = FindTurned(mesh->GetPoints(), given);
+  TurnFewer(given, areTurned);
+  const vtkIdType turned = std::count(areTurned.begin(), areTurned.end(), true);
   repaired.Result.Mesh->SetPolys(TurnOver(given, areTurned));
   repaired.Note = Counted(turned, "polygon") + " turned over to be wound like " +
     (turned == 1 ? "its" : "their") + " neighbours";

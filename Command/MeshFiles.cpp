@@ -402,61 +402,6 @@ FileMesh ReadMesh(
     std::to_string(file.GetBytes().size()) + " bytes can hold");
 }
 
-vtkSmartPointer<vtkPolyData> MakeSegments(
-  vtkPolyData* mesh, const std::string& path, bool areBreaklines)
-{
-  if (mesh->GetNumberOfLines() + mesh->GetNumberOfPolys() == 0)
-  {
-    throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
-  }
-  const vtkNew<vtkCellArray> segments;
-  for (vtkCellArray* const cells : { mesh->GetLines(), mesh->GetPolys() })
-  {
-    const bool areLines = cells == mesh->GetLines();
-    vtkIdType cell = 0;
-    const auto add = [&](vtkIdType size, const vtkIdType* points)
-    {
-      std::vector<vtkIdType> ids(points, points + size);
-      if (!areBreaklines && size > 0)
-      {
-        std::array<double, 3> first, last;
-        mesh->GetPoint(ids.front(), first.data());
-        mesh->GetPoint(ids.back(), last.data());
-        if (first != last && areLines)
-        {
-          throw CommandError(ExitCode::BadFile,
-            path + ": line " + std::to_string(cell) +
-              " does not end where it begins, so it is no ring");
-        }
-        if (first == last && size > 1)
-        {
-          ids.pop_back();
-        }
-      }
-      else if (!areLines && size > 0)
-      {
-        ids.push_back(ids.front());
-      }
-      segments->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
-      ++cell;
-    };
-    ForEachCell(cells, add);
-  }
-  auto made = vtkSmartPointer<vtkPolyData>::New();
-  made->SetPoints(mesh->GetPoints());
-  made->SetStrips(mesh->GetStrips()); // so that the filter warns of them
-  made->GetPointData()->ShallowCopy(mesh->GetPointData());
-  if (areBreaklines)
-  {
-    made->SetLines(segments);
-  }
-  else
-  {
-    made->SetPolys(segments);
-  }
-  return made;
-}
-
 void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format)
 {
   RequireStorable(mesh, format);

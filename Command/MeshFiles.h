@@ -79,12 +79,6 @@ std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& 
 std::string LostArrays(
   const std::string& what, vtkFieldData* data, const std::vector<vtkAbstractArray*>& kept);
 
-/// The lines and polygons of a mesh, with all its points, as vtkDelaunayFlipPoints takes them:
-/// breaklines as lines, and rings as polygons.
-/// @throws CommandError (BadFile) with `path` where there are none, or one is no ring.
-vtkSmartPointer<vtkPolyData> MakeSegments(
-  vtkPolyData* mesh, const std::string& path, bool areBreaklines);
-
 /// Writes a mesh to `path`, in binary where the format allows it, and checks that the file is
 /// complete, because the writers of some formats do not notice a full disk. Arrays that the format
 /// would spoil are replaced in the mesh too.

@@ -84,19 +84,14 @@ public:
     {
       return 0.0;
     }
-    const auto largest = [this](const auto& get)
-    {
-      const auto most = std::max_element(this->Numbers.begin(), this->Numbers.end(),
-        [&](const Decimal& a, const Decimal& b) { return get(a) < get(b); });
-      return get(*most);
-    };
-    const int exponent = largest([](const Decimal& number) { return number.Exponent; });
-    digits = largest([](const Decimal& number) { return number.Digits; });
+    const int exponent = this->FindUsual([](const Decimal& number) { return number.Exponent; });
+    digits = this->FindUsual([](const Decimal& number) { return number.Digits; });
     if (digits <= MostDigits && this->AreMostly(&Decimal::GetDigits, digits))
     {
       return std::pow(10.0, exponent - digits + 1);
     }
-    const int decimals = largest([](const Decimal& number) { return number.CountDecimals(); });
+    const int decimals =
+      this->FindUsual([](const Decimal& number) { return number.CountDecimals(); });
     digits = exponent + 1 + decimals;
     const bool areFixed =
       digits <= MostDigits && this->AreMostly(&Decimal::CountDecimals, decimals);
@@ -106,6 +101,17 @@ public:
 private:
   static constexpr int MostDigits = 7; ///< A float has more.
   static constexpr std::size_t FewestPoints = 100; ///< Others may have short numbers by chance.
+
+  /// The largest value of 99 % of the numbers; a few of another origin may have more.
+  template <typename Get>
+  int FindUsual(const Get& get) const
+  {
+    std::vector<int> values;
+    std::transform(this->Numbers.begin(), this->Numbers.end(), std::back_inserter(values), get);
+    const auto usual = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) * 99 / 100);
+    std::nth_element(values.begin(), usual, values.end());
+    return *usual;
+  }
 
   /// Whether no axis has many different coordinates.
   bool IsLattice() const
@@ -153,20 +159,25 @@ double FindMedianEdge(vtkPolyData* mesh)
 
 }
 
-std::string AdviseTolerance(vtkPolyData* mesh)
+RoundedCoordinates FindRounding(vtkPolyData* mesh)
 {
-  int digits = 0;
-  const double unit = CoordinateSample(mesh).FindUnit(digits);
+  RoundedCoordinates rounded;
+  const double unit = CoordinateSample(mesh).FindUnit(rounded.Digits);
   const double length = FindMedianEdge(mesh);
   constexpr double Units = 4.0; // a triangle has three points, and the angle two
   constexpr double Largest = 0.1; // radians, beyond which the mesh itself is rounded away
   const double tolerance = length > 0.0 ? Units * unit / length : 0.0;
-  if (tolerance == 0.0 || tolerance > Largest)
+  if (tolerance <= Largest)
   {
-    return "";
+    rounded.Tolerance = std::stod(FormatNumber(tolerance, 1)); // as the summary says it
   }
-  return "hint: coordinates are rounded to " + std::to_string(digits) +
-    " digits, which makes edges bad; --tolerance " + FormatNumber(tolerance, 1) +
+  return rounded;
+}
+
+std::string DescribeRounding(const RoundedCoordinates& rounded)
+{
+  return "hint: coordinates are rounded to " + std::to_string(rounded.Digits) +
+    " digits, which makes edges bad; --tolerance " + FormatNumber(rounded.Tolerance, 1) +
     " leaves alone those that are bad by no more\n";
 }
 

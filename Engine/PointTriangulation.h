@@ -38,8 +38,9 @@
 /// triangles not inside the holes are. The rest is removed, then the triangles around hole seeds,
 /// then those that Alpha and LongestEdge name. A ring without an area, such as one of fewer than
 /// three places or with all of them on one line, is left out and reported: its segments are
-/// segments of no ring. By EvenOdd a ring with the edges of an earlier one of its set is left out,
-/// too, because both together would enclose nothing.
+/// segments of no ring. A ring with the edges of an earlier one of its set is left out, too: by
+/// EvenOdd both together would enclose nothing, and by the other rules two directions would cancel
+/// each other. A ring that runs more than once along its loop counts once.
 
 namespace delaunayflip
 {
@@ -76,7 +77,8 @@ struct PointInput
   const double* HoleSeeds = nullptr;
   std::int64_t NumberOfHoleSeeds = 0;
 
-  /// Points from this number on belong to segments alone. The report tells if no others are left.
+  /// Points from this number on belong to segments alone. The report tells if no others are left,
+  /// and if holes reach beyond all others where there is no outline.
   std::int64_t FirstAdded = INT64_MAX;
 
   /// Whether the coordinates are in the memory of a GPU, ordered by Stream. All other arrays are in

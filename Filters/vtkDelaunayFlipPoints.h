@@ -47,8 +47,10 @@
  * that crosses an earlier one is refused and counted, and a warning names the first such segments;
  * with SplitCrossings both are split where they cross. If a segment of a ring is refused, the
  * update fails, and the error names the ring: its number is its cell id. Rings without an area,
- * such as those of two points, are left out, with a warning; their segments stay. With EVEN_ODD a
- * ring with the edges of an earlier one, such as a polygon and its line, is left out, too.
+ * such as those of two points, are left out, with a warning; their segments stay. A ring with the
+ * edges of an earlier one, such as a polygon and its line, is left out, too. A ring that runs more
+ * than once along its loop counts once. Without an outline the mesh reaches to holes outside of the
+ * points of the first input, and a warning counts such points.
  *
  * The heights of added points are those of the second input. If its lines, outlines or holes have
  * z = 0 throughout, and the points of the first input do not, a warning counts the added points:

@@ -37,8 +37,9 @@ const ColumnFamily Families[] = {
   { { "e" }, { "n" }, { "z", "u" } },
 };
 
+/// Without letters that are not ASCII: "hhe" is the German word with its umlaut.
 const Names Heights = { "z", "zcoord", "zcoordinate", "coordz", "pointz", "elevation", "elev",
-  "ele", "height", "hgt", "h", "altitude", "alt", "hoehe" };
+  "ele", "height", "hgt", "h", "altitude", "alt", "hoehe", "hhe", "hauteur", "quota", "cota" };
 
 std::string Lower(std::string_view text)
 {

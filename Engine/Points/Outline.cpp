@@ -18,52 +18,108 @@ namespace delaunayflip
 
 namespace
 {
-/// The numbers of rings with the edges of an earlier one of their set. By EvenOdd both together
-/// would enclose nothing.
-std::set<std::int32_t> FindRepeatedRings(
-  const std::vector<SegmentEdge>& segments, std::int32_t firstHole)
+/// An edge of a ring.
+struct RingEdge
 {
-  std::map<std::int32_t, std::vector<EdgeId>> edgesOf; // by the numbers of the rings
+  EdgeId Edge;
+  /// How often more the ring winds around the side with the even number than around the other one.
+  std::int64_t Turns;
+};
+
+/// Sums the turns at each edge. A spike, there and back, has none. A ring that runs more than once
+/// along its loop runs once. @returns whether it did so.
+bool Simplify(std::vector<RingEdge>& ring)
+{
+  std::sort(
+    ring.begin(), ring.end(), [](const RingEdge& a, const RingEdge& b) { return a.Edge < b.Edge; });
+  std::vector<RingEdge> sums;
+  for (const RingEdge& edge : ring)
+  {
+    if (sums.empty() || sums.back().Edge != edge.Edge)
+    {
+      sums.push_back({ edge.Edge, 0 });
+    }
+    sums.back().Turns += edge.Turns;
+  }
+  sums.erase(
+    std::remove_if(sums.begin(), sums.end(), [](const RingEdge& edge) { return edge.Turns == 0; }),
+    sums.end());
+  std::int64_t rounds = 0;
+  for (const RingEdge& edge : sums)
+  {
+    rounds = std::gcd(rounds, edge.Turns);
+  }
+  for (RingEdge& edge : sums)
+  {
+    edge.Turns /= rounds;
+  }
+  ring = std::move(sums);
+  return rounds > 1;
+}
+
+/// The edges of rings, by their numbers.
+using RingMap = std::map<std::int32_t, std::vector<RingEdge>>;
+
+/// Lists the edges of rings, each ring once: without the repeats of its own loop, and without rings
+/// that repeat an earlier one of their set in either direction. By even-odd both together would
+/// enclose nothing; by the other rules two directions would cancel each other.
+RingMap ListRings(
+  const std::vector<SegmentEdge>& segments, std::int32_t firstHole, KeptTriangles& kept)
+{
+  RingMap rings;
   for (const SegmentEdge& segment : segments)
   {
     if (segment.Ring >= 0)
     {
-      edgesOf[segment.Ring].push_back(EdgeOf(segment.Side));
+      const bool isEven = segment.Side % 2 == 0;
+      rings[segment.Ring].push_back({ EdgeOf(segment.Side), segment.IsOnLeft == isEven ? 1 : -1 });
     }
   }
-  std::set<std::pair<bool, std::vector<EdgeId>>> known;
-  std::set<std::int32_t> repeated;
-  for (auto& [number, edges] : edgesOf)
+  using Turn = std::pair<EdgeId, std::int64_t>;
+  std::set<std::pair<bool, std::vector<Turn>>> known;
+  for (auto ring = rings.begin(); ring != rings.end();)
   {
-    std::sort(edges.begin(), edges.end());
-    if (!known.emplace(number >= firstHole, std::move(edges)).second)
+    auto& [number, edges] = *ring;
+    const bool hasRepeated = Simplify(edges);
+    std::vector<Turn> turns;
+    for (const RingEdge& edge : edges)
     {
-      repeated.insert(number);
+      const std::int64_t direction = edges.front().Turns > 0 ? 1 : -1;
+      turns.emplace_back(edge.Edge, direction * edge.Turns);
     }
+    const bool isNew = edges.empty() || known.emplace(number >= firstHole, std::move(turns)).second;
+    if (!isNew)
+    {
+      kept.RepeatedRings.push_back(number);
+      ring = rings.erase(ring);
+      continue;
+    }
+    if (hasRepeated)
+    {
+      kept.RingsRunAgain.push_back(number);
+    }
+    ++ring;
   }
-  return repeated;
+  return rings;
 }
 
 /// Goes from triangle to triangle, and back, and counts how often each ring winds around them.
 class RingWalk
 {
 public:
-  /// @param leftOut numbers of rings.
-  RingWalk(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments,
-    const PointInput& input, const std::set<std::int32_t>& leftOut)
+  RingWalk(const PointMeshView& mesh, const RingMap& rings, std::int32_t firstHole)
     : Mesh(mesh),
-      Segments(segments),
-      FirstHole(input.FirstHole),
-      Last(mesh.NumberOfEdges, None),
-      Before(segments.size(), None)
+      FirstHole(firstHole),
+      Last(mesh.NumberOfEdges, None)
   {
-    for (std::size_t i = 0; i < segments.size(); ++i)
+    for (const auto& [number, edges] : rings)
     {
-      if (segments[i].Ring >= 0 && leftOut.count(segments[i].Ring) == 0)
+      this->Rings[number];
+      for (const RingEdge& edge : edges)
       {
-        this->Rings[segments[i].Ring];
-        this->Before[i] =
-          std::exchange(this->Last[EdgeOf(segments[i].Side)], static_cast<std::int64_t>(i));
+        const auto wall = static_cast<std::int64_t>(this->Walls.size());
+        this->Walls.push_back({ number, edge.Turns, this->Last[edge.Edge] });
+        this->Last[edge.Edge] = wall;
       }
     }
   }
@@ -116,6 +172,13 @@ public:
     return fates;
   }
 
+  /// Whether a ring with an area is not a hole.
+  bool HasOutline() const
+  {
+    return std::any_of(this->Rings.begin(), this->Rings.end(),
+      [this](const auto& item) { return item.first < this->FirstHole && item.second.HasArea; });
+  }
+
   /// The numbers of the rings that enclose nothing.
   std::vector<std::int32_t> ListRingsWithoutArea() const
   {
@@ -137,6 +200,14 @@ private:
     bool HasArea = false;
   };
 
+  /// An edge of a ring.
+  struct Wall
+  {
+    std::int32_t Ring;
+    std::int64_t Turns; ///< See RingEdge.
+    std::int64_t Before; ///< The one before it at the same edge.
+  };
+
   enum FateKind : unsigned char
   {
     Inside,
@@ -149,12 +220,13 @@ private:
   /// Goes to this side of its edge.
   void Cross(HalfEdgeId side)
   {
-    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Before[i])
+    const std::int64_t direction = side % 2 == 0 ? 1 : -1;
+    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Walls[i].Before)
     {
-      const SegmentEdge& segment = this->Segments[i];
-      const int change = segment.IsOnLeft == (segment.Side == side) ? 1 : -1;
-      this->Rings[segment.Ring].Winding += change;
-      if (segment.Ring >= this->FirstHole)
+      const Wall& wall = this->Walls[i];
+      const std::int64_t change = direction * wall.Turns;
+      this->Rings[wall.Ring].Winding += change;
+      if (wall.Ring >= this->FirstHole)
       {
         this->HoleWinding += change;
       }
@@ -168,9 +240,9 @@ private:
   /// Notes what the rings at an edge that was crossed enclose.
   void LookAround(HalfEdgeId side)
   {
-    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Before[i])
+    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Walls[i].Before)
     {
-      const std::int32_t number = this->Segments[i].Ring;
+      const std::int32_t number = this->Walls[i].Ring;
       Ring& ring = this->Rings[number];
       ring.HasArea |= ring.Winding != 0;
       this->AnyIsCounterClockwise |= ring.Winding > 0 && number < this->FirstHole;
@@ -197,21 +269,13 @@ private:
     return isInside(this->OutlineWinding) ? Inside : Outside;
   }
 
-  /// Whether a ring with an area is not a hole.
-  bool HasOutline() const
-  {
-    return std::any_of(this->Rings.begin(), this->Rings.end(),
-      [this](const auto& item) { return item.first < this->FirstHole && item.second.HasArea; });
-  }
-
   static constexpr std::int64_t None = -1;
 
   const PointMeshView& Mesh;
-  const std::vector<SegmentEdge>& Segments;
   const std::int32_t FirstHole;
   std::map<std::int32_t, Ring> Rings; ///< By their numbers.
-  std::vector<std::int64_t> Last; ///< By edge: the last of its segments that belong to a ring.
-  std::vector<std::int64_t> Before; ///< By segment: the one before it.
+  std::vector<Wall> Walls;
+  std::vector<std::int64_t> Last; ///< By edge: its last wall.
   /// How often the rings of a set wind around the triangle at hand, all together.
   std::int64_t OutlineWinding = 0, HoleWinding = 0;
   bool AnyIsCounterClockwise = false; ///< Whether an outline is.
@@ -230,18 +294,17 @@ public:
   /// Also tells which rings are left out.
   void RemoveOutside(const PointInput& input, RingRuleKind rule, KeptTriangles& kept)
   {
-    std::set<std::int32_t> repeated;
-    if (rule == RingRuleKind::EvenOdd)
-    {
-      repeated = FindRepeatedRings(this->Segments, input.FirstHole);
-    }
-    kept.RepeatedRings.assign(repeated.begin(), repeated.end());
-    RingWalk walk(this->Mesh, this->Segments, input, repeated);
+    const RingMap rings = ListRings(this->Segments, input.FirstHole, kept);
+    RingWalk walk(this->Mesh, rings, input.FirstHole);
     if (walk.HasRings())
     {
       this->IsRemoved = walk.FindOutside(rule);
     }
     kept.RingsWithoutArea = walk.ListRingsWithoutArea();
+    if (walk.HasRings() && !walk.HasOutline())
+    {
+      kept.HolePointsOutside = this->CountHolePointsOutside(input);
+    }
   }
 
   /// Removes what can be reached from the seeds without crossing a segment. @returns how many seeds
@@ -358,6 +421,40 @@ public:
   }
 
 private:
+  /// How many corners of the hull belong to holes alone. Without them the hull would be smaller.
+  std::int64_t CountHolePointsOutside(const PointInput& input) const
+  {
+    std::vector<unsigned char> isOfHole(this->Mesh.NumberOfPlaces, 0);
+    for (const SegmentEdge& segment : this->Segments)
+    {
+      for (const VertexId place :
+        { this->Mesh.GetStart(segment.Side), this->Mesh.GetEnd(segment.Side) })
+      {
+        const bool isAdded = static_cast<std::int64_t>(this->Mesh.Ids[place]) >= input.FirstAdded;
+        const bool isMark = isAdded && segment.Ring >= input.FirstHole;
+        isOfHole[place] |= isMark ? 1 : 0;
+      }
+    }
+    std::map<VertexId, VertexId> next; // along the hull, from place to place
+    for (HalfEdgeId side = 0; side < 2 * this->Mesh.NumberOfEdges; ++side)
+    {
+      if (this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u] == NoCorner)
+      {
+        next[this->Mesh.GetStart(side)] = this->Mesh.GetEnd(side);
+      }
+    }
+    std::int64_t count = 0;
+    for (const auto& [start, place] : next)
+    {
+      const auto after = next.find(place);
+      const bool isBend = after != next.end() && isOfHole[place] != 0 &&
+        FindOrientation(this->Mesh.GetPoint(start), this->Mesh.GetPoint(place),
+          this->Mesh.GetPoint(after->second)) != 0;
+      count += isBend ? 1 : 0;
+    }
+    return count;
+  }
+
   /// How many triangles of an edge are kept.
   int CountKept(EdgeId edge) const
   {

@@ -84,7 +84,7 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
   counts.OutsideTriangles = result.Kept.Outside;
   counts.LargeTriangles = result.Kept.Large;
   report.Points = points.GetCaller().Points.Count;
-  report.InsertedConstraints = static_cast<std::int64_t>(result.Taken - result.Refused.size());
+  report.InsertedConstraints = result.Inserted;
   report.UnmatchedConstraints = counts.RefusedSegments;
   report.ConstraintFlips = result.Flips;
   report.Edges.Constraint = counts.SegmentEdges;
@@ -200,6 +200,11 @@ void AddPointsTo(
     { Defect{ "hole seeds outside of all triangles", kept.SeedsOutside, {}, DefectIds::Points },
       NameRings("rings without an area, left out", ListRingsWithoutArea(points, kept)),
       NameRings("rings with the edges of an earlier one, left out", kept.RepeatedRings),
+      NameRings("rings with a loop that is run more than once, counted once", kept.RingsRunAgain),
+      Defect{
+        "points of holes on the convex hull, to which the mesh reaches beyond all other points "
+        "(an outline ends it before)",
+        kept.HolePointsOutside, {}, DefectIds::Points },
       Defect{
         "points without a triangle: there are fewer than three places, or all are on one line",
         pointsWithoutMesh, {}, DefectIds::Points },

@@ -21,9 +21,11 @@ namespace delaunayflip
 struct PointResult
 {
   std::size_t Taken = 0; ///< How many segments are inserted or refused; they are the first ones.
+  std::int64_t Inserted = 0; ///< How many of these are not refused.
   std::int64_t Flips = 0; ///< That inserted segments.
   std::vector<SegmentEdge> Edges;
   std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
+  /// By index. If pieces of a given segment are refused, only the first of them.
   std::vector<RefusedSegment> Refused;
   KeptTriangles Kept;
   Defect Loss; ///< If none of the points that matter is left.

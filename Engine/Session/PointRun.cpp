@@ -226,6 +226,10 @@ void PointRun::Take(const InsertedSegments& made)
     {
       result.Refused.push_back({ segment, index });
     }
+    else
+    {
+      ++result.Inserted;
+    }
     for (std::int32_t i = 0; i < edges; ++i, ++side)
     {
       const EdgeId edge = EdgeOf(side->Side);
@@ -245,6 +249,9 @@ void PointRun::ExplainRefused(LoadedMesh& mesh)
   std::vector<RefusedSegment>& refused = this->Result.Refused;
   std::sort(refused.begin(), refused.end(),
     [](const RefusedSegment& a, const RefusedSegment& b) { return a.Index < b.Index; });
+  const auto isOfSame = [](const RefusedSegment& a, const RefusedSegment& b)
+  { return a.Refused.Number == b.Refused.Number; };
+  refused.erase(std::unique(refused.begin(), refused.end(), isOfSame), refused.end());
   const PlaneArray points = this->Points.CopyToHost();
   std::vector<RefusedSegment*> named;
   RefusedSegment* ofRing = nullptr;

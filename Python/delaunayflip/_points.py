@@ -19,7 +19,7 @@ from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, make_options, to_number)
 from ._report import Report
 from ._rings import (
-    RING_RULES, RingRule, Rings, find_left_out_rings, list_rings, name_rings)
+    RING_RULES, RingRule, Rings, find_trouble, list_rings, name_rings)
 from ._session import run
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -120,8 +120,8 @@ def triangulate(
             points is split there; one that crosses an earlier one is refused and reported.
         outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of
             point ids, or of coordinates, which become points: (k, 2), where z = 0, or (k, 3) of floats. It
-            may end with its first point. One without an area, or a second one with the same edges by
-            "evenodd", is left out, with a warning.
+            may end with its first point. One without an area, or a second one with the same edges, is
+            left out, with a warning.
         holes: A ring, or a list of rings, of the same kinds: what is inside them is removed.
         hole_seeds: (k, 2) places: what is reached from there without crossing a segment is removed.
         ring_rule: When a place is inside a set of rings. "evenodd": if a path to infinity crosses them
@@ -329,7 +329,7 @@ class Input:
         points = self.points
         if report.defects:
             report = dataclasses.replace(report, defects=self.explain(report.defects))
-            self.trouble += find_left_out_rings(report.defects)
+            self.trouble += find_trouble(report.defects)
         report = self._report_flat_points(report, used)
         if self._is_nothing_left(report, triangles):
             self.trouble = [report.defects]

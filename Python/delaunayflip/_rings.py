@@ -47,6 +47,9 @@ def _is_ring(name, given):
     are_spatial = shapes == {(3,)} and "f" in kinds
     if shapes == {(3,)} and not are_spatial and len(given) > 2:
         _require_ids(name, given)
+    if shapes == {(2,)} and kinds <= set("iu") and len(given) < 3:
+        raise ValueError(f"{name}: rows of two integers are the coordinates of one ring, but a ring has at least "
+                         "three points; if they are rings of point ids, each needs three ids")
     return shapes in ({()}, {(2,)}) or are_spatial
 
 
@@ -74,10 +77,10 @@ def name_rings(text, names):
         return names.get(int(found[1]), found[0])
 
     text = re.sub(r"\bring (\d+)", name, text)
-    return re.sub(r"(?<=, left out \(first: )[\d, ]+",
-                  lambda found: re.sub(r"(\d+)", name, found[0]), text)
+    return re.sub(r"(, (?:left out|counted once) \(first: )([\d, ]+)",
+                  lambda found: found[1] + re.sub(r"(\d+)", name, found[2]), text)
 
 
-def find_left_out_rings(defects):
-    """What the text of a report's defects says of them: a list of texts."""
-    return re.findall(r"\d+ rings? [^;]*, left out[^;]*", defects)
+def find_trouble(defects):
+    """What the text of a report's defects says of rings: a list of texts."""
+    return re.findall(r"\d+ rings? [^;]*, (?:left out|counted once)[^;]*|\d+ points? of holes on [^;]*", defects)

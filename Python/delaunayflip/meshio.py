@@ -146,9 +146,18 @@ def _number_regions(mesh, given, count):
         return numpy.full(count, given) if _arrays.as_array("regions", given).ndim == 0 else given
     numbers = numpy.zeros(count, dtype=numpy.int64)
     for column in columns:
+        if column.dtype == object:
+            column = _number_objects(column)
         labels = numpy.unique(number_tuples(column) if column.ndim > 1 else column, return_inverse=True)[1]
         numbers = numpy.unique(numbers * (count + 1) + labels, return_inverse=True)[1]
     return numbers if numbers.any() else None
+
+
+def _number_objects(column):
+    """A number per label, where None, which cannot be compared, may stand beside texts; NaN is None."""
+    known = {}
+    texts = [repr(label) if label == label else "None" for label in column.ravel().tolist()]
+    return numpy.array([known.setdefault(text, len(known)) for text in texts], dtype=int).reshape(column.shape)
 
 
 def _gather(mesh, values):

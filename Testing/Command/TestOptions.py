@@ -130,6 +130,10 @@ class Options(CommandTest):
         result = self.succeed(self.path("in.vtk"), "out.vtk", "--drop-duplicates")
         self.assertIn("in.vtk: 2 polygons left out as duplicates\n", result.stderr)
         self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
+        for cells in [(1, 2, 1), (2, 1, 2)], [(1, 1, 2), (2, 2, 1)], [(0, 1, 0, 2), (0, 2, 0, 1)]:
+            path = self.write_mesh(make_mesh(KITE, [*KITE_CELLS, *cells]), "flat.vtk")
+            told = self.succeed(path, "flat.vtp", "--drop-duplicates").stderr
+            self.assertIn("flat.vtk: 1 polygon left out as a duplicate\n", told)
         out = self.read_mesh("out.vtk")
         self.assertEqual(values_of(out.GetCellData().GetArray("cell")), [0, 1])
         self.assertTrue(self.has_edge(1, 3))
@@ -156,6 +160,22 @@ class Options(CommandTest):
         result = self.succeed(path, "out.vtk", "--orient", "--max-iterations", "0")
         self.assertIn("in.vtk: 1 polygon turned over", result.stderr)
         self.assertEqual(triangles_of(self.read_mesh("out.vtk"))[1:], cells[1:])
+
+    def test_parts_without_gain_are_left_alone(self):
+        """A Moebius band stays; polygons of one or two corners do not end the run."""
+        count = 12
+        band = [(math.cos(math.tau * i / count) * r, math.sin(math.tau * i / count) * r, z)
+                for i in range(count) for r, z in ((1, 0), (2, math.sin(math.pi * i / count)))]
+        cells = []
+        for i in range(count):
+            low, high = (2 * i + 2, 2 * i + 3) if i + 1 < count else (1, 0)
+            cells += [(2 * i, 2 * i + 1, high), (2 * i, high, low)]
+        for more in [], [(3,), (3, 4), (3, 4, 3), (0, 0)]:
+            mesh = make_mesh(band, [*more, *cells])
+            path = self.write_mesh(mesh, "in.vtk")
+            result = self.succeed(path, "out.vtk", "--orient", "--max-iterations", "0", code=4)
+            self.assertIn("in.vtk: 0 polygons turned over", result.stderr)
+            self.assertEqual(triangles_of(self.read_mesh("out.vtk"))[-len(cells):], cells)
 
     def test_winding_is_made_consistent(self):
         mesh = make_mesh(KITE, [KITE_CELLS[0], KITE_CELLS[1][::-1]], [(0, 1)])

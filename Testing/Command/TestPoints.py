@@ -3,6 +3,7 @@
 """--from-points: files of points, segments, outlines, holes, and what the command says about them."""
 
 import math
+import re
 
 from vtkmodules.vtkCommonCore import vtkPoints
 
@@ -102,6 +103,7 @@ class Files(PointTest):
 
     def test_known_names(self):
         for names in ("X_COORD,Y_COORD,Z_COORD", "POINT_X,POINT_Y,Elev", "lon,lat,h", "E,N,Z", "e,n,u",
+                      "x,y,Höhe [m]", "x,y,hauteur",
                       "Easting (m),Northing (m),Elevation (m)", "Longitude,Latitude,height",
                       "Points:0,Points:1,Points:2", "utm_e,utm_n,z_m", "x,y,altitude"):
             x, y, z = names.split(",")
@@ -388,6 +390,41 @@ class Segments(PointTest):
             for option in ("--outline", "--holes"):
                 self.fail_with(3, "in.xyz", "out.vtk", "--from-points", option, path,
                                naming=["ring.vtk", *words])
+
+    def test_lines_that_close_into_rings(self):
+        """In any order and direction, also of other places beside closed lines."""
+        square = "v 1 1 0\nv 3 1 0\nv 3 3 0\nv 1 3 0\nv 1.25 1.25 0\nv 1.75 1.25 0\nv 1.25 1.75 0\n"
+        for lines in ("l 1 2\nl 2 3\nl 3 4\nl 4 1\n", "l 4 1\nl 2 3\nl 1 2\nl 4 3\n",
+                      "l 1 2 3\nv 3 3 0\nl 8 4 1\n"):
+            self.write("ring.obj", square + lines + "l 5 6 7 5\n")
+            mesh, _ = self.triangulate("in.xyz", "--outline", "ring.obj")
+            self.assertEqual(area_of(mesh), 4 - 0.125)
+        for lines, words in (("l 1 2\nl 2 3\nl 3 4\n", ["line 0", "At point 0 only this line ends"]),
+                             ("l 1 2\nl 2 3\nl 3 1\nl 3 4\n", ["line 1", "At point 2 3 lines end"])):
+            self.write("ring.obj", square + lines)
+            self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "ring.obj",
+                           naming=["ring.obj", *words])
+
+    def test_holes_outside(self):
+        """Without an outline the mesh reaches to them, which a warning says; not if they end at its border."""
+        square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        for shift, count in ((6, 2), (3.5, 2), (3, 0), (2.5, 0)):
+            hole = self.rings("hole.vtk", [(x + shift, y + min(shift, 3), z) for x, y, z in square])
+            result = self.triangulate("in.xyz", "--holes", hole)[1]
+            told = re.findall(r"warning: .*\b(\d) points of holes on the convex hull", result.stderr)
+            self.assertEqual(told, [str(count)] if count else [], result.stderr)
+            border = self.rings("border.vtk", [(x * 4, y * 4, z) for x, y, z in square])
+            result = self.triangulate("in.xyz", "--holes", hole, "--outline", border, "--split-crossings")[1]
+            self.assertNotIn("on the convex hull", result.stderr)
+
+    def test_rings_that_run_twice(self):
+        ring = [(1, 1, 0), (3, 1, 0), (3, 3, 0), (1, 3, 0)]
+        for rule in "evenodd", "nonzero":
+            rings = self.rings("ring.vtk", 2 * ring, ring[::-1])
+            mesh, result = self.triangulate("in.xyz", "--outline", rings, "--ring-rule", rule)
+            self.assertEqual(area_of(mesh), 4)
+            self.assertIn("counted once (first: ring 0 of ring.vtk)", result.stderr)
+            self.assertIn("left out (first: ring 1 of ring.vtk)", result.stderr)
 
     def test_rings_without_area(self):
         """They are left out, and one warning counts them, with the names of the first ones."""

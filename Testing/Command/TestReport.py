@@ -5,6 +5,7 @@
 import csv
 import math
 import pathlib
+import random
 import re
 
 from CommandTesting import CommandTest, bad_mesh, bumpy_grid, make_mesh, turns_of, worst_case
@@ -155,6 +156,11 @@ class Summary(CommandTest):
                 text = self.succeed(path, "out.vtk").stdout
                 self.assertEqual("hint" in text, hint is not None, text)
                 self.assertIn(hint or "", text)
+        path = self.write_mesh(make_mesh(tall, [(0, 1, 2), (0, 2, 3), (2, 1, 0, 3)]), "in.vtk")
+        self.assertIn("2 triangles with the corners of another one, whose edges are kept; they are parts of larger "
+                      "polygons, so run --drop-duplicates on the output, and more can flip",
+                      self.succeed(path, "out.vtk", "--drop-duplicates").stdout)
+        self.assertIn("flips           1 ", self.succeed("out.vtk", "out.ply", "--drop-duplicates").stdout)
         leaves = [*tall, (0, 0, 1)]
         path = self.write_mesh(make_mesh(leaves, [(0, 1, 2), (0, 2, 3), (0, 2, 4)]), "in.vtk")
         self.assertIn("hint            100 % of the inner edges have more than two triangles and are kept; flip the "
@@ -192,6 +198,14 @@ class Summary(CommandTest):
                     self.assertGreater(before, 100)
                     self.assertLess(after["non_delaunay_before"], before / 10)
                     self.assertNotIn("hint", self.succeed(path, "out.vtk", "--tolerance", found[2]).stdout)
+        points, cells, _ = torus("%.3f")
+        points[7][0] += 1e-9  # one point of another origin
+        path = self.write_mesh(make_mesh(points, cells), "in.vtk")
+        self.assertRegex(self.succeed(path, "out.vtk").stdout, hint)
+        shuffled = random.Random(1)
+        points = [[round(x + shuffled.uniform(-.8, .8), 3) for x in point] for point in points]
+        path = self.write_mesh(make_mesh(points, cells), "in.vtk")
+        self.assertNotRegex(self.succeed(path, "out.vtk").stdout, hint)  # bad in itself
 
     def test_no_triangles(self):
         path = self.write_mesh(make_mesh([(0, 0, 0)], []), "in.vtk")

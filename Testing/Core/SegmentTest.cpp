@@ -308,7 +308,8 @@ TEST(SplitCrossings, UsesNoPointThatIsNotUsed)
   EXPECT_EQ((Pairs{ { 0, 6 }, { 6, 1 }, { 2, 6 }, { 6, 3 } }), result.Edges);
 }
 
-/// Segments along a line, but for rounding, get ever more crossings.
+/// Segments along a line, but for rounding, get ever more crossings. A segment of which pieces are
+/// refused counts once.
 TEST(SplitCrossings, EndsWhereCrossingsMultiply)
 {
   std::mt19937 random(1);
@@ -326,6 +327,10 @@ TEST(SplitCrossings, EndsWhereCrossingsMultiply)
   const Triangulation result = Triangulate(drawing, With(&PointOptions::SplitCrossings, true));
   EXPECT_LT(result.Added.size(), 20000u);
   EXPECT_LT(0, result.Report.FromPoints.RefusedSegments);
+  EXPECT_GE(27, result.Report.FromPoints.RefusedSegments);
+  const std::vector<std::int64_t>& named = result.Report.Defects.back().FirstIds;
+  ASSERT_EQ(6u, named.size());
+  EXPECT_TRUE(named[0] < named[2] && named[2] < named[4]);
 }
 
 TEST(SplitCrossings, RoundsOnceAndUsesPointsThatAreThere)
@@ -542,25 +547,33 @@ TEST(Outline, RingsWithoutAreaAreLeftOut)
   }
 }
 
-/// Also where the second one runs the other way and has more corners.
+/// By every rule, also where the second one runs the other way and has more corners or a spike.
 TEST(Outline, RingsThatAreGivenTwiceCountOnce)
 {
   Drawing drawing;
   drawing.Points = Square(0, 0, 20);
   Places again = Square(2, 2, 10, true);
-  again.insert(again.begin() + 1, { 6, 12 });
-  for (const Places& ring : { Square(2, 2, 10), again, Square(4, 4, 3), Square(4, 4, 3) })
+  again.insert(again.begin() + 1, { { 6, 12 }, { 6, 14 }, { 6, 12 } });
+  const Places hole = Square(4, 4, 3);
+  const Places once = Square(8, 8, 2);
+  Places twice = once;
+  twice.insert(twice.end(), once.begin(), once.end());
+  for (const Places& ring : { Square(2, 2, 10), again, hole, hole, Square(4, 4, 3, true), twice })
   {
     drawing.AddRing(ring);
   }
   drawing.FirstHole = 2;
-  const Triangulation result = Triangulate(drawing);
-  EXPECT_EQ(2.0 * 91, SumArea(drawing.Points, result.Triangles));
-  EXPECT_EQ("2 rings with the edges of an earlier one, left out (first: 1, 3)",
-    DescribeDefects({ result.Report.Defects.back() }));
-  const Triangulation turns =
-    Triangulate(drawing, With(&PointOptions::RingRule, RingRuleKind::NonZero));
-  EXPECT_TRUE(turns.Triangles.empty()); // the outline turns both ways
+  for (const RingRuleKind rule :
+    { RingRuleKind::EvenOdd, RingRuleKind::NonZero, RingRuleKind::Orientation })
+  {
+    const Triangulation result = Triangulate(drawing, With(&PointOptions::RingRule, rule));
+    EXPECT_EQ(2.0 * 87, SumArea(drawing.Points, result.Triangles));
+    std::vector<Defect> defects = result.Report.Defects;
+    defects.erase(defects.begin()); // points of equal places
+    EXPECT_EQ("3 rings with the edges of an earlier one, left out (first: 1, 3, 4); 1 ring with a "
+              "loop that is run more than once, counted once (first: 5)",
+      DescribeDefects(defects));
+  }
 }
 
 /// Edges of two segments, those of the boundary, and removed ones.

@@ -142,10 +142,15 @@ class Triangulate(unittest.TestCase):
         with self.assertWarnsRegex(
                 UserWarning, r"1 ring with the edges .*, left out \(first: ring 1 of holes\)"):
             self.assertAlmostEqual(area(holes=[triangle, triangle]), whole - 0.02)
+        with self.assertWarnsRegex(UserWarning, r"1 ring with a loop .*, counted once \(first: ring 0 of holes\)"):
+            self.assertAlmostEqual(area(holes=[[*triangle, *triangle]]), whole - 0.02)
+        with self.assertWarnsRegex(UserWarning, "points? of holes on the convex hull"):
+            area(holes=[[[2, .2], [2, .8], [3, .2]]])
         spatial = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, .5]]  # integers first
         self.assertEqual(area(outline=spatial), 1)
         for name, values, error, text in (
                 ("outline", numpy.array(spatial, int), ValueError, "outline: rows of three .* as floats"),
+                ("outline", [[0, 1]], ValueError, "outline: rows of two integers are the coordinates of one ring"),
                 ("outline", numpy.ma.masked_equal([0, 1, 2, 3], 3), ValueError, "outline has masked"),
                 ("holes", [numpy.ma.masked_equal(square, .9)], ValueError, "holes has masked"),
                 ("holes", numpy.ma.masked_equal(square, .9), ValueError, "holes has masked"),

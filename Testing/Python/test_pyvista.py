@@ -98,7 +98,8 @@ class MeshIO(unittest.TestCase):
         for cells, data, cell_sets, regions, expected in (
                 (two, {}, {}, None, LONG), (two, {}, {}, 0, SHORT), (two, {}, {}, [5, 5], SHORT),
                 (one, labels, {}, None, LONG), (one, bare, {}, None, SHORT),
-                (one, bare, {}, "mine", LONG), (one, labels, sets, "medit:ref", SHORT),
+                (one, bare, {}, "mine", LONG), (one, {"mine": [numpy.array([None, "steel"])]}, {}, "mine", LONG),
+                (one, {"mine": [numpy.array([None, None])]}, {}, "mine", SHORT), (one, labels, sets, "medit:ref", SHORT),
                 (one, {}, sets, None, LONG), (one, {}, sets, 0, SHORT),
                 (one, {}, {"flags": [numpy.array([False, True])]}, None, LONG),
                 (one, {}, {"all": [[0, 1]], "none": [None]}, None, SHORT)):

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SegmentLines.h"
+
+#include "CommandError.h"
+#include "Formats.h"
+
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+using PointIds = std::vector<vtkIdType>;
+
+std::vector<PointIds> ListCells(vtkCellArray* cells)
+{
+  std::vector<PointIds> lists;
+  ForEachCell(
+    cells, [&lists](vtkIdType size, const vtkIdType* ids) { lists.emplace_back(ids, ids + size); });
+  return lists;
+}
+
+/// Makes rings of the lines and polygons of a file. They do not repeat their first point.
+class RingReader
+{
+public:
+  RingReader(vtkPolyData* mesh, const std::string& path)
+    : Lines(ListCells(mesh->GetLines())),
+      Polygons(ListCells(mesh->GetPolys())),
+      Path(path)
+  {
+    PlaceNumbers known;
+    for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
+    {
+      std::array<double, 3> place;
+      mesh->GetPoint(point, place.data());
+      this->PlaceOf.push_back(known.Number(place));
+    }
+  }
+
+  std::vector<PointIds> Read()
+  {
+    this->FindOpenEnds();
+    std::vector<PointIds> rings;
+    std::vector<bool> areJoined(this->Lines.size());
+    for (std::size_t line = 0; line < this->Lines.size(); ++line)
+    {
+      if (!areJoined[line])
+      {
+        rings.push_back(this->Join(line, areJoined));
+      }
+    }
+    rings.insert(rings.end(), this->Polygons.begin(), this->Polygons.end());
+    for (PointIds& ring : rings)
+    {
+      if (ring.size() > 1 && this->IsClosed(ring))
+      {
+        ring.pop_back();
+      }
+    }
+    return rings;
+  }
+
+private:
+  bool IsClosed(const PointIds& line) const
+  {
+    return line.empty() || this->PlaceOf[line.front()] == this->PlaceOf[line.back()];
+  }
+
+  /// Notes which open lines end where. @throws CommandError where not exactly two do.
+  void FindOpenEnds()
+  {
+    for (std::size_t line = 0; line < this->Lines.size(); ++line)
+    {
+      const PointIds& ids = this->Lines[line];
+      if (!this->IsClosed(ids))
+      {
+        this->LinesAt[this->PlaceOf[ids.front()]].push_back(line);
+        this->LinesAt[this->PlaceOf[ids.back()]].push_back(line);
+      }
+    }
+    for (std::size_t line = 0; line < this->Lines.size(); ++line)
+    {
+      const PointIds& ids = this->Lines[line];
+      if (!this->IsClosed(ids))
+      {
+        this->RequireTwo(line, ids.front());
+        this->RequireTwo(line, ids.back());
+      }
+    }
+  }
+
+  void RequireTwo(std::size_t line, vtkIdType end) const
+  {
+    const std::size_t count = this->LinesAt.at(this->PlaceOf[end]).size();
+    if (count != 2)
+    {
+      throw CommandError(ExitCode::BadFile,
+        this->Path + ": line " + std::to_string(line) +
+          " does not end where it begins, so it is no ring. Lines are joined to a ring where two "
+          "of "
+          "them end at the same place. At point " +
+          std::to_string(end) + " " +
+          (count == 1 ? "only this line ends" : std::to_string(count) + " lines end"));
+    }
+  }
+
+  /// A line with those that go on from its end until it is closed.
+  PointIds Join(std::size_t line, std::vector<bool>& areJoined) const
+  {
+    PointIds ring = this->Lines[line];
+    areJoined[line] = true;
+    while (!this->IsClosed(ring))
+    {
+      const vtkIdType end = this->PlaceOf[ring.back()];
+      const std::vector<std::size_t>& here = this->LinesAt.at(end);
+      const std::size_t next = areJoined[here.front()] ? here.back() : here.front();
+      PointIds more = this->Lines[next];
+      if (this->PlaceOf[more.front()] != end)
+      {
+        std::reverse(more.begin(), more.end());
+      }
+      ring.insert(ring.end(), more.begin() + 1, more.end());
+      areJoined[next] = true;
+    }
+    return ring;
+  }
+
+  const std::vector<PointIds> Lines, Polygons;
+  const std::string& Path;
+  PointIds PlaceOf; ///< By point, the number of its place.
+  std::map<vtkIdType, std::vector<std::size_t>>
+    LinesAt; ///< Open ones, by the places of their ends.
+};
+
+/// Breaklines. A polygon becomes a closed line.
+std::vector<PointIds> ListBreaklines(vtkPolyData* mesh)
+{
+  std::vector<PointIds> lines = ListCells(mesh->GetLines());
+  for (PointIds& ids : ListCells(mesh->GetPolys()))
+  {
+    if (!ids.empty())
+    {
+      ids.push_back(ids.front());
+    }
+    lines.push_back(std::move(ids));
+  }
+  return lines;
+}
+
+}
+
+vtkSmartPointer<vtkPolyData> MakeSegments(
+  vtkPolyData* mesh, const std::string& path, bool areBreaklines)
+{
+  if (mesh->GetNumberOfLines() + mesh->GetNumberOfPolys() == 0)
+  {
+    throw CommandError(ExitCode::BadFile, path + ": has no lines or polygons");
+  }
+  const std::vector<PointIds> lists =
+    areBreaklines ? ListBreaklines(mesh) : RingReader(mesh, path).Read();
+  const vtkNew<vtkCellArray> segments;
+  for (const PointIds& ids : lists)
+  {
+    segments->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+  }
+  auto made = vtkSmartPointer<vtkPolyData>::New();
+  made->SetPoints(mesh->GetPoints());
+  made->SetStrips(mesh->GetStrips()); // so that the filter warns of them
+  made->GetPointData()->ShallowCopy(mesh->GetPointData());
+  if (areBreaklines)
+  {
+    made->SetLines(segments);
+  }
+  else
+  {
+    made->SetPolys(segments);
+  }
+  return made;
+}
+
+}

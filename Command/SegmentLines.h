@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SEGMENTLINES_H
+#define DELAUNAYFLIP_SEGMENTLINES_H
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <string>
+
+namespace delaunayflip
+{
+
+/// The lines and polygons of a mesh, with all its points, as vtkDelaunayFlipPoints takes them:
+/// breaklines as lines, and rings as polygons. Lines that end at the same places, two each, are
+/// joined to rings.
+/// @throws CommandError (BadFile) with `path` where there are none, or one is no ring.
+vtkSmartPointer<vtkPolyData> MakeSegments(
+  vtkPolyData* mesh, const std::string& path, bool areBreaklines);
+
+}
+
+#endif
