@@ -21,10 +21,10 @@ namespace delaunayflip
 
 constexpr std::int64_t NoLimit = std::numeric_limits<std::int64_t>::max();
 
-/// A run whose mesh is loaded onto a backend: what the runs of a mesh and of points have in common.
-/// BackendKind::Auto uses a GPU if there is one and the mesh is large enough. A journal keeps what
-/// stages have done to the loaded mesh. If the GPU fails, at any time, the journal is replayed on
-/// threads, with the same bits, and the run continues there.
+/// A run with a mesh on a backend: what the runs of a mesh and of points have in common.
+/// BackendKind::Auto uses a GPU if there is one and the mesh is large enough. A journal records
+/// what stages have done to the loaded mesh. If the GPU fails, at any time, threads repeat what is
+/// in the journal, with the same bits, and the run continues there.
 class LoadedRun : public SessionRun
 {
 public:
@@ -33,11 +33,11 @@ public:
   void Expect(const ResultMemory& memory) final { this->Expected.push_back(memory); }
   const FlipReport& GetReport() final;
 
-  /// How much of a stage has changed the loaded mesh.
+  /// An entry of the journal: how much of a stage was done to the loaded mesh.
   struct Entry
   {
-    std::size_t Stage; ///< Its number.
-    std::int64_t Count; ///< What Stage::Repeat takes.
+    std::size_t Stage; ///< The number of the stage.
+    std::int64_t Count; ///< Iterations or segments, for Stage::Repeat.
   };
   /// For tests.
   const std::vector<Entry>& GetJournal() const { return this->Journal; }
@@ -48,29 +48,28 @@ protected:
   //------------------------------------------------------------------------------
   // What a run adds.
 
-  /// @param backend CUDA or Threads.
+  /// Loads the mesh. @param backend CUDA or Threads.
   virtual std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) = 0;
 
-  /// Lists the defects of the input, without what flips have caused, and what is not about flips.
+  void Reset() override;
+
+  /// Reports the defects of the input, without those that flips have caused, and the counts of a
+  /// run from points.
   virtual void ListDefects() = 0;
 
-  /// Measures what the report has beside the counts of iterations. Only reads the mesh, and only
-  /// if it has changed since.
+  /// Measures what the report has beside the counts of iterations. Reads the mesh, and only if the
+  /// mesh has changed since the last call.
   virtual void Measure();
 
   /// How many iterations observers can wait for.
   virtual std::int64_t GetBatch() const { return this->Progress.GetBatch(); }
 
   //------------------------------------------------------------------------------
-  // What a run overrides.
-
-  void Reset() override;
-  bool RunStage(const Stage& stage) override;
-
-  //------------------------------------------------------------------------------
   // Stages.
 
-  /// @param triangles about their number.
+  /// Chooses a backend and loads the mesh there.
+  /// @param isOnDevice whether the caller's arrays are on a GPU.
+  /// @param triangles about how many there are.
   void Load(bool isOnDevice, std::int64_t triangles);
   void TestAllEdges();
   void RepeatTest(LoadedMesh& mesh);
@@ -88,7 +87,10 @@ protected:
   //------------------------------------------------------------------------------
   // What stages and getters consist of.
 
-  /// Begins anew, and ends before the first flip. An observer may stop it.
+  /// Does a stage, unless an observer has stopped the run before it.
+  bool RunStage(const Stage& stage) final;
+
+  /// Begins anew, and does all stages before the first flip. An observer may stop this.
   /// @returns whether it was not stopped.
   bool Begin();
 
@@ -109,8 +111,8 @@ protected:
     return work(*this->Loaded);
   }
 
-  /// The same for a getter, if a mesh is loaded.
-  /// @returns whether it was called and no observer stopped it.
+  /// Does this for a getter, if a mesh is loaded.
+  /// @returns whether work was called and no observer stopped it.
   template <typename Function>
   bool TryOnBackend(const Function& work)
   {
@@ -128,7 +130,7 @@ protected:
     return this->Loaded != nullptr;
   }
 
-  /// The same for a getter that writes to device memory: @returns whether store(mesh) could.
+  /// Does this for a getter that writes to device memory. @returns whether store(mesh) could.
   template <typename Store>
   bool TryStoreOnDevice(const Store& store)
   {
@@ -138,6 +140,7 @@ protected:
   }
 
   /// Adds to the journal that the current stage has changed the mesh.
+  /// @param count how much of it was done, as in Entry.
   void RecordChange(std::int64_t count);
 
   /// Begins to touch the pages of the memory that is expected, if a GPU flips.
@@ -161,7 +164,7 @@ protected:
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last detection.
   bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
-  bool MayForget = false; ///< Whether the observer may stop what is under way, and all is lost.
+  bool MayForget = false; ///< Whether an observer may stop the stage under way and lose the run.
 
   // What is known of the mesh as it is; Measure finds out the rest.
   bool AreAnglesKnown = true;

@@ -90,8 +90,8 @@ public:
   virtual void StoreTriangles(const MutableTriangleArray& triangles) = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) = 0;
 
-  /// The same for device memory. @returns false, and writes nothing, if the values have to be
-  /// copied from the host.
+  /// Stores in device memory. @returns false, and writes nothing, if the values have to be copied
+  /// from the host.
   virtual bool StoreTrianglesOnDevice(
     const MutableTriangleArray&, const DeviceStream&, std::int32_t*)
   {
@@ -127,8 +127,8 @@ protected:
   /// Forgets everything but the caller's input.
   virtual void Reset() = 0;
 
-  /// Forgets all after an observer has stopped the run before there is a mesh to show for it: while
-  /// one is built, or while the CPU repeats what a GPU has lost.
+  /// Forgets the run after an observer has stopped it while there is no valid mesh: while one is
+  /// built, or while the CPU repeats what a GPU has lost.
   void Abort()
   {
     this->Reset();
@@ -138,7 +138,7 @@ protected:
   FlipReport Report;
   std::vector<Stage> Stages;
   std::size_t Current = 0; ///< The number of the stage that comes next or is not complete.
-  ProgressObserver Observer; ///< Of the call under way, else the constructor's.
+  ProgressObserver Observer; ///< The one of the call under way, else the constructor's.
 };
 
 }
