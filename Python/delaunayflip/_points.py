@@ -7,6 +7,7 @@ import contextlib
 import dataclasses
 import functools
 import math
+import typing
 import warnings
 from typing import Any, Optional, Tuple, Union
 
@@ -21,6 +22,9 @@ from ._report import Report
 from ._rings import (
     RING_RULES, RingRule, Rings, find_trouble, list_rings, name_rings)
 from ._session import run
+
+Heights = typing.Literal["survey", "own"]
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Triangulation:
@@ -98,8 +102,9 @@ def triangulate(
     outline: Optional[Rings] = None, holes: Optional[Rings] = None,
     hole_seeds: Optional[Numbers] = None, ring_rule: RingRule = "evenodd", alpha: float = 0.0,
     longest_edge: float = 0.0, point_tolerance: float = 0.0, split_crossings: bool = False,
-    backend: Backend = "auto", threads: int = 0, device: int = -1, maximum_iterations: int = -1,
-    progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
+    heights: Optional[Heights] = None, backend: Backend = "auto", threads: int = 0, device: int = -1,
+    maximum_iterations: int = -1, progress: Optional[Progress] = None,
+    on_iteration: Optional[OnIteration] = None,
 ) -> Triangulation:
     """The Delaunay triangulation of points in x and y, constrained by segments if there are any.
 
@@ -119,7 +124,7 @@ def triangulate(
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
             points is split there; one that crosses an earlier one is refused and reported.
         outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of
-            point ids, or of coordinates, which become points: (k, 2), where z = 0, or (k, 3) of floats. It
+            point ids, or of coordinates, which become points: (k, 2), or (k, 3) of floats; see heights. It
             may end with its first point. One without an area, or a second one with the same edges, is
             left out, with a warning.
         holes: A ring, or a list of rings, of the same kinds: what is inside them is removed.
@@ -135,6 +140,12 @@ def triangulate(
             at equal places. Points where segments cross may be nearer.
         split_crossings: Split segments where they cross, instead of refusing the later one. The
             crossing is exact, rounded once; z is that of the earlier segment.
+        heights: z of points that rings add. "survey": that of the points there, linear in their
+            triangulation without segments, and beyond its hull that of the nearest place on it. "own":
+            that of the rings, 0 for those of two columns. None: "survey" for rings without heights, if
+            other points have heights, with a warning that counts such points; "own" for the others.
+            Rings have none if they have two columns, or if the outline or the holes have z = 0
+            throughout.
         backend: "cuda", "threads", or "auto": a GPU for many points if there is one.
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: the current one.
@@ -158,8 +169,9 @@ def triangulate(
     keywords = {
         "segments": segments, "outline": outline, "holes": holes, "hole_seeds": hole_seeds,
         "ring_rule": ring_rule, "alpha": alpha, "longest_edge": longest_edge,
-        "point_tolerance": point_tolerance, "split_crossings": split_crossings, "backend": backend,
-        "threads": threads, "device": device, "maximum_iterations": maximum_iterations}
+        "point_tolerance": point_tolerance, "split_crossings": split_crossings, "heights": heights,
+        "backend": backend, "threads": threads, "device": device,
+        "maximum_iterations": maximum_iterations}
     result, trouble = run_points(points, keywords, progress, on_iteration)
     if trouble:
         warnings.warn(trouble, stacklevel=2)
@@ -187,8 +199,9 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
     return result, "" if given is points else "; ".join(given.trouble)
 
 
-def _prepare(points, segments=None, *, alpha=0.0, longest_edge=0.0, point_tolerance=0.0,
-             split_crossings=False, backend="auto", threads=0, device=-1, maximum_iterations=-1, **rings):
+def _prepare(
+        points, segments=None, *, alpha=0.0, longest_edge=0.0, point_tolerance=0.0, split_crossings=False,
+        heights=None, backend="auto", threads=0, device=-1, maximum_iterations=-1, **rings):
     """The Input with its struct, and the options, from the arguments of `triangulate`."""
     given = points if isinstance(points, Input) else Input(points, segments, **rings)
     struct = given.struct
@@ -197,7 +210,10 @@ def _prepare(points, segments=None, *, alpha=0.0, longest_edge=0.0, point_tolera
             ("alpha", alpha), ("longest_edge", longest_edge), ("point_tolerance", point_tolerance)))
     struct.split_crossings = check_integer("split_crossings", split_crossings, 0, 1, "True or False")
     given.backend = {"backend": backend, "threads": threads, "device": device}
-    return given, make_options(triangulate, maximum_iterations=maximum_iterations, **given.backend)
+    options = make_options(triangulate, maximum_iterations=maximum_iterations, **given.backend)
+    if given is not points:
+        given.take_heights(heights)
+    return given, options
 
 
 def interpolate_in_survey(points, values, places, backend):
@@ -217,9 +233,12 @@ class Input:
     """The arrays of a call, which live as long, and their C struct."""
 
     split_option = "split_crossings"  #: What the caller calls PointOptions::SplitCrossings.
+    #: What a message says of segments without heights.
+    flat_fate = ("the mesh goes to z = 0 there; if it should not, give them heights, for example those of "
+                 "the nearest points")
 
     def __init__(self, points, segments=None, *, ring_numbers=None, outline=None, holes=None,
-                 hole_seeds=None, ring_rule="evenodd", heights=None):
+                 hole_seeds=None, ring_rule="evenodd"):
         """`ring_numbers`: of the rings of the segments; -1: none."""
         self.struct, self.ends, self.new_points = _library.make(_library.Points), [], []
         points = _arrays.as_plane(points)
@@ -247,7 +266,6 @@ class Input:
         self.all_rings = numpy.concatenate(self.rings)
         self._fill_struct(count > 0, ring_rule)
         self.struct.first_added = given
-        self._keeps_heights = heights == "own"
         self.find_flat_points(given, self.all_segments, self.all_rings)
 
     def _fill_struct(self, has_rings, ring_rule):
@@ -285,7 +303,7 @@ class Input:
         """Finds the points behind the `given` ones that rings without z have, or that lines, outlines
         or holes have, each of the three by itself, if z = 0 throughout; where other heights are given."""
         self.flat_points = numpy.empty(0, dtype=numpy.int64)
-        if len(self.points) == given or self.points.shape[1] < 3 or self._keeps_heights:
+        if len(self.points) == given or self.points.shape[1] < 3:
             return
         heights = self.points[:, 2]
         self.heights = heights[:given][numpy.isfinite(heights[:given])]
@@ -296,6 +314,26 @@ class Input:
             ids = numpy.unique(numpy.concatenate([ends, *self.flat_rings]))
             self.flat_points = ids[ids >= given].astype(numpy.int64)
 
+    def take_heights(self, heights):
+        """Gives points of rings the heights of the caller's points. `heights`: as for `triangulate`."""
+        if heights is not None:
+            choose("heights", heights, typing.get_args(Heights))
+        first, lifted = self.struct.first_added, self.flat_points
+        if heights == "own":
+            self.flat_points = lifted = lifted[:0]
+        if heights == "survey":
+            lifted = numpy.arange(first, len(self.points))
+        if len(lifted) == 0 or self.points.shape[1] < 3:
+            return
+        survey = self.points[:first]
+        found = interpolate_in_survey(survey, survey[:, 2:], self.points[lifted], self.backend)
+        if found is None:
+            return
+        self.points[lifted, 2] = found[:, 0]
+        self.flat_fate = 'they have got the heights of the given points there; heights="own" keeps z = 0'
+        if heights == "survey":
+            self.flat_points = lifted[:0]  # nobody is told of what was asked for
+
     def _report_flat_points(self, report, used):
         """Adds those of them that triangles use to the defects."""
         are_used = True if used is None else used[self.flat_points] == self.flat_points
@@ -305,8 +343,7 @@ class Input:
         low, high = float(self.heights.min()), float(self.heights.max())
         self.trouble.append(
             f"{count} {'point' if count == 1 else 'points'} of segments without heights (z = 0 "
-            f"throughout; the given points have z = {low:g} to {high:g}): the mesh goes to z = 0 "
-            "there; if it should not, give them heights, for example those of the nearest points")
+            f"throughout; the given points have z = {low:g} to {high:g}): {self.flat_fate}")
         defects = "; ".join(filter(None, (report.defects, self.trouble[-1])))
         return dataclasses.replace(report, defects=defects)
 

@@ -179,6 +179,36 @@ class Triangulate(unittest.TestCase):
             text = f"{count} points of segments without heights (z = 0 throughout; the given points"
             self.assertEqual([str(one.message)[:len(text)] for one in told], [text] * (count > 0))
             self.assertEqual(text in result.report.defects, count > 0)
+            self.assertEqual("they have got the heights" in result.report.defects, count > 0)
+
+    def test_heights_of_rings(self):
+        """A plane is reproduced; beyond the survey its nearest place counts."""
+        points = numpy.random.default_rng(5).random((100, 3))
+        points[:4, :2] = [[0, 0], [1, 0], [1, 1], [0, 1]]
+        points[:, 2] = 3 * points[:, 0] - points[:, 1] + 7
+        square, hole = [[-1, .1], [.9, .1], [.9, .9], [.1, .9]], [[.3, .3, 2.], [.3, .5, 2.], [.5, .5, 2.]]
+        on_plane = [6.9, 9.6, 8.8, 6.4]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            flat = delaunayflip.triangulate(points, outline=square, holes=hole)
+        numpy.testing.assert_allclose(flat.points[100:, 2], [*on_plane, 2, 2, 2], rtol=1e-12)
+        numpy.testing.assert_array_equal(flat.points[:100], points)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            survey = delaunayflip.triangulate(
+                points.astype(numpy.float32), outline=square, holes=hole, heights="survey")
+            own = delaunayflip.triangulate(points, outline=square, holes=hole, heights="own")
+            two = delaunayflip.triangulate(points[:, :2], outline=square, heights="survey")
+        numpy.testing.assert_allclose(survey.points[100:, 2], [*on_plane, 7.6, 7.4, 8], rtol=1e-6)
+        self.assertEqual(own.points[100:, 2].tolist(), [0, 0, 0, 0, 2, 2, 2])
+        self.assertEqual(two.points.shape, (104, 2))
+        for mesh in (survey, own):
+            self.assertEqual(len(mesh.triangles), len(flat.triangles))
+        with self.assertRaisesRegex(ValueError, "heights must be one of survey, own, not 'auto'"):
+            delaunayflip.triangulate(points, heights="auto")
+        with self.assertWarnsRegex(UserWarning, "the mesh goes to z = 0 there; if it should not"):
+            line = delaunayflip.triangulate([[0, 0, 5], [1, 1, 5], [2, 2, 5.]], outline=square)
+        self.assertEqual(line.points[3:, 2].tolist(), [0, 0, 0, 0])  # without a survey to take them from
 
     def test_nothing_is_left(self):
         points = numpy.random.default_rng(5).random((100, 2)) * [10, 1]
