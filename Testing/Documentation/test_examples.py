@@ -27,29 +27,6 @@ RUN = "view.Run()\n"
 FAST_RUN = ('view.AddObserver("EndEvent", lambda *_: interactor.TerminateApp())\n'
             "view.SetFrameInterval(1)\n" + RUN)
 
-# A star-shaped outline and a pond. Places on an edge may belong to either side.
-CHECK_PLACES = """
-import delaunayflip
-import numpy as np
-from matplotlib.tri import Triangulation
-
-draw, turn = np.random.default_rng(3), np.linspace(0, 2 * np.pi, 41)[:-1]
-star = np.c_[np.cos(turn), np.sin(turn)] * (0.3 + 0.15 * np.sin(5 * turn))[:, None]
-ground = delaunayflip.triangulate(draw.random((300, 2)), outline=star + 0.5, holes=[star / 3 + 0.5])
-places = draw.random((2000, 2))
-mesh = Triangulation(*ground.points.T, ground.triangles)
-corners, weights = corners_at(mesh, places)
-x, y = np.moveaxis(ground.points[ground.triangles][None] - places[:, None, None], 3, 0)
-areas = x[..., [1, 2, 0]] * y[..., [2, 0, 1]] - x[..., [2, 0, 1]] * y[..., [1, 2, 0]]
-best = areas.min(axis=2).max(axis=1)
-found = ~np.isnan(weights[:, 0])
-assert 200 < found.sum() < 1800, found.sum()
-wrong = (found != (best >= 0)) & (np.abs(best) > 1e-12)
-assert not wrong.any(), places[wrong]
-again = (ground.points[corners[found]] * weights[found, :, None]).sum(axis=1)
-np.testing.assert_allclose(again, places[found], atol=1e-12)
-"""
-
 
 class Examples(unittest.TestCase):
 
@@ -130,12 +107,6 @@ class Python(Examples):
             if program:
                 with self.subTest(page):
                     self.run_in_folder(sys.executable, "-c", program)
-
-    def test_places_are_found_beside_bays(self):
-        """The guide's corners_at finds a triangle wherever a test of all triangles finds one."""
-        text = "\n".join(snippets("python", "Documentation/guides/from_points.md"))
-        function = re.search(r"def corners_at.*?\n(?=\S)", text, re.DOTALL)
-        self.run_in_folder(sys.executable, "-c", function.group() + CHECK_PLACES)
 
     def test_the_package_is_where_they_say(self):
         build, package = os.environ["DELAUNAYFLIP_BUILD"], os.environ["PYTHONPATH"]
