@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -444,17 +445,23 @@ bool TriangulationRun::AddsPoints() const
     !this->Session->GetAddedPoints().empty();
 }
 
-/// Counts the flat points that triangles use.
+/// Counts the flat points that are corners of triangles.
 Defect TriangulationRun::DescribeFlatPoints() const
 {
-  if (this->FlatPoints.empty() || this->Session->GetReport().Triangles == 0)
+  const std::int64_t triangles = this->Session->GetReport().Triangles;
+  if (this->FlatPoints.empty() || triangles == 0)
   {
     return {};
   }
-  std::vector<std::int64_t> used(this->Points->GetNumberOfPoints());
-  this->Session->StoreUsedPoints(used.data());
-  const auto count = std::count_if(this->FlatPoints.begin(), this->FlatPoints.end(),
-    [&](std::int64_t point) { return used[point] == point; });
+  std::vector<std::int64_t> corners(3 * triangles);
+  this->Session->StoreTriangles(MutableTriangleArray(corners.data(), triangles));
+  std::set<std::int64_t> found(this->FlatPoints.begin(), this->FlatPoints.end());
+  const auto total = static_cast<std::int64_t>(found.size());
+  for (const std::int64_t corner : corners)
+  {
+    found.erase(corner);
+  }
+  const std::int64_t count = total - static_cast<std::int64_t>(found.size());
   std::vector<double> storage;
   const PointArray points = ViewPoints(this->Given, storage);
   const HeightRange heights(points, points.Count);

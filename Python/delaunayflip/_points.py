@@ -334,11 +334,12 @@ class Input:
         if heights == "survey":
             self.flat_points = lifted[:0]  # nobody is told of what was asked for
 
-    def _report_flat_points(self, report, used):
-        """Adds those of them that triangles use to the defects."""
-        are_used = True if used is None else used[self.flat_points] == self.flat_points
-        count = numpy.count_nonzero(numpy.broadcast_to(are_used, self.flat_points.shape))
-        if count == 0 or report.triangles == 0:
+    def _report_flat_points(self, report, triangles):
+        """Adds those of them that are corners of triangles to the defects."""
+        count = 0
+        if len(self.flat_points):
+            count = numpy.count_nonzero(numpy.isin(self.flat_points, triangles))
+        if count == 0:
             return report
         low, high = float(self.heights.min()), float(self.heights.max())
         self.trouble.append(
@@ -367,7 +368,7 @@ class Input:
         if report.defects:
             report = dataclasses.replace(report, defects=self.explain(report.defects))
             self.trouble += find_trouble(report.defects)
-        report = self._report_flat_points(report, used)
+        report = self._report_flat_points(report, triangles)
         if self._is_nothing_left(report, triangles):
             self.trouble = [report.defects]
         if report.crossings:

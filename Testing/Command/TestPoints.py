@@ -373,6 +373,10 @@ class Segments(PointTest):
         result = self.triangulate("in.xyz", "--outline", outline, "--constraints",
                                   self.write_mesh(line, "line.vtk"))[1]
         self.assertIn("warning: 3 points of segments without heights", result.stderr)
+        line = make_mesh([(0.1, 3.1, 0), (0.2, 3.9, 0)], [], [(0, 1)])  # which the outline cuts off
+        result = self.triangulate("in.xyz", "--outline", outline, "--constraints",
+                                  self.write_mesh(line, "line.vtk"))[1]
+        self.assertIn("warning: 3 points of segments without heights", result.stderr)
 
     def test_outline_elsewhere(self):
         outline = self.rings("outline.vtk", [(50, 50, 0), (53, 50, 0), (53, 53, 0)])

@@ -169,7 +169,9 @@ class Triangulate(unittest.TestCase):
     def test_rings_without_heights(self):
         points = numpy.random.default_rng(5).random((100, 3)) + [0, 0, 7]
         square, hole = [[.1, .1], [.9, .1], [.9, .9], [.1, .9]], [[.3, .3, 7.], [.3, .5, 7.], [.5, .5, 7.]]
-        for rings, count in (({"outline": square, "holes": [hole]}, 4), ({"holes": [square, hole]}, 4),
+        away = [[.92, .1], [.95, .1], [.95, .2]]  # no triangle is left at these
+        for rings, count in (({"outline": square, "holes": [hole]}, 4),
+                             ({"outline": square, "holes": [away]}, 4), ({"holes": [square, hole]}, 4),
                              ({"holes": [[[x, y, 0.] for x, y in square]]}, 4),
                              ({"holes": [hole, [[.7, .7, 0.], [.8, .7, 0.], [.8, .8, 0.]]]}, 0)):
             with warnings.catch_warnings(record=True) as told:
