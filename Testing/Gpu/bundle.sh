@@ -79,8 +79,8 @@ fill()
   if [ ${#only[@]} -gt 0 ]; then
     carry_loader "$folder"
   else
-    cp "$here/test_device_arrays.py" "$here/../Python/lattice.py" "$here/../Benchmarks/compare.py" \
-      "$folder/"
+    cp "$here/test_device_arrays.py" "$here/../Python/lattice.py" \
+      "$here/../Benchmarks/"{compare,interpolate}.py "$folder/"
     cp -r "$root/Python/delaunayflip" "$folder/"
     cp -L "$build/lib/libdelaunayflip.so.1" "$folder/delaunayflip/"
     if [ -d "$build/meshes" ]; then

@@ -79,6 +79,8 @@ def to_numpy(array):
 class Cases:
     """What holds for every library. `library` is its name, `to_device` and `to_host` convert."""
 
+    has_operators = True  #: Whether its arrays can be compared and indexed.
+
     def check(self, points, triangles, **keywords):
         given = self.to_device(points), self.to_device(triangles)
         result = delaunayflip.flip(*given, **keywords)
@@ -161,6 +163,45 @@ class Cases:
                             self.to_host(getattr(found, name)), getattr(wanted, name))
                     numpy.testing.assert_array_equal(found.used_points, wanted.used_points)
                     numpy.testing.assert_array_equal(found.segments, wanted.segments)
+
+    def test_values_between_points(self):
+        """The bits are those of the host; results are where the places are, rasters where the values."""
+        draw = numpy.random.default_rng(2)
+        points, places = draw.random((20000, 2)), draw.random((300, 40, 2)) * 1.2 - 0.1
+        values = numpy.c_[points[:, 0], numpy.sin(9 * points)]
+        square = {"outline": [[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.8]], "outside": "nearest"}
+        moved, there = self.to_device(points), self.to_device(places)
+
+        def check(found, wanted):
+            self.assertIs(type(found), type(there))
+            numpy.testing.assert_array_equal(self.to_host(found), wanted)
+
+        for kind in (delaunayflip.LinearInterpolator, delaunayflip.NaturalNeighborInterpolator):
+            on_host = kind(points, values, backend="threads")
+            f = kind(moved, self.to_device(values))
+            self.assertTrue(f.triangulation.report.backend.startswith("CUDA: "))
+            check(f(there), on_host(places))
+            check(f.locate(there), on_host.locate(places))
+            check(f.raster((0, 0), 0.01, (90, 110)), on_host.raster((0, 0), 0.01, (90, 110)))
+            numpy.testing.assert_array_equal(f(places), on_host(places))
+            check(on_host(there), on_host(places))
+            check(kind(points, values, **square)(there), kind(points, values, **square)(places))
+            check(kind(moved, values[:, 0])(there), kind(points, values[:, 0])(places))
+            soft = {"segments": [[0, 1]], "breaklines": "soft", "fill_value": 7.0}
+            f = kind(moved, self.to_device(values), **soft)
+            if self.has_operators:
+                check(f(there), kind(points, values, **soft)(places))
+                x, y = there[..., 0], there[..., 1]
+                check(f(x, y), kind(points, values, **soft)(places))
+            else:
+                with self.assertRaisesRegex(TypeError, "arrays of Numba take no fill_value"):
+                    f(there)
+            f = kind(moved, self.to_device(values), outside="error")
+            with self.assertRaisesRegex(ValueError, "places are outside"):
+                f(there)
+        mesh = delaunayflip.triangulate(moved)
+        linear = delaunayflip.LinearInterpolator(points, values, backend="threads")
+        check(mesh.interpolate(self.to_device(values), there), linear(places))
 
     def test_errors(self):
         points, triangles = self.to_device(POINTS), self.to_device(TRIANGLES)
@@ -257,6 +298,8 @@ class PyTorch(Cases, ByDlpack, unittest.TestCase):
 
 @unittest.skipUnless("numba" in INSTALLED, "Numba is not installed")
 class Numba(Cases, unittest.TestCase):
+    has_operators = False
+
     def to_device(self, array):
         from numba import cuda
 

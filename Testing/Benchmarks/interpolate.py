@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Interpolates between random points, beside other libraries, on one machine and in one run.
+
+    PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Benchmarks/interpolate.py \\
+      [--points 1000000] [--cells 4000000] [--threads 1,2] [--rounds 3] [--all]
+
+The places are the centres of a square raster of about so many cells, row by row ("raster") and shuffled
+("random"). In every round each program runs once, in random order, so a busy machine slows all of them
+alike. Printed are the median seconds from points to an interpolator, the median of a million places per
+second for each question, and how many times as many as ours on the first number of threads.
+
+threads: N  LinearInterpolator and NaturalNeighborInterpolator; rasters by raster()
+cuda        the same on a GPU, from and to arrays of NumPy
+cuda, cupy  the same with arrays of CuPy that stay on the GPU; torch likewise
+scipy       LinearNDInterpolator
+matplotlib  LinearTriInterpolator; above 100,000 points, where it takes minutes, only with --all
+startinpy   interpolate(), TIN and NNI
+cupyx       cupyx.scipy.interpolate.LinearNDInterpolator
+
+Slow ones get a share of the places. What is not installed is named and left out.
+"""
+import argparse
+import functools
+import importlib
+import random
+import statistics
+import time
+
+import numpy
+
+import delaunayflip
+
+QUESTIONS = ("linear raster", "linear random", "natural raster", "natural random")
+MOST_OF_MATPLOTLIB = 100_000  # points
+KINDS = {"linear": delaunayflip.LinearInterpolator, "natural": delaunayflip.NaturalNeighborInterpolator}
+
+
+class Data:
+    """Points with values, and places."""
+
+    def __init__(self, points, cells):
+        draw = numpy.random.default_rng(1)
+        self.points = draw.random((points, 2))
+        x, y = self.points.T
+        self.values = numpy.sin(7 * x) * numpy.cos(5 * y) + x
+        self.side = max(2, int(cells ** 0.5))
+        centres = (numpy.arange(self.side) + 0.5) / self.side
+        x, y = numpy.meshgrid(centres, centres)
+        self.places = {"raster": numpy.c_[x.ravel(), y.ravel()]}
+        self.places["random"] = draw.permutation(self.places["raster"])
+
+
+class Ours:
+    share = 1.0  # of the places
+
+    def __init__(self, data, move=numpy.asarray, wait=lambda: None, **options):
+        self._data, self._options, self._wait = data, options, wait
+        self._points, self._values = move(data.points), move(data.values)
+        self._random = move(data.places["random"])
+
+    def build(self):
+        self._interpolators = {"linear": KINDS["linear"](self._points, self._values, **self._options)}
+        self._wait()
+
+    def ask(self, method, order):
+        if method not in self._interpolators:
+            self._interpolators[method] = KINDS[method](self._points, self._values, **self._options)
+        return functools.partial(self._ask, self._interpolators[method], order)
+
+    def _ask(self, interpolator, order):
+        side = self._data.side
+        if order == "raster":
+            interpolator.raster((0.5 / side, 0.5 / side), 1 / side, (side, side))
+        else:
+            interpolator(self._random)
+        self._wait()
+
+
+class Theirs:
+    """Another library. `build` returns a function that interpolates linearly by places, and one that does
+    it by natural neighbours or None."""
+
+    def __init__(self, data, share, build, move=numpy.asarray, wait=lambda: None):
+        self.share, self._make, self._wait = share, build, wait
+        few = slice(0, max(1, int(share * data.side ** 2)))
+        self._places = {order: move(places[few]) for order, places in data.places.items()}
+        self._points, self._values = move(data.points), move(data.values)
+
+    def build(self):
+        self._functions = self._make(self._points, self._values)
+        self._wait()
+
+    def ask(self, method, order):
+        function = self._functions[method == "natural"]
+        if function is None:
+            return None
+
+        def ask():
+            function(self._places[order])
+            self._wait()
+
+        return ask
+
+
+def build_scipy(points, values):
+    return importlib.import_module("scipy.interpolate").LinearNDInterpolator(points, values), None
+
+
+def build_matplotlib(points, values):
+    tri = importlib.import_module("matplotlib.tri")
+    found = tri.LinearTriInterpolator(tri.Triangulation(*points.T), values)
+    found(*points[:1].T)  # prepares it
+    return lambda places: found(*places.T), None
+
+
+def build_startinpy(points, values):
+    mesh = importlib.import_module("startinpy").DT()
+    mesh.snap_tolerance = 1e-12
+    mesh.insert(numpy.c_[points, values])
+    return tuple(lambda places, method=method: mesh.interpolate({"method": method}, places)
+                 for method in ("TIN", "NNI"))
+
+
+def build_cupyx(points, values):
+    return importlib.import_module("cupyx.scipy.interpolate").LinearNDInterpolator(points, values), None
+
+
+def list_programs(data, threads, takes_all):
+    """Pairs of a name and a program, and the names of those that are left out."""
+    programs = [(f"threads: {count}", Ours(data, backend="threads", threads=count)) for count in threads]
+    absent = []
+
+    def find(name):
+        try:
+            return importlib.import_module(name)
+        except ImportError:
+            absent.append(f"{name} (not installed)")
+            return None
+
+    cupy, torch = find("cupy"), find("torch")
+    if not delaunayflip.has_cuda_device():
+        absent.append("cuda (no GPU)")
+        cupy = torch = None
+    else:
+        programs.append(("cuda", Ours(data, backend="cuda")))
+    if cupy:
+        wait = cupy.cuda.runtime.deviceSynchronize
+        programs.append(("cuda, cupy", Ours(data, cupy.asarray, wait)))
+        programs.append(("cupyx", Theirs(data, 1.0, build_cupyx, cupy.asarray, wait)))
+    if torch:
+        programs.append(("cuda, torch", Ours(data, lambda one: torch.as_tensor(one, device="cuda"),
+                                             torch.cuda.synchronize)))
+    if find("scipy"):
+        programs.append(("scipy", Theirs(data, 0.1, build_scipy)))
+    if not takes_all and len(data.points) > MOST_OF_MATPLOTLIB:
+        absent.append("matplotlib (too many points)")
+    elif find("matplotlib"):
+        programs.append(("matplotlib", Theirs(data, 0.1, build_matplotlib)))
+    if find("startinpy"):
+        programs.append(("startinpy", Theirs(data, 0.005, build_startinpy)))
+    return programs, absent
+
+
+def measure(function):
+    begin = time.perf_counter()
+    function()
+    return time.perf_counter() - begin
+
+
+def run(programs, rounds, cells):
+    """By program, a list of seconds to build and of places per second for each question."""
+    found = {name: {question: [] for question in ("build", *QUESTIONS)} for name, _ in programs}
+    for _ in range(rounds):
+        for name, program in random.sample(programs, len(programs)):
+            found[name]["build"].append(measure(program.build))
+            for question in QUESTIONS:
+                ask = program.ask(*question.split())
+                if ask:
+                    found[name][question].append(program.share * cells / measure(ask))
+    return found
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--points", type=lambda text: int(float(text)), default=1_000_000)
+    parser.add_argument("--cells", type=lambda text: int(float(text)), default=4_000_000)
+    parser.add_argument("--threads", type=lambda text: list(map(int, text.split(","))), default=[1, 0])
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--all", action="store_true", help="also what takes minutes")
+    arguments = parser.parse_args()
+    data = Data(arguments.points, arguments.cells)
+    programs, absent = list_programs(data, arguments.threads, arguments.all)
+    found = run(programs, arguments.rounds, data.side ** 2)
+    print(f"{arguments.points:,} points, {data.side ** 2:,} places, {arguments.rounds} rounds; threads: 0 "
+          "takes all")
+    print(f"{'':14}{'seconds':>10}" + "".join(f"{question:>24}" for question in QUESTIONS))
+    first = found[programs[0][0]]
+    for name, _ in programs:
+        line = f"{name:14}{statistics.median(found[name]['build']):10.3f}"
+        for question in QUESTIONS:
+            rates = found[name][question]
+            rate = statistics.median(rates) if rates else 0.0
+            ratio = rate / statistics.median(first[question])
+            text = f"{rate / 1e6:.3g} M/s ({ratio:.3g} x)" if rates else "-"
+            line += f"{text:>24}"
+        print(line)
+    for name in absent:
+        print(f"left out: {name}")
+
+
+if __name__ == "__main__":
+    main()
