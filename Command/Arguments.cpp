@@ -31,6 +31,7 @@ constexpr const char* ToRead = "What to read";
 constexpr const char* ToJudge = "Where edges are judged";
 constexpr const char* ToStay = "What stays";
 constexpr const char* OfPoints = "From points";
+constexpr const char* ToAsk = "Heights from points";
 constexpr const char* ToRun = "Where it runs";
 constexpr const char* ToWrite = "What to write";
 constexpr const char* ToHelp = "Help";
@@ -44,7 +45,7 @@ public:
   {
     std::string text =
       "Usage: " + name + " [OPTIONS] INPUT OUTPUT\n\n" + app->get_description() + "\n";
-    for (const char* group : { ToRead, ToJudge, ToStay, OfPoints, ToRun, ToWrite, ToHelp })
+    for (const char* group : { ToRead, ToJudge, ToStay, OfPoints, ToAsk, ToRun, ToWrite, ToHelp })
     {
       text += std::string("\n") + group + ":\n";
       const auto isInGroup = [group](const CLI::Option* option)
@@ -99,7 +100,8 @@ std::function<void(T...)> Set(Arguments& arguments, void (Filter::*method)(T...)
 {
   return [&arguments, method](T... value)
   {
-    const std::array<vtkObject*, 2> filters = { arguments.Flip, arguments.Points };
+    const std::array<vtkObject*, 3> filters = { arguments.Flip, arguments.Points,
+      arguments.Interpolator };
     for (vtkObject* const each : filters)
     {
       if (auto* const filter = dynamic_cast<Filter*>(each))
@@ -237,6 +239,7 @@ void AddStayOptions(CLI::App& app, Arguments& arguments)
   {
     arguments.Flip->InsertLinesOn();
     arguments.Points->LinesAsSegmentsOn();
+    arguments.Interpolator->LinesAsSegmentsOn();
   };
   app.add_flag_callback(
     "--insert-lines", insertLines, "Insert edges along lines of the input as well");
@@ -292,6 +295,45 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   AddChoice(app, "--projection", Set(arguments, &vtkDelaunayFlipPoints::SetProjection),
     { "xy", "plane" },
     "Where points are joined: by x and y, or in the plane that fits them best [xy]");
+}
+
+void AddHeightOptions(CLI::App& app, Arguments& arguments)
+{
+  HeightOptions& heights = arguments.Heights;
+  app.option_defaults()->group(ToAsk);
+  const std::function<void(double)> setStep = [&heights](double step) { heights.Step = step; };
+  AddValue(app, "--raster", setStep, "STEP",
+    Within(std::numeric_limits<double>::min(), std::numeric_limits<double>::max(),
+      "the width of a cell, more than 0"),
+    "Write a raster of heights instead of a mesh. OUTPUT is a .tif (GeoTIFF), .asc (ESRI ASCII "
+    "grid) or .vti with square cells of this width. A cell has the height at its centre");
+  AddFile(app, "--heights-at", heights.Places,
+    "Write a table instead of a mesh. OUTPUT is a .csv with x, y and z of each point of this file; "
+    "z is empty outside of the mesh");
+  AddChoice(app, "--raster-method", Set(arguments, &vtkDelaunayFlipInterpolator::SetMethod),
+    { "linear", "natural" },
+    "How heights between points are found: linear in each triangle, or from natural neighbours, "
+    "which is smooth except at the points [linear]");
+  app.add_option("--raster-array", heights.Array, "A point array of INPUT to take instead of z")
+    ->type_name("NAME")
+    ->check(FindFaultOfName);
+  const auto findFault = [](const std::string& text)
+  {
+    std::array<double, 4> extent{};
+    return ParseExtent(text, extent);
+  };
+  app
+    .add_option("--extent", heights.Extent,
+      "The borders of the raster: xmin,ymin,xmax,ymax. Where the step does not fit, there is a "
+      "cell more [around the points, at whole multiples of the step]")
+    ->type_name("LIST")
+    ->check(findFault);
+  app
+    .add_option("--crs", heights.Crs,
+      "The coordinate reference system that a .tif gets, and an .asc in a .prj beside it, such as "
+      "EPSG:25832 [in a .tif that of INPUT, if its file names one]")
+    ->type_name("NAME")
+    ->check(FindFaultOfName);
 }
 
 void AddRunOptions(CLI::App& app, Arguments& arguments)
@@ -358,6 +400,12 @@ void RelateOptions(CLI::App& app)
   {
     app.get_option(name)->needs(fromPoints);
   }
+  CLI::Option* const raster = app.get_option("--raster");
+  CLI::Option* const heightsAt = app.get_option("--heights-at");
+  raster->needs(fromPoints)->excludes(heightsAt, app.get_option("--projection"));
+  heightsAt->needs(fromPoints)->excludes(app.get_option("--projection"));
+  app.get_option("--extent")->needs(raster);
+  app.get_option("--crs")->needs(raster);
   fromPoints->excludes("--geometry", "--criterion", "--feature-angle", "--max-deviation",
     "--tolerance", "--tie-rule", "--merge-points", "--drop-duplicates", "--orient",
     "--no-insert-constraints", "--ignore-lines", "--region-array", "--devices", "--pieces",
@@ -410,10 +458,42 @@ std::string SuggestOption(const CLI::App& app)
   throw CommandError(ExitCode::WrongUsage, message);
 }
 
+/// Checks that the output can be written, as a mesh or what is written instead.
+void CheckOutput(Arguments& arguments)
+{
+  const HeightOptions& heights = arguments.Heights;
+  const std::string extension = ExtensionOf(arguments.Output);
+  const bool isRaster = extension == ".tif" || extension == ".asc" || extension == ".vti";
+  if (!heights.Places.empty() && extension != ".csv")
+  {
+    FailOnUsage(arguments.Output + ": --heights-at writes a .csv");
+  }
+  if (heights.Step > 0.0 && !isRaster)
+  {
+    FailOnUsage(arguments.Output + ": --raster writes a .tif, .asc or .vti");
+  }
+  if (!heights.Crs.empty() && extension == ".vti")
+  {
+    FailOnUsage(arguments.Output + ": --crs is for a .tif or .asc; a .vti does not store it");
+  }
+  if (heights.AreWanted())
+  {
+    return;
+  }
+  arguments.OutputFormat = FormatOf(arguments.Output);
+  const bool isOther =
+    arguments.OutputFormat == MeshFormat::Text || arguments.OutputFormat == MeshFormat::Vector;
+  if (isOther)
+  {
+    FailOnUsage(
+      arguments.Output + ": such a file holds no triangles; give a .vtk, .vtp, .ply, .stl or .obj");
+  }
+}
+
 /// Checks that files can be read or written as what they are given for.
 void CheckFormats(Arguments& arguments)
 {
-  arguments.OutputFormat = FormatOf(arguments.Output);
+  CheckOutput(arguments);
   const MeshFormat input = FormatOf(arguments.Input);
   const bool isOfPoints = input == MeshFormat::Text || input == MeshFormat::Vector;
   if (!arguments.Columns.empty() && !isOfPoints)
@@ -434,13 +514,7 @@ void CheckFormats(Arguments& arguments)
   {
     FailOnUsage(arguments.Input + ": has points, but no triangles; --from-points makes them");
   }
-  const MeshFormat output = arguments.OutputFormat;
-  if (output == MeshFormat::Text || output == MeshFormat::Vector)
-  {
-    FailOnUsage(
-      arguments.Output + ": such a file holds no triangles; give a .vtk, .vtp, .ply, .stl or .obj");
-  }
-  for (const std::string& file : { arguments.Constraints, arguments.Outline, arguments.Holes })
+  for (const std::string& file : arguments.ListOthers())
   {
     if (!file.empty())
     {
@@ -461,11 +535,12 @@ void CheckTogether(Arguments& arguments)
   }
   // What is read may be one file. The input may also be the output.
   std::set<std::filesystem::path> used;
-  for (const std::string& file : { arguments.Constraints, arguments.Outline, arguments.Holes })
+  for (const std::string& file : arguments.ListOthers())
   {
     used.insert(FollowLinks(FileLayer(file).File));
   }
-  for (const std::string& file : { arguments.Output, arguments.Statistics, arguments.Report })
+  for (const std::string& file :
+    { arguments.Output, arguments.Statistics, arguments.Report, arguments.FindProjectionFile() })
   {
     if (!file.empty() && !used.insert(FollowLinks(file)).second)
     {
@@ -475,6 +550,12 @@ void CheckTogether(Arguments& arguments)
   }
 }
 
+}
+
+std::string Arguments::FindProjectionFile() const
+{
+  const bool hasOne = !this->Heights.Crs.empty() && ExtensionOf(this->Output) == ".asc";
+  return hasOne ? std::filesystem::path(this->Output).replace_extension(".prj").string() : "";
 }
 
 std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
@@ -489,7 +570,9 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
                "  delaunay-flip terrain.vtp better.vtp --constraints roads.vtk\n"
                "      makes the lines in roads.vtk edges that stay\n"
                "  delaunay-flip survey.csv terrain.vtp --from-points\n"
-               "      makes a mesh from points alone",
+               "      makes a mesh from points alone\n"
+               "  delaunay-flip survey.csv dem.tif --from-points --raster 1 --crs EPSG:25832\n"
+               "      writes their heights on a raster of 1 x 1 cells",
     "delaunay-flip");
   app.formatter(std::make_shared<PlainFormatter>());
   app.footer("Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
@@ -500,6 +583,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   AddJudgeOptions(app, arguments);
   AddStayOptions(app, arguments);
   AddPointOptions(app, arguments);
+  AddHeightOptions(app, arguments);
   AddRunOptions(app, arguments);
   AddWriteOptions(app, arguments);
   RelateOptions(app);

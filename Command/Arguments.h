@@ -3,14 +3,17 @@
 #ifndef DELAUNAYFLIP_ARGUMENTS_H
 #define DELAUNAYFLIP_ARGUMENTS_H
 
+#include "HeightQuery.h"
 #include "MeshFiles.h"
 
 #include <vtkDelaunayFlip.h>
+#include <vtkDelaunayFlipInterpolator.h>
 #include <vtkDelaunayFlipPoints.h>
 #include <vtkNew.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 /// @file
 /// The command line.
@@ -25,6 +28,8 @@ struct Arguments
   MeshFormat OutputFormat = MeshFormat::VTK;
   vtkNew<vtkDelaunayFlip> Flip; ///< Its properties are options.
   vtkNew<vtkDelaunayFlipPoints> Points; ///< Has the options for FromPoints.
+  vtkNew<vtkDelaunayFlipInterpolator> Interpolator; ///< Has them, too, for Heights.
+  HeightOptions Heights;
   bool DeviationIsPercent = false; ///< The largest deviation is one of the bounding box's diagonal.
   bool MergePoints = false; ///< Joins points of the input at equal places.
   bool DropDuplicates = false; ///< Polygons of the input with the corners of earlier ones.
@@ -34,6 +39,16 @@ struct Arguments
   std::string Outline; ///< File, for FromPoints; empty: none.
   std::string Holes;
   std::string Constraints; ///< File; empty: none.
+
+  /// The .prj beside an .asc with a coordinate reference system; empty: none.
+  std::string FindProjectionFile() const;
+
+  /// The files to read beside the input; some are empty.
+  std::vector<std::string> ListOthers() const
+  {
+    return { this->Constraints, this->Outline, this->Holes, this->Heights.Places };
+  }
+
   std::string Statistics; ///< CSV file; empty: none.
   std::string Report; ///< JSON file; empty: none.
   bool Quiet = false;

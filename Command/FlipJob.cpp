@@ -8,6 +8,8 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "DelaunayFlip.h"
+#include "GdalModule.h"
+#include "HeightQuery.h"
 #include "InputRepair.h"
 #include "MeshFiles.h"
 #include "OutputFiles.h"
@@ -222,6 +224,43 @@ ExitCode ExitCodeOf(int failure)
   }
 }
 
+vtkDelaunayFlipAlgorithm* ChooseFilter(const Arguments& arguments)
+{
+  if (arguments.Heights.AreWanted())
+  {
+    return arguments.Interpolator;
+  }
+  if (arguments.FromPoints)
+  {
+    return arguments.Points;
+  }
+  return arguments.Flip;
+}
+
+/// Reports a coordinate reference system that GDAL does not know, or that there is no GDAL, before
+/// a large file is read.
+void TryRaster(const Arguments& arguments, OutputFiles& files)
+{
+  const HeightOptions& heights = arguments.Heights;
+  const bool needsGdal = !heights.Crs.empty() || ExtensionOf(arguments.Output) == ".tif";
+  if (!needsGdal || heights.Step <= 0.0)
+  {
+    return;
+  }
+  try
+  {
+    const GdalModule& gdal = LoadGdal();
+    if (!heights.Crs.empty())
+    {
+      files.Projection.Write(gdal.DescribeCrs(heights.Crs));
+    }
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw CommandError(ExitCode::WrongUsage, arguments.Output + ": " + error.what());
+  }
+}
+
 /// The work from reading to the report, one function per step.
 class FlipJob
 {
@@ -230,8 +269,7 @@ public:
     : Settings(arguments),
       Files(files),
       Bar(!arguments.Quiet),
-      Filter(arguments.FromPoints ? static_cast<vtkDelaunayFlipAlgorithm*>(arguments.Points)
-                                  : arguments.Flip)
+      Filter(ChooseFilter(arguments))
   {
     CollectVTKMessages();
   }
@@ -240,6 +278,10 @@ public:
   {
     const auto start = Clock::now();
     this->Input = this->ReadFile(this->Settings.Input);
+    if (!this->Settings.Heights.Places.empty())
+    {
+      this->Places = this->ReadFile(this->Settings.Heights.Places);
+    }
     if (this->Settings.FromPoints)
     {
       this->ReadSegments();
@@ -276,15 +318,23 @@ public:
       this->Settings.Flip->SetMaximumDeviation(
         this->Settings.Flip->GetMaximumDeviation() * DiagonalOf(this->Input) / 100.0);
     }
-    if (this->Segments)
+    auto* const points = dynamic_cast<vtkDelaunayFlipPoints*>(this->Filter);
+    if (points && this->Segments)
     {
-      this->Settings.Points->SetFirstHole(this->Segments->GetNumberOfLines() + this->OutlineRings);
-      this->Settings.Points->ClosedLinesAsRingsOff(); // those that are rings have become polygons
+      points->SetFirstHole(this->Segments->GetNumberOfLines() + this->OutlineRings);
+      points->ClosedLinesAsRingsOff(); // those that are rings have become polygons
     }
     this->Bar.Begin(Phase::Flipping, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, this, &FlipJob::ShowProgress);
-    this->Filter->SetInputData(0, this->Input);
-    this->Filter->SetInputData(1, this->Segments);
+    if (this->Settings.Heights.AreWanted())
+    {
+      this->AskHeights();
+    }
+    else
+    {
+      this->Filter->SetInputData(0, this->Input);
+      this->Filter->SetInputData(1, this->Segments);
+    }
     this->Filter->Update();
     this->Bar.Clear();
     for (const std::string& warning : TakeVTKWarnings())
@@ -299,20 +349,16 @@ public:
   {
     const auto start = Clock::now();
     this->Bar.Begin(Phase::Writing, "writing " + this->Settings.Output);
-    vtkNew<vtkPolyData> mesh;
-    mesh->ShallowCopy(this->Output);
-    // These two may differ between runs; without them, equal meshes give equal files.
-    mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
-    mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
-    WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat);
+    if (this->Heights)
+    {
+      this->WriteHeights();
+    }
+    else
+    {
+      this->WriteTriangles();
+    }
     this->Bar.Clear();
     this->Run.WriteSeconds = SecondsSince(start);
-    mesh->SetFieldData(this->Input->GetFieldData()); // what flips add is in reports
-    const std::string losses = DescribeLosses(mesh, this->Settings.OutputFormat);
-    if (!losses.empty())
-    {
-      this->Note(this->Settings.Output + ": this file format cannot store: " + losses);
-    }
   }
 
   void Tell()
@@ -332,6 +378,82 @@ public:
   }
 
 private:
+  /// Begins with the first block of places.
+  void AskHeights()
+  {
+    HeightOptions options = this->Settings.Heights;
+    if (options.Crs.empty())
+    {
+      options.Crs = this->InputCrs;
+    }
+    std::string name = "z";
+    if (!options.Array.empty())
+    {
+      name = options.Array;
+      this->Settings.Interpolator->SetElevationArray("");
+    }
+    else
+    {
+      this->Settings.Interpolator->SetElevationArray(name.c_str());
+    }
+    this->Heights =
+      MakeHeightQuery(options, this->Input, this->Places, ExtensionOf(this->Settings.Output), name);
+    this->Filter->SetInputData(0, this->Heights->NextBlock());
+    this->Filter->SetInputData(1, SelectArray(this->Input, options.Array, this->Settings.Input));
+    this->Filter->SetInputData(2, this->Segments);
+  }
+
+  void WriteHeights()
+  {
+    const std::string& path = this->Files.Mesh.GetTemporary();
+    this->Filter->RemoveAllObservers(); // what is shown now is how much is written
+    try
+    {
+      this->Heights->Begin(path);
+      this->Heights->Write(this->Settings.Interpolator->GetOutput());
+      while (const vtkSmartPointer<vtkDataSet> block = this->Heights->NextBlock())
+      {
+        this->Bar.Show(this->Heights->GetShare(), "writing " + this->Settings.Output);
+        this->Filter->SetInputData(0, block);
+        this->Filter->Update();
+        TakeVTKWarnings(); // those of the first block
+        this->ThrowErrors();
+        this->Heights->Write(this->Settings.Interpolator->GetOutput());
+      }
+      this->Heights->Finish();
+    }
+    catch (const CommandError&)
+    {
+      throw; // of the filter
+    }
+    catch (const std::runtime_error& error)
+    {
+      throw std::runtime_error(error.what() + ExplainFailedWrite(path));
+    }
+    this->Run.Summary += this->Heights->Describe();
+    if (this->Heights->HasOnlyOutside())
+    {
+      this->Warn(
+        this->Settings.Output + ": has no value, because all places are outside of the triangles");
+    }
+  }
+
+  void WriteTriangles()
+  {
+    vtkNew<vtkPolyData> mesh;
+    mesh->ShallowCopy(this->Output);
+    // These two may differ between runs; without them, equal meshes give equal files.
+    mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
+    mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
+    WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat);
+    mesh->SetFieldData(this->Input->GetFieldData()); // what flips add is in reports
+    const std::string losses = DescribeLosses(mesh, this->Settings.OutputFormat);
+    if (!losses.empty())
+    {
+      this->Note(this->Settings.Output + ": this file format cannot store: " + losses);
+    }
+  }
+
   void ShowProgress()
   {
     const vtkIdType iterations = this->Filter->GetNumberOfIterations();
@@ -348,7 +470,12 @@ private:
   {
     this->Bar.Begin(Phase::Reading, "reading " + path);
     const MeshFormat format = FormatOf(path);
-    const FileMesh file = ReadMesh(path, format, this->Settings.Columns, content);
+    const bool isInput = path == this->Settings.Input && content == Content::Mesh;
+    const FileMesh file = ReadMesh(path, format, isInput ? this->Settings.Columns : "", content);
+    if (isInput)
+    {
+      this->InputCrs = file.Crs;
+    }
     this->Bar.Clear();
     // The others say that they have nothing.
     const bool mayBeEmpty =
@@ -549,7 +676,11 @@ private:
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
     this->Run.Summary = WithOptions(this->Filter->GetSummary(), this->Settings);
-    this->Output->ShallowCopy(this->Filter->GetOutput());
+    this->Output->ShallowCopy(this->Input);
+    if (!this->Heights)
+    {
+      this->Output->ShallowCopy(this->Filter->GetOutput());
+    }
     const bool mayRound = report.GeometryUsed == GeometryKind::Surface &&
       report.Tolerance == "automatic" && report.NonDelaunayBefore > 0;
     if (mayRound)
@@ -593,6 +724,9 @@ private:
   ProgressBar Bar;
   vtkSmartPointer<vtkPolyData> Input;
   vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
+  vtkSmartPointer<vtkPolyData> Places; ///< Where heights are wanted; or null.
+  std::unique_ptr<HeightQuery> Heights; ///< Null: a mesh is wanted.
+  std::string InputCrs; ///< That the input's file names.
   vtkIdType OutlineRings = 0; ///< How many of the rings come first.
   vtkDelaunayFlipAlgorithm* const Filter;
   const vtkNew<vtkPolyData> Output;
@@ -605,6 +739,7 @@ int RunFlipJob(const Arguments& arguments, OutputFiles& files, ChildProcess& chi
 {
   KeepVTKFromThreads();
   TryOptions(arguments.Flip);
+  TryRaster(arguments, files);
   FlipJob job(arguments, files);
   child.Enter(Phase::Reading);
   job.Read();

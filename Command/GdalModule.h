@@ -5,6 +5,7 @@
 
 #include "MeshFiles.h"
 
+#include <memory>
 #include <string>
 
 /// @file
@@ -14,6 +15,9 @@
 
 namespace delaunayflip
 {
+
+struct RasterGrid;
+class RasterFile;
 
 /// What to read from a file of points, lines and polygons.
 struct VectorRequest
@@ -34,6 +38,15 @@ public:
   /// Points, lines, and each ring of polygons as a polygon. If there are points alone, their
   /// numeric attributes become point data.
   virtual FileMesh ReadVectors(const VectorRequest& request) const = 0;
+
+  /// A coordinate reference system as the .prj beside an ESRI ASCII grid has it.
+  /// @param crs such as EPSG:25832, or any other text that GDAL knows
+  virtual std::string DescribeCrs(const std::string& crs) const = 0;
+
+  /// A GeoTIFF of doubles.
+  /// @param crs may be empty
+  virtual std::unique_ptr<RasterFile> MakeGeoTiff(
+    const std::string& path, const RasterGrid& grid, const std::string& crs) const = 0;
 };
 
 /// @throws std::runtime_error that says what to install.

@@ -31,6 +31,11 @@
 namespace delaunayflip
 {
 
+std::string ExtensionOf(const std::string& path)
+{
+  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
+}
+
 std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds)
 {
   std::vector<bool> isUsed(mesh->GetNumberOfPoints());
@@ -233,11 +238,6 @@ constexpr VectorRow VectorFormats[] = {
   { ".fgb", "FlatGeobuf" },
 };
 
-std::string ExtensionOf(const std::string& path)
-{
-  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(path));
-}
-
 const VectorRow* FindVectorFormat(const std::string& file)
 {
   const auto found = std::find_if(std::begin(VectorFormats), std::end(VectorFormats),
@@ -270,6 +270,10 @@ std::string NameTheWay(const std::string& extension)
   {
     return "; \"meshio convert\" converts between " + extension +
       " and .ply, and in Python delaunayflip.meshio.flip takes what meshio reads";
+  }
+  if (isOneOf({ ".tif", ".asc", ".vti" }))
+  {
+    return "; --raster writes a raster of heights";
   }
   if (isOneOf({ ".las", ".laz" }))
   {

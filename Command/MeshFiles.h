@@ -42,6 +42,9 @@ struct FileLayer
   std::string Layer; ///< Empty: none is named.
 };
 
+/// The extension of `path` in lower case, such as .ply.
+std::string ExtensionOf(const std::string& path);
+
 /// The format of `path`, from its extension in upper or lower case.
 /// @throws CommandError (WrongUsage) that lists the known extensions.
 MeshFormat FormatOf(const std::string& path);
@@ -53,6 +56,8 @@ struct FileMesh
   std::vector<std::string> Warnings; ///< What was left out, one line each, without the file.
   std::vector<std::string> Notes; ///< What may be good to know, like warnings.
   std::vector<std::string> Labels; ///< The integer arrays of cells with more than one value.
+
+  std::string Crs; ///< Of the coordinates, as GDAL describes it; empty: the file names none.
 
   /// Adds the name of an array of cells to the labels, if it has more than one value.
   void AddLabels(vtkDataArray* array);

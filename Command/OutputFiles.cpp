@@ -224,11 +224,13 @@ void PendingFile::Fail(const std::string& reason) const
 
 void OutputFiles::Commit()
 {
-  for (PendingFile* const file : { &this->Statistics, &this->Report, &this->Mesh })
+  for (PendingFile* const file :
+    { &this->Statistics, &this->Report, &this->Projection, &this->Mesh })
   {
     file->Commit();
   }
-  for (PendingFile* const file : { &this->Statistics, &this->Report, &this->Mesh })
+  for (PendingFile* const file :
+    { &this->Statistics, &this->Report, &this->Projection, &this->Mesh })
   {
     file->Keep();
   }

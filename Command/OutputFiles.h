@@ -72,6 +72,7 @@ struct OutputFiles
   PendingFile Mesh;
   PendingFile Statistics;
   PendingFile Report;
+  PendingFile Projection; ///< The .prj beside an .asc.
 };
 
 }

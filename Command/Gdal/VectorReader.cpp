@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "VectorReader.h"
+
 #include "CommandError.h"
 #include "GdalMessages.h"
-#include "GdalModule.h"
 
 #include <ogrsf_frmts.h>
 
@@ -167,6 +168,7 @@ public:
   FileMesh Finish()
   {
     FileMesh file;
+    file.Crs = this->Crs;
     file.Mesh->SetPoints(this->Points);
     file.Mesh->SetLines(this->Lines);
     file.Mesh->SetPolys(this->Rings);
@@ -205,6 +207,10 @@ private:
     this->HeightField = -1;
     this->Numeric.clear();
     this->Attributes.clear();
+    if (const OGRSpatialReference* const crs = layer.GetSpatialRef())
+    {
+      this->Crs = WriteCrs(*crs, "WKT2_2019");
+    }
     for (int i = 0; i < fields.GetFieldCount(); ++i)
     {
       const OGRFieldType type = fields.GetFieldDefn(i)->GetType();
@@ -315,42 +321,43 @@ private:
   std::vector<std::pair<int, vtkSmartPointer<vtkDoubleArray>>> Attributes; ///< Per field.
   bool HasHeights = false;
   std::int64_t Empty = 0;
+  std::string Crs;
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Lines, Rings;
 };
 
-class VectorReader : public GdalModule
+}
+
+std::string WriteCrs(const OGRSpatialReference& crs, const std::string& format)
 {
-public:
-  FileMesh ReadVectors(const VectorRequest& request) const override
+  const std::string option = "FORMAT=" + format;
+  const char* const options[] = { option.c_str(), nullptr };
+  char* text = nullptr;
+  crs.exportToWkt(&text, options);
+  const std::string written = text;
+  CPLFree(text);
+  return written;
+}
+
+FileMesh ReadVectors(const VectorRequest& request)
+{
+  GdalMessages messages;
+  const char* const drivers[] = { request.Driver.c_str(), nullptr };
+  const GDALDatasetUniquePtr data(GDALDataset::Open(
+    request.Path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers));
+  if (!data)
   {
-    GdalMessages messages;
-    const char* const drivers[] = { request.Driver.c_str(), nullptr };
-    const GDALDatasetUniquePtr data(GDALDataset::Open(
-      request.Path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers));
-    if (!data)
-    {
-      messages.Fail();
-    }
-    messages.Warnings.clear(); // such as that a newer GDAL has written the file
-    Layers layers(*data, request);
-    FeatureMesh mesh(request);
-    layers.ForEachFeature(
-      [&mesh](OGRLayer& layer, OGRFeature& feature) { mesh.Add(layer, feature); });
-    messages.Check();
-    FileMesh file = mesh.Finish();
-    file.Warnings.insert(file.Warnings.end(), messages.Warnings.begin(), messages.Warnings.end());
-    return file;
+    messages.Fail();
   }
-};
-
+  messages.Warnings.clear(); // such as that a newer GDAL has written the file
+  Layers layers(*data, request);
+  FeatureMesh mesh(request);
+  layers.ForEachFeature(
+    [&mesh](OGRLayer& layer, OGRFeature& feature) { mesh.Add(layer, feature); });
+  messages.Check();
+  FileMesh file = mesh.Finish();
+  file.Warnings.insert(file.Warnings.end(), messages.Warnings.begin(), messages.Warnings.end());
+  return file;
 }
 
-}
-
-extern "C" __attribute__((visibility("default"))) const delaunayflip::GdalModule*
-GetDelaunayFlipGdalModule()
-{
-  static const delaunayflip::VectorReader module;
-  return &module;
 }

@@ -124,7 +124,8 @@ class Success(CommandTest):
         self.assertEqual([line for line in text.splitlines() if len(line) > 80], [])
         groups = [line for line in text.splitlines() if line.endswith(":") and line[0] != " "]
         self.assertEqual(groups, ["Examples:", "What to read:", "Where edges are judged:", "What stays:",
-                                  "From points:", "Where it runs:", "What to write:", "Help:"])
+                                  "From points:", "Heights from points:", "Where it runs:",
+                                  "What to write:", "Help:"])
         self.assertIn("\n  --merge-points            First join points", text)
         for code in ("0 done", "2 wrong", "3 input", "4 iteration", "5 the", "129, 130, 131 or 143"):
             self.assertIn(code, text)

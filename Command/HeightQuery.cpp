@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HeightQuery.h"
+
+#include "CommandError.h"
+#include "InputFile.h"
+#include "RasterFile.h"
+
+#include <vtkBoundingBox.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+/// A number with commas, as in 12,345.
+std::string Grouped(std::int64_t number)
+{
+  std::string text = std::to_string(number);
+  for (std::size_t place = text.size(); place > 3; place -= 3)
+  {
+    text.insert(place - 3, ",");
+  }
+  return text;
+}
+
+/// The box of the points that are finite in x and y, widened to whole multiples of the step.
+std::array<double, 4> FindExtent(vtkPolyData* points, double step)
+{
+  vtkBoundingBox box;
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> point;
+    points->GetPoint(i, point.data());
+    if (std::isfinite(point[0]) && std::isfinite(point[1]))
+    {
+      box.AddPoint(point[0], point[1], 0.0);
+    }
+  }
+  if (!box.IsValid())
+  {
+    throw CommandError(ExitCode::BadFile, "--raster: no point is finite, so the extent is unknown");
+  }
+  const auto below = [step](double value) { return std::floor(value / step) * step; };
+  const auto above = [step](double value) { return std::ceil(value / step) * step; };
+  return { below(box.GetBound(0)), below(box.GetBound(2)), above(box.GetBound(1)),
+    above(box.GetBound(3)) };
+}
+
+/// How many cells cover a length. One more than whole steps by rounding alone does not count.
+std::int64_t CountCells(double length, double step)
+{
+  constexpr double most = 2147483647.0;
+  constexpr double rounding = 1e-6;
+  const double cells = std::max(std::ceil(length / step - rounding), 1.0);
+  if (!(cells <= most))
+  {
+    throw CommandError(ExitCode::WrongUsage,
+      "--raster: with cells of " + TextOf(step) + " the raster has more than 2^31 rows or columns");
+  }
+  return static_cast<std::int64_t>(cells);
+}
+
+RasterGrid MakeGrid(const HeightOptions& options, vtkPolyData* points)
+{
+  std::array<double, 4> extent{};
+  if (options.Extent.empty())
+  {
+    extent = FindExtent(points, options.Step);
+  }
+  else
+  {
+    ParseExtent(options.Extent, extent);
+  }
+  RasterGrid grid;
+  grid.Step = options.Step;
+  grid.Columns = CountCells(extent[2] - extent[0], options.Step);
+  grid.Rows = CountCells(extent[3] - extent[1], options.Step);
+  grid.X = extent[0] + options.Step / 2;
+  grid.Y = extent[1] + options.Step / 2;
+  return grid;
+}
+
+/// A raster in blocks of rows from the north.
+class RasterQuery : public HeightQuery
+{
+public:
+  RasterQuery(const RasterGrid& grid, const RasterName& name)
+    : HeightQuery(
+        name.Array, "raster", Grouped(grid.Columns) + " x " + Grouped(grid.Rows) + " cells"),
+      Grid(grid),
+      Name(name)
+  {
+    constexpr std::int64_t cells = 1 << 22; // of a block
+    constexpr std::int64_t tile = 256; // rows of a GeoTIFF's tiles, which are best written once
+    this->RowsOfBlock = std::max<std::int64_t>(cells / grid.Columns / tile, 1) * tile;
+  }
+
+  vtkSmartPointer<vtkDataSet> NextBlock() override
+  {
+    const std::int64_t rows = std::min(this->RowsOfBlock, this->Grid.Rows - this->Taken);
+    if (rows == 0)
+    {
+      return nullptr;
+    }
+    auto block = vtkSmartPointer<vtkImageData>::New();
+    const double north =
+      this->Grid.Y + static_cast<double>(this->Grid.Rows - 1 - this->Taken) * this->Grid.Step;
+    block->SetDimensions(static_cast<int>(this->Grid.Columns), static_cast<int>(rows), 1);
+    block->SetOrigin(this->Grid.X, north, 0.0);
+    block->SetSpacing(this->Grid.Step, -this->Grid.Step, 1.0);
+    this->Taken += rows;
+    return block;
+  }
+
+  double GetShare() const override
+  {
+    return static_cast<double>(this->Taken) / static_cast<double>(this->Grid.Rows);
+  }
+
+  void Begin(const std::string& path) override
+  {
+    this->Name.Path = path;
+    this->File = MakeRasterFile(this->Name, this->Grid);
+  }
+
+  void Finish() override { this->File->Finish(); }
+
+protected:
+  void WriteValues(const double* values, vtkDataSet* block) override
+  {
+    this->File->WriteRows(values, block->GetNumberOfPoints() / this->Grid.Columns);
+  }
+
+private:
+  RasterGrid Grid;
+  RasterName Name;
+  std::int64_t RowsOfBlock;
+  std::int64_t Taken = 0; ///< Rows.
+  std::unique_ptr<RasterFile> File;
+};
+
+/// The points of a file, as rows of text: x, y and the value, which is empty outside.
+class PlaceTable : public HeightQuery
+{
+public:
+  PlaceTable(vtkPolyData* places, const std::string& array)
+    : HeightQuery(array, "places", Grouped(places->GetNumberOfPoints())),
+      Places(places)
+  {
+  }
+
+  vtkSmartPointer<vtkDataSet> NextBlock() override
+  {
+    return std::exchange(this->IsTaken, true) ? nullptr : this->Places;
+  }
+
+  double GetShare() const override { return 1.0; }
+
+  void Begin(const std::string& path) override
+  {
+    this->File.open(path, std::ios::binary);
+    this->File << "x,y," << this->Array << '\n';
+  }
+
+  void Finish() override
+  {
+    this->File.close();
+    if (!this->File)
+    {
+      throw std::runtime_error("the system refuses to write");
+    }
+  }
+
+protected:
+  void WriteValues(const double* values, vtkDataSet* block) override
+  {
+    for (vtkIdType i = 0; i < block->GetNumberOfPoints(); ++i)
+    {
+      const double* const place = block->GetPoint(i);
+      this->File << TextOf(place[0]) << ',' << TextOf(place[1]) << ',';
+      if (!std::isnan(values[i]))
+      {
+        this->File << TextOf(values[i]);
+      }
+      this->File << '\n';
+    }
+  }
+
+private:
+  vtkSmartPointer<vtkPolyData> Places;
+  bool IsTaken = false;
+  std::ofstream File;
+};
+
+}
+
+std::string ParseExtent(const std::string& text, std::array<double, 4>& extent)
+{
+  std::istringstream words(text + ',');
+  std::size_t count = 0;
+  bool areNumbers = true;
+  for (std::string word; std::getline(words, word, ',');)
+  {
+    double value = 0.0;
+    areNumbers = areNumbers && ReadNumber(word, value) == std::errc() && std::isfinite(value);
+    extent[std::min<std::size_t>(count++, 3)] = value;
+  }
+  if (!areNumbers || count != 4 || !(extent[0] < extent[2]) || !(extent[1] < extent[3]))
+  {
+    return "'" + text +
+      "' is not four numbers xmin,ymin,xmax,ymax with xmin < xmax and ymin < ymax";
+  }
+  return "";
+}
+
+HeightQuery::HeightQuery(
+  const std::string& array, const std::string& title, const std::string& noun)
+  : Array(array),
+    Title(title),
+    Noun(noun)
+{
+}
+
+void HeightQuery::Write(vtkDataSet* block)
+{
+  const vtkIdType count = block->GetNumberOfPoints();
+  vtkDataArray* const found = block->GetPointData()->GetArray(this->Array.c_str());
+  vtkDataArray* const inside = block->GetPointData()->GetArray("vtkValidPointMask");
+  std::vector<double> values(count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    values[i] = found->GetComponent(i, 0);
+    this->Outside += inside->GetComponent(i, 0) == 0.0;
+  }
+  this->Total += count;
+  this->WriteValues(values.data(), block);
+}
+
+std::string HeightQuery::Describe() const
+{
+  return this->Title + ": " + this->Noun + ", " + Grouped(this->Outside) + " outside\n";
+}
+
+std::unique_ptr<HeightQuery> MakeHeightQuery(const HeightOptions& options, vtkPolyData* points,
+  vtkPolyData* places, const std::string& extension, const std::string& array)
+{
+  if (places)
+  {
+    return std::make_unique<PlaceTable>(places, array);
+  }
+  const RasterName name{ "", extension, options.Crs, array };
+  return std::make_unique<RasterQuery>(MakeGrid(options, points), name);
+}
+
+vtkSmartPointer<vtkPolyData> SelectArray(
+  vtkPolyData* points, const std::string& array, const std::string& path)
+{
+  auto selected = vtkSmartPointer<vtkPolyData>::New();
+  selected->CopyStructure(points);
+  if (array.empty())
+  {
+    return selected;
+  }
+  vtkPointData* const data = points->GetPointData();
+  vtkDataArray* const found = data->GetArray(array.c_str());
+  if (!found || found->GetNumberOfComponents() != 1)
+  {
+    std::vector<std::string> names;
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      names.push_back("'" + std::string(data->GetArrayName(i)) + "'");
+    }
+    throw CommandError(ExitCode::BadFile,
+      path + ": --raster-array: the points have no array '" + array +
+        "' of one number each; they have " + (names.empty() ? "none" : JoinWords(names)));
+  }
+  selected->GetPointData()->AddArray(found);
+  return selected;
+}
+
+}

@@ -1,0 +1,204 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""--raster and --heights-at: values at places in a triangulation of points."""
+
+import math
+import os
+import random
+import struct
+import zlib
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+
+from CommandTesting import make_array, make_mesh
+from TestPoints import PLACES, PointTest, text_of
+
+
+def plane(x, y):
+    return 0.5 * x + 0.25 * y + 10
+
+
+def scattered(count=400, size=16.0, seed=5):
+    """Points of the plane, with the corners of a square."""
+    draw = random.Random(seed).uniform
+    places = [(0, 0), (size, 0), (size, size), (0, size)]
+    places += [(draw(0, size), draw(0, size)) for _ in range(count)]
+    return [(x, y, plane(x, y)) for x, y in places]
+
+
+def read_geotiff(content):
+    """The tags of a TIFF of one band, and its rows from the north: doubles in tiles, compressed by
+    Deflate after the differences of their bytes, which are sorted by significance."""
+    offset, tags = struct.unpack("<4xI", content[:8])[0], {}
+    for i in range(struct.unpack_from("<H", content, offset)[0]):
+        tag, kind, count = struct.unpack_from("<HHI", content, offset + 2 + 12 * i)
+        code = {1: "B", 2: "B", 3: "H", 4: "I", 12: "d"}[kind]
+        place = offset + 10 + 12 * i
+        if struct.calcsize(code) * count > 4:
+            place = struct.unpack_from("<I", content, place)[0]
+        tags[tag] = struct.unpack_from(f"<{count}{code}", content, place)
+    (width,), (height,), (size,) = tags[256], tags[257], tags[322]
+    across = -(-width // size)
+    rows = numpy.empty((-(-height // size) * size, across * size))
+    for number, (begin, length) in enumerate(zip(tags[324], tags[325])):
+        tile = numpy.frombuffer(zlib.decompress(content[begin:begin + length]), numpy.uint8)
+        tile = numpy.cumsum(tile.reshape(size, 8 * size), axis=1, dtype=numpy.uint8)
+        tile = tile.reshape(size, 8, size).transpose(0, 2, 1).tobytes()
+        y, x = number // across * size, number % across * size
+        rows[y:y + size, x:x + size] = numpy.frombuffer(tile, ">f8").reshape(size, size)
+    return tags, rows[:height, :width]
+
+
+class HeightTest(PointTest):
+    def setUp(self):
+        super().setUp()
+        self.write("plane.csv", text_of(scattered(), ","))
+        self.write("peak.csv", text_of(PLACES, ","))
+
+    def ask(self, name, output, *options):
+        return self.succeed(name, output, "--from-points", *options)
+
+    def grid(self, name):
+        """The header of an .asc, and its rows from the north."""
+        lines = self.content(name).decode().splitlines()
+        header = {key: float(value) for key, value in map(str.split, lines[:6])}
+        rows = numpy.array([list(map(float, line.split())) for line in lines[6:]])
+        self.assertEqual(rows.shape, (header["nrows"], header["ncols"]))
+        return header, numpy.where(rows == header["NODATA_value"], math.nan, rows)
+
+    def image(self, name):
+        """The rows of a .vti from the south, with x and y, and the name of the values."""
+        reader = vtkXMLImageDataReader()
+        reader.SetFileName(self.path(name))
+        reader.Update()
+        image = reader.GetOutput()
+        columns, rows, _ = image.GetDimensions()
+        x = image.GetOrigin()[0] + image.GetSpacing()[0] * numpy.arange(columns)
+        y = image.GetOrigin()[1] + image.GetSpacing()[1] * numpy.arange(rows)
+        values = image.GetPointData().GetScalars()
+        return x, y[:, None], vtk_to_numpy(values).reshape(rows, columns).copy(), values.GetName()
+
+
+class Rasters(HeightTest):
+    def test_plane(self):
+        """Linear functions are reproduced, by both methods and in both formats of whole precision."""
+        for method in ([], ["--raster-method", "natural"]):
+            result = self.ask("plane.csv", "out.vti", "--raster", 0.25, *method)
+            self.assertIn("raster          64 x 64 cells, 0 outside\n", result.stdout)
+            x, y, values, name = self.image("out.vti")
+            self.assertEqual((x[0], x[-1], y[0], y[-1], name), (0.125, 15.875, 0.125, 15.875, "z"))
+            self.assertLess(abs(values - plane(x, y)).max(), 1e-12)
+            self.ask("plane.csv", "out.asc", "--raster", 0.25, *method)
+            header, rows = self.grid("out.asc")
+            self.assertEqual([header[key] for key in ("xllcenter", "yllcenter", "cellsize")],
+                             [0.125, 0.125, 0.25])
+            self.assertTrue((rows[::-1] == values).all())
+
+    def test_by_hand(self):
+        """Cells of a square whose middle is a peak; a place on an edge; the extent, and what is outside."""
+        self.ask("peak.csv", "out.asc", "--raster", 1, "--extent", "-0.5,-0.5,5.25,4.5")
+        header, rows = self.grid("out.asc")
+        self.assertEqual(rows.shape, (5, 6))
+        self.assertEqual((header["xllcenter"], header["yllcenter"]), (0, 0))
+        south = rows[::-1]
+        self.assertEqual(south[0, :5].tolist(), [1, 1.25, 1.5, 1.75, 2])
+        self.assertEqual(south[1, 2], 0.25 * 1 + 0.25 * 2 + 0.5 * 5)
+        self.assertEqual(south[1, 1], 3)
+        self.assertEqual(south[2, 2], 5)
+        self.assertEqual(south[3, 3], 4)
+        self.assertTrue(numpy.isnan(south[:, 5]).all())
+        self.ask("peak.csv", "out.asc", "--raster", 1.5)
+        header, rows = self.grid("out.asc")
+        self.assertEqual((header["xllcenter"], *rows.shape), (0.75, 3, 3))
+        self.assertEqual(rows[2, 0], 0.75 / 2 * 5 + 0.625 * 1)
+
+    def test_blocks(self):
+        """A raster of several blocks of rows, the last one not whole."""
+        self.ask("plane.csv", "out.vti", "--raster", 2**-10, "--extent", "1,2,17,2.5")
+        x, y, values, _ = self.image("out.vti")
+        self.assertEqual(values.shape, (512, 16384))
+        inside = x < 16
+        self.assertLess(abs(values - plane(x, y))[:, inside].max(), 1e-12)
+        self.assertTrue(numpy.isnan(values[:, ~inside]).all())
+
+    def test_outline_and_array(self):
+        """What an outline removes has no values; other values than heights; breaklines count."""
+        points = make_mesh(PLACES, [])
+        points.GetPointData().AddArray(make_array("depth", [8, 8, 8, 8, 0]))
+        points.GetPointData().AddArray(make_array("x", [1, 2, 3, 4, 5]))
+        self.write_mesh(points, "in.vtp")
+        ring = self.rings("ring.vtk", [(0, 0, 1), (4, 0, 2), (4, 4, 3)])
+        result = self.ask("in.vtp", "out.vti", "--raster", 1, "--raster-array", "depth",
+                          "--outline", ring)
+        _, _, values, name = self.image("out.vti")
+        self.assertEqual(name, "depth")
+        self.assertEqual(values[0].tolist()[1:], [6, 6, 6])
+        self.assertTrue(math.isnan(values[3, 0]))
+        self.assertIn("raster          4 x 4 cells, 6 outside\n", result.stdout)
+        self.fail_with(3, "in.vtp", "out.vti", "--from-points", "--raster", 1, "--raster-array", "z",
+                       naming=["in.vtp", "no array 'z'", "'depth', 'x'"])
+        line = self.write_mesh(make_mesh([(0, 4, 4), (2, 3, 0), (4, 4, 3)], [], [(0, 1, 2)]), "l.vtk")
+        self.ask("peak.csv", "out.vti", "--raster", 1, "--extent", "1.5,2.5,2.5,3.5", "--constraints", line)
+        self.assertEqual(self.image("out.vti")[2].tolist(), [[0]])
+
+    def test_geotiff(self):
+        result = self.run_command("plane.csv", "out.tif", "--from-points", "--raster", 0.25, "--crs",
+                                  "EPSG:25832", "--extent", "-1,0,16,16")
+        if "needs GDAL" in result.stderr:
+            self.skipTest(result.stderr)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        tags, rows = read_geotiff(self.content("out.tif"))
+        self.assertEqual(rows.shape, (64, 68))
+        self.assertEqual(tags[33550][:2], (0.25, 0.25))  # the size of a cell
+        self.assertEqual(tags[33922], (0, 0, 0, -1, 16, 0))  # where the north-western corner is
+        keys = numpy.array(tags[34735]).reshape(-1, 4).tolist()
+        self.assertIn([3072, 0, 1, 25832], keys)  # the projected coordinate reference system
+        self.assertEqual(bytes(tags[42113]), b"nan\0")  # what cells without a value have
+        self.assertTrue(numpy.isnan(rows[:, :4]).all())
+        centres = (numpy.arange(64) + 0.5) / 4
+        self.assertLess(abs(rows[::-1, 4:] - plane(centres, centres[:, None])).max(), 1e-12)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["out.tif", "peak.csv", "plane.csv"])
+
+    def test_reference_system(self):
+        run = ["plane.csv", "out.asc", "--from-points", "--raster", 4, "--crs"]
+        result = self.run_command(*run, "EPSG:25832")
+        if "needs GDAL" in result.stderr:
+            self.skipTest(result.stderr)
+        self.assertIn(b'PROJCS["ETRS_1989_UTM_Zone_32N"', self.content("out.prj"))
+        for crs in ("EPSG:1", "Atlantis", "/etc/passwd"):
+            self.fail_with(2, *run, crs, naming=["out.asc", crs, "EPSG:25832"])
+        self.write("libdelaunayflip-gdal.so", "")
+        environment = dict(os.environ, LD_LIBRARY_PATH=self.folder)
+        self.fail_with(2, "plane.csv", "out.tif", "--from-points", "--raster", 1, env=environment,
+                       naming=["out.tif: needs GDAL", "libgdal"])
+        self.ask("plane.csv", "out.vti", "--raster", 1, "--quiet")
+
+
+class Tables(HeightTest):
+    def test_places(self):
+        self.write("places.csv", "x,y\n2,1\n4.5,1\n2,2\nnan,1\n1,1\n")
+        result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv")
+        self.assertEqual(self.content("out.csv").decode(), "x,y,z\n2,1,3.25\n4.5,1,\n2,2,5\nnan,1,\n1,1,3\n")
+        self.assertIn("places          5, 2 outside\n", result.stdout)
+        self.write("places.csv", "9,9\n8,8\n")
+        result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv", "--raster-method", "natural")
+        self.assertIn("warning: out.csv: has no value", result.stderr)
+
+    def test_usage(self):
+        for code, options, words in (
+            (2, ["out.vtp", "--from-points", "--raster", 1], ["out.vtp", ".tif, .asc or .vti"]),
+            (2, ["out.tif", "--from-points"], ["out.tif", "--raster"]),
+            (2, ["out.asc", "--raster", 1], ["requires --from-points"]),
+            (2, ["out.asc", "--from-points", "--raster", 0], ["--raster"]),
+            (2, ["out.asc", "--from-points", "--raster", 1e-12], ["2^31"]),
+            (2, ["out.asc", "--from-points", "--raster", 1, "--extent", "0,0,0,1"], ["'0,0,0,1'"]),
+            (2, ["out.asc", "--from-points", "--raster", 1, "--extent", "0,0,1"], ["xmin,ymin"]),
+            (2, ["out.asc", "--from-points", "--extent", "0,0,1,1"], ["requires --raster"]),
+            (2, ["out.asc", "--from-points", "--heights-at", "peak.csv"], ["writes a .csv"]),
+            (2, ["out.asc", "--from-points", "--heights-at", "peak.csv", "--raster", 1], ["excludes"]),
+            (2, ["out.vti", "--from-points", "--raster", 1, "--crs", "EPSG:4326"], ["--crs is for"]),
+            (2, ["peak.csv", "--from-points", "--heights-at", "peak.csv"], ["two purposes"]),
+        ):
+            self.fail_with(code, "plane.csv", *options, naming=words)
