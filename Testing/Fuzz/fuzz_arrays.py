@@ -209,6 +209,30 @@ def try_layouts(draw, is_printed):
         require(repr(read_values(given[name]).tolist()) == values, f"{name} are not written")
 
 
+def try_values(draw, is_printed):
+    """Values at places, from points and values of any layout."""
+    shape = (draw.integers(0, 9), 2) if draw.random() < 0.7 else (draw.integers(0, 4), 3, 2)
+    arrays = {"points": draw.integers(0, 9, (draw.integers(0, 40), 2)).astype(float)}
+    arrays["values"] = draw.random((len(arrays["points"]), *draw.integers(1, 3, draw.integers(3))))
+    arrays["places"] = 9 * draw.random(shape)
+    if draw.random() < 0.2:
+        name = str(draw.choice(list(arrays)))
+        arrays[name] = change_values(draw, arrays[name])
+    given = {name: lay_out(draw, choose_type(draw, "points", values)) for name, values in arrays.items()}
+    plain = {name: read_values(values) for name, values in given.items()}
+    kinds = delaunayflip.LinearInterpolator, delaunayflip.NaturalNeighborInterpolator
+    kind, outside = kinds[draw.integers(2)], str(draw.choice(["nan", "nearest", "error"]))
+    if is_printed:
+        print(kind, outside, plain, {name: type(values) for name, values in given.items()})
+
+    def interpolate(points, values, places):
+        return kind(points, values, outside=outside, threads=1)(places)
+
+    odd, even = run(interpolate, **given), run(interpolate, **plain)
+    require(odd == even or (odd[1] and even[1] and odd[0] is even[0]), "values are the same", odd, even)
+    check_error(odd, (*arrays, "points"))
+
+
 def try_target(draw, is_printed):
     """A result goes to an array of any layout, whole and nowhere else, or not at all."""
     arrays = make_mesh(draw)
@@ -272,7 +296,8 @@ def main():
     failed = 0
     for case in range(options.first, options.first + options.cases):
         draw = numpy.random.default_rng([options.seed, case])
-        attempt = (try_layouts, try_layouts, try_layouts, try_target, try_number)[case % 5]
+        attempts = try_layouts, try_layouts, try_layouts, try_target, try_number, try_values
+        attempt = attempts[case % len(attempts)]
         faulthandler.dump_traceback_later(60, exit=True)
         try:
             attempt(draw, options.is_printed)
