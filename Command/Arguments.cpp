@@ -279,6 +279,11 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     { "evenodd", "nonzero" },
     "When a place is inside the rings of a file: if a path to infinity crosses them an odd number "
     "of times, or if their turns around the place do not add up to 0 [evenodd]");
+  AddChoice(app, "--heights", Set(arguments, &vtkDelaunayFlipPoints::SetSegmentHeights),
+    { "auto", "survey", "own" },
+    "Which heights points have that INPUT does not have: those of INPUT there, interpolated in its "
+    "triangulation, or those of their file. auto: survey for lines or rings with z = 0 throughout, "
+    "if INPUT has other heights; else own [auto]");
   app.add_flag_callback("--split-crossings",
     Set(arguments, &vtkDelaunayFlipPoints::SplitCrossingsOn),
     "Add a point where segments cross. Otherwise a segment that crosses an earlier one is left "

@@ -125,6 +125,7 @@ std::string WithOptions(const std::string& message, const Arguments& given)
       std::pair("leave out such duplicates", withoutDuplicates.c_str()),
       std::pair("\\bRegionArray\\b", "--region-array"), std::pair("\\bTolerance\\b", "--tolerance"),
       std::pair("\\bSplitCrossings\\b", "--split-crossings"),
+      std::pair("\\bSegmentHeights Own\\b", "--heights own"),
       std::pair("merge points that lie at the same place", withMerged.c_str()) })
   {
     text = std::regex_replace(text, std::regex(std::string(property) + "(?!\")"), option);

@@ -34,6 +34,16 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh);
 /// @throws InvalidMesh if points do not have three coordinates.
 DELAUNAYFLIP_EXPORT PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage);
 
+/// A view of their x and y.
+inline PlaneArray ViewPlane(const PointArray& points)
+{
+  if (points.Floats)
+  {
+    return { points.Floats, points.Count, 3 };
+  }
+  return { points.Doubles, points.Count, 3 };
+}
+
 /// Whether both have the same number of points and the same bits.
 bool HaveSameBits(const PointArray& points, const PointArray& others);
 

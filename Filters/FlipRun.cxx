@@ -53,8 +53,8 @@ UpdatePlan MakePlan(const FlipRequest& request, bool isWarm)
     mesh->GetPolys()->GetNumberOfConnectivityIds() != 3 * mesh->GetNumberOfPolys();
   const bool hasConstraints =
     request.Others || (request.Settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0);
-  return { { isWarm, hasPolygons, hasConstraints, !request.Settings.RegionArray.empty(), true, true,
-             request.WantsAngles },
+  return { { isWarm, hasPolygons, hasConstraints, !request.Settings.RegionArray.empty(), false,
+             true, true, request.WantsAngles },
     request.Progress };
 }
 

@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
@@ -85,7 +86,8 @@ bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& 
   {
     const PointOptions& o = r.Options;
     return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
-      r.FirstHole, o.PointTolerance, o.SplitCrossings, o.RingRule, o.Alpha, o.LongestEdge);
+      r.FirstHole, r.Heights, o.PointTolerance, o.SplitCrossings, o.RingRule, o.Alpha,
+      o.LongestEdge);
   };
   const FlipOptions& first = a.Options;
   const FlipOptions& second = b.Options;
@@ -337,6 +339,10 @@ public:
 private:
   bool HasCopyOf(vtkPolyData* points) const;
   bool AddsPoints() const;
+  void ChooseHeights();
+  std::vector<std::pair<vtkDataArray*, int>> ListSurveyed() const;
+  void TakeHeights(
+    const std::vector<std::int64_t>& points, const std::vector<std::int64_t>& lifted);
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
   Defect DescribeFlatPoints() const;
   PlaneArray Project();
@@ -350,10 +356,29 @@ private:
   vtkSmartPointer<vtkPolyData> Points; ///< The input with the points of the segments.
   SegmentList Segments;
   std::vector<std::int64_t> FlatPoints; ///< See SegmentList::FindFlatPoints.
+  bool AreLifted = false; ///< They have got heights.
   std::vector<double> Storage; ///< Points that cannot be viewed in place.
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
   PointInput View; ///< Views of these.
 };
+
+bool IsProjected(const TriangulationRequest& request)
+{
+  return request.Transform || request.FitsPlane;
+}
+
+/// Whether points of the second input may get other heights: an estimate, before these are known.
+bool MayTakeHeights(const TriangulationRequest& request)
+{
+  vtkPolyData* others = request.Others;
+  if (!others || request.FillsData || request.Heights != HeightsKind::Auto || IsProjected(request))
+  {
+    return others && (request.FillsData || request.Heights == HeightsKind::Survey);
+  }
+  double bounds[6];
+  others->GetBounds(bounds);
+  return others->GetNumberOfPoints() > 0 && bounds[4] == 0.0 && bounds[5] == 0.0;
+}
 
 vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
 {
@@ -363,8 +388,9 @@ vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
 }
 
 TriangulationRun::TriangulationRun(const TriangulationRequest& request)
-  : UpdateRun(
-      { { false, false, request.Others != nullptr, false, true, true, false }, request.Progress }),
+  : UpdateRun({ { false, false, request.Others != nullptr, false, MayTakeHeights(request), true,
+                  true, false },
+      request.Progress }),
     Asked(request),
     StampedPoints(StampPoints(request)),
     StampedArrays(StampArrays(request)),
@@ -374,6 +400,7 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
     FlatPoints(Segments.FindFlatPoints(request.FirstHole))
 {
   this->View.Points = this->Project();
+  this->ChooseHeights();
   this->View.Segments = this->Segments.Ends.data();
   this->View.NumberOfSegments = static_cast<std::int64_t>(this->Segments.Rings.size());
   this->View.Rings = this->Segments.Rings.data();
@@ -419,12 +446,7 @@ PlaneArray TriangulationRun::Project()
     projection->TransformPoints(this->Points->GetPoints(), this->Projected);
     return { static_cast<const double*>(this->Projected->GetVoidPointer(0)), count, 3 };
   }
-  const PointArray xyz = ViewPoints(this->Points, this->Storage);
-  if (xyz.Floats)
-  {
-    return { xyz.Floats, xyz.Count, 3 };
-  }
-  return { xyz.Doubles, xyz.Count, 3 };
+  return ViewPlane(ViewPoints(this->Points, this->Storage));
 }
 
 //------------------------------------------------------------------------------
@@ -462,16 +484,149 @@ Defect TriangulationRun::DescribeFlatPoints() const
     found.erase(corner);
   }
   const std::int64_t count = total - static_cast<std::int64_t>(found.size());
+  const std::string fate = this->AreLifted
+    ? "they have got the heights of the given points there; SegmentHeights Own keeps z = 0"
+    : "the mesh goes to z = 0 there; if it should not, give them heights, for example those of the "
+      "nearest points";
   std::vector<double> storage;
   const PointArray points = ViewPoints(this->Given, storage);
   const HeightRange heights(points, points.Count);
   constexpr int Digits = 6;
   const std::string text =
     "points of segments without heights (z = 0 throughout; the given points have z = " +
-    FormatNumber(heights.Low, Digits) + " to " + FormatNumber(heights.High, Digits) +
-    "): the mesh goes to z = 0 there; if it should not, give them heights, for example those of "
-    "the nearest points";
+    FormatNumber(heights.Low, Digits) + " to " + FormatNumber(heights.High, Digits) + "): " + fate;
   return { text, count, {}, DefectIds::Points };
+}
+
+//------------------------------------------------------------------------------
+/// Gives points of the second input the heights and data that are asked for.
+void TriangulationRun::ChooseHeights()
+{
+  const HeightsKind heights = this->Asked.Heights;
+  const bool isProjected = IsProjected(this->Asked);
+  if (heights == HeightsKind::Survey && isProjected)
+  {
+    throw InvalidOptions("SegmentHeights: the heights of the survey are for x and y; with another "
+                         "projection choose Own");
+  }
+  const vtkIdType given = this->Given->GetNumberOfPoints();
+  std::vector<std::int64_t> added(this->Points->GetNumberOfPoints() - given), lifted;
+  std::iota(added.begin(), added.end(), given);
+  if (heights == HeightsKind::Survey)
+  {
+    lifted = added;
+  }
+  else if (heights == HeightsKind::Auto && !isProjected)
+  {
+    lifted = this->FlatPoints;
+  }
+  if (heights != HeightsKind::Auto)
+  {
+    this->FlatPoints.clear(); // nobody is told of what was asked for
+  }
+  this->TakeHeights(this->Asked.FillsData ? added : lifted, lifted);
+}
+
+/// The numbers that points of the second input get from the given ones: pairs of an array of the
+/// points and a component. z is the first one.
+std::vector<std::pair<vtkDataArray*, int>> TriangulationRun::ListSurveyed() const
+{
+  vtkDataArray* xyz = this->Points->GetPoints()->GetData();
+  std::vector<std::pair<vtkDataArray*, int>> numbers = { { xyz, 2 } };
+  vtkPointData* data = this->Points->GetPointData();
+  const vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
+    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i); // null if it has no numbers
+    if (!array || !array->GetName() ||
+      std::count(std::begin(labels), std::end(labels), array) > 0 ||
+      this->Asked.Others->GetPointData()->HasArray(array->GetName()))
+    {
+      continue;
+    }
+    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+    {
+      numbers.push_back({ array, k });
+    }
+  }
+  return numbers;
+}
+
+/// Gives points of the second input the data of the given points, and those of them that are lifted
+/// the heights: interpolated in the triangulation of the given points alone, and outside of it as
+/// at the nearest place on its boundary. Without triangles nothing changes.
+void TriangulationRun::TakeHeights(
+  const std::vector<std::int64_t>& points, const std::vector<std::int64_t>& lifted)
+{
+  PointInput given;
+  given.Points = this->View.Points;
+  given.Points.Count = this->Given->GetNumberOfPoints();
+  if (points.empty() || given.Points.Count == 0)
+  {
+    return;
+  }
+  const auto numbers = this->ListSurveyed();
+  if (lifted.empty() && numbers.size() == 1)
+  {
+    return;
+  }
+  PointOptions options;
+  options.Backend = this->Asked.Options.Backend;
+  options.Device = this->Asked.Options.Device;
+  options.NumberOfThreads = this->Asked.Options.NumberOfThreads;
+  const ProgressObserver observer = this->Plan.For(UpdatePlan::Heights);
+  FlipSession survey(given, options, observer);
+  survey.Advance(-1, {}, observer);
+  if (survey.GetReport().StopReason == StopReasonKind::Aborted)
+  {
+    throw RunAborted();
+  }
+  if (survey.GetReport().Triangles == 0)
+  {
+    return;
+  }
+  const std::size_t width = numbers.size();
+  std::vector<double> values(given.Points.Count * width), places, results(points.size() * width);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const auto& [array, component] = numbers[i % width];
+    values[i] = array->GetComponent(static_cast<vtkIdType>(i / width), component);
+  }
+  for (const std::int64_t point : points)
+  {
+    places.insert(
+      places.end(), { this->View.Points.Get(point, 0), this->View.Points.Get(point, 1) });
+  }
+  PlaceQuery query;
+  query.Places = { places.data(), static_cast<std::int64_t>(points.size()), 2 };
+  query.Values = values.data();
+  query.Components = static_cast<int>(width);
+  query.Outside = OutsideKind::Nearest;
+  query.Results = results.data();
+  survey.Ask(query);
+  std::vector<bool> areLifted(this->Points->GetNumberOfPoints(), false);
+  for (const std::int64_t point : lifted)
+  {
+    areLifted[point] = true;
+  }
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    const auto& [array, component] = numbers[i % width];
+    const std::int64_t point = points[i / width];
+    const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+    const bool isWanted = i % width > 0 || areLifted[point];
+    if (isReal && isWanted)
+    {
+      array->SetComponent(point, component, results[i]);
+    }
+    else if (isWanted && std::isfinite(results[i]))
+    {
+      array->SetComponent(point, component, std::round(results[i]));
+    }
+  }
+  this->Points->GetPoints()->Modified();
+  this->AreLifted = !lifted.empty();
 }
 
 //------------------------------------------------------------------------------

@@ -155,6 +155,7 @@ public:
     Polygons, ///< Are split.
     Constraints, ///< Are matched.
     Regions, ///< Are labelled.
+    Heights, ///< Of points of segments, are found.
     Session, ///< The engine.
     Output,
     Angles, ///< For GenerateQuality.
@@ -166,7 +167,7 @@ public:
     : Observer(std::move(observer))
   {
     // Each part's time in units of the engine's, measured once on one thread.
-    constexpr double Durations[] = { 0.4, 0.2, 0.3, 0.3, 1.0, 0.05, 0.4 };
+    constexpr double Durations[] = { 0.4, 0.2, 0.3, 0.3, 0.9, 1.0, 0.05, 0.4 };
     double sum = 0.0;
     for (int part = 0; part < NumberOfParts; ++part)
     {

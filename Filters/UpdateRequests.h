@@ -36,6 +36,14 @@ struct DELAUNAYFLIP_EXPORT FlipRequest : UpdateRequest
   bool WantsAngles = false; ///< The output gets cell arrays of smallest angles.
 };
 
+/// Which heights points get that only segments have.
+enum class HeightsKind
+{
+  Auto, ///< Survey for lines, outlines or holes with z = 0 throughout, if other points have others.
+  Survey, ///< Those of the given points there.
+  Own
+};
+
 /// What an update of a vtkDelaunayFlipPoints asks for. The first input has the points, their data,
 /// and the lines that are segments. The second input has more segments.
 struct TriangulationRequest : UpdateRequest
@@ -50,6 +58,9 @@ struct TriangulationRequest : UpdateRequest
   bool LinesAsSegments = false;
   bool ClosedLinesAsRings = true;
   vtkIdType FirstHole = -1;
+  HeightsKind Heights = HeightsKind::Auto; ///< In a projection Auto is Own.
+  /// Points that only the second input has get point data of the first one, whatever their heights.
+  bool FillsData = false;
   PointOptions Options;
 };
 

@@ -479,7 +479,8 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
   }
   const std::string trouble =
     DescribeTrouble(*this->Report, this->MaximumIterations >= 0, this->HasTolerance());
-  const bool isNew = this->Runs->IsNewWarning(trouble); // live updates give each warning once
+  // Live updates give each warning once.
+  const bool isNew = !this->LiveUpdate || this->Runs->IsNewWarning(trouble);
   if (isNew && !trouble.empty())
   {
     summary.Warnings.push_back({ block.Name, trouble });

@@ -70,15 +70,7 @@ public:
       points = projected;
     }
     this->Mesh->SetPoints(points);
-    const PointArray xyz = ViewPoints(this->Mesh, this->Storage);
-    if (xyz.Floats)
-    {
-      this->Query.Places = { xyz.Floats, xyz.Count, 3 };
-    }
-    else
-    {
-      this->Query.Places = { xyz.Doubles, xyz.Count, 3 };
-    }
+    this->Query.Places = ViewPlane(ViewPoints(this->Mesh, this->Storage));
   }
 
   vtkIdType Count;
@@ -415,6 +407,7 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   TriangulationRequest request = this->MakeRequest(given);
   request.Input = points;
   request.Others = segments;
+  request.FillsData = true; // zeros of points of segments would be seen
   request.IsLive = true; // keeps the run
   request.IterationsPerUpdate = -1;
   const auto progress = request.Progress;

@@ -21,6 +21,7 @@ using namespace delaunayflip;
 
 static_assert(
   static_cast<int>(RingRuleKind::Orientation) == vtkDelaunayFlipPoints::RING_RULE_ORIENTATION, "");
+static_assert(static_cast<int>(HeightsKind::Own) == vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_OWN, "");
 
 vtkStandardNewMacro(vtkDelaunayFlipPoints);
 vtkCxxSetObjectMacro(vtkDelaunayFlipPoints, Transform, vtkAbstractTransform);
@@ -83,6 +84,7 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   request.LinesAsSegments = this->LinesAsSegments;
   request.ClosedLinesAsRings = this->ClosedLinesAsRings;
   request.FirstHole = this->FirstHole;
+  request.Heights = static_cast<HeightsKind>(this->SegmentHeights);
   request.Options.Backend = static_cast<BackendKind>(this->Backend);
   request.Options.Device = this->DeviceId;
   request.Options.NumberOfThreads = this->NumberOfThreads;
@@ -157,6 +159,7 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SplitCrossings: " << this->SplitCrossings << "\n";
   os << indent << "RingRule: " << this->RingRule << "\n";
   os << indent << "FirstHole: " << this->FirstHole << "\n";
+  os << indent << "SegmentHeights: " << this->SegmentHeights << "\n";
   os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";
   os << indent << "ClosedLinesAsRings: " << this->ClosedLinesAsRings << "\n";
 }

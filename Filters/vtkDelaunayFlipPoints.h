@@ -52,9 +52,9 @@
  * than once along its loop counts once. Without an outline the mesh reaches to holes outside of the
  * points of the first input, and a warning counts such points.
  *
- * The heights of added points are those of the second input. If its lines, outlines or holes have
- * z = 0 throughout, and the points of the first input do not, a warning counts the added points:
- * the mesh goes to z = 0 there.
+ * The heights of added points are those of the second input. But if its lines, outlines or holes
+ * have z = 0 throughout, and the points of the first input do not, the added points get heights of
+ * these, with a warning that counts them (see SegmentHeights).
  *
  * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
  * nothing is removed.
@@ -212,6 +212,28 @@ public:
 
   ///@{
   /**
+   * Which z points have that only the second input has. SURVEY: that of the first input there,
+   * linear in the triangulation of its points alone, and outside of it that of the nearest place on
+   * its boundary. So have all arrays of numbers that the second input does not have; integers are
+   * rounded. OWN: that of the second input. AUTO (default): SURVEY for its lines, outlines or
+   * holes, each of the three by itself, that have z = 0 throughout, if the first input has other
+   * heights; else OWN. For x and y only: in another projection AUTO is OWN, and SURVEY an error.
+   */
+  enum SegmentHeightsType
+  {
+    SEGMENT_HEIGHTS_AUTO = 0,
+    SEGMENT_HEIGHTS_SURVEY = 1,
+    SEGMENT_HEIGHTS_OWN = 2
+  };
+  vtkSetClampMacro(SegmentHeights, int, SEGMENT_HEIGHTS_AUTO, SEGMENT_HEIGHTS_OWN);
+  vtkGetMacro(SegmentHeights, int);
+  void SetSegmentHeightsToAuto() { this->SetSegmentHeights(SEGMENT_HEIGHTS_AUTO); }
+  void SetSegmentHeightsToSurvey() { this->SetSegmentHeights(SEGMENT_HEIGHTS_SURVEY); }
+  void SetSegmentHeightsToOwn() { this->SetSegmentHeights(SEGMENT_HEIGHTS_OWN); }
+  ///@}
+
+  ///@{
+  /**
    * Take the lines of the first input, if it is a vtkPolyData, as segments, also closed ones.
    * Default off.
    */
@@ -273,6 +295,7 @@ protected:
   bool SplitCrossings = false;
   int RingRule = RING_RULE_EVEN_ODD;
   vtkIdType FirstHole = -1;
+  int SegmentHeights = SEGMENT_HEIGHTS_AUTO;
   bool LinesAsSegments = false;
   bool ClosedLinesAsRings = true;
 

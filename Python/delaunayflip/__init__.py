@@ -44,7 +44,7 @@ if typing.TYPE_CHECKING:
     from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
-    from ._vtk import vtkDelaunayFlip, vtkDelaunayFlipPoints
+    from ._vtk import vtkDelaunayFlip, vtkDelaunayFlipInterpolator, vtkDelaunayFlipPoints
 
     __version__: str
 
@@ -55,7 +55,7 @@ __all__ = [
     "triangulate",
 ]
 if importlib.util.find_spec("vtkmodules"):
-    __all__ += ["vtkDelaunayFlip", "vtkDelaunayFlipPoints"]
+    __all__ += ["vtkDelaunayFlip", "vtkDelaunayFlipInterpolator", "vtkDelaunayFlipPoints"]
 
 # Modules of the names that are in neither _library nor _vtk.
 _HOMES = {
@@ -67,6 +67,7 @@ _HOMES = {
 # The names of _vtk, and what they need beside VTK.
 _NEEDS = {
     "vtkDelaunayFlip": "numpy",
+    "vtkDelaunayFlipInterpolator": "numpy",
     "vtkDelaunayFlipPoints": "numpy",
     "vtkDelaunayFlipLiveView": f"{__name__}.vtkDelaunayFlipRendering",
     "vtkPDelaunayFlip": f"{__name__}.vtkDelaunayFlipFiltersParallel",

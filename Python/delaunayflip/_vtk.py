@@ -48,8 +48,10 @@ def __getattr__(name: str) -> typing.Any:
 
 
 if _is_built_for_this_vtk():
-    from .vtkDelaunayFlipFilters import vtkDelaunayFlip, vtkDelaunayFlipPoints
+    from .vtkDelaunayFlipFilters import (
+        vtkDelaunayFlip, vtkDelaunayFlipInterpolator, vtkDelaunayFlipPoints)
 else:
     from ._vtk_filter import vtkDelaunayFlip, vtkDelaunayFlipPoints
+    from ._vtk_interpolator import vtkDelaunayFlipInterpolator
 
-__all__ = ["vtkDelaunayFlip", "vtkDelaunayFlipPoints"]
+__all__ = ["vtkDelaunayFlip", "vtkDelaunayFlipInterpolator", "vtkDelaunayFlipPoints"]

@@ -19,11 +19,11 @@ from vtkmodules.vtkCommonExecutionModel import (
 
 from . import _library
 from ._options import CHOICES, Options
-from ._points import triangulate
+from ._points import run_points
 from ._report import (
     FIELD_PREFIX, GEOMETRIES, ITERATION, MAIN_NUMBERS, POINT_NUMBERS, Totals, describe, to_camel_case)
 from ._rings import RING_RULES
-from ._vtk_mesh import CELL_ARRAYS, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
+from ._vtk_mesh import CELL_ARRAYS, HEIGHTS, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 
 _UNKNOWN_ERROR = 20008  # vtkErrorCode::UnknownError
 #: vtkDelaunayFlip.FAILURE_...
@@ -96,10 +96,13 @@ class Filter(VTKPythonAlgorithmBase):
     kind = vtkPolyData  #: What is processed.
     no_mesh = "not a surface, passed unchanged"
     no_composite = "the constraints of a single mesh cannot be a composite dataset"
+    others = (vtkPolyData,)  #: What the other inputs are; the last one is optional.
+    keeps_type = False  #: Whether the output is of the first input's type, not a vtkPolyData.
     properties = ()
 
     def __init__(self, **properties):
-        super().__init__(nInputPorts=2, nOutputPorts=2, inputType=self.kind.__name__)
+        super().__init__(
+            nInputPorts=1 + len(self.others), nOutputPorts=2, inputType=self.kind.__name__)
         self._values = {item.name: item.default for item in self.properties}
         self._is_at_work = self._has_run = False
         self._forget()
@@ -147,7 +150,7 @@ class Filter(VTKPythonAlgorithmBase):
 
     def _look_for_refused_input(self):
         """If there is no usable input, VTK has told of it, and has not asked for an update."""
-        fault = self._describe_fault(0) or self._describe_fault(1)
+        fault = next(filter(None, map(self._describe_fault, range(self.GetNumberOfInputPorts()))), "")
         if not fault:
             return
         self._forget()
@@ -157,23 +160,22 @@ class Filter(VTKPythonAlgorithmBase):
                 self.GetOutputDataObject(port).Initialize()  # what an earlier update has made
 
     def _describe_fault(self, port):
-        """What is wrong with the data of an input port; "" if nothing. The second input is optional."""
-        name = "second input" if port else "input"
+        """What is wrong with the data of an input port; "" if nothing."""
+        name = ("input", "second input", "third input")[port]
         if self.GetNumberOfInputConnections(port) == 0:
-            return "" if port else "there is no input"
+            return "" if port == len(self.others) else f"there is no {name}"
         data = self.GetInputDataObject(port, 0)
         if data is None or self.GetInputAlgorithm(port, 0).GetErrorCode():
             return f"the {name} was not made: see the errors of what makes it"
-        types = ("vtkPolyData" if port else self.kind.__name__, "vtkCompositeDataSet")
+        types = ((self.kind, *self.others)[port].__name__, "vtkCompositeDataSet")
         if any(map(data.IsA, types)):
             return ""
         return f"the {name} is a {data.GetClassName()}; it must be a {' or '.join(types)}"
 
     def FillInputPortInformation(self, port, info):
-        if port == 1:
+        if port == len(self.others):
             info.Set(vtkAlgorithm.INPUT_IS_OPTIONAL(), 1)
-        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(),
-                 self.kind.__name__ if port == 0 else "vtkPolyData")
+        info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), (self.kind, *self.others)[port].__name__)
         # Otherwise the executive would run the filter once per block, and it could not sum over them.
         info.Append(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet")
         return 1
@@ -191,9 +193,10 @@ class Filter(VTKPythonAlgorithmBase):
         return super().ProcessRequest(request, inInfo, outInfo)
 
     def RequestDataObject(self, request, inInfo, outInfo):
-        """Port 0: composite data of the input's type, or a mesh."""
-        blocks = vtkDataObject.GetData(inInfo[0], 0)
-        made = blocks.NewInstance() if isinstance(blocks, vtkCompositeDataSet) else vtkPolyData()
+        """Port 0: a mesh, or data of the input's type."""
+        given = vtkDataObject.GetData(inInfo[0], 0)
+        keeps_type = given is not None and self.keeps_type or isinstance(given, vtkCompositeDataSet)
+        made = given.NewInstance() if keeps_type else vtkPolyData()
         output = vtkDataObject.GetData(outInfo, 0)
         if output is None or output.GetClassName() != made.GetClassName():
             outInfo.GetInformationObject(0).Set(vtkDataObject.DATA_OBJECT(), made)
@@ -215,7 +218,7 @@ class Filter(VTKPythonAlgorithmBase):
         return 1
 
     def RequestData(self, request, inInfo, outInfo):
-        source, others, output = (vtkDataObject.GetData(vector, 0) for vector in (*inInfo, outInfo))
+        source, others, output = (vtkDataObject.GetData(vector, 0) for vector in (*inInfo[:2], outInfo))
         table = vtkDataObject.GetData(outInfo, 1)
         source = output.NewInstance() if source is None else source  # an observer may have removed it
         self._is_at_work = self._has_run = True
@@ -267,6 +270,7 @@ class Filter(VTKPythonAlgorithmBase):
         self._sum = self._totals = Totals()
         self._errors, self._warnings, self._failure = [], [], 0
         self._block = (0.0, 1.0)  # the share of the cells before the current block, and its own
+        self._place, self._where = (), ""  # of the block; in messages
 
     def _fail(self, error, where=""):
         failure = next(name for kind, name in _FAILURES_OF.items() if isinstance(error, kind))
@@ -290,8 +294,8 @@ class Filter(VTKPythonAlgorithmBase):
         if pieces > 1 and self._sum.report.triangles and self.kind is vtkPolyData:
             self._warnings.append(("", "edges between pieces of the mesh stayed as they were"))
 
-    def _warn_of_misfits(self, source, others):
-        """Warns of what of the second input is ignored."""
+    def _warn_of_misfits(self, source, others, input_name="second input"):
+        """Warns of what of another input is ignored."""
         places = _list_leaves(source)
         for place, (name, data) in _list_leaves(others).items():
             fault = ("ignored, because the first input has nothing at this place"
@@ -299,7 +303,7 @@ class Filter(VTKPythonAlgorithmBase):
                      else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
                      else "triangle strips ignored" if data.GetNumberOfStrips() else "")
             if fault and data.GetNumberOfElements(vtkDataObject.CELL):
-                self._warnings.append((name + " of the " * bool(name) + "second input", fault))
+                self._warnings.append((name + " of the " * bool(name) + input_name, fault))
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.change(stop_reason="converged")  # the result for an input without blocks
@@ -319,8 +323,9 @@ class Filter(VTKPythonAlgorithmBase):
                 self._warnings.append((name, self.no_mesh))
             if is_mesh and self._sum.report.stop_reason != "aborted":
                 _, others = edges.get(()) or edges.get(place, ("", None))
-                result = vtkPolyData()
-                self._try_to_flip(data, others if isinstance(others, vtkPolyData) else None, result, name)
+                result, self._place = data.NewInstance() if self.keeps_type else vtkPolyData(), place
+                others = others if isinstance(others, self.others[0]) else None
+                self._try_to_flip(data, others, result, name)
             output.SetDataSet(leaf, result)
 
     def _judge_partitions(self, blocks, _):
@@ -329,11 +334,11 @@ class Filter(VTKPythonAlgorithmBase):
                 ("", "partitions were flipped one by one; edges between them stayed as they were"))
 
     def _try_to_flip(self, mesh, constraints, output, where=""):
-        self._totals = Totals()
+        self._totals, self._where = Totals(), where
         try:
             if isinstance(constraints, vtkCompositeDataSet):
                 raise _library.InvalidOptions(self.no_composite)
-            trouble = self._flip(_drop_results(mesh), constraints, output)
+            trouble = self._flip(mesh if self.keeps_type else _drop_results(mesh), constraints, output)
         except Exception as error:
             self._fail(error, where)
             output.Initialize()
@@ -607,10 +612,10 @@ class vtkDelaunayFlipPoints(Filter):
     no_composite = "the segments of a single dataset cannot be a composite dataset"
 
     def SetSegmentsConnection(self, port):
-        self.SetInputConnection(1, port)
+        self.SetInputConnection(len(self.others), port)
 
     def SetSegmentsData(self, segments):
-        self.SetInputDataObject(1, segments)
+        self.SetInputDataObject(len(self.others), segments)
 
     def _judge_partitions(self, blocks, constraints):
         if _has_partitions(blocks, self.kind):
@@ -635,15 +640,21 @@ class vtkDelaunayFlipPoints(Filter):
         count = data.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments is not None else 0)
         if count == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if count else "converged")
+        return self._triangulate(data, segments, output, self._observe_part(1.0))[1]
+
+    def _triangulate(self, data, segments, output, progress, keeps=False):
+        """Returns the Triangulation, whose session is kept or not, and the text of a warning, or ""."""
+        options = self._get_options("backend", "alpha", "longest_edge", "point_tolerance", "split_crossings")
         cloud = Cloud(
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
-            closed_lines_as_rings=self.closed_lines_as_rings, ring_rule=RING_RULES[self.ring_rule])
+            closed_lines_as_rings=self.closed_lines_as_rings, ring_rule=RING_RULES[self.ring_rule],
+            heights=HEIGHTS[self.segment_heights], fills_data=keeps,
+            backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.split_option = "SplitCrossings"
-        result = triangulate(
-            cloud, progress=self._observe_part(1.0), on_iteration=self._observe, **self._get_options(
-                "backend", "alpha", "longest_edge", "point_tolerance", "split_crossings"))
+        cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")
+        result, _ = run_points(cloud, options, progress, self._observe, keeps)
         self._totals = Totals.of_run(result.report, result.iterations)
-        return cloud.write(result, output)
+        return result, cloud.write(result, output)
 
 
 finish(vtkDelaunayFlipPoints, (
@@ -652,4 +663,5 @@ finish(vtkDelaunayFlipPoints, (
     Property("ClosedLinesAsRings", True),
     Property("RingRule", 0, 0, 2, ("EvenOdd", "NonZero", "Orientation")),
     Property("FirstHole", -1, -1, VTK_ID_MAX),
+    Property("SegmentHeights", 0, 0, 2, ("Auto", "Survey", "Own")),
 ), count_answers("NumberOf", "SegmentEdges", "RefusedSegments"))

@@ -3,12 +3,14 @@
 """Converts meshes, points and segments of any VTK to the engine's arrays, and back."""
 import functools
 import importlib
+import itertools
 
 import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._points import Input
+from ._options import choose
+from ._points import Input, interpolate_in_survey
 from ._report import FIELD_PREFIX, POINT_NUMBERS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
 from ._surface import NONE, Constraints, Slots, Surface, join_corners, number_places, number_tuples
@@ -18,6 +20,7 @@ SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_const
 #: Names of cell arrays of results.
 CELL_ARRAYS = (
     "vtkDelaunayFlipCount", "Smallest angle before (degrees)", "Smallest angle after (degrees)")
+HEIGHTS = None, "survey", "own"  #: SegmentHeights
 _GHOSTS = "vtkGhostType"
 _GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
@@ -291,9 +294,10 @@ class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
     def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
-                 first_hole=-1, **rings):
-        """`others`: the second input of the filter, or pairs of point ids. `rings`: outline, holes,
-        hole_seeds and ring_rule, as for triangulate."""
+                 first_hole=-1, heights=None, fills_data=False, backend=None, **rings):
+        """`others`: the second input of the filter, or pairs of point ids. `heights`: SegmentHeights.
+        `fills_data`: whether added points get data whatever their heights. `backend`: keywords that say
+        where these are found. `rings`: outline, holes, hole_seeds and ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data
         mesh = self.vtk.model.vtkPolyData()
         mesh.SetPoints(data.GetPoints())
@@ -320,6 +324,38 @@ class Cloud(Input):
         own = len(self._pairs[0])
         self.find_flat_points(
             data.GetNumberOfPoints(), self.all_segments[own:], self.all_rings[own:])
+        self._surveyed = []  # (name, ids, values) of each array of added points
+        self._choose_heights(heights, fills_data, backend or {})
+
+    def _choose_heights(self, heights, fills_data, backend):
+        """Gives added points the heights that are asked for, and data in arrays that the segments do not
+        have, interpolated between the points of the dataset."""
+        count, data = self.data.GetNumberOfPoints(), self.data.GetPointData()
+        added = numpy.arange(count, len(self.points))
+        if heights is not None:
+            choose("heights", heights, HEIGHTS[1:])
+        lifted = (self.flat_points, added, added[:0])[HEIGHTS.index(heights)]
+        if heights is not None:
+            self.flat_points = added[:0]  # nobody is told of what was asked for
+        ids = added if fills_data else lifted
+        theirs = self._others.GetPointData() if hasattr(self._others, "GetPointData") else None
+        labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
+        names = [array.GetName() for array in _list_arrays(data)
+                 if array.GetName() and array.IsNumeric() and array.GetNumberOfTuples() >= count
+                 and not _is_among(array, labels) and not (theirs and theirs.HasArray(array.GetName()))]
+        if count == 0 or len(ids) == 0 or not (len(lifted) or names):
+            return
+        columns = [self.points[:count, 2:]]
+        columns += [self.vtk.view(data.GetArray(name))[:count].reshape(count, -1) for name in names]
+        values = numpy.concatenate([column.astype(float) for column in columns], axis=1)
+        found = interpolate_in_survey(self.points[:count], values, self.points[ids], backend)
+        if found is None:
+            return
+        self.points[lifted, 2] = found[numpy.isin(ids, lifted), 0]
+        ends = numpy.cumsum([column.shape[1] for column in columns])
+        self._surveyed = list(zip(names, itertools.repeat(ids), numpy.split(found, ends, axis=1)[1:]))
+        if len(lifted):
+            self.flat_fate = 'they have got the heights of the given points there; heights="own" keeps z = 0'
 
     def _add_cells(self, cells, ids, closed_lines_as_rings=False, are_polygons=False):
         cells.require_points(len(ids))
@@ -390,6 +426,11 @@ class Cloud(Input):
             others = self._others
             self.vtk.add_tuples(
                 others.GetPointData(), others.GetNumberOfPoints(), self._sources, count, size, data)
+        for name, ids, values in self._surveyed:
+            numbers = self.vtk.view(data.GetArray(name))
+            if numbers.dtype.kind != "f":
+                values = numpy.nan_to_num(numpy.trunc(values + numpy.copysign(0.5, values)))
+            numbers.reshape(size, -1)[ids] = values
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
         for array in _list_arrays(data):
             for place, (start, end, share) in enumerate(() if _is_among(array, labels) else self.ends, first):

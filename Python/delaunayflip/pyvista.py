@@ -97,7 +97,8 @@ def triangulate(
     outline: "typing.Union[None, pyvista.PolyData, Rings]" = None,
     holes: "typing.Union[None, pyvista.PolyData, Rings]" = None,
     hole_seeds: "typing.Optional[Numbers]" = None, ring_rule: "RingRule" = "evenodd",
-    lines_as_segments: bool = False, closed_lines_as_rings: bool = True, **options: typing.Any,
+    lines_as_segments: bool = False, closed_lines_as_rings: bool = True,
+    heights: "typing.Optional[typing.Literal['survey', 'own']]" = None, **options: typing.Any,
 ) -> "pyvista.PolyData":
     """The Delaunay mesh of the points of a dataset in x and y, with their data.
 
@@ -112,6 +113,9 @@ def triangulate(
         hole_seeds, ring_rule: As for delaunayflip.triangulate.
         lines_as_segments: Whether the lines of `cloud` become edges, too.
         closed_lines_as_rings: If False, closed lines of the segments are only edges, such as contours.
+        heights: Those of added points: "survey": of the cloud there, interpolated, as are its data;
+            "own": those of segments and rings; None: "survey" for lines, outlines or holes with z = 0
+            throughout, if the cloud has other heights, with a warning.
         **options: alpha, longest_edge, point_tolerance, split_crossings, backend, threads, device,
             maximum_iterations and progress, as for delaunayflip.triangulate.
 
@@ -136,7 +140,8 @@ def triangulate(
     given = Cloud(
         cloud, segments, lines_as_segments=lines_as_segments, closed_lines_as_rings=closed_lines_as_rings,
         outline=_list_rings("outline", outline), holes=_list_rings("holes", holes), hole_seeds=hole_seeds,
-        ring_rule=ring_rule)
+        ring_rule=ring_rule, heights=heights,
+        backend={name: options[name] for name in ("backend", "threads", "device") if name in options})
     trouble = given.write(_triangulate_arrays(given, **options), made)
     if trouble:
         warnings.warn(trouble, stacklevel=2)

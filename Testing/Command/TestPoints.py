@@ -377,6 +377,11 @@ class Segments(PointTest):
         result = self.triangulate("in.xyz", "--outline", outline, "--constraints",
                                   self.write_mesh(line, "line.vtk"))[1]
         self.assertIn("warning: 3 points of segments without heights", result.stderr)
+        self.assertIn("have got the heights of the given points there; --heights own keeps", result.stderr)
+        for options, height in (([], 100.5), (["--heights", "own"], 0), (["--heights", "survey"], 100.5)):
+            mesh, result = self.triangulate("in.xyz", "--outline", outline, *options)
+            self.assertAlmostEqual(mesh.GetPoint(25)[2], height)
+            self.assertEqual("warning" in result.stderr, not options)
 
     def test_outline_elsewhere(self):
         outline = self.rings("outline.vtk", [(50, 50, 0), (53, 50, 0), (53, 53, 0)])

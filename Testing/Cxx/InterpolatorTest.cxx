@@ -234,6 +234,19 @@ TEST(Interpolator, SegmentsAndProjections)
     const bool isInside = x[0] >= 2 && x[1] >= 2 && x[0] <= 8 && x[1] <= 8;
     EXPECT_EQ(data->GetArray("vtkValidPointMask")->GetTuple1(i), isInside);
   }
+  // Points that only a breakline has get the data of the source.
+  const auto marked = MakeSource();
+  const auto ones = MakeArray<vtkDoubleArray>("ones", marked->GetNumberOfPoints());
+  ones->FillValue(1.0);
+  marked->GetPointData()->AddArray(ones);
+  Interpolator broken(places);
+  broken->SetSourceData(marked);
+  broken->SetSegmentsData(MakeLines({ { 1, 1, 80 }, { 9, 7, 90 } }, { { 0, 1 } }));
+  broken->SetOutsideToNearest();
+  for (const double value : GetValues(Update(broken), "ones"))
+  {
+    EXPECT_NEAR(value, 1.0, 1e-12);
+  }
   // The plane of x and y stands upright, and so do the places.
   const std::vector<double> flat = [&]()
   {

@@ -391,6 +391,85 @@ TEST(FromPoints, ClosedLinesAreRings)
   EXPECT_EQ(own->GetOutput()->GetNumberOfPolys(), 1);
 }
 
+/// Points of segments, of which those of a hole have heights, in a survey of a plane.
+TEST(FromPoints, HeightsOfSegments)
+{
+  Points corners = MakeCloud(300);
+  corners.insert(corners.end(), { { 0, 0, 0 }, { 10, 0, 0 }, { 10, 10, 0 }, { 0, 10, 0 } });
+  for (auto& point : corners)
+  {
+    point[2] = 5.0 + point[0] - 2.0 * point[1];
+  }
+  auto survey = ToMesh(corners);
+  const auto count = static_cast<vtkIdType>(corners.size());
+  auto reals = MakeArray<vtkDoubleArray>("reals", count, 2);
+  auto integers = MakeArray<vtkIntArray>("integers", count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    reals->SetTuple2(i, corners[i][0], corners[i][1]);
+    integers->SetValue(i, static_cast<int>(100.0 * corners[i][0]));
+  }
+  survey->GetPointData()->AddArray(reals);
+  survey->GetPointData()->AddArray(integers);
+  AddNumbers(survey->GetPointData(), "both", count, 0);
+  AddNumbers(survey->GetPointData(), "ids", count, 0);
+  survey->GetPointData()->SetActiveGlobalIds("ids");
+  // An outline that reaches over the survey, and a hole.
+  auto rings = MakeMesh(
+    { { 1, 1, 0 }, { 9, 1, 0 }, { 9, 12, 0 }, { 1, 9, 0 }, { 3, 3, 7 }, { 4, 3, 7 }, { 4, 4, 7 } },
+    { { 0, 1, 2, 3 }, { 4, 5, 6 } });
+  AddNumbers(rings->GetPointData(), "both", 7, 70);
+  struct Case
+  {
+    int Choice;
+    double OfOutline, OfHole, RealOfHole;
+    const char* Warning;
+  };
+  const std::vector<Case> cases = {
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_AUTO, 4.0, 7.0, 0.0,
+      "4 points of segments without heights (z = 0 throughout; the given points have z = -15 to "
+      "15): they have got the heights of the given points there; SegmentHeights Own keeps z = 0" },
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_SURVEY, 4.0, 2.0, 3.0, nullptr },
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_OWN, 0.0, 7.0, 0.0, nullptr },
+  };
+  for (const Case& each : cases)
+  {
+    PointsFilter filter(survey);
+    filter->SetSegmentsData(rings);
+    filter->SetFirstHole(1);
+    filter->SetSegmentHeights(each.Choice);
+    Mesh output = filter->GetOutput();
+    if (each.Warning)
+    {
+      ExpectHolds(RunToWarning(filter), each.Warning);
+    }
+    else
+    {
+      output = RunCleanly(filter);
+    }
+    EXPECT_NEAR(output->GetPoint(count)[2], each.OfOutline, 1e-12);
+    EXPECT_NEAR(output->GetPoint(count + 4)[2], each.OfHole, 1e-12);
+    vtkPointData* data = output->GetPointData();
+    const bool isLifted = each.OfOutline != 0.0;
+    EXPECT_NEAR(data->GetArray("reals")->GetComponent(count + 2, 1), isLifted ? 10.0 : 0.0, 1e-12);
+    EXPECT_NEAR(data->GetArray("reals")->GetComponent(count + 4, 0), each.RealOfHole, 1e-12);
+    EXPECT_NEAR(data->GetArray("integers")->GetTuple1(count), isLifted ? 100.0 : 0.0, 1.0);
+    EXPECT_EQ(data->GetArray("both")->GetTuple1(count), 70.0);
+    EXPECT_EQ(data->GetArray("ids")->GetTuple1(count), 0.0);
+    EXPECT_EQ(rings->GetPoint(0)[2], 0.0);
+  }
+  PointsFilter projected(survey);
+  projected->SetSegmentsData(rings);
+  projected->SetFirstHole(1);
+  projected->SetProjectionToBestFittingPlane();
+  projected->SetSegmentHeightsToSurvey();
+  ExpectHolds(RunToError(projected, vtkDelaunayFlip::FAILURE_OPTIONS), "another projection");
+  // Without triangles of their own, points have no heights for others.
+  PointsFilter line(ToMesh({ { 0, 0, 1 }, { 1, 1, 2 }, { 2, 2, 3 } }));
+  line->SetSegmentsData(MakeLines({ { 3, 3, 0 }, { 0, 5, 0 } }, { { 0, 1 } }));
+  ExpectHolds(RunToWarning(line), "the mesh goes to z = 0 there");
+}
+
 TEST(FromPoints, RingsWithoutAreaAreLeftOut)
 {
   Points points = MakeCloud(400);

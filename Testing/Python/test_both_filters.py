@@ -10,17 +10,20 @@ import unittest.mock
 import warnings
 
 import delaunayflip
-from delaunayflip import vtkDelaunayFlip as CxxFilter, vtkDelaunayFlipPoints as CxxPoints
+from delaunayflip import (
+    vtkDelaunayFlip as CxxFilter, vtkDelaunayFlipInterpolator as CxxInterpolator,
+    vtkDelaunayFlipPoints as CxxPoints)
 from delaunayflip import _vtk_filter
 from delaunayflip._vtk_filter import (
     _ANSWERS, _COMMON_ANSWERS, vtkDelaunayFlip as PythonFilter,
     vtkDelaunayFlipPoints as PythonPoints)
+from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator as PythonInterpolator
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkObject
 from vtkmodules.vtkCommonDataModel import (
-    vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData, vtkTable)
+    vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData, vtkRectilinearGrid, vtkTable)
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
 from test_vtk_delaunay_flip import (
@@ -106,6 +109,7 @@ def read_mesh(mesh):
     if mesh.IsA("vtkPolyData"):
         for cells in (mesh.GetVerts(), mesh.GetLines(), mesh.GetPolys(), mesh.GetStrips()):
             parts.append((get_cells(cells), cells.GetConnectivityArray().GetDataTypeSize()))
+    if mesh.IsA("vtkDataSet"):
         data = (mesh.GetPointData(), mesh.GetCellData())
         parts += [read_array(array) for attributes in data for array in list_arrays(attributes)]
         parts += [attribute and attribute.GetName() for attributes in data for attribute in map(
@@ -394,6 +398,83 @@ def make_segments(cloud, kind):
     return segments
 
 
+class SameInterpolator(Pair, unittest.TestCase):
+
+    kinds = CxxInterpolator, PythonInterpolator
+    test_names_of_numbers = None  # the output has none
+
+    def make_source(self, kind=numpy.float64):
+        source = make_cloud(200, kind=kind)
+        places = vtk_to_numpy(source.GetPoints().GetData())
+        for name, values in (("real", places[:, :2] / 7), ("single", places[:, 0].astype(numpy.float32)),
+                             ("integer", numpy.arange(200)), ("text", ["a"] * 200), ("short", [1.0])):
+            add_array(source.GetPointData(), name, values)
+        source.GetPointData().SetActiveScalars("single")
+        add_array(source.GetPointData(), "ids", numpy.arange(200))
+        source.GetPointData().SetActiveGlobalIds("ids")
+        return source
+
+    def list_places(self):
+        image, shifted, grid = vtkImageData(), vtkImageData(), vtkRectilinearGrid()
+        for each, first in ((image, 0), (shifted, 3)):
+            each.SetExtent(first, first + 12, 0, 9, 0, 1)
+            each.SetSpacing(2.6, 3.4, 1)
+            each.SetOrigin(-1.1, -1.7, 2)
+        add_array(image.GetPointData(), "Elevation", numpy.arange(260))
+        grid.SetDimensions(3, 2, 1)
+        grid.SetXCoordinates(numpy_to_vtk(numpy.array([3.0, 15.5, 60]), deep=True))
+        grid.SetYCoordinates(numpy_to_vtk(numpy.array([6.5, 20.0]), deep=True))
+        singles = make_cloud(30, seed=4, kind=numpy.float32)
+        return image, shifted, grid, singles, make_cloud(40, seed=5), vtkPolyData()
+
+    def test_places_and_sources(self):
+        for source in (self.make_source(), self.make_source(numpy.float32), vtkPolyData()):
+            for places in self.list_places():
+                for choice in range(2):
+                    told = self.expect_same(places, lambda flip, source=source, choice=choice: (
+                        flip.SetSourceData(source), flip.SetMethod(choice), flip.SetOutside(choice)))
+                    self.assertEqual(told["errors"], [])
+                    arrays = [part[0] for part in told["meshes"][0] if isinstance(part, tuple)]
+                    self.assertIn("vtkValidPointMask", arrays)
+            self.expect_same(places, lambda flip, source=source: (
+                flip.SetSourceData(source), flip.SetElevationArray("real")))
+
+    def test_segments(self):
+        source = self.make_source()
+        for heights in range(3):
+            self.expect_same(self.list_places()[0], lambda flip, heights=heights: (
+                flip.SetSourceData(source), flip.SplitCrossingsOn(), flip.SetSegmentHeights(heights),
+                flip.SetSegmentsData(make_segments(source, float)), flip.SetElevationArray("")))
+
+    def test_failures(self):
+        source, image = self.make_source(), self.list_places()[0]
+        self.expect_same(image)
+        self.expect_same(image, lambda flip: flip.SetSourceData(image))
+        told = self.expect_same(image, lambda flip: (
+            flip.SetSourceData(source), flip.SetMethodToNatural(), flip.SetMaximumIterations(0)))
+        self.assertIn("natural neighbors", told["errors"][0])
+        blocks = vtkMultiBlockDataSet()
+        for i, data in enumerate((image, vtkTable(), make_cloud(20), image)):
+            blocks.SetBlock(i, data)
+        self.expect_same(image, lambda flip: flip.SetSourceData(blocks))
+        self.expect_same(blocks, lambda flip: flip.SetSourceData(source))
+        told = self.expect_same(blocks, lambda flip: flip.SetSourceData(blocks))
+        self.assertIn("no points (vtkPointSet) at the same place", told["errors"][0])
+        for count in (0, 2):
+            self.expect_same(image, lambda flip, count=count: flip.SetSourceData(make_cloud(count)))
+
+    def test_aborted(self):
+        for kind in self.kinds:
+            filter_ = kind()
+            filter_.SetInputData(self.list_places()[4])
+            filter_.SetSourceData(self.make_source())
+            filter_.AddObserver("ProgressEvent", lambda *_, filter_=filter_: filter_.AbortExecuteOn())
+            filter_.Update()
+            self.assertEqual(filter_.GetStopReasonAsString(), "aborted")
+            self.assertFalse(filter_.GetOutput().GetPointData().HasArray("Elevation"))
+            self.assertEqual(filter_.GetOutput().GetNumberOfPoints(), 40)
+
+
 class SamePoints(Pair, unittest.TestCase):
 
     kinds = CxxPoints, PythonPoints
@@ -512,8 +593,21 @@ class SamePoints(Pair, unittest.TestCase):
                 text = f"{count} points of segments without heights (z = 0 throughout; the given points " \
                     "have z = 5.25 to 34.25)"
                 self.assertEqual(text in " ".join(told["warnings"]), count > 0)
-        vtk_to_numpy(cloud.GetPoints().GetData())[:, 2] = 0
-        self.assertEqual(self.expect_same(cloud, prepare)["warnings"], told["warnings"][:0])
+                self.assertEqual("SegmentHeights Own keeps z = 0" in " ".join(told["warnings"]), count > 0)
+        places = vtk_to_numpy(cloud.GetPoints().GetData())
+        for name, values in (("real", places[:, :2] / 7), ("integer", 50 - 100 * places[:, 0].astype(int)),
+                             ("both", numpy.arange(len(places))), ("ids", numpy.arange(len(places)))):
+            add_array(cloud.GetPointData(), name, values)
+        cloud.GetPointData().SetActiveGlobalIds("ids")
+        add_array(segments.GetPointData(), "both", numpy.arange(9))
+        for heights in range(3):
+            self.expect_same(cloud, lambda points, heights=heights: (
+                prepare(points), points.SetSegmentHeights(heights), points.SplitCrossingsOn()))
+        lattice = make_mesh([(x, 0, 1) for x in range(3)], [])
+        told = self.expect_same(lattice, prepare)
+        self.assertIn("the mesh goes to z = 0 there", told["warnings"][0])
+        places[:, 2] = 0
+        self.assertEqual(self.expect_same(cloud, prepare)["warnings"], [])
 
     def test_an_outline_elsewhere(self):
         ring = make_mesh([(50, 0, 0), (60, 0, 0), (60, 9, 0)], [(0, 1, 2)])

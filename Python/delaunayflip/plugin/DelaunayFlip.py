@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Delaunay Flip and Delaunay From Points for ParaView, without compiling: a plugin in Python.
+"""The filters of the menu Delaunay Flip for ParaView, without compiling: a plugin in Python.
 
 Start ParaView with PV_PLUGIN_PATH=.../delaunayflip/plugin, choose Tools > Manage Plugins > Load New
 and this file, or in pvpython
@@ -33,6 +33,7 @@ from paraview.util.vtkAlgorithm import smproperty, smproxy
 
 import delaunayflip
 from delaunayflip._vtk_filter import vtkDelaunayFlip, vtkDelaunayFlipPoints
+from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator
 
 paraview_plugin_name = "DelaunayFlipPython"
 paraview_plugin_version = delaunayflip.__version__
@@ -62,7 +63,8 @@ def _read_properties(name):
         elif element.get("panel_widget", "").startswith("DelaunayFlip"):
             del element.attrib["panel_widget"]
     hints = proxy.find("Hints")
-    hints.remove(hints.find("LiveSource"))
+    for live in hints.findall("LiveSource"):
+        hints.remove(live)
     hints.find("ShowInMenu").attrib.pop("icon", None)
     return "".join(ElementTree.tostring(element, encoding="unicode") for element in proxy)
 
@@ -94,10 +96,8 @@ class DelaunayFlip(vtkDelaunayFlip):
         return 0
 
 
-@smproxy.filter(name="DelaunayFromPoints", label="Delaunay From Points", support_reload=False)
-@smproperty.xml(_read_properties("DelaunayFromPoints"))
-class DelaunayFromPoints(vtkDelaunayFlipPoints):
-    """vtkDelaunayFlipPoints for ParaView."""
+class WithoutProjection:
+    """Refuses a projection."""
 
     projection = 0
 
@@ -111,3 +111,16 @@ class DelaunayFromPoints(vtkDelaunayFlipPoints):
                 "Projection: the best-fitting plane needs the plugin in C++; this one, in Python, joins "
                 "points in x and y")
         super()._flip_all(*data)
+
+
+@smproxy.filter(name="DelaunayFromPoints", label="Delaunay From Points", support_reload=False)
+@smproperty.xml(_read_properties("DelaunayFromPoints"))
+class DelaunayFromPoints(WithoutProjection, vtkDelaunayFlipPoints):
+    """vtkDelaunayFlipPoints for ParaView."""
+
+
+@smproxy.filter(
+    name="InterpolateFromPoints", label="Interpolate From Points (Delaunay)", support_reload=False)
+@smproperty.xml(_read_properties("InterpolateFromPoints"))
+class InterpolateFromPoints(WithoutProjection, vtkDelaunayFlipInterpolator):
+    """vtkDelaunayFlipInterpolator for ParaView."""

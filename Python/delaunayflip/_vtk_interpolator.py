@@ -1,0 +1,213 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""The filter for values at places, for every VTK with Python: see _vtk_filter."""
+import math
+
+import numpy
+from vtkmodules.vtkCommonDataModel import (
+    vtkCompositeDataSet, vtkDataSet, vtkImageData, vtkPointSet, vtkPolyData)
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+
+from . import _library
+from ._ask import METHODS, OUTSIDES, Field, Places, read_places
+from ._vtk_filter import (
+    Property, _copy, _drop_results, _has_partitions, _list_leaves, finish, vtkDelaunayFlipPoints)
+from ._vtk_mesh import _add_attributes, _find_attributes, _is_among, _list_arrays, vtk_of
+
+_MASK = "vtkValidPointMask"  # as vtkProbeFilter calls it
+
+
+class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
+    """Gives a dataset the data of points, interpolated in their Delaunay triangulation.
+
+    This class has the methods, outputs and warnings of the C++ class vtkDelaunayFlipInterpolator, for a
+    VTK that it was not built for; vtkDelaunayFlipInterpolator.h is its manual. It triangulates anew in
+    every update, and leaves out projections: x and y alone decide.
+    """
+
+    name = "vtkDelaunayFlipInterpolator"
+    kind, others, keeps_type = vtkDataSet, (vtkPointSet, vtkPolyData), True
+    no_mesh = "is no dataset, passed unchanged"
+    no_composite = "the source of a single dataset cannot be a composite dataset"
+
+    def SetSourceConnection(self, port):
+        self.SetInputConnection(1, port)
+
+    def SetSourceData(self, source):
+        self.SetInputDataObject(1, source)
+
+    def GetOutput(self, port=0):
+        """The first input with values; None if the output is composite (see GetOutputDataObject)."""
+        return vtkDataSet.SafeDownCast(self.GetOutputDataObject(port))
+
+    def RequestUpdateExtent(self, request, inInfo, outInfo):
+        """The places are asked for as the output is. All of the source is needed for any of them."""
+        asked = vtkStreamingDemandDrivenPipeline
+        for vector in inInfo[1:]:
+            info = vector.GetInformationObject(0)
+            if info is not None:
+                info.Set(asked.UPDATE_PIECE_NUMBER(), 0)
+                info.Set(asked.UPDATE_NUMBER_OF_PIECES(), 1)
+                info.Set(asked.UPDATE_NUMBER_OF_GHOST_LEVELS(), 0)
+                if info.Has(asked.WHOLE_EXTENT()):  # else the executive copies that of the places
+                    info.Set(asked.UPDATE_EXTENT(), info.Get(asked.WHOLE_EXTENT()), 6)
+        return 1
+
+    def _warn_of_misfits(self, places, _):
+        segments = self.GetInputDataObject(2, 0) if self.GetNumberOfInputConnections(2) else None
+        self._segments = None if segments is None else _copy(segments)
+        super()._warn_of_misfits(places, self._segments, "third input")
+
+    def _judge_partitions(self, _, source):
+        if _has_partitions(source, vtkPointSet):
+            raise _library.InvalidMesh(
+                "the source is in several partitions; join them first, by vtkAppendDataSets, or Merge "
+                "Blocks in ParaView")
+
+    def _pass(self, places, output, stop_reason):
+        self._totals.change(stop_reason=stop_reason)
+        output.ShallowCopy(places)
+        return ""
+
+    def _flip(self, places, source, output):
+        if source is None:
+            raise _library.InvalidMesh("the source has no points (vtkPointSet) at the same place")
+        source, segments, mesh = _drop_results(source), self._find_segments(), vtkPolyData()
+        elevation = self._choose_arrays(source)
+        count = source.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments else 0)
+        if count == 0:
+            columns = Columns(source, source, elevation)
+            found = numpy.full((1, columns.width), math.nan), numpy.full(1, -1)
+            self._totals.change(stop_reason="converged")
+            return self._write(places, columns, found, output)
+        if self._is_abort_requested():
+            return self._pass(places, output, "aborted")
+        result, trouble = self._triangulate(source, segments, mesh, self._observe_part(0.5), keeps=True)
+        if result.report.stop_reason == "aborted":
+            return self._pass(places, output, "aborted") or trouble
+        columns = Columns(source, mesh, elevation)
+        try:
+            found = self._ask(result, read_dataset(places), columns)
+        except _library.Stopped:
+            return self._pass(places, output, "aborted") or trouble
+        return self._write(places, columns, found, output) or trouble
+
+    def _find_segments(self):
+        if isinstance(self._segments, vtkCompositeDataSet) and not self._place:
+            raise _library.InvalidOptions("the segments of a single dataset cannot be a composite dataset")
+        leaves = _list_leaves(self._segments)
+        _, segments = leaves.get(()) or leaves.get(self._place, ("", None))
+        return vtkPolyData.SafeDownCast(segments)
+
+    def _choose_arrays(self, source):
+        """Removes what is not interpolated from the source. Returns the name of the array of z."""
+        data = source.GetPointData()
+        labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray("vtkGhostType")
+        names, arrays = [], _list_arrays(data)
+        for number, array in reversed(list(enumerate(arrays))):
+            is_label = _is_among(array, labels)
+            is_usable = array.IsNumeric() and array.GetNumberOfTuples() >= source.GetNumberOfPoints()
+            if not is_label and not is_usable:
+                names.insert(0, f'"{array.GetName() or ""}"')
+            if is_label or not is_usable:
+                data.RemoveArray(number)
+        if names:
+            self._warnings.append((
+                self._where, "point arrays of the source left out, which have no numbers or too few tuples: "
+                + ", ".join(names)))
+        elevation = self.GetElevationArray()
+        if elevation and data.HasArray(elevation):
+            self._warnings.append((
+                self._where, f'z of the source left out, because the source has an array "{elevation}"; give '
+                "ElevationArray another name"))
+            return ""
+        return elevation
+
+    def _ask(self, result, places, columns):
+        """The values at places, and their triangles."""
+        answers = result._answers
+        field = columns.width and Field(
+            answers, columns.gather(), method=METHODS[self.method], outside=OUTSIDES[self.outside],
+            fill_value=math.nan)
+        before, length = self._block
+        self._block = before + 0.5 * length, 0.5 * length
+        triangles, values = answers.ask(places, field, True, self._observe_part(1.0))
+        return values, triangles
+
+    def _write(self, places, columns, found, output):
+        """`found`: values and triangles at places, which come again until there are enough."""
+        output.ShallowCopy(places)
+        values, triangles = found
+        rows = numpy.arange(places.GetNumberOfPoints()) % max(len(triangles), 1)
+        columns.scatter(None if values is None else values[rows], output.GetPointData())
+        core, support = vtk_of(output).core, vtk_of(output).support
+        mask = support.numpy_to_vtk((triangles[rows] >= 0).astype(numpy.int8), True, core.VTK_CHAR)
+        mask.SetName(_MASK)
+        output.GetPointData().AddArray(mask)
+        return ""
+
+
+def read_dataset(dataset):
+    """The points of a dataset as Places, after which they come again."""
+    count, members = dataset.GetNumberOfPoints(), {}
+    if isinstance(dataset, vtkImageData) and count:
+        columns, rows, _ = dataset.GetDimensions()
+        extent, origin, step = dataset.GetExtent(), dataset.GetOrigin(), dataset.GetSpacing()
+        # Else its coordinates are rounded in another way.
+        if extent[0] == extent[2] == 0 and dataset.GetDirectionMatrix().IsIdentity():
+            members = {"rows": rows, "columns": columns, "origin_x": origin[0], "origin_y": origin[1],
+                       "step_x": step[0], "step_y": step[1]}
+            return Places(members, (rows * columns,), numpy.empty(0))
+    if isinstance(dataset, vtkPointSet):
+        mesh = vtk_of(dataset).model.vtkPolyData()
+        mesh.SetPoints(dataset.GetPoints())
+        points = vtk_of(dataset).read(mesh).points
+    else:
+        points = numpy.array([dataset.GetPoint(i) for i in range(count)]).reshape(-1, 3)
+    return read_places([points])
+
+
+class Columns:
+    """The arrays that are interpolated: those of a source, as a mesh has them, and z."""
+
+    def __init__(self, source, mesh, elevation):
+        self._mesh, self._elevation, self._vtk = mesh, elevation, vtk_of(source)
+        self._arrays = _list_arrays(mesh.GetPointData())[:source.GetPointData().GetNumberOfArrays()]
+        self._widths = [array.GetNumberOfComponents() for array in self._arrays]
+        self.width = sum(self._widths) + bool(elevation)
+
+    def gather(self):
+        """The values of all points."""
+        count = self._mesh.GetNumberOfPoints()
+        columns = [self._vtk.view(array)[:count].reshape(count, -1) for array in self._arrays]
+        if self._elevation:
+            columns.append(self._vtk.view(self._mesh.GetPoints().GetData())[:, 2:])
+        return numpy.concatenate([column.astype(float) for column in columns], axis=1)
+
+    def scatter(self, values, output):
+        """Writes the arrays of values at places; None: there are none."""
+        first = 0
+        for like, width in zip(self._arrays, self._widths):
+            kind = numpy.float32 if like.GetDataType() == self._vtk.core.VTK_FLOAT else float
+            array = self._vtk.support.numpy_to_vtk(
+                numpy.ascontiguousarray(values[:, first:first + width], kind), True)
+            if width == 1:
+                array = self._vtk.support.numpy_to_vtk(values[:, first].astype(kind), True)
+            array.SetName(like.GetName())
+            array.CopyComponentNames(like)
+            array.CopyInformation(like.GetInformation())
+            array.SetLookupTable(like.GetLookupTable())
+            attributes = _find_attributes(self._mesh.GetPointData(), like)
+            _add_attributes(output, output.AddArray(array), attributes)
+            first += width
+        if self._elevation:
+            array = self._vtk.support.numpy_to_vtk(values[:, first].copy(), True)
+            array.SetName(self._elevation)
+            _add_attributes(output, output.AddArray(array), [output.SCALARS])
+
+
+finish(vtkDelaunayFlipInterpolator, (
+    Property("Method", 0, 0, 1, ("Linear", "Natural")),
+    Property("Outside", 0, 0, 1, ("Nan", "Nearest")),
+    Property("ElevationArray", "Elevation"),
+), {})
