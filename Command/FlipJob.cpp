@@ -8,11 +8,11 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "DelaunayFlip.h"
-#include "GdalModule.h"
 #include "HeightQuery.h"
 #include "InputRepair.h"
 #include "MeshFiles.h"
 #include "OutputFiles.h"
+#include "RasterFile.h"
 #include "RoundedDigits.h"
 #include "SegmentLines.h"
 
@@ -238,30 +238,6 @@ vtkDelaunayFlipAlgorithm* ChooseFilter(const Arguments& arguments)
   return arguments.Flip;
 }
 
-/// Reports a coordinate reference system that GDAL does not know, or that there is no GDAL, before
-/// a large file is read.
-void TryRaster(const Arguments& arguments, OutputFiles& files)
-{
-  const HeightOptions& heights = arguments.Heights;
-  const bool needsGdal = !heights.Crs.empty() || ExtensionOf(arguments.Output) == ".tif";
-  if (!needsGdal || heights.Step <= 0.0)
-  {
-    return;
-  }
-  try
-  {
-    const GdalModule& gdal = LoadGdal();
-    if (!heights.Crs.empty())
-    {
-      files.Projection.Write(gdal.DescribeCrs(heights.Crs));
-    }
-  }
-  catch (const std::runtime_error& error)
-  {
-    throw CommandError(ExitCode::WrongUsage, arguments.Output + ": " + error.what());
-  }
-}
-
 /// The work from reading to the report, one function per step.
 class FlipJob
 {
@@ -387,50 +363,18 @@ private:
     {
       options.Crs = this->InputCrs;
     }
-    std::string name = "z";
-    if (!options.Array.empty())
-    {
-      name = options.Array;
-      this->Settings.Interpolator->SetElevationArray("");
-    }
-    else
-    {
-      this->Settings.Interpolator->SetElevationArray(name.c_str());
-    }
-    this->Heights =
-      MakeHeightQuery(options, this->Input, this->Places, ExtensionOf(this->Settings.Output), name);
-    this->Filter->SetInputData(0, this->Heights->NextBlock());
-    this->Filter->SetInputData(1, SelectArray(this->Input, options.Array, this->Settings.Input));
+    options.Output = this->Settings.Output;
+    this->Heights = HeightQuery::Make(options, this->Input, this->Places);
+    this->Heights->Begin(
+      this->Settings.Interpolator, SelectArray(this->Input, options.Array, this->Settings.Input));
     this->Filter->SetInputData(2, this->Segments);
   }
 
   void WriteHeights()
   {
-    const std::string& path = this->Files.Mesh.GetTemporary();
     this->Filter->RemoveAllObservers(); // what is shown now is how much is written
-    try
-    {
-      this->Heights->Begin(path);
-      this->Heights->Write(this->Settings.Interpolator->GetOutput());
-      while (const vtkSmartPointer<vtkDataSet> block = this->Heights->NextBlock())
-      {
-        this->Bar.Show(this->Heights->GetShare(), "writing " + this->Settings.Output);
-        this->Filter->SetInputData(0, block);
-        this->Filter->Update();
-        TakeVTKWarnings(); // those of the first block
-        this->ThrowErrors();
-        this->Heights->Write(this->Settings.Interpolator->GetOutput());
-      }
-      this->Heights->Finish();
-    }
-    catch (const CommandError&)
-    {
-      throw; // of the filter
-    }
-    catch (const std::runtime_error& error)
-    {
-      throw std::runtime_error(error.what() + ExplainFailedWrite(path));
-    }
+    this->Heights->Write(this->Files.Mesh.GetTemporary(),
+      [this](double share) { this->Bar.Show(share, "writing " + this->Settings.Output); });
     this->Run.Summary += this->Heights->Describe();
     if (this->Heights->HasOnlyOutside())
     {
@@ -740,7 +684,10 @@ int RunFlipJob(const Arguments& arguments, OutputFiles& files, ChildProcess& chi
 {
   KeepVTKFromThreads();
   TryOptions(arguments.Flip);
-  TryRaster(arguments, files);
+  if (arguments.Heights.Step > 0.0)
+  {
+    files.Projection.Write(TryRaster(arguments.Output, arguments.Heights.Crs));
+  }
   FlipJob job(arguments, files);
   child.Enter(Phase::Reading);
   job.Read();

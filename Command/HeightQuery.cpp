@@ -3,11 +3,15 @@
 #include "HeightQuery.h"
 
 #include "CommandError.h"
+#include "Console.h"
 #include "InputFile.h"
+#include "MeshFiles.h"
+#include "OutputFiles.h"
 #include "RasterFile.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkDataArray.h>
+#include <vtkDelaunayFlipInterpolator.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -98,11 +102,10 @@ RasterGrid MakeGrid(const HeightOptions& options, vtkPolyData* points)
 class RasterQuery : public HeightQuery
 {
 public:
-  RasterQuery(const RasterGrid& grid, const RasterName& name)
-    : HeightQuery(
-        name.Array, "raster", Grouped(grid.Columns) + " x " + Grouped(grid.Rows) + " cells"),
+  RasterQuery(const HeightOptions& options, const RasterGrid& grid)
+    : HeightQuery(options, "raster", Grouped(grid.Columns) + " x " + Grouped(grid.Rows) + " cells"),
       Grid(grid),
-      Name(name)
+      Name({ "", ExtensionOf(options.Output), options.Crs, this->Array })
   {
     constexpr std::int64_t cells = 1 << 22; // of a block
     constexpr std::int64_t tile = 256; // rows of a GeoTIFF's tiles, which are best written once
@@ -131,7 +134,7 @@ public:
     return static_cast<double>(this->Taken) / static_cast<double>(this->Grid.Rows);
   }
 
-  void Begin(const std::string& path) override
+  void Open(const std::string& path) override
   {
     this->Name.Path = path;
     this->File = MakeRasterFile(this->Name, this->Grid);
@@ -157,8 +160,8 @@ private:
 class PlaceTable : public HeightQuery
 {
 public:
-  PlaceTable(vtkPolyData* places, const std::string& array)
-    : HeightQuery(array, "places", Grouped(places->GetNumberOfPoints())),
+  PlaceTable(const HeightOptions& options, vtkPolyData* places)
+    : HeightQuery(options, "places", Grouped(places->GetNumberOfPoints())),
       Places(places)
   {
   }
@@ -170,7 +173,7 @@ public:
 
   double GetShare() const override { return 1.0; }
 
-  void Begin(const std::string& path) override
+  void Open(const std::string& path) override
   {
     this->File.open(path, std::ios::binary);
     this->File << "x,y," << this->Array << '\n';
@@ -228,14 +231,64 @@ std::string ParseExtent(const std::string& text, std::array<double, 4>& extent)
 }
 
 HeightQuery::HeightQuery(
-  const std::string& array, const std::string& title, const std::string& noun)
-  : Array(array),
+  const HeightOptions& options, const std::string& title, const std::string& noun)
+  : Array(options.Array),
+    IsOfHeights(options.Array.empty()),
     Title(title),
     Noun(noun)
 {
+  if (this->IsOfHeights)
+  {
+    this->Array = "z";
+  }
 }
 
-void HeightQuery::Write(vtkDataSet* block)
+std::unique_ptr<HeightQuery> HeightQuery::Make(
+  const HeightOptions& options, vtkPolyData* points, vtkPolyData* places)
+{
+  if (places)
+  {
+    return std::make_unique<PlaceTable>(options, places);
+  }
+  return std::make_unique<RasterQuery>(options, MakeGrid(options, points));
+}
+
+void HeightQuery::Begin(vtkDelaunayFlipInterpolator* filter, vtkPolyData* points)
+{
+  this->Filter = filter;
+  filter->SetElevationArray(this->IsOfHeights ? this->Array.c_str() : "");
+  filter->SetInputData(0, this->NextBlock());
+  filter->SetInputData(1, points);
+}
+
+void HeightQuery::Write(const std::string& path, const std::function<void(double)>& show)
+{
+  try
+  {
+    this->Open(path);
+    this->WriteBlock(this->Filter->GetOutput());
+    while (const vtkSmartPointer<vtkDataSet> block = this->NextBlock())
+    {
+      show(this->GetShare());
+      this->Filter->SetInputData(0, block);
+      this->Filter->Update();
+      TakeVTKWarnings(); // those of the first block
+      const std::string errors = TakeVTKErrors();
+      if (!errors.empty())
+      {
+        throw std::runtime_error(errors);
+      }
+      this->WriteBlock(this->Filter->GetOutput());
+    }
+    this->Finish();
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw std::runtime_error(error.what() + ExplainFailedWrite(path));
+  }
+}
+
+void HeightQuery::WriteBlock(vtkDataSet* block)
 {
   const vtkIdType count = block->GetNumberOfPoints();
   vtkDataArray* const found = block->GetPointData()->GetArray(this->Array.c_str());
@@ -253,17 +306,6 @@ void HeightQuery::Write(vtkDataSet* block)
 std::string HeightQuery::Describe() const
 {
   return this->Title + ": " + this->Noun + ", " + Grouped(this->Outside) + " outside\n";
-}
-
-std::unique_ptr<HeightQuery> MakeHeightQuery(const HeightOptions& options, vtkPolyData* points,
-  vtkPolyData* places, const std::string& extension, const std::string& array)
-{
-  if (places)
-  {
-    return std::make_unique<PlaceTable>(places, array);
-  }
-  const RasterName name{ "", extension, options.Crs, array };
-  return std::make_unique<RasterQuery>(MakeGrid(options, points), name);
 }
 
 vtkSmartPointer<vtkPolyData> SelectArray(

@@ -9,8 +9,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+
+class vtkDelaunayFlipInterpolator;
 
 /// @file
 /// Heights, or other values, where a user wants them: on a raster, or at the points of a file.
@@ -25,6 +28,7 @@ struct HeightOptions
   std::string Extent; ///< xmin,ymin,xmax,ymax; empty: that of the points.
   std::string Places; ///< A file whose points are the places, instead of a raster.
   std::string Array; ///< A point array; empty: z.
+  std::string Output; ///< The file that is written.
   std::string Crs; ///< Of the raster; empty: that of the input, if its file names one.
 
   bool AreWanted() const { return this->Step > 0.0 || !this->Places.empty(); }
@@ -35,26 +39,24 @@ struct HeightOptions
 std::string ParseExtent(const std::string& text, std::array<double, 4>& extent);
 
 /// Where values are wanted, in blocks, and the file that they go to.
-/// Methods throw std::runtime_error with the reason; it does not name the file.
 class HeightQuery
 {
 public:
   virtual ~HeightQuery() = default;
 
-  /// The places of the next block; null if there is none.
-  virtual vtkSmartPointer<vtkDataSet> NextBlock() = 0;
+  /// @param points give a raster its extent.
+  /// @param places those of the file, or null for a raster
+  /// @throws CommandError (WrongUsage) for a raster of no cells, or of too many.
+  static std::unique_ptr<HeightQuery> Make(
+    const HeightOptions& options, vtkPolyData* points, vtkPolyData* places);
 
-  /// The share of the blocks that were taken, 0 .. 1.
-  virtual double GetShare() const = 0;
+  /// Gives a filter its inputs, the first block of places and the points with their values.
+  void Begin(vtkDelaunayFlipInterpolator* filter, vtkPolyData* points);
 
-  /// Begins the file.
-  virtual void Begin(const std::string& path) = 0;
-
-  /// Writes the values at the places of a block.
-  void Write(vtkDataSet* block);
-
-  /// Ends the file, and checks that it is complete.
-  virtual void Finish() = 0;
+  /// Writes all blocks, the first of which the filter has answered.
+  /// @param show is told the share that is done, 0 .. 1.
+  /// @throws std::runtime_error with the reason; it does not name the file.
+  void Write(const std::string& path, const std::function<void(double)>& show);
 
   /// A line of the summary.
   std::string Describe() const;
@@ -62,24 +64,31 @@ public:
   bool HasOnlyOutside() const { return this->Outside == this->Total; }
 
 protected:
-  HeightQuery(const std::string& array, const std::string& title, const std::string& noun);
+  HeightQuery(const HeightOptions& options, const std::string& title, const std::string& noun);
+
+  /// The places of the next block; null if there is none.
+  virtual vtkSmartPointer<vtkDataSet> NextBlock() = 0;
+
+  /// The share of the blocks that were taken, 0 .. 1.
+  virtual double GetShare() const = 0;
+
+  virtual void Open(const std::string& path) = 0;
   virtual void WriteValues(const double* values, vtkDataSet* block) = 0;
+
+  /// Ends the file, and checks that it is complete.
+  virtual void Finish() = 0;
 
   std::string Array; ///< The name of the values.
 
 private:
+  void WriteBlock(vtkDataSet* block);
+
+  bool IsOfHeights; ///< The values are z.
   std::string Title, Noun;
+  vtkDelaunayFlipInterpolator* Filter = nullptr;
   std::int64_t Total = 0; ///< Places.
   std::int64_t Outside = 0; ///< Those in no triangle.
 };
-
-/// @param points give a raster its extent.
-/// @param places those of the file, or null for a raster
-/// @param extension of the output
-/// @param array the name of the values
-/// @throws CommandError (WrongUsage) for a raster of no cells, or of too many.
-std::unique_ptr<HeightQuery> MakeHeightQuery(const HeightOptions& options, vtkPolyData* points,
-  vtkPolyData* places, const std::string& extension, const std::string& array);
 
 /// The points with the lines and the only array that is interpolated; none for z.
 /// @throws CommandError (BadFile) with `path` if it has no such array of one component.

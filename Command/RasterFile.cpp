@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RasterFile.h"
 
+#include "CommandError.h"
 #include "Console.h"
 #include "GdalModule.h"
 
@@ -134,6 +135,24 @@ private:
   vtkNew<vtkDoubleArray> Values;
 };
 
+}
+
+std::string TryRaster(const std::string& output, const std::string& crs)
+{
+  const bool needsGdal = !crs.empty() || ExtensionOf(output) == ".tif";
+  if (!needsGdal)
+  {
+    return "";
+  }
+  try
+  {
+    const GdalModule& gdal = LoadGdal();
+    return crs.empty() ? "" : gdal.DescribeCrs(crs);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw CommandError(ExitCode::WrongUsage, output + ": " + error.what());
+  }
 }
 
 std::string TextOf(double value)

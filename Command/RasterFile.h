@@ -38,6 +38,12 @@ public:
   virtual void Finish() = 0;
 };
 
+/// Checks before large files are read that a raster can be written, and that GDAL knows the
+/// coordinate reference system, which may be empty.
+/// @returns the text of the .prj that belongs to an .asc
+/// @throws CommandError (WrongUsage) with `output`.
+std::string TryRaster(const std::string& output, const std::string& crs);
+
 /// The shortest text that is read as the same double, without an exponent if it can be.
 std::string TextOf(double value);
 

@@ -55,7 +55,7 @@ public:
     this->Messages.Check();
     std::array<double, 6> corner = { grid.X - grid.Step / 2, grid.Step, 0.0,
       grid.Y + (static_cast<double>(grid.Rows) - 0.5) * grid.Step, 0.0, -grid.Step };
-    this->Data->SetGeoTransform(corner.data());
+    GDALSetGeoTransform(GDALDataset::ToHandle(this->Data.get()), corner.data());
     this->Data->GetRasterBand(1)->SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
     if (!crs.empty())
     {

@@ -202,7 +202,7 @@ private:
   void BeginLayer(OGRLayer& layer)
   {
     const bool isFirst = this->Layer == nullptr;
-    OGRFeatureDefn& fields = *layer.GetLayerDefn();
+    const OGRFeatureDefn& fields = *layer.GetLayerDefn();
     this->Layer = &layer;
     this->HeightField = -1;
     this->Numeric.clear();
