@@ -16,10 +16,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 from draw_demo import ANGLES, INK, add_angle_legend, save, shaded_colors
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import Normalize
+from matplotlib.colors import LightSource, Normalize
 from matplotlib.lines import Line2D
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkContourFilter
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 WATER, RING = "#2166ac", "#b2182b"
@@ -139,6 +142,52 @@ def draw_survey(command, folder, output):
         save(figure, os.path.join(output, f"guide_{name}.png"))
 
 
+def list_contours(mesh, step):
+    """Contour lines of a mesh, by vtkContourFilter: segments of x, y."""
+    points, triangles, _ = mesh
+    surface, contours, heights = vtkPolyData(), vtkContourFilter(), numpy_to_vtk(points[:, 2].copy())
+    surface.SetPoints(vtkPoints())
+    surface.GetPoints().SetData(numpy_to_vtk(points))
+    surface.SetPolys(vtkCellArray())
+    surface.GetPolys().SetData(3, numpy_to_vtkIdTypeArray(triangles.ravel().astype(np.int64)))
+    surface.GetPointData().SetScalars(heights)
+    contours.SetInputData(surface)
+    low, high = (int(way(points[triangles, 2].ravel())) // step for way in (min, max))
+    for number, level in enumerate(range(low + 1, high + 1)):
+        contours.SetValue(number, step * level)
+    contours.Update()
+    lines = contours.GetOutput()
+    ids = vtk_to_numpy(lines.GetLines().GetConnectivityArray()).reshape(-1, 2)
+    return list(vtk_to_numpy(lines.GetPoints().GetData())[ids][:, :, :2])
+
+
+def draw_dem(command, folder, output):
+    """guide_dem.png: the survey as a raster, under the sun, and its contours."""
+    chosen = ["--from-points", "--constraints", "river.vtk", "--outline", "area.vtk", "--holes", "pond.vtk"]
+    subprocess.run(
+        [command, "survey.csv", "dem.vti", "--quiet", *chosen, "--raster", "2", "--raster-method", "natural"],
+        cwd=folder, check=True)
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(os.path.join(folder, "dem.vti"))
+    reader.Update()
+    image, survey = reader.GetOutput(), run(command, folder, "survey.csv", chosen)
+    columns, rows, _ = image.GetDimensions()
+    heights = np.flipud(vtk_to_numpy(image.GetPointData().GetArray("z")).reshape(rows, columns))
+    west, south = (image.GetOrigin()[axis] - image.GetSpacing()[axis] / 2 for axis in (0, 1))
+    size = columns * image.GetSpacing()[0], rows * image.GetSpacing()[1]
+    shade = LightSource(azdeg=315, altdeg=45).hillshade(
+        heights, dx=image.GetSpacing()[0], dy=image.GetSpacing()[1])
+    figure, both = plt.subplots(1, 2, figsize=(9, 3.5))
+    for axes, title in zip(both, ("--raster 2 --raster-method natural", "contours every 5 m")):
+        axes.imshow(np.where(np.isnan(heights), np.nan, shade), cmap="gray", vmin=0, vmax=1,
+                    extent=(0, size[0], 0, size[1]))
+        axes.set_title(title, color=INK)
+        axes.axis("off")
+    draw_lines(both[1], list_contours(survey, 5), np.array([west, south]), colors=RING, linewidths=0.6)
+    figure.subplots_adjust(0.01, 0.01, 0.99, 0.91, wspace=0.04)
+    save(figure, os.path.join(output, "guide_dem.png"))
+
+
 def draw_edges(command, folder, output):
     """guide_edges.png: what sharp edges become without and with a maximum deviation."""
     chosen = {"before": "--max-iterations 0"}
@@ -183,7 +232,7 @@ def main():
         subprocess.run(["/usr/bin/python3", f"{HERE}/make_examples.py", folder], check=True)
         for name in PICTURES:
             draw_picture(name, os.path.abspath(arguments.command), folder, arguments.output)
-        for draw in (draw_survey, draw_edges):
+        for draw in (draw_survey, draw_dem, draw_edges):
             draw(os.path.abspath(arguments.command), folder, arguments.output)
 
 

@@ -207,6 +207,24 @@ class PyVista(unittest.TestCase):
         bare = delaunayflip.pyvista.triangulate(self.pyvista.PolyData(), cloud)
         self.assertEqual((bare.n_points, bare.n_cells), (50, same.n_cells))
 
+    def test_heights_of_rings(self):
+        """Those that have none, and their data, come from the survey."""
+        import delaunayflip.pyvista
+        x, y = numpy.mgrid[0:11, 0:11].reshape(2, -1).astype(float)
+        cloud = self.pyvista.PolyData(numpy.c_[x, y, 50 + x])
+        cloud["double"] = 2 * y
+        ring = [[2.5, 2.25], [7.5, 2.25], [7.5, 7.75]]
+        with self.assertWarnsRegex(UserWarning, 'have got the heights .* heights="own" keeps z = 0'):
+            made = cloud.delaunay.triangulate(outline=ring)
+        numpy.testing.assert_allclose(made.points[121:, 2], [52.5, 57.5, 57.5])
+        numpy.testing.assert_allclose(made["double"][121:], [4.5, 4.5, 15.5])
+        made = cloud.delaunay.triangulate(outline=ring, heights="own")
+        numpy.testing.assert_array_equal(made.points[121:, 2], 0)
+        made = cloud.delaunay.triangulate(outline=[[*each, 1.0] for each in ring], heights="survey")
+        numpy.testing.assert_allclose(made.points[121:, 2], [52.5, 57.5, 57.5])
+        with self.assertRaisesRegex(ValueError, "heights must be one of survey, own"):
+            cloud.delaunay.triangulate(outline=ring, heights="auto")
+
     def test_rings(self):
         """Rings are arrays as for delaunayflip.triangulate, or polygons or closed lines of a mesh."""
         import delaunayflip.pyvista

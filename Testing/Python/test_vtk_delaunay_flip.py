@@ -11,7 +11,7 @@ import unittest
 
 # Imported before any module of VTK: the package must load what it needs.
 import delaunayflip
-from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipPoints
+from delaunayflip import vtkDelaunayFlip, vtkDelaunayFlipInterpolator, vtkDelaunayFlipPoints
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -446,7 +446,8 @@ class Properties(unittest.TestCase):
             return dict(re.findall(r"^  (\w+): (.*)$", str(flip), re.MULTILINE))
 
         for kind, some in ((vtkDelaunayFlip, {"Geometry", "RegionArray", "LiveUpdate"}),
-                           (vtkDelaunayFlipPoints, {"Alpha", "RingRule", "LinesAsSegments"})):
+                           (vtkDelaunayFlipPoints, {"Alpha", "RingRule", "LinesAsSegments"}),
+                           (vtkDelaunayFlipInterpolator, {"Method", "Outside", "ElevationArray"})):
             self.assertLessEqual(some, set(list_properties(kind)))
             for name in list_properties(kind):
                 flip = kind()
