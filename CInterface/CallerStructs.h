@@ -348,6 +348,17 @@ public:
       }
     }
     this->Defects = DescribeDefects(this->Report.Defects);
+    this->Texts.clear();
+    this->Crossed.clear();
+    for (const Defect& defect : this->Report.Defects)
+    {
+      this->Texts.push_back(DescribeDefects({ defect }));
+      std::vector<std::int64_t>& crossed = this->Crossed.emplace_back();
+      for (const CrossedEdge& edge : defect.Crossed)
+      {
+        crossed.insert(crossed.end(), { edge.Number, edge.Ends[0], edge.Ends[1] });
+      }
+    }
     delaunayflip_report c;
     delaunayflip_report_init(&c);
     ForEachPlace(reinterpret_cast<char*>(&c), report,
@@ -368,9 +379,23 @@ public:
     std::memcpy(&target, &c, std::min(sizeof(c), static_cast<std::size_t>(target.size)));
   }
 
+  std::int64_t CountDefects() const { return static_cast<std::int64_t>(this->Texts.size()); }
+
+  /// @returns a defect with pointers that are valid until the next Fill.
+  delaunayflip_defect GetDefect(std::int64_t i) const
+  {
+    const Defect& defect = this->Report.Defects[i];
+    const std::vector<std::int64_t>& crossed = this->Crossed[i];
+    return { static_cast<std::int32_t>(defect.Kind),
+      static_cast<std::int32_t>(defect.FirstIds.size()), defect.Count, defect.FirstIds.data(),
+      crossed.empty() ? nullptr : crossed.data(), this->Texts[i].c_str() };
+  }
+
 private:
   FlipReport Report;
   std::string Defects;
+  std::vector<std::string> Texts; ///< Of each defect, and what follows.
+  std::vector<std::vector<std::int64_t>> Crossed;
 };
 
 }

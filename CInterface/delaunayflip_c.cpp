@@ -29,16 +29,18 @@ struct LastError
   char Message[1024] = ""; ///< Takes no memory that may be lacking; longer ones are cut off.
   std::int64_t Cell = -1;
   std::int64_t Point = -1;
+  std::int64_t Ring = -1;
 };
 
 thread_local LastError TheLastError;
 
-delaunayflip_status Fail(
-  delaunayflip_status status, const char* message, std::int64_t cell = -1, std::int64_t point = -1)
+delaunayflip_status Fail(delaunayflip_status status, const char* message, std::int64_t cell = -1,
+  std::int64_t point = -1, std::int64_t ring = -1)
 {
   std::snprintf(TheLastError.Message, sizeof(TheLastError.Message), "%s", message);
   TheLastError.Cell = cell;
   TheLastError.Point = point;
+  TheLastError.Ring = ring;
   return status;
 }
 
@@ -74,7 +76,7 @@ delaunayflip_status Try(const Work& work)
   }
   catch (const InvalidMesh& error)
   {
-    return Fail(DELAUNAYFLIP_INVALID_MESH, error.what(), error.Cell, error.Point);
+    return Fail(DELAUNAYFLIP_INVALID_MESH, error.what(), error.Cell, error.Point, error.Ring);
   }
   catch (const RunAborted&)
   {
@@ -228,6 +230,8 @@ extern "C"
   std::int64_t delaunayflip_error_cell(void) { return TheLastError.Cell; }
 
   std::int64_t delaunayflip_error_point(void) { return TheLastError.Point; }
+
+  std::int64_t delaunayflip_error_ring(void) { return TheLastError.Ring; }
 
   void delaunayflip_mesh_init(delaunayflip_mesh* mesh)
   {
@@ -442,6 +446,32 @@ extern "C"
           const delaunayflip_iteration record = ToC(iterations[first + i]);
           std::memcpy(bytes + i * record_size, &record,
             std::min(sizeof(record), static_cast<std::size_t>(record_size)));
+        }
+      });
+  }
+
+  std::int64_t delaunayflip_count_defects(const delaunayflip_session* session)
+  {
+    return session->Report.CountDefects();
+  }
+
+  delaunayflip_status delaunayflip_get_defects(delaunayflip_session* session, std::int64_t first,
+    std::int64_t count, delaunayflip_defect* defects, std::int64_t defect_size)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        Require(defect_size > 0, "defect_size is not positive");
+        const std::int64_t known = session->Report.CountDefects();
+        Require(first >= 0 && count >= 0 && first <= known && count <= known - first,
+          "first and count name defects that the report does not have");
+        Require(defects || count == 0, "defects is null");
+        auto* bytes = reinterpret_cast<unsigned char*>(defects);
+        for (std::int64_t i = 0; i < count; ++i)
+        {
+          const delaunayflip_defect defect = session->Report.GetDefect(first + i);
+          std::memcpy(bytes + i * defect_size, &defect,
+            std::min(sizeof(defect), static_cast<std::size_t>(defect_size)));
         }
       });
   }

@@ -85,6 +85,9 @@ extern "C"
   int64_t delaunayflip_error_cell(void);
   int64_t delaunayflip_error_point(void);
 
+  /** The ring that makes the points of the last failing call invalid; -1 if there is none. */
+  int64_t delaunayflip_error_ring(void);
+
   typedef enum
   {
     DELAUNAYFLIP_FLOAT32 = 0,
@@ -184,6 +187,59 @@ extern "C"
     DELAUNAYFLIP_ABORTED = 3, /**< A callback returned 0. */
     DELAUNAYFLIP_RUNNING = 4 /**< There is more to do. */
   } delaunayflip_stop_reason;
+
+  /** What is wrong with the input, or was left out; delaunayflip_defect's text has it in words. */
+  typedef enum
+  {
+    DELAUNAYFLIP_DEFECT_OTHER = 0,
+    DELAUNAYFLIP_DEFECT_POINTS_NOT_FINITE = 1,
+    DELAUNAYFLIP_DEFECT_REPEATED_IDS = 2,
+    DELAUNAYFLIP_DEFECT_TRIANGLES_WITHOUT_AREA = 3,
+    DELAUNAYFLIP_DEFECT_TURNED_FROM_MOST = 4,
+    DELAUNAYFLIP_DEFECT_DUPLICATE_TRIANGLES = 5,
+    DELAUNAYFLIP_DEFECT_TURNED_FROM_ABOVE = 6,
+    DELAUNAYFLIP_DEFECT_FLAT_FROM_ABOVE = 7,
+    DELAUNAYFLIP_DEFECT_OVERLAP_FROM_ABOVE = 8,
+    DELAUNAYFLIP_DEFECT_TURNED_BY_FLIPS = 9,
+    DELAUNAYFLIP_DEFECT_SEPARATE_TRIANGLES = 10,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_NOT_EDGES = 11,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_LEAVE_MESH = 12,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_LEAVE_PART = 13,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_CROSS = 14,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_MEET_OVERLAP = 15,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_NEED_GUARD = 16,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_ON_SURFACE = 17,
+    DELAUNAYFLIP_DEFECT_POINTS_REPEATED = 18,
+    DELAUNAYFLIP_DEFECT_POINTS_TOO_NEAR = 19,
+    DELAUNAYFLIP_DEFECT_SEGMENTS_CROSS = 20,
+    DELAUNAYFLIP_DEFECT_SEGMENTS_NOT_FINITE = 21,
+    DELAUNAYFLIP_DEFECT_SEGMENTS_WITHOUT_TRIANGLES = 22,
+    DELAUNAYFLIP_DEFECT_HOLE_SEEDS_OUTSIDE = 23,
+    DELAUNAYFLIP_DEFECT_RINGS_WITHOUT_AREA = 24,
+    DELAUNAYFLIP_DEFECT_RINGS_REPEATED = 25,
+    DELAUNAYFLIP_DEFECT_RINGS_RUN_AGAIN = 26,
+    DELAUNAYFLIP_DEFECT_HOLE_POINTS_OUTSIDE = 27,
+    DELAUNAYFLIP_DEFECT_POINTS_WITHOUT_TRIANGLES = 28,
+    DELAUNAYFLIP_DEFECT_NOTHING_LEFT = 29,
+    DELAUNAYFLIP_DEFECT_POLYGONS_TOO_SMALL = 30,
+    DELAUNAYFLIP_DEFECT_CONSTRAINTS_NOT_IN_MESH = 31,
+    DELAUNAYFLIP_DEFECT_POINTS_WITHOUT_HEIGHTS = 32
+  } delaunayflip_defect_kind;
+
+  /** A kind of defect: how often it occurs, and where first. */
+  typedef struct
+  {
+    int32_t kind; /**< A delaunayflip_defect_kind. */
+    int32_t number_of_ids; /**< Of first_ids; 0 if ids would not help. */
+    int64_t count; /**< How many. */
+    /** The first triangles or points; of rings their numbers; of constraints and segments pairs of
+     * points. */
+    const int64_t* first_ids;
+    /** What such a pair crosses: three numbers each, that of the other segment or constraint, or -1
+     * for another edge, and its two points. Null if the reason is another one. */
+    const int64_t* crossed;
+    const char* text; /**< All of it in words. */
+  } delaunayflip_defect;
 
   /** One iteration. non_delaunay = flipped + excluded + blocked. */
   typedef struct
@@ -455,6 +511,15 @@ extern "C"
    * must not exceed the report's number_of_iterations. */
   delaunayflip_status delaunayflip_get_iterations(delaunayflip_session* session, int64_t first,
     int64_t count, delaunayflip_iteration* records, int64_t record_size);
+
+  /** How many kinds of defects the last delaunayflip_get_report has found. */
+  int64_t delaunayflip_count_defects(const delaunayflip_session* session);
+
+  /** Copies those defects, from `first` on, to `defects`, which has room for `count` of them, each
+   * of `defect_size` bytes: sizeof(delaunayflip_defect). `first` + `count` must not exceed
+   * delaunayflip_count_defects. Pointers are valid as long as the report's strings. */
+  delaunayflip_status delaunayflip_get_defects(delaunayflip_session* session, int64_t first,
+    int64_t count, delaunayflip_defect* defects, int64_t defect_size);
 
   /** Writes the triangles in their input slots: 3 * number_of_triangles integers of `id_type`
    * (DELAUNAYFLIP_INT32 or DELAUNAYFLIP_INT64). A triangle that no flip touched keeps its three ids

@@ -32,14 +32,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <limits>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -105,6 +106,26 @@ double DiagonalOf(vtkPolyData* mesh)
   return box.IsValid() ? std::hypot(box.GetLength(0), box.GetLength(1), box.GetLength(2)) : 0.0;
 }
 
+/// Replaces whole words, except within quotes, where they are a name.
+void ReplaceWords(const std::string& from, const std::string& to, std::string& text)
+{
+  const auto isLetter = [&](std::size_t i)
+  { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
+  {
+    const std::size_t end = at + from.size();
+    const bool isQuoted = end < text.size() && text[end] == '"';
+    const bool isPart = isLetter(end) || (at > 0 && isLetter(at - 1));
+    if (isQuoted || isPart)
+    {
+      at = end;
+      continue;
+    }
+    text.replace(at, from.size(), to);
+    at += to.size();
+  }
+}
+
 /// The filter's message with options of the command for properties of the filter. It does not
 /// advise again what was asked for.
 std::string WithOptions(const std::string& message, const Arguments& given)
@@ -123,12 +144,12 @@ std::string WithOptions(const std::string& message, const Arguments& given)
   for (const auto& [property, option] :
     { std::pair("vtkPolyDataNormals with ConsistencyOn", "--orient"),
       std::pair("leave out such duplicates", withoutDuplicates.c_str()),
-      std::pair("\\bRegionArray\\b", "--region-array"), std::pair("\\bTolerance\\b", "--tolerance"),
-      std::pair("\\bSplitCrossings\\b", "--split-crossings"),
-      std::pair("\\bSegmentHeights Own\\b", "--heights own"),
+      std::pair("RegionArray", "--region-array"), std::pair("Tolerance", "--tolerance"),
+      std::pair("SplitCrossings", "--split-crossings"),
+      std::pair("SegmentHeights Own", "--heights own"),
       std::pair("merge points that lie at the same place", withMerged.c_str()) })
   {
-    text = std::regex_replace(text, std::regex(std::string(property) + "(?!\")"), option);
+    ReplaceWords(property, option, text);
   }
   return text;
 }
@@ -559,10 +580,10 @@ private:
   }
 
   /// The file of a ring, and its name there.
-  /// @param number the filter's: its cell id.
-  std::pair<std::string, std::string> FindRing(const std::string& number) const
+  /// @param number its cell id.
+  std::pair<std::string, std::string> FindRing(vtkIdType number) const
   {
-    const vtkIdType ring = std::stoll(number) - this->Segments->GetNumberOfLines();
+    const vtkIdType ring = number - this->Segments->GetNumberOfLines();
     if (ring < this->OutlineRings)
     {
       return { this->Settings.Outline, "ring " + std::to_string(ring) };
@@ -571,37 +592,40 @@ private:
   }
 
   /// A warning of the filter that names rings by their files.
-  std::string NameRings(const std::string& warning) const
+  std::string NameRings(std::string warning) const
   {
-    static const std::regex list("( rings? [^;]*, (?:left out|counted once) \\(first: )([\\d, ]+)"),
-      number("\\d+");
-    std::smatch found;
-    if (!std::regex_search(warning, found, list))
+    for (Defect defect : this->Filter->GetReport().Defects)
     {
-      return warning;
+      const std::string given = DescribeDefects({ defect });
+      const std::size_t place = warning.find(given);
+      if (defect.Ids == DefectIds::Rings && place != std::string::npos)
+      {
+        std::vector<std::string> names;
+        for (const std::int64_t number : std::exchange(defect.FirstIds, {}))
+        {
+          const auto [path, ring] = this->FindRing(number);
+          names.push_back(ring + " of " + path);
+        }
+        warning.replace(
+          place, given.size(), DescribeDefects({ defect }) + " (first: " + JoinWords(names) + ")");
+      }
     }
-    const std::string numbers = found[2].str();
-    std::vector<std::string> names;
-    for (std::sregex_iterator each(numbers.begin(), numbers.end(), number), end; each != end;
-         ++each)
-    {
-      const auto [path, ring] = this->FindRing(each->str());
-      names.push_back(ring + " of " + path);
-    }
-    return found.prefix().str() + found[1].str() + JoinWords(names) +
-      this->NameRings(found.suffix().str());
+    return warning;
   }
 
   void ThrowErrors()
   {
     const std::string errors = TakeVTKErrors();
-    static const std::regex ofRing("\\bring (\\d+)( from point \\d+ to point \\d+)?(.*)");
-    std::smatch found;
-    if (this->Settings.FromPoints && std::regex_search(errors, found, ofRing))
+    const vtkIdType failed = this->Filter->GetFailedRing();
+    if (failed >= 0)
     {
-      const auto [path, ring] = this->FindRing(found[1].str());
+      const std::string name = "ring " + std::to_string(failed);
+      const std::size_t place = errors.find(name);
+      const std::string fault =
+        place == std::string::npos ? ": " + errors : errors.substr(place + name.size());
+      const auto [path, ring] = this->FindRing(failed);
       throw CommandError(
-        ExitCode::BadFile, path + ": " + ring + WithOptions(found[3].str(), this->Settings));
+        ExitCode::BadFile, path + ": " + ring + WithOptions(fault, this->Settings));
     }
     if (!errors.empty())
     {

@@ -48,15 +48,18 @@ public:
 class DELAUNAYFLIP_EXPORT InvalidMesh : public FlipError
 {
 public:
-  InvalidMesh(const std::string& message, std::int64_t cell, std::int64_t point)
+  InvalidMesh(
+    const std::string& message, std::int64_t cell, std::int64_t point, std::int64_t ring = -1)
     : FlipError(message),
       Cell(cell),
-      Point(point)
+      Point(point),
+      Ring(ring)
   {
   }
 
   std::int64_t Cell; ///< The id of the triangle or constraint edge.
   std::int64_t Point; ///< The point id that it names.
+  std::int64_t Ring = -1; ///< Of points: the ring that is at fault, if one is.
 };
 
 /// More triangles than 32-bit half-edges can number; thrown before anything is allocated.

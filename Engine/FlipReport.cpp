@@ -82,101 +82,11 @@ std::string DescribeTolerance(const FlipOptions& options, GeometryKind used)
   return FormatNumber(options.Tolerance, std::numeric_limits<double>::digits10);
 }
 
-namespace
-{
-
-/// What a single one is called, as far as its beginning goes.
-std::string InSingular(const std::string& what)
-{
-  static const std::pair<std::string, std::string> beginnings[] = {
-    { "triangles that face ", "triangle that faces " },
-    { "triangles that repeat ", "triangle that repeats " },
-    { "triangles ", "triangle " },
-    { "points ", "point " },
-    { "duplicate points ", "duplicate point " },
-    { "polygons ", "polygon " },
-    { "constraint edges that are not edges ", "constraint edge that is not an edge " },
-    { "constraint edges that cannot be inserted because they leave ",
-      "constraint edge that cannot be inserted because it leaves " },
-    { "constraint edges that cannot be inserted because they cross ",
-      "constraint edge that cannot be inserted because it crosses " },
-    { "constraint edges ", "constraint edge " },
-    { "segments that cross ", "segment that crosses " },
-    { "segments that end ", "segment that ends " },
-    { "segments ", "segment " },
-    { "hole seeds ", "hole seed " },
-    { "rings ", "ring " },
-  };
-  for (const auto& [several, one] : beginnings)
-  {
-    if (what.compare(0, several.size(), several) == 0)
-    {
-      return one + what.substr(several.size());
-    }
-  }
-  return what;
-}
-
-std::string CountDefect(const Defect& defect)
-{
-  return std::to_string(defect.Count) + " " +
-    (defect.Count == 1 ? InSingular(defect.What) : defect.What);
-}
-
-/// The first ids of a defect, e.g. "3, 8, 11", "3-9, 4-5" or "3-9 crosses segment 12 (points 1 and
-/// 4)".
-std::string ListFirstIds(const Defect& defect)
-{
-  std::string text;
-  const std::size_t width = defect.Ids == DefectIds::PointPairs ? 2 : 1;
-  for (std::size_t i = 0; i + width <= defect.FirstIds.size(); i += width)
-  {
-    Append(text, std::to_string(defect.FirstIds[i]), ", ");
-    if (width == 2)
-    {
-      text += "-" + std::to_string(defect.FirstIds[i + 1]);
-    }
-    if (i / width < defect.Crossed.size())
-    {
-      const bool isSegment = defect.What.rfind("segment", 0) == 0;
-      const char* noun = isSegment ? "segment" : "constraint";
-      text += " " + DescribeCrossed(defect.Crossed[i / width], noun);
-    }
-  }
-  return text;
-}
-
-}
-
-std::string DescribeCrossed(const CrossedEdge& crossed, const std::string& noun)
-{
-  const std::string ends =
-    std::to_string(crossed.Ends[0]) + " and " + std::to_string(crossed.Ends[1]);
-  return crossed.Number < 0
-    ? "crosses the edge of points " + ends
-    : "crosses " + noun + " " + std::to_string(crossed.Number) + " (points " + ends + ")";
-}
-
-std::string DescribeDefects(const std::vector<Defect>& defects)
-{
-  std::string text;
-  for (const Defect& defect : defects)
-  {
-    Append(text, CountDefect(defect), "; ");
-    const std::string first = ListFirstIds(defect);
-    if (!first.empty())
-    {
-      text += " (first: " + first + ")";
-    }
-  }
-  return text;
-}
-
 //------------------------------------------------------------------------------
 void AddDefect(const Defect& defect, std::vector<Defect>& defects)
 {
   const auto known = std::find_if(
-    defects.begin(), defects.end(), [&](const Defect& other) { return other.What == defect.What; });
+    defects.begin(), defects.end(), [&](const Defect& other) { return other.IsLike(defect); });
   if (known != defects.end())
   {
     known->Count += defect.Count;
@@ -220,7 +130,9 @@ void AddTotals(FlipReport& sum, const FlipReport& part)
   }
   for (const Defect& defect : part.Defects)
   {
-    AddDefect({ defect.What, defect.Count, {} }, sum.Defects);
+    Defect counted(defect.Kind, defect.Count);
+    counted.Detail = defect.Detail;
+    AddDefect(counted, sum.Defects);
   }
 }
 
@@ -262,6 +174,15 @@ void AddIterations(FlipReport& sum, const FlipReport& other)
   }
 }
 
+void DropIds(std::vector<Defect>& defects)
+{
+  for (Defect& defect : defects)
+  {
+    defect.FirstIds.clear();
+    defect.Crossed.clear();
+  }
+}
+
 }
 
 IterationRecord& AddIteration(FlipReport& sum, const IterationRecord& row)
@@ -284,7 +205,16 @@ void AddReport(FlipReport& sum, const FlipReport& other)
   {
     sum.MinimumAngleBefore = sum.MinimumAngleAfter = std::numeric_limits<double>::quiet_NaN();
   }
+  const bool isFirst = sum.Points == 0 && sum.Defects.empty();
   AddTotals(sum, other);
+  if (isFirst)
+  {
+    sum.Defects = other.Defects;
+  }
+  else
+  {
+    DropIds(sum.Defects);
+  }
   const double largestShift = std::max(sum.FromPoints.LargestShift, other.FromPoints.LargestShift);
   const auto add = [](const char*, NumberKind kind, auto& total, const auto& more)
   {

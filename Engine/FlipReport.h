@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -89,14 +90,69 @@ struct CrossedEdge
 
 constexpr std::int64_t MostNamedIds = 3; ///< How many of each kind of defect.
 
+/// What is wrong with the input, or was left out. DescribeDefects has the words.
+enum class DefectKind
+{
+  Other, ///< Defect::Detail says it.
+  PointsNotFinite,
+  RepeatedIds, ///< Triangles that name a point twice.
+  TrianglesWithoutArea,
+  TurnedFromMost, ///< Triangles of a plane that face the other way than most.
+  DuplicateTriangles,
+  TurnedFromAbove, ///< This one and the next two keep a mesh from being a height field.
+  FlatFromAbove,
+  OverlapFromAbove,
+  TurnedByFlips, ///< Triangles in x and y, of a mesh that was a height field or nearly one.
+  SeparateTriangles, ///< No two share an edge.
+  ConstraintsNotEdges, ///< Constraints that are not edges, and were not to be inserted.
+  ConstraintsLeaveMesh, ///< This one and the next five cannot be inserted.
+  ConstraintsLeavePart,
+  ConstraintsCross, ///< Defect::Crossed says what.
+  ConstraintsMeetOverlap,
+  ConstraintsNeedGuard,
+  ConstraintsOnSurface,
+  PointsRepeated,
+  PointsTooNear,
+  SegmentsCross, ///< Defect::Crossed says what.
+  SegmentsNotFinite,
+  SegmentsWithoutTriangles,
+  HoleSeedsOutside,
+  RingsWithoutArea,
+  RingsRepeated, ///< With the edges of an earlier one.
+  RingsRunAgain, ///< With a loop that is run more than once.
+  HolePointsOutside, ///< Points of holes on the convex hull, beyond all other points.
+  PointsWithoutTriangles, ///< There are fewer than three places, or all are on one line.
+  NothingLeft, ///< Points of which none is left when triangles are removed.
+  PolygonsTooSmall, ///< With fewer than three different points.
+  ConstraintsNotInMesh, ///< Those of a filter's second input.
+  PointsWithoutHeights ///< Of segments, where other points have heights.
+};
+
 /// A kind of defect in the input: how often it occurs, and where first.
 struct Defect
 {
-  std::string What; ///< In words, e.g. "triangles with a repeated point id".
+  Defect() = default;
+  DELAUNAYFLIP_EXPORT explicit Defect(
+    DefectKind kind, std::int64_t count = 0, std::vector<std::int64_t> firstIds = {});
+  /// One of another kind, in words.
+  Defect(std::string words, std::int64_t count)
+    : Count(count),
+      Detail(std::move(words))
+  {
+  }
+
+  DefectKind Kind = DefectKind::Other;
   std::int64_t Count = 0; ///< How many.
   std::vector<std::int64_t> FirstIds; ///< At most three, ascending; empty if ids would not help.
   DefectIds Ids = DefectIds::Triangles;
-  std::vector<CrossedEdge> Crossed = {}; ///< By pair of ids; empty if the reason is another one.
+  std::vector<CrossedEdge> Crossed; ///< By pair of ids; empty if the reason is another one.
+  std::string Detail; ///< Follows the words of the kind, such as numbers; mostly empty.
+
+  /// Whether both are told as one, with the sum of the counts.
+  bool IsLike(const Defect& other) const
+  {
+    return this->Kind == other.Kind && this->Detail == other.Detail;
+  }
 };
 
 struct FlipReport
@@ -286,8 +342,8 @@ DELAUNAYFLIP_EXPORT std::string DescribeTolerance(const FlipOptions& options, Ge
 DELAUNAYFLIP_EXPORT std::string DescribeDefects(const std::vector<Defect>& defects);
 
 /// Why a segment cannot be inserted, e.g. "crosses segment 12 (points 1 and 4)".
-/// @param noun of what has the number.
-std::string DescribeCrossed(const CrossedEdge& crossed, const std::string& noun);
+/// @param kind SegmentsCross or ConstraintsCross.
+std::string DescribeCrossed(const CrossedEdge& crossed, DefectKind kind);
 
 /// What was done, in lines of a title, ": " and a text; "" without triangles.
 DELAUNAYFLIP_EXPORT std::string Summarize(const FlipReport& report);
@@ -301,7 +357,8 @@ DELAUNAYFLIP_EXPORT std::string FormatNumber(double value, int digits);
 //------------------------------------------------------------------------------
 /// Adds the report of another mesh, flipped after this one. Counts are summed, those of iterations
 /// row by row; the stop reason is the worse of the two, and angles are the smaller ones. Ids of
-/// defects are dropped: they mean nothing outside their mesh.
+/// defects are kept for the first mesh alone, and dropped by the next: they mean nothing outside
+/// their mesh.
 DELAUNAYFLIP_EXPORT void AddReport(FlipReport& sum, const FlipReport& other);
 
 /// Adds the members above, the smallest angles and the defects too. An angle that is NaN does not

@@ -249,15 +249,15 @@ void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
   {
     return;
   }
-  std::string text = "constraint edges of the second input that the mesh does not have";
+  Defect missing(DefectKind::ConstraintsNotInMesh, constraints.Unmatched);
   if (!constraints.FirstStranger.empty())
   {
-    text +=
+    missing.Detail =
       ": ends are not points of the mesh (coordinates must be equal, not just close), first " +
       constraints.FirstStranger;
   }
   report.UnmatchedConstraints += constraints.Unmatched;
-  report.Defects.push_back({ text, constraints.Unmatched, {}, DefectIds::Points });
+  report.Defects.push_back(missing);
 }
 
 bool FlipRun::Store(vtkPolyData* output) const

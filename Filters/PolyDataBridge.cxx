@@ -137,10 +137,10 @@ TriangleSlots::TriangleSlots(
   {
     return;
   }
-  this->NoTriangles.What = "polygons with fewer than three different points";
+  this->NoTriangles = Defect(DefectKind::PolygonsTooSmall);
   if (triangulate)
   {
-    this->NoTriangles.What += ", left out";
+    this->NoTriangles.Detail = ", left out";
   }
   WorkProgress split(progress,
     polygons->GetNumberOfConnectivityIds() + mesh->GetStrips()->GetNumberOfConnectivityIds());

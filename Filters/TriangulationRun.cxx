@@ -492,10 +492,11 @@ Defect TriangulationRun::DescribeFlatPoints() const
   const PointArray points = ViewPoints(this->Given, storage);
   const HeightRange heights(points, points.Count);
   constexpr int Digits = 6;
-  const std::string text =
-    "points of segments without heights (z = 0 throughout; the given points have z = " +
-    FormatNumber(heights.Low, Digits) + " to " + FormatNumber(heights.High, Digits) + "): " + fate;
-  return { text, count, {}, DefectIds::Points };
+  Defect flat(DefectKind::PointsWithoutHeights, count);
+  flat.Detail =
+    " (z = 0 throughout; the given points have z = " + FormatNumber(heights.Low, Digits) + " to " +
+    FormatNumber(heights.High, Digits) + "): " + fate;
+  return flat;
 }
 
 //------------------------------------------------------------------------------

@@ -43,6 +43,23 @@ std::string Join(const std::vector<std::string>& items, const char* separator)
   return text;
 }
 
+/// The ring that the exception that is being handled names; -1: none.
+std::int64_t FindFailedRing()
+{
+  try
+  {
+    throw;
+  }
+  catch (const InvalidMesh& error)
+  {
+    return error.Ring;
+  }
+  catch (...)
+  {
+    return -1;
+  }
+}
+
 /// The kind and the text of the exception that is being handled.
 std::pair<FailureKind, std::string> DescribeException()
 {
@@ -113,6 +130,7 @@ void UpdateSummary::AddFailure(const std::string& where)
   if (this->Failure == FailureKind::None)
   {
     this->Failure = kind;
+    this->FailedRing = FindFailedRing();
   }
   this->Errors.push_back({ where, text });
 }
@@ -163,8 +181,8 @@ Defect FindShortArrays(
     return {};
   }
   const std::string arrays = names.size() == 1 ? " array" : " arrays";
-  return { kind + arrays + fate + ": " + Join(names, ", "), static_cast<std::int64_t>(names.size()),
-    {} };
+  return { kind + arrays + fate + ": " + Join(names, ", "),
+    static_cast<std::int64_t>(names.size()) };
 }
 
 std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool cellsPass)
@@ -185,7 +203,7 @@ std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool
     const std::string fault = ghosts->GetDataType() != VTK_UNSIGNED_CHAR
       ? "ghost array that is not of type unsigned char ignored"
       : "ghost array with several components ignored";
-    defects.push_back({ fault + ": \"" + name + '"', 1, {} });
+    defects.emplace_back(fault + ": \"" + name + '"', 1);
   }
   return defects;
 }

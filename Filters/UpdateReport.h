@@ -49,6 +49,7 @@ struct UpdateSummary
 {
   FlipReport Report; ///< The sum over the meshes without a failure.
   FailureKind Failure = FailureKind::None; ///< The kind of the first error.
+  std::int64_t FailedRing = -1; ///< InvalidMesh::Ring of the first error.
   std::vector<Note> Errors;
   std::vector<Note> Warnings;
 

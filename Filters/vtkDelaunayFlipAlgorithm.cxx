@@ -406,6 +406,7 @@ void vtkDelaunayFlipAlgorithm::Keep(const UpdateSummary& summary)
 {
   *this->Report = summary.Report;
   this->Failure = static_cast<int>(summary.Failure);
+  this->FailedRing = static_cast<vtkIdType>(summary.FailedRing);
   this->ErrorMessage = Describe(summary.Errors);
   this->StopReasonText = "failed: " + this->ErrorMessage;
   if (this->Failure != FAILURE_NONE)

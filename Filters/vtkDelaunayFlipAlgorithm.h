@@ -258,6 +258,11 @@ public:
    */
 #ifndef __VTK_WRAP__
   const delaunayflip::FlipReport& GetReport() const;
+
+  /**
+   * The ring that made the last update fail, a cell id of the second input; -1: none.
+   */
+  vtkIdType GetFailedRing() const { return this->FailedRing; }
 #endif
 
   ///@{
@@ -344,6 +349,7 @@ protected:
   vtkIdType IterationsPerUpdate = 1;
   bool Paused = false;
   int Failure = FAILURE_NONE;
+  vtkIdType FailedRing = -1;
 
 private:
   int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,

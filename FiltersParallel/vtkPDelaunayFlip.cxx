@@ -116,7 +116,8 @@ void AddSum(const Defect& own, PieceGroup& group, PiecesReport& report)
 {
   Message message;
   Put(message, own.Count);
-  Defect sum{ own.What, 0, {} };
+  Defect sum(own.Kind);
+  sum.Detail = own.Detail;
   for (MessageReader reader = GatherAll(message, group); !reader.IsAtEnd();)
   {
     sum.Count += reader.Get<std::int64_t>();
@@ -323,13 +324,14 @@ PiecesReport FlipPieces(const FlipRequest& request, PieceGroup& group, vtkPolyDa
   if (elsewhere > 0)
   {
     report.UnmatchedConstraints += elsewhere;
-    std::string text = "constraint edges of the second input that the mesh does not have";
+    Defect missing(DefectKind::ConstraintsNotInMesh, elsewhere);
     if (request.Settings.InsertConstraints && group.GetSize() > 1)
     {
-      text = "constraint edges of the second input with ends that no rank has together: insert "
-             "constraints before the mesh is divided";
+      missing = Defect("constraint edges of the second input with ends that no rank has together: "
+                       "insert constraints before the mesh is divided",
+        elsewhere);
     }
-    report.Defects.push_back({ text, elsewhere, {}, DefectIds::Points });
+    report.Defects.push_back(missing);
   }
   AddSum(bridge.GetSlots().NoTriangles, group, report);
   const PieceOutput writer(mesh, bridge, flipped, group);

@@ -155,8 +155,7 @@ public:
     report.ObtuseAtNonManifold = mayHide ? this->CountHidden().ObtuseCorners : 0;
     std::vector<Defect> defects{ survey.NonFinitePoints, survey.RepeatedIds,
       survey.NearlyHeightField, built.DuplicateTriangles,
-      { "constraint edges that are not edges of the mesh", built.MissingConstraints, {},
-        DefectIds::Points } };
+      Defect(DefectKind::ConstraintsNotEdges, built.MissingConstraints) };
     defects.insert(defects.end(), made.begin(), made.end());
     std::copy_if(defects.begin(), defects.end(), std::back_inserter(report.Defects),
       [](const Defect& defect) { return defect.Count > 0; });

@@ -266,7 +266,7 @@ Defect FindDuplicates(EdgeMesh& edges, const Backend& backend)
       });
     repeated = FindRepeated(suspects, numbering.Total, backend);
   }
-  return MakeDefect("triangles that repeat another one's points", repeated);
+  return MakeDefect(DefectKind::DuplicateTriangles, repeated);
 }
 
 /// @throws InvalidMesh.

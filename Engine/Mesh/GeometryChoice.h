@@ -592,21 +592,18 @@ private:
     {
       return;
     }
-    std::string what = "triangles without area in x and y";
-    IdSample strays = orientations.Flat;
+    Defect& defect = this->Survey.NearlyHeightField;
+    defect = MakeDefect(DefectKind::FlatFromAbove, orientations.Flat);
     if (orientations.GetOthers().Count > 0)
     {
-      what = "triangles that face the other way seen from above";
-      strays = orientations.GetOthers();
+      defect = MakeDefect(DefectKind::TurnedFromAbove, orientations.GetOthers());
       if (orientations.Flat.Count > 0)
       {
-        what += ", and " + std::to_string(orientations.Flat.Count) + " that have no area there";
+        defect.Detail =
+          ", and " + std::to_string(orientations.Flat.Count) + " that have no area there";
       }
     }
-    this->Survey.NearlyHeightField = MakeDefect(what +
-        ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
-        "planar-xy",
-      strays);
+    defect.Detail += NearlyHeightField;
   }
 
   /// Whether stars overlap.
@@ -621,12 +618,14 @@ private:
     this->Take(GeometryKind::Surface,
       "not a height field: seen from above, triangles overlap around " +
         std::to_string(overlaps.Count) + points);
-    this->Survey.NearlyHeightField = MakeDefect("points whose triangles overlap in x and y, so "
-                                                "the mesh, nearly a height field, is flipped "
-                                                "as a surface; if it is terrain, use planar-xy",
-      overlaps, DefectIds::Points);
+    this->Survey.NearlyHeightField = MakeDefect(DefectKind::OverlapFromAbove, overlaps);
+    this->Survey.NearlyHeightField.Detail = NearlyHeightField;
     return true;
   }
+
+  static constexpr const char* NearlyHeightField =
+    ", so the mesh, nearly a height field, is flipped as a surface; if it is terrain, use "
+    "planar-xy";
 
   const MeshInput& Input;
   MeshSurvey& Survey;
@@ -677,10 +676,9 @@ Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
         }
       }
     });
-  Defect defect = MakeDefect("triangles that flips in space have turned over in x and y, although "
-                             "the input was a height field or nearly one; if it is terrain, use "
-                             "planar-xy",
-    sums.Flipped);
+  Defect defect = MakeDefect(DefectKind::TurnedByFlips, sums.Flipped);
+  defect.Detail = ", although the input was a height field or nearly one; if it is terrain, use "
+                  "planar-xy";
   defect.Count = std::max<std::int64_t>(0, sums.All - before.GetOthers().Count);
   defect.FirstIds.resize(std::min<std::size_t>(defect.FirstIds.size(), defect.Count));
   return defect;

@@ -134,10 +134,9 @@ struct OrientationSample
   }
 };
 
-inline Defect MakeDefect(
-  const std::string& what, const IdSample& sample, DefectIds ids = DefectIds::Triangles)
+inline Defect MakeDefect(DefectKind kind, const IdSample& sample)
 {
-  Defect defect{ what, sample.Count, {}, ids };
+  Defect defect(kind, sample.Count);
   for (int i = 0; i < IdSample::Kept && i < sample.Count; ++i)
   {
     defect.FirstIds.push_back(sample.Smallest[i]);

@@ -148,7 +148,7 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
     }
     ThrowInvalidId(given, first, mesh.Points.Count);
   }
-  survey.RepeatedIds = MakeDefect("triangles with a repeated point id", ids.Repeated);
+  survey.RepeatedIds = MakeDefect(DefectKind::RepeatedIds, ids.Repeated);
 }
 
 /// @param geometry decides which coordinates matter.
@@ -179,8 +179,7 @@ void SurveyPoints(
     });
   survey.Precision = input.Caller.Points.Floats ? FloatPrecision : DoublePrecision;
   survey.UsedPoints = points.Used;
-  survey.NonFinitePoints =
-    MakeDefect("points with NaN or infinite coordinates", points.NonFinite, DefectIds::Points);
+  survey.NonFinitePoints = MakeDefect(DefectKind::PointsNotFinite, points.NonFinite);
   if (points.Used > points.NonFinite.Count)
   {
     survey.Box = points;

@@ -187,9 +187,8 @@ struct PlanarSurvey
     {
       side = this->Orientations.GetSide();
     }
-    return { MakeDefect("triangles without area", this->Orientations.Flat),
-      MakeDefect(
-        "triangles that face the other way than most", this->Orientations.GetOthers(side)) };
+    return { MakeDefect(DefectKind::TrianglesWithoutArea, this->Orientations.Flat),
+      MakeDefect(DefectKind::TurnedFromMost, this->Orientations.GetOthers(side)) };
   }
 };
 
@@ -250,7 +249,7 @@ Defect FindZeroAreaTriangles(
         sum.Note(triangles[t].InputTriangle);
       }
     });
-  return MakeDefect("triangles without area", sample);
+  return MakeDefect(DefectKind::TrianglesWithoutArea, sample);
 }
 
 }

@@ -543,14 +543,13 @@ private:
   void AddDefects()
   {
     std::vector<Defect> defects = this->Survey.ListDefects();
-    const Defect unmatched{ "constraint edges that are not edges of the mesh",
-      this->Report.UnmatchedConstraints, {}, DefectIds::Points };
+    const Defect unmatched(DefectKind::ConstraintsNotEdges, this->Report.UnmatchedConstraints);
     AddDefect(unmatched, defects);
     for (const Defect& defect : this->Report.Defects)
     {
-      const bool isKnown = defect.What == unmatched.What ||
+      const bool isKnown = defect.IsLike(unmatched) ||
         std::any_of(defects.begin(), defects.end(),
-          [&](const Defect& known) { return known.What == defect.What; });
+          [&](const Defect& known) { return known.IsLike(defect); });
       if (!isKnown)
       {
         defects.push_back(defect);

@@ -39,7 +39,8 @@ std::vector<FlipReport> GatherReports(const FlipReport& own, PieceGroup& group)
   ForEachMember(own, [&](const auto& member) { Put(message, member); });
   for (const Defect& defect : own.Defects)
   {
-    Put(message, defect.What);
+    Put(message, static_cast<std::int64_t>(defect.Kind));
+    Put(message, defect.Detail);
     Put(message, defect.Count);
   }
   std::vector<FlipReport> reports;
@@ -50,8 +51,9 @@ std::vector<FlipReport> GatherReports(const FlipReport& own, PieceGroup& group)
     ForEachMember(report, [&](auto& member) { reader.Get(member); });
     while (!reader.IsAtEnd())
     {
-      Defect& defect = report.Defects.emplace_back();
-      reader.Get(defect.What);
+      const auto kind = static_cast<DefectKind>(reader.Get<std::int64_t>());
+      Defect& defect = report.Defects.emplace_back(kind);
+      reader.Get(defect.Detail);
       reader.Get(defect.Count);
     }
   }

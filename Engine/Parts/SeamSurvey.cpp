@@ -502,9 +502,7 @@ void PartConstraints::AddTo(FlipReport& report) const
   report.ConstraintFlips += this->Insertion.GetNumberOfFlips();
   report.UnmatchedConstraints += SizeOf(this->Refused) + this->Unmatched;
   AddDefects(this->Refused, report.Defects);
-  AddDefect(
-    { "constraint edges that are not edges of the mesh", this->Unmatched, {}, DefectIds::Points },
-    report.Defects);
+  AddDefect(Defect(DefectKind::ConstraintsNotEdges, this->Unmatched), report.Defects);
 }
 
 }

@@ -48,14 +48,12 @@ std::uint32_t FindCrossed(const PointMeshView& mesh, const PlaneArray& points,
 void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* ends,
   bool wereSplit, std::vector<Defect>& defects)
 {
-  const std::string reasons[] = {
-    std::string("segments that cross an earlier one") + GetRemedy(wereSplit),
-    "segments that end at a point that is not finite", "segments between points without a triangle"
-  };
+  constexpr DefectKind reasons[] = { DefectKind::SegmentsCross, DefectKind::SegmentsNotFinite,
+    DefectKind::SegmentsWithoutTriangles };
   for (const RefusalKind why :
     { RefusalKind::CrossesEarlier, RefusalKind::NotFinite, RefusalKind::NoTriangulation })
   {
-    Defect defect{ reasons[static_cast<int>(why)], 0, {}, DefectIds::PointPairs };
+    Defect defect(reasons[static_cast<int>(why)]);
     for (const RefusedSegment& one : refused)
     {
       if (one.Why == why && defect.Count++ < MostNamedIds)
@@ -65,7 +63,11 @@ void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* 
         defect.Crossed.push_back(one.Crossed);
       }
     }
-    if (why != RefusalKind::CrossesEarlier)
+    if (why == RefusalKind::CrossesEarlier)
+    {
+      defect.Detail = GetRemedy(wereSplit);
+    }
+    else
     {
       defect.Crossed.clear();
     }
@@ -81,7 +83,8 @@ std::string DescribeRefusal(const RefusedSegment& ofRing, const std::int64_t* en
   switch (ofRing.Why)
   {
     case RefusalKind::CrossesEarlier:
-      return which + " " + DescribeCrossed(ofRing.Crossed, "segment") + GetRemedy(wereSplit);
+      return which + " " + DescribeCrossed(ofRing.Crossed, DefectKind::SegmentsCross) +
+        GetRemedy(wereSplit);
     case RefusalKind::NotFinite:
       return which + " cannot be inserted: a coordinate of an end is NaN or infinite";
     case RefusalKind::NoTriangulation:

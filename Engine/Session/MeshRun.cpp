@@ -99,9 +99,7 @@ void MeshRun::ListDefects()
   const EdgeCounts& edges = report.Edges;
   if (report.Triangles > 1 && edges.Edges > 0 && edges.Boundary == edges.Edges)
   {
-    report.Defects.push_back({ "triangles of which no two share an edge, so that none can flip: "
-                               "merge points that lie at the same place",
-      report.Triangles, {}, DefectIds::Points });
+    report.Defects.emplace_back(DefectKind::SeparateTriangles, report.Triangles);
   }
 }
 

@@ -64,7 +64,7 @@ void CheckInput(const PointInput& input, const PointOptions& options)
       }
       throw InvalidMesh(name + " names point " + std::to_string(point) + ", but there are " +
           DescribePoints(input.Points.Count),
-        i / 2, point);
+        i / 2, point, GetRing(input, i / 2));
     }
   }
   for (std::int64_t i = 0; i < 2 * input.NumberOfHoleSeeds; ++i)
@@ -355,7 +355,7 @@ void PreparedPoints::TurnSegments(
       {
         throw InvalidMesh("ring " + std::to_string(segment.Ring) + " is not closed at point " +
             std::to_string(point) + ": close it, or make its segments part of no ring",
-          segment.Number, point);
+          segment.Number, point, segment.Ring);
       }
     }
   }

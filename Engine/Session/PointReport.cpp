@@ -42,12 +42,12 @@ struct CoordinateBox
 };
 
 /// Rings that are left out, as a defect.
-Defect NameRings(const char* what, std::vector<std::int32_t> numbers)
+Defect NameRings(DefectKind kind, std::vector<std::int32_t> numbers)
 {
   std::sort(numbers.begin(), numbers.end());
   const std::int64_t count = SizeOf(numbers);
   numbers.resize(std::min<std::int64_t>(MostNamedIds, count));
-  return { what, count, { numbers.begin(), numbers.end() }, DefectIds::Rings };
+  return Defect(kind, count, { numbers.begin(), numbers.end() });
 }
 
 std::vector<std::int32_t> ListRingsWithoutArea(
@@ -110,9 +110,9 @@ void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedP
     used.resize(points.GetInput().Points.Count);
     mesh.StoreUsedPoints(used.data());
   }
-  const auto add = [&](const char* what, std::int64_t count, const auto& isListed)
+  const auto add = [&](DefectKind kind, std::int64_t count, const auto& isListed)
   {
-    Defect defect{ what, count, {}, DefectIds::Points };
+    Defect defect(kind, count);
     const std::int64_t most = std::min(count, MostNamedIds);
     for (std::int64_t i = 0; SizeOf(defect.FirstIds) < most && i < report.Points; ++i)
     {
@@ -123,12 +123,11 @@ void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedP
     }
     AddDefect(defect, report.Defects);
   };
-  add("points with NaN or infinite coordinates", counts.NotFinite,
+  add(DefectKind::PointsNotFinite, counts.NotFinite,
     [&](std::int64_t i) { return used[i] < 0 && !points.IsNear(i); });
-  add("duplicate points skipped", counts.Repeated,
+  add(DefectKind::PointsRepeated, counts.Repeated,
     [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
-  add("points nearer than the tolerance to one with a lower id", counts.TooNear,
-    [&](std::int64_t i) { return points.IsNear(i); });
+  add(DefectKind::PointsTooNear, counts.TooNear, [&](std::int64_t i) { return points.IsNear(i); });
 }
 }
 
@@ -169,9 +168,9 @@ Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept)
   {
     removed += " but those between points of segments";
   }
-  std::string text = "points without a triangle, because " + removed + " were removed (" +
-    std::to_string(kept.Outside) + " outside, " + std::to_string(kept.Large) +
-    " too large); the points lie in " + places.Describe();
+  std::string text = ", because " + removed + " were removed (" + std::to_string(kept.Outside) +
+    " outside, " + std::to_string(kept.Large) + " too large); the points lie in " +
+    places.Describe();
   if (!points.GetSegments().empty())
   {
     text += ", the segments in " + segments.Describe();
@@ -180,7 +179,9 @@ Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept)
   {
     text += ", the hole seeds in " + seeds.Describe();
   }
-  return { text, given, {}, DefectIds::Points };
+  Defect loss(DefectKind::NothingLeft, given);
+  loss.Detail = text;
+  return loss;
 }
 
 void AddPointsTo(
@@ -196,19 +197,12 @@ void AddPointsTo(
   {
     pointsWithoutMesh = report.Points;
   }
-  for (const Defect& defect :
-    { Defect{ "hole seeds outside of all triangles", kept.SeedsOutside, {}, DefectIds::Points },
-      NameRings("rings without an area, left out", ListRingsWithoutArea(points, kept)),
-      NameRings("rings with the edges of an earlier one, left out", kept.RepeatedRings),
-      NameRings("rings with a loop that is run more than once, counted once", kept.RingsRunAgain),
-      Defect{
-        "points of holes on the convex hull, to which the mesh reaches beyond all other points "
-        "(an outline ends it before)",
-        kept.HolePointsOutside, {}, DefectIds::Points },
-      Defect{
-        "points without a triangle: there are fewer than three places, or all are on one line",
-        pointsWithoutMesh, {}, DefectIds::Points },
-      result.Loss })
+  for (const Defect& defect : { Defect(DefectKind::HoleSeedsOutside, kept.SeedsOutside),
+         NameRings(DefectKind::RingsWithoutArea, ListRingsWithoutArea(points, kept)),
+         NameRings(DefectKind::RingsRepeated, kept.RepeatedRings),
+         NameRings(DefectKind::RingsRunAgain, kept.RingsRunAgain),
+         Defect(DefectKind::HolePointsOutside, kept.HolePointsOutside),
+         Defect(DefectKind::PointsWithoutTriangles, pointsWithoutMesh), result.Loss })
   {
     AddDefect(defect, report.Defects);
   }

@@ -294,7 +294,7 @@ void PointRun::ExplainRefused(LoadedMesh& mesh)
   {
     const std::int64_t number = ofRing->Refused.Number;
     throw InvalidMesh(DescribeRefusal(*ofRing, segments, this->Points.GetOptions().SplitCrossings),
-      number, segments[2 * number]);
+      number, segments[2 * number], ofRing->Refused.Ring);
   }
 }
 

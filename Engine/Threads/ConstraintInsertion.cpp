@@ -16,16 +16,10 @@ namespace
 {
 
 /// By Refusal.
-constexpr const char* Reasons[] = {
-  "constraint edges that cannot be inserted because they leave the mesh",
-  "constraint edges that cannot be inserted because they leave the part of the mesh that a rank "
-  "has: insert constraints across ranks before the mesh is divided",
-  "constraint edges that cannot be inserted because they cross edges that stay",
-  "constraint edges that cannot be inserted where triangles overlap or points coincide",
-  "constraint edges that ranks cannot insert because triangles overlap or have no area: insert "
-  "constraints before the mesh is divided",
-  "constraint edges that are not edges of the mesh and cannot be inserted on a surface"
-};
+constexpr DefectKind Reasons[] = { DefectKind::ConstraintsLeaveMesh,
+  DefectKind::ConstraintsLeavePart, DefectKind::ConstraintsCross,
+  DefectKind::ConstraintsMeetOverlap, DefectKind::ConstraintsNeedGuard,
+  DefectKind::ConstraintsOnSurface };
 
 Refusal ToRefusal(PathResult result)
 {
@@ -46,7 +40,7 @@ void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defec
 {
   for (std::size_t i = 0; i < std::size(Reasons); ++i)
   {
-    Defect defect{ Reasons[i], 0, {}, DefectIds::PointPairs };
+    Defect defect(Reasons[i]);
     for (const RefusedConstraint& one : refused)
     {
       if (one.Why == static_cast<Refusal>(i) && defect.Count++ < MostNamedIds)

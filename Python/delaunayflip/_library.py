@@ -18,12 +18,14 @@ class InvalidMesh(FlipError, ValueError):
     Attributes:
         cell: The triangle, or the constraint edge.
         point: The id that it names.
+        ring: The number of the ring that is at fault, outlines first; -1: none.
     """
 
-    def __init__(self, message: str, cell: int = -1, point: int = -1) -> None:
+    def __init__(self, message: str, cell: int = -1, point: int = -1, ring: int = -1) -> None:
         super().__init__(message)
         self.cell = cell
         self.point = point
+        self.ring = ring
 
 
 class InvalidOptions(FlipError, ValueError):
@@ -51,6 +53,15 @@ HOST, CUDA = 0, 1  # memories
 
 #: In the order of the header, like the choices of _options.
 STOP_REASONS = ("not started", "converged", "iteration limit", "aborted", "running")
+DEFECT_KINDS = (
+    "other", "points not finite", "repeated ids", "triangles without area", "turned from most",
+    "duplicate triangles", "turned from above", "flat from above", "overlap from above",
+    "turned by flips", "separate triangles", "constraints not edges", "constraints leave mesh",
+    "constraints leave part", "constraints cross", "constraints meet overlap",
+    "constraints need guard", "constraints on surface", "points repeated", "points too near",
+    "segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
+    "rings without area", "rings repeated", "rings run again", "hole points outside",
+    "points without triangles", "nothing left", "polygons too small", "constraints not in mesh", "points without heights")
 
 
 def make_struct(name, members):
@@ -86,6 +97,10 @@ Iteration = make_struct("Iteration", (
     (c_int64, "iteration tested non_delaunay flipped excluded blocked"),
     (c_double, "minimum_angle seconds")))
 
+Defect = make_struct("Defect", (
+    (c_int32, "kind number_of_ids"), (c_int64, "count"), (c_void_p, "first_ids crossed"),
+    (c_char_p, "text")))
+
 ProgressFunction = ctypes.CFUNCTYPE(c_int32, c_double, c_void_p)
 IterationFunction = ctypes.CFUNCTYPE(c_int32, ctypes.POINTER(Iteration), c_void_p)
 Callbacks = make_struct("Callbacks", (
@@ -110,7 +125,7 @@ def library():
         raise ImportError(f"{loaded._name} has another interface than this Python package")
     for name in ("version", "error_message"):
         getattr(loaded, f"delaunayflip_{name}").restype = c_char_p
-    for name in ("error_cell", "error_point"):
+    for name in ("error_cell", "error_point", "error_ring", "count_defects"):
         getattr(loaded, f"delaunayflip_{name}").restype = c_int64
     return loaded
 
@@ -151,7 +166,7 @@ def call(name, *arguments):
         return
     message = run("error_message").decode(errors="replace")
     if status == 1:
-        raise InvalidMesh(message, run("error_cell"), run("error_point"))
+        raise InvalidMesh(message, run("error_cell"), run("error_point"), run("error_ring"))
     raise _EXCEPTIONS.get(status, FlipError)(message)
 
 

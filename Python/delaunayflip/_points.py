@@ -19,8 +19,7 @@ from ._ask import Answers, Field, Method, Outside, read_places, read_raster
 from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, make_options, to_number)
 from ._report import Report
-from ._rings import (
-    RING_RULES, RingRule, Rings, find_trouble, list_rings, name_rings)
+from ._rings import RING_RULES, RingRule, Rings, list_rings
 from ._session import run
 
 Heights = typing.Literal["survey", "own"]
@@ -192,7 +191,7 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
                 run("open_points", given.struct, options, given.make_room, progress, on_iteration))
             result = given.store(handle, room, (points, keywords))
         except _library.InvalidMesh as error:
-            error.args = (given.explain(str(error)), *error.args[1:])
+            error.args = (given.explain(str(error), error.ring), *error.args[1:])
             raise
         if keeps:
             result.__dict__["_answers"] = Answers(given, handle, stack.pop_all())
@@ -295,9 +294,25 @@ class Input:
         self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
         self.rings.append(numpy.full(len(ids), number, dtype=numpy.int32))
 
-    def explain(self, text):
-        """A message of the engine in the caller's words."""
-        return name_rings(text, self._ring_names).replace("SplitCrossings", self.split_option)
+    def explain(self, text, ring=-1):
+        """A message of the engine, which may name a ring, in the caller's words."""
+        text = text.replace(f"ring {ring}", self._name_ring(ring), 1)
+        return text.replace("SplitCrossings", self.split_option)
+
+    def _name_ring(self, number):
+        return self._ring_names.get(number, f"ring {number}")
+
+    def _describe_defects(self, handle):
+        """The defects as one text. Notes those that are warned of."""
+        texts = []
+        for kind, ids, text in _report.list_defects(handle):
+            if kind in ("rings without area", "rings repeated", "rings run again", "hole points outside"):
+                if self._ring_names and kind != "hole points outside":
+                    named = ", ".join(map(self._name_ring, ids))
+                    text = f"{text.partition(' (first: ')[0]} (first: {named})"
+                self.trouble.append(text)
+            texts.append(self.explain(text))
+        return "; ".join(texts)
 
     def find_flat_points(self, given, segments, rings):
         """Finds the points behind the `given` ones that rings without z have, or that lines, outlines
@@ -366,8 +381,7 @@ class Input:
         used = self._find_used_points(handle, report)
         points = self.points
         if report.defects:
-            report = dataclasses.replace(report, defects=self.explain(report.defects))
-            self.trouble += find_trouble(report.defects)
+            report = dataclasses.replace(report, defects=self._describe_defects(handle))
         report = self._report_flat_points(report, triangles)
         if self._is_nothing_left(report, triangles):
             self.trouble = [report.defects]

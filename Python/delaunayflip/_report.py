@@ -129,6 +129,19 @@ def read(handle: ctypes.c_void_p) -> Report:
     return _from_struct(read_struct(handle))
 
 
+def list_defects(handle: ctypes.c_void_p) -> typing.List[typing.Tuple[str, typing.List[int], str]]:
+    """(kind, first ids, text) of each defect that the last read(handle) has found."""
+    defects = (_library.Defect * _library.run("count_defects", handle))()
+    size = ctypes.sizeof(_library.Defect)
+    _library.call("get_defects", handle, 0, len(defects), ctypes.addressof(defects), size)
+    listed = []
+    for one in defects:
+        count = one.number_of_ids
+        ids = list((ctypes.c_int64 * count).from_address(one.first_ids)) if count else []
+        listed.append((_library.DEFECT_KINDS[one.kind], ids, one.text.decode()))
+    return listed
+
+
 def read_iterations(handle: ctypes.c_void_p, report: Report) -> numpy.typing.NDArray[typing.Any]:
     """The rows of a session's iterations. `report`: what read(handle) gives now."""
     rows = numpy.empty(report.number_of_iterations, dtype=ITERATION)

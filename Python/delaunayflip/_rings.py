@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The rings of outlines and holes: what callers give, as a list of arrays, and their names."""
-import re
 import typing
 
 import numpy
@@ -69,18 +68,3 @@ def _read_ring(name, ring):
     ring = _arrays.as_plane(ring, name)
     is_closed = len(ring) > 1 and numpy.array_equal(ring[0], ring[-1])
     return ring[:-1] if is_closed else ring
-
-
-def name_rings(text, names):
-    """A message of the engine with names of rings, by their numbers."""
-    def name(found):
-        return names.get(int(found[1]), found[0])
-
-    text = re.sub(r"\bring (\d+)", name, text)
-    return re.sub(r"(, (?:left out|counted once) \(first: )([\d, ]+)",
-                  lambda found: found[1] + re.sub(r"(\d+)", name, found[2]), text)
-
-
-def find_trouble(defects):
-    """What the text of a report's defects says of rings: a list of texts."""
-    return re.findall(r"\d+ rings? [^;]*, (?:left out|counted once)[^;]*|\d+ points? of holes on [^;]*", defects)

@@ -486,6 +486,47 @@ static void TestQueries(void)
   delaunayflip_close(session);
 }
 
+/** Two diagonals that cross, and a ring of one edge. Then a ring that is not closed. */
+static void TestDefects(void)
+{
+  const double places[] = { 0, 0, 4, 0, 4, 4, 0, 4 };
+  const int64_t segments[] = { 0, 2, 1, 3, 0, 1, 1, 0 };
+  const int32_t rings[] = { -1, -1, 7, 7 };
+  const int32_t open_rings[] = { -1, 5, 5, -1 };
+  delaunayflip_points points;
+  delaunayflip_defect defects[2];
+  delaunayflip_session* session = NULL;
+  const int64_t size = sizeof(defects[0]);
+  delaunayflip_points_init(&points);
+  points.points = places;
+  points.number_of_points = 4;
+  points.segments = segments;
+  points.number_of_segments = 4;
+  points.rings = rings;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  GetReport(session);
+  CHECK(delaunayflip_count_defects(session) == 2);
+  CHECK(delaunayflip_get_defects(session, 0, 2, defects, size) == DELAUNAYFLIP_OK);
+  CHECK(defects[0].kind == DELAUNAYFLIP_DEFECT_SEGMENTS_CROSS && defects[0].count == 1);
+  CHECK(defects[0].number_of_ids == 2);
+  CHECK(defects[0].first_ids[0] == 1 && defects[0].first_ids[1] == 3);
+  CHECK(defects[0].crossed[0] == 0);
+  CHECK(defects[0].crossed[1] == 0 && defects[0].crossed[2] == 2);
+  CHECK(strstr(defects[0].text, "1-3 crosses segment 0 (points 0 and 2)") != NULL);
+  CHECK(defects[1].kind == DELAUNAYFLIP_DEFECT_RINGS_WITHOUT_AREA);
+  CHECK(defects[1].number_of_ids == 1 && defects[1].first_ids[0] == 7);
+  CHECK(defects[1].crossed == NULL);
+  CHECK(delaunayflip_get_defects(session, 1, 2, defects, size) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_error_ring() == -1);
+  delaunayflip_close(session);
+  points.rings = open_rings;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_INVALID_MESH);
+  CHECK(delaunayflip_error_ring() == 5);
+  delaunayflip_close(session);
+}
+
 int main(void)
 {
   TestFlipsSquare();
@@ -502,5 +543,6 @@ int main(void)
   TestPoints();
   TestRings();
   TestQueries();
+  TestDefects();
   return 0;
 }

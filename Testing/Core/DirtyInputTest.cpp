@@ -314,7 +314,7 @@ TEST(Overlap, InvertedTrianglesAreReportedAndSurvived)
   ASSERT_TRUE(FindTurns(mesh, 0).empty());
   const std::vector<Defect> defects = MakeSession(mesh.View()).GetReport().Defects;
   ASSERT_EQ(1u, defects.size()) << DescribeDefects(defects);
-  EXPECT_EQ("triangles that face the other way than most", defects[0].What);
+  EXPECT_EQ(DefectKind::TurnedFromMost, defects[0].Kind);
   EXPECT_EQ(static_cast<std::int64_t>(inverted.size()), defects[0].Count);
   EXPECT_EQ(DefectIds::Triangles, defects[0].Ids);
   inverted.resize(3);

@@ -280,7 +280,7 @@ TEST(GeometryChoice, TheAntimeridianIsWarnedOfOnce)
   ASSERT_EQ(1u, report.Defects.size()) << DescribeDefects(report.Defects);
   EXPECT_EQ(40, report.Defects[0].Count);
   EXPECT_EQ((std::vector<std::int64_t>{ 398, 399, 798 }), report.Defects[0].FirstIds);
-  EXPECT_NE(std::string::npos, report.Defects[0].What.find("nearly a height field"));
+  EXPECT_NE(std::string::npos, report.Defects[0].Detail.find("nearly a height field"));
   EXPECT_TRUE(Survey(globe, GeometryKind::Surface).Defects.empty());
 }
 
@@ -317,10 +317,11 @@ TEST(GeometryChoice, TrianglesWithoutAreaAreCountedApart)
     "planar-xy");
   const FlipReport report = Survey(mesh);
   ASSERT_EQ(3u, report.Defects.size()) << DescribeDefects(report.Defects); // area, no shared edges
+  EXPECT_EQ(DefectKind::TurnedFromAbove, report.Defects[0].Kind);
   EXPECT_EQ(
-    "triangles that face the other way seen from above, and 119 that have no area there, so the "
-    "mesh, nearly a height field, is flipped as a surface; if it is terrain, use planar-xy",
-    report.Defects[0].What);
+    ", and 119 that have no area there, so the mesh, nearly a height field, is flipped as a "
+    "surface; if it is terrain, use planar-xy",
+    report.Defects[0].Detail);
   EXPECT_EQ(7, report.Defects[0].Count);
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2 }), report.Defects[0].FirstIds);
   mesh.Points[2] = 50000.0;
@@ -346,7 +347,7 @@ TEST(GeometryChoice, SteepTerrainWithAFewTrianglesTurnedIsWarnedOf)
     ExpectChoice(mesh, GeometryKind::Surface, "if it is terrain, use planar-xy");
     const FlipReport report = Survey(mesh);
     ASSERT_EQ(1u, report.Defects.size()) << DescribeDefects(report.Defects);
-    EXPECT_NE(std::string::npos, report.Defects[0].What.find("nearly a height field"));
+    EXPECT_NE(std::string::npos, report.Defects[0].Detail.find("nearly a height field"));
     EXPECT_LT(0, report.Defects[0].Count);
     EXPECT_EQ(size == 20, 1000 * report.Defects[0].Count > report.Triangles);
   }

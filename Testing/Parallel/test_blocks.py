@@ -47,7 +47,7 @@ class Blocks(RanksTest):
                 self.assertTrue(facts["same"])
                 self.assertEqual(facts["constraints"], facts["constraints alone"])
                 self.assertEqual(facts["unmatched"] > 0, unmatched)
-                misfit = "rank 1, block 4 of the second input: nothing of the first input is at the same"
+                misfit = "rank 1, block 4 of the second input: ignored, because the first input has"
                 self.assertEqual(misfit in str(facts["said"]), kind == "composite")
 
 

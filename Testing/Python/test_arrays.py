@@ -675,7 +675,7 @@ class Header(unittest.TestCase):
         return [declaration.match(text).groups() for text in declarations if text]
 
     def test_structs(self):
-        for name in ("Mesh", "Options", "Iteration", "Report", "Callbacks", "Polygons", "Query"):
+        for name in ("Mesh", "Options", "Iteration", "Report", "Callbacks", "Polygons", "Query", "Defect"):
             own = {"Report": _report.Struct, "Options": _options.Struct}
             struct = own.get(name) or getattr(_library, name)
             members = self.members(f"delaunayflip_{name.lower()}")
@@ -696,7 +696,7 @@ class Header(unittest.TestCase):
 
     def test_enumerations(self):
         enumerations = {**_options.CHOICES, "geometry": _report.GEOMETRIES, "method": _ask.METHODS,
-                        "stop_reason": _library.STOP_REASONS}
+                        "stop_reason": _library.STOP_REASONS, "defect_kind": _library.DEFECT_KINDS}
         for name, words in enumerations.items():
             body = re.search(rf"typedef enum\s*\{{([^}}]*)\}} delaunayflip_{name};", self.HEADER)
             values = re.findall(r"DELAUNAYFLIP_(\w+) = (\d+)", body.group(1))
