@@ -14,6 +14,7 @@
 #include "OutputFiles.h"
 #include "RasterFile.h"
 #include "RoundedDigits.h"
+#include "RunReport.h"
 #include "SegmentLines.h"
 
 #include <vtkAppendPolyData.h>
@@ -26,8 +27,6 @@
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 
-#include <nlohmann/json.hpp>
-
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -35,7 +34,6 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <sstream>
@@ -152,84 +150,6 @@ std::string WithOptions(const std::string& message, const Arguments& given)
     ReplaceWords(property, option, text);
   }
   return text;
-}
-
-/// The engine's report, and the times of the steps outside it.
-struct RunReport
-{
-  bool IsFromPoints = false;
-  FlipReport Flip;
-  std::string Summary; ///< The filter's: lines of a title, ": " and a text.
-  double ReadSeconds = 0.0;
-  double WriteSeconds = 0.0;
-  std::vector<std::string> Warnings;
-};
-
-/// One JSON object; numbers that are not finite become null.
-std::string MakeJson(const RunReport& run)
-{
-  const FlipReport& flip = run.Flip;
-  nlohmann::ordered_json json;
-  json["stop_reason"] = ToString(flip.StopReason);
-  json["converged"] = flip.Converged();
-  json["geometry_used"] = ToString(flip.GeometryUsed);
-  json["geometry_reason"] = flip.GeometryReason;
-  json["tolerance"] = flip.Tolerance;
-  json["backend"] = flip.Backend;
-  json["fallback"] = flip.Fallback;
-  json["number_of_iterations"] = flip.Iterations.size();
-  const auto add = [&](const char* name, NumberKind kind, const auto& number)
-  {
-    if (kind != NumberKind::Points || run.IsFromPoints)
-    {
-      json[name] = number;
-    }
-  };
-  ForEachNumber(add, flip);
-  json["read_seconds"] = run.ReadSeconds;
-  json["write_seconds"] = run.WriteSeconds;
-  json["warnings"] = run.Warnings;
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
-}
-
-/// The iterations as CSV with a header line; the smallest angle is nan where it was not computed.
-std::string MakeCsv(const FlipReport& flip)
-{
-  std::ostringstream text;
-  text << "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds\n"
-       << std::setprecision(std::numeric_limits<double>::max_digits10);
-  for (const IterationRecord& record : flip.Iterations)
-  {
-    text << record.Iteration << ',' << record.Tested << ',' << record.NonDelaunay << ','
-         << record.Flipped << ',' << record.Excluded << ',' << record.Blocked << ','
-         << std::abs(record.MinimumAngle) // a NaN may have a sign
-         << ',' << record.Seconds << '\n';
-  }
-  return text.str();
-}
-
-/// The summary and the times, in two columns.
-std::string MakeSummary(const RunReport& run)
-{
-  constexpr std::size_t Column = 16;
-  std::ostringstream text;
-  std::istringstream lines(run.Summary);
-  for (std::string line; std::getline(lines, line);)
-  {
-    const std::size_t colon = line.find(": ");
-    const std::string title = line.substr(0, colon);
-    text << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
-  }
-  const FlipReport& flip = run.Flip;
-  text << std::fixed << std::setprecision(3) << "time            read " << run.ReadSeconds
-       << " s, edges " << flip.BuildSeconds << " s, flips " << flip.FlipSeconds << " s, write "
-       << run.WriteSeconds << " s";
-  if (!flip.Backend.empty())
-  {
-    text << " (" << flip.Backend << ")";
-  }
-  text << '\n';
-  return text.str();
 }
 
 /// @param failure a vtkDelaunayFlip::FailureType.

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "RunReport.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace delaunayflip
+{
+
+std::string MakeJson(const RunReport& run)
+{
+  const FlipReport& flip = run.Flip;
+  nlohmann::ordered_json json;
+  json["stop_reason"] = ToString(flip.StopReason);
+  json["converged"] = flip.Converged();
+  json["geometry_used"] = ToString(flip.GeometryUsed);
+  json["geometry_reason"] = flip.GeometryReason;
+  json["tolerance"] = flip.Tolerance;
+  json["backend"] = flip.Backend;
+  json["fallback"] = flip.Fallback;
+  json["number_of_iterations"] = flip.Iterations.size();
+  const auto add = [&](const char* name, NumberKind kind, const auto& number)
+  {
+    if (kind != NumberKind::Points || run.IsFromPoints)
+    {
+      json[name] = number;
+    }
+  };
+  ForEachNumber(add, flip);
+  json["read_seconds"] = run.ReadSeconds;
+  json["write_seconds"] = run.WriteSeconds;
+  json["warnings"] = run.Warnings;
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+std::string MakeCsv(const FlipReport& flip)
+{
+  std::ostringstream text;
+  text << "Iteration,Tested,NonDelaunay,Flipped,Excluded,Blocked,MinimumAngle,Seconds\n"
+       << std::setprecision(std::numeric_limits<double>::max_digits10);
+  for (const IterationRecord& record : flip.Iterations)
+  {
+    text << record.Iteration << ',' << record.Tested << ',' << record.NonDelaunay << ','
+         << record.Flipped << ',' << record.Excluded << ',' << record.Blocked << ','
+         << std::abs(record.MinimumAngle) // a NaN may have a sign
+         << ',' << record.Seconds << '\n';
+  }
+  return text.str();
+}
+
+std::string MakeSummary(const RunReport& run)
+{
+  constexpr std::size_t Column = 16;
+  std::ostringstream text;
+  std::istringstream lines(run.Summary);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t colon = line.find(": ");
+    const std::string title = line.substr(0, colon);
+    text << std::left << std::setw(Column) << title << line.substr(colon + 2) << '\n';
+  }
+  const FlipReport& flip = run.Flip;
+  text << std::fixed << std::setprecision(3) << "time            read " << run.ReadSeconds
+       << " s, edges " << flip.BuildSeconds << " s, flips " << flip.FlipSeconds << " s, write "
+       << run.WriteSeconds << " s";
+  if (!flip.Backend.empty())
+  {
+    text << " (" << flip.Backend << ")";
+  }
+  text << '\n';
+  return text.str();
+}
+
+}

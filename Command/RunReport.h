@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_RUNREPORT_H
+#define DELAUNAYFLIP_RUNREPORT_H
+
+#include "FlipReport.h"
+
+#include <string>
+#include <vector>
+
+/// @file
+/// What the command tells of a run.
+
+namespace delaunayflip
+{
+
+/// The engine's report, and the times of the steps outside it.
+struct RunReport
+{
+  bool IsFromPoints = false;
+  FlipReport Flip;
+  std::string Summary; ///< The filter's: lines of a title, ": " and a text.
+  double ReadSeconds = 0.0;
+  double WriteSeconds = 0.0;
+  std::vector<std::string> Warnings;
+};
+
+/// One JSON object; numbers that are not finite become null.
+std::string MakeJson(const RunReport& run);
+
+/// The iterations as CSV with a header line; the smallest angle is nan where it was not computed.
+std::string MakeCsv(const FlipReport& flip);
+
+/// The summary and the times, in two columns.
+std::string MakeSummary(const RunReport& run);
+
+}
+
+#endif
