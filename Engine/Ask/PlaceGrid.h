@@ -136,16 +136,6 @@ struct PlaceGridView
   }
 };
 
-/// Lowers *address to value.
-DELAUNAYFLIP_HOST_DEVICE inline void AtomicLower(std::uint32_t* address, std::uint32_t value)
-{
-  std::uint32_t seen = AtomicLoad(address);
-  while (value < seen)
-  {
-    seen = AtomicCompareExchange(address, seen, value);
-  }
-}
-
 /// The lowest triangle in the four cells of the next finer level that make a cell.
 DELAUNAYFLIP_HOST_DEVICE inline TriangleId FindLowestOfFour(
   const TriangleId* fine, int level, std::int64_t cell)
@@ -212,7 +202,7 @@ PlaceGrid BuildPlaceGrid(const PlaneMesh& mesh, std::int64_t triangles, const Ba
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
     {
       const VertexId vertex = mesh.Edges.Triangles[t].Vertices[0];
-      AtomicLower(&cells[frame.FindCell(mesh.GetPoint(vertex))], static_cast<TriangleId>(t));
+      AtomicMin(&cells[frame.FindCell(mesh.GetPoint(vertex))], static_cast<TriangleId>(t));
     });
   for (int level = frame.Finest - 1; level >= 0; --level)
   {
