@@ -308,6 +308,7 @@ public:
   void SortNumbers(Array<double>& numbers, std::int64_t size) const;
 
   HostMemory& GetHostMemory() const { return this->Threads.GetHostMemory(); }
+  const ThreadBackend& GetThreads() const { return this->Threads; }
 
   /// Calls work(task) for task = 0 .. count - 1 on CPU threads.
   void ForTasks(std::int64_t count, const std::function<void(std::int64_t)>& work) const

@@ -253,7 +253,7 @@ public:
       neighbors, 3 * this->GetInputReport().Triangles, stream, this->GetNeighborStep());
   }
 
-  bool Ask(const RunQuery& asked, const ProgressObserver& observer) override
+  AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) override
   {
     if (asked.Query.OnDevice)
     {

@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_PLACEASKER_H
 #define DELAUNAYFLIP_PLACEASKER_H
 
-#include "FlipError.h"
 #include "FlipOptions.h"
 #include "Outline.h"
 #include "PlaceQuery.h"
@@ -25,8 +24,7 @@ class PlaceAsker
 public:
   /// @param mesh in the memory of the backend; edges have states.
   /// @param observer is told the share of the places that is done.
-  /// @returns whether it was not stopped. @throws BeyondDevice.
-  bool Answer(const PointMeshView& mesh, const RunQuery& asked, const Backend& backend,
+  AskResult Answer(const PointMeshView& mesh, const RunQuery& asked, const Backend& backend,
     const ProgressObserver& observer)
   {
     PlaneMesh plane{ mesh.Edges, mesh.Places };
@@ -61,17 +59,13 @@ public:
     {
       if (observer && !observer(static_cast<double>(first) / static_cast<double>(count)))
       {
-        return false;
+        return AskResult::Stopped;
       }
       this->AnswerBlock(here, values, query, first, backend);
     }
     std::int32_t hasFailed = 0;
     backend.Download(failed.Get(), 1, &hasFailed);
-    if (hasFailed != 0)
-    {
-      throw BeyondDevice();
-    }
-    return true;
+    return hasFailed == 0 ? AskResult::Complete : AskResult::Undecided;
   }
 
   /// Sorts the places of a block by their cells, if most are far from the ones before. Then

@@ -20,6 +20,14 @@ struct RunQuery
   std::int64_t NumberOfPoints; ///< With added ones: the query has values for each.
 };
 
+/// What has become of a query.
+enum class AskResult
+{
+  Complete,
+  Stopped, ///< By an observer.
+  Undecided ///< A device cannot decide an orientation; the CPU can.
+};
+
 }
 
 #endif

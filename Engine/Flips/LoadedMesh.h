@@ -75,8 +75,8 @@ public:
   /// Answers a query about a mesh from points that has triangles. The query's arrays are in the
   /// memory of the backend (CanAnswerInPlace) or of the host.
   /// @param observer is told the share of the places that is done.
-  /// @returns whether it was not stopped.
-  virtual bool Ask(const RunQuery& asked, const ProgressObserver& observer) = 0;
+  /// @returns Undecided only if the query's arrays are in the memory of the backend.
+  virtual AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) = 0;
   virtual bool CanAnswerInPlace(const PlaceQuery&) const { return false; }
 
   /// Calls view(mesh) with a mesh from points, in the memory of the host.

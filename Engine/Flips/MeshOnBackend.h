@@ -247,10 +247,17 @@ public:
     this->Loop->Restart();
   }
 
-  bool Ask(const RunQuery& asked, const ProgressObserver& observer) override
+  AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) override
   {
     this->RequireStates();
-    return this->Asker.Answer(this->ViewHere(), asked, this->Backend, observer);
+    AskResult result = this->Asker.Answer(this->ViewHere(), asked, this->Backend, observer);
+    if (result == AskResult::Undecided && !asked.Query.OnDevice)
+    {
+      const ThreadBackend& threads = this->Backend.GetThreads();
+      this->ViewOnHost([&](const PointMeshView& view)
+        { result = PlaceAsker<ThreadBackend>().Answer(view, asked, threads, observer); });
+    }
+    return result;
   }
 
   void ViewOnHost(const HostView& use) override

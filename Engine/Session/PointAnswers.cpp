@@ -125,27 +125,31 @@ bool PointRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
   {
     return true;
   }
+  AskResult result = AskResult::Undecided;
   const bool isInPlace = query.OnDevice && this->Report.Triangles > 0 && this->Loaded &&
     this->Loaded->CanAnswerInPlace(query);
   if (!query.OnDevice || isInPlace)
   {
-    return this->Answer(query, progress);
+    result = this->Answer(query, progress);
   }
-  const HostQuery host(query, this->Points.GetInput().Points.Count);
-  const bool isComplete = this->Answer(host.Get(), progress);
-  host.CopyBack();
-  return isComplete;
+  if (result == AskResult::Undecided)
+  {
+    const HostQuery host(query, this->Points.GetInput().Points.Count);
+    result = this->Answer(host.Get(), progress);
+    host.CopyBack();
+  }
+  return result == AskResult::Complete;
 }
 
 /// @param query its arrays are where the mesh is, or in the host's memory.
-bool PointRun::Answer(const PlaceQuery& query, const ProgressObserver& progress)
+AskResult PointRun::Answer(const PlaceQuery& query, const ProgressObserver& progress)
 {
-  bool isComplete = true;
+  AskResult result = AskResult::Complete;
   bool isAnswered = false;
   const auto ask = [&](LoadedMesh& mesh)
   {
     const std::int64_t points = this->Points.GetInput().Points.Count;
-    isComplete = mesh.Ask({ query, this->Result.Kept.Numbers, points }, progress);
+    result = mesh.Ask({ query, this->Result.Kept.Numbers, points }, progress);
     isAnswered = true;
   };
   if (this->Report.Triangles > 0)
@@ -156,7 +160,7 @@ bool PointRun::Answer(const PlaceQuery& query, const ProgressObserver& progress)
   {
     FillOutside(query);
   }
-  return isComplete;
+  return result;
 }
 
 }

@@ -50,7 +50,7 @@ private:
   void ExplainRefused(LoadedMesh& mesh);
   void CutOff();
   void RemoveTriangles(LoadedMesh& mesh);
-  bool Answer(const PlaceQuery& query, const ProgressObserver& progress);
+  AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
   void Reset() override;

@@ -277,6 +277,7 @@ public:
     EdgeMesh& mesh, std::int64_t vertices, PairSums& sums, Numbering& numbering) const;
 
   HostMemory& GetHostMemory() const { return *this->Memory; }
+  const ThreadBackend& GetThreads() const { return *this; }
 
   template <typename T>
   Array<T> MakeArray(std::int64_t size) const

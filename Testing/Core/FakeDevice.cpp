@@ -93,7 +93,7 @@ public:
     this->Engine->StoreNeighbors(neighbors);
   }
   void StoreUsedPoints(std::int64_t* ids) const override { this->Engine->StoreUsedPoints(ids); }
-  bool Ask(const RunQuery& asked, const ProgressObserver& observer) override
+  AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) override
   {
     return this->Engine->Ask(asked, observer);
   }

@@ -137,7 +137,9 @@ private:
 Places DrawPlaces(const Places& points, std::size_t count)
 {
   std::mt19937 random(5);
-  Places places = { { NAN, 0.0 }, { INFINITY, 1.0 }, { 1e300, -1e300 } };
+  // The last two need more bits than a GPU has.
+  Places places = { { NAN, 0.0 }, { INFINITY, 1.0 }, { 1e300, -1e300 }, { 1e-300, 0.5 },
+    { 0.25, 3e-310 } };
   while (places.size() < count)
   {
     const Place& a = points[DrawIndex(random, points.size())];
