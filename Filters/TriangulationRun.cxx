@@ -341,6 +341,9 @@ private:
   bool AddsPoints() const;
   void ChooseHeights();
   std::vector<std::pair<vtkDataArray*, int>> ListSurveyed() const;
+  void WriteSurveyed(const std::vector<std::pair<vtkDataArray*, int>>& numbers,
+    const std::vector<std::int64_t>& points, const std::vector<double>& values,
+    const std::vector<std::int64_t>& lifted);
   void TakeHeights(
     const std::vector<std::int64_t>& points, const std::vector<std::int64_t>& lifted);
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
@@ -554,6 +557,34 @@ std::vector<std::pair<vtkDataArray*, int>> TriangulationRun::ListSurveyed() cons
   return numbers;
 }
 
+/// Writes numbers of points; z, which is the first of them, only of those that are lifted.
+/// @param values those of a point one after the other.
+void TriangulationRun::WriteSurveyed(const std::vector<std::pair<vtkDataArray*, int>>& numbers,
+  const std::vector<std::int64_t>& points, const std::vector<double>& values,
+  const std::vector<std::int64_t>& lifted)
+{
+  std::vector<bool> areLifted(this->Points->GetNumberOfPoints(), false);
+  for (const std::int64_t point : lifted)
+  {
+    areLifted[point] = true;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const auto& [array, component] = numbers[i % numbers.size()];
+    const std::int64_t point = points[i / numbers.size()];
+    const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+    const bool isWanted = i % numbers.size() > 0 || areLifted[point];
+    if (isReal && isWanted)
+    {
+      array->SetComponent(point, component, values[i]);
+    }
+    else if (isWanted && std::isfinite(values[i]))
+    {
+      array->SetComponent(point, component, std::round(values[i]));
+    }
+  }
+}
+
 /// Gives points of the second input the data of the given points, and those of them that are lifted
 /// the heights: interpolated in the triangulation of the given points alone, and outside of it as
 /// at the nearest place on its boundary. Without triangles nothing changes.
@@ -606,26 +637,7 @@ void TriangulationRun::TakeHeights(
   query.Outside = OutsideKind::Nearest;
   query.Results = results.data();
   survey.Ask(query);
-  std::vector<bool> areLifted(this->Points->GetNumberOfPoints(), false);
-  for (const std::int64_t point : lifted)
-  {
-    areLifted[point] = true;
-  }
-  for (std::size_t i = 0; i < results.size(); ++i)
-  {
-    const auto& [array, component] = numbers[i % width];
-    const std::int64_t point = points[i / width];
-    const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
-    const bool isWanted = i % width > 0 || areLifted[point];
-    if (isReal && isWanted)
-    {
-      array->SetComponent(point, component, results[i]);
-    }
-    else if (isWanted && std::isfinite(results[i]))
-    {
-      array->SetComponent(point, component, std::round(results[i]));
-    }
-  }
+  this->WriteSurveyed(numbers, points, results, lifted);
   this->Points->GetPoints()->Modified();
   this->AreLifted = !lifted.empty();
 }
