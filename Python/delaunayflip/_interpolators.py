@@ -35,10 +35,10 @@ class LinearInterpolator:
 
     Args:
         points: (n, 2) or (n, 3), as for `triangulate`, or a pair of arrays, x and y.
-        values: (n,) or (n, ...) real numbers: those of each point. Values of points that rings or
-            crossings add may follow. If they do not, those of ring points are linear between the
-            points, in their triangulation without segments, or beyond their hull those of the nearest
-            place on it. Those at crossings are linear along the earlier segment.
+        values: (n,) or (n, ...) real numbers: those of each point. Values of points that lines, rings
+            and crossings add may follow. If they do not, those of lines and rings are linear between
+            the points, in their triangulation without segments, or beyond their hull those of the
+            nearest place on it. Those at crossings are linear along the earlier segment.
         segments, outline, holes, hole_seeds, ring_rule: As for `triangulate`. What is removed there is
             outside.
         alpha, longest_edge, point_tolerance, split_crossings: As for `triangulate`, too.

@@ -19,7 +19,7 @@ from ._ask import Answers, Field, Method, Outside, read_places, read_raster
 from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, make_options, to_number)
 from ._report import Report
-from ._rings import RING_RULES, RingRule, Rings, list_rings
+from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
 from ._session import run
 
 Heights = typing.Literal["survey", "own"]
@@ -34,8 +34,8 @@ class Triangulation:
     are known to come, `LinearInterpolator` and `NaturalNeighborInterpolator` triangulate only once.
     """
 
-    #: (n, 2) or (n, 3): the points of the caller, then those of rings that are given by coordinates,
-    #: then those where segments cross.
+    #: (n, 2) or (n, 3): the points of the caller, then those of lines and rings that are given by
+    #: coordinates, then those where segments cross.
     points: Array
     triangles: Array  #: (m, 3) int32, counter-clockwise in x and y.
     #: (m, 3) int32: the triangle opposite each corner, -1 where there is none, as in SciPy.
@@ -121,7 +121,8 @@ def triangulate(
             than all the rest. If several points are at one place, the one with the lowest id is used.
             Points with NaN or infinite x or y are not used.
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
-            points is split there; one that crosses an earlier one is refused and reported.
+            points is split there; one that crosses an earlier one is refused and reported. Or a list of
+            lines, each an array of coordinates, (m, 2) or (m, 3), which become points as those of rings.
         outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of
             point ids, or of coordinates, which become points: (k, 2), or (k, 3) of floats; see heights. It
             may end with its first point. One without an area, or a second one with the same edges, is
@@ -139,12 +140,12 @@ def triangulate(
             at equal places. Points where segments cross may be nearer.
         split_crossings: Split segments where they cross, instead of refusing the later one. The
             crossing is exact, rounded once; z is that of the earlier segment.
-        heights: z of points that rings add. "survey": that of the points there, linear in their
-            triangulation without segments, and beyond its hull that of the nearest place on it. "own":
-            that of the rings, 0 for those of two columns. None: "survey" for rings without heights, if
-            other points have heights, with a warning that counts such points; "own" for the others.
-            Rings have none if they have two columns, or if the outline or the holes have z = 0
-            throughout.
+        heights: z of points that lines and rings add. "survey": that of the points there, linear in
+            their triangulation without segments, and beyond its hull that of the nearest place on it.
+            "own": that of the lines and rings, 0 for those of two columns. None: "survey" for those
+            without heights, if other points have heights, with a warning that counts such points;
+            "own" for the others. They have none if they have two columns, or if all lines, the outline
+            or the holes have z = 0 throughout.
         backend: "cuda", "threads", or "auto": a GPU for many points if there is one.
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: the current one.
@@ -241,12 +242,16 @@ class Input:
         """`ring_numbers`: of the rings of the segments; -1: none."""
         self.struct, self.ends, self.new_points = _library.make(_library.Points), [], []
         points = _arrays.as_plane(points)
-        self.segments = [_arrays.as_ids("segments", [] if segments is None else segments, 2)]
+        lines = list_lines(segments)
+        self.segments = [_arrays.as_ids("segments", [] if segments is None or lines else segments, 2)]
         if ring_numbers is None:
             ring_numbers = numpy.full(len(self.segments[0]), -1)
         self.rings = [numpy.asarray(ring_numbers, dtype=numpy.int32)]
         self.flat_rings, self.trouble, given = [], [], len(points)
         self._ring_names = {}  # of the rings of outline and holes, by their numbers
+        for line in lines:
+            ids = self._add_places(line, points)
+            self._add_segments(ids[:-1], ids[1:], -1)
         count = self.rings[0].max(initial=-1) + 1
         for name, rings in (("outline", outline), ("holes", holes)):
             self.struct.first_hole = count  # in the end where those of `holes` begin
@@ -280,19 +285,29 @@ class Input:
 
     def _add_ring(self, ring, number, points):
         if ring.ndim == 2:
-            places = numpy.zeros((len(ring), points.shape[1]), dtype=_arrays.type_of(points))
-            columns = min(ring.shape[1], points.shape[1])
-            places[:, :columns] = ring[:, :columns]
-            ids = len(points) + sum(map(len, self.new_points)) + numpy.arange(len(ring))
-            self.new_points.append(places)
-            if ring.shape[1] == 2:
-                self.flat_rings.append(ids)
+            ids = self._add_places(ring, points)
         else:
             ids = ring if len(ring) or len(points) == 0 else numpy.zeros(1, int)  # so that it counts
         if len(ids) > 1 and ids[0] == ids[-1]:
             ids = ids[:-1]
-        self.segments.append(numpy.stack([ids, numpy.roll(ids, -1)], axis=1))
-        self.rings.append(numpy.full(len(ids), number, dtype=numpy.int32))
+        self._add_segments(ids, numpy.roll(ids, -1), number)
+
+    def _add_places(self, coordinates, points):
+        """The ids of new points. If the last one is at the first one, it has the same id."""
+        is_closed = len(coordinates) > 2 and numpy.array_equal(coordinates[0], coordinates[-1])
+        places = coordinates[:-1] if is_closed else coordinates
+        added = numpy.zeros((len(places), points.shape[1]), dtype=_arrays.type_of(points))
+        columns = min(places.shape[1], points.shape[1])
+        added[:, :columns] = places[:, :columns]
+        ids = len(points) + sum(map(len, self.new_points)) + numpy.arange(len(places))
+        self.new_points.append(added)
+        if places.shape[1] == 2:
+            self.flat_rings.append(ids)
+        return numpy.append(ids, ids[:1]) if is_closed else ids
+
+    def _add_segments(self, starts, ends, ring):
+        self.segments.append(numpy.stack([starts, ends], axis=1))
+        self.rings.append(numpy.full(len(starts), ring, dtype=numpy.int32))
 
     def explain(self, text, ring=-1):
         """A message of the engine, which may name a ring, in the caller's words."""
@@ -429,14 +444,14 @@ class Input:
 
     def complete_values(self, values):
         """Values of all the session's points from those of the caller's, of shape (n, k): at points of
-        rings from the caller's points, at crossings along the earlier segment. Values of all points
+        lines and rings from the caller's points, at crossings along the earlier segment. Values of all points
         are returned as they are."""
         first, count = self.struct.first_added, len(self.points)
         total = count + len(self.ends)
         if len(values) == total:
             return values
         if len(values) not in (first, count):
-            more = f", or {total} with those that rings and crossings have added"
+            more = f", or {total} with those that lines, rings and crossings have added"
             raise ValueError(f"values must have {first} rows, one for each point"
                              f"{more if total > first else ''}; there are {len(values)}")
         whole = numpy.empty((total, values.shape[1]))
@@ -445,7 +460,7 @@ class Input:
             points = _arrays.to_host(self.points)
             found = interpolate_in_survey(points[:first], given, points[first:], self.backend)
             if found is None:
-                raise ValueError(f"values must have {count} rows, with those of the points of rings, because "
+                raise ValueError(f"values must have {count} rows, with those of the points of lines and rings, because "
                                  f"the {first} given points alone have no triangle; there are {len(values)}")
             whole[first:count] = found
         for place, (start, end, share) in enumerate(self.ends, count):

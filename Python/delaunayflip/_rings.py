@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The rings of outlines and holes: what callers give, as a list of arrays, and their names."""
+"""The lines of segments and the rings of outlines and holes: what callers give, as lists of arrays."""
 import typing
 
 import numpy
@@ -28,6 +28,19 @@ def list_rings(name, given):
     if _is_ring(name, given):
         return [_read_ring(name, given)]
     return [_read_ring(f"ring {number} of {name}", ring) for number, ring in enumerate(given)]
+
+
+def list_lines(given):
+    """Arrays of the lines of `segments`, (k, 2) or (k, 3), if it is a list of lines by coordinates; else
+    an empty list."""
+    is_array = hasattr(given, "shape")
+    if not is_array and (not isinstance(given, (list, tuple)) or len(given) == 0):
+        return []
+    dimensions = len(given.shape) if is_array else 1 + _arrays.as_array("segments", given[0]).ndim
+    if dimensions != 3:
+        return []
+    return [_arrays.to_host(_arrays.as_plane(line, f"line {number} of segments"))
+            for number, line in enumerate(given)]
 
 
 def _require_list(name, given):

@@ -183,6 +183,31 @@ class Triangulate(unittest.TestCase):
             self.assertEqual(text in result.report.defects, count > 0)
             self.assertEqual("they have got the heights" in result.report.defects, count > 0)
 
+    def test_lines(self):
+        """Lines by coordinates are segments between new points, and their points come before rings."""
+        points = numpy.random.default_rng(6).random((200, 3)) + [0, 0, 4]
+        river = numpy.array([[.1, .1, 5], [.5, .2, 5], [.9, .1, 5.]])
+        lake = [[.4, .4, 6], [.6, .4, 6], [.6, .6, 6], [.4, .4, 6.]]
+        square = [[.05, .05, 4], [.95, .05, 4], [.95, .95, 4], [.05, .95, 4.]]
+        made = delaunayflip.triangulate(points, [river, lake], outline=square)
+        every = numpy.r_[points, river, lake[:3], square]
+        ids = [[200, 201], [201, 202], [203, 204], [204, 205], [205, 203]]
+        same = delaunayflip.triangulate(every, ids, outline=[206, 207, 208, 209])
+        numpy.testing.assert_array_equal(made.points, every)
+        numpy.testing.assert_array_equal(made.triangles, same.triangles)
+        numpy.testing.assert_array_equal(made.segments, same.segments)
+        for given in (river[None], numpy.stack([river[:2], river[1:]]), (river.tolist(),)):
+            again = delaunayflip.triangulate(points, given)
+            self.assertEqual(again.report.segment_edges,
+                             delaunayflip.triangulate(every[:203], ids[:2]).report.segment_edges)
+        with self.assertWarnsRegex(UserWarning, "3 points of segments .* they have got the heights"):
+            flat = delaunayflip.triangulate(points, [river[:, :2], lake], outline=square)
+        self.assertTrue((flat.points[200:203, 2] > 4).all())
+        with self.assertRaisesRegex(ValueError, r"line 1 of segments must have the shape"):
+            delaunayflip.triangulate(points, [river, [[1, 2, 3, 4.]]])
+        crossed = delaunayflip.triangulate(points, [river, [[.3, 0], [.3, 1]]], heights="own")
+        self.assertRegex(crossed.report.defects, "203-204 crosses segment")
+
     def test_heights_of_rings(self):
         """A plane is reproduced; beyond the survey its nearest place counts."""
         points = numpy.random.default_rng(5).random((100, 3))

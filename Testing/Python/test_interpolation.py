@@ -166,6 +166,13 @@ class Values(unittest.TestCase):
             mesh.interpolate([0, 8, 1], 1, 1)
         f = delaunayflip.LinearInterpolator(corners, plane(corners), outline=[[-1, 0], [1, 0], [1, 1], [-1, 1]])
         self.assertAlmostEqual(float(f(-1, 0.5)), plane(numpy.array([0, 0.5])))
+        river = [numpy.array([[0.5, 0.5], [0.6, 0.9], [1.2, 1.6]])]
+        f = delaunayflip.LinearInterpolator(POINTS, plane(POINTS), segments=river)
+        numpy.testing.assert_allclose(f(river[0][:2]), plane(river[0][:2]), atol=1e-12)
+        self.assertFalse(numpy.isnan(f(river[0][2:])).any())
+        f = delaunayflip.LinearInterpolator(POINTS, numpy.r_[plane(POINTS), 7, 8, 9], segments=river)
+        self.assertEqual(f(river[0]).tolist(), [7, 8, 9])
+        self.assertAlmostEqual(float(f(0.55, 0.7)), 7.5)
         with self.assertWarns(UserWarning), self.assertRaisesRegex(ValueError, "6 rows, .* no triangle"):
             delaunayflip.LinearInterpolator(corners[:2], [0, 1], outline=SQUARE)
 
