@@ -141,8 +141,12 @@ class Field:
 
     def find(self, places, progress=None):
         """The values at places."""
+        return self.find_both(places, progress, False)[1].reshape(places.shape + self._shape)
+
+    def find_both(self, places, progress=None, wants_triangles=True):
+        """The triangles, if they are wanted or needed, and the values, in two dimensions."""
         is_filled = not math.isnan(self._fill_value)
-        wants_triangles = is_filled or self.outside == "error" or self._soft is not None
+        wants_triangles |= is_filled or self.outside == "error" or self._soft is not None
         first = halve(progress, 0.0) if self._soft else progress
         triangles, results = self._answers.ask(places, self, wants_triangles, first)
         if self._soft:
@@ -152,7 +156,7 @@ class Field:
             _require_inside(_arrays.to_host(triangles) < 0, places.shape)
         if is_filled:
             _arrays.put(results, triangles, -1, self._fill_value)
-        return results.reshape(places.shape + self._shape)
+        return triangles, results
 
 
 def _require_inside(is_outside, shape):

@@ -7,12 +7,15 @@ With PyVista 0.48 or newer, and if this package is installed, every PolyData has
     better = mesh.delaunay.flip()
     better.delaunay.plot_quality()
     mesh.delaunay.animate("flips.gif")
+    heights = cloud.delaunay.interpolate(image)["Elevation"]
 
 With an older PyVista, or in a build folder, call the functions of this module with the mesh as
 first argument: `delaunayflip.pyvista.flip(mesh)`.
 
 Meshes go to the engine as arrays, so it does not matter which VTK PyVista uses (vtk or cvista).
 """
+import inspect
+import math
 import types
 import typing
 import warnings
@@ -20,15 +23,18 @@ import warnings
 import numpy
 import pyvista
 
-from ._library import InvalidOptions
+from ._ask import Field, Method, Outside, halve, read_places
+from ._library import InvalidOptions, Stopped
 from ._session import smallest_angles as _angles_of_arrays
 from ._options import Array, Numbers, OnIteration, Progress, check_integer, make_options, show
 from ._options import Options as _Options
+from ._points import Heights, run_points
 from ._points import triangulate as _triangulate_arrays
 from ._rings import RingRule, Rings
 from ._surface import Slots
 from ._vtk_mesh import SETTINGS, Cloud, MeshInput, vtk_of
 
+_CLOUD_OPTIONS = ("hole_seeds", "ring_rule", "lines_as_segments", "closed_lines_as_rings")
 _QUALITY = "Smallest angle"
 _COLORS = ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"]  # of AngleColors.json
 _LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": _COLORS, "show_edges": True,
@@ -98,7 +104,7 @@ def triangulate(
     holes: "typing.Union[None, pyvista.PolyData, Rings]" = None,
     hole_seeds: "typing.Optional[Numbers]" = None, ring_rule: "RingRule" = "evenodd",
     lines_as_segments: bool = False, closed_lines_as_rings: bool = True,
-    heights: "typing.Optional[typing.Literal['survey', 'own']]" = None, **options: typing.Any,
+    heights: "typing.Optional[Heights]" = None, **options: typing.Any,
 ) -> "pyvista.PolyData":
     """The Delaunay mesh of the points of a dataset in x and y, with their data.
 
@@ -113,9 +119,8 @@ def triangulate(
         hole_seeds, ring_rule: As for delaunayflip.triangulate.
         lines_as_segments: Whether the lines of `cloud` become edges, too.
         closed_lines_as_rings: If False, closed lines of the segments are only edges, such as contours.
-        heights: Those of added points: "survey": of the cloud there, interpolated, as are its data;
-            "own": those of segments and rings; None: "survey" for lines, outlines or holes with z = 0
-            throughout, if the cloud has other heights, with a warning.
+        heights: As for delaunayflip.triangulate, for the points of segments and rings. Points that get
+            heights of the cloud also get its data, in arrays of numbers that the segments do not have.
         **options: alpha, longest_edge, point_tolerance, split_crossings, backend, threads, device,
             maximum_iterations and progress, as for delaunayflip.triangulate.
 
@@ -132,19 +137,69 @@ def triangulate(
         >>> delaunayflip.pyvista.triangulate(cloud).n_cells
         2
     """
-    if not hasattr(cloud, "GetPoints"):
-        raise TypeError(f"cloud must be a dataset with points, not {type(cloud).__name__}")
-    if isinstance(segments, vtk_of(cloud).model.vtkDataObject):
-        _require_mesh("segments", segments)
+    given = _read_cloud(
+        cloud, segments, outline, holes, options, heights=heights, hole_seeds=hole_seeds,
+        ring_rule=ring_rule, lines_as_segments=lines_as_segments, closed_lines_as_rings=closed_lines_as_rings)
     made = pyvista.PolyData()
-    given = Cloud(
-        cloud, segments, lines_as_segments=lines_as_segments, closed_lines_as_rings=closed_lines_as_rings,
-        outline=_list_rings("outline", outline), holes=_list_rings("holes", holes), hole_seeds=hole_seeds,
-        ring_rule=ring_rule, heights=heights,
-        backend={name: options[name] for name in ("backend", "threads", "device") if name in options})
-    trouble = given.write(_triangulate_arrays(given, **options), made)
-    if trouble:
-        warnings.warn(trouble, stacklevel=2)
+    _warn(given.write(_triangulate_arrays(given, **options), made))
+    return made
+
+
+def interpolate(
+    cloud: typing.Any, onto: typing.Any,
+    segments: "typing.Union[None, pyvista.PolyData, Numbers]" = None, *, method: "Method" = "linear",
+    outside: "Outside" = "nan", outline: "typing.Union[None, pyvista.PolyData, Rings]" = None,
+    holes: "typing.Union[None, pyvista.PolyData, Rings]" = None, heights: "typing.Optional[Heights]" = None,
+    progress: "typing.Optional[Progress]" = None, **options: typing.Any,
+) -> typing.Any:
+    """The data of points at the points of another dataset, interpolated in x and y.
+
+    Args:
+        cloud: A dataset with points of its own, as for `triangulate`.
+        onto: Any dataset, such as an ImageData for a raster; it is not changed.
+        segments, outline, holes, heights: As for `triangulate`. New points have data as if they were
+            in the cloud, unless the segments have arrays of these names.
+        method: "linear" in the triangles, or "natural" for natural neighbours.
+        outside: "nan", "nearest" or "error", as for delaunayflip.LinearInterpolator.
+        progress: Called with the share of the work done, 0 to 1; False stops it.
+        **options: The other keywords of `triangulate`.
+
+    Returns:
+        A copy of `onto` with the point arrays of numbers of the cloud, z as "Elevation" if the cloud
+        has no such array, and "vtkValidPointMask": 1 where a place is in a triangle, else 0.
+
+    Raises:
+        The same exceptions as delaunayflip.triangulate; ValueError for outside="error";
+        delaunayflip.Stopped if `progress` has returned False.
+
+    Example:
+        >>> import pyvista
+        >>> import delaunayflip.pyvista
+        >>> cloud = pyvista.PolyData([[0.0, 0, 0], [2, 0, 2], [0, 2, 4], [2, 2, 6]])
+        >>> image = pyvista.ImageData(dimensions=(3, 3, 1))
+        >>> delaunayflip.pyvista.interpolate(cloud, image)["Elevation"].tolist()
+        [0.0, 1.0, 2.0, 2.0, 3.0, 4.0, 4.0, 5.0, 6.0]
+    """
+    given = _read_cloud(
+        cloud, segments, outline, holes, options, heights=heights, fills_data=True,
+        **{name: options.pop(name) for name in _CLOUD_OPTIONS if name in options})
+    inspect.signature(_triangulate_arrays).bind(given, **options)  # refuses unknown ones
+    result, _ = run_points(given, options, halve(progress, 0.0), keeps=True)
+    mesh, made = pyvista.PolyData(), onto.copy(deep=False)
+    _warn(given.write(result, mesh))
+    if result.report.stop_reason == "aborted":
+        raise Stopped("stopped by progress")
+    arrays = _list_numbers(cloud.GetPointData(), mesh.point_data)
+    arrays.setdefault("Elevation", mesh.points[:, 2])
+    columns = [numpy.reshape(array, (len(result.points), -1)).astype(float) for array in arrays.values()]
+    field = Field(result._answers, numpy.concatenate(columns, axis=1), method=method, outside=outside,
+                  fill_value=math.nan)
+    triangles, values = field.find_both(read_places([onto.points]), halve(progress, 0.5))
+    ends = numpy.cumsum([column.shape[1] for column in columns])
+    for (name, array), found in zip(arrays.items(), numpy.split(values, ends, axis=1)):
+        kind = numpy.float32 if array.dtype == numpy.float32 else float
+        made.point_data[name] = found.reshape(-1, *array.shape[1:]).astype(kind)
+    made.point_data["vtkValidPointMask"] = (triangles >= 0).astype(numpy.int8)
     return made
 
 
@@ -236,7 +291,7 @@ class DelaunayAccessor:
         self._mesh = mesh
 
 
-for _function in (flip, triangulate, smallest_angles, plot_quality, animate):
+for _function in (flip, triangulate, interpolate, smallest_angles, plot_quality, animate):
     setattr(DelaunayAccessor, _function.__name__, property(
         lambda self, function=_function: types.MethodType(function, self._mesh), doc=_function.__doc__))
 
@@ -250,6 +305,32 @@ def _require_mesh(name, mesh):
                         "mesh.extract_surface().triangulate() makes one from a grid or an image, and "
                         "mesh.warp_by_scalar() before that makes terrain from heights in an image")
     return mesh
+
+
+def _read_cloud(cloud, segments, outline, holes, options, **settings):
+    """The points of a dataset with their segments. `options`: they say where heights are found."""
+    if not hasattr(cloud, "GetPoints"):
+        raise TypeError(f"cloud must be a dataset with points, not {type(cloud).__name__}")
+    if isinstance(segments, vtk_of(cloud).model.vtkDataObject):
+        _require_mesh("segments", segments)
+    return Cloud(
+        cloud, segments, outline=_list_rings("outline", outline), holes=_list_rings("holes", holes),
+        backend={name: options[name] for name in ("backend", "threads", "device") if name in options},
+        **settings)
+
+
+def _list_numbers(given, extended):
+    """By name, the arrays of numbers of point data, but no labels, as they are after points were added."""
+    labels = [array.GetName() for array in (given.GetGlobalIds(), given.GetPedigreeIds()) if array]
+    names = [given.GetArrayName(i) for i in range(given.GetNumberOfArrays())]
+    arrays = {name: extended[name] for name in names if name in extended}
+    return {name: array for name, array in arrays.items()
+            if array.dtype.kind in "fiu" and name not in (*labels, "vtkGhostType")}
+
+
+def _warn(trouble):
+    if trouble:
+        warnings.warn(trouble, stacklevel=3)
 
 
 def _list_rings(name, given):

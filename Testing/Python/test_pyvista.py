@@ -272,6 +272,63 @@ class PyVista(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "segments must be a pyvista.PolyData, not UniformGrid|ImageData"):
             measure(self.pyvista.ImageData())
 
+    def test_interpolation(self):
+        draw = numpy.random.default_rng(6)
+        xyz = draw.random((500, 3))
+        xyz[:, 2] = 3 * xyz[:, 0] - xyz[:, 1]
+        cloud = self.pyvista.PolyData(xyz)
+        cloud["Wind"] = numpy.c_[xyz[:, 0], 2 * xyz[:, 1]].astype(numpy.float32)
+        cloud["Number"] = numpy.arange(500)
+        cloud["Name"] = ["a"] * 500
+        image = self.pyvista.ImageData(dimensions=(30, 20, 1), spacing=(0.04, 0.06, 1), origin=(-0.05, 0, 9))
+        x, y = image.points[:, 0], image.points[:, 1]
+        river = self.pyvista.Line((0.1, 0.2, 0), (0.9, 0.7, 0))
+        outline = [[0.2, 0.1], [1.3, 0.1], [1.3, 0.8], [0.2, 0.8]]
+        for options in ({}, {"method": "natural"}, {"segments": river}, {"outline": outline, "holes": []}):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                made = cloud.delaunay.interpolate(image, **options)
+                mesh = cloud.delaunay.triangulate(**{
+                    name: value for name, value in options.items() if name != "method"})
+            self.assertIs(type(made), type(image))
+            self.assertEqual(made.dimensions, image.dimensions)
+            self.assertEqual(image.point_data.keys(), [])
+            self.assertEqual(sorted(made.point_data.keys()),
+                             ["Elevation", "Number", "Wind", "vtkValidPointMask"])
+            is_inside = made["vtkValidPointMask"] == 1
+            self.assertGreater(is_inside.sum(), 100)
+            numpy.testing.assert_array_equal(numpy.isnan(made["Elevation"]), ~is_inside)
+            near = is_inside & (x < 0.9 * xyz[:, 0].max())  # between points of the cloud
+            if "outline" not in options:
+                near = is_inside
+            numpy.testing.assert_allclose(made["Elevation"][near], (3 * x - y)[near], atol=1e-6)
+            numpy.testing.assert_allclose(made["Wind"][near], numpy.c_[x, 2 * y][near], atol=1e-5)
+            self.assertEqual(made["Wind"].dtype, numpy.float32)
+            added = mesh.points[500:]
+            self.assertEqual(numpy.abs(added[:, 2]).min(initial=1) > 0, True)
+        own = cloud.delaunay.triangulate(river, heights="own")
+        self.assertEqual(own.points[500:, 2].tolist(), [0, 0])
+        with self.assertWarnsRegex(UserWarning, '2 points of segments .*heights="own" keeps z = 0') as told:
+            lifted = cloud.delaunay.triangulate(river)
+        self.assertEqual(told.filename, __file__)
+        numpy.testing.assert_allclose(lifted.points[500:, 2], [0.1, 2.0], atol=1e-6)
+        numpy.testing.assert_allclose(lifted["Wind"][500:], [[0.1, 0.4], [0.9, 1.4]], atol=1e-6)
+        end = cloud.delaunay.interpolate(self.pyvista.PolyData([[0.1, 0.2, 7.0]]), river, heights="own")
+        self.assertAlmostEqual(float(end["Elevation"][0]), 0, places=6)
+        numpy.testing.assert_allclose(end["Wind"], [[0.1, 0.4]], atol=1e-6)
+        points = self.pyvista.PolyData([[0.5, 0.5, 7], [9, 9, 9]])
+        near = cloud.delaunay.interpolate(points, outside="nearest")
+        self.assertFalse(numpy.isnan(near["Elevation"]).any())
+        self.assertEqual(near["vtkValidPointMask"].tolist(), [1, 0])
+        for error, options in ((ValueError, {"outside": "error"}), (TypeError, {"alpah": 1}),
+                               (ValueError, {"method": "cubic"}), (ValueError, {"heights": "auto"}),
+                               (delaunayflip.Stopped, {"progress": lambda share: False})):
+            with self.assertRaises(error):
+                cloud.delaunay.interpolate(points, **options)
+        shares = []
+        cloud.delaunay.interpolate(points, progress=shares.append)
+        self.assertEqual(shares, sorted(shares))
+
     def test_callbacks(self):
         """They follow the flips and may stop them; without iterations, VTK 9.7 can read a .vtk."""
         for name in ("progress", "on_iteration"):
