@@ -317,7 +317,9 @@ private:
     this->Heights->Write(this->Files.Mesh.GetTemporary(),
       [this](double share) { this->Bar.Show(share, "writing " + this->Settings.Output); });
     this->Run.Summary += this->Heights->Describe();
-    if (this->Heights->HasOnlyOutside())
+    this->Run.Places = this->Heights->CountPlaces();
+    this->Run.PlacesOutside = this->Heights->CountOutside();
+    if (this->Run.PlacesOutside == this->Run.Places)
     {
       this->Warn(
         this->Settings.Output + ": has no value, because all places are outside of the triangles");

@@ -61,7 +61,10 @@ public:
   /// A line of the summary.
   std::string Describe() const;
 
-  bool HasOnlyOutside() const { return this->Outside == this->Total; }
+  std::int64_t CountPlaces() const { return this->Total; }
+
+  /// Those in no triangle.
+  std::int64_t CountOutside() const { return this->Outside; }
 
 protected:
   HeightQuery(const HeightOptions& options, const std::string& title, const std::string& noun);
@@ -87,7 +90,7 @@ private:
   std::string Title, Noun;
   vtkDelaunayFlipInterpolator* Filter = nullptr;
   std::int64_t Total = 0; ///< Places.
-  std::int64_t Outside = 0; ///< Those in no triangle.
+  std::int64_t Outside = 0;
 };
 
 /// The points with the lines and the only array that is interpolated; none for z.

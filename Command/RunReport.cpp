@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdint>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -33,6 +32,11 @@ std::string MakeJson(const RunReport& run)
     }
   };
   ForEachNumber(add, flip);
+  if (run.Places >= 0)
+  {
+    json["places"] = run.Places;
+    json["places_outside"] = run.PlacesOutside;
+  }
   json["read_seconds"] = run.ReadSeconds;
   json["write_seconds"] = run.WriteSeconds;
   json["warnings"] = run.Warnings;

@@ -5,6 +5,7 @@
 
 #include "FlipReport.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct RunReport
   std::string Summary; ///< The filter's: lines of a title, ": " and a text.
   double ReadSeconds = 0.0;
   double WriteSeconds = 0.0;
+  std::int64_t Places = -1; ///< Where heights were asked for; -1: they were not.
+  std::int64_t PlacesOutside = 0; ///< Those in no triangle.
   std::vector<std::string> Warnings;
 };
 

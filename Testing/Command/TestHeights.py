@@ -182,6 +182,8 @@ class Tables(HeightTest):
         result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv")
         self.assertEqual(self.content("out.csv").decode(), "x,y,z\n2,1,3.25\n4.5,1,\n2,2,5\nnan,1,\n1,1,3\n")
         self.assertIn("places          5, 2 outside\n", result.stdout)
+        report = self.report("peak.csv", "out.csv", "--from-points", "--heights-at", "places.csv")
+        self.assertEqual((report["places"], report["places_outside"], report["triangles"]), (5, 2, 4))
         self.write("places.csv", "9,9\n8,8\n")
         result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv", "--raster-method", "natural")
         self.assertIn("warning: out.csv: has no value", result.stderr)
