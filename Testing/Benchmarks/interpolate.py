@@ -153,11 +153,11 @@ def list_programs(data, threads, takes_all):
         programs.append(("cuda, torch", Ours(data, lambda one: torch.as_tensor(one, device="cuda"),
                                              torch.cuda.synchronize)))
     if find("scipy"):
-        programs.append(("scipy", Theirs(data, 0.1, build_scipy)))
+        programs.append(("scipy", Theirs(data, 0.02, build_scipy)))
     if not takes_all and len(data.points) > MOST_OF_MATPLOTLIB:
         absent.append("matplotlib (too many points)")
     elif find("matplotlib"):
-        programs.append(("matplotlib", Theirs(data, 0.1, build_matplotlib)))
+        programs.append(("matplotlib", Theirs(data, 0.02, build_matplotlib)))
     if find("startinpy"):
         programs.append(("startinpy", Theirs(data, 0.005, build_startinpy)))
     return programs, absent
