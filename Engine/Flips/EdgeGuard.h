@@ -152,7 +152,8 @@ struct GuardTableView
   class Path
   {
   public:
-    DELAUNAYFLIP_HOST_DEVICE Path(const GuardTableView& table, VertexId a, VertexId b)
+    DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE Path(
+      const GuardTableView& table, VertexId a, VertexId b)
       : Table(table)
     {
       const std::uint64_t key = EdgeKey(a, b);
