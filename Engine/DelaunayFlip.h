@@ -146,6 +146,18 @@ public:
   /// of the segments, each once. Empty until they are inserted. For sessions from points.
   std::vector<std::int64_t> ListSegmentEdges() const;
 
+  /// Inserts points into the triangulation, as if they had been given behind the others: the
+  /// triangles are those of all points. Their numbers follow those of the others. If there are no
+  /// segments and no triangles were removed, and all points are in the hull, they are inserted
+  /// where they are, which changes the triangles around them only. Else all is made anew. For
+  /// sessions from points.
+  /// @param points in the host's memory; they are copied, in the precision of the others.
+  /// @param progress is told the share that is done if all is made anew.
+  /// @returns false if that has asked to stop. Then Advance begins with all points.
+  /// @throws InvalidOptions if the session is not one from points; InvalidMesh if there are too
+  /// many points, or as the constructor; BackendUnavailable.
+  bool Insert(const PlaneArray& points, const ProgressObserver& progress = {});
+
   /// Answers a query about places: see PlaceQuery. Nothing in the session changes. Triangles that
   /// an outline, holes or options have removed are outside. For sessions from points.
   /// @param progress is told the share of the places that is done.

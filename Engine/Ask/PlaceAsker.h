@@ -29,10 +29,7 @@ public:
   {
     PlaneMesh plane{ mesh.Edges, mesh.Places };
     plane.IsTriangulation = true;
-    if (this->Grid.Cells.Size() == 0)
-    {
-      this->Grid = BuildPlaceGrid(plane, mesh.NumberOfTriangles, backend);
-    }
+    this->RequireGrid(plane, mesh.NumberOfTriangles, backend);
     const std::int32_t none = 0;
     const LocalCopy<std::int32_t> failed(&none, 1, true, backend);
     plane.Failed = failed.GetWritable();
@@ -66,6 +63,17 @@ public:
     std::int32_t hasFailed = 0;
     backend.Download(failed.Get(), 1, &hasFailed);
     return hasFailed == 0 ? AskResult::Complete : AskResult::Undecided;
+  }
+
+  /// The grid where walks begin. It is built at the first time, and stays usable while edges flip
+  /// and triangles are split.
+  PlaceGridView RequireGrid(const PlaneMesh& mesh, std::int64_t triangles, const Backend& backend)
+  {
+    if (this->Grid.Cells.Size() == 0)
+    {
+      this->Grid = BuildPlaceGrid(mesh, triangles, backend);
+    }
+    return this->Grid.View();
   }
 
   /// Sorts the places of a block by their cells, if most are far from the ones before. Then

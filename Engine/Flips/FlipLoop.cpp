@@ -89,4 +89,19 @@ std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
   return iterations;
 }
 
+std::int64_t FlipLoop::Converge()
+{
+  constexpr AdvancePlan Plan{ 64, false, false };
+  std::int64_t flips = 0;
+  this->Detect();
+  while (this->Found.Bad > 0)
+  {
+    for (const IterationCounts& iteration : this->Advance(Plan))
+    {
+      flips += iteration.Flipped;
+    }
+  }
+  return flips;
+}
+
 }

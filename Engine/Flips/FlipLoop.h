@@ -88,6 +88,9 @@ public:
   /// edges, and detects again. @returns the iterations.
   std::vector<IterationCounts> Advance(const AdvancePlan& plan);
 
+  /// Detects, and runs iterations until no edge is bad. @returns the flips.
+  std::int64_t Converge();
+
   /// How many of the edges that the last detection has found blocked by shape have
   /// EdgeState::BlockedByDeviation.
   virtual std::int64_t CountBlockedByDeviation() const = 0;

@@ -79,6 +79,12 @@ public:
   virtual AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) = 0;
   virtual bool CanAnswerInPlace(const PlaceQuery&) const { return false; }
 
+  /// Inserts points into a Delaunay triangulation of points, and flips until it is one again. They
+  /// are in the hull, with coordinates in the precision of the others.
+  /// @param places x and y. The numbers of these points follow those of the mesh's.
+  /// @returns how many flips it took.
+  virtual std::int64_t InsertPoints(const std::vector<double>& places) = 0;
+
   /// Calls view(mesh) with a mesh from points, in the memory of the host.
   using HostView = std::function<void(const PointMeshView&)>;
   virtual void ViewOnHost(const HostView& view) = 0;

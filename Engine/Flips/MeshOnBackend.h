@@ -16,77 +16,22 @@
 #include "MeshSurveyBuilder.h"
 #include "PlaceAsker.h"
 #include "PlanarSurvey.h"
+#include "PointGrowth.h"
 #include "PointMesh.h"
 #include "SegmentInsertion.h"
 #include "SmallestAngle.h"
 #include "SpatialOrder.h"
+#include "StoreSteps.h"
 #include "SurfaceAngles.h"
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace delaunayflip
 {
-
-/// Sets the ids of a triangle in the caller's slot, if the target includes it.
-struct StoreStep
-{
-  const TriangleRecord* Triangles;
-  SpatialOrderView Order;
-
-  template <typename Target>
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const Target& target) const
-  {
-    if (HasTriangle(target, this->Triangles[t].InputTriangle))
-    {
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        this->StoreId(t, slot, target);
-      }
-    }
-  }
-
-  /// Sets one of the three ids.
-  template <typename Target>
-  DELAUNAYFLIP_HOST_DEVICE void StoreId(std::int64_t t, int slot, const Target& target) const
-  {
-    const TriangleRecord& triangle = this->Triangles[t];
-    target.Set(triangle.InputTriangle, slot, this->Order.GetVertex(triangle.Vertices[slot]));
-  }
-};
-
-/// Sets the number of the triangle across an edge, -1 where there is none.
-struct NeighborStep
-{
-  const TriangleRecord* Triangles;
-  const CornerId* CornerOfHalfEdge;
-
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, const OutputSlice& target) const
-  {
-    const TriangleRecord& triangle = this->Triangles[i / 3];
-    const int slot = static_cast<int>(i % 3);
-    const CornerId across = this->CornerOfHalfEdge[GetAt(triangle.HalfEdges, slot) ^ 1u];
-    TriangleId neighbor = NoTriangle;
-    if (across != NoCorner)
-    {
-      neighbor = this->Triangles[TriangleOf(across)].InputTriangle;
-    }
-    target.Set(std::int64_t(3) * triangle.InputTriangle + slot, neighbor);
-  }
-};
-
-/// Sets the number of flips of a triangle in the caller's slot.
-struct FlipCountStep
-{
-  const TriangleRecord* Triangles;
-
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const OutputSlice& target) const
-  {
-    target.Set(this->Triangles[t].InputTriangle, this->Triangles[t].Flips / OneFlip);
-  }
-};
 
 /// Makes a loop from the caller's arrays, on a backend.
 template <typename BackendT>
@@ -258,6 +203,13 @@ public:
         { result = PlaceAsker<ThreadBackend>().Answer(view, asked, threads, observer); });
     }
     return result;
+  }
+
+  std::int64_t InsertPoints(const std::vector<double>& places) override
+  {
+    this->RequireStates();
+    return this->Places.Floats ? this->InsertPoints(places, this->Points.Floats)
+                               : this->InsertPoints(places, this->Points.Doubles);
   }
 
   void ViewOnHost(const HostView& use) override
@@ -543,6 +495,76 @@ private:
         this->Points.Count, this->Backend, progress, hullEdges);
     this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
     this->Asker = PlaceAsker<BackendT>();
+  }
+
+  template <typename Real>
+  std::int64_t InsertPoints(const std::vector<double>& places, Array<Real>& coordinates)
+  {
+    const std::int64_t count = SizeOf(places) / 2;
+    Array<double> placesHere = this->Backend.template MakeArray<double>(2 * count);
+    this->Backend.Upload(places.data(), 2 * count, placesHere.Data());
+    PlaneMesh plane{ this->Mesh.View(), this->Places, true };
+    const PlaceGridView grid =
+      this->Asker.RequireGrid(plane, this->Mesh.NumberOfTriangles, this->Backend);
+    const auto grow = [&](std::int64_t vertices)
+    {
+      Reserve(coordinates, 2 * this->Points.Count, 2 * vertices, this->Backend);
+      Reserve(this->Order.VertexOfRank, this->Points.Count, vertices, this->Backend);
+      return StoreVertex<Real>{ coordinates.Data(), this->Order.VertexOfRank.Data(),
+        placesHere.Data(), this->Report.Points };
+    };
+    PointGrowth<BackendT> growth(placesHere.Data(), count, this->Backend);
+    std::int64_t flips = 0;
+    for (;;)
+    {
+      plane = { this->Mesh.View(), this->Places, true };
+      const std::int64_t added =
+        growth.InsertSome(this->Mesh, plane, this->Points.Count, grid, grow);
+      if (added == 0)
+      {
+        break;
+      }
+      this->Points.Count += added;
+      this->Places = PlaneArray(coordinates.Data(), this->Points.Count, 2);
+      this->MakeLoop(PlanarRule<Real, 2>{ coordinates.Data(), 1, true, this->FiltersApply });
+      flips += this->Loop->Converge();
+    }
+    this->CountInserted(growth, count);
+    return flips;
+  }
+
+  /// Brings the report and UsedPoint up to date.
+  void CountInserted(const PointGrowth<BackendT>& growth, std::int64_t count)
+  {
+    std::vector<GrowthItem> items(count);
+    this->Backend.Download(growth.GetItems(), count, items.data());
+    FlipReport& report = this->Report;
+    const std::int64_t before = report.Points;
+    std::vector<VertexId> used(this->UsedPoint.Size());
+    this->Backend.Download(
+      this->UsedPoint.Data(), static_cast<std::int64_t>(used.size()), used.data());
+    if (used.empty())
+    {
+      used.resize(before);
+      std::iota(used.begin(), used.end(), VertexId(0));
+    }
+    std::vector<VertexId> ids(this->Points.Count);
+    this->Backend.Download(this->Order.VertexOfRank.Data(), this->Points.Count, ids.data());
+    for (const GrowthItem& item : items)
+    {
+      report.FromPoints.Repeated += item.State == GrowthState::Repeated ? 1 : 0;
+      report.FromPoints.NotFinite += item.State == GrowthState::Outside ? 1 : 0;
+      used.push_back(item.Vertex == NoVertex ? NoVertex : ids[item.Vertex]);
+    }
+    this->UsedPoint = this->Backend.template MakeArray<VertexId>(SizeOf(used));
+    this->Backend.Upload(used.data(), SizeOf(used), this->UsedPoint.Data());
+    report.Points = before + count;
+    const std::int64_t hullEdges = 2 * this->Mesh.NumberOfEdges - 3 * this->Mesh.NumberOfTriangles;
+    report.Triangles = this->Mesh.NumberOfTriangles;
+    report.Edges.Edges = this->Mesh.NumberOfEdges;
+    report.Edges.Boundary = hullEdges;
+    report.Edges.Fixed = hullEdges;
+    report.EulerCharacteristic = this->Points.Count - report.Edges.Edges + report.Triangles;
   }
 
   BackendT Backend;

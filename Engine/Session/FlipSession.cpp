@@ -116,6 +116,11 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
   this->Run->StoreTriangles(triangles);
 }
 
+bool FlipSession::Insert(const PlaneArray& points, const ProgressObserver& progress)
+{
+  return RequirePoints(*this->Run).Insert(points, progress);
+}
+
 bool FlipSession::Ask(const PlaceQuery& query, const ProgressObserver& progress) const
 {
   return RequirePoints(*this->Run).Ask(query, progress);

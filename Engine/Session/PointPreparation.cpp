@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -119,6 +120,41 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
     this->CopyPoints();
   }
   this->IsPrepared = true;
+}
+
+void PreparedPoints::Append(const PlaneArray& points)
+{
+  this->Prepared = this->Caller;
+  this->NearPoint.clear();
+  this->Added.clear();
+  this->Counts = PointCounts();
+  this->IsPrepared = false;
+  const PlaneArray before = this->CopyToHost();
+  const auto append = [&](auto& coordinates)
+  {
+    std::decay_t<decltype(coordinates)> all;
+    all.reserve(2 * (before.Count + points.Count));
+    for (const PlaneArray& some : { before, points })
+    {
+      for (std::int64_t i = 0; i < 2 * some.Count; ++i)
+      {
+        using Real = typename std::decay_t<decltype(coordinates)>::value_type;
+        all.push_back(static_cast<Real>(some.Get(i / 2, static_cast<int>(i % 2))));
+      }
+    }
+    coordinates = std::move(all);
+    this->Prepared.Points = PlaneArray(coordinates.data(), before.Count + points.Count, 2);
+  };
+  if (before.Floats)
+  {
+    append(this->Floats);
+  }
+  else
+  {
+    append(this->Doubles);
+  }
+  this->Caller.Points = this->Prepared.Points;
+  this->Caller.OnDevice = false;
 }
 
 PlaneArray PreparedPoints::CopyToHost()

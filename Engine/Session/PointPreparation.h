@@ -35,6 +35,10 @@ public:
   /// @throws InvalidMesh if one of the others is not closed.
   void PrepareRings(const LoadedMesh& mesh);
 
+  /// Adds points behind those of the caller, in their precision. Prepare must follow, unless there
+  /// are no segments and no tolerance. From now on this has a copy of all points.
+  void Append(const PlaneArray& points);
+
   const PointInput& GetCaller() const { return this->Caller; }
   const PointOptions& GetOptions() const { return this->Options; }
 

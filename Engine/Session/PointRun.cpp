@@ -45,8 +45,11 @@ void PointRun::ListStages()
   }
   this->Stages.push_back(
     { "cut triangles off", OnStop::Ignores, 0.0, Whole([this] { this->CutOff(); }), remove });
+  // Points that are inserted later are in the journal as done by this stage.
+  const auto insertPoints = [this](LoadedMesh& mesh, std::int64_t batch)
+  { this->InsertBatch(mesh, static_cast<std::size_t>(batch)); };
   this->Stages.push_back(
-    { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), {} });
+    { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), insertPoints });
 }
 
 PointRun::PointRun(
@@ -85,11 +88,18 @@ void PointRun::Triangulate()
 std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)
 {
   this->Result = PointResult();
+  PointInput input = this->Points.GetInput();
+  if (!this->BatchEnds.empty())
+  {
+    input.Points.Count = this->BatchEnds.front();
+  }
   if (backend == BackendKind::CUDA)
   {
-    return LoadOnCuda(this->Points.GetInput(), this->Options, this->Building);
+    return LoadOnCuda(input, this->Options, this->Building);
   }
-  return LoadOnThreads(this->Points.CopyToHost(), this->Options, this->Building);
+  PlaneArray points = this->Points.CopyToHost();
+  points.Count = input.Points.Count;
+  return LoadOnThreads(points, this->Options, this->Building);
 }
 
 //------------------------------------------------------------------------------
@@ -326,6 +336,7 @@ void PointRun::Reset()
 {
   LoadedRun::Reset();
   this->Result = PointResult();
+  this->BatchEnds.clear();
   this->AreFlipsSlow = false;
   this->Report.Points = this->Points.GetCaller().Points.Count;
 }

@@ -33,6 +33,9 @@ public:
   const std::vector<AddedPoint>& GetAddedPoints() const { return this->Points.GetAdded(); }
   std::vector<std::int64_t> ListSegmentEdges();
 
+  /// The same as FlipSession's. (PointInsertion.cpp)
+  bool Insert(const PlaneArray& points, const ProgressObserver& progress);
+
   /// The same as FlipSession's. (PointAnswers.cpp)
   bool Ask(const PlaceQuery& query, const ProgressObserver& progress);
 
@@ -50,6 +53,9 @@ private:
   void ExplainRefused(LoadedMesh& mesh);
   void CutOff();
   void RemoveTriangles(LoadedMesh& mesh);
+  bool CanInsertInPlace(const PlaneArray& points);
+  void InsertInPlace(const PlaneArray& points);
+  void InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
@@ -61,6 +67,9 @@ private:
   void StoreKept(int width, Value* values, const Store& store);
 
   PreparedPoints Points;
+  /// The loaded mesh was made of the first points up to the first of these numbers. Those from one
+  /// number to the next were inserted together. Empty: it was made of all.
+  std::vector<std::int64_t> BatchEnds;
   PointResult Result; ///< What was done to the loaded mesh beside flips.
   bool AreFlipsSlow = false; ///< Whether divide and conquer takes over.
 };

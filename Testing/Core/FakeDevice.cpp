@@ -97,6 +97,13 @@ public:
   {
     return this->Engine->Ask(asked, observer);
   }
+  std::int64_t InsertPoints(const std::vector<double>& places) override
+  {
+    const std::int64_t flips = this->Engine->InsertPoints(places);
+    this->Report = this->Engine->GetInputReport();
+    this->Report.Backend = "CUDA: fake";
+    return flips;
+  }
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream&, std::int32_t*) const override
   {

@@ -182,6 +182,42 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
   }
 }
 
+/// Points are inserted again, in the same batches, where a GPU fails at any time.
+TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
+{
+  std::vector<double> xy;
+  for (int i = 0; i < 13000; ++i)
+  {
+    const double radius = std::sqrt(i % 12000); // the later ones are inside
+    xy.insert(xy.end(), { std::cos(2.4 * i) * radius, std::sin(2.4 * i) * radius });
+  }
+  const auto run = [&](BackendKind backend, int call)
+  {
+    CallsToFailure = call;
+    FlipSession session(
+      PointInput{ PlaneArray(xy.data(), 12000, 2) }, PointOptions{ OnBackend(backend) });
+    session.Advance();
+    for (const std::int64_t first : { 12000, 12500 })
+    {
+      EXPECT_TRUE(session.Insert(PlaneArray(xy.data() + 2 * first, 500, 2)));
+    }
+    return session;
+  };
+  const FlipSession expected = run(BackendKind::Threads, 0);
+  for (int call = 1;; ++call)
+  {
+    const FlipSession session = run(BackendKind::Auto, call);
+    ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
+    ExpectSameStatistics(expected.GetReport(), session.GetReport());
+    if (CallsToFailure > 0)
+    {
+      EXPECT_LT(10, call);
+      break;
+    }
+    EXPECT_EQ("as the test wants it", session.GetReport().Fallback);
+  }
+}
+
 /// The names of the stages in the journal of a finished run, and how much of each was done.
 std::vector<std::pair<std::string, std::int64_t>> ListJournal(const LoadedRun& run)
 {

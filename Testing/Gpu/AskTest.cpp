@@ -5,13 +5,14 @@
 #include "PointTestSupport.h"
 #include "TestDevice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
 
 /// @file
-/// Queries about places that a GPU answers, with the bits of the CPU.
+/// Queries about places and points that come later, on a GPU, with the bits of the CPU.
 
 namespace delaunayflip
 {
@@ -179,6 +180,46 @@ class AskTest : public GpuTest
 
 TEST_F(AskTest, TheGpuGivesTheCpusAnswers) { ExpectAgreement(3000, 50000); }
 
+/// Inserts the second half of points, in batches, on both backends.
+void ExpectInsertionAgrees(const Places& points)
+{
+  const auto half = static_cast<std::int64_t>(points.size()) / 2;
+  const auto run = [&](BackendKind backend)
+  {
+    PointOptions options;
+    static_cast<FlipOptions&>(options) = OnBackend(backend);
+    FlipSession session(PointInput{ PlaneArray(points.front().data(), half, 2) }, options);
+    session.Advance();
+    for (std::int64_t first = half; first < 2 * half; first += half / 3 + 1)
+    {
+      const std::int64_t count = std::min(half / 3 + 1, 2 * half - first);
+      EXPECT_TRUE(session.Insert(PlaneArray(points[first].data(), count, 2)));
+    }
+    return session;
+  };
+  const FlipSession expected = run(BackendKind::Threads);
+  const FlipSession actual = run(BackendKind::CUDA);
+  EXPECT_TRUE(IsOnGpu(actual.GetReport())) << actual.GetReport().Backend;
+  EXPECT_EQ(StoreTriangles(expected), StoreTriangles(actual));
+  EXPECT_EQ(expected.GetReport().FromPoints.Repeated, actual.GetReport().FromPoints.Repeated);
+  EXPECT_EQ(expected.GetReport().MinimumAngleAfter, actual.GetReport().MinimumAngleAfter);
+}
+
+/// With corners around all, so that points are inserted in place.
+void ExpectInsertionAgrees(std::int64_t count)
+{
+  for (const PointSet& set : ListPointSets())
+  {
+    SCOPED_TRACE(set.Name);
+    Places points = { { -1e5, -1e5 }, { 1e7, -1e5 }, { 1e7, 1e7 }, { -1e5, 1e7 } };
+    const Places more = MakePlaces(set, count);
+    points.insert(points.end(), more.begin(), more.end());
+    ExpectInsertionAgrees(points);
+  }
+}
+
+TEST_F(AskTest, PointsThatComeLaterAreInsertedAlike) { ExpectInsertionAgrees(20000); }
+
 TEST_F(AskTest, WithSegmentsAndRemovedTriangles)
 {
   std::mt19937 random(6);
@@ -205,6 +246,8 @@ class SmallAskTest : public GpuTest
 };
 
 TEST_F(SmallAskTest, EveryKindOfQuery) { ExpectAgreement(60, 300); }
+
+TEST_F(SmallAskTest, PointsThatComeLater) { ExpectInsertionAgrees(100); }
 
 }
 }

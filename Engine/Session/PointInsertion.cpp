@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointRun.h"
+
+#include "Array.h"
+#include "InputChecks.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// How the run of points takes in more of them.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// Coordinates in the precision of other points.
+std::vector<double> RoundLike(const PlaneArray& points, const PlaneArray& others)
+{
+  std::vector<double> places;
+  places.reserve(2 * points.Count);
+  for (std::int64_t i = 0; i < 2 * points.Count; ++i)
+  {
+    const double coordinate = points.Get(i / 2, static_cast<int>(i % 2));
+    places.push_back(others.Floats ? static_cast<float>(coordinate) : coordinate);
+  }
+  return places;
+}
+
+}
+
+bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress)
+{
+  const std::int64_t before = this->Points.GetCaller().Points.Count;
+  CheckPointCount(before + points.Count);
+  if (points.Count == 0)
+  {
+    return true;
+  }
+  if (this->CanInsertInPlace(points))
+  {
+    this->Points.Append(points);
+    this->InsertInPlace(points);
+    return true;
+  }
+  this->Points.Append(points);
+  this->Reset();
+  this->Advance(-1, {}, progress);
+  return this->Report.StopReason != StopReasonKind::Aborted;
+}
+
+/// Whether all points are in triangles of a Delaunay triangulation that has no segments, and of
+/// which nothing was removed.
+bool PointRun::CanInsertInPlace(const PlaneArray& points)
+{
+  const PointOptions& options = this->Points.GetOptions();
+  const PointInput& caller = this->Points.GetCaller();
+  const bool isFree = caller.NumberOfSegments + caller.NumberOfHoleSeeds == 0 &&
+    options.PointTolerance == 0.0 && options.Alpha == 0.0 && options.LongestEdge == 0.0;
+  if (!isFree || !this->Loaded || !this->IsOver() || this->Found.Bad > 0)
+  {
+    return false;
+  }
+  const std::vector<double> places = RoundLike(points, caller.Points);
+  std::vector<std::int32_t> triangles(points.Count);
+  PlaceQuery query;
+  query.Places = PlaneArray(places.data(), points.Count, 2);
+  query.Triangles = triangles.data();
+  this->Ask(query, {});
+  return std::all_of(
+    triangles.begin(), triangles.end(), [](std::int32_t triangle) { return triangle >= 0; });
+}
+
+void PointRun::InsertInPlace(const PlaneArray& points)
+{
+  if (this->BatchEnds.empty())
+  {
+    this->BatchEnds.push_back(this->Points.GetCaller().Points.Count - points.Count);
+  }
+  const std::size_t batch = this->BatchEnds.size() - 1;
+  this->BatchEnds.push_back(this->Points.GetCaller().Points.Count);
+  const auto insert = [&](LoadedMesh& mesh) { this->InsertBatch(mesh, batch); };
+  const bool isThere = this->TryOnBackend(insert);
+  if (!isThere)
+  {
+    return;
+  }
+  this->Journal.push_back({ this->Stages.size() - 1, static_cast<std::int64_t>(batch) });
+  const FlipReport& made = this->Loaded->GetInputReport();
+  this->Report.Triangles = made.Triangles;
+  this->Report.EulerCharacteristic = made.EulerCharacteristic;
+  this->AreAnglesKnown = false;
+  this->AreKeptEdgesKnown = false;
+  this->RecordFound(this->Loaded->GetLoop().GetFound());
+  this->ListDefects();
+}
+
+void PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
+{
+  const PlaneArray& all = this->Points.GetInput().Points;
+  std::vector<double> places;
+  for (std::int64_t i = this->BatchEnds[batch]; i < this->BatchEnds[batch + 1]; ++i)
+  {
+    places.push_back(all.Get(i, 0));
+    places.push_back(all.Get(i, 1));
+  }
+  mesh.InsertPoints(places);
+}
+
+}
