@@ -31,7 +31,8 @@ namespace delaunayflip
 struct Gap
 {
   std::uint32_t LeftRun, RightRun; ///< Slots of the runs at its ends.
-  bool LeftIsLower, RightIsLower; ///< Whether these runs are of the lower chain.
+  /// Whether these runs are of the lower chain. Words, so that copies have no undefined bytes.
+  std::uint32_t LeftIsLower, RightIsLower;
   std::int64_t FirstTriangle;
 };
 
