@@ -133,7 +133,7 @@ private:
   std::size_t Points = 0;
 };
 
-/// The median length of edges of polygons.
+/// The median length of the first edges of polygons.
 double FindMedianEdge(vtkPolyData* mesh)
 {
   std::vector<double> squares;
@@ -143,6 +143,10 @@ double FindMedianEdge(vtkPolyData* mesh)
   for (vtkIdType cell = 0; cell < count; cell += 1 + count / SampleSize)
   {
     polygons->GetCellAtId(cell, corners);
+    if (corners->GetNumberOfIds() < 2)
+    {
+      continue;
+    }
     std::array<double, 3> from, to;
     mesh->GetPoint(corners->GetId(0), from.data());
     mesh->GetPoint(corners->GetId(1), to.data());
