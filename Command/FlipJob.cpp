@@ -323,6 +323,13 @@ private:
       this->Warn(
         this->Settings.Output + ": has no value, because all places are outside of the triangles");
     }
+    if (this->Heights->IsFlat())
+    {
+      this->Warn(this->Settings.Output +
+        ": all heights are 0, as those of the points are; --columns names the column of heights, "
+        "and "
+        "--raster-array takes other values");
+    }
   }
 
   void WriteTriangles()

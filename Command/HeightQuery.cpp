@@ -297,7 +297,9 @@ void HeightQuery::WriteBlock(vtkDataSet* block)
   for (vtkIdType i = 0; i < count; ++i)
   {
     values[i] = found->GetComponent(i, 0);
-    this->Outside += inside->GetComponent(i, 0) == 0.0;
+    const bool isOutside = inside->GetComponent(i, 0) == 0.0;
+    this->Outside += isOutside;
+    this->HasOthers = this->HasOthers || (!isOutside && values[i] != 0.0);
   }
   this->Total += count;
   this->WriteValues(values.data(), block);

@@ -66,6 +66,12 @@ public:
   /// Those in no triangle.
   std::int64_t CountOutside() const { return this->Outside; }
 
+  /// Whether heights were asked for and all that were found are 0, as if the points had none.
+  bool IsFlat() const
+  {
+    return this->IsOfHeights && !this->HasOthers && this->Outside < this->Total;
+  }
+
 protected:
   HeightQuery(const HeightOptions& options, const std::string& title, const std::string& noun);
 
@@ -91,6 +97,7 @@ private:
   vtkDelaunayFlipInterpolator* Filter = nullptr;
   std::int64_t Total = 0; ///< Places.
   std::int64_t Outside = 0;
+  bool HasOthers = false; ///< Whether some value is not 0.
 };
 
 /// The points with the lines and the only array that is interpolated; none for z.

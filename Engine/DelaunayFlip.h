@@ -146,11 +146,10 @@ public:
   /// of the segments, each once. Empty until they are inserted. For sessions from points.
   std::vector<std::int64_t> ListSegmentEdges() const;
 
-  /// Inserts points into the triangulation, as if they had been given behind the others: the
-  /// triangles are those of all points. Their numbers follow those of the others. If there are no
-  /// segments and no triangles were removed, and all points are in the hull, they are inserted
-  /// where they are, which changes the triangles around them only. Else all is made anew. For
-  /// sessions from points.
+  /// Inserts more points into the triangulation, numbered after the others. The triangles are then
+  /// those of all points, perhaps in another order than if all had been given at once. If there are
+  /// no segments, nothing was removed, and all new points are in the hull, only the triangles
+  /// around them change. Otherwise the triangulation is made anew. For sessions from points.
   /// @param points in the host's memory; they are copied, in the precision of the others.
   /// @param progress is told the share that is done if all is made anew.
   /// @returns false if that has asked to stop. Then Advance begins with all points.

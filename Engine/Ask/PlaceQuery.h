@@ -163,14 +163,17 @@ struct PlaceBlock
 inline PlaceBlock CutBlock(const PlaceQuery& query, std::int64_t first, std::int64_t count)
 {
   PlaceBlock block;
-  block.Raster = query.Raster;
   block.FirstCell = first;
   const std::int64_t numbers = query.Places.Stride * first;
-  if (query.Raster.CountCells() == 0 && query.Places.Floats)
+  if (query.Raster.CountCells() > 0)
+  {
+    block.Raster = query.Raster;
+  }
+  else if (query.Places.Floats)
   {
     block.Places = PlaneArray(query.Places.Floats + numbers, count, query.Places.Stride);
   }
-  if (query.Raster.CountCells() == 0 && query.Places.Doubles)
+  else if (query.Places.Doubles)
   {
     block.Places = PlaneArray(query.Places.Doubles + numbers, count, query.Places.Stride);
   }

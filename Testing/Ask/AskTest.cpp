@@ -320,6 +320,14 @@ TEST(Ask, RastersAreTheirCentres)
       centres.push_back({ -0.05 + column * 0.019, 1.03 + row * -0.023 });
     }
   }
+  PlaceQuery withoutCells = query;
+  withoutCells.Raster.Rows = 0;
+  const Places reversed(centres.rbegin(), centres.rend());
+  withoutCells.Places = View(reversed);
+  std::vector<std::int32_t> atPlaces(centres.size());
+  withoutCells.Triangles = atPlaces.data();
+  EXPECT_TRUE(asked.Session.Ask(withoutCells));
+  EXPECT_EQ(asked.Locate(reversed), atPlaces);
   for (const InterpolationKind method : { InterpolationKind::Linear, InterpolationKind::Natural })
   {
     std::vector<double> results(centres.size());

@@ -114,6 +114,13 @@ class Rasters(HeightTest):
         self.assertEqual((header["xllcenter"], *rows.shape), (0.75, 3, 3))
         self.assertEqual(rows[2, 0], 0.75 / 2 * 5 + 0.625 * 1)
 
+    def test_points_without_heights(self):
+        self.write("flat.csv", "x,y\n0,0\n4,0\n0,4\n")
+        result = self.ask("flat.csv", "o.asc", "--raster", "1")
+        self.assertIn("all heights are 0, as those of the points are; --columns", result.stderr)
+        result = self.ask("plane.csv", "o.asc", "--raster", "1")
+        self.assertNotIn("all heights are 0", result.stderr)
+
     def test_blocks(self):
         """A raster of several blocks of rows, the last one not whole."""
         self.ask("plane.csv", "out.vti", "--raster", 2**-10, "--extent", "1,2,17,2.5")
