@@ -34,9 +34,11 @@
 #include <cctype>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -318,17 +320,26 @@ private:
     this->Run.Summary += this->Heights->Describe();
     this->Run.Places = this->Heights->CountPlaces();
     this->Run.PlacesOutside = this->Heights->CountOutside();
-    if (this->Run.PlacesOutside == this->Run.Places)
+    const bool isAscii = ExtensionOf(this->Settings.Output) == ".asc";
+    for (const std::string& warning : this->Heights->ListWarnings(isAscii))
     {
-      this->Warn(
-        this->Settings.Output + ": has no value, because all places are outside of the triangles");
+      this->Warn(this->Settings.Output + ": " + warning);
     }
-    if (this->Heights->IsFlat())
+    if (isAscii)
     {
-      this->Warn(this->Settings.Output +
-        ": all heights are 0, as those of the points are; --columns names the column of heights, "
-        "and "
-        "--raster-array takes other values");
+      this->WarnOfProjectionFile();
+    }
+  }
+
+  /// Programs take the .prj beside an .asc for its coordinate reference system.
+  void WarnOfProjectionFile()
+  {
+    const auto file = std::filesystem::path(this->Settings.Output).replace_extension(".prj");
+    std::error_code ignored;
+    if (this->Settings.Heights.Crs.empty() && std::filesystem::exists(file, ignored))
+    {
+      this->Warn(file.string() + " is that of an earlier file, and programs will take it for " +
+        this->Settings.Output + ", too; remove it, or give --crs");
     }
   }
 

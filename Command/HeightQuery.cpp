@@ -300,9 +300,37 @@ void HeightQuery::WriteBlock(vtkDataSet* block)
     const bool isOutside = inside->GetComponent(i, 0) == 0.0;
     this->Outside += isOutside;
     this->HasOthers = this->HasOthers || (!isOutside && values[i] != 0.0);
+    this->LikeNoData += values[i] == NoDataOfAscii;
+    this->WithoutValue += !isOutside && std::isnan(values[i]);
   }
   this->Total += count;
   this->WriteValues(values.data(), block);
+}
+
+std::vector<std::string> HeightQuery::ListWarnings(bool isAscii) const
+{
+  std::vector<std::string> warnings;
+  if (this->Outside == this->Total)
+  {
+    warnings.push_back("has no value, because all places are outside of the triangles");
+  }
+  else if (this->IsOfHeights && !this->HasOthers)
+  {
+    warnings.push_back(
+      "all heights are 0, as those of the points are; --columns names the column of "
+      "heights, and --raster-array takes other values");
+  }
+  if (this->WithoutValue > 0)
+  {
+    warnings.push_back(Grouped(this->WithoutValue) +
+      " places have no value, because points around them have none (NaN)");
+  }
+  if (isAscii && this->LikeNoData > 0)
+  {
+    warnings.push_back(Grouped(this->LikeNoData) +
+      " heights are -9999, which an .asc has for no value; a .tif or .vti can have both");
+  }
+  return warnings;
 }
 
 std::string HeightQuery::Describe() const

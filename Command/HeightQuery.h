@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkDelaunayFlipInterpolator;
 
@@ -66,11 +67,9 @@ public:
   /// Those in no triangle.
   std::int64_t CountOutside() const { return this->Outside; }
 
-  /// Whether heights were asked for and all that were found are 0, as if the points had none.
-  bool IsFlat() const
-  {
-    return this->IsOfHeights && !this->HasOthers && this->Outside < this->Total;
-  }
+  /// What users may not expect of the values that were written.
+  /// @param isAscii whether to an .asc.
+  std::vector<std::string> ListWarnings(bool isAscii) const;
 
 protected:
   HeightQuery(const HeightOptions& options, const std::string& title, const std::string& noun);
@@ -97,6 +96,8 @@ private:
   vtkDelaunayFlipInterpolator* Filter = nullptr;
   std::int64_t Total = 0; ///< Places.
   std::int64_t Outside = 0;
+  std::int64_t WithoutValue = 0; ///< In triangles with points that have none.
+  std::int64_t LikeNoData = 0; ///< NoDataOfAscii.
   bool HasOthers = false; ///< Whether some value is not 0.
 };
 

@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  static constexpr const char* NoData = "-9999";
+  const std::string NoData = TextOf(NoDataOfAscii);
 
   void Check() const
   {

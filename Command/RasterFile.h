@@ -13,6 +13,9 @@
 namespace delaunayflip
 {
 
+/// What an ESRI ASCII grid has where there is no value.
+constexpr double NoDataOfAscii = -9999.0;
+
 /// Square cells in rows from west to east.
 struct RasterGrid
 {

@@ -7,6 +7,7 @@
 #include "UpdateRequests.h"
 
 #include "vtkAbstractTransform.h"
+#include "vtkDoubleArray.h"
 #include "vtkMath.h"
 #include "vtkPlane.h"
 #include "vtkPointData.h"
@@ -125,6 +126,44 @@ Stamps StampArrays(const TriangulationRequest& request)
   return stamps;
 }
 
+vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->ShallowCopy(mesh);
+  return copy;
+}
+
+/// Makes arrays of integers ones of doubles, so that what is interpolated is not rounded.
+void TurnToDoubles(vtkDataSetAttributes* data)
+{
+  const vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
+    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i); // null if it has no numbers
+    const bool isLabel = std::count(std::begin(labels), std::end(labels), array) > 0;
+    if (array && array->GetName() && !isLabel && array->GetDataType() != VTK_FLOAT &&
+      array->GetDataType() != VTK_DOUBLE)
+    {
+      vtkNew<vtkDoubleArray> doubles;
+      doubles->DeepCopy(array);
+      const int attributes = FindAttributes(data, array);
+      AddAttributes(data, data->AddArray(doubles), attributes); // in its place
+    }
+  }
+}
+
+/// A copy of points, with arrays of doubles if that is asked for.
+vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtkPolyData* points)
+{
+  auto copy = CopyShallow(points);
+  if (request.FillsData)
+  {
+    TurnToDoubles(copy->GetPointData());
+  }
+  return copy;
+}
+
 /// The segments of both inputs, as pairs of ids of points. Points of the second input that are new
 /// come after those of the first one.
 class SegmentList
@@ -134,7 +173,8 @@ public:
   SegmentList(const TriangulationRequest& request, vtkPolyData* given, vtkPolyData* points,
     const ProgressObserver& progress)
     : Given(given),
-      Points(points)
+      Points(points),
+      FillsData(request.FillsData)
   {
     const vtkIdType count = given->GetNumberOfPoints();
     this->AddCells(
@@ -307,8 +347,12 @@ private:
     if (added->GetNumberOfIds() > 0)
     {
       vtkPointData* data = segments->GetPointData();
-      AppendPoints(this->Given, segments->GetPoints(), added, TakeWholeArrays(data, others.Count),
-        this->Points);
+      const auto theirs = TakeWholeArrays(data, others.Count);
+      if (this->FillsData)
+      {
+        TurnToDoubles(theirs);
+      }
+      AppendPoints(CopyShallow(this->Points), segments->GetPoints(), added, theirs, this->Points);
       this->ShortArrays = FindShortArrays(
         data, others.Count, "point", " of the second input with too few tuples left out");
     }
@@ -317,6 +361,7 @@ private:
 
   vtkPolyData* Given;
   vtkPolyData* Points;
+  bool FillsData; ///< See TriangulationRequest.
   std::size_t FirstOther = 0; ///< Where the ends of the second input begin.
 };
 
@@ -383,13 +428,6 @@ bool MayTakeHeights(const TriangulationRequest& request)
   return others->GetNumberOfPoints() > 0 && bounds[4] == 0.0 && bounds[5] == 0.0;
 }
 
-vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
-{
-  auto copy = vtkSmartPointer<vtkPolyData>::New();
-  copy->ShallowCopy(mesh);
-  return copy;
-}
-
 TriangulationRun::TriangulationRun(const TriangulationRequest& request)
   : UpdateRun({ { false, false, request.Others != nullptr, false, MayTakeHeights(request), true,
                   true, false },
@@ -398,7 +436,7 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
     StampedPoints(StampPoints(request)),
     StampedArrays(StampArrays(request)),
     Given(request.IsLive ? CopyPoints(request.Input) : CopyShallow(request.Input)),
-    Points(CopyShallow(Given)),
+    Points(CopyForRun(request, Given)),
     Segments(request, Given, Points, this->Plan.For(UpdatePlan::Constraints)),
     FlatPoints(Segments.FindFlatPoints(request.FirstHole))
 {

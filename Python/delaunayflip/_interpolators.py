@@ -30,6 +30,8 @@ class LinearInterpolator:
     Values and places may be arrays of CuPy, PyTorch or Numba in the memory of a GPU, or of libraries
     with DLPack. The result is where the places are, an array of their library.
 
+    Do not change the arrays of points and values as long as you use it: they may not be copied.
+
     Threads may share an interpolator; they take turns. One that was copied or pickled triangulates
     again at its first use. Its memory is freed with it.
 
@@ -46,8 +48,9 @@ class LinearInterpolator:
         outside: "nan": fill_value. "nearest": the value at the nearest place on the boundary of the
             triangles. "error": a ValueError tells how many places are outside.
         breaklines: "hard": triangles, and natural neighbours, end at segments. "soft": segments, and
-            the edges of rings, only say what is outside; the values come from the triangulation of the
-            same points without them.
+            the edges of rings, only say what is outside; the values inside come from the triangulation
+            of the same points without them, and without crossings. Those of outside="nearest" do not,
+            so values may jump at the boundary.
         backend, threads, device: As for `triangulate`.
         progress: Called with the share of the triangulation done, 0 to 1; False stops it.
 

@@ -37,6 +37,10 @@ def list_lines(given):
     if not is_array and (not isinstance(given, (list, tuple)) or len(given) == 0):
         return []
     dimensions = len(given.shape) if is_array else 1 + _arrays.as_array("segments", given[0]).ndim
+    kind = str(given.dtype if is_array else _arrays.as_array("segments", given[0]).dtype)
+    if dimensions == 2 and "float" in kind:
+        raise TypeError("segments must be pairs of point ids, or a list of lines of coordinates; put a single "
+                        "line into a list: [line]")
     if dimensions != 3:
         return []
     return [_arrays.to_host(_arrays.as_plane(line, f"line {number} of segments"))

@@ -325,6 +325,7 @@ class Cloud(Input):
         self.find_flat_points(
             data.GetNumberOfPoints(), self.all_segments[own:], self.all_rings[own:])
         self._surveyed = []  # (name, ids, values) of each array of added points
+        self._read_data = self._as_doubles if fills_data else lambda data: data
         self._choose_heights(heights, fills_data, backend or {})
 
     def _choose_heights(self, heights, fills_data, backend):
@@ -416,16 +417,32 @@ class Cloud(Input):
                                      "point", "left out", " of the second input")
         return "; ".join(texts)
 
+    def _as_doubles(self, data):
+        """A copy with arrays of doubles for those of integers, so that what is interpolated is not
+        rounded."""
+        copy = self.vtk.model.vtkPointData()
+        copy.ShallowCopy(data)
+        labels = copy.GetGlobalIds(), copy.GetPedigreeIds(), copy.GetAbstractArray(_GHOSTS)
+        for array in _list_arrays(copy):
+            if array.GetName() and array.IsNumeric() and not _is_among(array, labels) and (
+                    array.GetDataType() not in (self.vtk.core.VTK_FLOAT, self.vtk.core.VTK_DOUBLE)):
+                doubles = self.vtk.core.vtkDoubleArray()
+                doubles.DeepCopy(array)
+                attributes = _find_attributes(copy, array)
+                _add_attributes(copy, copy.AddArray(doubles), attributes)
+        return copy
+
     def _extend_data(self, data, count):
         """The point data, extended by those of added points."""
         size = len(self.points) + len(self.ends)
         first = len(self.points)  # of the points at crossings
         data.Initialize()
-        self.vtk.add_tuples(self.data.GetPointData(), count, range(count), 0, size, data)
+        own = self._read_data(self.data.GetPointData())
+        self.vtk.add_tuples(own, count, range(count), 0, size, data)
         if len(self._sources):
-            others = self._others
+            theirs = self._read_data(self._others.GetPointData())
             self.vtk.add_tuples(
-                others.GetPointData(), others.GetNumberOfPoints(), self._sources, count, size, data)
+                theirs, self._others.GetNumberOfPoints(), self._sources, count, size, data)
         for name, ids, values in self._surveyed:
             numbers = self.vtk.view(data.GetArray(name))
             if numbers.dtype.kind != "f":

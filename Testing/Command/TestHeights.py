@@ -121,6 +121,21 @@ class Rasters(HeightTest):
         result = self.ask("plane.csv", "o.asc", "--raster", "1")
         self.assertNotIn("all heights are 0", result.stderr)
 
+    def test_what_rasters_cannot_hold(self):
+        self.write("none.csv", "x,y,z\n0,0,1\n4,0,nan\n0,4,1\n4,4,1\n")
+        result = self.ask("none.csv", "o.asc", "--raster", "1")
+        self.assertRegex(result.stderr, r"o.asc: \d+ places have no value, because points around")
+        self.write("low.csv", "x,y,z\n0,0,-9999\n4,0,-9999\n0,4,-9999\n")
+        result = self.ask("low.csv", "o.asc", "--raster", "1")
+        self.assertRegex(result.stderr, r"o.asc: \d+ heights are -9999, which an .asc has for no value")
+        result = self.ask("low.csv", "o.vti", "--raster", "1")
+        self.assertNotIn("-9999", result.stderr)
+
+    def test_old_reference_system(self):
+        self.write("o.prj", "of an earlier file")
+        result = self.ask("plane.csv", "o.asc", "--raster", "1")
+        self.assertIn("o.prj is that of an earlier file", result.stderr)
+
     def test_blocks(self):
         """A raster of several blocks of rows, the last one not whole."""
         self.ask("plane.csv", "out.vti", "--raster", 2**-10, "--extent", "1,2,17,2.5")

@@ -20,6 +20,7 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
 
@@ -277,6 +278,35 @@ TEST(Interpolator, SegmentsAndProjections)
   for (std::size_t i = 0; i < flat.size(); ++i)
   {
     EXPECT_NEAR(found[i], flat[i], 1e-9);
+  }
+}
+
+/// Integers that are linear between points stay so at points that a breakline and crossings add.
+TEST(Interpolator, IntegersAreNotRoundedAtBreaklines)
+{
+  const auto source = MakeMesh({ { 0, 0, 0 }, { 10, 0, 0 }, { 0, 10, 0 }, { 10, 10, 0 } }, {});
+  const auto classes = MakeArray<vtkUnsignedCharArray>("classes", 4);
+  for (vtkIdType i = 0; i < 4; ++i)
+  {
+    classes->SetValue(i, static_cast<unsigned char>(i % 2));
+  }
+  source->GetPointData()->SetScalars(classes);
+  const auto places = MakePlaces();
+  Interpolator filter(places);
+  filter->SetSourceData(source);
+  filter->SplitCrossingsOn();
+  filter->SetSegmentsData(
+    MakeLines({ { 2.5, 2, 0 }, { 2.5, 8, 0 }, { 1, 4, 0 }, { 9, 6, 0 } }, { { 0, 1 }, { 2, 3 } }));
+  vtkPointData* data = Update(filter);
+  EXPECT_EQ(data->GetScalars(), data->GetArray("classes"));
+  for (vtkIdType i = 0; i < places->GetNumberOfPoints(); ++i)
+  {
+    double x[3];
+    places->GetPoint(i, x);
+    if (data->GetArray("vtkValidPointMask")->GetTuple1(i) > 0.0)
+    {
+      EXPECT_NEAR(data->GetArray("classes")->GetTuple1(i), x[0] / 10.0, 1e-12);
+    }
   }
 }
 

@@ -203,6 +203,9 @@ class Triangulate(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, "3 points of segments .* they have got the heights"):
             flat = delaunayflip.triangulate(points, [river[:, :2], lake], outline=square)
         self.assertTrue((flat.points[200:203, 2] > 4).all())
+        for line in ([[0.1, 0.1], [0.9, 0.9]], numpy.array([[0.1, 0.1], [0.9, 0.9]])):
+            with self.assertRaisesRegex(TypeError, r"put a single line into a list"):
+                delaunayflip.triangulate(POINTS, line)
         with self.assertRaisesRegex(ValueError, r"line 1 of segments must have the shape"):
             delaunayflip.triangulate(points, [river, [[1, 2, 3, 4.]]])
         crossed = delaunayflip.triangulate(points, [river, [[.3, 0], [.3, 1]]], heights="own")
