@@ -152,8 +152,8 @@ std::vector<std::int64_t> Split(
     else if (end - begin > 3 && made < end - begin - 2)
     {
       throw InvalidMesh("polygon " + std::to_string(i) +
-          " names a point twice in a row, and so gives fewer triangles: triangle_counts is needed "
-          "to tell how many",
+          " names a point twice in a row, or only two points, and so gives fewer triangles: "
+          "triangle_counts is needed to tell how many",
         i, -1);
     }
   }

@@ -571,7 +571,7 @@ extern "C"
     const int64_t* offsets; /**< number_of_polygons + 1 integers. */
     const int64_t* corners;
     /** Receives number_of_polygons integers: how many triangles each polygon gives. May be null if
-     * no polygon of more than three corners names a point twice in a row. */
+     * no polygon of more than three corners names a point twice in a row, or only two points. */
     int64_t* triangle_counts;
   } delaunayflip_polygons;
 
@@ -580,11 +580,11 @@ extern "C"
   /** Splits polygons over the points of `mesh`, whose other members have no effect, into triangles
    * that keep their winding. If there are more than three corners, those that repeat the one before
    * them are dropped first, and the last ones if they repeat the first. A polygon of n corners
-   * gives n - 2 triangles, or none if n < 3. Their point ids, three each, are written to
-   * `triangles` in the order of the polygons. There must be room for as many as there are with
-   * repeated corners. A quad is divided along its first diagonal, unless that runs outside it. A
-   * larger polygon becomes a fan if it is convex, else its ears are clipped. `callbacks` may be
-   * null. If `progress` returns 0 the call fails with DELAUNAYFLIP_STOPPED. */
+   * gives n - 2 triangles, or none if fewer than three differ. Their point ids, three each, are
+   * written to `triangles` in the order of the polygons. There must be room for as many as there
+   * are with repeated corners. A quad is divided along its first diagonal, unless that runs outside
+   * it. A larger polygon becomes a fan if it is convex, else its ears are clipped. `callbacks` may
+   * be null. If `progress` returns 0 the call fails with DELAUNAYFLIP_STOPPED. */
   delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,
     const delaunayflip_polygons* polygons, const delaunayflip_callbacks* callbacks,
     int64_t* triangles);

@@ -67,6 +67,15 @@ void DropRepeats(std::vector<vtkIdType>& corners)
   }
 }
 
+/// Whether a polygon has three different corners. Otherwise it is none, and has no edges.
+bool IsPolygon(const vtkIdType* ids, vtkIdType size)
+{
+  const vtkIdType* const second =
+    std::find_if(ids, ids + size, [ids](vtkIdType id) { return id != ids[0]; });
+  return std::any_of(
+    second, ids + size, [=](vtkIdType id) { return id != ids[0] && id != *second; });
+}
+
 /// The corners without repeats, from a smallest one on and in the direction that compares as less:
 /// equal for polygons with the same boundary.
 std::vector<vtkIdType> FindSmallestOrder(std::vector<vtkIdType> corners)
@@ -90,7 +99,7 @@ std::vector<vtkIdType> FindSmallestOrder(std::vector<vtkIdType> corners)
 }
 
 /// The mesh with strips split into triangles, and with polygons whose corners differ from the one
-/// before them, as far as three are left.
+/// before them, as far as they have three different ones.
 FileMesh MakePlain(vtkPolyData* mesh)
 {
   const vtkNew<vtkCellArray> polygons;
@@ -102,10 +111,9 @@ FileMesh MakePlain(vtkPolyData* mesh)
     [&](vtkIdType size, const vtkIdType* given)
     {
       corners.assign(given, given + size);
-      DropRepeats(corners);
-      if (corners.size() < 3)
+      if (IsPolygon(given, size))
       {
-        corners.assign(given, given + size);
+        DropRepeats(corners);
       }
       const auto left = static_cast<vtkIdType>(corners.size());
       isPlain = isPlain && left == size;
@@ -119,8 +127,7 @@ FileMesh MakePlain(vtkPolyData* mesh)
       {
         const vtkIdType odd = i % 2; // every other triangle of a strip is wound the other way
         corners = { given[i + odd], given[i + 1 - odd], given[i + 2] };
-        DropRepeats(corners);
-        if (corners.size() == 3)
+        if (IsPolygon(corners.data(), 3))
         {
           polygons->InsertNextCell(3, corners.data());
           sources->InsertNextId(cell);
@@ -142,18 +149,23 @@ FileMesh MakePlain(vtkPolyData* mesh)
 }
 
 /// Leaves out the polygons for which `isLeftOut(size, ids)` holds, with their data.
-/// @returns how many these are.
+/// @returns the ids of these cells.
 template <typename IsLeftOut>
-vtkIdType LeaveOut(vtkPolyData* mesh, const IsLeftOut& isLeftOut, FileMesh& result)
+std::vector<vtkIdType> LeaveOut(vtkPolyData* mesh, const IsLeftOut& isLeftOut, FileMesh& result)
 {
   const vtkIdType cells = mesh->GetNumberOfCells();
   const vtkNew<vtkCellArray> polygons;
   vtkIdType cell = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
   const auto ids = MakeRange(0, cell);
+  std::vector<vtkIdType> leftOut;
   ForEachCell(mesh->GetPolys(),
     [&](vtkIdType size, const vtkIdType* corners)
     {
-      if (!isLeftOut(size, corners))
+      if (isLeftOut(size, corners))
+      {
+        leftOut.push_back(cell);
+      }
+      else
       {
         polygons->InsertNextCell(size, corners);
         ids->InsertNextId(cell);
@@ -165,14 +177,25 @@ vtkIdType LeaveOut(vtkPolyData* mesh, const IsLeftOut& isLeftOut, FileMesh& resu
     ids->InsertNextId(cell);
   }
   result.Mesh->ShallowCopy(mesh);
-  const vtkIdType count = cells - ids->GetNumberOfIds();
-  if (count > 0)
+  if (!leftOut.empty())
   {
     result.Mesh->SetPolys(polygons);
     CopyTuples(
       mesh->GetCellData(), cells, ids, "cell", result.Mesh->GetCellData(), result.Warnings);
   }
-  return count;
+  return leftOut;
+}
+
+/// E.g. "4 polygons left out (first: 3, 7, 8)".
+std::string DescribeLeftOut(const std::vector<vtkIdType>& cells)
+{
+  constexpr std::size_t Most = 3; // named
+  std::string text = Counted(static_cast<std::int64_t>(cells.size()), "polygon") + " left out";
+  for (std::size_t i = 0; i < std::min(Most, cells.size()); ++i)
+  {
+    text += (i == 0 ? " (first: " : ", ") + std::to_string(cells[i]);
+  }
+  return cells.empty() ? text : text + ')';
 }
 
 /// An edge of exactly two polygons.
@@ -195,7 +218,8 @@ std::vector<SharedEdge> ListSharedEdges(vtkCellArray* polygons)
   ForEachCell(polygons,
     [&](vtkIdType size, const vtkIdType* corners)
     {
-      for (vtkIdType i = 0; i < size; ++i)
+      const vtkIdType edges = IsPolygon(corners, size) ? size : 0;
+      for (vtkIdType i = 0; i < edges; ++i)
       {
         const vtkIdType start = corners[i];
         const vtkIdType end = corners[(i + 1) % size];
@@ -248,14 +272,12 @@ std::vector<vtkIdType> FindParts(const std::vector<SharedEdge>& edges, vtkIdType
 std::vector<bool> FindTurned(vtkPoints* points, vtkCellArray* given)
 {
   const vtkNew<vtkCellArray> seen;
-  std::vector<vtkIdType> numbers, corners;
+  std::vector<vtkIdType> numbers;
   vtkIdType polygon = 0;
   ForEachCell(given,
     [&](vtkIdType size, const vtkIdType* ids)
     {
-      corners.assign(ids, ids + size);
-      DropRepeats(corners);
-      if (corners.size() > 2)
+      if (IsPolygon(ids, size))
       {
         seen->InsertNextCell(size, ids);
         numbers.push_back(polygon);
@@ -381,11 +403,10 @@ RepairedMesh MergeEqualPoints(vtkPolyData* mesh)
     corners.resize(size);
     std::transform(
       ids, ids + size, corners.begin(), [&numbers](vtkIdType id) { return numbers[id]; });
-    DropRepeats(corners);
-    return size > 2 && corners.size() < 3;
+    return size > 2 && !IsPolygon(corners.data(), size);
   };
   FileMesh& result = merged.Result;
-  const vtkIdType collapsed = LeaveOut(mesh, hasCollapsed, result);
+  const std::vector<vtkIdType> collapsed = LeaveOut(mesh, hasCollapsed, result);
   const std::vector<bool> isUsed = FindUsed(result.Mesh,
     { result.Mesh->GetVerts(), result.Mesh->GetLines(), result.Mesh->GetPolys(),
       result.Mesh->GetStrips() });
@@ -413,10 +434,10 @@ RepairedMesh MergeEqualPoints(vtkPolyData* mesh)
   result.Mesh->SetStrips(Renumber(result.Mesh->GetStrips(), numbers, false));
   merged.Note = "of " + Counted(before, "point") + " " + std::to_string(kept->GetNumberOfIds()) +
     " are left after merging";
-  if (collapsed > 0)
+  if (!collapsed.empty())
   {
-    merged.Note += "; " + Counted(collapsed, "polygon") + " left out, because " +
-      (collapsed == 1 ? "its" : "their") + " corners are fewer than three places";
+    merged.Note += "; " + DescribeLeftOut(collapsed) + ", because " +
+      (collapsed.size() == 1 ? "its" : "their") + " corners are fewer than three places";
   }
   return merged;
 }
@@ -430,7 +451,8 @@ RepairedMesh DropDuplicates(vtkPolyData* mesh)
   const FileMesh plain = MakePlain(mesh);
   RepairedMesh repaired;
   repaired.Result.Warnings = plain.Warnings;
-  const vtkIdType count = LeaveOut(plain.Mesh, isKnown, repaired.Result);
+  const std::vector<vtkIdType> duplicates = LeaveOut(plain.Mesh, isKnown, repaired.Result);
+  const std::size_t count = duplicates.size();
   repaired.Note =
     Counted(count, "polygon") + " left out as " + (count == 1 ? "a duplicate" : "duplicates");
   return repaired;

@@ -95,7 +95,7 @@ enum class DefectKind
 {
   Other, ///< Defect::Detail says it.
   PointsNotFinite,
-  RepeatedIds, ///< Triangles that name a point twice.
+  RepeatedIds, ///< Triangles that name a point twice. They have no edges.
   TrianglesWithoutArea,
   TurnedFromMost, ///< Triangles of a plane that face the other way than most.
   DuplicateTriangles,
@@ -165,7 +165,8 @@ struct FlipReport
   std::int64_t InsertedConstraints = 0; ///< Constraint edges that flips turned into edges, or
                                         ///< chains of edges, before the first iteration.
   std::int64_t ConstraintFlips = 0; ///< How many flips that took. Not in TotalFlips or Iterations.
-  std::int64_t EulerCharacteristic = 0; ///< Used points - edges + triangles; flips keep it.
+  /// Used points - edges + triangles that name no point twice; flips keep it.
+  std::int64_t EulerCharacteristic = 0;
 
   GeometryKind GeometryUsed = GeometryKind::Auto; ///< Never Auto after a run.
   /// Why it was used, in words; also says if FlipOptions::FeatureAngle has no effect.

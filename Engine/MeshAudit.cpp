@@ -71,21 +71,22 @@ bool operator<(const Side& a, const Side& b)
   return std::tie(a.Ends, a.Triangle, a.Slot) < std::tie(b.Ends, b.Triangle, b.Slot);
 }
 
-/// All sides between distinct vertices, those of one edge in a row.
+/// All sides, those of one edge in a row. Triangles that name a vertex twice have none.
 std::vector<Side> SortSides(const TriangleArray& triangles)
 {
   std::vector<Side> sides;
   sides.reserve(static_cast<std::size_t>(3 * triangles.Count));
   for (std::int64_t t = 0; t < triangles.Count; ++t)
   {
+    if (!triangles.HasEdges(t))
+    {
+      continue;
+    }
     for (int slot = 0; slot < 3; ++slot)
     {
       const std::int64_t from = triangles.Get(t, (slot + 1) % 3);
       const std::int64_t to = triangles.Get(t, (slot + 2) % 3);
-      if (from != to)
-      {
-        sides.push_back({ std::minmax({ from, to }), t, slot, from > to });
-      }
+      sides.push_back({ std::minmax({ from, to }), t, slot, from > to });
     }
   }
   std::sort(sides.begin(), sides.end());
@@ -325,13 +326,15 @@ std::int64_t EulerCharacteristic(const TriangleArray& triangles)
 {
   std::vector<std::int64_t> ids;
   ids.reserve(static_cast<std::size_t>(3 * triangles.Count));
+  std::int64_t whole = 0;
   for (std::int64_t t = 0; t < triangles.Count; ++t)
   {
     ids.insert(ids.end(), { triangles.Get(t, 0), triangles.Get(t, 1), triangles.Get(t, 2) });
+    whole += triangles.HasEdges(t);
   }
   std::sort(ids.begin(), ids.end());
   const std::int64_t used = std::unique(ids.begin(), ids.end()) - ids.begin();
-  return used - CountEdges(triangles).Edges + triangles.Count;
+  return used - CountEdges(triangles).Edges + whole;
 }
 
 std::int64_t CountDuplicateEdgesGained(const TriangleArray& before, const TriangleArray& after)

@@ -28,11 +28,12 @@
 namespace delaunayflip
 {
 
-/// Counts edges by the number and direction of their incident triangles. The kinds that depend on
-/// options or on the caller (Feature, Constraint, Region, Fixed) are 0.
+/// Counts edges by the number and direction of their incident triangles, without those triangles
+/// that name a point twice. The kinds that depend on options or on the caller (Feature, Constraint,
+/// Region, Fixed) are 0.
 DELAUNAYFLIP_EXPORT EdgeCounts CountEdges(const TriangleArray& triangles);
 
-/// Used points - edges + triangles.
+/// Used points - edges + triangles that name no point twice.
 DELAUNAYFLIP_EXPORT std::int64_t EulerCharacteristic(const TriangleArray& triangles);
 
 /// Counts edges with three or more triangles in `after` and fewer in `before`, such as flips

@@ -157,6 +157,15 @@ bool HasRepeats(const std::int64_t* ids, std::int64_t count)
   return ids[count - 1] == ids[0] || std::adjacent_find(ids, ids + count) != ids + count;
 }
 
+/// Whether there are fewer than three different vertices.
+bool IsTooSmall(const std::int64_t* ids, std::int64_t count)
+{
+  const std::int64_t* const second =
+    std::find_if(ids, ids + count, [ids](std::int64_t id) { return id != ids[0]; });
+  return std::all_of(
+    second, ids + count, [=](std::int64_t id) { return id == ids[0] || id == *second; });
+}
+
 /// The vertices that differ from the one before them.
 std::vector<std::int64_t> DropRepeats(const std::int64_t* ids, std::int64_t count)
 {
@@ -205,13 +214,17 @@ bool Split(const PointArray& points, const std::int64_t* ids, std::int64_t count
 bool SplitPolygon(const PointArray& points, const std::int64_t* ids, std::int64_t count,
   std::vector<std::int64_t>& triangles, const ProgressObserver& progress)
 {
+  if (count > 3 && IsTooSmall(ids, count))
+  {
+    return true;
+  }
   if (count == 3 || !HasRepeats(ids, count))
   {
     return Split(points, ids, count, triangles, progress);
   }
   const std::vector<std::int64_t> different = DropRepeats(ids, count);
-  const auto left = static_cast<std::int64_t>(different.size());
-  return left < 3 || Split(points, different.data(), left, triangles, progress);
+  return Split(
+    points, different.data(), static_cast<std::int64_t>(different.size()), triangles, progress);
 }
 
 void TriangleNormal(const PointArray& points, const std::int64_t ids[3], double normal[3])

@@ -29,10 +29,10 @@ namespace delaunayflip
 /// Splits one polygon of `count` >= 3 vertices into triangles that keep its winding, and appends
 /// their vertex ids, three each, to `triangles`.
 ///
-/// Three vertices are one triangle, as given. If there are more, vertices that repeat the one
-/// before them are dropped first, and the last ones if they repeat the first: triangles are often
-/// written as quads, and rings closed by their first point. If n vertices are left there are n - 2
-/// triangles, or none if n < 3.
+/// Three vertices are one triangle, as given. If there are more, but fewer than three different
+/// ones, there is no triangle. Vertices that repeat the one before them are dropped first, and the
+/// last ones if they repeat the first: triangles are often written as quads, and rings closed by
+/// their first point. If n vertices are left there are n - 2 triangles.
 ///
 /// A quad is divided along its 0-2 diagonal. It is divided along 1-3 if 0-2 runs outside it, or if
 /// its two triangles fold, because their normals have no positive dot product, only along 0-2. A

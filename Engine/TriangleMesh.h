@@ -121,6 +121,15 @@ struct BasicTriangleArray
                        : static_cast<std::int64_t>(this->Ids64[i]);
   }
 
+  /// Whether the three ids of a triangle differ. If not, it has no edges: it stays as it is, and
+  /// other triangles are paired as if it were not there.
+  DELAUNAYFLIP_HOST_DEVICE bool HasEdges(std::int64_t triangle) const
+  {
+    const std::int64_t a = this->Get(triangle, 0), b = this->Get(triangle, 1);
+    const std::int64_t c = this->Get(triangle, 2);
+    return a != b && b != c && c != a;
+  }
+
   /// Prefetches the ids of a triangle.
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t triangle) const
   {

@@ -100,8 +100,8 @@ public:
   std::vector<unsigned char> Frozen; ///< One flag per triangle: it stays. Empty if none does.
   std::vector<vtkIdType> Strips; ///< The cells of the mesh that become the strips of the output.
   std::vector<OutputPolygon> Polygons; ///< Empty if viewed in place, as the following ones.
-  /// Polygons of more than three points, of which fewer than three are left where repetitions are
-  /// dropped; by cell. They are no triangle, and only in the output if `triangulate` is off.
+  /// Polygons of more than three points, of which fewer than three differ; by cell. They are no
+  /// triangle, and only in the output if `triangulate` is off.
   Defect NoTriangles;
 
 private:

@@ -365,7 +365,8 @@ struct EnterEdgeStep
     const VertexId b = triangle.Vertices[PreviousSlot(SlotOf(corner))];
     // A non-manifold edge is as many edges as it has triangles; one of them is enough.
     const bool mayRepeat = this->Mesh.CornerOfHalfEdge[2 * edge + 1] == NoCorner;
-    if (!(mayRepeat && this->Table.Has(this->Mesh, a, b)))
+    const bool isKnown = mayRepeat && (!HasEdges(triangle) || this->Table.Has(this->Mesh, a, b));
+    if (!isKnown)
     {
       this->Table.Insert(static_cast<EdgeId>(edge), this->Table.Find(a, b));
     }

@@ -90,7 +90,8 @@ public:
     report.Edges = built.Counts;
     report.DuplicateTriangles = built.DuplicateTriangles.Count;
     report.UnmatchedConstraints = built.MissingConstraints;
-    report.EulerCharacteristic = survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count;
+    report.EulerCharacteristic =
+      survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count - survey.RepeatedIds.Count;
     report.GeometryUsed = survey.Geometry;
     report.GeometryReason = survey.GeometryReason;
     report.Tolerance = DescribeTolerance(options, survey.Geometry);

@@ -91,10 +91,9 @@ struct FixEdgeStep
     const auto edge = static_cast<EdgeId>(i);
     const CornerId corner = this->Mesh.CornerOfHalfEdge[2 * edge];
     const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corner)];
-    if (IsLoop(triangle, SlotOf(corner)))
+    if (!HasEdges(triangle))
     {
-      // A loop of a triangle with a repeated id is not an edge, and not counted.
-      this->Mesh.States[edge] = EdgeState::Fixed;
+      this->Mesh.States[edge] = EdgeState::Fixed; // and not counted
       return;
     }
     const CornerRole role = GetRole(triangle, SlotOf(corner));
@@ -387,7 +386,7 @@ struct PairStep
       many = AtomicCompareExchange(second, NoCorner, corner) != NoCorner &&
         AtomicExchange(second, ManyCorners) != ManyCorners;
     }
-    const bool isEdge = !IsLoop(triangle, slot);
+    const bool isEdge = HasEdges(triangle);
     sums.Edges += int(isEdge && inserted);
     sums.NonManifold += int(isEdge && many);
     triangle.HalfEdges[slot] = entry;
@@ -689,8 +688,9 @@ void NumberEdges(EdgeMeshResult& result, const typename Backend::Numbering& numb
 }
 
 /// Pairs the corners of triangles and fixes the edges that must stay: boundary, non-manifold and
-/// wrongly wound edges, edges of triangles that are frozen, duplicate, not finite or have repeated
-/// ids, region borders, feature edges and constraints. All others are candidates.
+/// wrongly wound edges, edges of triangles that are frozen, duplicate or not finite, region
+/// borders, feature edges and constraints. All others are candidates. Triangles that name a point
+/// twice stay, and have no edges.
 ///
 /// EdgeId = rank of the edge's smallest incident corner in the engine's order, on every backend.
 /// @param loaded made by LoadTriangles.

@@ -246,7 +246,7 @@ constexpr CornerId ManyCorners = 0xFFFFFFFEu;
 /// Bit of Flips: no edge of this triangle may flip.
 constexpr std::uint32_t UntouchableBit = 1u << 6;
 
-/// The counts of pairing. Loops (IsLoop) are not edges.
+/// The counts of pairing. Triangles without edges (HasEdges) are left out.
 struct PairSums
 {
   std::int64_t Edges = 0, NonManifold = 0, Failures = 0;
@@ -269,15 +269,25 @@ enum class CornerRole : std::uint32_t
   OneOfMany ///< One of three or more: it gets an edge record of its own.
 };
 
-DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t KeyOpposite(const TriangleRecord& triangle, int slot)
+/// Whether the three vertices differ. A triangle that names a vertex twice has no edges.
+DELAUNAYFLIP_HOST_DEVICE inline bool HasEdges(const TriangleRecord& triangle)
 {
-  return EdgeKey(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]);
+  const VertexId* v = triangle.Vertices;
+  return v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
 }
 
-/// Whether the edge opposite a slot joins a vertex with itself, in a triangle with a repeated id.
-DELAUNAYFLIP_HOST_DEVICE inline bool IsLoop(const TriangleRecord& triangle, int slot)
+/// The key of the edge opposite a slot. In a triangle without edges it joins a vertex with itself,
+/// the same one for all slots: the three corners meet each other, and never those of an edge. They
+/// are always three or more, so each gets a record of its own (CornerRole::OneOfMany).
+DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t KeyOpposite(const TriangleRecord& triangle, int slot)
 {
-  return triangle.Vertices[NextSlot(slot)] == triangle.Vertices[PreviousSlot(slot)];
+  if (!HasEdges(triangle))
+  {
+    const VertexId* v = triangle.Vertices;
+    const VertexId smallest = std::min(v[0], std::min(v[1], v[2]));
+    return EdgeKey(smallest, smallest);
+  }
+  return EdgeKey(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)

@@ -45,7 +45,7 @@ struct HiddenEdgeSurvey
     const CornerPair corners = this->Mesh.GetCorners(static_cast<EdgeId>(e));
     const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corners.A)];
     const int slot = SlotOf(corners.A);
-    if (this->Mesh.States[e] != EdgeState::Fixed || IsLoop(triangle, slot))
+    if (this->Mesh.States[e] != EdgeState::Fixed || !HasEdges(triangle))
     {
       return;
     }

@@ -221,6 +221,10 @@ std::vector<std::int64_t> PartMesh::TakeChanged()
 PartCorner PartMesh::FindMate(const PartCorner& corner) const
 {
   const PartTriangle& triangle = this->Triangles[corner.Triangle];
+  if (!triangle.HasEdges())
+  {
+    return {};
+  }
   return this->FindEdge(
     triangle.GetStart(corner.Slot), triangle.GetEnd(corner.Slot), corner.Triangle);
 }

@@ -86,12 +86,18 @@ struct PartTriangle
   std::int32_t GetStart(int slot) const { return this->Points[(slot + 1) % 3]; }
   std::int32_t GetEnd(int slot) const { return this->Points[(slot + 2) % 3]; }
   PointPair GetEdge(int slot) const { return MakePair(this->GetStart(slot), this->GetEnd(slot)); }
+  /// Whether the three points differ. A triangle that names a point twice has no edges.
+  bool HasEdges() const
+  {
+    const std::int32_t* p = this->Points;
+    return p[0] != p[1] && p[1] != p[2] && p[2] != p[0];
+  }
   /// Whether the edge opposite to a corner has these ends, in either order.
   bool HasEdge(int slot, std::int32_t a, std::int32_t b) const
   {
     const std::int32_t start = this->GetStart(slot);
     const std::int32_t end = this->GetEnd(slot);
-    return (start == a && end == b) || (start == b && end == a);
+    return ((start == a && end == b) || (start == b && end == a)) && this->HasEdges();
   }
 };
 

@@ -75,6 +75,13 @@ void AddEdges(FlipReport& sum, const FlipReport& part, std::int64_t factor)
 void CompleteReport(FlipReport& report, std::int64_t usedPoints, bool isCounted)
 {
   report.EulerCharacteristic = usedPoints - report.Edges.Edges + report.Triangles;
+  for (const Defect& defect : report.Defects)
+  {
+    if (defect.Kind == DefectKind::RepeatedIds) // triangles without edges
+    {
+      report.EulerCharacteristic -= defect.Count;
+    }
+  }
   if (!isCounted)
   {
     report.Edges = EdgeCounts();

@@ -258,14 +258,16 @@ RecordLists<SeamTriangle> ListSeamTriangles(
   RecordLists<SeamTriangle> toHome(group.GetSize());
   for (std::int64_t t = 0; t < mesh.Triangles.Count; ++t)
   {
-    const auto& p = part.Triangles[t].Points;
+    if (!part.Triangles[t].HasEdges())
+    {
+      continue;
+    }
     for (int slot = 0; slot < 3; ++slot)
     {
       if (part.AreShared(part.Triangles[t].GetEdge(slot)))
       {
         SeamTriangle seam = MakeSeamTriangle(part, t, slot);
-        seam.IsFrozen = (mesh.FrozenTriangles && mesh.FrozenTriangles[t] != 0) || p[0] == p[1] ||
-          p[1] == p[2] || p[2] == p[0];
+        seam.IsFrozen = mesh.FrozenTriangles && mesh.FrozenTriangles[t] != 0;
         seam.Region = mesh.Regions ? mesh.Regions[t] : 0;
         const auto constraint = fates.find(seam.Ends);
         if (constraint != fates.end())

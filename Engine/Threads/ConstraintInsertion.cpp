@@ -102,6 +102,10 @@ MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const Thread
   backend.ForEach(mesh.Triangles.Count,
     [&](std::int64_t t)
     {
+      if (!mesh.Triangles.HasEdges(t))
+      {
+        return;
+      }
       for (int slot = 0; slot < 3; ++slot)
       {
         const std::int64_t from = mesh.Triangles.Get(t, slot);
@@ -156,7 +160,7 @@ public:
     for (std::int64_t i = 0; i < 3 * triangles; ++i)
     {
       const CornerId corner = MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3));
-      if (!isKnown[corner])
+      if (!isKnown[corner] && HasEdges(mesh.Edges.Triangles[TriangleOf(corner)]))
       {
         this->AddFan(mesh.GetVertex(corner), corner);
         VertexFans::SearchFan(mesh, corner,

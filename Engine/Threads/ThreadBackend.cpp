@@ -323,9 +323,8 @@ bool ThreadBackend::PairCorners(
     size, static_cast<std::uint32_t>(vertices >> bucketBits) + 1,
     [=](std::int64_t i)
     {
-      const VertexId* points = triangles[i / 3].Vertices;
-      const int slot = static_cast<int>(i % 3);
-      return std::min(points[NextSlot(slot)], points[PreviousSlot(slot)]) >> bucketBits;
+      const std::uint64_t key = KeyOpposite(triangles[i / 3], static_cast<int>(i % 3));
+      return static_cast<VertexId>(key >> 32) >> bucketBits;
     },
     [&](std::int64_t i, std::uint32_t place)
     { corners[place] = MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3)); },

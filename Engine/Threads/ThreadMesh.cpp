@@ -152,7 +152,7 @@ std::vector<std::int64_t> ListFixedEdges(const TriangleMesh& mesh, const FlipOpt
     const int slot = SlotOf(corners.A);
     const bool isListed = corners.B != NoCorner ||
       (withNonManifold && GetRole(triangle, slot) == CornerRole::OneOfMany);
-    if (view.States[e] == EdgeState::Fixed && isListed && !IsLoop(triangle, slot))
+    if (view.States[e] == EdgeState::Fixed && isListed && HasEdges(triangle))
     {
       pairs.insert(pairs.end(),
         { order.View().GetVertex(triangle.Vertices[NextSlot(slot)]),

@@ -88,8 +88,8 @@ class Slots:
             made, and its triangle, or NONE if the polygon is the whole cell.
         kept_strips: the cells that stay strips.
         divides_cells: whether the output has several cells for one.
-        no_triangles: the polygons of more than three points, of which fewer than three are left where
-            repetitions are dropped. They are only in the output if `triangulate` is off.
+        no_triangles: the polygons of more than three points, of which fewer than three differ. They
+            are only in the output if `triangulate` is off.
     """
 
     def __init__(self, surface, triangulate, progress=None):

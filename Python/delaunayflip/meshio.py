@@ -100,8 +100,10 @@ def _add_constraints(pairs, options):
 
 def _find_shared_edges(triangles, others, count):
     """The edges of the triangles that have both ends in one other cell, (k, 2), and whether these
-    are all of their edges. Ids that no point has are passed over here."""
+    are all of their edges. Triangles that name a point twice have no edges. Ids that no point has are
+    passed over here."""
     inner = triangles[((triangles >= 0) & (triangles < count)).all(axis=1)].astype(numpy.int64)
+    inner = inner[(inner != inner[:, [1, 2, 0]]).all(axis=1)]
     is_used = numpy.zeros(count + 1, dtype=bool)  # the last one stands for all other ids
     is_used[inner] = True
     edges = numpy.sort(_number_pairs(inner, inner[:, [1, 2, 0]], count), axis=None)

@@ -100,8 +100,8 @@ class Options(CommandTest):
         mesh.GetCellData().AddArray(make_values("vtkIntArray", "cell", [(i,) for i in range(7)]))
         path = self.write_mesh(mesh, "in.vtk")
         told = self.succeed(path, "out.vtp", "--merge-points").stderr
-        self.assertIn(f"in.vtk: of {size} points 5 are left after merging; 1 polygon left out, because "
-                      "its corners are fewer than three places\n", told)
+        self.assertIn(f"in.vtk: of {size} points 5 are left after merging; 1 polygon left out (first: 4), "
+                      "because its corners are fewer than three places\n", told)
         self.assertIn("in.vtk: left out point data with too few tuples (short)\n", told)
         out = self.read_mesh("out.vtp")
         self.assertEqual(cells_of(out.GetLines()), [(1, 1), (2, 3)])
@@ -149,6 +149,19 @@ class Options(CommandTest):
         self.assertIn("in.vtk: 1 polygon turned over", result.stderr)
         self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
         self.assertEqual(values_of(self.read_mesh("out.vtk").GetCellData().GetArray("cell")), [0, 1])
+
+    def test_collapsed_polygons_have_no_edges(self):
+        """They are no third polygon of an edge, here of 0-2, which is to flip."""
+        for polygons in [(0, 2, 2)], [(2, 0, 2, 0)], [(0, 0, 2), (2, 2, 0)]:
+            cells = [KITE_CELLS[0], KITE_CELLS[1][::-1], *polygons]
+            path = self.write_mesh(make_mesh(KITE, cells), "in.vtk")
+            result = self.succeed(path, "out.vtk", "--orient")
+            self.assertIn("in.vtk: 1 polygon turned over", result.stderr)
+            self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
+        merged = self.write_mesh(make_mesh([*KITE, KITE[0], KITE[2]], [*KITE_CELLS, (0, 2, 4, 5)]), "in.vtk")
+        result = self.succeed(merged, "out.vtk", "--merge-points")
+        self.assertIn("1 polygon left out (first: 2)", result.stderr)
+        self.assertIn("flips           1 in 1 iteration, converged\n", result.stdout)
 
     def test_fewer_triangles_are_turned_over(self):
         """Also if they come first; in each connected part."""

@@ -164,6 +164,44 @@ TEST(DirtyInput, TrianglesWithRepeatedIdsStay)
   }
 }
 
+/// They are no polygons at the edges whose ends they name: these are paired as without them, and
+/// may be inserted and made. A constraint between such points is not an edge because of them.
+TEST(DirtyInput, TrianglesWithRepeatedIdsHaveNoEdges)
+{
+  const OwnedMesh<double> clean = MakeRandomBadMeshDouble(1000, 88);
+  OwnedMesh<double> mesh = clean;
+  for (std::size_t i = 0; i < clean.Triangles.size(); i += 3)
+  {
+    const std::int32_t a = clean.Triangles[i], b = clean.Triangles[i + 1];
+    const std::int32_t collapsed[3][3] = { { a, a, b }, { a, b, a }, { b, a, a } };
+    mesh.Triangles.insert(mesh.Triangles.end(), collapsed[i % 9 / 3], collapsed[i % 9 / 3] + 3);
+  }
+  const std::vector<std::int64_t> ends = { 17, 18 };
+  const unsigned char inserts = 1;
+  ASSERT_FALSE(HasEdge(clean.Triangles, 17, 18));
+  mesh.Triangles.insert(mesh.Triangles.end(), { 17, 17, 18 });
+  for (GeometryKind geometry : Geometries)
+  {
+    const FlipResult expected = FlipDirty(clean, geometry);
+    const FlipResult result = FlipDirty(mesh, geometry);
+    EXPECT_EQ(clean.NumberOfTriangles() + 1, CountDefect(result.Report, "repeated"));
+    EXPECT_EQ(0, result.Report.Edges.NonManifold);
+    EXPECT_EQ(expected.Report.Edges.Edges, result.Report.Edges.Edges);
+    EXPECT_EQ(expected.Report.Edges.Boundary, result.Report.Edges.Boundary);
+    EXPECT_EQ(0, result.Report.NonDelaunayAfter);
+    EXPECT_EQ(0, result.Report.BlockedByEdge);
+    if (geometry != GeometryKind::Surface) // whose result depends on the order of flips
+    {
+      EXPECT_TRUE(
+        std::equal(expected.Triangles.begin(), expected.Triangles.end(), result.Triangles.begin()));
+      const FlipOptions options = With(&FlipOptions::Geometry, geometry, OnSurface());
+      const FlipResult inserted = Flip(WithConstraints(mesh.View(), ends, &inserts), options);
+      EXPECT_EQ(1, inserted.Report.InsertedConstraints);
+      EXPECT_EQ(1, Flip(WithConstraints(mesh.View(), ends), options).Report.UnmatchedConstraints);
+    }
+  }
+}
+
 /// Unused points, even NaN, change nothing.
 TEST(DirtyInput, IsolatedPointsDoNotMatter)
 {

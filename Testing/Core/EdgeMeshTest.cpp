@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 /// @file
 /// The edge arrays against brute force, and what keeps flips from making an edge twice: the table
@@ -68,19 +69,26 @@ std::vector<std::uint32_t> PairInSlices(
 }
 
 /// The corners of every edge, in the order of the smallest corner, which edge ids must follow.
+/// Those of a triangle that names a vertex twice are alone.
 std::vector<std::vector<CornerId>> ExpectedRecords(const EdgeMesh& mesh)
 {
   std::map<std::pair<VertexId, VertexId>, std::vector<CornerId>> corners;
+  std::vector<std::vector<CornerId>> records;
   for (TriangleId t = 0; t < mesh.NumberOfTriangles; ++t)
   {
+    const VertexId* v = mesh.Triangles[t].Vertices;
+    const bool isCollapsed = std::set<VertexId>(v, v + 3).size() < 3;
     for (int slot = 0; slot < 3; ++slot)
     {
-      const VertexId a = mesh.Triangles[t].Vertices[NextSlot(slot)];
-      const VertexId b = mesh.Triangles[t].Vertices[PreviousSlot(slot)];
+      if (isCollapsed)
+      {
+        records.push_back({ MakeCorner(t, slot) });
+        continue;
+      }
+      const VertexId a = v[NextSlot(slot)], b = v[PreviousSlot(slot)];
       corners[std::minmax(a, b)].push_back(MakeCorner(t, slot));
     }
   }
-  std::vector<std::vector<CornerId>> records;
   for (const auto& entry : corners)
   {
     if (entry.second.size() <= 2)

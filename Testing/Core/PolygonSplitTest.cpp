@@ -480,7 +480,8 @@ TEST(SplitPolygon, DropsRepeatedCorners)
     EXPECT_EQ((Ids{ 0, 1, 2 }), split(ids));
   }
   EXPECT_EQ((Ids{ 0, 1, 2, 0, 2, 3 }), split({ 0, 1, 2, 3, 0, 0 }));
-  for (const Ids& ids : { Ids{ 3, 3, 3, 3 }, Ids{ 0, 1, 1, 0 }, Ids{ 0, 0, 1, 1, 0 } })
+  for (const Ids& ids : { Ids{ 3, 3, 3, 3 }, Ids{ 0, 1, 1, 0 }, Ids{ 0, 0, 1, 1, 0 },
+         Ids{ 0, 1, 0, 1 }, Ids{ 1, 1, 0, 1, 0 } })
   {
     EXPECT_EQ(Ids(), split(ids));
   }

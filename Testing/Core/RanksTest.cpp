@@ -71,6 +71,25 @@ TEST_P(RanksTest, CountEdgesOfRepeatedTriangles)
     alone, FlipDivided(mesh.View(), DivideMesh(mesh.View(), owners, GetParam()), options).Report);
 }
 
+/// Triangles that name a point twice have no edges, also between ranks.
+TEST_P(RanksTest, PairEdgesBesideTrianglesWithRepeatedIds)
+{
+  const OwnedMesh<double> clean = MakeRandomBadMeshDouble(500, 29);
+  OwnedMesh<double> mesh = clean;
+  Owners owners = DivideBySpace(clean.View(), GetParam());
+  for (std::size_t i = 0; i < clean.Triangles.size(); i += 3)
+  {
+    const std::int32_t a = clean.Triangles[i], b = clean.Triangles[i + 1];
+    mesh.Triangles.insert(mesh.Triangles.end(), { b, a, b });
+    owners.push_back(static_cast<std::int32_t>(i / 3) % GetParam());
+  }
+  const PartsResult result =
+    FlipDivided(mesh.View(), DivideMesh(mesh.View(), owners, GetParam()), MakeCanonical());
+  ExpectAsAlone(mesh.View(), MakeCanonical(), result);
+  EXPECT_EQ(0, result.Report.Edges.NonManifold);
+  ExpectSameCounts(Flip(mesh.View(), MakeCanonical()).Report, result.Report);
+}
+
 TEST(RanksWithoutNumbers, KeepPointsApartThatCoincideOnOneRank)
 {
   // A slit from (0, 0) to (1, 0), along which the left piece has two points at the same place.

@@ -45,7 +45,9 @@ EdgeMap CollectEdges(const TriangleArray& triangles)
   EdgeMap edges;
   for (std::int64_t t = 0; t < triangles.Count; ++t)
   {
-    for (int slot = 0; slot < 3; ++slot)
+    const std::set<std::int64_t> corners = { triangles.Get(t, 0), triangles.Get(t, 1),
+      triangles.Get(t, 2) };
+    for (int slot = 0; slot < 3 && corners.size() == 3; ++slot)
     {
       edges[Sorted(triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3))].push_back(t);
     }

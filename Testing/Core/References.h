@@ -27,7 +27,8 @@ inline VertexPair Sorted(std::int64_t a, std::int64_t b) { return std::minmax(a,
 /// The pairs of a list of vertex ids, the smaller id first.
 std::set<VertexPair> ToEdges(const std::vector<std::int64_t>& ids);
 
-/// Edges, the smaller id first, with their incident triangles.
+/// Edges, the smaller id first, with their incident triangles. One that names a point twice has
+/// none.
 using EdgeMap = std::map<VertexPair, std::vector<std::int64_t>>;
 EdgeMap CollectEdges(const TriangleArray& triangles);
 

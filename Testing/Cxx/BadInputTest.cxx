@@ -128,6 +128,8 @@ TEST(BadInput, DirtyCellsStayWithOneWarning)
     Cells Polygons;
     bool IsHeightField;
   } cases[] = { { "1 triangle with a repeated point id", {}, { { 1, 1, 2 } }, false },
+    { "2 triangles with a repeated point id (first: 2, 3)", {}, { { 0, 0, 2 }, { 2, 0, 2 } },
+      false }, // at the edge that flips
     { "1 triangle that repeats another", { { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } },
       { { 4, 5, 6 }, { 6, 5, 4 } }, false },
     { "2 points with NaN or infinite coordinates",

@@ -386,19 +386,20 @@ TEST(OutputCells, OfTooFewPointsPass)
 TEST(OutputCells, RepeatedCornersAreDropped)
 {
   auto mesh = MakeRhombus();
-  const Cells polygons = { { 0, 1, 2, 2 }, { 1, 3, 3, 1 }, { 0, 2, 3, 0 }, { 0, 0, 0, 0 } };
+  const Cells polygons = { { 0, 1, 2, 2 }, { 1, 3, 3, 1 }, { 0, 2, 3, 0 }, { 0, 0, 0, 0 },
+    { 0, 2, 0, 2 } };
   mesh->SetPolys(MakeCells(polygons));
-  AddNumbers(mesh->GetCellData(), "Number", 4, 0);
-  const std::string what = "2 polygons with fewer than three different points";
+  AddNumbers(mesh->GetCellData(), "Number", 5, 0);
+  const std::string what = "3 polygons with fewer than three different points";
   WatchedFilter filter(mesh);
-  ExpectHolds(RunToWarning(filter), what + ", left out (first: 1, 3)");
+  ExpectHolds(RunToWarning(filter), what + ", left out (first: 1, 3, 4)");
   EXPECT_EQ(filter->GetTotalFlips(), 1);
   EXPECT_TRUE(HasEdge(filter->GetOutput(), 1, 3));
   EXPECT_EQ(GetNumbers(filter->GetOutput()->GetCellData(), "Number"), std::vector<int>({ 0, 2 }));
 
   WatchedFilter keeping(mesh);
   keeping->TriangulateOff();
-  ExpectHolds(RunToWarning(keeping), what + " (first: 1, 3)");
+  ExpectHolds(RunToWarning(keeping), what + " (first: 1, 3, 4)");
   EXPECT_EQ(GetCells(keeping->GetOutput()->GetPolys()), polygons);
 
   // A strip that repeats points to continue elsewhere.

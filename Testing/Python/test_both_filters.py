@@ -226,11 +226,12 @@ class Same(Pair, unittest.TestCase):
 
     def test_repeated_corners(self):
         mesh = make_rhombus()
-        mesh.SetPolys(make_cells([(0, 1, 2, 2), (1, 3, 3, 1), (0, 2, 3, 0)]))
-        add_array(mesh.GetCellData(), "Number", numpy.arange(3))
+        mesh.SetPolys(make_cells([(0, 1, 2, 2), (1, 3, 3, 1), (0, 2, 3, 0), (0, 2, 0, 2), (0, 2, 2)]))
+        add_array(mesh.GetCellData(), "Number", numpy.arange(5))
         told = self.expect_same(mesh)
         self.assertEqual(told["answers"]["GetTotalFlips"], 1)
-        self.assertIn("1 polygon with fewer than three", told["warnings"][0])
+        self.assertIn("2 polygons with fewer than three", told["warnings"][0])
+        self.assertIn("1 triangle with a repeated point id (first: 4)", told["warnings"][0])
         self.expect_same(mesh, lambda flip: flip.TriangulateOff())
         mesh = make_rhombus()
         mesh.SetStrips(make_cells([(0, 1, 2, 2, 0, 2, 3)]))

@@ -82,6 +82,8 @@ class MeshIO(unittest.TestCase):
                 better, report = flip(mesh, return_report=True)
                 self.assertEqual(as_set(better.cells[0].data), as_set(LONG))
                 self.assertEqual((report.total_flips, report.unmatched_constraints), (0, 0))
+        collapsed = [("triangle", [*SHORT, [0, 2, 2]]), ("line3", [[0, 2, 0]])]  # 0-2 is no edge
+        self.assertEqual(flip(meshio.Mesh(points, collapsed), return_report=True)[1].unmatched_constraints, 0)
         apart = meshio.Mesh(points, [("triangle", LONG), ("tetra", [[0, 1, 4, 3]])])
         self.assertEqual(as_set(flip(apart).cells[0].data), as_set(SHORT))
         with self.assertRaises(delaunayflip.InvalidMesh):
