@@ -163,11 +163,28 @@ inline PointInput ToPointInput(const delaunayflip_points& c)
     { c.stream } };
 }
 
+/// Calls visit(member, the engine's) for each option of points.
+template <typename Struct, typename Options, typename Visit>
+void ForEachPointOption(Struct& c, Options& options, const Visit& visit)
+{
+  visit(c.alpha, options.Alpha);
+  visit(c.longest_edge, options.LongestEdge);
+  visit(c.point_tolerance, options.PointTolerance);
+  visit(c.split_crossings, options.SplitCrossings);
+  visit(c.ring_rule, options.RingRule);
+}
+
+/// Gives an option the value of another type: a number, a switch or a choice.
+constexpr auto CopyOption = [](const auto& from, auto& to)
+{ to = static_cast<std::decay_t<decltype(to)>>(from); };
+
 /// @param options of the run.
 inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
 {
-  return { options, c.point_tolerance, c.split_crossings != 0,
-    ToEnumeration(c.ring_rule, RingRuleKind::Orientation, "ring_rule"), c.alpha, c.longest_edge };
+  ToEnumeration(c.ring_rule, RingRuleKind::Orientation, "ring_rule");
+  PointOptions all{ options };
+  ForEachPointOption(c, all, CopyOption);
+  return all;
 }
 
 /// Views of the arrays of a query, and its numbers.
@@ -241,9 +258,7 @@ inline FlipOptions ToOptions(const delaunayflip_options* given)
   ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
   ToEnumeration(c.backend, BackendKind::Threads, "backend");
   FlipOptions options;
-  ForEachOption(c, options,
-    [](const auto& wanted, auto& option)
-    { option = static_cast<std::decay_t<decltype(option)>>(wanted); });
+  ForEachOption(c, options, CopyOption);
   options.Devices = ParseDevices(c.devices ? c.devices : "");
   return options;
 }

@@ -248,6 +248,9 @@ extern "C"
     points->point_components = 2;
     points->first_hole = PointInput().FirstHole;
     points->first_added = PointInput().FirstAdded;
+    const PointOptions defaults;
+    ForEachPointOption(
+      *points, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
   }
 
   void delaunayflip_query_init(delaunayflip_query* query)
@@ -263,9 +266,8 @@ extern "C"
   {
     const FlipOptions defaults;
     *options = MakeEmpty<delaunayflip_options>();
-    ForEachOption(*options, defaults,
-      [](auto& wanted, const auto& option)
-      { wanted = static_cast<std::decay_t<decltype(wanted)>>(option); });
+    ForEachOption(
+      *options, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
   }
 
   void delaunayflip_report_init(delaunayflip_report* report)

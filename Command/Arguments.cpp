@@ -400,10 +400,11 @@ void RelateOptions(CLI::App& app)
 {
   app.get_option("--insert-lines")->excludes("--ignore-lines");
   CLI::Option* const fromPoints = app.get_option("--from-points");
-  for (const char* name : { "--columns", "--outline", "--holes", "--ring-rule", "--split-crossings",
-         "--alpha", "--longest-edge", "--point-tolerance", "--projection" })
+  const auto isForPoints = [fromPoints](const CLI::Option* option)
+  { return option->get_group() == OfPoints && option != fromPoints; };
+  for (CLI::Option* const option : app.get_options(isForPoints))
   {
-    app.get_option(name)->needs(fromPoints);
+    option->needs(fromPoints);
   }
   CLI::Option* const raster = app.get_option("--raster");
   CLI::Option* const heightsAt = app.get_option("--heights-at");

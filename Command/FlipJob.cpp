@@ -144,12 +144,19 @@ std::string WithOptions(const std::string& message, const Arguments& given)
     { std::pair("vtkPolyDataNormals with ConsistencyOn", "--orient"),
       std::pair("leave out such duplicates", withoutDuplicates.c_str()),
       std::pair("RegionArray", "--region-array"), std::pair("Tolerance", "--tolerance"),
-      std::pair("SplitCrossings", "--split-crossings"),
       std::pair("SegmentHeights Own", "--heights own"),
       std::pair("merge points that lie at the same place", withMerged.c_str()) })
   {
     ReplaceWords(property, option, text);
   }
+  const auto replace = [&text](const std::string& name, const auto&)
+  {
+    std::string option = "--" + name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    ReplaceWords(ToCamelCase(name), option, text);
+  };
+  const PointOptions options;
+  ForEachPointOption(replace, options);
   return text;
 }
 

@@ -111,6 +111,29 @@ struct PointOptions : FlipOptions
   double LongestEdge = 0.0;
 };
 
+/// Calls visit(name, option...) for each option that FlipOptions do not have, with those of all
+/// structs side by side. The name is that of the C struct.
+template <typename Visit, typename... Options>
+void ForEachPointOption(const Visit& visit, Options&... options)
+{
+  visit("alpha", options.Alpha...);
+  visit("longest_edge", options.LongestEdge...);
+  visit("point_tolerance", options.PointTolerance...);
+  visit("split_crossings", options.SplitCrossings...);
+  visit("ring_rule", options.RingRule...);
+}
+
+inline bool operator==(const PointOptions& a, const PointOptions& b)
+{
+  const FlipOptions& first = a;
+  const FlipOptions& second = b;
+  bool isSame = first == second;
+  ForEachPointOption([&](const char*, const auto& one, const auto& other)
+    { isSame = isSame && one == other; },
+    a, b);
+  return isSame;
+}
+
 /// A point made where two segments cross. Its id is the number of the caller's points plus its
 /// index.
 struct AddedPoint

@@ -85,14 +85,10 @@ bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& 
 {
   const auto tie = [](const TriangulationRequest& r)
   {
-    const PointOptions& o = r.Options;
     return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
-      r.FirstHole, r.Heights, o.PointTolerance, o.SplitCrossings, o.RingRule, o.Alpha,
-      o.LongestEdge);
+      r.FirstHole, r.Heights, r.Options);
   };
-  const FlipOptions& first = a.Options;
-  const FlipOptions& second = b.Options;
-  return tie(a) == tie(b) && first == second;
+  return tie(a) == tie(b);
 }
 
 /// Stamps the points of the first input.

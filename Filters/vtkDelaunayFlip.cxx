@@ -12,6 +12,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
+#include <type_traits>
+
 using namespace delaunayflip;
 
 // The enumerators of the engine and of this class have the same values.
@@ -80,19 +82,14 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
   request.Settings.InsertConstraints = this->InsertConstraints;
   request.Settings.Triangulate = this->Triangulate;
   request.Settings.RegionArray = this->RegionArray;
-  request.Options.Geometry = static_cast<GeometryKind>(this->Geometry);
-  request.Options.Criterion = static_cast<CriterionKind>(this->Criterion);
-  request.Options.TieRule = static_cast<TieRuleKind>(this->TieRule);
-  request.Options.Backend = static_cast<BackendKind>(this->Backend);
-  request.Options.Tolerance = this->Tolerance;
-  request.Options.FeatureAngle = this->FeatureAngle;
-  request.Options.MaximumDeviation = this->MaximumDeviation;
-  request.Options.MaximumIterations = this->MaximumIterations;
-  request.Options.NumberOfThreads = this->NumberOfThreads;
-  request.Options.Device = this->DeviceId;
+  const auto copy = [&request](const char*, const auto& property, auto member)
+  {
+    auto& option = request.Options.*member;
+    option = static_cast<std::decay_t<decltype(option)>>(property);
+  };
+  this->Superclass::ForEachOption<FlipOptions>(copy);
+  this->ForEachOption<FlipOptions>(copy);
   request.Options.Devices = ParseDevices(this->Devices);
-  request.Options.NumberOfPieces = this->NumberOfPieces;
-  request.Options.TrackQuality = this->TrackQuality;
   request.WantsFlipCounts = this->GenerateFlipCount;
   request.WantsAngles = this->GenerateQuality;
   return request;
@@ -121,20 +118,14 @@ void vtkDelaunayFlip::FlipLeaves(
 void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Geometry: " << this->Geometry << "\n";
-  os << indent << "Criterion: " << this->Criterion << "\n";
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "TieRule: " << this->TieRule << "\n";
-  os << indent << "FeatureAngle: " << this->FeatureAngle << "\n";
-  os << indent << "MaximumDeviation: " << this->MaximumDeviation << "\n";
+  this->ForEachOption<FlipOptions>([&](const char* name, const auto& value, auto)
+    { os << indent << name << ": " << value << "\n"; });
   os << indent << "RegionArray: " << this->RegionArray << "\n";
   os << indent << "LinesAsConstraints: " << this->LinesAsConstraints << "\n";
   os << indent << "InsertLines: " << this->InsertLines << "\n";
   os << indent << "InsertConstraints: " << this->InsertConstraints << "\n";
   os << indent << "Triangulate: " << this->Triangulate << "\n";
   os << indent << "Devices: " << this->Devices << "\n";
-  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
-  os << indent << "TrackQuality: " << this->TrackQuality << "\n";
   os << indent << "GenerateFlipCount: " << this->GenerateFlipCount << "\n";
   os << indent << "GenerateQuality: " << this->GenerateQuality << "\n";
 }

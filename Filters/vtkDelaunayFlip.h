@@ -393,6 +393,24 @@ public:
   const char* GetGeometryReason() const;
 
 protected:
+#ifndef __VTK_WRAP__
+  /**
+   * As in the superclass, for the properties of this class but Devices, which is a text.
+   */
+  template <typename Options, typename Visit>
+  void ForEachOption(const Visit& visit) const
+  {
+    visit("Geometry", this->Geometry, &Options::Geometry);
+    visit("Criterion", this->Criterion, &Options::Criterion);
+    visit("Tolerance", this->Tolerance, &Options::Tolerance);
+    visit("TieRule", this->TieRule, &Options::TieRule);
+    visit("FeatureAngle", this->FeatureAngle, &Options::FeatureAngle);
+    visit("MaximumDeviation", this->MaximumDeviation, &Options::MaximumDeviation);
+    visit("NumberOfPieces", this->NumberOfPieces, &Options::NumberOfPieces);
+    visit("TrackQuality", this->TrackQuality, &Options::TrackQuality);
+  }
+#endif
+
   vtkDelaunayFlip() = default;
   ~vtkDelaunayFlip() override = default;
 

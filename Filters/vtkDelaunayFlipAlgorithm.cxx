@@ -514,10 +514,8 @@ void vtkDelaunayFlipAlgorithm::FillRequest(UpdateRequest& request)
 void vtkDelaunayFlipAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Backend: " << this->Backend << "\n";
-  os << indent << "DeviceId: " << this->DeviceId << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  this->ForEachOption<FlipOptions>([&](const char* name, const auto& value, auto)
+    { os << indent << name << ": " << value << "\n"; });
   os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
   os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
   os << indent << "Paused: " << this->Paused << "\n";

@@ -325,6 +325,19 @@ protected:
   virtual bool HasTolerance() const { return false; }
 
   /**
+   * Calls visit(name, property, member) for each property that is an option of the engine. The
+   * member is that of the engine's `Options`.
+   */
+  template <typename Options, typename Visit>
+  void ForEachOption(const Visit& visit) const
+  {
+    visit("Backend", this->Backend, &Options::Backend);
+    visit("DeviceId", this->DeviceId, &Options::Device);
+    visit("NumberOfThreads", this->NumberOfThreads, &Options::NumberOfThreads);
+    visit("MaximumIterations", this->MaximumIterations, &Options::MaximumIterations);
+  }
+
+  /**
    * Gives a request what does not depend on the mesh: how many iterations an update makes, and how
    * it reports progress and is aborted.
    */

@@ -16,6 +16,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <type_traits>
 
 using namespace delaunayflip;
 
@@ -85,15 +86,13 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   request.ClosedLinesAsRings = this->ClosedLinesAsRings;
   request.FirstHole = this->FirstHole;
   request.Heights = static_cast<HeightsKind>(this->SegmentHeights);
-  request.Options.Backend = static_cast<BackendKind>(this->Backend);
-  request.Options.Device = this->DeviceId;
-  request.Options.NumberOfThreads = this->NumberOfThreads;
-  request.Options.MaximumIterations = this->MaximumIterations;
-  request.Options.PointTolerance = this->PointTolerance;
-  request.Options.SplitCrossings = this->SplitCrossings;
-  request.Options.RingRule = static_cast<RingRuleKind>(this->RingRule);
-  request.Options.Alpha = this->Alpha;
-  request.Options.LongestEdge = this->LongestEdge;
+  const auto copy = [&request](const char*, const auto& property, auto member)
+  {
+    auto& option = request.Options.*member;
+    option = static_cast<std::decay_t<decltype(option)>>(property);
+  };
+  this->Superclass::ForEachOption<PointOptions>(copy);
+  this->ForEachOption<PointOptions>(copy);
   return request;
 }
 
@@ -153,11 +152,8 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Projection: " << this->Projection << "\n";
   os << indent << "Transform: " << this->Transform << "\n";
-  os << indent << "Alpha: " << this->Alpha << "\n";
-  os << indent << "LongestEdge: " << this->LongestEdge << "\n";
-  os << indent << "PointTolerance: " << this->PointTolerance << "\n";
-  os << indent << "SplitCrossings: " << this->SplitCrossings << "\n";
-  os << indent << "RingRule: " << this->RingRule << "\n";
+  this->ForEachOption<PointOptions>([&](const char* name, const auto& value, auto)
+    { os << indent << name << ": " << value << "\n"; });
   os << indent << "FirstHole: " << this->FirstHole << "\n";
   os << indent << "SegmentHeights: " << this->SegmentHeights << "\n";
   os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";

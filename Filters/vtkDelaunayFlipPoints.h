@@ -271,6 +271,19 @@ protected:
   ~vtkDelaunayFlipPoints() override;
 
 #ifndef __VTK_WRAP__
+  /**
+   * As in the superclass, for the properties of this class.
+   */
+  template <typename Options, typename Visit>
+  void ForEachOption(const Visit& visit) const
+  {
+    visit("Alpha", this->Alpha, &Options::Alpha);
+    visit("LongestEdge", this->LongestEdge, &Options::LongestEdge);
+    visit("PointTolerance", this->PointTolerance, &Options::PointTolerance);
+    visit("SplitCrossings", this->SplitCrossings, &Options::SplitCrossings);
+    visit("RingRule", this->RingRule, &Options::RingRule);
+  }
+
   void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& segments,
     delaunayflip::UpdateSummary& summary) override;

@@ -38,16 +38,25 @@ std::int32_t GetRing(const PointInput& input, std::int64_t segment)
   return input.Rings ? input.Rings[segment] : -1;
 }
 
+/// Requires an option that is a number to be finite and not negative.
+void CheckNumber(const char* name, double number)
+{
+  if (!(number >= 0.0 && number < INFINITY))
+  {
+    throw InvalidOptions(ToCamelCase(name) + " must be finite and 0 or more");
+  }
+}
+
+/// Any other option may have all values of its type.
+template <typename Choice>
+void CheckNumber(const char*, Choice)
+{
+}
+
 void CheckInput(const PointInput& input, const PointOptions& options)
 {
-  for (const double length : { options.PointTolerance, options.Alpha, options.LongestEdge })
-  {
-    if (!(length >= 0.0 && length < INFINITY))
-    {
-      throw InvalidOptions(
-        "the point tolerance, alpha and the longest edge must be finite and 0 or more");
-    }
-  }
+  ForEachPointOption(
+    [](const char* name, const auto& option) { CheckNumber(name, option); }, options);
   if (options.NumberOfPieces > 1)
   {
     throw InvalidOptions(

@@ -12,9 +12,12 @@ from typing import Optional, Tuple, Union
 from . import _arrays
 from ._ask import METHODS, Field, Method, Outside, halve, read_places, read_raster
 from ._library import Stopped
-from ._options import Array, Backend, Numbers, Progress, choose
-from ._points import Triangulation, run_points
+from ._options import Array, Backend, Numbers, Progress, choose, show_options
+from ._points import POINT_OPTIONS, PointOptions, Triangulation, run_points, triangulate
 from ._rings import RingRule, Rings
+
+if typing.TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Breaklines = typing.Literal["hard", "soft"]
 
@@ -43,7 +46,6 @@ class LinearInterpolator:
             nearest place on it. Those at crossings are linear along the earlier segment.
         segments, outline, holes, hole_seeds, ring_rule: As for `triangulate`. What is removed there is
             outside.
-        alpha, longest_edge, point_tolerance, split_crossings: As for `triangulate`, too.
         fill_value: The value outside, instead of NaN.
         outside: "nan": fill_value. "nearest": the value at the nearest place on the boundary of the
             triangles. "error": a ValueError tells how many places are outside.
@@ -51,7 +53,7 @@ class LinearInterpolator:
             the edges of rings, only say what is outside; the values inside come from the triangulation
             of the same points without them, and without crossings. Those of outside="nearest" do not,
             so values may jump at the boundary.
-        backend, threads, device: As for `triangulate`.
+        backend, threads, device, and all that follow progress: As for `triangulate`.
         progress: Called with the share of the triangulation done, 0 to 1; False stops it.
 
     Attributes:
@@ -76,19 +78,19 @@ class LinearInterpolator:
     def __init__(
         self, points: Numbers, values: Numbers, *, segments: Optional[Numbers] = None,
         outline: Optional[Rings] = None, holes: Optional[Rings] = None,
-        hole_seeds: Optional[Numbers] = None, ring_rule: RingRule = "evenodd", alpha: float = 0.0,
-        longest_edge: float = 0.0, point_tolerance: float = 0.0, split_crossings: bool = False,
+        hole_seeds: Optional[Numbers] = None, ring_rule: RingRule = "evenodd",
         fill_value: float = math.nan, outside: Outside = "nan", breaklines: Breaklines = "hard",
         backend: Backend = "auto", threads: int = 0, device: int = -1,
-        progress: Optional[Progress] = None,
+        progress: Optional[Progress] = None, **options: Unpack[PointOptions],
     ) -> None:
+        unknown = options.keys() - POINT_OPTIONS.keys()
+        if unknown:
+            raise TypeError(f"{min(unknown)!r} is not an option")
         if isinstance(points, tuple) and len(points) == 2:
             points = _arrays.join_columns(*points)
         keywords = {
             "segments": segments, "outline": outline, "holes": holes, "hole_seeds": hole_seeds,
-            "ring_rule": ring_rule, "alpha": alpha, "longest_edge": longest_edge,
-            "point_tolerance": point_tolerance, "split_crossings": split_crossings, "backend": backend,
-            "threads": threads, "device": device}
+            "ring_rule": ring_rule, "backend": backend, "threads": threads, "device": device, **options}
         how = {"fill_value": fill_value, "outside": outside}
         self._made_from = (points, values), {**keywords, **how, "breaklines": breaklines}
         is_soft = choose("breaklines", breaklines, typing.get_args(Breaklines)) == 1
@@ -100,7 +102,7 @@ class LinearInterpolator:
         self._answers, soft = self.triangulation._answers, None
         if is_soft:
             given = self._answers.given
-            keywords = {"point_tolerance": point_tolerance, **given.backend}
+            keywords = {"point_tolerance": options.get("point_tolerance", 0.0), **given.backend}
             soft = _keep(given.points, keywords, halve(progress, 0.5))[0]._answers
         self._field = Field(self._answers, values, method=self._method, soft=soft, **how)
 
@@ -131,6 +133,9 @@ class LinearInterpolator:
     def __reduce__(self) -> typing.Any:
         places_and_values, keywords = self._made_from
         return functools.partial(type(self), **keywords), places_and_values
+
+
+show_options(LinearInterpolator.__init__, triangulate, POINT_OPTIONS)
 
 
 class NaturalNeighborInterpolator(LinearInterpolator):

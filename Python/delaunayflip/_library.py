@@ -77,13 +77,6 @@ Mesh = make_struct("Mesh", (
     (c_void_p, "constraints_to_insert regions frozen_triangles triangle_numbers"),
     (c_int32, "memory point_components"), (c_void_p, "stream")))
 
-Points = make_struct("Points", (
-    (c_int64, "size"), (c_void_p, "points"), (c_int64, "number_of_points"),
-    (c_int32, "point_type point_components"), (c_void_p, "segments"), (c_int64, "number_of_segments"),
-    (c_void_p, "rings hole_seeds"), (c_int64, "number_of_hole_seeds"),
-    (c_double, "point_tolerance alpha longest_edge"), (c_int32, "ring_rule split_crossings memory"),
-    (c_void_p, "stream"), (c_int32, "first_hole"), (c_int64, "first_added")))
-
 Polygons = make_struct("Polygons", (
     (c_int64, "size number_of_polygons"), (c_void_p, "offsets corners triangle_counts")))
 

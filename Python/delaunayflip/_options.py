@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The types of arguments and results. Keyword arguments as the engine's options, and the checks of all
 numbers before ctypes takes them: it would cut off what is too large."""
+import inspect
 import numbers
 import operator
 import reprlib
@@ -46,19 +47,20 @@ OnIteration = typing.Callable[[typing.Dict[str, typing.Any]], typing.Optional[bo
 
 
 class Options(typing.TypedDict, total=False):
-    """The keywords of `flip` that a Session takes too, in the order of the header's options."""
+    """The keywords of `flip` that a Session takes too, in the order of the header's options. Integers, and
+    numbers that the VTK filter limits, have a range."""
 
     geometry: Geometry
     criterion: Criterion
     tie_rule: TieRule
     backend: Backend
     tolerance: float
-    feature_angle: float
-    maximum_iterations: int
-    threads: int
-    device: int
+    feature_angle: typing.Annotated[float, (0.0, 180.0)]
+    maximum_iterations: typing.Annotated[int, (-1, 2**63 - 1)]
+    threads: typing.Annotated[int, (0, 2**31 - 1)]
+    device: typing.Annotated[int, (-1, 2**31 - 1)]
     track_quality: bool
-    pieces: int
+    pieces: typing.Annotated[int, (0, 255)]
     devices: Devices
     maximum_deviation: float
 
@@ -87,8 +89,16 @@ def shorten(text):
     return line if len(line) <= _LONGEST else line[:_LONGEST] + "..."
 
 
+def list_ranges(options):
+    """The lowest and the highest value of each option that has a range, in a TypedDict of options."""
+    hints = typing.get_type_hints(options, include_extras=True)
+    return {name: hint.__metadata__[0] for name, hint in hints.items() if hasattr(hint, "__metadata__")}
+
+
 CHOICES = {name: typing.get_args(Options.__annotations__[name])
            for name in ("geometry", "criterion", "tie_rule", "backend")}
+OPTION_KINDS = typing.get_type_hints(Options)
+OPTION_RANGES = list_ranges(Options)
 #: The members of the struct that have another name than their keyword.
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
 _TYPES = {float: c_double, Devices: c_char_p}  # all others are 32-bit integers, but for a count
@@ -96,9 +106,7 @@ _TYPES = {float: c_double, Devices: c_char_p}  # all others are 32-bit integers,
 Struct = _library.make_struct("Options", (
     (c_int64, "size"),
     *((c_int64 if name == "maximum_iterations" else _TYPES.get(kind, c_int32), _NAMES.get(name, name))
-      for name, kind in Options.__annotations__.items())))
-_RANGES = {"maximum_iterations": (-1, 2**63 - 1), "threads": (0, 2**31 - 1),
-           "device": (-1, 2**31 - 1), "pieces": (0, 255)}
+      for name, kind in OPTION_KINDS.items())))
 
 
 def make_options(function=None, **keywords):
@@ -120,16 +128,28 @@ def make_options(function=None, **keywords):
             raise TypeError(f"{keyword!r} is not an option")
         if keyword == "devices":
             value = _list_devices(value)
-        elif keyword == "track_quality":
-            value = check_integer(keyword, value, 0, 1, "True or False")
         elif keyword in CHOICES:
             value = choose(keyword, value)
-        elif keyword in _RANGES:
-            value = check_integer(keyword, value, *_RANGES[keyword])
         else:
-            value = to_number(keyword, value)
+            value = convert(keyword, value, OPTION_KINDS[keyword], OPTION_RANGES.get(keyword))
         setattr(options, name, value)
     return options
+
+
+def convert(keyword, value, kind, limits):
+    """The value of a number or a switch. `kind`: its type. `limits`: those of an integer."""
+    if kind is bool:
+        return check_integer(keyword, value, 0, 1, "True or False")
+    if kind is int:
+        return check_integer(keyword, value, *limits)
+    return to_number(keyword, value)
+
+
+def show_options(function, source, names):
+    """Has help() show keywords of `source` in place of the **options with which `function` takes them."""
+    signature, known = inspect.signature(function), inspect.signature(source).parameters
+    own = list(signature.parameters.values())[:-1]
+    function.__signature__ = signature.replace(parameters=[*own, *(known[name] for name in names)])
 
 
 def choose(keyword, word, choices=None):
@@ -171,7 +191,7 @@ def _list_devices(devices):
     if not isinstance(devices, str):
         if isinstance(devices, (bytes, bytearray)) or not numpy.iterable(devices):
             raise TypeError(f"devices must be numbers of GPUs, or a text of them, not {show(devices)}")
-        highest = _RANGES["device"][1]
+        highest = OPTION_RANGES["device"][1]
         devices = ",".join(str(check_integer("devices", one, 0, highest)) for one in devices)
     if "\0" in devices:
         raise InvalidOptions(f"devices must be numbers of GPUs, not {show(devices)}")

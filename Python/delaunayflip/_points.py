@@ -7,8 +7,10 @@ import contextlib
 import dataclasses
 import functools
 import math
+import re
 import typing
 import warnings
+from ctypes import c_double, c_int32, c_int64, c_void_p
 from typing import Any, Optional, Tuple, Union
 
 import numpy
@@ -17,12 +19,34 @@ from . import _arrays, _library, _report
 from ._arrays import address
 from ._ask import Answers, Field, Method, Outside, read_places, read_raster
 from ._options import (
-    Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, make_options, to_number)
-from ._report import Report
+    Array, Backend, Numbers, OnIteration, Progress, choose, convert, list_ranges, make_options)
+from ._report import Report, to_camel_case
 from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
 from ._session import run
 
 Heights = typing.Literal["survey", "own"]
+Length = typing.Annotated[float, (0.0, math.inf)]
+
+
+class PointOptions(typing.TypedDict, total=False):
+    """The numbers and switches of the engine among the keywords of `triangulate`. Interpolators and the VTK
+    filter take them, too. Numbers have a range."""
+
+    alpha: Length
+    longest_edge: Length
+    point_tolerance: Length
+    split_crossings: bool
+
+
+POINT_OPTIONS = typing.get_type_hints(PointOptions)  #: The type of each.
+POINT_RANGES = list_ranges(PointOptions)
+#: delaunayflip_points.
+Struct = _library.make_struct("Points", (
+    (c_int64, "size"), (c_void_p, "points"), (c_int64, "number_of_points"),
+    (c_int32, "point_type point_components"), (c_void_p, "segments"), (c_int64, "number_of_segments"),
+    (c_void_p, "rings hole_seeds"), (c_int64, "number_of_hole_seeds"),
+    (c_double, "point_tolerance alpha longest_edge"), (c_int32, "ring_rule split_crossings memory"),
+    (c_void_p, "stream"), (c_int32, "first_hole"), (c_int64, "first_added")))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -191,8 +215,8 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
             handle, room = stack.enter_context(
                 run("open_points", given.struct, options, given.make_room, progress, on_iteration))
             result = given.store(handle, room, (points, keywords))
-        except _library.InvalidMesh as error:
-            error.args = (given.explain(str(error), error.ring), *error.args[1:])
+        except (_library.InvalidMesh, _library.InvalidOptions) as error:
+            error.args = (given.explain(str(error), getattr(error, "ring", -1)), *error.args[1:])
             raise
         if keeps:
             result.__dict__["_answers"] = Answers(given, handle, stack.pop_all())
@@ -200,15 +224,14 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
 
 
 def _prepare(
-        points, segments=None, *, alpha=0.0, longest_edge=0.0, point_tolerance=0.0, split_crossings=False,
-        heights=None, backend="auto", threads=0, device=-1, maximum_iterations=-1, **rings):
+        points, segments=None, *, heights=None, backend="auto", threads=0, device=-1,
+        maximum_iterations=-1, **others):
     """The Input with its struct, and the options, from the arguments of `triangulate`."""
+    rings = {name: value for name, value in others.items() if name not in POINT_OPTIONS}
     given = points if isinstance(points, Input) else Input(points, segments, **rings)
-    struct = given.struct
-    struct.alpha, struct.longest_edge, struct.point_tolerance = (
-        to_number(name, value) for name, value in (
-            ("alpha", alpha), ("longest_edge", longest_edge), ("point_tolerance", point_tolerance)))
-    struct.split_crossings = check_integer("split_crossings", split_crossings, 0, 1, "True or False")
+    for name, kind in POINT_OPTIONS.items():
+        if name in others:
+            setattr(given.struct, name, convert(name, others[name], kind, POINT_RANGES.get(name)))
     given.backend = {"backend": backend, "threads": threads, "device": device}
     options = make_options(triangulate, maximum_iterations=maximum_iterations, **given.backend)
     if given is not points:
@@ -232,7 +255,7 @@ def interpolate_in_survey(points, values, places, backend):
 class Input:
     """The arrays of a call, which live as long, and their C struct."""
 
-    split_option = "split_crossings"  #: What the caller calls PointOptions::SplitCrossings.
+    are_properties = False  #: Whether the caller knows options by the names of VTK's properties.
     #: What a message says of segments without heights.
     flat_fate = ("the mesh goes to z = 0 there; if it should not, give them heights, for example those of "
                  "the nearest points")
@@ -240,7 +263,7 @@ class Input:
     def __init__(self, points, segments=None, *, ring_numbers=None, outline=None, holes=None,
                  hole_seeds=None, ring_rule="evenodd"):
         """`ring_numbers`: of the rings of the segments; -1: none."""
-        self.struct, self.ends, self.new_points = _library.make(_library.Points), [], []
+        self.struct, self.ends, self.new_points = _library.make(Struct), [], []
         points = _arrays.as_plane(points)
         lines = list_lines(segments)
         self.segments = [_arrays.as_ids("segments", [] if segments is None or lines else segments, 2)]
@@ -312,7 +335,9 @@ class Input:
     def explain(self, text, ring=-1):
         """A message of the engine, which may name a ring, in the caller's words."""
         text = text.replace(f"ring {ring}", self._name_ring(ring), 1)
-        return text.replace("SplitCrossings", self.split_option)
+        for name in () if self.are_properties else POINT_OPTIONS:
+            text = re.sub(rf"\b{to_camel_case(name)}\b", name, text)
+        return text
 
     def _name_ring(self, number):
         return self._ring_names.get(number, f"ring {number}")

@@ -10,7 +10,7 @@ import re
 import numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import (
-    VTK_DOUBLE_MAX, VTK_ID_MAX, VTK_INT_MAX, vtkObject, vtkOutputWindow)
+    VTK_DOUBLE_MAX, VTK_ID_MAX, vtkObject, vtkOutputWindow)
 from vtkmodules.vtkCommonDataModel import (
     vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPartitionedDataSet, vtkPointSet,
     vtkPolyData, vtkTable)
@@ -18,11 +18,12 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._options import CHOICES, Options
-from ._points import run_points
+from ._options import CHOICES, OPTION_KINDS, OPTION_RANGES
+from ._points import POINT_OPTIONS, POINT_RANGES, run_points, triangulate
 from ._report import (
     FIELD_PREFIX, GEOMETRIES, ITERATION, MAIN_NUMBERS, POINT_NUMBERS, Totals, describe, to_camel_case)
 from ._rings import RING_RULES
+from ._session import flip
 from ._vtk_mesh import CELL_ARRAYS, HEIGHTS, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 
 _UNKNOWN_ERROR = 20008  # vtkErrorCode::UnknownError
@@ -59,12 +60,25 @@ class Property(
 #: The names here of options that the engine calls otherwise.
 _PROPERTY_OF = {"threads": "number_of_threads", "device": "device_id", "pieces": "number_of_pieces"}
 
+#: The numbers and switches of the engine that every filter has, and those of vtkDelaunayFlip.
+_COMMON_OPTIONS = "device", "threads", "maximum_iterations"
+_OWN_OPTIONS = [name for name, kind in OPTION_KINDS.items()
+                if kind in (float, int, bool) and name not in _COMMON_OPTIONS]
+
+
+def make_properties(function, keywords, ranges):
+    """The properties for keywords of a function, numbers and switches, with its defaults."""
+    for keyword in keywords:
+        default = function.__kwdefaults__[keyword]
+        most = VTK_DOUBLE_MAX if isinstance(default, float) else VTK_ID_MAX  # as VTK's macros limit them
+        name = to_camel_case(_PROPERTY_OF.get(keyword, keyword))
+        yield Property(name, *(min(value, most) for value in (default, *ranges.get(keyword, ()))))
+
+
 #: Those of every filter.
 COMMON_PROPERTIES = (
     Property("Backend", 0, 0, 2, ("Auto", "CUDA", "Threads")),
-    Property("DeviceId", -1, -1, VTK_INT_MAX),
-    Property("NumberOfThreads", 0, 0, VTK_INT_MAX),
-    Property("MaximumIterations", -1, -1, VTK_ID_MAX),
+    *make_properties(flip, _COMMON_OPTIONS, OPTION_RANGES),
     Property("LiveUpdate", False),
     Property("IterationsPerUpdate", 1, 0, VTK_ID_MAX),
     Property("Paused", False),
@@ -73,16 +87,12 @@ COMMON_PROPERTIES = (
 _PROPERTIES = (
     Property("Geometry", 0, 0, 3, ("Auto", "Planar", "PlanarXY", "Surface")),
     Property("Criterion", 0, 0, 1, ("InCircle", "OppositeAngles")),
-    Property("Tolerance", -1.0),
     Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
-    Property("FeatureAngle", 30.0, 0.0, 180.0),
-    Property("MaximumDeviation", VTK_DOUBLE_MAX),
+    *make_properties(flip, _OWN_OPTIONS, OPTION_RANGES),
     Property("RegionArray", ""),
     *(Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
     Property("Devices", ""),
-    Property("NumberOfPieces", 0, 0, 255),
-    *(Property(name, False) for name in (
-        "InsertLines", "TrackQuality", "GenerateFlipCount", "GenerateQuality")),
+    *(Property(name, False) for name in ("InsertLines", "GenerateFlipCount", "GenerateQuality")),
 )
 
 
@@ -369,7 +379,7 @@ class Filter(VTKPythonAlgorithmBase):
     def _get_options(self, *names):
         """These options of the engine, and those of every filter."""
         values = {name: getattr(self, _PROPERTY_OF.get(name, name))
-                  for name in (*names, "maximum_iterations", "threads", "device")}
+                  for name in (*names, *_COMMON_OPTIONS)}
         return {name: CHOICES[name][value] if name in CHOICES else value
                 for name, value in values.items()}
 
@@ -571,7 +581,7 @@ class vtkDelaunayFlip(Filter):
         try:
             settings = {name: getattr(self, name) for name in SETTINGS}
             data = MeshInput(mesh, constraints, self._observe_part(0.02), **settings)
-            session = data.open(progress=observe, **self._get_options(*Options.__annotations__))
+            session = data.open(progress=observe, **self._get_options(*OPTION_KINDS))
         except _library.Stopped:
             return self._pass(mesh, output, "aborted")
         with session:
@@ -644,13 +654,13 @@ class vtkDelaunayFlipPoints(Filter):
 
     def _triangulate(self, data, segments, output, progress, keeps=False):
         """Returns the Triangulation, whose session is kept or not, and the text of a warning, or ""."""
-        options = self._get_options("backend", "alpha", "longest_edge", "point_tolerance", "split_crossings")
+        options = self._get_options("backend", *POINT_OPTIONS)
         cloud = Cloud(
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
             closed_lines_as_rings=self.closed_lines_as_rings, ring_rule=RING_RULES[self.ring_rule],
             heights=HEIGHTS[self.segment_heights], fills_data=keeps,
             backend={name: options[name] for name in ("backend", "threads", "device")})
-        cloud.split_option = "SplitCrossings"
+        cloud.are_properties = True
         cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")
         result, _ = run_points(cloud, options, progress, self._observe, keeps)
         self._totals = Totals.of_run(result.report, result.iterations)
@@ -658,8 +668,8 @@ class vtkDelaunayFlipPoints(Filter):
 
 
 finish(vtkDelaunayFlipPoints, (
-    *(Property(name, 0.0, 0.0, VTK_DOUBLE_MAX) for name in ("Alpha", "LongestEdge", "PointTolerance")),
-    *(Property(name, False) for name in ("SplitCrossings", "LinesAsSegments")),
+    *make_properties(triangulate, POINT_OPTIONS, POINT_RANGES),
+    Property("LinesAsSegments", False),
     Property("ClosedLinesAsRings", True),
     Property("RingRule", 0, 0, 2, ("EvenOdd", "NonZero", "Orientation")),
     Property("FirstHole", -1, -1, VTK_ID_MAX),

@@ -121,8 +121,7 @@ def triangulate(
         closed_lines_as_rings: If False, closed lines of the segments are only edges, such as contours.
         heights: As for delaunayflip.triangulate, for the points of segments and rings. Points that get
             heights of the cloud also get its data, in arrays of numbers that the segments do not have.
-        **options: alpha, longest_edge, point_tolerance, split_crossings, backend, threads, device,
-            maximum_iterations and progress, as for delaunayflip.triangulate.
+        **options: The other keywords of delaunayflip.triangulate, such as alpha, backend and progress.
 
     Returns:
         The mesh. Its field data tells what was done, e.g. "DelaunayFlip:SegmentEdges".

@@ -507,6 +507,7 @@ class Usage(PointTest):
         for option in (
             ["--outline", path], ["--holes", path], ["--split-crossings"], ["--alpha", 1],
             ["--longest-edge", 1], ["--point-tolerance", 1], ["--projection", "xy"],
+            ["--heights", "own"], ["--ring-rule", "nonzero"], ["--columns", "1,2"],
         ):
             self.fail_with(2, path, "out.vtk", *option,
                            naming=[option[0], "requires --from-points"])

@@ -23,7 +23,7 @@ import weakref
 import numpy
 
 import delaunayflip
-from delaunayflip import _arrays, _ask, _library, _options, _report, _session, _surface
+from delaunayflip import _arrays, _ask, _library, _options, _points, _report, _session, _surface
 from lattice import sheared_lattice
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -355,6 +355,13 @@ class Errors(unittest.TestCase):
         result = delaunayflip.flip(POINTS, TRIANGLES, threads=numpy.uint8(1), tolerance=numpy.float32(0),
                                    maximum_iterations=2**63 - 1, track_quality=numpy.bool_(True))
         self.assertEqual(result.report.total_flips, 1)
+
+    def test_options_of_points(self):
+        """Messages call an option as the keyword."""
+        for name, kind in _points.POINT_OPTIONS.items():
+            for value in (-1.0, numpy.nan, numpy.inf) if kind is float else (2,):
+                with self.assertRaisesRegex(delaunayflip.InvalidOptions, f"^{name} must be "):
+                    delaunayflip.triangulate(POINTS, **{name: value})
 
     def test_maximum_deviation(self):
         """The diagonals of the quad are 0.25 apart."""
@@ -703,8 +710,9 @@ class Header(unittest.TestCase):
         return [declaration.match(text).groups() for text in declarations if text]
 
     def test_structs(self):
-        for name in ("Mesh", "Options", "Iteration", "Report", "Callbacks", "Polygons", "Query", "Defect"):
-            own = {"Report": _report.Struct, "Options": _options.Struct}
+        for name in ("Mesh", "Points", "Options", "Iteration", "Report", "Callbacks", "Polygons", "Query",
+                     "Defect"):
+            own = {"Report": _report.Struct, "Options": _options.Struct, "Points": _points.Struct}
             struct = own.get(name) or getattr(_library, name)
             members = self.members(f"delaunayflip_{name.lower()}")
             self.assertEqual([member for _, member in members],
@@ -721,6 +729,19 @@ class Header(unittest.TestCase):
             self.assertGreater(len(options), 3)
             self.assertEqual(bytes(_options.make_options(**options)), bytes(_options.make_options()))
         self.assertEqual(delaunayflip.flip.__kwdefaults__["devices"], ())
+        struct = _library.make(_points.Struct)
+        for name in _points.POINT_OPTIONS:
+            self.assertEqual(delaunayflip.triangulate.__kwdefaults__[name], getattr(struct, name), name)
+
+    def test_interpolators_take_options_of_points(self):
+        known = inspect.signature(delaunayflip.triangulate).parameters
+        for kind in (delaunayflip.LinearInterpolator, delaunayflip.NaturalNeighborInterpolator):
+            shown = inspect.signature(kind).parameters
+            self.assertEqual([shown[name] for name in _points.POINT_OPTIONS],
+                             [known[name] for name in _points.POINT_OPTIONS])
+            self.assertNotIn("options", shown)
+            with self.assertRaisesRegex(TypeError, "'alfa' is not an option"):
+                kind([[0, 0], [1, 0], [0, 1]], [1, 2, 3], alfa=1.0)
 
     def test_enumerations(self):
         enumerations = {**_options.CHOICES, "geometry": _report.GEOMETRIES, "method": _ask.METHODS,
