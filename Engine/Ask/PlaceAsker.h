@@ -29,14 +29,15 @@ public:
   {
     PlaneMesh plane{ mesh.Edges, mesh.Places };
     plane.IsTriangulation = true;
-    this->RequireGrid(plane, mesh.NumberOfTriangles, backend);
+    const PlaceGridView grid = this->RequireGrid(plane, mesh.NumberOfTriangles, backend);
+    plane.IsInFilterRange = grid.Frame.Box.IsInFilterRange();
     const std::int32_t none = 0;
     const LocalCopy<std::int32_t> failed(&none, 1, true, backend);
     plane.Failed = failed.GetWritable();
     const std::vector<std::int32_t>& numbers = asked.Numbers;
     const LocalCopy<std::int32_t> numbersHere(
       numbers.data(), SizeOf(numbers), !numbers.empty(), backend);
-    const AskedMesh here{ plane, this->Grid.View(), numbersHere.Get() };
+    const AskedMesh here{ plane, grid, numbersHere.Get() };
 
     const PlaceQuery& query = asked.Query;
     const bool wantsValues = query.Values != nullptr;
@@ -99,26 +100,20 @@ public:
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return frame.FindKey(block.GetPlace(i)); });
   }
 
+  /// On the host a thread answers many places one after the other, which saves steps of walks.
   static void AnswerHere(const AskedMesh& asked, const AskedValues& values, const PlaceBlock& block,
     std::int64_t count, const Backend& backend)
   {
     const Array<std::uint32_t> sorted = SortPlaces(asked.Grid.Frame, block, count, backend);
-    const std::uint32_t* order = sorted.Data();
-    backend.ForEach(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t k)
-      {
-        const std::int64_t i = order ? order[k] : k;
-        const PlanePoint place = block.GetPlace(i);
-        const FoundPlace found = asked.Find(place);
-        if (block.Triangles)
-        {
-          block.Triangles[i] = asked.GetNumber(found);
-        }
-        if (block.Results)
-        {
-          values.Interpolate(asked, place, found, block.Results + i * values.Components);
-        }
-      });
+    const AnswerPlaces answer{ asked, values, block, sorted.Data() };
+    if constexpr (Backend::IsOnHost)
+    {
+      backend.ForRange(count, answer);
+    }
+    else
+    {
+      backend.ForEach(count, answer);
+    }
   }
 
 private:

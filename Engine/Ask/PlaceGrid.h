@@ -44,6 +44,12 @@ struct PlaceBox
       place.V <= this->High[1];
   }
 
+  bool IsInFilterRange() const
+  {
+    return delaunayflip::IsInFilterRange({ this->Low[0], this->Low[1], 0.0 }) &&
+      delaunayflip::IsInFilterRange({ this->High[0], this->High[1], 0.0 });
+  }
+
 private:
   DELAUNAYFLIP_HOST_DEVICE void Include(int axis, double low, double high)
   {
@@ -106,10 +112,22 @@ struct PlaceGridFrame
   /// Whether two places are in the same cell or in neighbouring ones.
   DELAUNAYFLIP_HOST_DEVICE bool AreNear(const PlanePoint& a, const PlanePoint& b) const
   {
-    const std::uint32_t columns = this->FindColumn(0, a.U) - this->FindColumn(0, b.U);
-    const std::uint32_t rows = this->FindColumn(1, a.V) - this->FindColumn(1, b.V);
+    return AreNear(this->FindColumn(0, a.U) - this->FindColumn(0, b.U),
+      this->FindColumn(1, a.V) - this->FindColumn(1, b.V));
+  }
+
+  /// Whether cells so many columns and rows apart are the same or neighbours.
+  DELAUNAYFLIP_HOST_DEVICE static bool AreNear(std::uint32_t columns, std::uint32_t rows)
+  {
     return columns + 1 <= 2 && rows + 1 <= 2; // from -1 to 1
   }
+};
+
+/// Where the last place was found. The next one is often near.
+struct LastPlace
+{
+  std::uint32_t Column = 0, Row = 0; ///< Of the finest grid.
+  TriangleId Triangle = NoTriangle;
 };
 
 /// The cells, for functions of both backends.
@@ -121,8 +139,22 @@ struct PlaceGridView
   /// A triangle near a place.
   DELAUNAYFLIP_HOST_DEVICE TriangleId FindStart(const PlanePoint& place) const
   {
+    LastPlace none;
+    return this->FindStart(place, none);
+  }
+
+  /// @param last becomes the cell of this place; its triangle is taken if the cell is near.
+  DELAUNAYFLIP_HOST_DEVICE TriangleId FindStart(const PlanePoint& place, LastPlace& last) const
+  {
     std::uint32_t column = this->Frame.FindColumn(0, place.U);
     std::uint32_t row = this->Frame.FindColumn(1, place.V);
+    const bool isNear = PlaceGridFrame::AreNear(column - last.Column, row - last.Row);
+    last.Column = column;
+    last.Row = row;
+    if (isNear && last.Triangle != NoTriangle)
+    {
+      return last.Triangle;
+    }
     for (int level = this->Frame.Finest; level >= 0; --level, column /= 2, row /= 2)
     {
       const std::int64_t cell =

@@ -27,13 +27,16 @@ struct AskedMesh
   const std::int32_t* Numbers; ///< Of its triangles in the output, -1 if removed; null: their own.
 
   /// Finds a place. It is outside if it is not finite, or if its triangles are removed.
-  DELAUNAYFLIP_HOST_DEVICE FoundPlace Find(const PlanePoint& place) const
+  /// @param last is where the last place was found, and becomes where this one is.
+  DELAUNAYFLIP_HOST_DEVICE FoundPlace Find(const PlanePoint& place, LastPlace& last) const
   {
     if (!this->Grid.Frame.Box.Has(place))
     {
       return FoundPlace();
     }
-    const FoundPlace found = WalkToPlace(this->Mesh, place, this->Grid.FindStart(place));
+    const TriangleId start = this->Grid.FindStart(place, last);
+    const FoundPlace found = WalkToPlace(this->Mesh, place, start);
+    last.Triangle = found.Triangle;
     if (found.IsOutside() || (found.OnEdges == 0 && !this->Numbers))
     {
       return found;
@@ -99,17 +102,27 @@ private:
   DELAUNAYFLIP_HOST_DEVICE bool AddNatural(
     const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle, double* result) const
   {
+    double scale = 1.0;
     double sum = 0.0;
-    this->Fill(result, 0.0);
-    const bool isGood = VisitNaturalWeights(mesh, place, triangle,
-      [&](VertexId vertex, double weight)
-      {
-        sum += weight;
-        this->Add(vertex, weight, result);
-      });
-    for (int i = 0; i < this->Components; ++i)
+    bool isGood = true, isFinite = false;
+    for (int trial = 0; trial < 2 && isGood && !isFinite; ++trial)
     {
-      result[i] /= sum;
+      sum = 0.0;
+      this->Fill(result, 0.0);
+      isGood = VisitNaturalWeights(mesh, place, triangle,
+        [&](VertexId vertex, double weight)
+        {
+          sum += weight * scale;
+          this->Add(vertex, weight * scale, result);
+        });
+      isFinite = true;
+      for (int i = 0; i < this->Components; ++i)
+      {
+        result[i] /= sum;
+        isFinite = isFinite && delaunayflip::IsFinite(result[i]);
+      }
+      // Sums of large values may overflow. With weights of less than 1 in all they do not.
+      scale = 0.25 * InvertPowerOfTwo(std::fabs(sum));
     }
     return isGood && sum != 0.0;
   }
@@ -156,6 +169,37 @@ struct PlaceBlock
       return { this->Raster.Get(cell, 0), this->Raster.Get(cell, 1), 0.0 };
     }
     return { this->Places.Get(i, 0), this->Places.Get(i, 1), 0.0 };
+  }
+};
+
+/// Answers some places of a block.
+struct AnswerPlaces
+{
+  AskedMesh Asked;
+  AskedValues Values;
+  PlaceBlock Block;
+  const std::uint32_t* Order; ///< Of the places, or null.
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t k) const { (*this)(k, k + 1); }
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t begin, std::int64_t end) const
+  {
+    LastPlace last;
+    for (std::int64_t k = begin; k < end; ++k)
+    {
+      const std::int64_t i = this->Order ? this->Order[k] : k;
+      const PlanePoint place = this->Block.GetPlace(i);
+      const FoundPlace found = this->Asked.Find(place, last);
+      if (this->Block.Triangles)
+      {
+        this->Block.Triangles[i] = this->Asked.GetNumber(found);
+      }
+      if (this->Block.Results)
+      {
+        double* const result = this->Block.Results + i * this->Values.Components;
+        this->Values.Interpolate(this->Asked, place, found, result);
+      }
+    }
   }
 };
 

@@ -66,10 +66,18 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindSide(
 {
   const PlanePoint from = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(opposite)));
   const PlanePoint to = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Previous(opposite)));
+  if (mesh.IsInFilterRange)
+  {
+    const int sign = FilteredOrientation(from, to, place);
+    if (sign != UncertainSign)
+    {
+      return sign;
+    }
+  }
   return mesh.RequireSign(FindOrientation(from, to, place));
 }
 
-/// Walks from a triangle to a finite place.
+/// Walks from a triangle to a finite place. If mesh.IsInFilterRange, the place is in it, too.
 DELAUNAYFLIP_HOST_DEVICE inline FoundPlace WalkToPlace(
   const PlaneMesh& mesh, const PlanePoint& place, TriangleId start)
 {
@@ -97,8 +105,11 @@ DELAUNAYFLIP_HOST_DEVICE inline FoundPlace WalkToPlace(
       {
         found.OnEdges |= 1 << slot;
       }
-      leaves = side < 0;
-      across = mesh.Edges.CornerOfHalfEdge[mesh.GetHalfEdge(corner) ^ 1u];
+      if (side < 0)
+      {
+        leaves = true;
+        across = mesh.Edges.CornerOfHalfEdge[mesh.GetHalfEdge(corner) ^ 1u];
+      }
     }
     if (!leaves)
     {

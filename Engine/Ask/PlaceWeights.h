@@ -84,12 +84,30 @@ public:
   double Left, Right, Value;
 };
 
-/// Twice the area of a triangle, with a relative error of a few roundings even if it is a sliver.
-DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(
-  const ScaledPoint& origin, const ScaledPoint& a, const ScaledPoint& b)
+/// A point as seen from another one.
+struct SeenPoint
 {
-  const PlaceOffset toA = Subtract(a, origin);
-  const PlaceOffset toB = Subtract(b, origin);
+  DELAUNAYFLIP_HOST_DEVICE SeenPoint(const ScaledPoint& point, const ScaledPoint& origin)
+    : Point(point),
+      Offset(Subtract(point, origin)),
+      Square(Offset.U * Offset.U + Offset.V * Offset.V)
+  {
+  }
+
+  ScaledPoint Point;
+  PlaceOffset Offset;
+  double Square; ///< Of the distance.
+};
+
+/// Twice the area of a triangle, with a relative error of a few roundings even if it is a sliver.
+/// @param seenA, seenB as seen from the origin.
+DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(
+  const ScaledPoint& origin, const SeenPoint& seenA, const SeenPoint& seenB)
+{
+  const ScaledPoint& a = seenA.Point;
+  const ScaledPoint& b = seenB.Point;
+  const PlaceOffset& toA = seenA.Offset;
+  const PlaceOffset& toB = seenB.Offset;
   const CrossProduct cross(toA, toB);
   if (!cross.IsCancelled())
   {
@@ -205,13 +223,15 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
     visit(vertices[vertex], 1.0);
     return;
   }
+  const SeenPoint seen[3] = { { points[0], frame.GetPlace() }, { points[1], frame.GetPlace() },
+    { points[2], frame.GetPlace() } };
   double areas[3];
   double sum = 0.0;
   const int edge = found.FindEdgeSlot();
   for (int slot = 0; slot < 3 && edge < 0; ++slot)
   {
     const double area =
-      FindTwiceArea(frame.GetPlace(), points[NextSlot(slot)], points[PreviousSlot(slot)]);
+      FindTwiceArea(frame.GetPlace(), seen[NextSlot(slot)], seen[PreviousSlot(slot)]);
     areas[slot] = area > 0.0 ? area : 0.0;
     sum += areas[slot];
   }
@@ -227,8 +247,8 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
   // On an edge, or in a triangle without a measurable area, which is as good as its longest edge.
   const int opposite = edge >= 0 ? edge : FindLongestEdge(points);
   const int from = NextSlot(opposite), to = PreviousSlot(opposite);
-  const double ofFrom = FindSize(Subtract(points[to], frame.GetPlace()));
-  const double ofTo = FindSize(Subtract(points[from], frame.GetPlace()));
+  const double ofFrom = FindSize(seen[to].Offset);
+  const double ofTo = FindSize(seen[from].Offset);
   double share = ofFrom / (ofFrom + ofTo);
   if (ofFrom + ofTo == 0.0) // both have underflowed, since a third vertex is so far away
   {
@@ -239,16 +259,13 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
 }
 
 /// The centre of the circle through three points, as a vector from the first one.
+/// @param a, b as seen from it.
 DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(
-  const ScaledPoint& origin, const ScaledPoint& a, const ScaledPoint& b)
+  const ScaledPoint& origin, const SeenPoint& a, const SeenPoint& b)
 {
-  const PlaceOffset toA = Subtract(a, origin);
-  const PlaceOffset toB = Subtract(b, origin);
   const double factor = 0.5 / FindTwiceArea(origin, a, b);
-  const double squareA = toA.U * toA.U + toA.V * toA.V;
-  const double squareB = toB.U * toB.U + toB.V * toB.V;
-  return { (toB.V * squareA - toA.V * squareB) * factor,
-    (toA.U * squareB - toB.U * squareA) * factor };
+  return { (b.Offset.V * a.Square - a.Offset.V * b.Square) * factor,
+    (a.Offset.U * b.Square - b.Offset.U * a.Square) * factor };
 }
 
 /// The triangles with a place in their circumcircle that can be reached from the place without
@@ -271,41 +288,40 @@ public:
     return this->Frame.GetPoint(this->Mesh.GetVertex(corner));
   }
 
-  /// The centre of the circle through the place and the ends of the edge opposite a corner, from
-  /// the place.
-  DELAUNAYFLIP_HOST_DEVICE PlaceOffset FindNewCentre(CornerId opposite) const
+  /// The vertex of a corner, as seen from the place.
+  DELAUNAYFLIP_HOST_DEVICE SeenPoint See(CornerId corner) const
   {
-    return FindCentre(this->Frame.GetPlace(), this->GetPoint(PlaneMesh::Next(opposite)),
-      this->GetPoint(PlaneMesh::Previous(opposite)));
+    return { this->GetPoint(corner), this->Frame.GetPlace() };
   }
 
   /// The centre of the circumcircle of a triangle of the cavity, from the place.
-  DELAUNAYFLIP_HOST_DEVICE PlaceOffset GetCentre(TriangleId triangle)
+  /// @param kept its number among those that are kept, or NotKept, which changes if it can be kept.
+  DELAUNAYFLIP_HOST_DEVICE PlaceOffset GetCentre(TriangleId triangle, int& kept)
   {
-    const int index = this->FindKept(triangle);
-    if (index >= 0)
+    if (kept != NotKept)
     {
-      return { this->KeptCentres[index][0], this->KeptCentres[index][1] };
+      return { this->KeptCentres[kept][0], this->KeptCentres[kept][1] };
     }
     // Always from the same corner, so that all three vertices get the same bits.
     const ScaledPoint first = this->GetPoint(MakeCorner(triangle, 0));
-    PlaceOffset centre = FindCentre(
-      first, this->GetPoint(MakeCorner(triangle, 1)), this->GetPoint(MakeCorner(triangle, 2)));
+    PlaceOffset centre = FindCentre(first, { this->GetPoint(MakeCorner(triangle, 1)), first },
+      { this->GetPoint(MakeCorner(triangle, 2)), first });
     const PlaceOffset toFirst = Subtract(first, this->Frame.GetPlace());
     centre = { toFirst.U + centre.U, toFirst.V + centre.V };
     if (this->NumberOfKept < MostKept)
     {
-      this->Kept[this->NumberOfKept] = triangle;
-      this->KeptCentres[this->NumberOfKept][0] = centre.U;
-      this->KeptCentres[this->NumberOfKept][1] = centre.V;
-      ++this->NumberOfKept;
+      kept = this->NumberOfKept++;
+      this->Kept[kept] = triangle;
+      this->KeptCentres[kept][0] = centre.U;
+      this->KeptCentres[kept][1] = centre.V;
     }
     return centre;
   }
 
   /// The corner on the other side of the edge opposite a corner of the cavity, if its triangle is
   /// in the cavity, too; else NoCorner.
-  DELAUNAYFLIP_HOST_DEVICE CornerId FindWithin(CornerId corner) const
+  /// @param kept becomes the number of that triangle, if there is one, as for GetCentre.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindWithin(CornerId corner, int& kept) const
   {
     const HalfEdgeId side = this->Mesh.GetHalfEdge(corner);
     const CornerId across = this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
@@ -313,22 +329,29 @@ public:
     {
       return NoCorner;
     }
-    if (this->FindKept(TriangleOf(across)) >= 0)
+    const int found = this->FindKept(TriangleOf(across));
+    if (found != NotKept)
     {
+      kept = found;
       return across;
     }
     const PlanePoint points[4] = { this->Mesh.GetPoint(this->Mesh.GetVertex(across)),
       this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Next(across))),
       this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Previous(across))), this->Place };
     int sign = FilteredInCircle(points[0], points[1], points[2], points[3]);
-    const bool isInRange = IsInFilterRange(points[0]) && IsInFilterRange(points[1]) &&
-      IsInFilterRange(points[2]) && IsInFilterRange(points[3]);
-    if (sign == UncertainSign || !isInRange)
+    if (sign == UncertainSign || !this->Mesh.IsInFilterRange)
     {
       sign = ExactInCircle(points, false);
     }
-    return this->Mesh.RequireSign(sign) == 1 ? across : NoCorner;
+    if (this->Mesh.RequireSign(sign) != 1)
+    {
+      return NoCorner;
+    }
+    kept = NotKept;
+    return across;
   }
+
+  static constexpr int NotKept = -1;
 
 private:
   static constexpr int MostKept = 8;
@@ -342,7 +365,7 @@ private:
         return i;
       }
     }
-    return -1;
+    return NotKept;
   }
 
   const PlaneMesh& Mesh;
@@ -359,7 +382,8 @@ class PolygonArea
 public:
   DELAUNAYFLIP_HOST_DEVICE explicit PolygonArea(const PlaceOffset& first)
     : First(first),
-      Last(first)
+      Last(first),
+      SizeOfLast(FindSize(first))
   {
   }
 
@@ -367,7 +391,8 @@ public:
   {
     // Corners may be very far away. The nearer one as the factor loses least.
     const PlaceOffset step = { corner.U - this->Last.U, corner.V - this->Last.V };
-    const PlaceOffset& nearer = FindSize(corner) < FindSize(this->Last) ? corner : this->Last;
+    const double size = FindSize(corner);
+    const PlaceOffset& nearer = size < this->SizeOfLast ? corner : this->Last;
     const CrossProduct cross(nearer, step);
     this->Twice += cross.Value;
     if (cross.IsCancelled())
@@ -375,6 +400,7 @@ public:
       this->Twice += cross.GetRest(nearer, step);
     }
     this->Last = corner;
+    this->SizeOfLast = size;
   }
 
   /// Closes the polygon.
@@ -386,6 +412,7 @@ public:
 
 private:
   PlaceOffset First, Last;
+  double SizeOfLast;
   double Twice = 0.0;
 };
 
@@ -425,33 +452,40 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   const PlaceFrame frame(mesh, place, triangle);
   PlaceCavity cavity(mesh, place, frame);
   WeightCheck check;
+  int kept = PlaceCavity::NotKept;
+  cavity.GetCentre(triangle, kept);
   // An edge of the boundary: always on across the next edge, until nothing is beyond.
   CornerId first = MakeCorner(triangle, 0);
-  CornerId within = cavity.FindWithin(first);
+  CornerId within = cavity.FindWithin(first, kept);
   while (within != NoCorner)
   {
+    cavity.GetCentre(TriangleOf(within), kept);
     first = PlaneMesh::Next(within);
-    within = cavity.FindWithin(first);
+    within = cavity.FindWithin(first, kept);
   }
   CornerId opposite = first; // of an edge of the boundary
-  PlaceOffset centre = cavity.FindNewCentre(first);
+  SeenPoint end = cavity.See(PlaneMesh::Previous(first)); // of that edge
+  PlaceOffset centre =
+    FindCentre(frame.GetPlace(), cavity.See(PlaneMesh::Next(first)), end); // of its new triangle
   do
   {
-    // Around the vertex where this edge ends, to the edge of the boundary that begins there. The
-    // centres on the way are the corners of the area that the vertex loses.
+    // Around the end of this edge, to the edge of the boundary that begins there. The centres on
+    // the way are the corners of the area that the vertex loses.
     const VertexId vertex = mesh.GetVertex(PlaneMesh::Previous(opposite));
+    const SeenPoint begin = end;
     PolygonArea area(centre);
     within = opposite;
     while (within != NoCorner)
     {
-      area.Add(cavity.GetCentre(TriangleOf(within)));
+      area.Add(cavity.GetCentre(TriangleOf(within), kept));
       opposite = PlaneMesh::Next(within);
-      within = cavity.FindWithin(opposite);
+      within = opposite == first ? NoCorner : cavity.FindWithin(opposite, kept);
     }
-    centre = cavity.FindNewCentre(opposite);
+    end = cavity.See(PlaneMesh::Previous(opposite));
+    centre = FindCentre(frame.GetPlace(), begin, end);
     area.Add(centre);
     const double weight = area.GetTwice();
-    check.Add(weight, Subtract(frame.GetPoint(vertex), frame.GetPlace()));
+    check.Add(weight, begin.Offset);
     visit(vertex, weight);
   } while (opposite != first);
   return check.IsGood();

@@ -21,6 +21,8 @@ struct PlaneMesh
   /// overlap.
   bool IsTriangulation = false;
   std::int32_t* Failed = nullptr; ///< Set to 1 where a device cannot decide an orientation.
+  /// Whether it is known that the filters may be used for all places.
+  bool IsInFilterRange = false;
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPoint(VertexId vertex) const
   {

@@ -294,6 +294,19 @@ TEST(Ask, NaturalNeighborsAreCgals)
     ASSERT_NEAR(expected, results[i], 1e-9) << places[i][0] << ' ' << places[i][1];
   }
   EXPECT_LT(15000 / Reduction, compared);
+  // Sums of large values do not overflow. Other values of the points keep their bits.
+  std::vector<double> both;
+  for (const double value : values)
+  {
+    both.insert(both.end(), { std::ldexp(value, 1022), value });
+  }
+  const std::vector<double> found = asked.Interpolate(both, places, InterpolationKind::Natural);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const double large = std::ldexp(results[i], 1022);
+    ASSERT_EQ(std::memcmp(&found[2 * i], &large, sizeof(large)), 0) << results[i];
+    ASSERT_EQ(std::memcmp(&found[2 * i + 1], &results[i], sizeof(large)), 0) << results[i];
+  }
 }
 
 TEST(Ask, RastersAreTheirCentres)
