@@ -152,15 +152,29 @@ inline TriangleMesh ToMesh(const delaunayflip_mesh* given)
   return { ToFixedEdges(c), ToPoints<PointArray>(c), ToTriangles(c), {} };
 }
 
+inline PlaneArray ToPlane(const delaunayflip_points& c)
+{
+  Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
+  return ToPoints<PlaneArray>(c, c.point_components);
+}
+
 /// Views of the points and segments to triangulate.
 inline PointInput ToPointInput(const delaunayflip_points& c)
 {
-  Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
   RequireArray(c.segments, c.number_of_segments, "segments");
   RequireArray(c.hole_seeds, c.number_of_hole_seeds, "hole_seeds");
-  return { ToPoints<PlaneArray>(c, c.point_components), c.segments, c.number_of_segments, c.rings,
-    c.first_hole, c.hole_seeds, c.number_of_hole_seeds, c.first_added, IsOnDevice(c.memory),
-    { c.stream } };
+  PointInput input;
+  input.Points = ToPlane(c);
+  input.Segments = c.segments;
+  input.NumberOfSegments = c.number_of_segments;
+  input.Rings = c.rings;
+  input.FirstHole = c.first_hole;
+  input.HoleSeeds = c.hole_seeds;
+  input.NumberOfHoleSeeds = c.number_of_hole_seeds;
+  input.FirstAdded = c.first_added;
+  input.OnDevice = IsOnDevice(c.memory);
+  input.Stream = { c.stream };
+  return input;
 }
 
 /// Calls visit(member, the engine's) for each option of points.

@@ -367,6 +367,21 @@ extern "C"
       });
   }
 
+  delaunayflip_status delaunayflip_insert_points(delaunayflip_session* session,
+    const delaunayflip_points* points, const delaunayflip_callbacks* callbacks)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        const delaunayflip_points c = Complete(points, delaunayflip_points_init);
+        Require(!IsOnDevice(c.memory), "points to insert must be in the host's memory");
+        if (!session->Session.Insert(ToPlane(c), ToProgress(callbacks)))
+        {
+          throw RunAborted();
+        }
+      });
+  }
+
   delaunayflip_status delaunayflip_ask(delaunayflip_session* session,
     const delaunayflip_query* query, const delaunayflip_callbacks* callbacks)
   {

@@ -425,6 +425,27 @@ extern "C"
   delaunayflip_status delaunayflip_store_segment_edges(
     delaunayflip_session* session, int64_t* pairs);
 
+  /** Inserts more points into the triangulation, numbered after the others of the caller; those at
+   * crossings come after them. The triangles are then those of all points, perhaps in another order
+   * than if all had been given at once. If there are no segments, nothing was removed, and all new
+   * points are in the hull, only the triangles around them change. Otherwise the triangulation is
+   * made anew. For sessions from points, after delaunayflip_advance. Many points at a time, such as
+   * 10,000, take less time than one by one. This inserts one point:
+   *
+   *     const double place[] = { 0.5, 0.25 };
+   *     delaunayflip_points more;
+   *     delaunayflip_points_init(&more);
+   *     more.points = place;
+   *     more.number_of_points = 1;
+   *     delaunayflip_insert_points(session, &more, NULL);
+   *
+   * @param points in the host's memory; they are copied, in the precision of the others. Members
+   * that do not say where they are and how many have no effect.
+   * @param callbacks may be null. If `progress` returns 0, the call fails with
+   * DELAUNAYFLIP_STOPPED, and the next delaunayflip_advance begins with all points. */
+  delaunayflip_status delaunayflip_insert_points(delaunayflip_session* session,
+    const delaunayflip_points* points, const delaunayflip_callbacks* callbacks);
+
   typedef enum
   {
     DELAUNAYFLIP_LINEAR = 0, /**< Linear in each triangle. */

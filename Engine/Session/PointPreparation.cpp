@@ -156,11 +156,11 @@ void PreparedPoints::Append(const PlaneArray& points)
   };
   if (before.Floats)
   {
-    append(this->Floats);
+    append(this->CallerFloats);
   }
   else
   {
-    append(this->Doubles);
+    append(this->CallerDoubles);
   }
   this->Caller.Points = this->Prepared.Points;
   this->Caller.OnDevice = false;

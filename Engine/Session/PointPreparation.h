@@ -78,6 +78,8 @@ private:
   PointInput Caller;
   PointOptions Options;
   PointInput Prepared; ///< Its points are the caller's, or one of the copies.
+  std::vector<float> CallerFloats; ///< With those that Append has added.
+  std::vector<double> CallerDoubles;
   std::vector<float> Floats;
   std::vector<double> Doubles;
   std::vector<std::int64_t> NearPoint; ///< By point, what GetNear returns; empty: not looked for.

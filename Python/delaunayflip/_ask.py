@@ -10,7 +10,7 @@ import typing
 
 import numpy
 
-from . import _arrays, _library
+from . import _arrays, _library, _report
 from ._arrays import address
 from ._options import Array, check_integer, choose, show, to_number
 from ._session import observe
@@ -77,6 +77,7 @@ class Answers:
     def __init__(self, given, handle, opened):
         """`given`: the Input, whose arrays the session reads. `opened`: closes the session."""
         self.given, self._handle, self._opened = given, handle, opened
+        self.is_shared = False  #: Whether an interpolator uses it.
         self._lock, self._asker = threading.Lock(), None
 
     @contextlib.contextmanager
@@ -85,6 +86,8 @@ class Answers:
         if self._asker == threading.get_ident():
             raise RuntimeError("an observer cannot ask the triangulation that it observes")
         with self._lock:
+            if not self._handle:
+                raise RuntimeError("another thread has inserted points meanwhile; call it again")
             self._asker = threading.get_ident()
             try:
                 yield
@@ -115,6 +118,25 @@ class Answers:
             if count:
                 _library.call("ask", self._handle, struct, callbacks)
         return triangles, results
+
+    def insert(self, more, batch, progress):
+        """Inserts points, and gives the Answers for all of them. These can be asked no more.
+
+        Args:
+            more: The Input of all points.
+            batch: The C struct of those that are new.
+        """
+        with self._alone():
+            handle, self._handle = self._handle, None
+            opened, self._opened = self._opened, None
+        with observe(progress) as callbacks:
+            _library.call("insert_points", handle, batch, callbacks)
+        return Answers(more, handle, opened)
+
+    def store(self, made_from):
+        """The Triangulation."""
+        room = self.given.make_room(_report.read_struct(self._handle))
+        return self.given.store(self._handle, room, made_from)
 
     def locate(self, places, progress=None):
         return self.ask(places, progress=progress)[0].reshape(places.shape)

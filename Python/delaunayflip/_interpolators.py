@@ -100,6 +100,7 @@ class LinearInterpolator:
         if trouble:
             warnings.warn(trouble, stacklevel=2)
         self._answers, soft = self.triangulation._answers, None
+        self._answers.is_shared = True
         if is_soft:
             given = self._answers.given
             keywords = {"point_tolerance": options.get("point_tolerance", 0.0), **given.backend}

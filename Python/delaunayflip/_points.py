@@ -4,6 +4,7 @@
 from __future__ import annotations  # help() shows types by their names
 
 import contextlib
+import copy
 import dataclasses
 import functools
 import math
@@ -69,7 +70,8 @@ class Triangulation:
     iterations: Array  #: A row per iteration, structured; see Session.iterations.
     report: Report
     _used: Optional[Array] = dataclasses.field(repr=False)  # None: each point is used
-    _made_from: Tuple[Any, Any] = dataclasses.field(repr=False)  # arguments and keywords
+    #: Arguments and keywords, and the points that were inserted together.
+    _made_from: Tuple[Any, Any, Tuple[Array, ...]] = dataclasses.field(repr=False)
 
     @functools.cached_property
     def used_points(self) -> Array:
@@ -102,14 +104,62 @@ class Triangulation:
         field = self._make_field(values, method, fill_value, outside)
         return field.find(read_raster(origin, step, shape, field.values), progress)
 
+    def insert(self, points: Numbers, *, progress: Optional[Progress] = None) -> Triangulation:
+        """The triangulation of these points and more. Its triangles are those that `triangulate` would
+        make of all points, perhaps in another order. This triangulation stays as it is, and so do
+        interpolators.
+
+        The engine's triangulation goes over to the new one, and grows. So insert many points at a time,
+        such as 10,000, and go on with the new one: ``mesh = mesh.insert(points)``. If there are no
+        segments, nothing was removed, and all new points are in the hull, only the triangles around
+        them are made anew, otherwise all.
+
+        Args:
+            points: (k, 2) or (k, 3), as many columns as the others. They are numbered after all others
+                but those where segments cross, and get the precision of the others. Points at places of
+                others, or that are not finite, are not used. Their z is kept; heights of rings and lines
+                do not change. If the others are on a GPU, all arrays of the result are NumPy's.
+            progress: Called with the share of the work done, 0 to 1, if all is made anew; False stops it.
+
+        Raises:
+            ValueError: This triangulation was stopped before its end, or the points do not fit it.
+            delaunayflip.Stopped: progress has returned False.
+            InvalidMesh, MeshTooLarge, BackendUnavailable, MemoryError, TypeError.
+
+        Example:
+            >>> mesh = triangulate([[0, 0], [1, 0], [0, 1]])
+            >>> mesh.insert([[0.25, 0.25]]).triangles.shape
+            (3, 3)
+        """
+        answers = self.__dict__.get("_answers")
+        if answers is None or answers.is_shared:
+            answers = self._triangulate_again()
+        more, batch = answers.given.append(points)
+        self.__dict__.pop("_answers", None)
+        try:
+            answers = answers.insert(more, batch.struct, progress)
+            result = answers.store((*self._made_from[:2], (*self._made_from[2], batch.points)))
+        except _library.InvalidMesh as error:
+            error.args = (more.explain(str(error), error.ring), *error.args[1:])
+            raise
+        result.__dict__["_answers"] = answers
+        return result
+
     def _make_field(self, values, method, fill_value, outside):
         return Field(self._answers, values, method=method, fill_value=fill_value, outside=outside)
 
     @functools.cached_property
     def _answers(self):
+        return self._triangulate_again()
+
+    def _triangulate_again(self):
         if self.report.stop_reason == "aborted":
-            raise ValueError("the triangulation was stopped before its end, so it cannot be asked")
-        again, _ = run_points(*self._made_from, keeps=True)
+            raise ValueError("the triangulation was stopped before its end, so it cannot be asked, nor can "
+                             "points be inserted")
+        points, keywords, batches = self._made_from
+        again, _ = run_points(points, keywords, keeps=True)
+        for batch in batches:
+            again = again.insert(batch)
         if not numpy.array_equal(_arrays.to_host(again.triangles), _arrays.to_host(self.triangles)):
             raise ValueError("the points or segments have been changed since they were triangulated; "
                              "triangulate them again")
@@ -214,7 +264,7 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
         try:
             handle, room = stack.enter_context(
                 run("open_points", given.struct, options, given.make_room, progress, on_iteration))
-            result = given.store(handle, room, (points, keywords))
+            result = given.store(handle, room, (points, keywords, ()))
         except (_library.InvalidMesh, _library.InvalidOptions) as error:
             error.args = (given.explain(str(error), getattr(error, "ring", -1)), *error.args[1:])
             raise
@@ -331,6 +381,21 @@ class Input:
     def _add_segments(self, starts, ends, ring):
         self.segments.append(numpy.stack([starts, ends], axis=1))
         self.rings.append(numpy.full(len(starts), ring, dtype=numpy.int32))
+
+    def append(self, points):
+        """The Input of all points with more of them, and the Input of these."""
+        batch = Input(numpy.array(_arrays.to_host(_arrays.as_plane(points))))
+        columns = self.points.shape[1]
+        if len(batch.points) and batch.points.shape[1] != columns:
+            raise ValueError(f"points must have {columns} columns, as those of the triangulation, not "
+                             f"{batch.points.shape[1]}")
+        more = copy.copy(self)
+        own = _arrays.to_host(self.points)
+        more.points = numpy.concatenate([own, batch.points.reshape(-1, columns).astype(own.dtype)])
+        more.struct = type(self.struct).from_buffer_copy(self.struct)
+        more.struct.first_added = len(more.points)  # whose values are needed
+        more.trouble, more.ends = [], []
+        return more, batch
 
     def explain(self, text, ring=-1):
         """A message of the engine, which may name a ring, in the caller's words."""

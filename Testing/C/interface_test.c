@@ -486,6 +486,58 @@ static void TestQueries(void)
   delaunayflip_close(session);
 }
 
+/** A point in the middle of two triangles, of other precision; then one outside, and no further. */
+static void TestInsertion(void)
+{
+  const float middle[] = { 2, 0, 7 };
+  const double outside[] = { 5, 5 };
+  int64_t triangles[12];
+  delaunayflip_points points, more;
+  delaunayflip_callbacks callbacks;
+  delaunayflip_session* session = NULL;
+  const delaunayflip_mesh mesh = MakeMesh();
+  Log log = { 0, 1, 0.0 };
+  int i, used = 0;
+  delaunayflip_points_init(&points);
+  points.points = Points;
+  points.number_of_points = 4;
+  points.point_components = 3;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  delaunayflip_points_init(&more);
+  more.points = middle;
+  more.number_of_points = 1;
+  more.point_type = DELAUNAYFLIP_FLOAT32;
+  more.point_components = 3;
+  CHECK(delaunayflip_insert_points(session, &more, NULL) == DELAUNAYFLIP_OK);
+  CHECK(GetReport(session).points == 5 && GetReport(session).triangles == 4);
+  CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
+  for (i = 0; i < 12; ++i)
+  {
+    used += triangles[i] == 4;
+  }
+  CHECK(used == 4);
+  more.memory = DELAUNAYFLIP_CUDA;
+  CHECK(delaunayflip_insert_points(session, &more, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  more.memory = DELAUNAYFLIP_HOST;
+  more.number_of_points = INT64_C(1) << 48;
+  CHECK(delaunayflip_insert_points(session, &more, NULL) == DELAUNAYFLIP_MESH_TOO_LARGE);
+  more.number_of_points = 1;
+  more.points = outside;
+  more.point_type = DELAUNAYFLIP_FLOAT64;
+  more.point_components = 2;
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = LogProgress;
+  callbacks.user = &log;
+  CHECK(delaunayflip_insert_points(session, &more, &callbacks) == DELAUNAYFLIP_STOPPED);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  CHECK(GetReport(session).points == 6 && GetReport(session).triangles == 6);
+  delaunayflip_close(session);
+  CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_insert_points(session, &more, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  delaunayflip_close(session);
+}
+
 /** Two diagonals that cross, and a ring of one edge. Then a ring that is not closed. */
 static void TestDefects(void)
 {
@@ -543,6 +595,7 @@ int main(void)
   TestPoints();
   TestRings();
   TestQueries();
+  TestInsertion();
   TestDefects();
   return 0;
 }

@@ -45,6 +45,11 @@ def find_triangles(mesh, places):
     return numpy.where(has.any(axis=0), has.argmax(axis=0), -1)
 
 
+def list_corners(mesh):
+    """The places of the corners of each triangle."""
+    return {frozenset(map(tuple, corners)) for corners in mesh.points[mesh.triangles].tolist()}
+
+
 def clip(polygon, normal, limit):
     """The part of a convex polygon where normal * x <= limit."""
     kept = []
@@ -291,6 +296,40 @@ class Lifetime(unittest.TestCase):
         points[:100] = points[100:200] + 0.001
         with self.assertRaisesRegex(ValueError, "have been changed"):
             changed.locate(PLACES)
+
+    def test_points_are_inserted(self):
+        places = numpy.random.default_rng(8).random((250, 2))
+        values, more_values = plane(POINTS), plane(places)
+        for options in ({}, {"outline": SQUARE, "segments": [[[0.2, 0.2], [0.8, 0.8]], [[0.2, 0.8], [0.8, 0.2]]],
+                             "split_crossings": True}):
+            first = mesh = delaunayflip.triangulate(POINTS, **options)
+            crossings = mesh.report.crossings
+            inner = len(mesh.points) - crossings
+            kept = mesh.locate(PLACES)
+            for batch in (places[:100], places[100:], POINTS[:3], [[0.5, numpy.nan]], []):
+                mesh = mesh.insert(batch)
+            whole = delaunayflip.triangulate(numpy.concatenate([POINTS, places]), **options)
+            self.assertEqual(list_corners(mesh), list_corners(whole))
+            self.assertEqual(len(mesh.points), len(whole.points) + 4)
+            self.assertEqual(mesh.report.crossings, crossings)
+            numpy.testing.assert_array_equal(mesh.points[:inner], first.points[:inner])
+            numpy.testing.assert_array_equal(mesh.points[inner:inner + 250], places)
+            numpy.testing.assert_array_equal(mesh.used_points[inner + 250:inner + 253], [0, 1, 2])
+            numpy.testing.assert_array_equal(first.locate(PLACES), kept)  # triangulated again
+            found = mesh.interpolate(plane(mesh.points[:len(mesh.points) - crossings]), PLACES)
+            inside = mesh.locate(PLACES) >= 0
+            numpy.testing.assert_allclose(found[inside], plane(PLACES)[inside])
+            numpy.testing.assert_array_equal(pickle.loads(pickle.dumps(mesh)).locate(PLACES), mesh.locate(PLACES))
+        f = delaunayflip.LinearInterpolator(POINTS, bumps(POINTS))
+        expected = f(PLACES)
+        more = f.triangulation.insert(places.astype(numpy.float32))
+        numpy.testing.assert_array_equal(f(PLACES), expected)
+        self.assertEqual(len(more.interpolate(numpy.r_[values, more_values], PLACES)), len(PLACES))
+        with self.assertRaisesRegex(ValueError, "must have 2 columns"):
+            mesh.insert([[0.5, 0.5, 0.0]])
+        with self.assertRaises(delaunayflip.Stopped):
+            mesh.insert([[0.5, 0.6]], progress=lambda share: False)
+        numpy.testing.assert_array_equal(mesh.insert([[0.5, 0.6]]).points[-2], [0.5, 0.6])
 
     def test_copies(self):
         f = delaunayflip.NaturalNeighborInterpolator(POINTS, bumps(POINTS), outside="nearest",
