@@ -5,8 +5,6 @@
 #include "Arguments.h"
 #include "CommandError.h"
 #include "Console.h"
-#include "ConstraintEdges.h"
-#include "DataArrays.h"
 #include "DelaunayFlip.h"
 #include "HeightQuery.h"
 #include "InputRepair.h"
@@ -31,7 +29,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -103,61 +100,6 @@ double DiagonalOf(vtkPolyData* mesh)
     }
   }
   return box.IsValid() ? std::hypot(box.GetLength(0), box.GetLength(1), box.GetLength(2)) : 0.0;
-}
-
-/// Replaces whole words, except within quotes, where they are a name.
-void ReplaceWords(const std::string& from, const std::string& to, std::string& text)
-{
-  const auto isLetter = [&](std::size_t i)
-  { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
-  {
-    const std::size_t end = at + from.size();
-    const bool isQuoted = end < text.size() && text[end] == '"';
-    const bool isPart = isLetter(end) || (at > 0 && isLetter(at - 1));
-    if (isQuoted || isPart)
-    {
-      at = end;
-      continue;
-    }
-    text.replace(at, from.size(), to);
-    at += to.size();
-  }
-}
-
-/// The filter's message with options of the command for properties of the filter. It does not
-/// advise again what was asked for.
-std::string WithOptions(const std::string& message, const Arguments& given)
-{
-  std::string text = message;
-  std::string withoutDuplicates = "leave them out (--drop-duplicates)";
-  if (given.DropDuplicates)
-  {
-    withoutDuplicates = "they are parts of larger polygons, so run --drop-duplicates on the output";
-  }
-  std::string withMerged = "--merge-points joins those that lie at the same place";
-  if (given.MergePoints)
-  {
-    withMerged = "no two edges lie at the same place, even after --merge-points";
-  }
-  for (const auto& [property, option] :
-    { std::pair("vtkPolyDataNormals with ConsistencyOn", "--orient"),
-      std::pair("leave out such duplicates", withoutDuplicates.c_str()),
-      std::pair("RegionArray", "--region-array"), std::pair("Tolerance", "--tolerance"),
-      std::pair("SegmentHeights Own", "--heights own"),
-      std::pair("merge points that lie at the same place", withMerged.c_str()) })
-  {
-    ReplaceWords(property, option, text);
-  }
-  const auto replace = [&text](const std::string& name, const auto&)
-  {
-    std::string option = "--" + name;
-    std::replace(option.begin(), option.end(), '_', '-');
-    ReplaceWords(ToCamelCase(name), option, text);
-  };
-  const PointOptions options;
-  ForEachPointOption(replace, options);
-  return text;
 }
 
 /// @param failure a vtkDelaunayFlip::FailureType.
@@ -445,7 +387,7 @@ private:
         continue;
       }
       const vtkSmartPointer<vtkPolyData> mesh = this->ReadFile(path, Content::Segments);
-      this->TakeExactPlaces(mesh);
+      TakeExactPlaces(mesh, this->Input);
       if (mesh->GetPoints()->GetDataType() == VTK_DOUBLE &&
         this->Input->GetPoints()->GetDataType() == VTK_FLOAT)
       {
@@ -469,46 +411,6 @@ private:
                    "these files have are kept");
       }
     }
-  }
-
-  /// Makes floats doubles, as they become where another file has doubles. Those at a point of the
-  /// input, rounded, become that point.
-  void TakeExactPlaces(vtkPolyData* mesh) const
-  {
-    std::vector<double> storage, inputStorage;
-    const PointArray points = ViewPoints(mesh, storage);
-    const PointArray inputPoints = ViewPoints(this->Input, inputStorage);
-    if (!points.Floats || inputPoints.Floats)
-    {
-      return;
-    }
-    PointPlaces places(true);
-    std::vector<std::int64_t> placeOf(points.Count);
-    for (std::int64_t i = 0; i < points.Count; ++i)
-    {
-      placeOf[i] = places.Add(points, i);
-    }
-    std::vector<std::int64_t> inputAt(places.GetNumberOfPlaces(), PointPlaces::None);
-    for (std::int64_t i = inputPoints.Count - 1; i >= 0; --i)
-    {
-      const std::int64_t place = places.Find(inputPoints, i);
-      if (place != PointPlaces::None)
-      {
-        inputAt[place] = i;
-      }
-    }
-    const vtkNew<vtkPoints> exact;
-    exact->SetDataTypeToDouble();
-    exact->DeepCopy(mesh->GetPoints());
-    for (std::int64_t i = 0; i < points.Count; ++i)
-    {
-      const std::int64_t same = inputAt[placeOf[i]];
-      if (same != PointPlaces::None)
-      {
-        exact->SetPoint(i, this->Input->GetPoint(same));
-      }
-    }
-    mesh->SetPoints(exact);
   }
 
   void Warn(const std::string& warning)

@@ -2,15 +2,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunReport.h"
 
+#include "Arguments.h"
+#include "PointTriangulation.h"
+
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace delaunayflip
 {
+
+namespace
+{
+/// Replaces whole words, except within quotes, where they are a name.
+void ReplaceWords(const std::string& from, const std::string& to, std::string& text)
+{
+  const auto isLetter = [&](std::size_t i)
+  { return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0; };
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
+  {
+    const std::size_t end = at + from.size();
+    const bool isQuoted = end < text.size() && text[end] == '"';
+    const bool isPart = isLetter(end) || (at > 0 && isLetter(at - 1));
+    if (isQuoted || isPart)
+    {
+      at = end;
+      continue;
+    }
+    text.replace(at, from.size(), to);
+    at += to.size();
+  }
+}
+}
+
+std::string WithOptions(const std::string& message, const Arguments& given)
+{
+  std::string text = message;
+  std::string withoutDuplicates = "leave them out (--drop-duplicates)";
+  if (given.DropDuplicates)
+  {
+    withoutDuplicates = "they are parts of larger polygons, so run --drop-duplicates on the output";
+  }
+  std::string withMerged = "--merge-points joins those that lie at the same place";
+  if (given.MergePoints)
+  {
+    withMerged = "no two edges lie at the same place, even after --merge-points";
+  }
+  for (const auto& [property, option] :
+    { std::pair("vtkPolyDataNormals with ConsistencyOn", "--orient"),
+      std::pair("leave out such duplicates", withoutDuplicates.c_str()),
+      std::pair("RegionArray", "--region-array"), std::pair("Tolerance", "--tolerance"),
+      std::pair("SegmentHeights Own", "--heights own"),
+      std::pair("merge points that lie at the same place", withMerged.c_str()) })
+  {
+    ReplaceWords(property, option, text);
+  }
+  const auto replace = [&text](const std::string& name, const auto&)
+  {
+    std::string option = "--" + name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    ReplaceWords(ToCamelCase(name), option, text);
+  };
+  const PointOptions options;
+  ForEachPointOption(replace, options);
+  return text;
+}
 
 std::string MakeJson(const RunReport& run)
 {

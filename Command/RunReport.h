@@ -15,6 +15,8 @@
 namespace delaunayflip
 {
 
+struct Arguments;
+
 /// The engine's report, and the times of the steps outside it.
 struct RunReport
 {
@@ -36,6 +38,10 @@ std::string MakeCsv(const FlipReport& flip);
 
 /// The summary and the times, in two columns.
 std::string MakeSummary(const RunReport& run);
+
+/// The filter's message with options of the command for properties of the filter. It does not
+/// advise again what was asked for.
+std::string WithOptions(const std::string& message, const Arguments& given);
 
 }
 

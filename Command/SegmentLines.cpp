@@ -3,11 +3,14 @@
 #include "SegmentLines.h"
 
 #include "CommandError.h"
+#include "ConstraintEdges.h"
+#include "DataArrays.h"
 #include "Formats.h"
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 
 #include <algorithm>
 #include <array>
@@ -188,6 +191,44 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
     made->SetPolys(segments);
   }
   return made;
+}
+
+void TakeExactPlaces(vtkPolyData* mesh, vtkPolyData* input)
+{
+  std::vector<double> storage, inputStorage;
+  const PointArray points = ViewPoints(mesh, storage);
+  const PointArray inputPoints = ViewPoints(input, inputStorage);
+  if (!points.Floats || inputPoints.Floats)
+  {
+    return;
+  }
+  PointPlaces places(true);
+  std::vector<std::int64_t> placeOf(points.Count);
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    placeOf[i] = places.Add(points, i);
+  }
+  std::vector<std::int64_t> inputAt(places.GetNumberOfPlaces(), PointPlaces::None);
+  for (std::int64_t i = inputPoints.Count - 1; i >= 0; --i)
+  {
+    const std::int64_t place = places.Find(inputPoints, i);
+    if (place != PointPlaces::None)
+    {
+      inputAt[place] = i;
+    }
+  }
+  const vtkNew<vtkPoints> exact;
+  exact->SetDataTypeToDouble();
+  exact->DeepCopy(mesh->GetPoints());
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    const std::int64_t same = inputAt[placeOf[i]];
+    if (same != PointPlaces::None)
+    {
+      exact->SetPoint(i, input->GetPoint(same));
+    }
+  }
+  mesh->SetPoints(exact);
 }
 
 }

@@ -18,6 +18,10 @@ namespace delaunayflip
 vtkSmartPointer<vtkPolyData> MakeSegments(
   vtkPolyData* mesh, const std::string& path, bool areBreaklines);
 
+/// Makes floats doubles, as they become where another file has doubles. Those at a point of the
+/// input, rounded, become that point.
+void TakeExactPlaces(vtkPolyData* mesh, vtkPolyData* input);
+
 }
 
 #endif
