@@ -11,8 +11,9 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from . import _library
 from ._ask import METHODS, OUTSIDES, Field, Places, read_places
 from ._vtk_filter import (
-    Property, _copy, _drop_results, _has_partitions, _list_leaves, finish, vtkDelaunayFlipPoints)
+    _copy, _drop_results, _has_partitions, _list_leaves, vtkDelaunayFlipPoints)
 from ._vtk_mesh import _add_attributes, _find_attributes, _is_among, _list_arrays, vtk_of
+from ._vtk_properties import Property, finish
 
 _MASK = "vtkValidPointMask"  # as vtkProbeFilter calls it
 
