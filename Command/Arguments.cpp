@@ -170,8 +170,8 @@ void AddReadOptions(CLI::App& app, Arguments& arguments)
   AddFile(app, "INPUT", arguments.Input, "The mesh or the points to read")->required();
   app.add_flag("--merge-points", arguments.MergePoints,
     "First join points of the input at the same place, as in a file that lists the corners of "
-    "each triangle. The merged point keeps the data of the first one. Triangles that collapse, "
-    "and points that no cell uses, are left out");
+    "each triangle. The merged point keeps the data of the first one. Triangles that collapse are "
+    "left out and counted, with the first cell ids. Points that no cell uses are left out");
   app.add_flag("--drop-duplicates", arguments.DropDuplicates,
     "Keep only the first of several triangles with the same three corners. Otherwise their edges "
     "could not flip");
