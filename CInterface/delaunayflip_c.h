@@ -319,6 +319,7 @@ extern "C"
     int64_t triangles_below_20_after;
     int64_t triangles_below_30_before;
     int64_t triangles_below_30_after;
+    int64_t left_out_rings; /**< From points: they have no area, or the edges of an earlier one. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns

@@ -307,6 +307,7 @@ void ForEachNumber(const Visit& visit, Reports&... reports)
   visit("triangles_below_20_after", main, reports.TrianglesBelow20After...);
   visit("triangles_below_30_before", main, reports.TrianglesBelow30Before...);
   visit("triangles_below_30_after", main, reports.TrianglesBelow30After...);
+  visit("left_out_rings", points, reports.FromPoints.LeftOutRings...);
 }
 
 /// Called on the calling thread for every iteration; returning false aborts the run. Some

@@ -158,6 +158,7 @@ struct PointCounts
   double LargestShift = 0.0; ///< How far rounding has moved one of them at most.
   std::int64_t OutsideTriangles = 0; ///< Removed outside rings and around hole seeds.
   std::int64_t LargeTriangles = 0; ///< Removed by Alpha and LongestEdge.
+  std::int64_t LeftOutRings = 0; ///< They have no area, or the edges of an earlier one.
 };
 
 }

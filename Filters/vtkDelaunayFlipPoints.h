@@ -32,8 +32,8 @@
  * names begin with "DelaunayFlip:", too: UsedPoints, PointsNotFinite, RepeatedPoints, PointsTooNear
  * (see PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
  * Crossings (the points added where segments cross), LargestShift (how far rounding has moved one
- * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by
- * Alpha and LongestEdge).
+ * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by Alpha and
+ * LongestEdge) and LeftOutRings.
  *
  * Some points are not used. If several are at one place in the plane, only the one with the lowest
  * id is used, for any z. Points with a NaN or infinite coordinate are not used, but in XY their z

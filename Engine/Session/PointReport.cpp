@@ -83,6 +83,8 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
   }
   counts.OutsideTriangles = result.Kept.Outside;
   counts.LargeTriangles = result.Kept.Large;
+  counts.LeftOutRings =
+    SizeOf(ListRingsWithoutArea(points, result.Kept)) + SizeOf(result.Kept.RepeatedRings);
   report.Points = points.GetCaller().Points.Count;
   report.InsertedConstraints = result.Inserted;
   report.UnmatchedConstraints = counts.RefusedSegments;

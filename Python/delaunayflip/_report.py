@@ -88,6 +88,7 @@ class Report:
     triangles_below_20_after: int = 0
     triangles_below_30_before: int = 0
     triangles_below_30_after: int = 0
+    left_out_rings: int = 0  #: They have no area, or the edges of an earlier one.
 
     @property
     def converged(self) -> bool:
@@ -103,7 +104,7 @@ MAIN_NUMBERS = ("total_flips", "non_delaunay_after", "blocked_by_shape", "blocke
                 *(field.name for field in dataclasses.fields(Report) if field.name.startswith("triangles_below_")))
 POINT_NUMBERS = ("points_not_finite", "repeated_points", "points_too_near", "segment_edges",
                  "refused_segments", "crossings", "largest_shift", "outside_triangles", "large_triangles",
-                 "used_points")
+                 "used_points", "left_out_rings")
 _TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
 _NAMES = tuple(field.name for field in dataclasses.fields(Report))
 _TEXTS = [field.name for field in dataclasses.fields(Report)[2:] if field.type is str]

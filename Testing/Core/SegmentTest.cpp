@@ -542,6 +542,7 @@ TEST(Outline, RingsWithoutAreaAreLeftOut)
     const Triangulation result = Triangulate(drawing, options);
     EXPECT_EQ(2.0 * 196, SumArea(drawing.Points, result.Triangles));
     EXPECT_EQ(4 + edges, result.Report.FromPoints.SegmentEdges);
+    EXPECT_EQ(1, result.Report.FromPoints.LeftOutRings);
     EXPECT_EQ("1 ring without an area, left out (first: 1)",
       DescribeDefects({ result.Report.Defects.back() }));
   }
@@ -570,6 +571,7 @@ TEST(Outline, RingsThatAreGivenTwiceCountOnce)
     EXPECT_EQ(2.0 * 87, SumArea(drawing.Points, result.Triangles));
     std::vector<Defect> defects = result.Report.Defects;
     defects.erase(defects.begin()); // points of equal places
+    EXPECT_EQ(3, result.Report.FromPoints.LeftOutRings);
     EXPECT_EQ("3 rings with the edges of an earlier one, left out (first: 1, 3, 4); 1 ring with a "
               "loop that is run more than once, counted once (first: 5)",
       DescribeDefects(defects));

@@ -137,6 +137,7 @@ class Triangulate(unittest.TestCase):
                     result = delaunayflip.triangulate(points, **{name: ring})
                 with self.assertWarnsRegex(UserWarning, "without an area, left out"):
                     self.assertAlmostEqual(area(**{name: ring}), whole)
+                self.assertGreater(result.report.left_out_rings, 0)
                 self.assertRegex(
                     result.report.defects, rf"rings? without an area, left out \(first: ring 0 of {name}")
         with self.assertWarnsRegex(
