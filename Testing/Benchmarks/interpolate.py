@@ -7,9 +7,9 @@
       [--points 1000000] [--cells 4000000] [--threads 1,2] [--rounds 3] [--all]
 
 The places are the centres of a square raster of about so many cells, row by row ("raster") and shuffled
-("random"). In every round each program runs once, in random order, so a busy machine slows all of them
-alike. Printed are the median seconds from points to an interpolator, the median of a million places per
-second for each question, and how many times as many as ours on the first number of threads.
+("random"). A row has the median seconds from points to an interpolator, the median of a million places
+per second for each question, and how many times as many as ours on the first number of threads. Each row
+is printed as soon as it is measured, ours first.
 
 threads: N  LinearInterpolator and NaturalNeighborInterpolator; rasters by raster()
 cuda        the same on a GPU, from and to arrays of NumPy
@@ -19,12 +19,13 @@ matplotlib  LinearTriInterpolator; above 100,000 points, where it takes minutes,
 startinpy   interpolate(), TIN and NNI
 cupyx       cupyx.scipy.interpolate.LinearNDInterpolator
 
-Slow ones get a share of the places. What is not installed is named and left out.
+A program begins no new round after 20 seconds. Others are asked about as many places as they find in two
+seconds, and get a tenth of the points, which their row says, if all would take more than 20 seconds. What
+is not installed is named and left out.
 """
 import argparse
 import functools
 import importlib
-import random
 import statistics
 import time
 
@@ -34,6 +35,8 @@ import delaunayflip
 
 QUESTIONS = ("linear raster", "linear random", "natural raster", "natural random")
 MOST_OF_MATPLOTLIB = 100_000  # points
+SECONDS = 20.0  # of a program, after which it begins no new round
+SECONDS_OF_OTHERS = 2.0  # for one question
 KINDS = {"linear": delaunayflip.LinearInterpolator, "natural": delaunayflip.NaturalNeighborInterpolator}
 
 
@@ -53,7 +56,7 @@ class Data:
 
 
 class Ours:
-    share = 1.0  # of the places
+    note = ""
 
     def __init__(self, data, move=numpy.asarray, wait=lambda: None, **options):
         self._data, self._options, self._wait = data, options, wait
@@ -65,9 +68,10 @@ class Ours:
         self._wait()
 
     def ask(self, method, order):
+        """A function that asks, and about how many places."""
         if method not in self._interpolators:
             self._interpolators[method] = KINDS[method](self._points, self._values, **self._options)
-        return functools.partial(self._ask, self._interpolators[method], order)
+        return functools.partial(self._ask, self._interpolators[method], order), self._data.side ** 2
 
     def _ask(self, interpolator, order):
         side = self._data.side
@@ -82,26 +86,34 @@ class Theirs:
     """Another library. `build` returns a function that interpolates linearly by places, and one that does
     it by natural neighbours or None."""
 
-    def __init__(self, data, share, build, move=numpy.asarray, wait=lambda: None):
-        self.share, self._make, self._wait = share, build, wait
-        few = slice(0, max(1, int(share * data.side ** 2)))
-        self._places = {order: move(places[few]) for order, places in data.places.items()}
-        self._points, self._values = move(data.points), move(data.values)
+    def __init__(self, data, build, move=numpy.asarray, wait=lambda: None):
+        self._make, self._wait, self.note = build, wait, ""
+        self._places = {order: move(places) for order, places in data.places.items()}
+        few = slice(len(data.points) // 10)
+        self._points, self._values = move(data.points[few]), move(data.values[few])
+        self.build()  # for the first time, with all that is imported and compiled
+        if 10 * measure(self.build) < SECONDS:
+            self._points, self._values = move(data.points), move(data.values)
+        else:
+            self.note = f" ({len(self._points):,} points)"
 
     def build(self):
         self._functions = self._make(self._points, self._values)
         self._wait()
 
     def ask(self, method, order):
-        function = self._functions[method == "natural"]
+        """As that of Ours; None: it does not know the method."""
+        function, places, count = self._functions[method == "natural"], self._places[order], 1000
         if function is None:
             return None
 
         def ask():
-            function(self._places[order])
+            function(places[:count])
             self._wait()
 
-        return ask
+        ask()
+        count = min(len(places), max(count, int(count * SECONDS_OF_OTHERS / measure(ask))))
+        return ask, count
 
 
 def build_scipy(points, values):
@@ -128,9 +140,11 @@ def build_cupyx(points, values):
 
 
 def list_programs(data, threads, takes_all):
-    """Pairs of a name and a program, and the names of those that are left out."""
-    programs = [(f"threads: {count}", Ours(data, backend="threads", threads=count)) for count in threads]
-    absent = []
+    """Pairs of a name and a function that makes a program, ours first, and the names of those that are left
+    out."""
+    programs = [(f"threads: {count}", functools.partial(Ours, data, backend="threads", threads=count))
+                for count in threads]
+    absent, others = [], []
 
     def find(name):
         try:
@@ -144,23 +158,23 @@ def list_programs(data, threads, takes_all):
         absent.append("cuda (no GPU)")
         cupy = torch = None
     else:
-        programs.append(("cuda", Ours(data, backend="cuda")))
+        programs.append(("cuda", functools.partial(Ours, data, backend="cuda")))
     if cupy:
         wait = cupy.cuda.runtime.deviceSynchronize
-        programs.append(("cuda, cupy", Ours(data, cupy.asarray, wait)))
-        programs.append(("cupyx", Theirs(data, 1.0, build_cupyx, cupy.asarray, wait)))
+        programs.append(("cuda, cupy", functools.partial(Ours, data, cupy.asarray, wait)))
+        others.append(("cupyx", functools.partial(Theirs, data, build_cupyx, cupy.asarray, wait)))
     if torch:
-        programs.append(("cuda, torch", Ours(data, lambda one: torch.as_tensor(one, device="cuda"),
-                                             torch.cuda.synchronize)))
+        programs.append(("cuda, torch", functools.partial(
+            Ours, data, lambda one: torch.as_tensor(one, device="cuda"), torch.cuda.synchronize)))
     if find("scipy"):
-        programs.append(("scipy", Theirs(data, 0.02, build_scipy)))
+        others.append(("scipy", functools.partial(Theirs, data, build_scipy)))
     if not takes_all and len(data.points) > MOST_OF_MATPLOTLIB:
         absent.append("matplotlib (too many points)")
     elif find("matplotlib"):
-        programs.append(("matplotlib", Theirs(data, 0.02, build_matplotlib)))
+        others.append(("matplotlib", functools.partial(Theirs, data, build_matplotlib)))
     if find("startinpy"):
-        programs.append(("startinpy", Theirs(data, 0.005, build_startinpy)))
-    return programs, absent
+        others.append(("startinpy", functools.partial(Theirs, data, build_startinpy)))
+    return programs + others, absent
 
 
 def measure(function):
@@ -169,16 +183,17 @@ def measure(function):
     return time.perf_counter() - begin
 
 
-def run(programs, rounds, cells):
-    """By program, a list of seconds to build and of places per second for each question."""
-    found = {name: {question: [] for question in ("build", *QUESTIONS)} for name, _ in programs}
-    for _ in range(rounds):
-        for name, program in random.sample(programs, len(programs)):
-            found[name]["build"].append(measure(program.build))
-            for question in QUESTIONS:
-                ask = program.ask(*question.split())
-                if ask:
-                    found[name][question].append(program.share * cells / measure(ask))
+def run(program, rounds):
+    """Lists of seconds to build and of places per second for each question."""
+    found, begin = {question: [] for question in ("build", *QUESTIONS)}, time.perf_counter()
+    for number in range(rounds):
+        if number and time.perf_counter() - begin > SECONDS:
+            break
+        found["build"].append(measure(program.build))
+        for question in QUESTIONS:
+            asked = program.ask(*question.split())
+            if asked:
+                found[question].append(asked[1] / measure(asked[0]))
     return found
 
 
@@ -192,20 +207,21 @@ def main():
     arguments = parser.parse_args()
     data = Data(arguments.points, arguments.cells)
     programs, absent = list_programs(data, arguments.threads, arguments.all)
-    found = run(programs, arguments.rounds, data.side ** 2)
     print(f"{arguments.points:,} points, {data.side ** 2:,} places, {arguments.rounds} rounds; threads: 0 "
           "takes all")
-    print(f"{'':14}{'seconds':>10}" + "".join(f"{question:>24}" for question in QUESTIONS))
-    first = found[programs[0][0]]
-    for name, _ in programs:
-        line = f"{name:14}{statistics.median(found[name]['build']):10.3f}"
-        for question in QUESTIONS:
-            rates = found[name][question]
+    print(f"{'':28}{'seconds':>10}" + "".join(f"{question:>24}" for question in QUESTIONS), flush=True)
+    first = None
+    for name, make in programs:
+        program = make()
+        found = run(program, arguments.rounds)
+        first = first or found
+        line = f"{name + program.note:28}{statistics.median(found['build']):10.3f}"
+        for question, rates in list(found.items())[1:]:
             rate = statistics.median(rates) if rates else 0.0
             ratio = rate / statistics.median(first[question])
             text = f"{rate / 1e6:.3g} M/s ({ratio:.3g} x)" if rates else "-"
             line += f"{text:>24}"
-        print(line)
+        print(line, flush=True)
     for name in absent:
         print(f"left out: {name}")
 
