@@ -400,6 +400,10 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
     return;
   }
   const auto given = FindSource(block, sources);
+  if (given->GetNumberOfPoints() == 0)
+  {
+    summary.Warnings.push_back({ block.Name, "the source has no points, so there are no values" });
+  }
   const auto third = Hold(this->GetInputDataObject(this->SegmentsPort, 0));
   const auto segments = FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL));
   const auto points = this->ReadPoints(given);
@@ -408,6 +412,10 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   request.Input = points;
   request.Others = segments;
   request.FillsData = true; // zeros of points of segments would be seen
+  if (elevation.empty() && request.Heights == HeightsKind::Auto)
+  {
+    request.Heights = HeightsKind::Own; // nobody has to be told of z
+  }
   request.IsLive = true; // keeps the run
   request.IterationsPerUpdate = -1;
   const auto progress = request.Progress;

@@ -223,13 +223,12 @@ def move(array, like):
     return _view("values", array, _library_name(like))
 
 
-def put(results, triangles, inside, values):
-    """Writes values, a number or an array like the results, where places are inside of triangles (0) or
-    outside (-1)."""
+def put(results, triangles, values):
+    """Writes values, a number or an array like the results, where places are in no triangle."""
     if _library_name(results) == "numba":
         raise TypeError("arrays of Numba take no fill_value and no soft breaklines; cupy.asarray views "
                         "them without a copy")
-    where = triangles >= 0 if inside == 0 else triangles < 0
+    where = triangles < 0
     results[where] = values[where] if hasattr(values, "shape") else values
 
 
@@ -325,6 +324,8 @@ def join_columns(x, y):
 def as_values(values):
     """Values of points in two dimensions, float64, and the shape of those of a point."""
     adapter, values = _adapt(values)
+    if "complex" in str(getattr(values, "dtype", "")):  # of which libraries drop the imaginary part
+        raise TypeError(f"values must be real numbers, not {values.dtype}")
     values = adapter.as_doubles(values)
     shape = tuple(values.shape)
     if len(shape) == 0 or 0 in shape[1:]:

@@ -114,6 +114,8 @@ class Answers:
             struct.values, struct.value_components = address(values), values.shape[1]
             struct.results, struct.method = address(results), field.method
             struct.outside = int(field.outside == "nearest")
+            if len(values) == 0:  # then the engine is asked for none
+                results[:] = math.nan
         with self._alone(), observe(progress) as callbacks:
             if count:
                 _library.call("ask", self._handle, struct, callbacks)
@@ -146,8 +148,8 @@ class Field:
     """Values of the points of a session, and how they are interpolated."""
 
     def __init__(self, answers, values, *, method, outside, fill_value, soft=None):
-        """`soft`: the Answers of the same points without segments, for the values inside."""
-        self._answers, self._soft = answers, soft
+        """`soft`: the Answers of the same points without segments, which have all values."""
+        self._answers, self._soft, self._spots = answers, soft, None
         self.method = choose("method", method, METHODS)
         self.outside = OUTSIDES[choose("outside", outside, OUTSIDES)]
         self._fill_value = to_number("fill_value", fill_value)
@@ -155,6 +157,9 @@ class Field:
             raise ValueError(f"fill_value has no effect with outside={outside!r}; leave one of them out")
         flat, self._shape = _arrays.as_values(values)
         self.values = self._near = answers.given.complete_values(flat)
+        if soft and outside == "nearest":  # interpolated there, coordinates are the nearest place
+            corners = _arrays.to_host(answers.given.points)[:, :2]
+            self._spots = Field(answers, corners, method="linear", outside=outside, fill_value=math.nan)
 
     def get_near(self, like):
         """The values in the memory of an array. The last copy is kept."""
@@ -168,16 +173,24 @@ class Field:
     def find_both(self, places, progress=None, wants_triangles=True):
         """The triangles, if they are wanted or needed, and the values, in two dimensions."""
         is_filled = not math.isnan(self._fill_value)
-        wants_triangles |= is_filled or self.outside == "error" or self._soft is not None
-        first = halve(progress, 0.0) if self._soft else progress
-        triangles, results = self._answers.ask(places, self, wants_triangles, first)
+        wants_triangles |= is_filled or self.outside == "error"
         if self._soft:
-            inside = self._soft.ask(places, self, False, halve(progress, 0.5))[1]
-            _arrays.put(results, triangles, 0, inside)
+            triangles, results = self._find_softly(places, progress)
+        else:
+            triangles, results = self._answers.ask(places, self, wants_triangles, progress)
         if self.outside == "error":
             _require_inside(_arrays.to_host(triangles) < 0, places.shape)
         if is_filled:
-            _arrays.put(results, triangles, -1, self._fill_value)
+            _arrays.put(results, triangles, self._fill_value)
+        return triangles, results
+
+    def _find_softly(self, places, progress):
+        """Segments say what is outside, and the triangulation without them has the values."""
+        triangles, spots = self._answers.ask(places, self._spots, True, halve(progress, 0.0))
+        results, beyond = self._soft.ask(places, self, False, halve(progress, 0.5))[1], math.nan
+        if spots is not None:
+            beyond = self._soft.ask(read_places([spots]), self, False)[1]
+        _arrays.put(results, triangles, beyond)
         return triangles, results
 
 

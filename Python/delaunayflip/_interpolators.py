@@ -51,8 +51,8 @@ class LinearInterpolator:
             triangles. "error": a ValueError tells how many places are outside.
         breaklines: "hard": triangles, and natural neighbours, end at segments. "soft": segments, and
             the edges of rings, only say what is outside; the values inside come from the triangulation
-            of the same points without them, and without crossings. Those of outside="nearest" do not,
-            so values may jump at the boundary.
+            of the same points without them, and without crossings, also at the nearest places of
+            outside="nearest".
         backend, threads, device, and all that follow progress: As for `triangulate`.
         progress: Called with the share of the triangulation done, 0 to 1; False stops it.
 

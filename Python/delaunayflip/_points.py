@@ -49,6 +49,10 @@ Struct = _library.make_struct("Points", (
     (c_double, "point_tolerance alpha longest_edge"), (c_int32, "ring_rule split_crossings memory"),
     (c_void_p, "stream"), (c_int32, "first_hole"), (c_int64, "first_added")))
 
+# Kinds of defects that are warned of: the caller gave something that is not used as it is.
+_WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
+              "rings without area", "rings repeated", "rings run again", "hole points outside")
+
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Triangulation:
@@ -195,7 +199,7 @@ def triangulate(
             than all the rest. If several points are at one place, the one with the lowest id is used.
             Points with NaN or infinite x or y are not used.
         segments: (k, 2) point ids: edges that the triangulation must have. One that passes through
-            points is split there; one that crosses an earlier one is refused and reported. Or a list of
+            points is split there; one that crosses an earlier one is left out, with a warning. Or a list of
             lines, each an array of coordinates, (m, 2) or (m, 3), which become points as those of rings.
         outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of
             point ids, or of coordinates, which become points: (k, 2), or (k, 3) of floats; see heights. It
@@ -410,13 +414,14 @@ class Input:
     def _describe_defects(self, handle):
         """The defects as one text. Notes those that are warned of."""
         texts = []
-        for kind, ids, text in _report.list_defects(handle):
-            if kind in ("rings without area", "rings repeated", "rings run again", "hole points outside"):
-                if self._ring_names and kind != "hole points outside":
+        for kind, ids, given in _report.list_defects(handle):
+            text = self.explain(given)
+            if kind in _WARNED_OF:
+                if self._ring_names and kind.startswith("rings"):
                     named = ", ".join(map(self._name_ring, ids))
                     text = f"{text.partition(' (first: ')[0]} (first: {named})"
                 self.trouble.append(text)
-            texts.append(self.explain(text))
+            texts.append(text)
         return "; ".join(texts)
 
     def find_flat_points(self, given, segments, rings):

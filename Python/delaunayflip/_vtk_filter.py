@@ -552,13 +552,17 @@ class vtkDelaunayFlipPoints(Filter):
             return self._pass(data, output, "aborted" if count else "converged")
         return self._triangulate(data, segments, output, self._observe_part(1.0))[1]
 
-    def _triangulate(self, data, segments, output, progress, keeps=False):
-        """Returns the Triangulation, whose session is kept or not, and the text of a warning, or ""."""
+    def _triangulate(self, data, segments, output, progress, *, keeps=False, has_heights=True):
+        """Returns the Triangulation, whose session is kept or not, and the text of a warning, or "".
+        Without heights nobody has to be told of z."""
+        heights = HEIGHTS[self.segment_heights]
+        if heights is None and not has_heights:
+            heights = "own"
         options = self._get_options("backend", *POINT_OPTIONS)
         cloud = Cloud(
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
             closed_lines_as_rings=self.closed_lines_as_rings, ring_rule=RING_RULES[self.ring_rule],
-            heights=HEIGHTS[self.segment_heights], fills_data=keeps,
+            heights=heights, fills_data=keeps,
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
         cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")

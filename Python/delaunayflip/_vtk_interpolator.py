@@ -74,6 +74,8 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         if source is None:
             raise _library.InvalidMesh("the source has no points (vtkPointSet) at the same place")
         source, segments, mesh = _drop_results(source), self._find_segments(), vtkPolyData()
+        if source.GetNumberOfPoints() == 0:
+            self._warnings.append((self._where, "the source has no points, so there are no values"))
         elevation = self._choose_arrays(source)
         count = source.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments else 0)
         if count == 0:
@@ -83,7 +85,8 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
             return self._write(places, columns, found, output)
         if self._is_abort_requested():
             return self._pass(places, output, "aborted")
-        result, trouble = self._triangulate(source, segments, mesh, self._observe_part(0.5), keeps=True)
+        result, trouble = self._triangulate(
+            source, segments, mesh, self._observe_part(0.5), keeps=True, has_heights=bool(elevation))
         if result.report.stop_reason == "aborted":
             return self._pass(places, output, "aborted") or trouble
         columns = Columns(source, mesh, elevation)

@@ -179,18 +179,22 @@ def interpolate(
         >>> delaunayflip.pyvista.interpolate(cloud, image)["Elevation"].tolist()
         [0.0, 1.0, 2.0, 2.0, 3.0, 4.0, 4.0, 5.0, 6.0]
     """
+    if not hasattr(onto, "GetPointData"):
+        raise TypeError(f"onto must be a dataset with points, not {type(onto).__name__}")
     given = _read_cloud(
         cloud, segments, outline, holes, options, heights=heights, fills_data=True,
         **{name: options.pop(name) for name in _CLOUD_OPTIONS if name in options})
     inspect.signature(_triangulate_arrays).bind(given, **options)  # refuses unknown ones
     result, _ = run_points(given, options, halve(progress, 0.0), keeps=True)
     mesh, made = pyvista.PolyData(), onto.copy(deep=False)
-    _warn(given.write(result, mesh))
+    nothing = "" if cloud.GetNumberOfPoints() else "the cloud has no points, so there are no values"
+    _warn("; ".join(filter(None, (nothing, given.write(result, mesh)))))
     if result.report.stop_reason == "aborted":
         raise Stopped("stopped by progress")
     arrays = _list_numbers(cloud.GetPointData(), mesh.point_data)
     arrays.setdefault("Elevation", mesh.points[:, 2])
-    columns = [numpy.reshape(array, (len(result.points), -1)).astype(float) for array in arrays.values()]
+    columns = [numpy.reshape(array, (len(array), math.prod(array.shape[1:]))).astype(float)
+               for array in arrays.values()]
     field = Field(result._answers, numpy.concatenate(columns, axis=1), method=method, outside=outside,
                   fill_value=math.nan)
     triangles, values = field.find_both(read_places([onto.points]), halve(progress, 0.5))

@@ -373,7 +373,11 @@ TEST(Interpolator, NothingToInterpolate)
   EXPECT_EQ(Update(nowhere)->GetArray("Elevation")->GetNumberOfTuples(), 0);
   Interpolator empty(MakeImage());
   empty->SetSourceData(nothing);
-  EXPECT_EQ(GetValues(Update(empty), "vtkValidPointMask"), std::vector<double>(21 * 17 * 2));
+  empty->Update();
+  EXPECT_EQ(GetValues(empty->GetOutput()->GetPointData(), "vtkValidPointMask"),
+    std::vector<double>(21 * 17 * 2));
+  ASSERT_EQ(empty.GetWarnings().size(), 1u);
+  EXPECT_NE(empty.GetWarnings()[0].find("source has no points"), std::string::npos);
   const auto line = MakeMesh({ { 0, 0, 1 }, { 1, 1, 2 }, { 2, 2, 3 } }, {});
   Interpolator collinear(MakePlaces());
   collinear->SetSourceData(line);

@@ -141,6 +141,13 @@ class Values(unittest.TestCase):
             cut = kind(points, points[:, 0], breaklines="soft", **ring)
             self.assertAlmostEqual(float(cut(2.75, 2.5)), 3.0, delta=0.02)
             self.assertEqual(cut.locate(2.75, 2.5), -1)
+            ridge = numpy.r_[values, 9, 9]  # what only the segments bend
+            edge = {"segments": [[125, 126]], "breaklines": "soft", "outside": "nearest"}
+            bent = kind(numpy.r_[all_points, [[3, 2], [3, 3]]], ridge, holes=[[125, 126, 121]], **edge)
+            beside = numpy.array([[2.999999, 2.5], [3.000001, 2.5], [3.9, 4.5], [3, 2.5]])
+            self.assertEqual((bent.locate(beside[:2]) < 0).tolist(), [False, True])
+            self.assertAlmostEqual(*bent(beside[:2]), delta=1e-4)
+            self.assertAlmostEqual(bent(beside[1:2])[0], bent.raster((3.000001, 2.5), 1, (1, 1))[0, 0])
 
     def test_outside(self):
         away = numpy.array([[0.5, 0.5], [3, 0.5], [numpy.nan, 0]])
@@ -262,8 +269,16 @@ class Arrays(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # heights of points do not matter
             delaunayflip.LinearInterpolator(numpy.c_[POINTS, plane(POINTS)], plane(POINTS), **rings)
-        with self.assertWarnsRegex(UserWarning, "ring 0 of outline"):
-            delaunayflip.LinearInterpolator(POINTS, plane(POINTS), outline=[[0.1, 0.1], [0.2, 0.2]])
+        crossed = numpy.array([[0.1, 0.1], [0.9, 0.9], [0.1, 0.9], [0.9, 0.1], [0.5, numpy.inf]])
+        for options, text in (
+                ({"outline": [[0.1, 0.1], [0.2, 0.2]]}, "ring 0 of outline"),
+                ({"segments": [crossed[:2], crossed[2:4]]}, "1 segment that crosses .* with split_crossings"),
+                ({"segments": [crossed[3:]]}, "1 segment that ends at a point that is not finite"),
+                ({"hole_seeds": [[7, 7]]}, "1 hole seed outside of all triangles")):
+            for kind in (*KINDS, lambda points, _, **options: delaunayflip.triangulate(points, **options)):
+                with self.assertWarnsRegex(UserWarning, text) as told:
+                    kind(POINTS, plane(POINTS), **options)
+                self.assertEqual(told.filename, __file__)
 
     def test_docstrings(self):
         result = doctest.testmod(_interpolators)

@@ -327,6 +327,12 @@ class PyVista(unittest.TestCase):
                                (delaunayflip.Stopped, {"progress": lambda share: False})):
             with self.assertRaises(error):
                 cloud.delaunay.interpolate(points, **options)
+        for onto in (points.points, self.pyvista.MultiBlock([points])):
+            with self.assertRaisesRegex(TypeError, "onto must be a dataset with points, not"):
+                cloud.delaunay.interpolate(onto)
+        with self.assertWarnsRegex(UserWarning, "the cloud has no points, so there are no values"):
+            empty = self.pyvista.PolyData().delaunay.interpolate(points)
+        self.assertTrue(numpy.isnan(empty["Elevation"]).all())
         shares = []
         cloud.delaunay.interpolate(points, progress=shares.append)
         self.assertEqual(shares, sorted(shares))
