@@ -319,7 +319,8 @@ void AddHeightOptions(CLI::App& app, Arguments& arguments)
     { "linear", "natural" },
     "How heights between points are found: linear in each triangle, or from natural neighbours, "
     "which is smooth except at the points [linear]");
-  app.add_option("--raster-array", heights.Array, "A point array of INPUT to take instead of z")
+  app
+    .add_option("--raster-array", heights.Array, "A point array of INPUT to take instead of z [z]")
     ->type_name("NAME")
     ->check(FindFaultOfName);
   const auto findFault = [](const std::string& text)

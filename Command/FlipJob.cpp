@@ -145,10 +145,12 @@ public:
   void Read()
   {
     const auto start = Clock::now();
-    this->Input = this->ReadFile(this->Settings.Input);
-    if (!this->Settings.Heights.Places.empty())
+    const HeightOptions& heights = this->Settings.Heights;
+    this->Input =
+      this->ReadFile(this->Settings.Input, heights.Array.empty() ? Content::Mesh : Content::Places);
+    if (!heights.Places.empty())
     {
-      this->Places = this->ReadFile(this->Settings.Heights.Places);
+      this->Places = this->ReadFile(heights.Places, Content::Places);
     }
     if (this->Settings.FromPoints)
     {
@@ -324,7 +326,7 @@ private:
   {
     this->Bar.Begin(Phase::Reading, "reading " + path);
     const MeshFormat format = FormatOf(path);
-    const bool isInput = path == this->Settings.Input && content == Content::Mesh;
+    const bool isInput = path == this->Settings.Input && content != Content::Segments;
     const FileMesh file = ReadMesh(path, format, isInput ? this->Settings.Columns : "", content);
     if (isInput)
     {

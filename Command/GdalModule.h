@@ -27,6 +27,7 @@ struct VectorRequest
   std::string Layer; ///< Empty: the only one; *: all.
   std::string Height; ///< The attribute that is z; empty: z of the geometries.
   bool AreSegments = false; ///< Whether only lines and polygons matter, not points with their data.
+  bool AreFlat = false; ///< Whether z does not matter.
 };
 
 /// Methods throw std::runtime_error with GDAL's messages; the text does not name the file.

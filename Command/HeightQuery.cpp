@@ -16,6 +16,9 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -98,6 +101,27 @@ RasterGrid MakeGrid(const HeightOptions& options, vtkPolyData* points)
   return grid;
 }
 
+/// Throws if a raster needs more memory than this process may have.
+void RequireMemory(const RasterGrid& grid, double needed)
+{
+  constexpr double mega = 1048576.0;
+  double most =
+    static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  rlimit limit = {};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+  {
+    most = std::min(most, static_cast<double>(limit.rlim_cur));
+  }
+  if (needed > most)
+  {
+    throw CommandError(ExitCode::WrongUsage,
+      "--raster: " + Grouped(grid.Columns) + " x " + Grouped(grid.Rows) + " cells of " +
+        TextOf(grid.Step) + " need " + Grouped(static_cast<std::int64_t>(needed / mega)) +
+        " MB of memory, but there are " + Grouped(static_cast<std::int64_t>(most / mega)) +
+        " MB; choose a larger step, or a part of the area by --extent");
+  }
+}
+
 /// A raster in blocks of rows from the north.
 class RasterQuery : public HeightQuery
 {
@@ -110,6 +134,12 @@ public:
     constexpr std::int64_t cells = 1 << 22; // of a block
     constexpr std::int64_t tile = 256; // rows of a GeoTIFF's tiles, which are best written once
     this->RowsOfBlock = std::max<std::int64_t>(cells / grid.Columns / tile, 1) * tile;
+    constexpr double bytesOfCell = 40.0; // its place, triangle and values, and what is made of them
+    const auto columns = static_cast<double>(grid.Columns), rows = static_cast<double>(grid.Rows);
+    const double ofBlock =
+      bytesOfCell * columns * std::min(static_cast<double>(this->RowsOfBlock), rows);
+    const bool isWhole = this->Name.Extension == ".vti"; // else it is written in blocks
+    RequireMemory(grid, ofBlock + (isWhole ? sizeof(double) * columns * rows : 0.0));
   }
 
   vtkSmartPointer<vtkDataSet> NextBlock() override
@@ -301,6 +331,7 @@ void HeightQuery::WriteBlock(vtkDataSet* block)
     this->Outside += isOutside;
     this->HasOthers = this->HasOthers || (!isOutside && values[i] != 0.0);
     this->LikeNoData += values[i] == NoDataOfAscii;
+    this->Infinite += std::isinf(values[i]);
     this->WithoutValue += !isOutside && std::isnan(values[i]);
   }
   this->Total += count;
@@ -330,6 +361,12 @@ std::vector<std::string> HeightQuery::ListWarnings(bool isAscii) const
     warnings.push_back(Grouped(this->LikeNoData) +
       " heights are -9999, which an .asc has for no value; a .tif or .vti can have both");
   }
+  if (isAscii && this->Infinite > 0)
+  {
+    warnings.push_back(Grouped(this->Infinite) +
+      " heights are infinite, which an .asc cannot have, so they have no value there; a .tif or "
+      ".vti can have them");
+  }
   return warnings;
 }
 
@@ -358,7 +395,8 @@ vtkSmartPointer<vtkPolyData> SelectArray(
     }
     throw CommandError(ExitCode::BadFile,
       path + ": --raster-array: the points have no array '" + array +
-        "' of one number each; they have " + (names.empty() ? "none" : JoinWords(names)));
+        "' of one number each; they have " + (names.empty() ? "none" : JoinWords(names)) +
+        ". Without --raster-array it is z that is taken");
   }
   selected->GetPointData()->AddArray(found);
   return selected;

@@ -98,6 +98,7 @@ private:
   std::int64_t Outside = 0;
   std::int64_t WithoutValue = 0; ///< In triangles with points that have none.
   std::int64_t LikeNoData = 0; ///< NoDataOfAscii.
+  std::int64_t Infinite = 0;
   bool HasOthers = false; ///< Whether some value is not 0.
 };
 

@@ -345,6 +345,7 @@ FileMesh ReadVectorFile(
   request.Driver = FindVectorFormat(layer.File)->Driver;
   request.Layer = layer.Layer;
   request.AreSegments = content == Content::Segments;
+  request.AreFlat = content == Content::Places;
   if (!request.AreSegments)
   {
     request.Height = height;
@@ -386,7 +387,7 @@ FileMesh ReadMesh(
     }
     else if (format == MeshFormat::Text)
     {
-      read = ReadPoints(file, columns);
+      read = ReadPoints(file, columns, content);
     }
     else
     {

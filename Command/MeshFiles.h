@@ -67,6 +67,7 @@ struct FileMesh
 enum class Content
 {
   Mesh, ///< Also points that become one.
+  Places, ///< Points whose x and y alone matter. Nobody is told that they have no z.
   Segments ///< Lines and polygons, and in text lines of points with a number of their line.
 };
 

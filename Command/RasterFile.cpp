@@ -47,7 +47,7 @@ public:
       for (std::int64_t column = 0; column < this->Columns; ++column)
       {
         const double value = values[row * this->Columns + column];
-        line += std::isnan(value) ? NoData : TextOf(value);
+        line += std::isfinite(value) ? TextOf(value) : NoData;
         line += ' ';
       }
       line.back() = '\n';

@@ -110,7 +110,7 @@ private:
     if (count != 2)
     {
       throw CommandError(ExitCode::BadFile,
-        this->Path + ": line " + std::to_string(line) +
+        this->Path + ": line " + std::to_string(line) + " (the first is line 0)" +
           " does not end where it begins, so it is no ring. Lines are joined to a ring where two "
           "of "
           "them end at the same place. At point " +

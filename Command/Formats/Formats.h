@@ -32,7 +32,7 @@ FileMesh ReadObj(const InputFile& file);
 
 /// @param columns those of x, y and z, as the user names them; empty: those with known names, or
 /// the first ones.
-FileMesh ReadPoints(const InputFile& file, const std::string& columns);
+FileMesh ReadPoints(const InputFile& file, const std::string& columns, Content content);
 
 /// Lines of points: x y [z] and the number of the line that a point is on.
 FileMesh ReadTextLines(const InputFile& file);

@@ -224,7 +224,7 @@ void TextLines::Split(std::string_view line)
 
 void TextLines::Fail(const std::string& reason) const
 {
-  this->File.Fail("line " + std::to_string(this->Line) + ": " + reason);
+  this->File.Fail(this->Noun + " " + std::to_string(this->Line) + ": " + reason);
 }
 
 void TextLines::FailOn(std::string_view word, const char* problem) const

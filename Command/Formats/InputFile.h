@@ -88,6 +88,9 @@ public:
   /// The bytes after this line.
   std::string_view Rest;
 
+  /// What messages call a line: in a file of breaklines, a row.
+  std::string Noun = "line";
+
   /// A word of the line as a number, read as by std::from_chars and rounded correctly; NaN and
   /// infinity are numbers.
   /// @throws CommandError (BadFile) where it is missing, no number, or too large for the type.
@@ -126,7 +129,10 @@ T TextLines::Number(std::size_t place) const
   const std::errc error = ReadNumber(word, value);
   if (error == std::errc::invalid_argument)
   {
-    this->FailOn(word, " is not a number, or is out of range");
+    const bool isWhole = std::is_integral_v<T>;
+    this->FailOn(word,
+      isWhole ? " is not a whole number, or is out of range"
+              : " is not a number, or is out of range");
   }
   if (error == std::errc::result_out_of_range)
   {

@@ -222,11 +222,12 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
 class PointTable
 {
 public:
-  PointTable(TextLines& lines, const ChosenColumns& chosen, bool areOfLines)
+  PointTable(TextLines& lines, const ChosenColumns& chosen, Content content)
     : Lines(lines),
       Header(ReadHeader(lines, chosen)),
       HasChoice(!chosen.IsEmpty()),
-      AreOfLines(areOfLines)
+      AreOfLines(content == Content::Segments),
+      IsFlat(content == Content::Places)
   {
     this->Coordinates->SetNumberOfComponents(3);
     if (lines.Words.empty())
@@ -236,7 +237,7 @@ public:
     this->FitNames(chosen);
     this->ChooseColumns(chosen);
     this->ReadLines();
-    if (!areOfLines)
+    if (!this->AreOfLines)
     {
       this->RefuseIds();
     }
@@ -348,13 +349,14 @@ private:
   void TellColumns()
   {
     const Words& names = this->Header.Names;
+    const std::size_t axes = std::min<std::size_t>(this->Columns.size(), this->IsFlat ? 2 : 3);
     Words taken, others;
-    for (const std::size_t column : this->Columns)
+    for (std::size_t axis = 0; axis < axes; ++axis)
     {
       taken.emplace_back();
-      if (column < names.size())
+      if (this->Columns[axis] < names.size())
       {
-        taken.back() = names[column];
+        taken.back() = names[this->Columns[axis]];
       }
     }
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -370,10 +372,9 @@ private:
       taken.begin(), taken.end(), [](std::string_view name) { return name.size() == 1; });
     if (!names.empty() && !this->HasChoice && !isPlain)
     {
-      const char* const axes = this->Columns.size() == 3 ? "x, y, z" : "x, y";
-      this->Notes.push_back("took " + Quoted(taken) + " as " + axes);
+      this->Notes.push_back("took " + Quoted(taken) + " as " + (axes == 3 ? "x, y, z" : "x, y"));
     }
-    const bool lacksHeight = this->Columns.size() == 2 && !this->HasChoice;
+    const bool lacksHeight = this->Columns.size() == 2 && !this->HasChoice && !this->IsFlat;
     this->TellsOthers =
       others.empty() && names.empty() && !this->AreOfLines && this->Count > this->Columns.size();
     if (!others.empty() && lacksHeight)
@@ -438,8 +439,8 @@ private:
       }
       if (words.size() < fewest)
       {
-        lines.Fail("has " + std::to_string(words.size()) + " columns, but lines before it have " +
-          std::to_string(fewest) + "; a value is missing");
+        lines.Fail("has " + std::to_string(words.size()) + " columns, but " + lines.Noun +
+          "s before it have " + std::to_string(fewest) + "; a value is missing");
       }
       // Text at the end may have any number of words. Numbers may come from decimal commas.
       if (words.size() > this->Count &&
@@ -457,8 +458,8 @@ private:
     if (longer > 0 && !this->TellsOthers)
     {
       this->Warnings.push_back("left out the columns from number " +
-        std::to_string(this->Count + 1) + " on, which " + Counted(longer, "line") +
-        (longer == 1 ? " has (line " : " have (the first is line ") + firstLonger + ")");
+        std::to_string(this->Count + 1) + " on, which " + Counted(longer, lines.Noun) +
+        (longer == 1 ? " has (" : " have (the first is ") + lines.Noun + " " + firstLonger + ")");
     }
   }
 
@@ -554,6 +555,7 @@ private:
   PointHeader Header;
   const bool HasChoice; ///< Whether the user chose the columns.
   const bool AreOfLines; ///< Whether a column has the number of the line that a point is on.
+  const bool IsFlat; ///< Whether z does not matter.
   Places Columns;
   std::size_t LineColumn = 0;
   std::size_t Count = 0; ///< How many columns the first point has.
@@ -567,11 +569,11 @@ private:
 
 }
 
-FileMesh ReadPoints(const InputFile& file, const std::string& columns)
+FileMesh ReadPoints(const InputFile& file, const std::string& columns, Content content)
 {
   FileMesh result;
   TextLines lines(file);
-  const PointTable table(lines, ChosenColumns(columns), false);
+  const PointTable table(lines, ChosenColumns(columns), content);
   result.Warnings = table.Warnings;
   result.Notes = table.Notes;
   result.Mesh->SetPoints(vtkNew<vtkPoints>());
@@ -583,7 +585,8 @@ FileMesh ReadTextLines(const InputFile& file)
 {
   FileMesh result;
   TextLines text(file);
-  const PointTable table(text, ChosenColumns(""), true);
+  text.Noun = "row";
+  const PointTable table(text, ChosenColumns(""), Content::Segments);
   result.Warnings = table.Warnings;
   result.Notes = table.Notes;
   const vtkNew<vtkPoints> points;
@@ -604,7 +607,7 @@ FileMesh ReadTextLines(const InputFile& file)
       numbers.begin());
     if (end - begin == 1)
     {
-      file.Fail("line " + std::to_string(number) +
+      file.Fail("the line with the number " + std::to_string(number) +
         " has one point; the points of a line are consecutive rows with the same number");
     }
     std::vector<vtkIdType> ids;

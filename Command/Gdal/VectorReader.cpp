@@ -38,6 +38,18 @@ void AddName(std::vector<std::string>& names, const std::string& name)
   }
 }
 
+/// Whether a feature of a drawing only labels it: a text, which GDAL has as a point, or something
+/// on the sheet that it is printed on (in paper space).
+bool IsLabel(const OGRFeature& feature)
+{
+  const int text = feature.GetFieldIndex("Text");
+  const int paper = feature.GetFieldIndex("PaperSpace");
+  const OGRGeometry* const geometry = feature.GetGeometryRef();
+  const bool isText = text >= 0 && feature.IsFieldSetAndNotNull(text) && geometry &&
+    wkbFlatten(geometry->getGeometryType()) == wkbPoint;
+  return isText || (paper >= 0 && feature.GetFieldAsInteger(paper) != 0);
+}
+
 /// The layers of a file that have geometries. All of a .dxf are in one layer of GDAL, and their
 /// attribute Layer names the layer of the drawing.
 class Layers
@@ -99,7 +111,10 @@ private:
       {
         for (auto& feature : layer)
         {
-          AddName(this->Names, feature->GetFieldAsString("Layer"));
+          if (!IsLabel(*feature))
+          {
+            AddName(this->Names, feature->GetFieldAsString("Layer"));
+          }
         }
       }
       else if (layer->GetGeomType() != wkbNone)
@@ -140,6 +155,11 @@ public:
       ++this->Empty;
       return;
     }
+    if (this->Request.Driver == "DXF" && IsLabel(feature))
+    {
+      ++this->Labels;
+      return;
+    }
     if (&layer != this->Layer)
     {
       this->BeginLayer(layer);
@@ -177,6 +197,11 @@ public:
       file.Warnings.push_back(
         "left out " + Counted(this->Empty, "feature") + " without a geometry");
     }
+    if (this->Labels > 0)
+    {
+      file.Warnings.push_back(
+        "left out texts and what is in paper space (" + Counted(this->Labels, "feature") + ")");
+    }
     if (this->Request.AreSegments)
     {
       return file;
@@ -188,7 +213,8 @@ public:
         file.Mesh->GetPointData()->AddArray(values);
       }
     }
-    if (!this->HasHeights && this->HeightField < 0 && !this->Numeric.empty())
+    const bool lacksHeights = !this->HasHeights && this->HeightField < 0;
+    if (lacksHeights && !this->Request.AreFlat && !this->Numeric.empty())
     {
       file.Notes.push_back("its geometries have no z, so z is 0; --columns NAME takes a numeric "
                            "attribute as z: " +
@@ -215,7 +241,8 @@ private:
     {
       const OGRFieldType type = fields.GetFieldDefn(i)->GetType();
       const std::string name = fields.GetFieldDefn(i)->GetNameRef();
-      if (type != OFTInteger && type != OFTInteger64 && type != OFTReal)
+      const bool isNumeric = type == OFTInteger || type == OFTInteger64 || type == OFTReal;
+      if (!isNumeric || this->Request.Driver == "DXF") // which has only flags
       {
         continue;
       }
@@ -234,7 +261,7 @@ private:
     {
       throw std::runtime_error("--columns: layer '" + std::string(layer.GetName()) +
         "' has no numeric attribute '" + this->Request.Height + "'; it has " +
-        Quoted(this->Numeric));
+        (this->Numeric.empty() ? "no numeric attributes" : Quoted(this->Numeric)));
     }
   }
 
@@ -321,6 +348,7 @@ private:
   std::vector<std::pair<int, vtkSmartPointer<vtkDoubleArray>>> Attributes; ///< Per field.
   bool HasHeights = false;
   std::int64_t Empty = 0;
+  std::int64_t Labels = 0; ///< Of a drawing.
   std::string Crs;
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Lines, Rings;

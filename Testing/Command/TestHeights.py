@@ -130,6 +130,17 @@ class Rasters(HeightTest):
         self.assertRegex(result.stderr, r"o.asc: \d+ heights are -9999, which an .asc has for no value")
         result = self.ask("low.csv", "o.vti", "--raster", "1")
         self.assertNotIn("-9999", result.stderr)
+        self.write("high.csv", "x,y,z\n0,0,inf\n4,0,inf\n0,4,inf\n")
+        result = self.ask("high.csv", "o.asc", "--raster", "1")
+        self.assertRegex(result.stderr, r"o.asc: \d+ heights are infinite, which an .asc cannot have")
+        self.assertNotIn(b"inf", self.content("o.asc"))
+        result = self.ask("high.csv", "o.vti", "--raster", "1")
+        self.assertNotIn("infinite", result.stderr)
+
+    def test_too_large(self):
+        for output, extent in (("o.asc", "0,0,2e9,300"), ("o.vti", "0,0,3000,2e9")):
+            self.fail_with(2, "plane.csv", output, "--from-points", "--raster", 1, "--extent", extent,
+                           naming=["--raster: ", "2,000,000,000", "cells of 1 need", "MB", "--extent"])
 
     def test_old_reference_system(self):
         self.write("o.prj", "of an earlier file")
@@ -160,7 +171,12 @@ class Rasters(HeightTest):
         self.assertTrue(math.isnan(values[3, 0]))
         self.assertIn("raster          4 x 4 cells, 6 outside\n", result.stdout)
         self.fail_with(3, "in.vtp", "out.vti", "--from-points", "--raster", 1, "--raster-array", "z",
-                       naming=["in.vtp", "no array 'z'", "'depth', 'x'"])
+                       naming=["in.vtp", "no array 'z'", "'depth', 'x'", "it is z that is taken"])
+        flat = self.rings("flat.vtk", [(1, 1, 0), (3, 1, 0), (3, 3, 0)])
+        result = self.ask("in.vtp", "o.asc", "--raster", 1, "--outline", flat)
+        self.assertIn("without heights", result.stderr)
+        result = self.ask("in.vtp", "o.asc", "--raster", 1, "--outline", flat, "--raster-array", "depth")
+        self.assertNotIn("without heights", result.stderr)
         line = self.write_mesh(make_mesh([(0, 4, 4), (2, 3, 0), (4, 4, 3)], [], [(0, 1, 2)]), "l.vtk")
         self.ask("peak.csv", "out.vti", "--raster", 1, "--extent", "1.5,2.5,2.5,3.5", "--constraints", line)
         self.assertEqual(self.image("out.vti")[2].tolist(), [[0]])
@@ -206,6 +222,12 @@ class Tables(HeightTest):
         self.assertIn("places          5, 2 outside\n", result.stdout)
         report = self.report("peak.csv", "out.csv", "--from-points", "--heights-at", "places.csv")
         self.assertEqual((report["places"], report["places_outside"], report["triangles"]), (5, 2, 4))
+        for text, told in (("east,north,id\n2,1,7\n", "as x, y\n"), ("east,north,alt,id\n2,1,9,7\n", "as x, y\n")):
+            self.write("places.csv", text)
+            result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv")
+            self.assertIn(told, result.stderr)
+            self.assertIn("left out the columns 'id'\n", result.stderr)
+            self.assertEqual(self.content("out.csv").decode(), "x,y,z\n2,1,3.25\n")
         self.write("places.csv", "9,9\n8,8\n")
         result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv", "--raster-method", "natural")
         self.assertIn("warning: out.csv: has no value", result.stderr)

@@ -32,9 +32,9 @@ def geojson(*features):
     return json.dumps({"type": "FeatureCollection", "features": made})
 
 
-def dxf(*entities):
+def dxf(*entities, labels=""):
     """A drawing of pairs of a layer and places: a point, or a line."""
-    text = "0\nSECTION\n2\nENTITIES\n"
+    text = "0\nSECTION\n2\nENTITIES\n" + labels
     for layer, places in entities:
         head = f"0\nPOINT\n8\n{layer}\n"
         if len(places) > 1:
@@ -104,6 +104,12 @@ class Vectors(VectorTest):
         write_geopackage(self.path("points.gpkg"), survey=PLACES)
         self.write("points.dxf", dxf(*(("0", [place]) for place in PLACES)))
         self.write("points.FGB", zlib.decompress(base64.b64decode(FLAT_GEOBUF)))
+        labels = f"0\nTEXT\n8\ntexts\n40\n1\n1\n7.5\n{at((1, 1, 0))}0\nPOINT\n67\n1\n8\n0\n{at((90, 90, 0))}"
+        self.write("labels.dxf", dxf(*(("0", [place]) for place in PLACES), labels=labels))
+        mesh, result = self.triangulate("labels.dxf:0")
+        self.assertEqual(points_of(mesh), PLACES)
+        self.assertIn("left out texts and what is in paper space (1 feature)", result.stderr)
+        self.assertEqual(points_of(self.triangulate("labels.dxf")[0]), PLACES)
         for name in ("geojson", "shp", "gpkg", "dxf", "FGB"):
             mesh, result = self.triangulate("points." + name)
             self.assertEqual(points_of(mesh), PLACES, name)
@@ -133,6 +139,13 @@ class Vectors(VectorTest):
                                     (2, "x,y,elev", ["--columns takes one attribute"])):
             self.fail_with(code, "in.geojson", "out.vtk", "--from-points", "--columns", choice,
                            naming=["in.geojson", *words])
+        self.write("bare.geojson", geojson(*(("Point", place) for place in PLACES)))
+        self.fail_with(3, "bare.geojson", "out.vtk", "--from-points", "--columns", "n",
+                       naming=["no numeric attribute 'n'; it has no numeric attributes"])
+        for options in (["bare.geojson", "out.csv", "--heights-at", "in.geojson"],
+                        ["in.geojson", "out.vti", "--raster", 1, "--raster-array", "elev"]):
+            result = self.succeed(*options, "--from-points")  # z does not matter
+            self.assertEqual(result.stderr, "")
 
     def test_lines_and_rings(self):
         """Breaklines, and areas of several polygons with holes, as survey data come."""
@@ -152,7 +165,7 @@ class Vectors(VectorTest):
             self.assertEqual(area_of(mesh), area)
         self.write("open.geojson", geojson(("LineString", SQUARE), ("LineString", SQUARE[:4])))
         self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "open.geojson",
-                       naming=["open.geojson: line 1 does not end where it begins"])
+                       naming=["open.geojson: line 1 (the first is line 0) does not end where it begins"])
         self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "points.geojson",
                        naming=["points.geojson", "no lines or polygons"])
 
@@ -231,16 +244,17 @@ class TextLines(PointTest):
             self.assertIn(" 33 points,", result.stdout)
         self.write("rings.csv", text_of(rows[:-1], ","))
         self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "rings.csv",
-                       naming=["rings.csv: line 1 does not end where it begins"])
+                       naming=["rings.csv: line 1 (the first is line 0) does not end where it begins"])
 
     def test_rows_that_are_no_lines(self):
         for text, words in (
-            (text_of(PLACES, ","), ["line 1 has one point", "consecutive rows"]),
-            ("0,0,1\n1,1,1.5\n", ["line 2", "'1.5' is not a number"]),
+            (text_of(PLACES, ","), ["line with the number 1 has one point", "consecutive rows"]),
+            ("0,0,1\n1,1,1.5\n", ["row 2", "'1.5' is not a whole number"]),
+            ("0,0,1\na,1,1\n", ["row 2", "'a' is not a number"]),
             ("0,0\n1,1\n", ["which of its columns has the number", "x,y,z,line"]),
             ("x,y,z\n0,0,1\n1,1,1\n", ["which of its columns has the number"]),
             ("0,0,1,1,1\n1,1,1,1,1\n", ["which of its columns has the number"]),
-            ("x,y,line\n0,0,1\n1,1,\n", ["line 3", "a number is missing"]),
+            ("x,y,line\n0,0,1\n1,1,\n", ["row 3", "a number is missing"]),
         ):
             self.write("lines.csv", text)
             self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--constraints", "lines.csv",
