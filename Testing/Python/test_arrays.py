@@ -734,6 +734,22 @@ class Header(unittest.TestCase):
         for name in _points.POINT_OPTIONS:
             self.assertEqual(delaunayflip.triangulate.__kwdefaults__[name], getattr(struct, name), name)
 
+    def test_defaults_in_comments(self):
+        """The default of a member is in brackets at the end of its comment: a number, or the end of the
+        name of a constant."""
+        text = (ROOT / "CInterface/delaunayflip_c.h").read_text()
+        names = {"INFINITY": numpy.inf, "NULL": None, "INT32_MAX": 2**31 - 1, "INT64_MAX": 2**63 - 1}
+        constants = [(name, int(value)) for name, value in re.findall(r"DELAUNAYFLIP_(\w+) = (\d+)", text)]
+        for struct in (_library.Mesh, _library.Query, _options.Struct, _points.Struct):
+            body = text[:text.index(f"}} delaunayflip_{struct.__name__.lower()};")].rpartition("typedef struct")[2]
+            defaults = re.findall(r"(\w+); /\*\*<(?:(?!\*/).)*\[([-\w]+)\] \*/", body, re.DOTALL)
+            self.assertGreater(len(defaults), 3)
+            for member, told in defaults:
+                wanted = [value for name, value in constants if f"_{name}".endswith(f"_{told}")]
+                wanted += [names[told]] if told in names else []
+                wanted += [float(told)] if re.fullmatch("-?[0-9]+", told) else []
+                self.assertIn(getattr(_library.make(struct), member), wanted, f"{struct.__name__}.{member}")
+
     def test_interpolators_take_options_of_points(self):
         known = inspect.signature(delaunayflip.triangulate).parameters
         for kind in (delaunayflip.LinearInterpolator, delaunayflip.NaturalNeighborInterpolator):

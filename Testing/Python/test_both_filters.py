@@ -3,11 +3,13 @@
 """vtkDelaunayFlip in C++ and in Python give the same outputs, bit for bit, and the same messages."""
 import dataclasses
 import math
+import pathlib
 import random
 import re
 import unittest
 import unittest.mock
 import warnings
+from xml.etree import ElementTree
 
 import delaunayflip
 from delaunayflip import (
@@ -21,7 +23,7 @@ from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator as Python
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, vtkObject
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData, vtkRectilinearGrid, vtkTable)
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
@@ -207,6 +209,56 @@ class Pair:
                     getattr(flip, "Set" + name)(value)
                 self.assertEqual(
                     getattr(cxx, "Get" + name)(), getattr(python, "Get" + name)(), name)
+
+
+class Shown(unittest.TestCase):
+    """ParaView and the command show the properties with their defaults and choices."""
+
+    def test_command(self):
+        """`Documentation.Shell` compares the page with the command."""
+        page = (pathlib.Path(__file__).parents[2] / "Documentation/reference/command.md").read_text()
+        rows = re.findall(r"^\| `--([-a-z]+) ([^`]*)` \| .* \[([^][]+)\] \|$", page, re.MULTILINE)
+        known = {"MaxDeviation": "MaximumDeviation", "MaxIterations": "MaximumIterations",
+                 "Threads": "NumberOfThreads", "Pieces": "NumberOfPieces", "Device": "DeviceId",
+                 "Heights": "SegmentHeights", "RasterMethod": "Method"}
+        properties = {item.name: item for item in (*PythonFilter.properties, *PythonInterpolator.properties)}
+        compared = []
+        for option, choices, default in rows:
+            name = option.title().replace("-", "")
+            item = properties.get(known.get(name, name))
+            if item is None:
+                continue
+            compared.append(item.name)
+            if item.choices:
+                words = [word.replace("-", "") for word in choices.strip("{}").split(",")]
+                self.assertEqual(words, [choice.lower() for choice in item.choices[:len(words)]])
+                self.assertEqual(default.replace("-", ""), words[item.default])
+            else:
+                self.assertEqual(min(float(default), VTK_DOUBLE_MAX), item.default, option)
+        self.assertGreater(len(compared), 14, compared)
+
+    def test_panel_of_paraview(self):
+        panel = ElementTree.parse(pathlib.Path(__file__).parents[2] / "Plugin/DelaunayFlip.xml")
+        proxies = {proxy.get("class").replace("vtkP", "vtk"): proxy for proxy in panel.iter("SourceProxy")}
+        for kind in (PythonFilter, PythonPoints, PythonInterpolator):
+            shown = {element.get("name"): element for element in proxies[kind.name]}
+            for item in kind.properties:
+                if kind is PythonInterpolator and item.name in ("LiveUpdate", "IterationsPerUpdate", "Paused"):
+                    continue
+                self.expect_shown(item, shown[item.name])
+
+    def expect_shown(self, item, element):
+        default = element.get("default_values", "")
+        if not isinstance(item.default, str):
+            default = float(default or 0)
+        self.assertEqual(default, item.default, item.name)
+        domain = next((child for child in element if child.tag.endswith("RangeDomain")), None)
+        entries = [re.sub("[- ]", "", entry.get("text")).lower() for entry in element.iter("Entry")]
+        self.assertEqual(entries, [choice.lower() for choice in item.choices], item.name)
+        if item.low is not None and not item.choices:
+            high = float(domain.get("max", "inf"))
+            self.assertEqual(float(domain.get("min")), item.low, item.name)
+            self.assertEqual(min(high, 2**31 - 1), min(item.high, 2**31 - 1), item.name)
 
 
 class Same(Pair, unittest.TestCase):
