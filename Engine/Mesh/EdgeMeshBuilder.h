@@ -91,12 +91,12 @@ struct FixEdgeStep
     const auto edge = static_cast<EdgeId>(i);
     const CornerId corner = this->Mesh.CornerOfHalfEdge[2 * edge];
     const TriangleRecord& triangle = this->Mesh.Triangles[TriangleOf(corner)];
-    if (!HasEdges(triangle))
+    const CornerRole role = GetRole(triangle, SlotOf(corner));
+    if (role == CornerRole::OneOfMany && !HasEdges(triangle))
     {
       this->Mesh.States[edge] = EdgeState::Fixed; // and not counted
       return;
     }
-    const CornerRole role = GetRole(triangle, SlotOf(corner));
     sums.Boundary += int(role == CornerRole::Alone);
     sums.OneOfMany += int(role == CornerRole::OneOfMany);
     if (role != CornerRole::Leader || this->MustStay(edge, sums))
@@ -386,9 +386,8 @@ struct PairStep
       many = AtomicCompareExchange(second, NoCorner, corner) != NoCorner &&
         AtomicExchange(second, ManyCorners) != ManyCorners;
     }
-    const bool isEdge = HasEdges(triangle);
-    sums.Edges += int(isEdge && inserted);
-    sums.NonManifold += int(isEdge && many);
+    sums.Edges += int(IsKeyOfEdge(key) && inserted);
+    sums.NonManifold += int(IsKeyOfEdge(key) && many);
     triangle.HalfEdges[slot] = entry;
   }
 };
@@ -412,6 +411,7 @@ struct RoleStep
   DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t t) const
   {
     TriangleRecord& triangle = this->Triangles[t];
+    const bool hasEdges = HasEdges(triangle);
     // All three are read before anything is written, so that the loads overlap.
     bool known[3];
     CornerId others[3] = {};
@@ -431,7 +431,7 @@ struct RoleStep
     {
       if (known[slot])
       {
-        SetRole(triangle, t, slot, others[slot]);
+        SetRole(triangle, t, slot, hasEdges ? others[slot] : ManyCorners);
       }
     }
     return CountLeaders(triangle);

@@ -277,17 +277,22 @@ DELAUNAYFLIP_HOST_DEVICE inline bool HasEdges(const TriangleRecord& triangle)
 }
 
 /// The key of the edge opposite a slot. In a triangle without edges it joins a vertex with itself,
-/// the same one for all slots: the three corners meet each other, and never those of an edge. They
-/// are always three or more, so each gets a record of its own (CornerRole::OneOfMany).
+/// as no edge does.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t KeyOpposite(const TriangleRecord& triangle, int slot)
 {
+  const VertexId a = triangle.Vertices[NextSlot(slot)], b = triangle.Vertices[PreviousSlot(slot)];
   if (!HasEdges(triangle))
   {
-    const VertexId* v = triangle.Vertices;
-    const VertexId smallest = std::min(v[0], std::min(v[1], v[2]));
-    return EdgeKey(smallest, smallest);
+    const VertexId smaller = std::min(a, b);
+    return EdgeKey(smaller, smaller);
   }
-  return EdgeKey(triangle.Vertices[NextSlot(slot)], triangle.Vertices[PreviousSlot(slot)]);
+  return EdgeKey(a, b);
+}
+
+/// Whether a key is that of an edge.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsKeyOfEdge(std::uint64_t key)
+{
+  return static_cast<VertexId>(key >> 32) != static_cast<VertexId>(key);
 }
 
 DELAUNAYFLIP_HOST_DEVICE inline CornerRole GetRole(const TriangleRecord& triangle, int slot)
@@ -322,6 +327,19 @@ DELAUNAYFLIP_HOST_DEVICE inline void SetRole(
     int(isSmaller) + int(other == NoCorner) + 2 * int(other == ManyCorners);
   triangle.Flips |= role << (2 * slot);
   triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
+}
+
+/// Has each corner of a triangle without edges get a record of its own, whatever was paired with
+/// it.
+DELAUNAYFLIP_HOST_DEVICE inline void SeparateIfEdgeless(TriangleRecord& triangle)
+{
+  if (!HasEdges(triangle))
+  {
+    for (CornerId& other : triangle.HalfEdges)
+    {
+      other = ManyCorners;
+    }
+  }
 }
 
 /// Sets the roles of all three corners. The triangle's HalfEdges hold the other corners.

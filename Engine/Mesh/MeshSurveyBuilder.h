@@ -126,7 +126,7 @@ void SurveyTriangleIds(MeshSurvey& survey, const MeshInput& input, const Backend
           AtomicStore(&uses[point], PointUse::Used);
         }
       }
-      if (!mesh.Triangles.HasEdges(t))
+      if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0])
       {
         sum.Repeated.Note(t);
       }

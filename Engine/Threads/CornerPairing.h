@@ -129,7 +129,7 @@ private:
         seen = keys[place];
       }
       const bool isNew = seen == Empty;
-      const bool isEdge = key >> 32 != static_cast<std::uint32_t>(key);
+      const bool isEdge = IsKeyOfEdge(key);
       const std::uint64_t word = scratch.Words[place] & (std::uint64_t(isNew) - 1);
       keys[place] = key;
       scratch.Words[place] = (word ^ corner) + OneCorner;

@@ -323,8 +323,9 @@ bool ThreadBackend::PairCorners(
     size, static_cast<std::uint32_t>(vertices >> bucketBits) + 1,
     [=](std::int64_t i)
     {
-      const std::uint64_t key = KeyOpposite(triangles[i / 3], static_cast<int>(i % 3));
-      return static_cast<VertexId>(key >> 32) >> bucketBits;
+      const VertexId* points = triangles[i / 3].Vertices;
+      const int slot = static_cast<int>(i % 3);
+      return std::min(points[NextSlot(slot)], points[PreviousSlot(slot)]) >> bucketBits;
     },
     [&](std::int64_t i, std::uint32_t place)
     { corners[place] = MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3)); },
@@ -334,8 +335,12 @@ bool ThreadBackend::PairCorners(
     return false;
   }
   sums = CornerPairing(mesh, *this).Run(corners, starts);
-  numbering =
-    this->Count(mesh.NumberOfTriangles, [=](std::int64_t t) { return SetRoles(triangles[t], t); });
+  numbering = this->Count(mesh.NumberOfTriangles,
+    [=](std::int64_t t)
+    {
+      SeparateIfEdgeless(triangles[t]);
+      return SetRoles(triangles[t], t);
+    });
   return true;
 }
 
