@@ -138,13 +138,20 @@ public:
   /// points.
   void StoreUsedPoints(std::int64_t* ids) const;
 
-  /// Returns the points made where segments cross. There are none without
-  /// PointOptions::SplitCrossings, nor in sessions from triangles.
+  /// Returns the points made where segments cross, with PointOptions::SplitCrossings, and then those
+  /// of refinement. There are none in sessions from triangles.
   const std::vector<AddedPoint>& GetAddedPoints() const;
 
   /// Returns the edges that segments have become, as pairs of point ids, in the order and direction
   /// of the segments, each once. Empty until they are inserted. For sessions from points.
   std::vector<std::int64_t> ListSegmentEdges() const;
+
+  /// Returns the number of the caller's segment for each of these edges; of several, the first one.
+  std::vector<std::int64_t> ListSegmentsOfEdges() const;
+
+  /// Writes the label of the region that each triangle is in (PointInput::Regions); 0 where there is
+  /// none. For sessions from points.
+  void StoreRegions(std::int32_t* labels) const;
 
   /// Inserts more points into the triangulation, numbered after the others. The triangles are then
   /// those of all points, perhaps in another order than if all had been given at once. If there are

@@ -41,6 +41,13 @@
 /// segments of no ring. A ring with the edges of an earlier one of its set is left out, too: by
 /// EvenOdd both together would enclose nothing, and by the other rules two directions would cancel
 /// each other. A ring that runs more than once along its loop counts once.
+///
+/// **Refinement** adds points until no triangle has an angle below PointOptions::MinimumAngle and
+/// none is larger than MaximumArea, MaximumEdge, PointInput::Sizes and the regions allow. It adds
+/// many points at a time: off-centers of triangles (Üngör 2004), and points that split segments
+/// and the edges of the boundary if others come too near (Ruppert 1995). Triangles that cannot get
+/// better, because segments meet at a small angle or must not be split, are left and counted.
+/// Regions are the parts that segments enclose.
 
 namespace delaunayflip
 {
@@ -54,6 +61,14 @@ enum class RingRuleKind
   /// numbers is positive or, if no ring of the outline is counter-clockwise, if it is 0. It is
   /// inside the holes by NonZero.
   Orientation
+};
+
+/// Names the part, enclosed by segments, that a place is in.
+struct RegionSeed
+{
+  double X = 0.0, Y = 0.0;
+  std::int32_t Label = 0; ///< That of all triangles of the region.
+  double MaximumArea = 0.0; ///< The largest triangle there; 0: as elsewhere.
 };
 
 /// Points in the plane, and the segments between them.
@@ -80,6 +95,14 @@ struct PointInput
   /// Points from this number on belong to segments alone. The report tells if no others are left,
   /// and if holes reach beyond all others where there is no outline.
   std::int64_t FirstAdded = INT64_MAX;
+
+  /// The longest edge that triangles may have near each point, or null: no limit. Between points it
+  /// is interpolated linearly. NaN: no limit near that point.
+  const double* Sizes = nullptr;
+
+  /// If several are in one region, the first one counts.
+  const RegionSeed* Regions = nullptr;
+  std::int64_t NumberOfRegions = 0;
 
   /// Whether the coordinates are in the memory of a GPU, ordered by Stream. All other arrays are in
   /// the host's.
@@ -109,6 +132,25 @@ struct PointOptions : FlipOptions
 
   /// Triangles with a longer edge are removed in the same way. 0 (default): none.
   double LongestEdge = 0.0;
+
+  /// Points are added until no angle is smaller, in degrees from 0 to 33. 0 (default): no limit. It
+  /// is proved that this ends up to 20.7 degrees (Ruppert 1995) where no segments meet at less than
+  /// 60 degrees; in practice it does up to about 33.
+  double MinimumAngle = 0.0;
+
+  /// Points are added until no triangle is larger. 0 (default): no limit.
+  double MaximumArea = 0.0;
+
+  /// Points are added until no edge is longer. 0 (default): no limit.
+  double MaximumEdge = 0.0;
+
+  /// Whether no edge of the boundary is split: that of the hull, or of what is kept. Then some
+  /// triangles at the boundary stay as they are.
+  bool KeepBoundary = false;
+
+  /// How many points all triangles together may have. Refinement ends before it would add more. 0
+  /// (default): ten times as many as are given, at least a million.
+  std::int64_t PointLimit = 0;
 };
 
 /// Calls visit(name, option...) for each option that FlipOptions do not have, with those of all
@@ -134,15 +176,21 @@ inline bool operator==(const PointOptions& a, const PointOptions& b)
   return isSame;
 }
 
-/// A point made where two segments cross. Its id is the number of the caller's points plus its
-/// index.
+/// A point made where two segments cross, or by refinement. Its id is the number of the caller's
+/// points plus its index. Those of refinement come last.
 struct AddedPoint
 {
   double X = 0.0, Y = 0.0;
-  /// What belongs to the point, such as z, is (1 - Share) times that of point From plus Share times
-  /// that of point To: the ends of the earlier segment.
+  /// What belongs to the point, such as z, is (1 - Share - ThirdShare) times that of point From,
+  /// plus Share times that of point To, plus ThirdShare times that of point Third. From and To are
+  /// the ends of the earlier one of two segments that cross, or of the edge that is split; the ids
+  /// may be those of points that were added before. Else these are the corners of a triangle that
+  /// the point was in before refinement.
   std::int64_t From = -1, To = -1;
   double Share = 0.0;
+  std::int64_t Third = -1; ///< -1: there are only two.
+  double ThirdShare = 0.0;
+  std::int64_t Segment = -1; ///< The segment on which refinement has put the point, or -1.
 };
 
 /// What is reported about points beside the flips.
@@ -159,6 +207,11 @@ struct PointCounts
   std::int64_t OutsideTriangles = 0; ///< Removed outside rings and around hole seeds.
   std::int64_t LargeTriangles = 0; ///< Removed by Alpha and LongestEdge.
   std::int64_t LeftOutRings = 0; ///< They have no area, or the edges of an earlier one.
+  std::int64_t RefinementPoints = 0; ///< Points added by refinement.
+  std::int64_t RefinementRounds = 0; ///< How often it has added points.
+  /// Triangles with an angle below MinimumAngle or that are too large, which could not get better.
+  std::int64_t UnrefinedTriangles = 0;
+  std::int64_t ReachedPointLimit = 0; ///< 1 if PointOptions::PointLimit has ended refinement.
 };
 
 }
