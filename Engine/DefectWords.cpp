@@ -111,6 +111,15 @@ constexpr DefectWords AllWords[] = {
     "constraint edges of the second input that the mesh does not have" },
   { Kind::PointsWithoutHeights, DefectIds::Points, "point of segments without heights",
     "points of segments without heights" },
+  { Kind::RegionSeedsOutside, DefectIds::Points, "region seed outside of all triangles",
+    "region seeds outside of all triangles" },
+  { Kind::TrianglesNotRefined, DefectIds::Triangles,
+    "triangle that cannot get as good as wanted, because segments meet there at a small angle or "
+    "must not be split",
+    "triangles that cannot get as good as wanted, because segments meet there at a small angle or "
+    "must not be split" },
+  { Kind::PointLimitReached, DefectIds::Points,
+    "limit of points reached, so that refinement is not complete", "" },
 };
 
 constexpr bool AreInOrder()
@@ -125,7 +134,7 @@ constexpr bool AreInOrder()
   return true;
 }
 static_assert(AreInOrder() &&
-    std::size(AllWords) == static_cast<std::size_t>(DefectKind::PointsWithoutHeights) + 1,
+    std::size(AllWords) == static_cast<std::size_t>(DefectKind::PointLimitReached) + 1,
   "one row per kind");
 
 const DefectWords& GetWords(DefectKind kind) { return AllWords[static_cast<std::size_t>(kind)]; }

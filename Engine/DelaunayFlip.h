@@ -138,8 +138,8 @@ public:
   /// points.
   void StoreUsedPoints(std::int64_t* ids) const;
 
-  /// Returns the points made where segments cross, with PointOptions::SplitCrossings, and then those
-  /// of refinement. There are none in sessions from triangles.
+  /// Returns the points made where segments cross, with PointOptions::SplitCrossings, and then
+  /// those of refinement. There are none in sessions from triangles.
   const std::vector<AddedPoint>& GetAddedPoints() const;
 
   /// Returns the edges that segments have become, as pairs of point ids, in the order and direction
@@ -149,8 +149,8 @@ public:
   /// Returns the number of the caller's segment for each of these edges; of several, the first one.
   std::vector<std::int64_t> ListSegmentsOfEdges() const;
 
-  /// Writes the label of the region that each triangle is in (PointInput::Regions); 0 where there is
-  /// none. For sessions from points.
+  /// Writes the label of the region that each triangle is in (PointInput::Regions); 0 where there
+  /// is none. For sessions from points.
   void StoreRegions(std::int32_t* labels) const;
 
   /// Inserts more points into the triangulation, numbered after the others. The triangles are then

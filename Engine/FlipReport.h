@@ -125,7 +125,10 @@ enum class DefectKind
   NothingLeft, ///< Points of which none is left when triangles are removed.
   PolygonsTooSmall, ///< With fewer than three different points.
   ConstraintsNotInMesh, ///< Those of a filter's second input.
-  PointsWithoutHeights ///< Of segments, where other points have heights.
+  PointsWithoutHeights, ///< Of segments, where other points have heights.
+  RegionSeedsOutside, ///< In no triangle that is kept.
+  TrianglesNotRefined, ///< Triangles that do not reach the goals of refinement.
+  PointLimitReached ///< By refinement.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.

@@ -11,6 +11,7 @@
 #include "FlipReport.h"
 #include "HiddenEdges.h"
 #include "Outline.h"
+#include "RefinementPlan.h"
 #include "RunQuery.h"
 #include "TriangleMesh.h"
 
@@ -84,6 +85,16 @@ public:
   /// @param places x and y. The numbers of these points follow those of the mesh's.
   /// @returns how many flips it took.
   virtual std::int64_t InsertPoints(const std::vector<double>& places) = 0;
+
+  /// Begins to refine a Delaunay triangulation of points, in which segments are fixed edges, unless
+  /// it has begun.
+  virtual void StartRefinement(const RefinementPlan& plan) = 0;
+  /// Makes a round of refinement, and flips until the mesh is constrained Delaunay.
+  /// @returns how many points it has added; their numbers follow those of the mesh's. 0: there is
+  /// nothing more to do, or the limit is reached.
+  virtual std::int64_t Refine() = 0;
+  /// What the rounds have made so far.
+  virtual RefinementResult FetchRefinement() = 0;
 
   /// Calls view(mesh) with a mesh from points, in the memory of the host.
   using HostView = std::function<void(const PointMeshView&)>;

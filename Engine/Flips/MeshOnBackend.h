@@ -18,6 +18,7 @@
 #include "PlanarSurvey.h"
 #include "PointGrowth.h"
 #include "PointMesh.h"
+#include "Refinement.h"
 #include "SegmentInsertion.h"
 #include "SmallestAngle.h"
 #include "SpatialOrder.h"
@@ -211,6 +212,31 @@ public:
     this->RequireStates();
     return this->Places.Floats ? this->InsertPoints(places, this->Points.Floats)
                                : this->InsertPoints(places, this->Points.Doubles);
+  }
+
+  void StartRefinement(const RefinementPlan& plan) override
+  {
+    this->RequireStates();
+    if (this->Places.Floats)
+    {
+      this->StartRefinement(plan, this->RefinedFloats);
+    }
+    else
+    {
+      this->StartRefinement(plan, this->RefinedDoubles);
+    }
+  }
+
+  std::int64_t Refine() override
+  {
+    return this->Places.Floats ? this->RefineOnce(this->RefinedFloats)
+                               : this->RefineOnce(this->RefinedDoubles);
+  }
+
+  RefinementResult FetchRefinement() override
+  {
+    return this->Places.Floats ? this->RefinedFloats.Rounds->Fetch(this->RefinedFloats.Grown)
+                               : this->RefinedDoubles.Rounds->Fetch(this->RefinedDoubles.Grown);
   }
 
   void ViewOnHost(const HostView& use) override
@@ -446,6 +472,14 @@ private:
     this->Loop.reset(new Type(this->Mesh, rule, this->Range, std::move(guard), this->Backend));
   }
 
+  /// Makes a loop without chunks: edges that are added are not in the order of the triangles.
+  template <typename Real>
+  void MakeLoopOfGrown(const Real* coordinates)
+  {
+    this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
+    this->Loop->Restart();
+  }
+
   /// Makes the loop that suits the mesh, and measures the smallest angle.
   /// @returns the triangles without area or with another orientation than most.
   std::vector<Defect> ChooseLoop(
@@ -527,11 +561,94 @@ private:
       }
       this->Points.Count += added;
       this->Places = PlaneArray(coordinates.Data(), this->Points.Count, 2);
-      this->MakeLoop(PlanarRule<Real, 2>{ coordinates.Data(), 1, true, this->FiltersApply });
+      this->MakeLoopOfGrown<Real>(coordinates.Data());
       flips += this->Loop->Converge();
     }
     this->CountInserted(growth, count);
     return flips;
+  }
+
+  /// A mesh while it is refined.
+  template <typename Real>
+  struct RefinedMesh
+  {
+    GrowingMesh<Real> Grown;
+    std::unique_ptr<Refinement<Real, BackendT>> Rounds;
+  };
+
+  template <typename Real>
+  Array<Real>& GetCoordinates()
+  {
+    if constexpr (std::is_same<Real, float>::value)
+    {
+      return this->Points.Floats;
+    }
+    else
+    {
+      return this->Points.Doubles;
+    }
+  }
+
+  template <typename Real>
+  void StartRefinement(const RefinementPlan& plan, RefinedMesh<Real>& refined)
+  {
+    if (refined.Rounds)
+    {
+      return;
+    }
+    refined.Grown = { &this->Mesh, &this->GetCoordinates<Real>(), &this->Order.VertexOfRank,
+      this->Points.Count, this->Report.Points };
+    refined.Rounds =
+      std::make_unique<Refinement<Real, BackendT>>(refined.Grown, plan, this->Backend);
+  }
+
+  template <typename Real>
+  std::int64_t RefineOnce(RefinedMesh<Real>& refined)
+  {
+    const std::int64_t added = refined.Rounds->InsertSome(refined.Grown);
+    if (added == 0)
+    {
+      return 0;
+    }
+    this->Points.Count = refined.Grown.Vertices;
+    const Real* coordinates = this->GetCoordinates<Real>().Data();
+    this->Places = PlaneArray(coordinates, this->Points.Count, 2);
+    this->MakeLoopOfGrown<Real>(coordinates);
+    this->Loop->Converge();
+    this->Asker = PlaceAsker<BackendT>();
+    std::vector<VertexId> used(added);
+    std::iota(used.begin(), used.end(), static_cast<VertexId>(this->Report.Points));
+    this->AppendUsed(used);
+    this->CountGrown();
+    return added;
+  }
+
+  /// Adds to UsedPoint what is used at the places of points that come last.
+  void AppendUsed(const std::vector<VertexId>& added)
+  {
+    const auto before = static_cast<std::int64_t>(this->UsedPoint.Size());
+    const std::int64_t points = this->Report.Points + SizeOf(added);
+    if (before > 0)
+    {
+      std::vector<VertexId> used(this->Report.Points);
+      this->Backend.Download(this->UsedPoint.Data(), this->Report.Points, used.data());
+      used.insert(used.end(), added.begin(), added.end());
+      this->UsedPoint = this->Backend.template MakeArray<VertexId>(points);
+      this->Backend.Upload(used.data(), points, this->UsedPoint.Data());
+    }
+    this->Report.Points = points;
+  }
+
+  /// Counts what a mesh has after it has grown.
+  void CountGrown()
+  {
+    FlipReport& report = this->Report;
+    const std::int64_t hullEdges = 2 * this->Mesh.NumberOfEdges - 3 * this->Mesh.NumberOfTriangles;
+    report.Triangles = this->Mesh.NumberOfTriangles;
+    report.Edges.Edges = this->Mesh.NumberOfEdges;
+    report.Edges.Boundary = hullEdges;
+    report.Edges.Fixed = hullEdges;
+    report.EulerCharacteristic = this->Points.Count - report.Edges.Edges + report.Triangles;
   }
 
   /// Brings the report and UsedPoint up to date.
@@ -560,12 +677,7 @@ private:
     this->UsedPoint = this->Backend.template MakeArray<VertexId>(SizeOf(used));
     this->Backend.Upload(used.data(), SizeOf(used), this->UsedPoint.Data());
     report.Points = before + count;
-    const std::int64_t hullEdges = 2 * this->Mesh.NumberOfEdges - 3 * this->Mesh.NumberOfTriangles;
-    report.Triangles = this->Mesh.NumberOfTriangles;
-    report.Edges.Edges = this->Mesh.NumberOfEdges;
-    report.Edges.Boundary = hullEdges;
-    report.Edges.Fixed = hullEdges;
-    report.EulerCharacteristic = this->Points.Count - report.Edges.Edges + report.Triangles;
+    this->CountGrown();
   }
 
   BackendT Backend;
@@ -577,6 +689,8 @@ private:
   PlaneArray Places; ///< For a mesh from points: a view of Points.
   Array<VertexId> UsedPoint; ///< What MergePlaces returned.
   PlaceAsker<BackendT> Asker;
+  RefinedMesh<float> RefinedFloats; ///< If coordinates are floats; else the next one.
+  RefinedMesh<double> RefinedDoubles;
   OrientationSample Orientations;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;

@@ -6,6 +6,7 @@
 #include "Array.h"
 #include "Atomics.h"
 #include "FlipError.h"
+#include "MeshRoom.h"
 #include "PlaceGrid.h"
 #include "TriangleSplit.h"
 
@@ -18,21 +19,6 @@
 
 namespace delaunayflip
 {
-
-/// Makes room in an array for `size` values, a half more than that if it has to move.
-template <typename T, typename Backend>
-void Reserve(Array<T>& array, std::int64_t used, std::int64_t size, const Backend& backend)
-{
-  if (static_cast<std::int64_t>(array.Size()) >= size)
-  {
-    return;
-  }
-  Array<T> larger = backend.template MakeArray<T>(size + size / 2);
-  const T* from = array.Data();
-  T* to = larger.Data();
-  backend.ForEach(used, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { to[i] = from[i]; });
-  array = std::move(larger);
-}
 
 /// What becomes of a place to insert.
 enum class GrowthState : std::uint32_t
@@ -205,7 +191,7 @@ public:
       return 0;
     }
     const std::int64_t triangles = mesh.NumberOfTriangles, edges = mesh.NumberOfEdges;
-    this->MakeRoom(mesh, triangles + added[1], edges + added[2]);
+    ReserveMesh(mesh, triangles + added[1], edges + added[2], this->Device);
     const auto store = grow(vertices + added[0]);
     this->Split(TriangleSplitter(mesh.View()), { vertices, triangles, edges }, store);
     mesh.NumberOfTriangles = triangles + added[1];
@@ -255,18 +241,6 @@ public:
     this->Device.ForEachNumbered(numbering, this->Count, count,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number) { first[i] = number; });
     return numbering.Total;
-  }
-
-  void MakeRoom(EdgeMesh& mesh, std::int64_t triangles, std::int64_t edges)
-  {
-    constexpr std::int64_t Padding = EdgeMesh::StatePadding;
-    const std::int64_t states = (edges + Padding - 1) / Padding * Padding;
-    Reserve(mesh.Triangles, mesh.NumberOfTriangles, triangles, this->Device);
-    Reserve(mesh.CornerOfHalfEdge, 2 * mesh.NumberOfEdges, 2 * edges, this->Device);
-    Reserve(mesh.States, mesh.NumberOfEdges, states, this->Device);
-    EdgeState* padding = mesh.States.Data() + edges;
-    this->Device.ForEach(states - edges,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { padding[i] = EdgeState::Fixed; });
   }
 
   /// How much a mesh has before it grows.

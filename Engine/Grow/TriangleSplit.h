@@ -45,6 +45,8 @@ public:
   {
   }
 
+  DELAUNAYFLIP_HOST_DEVICE const EdgeMeshView& GetMesh() const { return this->Mesh; }
+
   /// The triangle on the other side of the edge that a place is inside of, or NoCorner.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindAcross(const FoundPlace& place) const
   {

@@ -281,13 +281,55 @@ private:
   bool AnyIsCounterClockwise = false; ///< Whether an outline is.
 };
 
+/// Finds the triangle that each seed is in. It is the first of several, and NoTriangle if there is
+/// none. @param getSeed returns a seed's place.
+template <typename GetSeed>
+std::vector<TriangleId> FindTriangles(
+  const PointMeshView& mesh, std::int64_t count, const GetSeed& getSeed)
+{
+  std::vector<std::int64_t> order(count); // by x
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+    [&](std::int64_t a, std::int64_t b) { return getSeed(a).U < getSeed(b).U; });
+  std::vector<TriangleId> found(count, NoTriangle);
+  for (std::int64_t t = 0; t < mesh.NumberOfTriangles; ++t)
+  {
+    PlanePoint corners[3];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      corners[slot] = mesh.GetPoint(mesh.Edges.Triangles[t].Vertices[slot]);
+    }
+    const auto [left, right] = std::minmax({ corners[0].U, corners[1].U, corners[2].U });
+    auto next = std::lower_bound(order.begin(), order.end(), left,
+      [&](std::int64_t seed, double x) { return getSeed(seed).U < x; });
+    for (; next != order.end() && getSeed(*next).U <= right; ++next)
+    {
+      bool isInside = found[*next] == NoTriangle;
+      for (int slot = 0; slot < 3 && isInside; ++slot)
+      {
+        isInside = FindOrientation(corners[slot], corners[NextSlot(slot)], getSeed(*next)) >= 0;
+      }
+      if (isInside)
+      {
+        found[*next] = static_cast<TriangleId>(t);
+      }
+    }
+  }
+  return found;
+}
+
 class Remover
 {
 public:
   Remover(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments)
+    : Remover(mesh, segments, std::vector<unsigned char>(mesh.NumberOfTriangles, 0))
+  {
+  }
+  Remover(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments,
+    std::vector<unsigned char> isRemoved)
     : Mesh(mesh),
       Segments(segments),
-      IsRemoved(mesh.NumberOfTriangles, 0)
+      IsRemoved(std::move(isRemoved))
   {
   }
 
@@ -311,7 +353,10 @@ public:
   /// are in no triangle.
   std::int64_t RemoveHoles(const double* seeds, std::int64_t count)
   {
-    std::vector<TriangleId> stack = this->FindTriangles(seeds, count);
+    const auto getSeed = [=](std::int64_t i) {
+      return PlanePoint{ seeds[2 * i], seeds[2 * i + 1], 0.0 };
+    };
+    std::vector<TriangleId> stack = FindTriangles(this->Mesh, count, getSeed);
     const std::int64_t outside = std::count(stack.begin(), stack.end(), NoTriangle);
     stack.erase(std::remove(stack.begin(), stack.end(), NoTriangle), stack.end());
     while (!stack.empty())
@@ -492,42 +537,6 @@ private:
     return alpha > 0.0 && !(0.5 * bc <= alpha * sine);
   }
 
-  /// Finds the triangle that each seed is in. It is the first of several, and NoTriangle if there
-  /// is none.
-  std::vector<TriangleId> FindTriangles(const double* seeds, std::int64_t count) const
-  {
-    std::vector<std::int64_t> order(count); // by x
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(),
-      [&](std::int64_t a, std::int64_t b) { return seeds[2 * a] < seeds[2 * b]; });
-    std::vector<TriangleId> found(count, NoTriangle);
-    for (std::int64_t t = 0; t < this->Mesh.NumberOfTriangles; ++t)
-    {
-      PlanePoint corners[3];
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        corners[slot] = this->Mesh.GetPoint(this->Mesh.Edges.Triangles[t].Vertices[slot]);
-      }
-      const auto [left, right] = std::minmax({ corners[0].U, corners[1].U, corners[2].U });
-      auto next = std::lower_bound(order.begin(), order.end(), left,
-        [&](std::int64_t seed, double x) { return seeds[2 * seed] < x; });
-      for (; next != order.end() && seeds[2 * *next] <= right; ++next)
-      {
-        const PlanePoint seed = { seeds[2 * *next], seeds[2 * *next + 1], 0.0 };
-        bool isInside = found[*next] == NoTriangle;
-        for (int slot = 0; slot < 3 && isInside; ++slot)
-        {
-          isInside = FindOrientation(corners[slot], corners[NextSlot(slot)], seed) >= 0;
-        }
-        if (isInside)
-        {
-          found[*next] = static_cast<TriangleId>(t);
-        }
-      }
-    }
-    return found;
-  }
-
   const PointMeshView& Mesh;
   const std::vector<SegmentEdge>& Segments;
   std::vector<unsigned char> IsRemoved;
@@ -559,6 +568,67 @@ KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
   remover.Number(input.FirstAdded, kept);
   segments = remover.ListKeptSegments();
   return kept;
+}
+
+void RenumberTriangles(const PointMeshView& mesh, std::vector<unsigned char> isRemoved,
+  std::int64_t firstAdded, std::vector<SegmentEdge>& segments, KeptTriangles& kept)
+{
+  kept.Count = 0;
+  kept.Used = 0;
+  kept.UsedGiven = 0;
+  kept.Edges = 0;
+  kept.Boundary = 0;
+  kept.Angles = AngleSums();
+  const Remover remover(mesh, segments, std::move(isRemoved));
+  remover.Number(firstAdded, kept);
+  segments = remover.ListKeptSegments();
+}
+
+std::vector<std::int32_t> FindRegions(const PointMeshView& mesh, const PointInput& input,
+  const KeptTriangles& kept, std::int64_t& seedsOutside)
+{
+  std::vector<std::int32_t> regions(mesh.NumberOfTriangles, 0);
+  for (std::size_t t = 0; t < kept.Numbers.size(); ++t)
+  {
+    const TriangleId slot = mesh.Edges.Triangles[t].InputTriangle;
+    regions[t] = kept.Numbers[slot] < 0 ? -1 : 0;
+  }
+  const auto getSeed = [&](std::int64_t i) {
+    return PlanePoint{ input.Regions[i].X, input.Regions[i].Y, 0.0 };
+  };
+  const std::vector<TriangleId> starts = FindTriangles(mesh, input.NumberOfRegions, getSeed);
+  seedsOutside = 0;
+  std::vector<TriangleId> stack;
+  for (std::size_t i = 0; i < starts.size(); ++i)
+  {
+    const bool isOutside = starts[i] == NoTriangle || regions[starts[i]] < 0;
+    seedsOutside += isOutside ? 1 : 0;
+    const auto enter = [&](TriangleId triangle)
+    {
+      if (regions[triangle] == 0)
+      {
+        regions[triangle] = static_cast<std::int32_t>(i + 1);
+        stack.push_back(triangle);
+      }
+    };
+    if (!isOutside)
+    {
+      enter(starts[i]);
+    }
+    while (!stack.empty())
+    {
+      const TriangleRecord& triangle = mesh.Edges.Triangles[stack.back()];
+      stack.pop_back();
+      for (const HalfEdgeId side : triangle.HalfEdges)
+      {
+        if (!mesh.IsFixed(side))
+        {
+          enter(TriangleOf(mesh.Edges.CornerOfHalfEdge[side ^ 1u]));
+        }
+      }
+    }
+  }
+  return regions;
 }
 
 }

@@ -64,6 +64,18 @@ bool MayRemove(const PointInput& input, const PointOptions& options);
 KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
   const PointOptions& options, std::vector<SegmentEdge>& segments);
 
+/// Numbers the triangles that are kept, and measures them, after a mesh has grown.
+/// @param isRemoved by triangle. @param segments all that are edges of triangles that are kept.
+/// @param kept what was removed before.
+void RenumberTriangles(const PointMeshView& mesh, std::vector<unsigned char> isRemoved,
+  std::int64_t firstAdded, std::vector<SegmentEdge>& segments, KeptTriangles& kept);
+
+/// The region of each triangle: the number of the first seed there plus 1, 0 where there is none,
+/// and -1 if it is removed. Regions end at segments and at removed triangles.
+/// @param kept numbers the triangles. @param seedsOutside receives how many are in no region.
+std::vector<std::int32_t> FindRegions(const PointMeshView& mesh, const PointInput& input,
+  const KeptTriangles& kept, std::int64_t& seedsOutside);
+
 }
 
 #endif

@@ -151,6 +151,16 @@ std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
   return RequirePoints(*this->Run).ListSegmentEdges();
 }
 
+std::vector<std::int64_t> FlipSession::ListSegmentsOfEdges() const
+{
+  return RequirePoints(*this->Run).ListSegmentsOfEdges();
+}
+
+void FlipSession::StoreRegions(std::int32_t* labels) const
+{
+  RequirePoints(*this->Run).StoreRegions(labels);
+}
+
 void FlipSession::StoreTriangles(
   const MutableTriangleArray& triangles, const DeviceStream& stream, std::int32_t* written) const
 {

@@ -59,7 +59,8 @@ bool PointRun::CanInsertInPlace(const PlaneArray& points)
   const PointOptions& options = this->Points.GetOptions();
   const PointInput& caller = this->Points.GetCaller();
   const bool isFree = caller.NumberOfSegments + caller.NumberOfHoleSeeds == 0 &&
-    options.PointTolerance == 0.0 && options.Alpha == 0.0 && options.LongestEdge == 0.0;
+    !this->WantsRefinement() && caller.NumberOfRegions == 0 && options.PointTolerance == 0.0 &&
+    options.Alpha == 0.0 && options.LongestEdge == 0.0;
   if (!isFree || !this->Loaded || !this->IsOver() || this->Found.Bad > 0)
   {
     return false;

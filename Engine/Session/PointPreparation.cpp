@@ -53,10 +53,49 @@ void CheckNumber(const char*, Choice)
 {
 }
 
+void CheckRefinement(const PointInput& input, const PointOptions& options)
+{
+  constexpr double LargestAngle = 33.0;
+  if (!(options.MinimumAngle >= 0.0 && options.MinimumAngle <= LargestAngle))
+  {
+    throw InvalidOptions("the minimum angle must be from 0 to 33 degrees");
+  }
+  for (const double goal : { options.MaximumArea, options.MaximumEdge })
+  {
+    if (!(goal >= 0.0 && goal < INFINITY))
+    {
+      throw InvalidOptions("the maximum area and the maximum edge must be finite and 0 or more");
+    }
+  }
+  if (options.PointLimit < 0)
+  {
+    throw InvalidOptions("the point limit must be 0 or more");
+  }
+  for (std::int64_t i = 0; i < input.NumberOfRegions; ++i)
+  {
+    const RegionSeed& region = input.Regions[i];
+    const bool isSound = IsFinite(region.X) && IsFinite(region.Y) && region.MaximumArea >= 0.0 &&
+      region.MaximumArea < INFINITY;
+    if (!isSound)
+    {
+      throw InvalidOptions("region " + std::to_string(i) +
+        " has a coordinate that is NaN or infinite, or an area that is not finite and 0 or more");
+    }
+  }
+  for (std::int64_t i = 0; input.Sizes && i < input.Points.Count; ++i)
+  {
+    if (input.Sizes[i] <= 0.0)
+    {
+      throw InvalidOptions("the size of point " + std::to_string(i) + " is not above 0");
+    }
+  }
+}
+
 void CheckInput(const PointInput& input, const PointOptions& options)
 {
   ForEachPointOption(
     [](const char* name, const auto& option) { CheckNumber(name, option); }, options);
+  CheckRefinement(input, options);
   if (options.NumberOfPieces > 1)
   {
     throw InvalidOptions(
@@ -164,6 +203,59 @@ void PreparedPoints::Append(const PlaneArray& points)
   }
   this->Caller.Points = this->Prepared.Points;
   this->Caller.OnDevice = false;
+}
+
+void PreparedPoints::SetRefined(const std::vector<AddedPoint>& points)
+{
+  const auto before = static_cast<std::ptrdiff_t>(this->Counts.Crossings);
+  const bool isSame = SizeOf(this->Added) == before && points.empty();
+  if (isSame)
+  {
+    return;
+  }
+  this->Added.erase(this->Added.begin() + before, this->Added.end());
+  this->Added.insert(this->Added.end(), points.begin(), points.end());
+  this->CopyToHost();
+  if (this->Caller.Points.Floats)
+  {
+    this->AppendTo(this->Floats, points);
+  }
+  else
+  {
+    this->AppendTo(this->Doubles, points);
+  }
+}
+
+/// Makes the points to triangulate those before refinement and these.
+template <typename Real>
+void PreparedPoints::AppendTo(std::vector<Real>& coordinates, const std::vector<AddedPoint>& points)
+{
+  const std::int64_t before = this->CountBeforeRefinement();
+  std::vector<Real> all;
+  all.reserve(2 * (before + SizeOf(points)));
+  for (std::int64_t i = 0; i < 2 * before; ++i)
+  {
+    all.push_back(static_cast<Real>(this->Prepared.Points.Get(i / 2, static_cast<int>(i % 2))));
+  }
+  for (const AddedPoint& point : points)
+  {
+    all.push_back(static_cast<Real>(point.X));
+    all.push_back(static_cast<Real>(point.Y));
+  }
+  coordinates = std::move(all);
+  this->Prepared.Points = PlaneArray(coordinates.data(), before + SizeOf(points), 2);
+}
+
+std::vector<double> PreparedPoints::ListSizes() const
+{
+  const double* given = this->Caller.Sizes;
+  std::vector<double> sizes(given, given + this->Caller.Points.Count);
+  for (std::int64_t i = 0; i < this->Counts.Crossings; ++i)
+  {
+    const AddedPoint& point = this->Added[i];
+    sizes.push_back((1.0 - point.Share) * sizes[point.From] + point.Share * sizes[point.To]);
+  }
+  return sizes;
 }
 
 PlaneArray PreparedPoints::CopyToHost()

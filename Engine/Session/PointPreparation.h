@@ -35,6 +35,17 @@ public:
   /// @throws InvalidMesh if one of the others is not closed.
   void PrepareRings(const LoadedMesh& mesh);
 
+  /// Replaces the points of refinement, which come last.
+  void SetRefined(const std::vector<AddedPoint>& points);
+  /// How many points there are without them.
+  std::int64_t CountBeforeRefinement() const
+  {
+    return this->Caller.Points.Count + this->Counts.Crossings;
+  }
+
+  /// PointInput::Sizes for all points before refinement.
+  std::vector<double> ListSizes() const;
+
   /// Adds points behind those of the caller, in their precision. Prepare must follow, unless there
   /// are no segments and no tolerance. From now on this has a copy of all points.
   void Append(const PlaneArray& points);
@@ -69,6 +80,8 @@ private:
   void CopyPoints();
   template <typename Real>
   void CopyCoordinates(std::vector<Real>& copy);
+  template <typename Real>
+  void AppendTo(std::vector<Real>& coordinates, const std::vector<AddedPoint>& points);
   bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
   void TurnSegments(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
   using SegmentsByPlace = std::map<std::int64_t, std::vector<std::size_t>>;

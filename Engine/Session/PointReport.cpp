@@ -77,6 +77,10 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
     inside += static_cast<std::int64_t>(edge.IsFirst && !edge.IsOnBoundary);
   }
   counts.RefusedSegments = SizeOf(result.Refused);
+  counts.RefinementPoints = SizeOf(points.GetAdded()) - prepared.Crossings;
+  counts.RefinementRounds = result.RefinementRounds;
+  counts.UnrefinedTriangles = result.Unrefined.Count;
+  counts.ReachedPointLimit = result.HasReachedLimit ? 1 : 0;
   if (report.Triangles > 0)
   {
     counts.Used = places;
@@ -204,7 +208,9 @@ void AddPointsTo(
          NameRings(DefectKind::RingsRepeated, kept.RepeatedRings),
          NameRings(DefectKind::RingsRunAgain, kept.RingsRunAgain),
          Defect(DefectKind::HolePointsOutside, kept.HolePointsOutside),
-         Defect(DefectKind::PointsWithoutTriangles, pointsWithoutMesh), result.Loss })
+         Defect(DefectKind::PointsWithoutTriangles, pointsWithoutMesh), result.Loss,
+         Defect(DefectKind::RegionSeedsOutside, result.RegionSeedsOutside), result.Unrefined,
+         Defect(DefectKind::PointLimitReached, report.FromPoints.ReachedPointLimit) })
   {
     AddDefect(defect, report.Defects);
   }

@@ -45,6 +45,19 @@ void PointRun::ListStages()
   }
   this->Stages.push_back(
     { "cut triangles off", OnStop::Ignores, 0.0, Whole([this] { this->CutOff(); }), remove });
+  if (this->Points.GetCaller().NumberOfRegions > 0)
+  {
+    const auto label = [this](LoadedMesh& mesh, std::int64_t) { this->LabelRegions(mesh); };
+    this->Stages.push_back(
+      { "label regions", OnStop::Ignores, 0.0, Whole([this] { this->LabelRegions(); }), label });
+  }
+  if (this->WantsRefinement())
+  {
+    const auto refine = [this](LoadedMesh& mesh, std::int64_t rounds)
+    { this->RepeatRounds(mesh, rounds); };
+    this->Stages.push_back(
+      { "refine", OnStop::KeepsMesh, 0.5, [this] { return this->Refine(); }, refine });
+  }
   // Points that are inserted later are in the journal as done by this stage.
   const auto insertPoints = [this](LoadedMesh& mesh, std::int64_t batch)
   { this->InsertBatch(mesh, static_cast<std::size_t>(batch)); };
@@ -89,10 +102,8 @@ std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)
 {
   this->Result = PointResult();
   PointInput input = this->Points.GetInput();
-  if (!this->BatchEnds.empty())
-  {
-    input.Points.Count = this->BatchEnds.front();
-  }
+  input.Points.Count =
+    this->BatchEnds.empty() ? this->Points.CountBeforeRefinement() : this->BatchEnds.front();
   if (backend == BackendKind::CUDA)
   {
     return LoadOnCuda(input, this->Options, this->Building);
@@ -336,6 +347,7 @@ void PointRun::Reset()
 {
   LoadedRun::Reset();
   this->Result = PointResult();
+  this->Points.SetRefined({});
   this->BatchEnds.clear();
   this->AreFlipsSlow = false;
   this->Report.Points = this->Points.GetCaller().Points.Count;

@@ -8,6 +8,7 @@
 #include "PointReport.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,10 @@ public:
   const std::vector<AddedPoint>& GetAddedPoints() const { return this->Points.GetAdded(); }
   std::vector<std::int64_t> ListSegmentEdges();
 
+  /// The same as FlipSession's. (PointRefinement.cpp)
+  std::vector<std::int64_t> ListSegmentsOfEdges() const;
+  void StoreRegions(std::int32_t* labels);
+
   /// The same as FlipSession's. (PointInsertion.cpp)
   bool Insert(const PlaneArray& points, const ProgressObserver& progress);
 
@@ -56,6 +61,17 @@ private:
   bool CanInsertInPlace(const PlaneArray& points);
   void InsertInPlace(const PlaneArray& points);
   void InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
+  bool WantsRefinement() const;
+  void LabelRegions();
+  void LabelRegions(LoadedMesh& mesh);
+  RefinementPlan PlanRefinement(const LoadedMesh& mesh) const;
+  bool Refine();
+  std::int64_t RefineOnce(LoadedMesh& mesh);
+  void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
+  void TakeRefinement(LoadedMesh& mesh);
+  void RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions);
+  void AddRefinedPoints(
+    const RefinementResult& made, const std::map<EdgeId, std::uint32_t>& origins);
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;

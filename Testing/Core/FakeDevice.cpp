@@ -104,6 +104,15 @@ public:
     this->Report.Backend = "CUDA: fake";
     return flips;
   }
+  void StartRefinement(const RefinementPlan& plan) override { this->Engine->StartRefinement(plan); }
+  std::int64_t Refine() override
+  {
+    const std::int64_t added = this->Engine->Refine();
+    this->Report = this->Engine->GetInputReport();
+    this->Report.Backend = "CUDA: fake";
+    return added;
+  }
+  RefinementResult FetchRefinement() override { return this->Engine->FetchRefinement(); }
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream&, std::int32_t*) const override
   {

@@ -182,6 +182,45 @@ TEST_F(FallbackTest, AnyCallMayFailForPoints)
   }
 }
 
+/// Rounds of refinement are made again where a GPU fails at any time.
+TEST_F(FallbackTest, AnyCallMayFailForRefinement)
+{
+  std::vector<double> xy;
+  for (int i = 0; i < 11000; ++i)
+  {
+    xy.insert(xy.end(), { std::cos(2.4 * i) * std::sqrt(i), std::sin(2.4 * i) * std::sqrt(i) });
+  }
+  const std::int64_t segments[] = { 10998, 10999, 3, 4 };
+  const RegionSeed region{ 0.0, 0.0, 5, 0.0 };
+  PointInput input{ PlaneArray(xy.data(), 11000, 2) };
+  input.Segments = segments;
+  input.NumberOfSegments = 2;
+  input.Regions = &region;
+  input.NumberOfRegions = 1;
+  const auto run = [&](BackendKind backend, int call)
+  {
+    CallsToFailure = call;
+    PointOptions options{ OnBackend(backend) };
+    options.MinimumAngle = 28.0;
+    FlipSession session(input, options);
+    session.Advance();
+    EXPECT_LT(0, session.GetReport().FromPoints.RefinementPoints);
+    return session;
+  };
+  const FlipSession expected = run(BackendKind::Threads, 0);
+  for (int call = 1;; ++call)
+  {
+    const FlipSession session = run(BackendKind::Auto, call);
+    ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
+    ExpectSameStatistics(expected.GetReport(), session.GetReport());
+    if (CallsToFailure > 0)
+    {
+      EXPECT_LT(15, call);
+      break;
+    }
+  }
+}
+
 /// Points are inserted again, in the same batches, where a GPU fails at any time.
 TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
 {

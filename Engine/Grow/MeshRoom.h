@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_MESHROOM_H
+#define DELAUNAYFLIP_MESHROOM_H
+
+#include "Array.h"
+#include "EdgeMesh.h"
+
+#include <cstdint>
+#include <utility>
+
+/// @file
+/// Room for what is added to a mesh.
+
+namespace delaunayflip
+{
+
+/// Makes room in an array for `size` values, a half more than that if it has to move.
+template <typename T, typename Backend>
+void Reserve(Array<T>& array, std::int64_t used, std::int64_t size, const Backend& backend)
+{
+  if (static_cast<std::int64_t>(array.Size()) >= size)
+  {
+    return;
+  }
+  Array<T> larger = backend.template MakeArray<T>(size + size / 2);
+  const T* from = array.Data();
+  T* to = larger.Data();
+  backend.ForEach(used, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { to[i] = from[i]; });
+  array = std::move(larger);
+}
+
+/// Makes room in a mesh for so many triangles and edges.
+template <typename Backend>
+void ReserveMesh(EdgeMesh& mesh, std::int64_t triangles, std::int64_t edges, const Backend& backend)
+{
+  constexpr std::int64_t Padding = EdgeMesh::StatePadding;
+  const std::int64_t states = (edges + Padding - 1) / Padding * Padding;
+  Reserve(mesh.Triangles, mesh.NumberOfTriangles, triangles, backend);
+  Reserve(mesh.CornerOfHalfEdge, 2 * mesh.NumberOfEdges, 2 * edges, backend);
+  Reserve(mesh.States, mesh.NumberOfEdges, states, backend);
+  EdgeState* padding = mesh.States.Data() + edges;
+  backend.ForEach(states - edges,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { padding[i] = EdgeState::Fixed; });
+}
+
+}
+
+#endif

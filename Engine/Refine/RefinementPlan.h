@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_REFINEMENTPLAN_H
+#define DELAUNAYFLIP_REFINEMENTPLAN_H
+
+#include "EdgeMesh.h"
+#include "TriangleShape.h"
+
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// What a session tells a backend to refine, and what it gets.
+
+namespace delaunayflip
+{
+
+struct RefinementPlan
+{
+  RefinementGoals Goals;
+  std::int64_t MostVertices = 0; ///< Rounds that would make more are not made.
+  bool KeepsBoundary = false; ///< Whether no edge of the boundary is split.
+  /// The region of every triangle, -1 for one that is removed. Empty: all are in region 0. Edges
+  /// between removed triangles and others stay.
+  std::vector<std::int32_t> Regions;
+  std::vector<double> AreaOfRegion; ///< The largest area, or infinity; empty: no limits.
+  std::vector<double> Sizes; ///< By point, the longest edge there, or NaN; empty: no limits.
+};
+
+/// For a vertex that is on no segment.
+constexpr std::uint32_t NoOrigin = 0xFFFFFFFFu;
+
+/// A vertex that refinement has added, and what it interpolates between: three points, of which the
+/// last one has weight 0 if the vertex has split a segment.
+struct RefinedVertex
+{
+  double U, V;
+  std::uint32_t Origin; ///< The number of the segment, by RefinementResult::Segments, or NoOrigin.
+  VertexId Points[3];
+  double Weights[3];
+};
+
+/// A subsegment.
+struct Subsegment
+{
+  EdgeId Edge;
+  std::uint32_t Origin; ///< The number of the subsegment that there was at first.
+};
+
+/// What refinement has made.
+struct RefinementResult
+{
+  std::vector<RefinedVertex> Vertices;
+  std::vector<Subsegment> Segments; ///< First those that there were at first.
+  std::vector<std::int32_t> Regions; ///< As in the plan.
+  std::int64_t Unrefined = 0; ///< Triangles that do not reach the goals.
+  std::vector<TriangleId> FirstUnrefined; ///< Those with the smallest angles, the smallest first.
+  bool HasReachedLimit = false;
+};
+
+}
+
+#endif

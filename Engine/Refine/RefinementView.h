@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_REFINEMENTVIEW_H
+#define DELAUNAYFLIP_REFINEMENTVIEW_H
+
+#include "Atomics.h"
+#include "PlaceWalk.h"
+#include "RefinementPlan.h"
+#include "TriangleShape.h"
+
+#include <cmath>
+#include <cstdint>
+
+/// @file
+/// What refinement knows of a mesh, for functions of both backends: which triangles are to be
+/// improved, and which segments are to be split. Edges that the loop keeps (EdgeState::Fixed) are
+/// subsegments: pieces of the segments there were at first, which include the boundary.
+
+namespace delaunayflip
+{
+
+/// What is known of a subsegment.
+enum SegmentMark : std::uint8_t
+{
+  SplitRequested = 1, ///< A place that was proposed is in its diametral circle or beyond it.
+  CannotSplit = 2 ///< It must not be split, or is too short.
+};
+
+/// What is known of a triangle.
+enum class ShapeKind : std::uint32_t
+{
+  Unknown,
+  Good,
+  Bad,
+  Left ///< Bad, but nothing can be done.
+};
+
+/// The arrays of a refinement.
+struct RefinementView
+{
+  PlaneMesh Mesh;
+  RefinementGoals Goals;
+  bool AreFloats; ///< Whether places have single precision.
+  double Smallest; ///< Coordinates that are nearer to 0 become 0.
+  /// By triangle: ShapeKind, and above it TriangleRecord::Flips at that time.
+  std::uint32_t* Shapes;
+  const std::int32_t* Regions; ///< By triangle: the number of its region; -1: it is removed.
+  const double* AreaOfRegion; ///< The largest area there, or null.
+  const double* Sizes; ///< By vertex: the longest edge there, or null.
+  std::uint8_t* Marks; ///< By edge: SegmentMarks.
+  const std::uint32_t* OriginOfEdge; ///< By edge: the number of its segment, for fixed edges.
+  const std::uint32_t* OriginOfVertex; ///< By vertex: the segment that it has split, or NoOrigin.
+  const VertexId* Ends; ///< By segment, two.
+  const std::uint8_t* IsSharp; ///< By vertex: whether segments meet there at a small angle.
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsKept(TriangleId triangle) const
+  {
+    return this->Regions[triangle] >= 0;
+  }
+  DELAUNAYFLIP_HOST_DEVICE bool HasKept(CornerId corner) const
+  {
+    return corner != NoCorner && this->IsKept(TriangleOf(corner));
+  }
+  DELAUNAYFLIP_HOST_DEVICE bool CanSplit(EdgeId edge) const
+  {
+    return (AtomicLoad(&this->Marks[edge]) & CannotSplit) == 0;
+  }
+
+  //------------------------------------------------------------------------------
+  // Triangles.
+
+  DELAUNAYFLIP_HOST_DEVICE ShapeKind GetShape(std::int64_t triangle) const
+  {
+    return static_cast<ShapeKind>(this->Shapes[triangle] % OneFlip);
+  }
+  DELAUNAYFLIP_HOST_DEVICE void SetShape(std::int64_t triangle, ShapeKind kind) const
+  {
+    const std::uint32_t flips = this->Mesh.Edges.Triangles[triangle].Flips / OneFlip * OneFlip;
+    this->Shapes[triangle] = flips + static_cast<std::uint32_t>(kind);
+  }
+
+  /// Judges a triangle again if it has changed.
+  DELAUNAYFLIP_HOST_DEVICE ShapeKind Judge(std::int64_t triangle) const
+  {
+    const std::uint32_t flips = this->Mesh.Edges.Triangles[triangle].Flips / OneFlip;
+    const ShapeKind before = this->GetShape(triangle);
+    if (before != ShapeKind::Unknown && this->Shapes[triangle] / OneFlip == flips)
+    {
+      return before;
+    }
+    ShapeKind kind = ShapeKind::Good;
+    const auto id = static_cast<TriangleId>(triangle);
+    if (this->IsKept(id))
+    {
+      const TriangleShape shape(this->Mesh, id);
+      const bool isSharp = shape.IsSharperThan(this->Goals.Cotangent);
+      const bool isLarge = this->IsTooLarge(id, shape);
+      const bool isLeft = isSharp && !isLarge && this->IsAcrossSharpCorner(id, shape);
+      kind = isSharp || isLarge ? ShapeKind::Bad : kind;
+      kind = isLeft ? ShapeKind::Left : kind;
+    }
+    this->SetShape(triangle, kind);
+    return kind;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsTooLarge(TriangleId triangle, const TriangleShape& shape) const
+  {
+    double area = this->Goals.Area;
+    if (this->AreaOfRegion)
+    {
+      const double ofRegion = this->AreaOfRegion[this->Regions[triangle]];
+      area = ofRegion < area ? ofRegion : area;
+    }
+    bool isLarge = shape.GetArea() > area || shape.SquaredLongest > this->Goals.SquaredEdge;
+    if (this->Sizes && !isLarge)
+    {
+      const VertexId* vertices = this->Mesh.Edges.Triangles[triangle].Vertices;
+      const double size =
+        (this->Sizes[vertices[0]] + this->Sizes[vertices[1]] + this->Sizes[vertices[2]]) / 3.0;
+      isLarge = shape.SquaredLongest > size * size;
+    }
+    return isLarge;
+  }
+
+  /// Whether the shortest edge of a triangle connects two segments that meet at a small angle, at
+  /// equal distances from their corner. Its angles cannot get better then.
+  DELAUNAYFLIP_HOST_DEVICE bool IsAcrossSharpCorner(
+    TriangleId triangle, const TriangleShape& shape) const
+  {
+    const VertexId* vertices = this->Mesh.Edges.Triangles[triangle].Vertices;
+    const std::uint32_t a = this->OriginOfVertex[vertices[NextSlot(shape.Slot)]];
+    const std::uint32_t b = this->OriginOfVertex[vertices[PreviousSlot(shape.Slot)]];
+    if (a == b || a == NoOrigin || b == NoOrigin)
+    {
+      return false;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      const VertexId corner = this->Ends[2 * std::size_t(a) + i / 2];
+      const bool isCommon = corner == this->Ends[2 * std::size_t(b) + i % 2];
+      if (isCommon && this->IsSharp[corner] != 0)
+      {
+        constexpr double Close = 1.001; // of squared distances, as Triangle has it
+        const PlanePoint place = this->Mesh.GetPoint(corner);
+        const double from = TriangleShape::GetSquaredDistance(place, shape.From);
+        const double to = TriangleShape::GetSquaredDistance(place, shape.To);
+        return from < Close * to && to < Close * from;
+      }
+    }
+    return false;
+  }
+
+  //------------------------------------------------------------------------------
+  // Subsegments.
+
+  /// Whether a place is inside the diametral circle of an edge.
+  DELAUNAYFLIP_HOST_DEVICE bool IsEncroached(HalfEdgeId side, const PlanePoint& place) const
+  {
+    const PlanePoint a = this->Mesh.GetPoint(this->Mesh.GetStart(side));
+    const PlanePoint b = this->Mesh.GetPoint(this->Mesh.GetEnd(side));
+    return (a.U - place.U) * (b.U - place.U) + (a.V - place.V) * (b.V - place.V) < 0.0;
+  }
+
+  /// Whether a subsegment has to be split. Of the vertices that see it, the ones opposite to it are
+  /// the nearest to its middle, because the mesh is constrained Delaunay.
+  DELAUNAYFLIP_HOST_DEVICE bool HasToSplit(EdgeId edge) const
+  {
+    const std::uint8_t marks = this->Marks[edge];
+    if ((marks & CannotSplit) != 0)
+    {
+      return false;
+    }
+    bool hasTo = (marks & SplitRequested) != 0;
+    for (HalfEdgeId side = 2 * edge; side < 2 * edge + 2 && !hasTo; ++side)
+    {
+      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[side];
+      hasTo = this->HasKept(corner) &&
+        this->IsEncroached(side, this->Mesh.GetPoint(this->Mesh.GetVertex(corner)));
+    }
+    return hasTo;
+  }
+
+  /// Where a subsegment is split: in the middle, or at a power of two from an end where segments
+  /// meet at a small angle. So all of them are split at the same distances from their corner, and
+  /// no piece near it is in the diametral circle of another one (Ruppert's concentric shells).
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint FindSplit(HalfEdgeId side) const
+  {
+    const VertexId start = this->Mesh.GetStart(side), end = this->Mesh.GetEnd(side);
+    const PlanePoint a = this->Mesh.GetPoint(start), b = this->Mesh.GetPoint(end);
+    double share = 0.5;
+    const bool isSharp = this->IsSharp[start] != 0;
+    if (isSharp != (this->IsSharp[end] != 0))
+    {
+      const double length = std::sqrt(TriangleShape::GetSquaredDistance(a, b));
+      share = FindPowerOfTwo(length) / length;
+      share = isSharp ? share : 1.0 - share;
+    }
+    return this->Round({ a.U + share * (b.U - a.U), a.V + share * (b.V - a.V), 0.0 });
+  }
+
+  /// A power of two between a third and two thirds of a length.
+  DELAUNAYFLIP_HOST_DEVICE static double FindPowerOfTwo(double length)
+  {
+    double power = 1.0;
+    while (length > 3.0 * power && power < 1e300)
+    {
+      power *= 2.0;
+    }
+    while (length < 1.5 * power && power > 1e-300)
+    {
+      power *= 0.5;
+    }
+    return power;
+  }
+
+  /// A place in the precision of the others.
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint Round(const PlanePoint& place) const
+  {
+    return { this->Round(place.U), this->Round(place.V), 0.0 };
+  }
+  DELAUNAYFLIP_HOST_DEVICE double Round(double coordinate) const
+  {
+    if (std::fabs(coordinate) < this->Smallest)
+    {
+      return 0.0;
+    }
+    return this->AreFloats ? double(static_cast<float>(coordinate)) : coordinate;
+  }
+};
+
+}
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_TRIANGLESHAPE_H
+#define DELAUNAYFLIP_TRIANGLESHAPE_H
+
+#include "PlaneMesh.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+/// @file
+/// Which triangles refinement improves, in which order, and where it puts a point for each.
+
+namespace delaunayflip
+{
+
+/// What all triangles shall be like. Infinity is no limit.
+struct RefinementGoals
+{
+  double Cotangent = INFINITY; ///< Of the smallest angle.
+  /// How far the point for a triangle may be from the middle of its shortest edge, in lengths of
+  /// that edge. Together they make a triangle whose smallest angle is a little above the goal: the
+  /// off-center of Üngör (2004).
+  double OffCenter = INFINITY;
+  double Area = INFINITY; ///< Of the largest triangle.
+  double SquaredEdge = INFINITY; ///< Of the longest edge.
+};
+
+/// The goals for an angle in degrees; 0: none.
+inline void SetSmallestAngle(double degrees, RefinementGoals& goals)
+{
+  if (degrees > 0.0)
+  {
+    constexpr double RadiansPerDegree = 0.017453292519943295;
+    // Below 1/2, as rounding must not make the angle smaller than the goal. Triangle has the same.
+    constexpr double Share = 0.475;
+    const double angle = degrees * RadiansPerDegree;
+    goals.Cotangent = 1.0 / std::tan(angle);
+    goals.OffCenter = Share / std::tan(0.5 * angle);
+  }
+}
+
+/// A triangle, seen from its shortest edge.
+struct TriangleShape
+{
+  PlanePoint Apex, From, To; ///< Counter-clockwise; the shortest edge runs from From to To.
+  int Slot; ///< That of the apex.
+  double SquaredShortest, SquaredLongest;
+  double Dot, Cross; ///< Of the two edges at the apex, where the smallest angle is.
+
+  DELAUNAYFLIP_HOST_DEVICE TriangleShape(const PlaneMesh& mesh, TriangleId triangle)
+  {
+    const TriangleRecord& record = mesh.Edges.Triangles[triangle];
+    const PlanePoint corners[3] = { mesh.GetPoint(record.Vertices[0]),
+      mesh.GetPoint(record.Vertices[1]), mesh.GetPoint(record.Vertices[2]) };
+    this->Slot = 0;
+    this->SquaredShortest = INFINITY;
+    this->SquaredLongest = 0.0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const double squared =
+        GetSquaredDistance(corners[NextSlot(slot)], corners[PreviousSlot(slot)]);
+      if (squared < this->SquaredShortest)
+      {
+        this->SquaredShortest = squared;
+        this->Slot = slot;
+      }
+      this->SquaredLongest = squared > this->SquaredLongest ? squared : this->SquaredLongest;
+    }
+    this->Apex = corners[this->Slot];
+    this->From = corners[NextSlot(this->Slot)];
+    this->To = corners[PreviousSlot(this->Slot)];
+    const double u1 = this->From.U - this->Apex.U, v1 = this->From.V - this->Apex.V;
+    const double u2 = this->To.U - this->Apex.U, v2 = this->To.V - this->Apex.V;
+    this->Dot = u1 * u2 + v1 * v2;
+    this->Cross = u1 * v2 - v1 * u2;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE static double GetSquaredDistance(
+    const PlanePoint& a, const PlanePoint& b)
+  {
+    const double u = b.U - a.U, v = b.V - a.V;
+    return u * u + v * v;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsSharperThan(double cotangent) const
+  {
+    return this->Dot > cotangent * this->Cross;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE double GetArea() const { return 0.5 * this->Cross; }
+
+  /// The place that improves the triangle: its circumcenter, or an off-center nearer to the
+  /// shortest edge. Both are on the bisector of that edge.
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint FindCenter(double offCenter) const
+  {
+    double distance = 0.5 * this->Dot / this->Cross; // of the circumcenter, in lengths of the edge
+    const bool isNear = this->Cross > 0.0 && distance < offCenter;
+    distance = isNear ? distance : offCenter;
+    const double u = this->To.U - this->From.U, v = this->To.V - this->From.V;
+    return { this->From.U + 0.5 * u - distance * v, this->From.V + 0.5 * v + distance * u, 0.0 };
+  }
+};
+
+/// Numbers items in an order that looks random. UnshuffleItem is the inverse.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t ShuffleItem(std::int64_t item)
+{
+  constexpr std::uint32_t Odd = 2654435769u; // 2^32 over the golden ratio, by Knuth
+  return static_cast<std::uint32_t>(item) * Odd;
+}
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t UnshuffleItem(std::uint32_t shuffled)
+{
+  constexpr std::uint32_t Inverse = 340573321u; // of that number, modulo 2^32
+  return shuffled * Inverse;
+}
+
+/// The order in which places for triangles are inserted if they exclude each other: the lowest key
+/// first. Those for small angles come before those for large triangles. The first ones are those of
+/// the shortest edges, and the largest triangles. Keys are different for different triangles; about
+/// equal ones are in a random order, so that many can be inserted at a time.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t MakeRefinementKey(
+  std::int64_t item, const TriangleShape& shape, bool isSharp)
+{
+  constexpr std::uint32_t Infinite = 0x7F800000u, SecondClass = 0x80000000u;
+  constexpr int UnusedBits = 22; // one bit of the fraction is left
+  const auto squared = static_cast<float>(isSharp ? shape.SquaredShortest : shape.SquaredLongest);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &squared, sizeof(bits));
+  const std::uint32_t rank = isSharp ? bits : SecondClass + (Infinite - bits);
+  const std::uint64_t rough = (rank >> UnusedBits << UnusedBits) + (1u << UnusedBits); // not 0
+  return (rough << 32) | ShuffleItem(item);
+}
+
+}
+
+#endif

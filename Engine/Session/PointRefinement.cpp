@@ -1,0 +1,316 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointRun.h"
+
+#include "Array.h"
+#include "InputChecks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+/// @file
+/// How the run of points refines its triangulation.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// Appends the subsegments of a segment's edge, in the direction of the segment.
+/// @param pieces those of the edge that there was before.
+void AppendPieces(const PointMeshView& view, const SegmentEdge& before,
+  const std::vector<EdgeId>& pieces, std::vector<SegmentEdge>& edges)
+{
+  std::map<VertexId, HalfEdgeId> next; // by start
+  std::map<VertexId, int> ends;
+  for (const EdgeId edge : pieces)
+  {
+    const HalfEdgeId side = 2 * edge + (before.Side & 1u);
+    next[view.GetStart(side)] = side;
+    ends[view.GetEnd(side)] = 1;
+  }
+  const auto first = std::find_if(next.begin(), next.end(),
+    [&](const auto& item) { return ends.find(item.first) == ends.end(); });
+  const std::size_t begin = edges.size();
+  for (auto piece = first; piece != next.end(); piece = next.find(view.GetEnd(piece->second)))
+  {
+    SegmentEdge edge = before;
+    edge.Side = piece->second;
+    edges.push_back(edge);
+  }
+  if (!before.IsOnLeft)
+  {
+    std::reverse(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.end());
+  }
+}
+
+/// @param origins by edge that there was before, its number.
+std::vector<SegmentEdge> SplitEdges(const PointMeshView& view,
+  const std::vector<SegmentEdge>& before, const std::vector<Subsegment>& subsegments,
+  const std::map<EdgeId, std::uint32_t>& origins)
+{
+  std::vector<std::vector<EdgeId>> pieces(origins.size());
+  for (const Subsegment& subsegment : subsegments)
+  {
+    pieces[subsegment.Origin].push_back(subsegment.Edge);
+  }
+  std::vector<SegmentEdge> edges;
+  for (const SegmentEdge& edge : before)
+  {
+    AppendPieces(view, edge, pieces[origins.at(EdgeOf(edge.Side))], edges);
+  }
+  return edges;
+}
+
+/// The limit of points that the options set.
+std::int64_t GetPointLimit(std::int64_t limit, std::int64_t points)
+{
+  constexpr std::int64_t Times = 10, Fewest = 1000000;
+  return limit > 0 ? limit : std::max(Times * points, Fewest);
+}
+
+}
+
+bool PointRun::WantsRefinement() const
+{
+  const PointOptions& options = this->Points.GetOptions();
+  const PointInput& input = this->Points.GetCaller();
+  const RegionSeed* regions = input.Regions;
+  const bool hasArea = std::any_of(regions, regions + input.NumberOfRegions,
+    [](const RegionSeed& region) { return region.MaximumArea > 0.0; });
+  return options.MinimumAngle > 0.0 || options.MaximumArea > 0.0 || options.MaximumEdge > 0.0 ||
+    input.Sizes != nullptr || hasArea;
+}
+
+void PointRun::LabelRegions()
+{
+  this->OnBackend([this](LoadedMesh& mesh) { this->LabelRegions(mesh); });
+  this->RecordChange(0);
+}
+
+void PointRun::LabelRegions(LoadedMesh& mesh)
+{
+  const PointInput& input = this->Points.GetCaller();
+  PointResult& result = this->Result;
+  mesh.ViewOnHost([&](const PointMeshView& view)
+    { result.Regions = FindRegions(view, input, result.Kept, result.RegionSeedsOutside); });
+}
+
+RefinementPlan PointRun::PlanRefinement(const LoadedMesh& mesh) const
+{
+  const PointOptions& options = this->Points.GetOptions();
+  const PointInput& input = this->Points.GetCaller();
+  RefinementPlan plan;
+  SetSmallestAngle(options.MinimumAngle, plan.Goals);
+  if (options.MaximumArea > 0.0)
+  {
+    plan.Goals.Area = options.MaximumArea;
+  }
+  if (options.MaximumEdge > 0.0)
+  {
+    plan.Goals.SquaredEdge = options.MaximumEdge * options.MaximumEdge;
+  }
+  const FlipReport& report = mesh.GetInputReport();
+  const std::int64_t unused = report.FromPoints.NotFinite + report.FromPoints.Repeated;
+  plan.MostVertices = GetPointLimit(options.PointLimit, report.Points - unused);
+  plan.KeepsBoundary = options.KeepBoundary;
+  plan.Regions = this->Result.Regions;
+  if (plan.Regions.empty() && this->Result.HasRemoved())
+  {
+    for (const std::int32_t number : this->Result.Kept.Numbers)
+    {
+      plan.Regions.push_back(number < 0 ? -1 : 0);
+    }
+  }
+  if (!this->Result.Regions.empty())
+  {
+    plan.AreaOfRegion.assign(input.NumberOfRegions + 1, INFINITY);
+    for (std::int64_t i = 0; i < input.NumberOfRegions; ++i)
+    {
+      const double area = input.Regions[i].MaximumArea;
+      plan.AreaOfRegion[i + 1] = area > 0.0 ? area : INFINITY;
+    }
+  }
+  if (input.Sizes)
+  {
+    plan.Sizes = this->Points.ListSizes();
+  }
+  return plan;
+}
+
+/// Makes rounds until all triangles are good, or an observer stops it.
+bool PointRun::Refine()
+{
+  // Nobody knows how many rounds are needed; most meshes need 10 to 30.
+  constexpr double Usual = 10.0;
+  if (this->Report.Triangles == 0)
+  {
+    return true;
+  }
+  bool isComplete = false;
+  while (!isComplete && !this->WasStopped)
+  {
+    isComplete = this->OnBackend([this](LoadedMesh& mesh) { return this->RefineOnce(mesh); }) == 0;
+    if (!isComplete)
+    {
+      this->RecordChange(1);
+      const auto rounds = static_cast<double>(this->Result.RefinementRounds);
+      this->WasStopped = !this->Progress.TellRest(this->Observer, rounds / (rounds + Usual));
+    }
+  }
+  if (this->Result.RefinementRounds > 0 || isComplete)
+  {
+    this->OnBackend([this](LoadedMesh& mesh) { this->TakeRefinement(mesh); });
+    this->RecordFound(this->Loaded->GetLoop().GetFound());
+    this->AreAnglesKnown = false;
+  }
+  return isComplete;
+}
+
+std::int64_t PointRun::RefineOnce(LoadedMesh& mesh)
+{
+  if (this->Result.RefinementRounds == 0)
+  {
+    this->Result.EdgesBefore = this->Result.Edges;
+    mesh.StartRefinement(this->PlanRefinement(mesh));
+  }
+  const std::int64_t added = mesh.Refine();
+  this->Result.RefinementRounds += added > 0 ? 1 : 0;
+  return added;
+}
+
+void PointRun::RepeatRounds(LoadedMesh& mesh, std::int64_t rounds)
+{
+  for (std::int64_t i = 0; i < rounds; ++i)
+  {
+    this->RefineOnce(mesh);
+  }
+  this->TakeRefinement(mesh);
+}
+
+/// Takes over what the rounds have made so far.
+void PointRun::TakeRefinement(LoadedMesh& mesh)
+{
+  PointResult& result = this->Result;
+  const RefinementResult made = mesh.FetchRefinement();
+  std::map<EdgeId, std::uint32_t> origins;
+  for (const Subsegment& subsegment : made.Segments)
+  {
+    origins.emplace(subsegment.Edge, subsegment.Origin);
+  }
+  this->AddRefinedPoints(made, origins);
+  result.Unrefined = Defect(DefectKind::TrianglesNotRefined, made.Unrefined);
+  result.HasReachedLimit = made.HasReachedLimit;
+  const auto countRegions = static_cast<std::int64_t>(result.Regions.size());
+  if (countRegions > 0)
+  {
+    result.Regions = made.Regions;
+  }
+  if (result.HasRemoved() || !result.EdgesBefore.empty())
+  {
+    mesh.ViewOnHost(
+      [&](const PointMeshView& view)
+      {
+        result.Edges = SplitEdges(view, result.EdgesBefore, made.Segments, origins);
+        this->RenumberKept(view, made.Regions);
+      });
+  }
+  for (const TriangleId triangle : made.FirstUnrefined)
+  {
+    const std::int32_t number =
+      result.HasRemoved() ? result.Kept.Numbers[triangle] : static_cast<std::int32_t>(triangle);
+    result.Unrefined.FirstIds.push_back(number);
+  }
+  std::sort(result.Unrefined.FirstIds.begin(), result.Unrefined.FirstIds.end());
+  this->Report.Triangles = mesh.GetInputReport().Triangles;
+  if (result.HasRemoved())
+  {
+    this->Report.Triangles = result.Kept.Count;
+  }
+}
+
+/// @param regions by triangle, -1 where it is removed; empty if none is.
+void PointRun::RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions)
+{
+  if (this->Result.HasRemoved())
+  {
+    std::vector<unsigned char> isRemoved;
+    for (const std::int32_t region : regions)
+    {
+      isRemoved.push_back(region < 0 ? 1 : 0);
+    }
+    RenumberTriangles(view, std::move(isRemoved), this->Points.GetInput().FirstAdded,
+      this->Result.Edges, this->Result.Kept);
+  }
+}
+
+/// @param origins by edge, the number of the one that there was before.
+void PointRun::AddRefinedPoints(
+  const RefinementResult& made, const std::map<EdgeId, std::uint32_t>& origins)
+{
+  std::vector<std::int64_t> segmentOf(made.Segments.size(), -1); // by number of an edge before
+  for (auto edge = this->Result.EdgesBefore.rbegin(); edge != this->Result.EdgesBefore.rend();
+       ++edge)
+  {
+    segmentOf[origins.at(EdgeOf(edge->Side))] = this->Points.GetSegments()[edge->Segment].Number;
+  }
+  std::vector<AddedPoint> points;
+  points.reserve(made.Vertices.size());
+  for (const RefinedVertex& vertex : made.Vertices)
+  {
+    AddedPoint point;
+    point.X = vertex.U;
+    point.Y = vertex.V;
+    point.From = vertex.Points[0];
+    point.To = vertex.Points[1];
+    point.Share = vertex.Weights[1];
+    if (vertex.Origin == NoOrigin)
+    {
+      point.Third = vertex.Points[2];
+      point.ThirdShare = vertex.Weights[2];
+    }
+    else
+    {
+      point.Segment = segmentOf[vertex.Origin];
+    }
+    points.push_back(point);
+  }
+  this->Points.SetRefined(points);
+}
+
+//------------------------------------------------------------------------------
+void PointRun::StoreRegions(std::int32_t* labels)
+{
+  const PointInput& input = this->Points.GetCaller();
+  const PointResult& result = this->Result;
+  std::fill_n(labels, this->Report.Triangles, 0);
+  const bool isNumbered = result.HasRemoved();
+  for (std::size_t t = 0; t < result.Regions.size(); ++t)
+  {
+    const std::int32_t region = result.Regions[t];
+    if (region > 0)
+    {
+      const std::int64_t number = isNumbered ? result.Kept.Numbers[t] : std::int64_t(t);
+      labels[number] = input.Regions[region - 1].Label;
+    }
+  }
+}
+
+std::vector<std::int64_t> PointRun::ListSegmentsOfEdges() const
+{
+  std::vector<std::int64_t> numbers;
+  for (const SegmentEdge& edge : this->Result.Edges)
+  {
+    if (edge.IsFirst)
+    {
+      numbers.push_back(this->Points.GetSegments()[edge.Segment].Number);
+    }
+  }
+  return numbers;
+}
+
+}
