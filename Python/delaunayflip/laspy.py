@@ -1,13 +1,17 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Delaunay triangulations of LAS and LAZ files, by laspy."""
+import inspect
+import numbers
+import operator
 import os
 import typing
+import warnings
 
 import laspy
 import numpy
 
-from ._points import Triangulation
+from ._points import Triangulation, run_points
 from ._points import triangulate as _triangulate
 
 #: Points that a call reads at once.
@@ -16,7 +20,7 @@ CHUNK = 1 << 22
 
 def triangulate(
     file: "typing.Union[str, os.PathLike[str], typing.BinaryIO, laspy.LasData]", *,
-    classes: typing.Optional[typing.Iterable[int]] = None, **options: typing.Any,
+    classes: "typing.Union[None, int, typing.Iterable[int]]" = None, **options: typing.Any,
 ) -> Triangulation:
     """The Delaunay triangulation of the points of a LAS or LAZ file in x and y.
 
@@ -26,7 +30,7 @@ def triangulate(
     Args:
         file: A path, an open binary file, or what laspy.read returns. A .laz needs lazrs or laszip,
             which `pip install "delaunayflip[lidar]"` installs.
-        classes: The numbers of the classes to use, such as [2] for the ground; None: all.
+        classes: The numbers of the classes to use, such as [2] for the ground, or one number; None: all.
         **options: Those of delaunayflip.triangulate.
 
     Returns:
@@ -47,7 +51,11 @@ def triangulate(
         >>> len(delaunayflip.laspy.triangulate(tile, classes=[2]).triangles)
         2
     """
-    wanted = None if classes is None else numpy.array(list(classes), dtype=numpy.int64)
+    inspect.signature(_triangulate).bind(None, **options)  # refuses unknown ones
+    wanted = None
+    if classes is not None:
+        listed = [classes] if isinstance(classes, numbers.Integral) else classes
+        wanted = numpy.array([operator.index(number) for number in listed], dtype=numpy.int64)
     if isinstance(file, laspy.LasData):
         points = _select(file.points, wanted)
         seen = numpy.unique(file.classification)
@@ -62,7 +70,11 @@ def triangulate(
         listed = ", ".join(str(int(number)) for number in seen) or "none"
         raise ValueError(f"no point of the classes {classes!r} that is not withheld; the file has the "
                          f"classes {listed}")
-    return _triangulate(points, **options)
+    observers = {name: options.pop(name, None) for name in ("progress", "on_iteration")}
+    result, trouble = run_points(points, options, **observers)
+    if trouble:
+        warnings.warn(trouble, stacklevel=2)
+    return result
 
 
 def _select(records, wanted):

@@ -4,6 +4,7 @@
 notebook."""
 import doctest
 import importlib
+import io
 import os
 import pathlib
 import subprocess
@@ -163,6 +164,30 @@ class Trimesh(unittest.TestCase):
         self.assertEqual(flip(given).visual.uv.tolist()[3], [6, 7])
         with self.assertRaisesRegex(TypeError, "trimesh.Trimesh, not Scene"):
             flip(trimesh.Scene())
+
+
+class Laspy(unittest.TestCase):
+
+    def test_classes_and_files(self):
+        laspy = load("laspy")
+        from delaunayflip.laspy import triangulate
+        tile = laspy.create()
+        tile.x, tile.y, tile.z = [0, 4, 4, 0, 2], [0, 0, 4, 4, 2], [1, 1, 1, 1, 30]
+        tile.classification, tile.withheld = [2, 2, 2, 2, 5], [0, 0, 0, 1, 0]
+        file = io.BytesIO()
+        tile.write(file)
+        for classes, count in (([2], 1), (2, 1), ((5, 2), 2), (None, 2)):
+            file.seek(0)
+            for given in (tile, file):
+                self.assertEqual(len(triangulate(given, classes=classes).triangles), count)
+        for error, text, options in ((ValueError, "the file has the classes 2, 5", {"classes": [9]}),
+                                     (TypeError, "integer", {"classes": [2.5]}),
+                                     (TypeError, "clases", {"clases": [2]})):
+            with self.assertRaisesRegex(error, text):
+                triangulate(tile, **options)
+        with self.assertWarnsRegex(UserWarning, "without heights") as told:
+            triangulate(tile, outline=[[1, 0.5], [3, 0.5], [3, 3]])
+        self.assertEqual(told.filename, __file__)
 
 
 class PyVista(unittest.TestCase):
