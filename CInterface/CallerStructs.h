@@ -158,8 +158,20 @@ inline PlaneArray ToPlane(const delaunayflip_points& c)
   return ToPoints<PlaneArray>(c, c.point_components);
 }
 
-/// Views of the points and segments to triangulate.
-inline PointInput ToPointInput(const delaunayflip_points& c)
+inline std::vector<RegionSeed> ToRegions(const delaunayflip_points& c)
+{
+  RequireArray(c.regions, c.number_of_regions, "regions");
+  std::vector<RegionSeed> regions;
+  for (std::int64_t i = 0; i < c.number_of_regions; ++i)
+  {
+    const delaunayflip_region& region = c.regions[i];
+    regions.push_back({ region.x, region.y, region.label, region.maximum_area });
+  }
+  return regions;
+}
+
+/// Views of the points and segments to triangulate, and of these regions.
+inline PointInput ToPointInput(const delaunayflip_points& c, const std::vector<RegionSeed>& regions)
 {
   RequireArray(c.segments, c.number_of_segments, "segments");
   RequireArray(c.hole_seeds, c.number_of_hole_seeds, "hole_seeds");
@@ -172,6 +184,9 @@ inline PointInput ToPointInput(const delaunayflip_points& c)
   input.HoleSeeds = c.hole_seeds;
   input.NumberOfHoleSeeds = c.number_of_hole_seeds;
   input.FirstAdded = c.first_added;
+  input.Sizes = c.sizes;
+  input.Regions = regions.data();
+  input.NumberOfRegions = static_cast<std::int64_t>(regions.size());
   input.OnDevice = IsOnDevice(c.memory);
   input.Stream = { c.stream };
   return input;
@@ -186,6 +201,11 @@ void ForEachPointOption(Struct& c, Options& options, const Visit& visit)
   visit(c.point_tolerance, options.PointTolerance);
   visit(c.split_crossings, options.SplitCrossings);
   visit(c.ring_rule, options.RingRule);
+  visit(c.minimum_angle, options.MinimumAngle);
+  visit(c.maximum_area, options.MaximumArea);
+  visit(c.maximum_edge, options.MaximumEdge);
+  visit(c.keep_boundary, options.KeepBoundary);
+  visit(c.point_limit, options.PointLimit);
 }
 
 /// Gives an option the value of another type: a number, a switch or a choice.

@@ -174,6 +174,7 @@ struct delaunayflip_session
   std::int64_t NumberOfTriangles = 0;
   const std::int64_t* TriangleNumbers = nullptr; ///< The caller's, or null.
   KeptReport Report;
+  std::vector<RegionSeed> Regions; ///< The session reads them.
 };
 
 namespace
@@ -295,7 +296,7 @@ extern "C"
         { return FlipSession(view, ToOptions(options), ToProgress(callbacks)); };
         *session =
           new delaunayflip_session{ IsOnDevice(c.memory) ? open(ToDeviceMesh(c)) : open(ToMesh(&c)),
-            false, c.number_of_triangles, c.triangle_numbers, {} };
+            false, c.number_of_triangles, c.triangle_numbers, {}, {} };
       });
   }
 
@@ -308,9 +309,11 @@ extern "C"
       {
         Require(session, "session is null");
         const delaunayflip_points c = Complete(points, delaunayflip_points_init);
+        std::vector<RegionSeed> regions = ToRegions(c);
         FlipSession opened(
-          ToPointInput(c), ToPointOptions(c, ToOptions(options)), ToProgress(callbacks));
-        *session = new delaunayflip_session{ std::move(opened), true, 0, nullptr, {} };
+          ToPointInput(c, regions), ToPointOptions(c, ToOptions(options)), ToProgress(callbacks));
+        *session =
+          new delaunayflip_session{ std::move(opened), true, 0, nullptr, {}, std::move(regions) };
       });
   }
 
@@ -343,15 +346,63 @@ extern "C"
       [](const FlipReport& report) { return report.FromPoints.Crossings; },
       [=]()
       {
-        std::int64_t i = 0;
-        for (const AddedPoint& point : session->Session.GetAddedPoints())
+        const std::int64_t crossings = session->Session.GetReport().FromPoints.Crossings;
+        for (std::int64_t i = 0; i < crossings; ++i)
         {
+          const AddedPoint& point = session->Session.GetAddedPoints()[i];
           xy[2 * i] = point.X;
           xy[2 * i + 1] = point.Y;
           ends[2 * i] = point.From;
           ends[2 * i + 1] = point.To;
-          shares[i++] = point.Share;
+          shares[i] = point.Share;
         }
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_added_weights(delaunayflip_session* session, double* xy,
+    std::int64_t* ids, double* weights, std::int64_t* segments)
+  {
+    return TryWithPoints(
+      session, xy && ids ? weights : nullptr,
+      [](const FlipReport& report)
+      { return report.FromPoints.Crossings + report.FromPoints.RefinementPoints; },
+      [=]()
+      {
+        std::int64_t i = 0;
+        for (const AddedPoint& point : session->Session.GetAddedPoints())
+        {
+          const std::int64_t of[] = { point.From, point.To, point.Third };
+          const double shares[] = { 1.0 - point.Share - point.ThirdShare, point.Share,
+            point.ThirdShare };
+          xy[2 * i] = point.X;
+          xy[2 * i + 1] = point.Y;
+          std::copy_n(of, 3, ids + 3 * i);
+          std::copy_n(shares, 3, weights + 3 * i);
+          if (segments)
+          {
+            segments[i] = point.Segment;
+          }
+          ++i;
+        }
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_regions(
+    delaunayflip_session* session, std::int32_t* labels)
+  {
+    return TryWithPoints(
+      session, labels, &FlipReport::Triangles, [=]() { session->Session.StoreRegions(labels); });
+  }
+
+  delaunayflip_status delaunayflip_store_segments_of_edges(
+    delaunayflip_session* session, std::int64_t* numbers)
+  {
+    return TryWithPoints(
+      session, numbers, [](const FlipReport& report) { return report.FromPoints.SegmentEdges; },
+      [=]()
+      {
+        const std::vector<std::int64_t> all = session->Session.ListSegmentsOfEdges();
+        std::copy(all.begin(), all.end(), numbers);
       });
   }
 

@@ -323,6 +323,11 @@ extern "C"
     int64_t triangles_below_30_before;
     int64_t triangles_below_30_after;
     int64_t left_out_rings; /**< From points: they have no area, or the edges of an earlier one. */
+    int64_t refinement_points; /**< Points added by refinement. */
+    int64_t refinement_rounds; /**< How often it has added points. */
+    int64_t unrefined_triangles; /**< With an angle below minimum_angle, or too large: they could
+                                    not get better. */
+    int64_t reached_point_limit; /**< 1 if point_limit has ended refinement. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -361,6 +366,15 @@ extern "C"
                                     counter-clockwise, to 0. In holes: as NONZERO. */
   } delaunayflip_ring_rule; /**< When a place is inside a set of rings. */
 
+  /** Names the part, enclosed by segments, that a place is in. */
+  typedef struct
+  {
+    double x;
+    double y;
+    int32_t label; /**< That of all triangles of the region. */
+    double maximum_area; /**< The largest triangle there; 0: as elsewhere. */
+  } delaunayflip_region;
+
   /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each
    * member in full. */
   typedef struct
@@ -390,6 +404,17 @@ extern "C"
                            [INT32_MAX] */
     int64_t first_added; /**< Points from this number on belong to segments alone. The defects tell
                             if no others are left. [INT64_MAX] */
+    double minimum_angle; /**< Points are added until no angle is smaller: 0 to 33 degrees. [0] */
+    double maximum_area; /**< Points are added until no triangle is larger; 0: no limit. [0] */
+    double maximum_edge; /**< Points are added until no edge is longer; 0: no limit. [0] */
+    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split, so that some triangles
+                              there may stay as they are. [0] */
+    int64_t point_limit; /**< How many points the mesh may have; 0: ten times as many as are given,
+                            at least a million. [0] */
+    const double* sizes; /**< The longest edge near each point, linear in between; NaN: no limit
+                            near that point. Null: no limit. */
+    const delaunayflip_region* regions; /**< If several are in one region, the first one counts. */
+    int64_t number_of_regions;
   } delaunayflip_points;
 
   void delaunayflip_points_init(delaunayflip_points* points);
@@ -417,17 +442,35 @@ extern "C"
    * sessions from points. */
   delaunayflip_status delaunayflip_store_used_points(delaunayflip_session* session, int64_t* ids);
 
-  /** Writes the points that were made where segments cross, as many as the report's crossings. For
-   * sessions from points. Each gets `xy`, two numbers; `ends`, two ids of points, of which an
-   * added one is number_of_points plus its index; and `shares`: what belongs to the point, such as
-   * z, is (1 - share) times that of the first end plus share times that of the second. */
+  /** Writes the points that were made where segments cross, as many as the report's crossings, but
+   * not those of refinement. For sessions from points. Each gets `xy`, two numbers; `ends`, two ids
+   * of points, of which an added one is number_of_points plus its index; and `shares`: what belongs
+   * to the point, such as z, is (1 - share) times that of the first end plus share times that of
+   * the second. */
   delaunayflip_status delaunayflip_store_added_points(
     delaunayflip_session* session, double* xy, int64_t* ends, double* shares);
+
+  /** Writes all points that were made: where segments cross, and then by refinement, as many as the
+   * report's crossings and refinement_points. For sessions from points. Each gets `xy`, two
+   * numbers; `ids`, three ids of points, numbered as above, of which the last one is -1 if there
+   * are only two; `weights`, three numbers: what belongs to the point, such as z, is the sum of
+   * those of these points, each times its weight; and `segments`, the number of the segment on
+   * which refinement has put it, or -1. `segments` may be null. */
+  delaunayflip_status delaunayflip_store_added_weights(
+    delaunayflip_session* session, double* xy, int64_t* ids, double* weights, int64_t* segments);
+
+  /** Writes the label of the region that each triangle is in, and 0 where there is none: as many as
+   * there are triangles. For sessions from points. */
+  delaunayflip_status delaunayflip_store_regions(delaunayflip_session* session, int32_t* labels);
 
   /** Writes the edges that segments have become, as pairs of point ids, in the order and direction
    * of the segments: 2 * segment_edges of the report. For sessions from points. */
   delaunayflip_status delaunayflip_store_segment_edges(
     delaunayflip_session* session, int64_t* pairs);
+
+  /** Writes the number of the segment of each of these edges; of several, the first one. */
+  delaunayflip_status delaunayflip_store_segments_of_edges(
+    delaunayflip_session* session, int64_t* numbers);
 
   /** Inserts more points into the triangulation, numbered after the others of the caller; those at
    * crossings come after them. The triangles are then those of all points, perhaps in another order

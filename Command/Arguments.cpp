@@ -302,6 +302,81 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "Where points are joined: by x and y, or in the plane that fits them best [xy]");
 }
 
+/// Reads x,y,label or x,y,label,area.
+/// @returns what is wrong, or "".
+std::string ParseRegion(const std::string& text, std::array<double, 4>& region)
+{
+  region = {};
+  std::istringstream words(text + ',');
+  std::size_t count = 0;
+  bool areNumbers = true;
+  for (std::string word; std::getline(words, word, ',') && count <= region.size(); ++count)
+  {
+    std::int32_t label = 0;
+    double value = 0.0;
+    const bool isLabel = count == 2;
+    std::errc error = isLabel ? ReadNumber(word, label) : ReadNumber(word, value);
+    areNumbers = areNumbers && error == std::errc() && std::isfinite(value);
+    region[std::min<std::size_t>(count, 3)] = isLabel ? label : value;
+  }
+  if (!areNumbers || count < 3 || count > region.size() || region[3] < 0.0)
+  {
+    return "'" + text + "' is not x,y,label or x,y,label,area, with an integer as label";
+  }
+  return "";
+}
+
+/// Options of --from-points that add points.
+void AddRefinementOptions(CLI::App& app, Arguments& arguments)
+{
+  const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
+  AddValue(app, "--minimum-angle", Set(arguments, &vtkDelaunayFlipPoints::SetMinimumAngle),
+    "DEGREES", Within(0.0, 33.0, "an angle from 0 to 33 degrees"),
+    "Add points until no angle is smaller; 0: no limit. Triangles that cannot get better, because "
+    "segments meet at a small angle, are left [0]");
+  AddValue(app, "--maximum-area", Set(arguments, &vtkDelaunayFlipPoints::SetMaximumArea), "AREA",
+    Within(0.0, std::numeric_limits<double>::max(), "an area of 0 or more"),
+    "Add points until no triangle is larger; 0: no limit [0]");
+  AddValue(app, "--maximum-edge", Set(arguments, &vtkDelaunayFlipPoints::SetMaximumEdge), "LENGTH",
+    length, "Add points until no edge is longer; 0: no limit [0]");
+  const auto setArray = [&arguments](const std::string& name)
+  { arguments.Points->SetSizeArray(name.c_str()); };
+  app
+    .add_option_function<std::string>("--size-array", setArray,
+      "A point array of INPUT: add points until no edge is longer than it says there, linear "
+      "between the points")
+    ->type_name("NAME")
+    ->check(FindFaultOfName);
+  const auto addRegions = [&arguments](const std::vector<std::string>& regions)
+  {
+    for (const std::string& text : regions)
+    {
+      std::array<double, 4> region{};
+      ParseRegion(text, region);
+      arguments.Points->AddRegion(region[0], region[1], static_cast<int>(region[2]), region[3]);
+    }
+  };
+  const auto findFault = [](const std::string& text)
+  {
+    std::array<double, 4> region{};
+    return ParseRegion(text, region);
+  };
+  app
+    .add_option_function<std::vector<std::string>>("--region", addRegions,
+      "A place in a part that segments enclose: x,y,label or x,y,label,area. Its triangles get the "
+      "label, an integer, in the cell array Region, and are not larger than the area. May be "
+      "given several times")
+    ->type_name("LIST")
+    ->allow_extra_args(false)
+    ->check(findFault);
+  app.add_flag_callback("--keep-boundary", Set(arguments, &vtkDelaunayFlipPoints::KeepBoundaryOn),
+    "Add no points on the boundary of the mesh. Some triangles there may stay as they are");
+  AddValue(app, "--point-limit", Set(arguments, &vtkDelaunayFlipPoints::SetPointLimit), "INT",
+    Within<std::int64_t>(0, std::numeric_limits<std::int64_t>::max(), "a number of points"),
+    "Add no more points when the mesh has this many; 0: ten times as many as are given, at least "
+    "a million [0]");
+}
+
 void AddHeightOptions(CLI::App& app, Arguments& arguments)
 {
   HeightOptions& heights = arguments.Heights;
@@ -436,9 +511,8 @@ std::string ExplainAngle(const CLI::App& app)
     return "";
   }
   return found->substr(0, found->find('=')) +
-    ": flips guarantee no smallest angle. They choose the best triangles for the points that "
-    "are there. Only a program that adds or moves points can promise an angle: a mesh generator "
-    "with Delaunay refinement, for example Triangle, Gmsh or CGAL. Flip after it";
+    ": flips alone guarantee no smallest angle. They choose the best triangles for the points that "
+    "are there. --minimum-angle with --from-points adds points until no angle is smaller";
 }
 
 /// "; did you mean --geometry?" if a word that is no option begins like one.
@@ -578,6 +652,9 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
                "      makes the lines in roads.vtk edges that stay\n"
                "  delaunay-flip survey.csv terrain.vtp --from-points\n"
                "      makes a mesh from points alone\n"
+               "  delaunay-flip shore.gpkg mesh.vtp --from-points --outline shore.gpkg \\\n"
+               "      --minimum-angle 28 --maximum-area 500\n"
+               "      fills an outline with good triangles\n"
                "  delaunay-flip survey.csv dem.tif --from-points --raster 1 --crs EPSG:25832\n"
                "      writes their heights on a raster of 1 x 1 cells",
     "delaunay-flip");
@@ -590,6 +667,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   AddJudgeOptions(app, arguments);
   AddStayOptions(app, arguments);
   AddPointOptions(app, arguments);
+  AddRefinementOptions(app, arguments);
   AddHeightOptions(app, arguments);
   AddRunOptions(app, arguments);
   AddWriteOptions(app, arguments);

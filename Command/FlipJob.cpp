@@ -495,6 +495,7 @@ private:
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
     this->Run.Summary = WithOptions(this->Filter->GetSummary(), this->Settings);
+    this->TellGoal();
     this->Output->ShallowCopy(this->Input);
     if (!this->Heights)
     {
@@ -512,6 +513,19 @@ private:
       this->Run.Summary = "mesh: " + Counted(report.Points, "point") + ", no triangles\n";
       report.MinimumAngleBefore = std::numeric_limits<double>::quiet_NaN();
       report.MinimumAngleAfter = report.MinimumAngleBefore;
+    }
+  }
+
+  /// Puts the smallest angle that was asked for beside that of the mesh.
+  void TellGoal()
+  {
+    constexpr int Digits = 6;
+    const double goal = this->Settings.Points->GetMinimumAngle();
+    const std::size_t line = this->Run.Summary.find("smallest angle: ");
+    if (goal > 0.0 && line != std::string::npos)
+    {
+      const std::string text = " (asked for: " + FormatNumber(goal, Digits) + ")";
+      this->Run.Summary.insert(this->Run.Summary.find('\n', line), text);
     }
   }
 

@@ -395,6 +395,17 @@ std::string DescribePoints(const FlipReport& flip)
     }
     text += "segments: " + segments + '\n';
   }
+  if (counts.RefinementPoints + counts.UnrefinedTriangles > 0)
+  {
+    std::string refinement = Count(counts.RefinementPoints, "point") + " added in " +
+      Count(counts.RefinementRounds, "round");
+    add(refinement, counts.UnrefinedTriangles, "triangles left that do not reach the goals");
+    if (counts.ReachedPointLimit > 0)
+    {
+      refinement += ", ended by the point limit";
+    }
+    text += "refinement: " + refinement + '\n';
+  }
   if (counts.OutsideTriangles + counts.LargeTriangles > 0)
   {
     text += "removed: " + Count(counts.OutsideTriangles, "triangle") + " outside, " +

@@ -163,6 +163,11 @@ void ForEachPointOption(const Visit& visit, Options&... options)
   visit("point_tolerance", options.PointTolerance...);
   visit("split_crossings", options.SplitCrossings...);
   visit("ring_rule", options.RingRule...);
+  visit("minimum_angle", options.MinimumAngle...);
+  visit("maximum_area", options.MaximumArea...);
+  visit("maximum_edge", options.MaximumEdge...);
+  visit("keep_boundary", options.KeepBoundary...);
+  visit("point_limit", options.PointLimit...);
 }
 
 inline bool operator==(const PointOptions& a, const PointOptions& b)

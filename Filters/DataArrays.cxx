@@ -115,6 +115,20 @@ std::string GetName(vtkAbstractArray* array)
   return name ? name : "";
 }
 
+std::string ListNames(vtkDataSetAttributes* data)
+{
+  if (data->GetNumberOfArrays() == 0)
+  {
+    return "it has none";
+  }
+  std::string names = "it has \"" + GetName(data->GetAbstractArray(0)) + '"';
+  for (int i = 1; i < data->GetNumberOfArrays(); ++i)
+  {
+    names += ", \"" + GetName(data->GetAbstractArray(i)) + '"';
+  }
+  return names;
+}
+
 void SetName(const std::string& name, vtkAbstractArray* array)
 {
   array->SetName(name.empty() ? nullptr : name.c_str());

@@ -134,6 +134,9 @@ inline int FindPointType(bool areFloats) { return areFloats ? VTK_FLOAT : VTK_DO
 /// The name of an array; "" if it has none.
 DELAUNAYFLIP_EXPORT std::string GetName(vtkAbstractArray* array);
 
+/// The names of arrays, e.g. "it has \"Side\", \"Material\"".
+DELAUNAYFLIP_EXPORT std::string ListNames(vtkDataSetAttributes* data);
+
 /// Names an array, or takes its name away if it is "".
 DELAUNAYFLIP_EXPORT void SetName(const std::string& name, vtkAbstractArray* array);
 

@@ -31,21 +31,6 @@ namespace delaunayflip
 namespace
 {
 
-/// E.g. "it has \"Side\", \"Material\"".
-std::string ListNames(vtkCellData* data)
-{
-  if (data->GetNumberOfArrays() == 0)
-  {
-    return "it has none";
-  }
-  std::string names = "it has \"" + GetName(data->GetAbstractArray(0)) + '"';
-  for (int i = 1; i < data->GetNumberOfArrays(); ++i)
-  {
-    names += ", \"" + GetName(data->GetAbstractArray(i)) + '"';
-  }
-  return names;
-}
-
 /// Asks for pages of 2 MiB instead of 4 KiB in new memory, because each page is allocated and
 /// cleared on first use. Measured in an earlier version: for the connectivity alone, this took an
 /// update of 5 M points on a GPU from 63 to 56 ms.

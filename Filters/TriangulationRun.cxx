@@ -7,7 +7,9 @@
 #include "UpdateRequests.h"
 
 #include "vtkAbstractTransform.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkPlane.h"
 #include "vtkPointData.h"
@@ -86,7 +88,7 @@ bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& 
   const auto tie = [](const TriangulationRequest& r)
   {
     return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
-      r.FirstHole, r.Heights, r.Options);
+      r.FirstHole, r.Heights, r.SizeArray, r.Regions, r.Options);
   };
   return tie(a) == tie(b);
 }
@@ -158,6 +160,23 @@ vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtk
     TurnToDoubles(copy->GetPointData());
   }
   return copy;
+}
+
+/// Writes the tuple of an added point: between those of two or three others.
+void InterpolateTuple(vtkIdType target, const AddedPoint& point, vtkAbstractArray* array)
+{
+  if (point.Third < 0)
+  {
+    array->InterpolateTuple(target, point.From, array, point.To, array, point.Share);
+    return;
+  }
+  vtkNew<vtkIdList> corners;
+  for (const std::int64_t corner : { point.From, point.To, point.Third })
+  {
+    corners->InsertNextId(corner);
+  }
+  double weights[] = { 1.0 - point.Share - point.ThirdShare, point.Share, point.ThirdShare };
+  array->InterpolateTuple(target, corners, array, weights);
 }
 
 /// The segments of both inputs, as pairs of ids of points. Points of the second input that are new
@@ -381,6 +400,8 @@ private:
   bool HasCopyOf(vtkPolyData* points) const;
   bool AddsPoints() const;
   void ChooseHeights();
+  void ReadSizes();
+  void ReadRegions();
   std::vector<std::pair<vtkDataArray*, int>> ListSurveyed() const;
   void WriteSurveyed(const std::vector<std::pair<vtkDataArray*, int>>& numbers,
     const std::vector<std::int64_t>& points, const std::vector<double>& values,
@@ -390,7 +411,7 @@ private:
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
   Defect DescribeFlatPoints() const;
   PlaneArray Project();
-  void AddCrossings(vtkPolyData* output) const;
+  void AppendAdded(vtkPolyData* output) const;
   void InterpolateData(vtkPointData* data) const;
 
   TriangulationRequest Asked; ///< Its meshes may be gone.
@@ -401,6 +422,9 @@ private:
   SegmentList Segments;
   std::vector<std::int64_t> FlatPoints; ///< See SegmentList::FindFlatPoints.
   bool AreLifted = false; ///< They have got heights.
+  bool HasSurveyed = false; ///< Added points have got data of the given ones.
+  std::vector<double> Sizes; ///< Longest edges near points, if they are limited.
+  std::vector<RegionSeed> Regions;
   std::vector<double> Storage; ///< Points that cannot be viewed in place.
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
   PointInput View; ///< Views of these.
@@ -411,13 +435,20 @@ bool IsProjected(const TriangulationRequest& request)
   return request.Transform || request.FitsPlane;
 }
 
+/// Whether points of the second input get point data of the first one, whatever their heights.
+bool FillsData(const TriangulationRequest& request)
+{
+  return request.FillsData || !request.SizeArray.empty();
+}
+
 /// Whether points of the second input may get other heights: an estimate, before these are known.
 bool MayTakeHeights(const TriangulationRequest& request)
 {
   vtkPolyData* others = request.Others;
-  if (!others || request.FillsData || request.Heights != HeightsKind::Auto || IsProjected(request))
+  const bool fillsData = FillsData(request);
+  if (!others || fillsData || request.Heights != HeightsKind::Auto || IsProjected(request))
   {
-    return others && (request.FillsData || request.Heights == HeightsKind::Survey);
+    return others && (fillsData || request.Heights == HeightsKind::Survey);
   }
   double bounds[6];
   others->GetBounds(bounds);
@@ -438,6 +469,8 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
 {
   this->View.Points = this->Project();
   this->ChooseHeights();
+  this->ReadSizes();
+  this->ReadRegions();
   this->View.Segments = this->Segments.Ends.data();
   this->View.NumberOfSegments = static_cast<std::int64_t>(this->Segments.Rings.size());
   this->View.Rings = this->Segments.Rings.data();
@@ -562,7 +595,54 @@ void TriangulationRun::ChooseHeights()
   {
     this->FlatPoints.clear(); // nobody is told of what was asked for
   }
-  this->TakeHeights(this->Asked.FillsData ? added : lifted, lifted);
+  this->TakeHeights(FillsData(this->Asked) ? added : lifted, lifted);
+}
+
+/// Finds the longest edges near points. Near those that have no number there is no limit.
+void TriangulationRun::ReadSizes()
+{
+  const std::string& name = this->Asked.SizeArray;
+  if (name.empty())
+  {
+    return;
+  }
+  const vtkIdType given = this->Given->GetNumberOfPoints(), count = this->View.Points.Count;
+  vtkDataArray* array = this->Points->GetPointData()->GetArray(name.c_str());
+  if (!array)
+  {
+    throw InvalidOptions("SizeArray: the input has no point array of numbers named \"" + name +
+      "\"; " + ListNames(this->Points->GetPointData()) + ".");
+  }
+  if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() < count)
+  {
+    throw InvalidOptions("SizeArray: \"" + name +
+      "\" must have one component, and as many tuples as there are points.");
+  }
+  const auto has = [&name](vtkPolyData* points)
+  { return points && points->GetPointData()->HasArray(name.c_str()) != 0; };
+  const bool areGiven = has(this->Given);
+  const bool areAddedKnown = has(this->Asked.Others) || this->HasSurveyed;
+  this->Sizes.assign(count, NAN);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const bool isKnown = i < given ? areGiven : areAddedKnown;
+    if (isKnown)
+    {
+      this->Sizes[i] = array->GetComponent(i, 0);
+    }
+  }
+  this->View.Sizes = this->Sizes.data();
+}
+
+void TriangulationRun::ReadRegions()
+{
+  for (const std::array<double, 4>& region : this->Asked.Regions)
+  {
+    const auto label = static_cast<std::int32_t>(region[2]);
+    this->Regions.push_back({ region[0], region[1], label, region[3] });
+  }
+  this->View.Regions = ViewValues(this->Regions);
+  this->View.NumberOfRegions = static_cast<std::int64_t>(this->Regions.size());
 }
 
 /// The numbers that points of the second input get from the given ones: pairs of an array of the
@@ -674,6 +754,7 @@ void TriangulationRun::TakeHeights(
   this->WriteSurveyed(numbers, points, results, lifted);
   this->Points->GetPoints()->Modified();
   this->AreLifted = !lifted.empty();
+  this->HasSurveyed = true;
 }
 
 //------------------------------------------------------------------------------
@@ -690,7 +771,7 @@ bool TriangulationRun::Store(vtkPolyData* output) const
   AddPointFieldData(this->Session->GetReport(), output->GetFieldData());
   if (!this->Session->GetAddedPoints().empty())
   {
-    this->AddCrossings(output);
+    this->AppendAdded(output);
   }
   if (this->AddsPoints())
   {
@@ -703,15 +784,23 @@ bool TriangulationRun::Store(vtkPolyData* output) const
   }
   FillTriangles(*this->Session, triangles);
   output->SetPolys(triangles);
+  if (!this->Regions.empty())
+  {
+    vtkNew<vtkIntArray> labels;
+    labels->SetName("Region");
+    labels->SetNumberOfValues(triangles->GetNumberOfCells());
+    this->Session->StoreRegions(labels->GetPointer(0));
+    output->GetCellData()->AddArray(labels);
+  }
   return true;
 }
 
-/// Adds the points where segments cross to an output.
-void TriangulationRun::AddCrossings(vtkPolyData* output) const
+/// Appends the points where segments cross, and those of refinement, to an output.
+void TriangulationRun::AppendAdded(vtkPolyData* output) const
 {
-  const std::vector<AddedPoint>& crossings = this->Session->GetAddedPoints();
+  const std::vector<AddedPoint>& added = this->Session->GetAddedPoints();
   const vtkIdType first = this->Points->GetNumberOfPoints();
-  const auto size = static_cast<vtkIdType>(crossings.size());
+  const auto size = static_cast<vtkIdType>(added.size());
   vtkNew<vtkPoints> zeros;
   zeros->SetNumberOfPoints(size);
   zeros->GetData()->Fill(0.0);
@@ -721,13 +810,17 @@ void TriangulationRun::AddCrossings(vtkPolyData* output) const
   const bool isProjected = this->Projected->GetNumberOfPoints() > 0;
   for (vtkIdType i = 0; i < size; ++i)
   {
-    const AddedPoint& point = crossings[i];
+    const AddedPoint& point = added[i];
     double place[3];
     for (int axis = 0; axis < 3; ++axis)
     {
       // InterpolateTuple would make infinite floats finite.
-      place[axis] = (1.0 - point.Share) * xyz->GetComponent(point.From, axis) +
+      place[axis] = (1.0 - point.Share - point.ThirdShare) * xyz->GetComponent(point.From, axis) +
         point.Share * xyz->GetComponent(point.To, axis);
+      if (point.Third >= 0)
+      {
+        place[axis] += point.ThirdShare * xyz->GetComponent(point.Third, axis);
+      }
     }
     if (!isProjected)
     {
@@ -738,10 +831,9 @@ void TriangulationRun::AddCrossings(vtkPolyData* output) const
   }
 }
 
-/// Gives the crossings the data between those of two points, except labels of points.
+/// Gives the added points the data between those of others, except labels of points.
 void TriangulationRun::InterpolateData(vtkPointData* data) const
 {
-  const std::vector<AddedPoint>& crossings = this->Session->GetAddedPoints();
   vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
     data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
@@ -752,9 +844,9 @@ void TriangulationRun::InterpolateData(vtkPointData* data) const
       continue;
     }
     vtkIdType next = this->Points->GetNumberOfPoints();
-    for (const AddedPoint& point : crossings)
+    for (const AddedPoint& point : this->Session->GetAddedPoints())
     {
-      array->InterpolateTuple(next++, point.From, array, point.To, array, point.Share);
+      InterpolateTuple(next++, point, array);
     }
   }
 }

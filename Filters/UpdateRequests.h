@@ -9,7 +9,10 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <memory>
+#include <string>
+#include <vector>
 
 class vtkAbstractTransform;
 class vtkPoints;
@@ -61,6 +64,8 @@ struct TriangulationRequest : UpdateRequest
   HeightsKind Heights = HeightsKind::Auto; ///< In a projection Auto is Own.
   /// Points that only the second input has get point data of the first one, whatever their heights.
   bool FillsData = false;
+  std::string SizeArray; ///< A point array of longest edges; "": none.
+  std::vector<std::array<double, 4>> Regions; ///< x, y, label and largest area of each.
   PointOptions Options;
 };
 

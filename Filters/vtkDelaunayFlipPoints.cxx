@@ -86,6 +86,8 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   request.ClosedLinesAsRings = this->ClosedLinesAsRings;
   request.FirstHole = this->FirstHole;
   request.Heights = static_cast<HeightsKind>(this->SegmentHeights);
+  request.SizeArray = this->SizeArray;
+  request.Regions = this->Regions;
   const auto copy = [&request](const char*, const auto& property, auto member)
   {
     auto& option = request.Options.*member;
@@ -137,6 +139,22 @@ void vtkDelaunayFlipPoints::FlipLeaves(
 }
 
 //------------------------------------------------------------------------------
+void vtkDelaunayFlipPoints::AddRegion(double x, double y, int label, double maximumArea)
+{
+  this->Regions.push_back({ x, y, static_cast<double>(label), maximumArea });
+  this->Modified();
+}
+
+void vtkDelaunayFlipPoints::RemoveAllRegions()
+{
+  if (!this->Regions.empty())
+  {
+    this->Regions.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 vtkIdType vtkDelaunayFlipPoints::GetNumberOfSegmentEdges() const
 {
   return this->GetReport().FromPoints.SegmentEdges;
@@ -154,6 +172,8 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Transform: " << this->Transform << "\n";
   this->ForEachOption<PointOptions>([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
+  os << indent << "SizeArray: " << this->SizeArray << "\n";
+  os << indent << "Regions: " << this->Regions.size() << "\n";
   os << indent << "FirstHole: " << this->FirstHole << "\n";
   os << indent << "SegmentHeights: " << this->SegmentHeights << "\n";
   os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";

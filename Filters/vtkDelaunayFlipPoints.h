@@ -24,7 +24,8 @@
  * data, and triangles, which are counter-clockwise in the plane. Without added points it shares
  * the vtkPoints object of the input, but not in live updates. Added points come last. First are
  * those of the second input with their z and point data; an array that only one input has is 0 or
- * empty for the points of the other. Then come those where segments cross. Global point ids become
+ * empty for the points of the other. Then come those where segments cross, and those of refinement
+ * (MinimumAngle, MaximumArea, MaximumEdge, SizeArray, AddRegion). Global point ids become
  * pedigree ids if points are added, since they are no longer unique. Port 1: the table of
  * iterations, as of vtkDelaunayFlip.
  *
@@ -33,7 +34,9 @@
  * (see PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
  * Crossings (the points added where segments cross), LargestShift (how far rounding has moved one
  * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by Alpha and
- * LongestEdge) and LeftOutRings.
+ * LongestEdge), LeftOutRings, RefinementPoints, RefinementRounds (how often they were added),
+ * UnrefinedTriangles (those that could not get better) and ReachedPointLimit (1 if PointLimit has
+ * ended refinement).
  *
  * Some points are not used. If several are at one place in the plane, only the one with the lowest
  * id is used, for any z. Points with a NaN or infinite coordinate are not used, but in XY their z
@@ -97,6 +100,10 @@
 #include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
 #include "vtkSmartPointer.h" // For the points that are read
+
+#include <array> // For the regions
+#include <string>
+#include <vector>
 
 class vtkAbstractTransform;
 class vtkPointSet;
@@ -179,6 +186,62 @@ public:
   vtkSetMacro(SplitCrossings, bool);
   vtkGetMacro(SplitCrossings, bool);
   vtkBooleanMacro(SplitCrossings, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Refinement: add points until no angle is smaller than MinimumAngle (0 to 33 degrees), no
+   * triangle has a larger area than MaximumArea, and no edge is longer than MaximumEdge; 0
+   * (default): no limit. All are measured in the plane. z and point data are linear between the
+   * points; in a projection x, y and z are. Triangles that cannot get better, because segments meet
+   * at a small angle or must not be split, are left, and a warning counts them.
+   */
+  vtkSetClampMacro(MinimumAngle, double, 0.0, 33.0);
+  vtkGetMacro(MinimumAngle, double);
+  vtkSetClampMacro(MaximumArea, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumArea, double);
+  vtkSetClampMacro(MaximumEdge, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumEdge, double);
+  ///@}
+
+  ///@{
+  /**
+   * A point array of numbers: the longest edge that triangles may have near each point, linear in
+   * between. NaN: no limit near that point. Points that only the second input has, without such an
+   * array, get it from the first input, and so they do all arrays that the second one does not have
+   * (see SegmentHeights). "" (default): none.
+   */
+  vtkSetStdStringFromCharMacro(SizeArray);
+  vtkGetCharFromStdStringMacro(SizeArray);
+  ///@}
+
+  ///@{
+  /**
+   * Add a region: a place in a part that segments enclose, the label of its triangles, and the
+   * largest area of a triangle there (0: as elsewhere). If there are regions, the output has a cell
+   * array "Region" with these labels, 0 elsewhere. Of several in one part the first counts.
+   */
+  void AddRegion(double x, double y, int label, double maximumArea);
+  void RemoveAllRegions();
+  ///@}
+
+  ///@{
+  /**
+   * Split no edge of the boundary: that of the hull, or of what is kept. Then some triangles there
+   * stay as they are. Default off.
+   */
+  vtkSetMacro(KeepBoundary, bool);
+  vtkGetMacro(KeepBoundary, bool);
+  vtkBooleanMacro(KeepBoundary, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How many points the triangles may have. Refinement ends before it would add more, with a
+   * warning. 0 (default): ten times as many as are given, at least a million.
+   */
+  vtkSetClampMacro(PointLimit, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(PointLimit, vtkIdType);
   ///@}
 
   ///@{
@@ -282,6 +345,11 @@ protected:
     visit("PointTolerance", this->PointTolerance, &Options::PointTolerance);
     visit("SplitCrossings", this->SplitCrossings, &Options::SplitCrossings);
     visit("RingRule", this->RingRule, &Options::RingRule);
+    visit("MinimumAngle", this->MinimumAngle, &Options::MinimumAngle);
+    visit("MaximumArea", this->MaximumArea, &Options::MaximumArea);
+    visit("MaximumEdge", this->MaximumEdge, &Options::MaximumEdge);
+    visit("KeepBoundary", this->KeepBoundary, &Options::KeepBoundary);
+    visit("PointLimit", this->PointLimit, &Options::PointLimit);
   }
 
   void FlipLeaves(delaunayflip::MeshBlock& block,
@@ -307,6 +375,13 @@ protected:
   double PointTolerance = 0.0;
   bool SplitCrossings = false;
   int RingRule = RING_RULE_EVEN_ODD;
+  double MinimumAngle = 0.0;
+  double MaximumArea = 0.0;
+  double MaximumEdge = 0.0;
+  bool KeepBoundary = false;
+  vtkIdType PointLimit = 0;
+  std::string SizeArray;
+  std::vector<std::array<double, 4>> Regions; ///< x, y, label and largest area of each.
   vtkIdType FirstHole = -1;
   int SegmentHeights = SEGMENT_HEIGHTS_AUTO;
   bool LinesAsSegments = false;

@@ -56,20 +56,13 @@ void CheckNumber(const char*, Choice)
 void CheckRefinement(const PointInput& input, const PointOptions& options)
 {
   constexpr double LargestAngle = 33.0;
-  if (!(options.MinimumAngle >= 0.0 && options.MinimumAngle <= LargestAngle))
+  if (options.MinimumAngle > LargestAngle)
   {
-    throw InvalidOptions("the minimum angle must be from 0 to 33 degrees");
-  }
-  for (const double goal : { options.MaximumArea, options.MaximumEdge })
-  {
-    if (!(goal >= 0.0 && goal < INFINITY))
-    {
-      throw InvalidOptions("the maximum area and the maximum edge must be finite and 0 or more");
-    }
+    throw InvalidOptions("MinimumAngle must be from 0 to 33 degrees");
   }
   if (options.PointLimit < 0)
   {
-    throw InvalidOptions("the point limit must be 0 or more");
+    throw InvalidOptions("PointLimit must be 0 or more");
   }
   for (std::int64_t i = 0; i < input.NumberOfRegions; ++i)
   {

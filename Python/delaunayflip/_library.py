@@ -61,7 +61,8 @@ DEFECT_KINDS = (
     "constraints need guard", "constraints on surface", "points repeated", "points too near",
     "segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
     "rings without area", "rings repeated", "rings run again", "hole points outside",
-    "points without triangles", "nothing left", "polygons too small", "constraints not in mesh", "points without heights")
+    "points without triangles", "nothing left", "polygons too small", "constraints not in mesh",
+    "points without heights", "region seeds outside", "triangles not refined", "point limit reached")
 
 
 def make_struct(name, members):

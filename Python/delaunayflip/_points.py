@@ -12,7 +12,7 @@ import re
 import typing
 import warnings
 from ctypes import c_double, c_int32, c_int64, c_void_p
-from typing import Any, Optional, Tuple, Union
+from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy
 
@@ -20,13 +20,20 @@ from . import _arrays, _library, _report
 from ._arrays import address
 from ._ask import Answers, Field, Method, Outside, read_places, read_raster
 from ._options import (
-    Array, Backend, Numbers, OnIteration, Progress, choose, convert, list_ranges, make_options)
+    Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, convert, list_ranges,
+    make_options, show)
 from ._report import Report, to_camel_case
 from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
 from ._session import run
 
 Heights = typing.Literal["survey", "own"]
 Length = typing.Annotated[float, (0.0, math.inf)]
+Angle = typing.Annotated[float, (0.0, 33.0)]
+Count = typing.Annotated[int, (0, 2**63 - 1)]
+#: x, y, label and perhaps the largest area of a triangle.
+Region = typing.Tuple[float, ...]
+#: delaunayflip_region.
+_REGION = numpy.dtype([("x", "f8"), ("y", "f8"), ("label", "i4"), ("maximum_area", "f8")], align=True)
 
 
 class PointOptions(typing.TypedDict, total=False):
@@ -37,6 +44,11 @@ class PointOptions(typing.TypedDict, total=False):
     longest_edge: Length
     point_tolerance: Length
     split_crossings: bool
+    minimum_angle: Angle
+    maximum_area: Length
+    maximum_edge: Length
+    keep_boundary: bool
+    point_limit: Count
 
 
 POINT_OPTIONS = typing.get_type_hints(PointOptions)  #: The type of each.
@@ -47,7 +59,9 @@ Struct = _library.make_struct("Points", (
     (c_int32, "point_type point_components"), (c_void_p, "segments"), (c_int64, "number_of_segments"),
     (c_void_p, "rings hole_seeds"), (c_int64, "number_of_hole_seeds"),
     (c_double, "point_tolerance alpha longest_edge"), (c_int32, "ring_rule split_crossings memory"),
-    (c_void_p, "stream"), (c_int32, "first_hole"), (c_int64, "first_added")))
+    (c_void_p, "stream"), (c_int32, "first_hole"), (c_int64, "first_added"),
+    (c_double, "minimum_angle maximum_area maximum_edge"), (c_int32, "keep_boundary"),
+    (c_int64, "point_limit"), (c_void_p, "sizes regions"), (c_int64, "number_of_regions")))
 
 # Kinds of defects that are warned of: the caller gave something that is not used as it is.
 _WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
@@ -64,13 +78,15 @@ class Triangulation:
     """
 
     #: (n, 2) or (n, 3): the points of the caller, then those of lines and rings that are given by
-    #: coordinates, then those where segments cross.
+    #: coordinates, then those where segments cross, then those of refinement.
     points: Array
     triangles: Array  #: (m, 3) int32, counter-clockwise in x and y.
     #: (m, 3) int32: the triangle opposite each corner, -1 where there is none, as in SciPy.
     neighbors: Array
     #: (k, 2) int64: the edges that segments have become, in their order and direction, each once.
     segments: Array
+    segment_numbers: Array  #: (k,) int64: the segment of each of these edges; of several, the first one.
+    regions: Array  #: (m,) int32: the label of the region of each triangle, 0 where there is none.
     iterations: Array  #: A row per iteration, structured; see Session.iterations.
     report: Report
     _used: Optional[Array] = dataclasses.field(repr=False)  # None: each point is used
@@ -179,8 +195,10 @@ def triangulate(
     outline: Optional[Rings] = None, holes: Optional[Rings] = None,
     hole_seeds: Optional[Numbers] = None, ring_rule: RingRule = "evenodd", alpha: float = 0.0,
     longest_edge: float = 0.0, point_tolerance: float = 0.0, split_crossings: bool = False,
-    heights: Optional[Heights] = None, backend: Backend = "auto", threads: int = 0, device: int = -1,
-    maximum_iterations: int = -1, progress: Optional[Progress] = None,
+    minimum_angle: float = 0.0, maximum_area: float = 0.0, maximum_edge: float = 0.0,
+    size: Optional[Numbers] = None, regions: Sequence[Region] = (), keep_boundary: bool = False,
+    point_limit: int = 0, heights: Optional[Heights] = None, backend: Backend = "auto",
+    threads: int = 0, device: int = -1, maximum_iterations: int = -1, progress: Optional[Progress] = None,
     on_iteration: Optional[OnIteration] = None,
 ) -> Triangulation:
     """The Delaunay triangulation of points in x and y, constrained by segments if there are any.
@@ -189,9 +207,8 @@ def triangulate(
     points on one circle the same triangles are chosen as by `flip` with canonical ties. All
     triangles have an area; n places with h of them on the hull give 2 n - 2 - h triangles.
 
-    Points may be an array of CuPy, PyTorch or Numba in the memory of a GPU. They are triangulated
-    there, and triangles and neighbors are arrays of that library. All other arrays are NumPy's. If
-    rings are given by coordinates, all arrays are.
+    Points may be an array of CuPy, PyTorch or Numba on a GPU. Then triangles and neighbors are arrays of
+    that library. All other arrays are NumPy's; if rings are given by coordinates, all are.
 
     Args:
         points: (n, 2) or (n, 3) float32 or float64, used without a copy if contiguous. z is ignored.
@@ -211,29 +228,32 @@ def triangulate(
             an odd number of times. "nonzero": if their turns around the place do not add up to 0.
             "orientation": as "nonzero", but of the outline only counter-clockwise turns count as
             inside, as for vtkDelaunay2D.
-        alpha: Triangles with a larger circumradius are removed, unless they have a segment as an
-            edge; 0: none.
-        longest_edge: Triangles with a longer edge are removed in the same way; 0: none.
+        alpha, longest_edge: Triangles with a larger circumradius, or a longer edge, are removed, unless
+            they have a segment as an edge; 0: none.
         point_tolerance: Points nearer than this to one with a lower id are not used; 0: only those
             at equal places. Points where segments cross may be nearer.
         split_crossings: Split segments where they cross, instead of refusing the later one. The
             crossing is exact, rounded once; z is that of the earlier segment.
+        minimum_angle, maximum_area, maximum_edge: Points are added until no angle is smaller, in degrees up
+            to 33, and no triangle or edge is larger; 0: no limit. What cannot get better, because segments
+            meet at a small angle, is left and counted. z is linear between the points.
+        size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
+        regions: (x, y, label[, area]): a place in what segments enclose, the label and largest area there.
+        keep_boundary: Split no edge of the boundary, where triangles then may stay as they are.
+        point_limit: Of all points. 0: ten times as many as are given, at least a million.
         heights: z of points that lines and rings add. "survey": that of the points there, linear in
             their triangulation without segments, and beyond its hull that of the nearest place on it.
             "own": that of the lines and rings, 0 for those of two columns. None: "survey" for those
-            without heights, if other points have heights, with a warning that counts such points;
-            "own" for the others. They have none if they have two columns, or if all lines, the outline
-            or the holes have z = 0 throughout.
-        backend: "cuda", "threads", or "auto": a GPU for many points if there is one.
-        threads: 0: as many as the machine has.
-        device: CUDA's number of the GPU; -1: the current one.
+            without heights (two columns, or all lines, the outline or the holes have z = 0 throughout)
+            if other points have heights, with a warning that counts them; "own" for the others.
+        backend, threads, device: "cuda", "threads", or "auto": a GPU for many points if there is one. 0
+            threads: as many as the machine has. Device: CUDA's number of the GPU; -1: the current one.
         maximum_iterations: -1: until done; 0 gives the valid triangulation that flips start from.
-        progress: Called with the share of the work done, 0 to 1; returning False aborts.
-        on_iteration: Called after each iteration with a dict of its numbers; False aborts.
+        progress, on_iteration: Called with the share of the work done, 0 to 1, and after each iteration
+            with a dict of its numbers; returning False aborts.
 
     Returns:
-        A `Triangulation`. Without triangles if fewer than three places are given, or all lie on one
-        line, or if progress aborts before there are any.
+        A `Triangulation`. It has no triangles if all places lie on one line, or progress aborts early.
 
     Raises:
         InvalidMesh: A segment names a point that does not exist, or a ring crosses a segment.
@@ -244,12 +264,8 @@ def triangulate(
         >>> sorted(sorted(ids) for ids in result.triangles.tolist())
         [[0, 1, 2], [1, 2, 3]]
     """
-    keywords = {
-        "segments": segments, "outline": outline, "holes": holes, "hole_seeds": hole_seeds,
-        "ring_rule": ring_rule, "alpha": alpha, "longest_edge": longest_edge,
-        "point_tolerance": point_tolerance, "split_crossings": split_crossings, "heights": heights,
-        "backend": backend, "threads": threads, "device": device,
-        "maximum_iterations": maximum_iterations}
+    keywords = dict(locals())
+    del keywords["points"], keywords["progress"], keywords["on_iteration"]
     result, trouble = run_points(points, keywords, progress, on_iteration)
     if trouble:
         warnings.warn(trouble, stacklevel=2)
@@ -278,8 +294,8 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
 
 
 def _prepare(
-        points, segments=None, *, heights=None, backend="auto", threads=0, device=-1,
-        maximum_iterations=-1, **others):
+        points, segments=None, *, heights=None, size=None, regions=(), backend="auto", threads=0,
+        device=-1, maximum_iterations=-1, **others):
     """The Input with its struct, and the options, from the arguments of `triangulate`."""
     rings = {name: value for name, value in others.items() if name not in POINT_OPTIONS}
     given = points if isinstance(points, Input) else Input(points, segments, **rings)
@@ -290,6 +306,8 @@ def _prepare(
     options = make_options(triangulate, maximum_iterations=maximum_iterations, **given.backend)
     if given is not points:
         given.take_heights(heights)
+    given.take_sizes(size)
+    given.take_regions(regions)
     return given, options
 
 
@@ -306,6 +324,10 @@ def interpolate_in_survey(points, values, places, backend):
     return survey.interpolate(values, places, outside="nearest")
 
 
+#: Of added points three ids each, -1 where there are only two, and as many weights.
+_NOTHING_ADDED = numpy.empty((0, 3), dtype=numpy.int64), numpy.empty((0, 3))
+
+
 class Input:
     """The arrays of a call, which live as long, and their C struct."""
 
@@ -317,7 +339,7 @@ class Input:
     def __init__(self, points, segments=None, *, ring_numbers=None, outline=None, holes=None,
                  hole_seeds=None, ring_rule="evenodd"):
         """`ring_numbers`: of the rings of the segments; -1: none."""
-        self.struct, self.ends, self.new_points = _library.make(Struct), [], []
+        self.struct, self.added, self.new_points = _library.make(Struct), _NOTHING_ADDED, []
         points = _arrays.as_plane(points)
         lines = list_lines(segments)
         self.segments = [_arrays.as_ids("segments", [] if segments is None or lines else segments, 2)]
@@ -398,7 +420,7 @@ class Input:
         more.points = numpy.concatenate([own, batch.points.reshape(-1, columns).astype(own.dtype)])
         more.struct = type(self.struct).from_buffer_copy(self.struct)
         more.struct.first_added = len(more.points)  # whose values are needed
-        more.trouble, more.ends = [], []
+        more.trouble, more.added = [], _NOTHING_ADDED
         return more, batch
 
     def explain(self, text, ring=-1):
@@ -459,6 +481,35 @@ class Input:
         if heights == "survey":
             self.flat_points = lifted[:0]  # nobody is told of what was asked for
 
+    def take_sizes(self, sizes):
+        """Takes the longest edges near points; None: no limit."""
+        if sizes is None:
+            return
+        values, shape = _arrays.as_values(_arrays.to_host(sizes))
+        if shape:
+            raise ValueError("size must have one number for each point, not the shape "
+                             f"{tuple(numpy.shape(sizes))}")
+        self.sizes = numpy.ascontiguousarray(self.complete_values(values, "size"))
+        self.struct.sizes = address(self.sizes)
+
+    def take_regions(self, regions):
+        """Takes regions, as `triangulate` gets them."""
+        if not hasattr(regions, "__len__") or isinstance(regions, (str, bytes, dict)):
+            raise TypeError("regions must be a list of (x, y, label) or (x, y, label, area), not "
+                            f"{show(regions)}")
+        self.regions = numpy.zeros(len(regions), _REGION)
+        for number, row in enumerate(regions):
+            region = _arrays.as_array(f"region {number}", row)
+            if region.shape not in ((3,), (4,)) or region.dtype.kind not in "fiu":
+                raise ValueError(f"region {number} must be (x, y, label) or (x, y, label, area), "
+                                 f"not {show(row)}")
+            label = row[2].item() if hasattr(row[2], "item") else row[2]
+            if isinstance(label, float) and label.is_integer():
+                label = int(label)  # of an array of floats
+            label = check_integer(f"the label of region {number}", label, -2**31, 2**31 - 1)
+            self.regions[number] = (*region[:2], label, region[3] if len(region) == 4 else 0.0)
+        self.struct.regions, self.struct.number_of_regions = address(self.regions), len(self.regions)
+
     def _report_flat_points(self, report, triangles):
         """Adds those of them that are corners of triangles to the defects."""
         count = 0
@@ -485,9 +536,14 @@ class Input:
             room = self.make_room(report)
         triangles, neighbors = room
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
+        segments = numpy.empty(report.segment_edges, dtype=numpy.int64)
+        regions = numpy.zeros(report.triangles, dtype=numpy.int32)
         _arrays.store("triangles", handle, triangles, _library.TYPES["int32"])
         _arrays.store("neighbors", handle, neighbors)
         _library.call("store_segment_edges", handle, address(edges))
+        _library.call("store_segments_of_edges", handle, address(segments))
+        if self.struct.number_of_regions:
+            _library.call("store_regions", handle, address(regions))
         used = self._find_used_points(handle, report)
         points = self.points
         if report.defects:
@@ -495,11 +551,12 @@ class Input:
         report = self._report_flat_points(report, triangles)
         if self._is_nothing_left(report, triangles):
             self.trouble = [report.defects]
-        if report.crossings:
-            points = self._add_crossings(handle, report.crossings)
+        if report.crossings + report.refinement_points:
+            points = self._append_added(handle, report.crossings + report.refinement_points)
             report = dataclasses.replace(report, points=len(points))
         iterations = _report.read_iterations(handle, report)
-        return Triangulation(points, triangles, neighbors, edges, iterations, report, used, made_from)
+        return Triangulation(
+            points, triangles, neighbors, edges, segments, regions, iterations, report, used, made_from)
 
     def _is_nothing_left(self, report, triangles):
         """Whether triangles are removed, and none is left that has one of the caller's points."""
@@ -513,41 +570,54 @@ class Input:
         return int(triangles.min()) >= first_added
 
     def _find_used_points(self, handle, report):
-        """The used point of each one, also of those at crossings; None if these are the points
+        """The used point of each one, also of added ones; None if these are the points
         themselves, so that nothing has to come from a GPU."""
         if not (report.points_not_finite or report.repeated_points or report.points_too_near):
             return None
         count = len(self.points)
-        used = numpy.arange(count + report.crossings)
+        used = numpy.arange(count + report.crossings + report.refinement_points)
         _library.call("store_used_points", handle, address(used))
         return used
 
-    def _add_crossings(self, handle, count):
-        """The points, with those at crossings behind them."""
+    def _append_added(self, handle, count):
+        """The points, with those that were made behind them."""
         points = _arrays.to_host(self.points)
         first = len(points)
-        places, shares = numpy.empty((count, 2)), numpy.empty(count)
-        ends = numpy.empty((count, 2), dtype=numpy.int64)
-        _library.call("store_added_points", handle, address(places), address(ends), address(shares))
+        places, weights = numpy.empty((count, 2)), numpy.empty((count, 3))
+        ids = numpy.empty((count, 3), dtype=numpy.int64)
+        _library.call("store_added_weights", handle, address(places), address(ids), address(weights), 0)
         points = numpy.concatenate([points, numpy.zeros((count, points.shape[1]), points.dtype)])
         points[first:, :2] = places
-        self.ends = list(zip(*ends.T, shares))
-        if points.shape[1] == 3:
-            for i, (start, end, share) in enumerate(self.ends):  # of which one may be added before
-                points[first + i, 2] = (1 - share) * points[start, 2] + share * points[end, 2]
+        self.added = ids, weights
+        self.fill_added(points[:, 2:], first)
         return points
 
-    def complete_values(self, values):
+    def fill_added(self, values, first):
+        """Writes values of added points, from row `first` on: those of others, each times its weight. Some
+        of these may be added ones themselves, before them."""
+        ids, weights = self.added
+        highest = numpy.maximum.accumulate(ids.max(axis=1, initial=-1))
+        begin = 0
+        while begin < len(ids):
+            end = max(begin + 1, int(numpy.searchsorted(highest, first + begin)))
+            near, share = ids[begin:end], weights[begin:end, :, None]
+            some = share[:, 0] * values[near[:, 0]] + share[:, 1] * values[near[:, 1]]
+            is_third = near[:, 2] >= 0
+            some[is_third] += share[is_third, 2] * values[near[is_third, 2]]
+            values[first + begin:first + end] = some
+            begin = end
+
+    def complete_values(self, values, name="values"):
         """Values of all the session's points from those of the caller's, of shape (n, k): at points of
-        lines and rings from the caller's points, at crossings along the earlier segment. Values of all points
+        lines and rings from the caller's points, at added ones by their weights. Values of all points
         are returned as they are."""
         first, count = self.struct.first_added, len(self.points)
-        total = count + len(self.ends)
+        total = count + len(self.added[0])
         if len(values) == total:
             return values
         if len(values) not in (first, count):
-            more = f", or {total} with those that lines, rings and crossings have added"
-            raise ValueError(f"values must have {first} rows, one for each point"
+            more = f", or {total} with those that lines, rings, crossings and refinement have added"
+            raise ValueError(f"{name} must have {first} rows, one for each point"
                              f"{more if total > first else ''}; there are {len(values)}")
         whole = numpy.empty((total, values.shape[1]))
         whole[:len(values)] = given = _arrays.to_host(values)
@@ -555,9 +625,8 @@ class Input:
             points = _arrays.to_host(self.points)
             found = interpolate_in_survey(points[:first], given, points[first:], self.backend)
             if found is None:
-                raise ValueError(f"values must have {count} rows, with those of the points of lines and rings, because "
-                                 f"the {first} given points alone have no triangle; there are {len(values)}")
+                raise ValueError(f"{name} must have {count} rows, with those of the points of lines and rings, "
+                                 f"because the {first} given points alone have no triangle; there are {len(values)}")
             whole[first:count] = found
-        for place, (start, end, share) in enumerate(self.ends, count):
-            whole[place] = (1 - share) * whole[start] + share * whole[end]
+        self.fill_added(whole, count)
         return _arrays.move(whole, values)

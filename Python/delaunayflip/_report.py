@@ -89,6 +89,10 @@ class Report:
     triangles_below_30_before: int = 0
     triangles_below_30_after: int = 0
     left_out_rings: int = 0  #: They have no area, or the edges of an earlier one.
+    refinement_points: int = 0  #: Points added by refinement.
+    refinement_rounds: int = 0  #: How often it has added points.
+    unrefined_triangles: int = 0  #: With an angle too small, or too large: they could not get better.
+    reached_point_limit: int = 0  #: 1 if point_limit has ended refinement.
 
     @property
     def converged(self) -> bool:
@@ -104,7 +108,8 @@ MAIN_NUMBERS = ("total_flips", "non_delaunay_after", "blocked_by_shape", "blocke
                 *(field.name for field in dataclasses.fields(Report) if field.name.startswith("triangles_below_")))
 POINT_NUMBERS = ("points_not_finite", "repeated_points", "points_too_near", "segment_edges",
                  "refused_segments", "crossings", "largest_shift", "outside_triangles", "large_triangles",
-                 "used_points", "left_out_rings")
+                 "used_points", "left_out_rings", "refinement_points", "refinement_rounds", "unrefined_triangles",
+                 "reached_point_limit")
 _TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
 _NAMES = tuple(field.name for field in dataclasses.fields(Report))
 _TEXTS = [field.name for field in dataclasses.fields(Report)[2:] if field.type is str]

@@ -520,12 +520,22 @@ class vtkDelaunayFlipPoints(Filter):
     kind = vtkPointSet
     no_mesh = "has no points of its own, passed unchanged"
     no_composite = "the segments of a single dataset cannot be a composite dataset"
+    _regions = ()
 
     def SetSegmentsConnection(self, port):
         self.SetInputConnection(len(self.others), port)
 
     def SetSegmentsData(self, segments):
         self.SetInputDataObject(len(self.others), segments)
+
+    def AddRegion(self, x, y, label, maximum_area):
+        self._regions = (*self._regions, (x, y, label, maximum_area))
+        self.Modified()
+
+    def RemoveAllRegions(self):
+        if self._regions:
+            self._regions = ()
+            self.Modified()
 
     def _judge_partitions(self, blocks, constraints):
         if _has_partitions(blocks, self.kind):
@@ -562,10 +572,11 @@ class vtkDelaunayFlipPoints(Filter):
         cloud = Cloud(
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
             closed_lines_as_rings=self.closed_lines_as_rings, ring_rule=RING_RULES[self.ring_rule],
-            heights=heights, fills_data=keeps,
+            heights=heights, fills_data=keeps, size_array=self.size_array,
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
         cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")
+        options["regions"] = self._regions
         result, _ = run_points(cloud, options, progress, self._observe, keeps)
         self._totals = Totals.of_run(result.report, result.iterations)
         return result, cloud.write(result, output)

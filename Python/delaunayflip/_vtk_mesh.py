@@ -115,10 +115,8 @@ class Vtk:
         """
         array = mesh.GetCellData().GetAbstractArray(name)
         if array is None:
-            names = [one.GetName() or "" for one in _list_arrays(mesh.GetCellData())]
-            listed = ", ".join(f'"{one}"' for one in names) or "none"
-            raise InvalidOptions(
-                f'RegionArray: the input has no cell array named "{name}"; it has {listed}.')
+            raise InvalidOptions(f'RegionArray: the input has no cell array named "{name}"; '
+                                 f"{list_names(mesh.GetCellData())}.")
         if array.GetNumberOfTuples() != mesh.GetNumberOfCells():
             raise InvalidOptions(
                 f'RegionArray: "{name}" must have as many tuples as the mesh has cells.')
@@ -294,10 +292,11 @@ class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
     def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
-                 first_hole=-1, heights=None, fills_data=False, backend=None, **rings):
+                 first_hole=-1, heights=None, fills_data=False, size_array="", backend=None, **rings):
         """`others`: the second input of the filter, or pairs of point ids. `heights`: SegmentHeights.
-        `fills_data`: whether added points get data whatever their heights. `backend`: keywords that say
-        where these are found. `rings`: outline, holes, hole_seeds and ring_rule, as for triangulate."""
+        `fills_data`: whether added points get data whatever their heights. `size_array`: SizeArray.
+        `backend`: keywords that say where data are found. `rings`: outline, holes, hole_seeds and
+        ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data
         mesh = self.vtk.model.vtkPolyData()
         mesh.SetPoints(data.GetPoints())
@@ -326,7 +325,9 @@ class Cloud(Input):
             data.GetNumberOfPoints(), self.all_segments[own:], self.all_rings[own:])
         self._surveyed = []  # (name, ids, values) of each array of added points
         self._read_data = self._as_doubles if fills_data else lambda data: data
-        self._choose_heights(heights, fills_data, backend or {})
+        self._choose_heights(heights, fills_data or size_array, backend or {})
+        if size_array:
+            self._read_sizes(size_array)
 
     def _choose_heights(self, heights, fills_data, backend):
         """Gives added points the heights that are asked for, and data in arrays that the segments do not
@@ -357,6 +358,28 @@ class Cloud(Input):
         self._surveyed = list(zip(names, itertools.repeat(ids), numpy.split(found, ends, axis=1)[1:]))
         if len(lifted):
             self.flat_fate = 'they have got the heights of the given points there; heights="own" keeps z = 0'
+
+    def _read_sizes(self, name):
+        """Finds the longest edges near points. Near those that have no number there is no limit."""
+        own, count = self.data.GetPointData(), self.data.GetNumberOfPoints()
+        theirs = self._others.GetPointData() if len(self._sources) else None
+        arrays = [data.GetArray(name) for data in (own, theirs) if data and data.GetArray(name)]
+        if not arrays:
+            raise InvalidOptions(f'SizeArray: the input has no point array of numbers named "{name}"; '
+                                 f"{list_names(own)}.")
+        if any(array.GetNumberOfComponents() != 1 for array in arrays) or (
+                own.GetArray(name) and own.GetArray(name).GetNumberOfTuples() < count):
+            raise InvalidOptions(f'SizeArray: "{name}" must have one component, and as many tuples as there '
+                                 "are points.")
+        sizes = numpy.full(len(self.points), numpy.nan)
+        if own.GetArray(name):
+            sizes[:count] = self.vtk.view(own.GetArray(name))[:count]
+        if theirs and theirs.GetArray(name):
+            sizes[count:] = self.vtk.view(theirs.GetArray(name))[self._sources]
+        for surveyed, ids, values in self._surveyed:
+            if surveyed == name:
+                sizes[ids] = values[:, 0]
+        self.take_sizes(sizes)
 
     def _add_cells(self, cells, ids, closed_lines_as_rings=False, are_polygons=False):
         cells.require_points(len(ids))
@@ -406,6 +429,8 @@ class Cloud(Input):
             points.SetData(vtk.support.numpy_to_vtk(result.points, deep=True))
             output.SetPoints(points)
             self._extend_data(output.GetPointData(), count)
+        if self.struct.number_of_regions:
+            vtk.add_arrays(output.GetCellData(), "", [("Region", result.regions)])
         totals = Totals.of_run(report, result.iterations)
         vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX,
                        [*totals.list_numbers(POINT_NUMBERS), *totals.list_fields()])
@@ -434,8 +459,7 @@ class Cloud(Input):
 
     def _extend_data(self, data, count):
         """The point data, extended by those of added points."""
-        size = len(self.points) + len(self.ends)
-        first = len(self.points)  # of the points at crossings
+        size = len(self.points) + len(self.added[0])
         data.Initialize()
         own = self._read_data(self.data.GetPointData())
         self.vtk.add_tuples(own, count, range(count), 0, size, data)
@@ -450,13 +474,32 @@ class Cloud(Input):
             numbers.reshape(size, -1)[ids] = values
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
         for array in _list_arrays(data):
-            for place, (start, end, share) in enumerate(() if _is_among(array, labels) else self.ends, first):
-                array.InterpolateTuple(place, int(start), array, int(end), array, share)
+            if not _is_among(array, labels):
+                self._interpolate_added(array)
         _demote_global_ids(data)
+
+
+    def _interpolate_added(self, array):
+        """Writes the tuples of added points: between those of two or three others."""
+        corners = self.vtk.core.vtkIdList()
+        corners.SetNumberOfIds(3)
+        for place, (ids, weights) in enumerate(zip(*(one.tolist() for one in self.added)), len(self.points)):
+            if ids[2] < 0:
+                array.InterpolateTuple(place, ids[0], array, ids[1], array, weights[1])
+                continue
+            for k in range(3):
+                corners.SetId(k, ids[k])
+            array.InterpolateTuple(place, corners, array, weights)
 
 
 def _list_arrays(data):
     return [data.GetAbstractArray(i) for i in range(data.GetNumberOfArrays())]
+
+
+def list_names(data):
+    """The names of arrays in a message."""
+    names = [f'"{array.GetName() or ""}"' for array in _list_arrays(data)]
+    return f"it has {', '.join(names) or 'none'}"
 
 
 def _is_among(array, others):

@@ -81,6 +81,7 @@ POINT_PROPERTIES = (
     Property("RingRule", 0, 0, 2, ("EvenOdd", "NonZero", "Orientation")),
     Property("FirstHole", -1, -1, VTK_ID_MAX),
     Property("SegmentHeights", 0, 0, 2, ("Auto", "Survey", "Own")),
+    Property("SizeArray", ""),
 )
 
 

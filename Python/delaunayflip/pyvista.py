@@ -104,7 +104,8 @@ def triangulate(
     holes: "typing.Union[None, pyvista.PolyData, Rings]" = None,
     hole_seeds: "typing.Optional[Numbers]" = None, ring_rule: "RingRule" = "evenodd",
     lines_as_segments: bool = False, closed_lines_as_rings: bool = True,
-    heights: "typing.Optional[Heights]" = None, **options: typing.Any,
+    heights: "typing.Optional[Heights]" = None, size: "typing.Union[None, str, Numbers]" = None,
+    **options: typing.Any,
 ) -> "pyvista.PolyData":
     """The Delaunay mesh of the points of a dataset in x and y, with their data.
 
@@ -121,10 +122,14 @@ def triangulate(
         closed_lines_as_rings: If False, closed lines of the segments are only edges, such as contours.
         heights: As for delaunayflip.triangulate, for the points of segments and rings. Points that get
             heights of the cloud also get its data, in arrays of numbers that the segments do not have.
-        **options: The other keywords of delaunayflip.triangulate, such as alpha, backend and progress.
+        size: As for delaunayflip.triangulate, or the name of a point array. Points that refinement adds
+            get z and data that are linear between the points.
+        **options: The other keywords of delaunayflip.triangulate, such as minimum_angle, maximum_area,
+            regions, alpha, backend and progress.
 
     Returns:
-        The mesh. Its field data tells what was done, e.g. "DelaunayFlip:SegmentEdges".
+        The mesh, with the cell array "Region" if there are regions. Its field data tells what was done,
+        e.g. "DelaunayFlip:SegmentEdges".
 
     Raises:
         The same exceptions as delaunayflip.triangulate; TypeError for other datasets.
@@ -136,9 +141,13 @@ def triangulate(
         >>> delaunayflip.pyvista.triangulate(cloud).n_cells
         2
     """
+    size_array = size if isinstance(size, str) else ""
+    if not size_array:
+        options["size"] = size
     given = _read_cloud(
         cloud, segments, outline, holes, options, heights=heights, hole_seeds=hole_seeds,
-        ring_rule=ring_rule, lines_as_segments=lines_as_segments, closed_lines_as_rings=closed_lines_as_rings)
+        size_array=size_array, ring_rule=ring_rule, lines_as_segments=lines_as_segments,
+        closed_lines_as_rings=closed_lines_as_rings)
     made = pyvista.PolyData()
     _warn(given.write(_triangulate_arrays(given, **options), made))
     return made

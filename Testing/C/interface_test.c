@@ -486,6 +486,99 @@ static void TestQueries(void)
   delaunayflip_close(session);
 }
 
+/** A square of two regions with an outline. Added points are where their weights say. */
+static void TestRefinement(void)
+{
+  const double places[] = { 0, 0, 10, 0, 10, 10, 0, 10, 4, 0, 4, 10 };
+  const double sizes[] = { 9, 9, 9, 9, 9, NAN };
+  const int64_t segments[] = { 0, 1, 1, 2, 2, 3, 3, 0, 4, 5 };
+  const int32_t rings[] = { 0, 0, 0, 0, -1 };
+  const delaunayflip_region regions[] = { { 1, 1, 7, 0.5 }, { 9, 9, -2, 0 } };
+  enum
+  {
+    Most = 2000
+  };
+  static double xy[2 * Most], weights[3 * Most];
+  static int64_t ids[3 * Most], on[Most], edges[2 * Most], numbers[Most];
+  static int32_t triangles[6 * Most], labels[2 * Most];
+  delaunayflip_points points;
+  delaunayflip_session* session = NULL;
+  delaunayflip_report report;
+  double length = 0.0;
+  int64_t i, k;
+  delaunayflip_points_init(&points);
+  CHECK(points.minimum_angle == 0 && points.point_limit == 0 && points.regions == NULL);
+  points.points = places;
+  points.number_of_points = 6;
+  points.segments = segments;
+  points.number_of_segments = 5;
+  points.rings = rings;
+  points.minimum_angle = 25;
+  points.sizes = sizes;
+  points.regions = regions;
+  points.number_of_regions = 2;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  report = GetReport(session);
+  CHECK(report.minimum_angle_after >= 25 && report.unrefined_triangles == 0);
+  CHECK(report.refinement_points > 50 && report.refinement_points < Most - 6);
+  CHECK(report.refinement_rounds > 0 && report.reached_point_limit == 0);
+  CHECK(delaunayflip_store_added_weights(session, xy, ids, weights, on) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_added_points(session, NULL, NULL, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_added_weights(session, xy, ids, NULL, on) == DELAUNAYFLIP_INVALID_CALL);
+  for (i = 0; i < report.refinement_points; ++i)
+  {
+    for (k = 0; k < 2; ++k)
+    {
+      double sum = 0.0;
+      int corner;
+      for (corner = 0; corner < 3; ++corner)
+      {
+        const int64_t id = ids[3 * i + corner];
+        CHECK(id < 6 + i && id >= (corner == 2 ? -1 : 0));
+        if (id >= 0)
+        {
+          sum += weights[3 * i + corner] * (id < 6 ? places[2 * id + k] : xy[2 * (id - 6) + k]);
+        }
+      }
+      CHECK(fabs(sum - xy[2 * i + k]) < 1e-9);
+    }
+    CHECK(on[i] >= -1 && on[i] < 5);
+    CHECK(on[i] != 4 || xy[2 * i] == 4);
+  }
+  CHECK(report.triangles < 2 * Most && report.segment_edges < Most);
+  CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT32) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_regions(session, labels) == DELAUNAYFLIP_OK);
+  for (i = 0; i < report.triangles; ++i)
+  {
+    double x = 0.0;
+    for (k = 0; k < 3; ++k)
+    {
+      const int32_t id = triangles[3 * i + k];
+      x += id < 6 ? places[2 * id] : xy[2 * (id - 6)];
+    }
+    CHECK(labels[i] == (x < 12 ? 7 : -2));
+  }
+  CHECK(delaunayflip_store_segment_edges(session, edges) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_segments_of_edges(session, numbers) == DELAUNAYFLIP_OK);
+  for (i = 0; i < report.segment_edges; ++i)
+  {
+    const int64_t from = edges[2 * i], to = edges[2 * i + 1];
+    if (numbers[i] == 4)
+    {
+      length += (to < 6 ? places[2 * to + 1] : xy[2 * (to - 6) + 1]) -
+        (from < 6 ? places[2 * from + 1] : xy[2 * (from - 6) + 1]);
+    }
+  }
+  CHECK(fabs(length - 10) < 1e-9);
+  delaunayflip_close(session);
+  points.minimum_angle = 34;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);
+  points.minimum_angle = 0;
+  points.regions = NULL;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
+}
+
 /** A point in the middle of two triangles, of other precision; then one outside, and no further. */
 static void TestInsertion(void)
 {
@@ -596,6 +689,7 @@ int main(void)
   TestRings();
   TestQueries();
   TestInsertion();
+  TestRefinement();
   TestDefects();
   return 0;
 }

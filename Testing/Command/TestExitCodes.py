@@ -35,8 +35,11 @@ class WrongUsage(CommandTest):
 
     def test_smallest_angle(self):
         """Asked for, as of a mesh generator, it is answered by what guarantees one."""
-        for words in (["--min-angle", "20"], ["--minimum-angle=20"], ["--min_angle", "20"]):
-            self.refuse(words[0].split("=")[0] + ": flips guarantee no smallest angle", *words)
+        for words in (["--min-angle", "20"], ["--MINIMUM-ANGLE=20"], ["--min_angle", "20"]):
+            self.refuse(words[0].split("=")[0] + ": flips alone guarantee no smallest angle", *words)
+            self.refuse("--minimum-angle with --from-points", *words)
+        self.refuse("--from-points", "--minimum-angle", "20")
+        self.refuse("--minimum-angle", "--from-points", "--minimum-angle", "34")
 
     def test_unknown_extension(self):
         known = [".vtk", ".vtp", ".ply", ".stl", ".obj"]

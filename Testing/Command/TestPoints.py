@@ -8,7 +8,7 @@ import re
 from vtkmodules.vtkCommonCore import vtkPoints
 
 from CommandTesting import (
-    FORMATS, BadFileTest, bumpy_grid, make_array, make_mesh, points_of, triangle_set, triangles_of,
+    FORMATS, BadFileTest, bumpy_grid, make_array, make_mesh, points_of, read_report, triangle_set, triangles_of,
     turns_of)
 
 # A square and its middle.
@@ -508,12 +508,57 @@ class Usage(PointTest):
             ["--outline", path], ["--holes", path], ["--split-crossings"], ["--alpha", 1],
             ["--longest-edge", 1], ["--point-tolerance", 1], ["--projection", "xy"],
             ["--heights", "own"], ["--ring-rule", "nonzero"], ["--columns", "1,2"],
+            ["--minimum-angle", 20], ["--region", "1,2,3"], ["--keep-boundary"],
         ):
             self.fail_with(2, path, "out.vtk", *option,
                            naming=[option[0], "requires --from-points"])
 
+    def test_refinement(self):
+        """A square of 8 by 8 with a wall at x = 4, and a size at each corner."""
+        square = make_mesh([(0, 0, 0), (8, 0, 8), (8, 8, 8), (0, 8, 0)], [(0, 1, 2, 3)])
+        square.GetPointData().AddArray(make_array("depth", [3.0, 1.0, 1.0, 3.0]))
+        self.write_mesh(square, "in.vtk")
+        self.write_mesh(make_mesh([(4, 0, 4), (4, 8, 4)], [], [(0, 1)]), "wall.vtk")
+        goals = ("--outline", "in.vtk", "--constraints", "wall.vtk", "--minimum-angle", "28",
+                 "--report", self.path("report.json"))
+        mesh, result = self.triangulate("in.vtk", *goals, "--maximum-area", "0.5", "--region", "1,1,7",
+                                        "--region", "7,7,-2,0.1")
+        self.assertAlmostEqual(area_of(mesh), 64)
+        labels = mesh.GetCellData().GetArray("Region")
+        points = points_of(mesh)
+        for number, (ids, turn) in enumerate(zip(triangles_of(mesh), turns_of(mesh))):
+            is_left = sum(points[i][0] for i in ids) < 12
+            self.assertEqual(labels.GetValue(number), 7 if is_left else -2)
+            self.assertLessEqual(turn / 2, 0.5 if is_left else 0.1)
+        self.assertTrue(all(abs(x - z) < 1e-5 for x, _, z in points))
+        report = read_report(self.path("report.json"))
+        self.assertGreaterEqual(report["minimum_angle_after"], 28)
+        self.assertEqual(report["unrefined_triangles"], 0)
+        added = report["refinement_points"]
+        self.assertEqual(len(points), 6 + added)
+        self.assertRegex(result.stdout, rf"refinement +{added:,} points added in \d+ rounds?\n")
+        self.assertRegex(result.stdout, r"smallest angle +[\d.]+ degrees \(asked for: 28\)")
+        mesh, _ = self.triangulate("in.vtk", "--size-array", "depth")
+        points = points_of(mesh)
+        for ids in triangles_of(mesh):
+            corners = [points[i] for i in ids]
+            longest = max(math.dist(a[:2], b[:2]) for a in corners for b in corners)
+            self.assertLessEqual(longest, 3 - min(x for x, _, _ in corners) / 4 + 1e-9)
+        mesh, result = self.triangulate("in.vtk", "--maximum-edge", "0.1", "--point-limit", "100")
+        self.assertLessEqual(mesh.GetNumberOfPoints(), 100)
+        self.assertIn("limit of points", result.stderr)
+        mesh, _ = self.triangulate("in.vtk", *goals[:2], "--maximum-edge", "1", "--keep-boundary")
+        self.assertEqual(sum(x in (0, 8) or y in (0, 8) for x, y, _ in points_of(mesh)), 4)
+        self.fail_with(2, "in.vtk", "out.vtk", "--from-points", "--size-array", "width",
+                       naming=["in.vtk", "--size-array", '"depth"'])
+
     def test_values(self):
         self.write("in.xyz", text_of(PLACES))
+        for option, values in {"--minimum-angle": ("-1", "33.5", "nan"), "--maximum-area": ("-1", "inf"),
+                               "--maximum-edge": ("a",), "--point-limit": ("-1", "1.5"),
+                               "--region": ("1,2", "1,2,3.5", "1,2,3,-1", "1,2,3,4,5", "1,nan,3", "")}.items():
+            for value in values:
+                self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, value, naming=[option])
         for option in ("--alpha", "--longest-edge", "--point-tolerance"):
             for value in ("-1", "nan", "inf", "a"):
                 self.fail_with(2, "in.xyz", "out.vtk", "--from-points", option, value, naming=[option])

@@ -9,7 +9,7 @@ import random
 import subprocess
 
 from paraview import simple
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from PluginTesting import (
@@ -28,6 +28,14 @@ def make_data(points, lines=(), polygons=()):
     data.SetLines(make_cells(lines))
     data.SetPolys(make_cells(polygons))
     return data
+
+
+def make_doubles(name, values):
+    array = vtkDoubleArray()
+    array.SetName(name)
+    for value in values:
+        array.InsertNextValue(value)
+    return array
 
 
 def make_cloud(count=300):
@@ -55,6 +63,23 @@ class Points(PluginTest):
         self.assertEqual((points.NumberOfSegmentEdges, points.StopReason), (3, "converged"))
         arrays = points.GetDataInformation().DataInformation.GetFieldDataInformation()
         self.assertIsNotNone(arrays.GetArrayInformation("DelaunayFlip:OutsideTriangles"))
+
+    def test_refinement(self):
+        square = make_data([(0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0)])
+        square.GetPointData().AddArray(make_doubles("Size", [2.0] * 4))
+        square = self.read(square)
+        points, text = self.apply(square, MinimumAngle=25, Regions=[1, 1, 7, 0.5, 9, 9, 8, 0])
+        mesh = fetch(points)
+        self.assertEqual(text, "")
+        self.assertGreater(mesh.GetNumberOfCells(), 200)
+        self.assertEqual({mesh.GetCellData().GetArray("Region").GetValue(i)
+                          for i in range(mesh.GetNumberOfCells())}, {7})
+        points.Regions = []
+        points.SizeArray = "Size"
+        points.PointLimit = 2000
+        refresh(points)
+        self.assertIsNone(fetch(points).GetCellData().GetArray("Region"))
+        self.assertGreater(len(get_triangles(fetch(points))), 50)
 
     def test_table(self):
         with open(self.path("points.csv"), "w", encoding="utf-8") as file:

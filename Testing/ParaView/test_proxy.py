@@ -89,7 +89,7 @@ class Proxy(PluginTest):
             self.assertEqual(type(value)(defaults[name]), value, name)
 
     def test_numbers_and_choices_have_domains(self):
-        texts = {"Devices", "ElevationArray"}
+        texts = {"Devices", "ElevationArray", "SizeArray"}
         for name in set(self.own_properties()) - texts:
             takes_values = self.property(name).IsA("vtkSMVectorProperty")
             if takes_values and not self.property(name).GetInformationOnly():

@@ -302,6 +302,133 @@ class Triangulate(unittest.TestCase):
         self.assertEqual(run.call_args.args[0], "close")
 
 
+class Refine(unittest.TestCase):
+    """What refinement promises, measured in the mesh itself."""
+
+    SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10]]
+    BAY = [[0.0, 0, 1], [9, 1, 2], [10, 8, 3], [6, 5, 4], [5, 9, 5], [1, 8, 6]]
+    ISLAND = [[3.0, 3, 1], [4, 3.2, 2], [3.6, 4, 3]]
+
+    def refine(self, *arguments, **options):
+        """The mesh, and the corners of its triangles in x and y."""
+        mesh = delaunayflip.triangulate(*arguments, **options)
+        self.assertEqual(mesh.report.stop_reason, "converged")
+        self.assertEqual(mesh.report.points, len(mesh.points))
+        again = delaunayflip.triangulate(mesh.points[:, :2], mesh.segments)
+        kept = {frozenset(ids) for ids in again.triangles.tolist()}
+        self.assertLessEqual({frozenset(ids) for ids in mesh.triangles.tolist()}, kept)
+        return mesh, mesh.points[mesh.triangles, :2].astype(float)
+
+    def list_areas(self, corners):
+        (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        return (ax * by - ay * bx) / 2
+
+    def list_longest(self, corners):
+        return numpy.linalg.norm(corners - numpy.roll(corners, 1, axis=1), axis=2).max(axis=1)
+
+    def test_angles_and_areas(self):
+        for angle, area in ((20.0, 0.0), (28.0, 0.5), (0.0, 0.2)):
+            mesh, corners = self.refine(numpy.empty((0, 3)), outline=self.BAY, holes=self.ISLAND,
+                                        minimum_angle=angle, maximum_area=area)
+            report = mesh.report
+            self.assertEqual((report.unrefined_triangles, report.reached_point_limit), (0, 0))
+            self.assertEqual(len(mesh.points), 9 + report.refinement_points)
+            self.assertGreater(report.refinement_rounds, 0)
+            angles = delaunayflip.smallest_angles(mesh.points[:, :2], mesh.triangles)
+            self.assertGreaterEqual(angles.min(), angle - 1e-9)
+            self.assertAlmostEqual(angles.min(), report.minimum_angle_after, 6)
+            areas = self.list_areas(corners)
+            self.assertLessEqual(areas.max(), (area or numpy.inf) * (1 + 1e-12))
+            ring, hole = (numpy.array(each)[None, :, :2] for each in (self.BAY, self.ISLAND))
+            whole = [sum(self.list_areas(numpy.stack([one[:, 0], one[:, i], one[:, i + 1]], axis=1))[0]
+                         for i in range(1, one.shape[1] - 1)) for one in (ring, hole)]
+            self.assertAlmostEqual(areas.sum(), whole[0] - whole[1], 9)
+
+    def test_segments_are_covered(self):
+        mesh, _ = self.refine(numpy.empty((0, 3)), outline=self.BAY, holes=self.ISLAND, minimum_angle=25)
+        given = numpy.array([*self.BAY, *self.ISLAND])
+        segments = [(i, (i + 1) % 6) for i in range(6)] + [(6, 7), (7, 8), (8, 6)]
+        self.assertEqual(len(mesh.segment_numbers), len(mesh.segments))
+        for number, (start, end) in enumerate(segments):
+            pieces = mesh.points[mesh.segments[mesh.segment_numbers == number]]
+            length = numpy.linalg.norm(given[end, :2] - given[start, :2])
+            along = numpy.linalg.norm(pieces[:, 1, :2] - pieces[:, 0, :2], axis=1)
+            self.assertAlmostEqual(along.sum(), length, 9)
+            share = numpy.linalg.norm(pieces[:, :, :2] - given[start, :2], axis=2)[..., None] / length
+            numpy.testing.assert_allclose(pieces, (1 - share) * given[start] + share * given[end], atol=1e-9)
+
+    def test_heights_and_values(self):
+        points = numpy.random.default_rng(3).random((60, 3)) * 10
+        points[:, 2] = 2 * points[:, 0] - points[:, 1]
+        for kind in (float, numpy.float32):
+            mesh, _ = self.refine(points.astype(kind), minimum_angle=25)
+            self.assertGreater(mesh.report.refinement_points, 0)
+            x, y, z = mesh.points.T
+            numpy.testing.assert_allclose(z, 2 * x - y, atol=2e-5 if kind is numpy.float32 else 1e-9)
+            found = mesh.interpolate(points[:, :2], [[5.0, 5.0], [4.0, 6.0]])
+            numpy.testing.assert_allclose(found, [[5, 5], [4, 6]], atol=1e-5)
+
+    def test_regions(self):
+        wall = [[[4.0, -1], [4, 11]]]
+        regions = [(1, 1, 7, 0.3), (9.0, 9.0, -2)]
+        for given in (regions, numpy.array([(*row, 0)[:4] for row in regions])):
+            mesh, corners = self.refine(numpy.empty((0, 2)), wall, outline=self.SQUARE, minimum_angle=25,
+                                        split_crossings=True, regions=given)
+            is_left = corners.mean(axis=1)[:, 0] < 4
+            numpy.testing.assert_array_equal(mesh.regions, numpy.where(is_left, 7, -2))
+            areas = self.list_areas(corners)
+            self.assertLessEqual(areas[is_left].max(), 0.3)
+            self.assertGreater(areas[~is_left].max(), 0.3)
+            self.assertAlmostEqual(areas[is_left].sum(), 40)
+        mesh = delaunayflip.triangulate(self.SQUARE, regions=[(20, 20, 5)])
+        self.assertEqual(mesh.regions.tolist(), [0, 0])
+        for wrong, error in (((1, 2), ValueError), ((1, 2, 3.5), TypeError), ((1, 2, 2**31), ValueError),
+                             ("abc", ValueError), ((1, 2, 3, -1.0), delaunayflip.InvalidOptions),
+                             ((numpy.nan, 2, 3), delaunayflip.InvalidOptions)):
+            with self.assertRaisesRegex(error, "region 0"):
+                delaunayflip.triangulate(self.SQUARE, regions=[wrong])
+        with self.assertRaisesRegex(TypeError, "regions must be a list"):
+            delaunayflip.triangulate(self.SQUARE, regions=7)
+
+    def test_sizes(self):
+        """Points are near enough for the field to be a plane: 0.5 at x = 0, and 1.5 at x = 10."""
+        grid = numpy.stack(numpy.meshgrid([0.0, 5, 10], [0.0, 5, 10]), axis=-1).reshape(-1, 2)
+        mesh, corners = self.refine(grid, size=0.5 + grid[:, 0] / 10)
+        limit = 0.5 + corners[:, :, 0].max(axis=1) / 10
+        self.assertTrue((self.list_longest(corners) <= limit).all())
+        self.assertGreater(self.list_longest(corners)[corners[:, :, 0].min(axis=1) > 8].max(), 0.7)
+        mesh, corners = self.refine(grid, size=numpy.where(grid[:, 0] < 7, 1.0, numpy.nan))
+        longest = self.list_longest(corners)
+        self.assertLessEqual(longest[corners[:, :, 0].max(axis=1) < 4].max(), 1.0)
+        mesh, corners = self.refine(grid, maximum_edge=2.0)
+        self.assertLessEqual(self.list_longest(corners).max(), 2.0)
+        outlined, corners = self.refine(grid, outline=[[1, 1], [9, 1], [5, 9]], size=numpy.full(9, 0.8))
+        self.assertLessEqual(self.list_longest(corners).max(), 0.8)
+        with self.assertRaisesRegex(ValueError, "size must have 9 rows"):
+            delaunayflip.triangulate(grid, size=[1.0, 2])
+        with self.assertRaisesRegex(ValueError, "size must have one number for each point"):
+            delaunayflip.triangulate(grid, size=grid)
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "size of point 3"):
+            delaunayflip.triangulate(grid, size=[1, 1, 1, -1, 1, 1, 1, 1, 1])
+
+    def test_boundary_and_limit(self):
+        thin = [[0, 0], [40, 0], [40, 1], [0, 1]]
+        mesh, _ = self.refine(thin, outline=[0, 1, 2, 3], minimum_angle=30, keep_boundary=True)
+        self.assertEqual({frozenset(edge) for edge in mesh.segments.tolist()},
+                         {frozenset((i, (i + 1) % 4)) for i in range(4)})
+        self.assertEqual((mesh.neighbors < 0).sum(), 4)
+        self.assertGreater(mesh.report.unrefined_triangles, 0)
+        self.assertRegex(mesh.report.defects, r"\d+ triangle")
+        mesh = delaunayflip.triangulate(thin, maximum_area=0.001, point_limit=50)
+        self.assertEqual(mesh.report.reached_point_limit, 1)
+        self.assertLessEqual(mesh.report.used_points, 50)
+        sharp = [[0, 0], [10, 0], [10, 0.5]]
+        mesh, corners = self.refine(sharp, outline=[0, 1, 2], minimum_angle=25)
+        angles = delaunayflip.smallest_angles(mesh.points, mesh.triangles)
+        self.assertEqual((angles < 25).sum(), mesh.report.unrefined_triangles)
+        self.assertTrue((corners[angles < 25][..., 0].min(axis=1) < 5).all())
+
+
 class Flip(unittest.TestCase):
 
     def test_the_input_is_not_written_and_not_copied(self):
@@ -360,7 +487,7 @@ class Errors(unittest.TestCase):
     def test_options_of_points(self):
         """Messages call an option as the keyword."""
         for name, kind in _points.POINT_OPTIONS.items():
-            for value in (-1.0, numpy.nan, numpy.inf) if kind is float else (2,):
+            for value in {float: (-1.0, numpy.nan, numpy.inf), int: (-1,), bool: (2,)}[kind]:
                 with self.assertRaisesRegex(delaunayflip.InvalidOptions, f"^{name} must be "):
                     delaunayflip.triangulate(POINTS, **{name: value})
 

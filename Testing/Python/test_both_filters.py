@@ -557,6 +557,39 @@ class SamePoints(Pair, unittest.TestCase):
                     told = self.expect_same(cloud, prepare)
                     self.assertEqual(told["errors"], [])
 
+    def test_refinement(self):
+        for kind in (numpy.float32, numpy.float64):
+            cloud = make_cloud(kind=kind)
+            count = cloud.GetNumberOfPoints()
+            places = vtk_to_numpy(cloud.GetPoints().GetData())
+            for name, values in (("real", places[:, :2] / 7), ("integer", numpy.arange(count)),
+                                 ("size", numpy.full(count, 3.0)), ("text", list("abcde" * count)[:count]),
+                                 ("ids", numpy.arange(count))):
+                add_array(cloud.GetPointData(), name, values)
+            cloud.GetPointData().SetActiveGlobalIds("ids")
+
+            def prepare(points, lines=make_segments(cloud, kind)):
+                points.SetSegmentsData(lines)
+                points.SetSplitCrossings(True)
+                points.SetMinimumAngle(22.0)
+                points.SetMaximumArea(8.0)
+                points.SetPointLimit(5000)
+                points.AddRegion(9, 9, 7, 2.0)
+                points.AddRegion(1, 1, -3, 0.0)
+
+            told = self.expect_same(cloud, prepare)
+            self.assertEqual(told["errors"], [])
+            self.assertIn("Region", str(told["meshes"]))
+            self.assertIn("RefinementPoints", str(told["meshes"]))
+            self.expect_same(cloud, lambda points: (prepare(points), points.RemoveAllRegions(),
+                                                    points.KeepBoundaryOn(), points.SetMaximumEdge(4.0)))
+            told = self.expect_same(cloud, lambda points: (prepare(points), points.SetSizeArray("size")))
+            self.assertEqual(told["errors"], [])
+            for name in ("sizes", "text", "real"):
+                told = self.expect_same(cloud, lambda points: points.SetSizeArray(name))
+                self.assertIn(f'SizeArray: ', told["errors"][0])
+                self.assertIn(f'"{name}"', told["errors"][0])
+
     def test_closed_lines_and_rings_without_area(self):
         cloud = make_cloud()
         segments = make_segments(cloud, float)

@@ -234,6 +234,24 @@ class PyVista(unittest.TestCase):
         bare = delaunayflip.pyvista.triangulate(self.pyvista.PolyData(), cloud)
         self.assertEqual((bare.n_points, bare.n_cells), (50, same.n_cells))
 
+    def test_refinement(self):
+        cloud = self.pyvista.PolyData([[0.0, 0, 0], [10, 0, 20], [10, 10, 30], [0, 10, 10]])
+        cloud["Plane"] = 2 * cloud.points[:, 0] + cloud.points[:, 1]
+        cloud["Size"] = [1.0, 3, 3, 1]
+        wall = self.pyvista.Line((4, 0, 8), (4, 10, 18))
+        options = {"minimum_angle": 28, "regions": [(1, 1, 7), (9, 9, -2)]}
+        made = cloud.delaunay.triangulate(wall, size="Size", **options)
+        numpy.testing.assert_allclose(made.points[:, 2], 2 * made.points[:, 0] + made.points[:, 1], atol=1e-4)
+        numpy.testing.assert_allclose(made["Plane"], made.points[:, 2], atol=1e-4)
+        is_left = made.cell_centers().points[:, 0] < 4
+        numpy.testing.assert_array_equal(made["Region"], numpy.where(is_left, 7, -2))
+        self.assertGreaterEqual(delaunayflip.smallest_angles(made.points, made.regular_faces,
+                                                             geometry="planar-xy").min(), 28)
+        same = cloud.delaunay.triangulate(wall, size=[1.0, 3, 3, 1], **options)
+        numpy.testing.assert_array_equal(same.faces, made.faces)
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, 'no point array of numbers named "size"'):
+            cloud.delaunay.triangulate(size="size")
+
     def test_heights_of_rings(self):
         """Those that have none, and their data, come from the survey."""
         import delaunayflip.pyvista
