@@ -114,12 +114,13 @@ constexpr DefectWords AllWords[] = {
   { Kind::RegionSeedsOutside, DefectIds::Points, "region seed outside of all triangles",
     "region seeds outside of all triangles" },
   { Kind::TrianglesNotRefined, DefectIds::Triangles,
-    "triangle that cannot get as good as wanted, because segments meet there at a small angle or "
-    "must not be split",
-    "triangles that cannot get as good as wanted, because segments meet there at a small angle or "
-    "must not be split" },
+    "triangle that is not as good as wanted: segments meet there at a small angle or must not be "
+    "split, or refinement ended before",
+    "triangles that are not as good as wanted: segments meet there at a small angle or must not be "
+    "split, or refinement ended before" },
   { Kind::PointLimitReached, DefectIds::Points,
-    "limit of points reached, so that refinement is not complete", "" },
+    "point is there, so refinement has ended: PointLimit allows no more",
+    "points are there, so refinement has ended: PointLimit allows no more" },
 };
 
 constexpr bool AreInOrder()

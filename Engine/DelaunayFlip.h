@@ -160,8 +160,8 @@ public:
   /// @param points in the host's memory; they are copied, in the precision of the others.
   /// @param progress is told the share that is done if all is made anew.
   /// @returns false if that has asked to stop. Then Advance begins with all points.
-  /// @throws InvalidOptions if the session is not one from points; InvalidMesh if there are too
-  /// many points, or as the constructor; BackendUnavailable.
+  /// @throws InvalidOptions if the session is not one from points, or with PointInput::Sizes;
+  /// InvalidMesh if there are too many points, or as the constructor; BackendUnavailable.
   bool Insert(const PlaneArray& points, const ProgressObserver& progress = {});
 
   /// Answers a query about places: see PlaceQuery. Nothing in the session changes. Triangles that

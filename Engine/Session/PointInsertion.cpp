@@ -3,6 +3,7 @@
 #include "PointRun.h"
 
 #include "Array.h"
+#include "FlipError.h"
 #include "InputChecks.h"
 
 #include <algorithm>
@@ -39,6 +40,11 @@ bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress
   if (points.Count == 0)
   {
     return true;
+  }
+  if (this->Points.GetCaller().Sizes != nullptr)
+  {
+    throw InvalidOptions("points have no sizes here, so they cannot be inserted where others have: "
+                         "triangulate all points with their sizes");
   }
   if (this->CanInsertInPlace(points))
   {

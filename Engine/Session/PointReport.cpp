@@ -203,6 +203,7 @@ void AddPointsTo(
   {
     pointsWithoutMesh = report.Points;
   }
+  const PointCounts& counts = report.FromPoints;
   for (const Defect& defect : { Defect(DefectKind::HoleSeedsOutside, kept.SeedsOutside),
          NameRings(DefectKind::RingsWithoutArea, ListRingsWithoutArea(points, kept)),
          NameRings(DefectKind::RingsRepeated, kept.RepeatedRings),
@@ -210,7 +211,7 @@ void AddPointsTo(
          Defect(DefectKind::HolePointsOutside, kept.HolePointsOutside),
          Defect(DefectKind::PointsWithoutTriangles, pointsWithoutMesh), result.Loss,
          Defect(DefectKind::RegionSeedsOutside, result.RegionSeedsOutside), result.Unrefined,
-         Defect(DefectKind::PointLimitReached, report.FromPoints.ReachedPointLimit) })
+         Defect(DefectKind::PointLimitReached, counts.ReachedPointLimit * counts.Used) })
   {
     AddDefect(defect, report.Defects);
   }

@@ -142,7 +142,8 @@ class Triangulation:
             progress: Called with the share of the work done, 0 to 1, if all is made anew; False stops it.
 
         Raises:
-            ValueError: This triangulation was stopped before its end, or the points do not fit it.
+            ValueError: This triangulation was stopped before its end, the points do not fit it, or it
+                has a `size` for each point, which new ones do not have.
             delaunayflip.Stopped: progress has returned False.
             InvalidMesh, MeshTooLarge, BackendUnavailable, MemoryError, TypeError.
 

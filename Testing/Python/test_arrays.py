@@ -421,6 +421,7 @@ class Refine(unittest.TestCase):
         self.assertRegex(mesh.report.defects, r"\d+ triangle")
         mesh = delaunayflip.triangulate(thin, maximum_area=0.001, point_limit=50)
         self.assertEqual(mesh.report.reached_point_limit, 1)
+        self.assertIn("refinement has ended: point_limit allows no more", mesh.report.defects)
         self.assertLessEqual(mesh.report.used_points, 50)
         sharp = [[0, 0], [10, 0], [10, 0.5]]
         mesh, corners = self.refine(sharp, outline=[0, 1, 2], minimum_angle=25)

@@ -342,6 +342,13 @@ class Lifetime(unittest.TestCase):
         self.assertEqual(len(more.interpolate(numpy.r_[values, more_values], PLACES)), len(PLACES))
         with self.assertRaisesRegex(ValueError, "must have 2 columns"):
             mesh.insert([[0.5, 0.5, 0.0]])
+        refined = delaunayflip.triangulate(POINTS, minimum_angle=20)
+        whole = delaunayflip.triangulate(numpy.concatenate([POINTS, places]), minimum_angle=20)
+        self.assertEqual(list_corners(refined.insert(places)), list_corners(whole))
+        refined = delaunayflip.triangulate(POINTS, size=numpy.full(len(POINTS), 0.1))
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "have no sizes here"):
+            refined.insert(places)
+        self.assertEqual(refined.locate([[0.5, 0.5]]).shape, (1,))
         with self.assertRaises(delaunayflip.Stopped):
             mesh.insert([[0.5, 0.6]], progress=lambda share: False)
         numpy.testing.assert_array_equal(mesh.insert([[0.5, 0.6]]).points[-2], [0.5, 0.6])
