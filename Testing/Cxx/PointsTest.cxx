@@ -180,6 +180,60 @@ TEST(FromPoints, Projections)
   EXPECT_EQ(GetTriangles(other->GetOutput()), byTransform);
 }
 
+/// Points on a wall: what is added is on it, too. Each property makes another mesh.
+TEST(FromPoints, Refinement)
+{
+  Points wall = MakeCloud(100);
+  for (auto& point : wall)
+  {
+    point = { 5.0, point[0], point[1] };
+  }
+  const auto cloud = ToMesh(wall);
+  const auto heights = MakeArray<vtkDoubleArray>("height", 100);
+  const auto sizes = MakeArray<vtkDoubleArray>("size", 100);
+  for (int i = 0; i < 100; ++i)
+  {
+    heights->SetValue(i, wall[i][2]);
+    sizes->SetValue(i, 0.4);
+  }
+  cloud->GetPointData()->AddArray(heights);
+  cloud->GetPointData()->AddArray(sizes);
+  PointsFilter filter(cloud);
+  filter->SetProjectionToBestFittingPlane();
+  filter->SetMinimumAngle(25.0);
+  auto output = RunCleanly(filter);
+  const vtkIdType refined = output->GetNumberOfPoints();
+  EXPECT_GT(refined, 100);
+  EXPECT_EQ(refined - 100, GetTotal(output, "RefinementPoints"));
+  vtkDataArray* const added = output->GetPointData()->GetArray("height");
+  for (vtkIdType i = 0; i < refined; ++i)
+  {
+    EXPECT_NEAR(output->GetPoint(i)[0], 5.0, 1e-9);
+    EXPECT_NEAR(output->GetPoint(i)[2], added->GetComponent(i, 0), 1e-9);
+  }
+  EXPECT_EQ(GetTotal(output, "UnrefinedTriangles"), 0.0);
+  EXPECT_EQ(GetTotal(output, "TrianglesBelow20After"), 0.0);
+  vtkIdType last = refined;
+  const auto expectMore = [&]()
+  {
+    const vtkIdType count = RunCleanly(filter)->GetNumberOfPoints();
+    EXPECT_GT(count, last);
+    last = count;
+  };
+  filter->SetMaximumArea(0.2);
+  expectMore();
+  filter->SetMaximumEdge(0.5);
+  expectMore();
+  filter->SetSizeArray("size");
+  expectMore();
+  filter->AddRegion(5.0, 5.0, 3, 0.01);
+  filter->RemoveAllRegions();
+  EXPECT_EQ(RunCleanly(filter)->GetCellData()->GetNumberOfArrays(), 0);
+  filter->SetPointLimit(500);
+  ExpectHolds(RunToWarning(filter), "PointLimit allows no more");
+  EXPECT_LE(filter->GetOutput()->GetNumberOfPoints(), 500);
+}
+
 //------------------------------------------------------------------------------
 TEST(FromPoints, PointsOfSegmentsAreAdded)
 {
