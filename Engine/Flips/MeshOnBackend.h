@@ -462,7 +462,7 @@ private:
     this->FiltersApply = survey.FiltersApply;
     this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
     KeepAnglesBefore({}, report); // the caller has never seen these triangles
-    KeepAnglesAfter(this->Loop->MeasureAngles(), report);
+    KeepAnglesAfter({}, report); // measured when they are asked for
   }
 
   template <typename Rule>

@@ -152,7 +152,7 @@ void LoadedRun::TestAllEdges()
   const StopWatch watch;
   this->RecordFound(this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().Detect(); }));
   this->RecordChange(0);
-  this->AreAnglesKnown = true; // since the mesh was loaded
+  this->AreAnglesKnown = this->MeasuresStart;
   report.NonDelaunayBefore = report.NonDelaunayAfter;
   report.FlipSeconds = watch.GetSeconds();
   this->Building.Reach(report.GeometryUsed, BuildStep::Tested);
@@ -313,7 +313,8 @@ void LoadedRun::RunBatch()
   {
     most = std::min(most, this->GetBatch());
   }
-  const AdvancePlan plan{ most, first == 0, this->Options.TrackQuality };
+  const bool measuresFirst = first == 0 && this->MeasuresStart;
+  const AdvancePlan plan{ most, measuresFirst, this->Options.TrackQuality };
   const TemporaryValue<bool> forgets(this->MayForget, first == 0);
   const std::vector<IterationCounts> batch =
     this->OnBackend([&](LoadedMesh& mesh) { return mesh.GetLoop().Advance(plan); });

@@ -168,6 +168,8 @@ protected:
 
   // What is known of the mesh as it is; Measure finds out the rest.
   bool AreAnglesKnown = true;
+  /// Whether angles are measured when a mesh is loaded, and after the first iteration.
+  bool MeasuresStart = true;
   bool AreKeptEdgesKnown = false; ///< Whether what kept edges hide is known.
 
 private:

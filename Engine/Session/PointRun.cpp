@@ -81,6 +81,7 @@ PointRun::PointRun(
   this->Options.Criterion = CriterionKind::InCircle;
   this->Options.TieRule = TieRuleKind::Canonical;
   this->Options.NumberOfPieces = 1;
+  this->MeasuresStart = false; // nobody sees the triangles from which flips begin
   this->ListStages();
   this->Begin();
 }

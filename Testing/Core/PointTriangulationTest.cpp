@@ -450,6 +450,26 @@ TEST(PointTriangulation, WithoutTrianglesHasNoAngle)
   EXPECT_EQ(2 * some.TrianglesBelow20After, sum.TrianglesBelow20After);
 }
 
+/// They are measured after the last iteration, and when a report is asked for.
+TEST(PointTriangulation, AnglesAreMeasuredAtTheEnd)
+{
+  std::mt19937 random(4);
+  Places points;
+  for (int i = 0; i < 300; ++i)
+  {
+    const double x = DrawIndex(random, 1000);
+    points.push_back({ x, DrawIndex(random, 1000) + 0.001 * i });
+  }
+  const FlipReport report = Triangulate(points).Report;
+  ASSERT_LT(1u, report.Iterations.size());
+  EXPECT_TRUE(std::isnan(report.Iterations.front().MinimumAngle));
+  EXPECT_EQ(report.MinimumAngleAfter, report.Iterations.back().MinimumAngle);
+  FlipSession session(PointInput{ View(points) }, PointOptions());
+  const double first = session.GetReport().MinimumAngleAfter;
+  EXPECT_LT(0.0, first);
+  EXPECT_LT(first, report.MinimumAngleAfter);
+}
+
 /// Nobody has seen the triangles that flips begin with.
 TEST(PointTriangulation, AnglesBeforeAreUnknown)
 {
