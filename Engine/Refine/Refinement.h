@@ -83,7 +83,8 @@ public:
       this->Choose(grown, view, triangles + segments);
       const std::int64_t added = this->Insert(grown, view, triangles + segments);
       this->RequireDecided();
-      const bool isStuck = added == 0 && this->CountInvalid(triangles, segments) > 0;
+      const bool mayGoOn = added == 0 && !this->ReachedLimit;
+      const bool isStuck = mayGoOn && this->CountInvalid(triangles, segments) > 0;
       if (!isStuck)
       {
         return added;

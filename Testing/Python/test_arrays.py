@@ -423,6 +423,12 @@ class Refine(unittest.TestCase):
         self.assertEqual(mesh.report.reached_point_limit, 1)
         self.assertIn("refinement has ended: point_limit allows no more", mesh.report.defects)
         self.assertLessEqual(mesh.report.used_points, 50)
+        points = numpy.random.default_rng(1).random((30, 2)) * 10
+        wall = [[[8.7, 4.9], [9.3, 2]], [[5.9, 2.6], [1.7, 9.3], [2.1, 8.5]], [[3.1, 2.2], [9.9, 3.2]]]
+        for limit in range(60, 400, 20):  # also while subsegments are too short to be split
+            mesh = delaunayflip.triangulate(points, wall, split_crossings=True, minimum_angle=25,
+                                            maximum_edge=0.8, point_limit=limit)
+            self.assertLessEqual(mesh.report.used_points, limit)
         sharp = [[0, 0], [10, 0], [10, 0.5]]
         mesh, corners = self.refine(sharp, outline=[0, 1, 2], minimum_angle=25)
         angles = delaunayflip.smallest_angles(mesh.points, mesh.triangles)
