@@ -9,8 +9,13 @@
 #endif
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_size_criteria_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_2.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -32,7 +37,7 @@
 /// compare.py has other programs. With --ratios it prints one table instead: for every set and
 /// number of points the processor time of the engine on one thread, divided by that of CGAL. Both
 /// run in turn, and the least time of each counts, so that other work on the machine matters
-/// little.
+/// little. With --angle, points are refined to that smallest angle, and CGAL's mesher does it, too.
 
 namespace delaunayflip
 {
@@ -106,6 +111,27 @@ PointInput View(const Places& places, const std::vector<std::int64_t>& segments)
   input.Segments = segments.empty() ? nullptr : segments.data();
   input.NumberOfSegments = static_cast<std::int64_t>(segments.size() / 2);
   return input;
+}
+
+/// Refines the points, and the edges of their hull.
+/// @param angle in degrees.
+Result TimeRefinement(const PointInput& input, BackendKind backend, int threads, double angle)
+{
+  PointOptions options;
+  options.Backend = backend;
+  options.NumberOfThreads = threads;
+  options.MinimumAngle = angle;
+  const Clock::time_point start = Clock::now();
+  FlipSession session(input, options);
+  session.Advance();
+  const std::int64_t count = session.GetReport().Triangles;
+  std::vector<std::int32_t> triangles(3 * count);
+  session.StoreTriangles(MutableTriangleArray(triangles.data(), count));
+  const double milliseconds = MillisecondsSince(start);
+  const PointCounts& counts = session.GetReport().FromPoints;
+  return { milliseconds, count,
+    std::to_string(counts.Used) + " points, " + std::to_string(counts.RefinementRounds) +
+      " rounds, smallest angle " + std::to_string(session.GetReport().MinimumAngleAfter) };
 }
 
 Result TimeEngine(const PointInput& input, BackendKind backend, int threads)
@@ -199,6 +225,33 @@ Result TimeCgal(const PointInput& input)
     note };
 }
 
+/// CGAL's mesher, with the edges of the hull as constraints.
+Result TimeCgalRefinement(const PointInput& input, double angle)
+{
+  using Faces = CGAL::Delaunay_mesh_face_base_2<Kernel>;
+  using Vertices = CGAL::Delaunay_mesh_vertex_base_2<Kernel>;
+  using Mesh = CGAL::Constrained_Delaunay_triangulation_2<Kernel,
+    CGAL::Triangulation_data_structure_2<Vertices, Faces>>;
+  using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Mesh>;
+  std::vector<Kernel::Point_2> points, hull;
+  for (std::int64_t i = 0; i < input.Points.Count; ++i)
+  {
+    points.emplace_back(input.Points.Get(i, 0), input.Points.Get(i, 1));
+  }
+  const Clock::time_point start = Clock::now();
+  CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(hull));
+  Mesh mesh;
+  mesh.insert(points.begin(), points.end());
+  for (std::size_t i = 0; i < hull.size(); ++i)
+  {
+    mesh.insert_constraint(hull[i], hull[(i + 1) % hull.size()]);
+  }
+  const double sine = std::sin(angle * M_PI / 180.0);
+  CGAL::refine_Delaunay_mesh_2(mesh, Criteria(sine * sine, 0.0));
+  return { MillisecondsSince(start), static_cast<std::int64_t>(mesh.number_of_faces()),
+    std::to_string(mesh.number_of_vertices()) + " points" };
+}
+
 //------------------------------------------------------------------------------
 /// Prints the row of a way to triangulate. @returns its median.
 double PrintRow(
@@ -247,6 +300,7 @@ struct Plan
   int Repetitions = 5;
   bool HasCgal = true;
   bool PrintsRatios = false;
+  double Angle = 0.0; ///< The smallest one to refine to; 0: no refinement.
 };
 
 /// Prints a cell of the table of ratios.
@@ -289,6 +343,27 @@ void PrintRatios(const std::vector<PointSet>& sets, const Plan& plan)
   std::printf("\n");
 }
 
+/// @param print prints a row.
+template <typename Print>
+void PrintRefinement(const PointInput& input, const Plan& plan, const Print& print)
+{
+  for (const int threads : plan.Threads)
+  {
+    print(std::to_string(threads) + " threads",
+      [&] { return TimeRefinement(input, BackendKind::Threads, threads, plan.Angle); });
+  }
+  if (HasCudaDevice())
+  {
+    TimeRefinement(input, BackendKind::CUDA, 0, plan.Angle); // the first use takes longer
+    print(
+      "GPU, host to host", [&] { return TimeRefinement(input, BackendKind::CUDA, 0, plan.Angle); });
+  }
+  else
+  {
+    std::printf("| GPU | skipped: there is none | | | | |\n");
+  }
+}
+
 /// @returns the medians of the engine's rows.
 std::vector<std::pair<std::string, double>> RunSet(
   const PointSet& set, std::int64_t count, const Plan& plan)
@@ -312,12 +387,20 @@ std::vector<std::pair<std::string, double>> RunSet(
     "\n%s, %lld points, %lld segments\n\n| | ms | least - most | times CGAL | triangles | |\n"
     "|---|---|---|---|---|---|\n",
     set.Name, static_cast<long long>(count), static_cast<long long>(segments.size() / 2));
-  const double cgal = plan.HasCgal ? PrintRow("CGAL, 1 thread", std::min(plan.Repetitions, 3), 0.0,
-                                       [&] { return TimeCgal(input); })
-                                   : 0.0;
+  double cgal = 0.0;
+  if (plan.HasCgal)
+  {
+    cgal = PrintRow("CGAL, 1 thread", std::min(plan.Repetitions, 3), 0.0,
+      [&] { return plan.Angle > 0.0 ? TimeCgalRefinement(input, plan.Angle) : TimeCgal(input); });
+  }
   std::vector<std::pair<std::string, double>> medians;
   const auto print = [&](const std::string& name, const std::function<Result()>& run)
   { medians.emplace_back(name, PrintRow(name, plan.Repetitions, cgal, run)); };
+  if (plan.Angle > 0.0)
+  {
+    PrintRefinement(input, plan, print);
+    return medians;
+  }
   for (const int threads : plan.Threads)
   {
     print(std::to_string(threads) + " threads",
@@ -373,6 +456,7 @@ int main(int argc, char* argv[])
   application.add_flag("!--no-cgal", plan.HasCgal, "leave CGAL out");
   application.add_flag(
     "--ratios", plan.PrintsRatios, "a table of times on one thread over CGAL's, of all sizes");
+  application.add_option("--angle", plan.Angle, "refine the points to this smallest angle");
   CLI11_PARSE(application, argc, argv);
   std::printf("%s\n", DescribeMachine().c_str());
   std::vector<PointSet> sets;

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GpuTestSupport.h"
+#include "PointSets.h"
+#include "PointTestSupport.h"
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+/// @file
+/// Refinement on a GPU, with the bits of the CPU.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// Refines on both backends, and expects the same.
+void ExpectSameRefinement(const PointInput& input, const PointOptions& options)
+{
+  const auto refine = [&](BackendKind backend)
+  {
+    PointOptions own = options;
+    static_cast<FlipOptions&>(own) = OnBackend(backend);
+    FlipSession session(input, own);
+    session.Advance();
+    return session;
+  };
+  const FlipSession expected = refine(BackendKind::Threads), session = refine(BackendKind::CUDA);
+  EXPECT_TRUE(IsOnGpu(session.GetReport())) << session.GetReport().Backend;
+  ExpectSameStatistics(expected.GetReport(), session.GetReport());
+  EXPECT_LT(0, session.GetReport().FromPoints.RefinementPoints);
+  EXPECT_EQ(StoreTriangles(expected), StoreTriangles(session));
+  EXPECT_EQ(expected.ListSegmentEdges(), session.ListSegmentEdges());
+  EXPECT_EQ(expected.ListSegmentsOfEdges(), session.ListSegmentsOfEdges());
+  std::vector<std::int32_t> labels(session.GetReport().Triangles), expectedLabels(labels.size());
+  session.StoreRegions(labels.data());
+  expected.StoreRegions(expectedLabels.data());
+  EXPECT_EQ(expectedLabels, labels);
+  const std::vector<AddedPoint>& points = session.GetAddedPoints();
+  ASSERT_EQ(expected.GetAddedPoints().size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const AddedPoint& own = points[i];
+    const AddedPoint& other = expected.GetAddedPoints()[i];
+    const double numbers[] = { own.X, own.Y, own.Share, own.ThirdShare };
+    const double others[] = { other.X, other.Y, other.Share, other.ThirdShare };
+    ASSERT_EQ(0, std::memcmp(numbers, others, sizeof numbers)) << i;
+    ASSERT_EQ(other.From, own.From);
+    ASSERT_EQ(other.To, own.To);
+    ASSERT_EQ(other.Third, own.Third);
+    ASSERT_EQ(other.Segment, own.Segment);
+  }
+}
+
+/// A star with sharp corners around points, and a wall in it.
+Drawing MakeStar(int corners, int inside)
+{
+  Drawing star;
+  Places ring;
+  for (int i = 0; i < corners; ++i)
+  {
+    const double radius = i % 2 == 0 ? 3.0 : 1.7, angle = i * 2 * M_PI / corners;
+    ring.push_back({ radius * std::cos(angle), radius * std::sin(angle) });
+  }
+  star.AddRing(ring);
+  for (int i = 0; i < inside; ++i)
+  {
+    const double radius = 1.6 * std::sqrt(double(i) / inside), angle = 2.4 * i;
+    star.Points.push_back({ radius * std::cos(angle), radius * std::sin(angle) });
+  }
+  star.Segments.push_back({ 0, corners / 2 });
+  star.Rings.push_back(-1);
+  return star;
+}
+
+TEST(RefineTest, PointSets)
+{
+  for (const PointSet& set : ListPointSets())
+  {
+    SCOPED_TRACE(set.Name);
+    const Places points = MakePlaces(set, 2000);
+    PointInput input;
+    input.Points = View(points);
+    PointOptions options;
+    options.MinimumAngle = 28.0;
+    options.PointLimit = 100000;
+    ExpectSameRefinement(input, options);
+  }
+}
+
+TEST(RefineTest, SegmentsRegionsAndSizes)
+{
+  const Drawing star = MakeStar(60, 20000);
+  const RegionSeed seeds[] = { { 0.0, 0.5, 4, 0.0 }, { 0.0, -0.5, 9, 0.0002 } };
+  std::vector<double> sizes(star.Points.size(), 0.5);
+  sizes[70] = 0.001;
+  PointInput input = star.View();
+  input.Regions = seeds;
+  input.NumberOfRegions = 2;
+  input.Sizes = sizes.data();
+  PointOptions options;
+  options.MinimumAngle = 30.0;
+  options.SplitCrossings = true;
+  ExpectSameRefinement(input, options);
+  options.KeepBoundary = true;
+  options.MaximumEdge = 0.2;
+  ExpectSameRefinement(input, options);
+}
+
+TEST(RefineTest, SmallAndSinglePrecision)
+{
+  const Drawing star = MakeStar(12, 40);
+  std::vector<float> xy;
+  for (const Place& point : star.Points)
+  {
+    xy.push_back(static_cast<float>(point[0]));
+    xy.push_back(static_cast<float>(point[1]));
+  }
+  PointInput input = star.View();
+  input.Points = PlaneArray(xy.data(), static_cast<std::int64_t>(star.Points.size()), 2);
+  PointOptions options;
+  options.MinimumAngle = 25.0;
+  ExpectSameRefinement(input, options);
+}
+
+}
+}
