@@ -93,6 +93,12 @@ struct RefinementStore
     {
       this->TakeOver(TriangleOf(across), triangle + 1);
     }
+    const int edges = this->Splitter.GetSize(item.Found).Edges;
+    for (int k = 0; k < edges; ++k)
+    {
+      this->Marks[edge + k] = 0;
+      this->OriginOfEdge[edge + k] = NoOrigin;
+    }
     std::uint32_t origin = NoOrigin;
     if (item.IsOnSegment)
     {
@@ -102,7 +108,6 @@ struct RefinementStore
       origin = this->OriginOfEdge[split];
       this->OriginOfEdge[edge] = origin;
       this->Marks[split] = 0;
-      this->Marks[edge] = 0;
       this->Segments[this->Before.Subsegment + own.Subsegment] = edge;
     }
     this->OriginOfVertex[vertex] = origin;

@@ -92,12 +92,16 @@ struct TriangleShape
   DELAUNAYFLIP_HOST_DEVICE double GetArea() const { return 0.5 * this->Cross; }
 
   /// The place that improves the triangle: its circumcenter, or an off-center nearer to the
-  /// shortest edge. Both are on the bisector of that edge.
+  /// shortest edge. Both are on the bisector of that edge. Without a goal for angles, the place is
+  /// not farther away than half of the longest edge, so that obtuse triangles are halved.
   DELAUNAYFLIP_HOST_DEVICE PlanePoint FindCenter(double offCenter) const
   {
     double distance = 0.5 * this->Dot / this->Cross; // of the circumcenter, in lengths of the edge
-    const bool isNear = this->Cross > 0.0 && distance < offCenter;
-    distance = isNear ? distance : offCenter;
+    const bool hasLimit = offCenter < INFINITY;
+    const double limit =
+      hasLimit ? offCenter : 0.5 * std::sqrt(this->SquaredLongest / this->SquaredShortest);
+    const bool isNear = this->Cross > 0.0 && distance < limit;
+    distance = isNear ? distance : limit;
     const double u = this->To.U - this->From.U, v = this->To.V - this->From.V;
     return { this->From.U + 0.5 * u - distance * v, this->From.V + 0.5 * v + distance * u, 0.0 };
   }

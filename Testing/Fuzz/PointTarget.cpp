@@ -83,6 +83,14 @@ PointCase MakePointCase(const std::uint8_t* bytes, std::size_t size)
   drawn.Options.Alpha = lengths[source.Draw(5)];
   drawn.Options.LongestEdge = lengths[source.Draw(5)];
   drawn.Options.PointTolerance = source.Once(6) ? 1.5 : 0.0;
+  if (source.Once(3))
+  {
+    const double angles[] = { 0.0, 15.0, 25.0, 30.0 }, areas[] = { 0.0, 0.0, 0.5, 3.0 };
+    drawn.Options.MinimumAngle = angles[source.Draw(4)];
+    drawn.Options.MaximumArea = areas[source.Draw(4)];
+    drawn.Options.KeepBoundary = source.Once(4);
+    drawn.Options.PointLimit = 1000;
+  }
   return drawn;
 }
 
@@ -190,6 +198,45 @@ void ExpectRightAnswers(
   }
 }
 
+/// How many triangles have an angle below one in degrees, by more than rounding.
+std::int64_t CountSharp(
+  const Places& points, const std::vector<std::int32_t>& triangles, double angle)
+{
+  const long double cosine = std::cos((angle - 1e-7) * M_PI / 180.0);
+  std::set<std::size_t> sharp;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    const std::size_t first = i - i % 3;
+    const Place& a = points[triangles[i]];
+    const Place& b = points[triangles[first + (i + 1) % 3]];
+    const Place& c = points[triangles[first + (i + 2) % 3]];
+    const long double u1 = (long double)(b[0]) - a[0], v1 = (long double)(b[1]) - a[1];
+    const long double u2 = (long double)(c[0]) - a[0], v2 = (long double)(c[1]) - a[1];
+    if (u1 * u2 + v1 * v2 > cosine * std::hypot(u1, v1) * std::hypot(u2, v2))
+    {
+      sharp.insert(first);
+    }
+  }
+  return static_cast<std::int64_t>(sharp.size());
+}
+
+/// Only triangles that the report counts have smaller angles than wanted.
+void ExpectRefined(const PointCase& drawn, const Places& points, const Triangulation& result)
+{
+  double size = 0.0;
+  for (const Place& point : points)
+  {
+    const double larger = std::max(std::fabs(point[0]), std::fabs(point[1]));
+    size = std::isfinite(larger) ? std::max(size, larger) : size;
+  }
+  const bool isUsual = size > 1e-100 && size < 1e100;
+  if (drawn.Options.MinimumAngle > 0.0 && isUsual)
+  {
+    EXPECT_GE(result.Report.FromPoints.UnrefinedTriangles,
+      CountSharp(points, result.Triangles, drawn.Options.MinimumAngle));
+  }
+}
+
 /// Reports a failure of GoogleTest for each promise that is broken: the result is the same on one
 /// thread and on several; triangles turn left and are constrained Delaunay; their number is right;
 /// queries about places are answered right. An open ring, or one that crosses a segment, is an
@@ -228,8 +275,13 @@ void JudgePointCase(const PointCase& drawn)
       [&](const auto& edge) { return mayLack && edges.count(Sorted(edge[0], edge[1])) == 0; }),
     kept.Edges.end());
   ExpectConstrainedDelaunay(points, kept);
-  ExpectRightAnswers(
-    FlipPoints(drawn.Input.View(), WithThreads(2, drawn.Options)), points, result.Triangles);
+  ExpectRefined(drawn, points, result);
+  if (result.Report.FromPoints.RefinementPoints ==
+    0) // else the hull has places beside it by rounding
+  {
+    ExpectRightAnswers(
+      FlipPoints(drawn.Input.View(), WithThreads(2, drawn.Options)), points, result.Triangles);
+  }
   ExpectRightNumber(drawn, points, result);
 }
 
@@ -266,5 +318,7 @@ void PrintTarget(const std::uint8_t* bytes, std::size_t size)
   std::cout << "split " << drawn.Options.SplitCrossings << ", ring rule "
             << static_cast<int>(drawn.Options.RingRule) << ", first hole " << drawn.Input.FirstHole
             << ", alpha " << drawn.Options.Alpha << ", longest edge " << drawn.Options.LongestEdge
-            << ", tolerance " << drawn.Options.PointTolerance << '\n';
+            << ", tolerance " << drawn.Options.PointTolerance << ", minimum angle "
+            << drawn.Options.MinimumAngle << ", maximum area " << drawn.Options.MaximumArea
+            << ", keep boundary " << drawn.Options.KeepBoundary << '\n';
 }
