@@ -193,7 +193,7 @@ struct RefinementStep
       item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
     item.Around.Count = 0;
     item.Source = edge;
-    if (!this->FitsBoth(item))
+    if (!IsFinite(item.Place) || !this->FitsBoth(item))
     {
       item.State = ItemState::Dropped;
       this->View.Marks[edge] = CannotSplit;
