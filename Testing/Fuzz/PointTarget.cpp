@@ -223,13 +223,15 @@ std::int64_t CountSharp(
 /// Only triangles that the report counts have smaller angles than wanted.
 void ExpectRefined(const PointCase& drawn, const Places& points, const Triangulation& result)
 {
-  double size = 0.0;
+  bool isUsual = true; // squares of products of coordinates neither overflow nor underflow
   for (const Place& point : points)
   {
-    const double larger = std::max(std::fabs(point[0]), std::fabs(point[1]));
-    size = std::isfinite(larger) ? std::max(size, larger) : size;
+    for (const double coordinate : point)
+    {
+      const double size = std::fabs(coordinate);
+      isUsual = isUsual && (size == 0.0 || std::isnan(size) || (size > 1e-60 && size < 1e60));
+    }
   }
-  const bool isUsual = size > 1e-100 && size < 1e100;
   if (drawn.Options.MinimumAngle > 0.0 && isUsual)
   {
     EXPECT_GE(result.Report.FromPoints.UnrefinedTriangles,
