@@ -180,37 +180,66 @@ struct RefinementView
     return hasTo;
   }
 
-  /// Where a subsegment is split: in the middle, or at a power of two from an end where segments
-  /// meet at a small angle. So all of them are split at the same distances from their corner, and
-  /// no piece near it is in the diametral circle of another one (Ruppert's concentric shells).
+  /// Where a subsegment is split: in the middle, or where its segment has an end at which segments
+  /// meet at a small angle, at a simple distance from there. So all of them are split at the same
+  /// distances from their corner, and no piece is in the diametral circle of another one. These are
+  /// Ruppert's concentric shells, with simple distances between them, too.
   DELAUNAYFLIP_HOST_DEVICE PlanePoint FindSplit(HalfEdgeId side) const
   {
     const VertexId start = this->Mesh.GetStart(side), end = this->Mesh.GetEnd(side);
     const PlanePoint a = this->Mesh.GetPoint(start), b = this->Mesh.GetPoint(end);
-    double share = 0.5;
-    const bool isSharp = this->IsSharp[start] != 0;
-    if (isSharp != (this->IsSharp[end] != 0))
+    const PlanePoint middle = { a.U + 0.5 * (b.U - a.U), a.V + 0.5 * (b.V - a.V), 0.0 };
+    const VertexId* ends = this->Ends + 2 * std::size_t(this->OriginOfEdge[EdgeOf(side)]);
+    const bool isSharp[2] = { this->IsSharp[ends[0]] != 0, this->IsSharp[ends[1]] != 0 };
+    const bool isWhole =
+      (start == ends[0] && end == ends[1]) || (start == ends[1] && end == ends[0]);
+    const bool needsMiddle = isSharp[0] == isSharp[1] && (isWhole || !isSharp[0]);
+    if (needsMiddle)
     {
-      const double length = std::sqrt(TriangleShape::GetSquaredDistance(a, b));
-      share = FindPowerOfTwo(length) / length;
-      share = isSharp ? share : 1.0 - share;
+      return this->Round(middle);
     }
-    return this->Round({ a.U + share * (b.U - a.U), a.V + share * (b.V - a.V), 0.0 });
+    const PlanePoint places[2] = { this->Mesh.GetPoint(ends[0]), this->Mesh.GetPoint(ends[1]) };
+    int corner = isSharp[0] ? 0 : 1;
+    if (isSharp[0] && isSharp[1])
+    {
+      const double first = TriangleShape::GetSquaredDistance(places[0], middle);
+      corner = first < TriangleShape::GetSquaredDistance(places[1], middle) ? 0 : 1;
+    }
+    const PlanePoint &from = places[corner], &to = places[1 - corner];
+    const double length = std::sqrt(TriangleShape::GetSquaredDistance(from, to));
+    const double one = std::sqrt(TriangleShape::GetSquaredDistance(from, a));
+    const double other = std::sqrt(TriangleShape::GetSquaredDistance(from, b));
+    const double quarter = 0.25 * (other - one); // negative if b is nearer
+    const double low = one + quarter, high = other - quarter;
+    const double share = FindSimplest(low < high ? low : high, low < high ? high : low) / length;
+    return this->Round({ from.U + share * (to.U - from.U), from.V + share * (to.V - from.V), 0.0 });
   }
 
-  /// A power of two between a third and two thirds of a length.
-  DELAUNAYFLIP_HOST_DEVICE static double FindPowerOfTwo(double length)
+  /// The number between two positive ones that is a multiple of the largest power of two.
+  DELAUNAYFLIP_HOST_DEVICE static double FindSimplest(double low, double high)
   {
+    constexpr double Largest = 1e300, MostSteps = 0x1p50;
     double power = 1.0;
-    while (length > 3.0 * power && power < 1e300)
+    while (power <= high && power < Largest)
     {
       power *= 2.0;
     }
-    while (length < 1.5 * power && power > 1e-300)
+    while (power > high && power > 1.0 / Largest)
     {
       power *= 0.5;
     }
-    return power;
+    double steps = high / power;
+    while (steps < MostSteps)
+    {
+      const double multiple = power * static_cast<double>(static_cast<std::int64_t>(steps));
+      if (multiple >= low)
+      {
+        return multiple;
+      }
+      power *= 0.5;
+      steps = high / power;
+    }
+    return 0.5 * (low + high);
   }
 
   /// A place in the precision of the others.

@@ -240,8 +240,9 @@ TEST(Refine, SharpCornersEnd)
     options.MinimumAngle = 25.0;
     const Refined refined = ExpectRefined(wedge, options);
     ExpectCovered(wedge, refined);
-    EXPECT_LE(std::min(corner, 25.0) - 1e-9, refined.SmallestAngle);
-    EXPECT_GT(2000, refined.Result.Report.FromPoints.Used);
+    // Between the sides at equal distances, angles are a little below that of the corner.
+    EXPECT_LE(0.85 * std::min(corner, 25.0), refined.SmallestAngle);
+    EXPECT_GT(500, refined.Result.Report.FromPoints.Used);
     EXPECT_EQ(corner<25.0, refined.Bad> 0);
   }
 }
