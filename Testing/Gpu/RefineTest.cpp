@@ -75,7 +75,11 @@ Drawing MakeStar(int corners, int inside)
   return star;
 }
 
-TEST(RefineTest, PointSets)
+class RefineTest : public GpuTest
+{
+};
+
+TEST_F(RefineTest, PointSets)
 {
   for (const PointSet& set : ListPointSets())
   {
@@ -90,7 +94,7 @@ TEST(RefineTest, PointSets)
   }
 }
 
-TEST(RefineTest, SegmentsRegionsAndSizes)
+TEST_F(RefineTest, SegmentsRegionsAndSizes)
 {
   const Drawing star = MakeStar(60, 20000);
   const RegionSeed seeds[] = { { 0.0, 0.5, 4, 0.0 }, { 0.0, -0.5, 9, 0.0002 } };
@@ -109,7 +113,7 @@ TEST(RefineTest, SegmentsRegionsAndSizes)
   ExpectSameRefinement(input, options);
 }
 
-TEST(RefineTest, SmallAndSinglePrecision)
+TEST_F(RefineTest, SmallAndSinglePrecision)
 {
   const Drawing star = MakeStar(12, 40);
   std::vector<float> xy;
