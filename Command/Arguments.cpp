@@ -353,7 +353,7 @@ void AddRefinementOptions(CLI::App& app, Arguments& arguments)
     {
       std::array<double, 4> region{};
       ParseRegion(text, region);
-      arguments.Points->AddRegion(region[0], region[1], static_cast<int>(region[2]), region[3]);
+      arguments.Points->AddRegion(region[0], region[1], region[2], region[3]);
     }
   };
   const auto findFault = [](const std::string& text)

@@ -139,9 +139,9 @@ void vtkDelaunayFlipPoints::FlipLeaves(
 }
 
 //------------------------------------------------------------------------------
-void vtkDelaunayFlipPoints::AddRegion(double x, double y, int label, double maximumArea)
+void vtkDelaunayFlipPoints::AddRegion(double x, double y, double label, double maximumArea)
 {
-  this->Regions.push_back({ x, y, static_cast<double>(label), maximumArea });
+  this->Regions.push_back({ x, y, label, maximumArea });
   this->Modified();
 }
 

@@ -217,11 +217,12 @@ public:
 
   ///@{
   /**
-   * Add a region: a place in a part that segments enclose, the label of its triangles, and the
-   * largest area of a triangle there (0: as elsewhere). If there are regions, the output has a cell
-   * array "Region" with these labels, 0 elsewhere. Of several in one part the first counts.
+   * Add a region: a place in a part that segments enclose, the label of its triangles (a 32-bit
+   * integer), and the largest area of a triangle there (0: as elsewhere). If there are regions, the
+   * output has a cell array "Region" with these labels, 0 elsewhere. Of several in one part the
+   * first counts.
    */
-  void AddRegion(double x, double y, int label, double maximumArea);
+  void AddRegion(double x, double y, double label, double maximumArea);
   void RemoveAllRegions();
   ///@}
 

@@ -576,6 +576,10 @@ class vtkDelaunayFlipPoints(Filter):
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
         cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")
+        for number, (_, _, label, _) in enumerate(self._regions):
+            if not float(label).is_integer():
+                raise _library.InvalidOptions(f"the label of region {number} must be an integer from "
+                                              f"{-2**31} to {2**31 - 1}, not {label:g}")
         options["regions"] = self._regions
         result, _ = run_points(cloud, options, progress, self._observe, keeps)
         self._totals = Totals.of_run(result.report, result.iterations)

@@ -238,6 +238,9 @@ class Shown(unittest.TestCase):
         self.assertGreater(len(compared), 14, compared)
 
     def test_panel_of_paraview(self):
+        text = (pathlib.Path(__file__).parents[2] / "Plugin/DelaunayFlip.xml").read_text(encoding="utf-8")
+        for name, entity in re.findall(r"<!ENTITY (\w+) '([^']*)'", text):
+            self.assertLess(len(entity), 4096, name)  # the limit of Qt, with which ParaView reads it
         panel = ElementTree.parse(pathlib.Path(__file__).parents[2] / "Plugin/DelaunayFlip.xml")
         proxies = {proxy.get("class").replace("vtkP", "vtk"): proxy for proxy in panel.iter("SourceProxy")}
         for kind in (PythonFilter, PythonPoints, PythonInterpolator):
@@ -583,6 +586,8 @@ class SamePoints(Pair, unittest.TestCase):
             self.assertIn("RefinementPoints", str(told["meshes"]))
             self.expect_same(cloud, lambda points: (prepare(points), points.RemoveAllRegions(),
                                                     points.KeepBoundaryOn(), points.SetMaximumEdge(4.0)))
+            told = self.expect_same(cloud, lambda points: points.AddRegion(1, 1, 1.5, 0.0))
+            self.assertIn("the label of region 0 must be an integer", told["errors"][0])
             told = self.expect_same(cloud, lambda points: (prepare(points), points.SetSizeArray("size")))
             self.assertEqual(told["errors"], [])
             for name in ("sizes", "text", "real"):
