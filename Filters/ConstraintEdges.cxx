@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintEdges.h"
 
-#include "DataArrays.h"
 #include "UpdateReport.h"
 
+#include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkSMPTools.h"
@@ -348,6 +348,191 @@ vtkSmartPointer<vtkPolyData> JoinConstraints(
     }
   }
   return MakeLines(ends, areFloats);
+}
+
+//------------------------------------------------------------------------------
+HeightRange::HeightRange(const PointArray& points, std::int64_t count)
+{
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const double height = points.Get(i, 2);
+    if (std::isfinite(height))
+    {
+      this->Low = std::min(this->Low, height);
+      this->High = std::max(this->High, height);
+    }
+  }
+}
+
+SegmentList::SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPolyData* points,
+  const ProgressObserver& progress)
+  : Given(given),
+    Points(points),
+    FillsData(source.FillsData)
+{
+  const vtkIdType count = given->GetNumberOfPoints();
+  this->AddCells(
+    given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, CellKind::Line);
+  this->FirstOther = this->Ends.size();
+  if (!source.Others)
+  {
+    return;
+  }
+  const auto segments = ShareMesh(source.Others); // which observers cannot take away
+  std::vector<double> storage, otherStorage;
+  const PointArray own = ViewPoints(given, storage);
+  const PointArray others = ViewPoints(segments, otherStorage);
+  std::vector<vtkIdType> ids; // empty if the cells name points of the first input
+  vtkIdType size = count;
+  if (others.Count > 0 && !HaveSameBits(own, others))
+  {
+    ids = this->AddPoints(own, others, segments, progress);
+    size = others.Count;
+  }
+  const CellKind kindOfLines = source.ClosedLinesAsRings ? CellKind::LineOrRing : CellKind::Line;
+  PointIdCheck check{ "segment cell", segments->GetNumberOfVerts(), size };
+  this->AddCells(segments->GetLines(), check, ids, kindOfLines);
+  check.FirstCell += segments->GetNumberOfLines();
+  this->AddCells(segments->GetPolys(), check, ids, CellKind::Ring);
+}
+
+std::vector<std::int64_t> SegmentList::FindFlatPoints(std::int64_t firstHole) const
+{
+  std::vector<std::int64_t> flat;
+  std::vector<double> storage;
+  const PointArray points = ViewPoints(this->Points, storage);
+  const vtkIdType given = this->Given->GetNumberOfPoints();
+  const HeightRange heights(points, given);
+  if (points.Count == given || heights.IsEmpty() || heights.IsZero())
+  {
+    return flat;
+  }
+  enum
+  {
+    OfLines,
+    OfOutlines,
+    OfHoles,
+    Kinds
+  };
+  const auto getKind = [&](std::size_t end)
+  {
+    const std::int32_t ring = this->Rings[end / 2];
+    if (ring < 0)
+    {
+      return OfLines;
+    }
+    return firstHole >= 0 && ring >= firstHole ? OfHoles : OfOutlines;
+  };
+  bool isFlat[Kinds] = { true, true, true };
+  for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
+  {
+    isFlat[getKind(end)] &= points.Get(this->Ends[end], 2) == 0.0;
+  }
+  std::vector<bool> isListed(points.Count, false);
+  for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
+  {
+    const std::int64_t point = this->Ends[end];
+    if (point >= given && isFlat[getKind(end)] && !isListed[point])
+    {
+      isListed[point] = true;
+      flat.push_back(point);
+    }
+  }
+  return flat;
+}
+
+void SegmentList::AddCells(
+  vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids, CellKind kind)
+{
+  std::vector<vtkIdType> path;
+  VisitCells(cells, check,
+    [&](vtkIdType cell, vtkIdList* points)
+    {
+      path.assign(points->begin(), points->end());
+      if (!ids.empty())
+      {
+        std::transform(
+          path.begin(), path.end(), path.begin(), [&ids](vtkIdType id) { return ids[id]; });
+      }
+      const bool isRing =
+        kind == CellKind::Ring || (kind == CellKind::LineOrRing && this->IsClosed(path));
+      const bool isOpen = !path.empty() && (path.size() == 1 || path.front() != path.back());
+      if (kind == CellKind::Ring && isOpen)
+      {
+        path.push_back(path.front());
+      }
+      this->AddPath(path, isRing, static_cast<std::int32_t>(check.FirstCell + cell));
+    });
+}
+
+void SegmentList::AddPath(const std::vector<vtkIdType>& path, bool isRing, std::int32_t cell)
+{
+  constexpr std::int32_t NoRing = -1;
+  for (std::size_t i = 1; i < path.size(); ++i)
+  {
+    if (path[i - 1] != path[i] || isRing)
+    {
+      this->Ends.insert(this->Ends.end(), { path[i - 1], path[i] });
+      this->Rings.push_back(isRing ? cell : NoRing);
+    }
+  }
+}
+
+bool SegmentList::IsClosed(const std::vector<vtkIdType>& path) const
+{
+  if (path.size() < 3)
+  {
+    return false;
+  }
+  std::array<double, 3> first, last;
+  this->Points->GetPoint(path.front(), first.data());
+  this->Points->GetPoint(path.back(), last.data());
+  return path.front() == path.back() || first == last;
+}
+
+std::vector<vtkIdType> SegmentList::AddPoints(const PointArray& own, const PointArray& others,
+  vtkPolyData* segments, const ProgressObserver& observer)
+{
+  PointPlaces places(own.Floats || others.Floats);
+  std::vector<vtkIdType> ids(others.Count);
+  for (vtkIdType i = 0; i < others.Count; ++i)
+  {
+    ids[i] = places.Add(others, i); // at first the number of its place
+  }
+  std::vector<vtkIdType> first(places.GetNumberOfPlaces(), PointPlaces::None);
+  WorkProgress progress(observer, own.Count);
+  for (vtkIdType i = own.Count - 1; i >= 0; --i)
+  {
+    const std::int64_t place = places.Find(own, i);
+    if (place != PointPlaces::None)
+    {
+      first[place] = i;
+    }
+    progress.Add();
+  }
+  vtkNew<vtkIdList> added;
+  for (vtkIdType i = 0; i < others.Count; ++i)
+  {
+    vtkIdType& id = first[ids[i]];
+    if (id == PointPlaces::None)
+    {
+      id = own.Count + added->InsertNextId(i);
+    }
+    ids[i] = id;
+  }
+  if (added->GetNumberOfIds() > 0)
+  {
+    vtkPointData* data = segments->GetPointData();
+    const auto theirs = TakeWholeArrays(data, others.Count);
+    if (this->FillsData)
+    {
+      TurnToDoubles(theirs);
+    }
+    AppendPoints(CopyShallow(this->Points), segments->GetPoints(), added, theirs, this->Points);
+    this->ShortArrays = FindShortArrays(
+      data, others.Count, "point", " of the second input with too few tuples left out");
+  }
+  return ids;
 }
 
 }

@@ -3,6 +3,7 @@
 #ifndef ConstraintEdges_h
 #define ConstraintEdges_h
 
+#include "DataArrays.h"
 #include "EngineExport.h"
 #include "FlipReport.h"
 #include "TriangleMesh.h"
@@ -10,6 +11,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -113,6 +115,68 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> MakeLines(
 /// @throws InvalidMesh.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> JoinConstraints(
   const std::vector<std::pair<vtkPolyData*, vtkPolyData*>>& sources);
+
+//------------------------------------------------------------------------------
+/// The finite heights of the first points. Low exceeds High if there are none.
+struct HeightRange
+{
+  double Low = INFINITY, High = -INFINITY;
+
+  HeightRange(const PointArray& points, std::int64_t count);
+
+  bool IsEmpty() const { return this->Low > this->High; }
+  bool IsZero() const { return this->Low == 0.0 && this->High == 0.0; }
+};
+
+/// Where the segments of a triangulation come from; see TriangulationRequest.
+struct SegmentSource
+{
+  vtkPolyData* Others = nullptr; ///< The second input; null if there is none.
+  bool ClosedLinesAsRings = true;
+  bool FillsData = false;
+};
+
+/// The segments of both inputs of a triangulation, as pairs of ids of points. Points of the second
+/// input that are new come after those of the first one.
+class SegmentList
+{
+public:
+  /// @param points receives those of the first input and the new ones.
+  SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPolyData* points,
+    const ProgressObserver& progress);
+
+  /// Finds the added points of lines, outlines or holes, each of the three by itself, that have
+  /// z = 0 throughout, while the given points have other heights.
+  std::vector<std::int64_t> FindFlatPoints(std::int64_t firstHole) const;
+
+  std::vector<std::int64_t> Ends; ///< Pairs of ids.
+  std::vector<std::int32_t> Rings; ///< One number per segment.
+  Defect ShortArrays; ///< Point arrays of the second input that are left out.
+
+private:
+  enum class CellKind
+  {
+    Line,
+    LineOrRing, ///< A line that ends where it begins is a ring.
+    Ring
+  };
+
+  /// @param ids are those of the points that the cells name. Empty: the cells name them by these.
+  void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
+    CellKind kind);
+  /// Rings have the numbers of their cells.
+  void AddPath(const std::vector<vtkIdType>& path, bool isRing, std::int32_t cell);
+  /// Whether a line of three or more points ends at the place where it begins.
+  bool IsClosed(const std::vector<vtkIdType>& path) const;
+  /// Adds the points of the segments where they are new. @returns the id of each.
+  std::vector<vtkIdType> AddPoints(const PointArray& own, const PointArray& others,
+    vtkPolyData* segments, const ProgressObserver& observer);
+
+  vtkPolyData* Given;
+  vtkPolyData* Points;
+  bool FillsData;
+  std::size_t FirstOther = 0; ///< Where the ends of the second input begin.
+};
 
 }
 

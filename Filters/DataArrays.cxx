@@ -6,12 +6,14 @@
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkLookupTable.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <set>
@@ -280,6 +282,25 @@ void DemoteGlobalIds(vtkDataSetAttributes* data)
   if (!data->GetPedigreeIds())
   {
     data->SetActiveAttribute(ids, vtkDataSetAttributes::PEDIGREEIDS);
+  }
+}
+
+void TurnToDoubles(vtkDataSetAttributes* data)
+{
+  const vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
+    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = data->GetArray(i); // null if it has no numbers
+    const bool isLabel = std::count(std::begin(labels), std::end(labels), array) > 0;
+    if (array && array->GetName() && !isLabel && array->GetDataType() != VTK_FLOAT &&
+      array->GetDataType() != VTK_DOUBLE)
+    {
+      vtkNew<vtkDoubleArray> doubles;
+      doubles->DeepCopy(array);
+      const int attributes = FindAttributes(data, array);
+      AddAttributes(data, data->AddArray(doubles), attributes); // in its place
+    }
   }
 }
 

@@ -11,13 +11,13 @@
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
 #include <vector>
 
 class vtkPoints;
-class vtkPolyData;
 class vtkUnsignedCharArray;
 
 /// @file
@@ -29,6 +29,14 @@ namespace delaunayflip
 /// A shallow copy that keeps as many cells as there are now, whatever observers of the filter
 /// append to the input's cell arrays.
 DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> ShareMesh(vtkPolyData* mesh);
+
+/// A shallow copy.
+inline vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->ShallowCopy(mesh);
+  return copy;
+}
 
 /// A view of the points if the engine can read their layout, else of a copy in `storage`.
 /// @throws InvalidMesh if points do not have three coordinates.
@@ -175,6 +183,9 @@ DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources
 /// Turns global ids into pedigree ids: when cells are divided or points added, several share an id.
 /// If there are pedigree ids already, the array is no attribute any more.
 DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
+
+/// Makes arrays of integers ones of doubles, so that what is interpolated is not rounded.
+void TurnToDoubles(vtkDataSetAttributes* data);
 
 /// The points of a mesh, then some of `more`: as double, unless those of the mesh are float.
 vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids);

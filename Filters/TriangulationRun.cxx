@@ -8,7 +8,6 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellData.h"
-#include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkPlane.h"
@@ -60,28 +59,6 @@ vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points, vtkIdType count)
   return rotation;
 }
 
-/// The finite heights of the first points. Low exceeds High if there are none.
-struct HeightRange
-{
-  double Low = INFINITY, High = -INFINITY;
-
-  HeightRange(const PointArray& points, vtkIdType count)
-  {
-    for (vtkIdType i = 0; i < count; ++i)
-    {
-      const double height = points.Get(i, 2);
-      if (std::isfinite(height))
-      {
-        this->Low = std::min(this->Low, height);
-        this->High = std::max(this->High, height);
-      }
-    }
-  }
-
-  bool IsEmpty() const { return this->Low > this->High; }
-  bool IsZero() const { return this->Low == 0.0 && this->High == 0.0; }
-};
-
 /// Whether two requests have the same options. Their inputs may differ.
 bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& b)
 {
@@ -124,33 +101,6 @@ Stamps StampArrays(const TriangulationRequest& request)
   return stamps;
 }
 
-vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
-{
-  auto copy = vtkSmartPointer<vtkPolyData>::New();
-  copy->ShallowCopy(mesh);
-  return copy;
-}
-
-/// Makes arrays of integers ones of doubles, so that what is interpolated is not rounded.
-void TurnToDoubles(vtkDataSetAttributes* data)
-{
-  const vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
-    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    vtkDataArray* array = data->GetArray(i); // null if it has no numbers
-    const bool isLabel = std::count(std::begin(labels), std::end(labels), array) > 0;
-    if (array && array->GetName() && !isLabel && array->GetDataType() != VTK_FLOAT &&
-      array->GetDataType() != VTK_DOUBLE)
-    {
-      vtkNew<vtkDoubleArray> doubles;
-      doubles->DeepCopy(array);
-      const int attributes = FindAttributes(data, array);
-      AddAttributes(data, data->AddArray(doubles), attributes); // in its place
-    }
-  }
-}
-
 /// A copy of points, with arrays of doubles if that is asked for.
 vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtkPolyData* points)
 {
@@ -178,207 +128,6 @@ void InterpolateTuple(vtkIdType target, const AddedPoint& point, vtkAbstractArra
   double weights[] = { 1.0 - point.Share - point.ThirdShare, point.Share, point.ThirdShare };
   array->InterpolateTuple(target, corners, array, weights);
 }
-
-/// The segments of both inputs, as pairs of ids of points. Points of the second input that are new
-/// come after those of the first one.
-class SegmentList
-{
-public:
-  /// @param points receives those of the first input and the new ones.
-  SegmentList(const TriangulationRequest& request, vtkPolyData* given, vtkPolyData* points,
-    const ProgressObserver& progress)
-    : Given(given),
-      Points(points),
-      FillsData(request.FillsData)
-  {
-    const vtkIdType count = given->GetNumberOfPoints();
-    this->AddCells(
-      given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, CellKind::Line);
-    this->FirstOther = this->Ends.size();
-    if (!request.Others)
-    {
-      return;
-    }
-    const auto segments = ShareMesh(request.Others); // which observers cannot take away
-    std::vector<double> storage, otherStorage;
-    const PointArray own = ViewPoints(given, storage);
-    const PointArray others = ViewPoints(segments, otherStorage);
-    std::vector<vtkIdType> ids; // empty if the cells name points of the first input
-    vtkIdType size = count;
-    if (others.Count > 0 && !HaveSameBits(own, others))
-    {
-      ids = this->AddPoints(own, others, segments, progress);
-      size = others.Count;
-    }
-    const CellKind kindOfLines = request.ClosedLinesAsRings ? CellKind::LineOrRing : CellKind::Line;
-    PointIdCheck check{ "segment cell", segments->GetNumberOfVerts(), size };
-    this->AddCells(segments->GetLines(), check, ids, kindOfLines);
-    check.FirstCell += segments->GetNumberOfLines();
-    this->AddCells(segments->GetPolys(), check, ids, CellKind::Ring);
-  }
-
-  /// Finds the added points of lines, outlines or holes, each of the three by itself, that have
-  /// z = 0 throughout, while the given points have other heights.
-  std::vector<std::int64_t> FindFlatPoints(vtkIdType firstHole) const
-  {
-    std::vector<std::int64_t> flat;
-    std::vector<double> storage;
-    const PointArray points = ViewPoints(this->Points, storage);
-    const vtkIdType given = this->Given->GetNumberOfPoints();
-    const HeightRange heights(points, given);
-    if (points.Count == given || heights.IsEmpty() || heights.IsZero())
-    {
-      return flat;
-    }
-    enum
-    {
-      OfLines,
-      OfOutlines,
-      OfHoles,
-      Kinds
-    };
-    const auto getKind = [&](std::size_t end)
-    {
-      const std::int32_t ring = this->Rings[end / 2];
-      if (ring < 0)
-      {
-        return OfLines;
-      }
-      return firstHole >= 0 && ring >= firstHole ? OfHoles : OfOutlines;
-    };
-    bool isFlat[Kinds] = { true, true, true };
-    for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
-    {
-      isFlat[getKind(end)] &= points.Get(this->Ends[end], 2) == 0.0;
-    }
-    std::vector<bool> isListed(points.Count, false);
-    for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
-    {
-      const std::int64_t point = this->Ends[end];
-      if (point >= given && isFlat[getKind(end)] && !isListed[point])
-      {
-        isListed[point] = true;
-        flat.push_back(point);
-      }
-    }
-    return flat;
-  }
-
-  std::vector<std::int64_t> Ends; ///< Pairs of ids.
-  std::vector<std::int32_t> Rings; ///< One number per segment.
-  Defect ShortArrays; ///< Point arrays of the second input that are left out.
-
-private:
-  enum class CellKind
-  {
-    Line,
-    LineOrRing, ///< A line that ends where it begins is a ring.
-    Ring
-  };
-
-  /// @param ids are those of the points that the cells name. Empty: the cells name them by these.
-  void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
-    CellKind kind)
-  {
-    std::vector<vtkIdType> path;
-    VisitCells(cells, check,
-      [&](vtkIdType cell, vtkIdList* points)
-      {
-        path.assign(points->begin(), points->end());
-        if (!ids.empty())
-        {
-          std::transform(
-            path.begin(), path.end(), path.begin(), [&ids](vtkIdType id) { return ids[id]; });
-        }
-        const bool isRing =
-          kind == CellKind::Ring || (kind == CellKind::LineOrRing && this->IsClosed(path));
-        const bool isOpen = !path.empty() && (path.size() == 1 || path.front() != path.back());
-        if (kind == CellKind::Ring && isOpen)
-        {
-          path.push_back(path.front());
-        }
-        this->AddPath(path, isRing, static_cast<std::int32_t>(check.FirstCell + cell));
-      });
-  }
-
-  /// Rings have the numbers of their cells.
-  void AddPath(const std::vector<vtkIdType>& path, bool isRing, std::int32_t cell)
-  {
-    constexpr std::int32_t NoRing = -1;
-    for (std::size_t i = 1; i < path.size(); ++i)
-    {
-      if (path[i - 1] != path[i] || isRing)
-      {
-        this->Ends.insert(this->Ends.end(), { path[i - 1], path[i] });
-        this->Rings.push_back(isRing ? cell : NoRing);
-      }
-    }
-  }
-
-  /// Whether a line of three or more points ends at the place where it begins.
-  bool IsClosed(const std::vector<vtkIdType>& path) const
-  {
-    if (path.size() < 3)
-    {
-      return false;
-    }
-    std::array<double, 3> first, last;
-    this->Points->GetPoint(path.front(), first.data());
-    this->Points->GetPoint(path.back(), last.data());
-    return path.front() == path.back() || first == last;
-  }
-
-  /// Adds the points of the segments where they are new. @returns the id of each.
-  std::vector<vtkIdType> AddPoints(const PointArray& own, const PointArray& others,
-    vtkPolyData* segments, const ProgressObserver& observer)
-  {
-    PointPlaces places(own.Floats || others.Floats);
-    std::vector<vtkIdType> ids(others.Count);
-    for (vtkIdType i = 0; i < others.Count; ++i)
-    {
-      ids[i] = places.Add(others, i); // at first the number of its place
-    }
-    std::vector<vtkIdType> first(places.GetNumberOfPlaces(), PointPlaces::None);
-    WorkProgress progress(observer, own.Count);
-    for (vtkIdType i = own.Count - 1; i >= 0; --i)
-    {
-      const std::int64_t place = places.Find(own, i);
-      if (place != PointPlaces::None)
-      {
-        first[place] = i;
-      }
-      progress.Add();
-    }
-    vtkNew<vtkIdList> added;
-    for (vtkIdType i = 0; i < others.Count; ++i)
-    {
-      vtkIdType& id = first[ids[i]];
-      if (id == PointPlaces::None)
-      {
-        id = own.Count + added->InsertNextId(i);
-      }
-      ids[i] = id;
-    }
-    if (added->GetNumberOfIds() > 0)
-    {
-      vtkPointData* data = segments->GetPointData();
-      const auto theirs = TakeWholeArrays(data, others.Count);
-      if (this->FillsData)
-      {
-        TurnToDoubles(theirs);
-      }
-      AppendPoints(CopyShallow(this->Points), segments->GetPoints(), added, theirs, this->Points);
-      this->ShortArrays = FindShortArrays(
-        data, others.Count, "point", " of the second input with too few tuples left out");
-    }
-    return ids;
-  }
-
-  vtkPolyData* Given;
-  vtkPolyData* Points;
-  bool FillsData; ///< See TriangulationRequest.
-  std::size_t FirstOther = 0; ///< Where the ends of the second input begin.
-};
 
 //------------------------------------------------------------------------------
 /// Triangulates points.
@@ -464,7 +213,8 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
     StampedArrays(StampArrays(request)),
     Given(request.IsLive ? CopyPoints(request.Input) : CopyShallow(request.Input)),
     Points(CopyForRun(request, Given)),
-    Segments(request, Given, Points, this->Plan.For(UpdatePlan::Constraints)),
+    Segments({ request.Others, request.ClosedLinesAsRings, request.FillsData }, Given, Points,
+      this->Plan.For(UpdatePlan::Constraints)),
     FlatPoints(Segments.FindFlatPoints(request.FirstHole))
 {
   this->View.Points = this->Project();
