@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Arguments.h"
 
+#include "ArgumentChecks.h"
 #include "CommandError.h"
-#include "Console.h"
 #include "CudaDevice.h"
+#include "Console.h"
 #include "FlipError.h"
+#include "HelpPage.h"
 #include "InputFile.h"
-#include "OutputFiles.h"
 #include "PointColumns.h"
 
 #include <CLI/CLI.hpp>
@@ -16,8 +17,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <regex>
-#include <set>
 #include <sstream>
 
 namespace delaunayflip
@@ -25,74 +24,6 @@ namespace delaunayflip
 
 namespace
 {
-
-/// The groups of options in the help, in this order.
-constexpr const char* ToRead = "What to read";
-constexpr const char* ToJudge = "Where edges are judged";
-constexpr const char* ToStay = "What stays";
-constexpr const char* OfPoints = "From points";
-constexpr const char* ToAsk = "Heights from points";
-constexpr const char* ToRun = "Where it runs";
-constexpr const char* ToWrite = "What to write";
-constexpr const char* ToHelp = "Help";
-
-/// Help in 80 columns, by group; of an option it says what it takes, and not how it goes with
-/// others. Every version of CLI11 lays it out like this.
-class PlainFormatter : public CLI::FormatterBase
-{
-public:
-  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const override
-  {
-    std::string text =
-      "Usage: " + name + " [OPTIONS] INPUT OUTPUT\n\n" + app->get_description() + "\n";
-    for (const char* group : { ToRead, ToJudge, ToStay, OfPoints, ToAsk, ToRun, ToWrite, ToHelp })
-    {
-      text += std::string("\n") + group + ":\n";
-      const auto isInGroup = [group](const CLI::Option* option)
-      { return option->get_group() == group; };
-      for (const CLI::Option* option : app->get_options(isInGroup))
-      {
-        text += Describe(*option);
-      }
-    }
-    return text + "\n" + app->get_footer() + "\n";
-  }
-
-private:
-  /// The option in one column, and its help in another one.
-  static std::string Describe(const CLI::Option& option)
-  {
-    constexpr std::size_t Column = 28;
-    constexpr std::size_t Width = 80;
-    std::string line = "  " + option.get_name(option.get_positional(), true);
-    if (!option.get_positional() && !option.get_type_name().empty())
-    {
-      line += " " + option.get_type_name();
-    }
-    std::string text;
-    if (line.size() + 2 > Column)
-    {
-      text = line + '\n';
-      line.clear();
-    }
-    line.resize(Column, ' ');
-    std::istringstream words(option.get_description());
-    for (std::string word; words >> word;)
-    {
-      if (line.size() > Column && line.size() + 1 + word.size() > Width)
-      {
-        text += line + '\n';
-        line = std::string(Column, ' ');
-      }
-      if (line.size() > Column)
-      {
-        line += ' ';
-      }
-      line += word;
-    }
-    return text + line + '\n';
-  }
-};
 
 /// Calls a method of the filters that have it.
 template <typename Filter, typename... T>
@@ -494,175 +425,13 @@ void RelateOptions(CLI::App& app)
     "--quality");
 }
 
-/// Whether a word asks for a smallest angle, as programs that add points do.
-bool AsksForAngle(const std::string& word)
-{
-  static const std::regex angle("--?min(imum)?[-_]?angle(=.*)?", std::regex::icase);
-  return std::regex_match(word, angle);
-}
-
-/// An answer to a word that is no option; or "".
-std::string ExplainAngle(const CLI::App& app)
-{
-  const std::vector<std::string> words = app.remaining();
-  const auto found = std::find_if(words.begin(), words.end(), AsksForAngle);
-  if (found == words.end())
-  {
-    return "";
-  }
-  return found->substr(0, found->find('=')) +
-    ": flips alone guarantee no smallest angle. They choose the best triangles for the points that "
-    "are there. --minimum-angle with --from-points adds points until no angle is smaller";
-}
-
-/// "; did you mean --geometry?" if a word that is no option begins like one.
-std::string SuggestOption(const CLI::App& app)
-{
-  constexpr std::ptrdiff_t Alike = 5; // letters, with the two dashes
-  for (const std::string& word : app.remaining())
-  {
-    for (const CLI::Option* option : app.get_options())
-    {
-      const std::string name = option->get_name();
-      const auto end = std::mismatch(word.begin(), word.end(), name.begin(), name.end()).first;
-      if (name.rfind("--", 0) == 0 && end - word.begin() >= Alike)
-      {
-        return "; did you mean " + name + "?";
-      }
-    }
-  }
-  return "";
-}
-
-[[noreturn]] void FailOnUsage(const std::string& message)
-{
-  throw CommandError(ExitCode::WrongUsage, message);
-}
-
-/// Checks that the output can be written, as a mesh or what is written instead.
-void CheckOutput(Arguments& arguments)
-{
-  const HeightOptions& heights = arguments.Heights;
-  const std::string extension = ExtensionOf(arguments.Output);
-  const bool isRaster = extension == ".tif" || extension == ".asc" || extension == ".vti";
-  if (!heights.Places.empty() && extension != ".csv")
-  {
-    FailOnUsage(arguments.Output + ": --heights-at writes a .csv");
-  }
-  if (heights.Step > 0.0 && !isRaster)
-  {
-    FailOnUsage(arguments.Output + ": --raster writes a .tif, .asc or .vti");
-  }
-  if (!heights.Crs.empty() && extension == ".vti")
-  {
-    FailOnUsage(arguments.Output + ": --crs is for a .tif or .asc; a .vti does not store it");
-  }
-  if (heights.AreWanted())
-  {
-    return;
-  }
-  arguments.OutputFormat = FormatOf(arguments.Output);
-  const bool isOther =
-    arguments.OutputFormat == MeshFormat::Text || arguments.OutputFormat == MeshFormat::Vector;
-  if (isOther)
-  {
-    FailOnUsage(
-      arguments.Output + ": such a file holds no triangles; give a .vtk, .vtp, .ply, .stl or .obj");
-  }
-}
-
-/// Checks that files can be read or written as what they are given for.
-void CheckFormats(Arguments& arguments)
-{
-  CheckOutput(arguments);
-  const MeshFormat input = FormatOf(arguments.Input);
-  const bool isOfPoints = input == MeshFormat::Text || input == MeshFormat::Vector;
-  if (!arguments.Columns.empty() && !isOfPoints)
-  {
-    FailOnUsage(arguments.Input + ": --columns is for a file of points, such as .csv or .shp");
-  }
-  const bool isHeight = arguments.Columns.find(',') == std::string::npos;
-  if (input == MeshFormat::Text && isHeight && !arguments.Columns.empty())
-  {
-    FailOnUsage("--columns: " + ChosenColumns("").FindFault());
-  }
-  if (input == MeshFormat::Vector && !isHeight)
-  {
-    FailOnUsage(
-      arguments.Input + ": --columns takes one attribute of such a file as z; x and y are known");
-  }
-  if (isOfPoints && !arguments.FromPoints)
-  {
-    FailOnUsage(arguments.Input + ": has points, but no triangles; --from-points makes them");
-  }
-  for (const std::string& file : arguments.ListOthers())
-  {
-    if (!file.empty())
-    {
-      FormatOf(file); // fails for an unknown one before anything is read
-    }
-  }
-}
-
-/// Checks that involve more than one option.
-void CheckTogether(Arguments& arguments)
-{
-  CheckFormats(arguments);
-  const bool holdsCellData =
-    arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
-  if (arguments.Flip->GetGenerateQuality() && !holdsCellData)
-  {
-    FailOnUsage(arguments.Output + ": --quality needs a .vtk or .vtp file");
-  }
-  // What is read may be one file. The input may also be the output.
-  std::set<std::filesystem::path> used;
-  for (const std::string& file : arguments.ListOthers())
-  {
-    used.insert(FollowLinks(FileLayer(file).File));
-  }
-  for (const std::string& file :
-    { arguments.Output, arguments.Statistics, arguments.Report, arguments.FindProjectionFile() })
-  {
-    if (!file.empty() && !used.insert(FollowLinks(file)).second)
-    {
-      FailOnUsage(file + ": the same file is given for two purposes");
-    }
-    used.insert(FollowLinks(FileLayer(arguments.Input).File));
-  }
-}
-
-}
-
-std::string Arguments::FindProjectionFile() const
-{
-  const bool hasOne = !this->Heights.Crs.empty() && ExtensionOf(this->Output) == ".asc";
-  return hasOne ? std::filesystem::path(this->Output).replace_extension(".prj").string() : "";
 }
 
 std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
 {
-  CLI::App app("Turns a triangle mesh into a Delaunay mesh by edge flips, or makes one from\n"
-               "points. Points never move. Files: .vtk .vtp .ply .stl .obj, by extension; points\n"
-               "and lines also .xyz .csv .txt .shp .gpkg .geojson .dxf .fgb. Defaults are in\n"
-               "square brackets.\n\n"
-               "Examples:\n"
-               "  delaunay-flip scan.ply better.ply\n"
-               "      flips a surface; edges sharper than 30 degrees stay\n"
-               "  delaunay-flip terrain.vtp better.vtp --constraints roads.vtk\n"
-               "      makes the lines in roads.vtk edges that stay\n"
-               "  delaunay-flip survey.csv terrain.vtp --from-points\n"
-               "      makes a mesh from points alone\n"
-               "  delaunay-flip shore.gpkg mesh.vtp --from-points --outline shore.gpkg \\\n"
-               "      --minimum-angle 28 --maximum-area 500\n"
-               "      fills an outline with good triangles\n"
-               "  delaunay-flip survey.csv dem.tif --from-points --raster 1 --crs EPSG:25832\n"
-               "      writes their heights on a raster of 1 x 1 cells",
-    "delaunay-flip");
+  CLI::App app(DescribeCommand(), "delaunay-flip");
   app.formatter(std::make_shared<PlainFormatter>());
-  app.footer("Exit codes: 0 done; 2 wrong usage; 3 input unreadable or invalid, or output not\n"
-             "writable; 4 iteration limit reached (output written); 5 the requested backend is\n"
-             "not available; 129, 130, 131 or 143 ended by the signal HUP, INT (Ctrl-C), QUIT\n"
-             "or TERM. With any code but 0 and 4 no file has been changed.\n");
+  app.footer(DescribeExitCodes());
   AddReadOptions(app, arguments);
   AddJudgeOptions(app, arguments);
   AddStayOptions(app, arguments);
@@ -675,7 +444,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   try
   {
     app.parse(argc, argv);
-    CheckTogether(arguments);
+    CheckArguments(arguments);
   }
   catch (const CLI::Success& success)
   {
@@ -683,7 +452,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   }
   catch (const InvalidOptions& error)
   {
-    FailOnUsage(std::string("--devices: ") + error.what());
+    throw CommandError(ExitCode::WrongUsage, std::string("--devices: ") + error.what());
   }
   catch (const CLI::ParseError& error)
   {

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ArgumentChecks.h"
+
+#include "CommandError.h"
+#include "InputFile.h"
+#include "OutputFiles.h"
+#include "PointColumns.h"
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace delaunayflip
+{
+
+namespace
+{
+
+[[noreturn]] void FailOnUsage(const std::string& message)
+{
+  throw CommandError(ExitCode::WrongUsage, message);
+}
+
+/// Checks that the output can be written, as a mesh or what is written instead.
+void CheckOutput(Arguments& arguments)
+{
+  const HeightOptions& heights = arguments.Heights;
+  const std::string extension = ExtensionOf(arguments.Output);
+  const bool isRaster = extension == ".tif" || extension == ".asc" || extension == ".vti";
+  if (!heights.Places.empty() && extension != ".csv")
+  {
+    FailOnUsage(arguments.Output + ": --heights-at writes a .csv");
+  }
+  if (heights.Step > 0.0 && !isRaster)
+  {
+    FailOnUsage(arguments.Output + ": --raster writes a .tif, .asc or .vti");
+  }
+  if (!heights.Crs.empty() && extension == ".vti")
+  {
+    FailOnUsage(arguments.Output + ": --crs is for a .tif or .asc; a .vti does not store it");
+  }
+  if (heights.AreWanted())
+  {
+    return;
+  }
+  arguments.OutputFormat = FormatOf(arguments.Output);
+  const bool isOther =
+    arguments.OutputFormat == MeshFormat::Text || arguments.OutputFormat == MeshFormat::Vector;
+  if (isOther)
+  {
+    FailOnUsage(
+      arguments.Output + ": such a file holds no triangles; give a .vtk, .vtp, .ply, .stl or .obj");
+  }
+}
+
+/// Checks that files can be read or written as what they are given for.
+void CheckFormats(Arguments& arguments)
+{
+  CheckOutput(arguments);
+  const MeshFormat input = FormatOf(arguments.Input);
+  const bool isOfPoints = input == MeshFormat::Text || input == MeshFormat::Vector;
+  if (!arguments.Columns.empty() && !isOfPoints)
+  {
+    FailOnUsage(arguments.Input + ": --columns is for a file of points, such as .csv or .shp");
+  }
+  const bool isHeight = arguments.Columns.find(',') == std::string::npos;
+  if (input == MeshFormat::Text && isHeight && !arguments.Columns.empty())
+  {
+    FailOnUsage("--columns: " + ChosenColumns("").FindFault());
+  }
+  if (input == MeshFormat::Vector && !isHeight)
+  {
+    FailOnUsage(
+      arguments.Input + ": --columns takes one attribute of such a file as z; x and y are known");
+  }
+  if (isOfPoints && !arguments.FromPoints)
+  {
+    FailOnUsage(arguments.Input + ": has points, but no triangles; --from-points makes them");
+  }
+  for (const std::string& file : arguments.ListOthers())
+  {
+    if (!file.empty())
+    {
+      FormatOf(file); // fails for an unknown one before anything is read
+    }
+  }
+}
+
+}
+
+void CheckArguments(Arguments& arguments)
+{
+  CheckFormats(arguments);
+  const bool holdsCellData =
+    arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
+  if (arguments.Flip->GetGenerateQuality() && !holdsCellData)
+  {
+    FailOnUsage(arguments.Output + ": --quality needs a .vtk or .vtp file");
+  }
+  // What is read may be one file. The input may also be the output.
+  std::set<std::filesystem::path> used;
+  for (const std::string& file : arguments.ListOthers())
+  {
+    used.insert(FollowLinks(FileLayer(file).File));
+  }
+  for (const std::string& file :
+    { arguments.Output, arguments.Statistics, arguments.Report, arguments.FindProjectionFile() })
+  {
+    if (!file.empty() && !used.insert(FollowLinks(file)).second)
+    {
+      FailOnUsage(file + ": the same file is given for two purposes");
+    }
+    used.insert(FollowLinks(FileLayer(arguments.Input).File));
+  }
+}
+
+std::string Arguments::FindProjectionFile() const
+{
+  const bool hasOne = !this->Heights.Crs.empty() && ExtensionOf(this->Output) == ".asc";
+  return hasOne ? std::filesystem::path(this->Output).replace_extension(".prj").string() : "";
+}
+
+}
