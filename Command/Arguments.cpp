@@ -4,8 +4,8 @@
 
 #include "ArgumentChecks.h"
 #include "CommandError.h"
-#include "CudaDevice.h"
 #include "Console.h"
+#include "CudaDevice.h"
 #include "FlipError.h"
 #include "HelpPage.h"
 #include "InputFile.h"
