@@ -2,14 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The filters for every VTK with Python: the interfaces of the C++ classes, on libdelaunayflip. They
 take a dataset, or the blocks of a composite one, one by one."""
-import itertools
-
 import numpy
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkObject, vtkOutputWindow
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkDataObject, vtkDataObjectTree, vtkPartitionedDataSet, vtkPointSet,
-    vtkPolyData, vtkTable)
+    vtkCompositeDataSet, vtkDataObject, vtkPointSet, vtkPolyData, vtkTable)
 from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
@@ -19,6 +16,7 @@ from ._points import POINT_OPTIONS, run_points
 from ._report import (
     FIELD_PREFIX, GEOMETRIES, ITERATION, MAIN_NUMBERS, POINT_NUMBERS, Totals, describe, to_camel_case)
 from ._rings import RING_RULES
+from ._vtk_blocks import choose_leaf, copy_data, find_leaves, iterate, list_blocks, name_leaf
 from ._vtk_mesh import CELL_ARRAYS, HEIGHTS, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
 from ._vtk_properties import (
     COMMON_OPTIONS, COMMON_PROPERTIES, FLIP_PROPERTIES, POINT_PROPERTIES, PROPERTY_OF, finish)
@@ -42,6 +40,9 @@ class Filter(VTKPythonAlgorithmBase):
     no_composite = "the constraints of a single mesh cannot be a composite dataset"
     others = (vtkPolyData,)  #: What the other inputs are; the last one is optional.
     keeps_type = False  #: Whether the output is of the first input's type, not a vtkPolyData.
+    flips_partitions_alone = True  #: Whether each partition of a dataset is a mesh of its own.
+    #: What the sizes of blocks, and of those of the second input, are measured by.
+    size_of_blocks = size_of_others = vtkDataObject.CELL
     properties = ()
 
     def __init__(self, **properties):
@@ -168,7 +169,7 @@ class Filter(VTKPythonAlgorithmBase):
         self._is_at_work = self._has_run = True
         self._forget()
         try:
-            self._flip_all(source, None if others is None else _copy(others), output)
+            self._flip_all(source, None if others is None else copy_data(others), output)
         except Exception as error:
             self._forget()
             self._fail(error)
@@ -240,42 +241,67 @@ class Filter(VTKPythonAlgorithmBase):
 
     def _warn_of_misfits(self, source, others, input_name="second input"):
         """Warns of what of another input is ignored."""
-        places = _list_leaves(source)
-        for place, (name, data) in _list_leaves(others).items():
-            fault = ("ignored, because the first input has nothing at this place"
-                     if place and () not in places and place not in places
-                     else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
-                     else "triangle strips ignored" if data.GetNumberOfStrips() else "")
-            if fault and data.GetNumberOfElements(vtkDataObject.CELL):
-                self._warnings.append((name + " of the " * bool(name) + input_name, fault))
+        places = list_blocks(source, self.size_of_blocks)
+        for place, leaves in list_blocks(others, vtkDataObject.CELL).items():
+            fits = not place or () in places or place in places
+            for name, data in leaves:
+                fault = ("ignored, because the first input has nothing at this place" if not fits
+                         else "not a vtkPolyData, ignored" if not isinstance(data, vtkPolyData)
+                         else "triangle strips ignored" if data.GetNumberOfStrips() else "")
+                if fault and data.GetNumberOfElements(vtkDataObject.CELL):
+                    self._warnings.append((name + " of the " * bool(name) + input_name, fault))
 
     def _flip_blocks(self, source, constraints, output):
         self._sum.change(stop_reason="converged")  # the result for an input without blocks
-        blocks = _copy(source)  # observers may change the input meanwhile
-        self._judge_partitions(blocks, constraints)
+        blocks = copy_data(source)  # observers may change the input meanwhile
         output.CopyStructure(blocks)
         output.GetFieldData().ShallowCopy(blocks.GetFieldData())
-        edges = _list_leaves(constraints)
-        before, total = 0, max(blocks.GetNumberOfElements(vtkDataObject.CELL), 1)
-        for place, leaf in zip(_list_leaves(blocks), _iterate(blocks.NewIterator())):
-            data, name = leaf.GetCurrentDataObject(), _name_leaf(leaf)
-            cells = data.GetNumberOfElements(vtkDataObject.CELL)
-            self._block = (before / total, cells / total)
-            before += cells
-            is_mesh, result = isinstance(data, self.kind), _copy(data)
-            if not is_mesh and (cells or self.kind is not vtkPolyData):
-                self._warnings.append((name, self.no_mesh))
-            if is_mesh and self._sum.report.stop_reason != "aborted":
-                _, others = edges.get(()) or edges.get(place, ("", None))
-                result, self._place = data.NewInstance() if self.keeps_type else vtkPolyData(), place
-                others = others if isinstance(others, self.others[0]) else None
-                self._try_to_flip(data, others, result, name)
-            output.SetDataSet(leaf, result)
+        others = list_blocks(constraints, self.size_of_others)
+        self._before, total, results = 0, max(blocks.GetNumberOfElements(vtkDataObject.CELL), 1), {}
+        for self._place, leaves in list_blocks(blocks, self.size_of_blocks).items():
+            given = find_leaves(others, self._place, self.others[0])
+            results.update(self._flip_leaves(leaves, given, total))
+        for leaf in iterate(blocks.NewIterator()):
+            output.SetDataSet(leaf, results[name_leaf(leaf)])
 
-    def _judge_partitions(self, blocks, _):
-        if _has_partitions(blocks, self.kind):
-            self._warnings.append(
-                ("", "partitions were flipped one by one; edges between them stayed as they were"))
+    def _flip_leaves(self, leaves, given, total):
+        """The results of a block's leaves, by their names."""
+        results, errors = {}, len(self._errors)
+        try:
+            self._judge_partitions(leaves, given)
+        except _library.FlipError as error:
+            self._fail(error, leaves[0][0])
+            return {name: self._make_result(data) for name, data in leaves}
+        for number, (name, data) in enumerate(leaves):
+            cells = data.GetNumberOfElements(vtkDataObject.CELL)
+            self._block = (self._before / total, cells / total)
+            self._before += cells
+            results[name] = self._flip_leaf(data, choose_leaf(given, number), name)
+            if len(self._errors) > errors and not self.flips_partitions_alone:
+                return {name: self._make_result(data) for name, data in leaves}
+        return results
+
+    def _make_result(self, data):
+        """The empty output for a mesh; a copy of what is none."""
+        if not isinstance(data, self.kind):
+            return copy_data(data)
+        return data.NewInstance() if self.keeps_type else vtkPolyData()
+
+    def _flip_leaf(self, data, others, name):
+        is_mesh = isinstance(data, self.kind)
+        has_cells = data.GetNumberOfElements(vtkDataObject.CELL) > 0
+        if not is_mesh and (has_cells or self.kind is not vtkPolyData):
+            self._warnings.append((name, self.no_mesh))
+        if not is_mesh or self._sum.report.stop_reason == "aborted":
+            return copy_data(data)
+        result = self._make_result(data)
+        self._try_to_flip(data, others, result, name)
+        return result
+
+    def _judge_partitions(self, leaves, _):
+        note = ("", "partitions were flipped one by one; edges between them stayed as they were")
+        if sum(isinstance(data, self.kind) for _, data in leaves) > 1 and note not in self._warnings:
+            self._warnings.append(note)
 
     def _try_to_flip(self, mesh, constraints, output, where=""):
         self._totals, self._where = Totals(), where
@@ -345,76 +371,13 @@ def _list_upstream(algorithm, known=frozenset()):
     return known
 
 
-def _iterate(iterator):
-    """Yields an iterator of VTK at each of its places."""
-    iterator.InitTraversal()
-    while not iterator.IsDoneWithTraversal():
-        yield iterator
-        iterator.GoToNextItem()
-
-
-def _name_leaf(leaf):
-    """"block 3 (wing)", by VTK's flat index."""
-    about = leaf.GetCurrentMetaData() if leaf.HasCurrentMetaData() else None
-    name = about.Get(vtkCompositeDataSet.NAME()) if about is not None else None
-    return f"block {leaf.GetCurrentFlatIndex()}" + (f" ({name})" if name else "")
-
-
-def _list_leaves(data):
-    """The leaves of composite data by their place, each after its name; any other data alone. A place
-    is the numbers of children, from the root on."""
-    if not isinstance(data, vtkCompositeDataSet):
-        return {(): ("", data)} if data is not None else {}
-    places = _list_places(data) if isinstance(data, vtkDataObjectTree) else zip(itertools.count())
-    return {place: (_name_leaf(leaf), leaf.GetCurrentDataObject())
-            for place, leaf in zip(places, _iterate(data.NewIterator()))}
-
-
-def _list_places(tree, place=()):
-    children = tree.NewTreeIterator()
-    children.TraverseSubTreeOff()
-    children.VisitOnlyLeavesOff()
-    children.SkipEmptyNodesOff()
-    for number, child in enumerate(_iterate(children)):
-        data = child.GetCurrentDataObject()
-        if isinstance(data, vtkDataObjectTree):
-            yield from _list_places(data, (*place, number))
-        elif data is not None:
-            yield (*place, number)
-
-
-def _has_partitions(blocks, kind):
-    """Whether a dataset has several partitions of this class with points."""
-    datasets = [blocks]
-    if isinstance(blocks, vtkDataObjectTree):
-        nodes = blocks.NewTreeIterator()
-        nodes.VisitOnlyLeavesOff()
-        datasets += [node.GetCurrentDataObject() for node in _iterate(nodes)]
-    return any(sum(isinstance(part := leaf.GetCurrentDataObject(), kind) and part.GetNumberOfPoints() > 0
-                   for leaf in _iterate(dataset.NewIterator())) > 1
-               for dataset in filter(vtkPartitionedDataSet.SafeDownCast, datasets))
-
-
 def _drop_results(mesh):
     """A shallow copy without arrays that an earlier update has added."""
-    made = _copy(mesh)
+    made = copy_data(mesh)
     for data in made.GetFieldData(), made.GetCellData():
         for name in [data.GetArrayName(i) or "" for i in range(data.GetNumberOfArrays())]:
             if name.startswith(FIELD_PREFIX) or name in CELL_ARRAYS:
                 data.RemoveArray(name)
-    return made
-
-
-def _copy(source):
-    """A shallow copy. Its leaves are copies, too, as only newer versions of VTK make them."""
-    made = source.NewInstance()
-    if isinstance(source, vtkDataObjectTree) and not source.IsA("vtkUniformGridAMR"):
-        made.CopyStructure(source)
-        made.GetFieldData().ShallowCopy(source.GetFieldData())
-        for leaf in _iterate(source.NewIterator()):
-            made.SetDataSet(leaf, _copy(leaf.GetCurrentDataObject()))
-    else:
-        made.ShallowCopy(source)
     return made
 
 
@@ -517,7 +480,8 @@ class vtkDelaunayFlipPoints(Filter):
     """
 
     name = "vtkDelaunayFlipPoints"
-    kind = vtkPointSet
+    kind, size_of_blocks = vtkPointSet, vtkDataObject.POINT
+    flips_partitions_alone = False
     no_mesh = "has no points of its own, passed unchanged"
     no_composite = "the segments of a single dataset cannot be a composite dataset"
     _regions = ()
@@ -537,12 +501,17 @@ class vtkDelaunayFlipPoints(Filter):
             self._regions = ()
             self.Modified()
 
-    def _judge_partitions(self, blocks, constraints):
-        if _has_partitions(blocks, self.kind):
+    def _judge_partitions(self, leaves, segments):
+        if len(leaves) > 1:
             raise _library.InvalidMesh(
                 "the points are in several partitions; join them first, by vtkAppendDataSets, or Merge "
                 "Blocks in ParaView")
-        if _has_partitions(constraints, vtkPolyData):
+        if isinstance(leaves[0][1], self.kind):
+            self._require_one(segments)
+
+    @staticmethod
+    def _require_one(segments):
+        if len(segments) > 1:
             raise _library.InvalidOptions(
                 "the segments are in several partitions; join them first, by vtkAppendPolyData, or Merge "
                 "Blocks in ParaView")

@@ -5,13 +5,13 @@ import math
 
 import numpy
 from vtkmodules.vtkCommonDataModel import (
-    vtkCompositeDataSet, vtkDataSet, vtkImageData, vtkPointSet, vtkPolyData)
+    vtkCompositeDataSet, vtkDataObject, vtkDataSet, vtkImageData, vtkPointSet, vtkPolyData)
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 from . import _library
 from ._ask import METHODS, OUTSIDES, Field, Places, read_places
-from ._vtk_filter import (
-    _copy, _drop_results, _has_partitions, _list_leaves, vtkDelaunayFlipPoints)
+from ._vtk_blocks import copy_data, find_leaves, list_blocks
+from ._vtk_filter import _drop_results, vtkDelaunayFlipPoints
 from ._vtk_mesh import _add_attributes, _find_attributes, _is_among, _list_arrays, vtk_of
 from ._vtk_properties import Property, finish
 
@@ -28,6 +28,7 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
 
     name = "vtkDelaunayFlipInterpolator"
     kind, others, keeps_type = vtkDataSet, (vtkPointSet, vtkPolyData), True
+    size_of_others = vtkDataObject.POINT
     no_mesh = "is no dataset, passed unchanged"
     no_composite = "the source of a single dataset cannot be a composite dataset"
 
@@ -56,11 +57,15 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
 
     def _warn_of_misfits(self, places, _):
         segments = self.GetInputDataObject(2, 0) if self.GetNumberOfInputConnections(2) else None
-        self._segments = None if segments is None else _copy(segments)
+        self._segments = None if segments is None else copy_data(segments)
+        self._prepared_place = self._prepared = None
         super()._warn_of_misfits(places, self._segments, "third input")
 
-    def _judge_partitions(self, _, source):
-        if _has_partitions(source, vtkPointSet):
+    def _judge_partitions(self, leaves, sources):
+        has_places = any(isinstance(data, self.kind) for _, data in leaves)
+        if has_places and not sources:
+            raise _library.InvalidMesh("the source has no points (vtkPointSet) at the same place")
+        if has_places and len(sources) > 1:
             raise _library.InvalidMesh(
                 "the source is in several partitions; join them first, by vtkAppendDataSets, or Merge "
                 "Blocks in ParaView")
@@ -73,35 +78,49 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
     def _flip(self, places, source, output):
         if source is None:
             raise _library.InvalidMesh("the source has no points (vtkPointSet) at the same place")
-        source, segments, mesh = _drop_results(source), self._find_segments(), vtkPolyData()
-        if source.GetNumberOfPoints() == 0:
-            self._warnings.append((self._where, "the source has no points, so there are no values"))
-        elevation = self._choose_arrays(source)
-        count = source.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments else 0)
-        if count == 0:
-            columns = Columns(source, source, elevation)
+        trouble = ""
+        if self._prepared_place != self._place or not self._place:
+            self._prepared_place, self._prepared = self._place, None
+            trouble = self._prepare(_drop_results(source))
+        if self._prepared is None:
+            return self._pass(places, output, "aborted") or trouble
+        result, columns = self._prepared
+        if result is None:
             found = numpy.full((1, columns.width), math.nan), numpy.full(1, -1)
             self._totals.change(stop_reason="converged")
             return self._write(places, columns, found, output)
-        if self._is_abort_requested():
-            return self._pass(places, output, "aborted")
-        result, trouble = self._triangulate(
-            source, segments, mesh, self._observe_part(0.5), keeps=True, has_heights=bool(elevation))
-        if result.report.stop_reason == "aborted":
-            return self._pass(places, output, "aborted") or trouble
-        columns = Columns(source, mesh, elevation)
         try:
             found = self._ask(result, read_dataset(places), columns)
         except _library.Stopped:
             return self._pass(places, output, "aborted") or trouble
         return self._write(places, columns, found, output) or trouble
 
+    def _prepare(self, source):
+        """Makes the Triangulation of a block, which its partitions share, and its Columns. There is none
+        without points, and neither if the update was aborted. Returns the text of a warning, or ""."""
+        segments, mesh = self._find_segments(), vtkPolyData()
+        if source.GetNumberOfPoints() == 0:
+            self._warnings.append((self._where, "the source has no points, so there are no values"))
+        elevation = self._choose_arrays(source)
+        count = source.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments else 0)
+        if count == 0:
+            self._prepared = None, Columns(source, source, elevation)
+            return ""
+        if self._is_abort_requested():
+            return ""
+        result, trouble = self._triangulate(
+            source, segments, mesh, self._observe_part(0.5), keeps=True, has_heights=bool(elevation))
+        if result.report.stop_reason != "aborted":
+            self._prepared = result, Columns(source, mesh, elevation)
+        return trouble
+
     def _find_segments(self):
         if isinstance(self._segments, vtkCompositeDataSet) and not self._place:
             raise _library.InvalidOptions("the segments of a single dataset cannot be a composite dataset")
-        leaves = _list_leaves(self._segments)
-        _, segments = leaves.get(()) or leaves.get(self._place, ("", None))
-        return vtkPolyData.SafeDownCast(segments)
+        segments = find_leaves(
+            list_blocks(self._segments, vtkDataObject.CELL), self._place, vtkPolyData)
+        self._require_one(segments)
+        return segments[0] if segments else None
 
     def _choose_arrays(self, source):
         """Removes what is not interpolated from the source. Returns the name of the array of z."""

@@ -25,7 +25,8 @@ import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, vtkObject
 from vtkmodules.vtkCommonDataModel import (
-    vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet, vtkPolyData, vtkRectilinearGrid, vtkTable)
+    vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
+    vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid, vtkTable)
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
 from test_vtk_delaunay_flip import (
@@ -130,6 +131,9 @@ def list_blocks(output):
         return [output.GetBlock(i) for i in range(output.GetNumberOfBlocks())]
     if output.IsA("vtkPartitionedDataSet"):
         return [output.GetPartition(i) for i in range(output.GetNumberOfPartitions())]
+    if output.IsA("vtkPartitionedDataSetCollection"):
+        return [mesh for i in range(output.GetNumberOfPartitionedDataSets())
+                for mesh in list_blocks(output.GetPartitionedDataSet(i))]
     return [output]
 
 
@@ -144,6 +148,13 @@ def join(parts):
     data = vtkPartitionedDataSet()
     for part in parts:
         data.SetPartition(data.GetNumberOfPartitions(), part)
+    return data
+
+
+def collect(blocks):
+    data = vtkPartitionedDataSetCollection()
+    for number, parts in enumerate(blocks):
+        data.SetPartitionedDataSet(number, join(parts))
     return data
 
 
@@ -502,6 +513,19 @@ class SameInterpolator(Pair, unittest.TestCase):
                 flip.SetSourceData(source), flip.SplitCrossingsOn(), flip.SetSegmentHeights(heights),
                 flip.SetSegmentsData(make_segments(source, float)), flip.SetElevationArray("")))
 
+    def test_partitions(self):
+        source, lines = self.make_source(), make_segments(self.make_source(), float)
+        places = [make_cloud(30, seed=4), vtkPolyData(), make_cloud(20, seed=5)]
+        for sources in (source, join([vtkPolyData(), source]), join([source, source])):
+            for segments in (lines, join([lines]), join([lines, lines])):
+                for data in (join(places), collect([places[:1], places])):
+                    self.expect_same(data, lambda flip, sources=sources, segments=segments: (
+                        flip.SetInputDataObject(1, sources), flip.SetInputDataObject(2, segments)))
+        told = self.expect_same(collect([places, places]), lambda flip: flip.SetInputDataObject(
+            1, collect([[source, source], [source]])))
+        self.assertIn("block 2: the source is in several partitions; join them first", told["errors"][0])
+        self.assertIn("vtkValidPointMask", str(told["meshes"][-1]))
+
     def test_failures(self):
         source, image = self.make_source(), self.list_places()[0]
         self.expect_same(image)
@@ -741,16 +765,23 @@ class SamePoints(Pair, unittest.TestCase):
         told = self.expect_same(make_cloud(30), lambda points: points.SetInputDataObject(1, blocks))
         self.assertIn("cannot be a composite dataset", told["errors"][0])
 
-    def test_pieces_are_an_error(self):
-        for kind in (CxxPoints, PythonPoints):
-            told = Watched(join([make_cloud(9), make_cloud(8)]), kind)
-            told.filter.Update()
-            self.assertIn("points are in several partitions; join them first", told.errors[0])
-            segments = make_segments(make_cloud(9), float)
-            told = Watched(join([make_cloud(9)]), kind)
-            told.filter.SetInputDataObject(1, join([segments, segments]))
-            told.filter.Update()
-            self.assertIn("segments are in several partitions; join them first", told.errors[0])
+    def test_partitions_are_an_error_of_their_block(self):
+        several, lines = [make_cloud(9), make_cloud(8)], make_segments(make_cloud(9), float)
+        for partitions in ([several[0]], several, [None, vtkPolyData(), several[1], lines]):
+            told = self.expect_same(join(partitions))
+            self.assertEqual("points are in several partitions; join them first" in str(told["errors"]),
+                             sum(part is not None and part.GetNumberOfPoints() > 0 for part in partitions) > 1)
+        blocks = collect([[make_cloud(20)], several, [make_cloud(30)]])
+        told = self.expect_same(blocks)
+        self.assertIn("block 4: the points are in several partitions; join them first", told["errors"][0])
+        self.assertEqual([len(mesh[3][0]) > 0 for mesh in told["meshes"]], [True, False, False, True])
+        for segments in (join([lines, lines]), collect([[lines], [], [lines, lines]]), collect([[], [lines]])):
+            told = self.expect_same(
+                blocks, lambda points, segments=segments: points.SetInputDataObject(1, segments))
+            self.assertIn("block 4: the points are in several partitions; join them first", told["errors"][0])
+        told = self.expect_same(
+            join([make_cloud(9)]), lambda points: points.SetInputDataObject(1, join([lines, lines])))
+        self.assertIn("segments are in several partitions; join them first", told["errors"][0])
 
 
 class OnlyInCxx(unittest.TestCase):
