@@ -597,7 +597,7 @@ private:
       return;
     }
     refined.Grown = { &this->Mesh, &this->GetCoordinates<Real>(), &this->Order.VertexOfRank,
-      this->Points.Count, this->Report.Points };
+      this->Points.Count, this->Report.Points, this->FiltersApply };
     refined.Rounds =
       std::make_unique<Refinement<Real, BackendT>>(refined.Grown, plan, this->Backend);
   }

@@ -10,6 +10,8 @@
 #include "RefinementArrays.h"
 #include "RefinementItem.h"
 #include "RefinementPlan.h"
+#include "RefinementSources.h"
+#include "RefinementStep.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -25,32 +27,33 @@
 namespace delaunayflip
 {
 
-/// Counts what the places that win add.
-struct CountRefined
+/// Whether a place on a segment wins, and its segment is on the hull of the mesh, as 1 or 0. It
+/// splits one triangle instead of two.
+struct WinsOnHull
 {
-  enum KindOfCount
-  {
-    Vertices,
-    Triangles,
-    Edges,
-    Subsegments,
-    NumberOfKinds
-  };
-
   TriangleSplitter Splitter;
   const RefinementItem* Items;
-  int Kind;
 
   DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t i) const
   {
     const RefinementItem& item = this->Items[i];
-    if (item.State != ItemState::Wins)
-    {
-      return 0;
-    }
-    const SplitSize size = this->Splitter.GetSize(item.Found);
-    const int counts[NumberOfKinds] = { 1, size.Triangles, size.Edges, int(item.IsOnSegment) };
-    return counts[this->Kind];
+    const bool isOnHull =
+      item.State == ItemState::Wins && this->Splitter.FindAcross(item.Found) == NoCorner;
+    return int(isOnHull);
+  }
+};
+
+/// How many places of a round win.
+struct CountOfWinners
+{
+  std::int64_t InTriangles, OnSegments;
+  std::int64_t OnHull; ///< Of those on segments.
+
+  /// What the first ones add.
+  DELAUNAYFLIP_HOST_DEVICE RefinementNumbers GetAdded() const
+  {
+    const std::int64_t vertices = this->InTriangles + this->OnSegments;
+    return { vertices, 2 * vertices - this->OnHull, 3 * vertices - this->OnHull, this->OnSegments };
   }
 };
 
@@ -77,17 +80,21 @@ public:
   {
     for (;;)
     {
+      this->BeginRound(grown);
       const RefinementView view = this->Arrays.View(grown, this->Failed.Data());
-      const std::int64_t triangles = this->ProposeForTriangles(grown, view);
-      const std::int64_t segments = this->ProposeForSegments(view, triangles);
-      this->Choose(grown, view, triangles + segments);
-      const std::int64_t added = this->Insert(grown, view, triangles + segments);
-      this->RequireDecided();
-      const bool mayGoOn = added == 0 && !this->ReachedLimit;
-      const bool isStuck = mayGoOn && this->CountInvalid(triangles, segments) > 0;
-      if (!isStuck)
+      this->ProposeForTriangles(grown, view);
+      this->ProposeForSegments(view);
+      const std::int64_t added = this->InsertWinners(grown, view);
+      if (added > 0 || this->ReachedLimit)
       {
         return added;
+      }
+      // Subsegments have turned out to be too short, or a last look at all triangles is due.
+      const bool mayGoOn = this->NumberOfSegments > 0 || !this->LooksAtAll;
+      this->LooksAtAll = this->NumberOfSegments == 0;
+      if (!mayGoOn)
+      {
+        return 0;
       }
     }
   }
@@ -103,137 +110,174 @@ public:
 
   // Public for nvcc.
 
-  /// @returns how many bad triangles there are.
-  std::int64_t ProposeForTriangles(const GrowingMesh<Real>& grown, const RefinementView& view)
+  void BeginRound(const GrowingMesh<Real>& grown)
   {
-    const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
-    const typename Backend::Numbering numbering = this->Device.Count(triangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-      { return view.Judge(t) == ShapeKind::Bad ? 1 : 0; });
-    Reserve(this->Bad, 0, numbering.Total, this->Device);
-    TriangleId* bad = this->Bad.Data();
-    this->Device.ForEachNumbered(
-      numbering, triangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-      { return view.GetShape(t) == ShapeKind::Bad ? 1 : 0; },
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, std::int64_t number)
-      {
-        if (view.GetShape(t) == ShapeKind::Bad)
-        {
-          bad[number] = static_cast<TriangleId>(t);
-        }
-      });
-    Reserve(this->Items, 0, numbering.Total, this->Device);
-    const RefinementStep step{ view, this->Items.Data(), nullptr };
-    this->Device.ForEach(numbering.Total,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { step.ProposeForTriangle(i, bad[i]); });
-    return numbering.Total;
+    ++this->Round;
+    if (this->Round > RefinementKey::MostRounds)
+    {
+      this->Round = 1;
+      std::uint64_t* claims = this->Arrays.GetClaims();
+      this->Device.ForEach(grown.Mesh->NumberOfTriangles,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { claims[t] = RefinementKey::None; });
+    }
   }
 
-  /// @param first the number of the first item. @returns how many subsegments have to be split.
-  std::int64_t ProposeForSegments(const RefinementView& view, std::int64_t first)
+  /// Makes an item for every bad triangle.
+  void ProposeForTriangles(const GrowingMesh<Real>& grown, const RefinementView& view)
+  {
+    std::swap(this->Items, this->ItemsBefore);
+    RefinementSources sources{ view, this->ItemsBefore.Data(), this->NumberOfPlaces,
+      this->Arrays.GetSplits(), grown.Vertices - this->NumberAdded, this->NumberAdded, 0, nullptr };
+    if (this->LooksAtAll)
+    {
+      sources.NumberOfItems = sources.NumberOfVertices = 0;
+      sources.NumberOfTriangles = grown.Mesh->NumberOfTriangles;
+    }
+    const std::int64_t size = sources.GetSize();
+    Reserve(this->Counts, 0, size, this->Device);
+    sources.Counts = this->Counts.Data();
+    this->Device.ForEach(
+      sources.NumberOfItems, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sources.Keep(i); });
+    const typename Backend::Numbering numbering = this->Device.Count(
+      size, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return sources.Count(i); });
+    this->NumberOfPlaces = numbering.Total;
+    Reserve(this->Items, 0, numbering.Total, this->Device);
+    Reserve(this->Cavities, 0, numbering.Total, this->Device);
+    const RefinementStep step = this->GetStep(view);
+    this->Device.ForEachNumbered(
+      numbering, size,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return static_cast<int>(sources.Counts[i]); },
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
+      { sources.Propose(i, number, step); });
+    this->Device.ForEach(
+      numbering.Total, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { step.FindCavity(i); });
+  }
+
+  /// Makes an item for every subsegment that has to be split, after those for triangles.
+  void ProposeForSegments(const RefinementView& view)
   {
     const std::int64_t segments = this->Arrays.CountSegments();
-    const EdgeId* edges = this->Arrays.GetSegments();
     const auto hasToSplit = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    { return view.HasToSplit(edges[i]) ? 1 : 0; };
+    { return view.HasToSplit(i) ? 1 : 0; };
     const typename Backend::Numbering numbering = this->Device.Count(segments, hasToSplit);
+    this->NumberOfSegments = numbering.Total;
+    if (numbering.Total == 0)
+    {
+      return;
+    }
+    const std::int64_t first = this->NumberOfPlaces;
     Reserve(this->Items, first, first + numbering.Total, this->Device);
-    Reserve(this->SplitEdges, 0, numbering.Total, this->Device);
-    EdgeId* split = this->SplitEdges.Data();
+    RefinementItem* items = this->Items.Data() + first;
     this->Device.ForEachNumbered(numbering, segments, hasToSplit,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
-        if (view.HasToSplit(edges[i]))
+        if (view.HasToSplit(i))
         {
-          split[number] = edges[i];
+          items[number].Source = static_cast<std::uint32_t>(i);
         }
       });
-    const RefinementStep step{ view, this->Items.Data(), nullptr };
+    const RefinementStep step = this->GetStep(view);
     this->Device.ForEach(numbering.Total,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { step.ProposeForSegment(first + i, split[i]); });
-    return numbering.Total;
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { step.ProposeForSegment(first + i); });
   }
 
-  /// Chooses among the items.
-  void Choose(const GrowingMesh<Real>& grown, const RefinementView& view, std::int64_t items)
+  /// Decides which places win, and splits what they split. @returns how many there are.
+  std::int64_t InsertWinners(GrowingMesh<Real>& grown, const RefinementView& view)
   {
-    const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
-    Reserve(this->Claims, 0, triangles, this->Device);
-    const RefinementStep step{ view, this->Items.Data(), this->Claims.Data() };
-    this->Device.ForEach(triangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { step.Claims[t] = RefinementStep::NoClaim; });
-    this->Device.ForEach(items, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { step.Claim(i); });
-    this->Device.ForEach(items, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { step.Decide(i); });
+    const RefinementStep step = this->GetStep(view);
+    const std::int64_t first = this->NumberOfPlaces;
+    const typename Backend::Numbering places = this->Device.Count(
+      first, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return step.Decide(i); });
+    const typename Backend::Numbering segments = this->Device.Count(this->NumberOfSegments,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return step.Decide(first + i); });
     this->RequireDecided();
-  }
-
-  /// Splits what the winners split. @returns how many there are.
-  std::int64_t Insert(GrowingMesh<Real>& grown, const RefinementView& view, std::int64_t items)
-  {
-    std::int64_t added[CountRefined::NumberOfKinds];
-    Reserve(this->First, 0, CountRefined::NumberOfKinds * items, this->Device);
-    for (int kind = 0; kind < CountRefined::NumberOfKinds; ++kind)
-    {
-      added[kind] = this->Number(
-        CountRefined{ TriangleSplitter(view.Mesh.Edges), this->Items.Data(), kind }, items);
-    }
-    const std::int64_t vertices = added[CountRefined::Vertices];
+    const CountOfWinners count{ places.Total, segments.Total, this->NumberOnHull(view) };
+    const std::int64_t vertices = count.GetAdded().Vertex;
+    this->NumberAdded = 0;
     this->ReachedLimit = this->ReachedLimit || grown.Vertices + vertices > this->MostVertices;
     if (vertices == 0 || this->ReachedLimit)
     {
       return 0;
     }
-    EdgeMesh& mesh = *grown.Mesh;
-    const std::int64_t triangles = mesh.NumberOfTriangles, edges = mesh.NumberOfEdges;
-    ReserveMesh(mesh, triangles + added[CountRefined::Triangles],
-      edges + added[CountRefined::Edges], this->Device);
-    const RefinementStore<Real> store = this->Arrays.MakeRoom(grown,
-      { vertices, added[CountRefined::Triangles], added[CountRefined::Edges],
-        added[CountRefined::Subsegments] },
-      this->Failed.Data());
-    this->Split(store, items);
-    mesh.NumberOfTriangles = triangles + added[CountRefined::Triangles];
-    mesh.NumberOfEdges = edges + added[CountRefined::Edges];
-    this->Arrays.Added(grown, vertices, added[CountRefined::Subsegments]);
+    const RefinementStore<Real> store = this->MakeRoom(grown, count.GetAdded());
+    this->SplitTriangles(store, places);
+    this->SplitSegments(store, segments, count.InTriangles);
+    this->NumberAdded = vertices;
+    this->LooksAtAll = false;
     return vertices;
   }
 
-  /// Numbers what the winners add. @returns how much it is.
-  std::int64_t Number(const CountRefined& count, std::int64_t items)
+  /// Numbers the winners on segments of the hull. @returns how many there are.
+  std::int64_t NumberOnHull(const RefinementView& view)
   {
-    const typename Backend::Numbering numbering = this->Device.Count(items, count);
-    std::int64_t* first = this->First.Data() + count.Kind * items;
-    this->Device.ForEachNumbered(numbering, items, count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number) { first[i] = number; });
+    const std::int64_t segments = this->NumberOfSegments;
+    if (segments == 0)
+    {
+      return 0;
+    }
+    const WinsOnHull wins{ TriangleSplitter(view.Mesh.Edges),
+      this->Items.Data() + this->NumberOfPlaces };
+    const typename Backend::Numbering numbering = this->Device.Count(segments, wins);
+    Reserve(this->OnHullBefore, 0, segments, this->Device);
+    std::int64_t* before = this->OnHullBefore.Data();
+    this->Device.ForEachNumbered(numbering, segments, wins,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number) { before[i] = number; });
     return numbering.Total;
   }
 
-  void Split(const RefinementStore<Real>& store, std::int64_t items)
+  RefinementStore<Real> MakeRoom(GrowingMesh<Real>& grown, const RefinementNumbers& added)
   {
-    const RefinementItem* item = this->Items.Data();
-    const std::int64_t* first = this->First.Data();
-    this->Device.ForEach(items,
+    EdgeMesh& mesh = *grown.Mesh;
+    const std::int64_t triangles = mesh.NumberOfTriangles + added.Triangle;
+    const std::int64_t edges = mesh.NumberOfEdges + added.Edge;
+    ReserveMesh(mesh, triangles, edges, this->Device);
+    const RefinementStore<Real> store = this->Arrays.MakeRoom(grown, added, this->Failed.Data());
+    mesh.NumberOfTriangles = triangles;
+    mesh.NumberOfEdges = edges;
+    this->Arrays.Added(grown, added.Vertex, added.Subsegment);
+    return store;
+  }
+
+  void SplitTriangles(
+    const RefinementStore<Real>& store, const typename Backend::Numbering& numbering)
+  {
+    const RefinementItem* items = this->Items.Data();
+    this->Device.ForEachNumbered(
+      numbering, this->NumberOfPlaces,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { return items[i].State == ItemState::Wins ? 1 : 0; },
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
-        if (item[i].State == ItemState::Wins)
+        if (items[i].State == ItemState::Wins)
         {
-          store.Split(item[i],
-            { first[i + CountRefined::Vertices * items], first[i + CountRefined::Triangles * items],
-              first[i + CountRefined::Edges * items],
-              first[i + CountRefined::Subsegments * items] });
+          store.Split(items[i], CountOfWinners{ number, 0, 0 }.GetAdded());
         }
       });
   }
 
-  /// How many subsegments have turned out to be too short: the next round may be another one.
-  std::int64_t CountInvalid(std::int64_t first, std::int64_t segments) const
+  /// @param inTriangles how many winners precede those on segments.
+  void SplitSegments(const RefinementStore<Real>& store,
+    const typename Backend::Numbering& numbering, std::int64_t inTriangles)
   {
-    const RefinementItem* items = this->Items.Data() + first;
-    return this->Device.template Sum<std::int64_t>(segments,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
-      { sum += items[i].State == ItemState::Dropped ? 1 : 0; });
+    const RefinementItem* items = this->Items.Data() + this->NumberOfPlaces;
+    const std::int64_t* onHull = this->OnHullBefore.Data();
+    this->Device.ForEachNumbered(
+      numbering, this->NumberOfSegments,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { return items[i].State == ItemState::Wins ? 1 : 0; },
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
+      {
+        if (items[i].State == ItemState::Wins)
+        {
+          store.Split(items[i], CountOfWinners{ inTriangles, number, onHull[i] }.GetAdded());
+        }
+      });
+  }
+
+  RefinementStep GetStep(const RefinementView& view)
+  {
+    return { view, this->Items.Data(), this->Cavities.Data(), this->Arrays.GetClaims(),
+      this->Round };
   }
 
 private:
@@ -253,11 +297,16 @@ private:
   std::int64_t MostVertices;
   bool ReachedLimit = false;
   Array<std::int32_t> Failed; ///< 1 after a device could not decide an orientation.
-  Array<TriangleId> Bad;
-  Array<EdgeId> SplitEdges;
+  std::uint64_t Round = 0;
+  bool LooksAtAll = true; ///< Whether the next round looks at all triangles.
+  std::int64_t NumberAdded = 0; ///< Vertices that the last round has added.
+  Array<std::uint32_t> Counts; ///< See RefinementSources.
   Array<RefinementItem> Items; ///< First those for triangles, then those on segments.
-  Array<std::uint64_t> Claims;
-  Array<std::int64_t> First; ///< The numbers of what the winners add, kind by kind.
+  Array<RefinementItem> ItemsBefore;
+  std::int64_t NumberOfPlaces = 0; ///< For triangles.
+  std::int64_t NumberOfSegments = 0; ///< Items on segments.
+  Array<Cavity> Cavities;
+  Array<std::int64_t> OnHullBefore; ///< By item on a segment, the winners on the hull before it.
 };
 
 }

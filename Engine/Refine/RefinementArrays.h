@@ -8,6 +8,7 @@
 #include "PlaceGrid.h"
 #include "RefinementItem.h"
 #include "RefinementPlan.h"
+#include "RefinementStep.h"
 #include "RefinementView.h"
 #include "TriangleSplit.h"
 
@@ -34,12 +35,14 @@ struct GrowingMesh
   Array<VertexId>* Ids; ///< By vertex, the number of its point.
   std::int64_t Vertices; ///< How many there are.
   std::int64_t FirstId; ///< The number of the first point that is added.
+  bool IsInFilterRange; ///< Whether the filters may be used for all places.
 
   PlaneMesh View() const
   {
     PlaneMesh plane{ this->Mesh->View(),
       PlaneArray(static_cast<const Real*>(this->Coordinates->Data()), this->Vertices, 2) };
     plane.IsTriangulation = true;
+    plane.IsInFilterRange = this->IsInFilterRange;
     return plane;
   }
 };
@@ -62,12 +65,15 @@ struct RefinementStore
   std::uint32_t* Shapes;
   std::int32_t* Regions;
   double* Sizes;
+  std::uint64_t* Claims;
+  EdgeId* Segments;
   std::uint8_t* Marks;
-  std::uint32_t* OriginOfEdge;
+  std::uint32_t* Origins;
+  std::uint32_t* SegmentOfEdge;
   std::uint32_t* OriginOfVertex;
   const VertexId* Ends;
   std::uint8_t* IsSharp;
-  EdgeId* Segments;
+  TriangleId* Splits; ///< By vertex that the round adds, a triangle that it splits.
   RefinedVertex* Added; ///< From the first one on that refinement has added.
   PlaneMesh Old; ///< The mesh before refinement.
   PlaceGridView Grid;
@@ -93,24 +99,19 @@ struct RefinementStore
     {
       this->TakeOver(TriangleOf(across), triangle + 1);
     }
-    const int edges = this->Splitter.GetSize(item.Found).Edges;
-    for (int k = 0; k < edges; ++k)
-    {
-      this->Marks[edge + k] = 0;
-      this->OriginOfEdge[edge + k] = NoOrigin;
-    }
     std::uint32_t origin = NoOrigin;
     if (item.IsOnSegment)
     {
-      const int slot = item.Found.FindEdgeSlot();
-      const EdgeId split =
-        EdgeOf(this->Splitter.GetMesh().Triangles[item.Found.Triangle].HalfEdges[slot]);
-      origin = this->OriginOfEdge[split];
-      this->OriginOfEdge[edge] = origin;
-      this->Marks[split] = 0;
-      this->Segments[this->Before.Subsegment + own.Subsegment] = edge;
+      const auto added = static_cast<std::uint32_t>(this->Before.Subsegment + own.Subsegment);
+      origin = this->Origins[item.Source];
+      this->Origins[added] = origin;
+      this->Marks[item.Source] = 0;
+      this->Marks[added] = 0;
+      this->Segments[added] = edge;
+      this->SegmentOfEdge[edge] = added;
     }
     this->OriginOfVertex[vertex] = origin;
+    this->Splits[own.Vertex] = item.Found.Triangle;
     RefinedVertex& added = this->Added[vertex - this->FirstVertex];
     added = this->Interpolate(item, origin);
     if (this->Sizes)
@@ -125,6 +126,7 @@ private:
   DELAUNAYFLIP_HOST_DEVICE void TakeOver(TriangleId from, TriangleId to) const
   {
     this->Regions[to] = this->Regions[from];
+    this->Claims[to] = RefinementKey::None;
     this->Shapes[from] = static_cast<std::uint32_t>(ShapeKind::Unknown);
     this->Shapes[to] = static_cast<std::uint32_t>(ShapeKind::Unknown);
   }
@@ -148,7 +150,9 @@ private:
       return vertex;
     }
     const TriangleId start = this->Grid.FindStart(item.Place);
-    const FoundPlace found = WalkToPlace(this->Old, item.Place, start);
+    PlaneMesh old = this->Old;
+    old.IsInFilterRange = old.IsInFilterRange && IsInFilterRange(item.Place);
+    const FoundPlace found = WalkToPlace(old, item.Place, start);
     const TriangleId triangle = found.IsOutside() ? start : found.Triangle; // outside by rounding
     double sum = 0.0;
     for (int slot = 0; slot < 3; ++slot)
@@ -264,7 +268,7 @@ struct UnrefinedTest
 
   DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t t) const
   {
-    return this->View.Judge(t) >= ShapeKind::Bad ? 1 : 0;
+    return this->View.FindShape(static_cast<TriangleId>(t)) >= ShapeKind::Bad ? 1 : 0;
   }
 };
 
@@ -294,12 +298,15 @@ public:
     plane.Failed = failed;
     return { plane, this->Goals, std::is_same<Real, float>::value, this->Smallest,
       this->Shapes.Data(), this->Regions.Data(), this->AreaOfRegion.Data(), this->Sizes.Data(),
-      this->Marks.Data(), this->OriginOfEdge.Data(), this->OriginOfVertex.Data(), this->Ends.Data(),
-      this->IsSharp.Data() };
+      this->Segments.Data(), this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
+      this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data() };
   }
 
   std::int64_t CountSegments() const { return this->NumberOfSegments; }
-  const EdgeId* GetSegments() const { return this->Segments.Data(); }
+  std::uint64_t* GetClaims() { return this->Claims.Data(); }
+
+  /// By vertex that the last round has added, a triangle that it has split.
+  const TriangleId* GetSplits() const { return this->Splits.Data(); }
 
   /// Makes room for what a round adds.
   RefinementStore<Real> MakeRoom(
@@ -320,16 +327,20 @@ public:
     Reserve(this->AddedVertices, vertices, vertices + added.Vertex, backend);
     Reserve(this->Shapes, before.Triangle, before.Triangle + added.Triangle, backend);
     Reserve(this->Regions, before.Triangle, before.Triangle + added.Triangle, backend);
-    Reserve(this->Marks, before.Edge, before.Edge + added.Edge, backend);
-    Reserve(this->OriginOfEdge, before.Edge, before.Edge + added.Edge, backend);
+    Reserve(this->Claims, before.Triangle, before.Triangle + added.Triangle, backend);
+    Reserve(this->SegmentOfEdge, before.Edge, before.Edge + added.Edge, backend);
     Reserve(this->Segments, before.Subsegment, before.Subsegment + added.Subsegment, backend);
+    Reserve(this->Marks, before.Subsegment, before.Subsegment + added.Subsegment, backend);
+    Reserve(this->Origins, before.Subsegment, before.Subsegment + added.Subsegment, backend);
+    Reserve(this->Splits, 0, added.Vertex, backend);
     PlaneMesh old = grown.View();
     old.Edges = { this->OldTriangles.Data(), this->OldCorners.Data(), nullptr };
     old.Failed = failed;
     return { TriangleSplitter(grown.Mesh->View()), before, grown.Coordinates->Data(),
       grown.Ids->Data(), this->FirstId, this->FirstVertex, this->Shapes.Data(),
-      this->Regions.Data(), this->Sizes.Data(), this->Marks.Data(), this->OriginOfEdge.Data(),
-      this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Segments.Data(),
+      this->Regions.Data(), this->Sizes.Data(), this->Claims.Data(), this->Segments.Data(),
+      this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
+      this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Splits.Data(),
       this->AddedVertices.Data(), old, this->Grid.View() };
   }
 
@@ -386,13 +397,16 @@ public:
     const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
     this->Shapes = this->Device.template MakeArray<std::uint32_t>(triangles);
     this->Regions = this->Device.template MakeArray<std::int32_t>(triangles);
+    this->Claims = this->Device.template MakeArray<std::uint64_t>(triangles);
     std::uint32_t* shapes = this->Shapes.Data();
     std::int32_t* regions = this->Regions.Data();
+    std::uint64_t* claims = this->Claims.Data();
     this->Device.ForEach(triangles,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
       {
         shapes[t] = static_cast<std::uint32_t>(ShapeKind::Unknown);
         regions[t] = 0;
+        claims[t] = RefinementKey::None;
       });
     if (this->HasRegions)
     {
@@ -427,30 +441,31 @@ public:
   void ListSegments(const GrowingMesh<Real>& grown, bool keepsBoundary)
   {
     const std::int64_t edges = grown.Mesh->NumberOfEdges;
-    this->Marks = this->Device.template MakeArray<std::uint8_t>(edges);
-    this->OriginOfEdge = this->Device.template MakeArray<std::uint32_t>(edges);
     const PlaneMesh plane = grown.View();
-    std::uint8_t* marks = this->Marks.Data();
-    std::uint32_t* origins = this->OriginOfEdge.Data();
     const SegmentTest isSegment{ plane.Edges, this->Regions.Data() };
     const typename Backend::Numbering numbering = this->Device.Count(edges, isSegment);
     this->NumberOfSegments = numbering.Total;
     this->Segments = this->Device.template MakeArray<EdgeId>(numbering.Total);
+    this->Marks = this->Device.template MakeArray<std::uint8_t>(numbering.Total);
+    this->Origins = this->Device.template MakeArray<std::uint32_t>(numbering.Total);
+    this->SegmentOfEdge = this->Device.template MakeArray<std::uint32_t>(edges);
     this->Ends = this->Device.template MakeArray<VertexId>(2 * numbering.Total);
+    std::uint8_t* marks = this->Marks.Data();
+    std::uint32_t* origins = this->Origins.Data();
+    std::uint32_t* segmentOfEdge = this->SegmentOfEdge.Data();
     EdgeId* segments = this->Segments.Data();
     VertexId* ends = this->Ends.Data();
     this->Device.ForEachNumbered(numbering, edges, isSegment,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, std::int64_t number)
       {
-        marks[e] = 0;
-        origins[e] = NoOrigin;
         if (isSegment(e) == 0)
         {
           return;
         }
         const bool isBoundary = isSegment.CountKept(e) == 1;
-        marks[e] = keepsBoundary && isBoundary ? CannotSplit : 0;
-        origins[e] = static_cast<std::uint32_t>(number);
+        marks[number] = keepsBoundary && isBoundary ? CannotSplit : 0;
+        origins[number] = static_cast<std::uint32_t>(number);
+        segmentOfEdge[e] = static_cast<std::uint32_t>(number);
         segments[number] = static_cast<EdgeId>(e);
         const CornerPair corners = plane.Edges.GetCorners(static_cast<EdgeId>(e));
         const auto side = static_cast<HalfEdgeId>(2 * e + (corners.A == NoCorner ? 1 : 0));
@@ -516,10 +531,10 @@ public:
     Array<Subsegment> named = this->Device.template MakeArray<Subsegment>(this->NumberOfSegments);
     Subsegment* to = named.Data();
     const EdgeId* segments = this->Segments.Data();
-    const std::uint32_t* origins = this->OriginOfEdge.Data();
+    const std::uint32_t* origins = this->Origins.Data();
     this->Device.ForEach(this->NumberOfSegments,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) {
-        to[i] = { segments[i], origins[segments[i]] };
+        to[i] = { segments[i], origins[i] };
       });
     return named;
   }
@@ -565,11 +580,13 @@ private:
   Array<std::uint32_t> Shapes; ///< See RefinementView for this one and the next.
   Array<std::int32_t> Regions;
   Array<double> AreaOfRegion, Sizes;
+  Array<EdgeId> Segments;
   Array<std::uint8_t> Marks;
-  Array<std::uint32_t> OriginOfEdge, OriginOfVertex;
+  Array<std::uint32_t> Origins, SegmentOfEdge, OriginOfVertex;
   Array<VertexId> Ends;
   Array<std::uint8_t> IsSharp;
-  Array<EdgeId> Segments;
+  Array<std::uint64_t> Claims; ///< See RefinementStep.
+  Array<TriangleId> Splits;
   Array<RefinedVertex> AddedVertices;
 
   PlaceGrid Grid; ///< Of the mesh before.

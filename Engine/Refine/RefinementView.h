@@ -22,7 +22,7 @@ namespace delaunayflip
 /// What is known of a subsegment.
 enum SegmentMark : std::uint8_t
 {
-  SplitRequested = 1, ///< A place that was proposed is in its diametral circle or beyond it.
+  SplitRequested = 1, ///< A vertex or a place is in its diametral circle, or a place beyond it.
   CannotSplit = 2 ///< It must not be split, or is too short.
 };
 
@@ -47,8 +47,10 @@ struct RefinementView
   const std::int32_t* Regions; ///< By triangle: the number of its region; -1: it is removed.
   const double* AreaOfRegion; ///< The largest area there, or null.
   const double* Sizes; ///< By vertex: the longest edge there, or null.
-  std::uint8_t* Marks; ///< By edge: SegmentMarks.
-  const std::uint32_t* OriginOfEdge; ///< By edge: the number of its segment, for fixed edges.
+  const EdgeId* Segments; ///< The edges that are subsegments.
+  std::uint8_t* Marks; ///< By subsegment: SegmentMarks.
+  const std::uint32_t* Origins; ///< By subsegment: the number of its segment.
+  const std::uint32_t* SegmentOfEdge; ///< By fixed edge: the number of its subsegment.
   const std::uint32_t* OriginOfVertex; ///< By vertex: the segment that it has split, or NoOrigin.
   const VertexId* Ends; ///< By segment, two.
   const std::uint8_t* IsSharp; ///< By vertex: whether segments meet there at a small angle.
@@ -57,49 +59,74 @@ struct RefinementView
   {
     return this->Regions[triangle] >= 0;
   }
-  DELAUNAYFLIP_HOST_DEVICE bool HasKept(CornerId corner) const
-  {
-    return corner != NoCorner && this->IsKept(TriangleOf(corner));
-  }
-  DELAUNAYFLIP_HOST_DEVICE bool CanSplit(EdgeId edge) const
-  {
-    return (AtomicLoad(&this->Marks[edge]) & CannotSplit) == 0;
-  }
 
   //------------------------------------------------------------------------------
   // Triangles.
 
-  DELAUNAYFLIP_HOST_DEVICE ShapeKind GetShape(std::int64_t triangle) const
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetFlips(TriangleId triangle) const
+  {
+    return this->Mesh.Edges.Triangles[triangle].Flips / OneFlip;
+  }
+  DELAUNAYFLIP_HOST_DEVICE ShapeKind GetShape(TriangleId triangle) const
   {
     return static_cast<ShapeKind>(this->Shapes[triangle] % OneFlip);
   }
-  DELAUNAYFLIP_HOST_DEVICE void SetShape(std::int64_t triangle, ShapeKind kind) const
+  DELAUNAYFLIP_HOST_DEVICE void SetShape(TriangleId triangle, ShapeKind kind) const
   {
-    const std::uint32_t flips = this->Mesh.Edges.Triangles[triangle].Flips / OneFlip * OneFlip;
-    this->Shapes[triangle] = flips + static_cast<std::uint32_t>(kind);
+    this->Shapes[triangle] = this->GetFlips(triangle) * OneFlip + static_cast<std::uint32_t>(kind);
+  }
+  /// Whether a triangle has not changed since it was judged.
+  DELAUNAYFLIP_HOST_DEVICE bool IsJudged(TriangleId triangle) const
+  {
+    const std::uint32_t shape = this->Shapes[triangle];
+    return shape / OneFlip == this->GetFlips(triangle) &&
+      static_cast<ShapeKind>(shape % OneFlip) != ShapeKind::Unknown;
   }
 
-  /// Judges a triangle again if it has changed.
-  DELAUNAYFLIP_HOST_DEVICE ShapeKind Judge(std::int64_t triangle) const
+  /// What a triangle is now.
+  DELAUNAYFLIP_HOST_DEVICE ShapeKind FindShape(TriangleId triangle) const
   {
-    const std::uint32_t flips = this->Mesh.Edges.Triangles[triangle].Flips / OneFlip;
-    const ShapeKind before = this->GetShape(triangle);
-    if (before != ShapeKind::Unknown && this->Shapes[triangle] / OneFlip == flips)
+    if (this->IsJudged(triangle))
     {
-      return before;
+      return this->GetShape(triangle);
     }
-    ShapeKind kind = ShapeKind::Good;
-    const auto id = static_cast<TriangleId>(triangle);
-    if (this->IsKept(id))
+    if (!this->IsKept(triangle))
     {
-      const TriangleShape shape(this->Mesh, id);
-      const bool isSharp = shape.IsSharperThan(this->Goals.Cotangent);
-      const bool isLarge = this->IsTooLarge(id, shape);
-      const bool isLeft = isSharp && !isLarge && this->IsAcrossSharpCorner(id, shape);
-      kind = isSharp || isLarge ? ShapeKind::Bad : kind;
-      kind = isLeft ? ShapeKind::Left : kind;
+      return ShapeKind::Good;
     }
-    this->SetShape(triangle, kind);
+    const TriangleShape shape(this->Mesh, triangle);
+    const bool isSharp = shape.IsSharperThan(this->Goals.Cotangent);
+    if (this->IsTooLarge(triangle, shape))
+    {
+      return ShapeKind::Bad;
+    }
+    if (isSharp)
+    {
+      return this->IsAcrossSharpCorner(triangle, shape) ? ShapeKind::Left : ShapeKind::Bad;
+    }
+    return ShapeKind::Good;
+  }
+
+  /// Judges a triangle again if it has changed, and its subsegments. Of the vertices that see one,
+  /// those opposite to it are the nearest to its middle, because the mesh is constrained Delaunay.
+  DELAUNAYFLIP_HOST_DEVICE ShapeKind Judge(TriangleId triangle) const
+  {
+    const bool isNew = !this->IsJudged(triangle);
+    const ShapeKind kind = this->FindShape(triangle);
+    if (isNew)
+    {
+      this->SetShape(triangle, kind);
+      for (int slot = 0; slot < 3 && this->IsKept(triangle); ++slot)
+      {
+        const CornerId corner = MakeCorner(triangle, slot);
+        const HalfEdgeId side = this->Mesh.GetHalfEdge(corner);
+        if (this->Mesh.IsFixed(side) &&
+          this->IsEncroached(side, this->Mesh.GetPoint(this->Mesh.GetVertex(corner))))
+        {
+          this->Request(side);
+        }
+      }
+    }
     return kind;
   }
 
@@ -161,35 +188,42 @@ struct RefinementView
     return (a.U - place.U) * (b.U - place.U) + (a.V - place.V) * (b.V - place.V) < 0.0;
   }
 
-  /// Whether a subsegment has to be split. Of the vertices that see it, the ones opposite to it are
-  /// the nearest to its middle, because the mesh is constrained Delaunay.
-  DELAUNAYFLIP_HOST_DEVICE bool HasToSplit(EdgeId edge) const
+  /// A side of a subsegment that has a triangle.
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId GetSide(std::int64_t segment) const
   {
-    const std::uint8_t marks = this->Marks[edge];
-    if ((marks & CannotSplit) != 0)
-    {
-      return false;
-    }
-    bool hasTo = (marks & SplitRequested) != 0;
-    for (HalfEdgeId side = 2 * edge; side < 2 * edge + 2 && !hasTo; ++side)
-    {
-      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[side];
-      hasTo = this->HasKept(corner) &&
-        this->IsEncroached(side, this->Mesh.GetPoint(this->Mesh.GetVertex(corner)));
-    }
-    return hasTo;
+    const HalfEdgeId side = 2 * this->Segments[segment];
+    return this->Mesh.Edges.CornerOfHalfEdge[side] != NoCorner ? side : side + 1;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool CanSplit(HalfEdgeId side) const
+  {
+    return (AtomicLoad(&this->Marks[this->SegmentOfEdge[EdgeOf(side)]]) & CannotSplit) == 0;
+  }
+
+  /// Requests that a subsegment is split.
+  DELAUNAYFLIP_HOST_DEVICE void Request(HalfEdgeId side) const
+  {
+    std::uint8_t* marks = &this->Marks[this->SegmentOfEdge[EdgeOf(side)]];
+    AtomicStore(marks, static_cast<std::uint8_t>(AtomicLoad(marks) | SplitRequested));
+  }
+
+  /// Whether a subsegment is to be split.
+  DELAUNAYFLIP_HOST_DEVICE bool HasToSplit(std::int64_t segment) const
+  {
+    return this->Marks[segment] == SplitRequested;
   }
 
   /// Where a subsegment is split: in the middle, or where its segment has an end at which segments
   /// meet at a small angle, at a simple distance from there. So all of them are split at the same
   /// distances from their corner, and no piece is in the diametral circle of another one. These are
   /// Ruppert's concentric shells, with simple distances between them, too.
-  DELAUNAYFLIP_HOST_DEVICE PlanePoint FindSplit(HalfEdgeId side) const
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint FindSplit(std::int64_t segment) const
   {
+    const HalfEdgeId side = this->GetSide(segment);
     const VertexId start = this->Mesh.GetStart(side), end = this->Mesh.GetEnd(side);
     const PlanePoint a = this->Mesh.GetPoint(start), b = this->Mesh.GetPoint(end);
     const PlanePoint middle = { a.U + 0.5 * (b.U - a.U), a.V + 0.5 * (b.V - a.V), 0.0 };
-    const VertexId* ends = this->Ends + 2 * std::size_t(this->OriginOfEdge[EdgeOf(side)]);
+    const VertexId* ends = this->Ends + 2 * std::size_t(this->Origins[segment]);
     const bool isSharp[2] = { this->IsSharp[ends[0]] != 0, this->IsSharp[ends[1]] != 0 };
     const bool isWhole =
       (start == ends[0] && end == ends[1]) || (start == ends[1] && end == ends[0]);

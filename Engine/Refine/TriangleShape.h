@@ -119,12 +119,11 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t UnshuffleItem(std::uint32_t shuffl
   return shuffled * Inverse;
 }
 
-/// The order in which places for triangles are inserted if they exclude each other: the lowest key
+/// The order in which places for triangles are inserted if they exclude each other: the lowest rank
 /// first. Those for small angles come before those for large triangles. The first ones are those of
-/// the shortest edges, and the largest triangles. Keys are different for different triangles; about
-/// equal ones are in a random order, so that many can be inserted at a time.
-DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t MakeRefinementKey(
-  std::int64_t item, const TriangleShape& shape, bool isSharp)
+/// the shortest edges, and the largest triangles. Many have the same rank, so that many can be
+/// inserted at a time. Ranks have RefinementKey::RankBits bits and are not 0.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t FindRank(const TriangleShape& shape, bool isSharp)
 {
   constexpr std::uint32_t Infinite = 0x7F800000u, SecondClass = 0x80000000u;
   constexpr int UnusedBits = 22; // one bit of the fraction is left
@@ -132,9 +131,30 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t MakeRefinementKey(
   std::uint32_t bits = 0;
   std::memcpy(&bits, &squared, sizeof(bits));
   const std::uint32_t rank = isSharp ? bits : SecondClass + (Infinite - bits);
-  const std::uint64_t rough = (rank >> UnusedBits << UnusedBits) + (1u << UnusedBits); // not 0
-  return (rough << 32) | ShuffleItem(item);
+  return (rank >> UnusedBits) + 1;
 }
+
+/// What a place claims triangles with: the lowest key wins. A key is lower than all those of rounds
+/// before, so that claims need not be cleared. Below that it has the rank, and then the number of
+/// the item, shuffled, so that keys are different.
+struct RefinementKey
+{
+  static constexpr int RankBits = 10, RoundShift = 32 + RankBits;
+  static constexpr std::uint64_t MostRounds = (std::uint64_t(1) << (64 - RoundShift)) - 1;
+  static constexpr std::uint64_t None = ~std::uint64_t(0); ///< Of triangles without a claim.
+
+  /// @param round from 1 to MostRounds.
+  DELAUNAYFLIP_HOST_DEVICE static std::uint64_t Make(
+    std::uint64_t round, std::uint32_t rank, std::int64_t item)
+  {
+    const std::uint64_t place = (MostRounds - round) << RankBits;
+    return ((place | rank) << 32) | ShuffleItem(item);
+  }
+  DELAUNAYFLIP_HOST_DEVICE static std::uint32_t GetItem(std::uint64_t key)
+  {
+    return UnshuffleItem(static_cast<std::uint32_t>(key));
+  }
+};
 
 }
 

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_REFINEMENTSOURCES_H
+#define DELAUNAYFLIP_REFINEMENTSOURCES_H
+
+#include "RefinementItem.h"
+#include "RefinementStep.h"
+#include "RefinementView.h"
+
+#include <cstdint>
+
+/// @file
+/// Where a round finds bad triangles: those whose places were not inserted in the round before, if
+/// they have not changed, and those around the new vertices, because insertion changes no others.
+/// So a round takes the time of what it changes. The first and the last round look at all
+/// triangles.
+
+namespace delaunayflip
+{
+
+/// The sources of places, numbered: first the items of the round before, then the new vertices,
+/// then all triangles if the round looks at them.
+struct RefinementSources
+{
+  RefinementView View;
+  const RefinementItem* Items; ///< Those for triangles, of the round before.
+  std::int64_t NumberOfItems;
+  const TriangleId* Splits; ///< By new vertex, the triangle that it has split.
+  std::int64_t FirstVertex; ///< The first new vertex.
+  std::int64_t NumberOfVertices;
+  std::int64_t NumberOfTriangles; ///< All, or 0.
+  std::uint32_t* Counts; ///< By source: how many bad triangles it has.
+
+  DELAUNAYFLIP_HOST_DEVICE std::int64_t GetSize() const
+  {
+    return this->NumberOfItems + this->NumberOfVertices + this->NumberOfTriangles;
+  }
+
+  /// Counts whether the triangle of an item is as it was. This must precede all calls of Count.
+  DELAUNAYFLIP_HOST_DEVICE void Keep(std::int64_t i) const
+  {
+    const RefinementItem& item = this->Items[i];
+    const bool isSame = item.Flips == this->View.GetFlips(item.Source) &&
+      this->View.GetShape(item.Source) == ShapeKind::Bad;
+    this->Counts[i] = int(isSame);
+  }
+
+  /// Judges triangles, and counts the bad ones.
+  DELAUNAYFLIP_HOST_DEVICE int Count(std::int64_t source) const
+  {
+    if (source >= this->NumberOfItems)
+    {
+      std::uint32_t count = 0;
+      this->ForTriangles(source,
+        [&](TriangleId triangle)
+        { count += this->View.Judge(triangle) == ShapeKind::Bad ? 1 : 0; });
+      this->Counts[source] = count;
+    }
+    return static_cast<int>(this->Counts[source]);
+  }
+
+  /// Proposes places for the bad triangles of a source.
+  /// @param first the number for the first of them.
+  DELAUNAYFLIP_HOST_DEVICE void Propose(
+    std::int64_t source, std::int64_t first, const RefinementStep& step) const
+  {
+    if (this->Counts[source] == 0)
+    {
+      return;
+    }
+    if (source < this->NumberOfItems)
+    {
+      step.Items[first] = this->Items[source];
+      step.LocateAndClaim(first);
+      return;
+    }
+    std::int64_t next = first;
+    // Places change shapes to Left, but only those of their own triangles.
+    this->ForTriangles(source,
+      [&](TriangleId triangle)
+      {
+        if (this->View.GetShape(triangle) == ShapeKind::Bad)
+        {
+          step.MakeItem(next, triangle);
+          step.LocateAndClaim(next);
+          ++next;
+        }
+      });
+  }
+
+private:
+  /// Calls visit(triangle) for the triangles of a source that is no item.
+  template <typename Visit>
+  DELAUNAYFLIP_HOST_DEVICE void ForTriangles(std::int64_t source, const Visit& visit) const
+  {
+    const std::int64_t number = source - this->NumberOfItems;
+    if (number >= this->NumberOfVertices)
+    {
+      visit(static_cast<TriangleId>(number - this->NumberOfVertices));
+      return;
+    }
+    const auto vertex = static_cast<VertexId>(this->FirstVertex + number);
+    const PlaneMesh& mesh = this->View.Mesh;
+    const CornerId first = this->FindCorner(vertex, this->Splits[number]);
+    CornerId corner = first;
+    while (corner != NoCorner)
+    {
+      this->VisitOwn(vertex, corner, visit);
+      corner = mesh.FindNextAround(corner);
+      if (corner == first)
+      {
+        return;
+      }
+    }
+    // The vertex is on the hull, so some triangles are on the other way.
+    corner = first == NoCorner ? NoCorner : mesh.FindPreviousAround(first);
+    while (corner != NoCorner)
+    {
+      this->VisitOwn(vertex, corner, visit);
+      corner = mesh.FindPreviousAround(corner);
+    }
+  }
+
+  /// A triangle belongs to its newest vertex.
+  template <typename Visit>
+  DELAUNAYFLIP_HOST_DEVICE void VisitOwn(VertexId vertex, CornerId corner, const Visit& visit) const
+  {
+    const PlaneMesh& mesh = this->View.Mesh;
+    const bool isNewest = mesh.GetVertex(PlaneMesh::Next(corner)) < vertex &&
+      mesh.GetVertex(PlaneMesh::Previous(corner)) < vertex;
+    if (isNewest)
+    {
+      visit(TriangleOf(corner));
+    }
+  }
+
+  /// A corner of a new vertex. Flips may have taken it from the triangle that it has split, but
+  /// then it is near.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex, TriangleId start) const
+  {
+    const PlaneMesh& mesh = this->View.Mesh;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      if (mesh.GetVertex(MakeCorner(start, slot)) == vertex)
+      {
+        return MakeCorner(start, slot);
+      }
+    }
+    const WalkEnd end = WalkWithinSegments(mesh, mesh.GetPoint(vertex), start);
+    const int found = end.Found.FindVertexSlot();
+    if (end.Blocked != NoHalfEdge || found < 0)
+    {
+      return NoCorner; // the last round looks at all triangles
+    }
+    return MakeCorner(end.Found.Triangle, found);
+  }
+};
+
+}
+
+#endif
