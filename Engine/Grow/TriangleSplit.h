@@ -64,7 +64,9 @@ public:
     return { 2, 3 };
   }
 
-  /// All edges of the triangles that are made become candidates, except fixed ones.
+  /// Edges of the triangles that are split become candidates, except fixed ones. The new edges are
+  /// good: the new vertex is inside of the triangle, or on an edge that was good. Only a vertex
+  /// that splits a fixed edge may be beside it, by rounding.
   DELAUNAYFLIP_HOST_DEVICE void Split(const NewVertex& vertex) const
   {
     if (vertex.Place.FindEdgeSlot() >= 0)
@@ -96,7 +98,7 @@ private:
       triangle.HalfEdges[previous] = this->JoinSide(vertex.FirstEdge + next, 1, made[i], previous);
       this->Mesh.CornerOfHalfEdge[old.HalfEdges[i]] = MakeCorner(made[i], i);
       this->Mesh.Triangles[made[i]] = triangle;
-      this->Mesh.States[vertex.FirstEdge + i] = EdgeState::Candidate;
+      this->Mesh.States[vertex.FirstEdge + i] = EdgeState::Good;
       this->Judge(old.HalfEdges[i]);
     }
   }
@@ -122,8 +124,6 @@ private:
     }
     this->SplitHalf(across, vertex, { 2 * other + (side ^ 1u), near ^ 1u, vertex.FirstEdge + 2 },
       vertex.FirstTriangle + 1);
-    this->Judge(near);
-    this->Judge(2 * other);
   }
 
   /// The edges that a triangle on one side of a split edge gets.
@@ -154,7 +154,8 @@ private:
     this->Join(old.HalfEdges[next], added, next);
     this->Mesh.Triangles[kept] = first;
     this->Mesh.Triangles[added] = second;
-    this->Mesh.States[sides.Middle] = EdgeState::Candidate;
+    const bool isFixed = this->Mesh.States[EdgeOf(sides.First)] == EdgeState::Fixed;
+    this->Mesh.States[sides.Middle] = isFixed ? EdgeState::Candidate : EdgeState::Good;
     this->Judge(old.HalfEdges[next]);
     this->Judge(old.HalfEdges[previous]);
   }

@@ -26,7 +26,14 @@ struct PlaneMesh
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint GetPoint(VertexId vertex) const
   {
-    return { this->Places.Get(vertex, 0), this->Places.Get(vertex, 1), 0.0 };
+    const std::int64_t first = this->Places.Stride * std::int64_t(vertex);
+    if (this->Places.Floats)
+    {
+      const float* place = this->Places.Floats + first;
+      return { static_cast<double>(place[0]), static_cast<double>(place[1]), 0.0 };
+    }
+    const double* place = this->Places.Doubles + first;
+    return { place[0], place[1], 0.0 };
   }
   void PrefetchPoint(VertexId vertex) const
   {

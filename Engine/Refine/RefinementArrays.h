@@ -75,6 +75,8 @@ struct RefinementStore
   std::uint8_t* IsSharp;
   TriangleId* Splits; ///< By vertex that the round adds, a triangle that it splits.
   RefinedVertex* Added; ///< From the first one on that refinement has added.
+  /// Of the old mesh, that of each of these vertices; NoTriangle for those on segments.
+  TriangleId* OldTriangleOf;
   PlaneMesh Old; ///< The mesh before refinement.
   PlaceGridView Grid;
 
@@ -113,7 +115,9 @@ struct RefinementStore
     this->OriginOfVertex[vertex] = origin;
     this->Splits[own.Vertex] = item.Found.Triangle;
     RefinedVertex& added = this->Added[vertex - this->FirstVertex];
-    added = this->Interpolate(item, origin);
+    TriangleId& oldTriangle = this->OldTriangleOf[vertex - this->FirstVertex];
+    oldTriangle = origin == NoOrigin ? this->FindOldTriangle(item) : NoTriangle;
+    added = this->Interpolate(item, origin, oldTriangle);
     if (this->Sizes)
     {
       this->Sizes[vertex] = this->InterpolateSize(added);
@@ -134,7 +138,7 @@ private:
   /// What belongs to a vertex is linear along the segment that it splits, and else in the triangle
   /// that it was in at first.
   DELAUNAYFLIP_HOST_DEVICE RefinedVertex Interpolate(
-    const RefinementItem& item, std::uint32_t origin) const
+    const RefinementItem& item, std::uint32_t origin, TriangleId triangle) const
   {
     RefinedVertex vertex{ item.Place.U, item.Place.V, origin, { 0, 0, 0 }, { 1.0, 0.0, 0.0 } };
     if (origin != NoOrigin)
@@ -149,11 +153,6 @@ private:
       vertex.Points[2] = ends[0];
       return vertex;
     }
-    const TriangleId start = this->Grid.FindStart(item.Place);
-    PlaneMesh old = this->Old;
-    old.IsInFilterRange = old.IsInFilterRange && IsInFilterRange(item.Place);
-    const FoundPlace found = WalkToPlace(old, item.Place, start);
-    const TriangleId triangle = found.IsOutside() ? start : found.Triangle; // outside by rounding
     double sum = 0.0;
     for (int slot = 0; slot < 3; ++slot)
     {
@@ -171,6 +170,26 @@ private:
       weight = sum > 0.0 ? weight / sum : 1.0 / 3.0;
     }
     return vertex;
+  }
+
+  /// The walk begins where the newest corner of the triangle that is split was at first.
+  DELAUNAYFLIP_HOST_DEVICE TriangleId FindOldTriangle(const RefinementItem& item) const
+  {
+    std::int64_t newest = -1;
+    for (const VertexId vertex : this->Splitter.GetMesh().Triangles[item.Found.Triangle].Vertices)
+    {
+      const std::int64_t number = std::int64_t(vertex) - this->FirstVertex;
+      newest = number > newest ? number : newest;
+    }
+    TriangleId start = newest >= 0 ? this->OldTriangleOf[newest] : NoTriangle;
+    if (start == NoTriangle)
+    {
+      start = this->Grid.FindStart(item.Place);
+    }
+    PlaneMesh old = this->Old;
+    old.IsInFilterRange = old.IsInFilterRange && IsInFilterRange(item.Place);
+    const FoundPlace found = WalkToPlace(old, item.Place, start);
+    return found.IsOutside() ? start : found.Triangle; // outside by rounding
   }
 
   DELAUNAYFLIP_HOST_DEVICE double InterpolateSize(const RefinedVertex& vertex) const
@@ -325,6 +344,7 @@ public:
     }
     const std::int64_t vertices = before.Vertex - this->FirstVertex;
     Reserve(this->AddedVertices, vertices, vertices + added.Vertex, backend);
+    Reserve(this->OldTriangleOf, vertices, vertices + added.Vertex, backend);
     Reserve(this->Shapes, before.Triangle, before.Triangle + added.Triangle, backend);
     Reserve(this->Regions, before.Triangle, before.Triangle + added.Triangle, backend);
     Reserve(this->Claims, before.Triangle, before.Triangle + added.Triangle, backend);
@@ -341,7 +361,7 @@ public:
       this->Regions.Data(), this->Sizes.Data(), this->Claims.Data(), this->Segments.Data(),
       this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
       this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Splits.Data(),
-      this->AddedVertices.Data(), old, this->Grid.View() };
+      this->AddedVertices.Data(), this->OldTriangleOf.Data(), old, this->Grid.View() };
   }
 
   /// Notes what a round has added.
@@ -588,6 +608,7 @@ private:
   Array<std::uint64_t> Claims; ///< See RefinementStep.
   Array<TriangleId> Splits;
   Array<RefinedVertex> AddedVertices;
+  Array<TriangleId> OldTriangleOf; ///< See RefinementStore.
 
   PlaceGrid Grid; ///< Of the mesh before.
   Array<TriangleRecord> OldTriangles;

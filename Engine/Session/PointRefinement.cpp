@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -20,27 +19,44 @@ namespace delaunayflip
 namespace
 {
 
-/// Appends the subsegments of a segment's edge, in the direction of the segment.
-/// @param pieces those of the edge that there was before.
-void AppendPieces(const PointMeshView& view, const SegmentEdge& before,
-  const std::vector<EdgeId>& pieces, std::vector<SegmentEdge>& edges)
+/// A piece of an edge, and where it begins.
+struct Piece
 {
-  std::map<VertexId, HalfEdgeId> next; // by start
-  std::map<VertexId, int> ends;
-  for (const EdgeId edge : pieces)
+  VertexId Start;
+  HalfEdgeId Side;
+
+  bool operator<(const Piece& other) const { return this->Start < other.Start; }
+};
+
+/// Appends the subsegments of a segment's edge, in the direction of the segment.
+/// @param edgesOfPieces those of the edge that there was before.
+void AppendPieces(const PointMeshView& view, const SegmentEdge& before,
+  const std::vector<EdgeId>& edgesOfPieces, std::vector<SegmentEdge>& edges)
+{
+  std::vector<Piece> pieces; // by start
+  std::vector<VertexId> ends;
+  for (const EdgeId edge : edgesOfPieces)
   {
     const HalfEdgeId side = 2 * edge + (before.Side & 1u);
-    next[view.GetStart(side)] = side;
-    ends[view.GetEnd(side)] = 1;
+    pieces.push_back({ view.GetStart(side), side });
+    ends.push_back(view.GetEnd(side));
   }
-  const auto first = std::find_if(next.begin(), next.end(),
-    [&](const auto& item) { return ends.find(item.first) == ends.end(); });
+  std::sort(pieces.begin(), pieces.end());
+  std::sort(ends.begin(), ends.end());
+  auto piece = std::find_if(pieces.begin(), pieces.end(),
+    [&](const Piece& one) { return !std::binary_search(ends.begin(), ends.end(), one.Start); });
   const std::size_t begin = edges.size();
-  for (auto piece = first; piece != next.end(); piece = next.find(view.GetEnd(piece->second)))
+  while (piece != pieces.end())
   {
     SegmentEdge edge = before;
-    edge.Side = piece->second;
+    edge.Side = piece->Side;
     edges.push_back(edge);
+    const Piece next = { view.GetEnd(piece->Side), 0 };
+    piece = std::lower_bound(pieces.begin(), pieces.end(), next);
+    if (piece != pieces.end() && piece->Start != next.Start)
+    {
+      piece = pieces.end();
+    }
   }
   if (!before.IsOnLeft)
   {
@@ -51,9 +67,9 @@ void AppendPieces(const PointMeshView& view, const SegmentEdge& before,
 /// @param origins by edge that there was before, its number.
 std::vector<SegmentEdge> SplitEdges(const PointMeshView& view,
   const std::vector<SegmentEdge>& before, const std::vector<Subsegment>& subsegments,
-  const std::map<EdgeId, std::uint32_t>& origins)
+  const std::vector<std::uint32_t>& origins)
 {
-  std::vector<std::vector<EdgeId>> pieces(origins.size());
+  std::vector<std::vector<EdgeId>> pieces(subsegments.size());
   for (const Subsegment& subsegment : subsegments)
   {
     pieces[subsegment.Origin].push_back(subsegment.Edge);
@@ -61,7 +77,7 @@ std::vector<SegmentEdge> SplitEdges(const PointMeshView& view,
   std::vector<SegmentEdge> edges;
   for (const SegmentEdge& edge : before)
   {
-    AppendPieces(view, edge, pieces[origins.at(EdgeOf(edge.Side))], edges);
+    AppendPieces(view, edge, pieces[origins[EdgeOf(edge.Side)]], edges);
   }
   return edges;
 }
@@ -197,10 +213,12 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
 {
   PointResult& result = this->Result;
   const RefinementResult made = mesh.FetchRefinement();
-  std::map<EdgeId, std::uint32_t> origins;
+  std::vector<std::uint32_t> origins;
   for (const Subsegment& subsegment : made.Segments)
   {
-    origins.emplace(subsegment.Edge, subsegment.Origin);
+    origins.resize(
+      std::max<std::size_t>(origins.size(), subsegment.Edge + std::size_t(1)), NoOrigin);
+    origins[subsegment.Edge] = subsegment.Origin;
   }
   this->AddRefinedPoints(made, origins);
   result.Unrefined = Defect(DefectKind::TrianglesNotRefined, made.Unrefined);
@@ -248,15 +266,15 @@ void PointRun::RenumberKept(const PointMeshView& view, const std::vector<std::in
   }
 }
 
-/// @param origins by edge, the number of the one that there was before.
+/// @param origins by subsegment's edge, the number of the edge that there was before.
 void PointRun::AddRefinedPoints(
-  const RefinementResult& made, const std::map<EdgeId, std::uint32_t>& origins)
+  const RefinementResult& made, const std::vector<std::uint32_t>& origins)
 {
   std::vector<std::int64_t> segmentOf(made.Segments.size(), -1); // by number of an edge before
   for (auto edge = this->Result.EdgesBefore.rbegin(); edge != this->Result.EdgesBefore.rend();
        ++edge)
   {
-    segmentOf[origins.at(EdgeOf(edge->Side))] = this->Points.GetSegments()[edge->Segment].Number;
+    segmentOf[origins[EdgeOf(edge->Side)]] = this->Points.GetSegments()[edge->Segment].Number;
   }
   std::vector<AddedPoint> points;
   points.reserve(made.Vertices.size());

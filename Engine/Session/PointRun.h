@@ -8,7 +8,6 @@
 #include "PointReport.h"
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -71,7 +70,7 @@ private:
   void TakeRefinement(LoadedMesh& mesh);
   void RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions);
   void AddRefinedPoints(
-    const RefinementResult& made, const std::map<EdgeId, std::uint32_t>& origins);
+    const RefinementResult& made, const std::vector<std::uint32_t>& origins);
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
