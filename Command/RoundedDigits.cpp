@@ -59,6 +59,10 @@ public:
   {
     const vtkIdType count = mesh->GetNumberOfPoints();
     const bool areFloats = mesh->GetPoints()->GetDataType() == VTK_FLOAT;
+    if (!areFloats)
+    {
+      this->MostDigits = 12;
+    }
     for (vtkIdType i = 0; i < count; i += 1 + count / SampleSize)
     {
       std::array<double, 3> point;
@@ -86,7 +90,7 @@ public:
     }
     const int exponent = this->FindUsual([](const Decimal& number) { return number.Exponent; });
     digits = this->FindUsual([](const Decimal& number) { return number.Digits; });
-    if (digits <= MostDigits && this->AreMostly(&Decimal::GetDigits, digits))
+    if (digits <= this->MostDigits && this->AreMostly(&Decimal::GetDigits, digits))
     {
       return std::pow(10.0, exponent - digits + 1);
     }
@@ -94,12 +98,12 @@ public:
       this->FindUsual([](const Decimal& number) { return number.CountDecimals(); });
     digits = exponent + 1 + decimals;
     const bool areFixed =
-      digits <= MostDigits && this->AreMostly(&Decimal::CountDecimals, decimals);
+      digits <= this->MostDigits && this->AreMostly(&Decimal::CountDecimals, decimals);
     return areFixed ? std::pow(10.0, -decimals) : 0.0;
   }
 
 private:
-  static constexpr int MostDigits = 7; ///< A float has more.
+  int MostDigits = 7; ///< What was not rounded has more: a float at least 8, a double 16 mostly.
   static constexpr std::size_t FewestPoints = 100; ///< Others may have short numbers by chance.
 
   /// The largest value of 99 % of the numbers; a few of another origin may have more.

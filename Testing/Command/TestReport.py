@@ -185,8 +185,8 @@ class Summary(CommandTest):
             text = "".join(f"v {form} {form} {form}\n" % tuple(point) for point in points)
             return points, cells, text + "".join("f %d %d %d\n" % tuple(1 + k for k in ids) for ids in cells)
 
-        hint = re.compile(r"^hint +coordinates are rounded to (\d) digits, .*; --tolerance ([\d.e-]+) ", re.M)
-        for form, digits in (("%.6g", 6), ("%.3f", 5), ("%.9g", None), ("%.17g", None)):
+        hint = re.compile(r"^hint +coordinates are rounded to (\d+) digits, .*; --tolerance ([\d.e-]+) ", re.M)
+        for form, digits in (("%.6g", 6), ("%.3f", 5), ("%.9g", 9), ("%.17g", None)):
             points, cells, text = torus(form)
             self.write("in.obj", text)
             for path in ("in.obj", self.write_mesh(make_mesh(points, cells), "in.vtk")):
