@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DivideAndConquer.h"
 
-#include "ExactPredicates.h"
 #include "FlipReport.h"
+#include "PlaceTests.h"
 
 #include <algorithm>
 #include <array>
@@ -24,12 +24,6 @@ constexpr std::chrono::milliseconds Pause(50); ///< Between questions to the cal
 /// saves.
 constexpr std::uint32_t MostForOneThread = 1 << 13;
 
-struct Place
-{
-  double U, V;
-  std::uint32_t Number;
-};
-
 /// One side of an edge.
 struct Side
 {
@@ -42,6 +36,13 @@ struct HullPoint
 {
   std::uint32_t At;
   Edge Leaving;
+};
+
+/// An edge beside a base, and its destination.
+struct Candidate
+{
+  Edge E;
+  PlaceBeside Destination;
 };
 
 /// A set of points that has been triangulated.
@@ -58,6 +59,7 @@ public:
     : Caller(caller),
       Count(static_cast<std::uint32_t>(count)),
       Places(count, caller.Host),
+      Tests{ this->Places.Data() },
       Sides(6 * count, caller.Host)
   {
   }
@@ -85,7 +87,7 @@ public:
           this->Places[i] = { u, v, static_cast<std::uint32_t>(i) };
           if (!IsInFilterRange({ u, v, 0.0 }))
           {
-            this->FiltersApply = false;
+            this->Tests.FiltersApply = false;
           }
         }
       });
@@ -112,37 +114,10 @@ private:
   /// The next edge around the left face.
   Edge NextLeft(Edge e) const { return this->Previous(e ^ 1); }
 
-  PlanePoint GetPoint(std::uint32_t place) const
-  {
-    return { this->Places[place].U, this->Places[place].V, 0.0 };
-  }
-
-  int Orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
-  {
-    const PlanePoint points[3] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c) };
-    const int sign = FilteredOrientation(points[0], points[1], points[2]);
-    if (sign != UncertainSign && this->FiltersApply)
-    {
-      return sign;
-    }
-    return ExactOrientation(points[0], points[1], points[2]);
-  }
   /// 1: a point is left of an edge; -1: right.
   int FindSide(Edge e, std::uint32_t point) const
   {
-    return this->Orient(this->Origin(e), this->Destination(e), point);
-  }
-
-  bool IsInCircle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const
-  {
-    const PlanePoint points[4] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c),
-      this->GetPoint(d) };
-    const int sign = FilteredInCircle(points[0], points[1], points[2], points[3]);
-    if (sign != UncertainSign && this->FiltersApply)
-    {
-      return sign > 0;
-    }
-    return ExactInCircle(points, false) > 0;
+    return this->Tests.Orient(this->Origin(e), this->Destination(e), point);
   }
 
   //----------------------------------------------------------------------------
@@ -298,7 +273,7 @@ private:
     {
       const Edge b = this->MakeEdge(set, begin + 1, begin + 2);
       this->Splice(a ^ 1, b);
-      const int orientation = this->Orient(begin, begin + 1, begin + 2);
+      const int orientation = this->Tests.Orient(begin, begin + 1, begin + 2);
       leaving = { a, b, b ^ 1 }; // if the points are on one line
       if (orientation > 0)
       {
@@ -379,29 +354,29 @@ private:
         break;
       }
     }
-    Edge base = this->Connect(set, r ^ 1, l);
-    this->ReplaceEnds(base ^ 1, set);
+    Edge made = this->Connect(set, r ^ 1, l);
+    this->ReplaceEnds(made ^ 1, set);
     for (;;)
     {
       this->Check();
-      const Edge leftCandidate = this->FindCandidate(set, base, true);
-      const Edge rightCandidate = this->FindCandidate(set, base, false);
-      if (leftCandidate == None && rightCandidate == None)
+      const Base base = this->Tests.MakeBase(this->Origin(made), this->Destination(made));
+      const Candidate onLeft = this->FindCandidate(set, made, base, true);
+      const Candidate onRight = this->FindCandidate(set, made, base, false);
+      if (onLeft.E == None && onRight.E == None)
       {
-        this->ReplaceEnds(base, set); // now the upper tangent
+        this->ReplaceEnds(made, set); // now the upper tangent
         return set;
       }
-      const bool takesRight = leftCandidate == None ||
-        (rightCandidate != None &&
-          this->IsInCircle(this->Destination(leftCandidate), this->Origin(leftCandidate),
-            this->Origin(rightCandidate), this->Destination(rightCandidate)));
+      const bool takesRight = onLeft.E == None ||
+        (onRight.E != None &&
+          this->Tests.IsInCircle(base, onLeft.Destination, onRight.Destination));
       if (takesRight)
       {
-        base = this->Connect(set, rightCandidate, base ^ 1);
+        made = this->Connect(set, onRight.E, made ^ 1);
       }
       else
       {
-        base = this->Connect(set, base ^ 1, leftCandidate ^ 1);
+        made = this->Connect(set, made ^ 1, onLeft.E ^ 1);
       }
     }
   }
@@ -422,26 +397,30 @@ private:
   }
 
   /// The next edge above the base on one side, after the edges that are not Delaunay any more have
-  /// been deleted; None if there is none above it.
-  Edge FindCandidate(Subset& set, Edge base, bool isLeft)
+  /// been deleted. It is None if there is none above the base.
+  Candidate FindCandidate(Subset& set, Edge baseEdge, const Base& base, bool isLeft)
   {
     // Goes through the edges around this end of the base, until it comes back to the base.
     const auto follow = [&](Edge e) { return isLeft ? this->Next(e) : this->Previous(e); };
-    const Edge last = isLeft ? base ^ 1 : base;
-    Edge candidate = follow(last);
-    if (this->FindSide(base, this->Destination(candidate)) >= 0)
+    const Edge last = isLeft ? baseEdge ^ 1 : baseEdge;
+    Edge e = follow(last);
+    PlaceBeside place = this->Tests.See(base, this->Destination(e));
+    if (this->Tests.FindSide(base, place) >= 0)
     {
-      return None;
+      return { None, place };
     }
-    for (Edge next = follow(candidate); next != last &&
-         this->IsInCircle(this->Destination(base), this->Origin(base), this->Destination(candidate),
-           this->Destination(next));
-         next = follow(candidate))
+    for (Edge next = follow(e); next != last; next = follow(e))
     {
-      this->Delete(set, candidate);
-      candidate = next;
+      const PlaceBeside nextPlace = this->Tests.See(base, this->Destination(next));
+      if (!this->Tests.IsInCircle(base, place, nextPlace))
+      {
+        break;
+      }
+      this->Delete(set, e);
+      e = next;
+      place = nextPlace;
     }
-    return candidate;
+    return { e, place };
   }
 
   //----------------------------------------------------------------------------
@@ -565,8 +544,8 @@ private:
   const DivideAndConquerCaller& Caller;
   const std::uint32_t Count;
   Array<Place> Places; ///< In the order in which strips have been joined.
+  PlaceTests Tests;
   Array<Side> Sides; ///< By directed edge.
-  std::atomic<bool> FiltersApply{ true };
   std::atomic<bool> IsStopped{ false };
   bool AsksItself = false; ///< Then all is done on one thread.
   mutable std::uint32_t Calls = 0; ///< How often Ask was called.

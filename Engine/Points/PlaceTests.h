@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_PLACE_TESTS_H
+#define DELAUNAYFLIP_PLACE_TESTS_H
+
+#include "ExactPredicates.h"
+#include "FilteredPredicates.h"
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+
+/// @file
+/// The exact tests of divide and conquer.
+
+namespace delaunayflip
+{
+
+struct Place
+{
+  double U, V;
+  std::uint32_t Number;
+};
+
+/// The directed edge between two sets from which the next triangle is made. Its places and those
+/// beside it are taken relative to its origin, so that what one test computes serves the next one.
+struct Base
+{
+  std::uint32_t From, To; ///< Places.
+  PlanePoint Origin;
+  double U, V, Square; ///< Of the destination: offset, and its squared length.
+};
+
+/// A place beside a base.
+struct PlaceBeside
+{
+  std::uint32_t At;
+  double U, V, Square; ///< Offset from the base's origin, and its squared length.
+  double Side; ///< The area of the parallelogram with the base: > 0 if it is on the left.
+  double Magnitude; ///< The sum of the magnitudes of the two products of Side.
+};
+
+/// Signs by filtered arithmetic, and by exact arithmetic where the filter cannot decide.
+struct PlaceTests
+{
+  PlanePoint GetPoint(std::uint32_t place) const
+  {
+    return { this->Places[place].U, this->Places[place].V, 0.0 };
+  }
+
+  /// 1: counter-clockwise; -1: clockwise; 0: on one line.
+  int Orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
+  {
+    const PlanePoint points[3] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c) };
+    const int sign = FilteredOrientation(points[0], points[1], points[2]);
+    if (sign != UncertainSign && this->FiltersApply)
+    {
+      return sign;
+    }
+    return ExactOrientation(points[0], points[1], points[2]);
+  }
+
+  Base MakeBase(std::uint32_t from, std::uint32_t to) const
+  {
+    const PlanePoint origin = this->GetPoint(from);
+    const double u = this->Places[to].U - origin.U, v = this->Places[to].V - origin.V;
+    return { from, to, origin, u, v, u * u + v * v };
+  }
+
+  PlaceBeside See(const Base& base, std::uint32_t place) const
+  {
+    const double u = this->Places[place].U - base.Origin.U;
+    const double v = this->Places[place].V - base.Origin.V;
+    const double first = base.U * v, second = base.V * u;
+    return { place, u, v, u * u + v * v, first - second, std::fabs(first) + std::fabs(second) };
+  }
+
+  /// 1: a place is left of a base; -1: right.
+  int FindSide(const Base& base, const PlaceBeside& place) const
+  {
+    const int sign = CertifiedSign(place.Side, OrientationBound * place.Magnitude);
+    if (sign != UncertainSign && this->FiltersApply)
+    {
+      return sign;
+    }
+    return ExactOrientation(
+      this->GetPoint(base.From), this->GetPoint(base.To), this->GetPoint(place.At));
+  }
+
+  /// Whether `d` is in the circle of a base and of `c`, which is right of it. The determinant is
+  /// that of FilteredInCircle, relative to the origin of the base.
+  bool IsInCircle(const Base& base, const PlaceBeside& c, const PlaceBeside& d) const
+  {
+    const double first = c.U * d.V, second = c.V * d.U;
+    const double value = base.Square * (first - second) - c.Square * d.Side + d.Square * c.Side;
+    const double magnitude = base.Square * (std::fabs(first) + std::fabs(second)) +
+      c.Square * d.Magnitude + d.Square * c.Magnitude;
+    const int sign = CertifiedSign(value, InCircleBound * magnitude);
+    if (sign != UncertainSign && this->FiltersApply)
+    {
+      return sign > 0;
+    }
+    const PlanePoint points[4] = { this->GetPoint(base.To), base.Origin, this->GetPoint(c.At),
+      this->GetPoint(d.At) };
+    return ExactInCircle(points, false) > 0;
+  }
+
+  const Place* Places;
+  std::atomic<bool> FiltersApply{ true };
+};
+
+}
+
+#endif
