@@ -69,8 +69,7 @@ private:
   void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
   void TakeRefinement(LoadedMesh& mesh);
   void RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions);
-  void AddRefinedPoints(
-    const RefinementResult& made, const std::vector<std::uint32_t>& origins);
+  void AddRefinedPoints(const RefinementResult& made, const std::vector<std::uint32_t>& origins);
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
