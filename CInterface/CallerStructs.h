@@ -115,7 +115,7 @@ inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c)
 {
   RequireArray(c.constraint_edges, c.number_of_constraint_edges, "constraint_edges");
   return { c.constraint_edges, c.number_of_constraint_edges, c.constraints_to_insert, c.regions,
-    c.frozen_triangles };
+    c.frozen_triangles, c.sizes };
 }
 
 /// A view of the caller's integers as `Array`, whose 32-bit ids are Id32 and 64-bit ids Id64.
@@ -277,6 +277,11 @@ void ForEachOption(Struct& c, Options& options, const Visit& visit)
   visit(c.device, options.Device);
   visit(c.number_of_pieces, options.NumberOfPieces);
   visit(c.track_quality, options.TrackQuality);
+  visit(c.minimum_angle, options.MinimumAngle);
+  visit(c.maximum_area, options.MaximumArea);
+  visit(c.maximum_edge, options.MaximumEdge);
+  visit(c.keep_boundary, options.KeepBoundary);
+  visit(c.point_limit, options.PointLimit);
 }
 
 /// The engine's defaults where `given` is null.
@@ -386,7 +391,9 @@ public:
     this->Report = report;
     for (Defect& defect : this->Report.Defects)
     {
-      if (numbers && defect.Ids == DefectIds::Triangles)
+      // Triangles that are not refined are those of the result.
+      const bool isOfInput = defect.Kind != DefectKind::TrianglesNotRefined;
+      if (numbers && isOfInput && defect.Ids == DefectIds::Triangles)
       {
         std::vector<std::int64_t>& ids = defect.FirstIds;
         for (std::int64_t& id : ids)

@@ -166,11 +166,12 @@ struct delaunayflip_session
 {
   std::int64_t CountTriangles() const
   {
-    return this->IsFromPoints ? this->Session.GetReport().Triangles : this->NumberOfTriangles;
+    return this->MakesTriangles ? this->Session.GetReport().Triangles : this->NumberOfTriangles;
   }
 
   FlipSession Session;
   bool IsFromPoints = false;
+  bool MakesTriangles = false; ///< Whether they are from points, or refined.
   std::int64_t NumberOfTriangles = 0;
   const std::int64_t* TriangleNumbers = nullptr; ///< The caller's, or null.
   KeptReport Report;
@@ -191,6 +192,15 @@ delaunayflip_status TryWithPoints(
       Require(target || std::invoke(count, session->Session.GetReport()) == 0, "an array is null");
       work();
     });
+}
+
+/// Writes between which points an added one lies, and their weights.
+void StoreWeights(const AddedPoint& point, std::int64_t* ids, double* weights)
+{
+  const std::int64_t of[] = { point.From, point.To, point.Third };
+  const double shares[] = { 1.0 - point.Share - point.ThirdShare, point.Share, point.ThirdShare };
+  std::copy_n(of, 3, ids);
+  std::copy_n(shares, 3, weights);
 }
 
 /// To the host's memory; with a stream to that of a GPU. Likewise below.
@@ -292,11 +302,14 @@ extern "C"
       {
         Require(session, "session is null");
         const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init);
+        const FlipOptions wanted = ToOptions(options);
+        const bool isRefined = wanted.MinimumAngle > 0.0 || wanted.MaximumArea > 0.0 ||
+          wanted.MaximumEdge > 0.0 || c.sizes;
         const auto open = [&](const auto& view)
-        { return FlipSession(view, ToOptions(options), ToProgress(callbacks)); };
+        { return FlipSession(view, wanted, ToProgress(callbacks)); };
         *session =
           new delaunayflip_session{ IsOnDevice(c.memory) ? open(ToDeviceMesh(c)) : open(ToMesh(&c)),
-            false, c.number_of_triangles, c.triangle_numbers, {}, {} };
+            false, isRefined, c.number_of_triangles, c.triangle_numbers, {}, {} };
       });
   }
 
@@ -312,8 +325,8 @@ extern "C"
         std::vector<RegionSeed> regions = ToRegions(c);
         FlipSession opened(
           ToPointInput(c, regions), ToPointOptions(c, ToOptions(options)), ToProgress(callbacks));
-        *session =
-          new delaunayflip_session{ std::move(opened), true, 0, nullptr, {}, std::move(regions) };
+        *session = new delaunayflip_session{ std::move(opened), true, true, 0, nullptr, {},
+          std::move(regions) };
       });
   }
 
@@ -371,19 +384,45 @@ extern "C"
         std::int64_t i = 0;
         for (const AddedPoint& point : session->Session.GetAddedPoints())
         {
-          const std::int64_t of[] = { point.From, point.To, point.Third };
-          const double shares[] = { 1.0 - point.Share - point.ThirdShare, point.Share,
-            point.ThirdShare };
           xy[2 * i] = point.X;
           xy[2 * i + 1] = point.Y;
-          std::copy_n(of, 3, ids + 3 * i);
-          std::copy_n(shares, 3, weights + 3 * i);
+          StoreWeights(point, ids + 3 * i, weights + 3 * i);
           if (segments)
           {
             segments[i] = point.Segment;
           }
           ++i;
         }
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_refined_points(
+    delaunayflip_session* session, double* xyz, std::int64_t* ids, double* weights)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        Require(!session->IsFromPoints, "this session was made from points");
+        const std::vector<AddedPoint>& points = session->Session.GetAddedPoints();
+        Require((xyz && ids && weights) || points.empty(), "an array is null");
+        for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          const AddedPoint& point = points[i];
+          const double coordinates[] = { point.X, point.Y, point.Z };
+          std::copy_n(coordinates, 3, xyz + 3 * i);
+          StoreWeights(point, ids + 3 * i, weights + 3 * i);
+        }
+      });
+  }
+
+  delaunayflip_status delaunayflip_store_sources(
+    delaunayflip_session* session, std::int32_t* sources)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        Require(sources || session->CountTriangles() == 0, "sources is null");
+        session->Session.StoreSources(sources);
       });
   }
 

@@ -126,6 +126,8 @@ extern "C"
     int32_t memory; /**< A delaunayflip_memory: where points and triangles are. [HOST] */
     int32_t point_components; /**< 3, or with DELAUNAYFLIP_CUDA also 2: x and y; z is 0. [3] */
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
+    const double* sizes; /**< For refinement: the longest edge near each point, linear in between;
+                            NaN: no limit near that point. Null: no limit. In the host's memory. */
   } delaunayflip_mesh;
 
   typedef enum
@@ -177,6 +179,16 @@ extern "C"
                             null or "": the one of device. [NULL] */
     double maximum_deviation; /**< An edge of a surface stays if its flip would move the surface by
                                  more than this length; 0 or more. [INFINITY] */
+    /** Refinement of a mesh in the plane or of terrain, in a session: this and what follows. For
+     * points, delaunayflip_points has the same. Points are added until no angle is smaller: 0 to 33
+     * degrees. [0] */
+    double minimum_angle;
+    double maximum_area; /**< Points are added until no triangle is larger; 0: no limit. [0] */
+    double maximum_edge; /**< Points are added until no edge is longer; 0: no limit. [0] */
+    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split, so that some triangles
+                              there may stay as they are. [0] */
+    int64_t point_limit; /**< How many points the mesh may have; 0: ten times as many as are given,
+                            at least a million. [0] */
   } delaunayflip_options;
 
   typedef enum
@@ -458,6 +470,18 @@ extern "C"
    * which refinement has put it, or -1. `segments` may be null. */
   delaunayflip_status delaunayflip_store_added_weights(
     delaunayflip_session* session, double* xy, int64_t* ids, double* weights, int64_t* segments);
+
+  /** Writes the points that refinement has added to a mesh, as many as the report's
+   * refinement_points; they are numbered behind those of the mesh. For sessions from triangles.
+   * Each gets `xyz`, three numbers; `ids`, three points of the mesh, of which the last one is -1 if
+   * there are only two; and `weights`, three numbers: what belongs to the point is the sum of those
+   * of these points, each times its weight. */
+  delaunayflip_status delaunayflip_store_refined_points(
+    delaunayflip_session* session, double* xyz, int64_t* ids, double* weights);
+
+  /** Writes, for each triangle, the one before refinement that has its centroid, and whose data
+   * belong to it, too: as many as the report's triangles. For sessions from triangles. */
+  delaunayflip_status delaunayflip_store_sources(delaunayflip_session* session, int32_t* sources);
 
   /** Writes the label of the region that each triangle is in, and 0 where there is none: as many as
    * there are triangles. For sessions from points. */

@@ -126,7 +126,8 @@ public:
   const FlipReport& GetReport() const;
 
   /// Writes the triangles, each in its input slot. A triangle that no flip changed keeps its three
-  /// ids in their order. `triangles.Count` must be that of the input.
+  /// ids in their order. `triangles.Count` must be that of the input, or with refinement
+  /// GetReport().Triangles: those that it has added follow.
   void StoreTriangles(const MutableTriangleArray& triangles) const;
 
   /// Writes three numbers for every triangle: the triangles across its edges. Number k is opposite
@@ -139,7 +140,7 @@ public:
   void StoreUsedPoints(std::int64_t* ids) const;
 
   /// Returns the points made where segments cross, with PointOptions::SplitCrossings, and then
-  /// those of refinement. There are none in sessions from triangles.
+  /// those of refinement, which are numbered behind all others.
   const std::vector<AddedPoint>& GetAddedPoints() const;
 
   /// Returns the edges that segments have become, as pairs of point ids, in the order and direction
@@ -152,6 +153,11 @@ public:
   /// Writes the label of the region that each triangle is in (PointInput::Regions); 0 where there
   /// is none. For sessions from points.
   void StoreRegions(std::int32_t* labels) const;
+
+  /// Writes, for every triangle, the one before refinement that has its centroid: GetReport()
+  /// .Triangles numbers. The data of that triangle belong to it. Edges that stay are never crossed,
+  /// so it has that one's region. Without refinement each is its own. For sessions from triangles.
+  void StoreSources(std::int32_t* sources) const;
 
   /// Inserts more points into the triangulation, numbered after the others. The triangles are then
   /// those of all points, perhaps in another order than if all had been given at once. If there are
@@ -213,7 +219,7 @@ DELAUNAYFLIP_EXPORT GeometryKind FindGeometry(const TriangleMesh& mesh, const Fl
 
 /// Flips `mesh` in a single call and writes the result to `triangles`, which may be the array that
 /// mesh.Triangles views. After an exception nothing has been written. FlipInPieces (PieceFlip.h)
-/// needs less memory for a mesh in several pieces.
+/// needs less memory for a mesh in several pieces. Refinement needs a FlipSession.
 /// @throws the same as FlipSession's constructor.
 DELAUNAYFLIP_EXPORT FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer = {},

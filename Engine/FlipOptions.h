@@ -129,6 +129,35 @@ struct FlipOptions
   /// only after the first and the last iteration. No effect on a mesh in several pieces: the
   /// smallest angle is known before the first and after the last iteration.
   bool TrackQuality = false;
+
+  /// @name Refinement
+  /// Points are added until all triangles reach these goals (PointTriangulation.h says how). In
+  /// planar geometry by the in-circle criterion, once no edge is bad; an error on surfaces, for
+  /// other criteria, and for a mesh in several pieces. Boundary edges and all edges that stay are
+  /// segments there: they are split, but triangles never cross them. Non-manifold and wrongly wound
+  /// edges are not split, and triangles that do not face the same side as most stay as they are.
+  /// TriangleMesh::Sizes is a goal, too.
+  ///@{
+
+  /// Points are added until no angle is smaller, in degrees from 0 to 33. 0 (default): no limit. It
+  /// is proved that this ends up to 20.7 degrees (Ruppert 1995) where no segments meet at less than
+  /// 60 degrees; in practice it does up to about 33.
+  double MinimumAngle = 0.0;
+
+  /// Points are added until no triangle is larger. 0 (default): no limit.
+  double MaximumArea = 0.0;
+
+  /// Points are added until no edge is longer. 0 (default): no limit.
+  double MaximumEdge = 0.0;
+
+  /// Whether no edge of the boundary is split: that of the mesh, of the hull of points, or of what
+  /// is kept. Then some triangles at the boundary stay as they are.
+  bool KeepBoundary = false;
+
+  /// How many points all triangles together may have. Refinement ends before it would add more. 0
+  /// (default): ten times as many as are given, at least a million.
+  std::int64_t PointLimit = 0;
+  ///@}
 };
 
 /// Calls visit(name, isForAll, option...) for each option, with those of all structs side by side.
@@ -153,6 +182,11 @@ void ForEachOption(const Visit& visit, Options&... options)
   visit("devices", forOne, options.Devices...);
   visit("number_of_pieces", forOne, options.NumberOfPieces...);
   visit("track_quality", forAll, options.TrackQuality...);
+  visit("minimum_angle", forAll, options.MinimumAngle...);
+  visit("maximum_area", forAll, options.MaximumArea...);
+  visit("maximum_edge", forAll, options.MaximumEdge...);
+  visit("keep_boundary", forAll, options.KeepBoundary...);
+  visit("point_limit", forAll, options.PointLimit...);
 }
 
 inline bool operator==(const FlipOptions& a, const FlipOptions& b)

@@ -42,7 +42,7 @@
 /// EvenOdd both together would enclose nothing, and by the other rules two directions would cancel
 /// each other. A ring that runs more than once along its loop counts once.
 ///
-/// **Refinement** adds points until no triangle has an angle below PointOptions::MinimumAngle and
+/// **Refinement** adds points until no triangle has an angle below FlipOptions::MinimumAngle and
 /// none is larger than MaximumArea, MaximumEdge, PointInput::Sizes and the regions allow. It adds
 /// many points at a time: off-centers of triangles (Üngör 2004), and points that split segments
 /// and the edges of the boundary if others come too near (Ruppert 1995). Triangles that cannot get
@@ -132,29 +132,10 @@ struct PointOptions : FlipOptions
 
   /// Triangles with a longer edge are removed in the same way. 0 (default): none.
   double LongestEdge = 0.0;
-
-  /// Points are added until no angle is smaller, in degrees from 0 to 33. 0 (default): no limit. It
-  /// is proved that this ends up to 20.7 degrees (Ruppert 1995) where no segments meet at less than
-  /// 60 degrees; in practice it does up to about 33.
-  double MinimumAngle = 0.0;
-
-  /// Points are added until no triangle is larger. 0 (default): no limit.
-  double MaximumArea = 0.0;
-
-  /// Points are added until no edge is longer. 0 (default): no limit.
-  double MaximumEdge = 0.0;
-
-  /// Whether no edge of the boundary is split: that of the hull, or of what is kept. Then some
-  /// triangles at the boundary stay as they are.
-  bool KeepBoundary = false;
-
-  /// How many points all triangles together may have. Refinement ends before it would add more. 0
-  /// (default): ten times as many as are given, at least a million.
-  std::int64_t PointLimit = 0;
 };
 
-/// Calls visit(name, option...) for each option that FlipOptions do not have, with those of all
-/// structs side by side. The name is that of the C struct.
+/// Calls visit(name, option...) for each option that FlipOptions do not have, and for those of
+/// refinement, with those of all structs side by side. The name is that of the C struct.
 template <typename Visit, typename... Options>
 void ForEachPointOption(const Visit& visit, Options&... options)
 {
@@ -195,7 +176,9 @@ struct AddedPoint
   double Share = 0.0;
   std::int64_t Third = -1; ///< -1: there are only two.
   double ThirdShare = 0.0;
-  std::int64_t Segment = -1; ///< The segment on which refinement has put the point, or -1.
+  /// The segment on which refinement has put the point, or -1. In a session from triangles -1.
+  std::int64_t Segment = -1;
+  double Z = 0.0; ///< In a session from triangles.
 };
 
 /// What is reported about points beside the flips.
@@ -216,7 +199,7 @@ struct PointCounts
   std::int64_t RefinementRounds = 0; ///< How often it has added points.
   /// Triangles with an angle below MinimumAngle or that are too large, which could not get better.
   std::int64_t UnrefinedTriangles = 0;
-  std::int64_t ReachedPointLimit = 0; ///< 1 if PointOptions::PointLimit has ended refinement.
+  std::int64_t ReachedPointLimit = 0; ///< 1 if FlipOptions::PointLimit has ended refinement.
 };
 
 }

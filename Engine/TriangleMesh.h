@@ -184,6 +184,10 @@ struct FixedEdges
 
   /// One flag per triangle, or null. The edges of triangles with a non-zero flag stay.
   const unsigned char* FrozenTriangles = nullptr;
+
+  /// For refinement: the longest edge that triangles may have near each point, or null: no limit.
+  /// Between points it is interpolated linearly. NaN: no limit near that point.
+  const double* Sizes = nullptr;
 };
 
 /// A mesh that is a piece of a larger one has this information about the larger one (PieceFlip.h).

@@ -16,6 +16,7 @@
 #include "MeshSurveyBuilder.h"
 #include "PlaceAsker.h"
 #include "PlanarSurvey.h"
+#include "PlaneFrame.h"
 #include "PointGrowth.h"
 #include "PointMesh.h"
 #include "Refinement.h"
@@ -50,6 +51,7 @@ public:
     const MeshInput input{ mesh, local.Mesh, local.IsOnHost };
     MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
+    CheckRefinement(options, mesh.Sizes, survey.Geometry);
     this->Range = survey.Range;
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);
@@ -85,6 +87,9 @@ public:
     this->Mesh = std::move(built.Edges);
     built.Table = EdgeTable(); // frees its memory
     this->Orientations = survey.Orientations;
+    this->FiltersApply = survey.FiltersApply && !survey.Projection.Tilted;
+    this->Frame = { survey.Projection };
+    this->Frame.IsCanonical = options.TieRule == TieRuleKind::Canonical;
     FlipReport& report = this->Report;
     report.Points = mesh.Points.Count;
     report.Triangles = mesh.Triangles.Count;
@@ -133,8 +138,7 @@ public:
 
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
-    const bool isFromPoints = this->Places.Count > 0;
-    this->Backend.StoreTriangles(triangles, this->GetStoreStep(), isFromPoints);
+    this->Backend.StoreTriangles(triangles, this->GetStoreStep(), this->IsFromPoints);
   }
 
   void StoreFlipCounts(std::int32_t* counts) const override
@@ -217,6 +221,10 @@ public:
   void StartRefinement(const RefinementPlan& plan) override
   {
     this->RequireStates();
+    if (plan.IsOfCaller && this->Places.Count == 0)
+    {
+      this->MakePlaces();
+    }
     if (this->Places.Floats)
     {
       this->StartRefinement(plan, this->RefinedFloats);
@@ -235,8 +243,8 @@ public:
 
   RefinementResult FetchRefinement() override
   {
-    return this->Places.Floats ? this->RefinedFloats.Rounds->Fetch(this->RefinedFloats.Grown)
-                               : this->RefinedDoubles.Rounds->Fetch(this->RefinedDoubles.Grown);
+    return this->Places.Floats ? this->FetchRefinement(this->RefinedFloats)
+                               : this->FetchRefinement(this->RefinedDoubles);
   }
 
   void ViewOnHost(const HostView& use) override
@@ -342,6 +350,56 @@ public:
           const bool isFixed = edges.CornerOfHalfEdge[2 * e + 1] == NoCorner;
           edges.States[e] = isFixed ? EdgeState::Fixed : EdgeState::Good;
         });
+    }
+  }
+
+  /// Makes a mesh of the caller one of places in a plane, in which most triangles are
+  /// counter-clockwise. Public for nvcc, as are the next two functions.
+  void MakePlaces()
+  {
+    this->RequireIds();
+    if (this->Points.IsFloat())
+    {
+      this->MakePlaces(this->Points.Floats);
+    }
+    else
+    {
+      this->MakePlaces(this->Points.Doubles);
+    }
+    this->Points.Components = 2;
+  }
+
+  template <typename Real>
+  void MakePlaces(Array<Real>& coordinates)
+  {
+    const std::int64_t count = this->Points.Count;
+    const PlacementStep step{ this->Points.View(), this->Frame };
+    if (this->Frame.IsMirrored || this->Points.Components == 3)
+    {
+      Array<Real> places = this->Backend.template MakeArray<Real>(2 * count);
+      Real* to = places.Data();
+      this->Backend.ForEach(count,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+        {
+          const PlanePoint place = step.Find(static_cast<VertexId>(i));
+          to[2 * i] = static_cast<Real>(place.U);
+          to[2 * i + 1] = static_cast<Real>(place.V);
+        });
+      coordinates = std::move(places);
+    }
+    this->Places = PlaneArray(static_cast<const Real*>(coordinates.Data()), count, 2);
+    this->MakeLoopOfGrown<Real>(coordinates.Data());
+  }
+
+  /// Makes the points of vertices if there are none, because each is its own.
+  void RequireIds()
+  {
+    if (this->Order.VertexOfRank.Size() == 0)
+    {
+      this->Order.VertexOfRank = this->Backend.template MakeArray<VertexId>(this->Points.Count);
+      VertexId* ids = this->Order.VertexOfRank.Data();
+      this->Backend.ForEach(this->Points.Count,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ids[i] = static_cast<VertexId>(i); });
     }
   }
 
@@ -455,6 +513,7 @@ private:
     report.GeometryReason = "points are triangulated in the plane";
     report.Backend = this->Backend.GetName();
     report.Tolerance = DescribeTolerance(options, Plane);
+    this->IsFromPoints = true;
     report.FromPoints.NotFinite = points.Count - finite;
     report.FromPoints.Repeated = finite - places;
     // All triangles are counter-clockwise and none overlap, so that flips need no guard.
@@ -476,7 +535,15 @@ private:
   template <typename Real>
   void MakeLoopOfGrown(const Real* coordinates)
   {
-    this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
+    EdgeGuard guard;
+    if (this->Frame.NeedsGuard)
+    {
+      guard = EdgeGuard(this->Mesh, this->Points.Count, this->Backend);
+    }
+    const int side = this->Frame.NeedsGuard ? 0 : 1;
+    this->MakeLoop(
+      PlanarRule<Real, 2>{ coordinates, side, this->Frame.IsCanonical, this->FiltersApply },
+      std::move(guard));
     this->Loop->Restart();
   }
 
@@ -501,6 +568,8 @@ private:
       defects = plane.ListDefects(mesh.Whole.Side);
       needsGuard = !(plane.StarsAreSimple || areSimple) || shared.Size() > 0;
       uniformSide = plane.UniformSide;
+      this->Frame.IsMirrored = plane.Orientations.GetSide() < 0;
+      this->Frame.NeedsGuard = needsGuard || survey.Projection.Tilted;
     }
     EdgeGuard guard;
     if (needsGuard)
@@ -574,6 +643,8 @@ private:
   {
     GrowingMesh<Real> Grown;
     std::unique_ptr<Refinement<Real, BackendT>> Rounds;
+    bool IsComplete = false;
+    RefinementResult Result; ///< Once it is complete.
   };
 
   template <typename Real>
@@ -596,6 +667,7 @@ private:
     {
       return;
     }
+    this->Loop->Converge(); // iterations may have ended before
     refined.Grown = { &this->Mesh, &this->GetCoordinates<Real>(), &this->Order.VertexOfRank,
       this->Points.Count, this->Report.Points, this->FiltersApply };
     refined.Rounds =
@@ -605,9 +677,14 @@ private:
   template <typename Real>
   std::int64_t RefineOnce(RefinedMesh<Real>& refined)
   {
-    const std::int64_t added = refined.Rounds->InsertSome(refined.Grown);
+    std::int64_t added = 0;
+    if (!refined.IsComplete)
+    {
+      added = refined.Rounds->InsertSome(refined.Grown);
+    }
     if (added == 0)
     {
+      this->EndRefinement(refined);
       return 0;
     }
     this->Points.Count = refined.Grown.Vertices;
@@ -615,12 +692,47 @@ private:
     this->Places = PlaneArray(coordinates, this->Points.Count, 2);
     this->MakeLoopOfGrown<Real>(coordinates);
     this->Loop->Converge();
+    if (this->Frame.NeedsGuard)
+    {
+      refined.Rounds->FixBlocked(refined.Grown);
+    }
     this->Asker = PlaceAsker<BackendT>();
     std::vector<VertexId> used(added);
     std::iota(used.begin(), used.end(), static_cast<VertexId>(this->Report.Points));
     this->AppendUsed(used);
     this->CountGrown();
     return added;
+  }
+
+  /// Lets edges flip that stayed for refinement alone, after what it has made is known.
+  template <typename Real>
+  void EndRefinement(RefinedMesh<Real>& refined)
+  {
+    if (refined.IsComplete)
+    {
+      return;
+    }
+    refined.Result = refined.Rounds->Fetch(refined.Grown);
+    refined.IsComplete = true;
+    if (refined.Rounds->FreeEdges(refined.Grown) > 0)
+    {
+      this->MakeLoopOfGrown<Real>(this->GetCoordinates<Real>().Data());
+      this->Loop->Converge();
+    }
+  }
+
+  template <typename Real>
+  RefinementResult FetchRefinement(RefinedMesh<Real>& refined)
+  {
+    RefinementResult result =
+      refined.IsComplete ? refined.Result : refined.Rounds->Fetch(refined.Grown);
+    const bool isOnAxes = !this->IsFromPoints && !this->Frame.Projection.Tilted;
+    if (isOnAxes)
+    {
+      result.Axes[0] = this->Frame.GetAxis(0);
+      result.Axes[1] = this->Frame.GetAxis(1);
+    }
+    return result;
   }
 
   /// Adds to UsedPoint what is used at the places of points that come last.
@@ -643,8 +755,12 @@ private:
   void CountGrown()
   {
     FlipReport& report = this->Report;
-    const std::int64_t hullEdges = 2 * this->Mesh.NumberOfEdges - 3 * this->Mesh.NumberOfTriangles;
     report.Triangles = this->Mesh.NumberOfTriangles;
+    if (!this->IsFromPoints)
+    {
+      return; // other edges may be fixed there
+    }
+    const std::int64_t hullEdges = 2 * this->Mesh.NumberOfEdges - 3 * this->Mesh.NumberOfTriangles;
     report.Edges.Edges = this->Mesh.NumberOfEdges;
     report.Edges.Boundary = hullEdges;
     report.Edges.Fixed = hullEdges;
@@ -685,8 +801,11 @@ private:
   EdgeMesh Mesh;
   PackedPoints Points;
   CoordinateRange Range = CoordinateRange::Usual;
-  bool FiltersApply = false; ///< For a mesh from points: whether the rule's do.
-  PlaneArray Places; ///< For a mesh from points: a view of Points.
+  bool FiltersApply = false; ///< Whether those of planar rules do.
+  bool IsFromPoints = false;
+  /// A view of Points: of a mesh from points, or of the caller's once it is refined.
+  PlaneArray Places;
+  PlaneFrame Frame;
   Array<VertexId> UsedPoint; ///< What MergePlaces returned.
   PlaceAsker<BackendT> Asker;
   RefinedMesh<float> RefinedFloats; ///< If coordinates are floats; else the next one.

@@ -479,8 +479,28 @@ private:
 
   void TakePlane(int axis, bool isTilted, const char* reason)
   {
-    this->Survey.Projection = { (axis + 1) % 3, (axis + 2) % 3, axis, isTilted };
+    PlaneProjection& plane = this->Survey.Projection;
+    plane.AxisU = (axis + 1) % 3;
+    plane.AxisV = (axis + 2) % 3;
+    plane.AxisW = axis;
+    plane.Tilted = isTilted;
     this->Take(GeometryKind::Planar, reason);
+  }
+
+  /// Finds directions in a tilted plane from its normal, which is not 0 along W.
+  static void FindDirections(const Vector3& normal, PlaneProjection& plane)
+  {
+    const double xyz[3] = { normal.X, normal.Y, normal.Z };
+    const double slopeU = -xyz[plane.AxisU] / xyz[plane.AxisW];
+    const double slopeV = -xyz[plane.AxisV] / xyz[plane.AxisW];
+    const double lengthU = std::sqrt(1.0 + slopeU * slopeU);
+    const double length = std::sqrt(1.0 + slopeU * slopeU + slopeV * slopeV);
+    const double first[3] = { 1.0 / lengthU, 0.0, slopeU / lengthU };
+    // The cross product of the normal of length 1 and the first direction.
+    const double second[3] = { -slopeU * slopeV / (lengthU * length), lengthU / length,
+      slopeV / (lengthU * length) };
+    std::copy_n(first, 3, plane.Along[0]);
+    std::copy_n(second, 3, plane.Along[1]);
   }
 
   /// Whether all points lie in one plane.
@@ -501,7 +521,12 @@ private:
       const int axisOfXY = y >= x ? 1 : 0;
       const int axis = z >= x && z >= y ? 2 : axisOfXY;
       const char* reason = isRequested ? AsRequested : "all points lie in one plane";
-      this->TakePlane(axis, this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis], reason);
+      const bool isTilted = this->Survey.Box.Lower[axis] < this->Survey.Box.Upper[axis];
+      this->TakePlane(axis, isTilted, reason);
+      if (isTilted)
+      {
+        FindDirections(normal, this->Survey.Projection);
+      }
       return true;
     }
     if (isRequested)

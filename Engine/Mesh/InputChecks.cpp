@@ -6,6 +6,7 @@
 #include "FlipError.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -28,6 +29,23 @@ void Require(bool isValid, const std::string& message)
   }
 }
 
+/// Requires a goal of refinement to be finite and not negative.
+void RequireGoal(double goal, const std::string& name)
+{
+  Require(goal >= 0.0 && goal <= std::numeric_limits<double>::max(),
+    name + " must be finite and 0 or more");
+}
+
+void CheckGoals(const FlipOptions& options)
+{
+  constexpr double LargestAngle = 33.0;
+  RequireGoal(options.MinimumAngle, "MinimumAngle");
+  RequireGoal(options.MaximumArea, "MaximumArea");
+  RequireGoal(options.MaximumEdge, "MaximumEdge");
+  Require(options.MinimumAngle <= LargestAngle, "MinimumAngle must be from 0 to 33 degrees");
+  Require(options.PointLimit >= 0, "PointLimit must be 0 or more");
+}
+
 }
 
 void CheckOptions(const FlipOptions& options)
@@ -46,6 +64,7 @@ void CheckOptions(const FlipOptions& options)
   Require(options.NumberOfPieces >= 0 && options.NumberOfPieces <= MostPieces,
     "the number of pieces must be from 1 to " + std::to_string(MostPieces) +
       ", or 0 (as few as possible)");
+  CheckGoals(options);
   std::vector<int> devices = options.Devices;
   std::sort(devices.begin(), devices.end());
   Require(devices.empty() || devices.front() >= 0,
@@ -66,6 +85,46 @@ void CheckTieRule(const FlipOptions& options, GeometryKind geometry)
     throw InvalidOptions(
       "the tie rule 'canonical' needs the in-circle criterion in planar geometry; "
       "use 'keep' for surfaces and opposite angles");
+  }
+}
+
+bool HasGoals(const FlipOptions& options)
+{
+  return options.MinimumAngle > 0.0 || options.MaximumArea > 0.0 || options.MaximumEdge > 0.0;
+}
+
+void CheckRefinement(const FlipOptions& options, const double* sizes, GeometryKind geometry)
+{
+  const bool isWanted = HasGoals(options) || sizes;
+  if (isWanted && geometry == GeometryKind::Surface)
+  {
+    throw InvalidOptions(
+      "refinement is for the plane and for terrain, but the mesh is a surface in "
+      "space; use 'planar-xy' to refine it in x and y, or set no goals");
+  }
+  if (isWanted && options.Criterion != CriterionKind::InCircle)
+  {
+    throw InvalidOptions("refinement needs the in-circle criterion, not opposite angles");
+  }
+}
+
+void CheckSizes(const double* sizes, std::int64_t points)
+{
+  for (std::int64_t i = 0; sizes && i < points; ++i)
+  {
+    if (sizes[i] <= 0.0)
+    {
+      throw InvalidOptions("the size of point " + std::to_string(i) + " is not above 0");
+    }
+  }
+}
+
+void RefuseRefinement(const FlipOptions& options, const double* sizes, const char* what)
+{
+  if (HasGoals(options) || sizes)
+  {
+    throw InvalidOptions(std::string(what) +
+      " cannot be refined; set MinimumAngle, MaximumArea and MaximumEdge to 0, and give no sizes");
   }
 }
 

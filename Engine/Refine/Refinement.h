@@ -101,6 +101,10 @@ public:
 
   bool HasReachedLimit() const { return this->ReachedLimit; }
 
+  /// The same as those of RefinementArrays.
+  void FixBlocked(const GrowingMesh<Real>& grown) { this->Arrays.FixBlocked(grown); }
+  std::int64_t FreeEdges(const GrowingMesh<Real>& grown) { return this->Arrays.FreeEdges(grown); }
+
   RefinementResult Fetch(GrowingMesh<Real>& grown)
   {
     RefinementResult result = this->Arrays.Fetch(grown);
@@ -199,6 +203,7 @@ public:
     {
       return 0;
     }
+    this->Arrays.FindOldPlaces(grown, this->Items.Data(), first, this->Failed.Data());
     const RefinementStore<Real> store = this->MakeRoom(grown, count.GetAdded());
     this->SplitTriangles(store, places);
     this->SplitSegments(store, segments, count.InTriangles);

@@ -4,16 +4,16 @@
 #define DELAUNAYFLIP_REFINEMENTARRAYS_H
 
 #include "Array.h"
+#include "MeshBorders.h"
 #include "MeshRoom.h"
-#include "PlaceGrid.h"
+#include "OldPlace.h"
 #include "RefinementItem.h"
 #include "RefinementPlan.h"
 #include "RefinementStep.h"
+#include "RefinementStore.h"
 #include "RefinementView.h"
-#include "TriangleSplit.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 #include <utility>
@@ -25,247 +25,6 @@
 
 namespace delaunayflip
 {
-
-/// The arrays of a mesh that become larger.
-template <typename Real>
-struct GrowingMesh
-{
-  EdgeMesh* Mesh;
-  Array<Real>* Coordinates; ///< x and y by vertex.
-  Array<VertexId>* Ids; ///< By vertex, the number of its point.
-  std::int64_t Vertices; ///< How many there are.
-  std::int64_t FirstId; ///< The number of the first point that is added.
-  bool IsInFilterRange; ///< Whether the filters may be used for all places.
-
-  PlaneMesh View() const
-  {
-    PlaneMesh plane{ this->Mesh->View(),
-      PlaneArray(static_cast<const Real*>(this->Coordinates->Data()), this->Vertices, 2) };
-    plane.IsTriangulation = true;
-    plane.IsInFilterRange = this->IsInFilterRange;
-    return plane;
-  }
-};
-
-/// The numbers of what an item adds, kind by kind.
-struct RefinementNumbers
-{
-  std::int64_t Vertex, Triangle, Edge, Subsegment;
-};
-
-/// Splits what items split, and stores what belongs to it.
-template <typename Real>
-struct RefinementStore
-{
-  TriangleSplitter Splitter;
-  RefinementNumbers Before; ///< How much there was.
-  Real* Coordinates;
-  VertexId* Ids;
-  std::int64_t FirstId, FirstVertex; ///< Those of the first vertex that refinement has added.
-  std::uint32_t* Shapes;
-  std::int32_t* Regions;
-  double* Sizes;
-  std::uint64_t* Claims;
-  EdgeId* Segments;
-  std::uint8_t* Marks;
-  std::uint32_t* Origins;
-  std::uint32_t* SegmentOfEdge;
-  std::uint32_t* OriginOfVertex;
-  const VertexId* Ends;
-  std::uint8_t* IsSharp;
-  TriangleId* Splits; ///< By vertex that the round adds, a triangle that it splits.
-  RefinedVertex* Added; ///< From the first one on that refinement has added.
-  /// Of the old mesh, that of each of these vertices; NoTriangle for those on segments.
-  TriangleId* OldTriangleOf;
-  PlaneMesh Old; ///< The mesh before refinement.
-  PlaceGridView Grid;
-
-  DELAUNAYFLIP_HOST_DEVICE void Split(
-    const RefinementItem& item, const RefinementNumbers& own) const
-  {
-    const auto vertex = static_cast<VertexId>(this->Before.Vertex + own.Vertex);
-    const auto triangle = static_cast<TriangleId>(this->Before.Triangle + own.Triangle);
-    const auto edge = static_cast<EdgeId>(this->Before.Edge + own.Edge);
-    this->Coordinates[2 * std::size_t(vertex)] = static_cast<Real>(item.Place.U);
-    this->Coordinates[2 * std::size_t(vertex) + 1] = static_cast<Real>(item.Place.V);
-    this->Ids[vertex] = static_cast<VertexId>(this->FirstId + (vertex - this->FirstVertex));
-    this->IsSharp[vertex] = 0;
-    const CornerId across =
-      item.Found.FindEdgeSlot() >= 0 ? this->Splitter.FindAcross(item.Found) : NoCorner;
-    this->TakeOver(item.Found.Triangle, triangle);
-    if (item.Found.FindEdgeSlot() < 0)
-    {
-      this->TakeOver(item.Found.Triangle, triangle + 1);
-    }
-    else if (across != NoCorner)
-    {
-      this->TakeOver(TriangleOf(across), triangle + 1);
-    }
-    std::uint32_t origin = NoOrigin;
-    if (item.IsOnSegment)
-    {
-      const auto added = static_cast<std::uint32_t>(this->Before.Subsegment + own.Subsegment);
-      origin = this->Origins[item.Source];
-      this->Origins[added] = origin;
-      this->Marks[item.Source] = 0;
-      this->Marks[added] = 0;
-      this->Segments[added] = edge;
-      this->SegmentOfEdge[edge] = added;
-    }
-    this->OriginOfVertex[vertex] = origin;
-    this->Splits[own.Vertex] = item.Found.Triangle;
-    RefinedVertex& added = this->Added[vertex - this->FirstVertex];
-    TriangleId& oldTriangle = this->OldTriangleOf[vertex - this->FirstVertex];
-    oldTriangle = origin == NoOrigin ? this->FindOldTriangle(item) : NoTriangle;
-    added = this->Interpolate(item, origin, oldTriangle);
-    if (this->Sizes)
-    {
-      this->Sizes[vertex] = this->InterpolateSize(added);
-    }
-    this->Splitter.Split({ vertex, item.Found, triangle, edge });
-  }
-
-private:
-  /// A new triangle is in the region of the one that is split, and both are judged again.
-  DELAUNAYFLIP_HOST_DEVICE void TakeOver(TriangleId from, TriangleId to) const
-  {
-    this->Regions[to] = this->Regions[from];
-    this->Claims[to] = RefinementKey::None;
-    this->Shapes[from] = static_cast<std::uint32_t>(ShapeKind::Unknown);
-    this->Shapes[to] = static_cast<std::uint32_t>(ShapeKind::Unknown);
-  }
-
-  /// What belongs to a vertex is linear along the segment that it splits, and else in the triangle
-  /// that it was in at first.
-  DELAUNAYFLIP_HOST_DEVICE RefinedVertex Interpolate(
-    const RefinementItem& item, std::uint32_t origin, TriangleId triangle) const
-  {
-    RefinedVertex vertex{ item.Place.U, item.Place.V, origin, { 0, 0, 0 }, { 1.0, 0.0, 0.0 } };
-    if (origin != NoOrigin)
-    {
-      const VertexId* ends = this->Ends + 2 * std::size_t(origin);
-      const PlanePoint from = this->Old.GetPoint(ends[0]), to = this->Old.GetPoint(ends[1]);
-      const double length = std::sqrt(TriangleShape::GetSquaredDistance(from, to));
-      vertex.Weights[1] = std::sqrt(TriangleShape::GetSquaredDistance(from, item.Place)) / length;
-      vertex.Weights[0] = 1.0 - vertex.Weights[1];
-      vertex.Points[0] = ends[0];
-      vertex.Points[1] = ends[1];
-      vertex.Points[2] = ends[0];
-      return vertex;
-    }
-    double sum = 0.0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const VertexId* vertices = this->Old.Edges.Triangles[triangle].Vertices;
-      const PlanePoint a = this->Old.GetPoint(vertices[NextSlot(slot)]);
-      const PlanePoint b = this->Old.GetPoint(vertices[PreviousSlot(slot)]);
-      const double area =
-        (a.U - item.Place.U) * (b.V - item.Place.V) - (a.V - item.Place.V) * (b.U - item.Place.U);
-      vertex.Points[slot] = vertices[slot];
-      vertex.Weights[slot] = area > 0.0 ? area : 0.0;
-      sum += vertex.Weights[slot];
-    }
-    for (double& weight : vertex.Weights)
-    {
-      weight = sum > 0.0 ? weight / sum : 1.0 / 3.0;
-    }
-    return vertex;
-  }
-
-  /// The walk begins where the newest corner of the triangle that is split was at first.
-  DELAUNAYFLIP_HOST_DEVICE TriangleId FindOldTriangle(const RefinementItem& item) const
-  {
-    std::int64_t newest = -1;
-    for (const VertexId vertex : this->Splitter.GetMesh().Triangles[item.Found.Triangle].Vertices)
-    {
-      const std::int64_t number = std::int64_t(vertex) - this->FirstVertex;
-      newest = number > newest ? number : newest;
-    }
-    TriangleId start = newest >= 0 ? this->OldTriangleOf[newest] : NoTriangle;
-    if (start == NoTriangle)
-    {
-      start = this->Grid.FindStart(item.Place);
-    }
-    PlaneMesh old = this->Old;
-    old.IsInFilterRange = old.IsInFilterRange && IsInFilterRange(item.Place);
-    const FoundPlace found = WalkToPlace(old, item.Place, start);
-    return found.IsOutside() ? start : found.Triangle; // outside by rounding
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE double InterpolateSize(const RefinedVertex& vertex) const
-  {
-    double size = 0.0;
-    for (int k = 0; k < 3; ++k)
-    {
-      if (vertex.Weights[k] != 0.0)
-      {
-        size += vertex.Weights[k] * this->Sizes[vertex.Points[k]];
-      }
-    }
-    return size;
-  }
-};
-
-/// Marks a vertex where a kept triangle's edge meets the next segment around it at less than 60
-/// degrees.
-struct SharpCornerStep
-{
-  PlaneMesh Mesh;
-  const std::int32_t* Regions;
-  std::uint8_t* IsSharp;
-
-  /// @param side of a segment; the corner at its start is judged.
-  DELAUNAYFLIP_HOST_DEVICE void operator()(HalfEdgeId side) const
-  {
-    CornerId corner =
-      this->Mesh.Edges.CornerOfHalfEdge[side]; // opposite the edge that was turned over
-    if (corner == NoCorner || this->Regions[TriangleOf(corner)] < 0)
-    {
-      return;
-    }
-    const VertexId vertex = this->Mesh.GetStart(side);
-    const PlanePoint place = this->Mesh.GetPoint(vertex),
-                     end = this->Mesh.GetPoint(this->Mesh.GetEnd(side));
-    const double u = end.U - place.U, v = end.V - place.V;
-    for (;;)
-    {
-      const PlanePoint other = this->Mesh.GetPoint(this->Mesh.GetVertex(corner));
-      const double s = other.U - place.U, t = other.V - place.V;
-      const double dot = u * s + v * t;
-      const bool isSmall = dot > 0.0 && 4.0 * dot * dot > (u * u + v * v) * (s * s + t * t);
-      if (!isSmall)
-      {
-        return;
-      }
-      const HalfEdgeId next = this->Mesh.GetHalfEdge(PlaneMesh::Previous(corner));
-      if (this->Mesh.IsFixed(next))
-      {
-        AtomicStore(&this->IsSharp[vertex], std::uint8_t(1));
-        return;
-      }
-      corner = this->Mesh.Edges.CornerOfHalfEdge[next ^ 1u];
-    }
-  }
-};
-
-/// Whether an edge is a subsegment of a kept triangle, as 1 or 0.
-struct SegmentTest
-{
-  EdgeMeshView Mesh;
-  const std::int32_t* Regions;
-
-  DELAUNAYFLIP_HOST_DEVICE int CountKept(std::int64_t e) const
-  {
-    const CornerPair corners = this->Mesh.GetCorners(static_cast<EdgeId>(e));
-    const bool hasA = corners.A != NoCorner && this->Regions[TriangleOf(corners.A)] >= 0;
-    const bool hasB = corners.B != NoCorner && this->Regions[TriangleOf(corners.B)] >= 0;
-    return int(hasA) + int(hasB);
-  }
-  DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t e) const
-  {
-    return this->Mesh.States[e] == EdgeState::Fixed && this->CountKept(e) > 0 ? 1 : 0;
-  }
-};
 
 /// A triangle with the cotangent of its smallest angle.
 struct GradedTriangle
@@ -302,11 +61,18 @@ public:
       Goals(plan.Goals),
       FirstVertex(grown.Vertices),
       FirstId(grown.FirstId),
-      HasRegions(!plan.Regions.empty())
+      HasRegions(!plan.Regions.empty()),
+      IsOfCaller(plan.IsOfCaller),
+      OldEdges(grown.Mesh->NumberOfEdges)
   {
     this->KeepOldMesh(grown);
     this->MakeTriangleArrays(grown, plan);
+    this->SegmentOfEdge = backend.template MakeArray<std::uint32_t>(this->OldEdges);
     this->FixBorders(grown);
+    if (plan.HasNonManifold)
+    {
+      this->MarkNonManifold(grown);
+    }
     this->ListSegments(grown, plan.KeepsBoundary);
     this->MakeVertexArrays(grown, plan);
   }
@@ -353,15 +119,60 @@ public:
     Reserve(this->Marks, before.Subsegment, before.Subsegment + added.Subsegment, backend);
     Reserve(this->Origins, before.Subsegment, before.Subsegment + added.Subsegment, backend);
     Reserve(this->Splits, 0, added.Vertex, backend);
-    PlaneMesh old = grown.View();
-    old.Edges = { this->OldTriangles.Data(), this->OldCorners.Data(), nullptr };
-    old.Failed = failed;
+    const PlaneMesh old = this->ViewOld(grown, failed);
     return { TriangleSplitter(grown.Mesh->View()), before, grown.Coordinates->Data(),
       grown.Ids->Data(), this->FirstId, this->FirstVertex, this->Shapes.Data(),
       this->Regions.Data(), this->Sizes.Data(), this->Claims.Data(), this->Segments.Data(),
       this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
       this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Splits.Data(),
-      this->AddedVertices.Data(), this->OldTriangleOf.Data(), old, this->Grid.View() };
+      this->AddedVertices.Data(), this->OldTriangleOf.Data(), old, this->Grid.View(),
+      this->IsOfCaller };
+  }
+
+  /// The mesh before refinement.
+  PlaneMesh ViewOld(const GrowingMesh<Real>& grown, std::int32_t* failed)
+  {
+    PlaneMesh old = grown.View();
+    old.Edges = { this->OldTriangles.Data(), this->OldCorners.Data(), nullptr };
+    old.Failed = failed;
+    return old;
+  }
+
+  /// Finds where the places that win were before refinement, in a mesh of the caller.
+  void FindOldPlaces(
+    const GrowingMesh<Real>& grown, RefinementItem* items, std::int64_t count, std::int32_t* failed)
+  {
+    if (!this->IsOfCaller)
+    {
+      return;
+    }
+    const OldPlaceFinder finder = this->MakeFinder(grown, failed);
+    this->Device.ForEach(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        RefinementItem& item = items[i];
+        if (item.State == ItemState::Wins)
+        {
+          item.Old = finder.Find(item.Found.Triangle, item.Place);
+        }
+      });
+  }
+
+  /// After a round in a mesh that needs a guard: edges that are bad but cannot flip stay.
+  void FixBlocked(const GrowingMesh<Real>& grown)
+  {
+    const FixWallStep step{ grown.Mesh->View(), nullptr, nullptr, this->SegmentOfEdge.Data() };
+    this->Device.ForEach(grown.Mesh->NumberOfEdges,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e) { step(static_cast<EdgeId>(e)); });
+  }
+
+  /// Lets edges flip again that stayed for refinement alone. @returns how many there are.
+  std::int64_t FreeEdges(const GrowingMesh<Real>& grown)
+  {
+    const FreeEdgeStep step{ grown.Mesh->View(), this->SegmentOfEdge.Data(), this->Marks.Data() };
+    return this->Device.template Sum<std::int64_t>(this->IsOfCaller ? grown.Mesh->NumberOfEdges : 0,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, std::int64_t & sum)
+      { sum += step(static_cast<EdgeId>(e)); });
   }
 
   /// Notes what a round has added.
@@ -378,7 +189,11 @@ public:
     result.Vertices.resize(added);
     const Array<RefinedVertex> vertices = this->NameVertices(grown);
     this->Device.Download(vertices.Data(), added, result.Vertices.data());
-    if (this->HasRegions)
+    if (this->IsOfCaller)
+    {
+      this->FetchOfCaller(grown, result);
+    }
+    else if (this->HasRegions)
     {
       result.Regions.resize(grown.Mesh->NumberOfTriangles);
       this->Device.Download(
@@ -428,7 +243,11 @@ public:
         regions[t] = 0;
         claims[t] = RefinementKey::None;
       });
-    if (this->HasRegions)
+    if (this->IsOfCaller)
+    {
+      this->TakeRegionsOfCaller(grown, plan);
+    }
+    else if (this->HasRegions)
     {
       this->Device.Upload(plan.Regions.data(), triangles, regions);
     }
@@ -440,11 +259,59 @@ public:
     }
   }
 
-  /// Edges between triangles that are kept and others stay.
+  /// In a mesh of the caller: removes triangles that are not counter-clockwise, and takes the
+  /// regions of the others.
+  void TakeRegionsOfCaller(const GrowingMesh<Real>& grown, const RefinementPlan& plan)
+  {
+    Array<std::int32_t> given;
+    if (this->HasRegions)
+    {
+      const std::int64_t count = SizeOf(plan.Regions);
+      given = this->Device.template MakeArray<std::int32_t>(count);
+      this->Device.Upload(plan.Regions.data(), count, given.Data());
+    }
+    Array<std::int32_t> failed = this->MakeFailed();
+    PlaneMesh plane = grown.View();
+    plane.Failed = failed.Data();
+    const CallerRegionStep step{ plane, given.Data(), this->Regions.Data() };
+    this->Device.ForEach(grown.Mesh->NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { step(static_cast<TriangleId>(t)); });
+    this->RequireDecided(failed);
+  }
+
+  Array<std::int32_t> MakeFailed() const
+  {
+    const std::int32_t none = 0;
+    Array<std::int32_t> failed = this->Device.template MakeArray<std::int32_t>(1);
+    this->Device.Upload(&none, 1, failed.Data());
+    return failed;
+  }
+  /// @throws BeyondDevice.
+  void RequireDecided(const Array<std::int32_t>& failed) const
+  {
+    std::int32_t hasFailed = 0;
+    this->Device.Download(failed.Data(), 1, &hasFailed);
+    if (hasFailed != 0)
+    {
+      throw BeyondDevice();
+    }
+  }
+
+  /// Edges between triangles that are kept and others stay. In a mesh of the caller, so do all
+  /// edges of others, and edges that are bad but cannot flip.
   void FixBorders(const GrowingMesh<Real>& grown)
   {
     const EdgeMeshView mesh = grown.Mesh->View();
     const std::int32_t* regions = this->Regions.Data();
+    if (this->IsOfCaller)
+    {
+      this->MarksOfEdges = this->Device.template MakeArray<std::uint8_t>(this->OldEdges);
+      const FixWallStep step{ mesh, regions, this->MarksOfEdges.Data(),
+        this->SegmentOfEdge.Data() };
+      this->Device.ForEach(this->OldEdges,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e) { step(static_cast<EdgeId>(e)); });
+      return;
+    }
     this->Device.ForEach(this->HasRegions ? grown.Mesh->NumberOfEdges : 0,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e)
       {
@@ -458,6 +325,19 @@ public:
       });
   }
 
+  /// Non-manifold edges of a mesh of the caller are not split: several records stand for one.
+  void MarkNonManifold(const GrowingMesh<Real>& grown)
+  {
+    std::vector<TriangleRecord> triangles(grown.Mesh->NumberOfTriangles);
+    std::vector<CornerId> corners(2 * this->OldEdges);
+    std::vector<std::uint8_t> marks(this->OldEdges);
+    this->Device.Download(this->OldTriangles.Data(), SizeOf(triangles), triangles.data());
+    this->Device.Download(this->OldCorners.Data(), SizeOf(corners), corners.data());
+    this->Device.Download(this->MarksOfEdges.Data(), SizeOf(marks), marks.data());
+    MarkRepeatedEdges(triangles, corners, marks);
+    this->Device.Upload(marks.data(), SizeOf(marks), this->MarksOfEdges.Data());
+  }
+
   void ListSegments(const GrowingMesh<Real>& grown, bool keepsBoundary)
   {
     const std::int64_t edges = grown.Mesh->NumberOfEdges;
@@ -465,16 +345,17 @@ public:
     const SegmentTest isSegment{ plane.Edges, this->Regions.Data() };
     const typename Backend::Numbering numbering = this->Device.Count(edges, isSegment);
     this->NumberOfSegments = numbering.Total;
+    this->SegmentsBefore = numbering.Total;
     this->Segments = this->Device.template MakeArray<EdgeId>(numbering.Total);
     this->Marks = this->Device.template MakeArray<std::uint8_t>(numbering.Total);
     this->Origins = this->Device.template MakeArray<std::uint32_t>(numbering.Total);
-    this->SegmentOfEdge = this->Device.template MakeArray<std::uint32_t>(edges);
     this->Ends = this->Device.template MakeArray<VertexId>(2 * numbering.Total);
     std::uint8_t* marks = this->Marks.Data();
     std::uint32_t* origins = this->Origins.Data();
     std::uint32_t* segmentOfEdge = this->SegmentOfEdge.Data();
     EdgeId* segments = this->Segments.Data();
     VertexId* ends = this->Ends.Data();
+    const std::uint8_t* marksOfEdges = this->MarksOfEdges.Data();
     this->Device.ForEachNumbered(numbering, edges, isSegment,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, std::int64_t number)
       {
@@ -483,7 +364,11 @@ public:
           return;
         }
         const bool isBoundary = isSegment.CountKept(e) == 1;
-        marks[number] = keepsBoundary && isBoundary ? CannotSplit : 0;
+        marks[number] = marksOfEdges ? marksOfEdges[e] : 0;
+        if (keepsBoundary && isBoundary)
+        {
+          marks[number] |= CannotSplit;
+        }
         origins[number] = static_cast<std::uint32_t>(number);
         segmentOfEdge[e] = static_cast<std::uint32_t>(number);
         segments[number] = static_cast<EdgeId>(e);
@@ -507,6 +392,10 @@ public:
         origins[i] = NoOrigin;
         isSharp[i] = 0;
       });
+    if (this->IsOfCaller)
+    {
+      this->ListStarts(grown);
+    }
     const SharpCornerStep step{ grown.View(), this->Regions.Data(), isSharp };
     const EdgeId* segments = this->Segments.Data();
     this->Device.ForEach(2 * this->NumberOfSegments,
@@ -524,6 +413,76 @@ public:
       this->Device.ForEach(
         vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sizes[i] = from[ids[i]]; });
     }
+  }
+
+  /// A corner of a kept triangle for each vertex of a mesh of the caller.
+  void ListStarts(const GrowingMesh<Real>& grown)
+  {
+    this->StartOfVertex = this->Device.template MakeArray<CornerId>(grown.Vertices);
+    CornerId* starts = this->StartOfVertex.Data();
+    this->Device.ForEach(
+      grown.Vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { starts[i] = NoCorner; });
+    const TriangleRecord* triangles = this->OldTriangles.Data();
+    const std::int32_t* regions = this->Regions.Data();
+    this->Device.ForEach(grown.Mesh->NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+      {
+        for (int slot = 0; slot < 3 && regions[t] >= 0; ++slot)
+        {
+          AtomicMin(
+            &starts[triangles[t].Vertices[slot]], MakeCorner(static_cast<TriangleId>(t), slot));
+        }
+      });
+  }
+
+  OldPlaceFinder MakeFinder(const GrowingMesh<Real>& grown, std::int32_t* failed)
+  {
+    PlaneMesh now = grown.View();
+    now.Failed = failed;
+    now.IsInFilterRange = false; // places may be nearer to 0
+    PlaneMesh old = this->ViewOld(grown, failed);
+    old.IsInFilterRange = false;
+    return { now, old, this->SegmentOfEdge.Data(), this->Origins.Data(), this->Segments.Data(),
+      this->StartOfVertex.Data(), this->OldTriangleOf.Data(),
+      static_cast<VertexId>(this->FirstVertex) };
+  }
+
+  /// Fetches what only a mesh of the caller has. @throws BeyondDevice.
+  void FetchOfCaller(const GrowingMesh<Real>& grown, RefinementResult& result)
+  {
+    const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
+    Array<std::int32_t> failed = this->MakeFailed();
+    Array<TriangleId> sources = this->Device.template MakeArray<TriangleId>(triangles);
+    const SourceStep step{ this->MakeFinder(grown, failed.Data()), this->Regions.Data(),
+      static_cast<std::int64_t>(this->OldTriangles.Size()), sources.Data() };
+    this->Device.ForEach(triangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { step(static_cast<TriangleId>(t)); });
+    result.Sources.resize(triangles);
+    this->Device.Download(sources.Data(), triangles, result.Sources.data());
+    this->RequireDecided(failed);
+    const EdgeMeshView mesh = grown.Mesh->View();
+    const EdgeId* added = this->Segments.Data() + this->SegmentsBefore;
+    const BorderSums sums =
+      this->Device.template Sum<BorderSums>(this->NumberOfSegments - this->SegmentsBefore,
+        BorderCount{ mesh, this->Regions.Data(), added });
+    result.Edges = grown.Mesh->NumberOfEdges - this->OldEdges;
+    result.BoundaryEdges = sums.Boundary;
+    result.RegionEdges = sums.Regions;
+    result.Ends.resize(2 * this->SegmentsBefore);
+    const Array<VertexId> ends = this->NameEnds(grown);
+    this->Device.Download(ends.Data(), SizeOf(result.Ends), result.Ends.data());
+  }
+
+  /// The points at the ends of the segments there were at first.
+  Array<VertexId> NameEnds(const GrowingMesh<Real>& grown) const
+  {
+    Array<VertexId> named = this->Device.template MakeArray<VertexId>(2 * this->SegmentsBefore);
+    VertexId* to = named.Data();
+    const VertexId* from = this->Ends.Data();
+    const VertexId* ids = grown.Ids->Data();
+    this->Device.ForEach(2 * this->SegmentsBefore,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { to[i] = ids[from[i]]; });
+    return named;
   }
 
   /// The new vertices, with the points in place of the vertices between which they interpolate.
@@ -575,7 +534,7 @@ public:
         if (isUnrefined(t) != 0)
         {
           const TriangleShape shape(view.Mesh, static_cast<TriangleId>(t));
-          to[number] = { shape.Dot / shape.Cross, static_cast<TriangleId>(t) };
+          to[number] = { shape.Dot / shape.Cross, view.Mesh.Edges.Triangles[t].InputTriangle };
         }
       });
     std::vector<GradedTriangle> onHost(numbering.Total);
@@ -594,8 +553,8 @@ private:
   RefinementGoals Goals;
   double Smallest = 0.0; ///< See RefinementView.
   std::int64_t FirstVertex, FirstId;
-  bool HasRegions;
-  std::int64_t NumberOfSegments = 0;
+  bool HasRegions, IsOfCaller;
+  std::int64_t OldEdges, SegmentsBefore = 0, NumberOfSegments = 0;
 
   Array<std::uint32_t> Shapes; ///< See RefinementView for this one and the next.
   Array<std::int32_t> Regions;
@@ -609,6 +568,8 @@ private:
   Array<TriangleId> Splits;
   Array<RefinedVertex> AddedVertices;
   Array<TriangleId> OldTriangleOf; ///< See RefinementStore.
+  Array<CornerId> StartOfVertex; ///< As in OldPlaceFinder.
+  Array<std::uint8_t> MarksOfEdges; ///< Those of subsegments at first, in a mesh of the caller.
 
   PlaceGrid Grid; ///< Of the mesh before.
   Array<TriangleRecord> OldTriangles;

@@ -55,6 +55,7 @@ struct RefinementItem
   std::uint32_t Rank; ///< Of the key.
   ItemState State;
   bool IsOnSegment;
+  TriangleId Old; ///< Where it was before refinement, in a mesh of the caller.
 };
 
 /// Where a walk within subsegments ends.

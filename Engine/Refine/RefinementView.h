@@ -23,8 +23,13 @@ namespace delaunayflip
 enum SegmentMark : std::uint8_t
 {
   SplitRequested = 1, ///< A vertex or a place is in its diametral circle, or a place beyond it.
-  CannotSplit = 2 ///< It must not be split, or is too short.
+  CannotSplit = 2, ///< It must not be split, or is too short.
+  FixedMeanwhile = 4 ///< It may flip when refinement is over.
 };
+
+/// Instead of the number of a subsegment.
+constexpr std::uint32_t NoSegment = 0xFFFFFFFFu;
+constexpr std::uint32_t FixedForNow = 0xFFFFFFFEu; ///< Of an edge that was fixed in a later round.
 
 /// What is known of a triangle.
 enum class ShapeKind : std::uint32_t
@@ -50,7 +55,8 @@ struct RefinementView
   const EdgeId* Segments; ///< The edges that are subsegments.
   std::uint8_t* Marks; ///< By subsegment: SegmentMarks.
   const std::uint32_t* Origins; ///< By subsegment: the number of its segment.
-  const std::uint32_t* SegmentOfEdge; ///< By fixed edge: the number of its subsegment.
+  /// By fixed edge: the number of its subsegment. In a mesh of the caller also the other two.
+  const std::uint32_t* SegmentOfEdge;
   const std::uint32_t* OriginOfVertex; ///< By vertex: the segment that it has split, or NoOrigin.
   const VertexId* Ends; ///< By segment, two.
   const std::uint8_t* IsSharp; ///< By vertex: whether segments meet there at a small angle.
@@ -197,13 +203,19 @@ struct RefinementView
 
   DELAUNAYFLIP_HOST_DEVICE bool CanSplit(HalfEdgeId side) const
   {
-    return (AtomicLoad(&this->Marks[this->SegmentOfEdge[EdgeOf(side)]]) & CannotSplit) == 0;
+    const std::uint32_t segment = this->SegmentOfEdge[EdgeOf(side)];
+    return segment < FixedForNow && (AtomicLoad(&this->Marks[segment]) & CannotSplit) == 0;
   }
 
   /// Requests that a subsegment is split.
   DELAUNAYFLIP_HOST_DEVICE void Request(HalfEdgeId side) const
   {
-    std::uint8_t* marks = &this->Marks[this->SegmentOfEdge[EdgeOf(side)]];
+    const std::uint32_t segment = this->SegmentOfEdge[EdgeOf(side)];
+    if (segment >= FixedForNow)
+    {
+      return;
+    }
+    std::uint8_t* marks = &this->Marks[segment];
     AtomicStore(marks, static_cast<std::uint8_t>(AtomicLoad(marks) | SplitRequested));
   }
 

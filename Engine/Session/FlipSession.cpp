@@ -24,6 +24,7 @@ std::unique_ptr<SessionRun> MakeRun(const TriangleMesh& mesh, const FlipOptions&
   CheckOptions(options);
   if (CountPieces(options, mesh.Triangles.Count) > 1)
   {
+    RefuseRefinement(options, mesh.Sizes, "a mesh in several pieces");
     return std::make_unique<PiecesRun>(mesh, options, progress);
   }
   return std::make_unique<MeshRun>(CallerMesh(mesh), options, progress, expected);
@@ -143,7 +144,16 @@ void FlipSession::StoreUsedPoints(std::int64_t* ids) const
 
 const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
 {
-  return RequirePoints(*this->Run).GetAddedPoints();
+  return this->Run->GetAddedPoints();
+}
+
+void FlipSession::StoreSources(std::int32_t* sources) const
+{
+  if (dynamic_cast<PointRun*>(this->Run.get()) != nullptr)
+  {
+    throw InvalidOptions("triangles of points have no sources; these are for a mesh");
+  }
+  this->Run->StoreSources(sources);
 }
 
 std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
@@ -213,6 +223,8 @@ void CheckOptionsAndBackend(const FlipOptions& options)
 
 namespace
 {
+constexpr const char* InOneCall = "without a session, a mesh";
+
 /// Runs a new session and calls store(session).
 template <typename Store>
 FlipReport RunToEnd(FlipSession session, const FlipObserver& observer,
@@ -236,6 +248,7 @@ FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer,
   const ProgressObserver& progress)
 {
+  RefuseRefinement(options, mesh.Sizes, InOneCall);
   return RunToEnd(FlipSession(mesh, options, progress), observer, progress,
     [&](const FlipSession& session) { session.StoreTriangles(triangles); });
 }
@@ -244,6 +257,7 @@ FlipReport FlipToDelaunay(const DeviceMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer,
   const ProgressObserver& progress)
 {
+  RefuseRefinement(options, mesh.Sizes, InOneCall);
   return RunToEnd(FlipSession(mesh, options, progress), observer, progress,
     [&](const FlipSession& session) { session.StoreTriangles(triangles, mesh.Stream); });
 }

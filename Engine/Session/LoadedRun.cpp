@@ -55,6 +55,7 @@ try
   const StopWatch watch;
   const double secondsBefore = this->Report.FlipSeconds;
   const std::int64_t made = this->CountIterations();
+  this->RoundsBefore = this->Rounds;
   this->Limit = NoLimit;
   if (iterations >= 0)
   {
@@ -254,6 +255,8 @@ void LoadedRun::Reset()
 {
   this->Loaded.reset();
   this->Journal.clear();
+  this->Rounds = 0;
+  this->IsRefined = false;
   this->Current = 0;
   this->Progress = RunProgress();
   this->Report = FlipReport();

@@ -61,6 +61,11 @@ protected:
   /// mesh has changed since the last call.
   virtual void Measure();
 
+  /// Plans refinement before its first round.
+  virtual RefinementPlan PlanRefinement(LoadedMesh&) { return {}; }
+  /// Takes over what refinement has made so far.
+  virtual void TakeRefinement(LoadedMesh&) {}
+
   /// How many iterations observers can wait for.
   virtual std::int64_t GetBatch() const { return this->Progress.GetBatch(); }
 
@@ -80,6 +85,14 @@ protected:
   /// @returns whether they have ended.
   bool Flip(const std::function<bool()>& givesUp = {});
   void RepeatFlips(LoadedMesh& mesh, std::int64_t iterations);
+
+  /// Makes rounds of refinement until all triangles are good, or no iteration is left, as which
+  /// they count. (LoadedRefinement.cpp)
+  /// @returns whether it has ended.
+  bool Refine();
+  void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
+  /// A plan with the goals of the options. @param points how many may be used.
+  RefinementPlan PlanGoals(std::int64_t points) const;
 
   /// Measures the mesh at the end of a run.
   void MeasureEnd();
@@ -164,6 +177,7 @@ protected:
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last detection.
   bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
+  std::int64_t Rounds = 0; ///< How often refinement has added points.
   bool MayForget = false; ///< Whether an observer may stop the stage under way and lose the run.
 
   // What is known of the mesh as it is; Measure finds out the rest.
@@ -175,11 +189,14 @@ protected:
 private:
   void FallBack(const BackendUnavailable& error);
   void Replay();
+  std::int64_t RefineOnce(LoadedMesh& mesh);
   std::int64_t GetIterationLimit() const;
   void RecordIterations(const std::vector<IterationCounts>& batch, double seconds);
 
   FlipObserver IterationObserver; ///< Of the Advance under way.
   std::int64_t Limit = 0; ///< The number of iterations at which it returns.
+  std::int64_t RoundsBefore = 0; ///< Those before it.
+  bool IsRefined = false; ///< Whether there is nothing more to refine.
   StopWatch SinceBegin;
   bool OnCuda = false; ///< Whether a GPU has the mesh.
   std::vector<ResultMemory> Expected; ///< Announced memory that nobody touches yet.

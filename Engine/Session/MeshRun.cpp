@@ -23,8 +23,16 @@ void MeshRun::ListStages()
     { "load", OnStop::Forgets, 0.0, Whole([this] { this->LoadMesh(); }), {} },
     { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
     { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
-    { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), {} },
   };
+  if (this->WantsRefinement())
+  {
+    const auto refine = [this](LoadedMesh& loaded, std::int64_t rounds)
+    { this->RepeatRounds(loaded, rounds); };
+    this->Stages.push_back(
+      { "refine", OnStop::KeepsMesh, 0.5, [this] { return this->Refine(); }, refine });
+  }
+  this->Stages.push_back(
+    { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), {} });
 }
 
 MeshRun::MeshRun(const CallerMesh& mesh, const FlipOptions& options,
@@ -33,6 +41,7 @@ MeshRun::MeshRun(const CallerMesh& mesh, const FlipOptions& options,
     Mesh(mesh)
 {
   CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
+  CheckSizes(mesh.GetFixedEdges().Sizes, mesh.CountPoints());
   this->Options.Device = mesh.ChooseDevice(options.Device);
   this->ListStages();
   for (const ResultMemory& memory : expected)
@@ -87,6 +96,7 @@ void MeshRun::Reset()
   LoadedRun::Reset();
   this->Start.reset();
   this->Insertion = ConstraintInsertion();
+  this->Refined = RefinedCallerMesh();
   this->Report.Points = this->Mesh.CountPoints();
   this->Report.Triangles = this->Mesh.CountTriangles();
 }
@@ -96,6 +106,12 @@ void MeshRun::ListDefects()
   FlipReport& report = this->Report;
   report.Defects = this->Loaded->GetInputReport().Defects;
   AddDefects(this->Insertion.GetRefused(), report.Defects);
+  AddDefect(this->Refined.Unrefined, report.Defects);
+  if (this->Refined.HasReachedLimit)
+  {
+    const std::int64_t points = this->Mesh.CountPoints() + SizeOf(this->Refined.Points);
+    AddDefect(Defect(DefectKind::PointLimitReached, points), report.Defects);
+  }
   const EdgeCounts& edges = report.Edges;
   if (report.Triangles > 1 && edges.Edges > 0 && edges.Boundary == edges.Edges)
   {
@@ -165,7 +181,7 @@ void MeshRun::StoreFlipCounts(std::int32_t* counts)
     this->Insertion.AddFlipCounts(counts);
     return;
   }
-  std::fill_n(counts, this->Mesh.CountTriangles(), 0);
+  std::fill_n(counts, this->CountTriangles(), 0);
 }
 
 bool MeshRun::StoreTrianglesOnDevice(

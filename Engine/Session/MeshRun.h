@@ -13,6 +13,16 @@
 namespace delaunayflip
 {
 
+/// What refinement has made of a mesh.
+struct RefinedCallerMesh
+{
+  std::vector<AddedPoint> Points;
+  std::vector<TriangleId>
+    Sources; ///< By triangle, that of the mesh before; empty: all are the same.
+  Defect Unrefined; ///< Triangles that do not reach the goals.
+  bool HasReachedLimit = false;
+};
+
 /// The run of a mesh in one piece. Its stages are listed in ListStages.
 class MeshRun final : public LoadedRun
 {
@@ -26,6 +36,8 @@ public:
   bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream,
     std::int32_t* written) override;
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) override;
+  const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Refined.Points; }
+  void StoreSources(std::int32_t* sources) override;
 
 private:
   void ListStages();
@@ -36,9 +48,18 @@ private:
   void ListDefects() override;
   void Measure() override;
 
+  // (MeshRefinement.cpp)
+  bool WantsRefinement() const;
+  RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
+  void TakeRefinement(LoadedMesh& mesh) override;
+  void AddRefinedPoints(const RefinementResult& made);
+  std::vector<std::int32_t> NumberRegions() const;
+  std::int64_t CountConstraints(const RefinementResult& made) const;
+
   CallerMesh Mesh;
   ConstraintInsertion Insertion; ///< The loaded mesh starts from its arrays.
   std::optional<CallerMesh> Start; ///< The mesh that iterations start from.
+  RefinedCallerMesh Refined;
 };
 
 }

@@ -53,17 +53,8 @@ void CheckNumber(const char*, Choice)
 {
 }
 
-void CheckRefinement(const PointInput& input, const PointOptions& options)
+void CheckRegionsAndSizes(const PointInput& input)
 {
-  constexpr double LargestAngle = 33.0;
-  if (options.MinimumAngle > LargestAngle)
-  {
-    throw InvalidOptions("MinimumAngle must be from 0 to 33 degrees");
-  }
-  if (options.PointLimit < 0)
-  {
-    throw InvalidOptions("PointLimit must be 0 or more");
-  }
   for (std::int64_t i = 0; i < input.NumberOfRegions; ++i)
   {
     const RegionSeed& region = input.Regions[i];
@@ -75,20 +66,14 @@ void CheckRefinement(const PointInput& input, const PointOptions& options)
         " has a coordinate that is NaN or infinite, or an area that is not finite and 0 or more");
     }
   }
-  for (std::int64_t i = 0; input.Sizes && i < input.Points.Count; ++i)
-  {
-    if (input.Sizes[i] <= 0.0)
-    {
-      throw InvalidOptions("the size of point " + std::to_string(i) + " is not above 0");
-    }
-  }
+  CheckSizes(input.Sizes, input.Points.Count);
 }
 
 void CheckInput(const PointInput& input, const PointOptions& options)
 {
   ForEachPointOption(
     [](const char* name, const auto& option) { CheckNumber(name, option); }, options);
-  CheckRefinement(input, options);
+  CheckRegionsAndSizes(input);
   if (options.NumberOfPieces > 1)
   {
     throw InvalidOptions(

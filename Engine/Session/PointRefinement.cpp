@@ -82,24 +82,15 @@ std::vector<SegmentEdge> SplitEdges(const PointMeshView& view,
   return edges;
 }
 
-/// The limit of points that the options set.
-std::int64_t GetPointLimit(std::int64_t limit, std::int64_t points)
-{
-  constexpr std::int64_t Times = 10, Fewest = 1000000;
-  return limit > 0 ? limit : std::max(Times * points, Fewest);
-}
-
 }
 
 bool PointRun::WantsRefinement() const
 {
-  const PointOptions& options = this->Points.GetOptions();
   const PointInput& input = this->Points.GetCaller();
   const RegionSeed* regions = input.Regions;
   const bool hasArea = std::any_of(regions, regions + input.NumberOfRegions,
     [](const RegionSeed& region) { return region.MaximumArea > 0.0; });
-  return options.MinimumAngle > 0.0 || options.MaximumArea > 0.0 || options.MaximumEdge > 0.0 ||
-    input.Sizes != nullptr || hasArea;
+  return HasGoals(this->Options) || input.Sizes != nullptr || hasArea;
 }
 
 void PointRun::LabelRegions()
@@ -116,24 +107,13 @@ void PointRun::LabelRegions(LoadedMesh& mesh)
     { result.Regions = FindRegions(view, input, result.Kept, result.RegionSeedsOutside); });
 }
 
-RefinementPlan PointRun::PlanRefinement(const LoadedMesh& mesh) const
+RefinementPlan PointRun::PlanRefinement(LoadedMesh& mesh)
 {
-  const PointOptions& options = this->Points.GetOptions();
   const PointInput& input = this->Points.GetCaller();
-  RefinementPlan plan;
-  SetSmallestAngle(options.MinimumAngle, plan.Goals);
-  if (options.MaximumArea > 0.0)
-  {
-    plan.Goals.Area = options.MaximumArea;
-  }
-  if (options.MaximumEdge > 0.0)
-  {
-    plan.Goals.SquaredEdge = options.MaximumEdge * options.MaximumEdge;
-  }
   const FlipReport& report = mesh.GetInputReport();
   const std::int64_t unused = report.FromPoints.NotFinite + report.FromPoints.Repeated;
-  plan.MostVertices = GetPointLimit(options.PointLimit, report.Points - unused);
-  plan.KeepsBoundary = options.KeepBoundary;
+  RefinementPlan plan = this->PlanGoals(report.Points - unused);
+  this->Result.EdgesBefore = this->Result.Edges;
   plan.Regions = this->Result.Regions;
   if (plan.Regions.empty() && this->Result.HasRemoved())
   {
@@ -158,56 +138,6 @@ RefinementPlan PointRun::PlanRefinement(const LoadedMesh& mesh) const
   return plan;
 }
 
-/// Makes rounds until all triangles are good, or an observer stops it.
-bool PointRun::Refine()
-{
-  // Nobody knows how many rounds are needed; most meshes need 10 to 30.
-  constexpr double Usual = 10.0;
-  if (this->Report.Triangles == 0)
-  {
-    return true;
-  }
-  bool isComplete = false;
-  while (!isComplete && !this->WasStopped)
-  {
-    isComplete = this->OnBackend([this](LoadedMesh& mesh) { return this->RefineOnce(mesh); }) == 0;
-    if (!isComplete)
-    {
-      this->RecordChange(1);
-      const auto rounds = static_cast<double>(this->Result.RefinementRounds);
-      this->WasStopped = !this->Progress.TellRest(this->Observer, rounds / (rounds + Usual));
-    }
-  }
-  if (this->Result.RefinementRounds > 0 || isComplete)
-  {
-    this->OnBackend([this](LoadedMesh& mesh) { this->TakeRefinement(mesh); });
-    this->RecordFound(this->Loaded->GetLoop().GetFound());
-    this->AreAnglesKnown = false;
-  }
-  return isComplete;
-}
-
-std::int64_t PointRun::RefineOnce(LoadedMesh& mesh)
-{
-  if (this->Result.RefinementRounds == 0)
-  {
-    this->Result.EdgesBefore = this->Result.Edges;
-    mesh.StartRefinement(this->PlanRefinement(mesh));
-  }
-  const std::int64_t added = mesh.Refine();
-  this->Result.RefinementRounds += added > 0 ? 1 : 0;
-  return added;
-}
-
-void PointRun::RepeatRounds(LoadedMesh& mesh, std::int64_t rounds)
-{
-  for (std::int64_t i = 0; i < rounds; ++i)
-  {
-    this->RefineOnce(mesh);
-  }
-  this->TakeRefinement(mesh);
-}
-
 /// Takes over what the rounds have made so far.
 void PointRun::TakeRefinement(LoadedMesh& mesh)
 {
@@ -223,6 +153,7 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   this->AddRefinedPoints(made, origins);
   result.Unrefined = Defect(DefectKind::TrianglesNotRefined, made.Unrefined);
   result.HasReachedLimit = made.HasReachedLimit;
+  result.RefinementRounds = this->Rounds;
   const auto countRegions = static_cast<std::int64_t>(result.Regions.size());
   if (countRegions > 0)
   {

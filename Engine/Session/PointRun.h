@@ -30,7 +30,7 @@ public:
   void StoreNeighbors(std::int32_t* neighbors);
   bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream);
   void StoreUsedPoints(std::int64_t* ids);
-  const std::vector<AddedPoint>& GetAddedPoints() const { return this->Points.GetAdded(); }
+  const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Points.GetAdded(); }
   std::vector<std::int64_t> ListSegmentEdges();
 
   /// The same as FlipSession's. (PointRefinement.cpp)
@@ -63,11 +63,8 @@ private:
   bool WantsRefinement() const;
   void LabelRegions();
   void LabelRegions(LoadedMesh& mesh);
-  RefinementPlan PlanRefinement(const LoadedMesh& mesh) const;
-  bool Refine();
-  std::int64_t RefineOnce(LoadedMesh& mesh);
-  void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
-  void TakeRefinement(LoadedMesh& mesh);
+  RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
+  void TakeRefinement(LoadedMesh& mesh) override;
   void RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions);
   void AddRefinedPoints(const RefinementResult& made, const std::vector<std::uint32_t>& origins);
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -89,6 +90,17 @@ public:
   virtual const FlipReport& GetReport() = 0;
   virtual void StoreTriangles(const MutableTriangleArray& triangles) = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) = 0;
+
+  /// The same as FlipSession's.
+  virtual const std::vector<AddedPoint>& GetAddedPoints() const
+  {
+    static const std::vector<AddedPoint> none;
+    return none;
+  }
+  virtual void StoreSources(std::int32_t* sources)
+  {
+    std::iota(sources, sources + this->CountTriangles(), 0);
+  }
 
   /// Stores in device memory. @returns false, and writes nothing, if the values have to be copied
   /// from the host.

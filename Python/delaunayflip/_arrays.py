@@ -391,7 +391,7 @@ class Mesh:
     that of the host or of a GPU."""
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
-                 insert_constraints=True, triangle_numbers=None):
+                 insert_constraints=True, triangle_numbers=None, size=None):
         self.struct, self._kept = _library.make(_library.Mesh), []
         if _is_on_device(points) or _is_on_device(triangles):
             self._take_from_device(points, triangles)
@@ -414,6 +414,8 @@ class Mesh:
         if triangle_numbers is not None:
             self._keep("triangle_numbers",
                        _per_triangle("triangle_numbers", triangle_numbers, numpy.int64, count))
+        if size is not None:
+            self._take_sizes(to_host(size))
 
     def _keep(self, member, array):
         """Sets a pointer of the struct to an array, which lives as long."""
@@ -427,13 +429,40 @@ class Mesh:
         self._keep("constraint_edges", _convert(edges, numpy.int64))
         self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
 
-    def make_triangles(self):
-        """Room for the triangles."""
-        return make_empty(self.triangles, self.triangles.shape, type_of(self.triangles))
+    def _take_sizes(self, size):
+        values, shape = as_values(size)
+        if shape or len(values) != self.struct.number_of_points:
+            raise ValueError(f"size must have one number for each of the {self.struct.number_of_points} points, "
+                             f"not the shape {tuple(numpy.shape(size))}")
+        self._keep("sizes", values)
 
-    def make_flip_counts(self):
+    def make_triangles(self, count=None):
+        """Room for the triangles, by default as many as are given."""
+        count = self.struct.number_of_triangles if count is None else count
+        return make_empty(self.triangles, (count, 3), type_of(self.triangles))
+
+    def make_flip_counts(self, count=None):
         """Room for a number per triangle."""
-        return make_empty(self.triangles, (self.struct.number_of_triangles,), "int32")
+        count = self.struct.number_of_triangles if count is None else count
+        return make_empty(self.triangles, (count,), "int32")
+
+    def read_sources(self, session, count):
+        """For each of `count` triangles the one before refinement that has its centroid."""
+        sources = numpy.empty(count, dtype=numpy.int32)
+        _library.call("store_sources", session, address(sources))
+        return sources
+
+    def read_points(self, session, count):
+        """The points with `count` behind them that refinement has added, and between which of them each
+        of these lies: three ids, of which the last one may be -1, and their weights."""
+        xyz, weights = numpy.empty((count, 3)), numpy.empty((count, 3))
+        ids = numpy.empty((count, 3), dtype=numpy.int64)
+        _library.call("store_refined_points", session, address(xyz), address(ids), address(weights))
+        if count == 0:
+            return self.points, ids, weights
+        given = to_host(self.points)
+        added = xyz[:, :given.shape[1]].astype(given.dtype)
+        return move(numpy.concatenate([given, added]), self.points), ids, weights
 
     def _take_from_device(self, points, triangles):
         for name, array in (("points", points), ("triangles", triangles)):

@@ -3,6 +3,7 @@
 """The types of arguments and results. Keyword arguments as the engine's options, and the checks of all
 numbers before ctypes takes them: it would cut off what is too large."""
 import inspect
+import math
 import numbers
 import operator
 import reprlib
@@ -63,6 +64,11 @@ class Options(typing.TypedDict, total=False):
     pieces: typing.Annotated[int, (0, 255)]
     devices: Devices
     maximum_deviation: float
+    minimum_angle: typing.Annotated[float, (0.0, 33.0)]
+    maximum_area: typing.Annotated[float, (0.0, math.inf)]
+    maximum_edge: typing.Annotated[float, (0.0, math.inf)]
+    keep_boundary: bool
+    point_limit: typing.Annotated[int, (0, 2**63 - 1)]
 
 
 _SHORT = reprlib.Repr()
@@ -99,13 +105,15 @@ CHOICES = {name: typing.get_args(Options.__annotations__[name])
            for name in ("geometry", "criterion", "tie_rule", "backend")}
 OPTION_KINDS = typing.get_type_hints(Options)
 OPTION_RANGES = list_ranges(Options)
+#: The goals of refinement, of which one is enough; sizes of points are another one.
+GOALS = ("minimum_angle", "maximum_area", "maximum_edge")
 #: The members of the struct that have another name than their keyword.
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
 _TYPES = {float: c_double, Devices: c_char_p}  # all others are 32-bit integers, but for a count
 #: delaunayflip_options.
 Struct = _library.make_struct("Options", (
     (c_int64, "size"),
-    *((c_int64 if name == "maximum_iterations" else _TYPES.get(kind, c_int32), _NAMES.get(name, name))
+    *((c_int64 if name in ("maximum_iterations", "point_limit") else _TYPES.get(kind, c_int32), _NAMES.get(name, name))
       for name, kind in OPTION_KINDS.items())))
 
 
@@ -134,6 +142,20 @@ def make_options(function=None, **keywords):
             value = convert(keyword, value, OPTION_KINDS[keyword], OPTION_RANGES.get(keyword))
         setattr(options, name, value)
     return options
+
+
+def has_goal(options, name):
+    """Whether a goal of refinement is among keywords."""
+    given = options.get(name)
+    return given is not None if name == "size" else bool(given)
+
+
+def refuse_goals(options, name):
+    """Raises InvalidOptions if there are goals of refinement, which a module does not know."""
+    given = [goal for goal in (*GOALS, "size") if has_goal(options, goal)]
+    if given:
+        raise InvalidOptions(f"{given[0]}: delaunayflip.{name} keeps the points; use delaunayflip.flip to "
+                             "refine a mesh")
 
 
 def convert(keyword, value, kind, limits):

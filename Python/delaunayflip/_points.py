@@ -8,7 +8,6 @@ import copy
 import dataclasses
 import functools
 import math
-import re
 import typing
 import warnings
 from ctypes import c_double, c_int32, c_int64, c_void_p
@@ -22,7 +21,7 @@ from ._ask import Answers, Field, Method, Outside, read_places, read_raster
 from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, convert, list_ranges,
     make_options, show)
-from ._report import Report, to_camel_case
+from ._report import Report, name_keywords
 from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
 from ._session import run
 
@@ -427,9 +426,7 @@ class Input:
     def explain(self, text, ring=-1):
         """A message of the engine, which may name a ring, in the caller's words."""
         text = text.replace(f"ring {ring}", self._name_ring(ring), 1)
-        for name in () if self.are_properties else POINT_OPTIONS:
-            text = re.sub(rf"\b{to_camel_case(name)}\b", name, text)
-        return text
+        return text if self.are_properties else name_keywords(text, POINT_OPTIONS)
 
     def _name_ring(self, number):
         return self._ring_names.get(number, f"ring {number}")

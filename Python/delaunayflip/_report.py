@@ -3,6 +3,7 @@
 """What a run did, and what an update of several meshes did."""
 import ctypes
 import dataclasses
+import re
 import typing
 
 import numpy
@@ -248,6 +249,13 @@ class Totals:
 
 def to_camel_case(name):
     return name.title().replace("_", "")
+
+
+def name_keywords(text, names):
+    """A message of the engine, with keywords in place of the names of its options."""
+    for name in names:
+        text = re.sub(rf"\b{to_camel_case(name)}\b", name, text)
+    return text
 
 
 def _join_iterations(a, b):

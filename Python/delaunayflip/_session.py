@@ -14,9 +14,9 @@ import numpy
 
 from . import _arrays, _library, _report
 from ._options import (
-    Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule,
-    check_integer, choose, make_options, show)
-from ._report import Report
+    GOALS, Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule,
+    check_integer, choose, has_goal, make_options, show)
+from ._report import Report, name_keywords
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -28,6 +28,8 @@ except ImportError:
     from signal import getsignal as _get_handler, signal as _set_handler
 
 _SIGNALS = tuple(map(int, signal.Signals))
+#: The options of refinement.
+REFINEMENT = (*GOALS, "keep_boundary", "point_limit")
 
 
 @contextlib.contextmanager
@@ -121,6 +123,23 @@ def run(name, struct, options, make_room, progress, on_iteration):
         _library.run("close", handle)
 
 
+@contextlib.contextmanager
+def _with_keywords():
+    """Messages of the engine name its options by keywords."""
+    try:
+        yield
+    except _library.InvalidOptions as error:
+        error.args = (name_keywords(str(error), REFINEMENT), *error.args[1:])
+        raise
+
+
+def _read_report(handle):
+    report = _report.read(handle)
+    if report.reached_point_limit:
+        report = dataclasses.replace(report, defects=name_keywords(report.defects, REFINEMENT))
+    return report
+
+
 class Session:
     """Flips a mesh step by step.
 
@@ -135,6 +154,9 @@ class Session:
     stream, and results are arrays of the library of the triangles. Arrays of other libraries are
     viewed by DLPack, with CuPy or PyTorch, of which the results then are. Only to insert
     constraints, for `backend="threads"`, or if the GPU fails, the mesh is copied to the host.
+
+    With goals of refinement, rounds count as iterations, and after each there are more points and
+    triangles.
 
     Example:
         >>> import numpy
@@ -153,13 +175,15 @@ class Session:
         self, points: Numbers, triangles: Numbers, *, constraints: Optional[Numbers] = None,
         insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
         frozen: Optional[Numbers] = None, triangle_numbers: Optional[Numbers] = None,
-        progress: Optional[Progress] = None, **options: "Unpack[Options]",
+        size: Optional[Numbers] = None, progress: Optional[Progress] = None, **options: "Unpack[Options]",
     ) -> None:
         self._handle = ctypes.c_void_p()
         self._lock = threading.Lock()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
-                                  insert_constraints, triangle_numbers)
-        call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
+                                  insert_constraints, triangle_numbers, size)
+        self._refines = size is not None or any(has_goal(options, goal) for goal in GOALS)
+        with _with_keywords():
+            call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
 
     def __enter__(self) -> "Session":
         return self
@@ -205,7 +229,7 @@ class Session:
     def report(self) -> Report:
         """The `Report` on the run so far."""
         with self._open() as handle:
-            return _report.read(handle)
+            return _read_report(handle)
 
     @property
     def iterations(self) -> Array:
@@ -216,21 +240,43 @@ class Session:
 
     @property
     def triangles(self) -> Array:
-        """The triangles so far in their input order, a new array of the input's integers, (m, 3)."""
-        triangles = self._mesh.make_triangles()
+        """The triangles so far in their input order, a new array of the input's integers, (m, 3). Those
+        that refinement has added follow."""
+        triangles = self._mesh.make_triangles(self._count_triangles())
         self.store_triangles(triangles)
         return triangles
+
+    @property
+    def points(self) -> Array:
+        """The points, and behind them those that refinement has added so far."""
+        with self._open() as handle:
+            return self._mesh.read_points(handle, _report.read_struct(handle).refinement_points)[0]
+
+    @property
+    def sources(self) -> Array:
+        """(m,) int32: for each triangle the one before refinement that has its centroid, and whose data
+        belong to it, too."""
+        count = self._count_triangles()
+        with self._open() as handle:
+            return self._mesh.read_sources(handle, count)
+
+    def _count_triangles(self):
+        if not self._refines:
+            return self._mesh.struct.number_of_triangles
+        with self._open() as handle:
+            return _report.read_struct(handle).triangles
 
     def store_triangles(self, target: Array) -> None:
         """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3) that can
         be written, in the host's memory or on a GPU."""
+        count = self._count_triangles()
         with self._open() as handle:
-            _arrays.store_triangles(handle, target, self._mesh.struct.number_of_triangles)
+            _arrays.store_triangles(handle, target, count)
 
     @property
     def flip_counts(self) -> Array:
         """How many flips each triangle was part of, (m,) int32."""
-        counts = self._mesh.make_flip_counts()
+        counts = self._mesh.make_flip_counts(self._count_triangles())
         with self._open() as handle:
             _arrays.store("flip_counts", handle, counts)
         return counts
@@ -253,10 +299,38 @@ class Session:
 class Result:
     """What `flip` returns. Only the same object is equal: compare the arrays."""
 
-    triangles: Array  #: (m, 3), in the input's order and of its integers.
+    #: (m, 3), in the input's order and of its integers; those that refinement has added follow.
+    triangles: Array
     flip_counts: Array  #: (m,) int32: how many flips each triangle was part of.
     iterations: Array  #: Structured, a row per iteration; see Session.iterations.
     report: Report
+    points: Array  #: Those of the input, (n, 3) unless on a GPU, then those that refinement has added.
+    #: Of refinement: the sources, and for each point that was added three points and their weights.
+    _added: Any = dataclasses.field(default=None, repr=False)
+
+    @property
+    def sources(self) -> Array:
+        """(m,) int32: for each triangle the one before refinement that has its centroid. That one's data
+        belong to it, too; labels of regions do so exactly. Without refinement each is its own."""
+        if self._added is None:
+            return numpy.arange(len(self.triangles), dtype=numpy.int32)
+        return self._added[0]
+
+    def at_points(self, values: Numbers) -> Array:
+        """Values at all points from those at the points of the input, float64 of the same shape but for
+        the number of points: those that refinement has added are linear in the mesh before."""
+        given, shape = _arrays.as_values(_arrays.to_host(values))
+        added = 0 if self._added is None else len(self._added[1])
+        if len(given) != len(self.points) - added:
+            raise ValueError(f"values must have {len(self.points) - added} rows, one for each point of the "
+                             f"input; there are {len(given)}")
+        if added:
+            _, ids, weights = self._added
+            weights = numpy.where(ids < 0, 0.0, weights)  # of the last point in the list, which has no part
+            near = given[ids]
+            near[weights == 0.0] = 0.0  # not NaN
+            given = numpy.concatenate([given, numpy.einsum("ij,ijk->ik", weights, near)])
+        return given.reshape((-1, *shape))
 
 
 def flip(
@@ -265,12 +339,13 @@ def flip(
     feature_angle: float = 30.0, maximum_deviation: float = float("inf"),
     constraints: Optional[Numbers] = None,
     insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
-    frozen: Optional[Numbers] = None, maximum_iterations: int = -1, backend: Backend = "auto",
-    threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0,
-    track_quality: bool = False, progress: Optional[Progress] = None,
-    on_iteration: Optional[OnIteration] = None,
+    frozen: Optional[Numbers] = None, minimum_angle: float = 0.0, maximum_area: float = 0.0,
+    maximum_edge: float = 0.0, size: Optional[Numbers] = None, keep_boundary: bool = False,
+    point_limit: int = 0, maximum_iterations: int = -1, backend: Backend = "auto",
+    threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0, track_quality: bool = False,
+    progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
 ) -> Result:
-    """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges.
+    """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges, and refines it.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
     safely stay and are counted. The result is identical on any threads or GPUs.
@@ -291,6 +366,13 @@ def flip(
         insert_constraints: In the plane, flips turn missing constraints into edges; or (k,) flags.
         regions: (m,) integers: edges between triangles of different labels stay.
         frozen: (m,) flags: the edges of these triangles stay.
+        minimum_angle, maximum_area, maximum_edge: In the plane and on terrain, points are added once
+            no edge is bad, until no angle is smaller, in degrees up to 33, and no triangle or edge is
+            larger; 0: no limit. Boundaries and edges that stay are split, but never crossed. What
+            cannot get better, because such edges meet at a small angle, is left and counted.
+        size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
+        keep_boundary: Split no edge of the boundary, where triangles then may stay as they are.
+        point_limit: Of all points. 0: ten times as many as are given, at least a million.
         maximum_iterations: -1: until done; 0: only test.
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
         threads: 0: as many as the machine has.
@@ -313,21 +395,37 @@ def flip(
         >>> result.report.total_flips, sorted(sorted(ids) for ids in result.triangles.tolist())
         (1, [[0, 1, 3], [1, 2, 3]])
     """
-    mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints)
+    mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints, None, size)
     wanted = make_options(
         flip, geometry=geometry, criterion=criterion, tie_rule=tie_rule, tolerance=tolerance,
         feature_angle=feature_angle, maximum_deviation=maximum_deviation,
         maximum_iterations=maximum_iterations, backend=backend, threads=threads, device=device,
-        devices=devices, pieces=pieces, track_quality=track_quality)
+        devices=devices, pieces=pieces, track_quality=track_quality, minimum_angle=minimum_angle,
+        maximum_area=maximum_area, maximum_edge=maximum_edge, keep_boundary=keep_boundary,
+        point_limit=point_limit)
+    refines = size is not None or bool(minimum_angle or maximum_area or maximum_edge)
 
     def make_room(_):
-        return mesh.make_triangles(), mesh.make_flip_counts()
+        return () if refines else (mesh.make_triangles(), mesh.make_flip_counts())
 
-    with run("open", mesh.struct, wanted, make_room, progress, on_iteration) as (handle, room):
-        _arrays.store_triangles(handle, room[0], len(room[0]))
-        _arrays.store("flip_counts", handle, room[1])
-        report = _report.read(handle)
-        return Result(*room, _report.read_iterations(handle, report), report)
+    with _with_keywords(), run("open", mesh.struct, wanted, make_room, progress, on_iteration) as (
+            handle, room):
+        return _store(mesh, handle, room)
+
+
+def _store(mesh, handle, room):
+    """The Result of a session that has ended. `room`: for triangles and flip counts; empty if more were
+    made."""
+    added, points = None, mesh.points
+    if not room:
+        report = _report.read_struct(handle)
+        room = mesh.make_triangles(report.triangles), mesh.make_flip_counts(report.triangles)
+        points, *between = mesh.read_points(handle, report.refinement_points)
+        added = (mesh.read_sources(handle, report.triangles), *between)
+    _arrays.store_triangles(handle, room[0], len(room[0]))
+    _arrays.store("flip_counts", handle, room[1])
+    report = _read_report(handle)
+    return Result(*room, _report.read_iterations(handle, report), report, points, added)
 
 
 def smallest_angles(

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, VTK_ID_MAX
 from ._options import OPTION_KINDS, OPTION_RANGES
 from ._points import POINT_OPTIONS, POINT_RANGES, triangulate
 from ._report import to_camel_case
-from ._session import flip
+from ._session import REFINEMENT, flip
 
 #: The names here of options that the engine calls otherwise.
 PROPERTY_OF = {"threads": "number_of_threads", "device": "device_id", "pieces": "number_of_pieces"}
@@ -52,7 +52,7 @@ def make_properties(function, keywords, ranges):
 #: The numbers and switches of the engine that every filter has, and those of vtkDelaunayFlip alone.
 COMMON_OPTIONS = "device", "threads", "maximum_iterations"
 _OWN_OPTIONS = [name for name, kind in OPTION_KINDS.items()
-                if kind in (float, int, bool) and name not in COMMON_OPTIONS]
+                if kind in (float, int, bool) and name not in (*COMMON_OPTIONS, *REFINEMENT)]
 
 #: Those of every filter.
 COMMON_PROPERTIES = (

@@ -9,7 +9,7 @@ import meshio
 import numpy
 
 from . import _arrays
-from ._options import Numbers
+from ._options import Numbers, refuse_goals
 from ._report import Report
 from ._session import flip as _flip
 from ._surface import number_tuples
@@ -69,6 +69,7 @@ def flip(
     """
     if not isinstance(mesh, meshio.Mesh):
         raise TypeError(f"mesh must be a meshio.Mesh, not {type(mesh).__name__}")
+    refuse_goals(options, "meshio")
     made = mesh.copy()
     blocks = [block for block in made.cells if block.type == "triangle"]
     triangles = [_arrays.as_ids("triangles", block.data, 3) for block in blocks]

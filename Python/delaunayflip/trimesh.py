@@ -6,6 +6,7 @@ import typing
 
 import trimesh
 
+from ._options import refuse_goals
 from ._report import Report
 from ._session import flip as _flip
 
@@ -48,6 +49,7 @@ def flip(
     if not isinstance(mesh, trimesh.Trimesh):
         raise TypeError(f"mesh must be a trimesh.Trimesh, not {type(mesh).__name__}; of a scene, take "
                         "scene.to_mesh(), or its geometry one by one")
+    refuse_goals(options, "trimesh")
     result = _flip(mesh.vertices, mesh.faces, **options)
     colors = {}
     if mesh.visual.kind in ("face", "vertex"):

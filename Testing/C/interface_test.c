@@ -579,6 +579,72 @@ static void TestRefinement(void)
   CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
 }
 
+/** Two triangles of terrain with different labels. Added points are where their weights say. */
+static void TestRefinementOfMesh(void)
+{
+  const double xyz[] = { 0, 0, 1, 4, -3, 2, 8, 0, 9, 4, 5, 5 };
+  const int64_t ids[] = { 0, 1, 2, 0, 2, 3 };
+  const int32_t regions[] = { 5, 6 };
+  enum
+  {
+    Most = 500
+  };
+  static double added[3 * Most], weights[3 * Most];
+  static int64_t of[3 * Most];
+  static int32_t triangles[6 * Most], sources[2 * Most];
+  delaunayflip_mesh mesh;
+  delaunayflip_options options;
+  delaunayflip_session* session = NULL;
+  delaunayflip_report report;
+  int64_t copy[6], i, k;
+  delaunayflip_mesh_init(&mesh);
+  delaunayflip_options_init(&options);
+  CHECK(options.minimum_angle == 0 && options.keep_boundary == 0 && mesh.sizes == NULL);
+  mesh.points = xyz;
+  mesh.number_of_points = 4;
+  mesh.triangles = ids;
+  mesh.number_of_triangles = 2;
+  mesh.regions = regions;
+  options.geometry = DELAUNAYFLIP_GEOMETRY_PLANAR_XY;
+  options.minimum_angle = 25;
+  options.maximum_area = 0.3;
+  CHECK(delaunayflip_open(&mesh, &options, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  report = GetReport(session);
+  CHECK(report.refinement_points > 50 && report.refinement_points < Most);
+  CHECK(report.triangles < 2 * Most && report.points == 4);
+  CHECK(delaunayflip_store_refined_points(session, added, of, weights) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_refined_points(session, added, of, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_store_sources(session, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_store_regions(session, sources) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_store_sources(session, sources) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT32) == DELAUNAYFLIP_OK);
+  for (i = 0; i < report.refinement_points; ++i)
+  {
+    for (k = 0; k < 3; ++k)
+    {
+      const double third = of[3 * i + 2] < 0 ? 0.0 : xyz[3 * of[3 * i + 2] + k];
+      const double sum = weights[3 * i] * xyz[3 * of[3 * i] + k] +
+        weights[3 * i + 1] * xyz[3 * of[3 * i + 1] + k] + weights[3 * i + 2] * third;
+      CHECK(fabs(sum - added[3 * i + k]) < 1e-9);
+    }
+  }
+  for (i = 0; i < report.triangles; ++i)
+  {
+    double y = 0.0;
+    for (k = 0; k < 3; ++k)
+    {
+      const int32_t id = triangles[3 * i + k];
+      y += id < 4 ? xyz[3 * id + 1] : added[3 * (id - 4) + 1];
+    }
+    CHECK(sources[i] == (y < 0 ? 0 : 1));
+  }
+  delaunayflip_close(session);
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, copy, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  options.geometry = DELAUNAYFLIP_GEOMETRY_SURFACE;
+  CHECK(delaunayflip_open(&mesh, &options, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);
+}
+
 /** A point in the middle of two triangles, of other precision; then one outside, and no further. */
 static void TestInsertion(void)
 {
@@ -690,6 +756,7 @@ int main(void)
   TestQueries();
   TestInsertion();
   TestRefinement();
+  TestRefinementOfMesh();
   TestDefects();
   return 0;
 }

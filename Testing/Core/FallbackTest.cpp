@@ -221,6 +221,42 @@ TEST_F(FallbackTest, AnyCallMayFailForRefinement)
   }
 }
 
+/// The same for a mesh, of which a part is not counter-clockwise.
+TEST_F(FallbackTest, AnyCallMayFailForRefinementOfMeshes)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(11000, 4);
+  std::swap(mesh.Triangles[0], mesh.Triangles[1]);
+  const auto run = [&](BackendKind backend, int call)
+  {
+    CallsToFailure = call;
+    FlipOptions options = OnBackend(backend, InPlane());
+    options.MaximumArea = 5e-5;
+    FlipSession session(mesh.View(), options);
+    session.Advance();
+    EXPECT_LT(0, session.GetReport().FromPoints.RefinementPoints);
+    return session;
+  };
+  const auto listSources = [](const FlipSession& session)
+  {
+    std::vector<std::int32_t> sources(session.GetReport().Triangles);
+    session.StoreSources(sources.data());
+    return sources;
+  };
+  const FlipSession expected = run(BackendKind::Threads, 0);
+  for (int call = 1;; ++call)
+  {
+    const FlipSession session = run(BackendKind::Auto, call);
+    ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
+    ASSERT_TRUE(listSources(expected) == listSources(session)) << call;
+    ExpectSameStatistics(expected.GetReport(), session.GetReport());
+    if (CallsToFailure > 0)
+    {
+      EXPECT_LT(8, call);
+      break;
+    }
+  }
+}
+
 /// Points are inserted again, in the same batches, where a GPU fails at any time.
 TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
 {

@@ -4,6 +4,7 @@
 import copy
 import ctypes
 import doctest
+import functools
 import gc
 import inspect
 import itertools
@@ -436,6 +437,92 @@ class Refine(unittest.TestCase):
         corner = numpy.degrees(numpy.arctan2(0.5, 10))
         self.assertGreater(angles.min(), 0.85 * corner)
         self.assertLess(mesh.report.used_points, 100)
+
+
+class RefineMeshes(unittest.TestCase):
+    """Refinement of meshes that exist, by flip and in sessions."""
+
+    @classmethod
+    def setUpClass(cls):
+        rows = numpy.random.default_rng(3).random((60, 2)) * [8, 6]
+        outline = [[0, 0], [8, 0], [8, 6], [5, 6], [5, 3], [3, 3], [3, 6], [0, 6]]
+        mesh = delaunayflip.triangulate(rows, outline=outline, holes=[[1, 1], [2, 1], [2, 2], [1, 2]])
+        points = numpy.concatenate([mesh.points, mesh.points @ [[2], [3]]], axis=1)
+        cls.points, cls.triangles = points, mesh.triangles
+        cls.left = (points[mesh.triangles, 0].mean(axis=1) < 4).astype(int) * 5 - 2
+
+    def find_areas(self, points, triangles):
+        a, b, c = points[triangles, :2].transpose(1, 0, 2)
+        return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+
+    def test_data_follow(self):
+        result = delaunayflip.flip(self.points, self.triangles, geometry="planar-xy", minimum_angle=20,
+                                   maximum_area=0.05, regions=self.left)
+        report = result.report
+        self.assertGreater(report.refinement_points, 100)
+        self.assertEqual(report.euler_characteristic, 0)
+        self.assertEqual(len(result.points), len(self.points) + report.refinement_points)
+        self.assertEqual(len(result.triangles), report.triangles)
+        self.assertEqual(result.flip_counts.shape, (report.triangles,))
+        areas = self.find_areas(result.points, result.triangles)
+        self.assertTrue(0 < areas.min() and areas.max() <= 0.05)
+        before = self.find_areas(self.points, self.triangles)
+        labels = self.left[result.sources]
+        for label in (-2, 3):
+            self.assertAlmostEqual(areas[labels == label].sum(), before[self.left == label].sum(), 9)
+        wanted = result.points[:, :2] @ [2, 3]
+        numpy.testing.assert_allclose(result.points[:, 2], wanted, atol=1e-12)
+        values = numpy.stack([self.points[:, 0], self.points[:, 2]], axis=1)
+        numpy.testing.assert_allclose(result.at_points(values)[:, 1], wanted, atol=1e-12)
+        self.assertRaises(ValueError, result.at_points, values[1:])
+        angles = delaunayflip.smallest_angles(result.points, result.triangles, geometry="planar-xy")
+        self.assertEqual(numpy.count_nonzero(angles < 20 - 1e-9), report.unrefined_triangles)
+        again = delaunayflip.flip(result.points, result.triangles, geometry="planar-xy", regions=labels)
+        self.assertEqual(again.report.total_flips, 0)
+
+    def test_without_goals(self):
+        result = delaunayflip.flip(self.points, self.triangles)
+        self.assertTrue(numpy.shares_memory(result.points, self.points))
+        numpy.testing.assert_array_equal(result.sources, numpy.arange(len(self.triangles)))
+        numpy.testing.assert_array_equal(result.at_points(self.points), self.points)
+
+    def test_sizes_and_sessions(self):
+        size = 0.2 + 0.1 * self.points[:, 0]
+        keywords = dict(geometry="planar-xy", size=size, point_limit=3000)
+        for kind, ids in ((numpy.float64, numpy.int64), (numpy.float32, numpy.int32)):
+            points, triangles = self.points.astype(kind), self.triangles.astype(ids)
+            result = delaunayflip.flip(points, triangles, **keywords)
+            self.assertEqual((result.points.dtype, result.triangles.dtype), (kind, ids))
+            ends = result.points[result.triangles]
+            longest = numpy.linalg.norm((ends - numpy.roll(ends, 1, axis=1))[..., :2], axis=2).max(axis=1)
+            sizes = result.at_points(size)[result.triangles].mean(axis=1)
+            self.assertLess((longest / sizes).max(), 1 + 1e-5)
+            with delaunayflip.Session(points, triangles, **keywords) as session:
+                counts = [session.report.triangles]
+                while session.advance(1):
+                    counts.append(session.report.triangles)
+                self.assertGreater(len(counts), 5)
+                self.assertEqual(sorted(counts), counts)
+                numpy.testing.assert_array_equal(session.triangles, result.triangles)
+                numpy.testing.assert_array_equal(session.points, result.points)
+                numpy.testing.assert_array_equal(session.sources, result.sources)
+                numpy.testing.assert_array_equal(session.flip_counts, result.flip_counts)
+                self.assertRaises(ValueError, session.store_triangles, triangles)
+
+    def test_messages(self):
+        flip = functools.partial(delaunayflip.flip, self.points, self.triangles)
+        for keywords, words in (
+                ({"minimum_angle": 34}, "minimum_angle must be from 0 to 33"),
+                ({"maximum_area": -1.0}, "maximum_area must be finite"),
+                ({"maximum_edge": 1, "geometry": "surface"}, "surface in space"),
+                ({"minimum_angle": 20, "geometry": "planar-xy", "pieces": 2}, "in several pieces"),
+                ({"minimum_angle": 20, "criterion": "opposite-angles"}, "in-circle"),
+                ({"size": self.points[1:, 0]}, "one number for each"),
+                ({"size": numpy.zeros(len(self.points))}, "size of point 0")):
+            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                flip(**keywords)
+        limited = flip(geometry="planar-xy", maximum_area=1e-4, point_limit=200).report
+        self.assertIn("point_limit allows no more", limited.defects)
 
 
 class Flip(unittest.TestCase):

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_MESHBORDERS_H
+#define DELAUNAYFLIP_MESHBORDERS_H
+
+#include "EdgeTable.h"
+#include "PlaneMesh.h"
+#include "RefinementView.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+/// @file
+/// What refinement leaves alone in a mesh of the caller, which may have any defect: triangles that
+/// are not counter-clockwise, edges between these and others, and edges of more triangles than two.
+
+namespace delaunayflip
+{
+
+/// Finds the region of a triangle: that of the caller, 0 if there are none, or -1 if it is removed
+/// because it is not counter-clockwise.
+struct CallerRegionStep
+{
+  PlaneMesh Mesh;
+  const std::int32_t* Given; ///< By the caller's triangle; null: there are none.
+  std::int32_t* Regions;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(TriangleId t) const
+  {
+    const TriangleRecord& triangle = this->Mesh.Edges.Triangles[t];
+    this->Regions[t] = -1;
+    if (this->IsCounterClockwise(triangle))
+    {
+      this->Regions[t] = this->Given ? this->Given[triangle.InputTriangle] : 0;
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE bool IsCounterClockwise(const TriangleRecord& triangle) const
+  {
+    const VertexId* v = triangle.Vertices;
+    const bool isSound = HasEdges(triangle) && this->Mesh.IsFinite(v[0]) &&
+      this->Mesh.IsFinite(v[1]) && this->Mesh.IsFinite(v[2]);
+    return isSound && this->Mesh.FindOrientation(v[0], v[1], v[2]) > 0;
+  }
+};
+
+/// Fixes an edge that must not flip while triangles are refined: one of a removed triangle, or one
+/// that is bad but cannot flip. Walks and cavities end there.
+struct FixWallStep
+{
+  EdgeMeshView Mesh;
+  /// By triangle, -1: it is removed. Null after a round: only edges that cannot flip are fixed.
+  const std::int32_t* Regions;
+  std::uint8_t* Marks; ///< By edge, those that its subsegment gets; null after a round.
+  std::uint32_t* SegmentOfEdge; ///< See RefinementView.
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId e) const
+  {
+    const CornerPair corners = this->Mesh.GetCorners(e);
+    const EdgeState state = this->Mesh.States[e];
+    const bool isAtRemoved = this->IsRemoved(corners.A) || this->IsRemoved(corners.B);
+    const bool becomesFixed =
+      state != EdgeState::Fixed && (isAtRemoved || state != EdgeState::Good);
+    if (becomesFixed)
+    {
+      this->Mesh.States[e] = EdgeState::Fixed;
+      this->SegmentOfEdge[e] = FixedForNow;
+    }
+    if (!this->Marks)
+    {
+      return;
+    }
+    const bool hasTwo = corners.A != NoCorner && corners.B != NoCorner;
+    const bool staysWhole = becomesFixed || (hasTwo && (isAtRemoved || this->RunAlike(corners)));
+    this->Marks[e] = staysWhole ? CannotSplit : 0;
+    if (becomesFixed)
+    {
+      this->Marks[e] |= FixedMeanwhile;
+    }
+    else
+    {
+      this->SegmentOfEdge[e] = NoSegment;
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE bool IsRemoved(CornerId corner) const
+  {
+    return corner != NoCorner && this->Regions && this->Regions[TriangleOf(corner)] < 0;
+  }
+  /// Whether both triangles run through the edge the same way.
+  DELAUNAYFLIP_HOST_DEVICE bool RunAlike(const CornerPair& corners) const
+  {
+    const TriangleRecord& a = this->Mesh.Triangles[TriangleOf(corners.A)];
+    const TriangleRecord& b = this->Mesh.Triangles[TriangleOf(corners.B)];
+    return a.Vertices[NextSlot(SlotOf(corners.A))] == b.Vertices[NextSlot(SlotOf(corners.B))];
+  }
+};
+
+/// Lets an edge flip again. @returns 1 if it was fixed for refinement alone, else 0.
+struct FreeEdgeStep
+{
+  EdgeMeshView Mesh;
+  const std::uint32_t* SegmentOfEdge; ///< See RefinementView.
+  const std::uint8_t* Marks; ///< By subsegment.
+
+  DELAUNAYFLIP_HOST_DEVICE int operator()(EdgeId e) const
+  {
+    if (this->Mesh.States[e] != EdgeState::Fixed)
+    {
+      return 0;
+    }
+    const std::uint32_t segment = this->SegmentOfEdge[e];
+    bool isFree = segment == FixedForNow;
+    if (segment < FixedForNow)
+    {
+      isFree = (this->Marks[segment] & FixedMeanwhile) != 0;
+    }
+    if (isFree)
+    {
+      this->Mesh.States[e] = EdgeState::Candidate;
+    }
+    return int(isFree);
+  }
+};
+
+/// Marks the records of edges that have several: they are non-manifold, and are not split.
+inline void MarkRepeatedEdges(const std::vector<TriangleRecord>& triangles,
+  const std::vector<CornerId>& corners, std::vector<std::uint8_t>& marks)
+{
+  std::vector<std::pair<std::uint64_t, std::size_t>> edges;
+  for (std::size_t e = 0; e < marks.size(); ++e)
+  {
+    const CornerId corner = corners[2 * e];
+    if (corners[2 * e + 1] == NoCorner && corner != NoCorner)
+    {
+      edges.emplace_back(KeyOpposite(triangles[TriangleOf(corner)], SlotOf(corner)), e);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 1; i < edges.size(); ++i)
+  {
+    if (edges[i].first == edges[i - 1].first)
+    {
+      marks[edges[i].second] |= CannotSplit;
+      marks[edges[i - 1].second] |= CannotSplit;
+    }
+  }
+}
+
+/// How many of some edges are at the boundary, and between regions.
+struct BorderSums
+{
+  std::int64_t Boundary = 0, Regions = 0;
+
+  DELAUNAYFLIP_HOST_DEVICE BorderSums& operator+=(const BorderSums& part)
+  {
+    this->Boundary += part.Boundary;
+    this->Regions += part.Regions;
+    return *this;
+  }
+};
+
+struct BorderCount
+{
+  EdgeMeshView Mesh;
+  const std::int32_t* Regions;
+  const EdgeId* Edges;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, BorderSums& sums) const
+  {
+    const CornerPair corners = this->Mesh.GetCorners(this->Edges[i]);
+    if (corners.A == NoCorner || corners.B == NoCorner)
+    {
+      ++sums.Boundary;
+      return;
+    }
+    const std::int32_t a = this->Regions[TriangleOf(corners.A)];
+    const std::int32_t b = this->Regions[TriangleOf(corners.B)];
+    sums.Regions += int(a != b);
+  }
+};
+
+}
+
+#endif

@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_REFINEMENTSTORE_H
+#define DELAUNAYFLIP_REFINEMENTSTORE_H
+
+#include "Array.h"
+#include "PlaceGrid.h"
+#include "RefinementItem.h"
+#include "RefinementPlan.h"
+#include "RefinementStep.h"
+#include "RefinementView.h"
+#include "TriangleSplit.h"
+
+#include <cmath>
+#include <cstdint>
+
+/// @file
+/// What belongs to a mesh that grows, and how a place is inserted: what it splits, what the new
+/// vertex interpolates, and which edges are segments.
+
+namespace delaunayflip
+{
+
+/// The arrays of a mesh that become larger.
+template <typename Real>
+struct GrowingMesh
+{
+  EdgeMesh* Mesh;
+  Array<Real>* Coordinates; ///< x and y by vertex.
+  Array<VertexId>* Ids; ///< By vertex, the number of its point.
+  std::int64_t Vertices; ///< How many there are.
+  std::int64_t FirstId; ///< The number of the first point that is added.
+  bool IsInFilterRange; ///< Whether the filters may be used for all places.
+
+  PlaneMesh View() const
+  {
+    PlaneMesh plane{ this->Mesh->View(),
+      PlaneArray(static_cast<const Real*>(this->Coordinates->Data()), this->Vertices, 2) };
+    plane.IsTriangulation = true;
+    plane.IsInFilterRange = this->IsInFilterRange;
+    return plane;
+  }
+};
+
+/// The numbers of what an item adds, kind by kind.
+struct RefinementNumbers
+{
+  std::int64_t Vertex, Triangle, Edge, Subsegment;
+};
+
+/// Splits what items split, and stores what belongs to it.
+template <typename Real>
+struct RefinementStore
+{
+  TriangleSplitter Splitter;
+  RefinementNumbers Before; ///< How much there was.
+  Real* Coordinates;
+  VertexId* Ids;
+  std::int64_t FirstId, FirstVertex; ///< Those of the first vertex that refinement has added.
+  std::uint32_t* Shapes;
+  std::int32_t* Regions;
+  double* Sizes;
+  std::uint64_t* Claims;
+  EdgeId* Segments;
+  std::uint8_t* Marks;
+  std::uint32_t* Origins;
+  std::uint32_t* SegmentOfEdge;
+  std::uint32_t* OriginOfVertex;
+  const VertexId* Ends;
+  std::uint8_t* IsSharp;
+  TriangleId* Splits; ///< By vertex that the round adds, a triangle that it splits.
+  RefinedVertex* Added; ///< From the first one on that refinement has added.
+  /// Of the old mesh, that of each of these vertices; NoTriangle for those on segments.
+  TriangleId* OldTriangleOf;
+  PlaneMesh Old; ///< The mesh before refinement.
+  PlaceGridView Grid;
+  bool IsOfCaller; ///< Whether items know where they were in it.
+
+  DELAUNAYFLIP_HOST_DEVICE void Split(
+    const RefinementItem& item, const RefinementNumbers& own) const
+  {
+    const auto vertex = static_cast<VertexId>(this->Before.Vertex + own.Vertex);
+    const auto triangle = static_cast<TriangleId>(this->Before.Triangle + own.Triangle);
+    const auto edge = static_cast<EdgeId>(this->Before.Edge + own.Edge);
+    this->Coordinates[2 * std::size_t(vertex)] = static_cast<Real>(item.Place.U);
+    this->Coordinates[2 * std::size_t(vertex) + 1] = static_cast<Real>(item.Place.V);
+    this->Ids[vertex] = static_cast<VertexId>(this->FirstId + (vertex - this->FirstVertex));
+    this->IsSharp[vertex] = 0;
+    const CornerId across =
+      item.Found.FindEdgeSlot() >= 0 ? this->Splitter.FindAcross(item.Found) : NoCorner;
+    this->TakeOver(item.Found.Triangle, triangle);
+    if (item.Found.FindEdgeSlot() < 0)
+    {
+      this->TakeOver(item.Found.Triangle, triangle + 1);
+    }
+    else if (across != NoCorner)
+    {
+      this->TakeOver(TriangleOf(across), triangle + 1);
+    }
+    std::uint32_t origin = NoOrigin;
+    if (item.IsOnSegment)
+    {
+      const auto added = static_cast<std::uint32_t>(this->Before.Subsegment + own.Subsegment);
+      origin = this->Origins[item.Source];
+      this->Origins[added] = origin;
+      this->Marks[item.Source] = 0;
+      this->Marks[added] = 0;
+      this->Segments[added] = edge;
+      this->SegmentOfEdge[edge] = added;
+    }
+    this->OriginOfVertex[vertex] = origin;
+    this->Splits[own.Vertex] = item.Found.Triangle;
+    RefinedVertex& added = this->Added[vertex - this->FirstVertex];
+    TriangleId& oldTriangle = this->OldTriangleOf[vertex - this->FirstVertex];
+    oldTriangle = origin == NoOrigin ? this->FindOldTriangle(item) : NoTriangle;
+    added = this->Interpolate(item, origin, oldTriangle);
+    if (this->Sizes)
+    {
+      this->Sizes[vertex] = this->InterpolateSize(added);
+    }
+    this->Splitter.Split({ vertex, item.Found, triangle, edge });
+  }
+
+private:
+  /// A new triangle is in the region of the one that is split, and both are judged again.
+  DELAUNAYFLIP_HOST_DEVICE void TakeOver(TriangleId from, TriangleId to) const
+  {
+    this->Regions[to] = this->Regions[from];
+    this->Claims[to] = RefinementKey::None;
+    this->Shapes[from] = static_cast<std::uint32_t>(ShapeKind::Unknown);
+    this->Shapes[to] = static_cast<std::uint32_t>(ShapeKind::Unknown);
+  }
+
+  /// What belongs to a vertex is linear along the segment that it splits, and else in the triangle
+  /// that it was in at first.
+  DELAUNAYFLIP_HOST_DEVICE RefinedVertex Interpolate(
+    const RefinementItem& item, std::uint32_t origin, TriangleId triangle) const
+  {
+    RefinedVertex vertex{ item.Place.U, item.Place.V, origin, { 0, 0, 0 }, { 1.0, 0.0, 0.0 } };
+    if (origin != NoOrigin)
+    {
+      const VertexId* ends = this->Ends + 2 * std::size_t(origin);
+      const PlanePoint from = this->Old.GetPoint(ends[0]), to = this->Old.GetPoint(ends[1]);
+      const double length = std::sqrt(TriangleShape::GetSquaredDistance(from, to));
+      vertex.Weights[1] = std::sqrt(TriangleShape::GetSquaredDistance(from, item.Place)) / length;
+      vertex.Weights[0] = 1.0 - vertex.Weights[1];
+      vertex.Points[0] = ends[0];
+      vertex.Points[1] = ends[1];
+      vertex.Points[2] = ends[0];
+      return vertex;
+    }
+    double sum = 0.0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const VertexId* vertices = this->Old.Edges.Triangles[triangle].Vertices;
+      const PlanePoint a = this->Old.GetPoint(vertices[NextSlot(slot)]);
+      const PlanePoint b = this->Old.GetPoint(vertices[PreviousSlot(slot)]);
+      const double area =
+        (a.U - item.Place.U) * (b.V - item.Place.V) - (a.V - item.Place.V) * (b.U - item.Place.U);
+      vertex.Points[slot] = vertices[slot];
+      vertex.Weights[slot] = area > 0.0 ? area : 0.0;
+      sum += vertex.Weights[slot];
+    }
+    for (double& weight : vertex.Weights)
+    {
+      weight = sum > 0.0 ? weight / sum : 1.0 / 3.0;
+    }
+    return vertex;
+  }
+
+  /// The walk begins where the newest corner of the triangle that is split was at first.
+  DELAUNAYFLIP_HOST_DEVICE TriangleId FindOldTriangle(const RefinementItem& item) const
+  {
+    if (this->IsOfCaller)
+    {
+      return item.Old;
+    }
+    std::int64_t newest = -1;
+    for (const VertexId vertex : this->Splitter.GetMesh().Triangles[item.Found.Triangle].Vertices)
+    {
+      const std::int64_t number = std::int64_t(vertex) - this->FirstVertex;
+      newest = number > newest ? number : newest;
+    }
+    TriangleId start = newest >= 0 ? this->OldTriangleOf[newest] : NoTriangle;
+    if (start == NoTriangle)
+    {
+      start = this->Grid.FindStart(item.Place);
+    }
+    PlaneMesh old = this->Old;
+    old.IsInFilterRange = old.IsInFilterRange && IsInFilterRange(item.Place);
+    const FoundPlace found = WalkToPlace(old, item.Place, start);
+    return found.IsOutside() ? start : found.Triangle; // outside by rounding
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE double InterpolateSize(const RefinedVertex& vertex) const
+  {
+    double size = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      if (vertex.Weights[k] != 0.0)
+      {
+        size += vertex.Weights[k] * this->Sizes[vertex.Points[k]];
+      }
+    }
+    return size;
+  }
+};
+
+/// Marks a vertex where a kept triangle's edge meets the next segment around it at less than 60
+/// degrees.
+struct SharpCornerStep
+{
+  PlaneMesh Mesh;
+  const std::int32_t* Regions;
+  std::uint8_t* IsSharp;
+
+  /// @param side of a segment; the corner at its start is judged.
+  DELAUNAYFLIP_HOST_DEVICE void operator()(HalfEdgeId side) const
+  {
+    CornerId corner =
+      this->Mesh.Edges.CornerOfHalfEdge[side]; // opposite the edge that was turned over
+    if (corner == NoCorner || this->Regions[TriangleOf(corner)] < 0)
+    {
+      return;
+    }
+    const VertexId vertex = this->Mesh.GetStart(side);
+    const PlanePoint place = this->Mesh.GetPoint(vertex),
+                     end = this->Mesh.GetPoint(this->Mesh.GetEnd(side));
+    const double u = end.U - place.U, v = end.V - place.V;
+    for (;;)
+    {
+      const PlanePoint other = this->Mesh.GetPoint(this->Mesh.GetVertex(corner));
+      const double s = other.U - place.U, t = other.V - place.V;
+      const double dot = u * s + v * t;
+      const bool isSmall = dot > 0.0 && 4.0 * dot * dot > (u * u + v * v) * (s * s + t * t);
+      if (!isSmall)
+      {
+        return;
+      }
+      const HalfEdgeId next = this->Mesh.GetHalfEdge(PlaneMesh::Previous(corner));
+      if (this->Mesh.IsFixed(next))
+      {
+        AtomicStore(&this->IsSharp[vertex], std::uint8_t(1));
+        return;
+      }
+      corner = this->Mesh.Edges.CornerOfHalfEdge[next ^ 1u];
+    }
+  }
+};
+
+/// Whether an edge is a subsegment of a kept triangle, as 1 or 0.
+struct SegmentTest
+{
+  EdgeMeshView Mesh;
+  const std::int32_t* Regions;
+
+  DELAUNAYFLIP_HOST_DEVICE int CountKept(std::int64_t e) const
+  {
+    const CornerPair corners = this->Mesh.GetCorners(static_cast<EdgeId>(e));
+    const bool hasA = corners.A != NoCorner && this->Regions[TriangleOf(corners.A)] >= 0;
+    const bool hasB = corners.B != NoCorner && this->Regions[TriangleOf(corners.B)] >= 0;
+    return int(hasA) + int(hasB);
+  }
+  DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t e) const
+  {
+    return this->Mesh.States[e] == EdgeState::Fixed && this->CountKept(e) > 0 ? 1 : 0;
+  }
+};
+
+}
+
+#endif

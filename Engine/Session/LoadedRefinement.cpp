@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LoadedRun.h"
+
+#include <algorithm>
+#include <cstdint>
+
+/// @file
+/// The rounds of refinement, of points and of meshes.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// The limit of points that the options set.
+std::int64_t GetPointLimit(std::int64_t limit, std::int64_t points)
+{
+  constexpr std::int64_t Times = 10, Fewest = 1000000;
+  return limit > 0 ? limit : std::max(Times * points, Fewest);
+}
+
+}
+
+RefinementPlan LoadedRun::PlanGoals(std::int64_t points) const
+{
+  const FlipOptions& options = this->Options;
+  RefinementPlan plan;
+  SetSmallestAngle(options.MinimumAngle, plan.Goals);
+  if (options.MaximumArea > 0.0)
+  {
+    plan.Goals.Area = options.MaximumArea;
+  }
+  if (options.MaximumEdge > 0.0)
+  {
+    plan.Goals.SquaredEdge = options.MaximumEdge * options.MaximumEdge;
+  }
+  plan.MostVertices = GetPointLimit(options.PointLimit, points);
+  plan.KeepsBoundary = options.KeepBoundary;
+  return plan;
+}
+
+bool LoadedRun::Refine()
+{
+  // Nobody knows how many rounds are needed; most meshes need 10 to 30.
+  constexpr double Usual = 10.0;
+  if (this->Report.Triangles == 0)
+  {
+    return true;
+  }
+  const auto mayRefine = [this]
+  { return this->CountIterations() + this->Rounds - this->RoundsBefore < this->Limit; };
+  while (!this->IsRefined && !this->WasStopped && mayRefine())
+  {
+    const auto refine = [this](LoadedMesh& mesh) { return this->RefineOnce(mesh); };
+    this->IsRefined = this->OnBackend(refine) == 0;
+    if (!this->IsRefined)
+    {
+      this->RecordChange(1);
+      const auto rounds = static_cast<double>(this->Rounds);
+      this->WasStopped = !this->Progress.TellRest(this->Observer, rounds / (rounds + Usual));
+    }
+  }
+  if (this->Rounds > 0 || this->IsRefined)
+  {
+    this->OnBackend([this](LoadedMesh& mesh) { this->TakeRefinement(mesh); });
+    this->RecordFound(this->Loaded->GetLoop().GetFound());
+    this->AreAnglesKnown = false;
+  }
+  return this->IsRefined;
+}
+
+std::int64_t LoadedRun::RefineOnce(LoadedMesh& mesh)
+{
+  if (this->Rounds == 0)
+  {
+    mesh.StartRefinement(this->PlanRefinement(mesh));
+  }
+  const std::int64_t added = mesh.Refine();
+  this->Rounds += added > 0 ? 1 : 0;
+  return added;
+}
+
+void LoadedRun::RepeatRounds(LoadedMesh& mesh, std::int64_t rounds)
+{
+  this->Rounds = 0;
+  while (this->Rounds < rounds)
+  {
+    this->RefineOnce(mesh);
+  }
+  if (this->IsRefined)
+  {
+    this->RefineOnce(mesh); // ends it
+  }
+  this->TakeRefinement(mesh);
+}
+
+}

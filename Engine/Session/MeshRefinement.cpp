@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshRun.h"
+
+#include "InputChecks.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+/// @file
+/// How the run of a mesh refines it.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// A weighted mean, but a value that all have stays as it is, so that a plane stays one.
+double Mean(const double (&values)[3], const double (&weights)[3])
+{
+  double sum = 0.0;
+  bool areEqual = true;
+  for (int k = 0; k < 3; ++k)
+  {
+    areEqual = areEqual && (values[k] == values[0] || weights[k] == 0.0);
+    sum += weights[k] == 0.0 ? 0.0 : weights[k] * values[k];
+  }
+  return areEqual ? values[0] : sum;
+}
+
+/// The coordinates of a point that was added, in the precision of the caller's points.
+void FindPosition(
+  const PointArray& points, const RefinedVertex& vertex, const int (&axes)[2], double (&xyz)[3])
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double values[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      values[k] = points.Get(vertex.Points[k], axis);
+    }
+    xyz[axis] = Mean(values, vertex.Weights);
+  }
+  if (axes[0] >= 0)
+  {
+    xyz[axes[0]] = vertex.U;
+    xyz[axes[1]] = vertex.V;
+  }
+  for (double& coordinate : xyz)
+  {
+    coordinate = points.Floats ? static_cast<float>(coordinate) : coordinate;
+  }
+}
+
+}
+
+bool MeshRun::WantsRefinement() const
+{
+  return HasGoals(this->Options) || this->Mesh.GetFixedEdges().Sizes != nullptr;
+}
+
+RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
+{
+  const std::int64_t points = this->Mesh.CountPoints();
+  RefinementPlan plan = this->PlanGoals(points);
+  plan.IsOfCaller = true;
+  plan.HasNonManifold = mesh.GetInputReport().Edges.NonManifold > 0;
+  plan.Regions = this->NumberRegions();
+  const double* sizes = this->Mesh.GetFixedEdges().Sizes;
+  if (sizes)
+  {
+    plan.Sizes.assign(sizes, sizes + points);
+  }
+  return plan;
+}
+
+/// Numbers from 0 for the caller's labels; empty without labels.
+std::vector<std::int32_t> MeshRun::NumberRegions() const
+{
+  const std::int32_t* labels = this->Mesh.GetFixedEdges().Regions;
+  std::vector<std::int32_t> numbers;
+  if (labels)
+  {
+    numbers.assign(labels, labels + this->Mesh.CountTriangles());
+    std::vector<std::int32_t> sorted = numbers;
+    std::sort(sorted.begin(), sorted.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    for (std::int32_t& number : numbers)
+    {
+      const auto place = std::lower_bound(sorted.begin(), sorted.end(), number);
+      number = static_cast<std::int32_t>(place - sorted.begin());
+    }
+  }
+  return numbers;
+}
+
+void MeshRun::TakeRefinement(LoadedMesh& mesh)
+{
+  const RefinementResult made = mesh.FetchRefinement();
+  this->AddRefinedPoints(made);
+  this->Refined.Sources = made.Sources;
+  this->Refined.Unrefined = Defect(DefectKind::TrianglesNotRefined, made.Unrefined);
+  this->Refined.Unrefined.FirstIds.assign(made.FirstUnrefined.begin(), made.FirstUnrefined.end());
+  std::vector<std::int64_t>& first = this->Refined.Unrefined.FirstIds;
+  std::sort(first.begin(), first.end());
+  this->Refined.HasReachedLimit = made.HasReachedLimit;
+  FlipReport& report = this->Report;
+  const std::int64_t segments = SizeOf(made.Segments) - SizeOf(made.Ends) / 2;
+  const EdgeCounts& before = mesh.GetInputReport().Edges;
+  report.Triangles = mesh.GetInputReport().Triangles;
+  report.Edges.Edges = before.Edges + made.Edges;
+  report.Edges.Boundary = before.Boundary + made.BoundaryEdges;
+  report.Edges.Region = before.Region + made.RegionEdges;
+  report.Edges.Constraint = before.Constraint + this->CountConstraints(made);
+  report.Edges.Fixed = before.Fixed + segments;
+  PointCounts& counts = report.FromPoints;
+  counts.RefinementPoints = SizeOf(this->Refined.Points);
+  counts.RefinementRounds = this->Rounds;
+  counts.UnrefinedTriangles = made.Unrefined;
+  counts.ReachedPointLimit = made.HasReachedLimit ? 1 : 0;
+  this->AreKeptEdgesKnown = false;
+}
+
+/// Counts the pieces that were added to constraint edges.
+std::int64_t MeshRun::CountConstraints(const RefinementResult& made) const
+{
+  const FixedEdges& edges = this->Start->GetFixedEdges();
+  std::vector<std::pair<std::int64_t, std::int64_t>> constraints;
+  for (std::int64_t i = 0; i < edges.NumberOfConstraintEdges; ++i)
+  {
+    const std::int64_t* ends = edges.ConstraintEdges + 2 * i;
+    constraints.emplace_back(std::minmax(ends[0], ends[1]));
+  }
+  std::sort(constraints.begin(), constraints.end());
+  std::int64_t count = 0;
+  for (std::size_t i = made.Ends.size() / 2; i < made.Segments.size(); ++i)
+  {
+    const std::int64_t a = made.Ends[2 * std::size_t(made.Segments[i].Origin)];
+    const std::int64_t b = made.Ends[2 * std::size_t(made.Segments[i].Origin) + 1];
+    const std::pair<std::int64_t, std::int64_t> ends = std::minmax(a, b);
+    count += std::binary_search(constraints.begin(), constraints.end(), ends) ? 1 : 0;
+  }
+  return count;
+}
+
+void MeshRun::AddRefinedPoints(const RefinementResult& made)
+{
+  const PointArray& points = this->Mesh.CopyToHost().Points;
+  std::vector<AddedPoint>& added = this->Refined.Points;
+  added.clear();
+  added.reserve(made.Vertices.size());
+  for (const RefinedVertex& vertex : made.Vertices)
+  {
+    double xyz[3];
+    FindPosition(points, vertex, made.Axes, xyz);
+    AddedPoint point;
+    point.X = xyz[0];
+    point.Y = xyz[1];
+    point.Z = xyz[2];
+    point.From = vertex.Points[0];
+    point.To = vertex.Points[1];
+    point.Share = vertex.Weights[1];
+    if (vertex.Origin == NoOrigin)
+    {
+      point.Third = vertex.Points[2];
+      point.ThirdShare = vertex.Weights[2];
+    }
+    added.push_back(point);
+  }
+}
+
+void MeshRun::StoreSources(std::int32_t* sources)
+{
+  if (this->Refined.Sources.empty())
+  {
+    SessionRun::StoreSources(sources);
+    return;
+  }
+  std::copy(this->Refined.Sources.begin(), this->Refined.Sources.end(), sources);
+}
+
+}

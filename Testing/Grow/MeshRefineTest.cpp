@@ -1,0 +1,496 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipTestSupport.h"
+#include "PointTestSupport.h"
+#include "RandomInputs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+/// @file
+/// Refinement of meshes that exist: borders, data, defects.
+
+namespace delaunayflip
+{
+namespace
+{
+
+constexpr double DegreesPerRadian = 57.295779513082321;
+constexpr double Rounding = 1e-9;
+
+double Cross(const double* a, const double* b, const double* c)
+{
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// A refined mesh with all its points.
+struct RefinedMesh
+{
+  std::vector<double> Points;
+  std::vector<std::int32_t> Triangles, Sources;
+  std::vector<AddedPoint> Added;
+  FlipReport Report;
+
+  const double* GetPoint(std::int64_t id) const { return &this->Points[3 * id]; }
+  double GetArea(std::size_t t) const
+  {
+    const std::int32_t* ids = &this->Triangles[3 * t];
+    return 0.5 * Cross(this->GetPoint(ids[0]), this->GetPoint(ids[1]), this->GetPoint(ids[2]));
+  }
+  double GetSmallestAngle(std::size_t t) const
+  {
+    double smallest = 180.0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const double* a = this->GetPoint(this->Triangles[3 * t + slot]);
+      const double* b = this->GetPoint(this->Triangles[3 * t + (slot + 1) % 3]);
+      const double* c = this->GetPoint(this->Triangles[3 * t + (slot + 2) % 3]);
+      const double dot = (b[0] - a[0]) * (c[0] - a[0]) + (b[1] - a[1]) * (c[1] - a[1]);
+      smallest = std::min(smallest, std::atan2(std::fabs(Cross(a, b, c)), dot) * DegreesPerRadian);
+    }
+    return smallest;
+  }
+  TriangleMesh View() const
+  {
+    TriangleMesh mesh;
+    mesh.Points =
+      PointArray(this->Points.data(), static_cast<std::int64_t>(this->Points.size()) / 3);
+    mesh.Triangles = ViewTriangles(this->Triangles);
+    return mesh;
+  }
+};
+
+RefinedMesh Take(const FlipSession& session, const TriangleMesh& mesh)
+{
+  RefinedMesh refined;
+  refined.Report = session.GetReport();
+  refined.Triangles = StoreTriangles(session);
+  refined.Sources.resize(refined.Report.Triangles);
+  session.StoreSources(refined.Sources.data());
+  refined.Added = session.GetAddedPoints();
+  for (std::int64_t i = 0; i < 3 * mesh.Points.Count; ++i)
+  {
+    refined.Points.push_back(mesh.Points.GetNumber(i));
+  }
+  for (const AddedPoint& point : refined.Added)
+  {
+    refined.Points.insert(refined.Points.end(), { point.X, point.Y, point.Z });
+  }
+  return refined;
+}
+
+RefinedMesh Refine(const TriangleMesh& mesh, const FlipOptions& options)
+{
+  FlipSession session = MakeSession(mesh, options);
+  session.Advance();
+  return Take(session, mesh);
+}
+
+/// The options of a run in x and y with a goal.
+FlipOptions WithGoal(double FlipOptions::*goal, double value)
+{
+  return With(goal, value, InPlane());
+}
+
+FlipOptions WithAngle(double angle) { return WithGoal(&FlipOptions::MinimumAngle, angle); }
+
+/// The edges of one triangle alone.
+std::set<std::pair<std::int64_t, std::int64_t>> FindBoundary(const TriangleArray& triangles)
+{
+  std::map<std::pair<std::int64_t, std::int64_t>, int> uses;
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      ++uses[std::minmax(triangles.Get(t, slot), triangles.Get(t, (slot + 1) % 3))];
+    }
+  }
+  std::set<std::pair<std::int64_t, std::int64_t>> boundary;
+  for (const auto& [edge, count] : uses)
+  {
+    if (count == 1)
+    {
+      boundary.insert(edge);
+    }
+  }
+  return boundary;
+}
+
+/// An L with a square hole and a step of narrow triangles, whose points rise by 2 x + 3 y.
+struct Room
+{
+  std::vector<double> Points;
+  std::vector<std::int32_t> Triangles;
+  std::vector<std::int32_t> Regions; ///< 7 where x is below 5, else -3.
+
+  Room()
+  {
+    const Places corners = { { 0, 0 }, { 10, 0 }, { 10, 4 }, { 5, 4 }, { 5, 9 }, { 0, 9 }, { 2, 1 },
+      { 3, 1 }, { 3, 2.5 }, { 2, 2.5 }, { 5, 0 }, { 5.3, 0.2 }, { 9, 3.9 } };
+    const std::vector<std::vector<std::int64_t>> rings = { { 0, 10, 1, 2, 3, 4, 5 },
+      { 6, 7, 8, 9 } };
+    std::vector<double> xy;
+    for (const Place& corner : corners)
+    {
+      xy.insert(xy.end(), { corner[0], corner[1] });
+      this->Points.insert(
+        this->Points.end(), { corner[0], corner[1], 2.0 * corner[0] + 3.0 * corner[1] });
+    }
+    std::vector<std::int64_t> segments;
+    std::vector<std::int32_t> ringOf;
+    for (std::size_t r = 0; r < rings.size(); ++r)
+    {
+      for (std::size_t i = 0; i < rings[r].size(); ++i)
+      {
+        segments.insert(segments.end(), { rings[r][i], rings[r][(i + 1) % rings[r].size()] });
+        ringOf.push_back(static_cast<std::int32_t>(r));
+      }
+    }
+    segments.insert(segments.end(), { 10, 3 });
+    ringOf.push_back(-1);
+    PointInput input{ PlaneArray(xy.data(), static_cast<std::int64_t>(corners.size()), 2) };
+    input.Segments = segments.data();
+    input.NumberOfSegments = static_cast<std::int64_t>(ringOf.size());
+    input.Rings = ringOf.data();
+    this->Triangles = StoreTriangles(FlipPoints(input));
+    for (std::size_t t = 0; t < this->Triangles.size(); t += 3)
+    {
+      double x = 0.0;
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        x += this->Points[3 * this->Triangles[t + slot]];
+      }
+      this->Regions.push_back(x < 15.0 ? 7 : -3);
+    }
+  }
+
+  TriangleMesh View() const
+  {
+    TriangleMesh mesh;
+    mesh.Points =
+      PointArray(this->Points.data(), static_cast<std::int64_t>(this->Points.size()) / 3);
+    mesh.Triangles = ViewTriangles(this->Triangles);
+    mesh.Regions = this->Regions.data();
+    return mesh;
+  }
+};
+
+/// Sums the areas of regions.
+std::map<std::int32_t, double> SumAreas(const RefinedMesh& mesh, const std::int32_t* regions)
+{
+  std::map<std::int32_t, double> areas;
+  for (std::size_t t = 0; t < mesh.Triangles.size() / 3; ++t)
+  {
+    areas[regions[mesh.Sources[t]]] += mesh.GetArea(t);
+  }
+  return areas;
+}
+
+TEST(MeshRefineTest, ReachesGoalsInDomainsWithHoles)
+{
+  const Room room;
+  const RefinedMesh refined = Refine(room.View(), WithAngle(28.0));
+  EXPECT_LT(0, refined.Report.FromPoints.RefinementPoints);
+  EXPECT_EQ(0, refined.Report.FromPoints.UnrefinedTriangles);
+  for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
+  {
+    ASSERT_LE(28.0 - Rounding, refined.GetSmallestAngle(t)) << t;
+    ASSERT_LT(0.0, refined.GetArea(t)) << t;
+  }
+  const std::map<std::int32_t, double> areas = SumAreas(refined, room.Regions.data());
+  EXPECT_NEAR(45.0 - 1.5, areas.at(7), Rounding);
+  EXPECT_NEAR(20.0, areas.at(-3), Rounding);
+  // The hole and the notch stay: the boundary is longer in points, not in length.
+  double length = 0.0;
+  const auto boundary = FindBoundary(ViewTriangles(refined.Triangles));
+  for (const auto& [a, b] : boundary)
+  {
+    const double *from = refined.GetPoint(a), *to = refined.GetPoint(b);
+    length += std::hypot(to[0] - from[0], to[1] - from[1]);
+  }
+  EXPECT_NEAR(10 + 4 + 5 + 5 + 5 + 9 + 5, length, Rounding);
+  EXPECT_EQ(static_cast<std::int64_t>(boundary.size()), refined.Report.Edges.Boundary);
+  EXPECT_EQ(0, refined.Report.EulerCharacteristic);
+  EXPECT_EQ(0, Flip(refined.View(), InPlane()).Report.NonDelaunayBefore);
+}
+
+TEST(MeshRefineTest, InterpolatesInTheMeshBefore)
+{
+  const Room room;
+  const TriangleMesh mesh = room.View();
+  FlipOptions options = WithAngle(30.0);
+  options.MaximumArea = 0.1;
+  const RefinedMesh refined = Refine(mesh, options);
+  for (const AddedPoint& point : refined.Added)
+  {
+    ASSERT_NEAR(2.0 * point.X + 3.0 * point.Y, point.Z, 1e-12);
+    ASSERT_EQ(point.Third < 0, point.ThirdShare == 0.0 && point.Third < 0);
+  }
+  // Every centroid is in its source, in the mesh that has been flipped but not refined.
+  const FlipResult before = Flip(mesh, InPlane());
+  for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
+  {
+    double center[2] = { 0.0, 0.0 };
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const double* corner = refined.GetPoint(refined.Triangles[3 * t + slot]);
+      center[0] += corner[0] / 3.0;
+      center[1] += corner[1] / 3.0;
+    }
+    const std::int32_t* ids = &before.Triangles[3 * refined.Sources[t]];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      ASSERT_LE(
+        -1e-12, Cross(refined.GetPoint(ids[slot]), refined.GetPoint(ids[(slot + 1) % 3]), center))
+        << t;
+    }
+    ASSERT_GE(0.1, refined.GetArea(t));
+  }
+}
+
+TEST(MeshRefineTest, KeepsSegmentsRegionsAndWinding)
+{
+  Room room;
+  ReverseTriangles(room.Triangles);
+  const std::vector<std::int64_t> constraints = { 11, 12 };
+  const unsigned char insert = 1;
+  const TriangleMesh mesh = WithConstraints(room.View(), constraints, &insert);
+  const RefinedMesh refined = Refine(mesh, WithAngle(25.0));
+  double onConstraint = 0.0;
+  const std::set<std::int64_t> ends = { 11, 12 };
+  std::vector<std::int64_t> chain = { 11 };
+  for (std::size_t i = 0; i < refined.Added.size(); ++i)
+  {
+    const AddedPoint& point = refined.Added[i];
+    if (point.Third < 0 && ends.count(point.From) > 0 && ends.count(point.To) > 0)
+    {
+      chain.push_back(mesh.Points.Count + static_cast<std::int64_t>(i));
+    }
+  }
+  chain.push_back(12);
+  std::sort(chain.begin(), chain.end(),
+    [&](std::int64_t a, std::int64_t b)
+    { return refined.GetPoint(a)[0] < refined.GetPoint(b)[0]; });
+  for (std::size_t i = 1; i < chain.size(); ++i)
+  {
+    EXPECT_TRUE(HasEdge(refined.Triangles, chain[i - 1], chain[i])) << i;
+    onConstraint += 1.0;
+  }
+  EXPECT_EQ(onConstraint, refined.Report.Edges.Constraint);
+  for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
+  {
+    ASSERT_GT(0.0, refined.GetArea(t)) << t; // as before
+  }
+  const std::map<std::int32_t, double> areas = SumAreas(refined, room.Regions.data());
+  EXPECT_NEAR(-43.5, areas.at(7), Rounding);
+}
+
+TEST(MeshRefineTest, SameForAllThreads)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(4000 / Reduction, 5);
+  std::vector<std::int32_t> some; // with holes and bays
+  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
+  {
+    const double x = mesh.Points[3 * mesh.Triangles[t]], y = mesh.Points[3 * mesh.Triangles[t] + 1];
+    if (std::sin(11.0 * x) * std::cos(13.0 * y) < 0.5)
+    {
+      some.insert(some.end(), mesh.Triangles.begin() + t, mesh.Triangles.begin() + t + 3);
+    }
+  }
+  mesh.Triangles = some;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < mesh.Points.size(); i += 3)
+  {
+    sizes.push_back(i % 2 == 0 ? 0.05 + 0.1 * mesh.Points[i] : NAN);
+  }
+  TriangleMesh view = mesh.View();
+  view.Sizes = sizes.data();
+  const RefinedMesh expected = Refine(view, WithThreads(1, WithAngle(20.0)));
+  EXPECT_LT(100 / Reduction, expected.Report.FromPoints.RefinementPoints);
+  for (const int threads : { 2, 3, 16 })
+  {
+    const RefinedMesh other = Refine(view, WithThreads(threads, WithAngle(20.0)));
+    EXPECT_EQ(expected.Triangles, other.Triangles);
+    EXPECT_EQ(expected.Sources, other.Sources);
+    EXPECT_EQ(expected.Points, other.Points);
+  }
+}
+
+/// A fan that covers two turns: places have two triangles, and each new point belongs to one.
+TEST(MeshRefineTest, StaysInItsSheet)
+{
+  OwnedMesh<double> fan;
+  const int count = 40;
+  fan.Points = { 0, 0, 0 };
+  for (int i = 0; i <= count; ++i)
+  {
+    const double angle = 4.0 * M_PI * i / count;
+    fan.Points.insert(fan.Points.end(), { std::cos(angle), std::sin(angle), 0.01 * i });
+    if (i > 0)
+    {
+      fan.Triangles.insert(fan.Triangles.end(), { 0, i, i + 1 });
+    }
+  }
+  FlipOptions options = InPlane();
+  options.MaximumArea = 0.01;
+  const RefinedMesh refined = Refine(fan.View(), options);
+  EXPECT_LT(0, refined.Report.FromPoints.RefinementPoints);
+  double area = 0.0;
+  std::vector<double> areas(count);
+  for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
+  {
+    areas[refined.Sources[t]] += refined.GetArea(t);
+    area += refined.GetArea(t);
+  }
+  EXPECT_NEAR(0.5 * count * std::sin(4.0 * M_PI / count), area, Rounding);
+  EXPECT_LT(0.0, *std::min_element(areas.begin(), areas.end()));
+  EXPECT_EQ(1, refined.Report.EulerCharacteristic);
+}
+
+/// Planes other than z = 0: an upright one, and a tilted one.
+TEST(MeshRefineTest, RefinesInAnyPlane)
+{
+  const OwnedMesh<double> flat = MakeRandomBadMeshDouble(60, 3);
+  const AffineMap maps[] = { { { { 0, 0, 0, 4 }, { 1, 0, 0, 0 }, { 0, 1, 0, 0 } } },
+    { { { 0.6, -0.64, 0, 0 }, { 0.8, 0.48, 0, 0 }, { 0, 0.6, 0, 1 } } } };
+  const FlipOptions options = With(&FlipOptions::MinimumAngle, 26.0);
+  const RefinedMesh expected = Refine(flat.View(), options);
+  for (const AffineMap& map : maps)
+  {
+    const OwnedMesh<double> turned = Transform(flat, map);
+    const RefinedMesh refined = Refine(turned.View(), options);
+    ASSERT_EQ(GeometryKind::Planar, refined.Report.GeometryUsed);
+    EXPECT_LT(0, refined.Report.FromPoints.RefinementPoints);
+    const double least = refined.Report.MinimumAngleAfter;
+    if (refined.Report.FromPoints.UnrefinedTriangles == 0)
+    {
+      EXPECT_LE(26.0 - 1e-6, least);
+    }
+    const double share = double(refined.Triangles.size()) / double(expected.Triangles.size());
+    EXPECT_NEAR(1.0, share, 0.2);
+    const FlipOptions planar = With(&FlipOptions::Geometry, GeometryKind::Planar);
+    EXPECT_NO_THROW(MakeSession(refined.View(), planar)); // it is still one
+  }
+}
+
+TEST(MeshRefineTest, LeavesDefectsAlone)
+{
+  Room room;
+  const std::int32_t first[] = { room.Triangles[0], room.Triangles[1], room.Triangles[2] };
+  const auto points = static_cast<std::int32_t>(room.Points.size() / 3);
+  room.Points.insert(room.Points.end(), { 4.0, 6.0, 1.0, NAN, 0.0, 0.0 });
+  // A third triangle at an edge, one that is turned over, a copy, and two without area.
+  const std::vector<std::vector<std::int32_t>> more = { { first[0], first[1], points },
+    { first[0], first[2], first[1] }, { first[0], first[1], first[2] },
+    { first[0], first[0], first[1] }, { first[0], first[1], points + 1 } };
+  for (const std::vector<std::int32_t>& triangle : more)
+  {
+    room.Triangles.insert(room.Triangles.end(), triangle.begin(), triangle.end());
+    room.Regions.push_back(99);
+  }
+  FlipOptions options = InPlane();
+  options.MinimumAngle = 25.0;
+  options.MaximumArea = 0.2;
+  const RefinedMesh refined = Refine(room.View(), options);
+  EXPECT_LT(20, refined.Report.FromPoints.RefinementPoints);
+  EXPECT_TRUE(refined.Report.Converged());
+  const std::map<std::int32_t, double> areas = SumAreas(refined, room.Regions.data());
+  EXPECT_NEAR(20.0, areas.at(-3), 1e-6);
+  // The non-manifold edges are still there.
+  EXPECT_TRUE(HasEdge(refined.Triangles, first[0], first[1]));
+}
+
+/// Random triangles: no claim but that it ends with a valid mesh, the same for all threads.
+TEST(MeshRefineTest, EndsForAnySoup)
+{
+  for (std::uint32_t seed = 0; seed < 60 / Reduction; ++seed)
+  {
+    const OwnedMesh<double> soup = MakeSoup(30, 60, seed);
+    FlipOptions options = InPlane();
+    options.MinimumAngle = 20.0;
+    options.PointLimit = 2000;
+    const RefinedMesh refined = Refine(soup.View(), WithThreads(1, options));
+    const RefinedMesh other = Refine(soup.View(), WithThreads(3, options));
+    EXPECT_EQ(refined.Triangles, other.Triangles) << seed;
+    EXPECT_EQ(refined.Sources, other.Sources) << seed;
+  }
+}
+
+TEST(MeshRefineTest, KeepsBoundaryAndLimits)
+{
+  const Room room;
+  FlipOptions options = WithAngle(28.0);
+  options.KeepBoundary = true;
+  const TriangleMesh mesh = room.View();
+  const RefinedMesh kept = Refine(mesh, options);
+  EXPECT_EQ(FindBoundary(mesh.Triangles), FindBoundary(ViewTriangles(kept.Triangles)));
+  EXPECT_LT(0, kept.Report.FromPoints.RefinementPoints);
+  options = WithGoal(&FlipOptions::MaximumArea, 1e-4);
+  options.PointLimit = 100;
+  const RefinedMesh limited = Refine(mesh, options);
+  EXPECT_GE(100, limited.Report.Points + limited.Report.FromPoints.RefinementPoints);
+  EXPECT_EQ(1, limited.Report.FromPoints.ReachedPointLimit);
+  EXPECT_NE(std::string::npos, DescribeDefects(limited.Report.Defects).find("PointLimit"));
+}
+
+/// Rounds count as iterations of Advance, and an observer may stop each.
+TEST(MeshRefineTest, AdvancesRoundByRound)
+{
+  const Room room;
+  const TriangleMesh mesh = room.View();
+  const FlipOptions options = WithGoal(&FlipOptions::MaximumEdge, 0.4);
+  const RefinedMesh expected = Refine(mesh, options);
+  FlipSession session = MakeSession(mesh, options);
+  std::vector<std::int64_t> triangles;
+  while (session.Advance(1))
+  {
+    triangles.push_back(session.GetReport().Triangles);
+    EXPECT_EQ(0, session.GetReport().NonDelaunayAfter);
+  }
+  EXPECT_LE(expected.Report.FromPoints.RefinementRounds, std::int64_t(triangles.size()));
+  EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
+  EXPECT_LT(triangles.front(), triangles.back());
+  EXPECT_EQ(expected.Triangles, StoreTriangles(session));
+  FlipSession stopped = MakeSession(mesh, options);
+  EXPECT_FALSE(stopped.Advance(-1, {}, [](double) { return false; }));
+  EXPECT_EQ(StopReasonKind::Aborted, stopped.GetReport().StopReason);
+  stopped.Advance();
+  EXPECT_EQ(expected.Triangles, StoreTriangles(stopped));
+}
+
+TEST(MeshRefineTest, SaysWhatCannotBeRefined)
+{
+  const Room room;
+  const TriangleMesh mesh = room.View();
+  const FlipOptions angle = WithAngle(20.0);
+  const auto explain = [&](const FlipOptions& options, const double* sizes = nullptr)
+  {
+    TriangleMesh own = mesh;
+    own.Sizes = sizes;
+    return GetMessage<InvalidOptions>([&] { MakeSession(own, options).Advance(); });
+  };
+  const auto has = [](const std::string& text, const char* word)
+  { return text.find(word) != std::string::npos; };
+  EXPECT_TRUE(has(explain(With(&FlipOptions::Geometry, GeometryKind::Surface, angle)), "surface"));
+  EXPECT_TRUE(
+    has(explain(With(&FlipOptions::Criterion, CriterionKind::OppositeAngles, angle)), "in-circle"));
+  EXPECT_TRUE(has(explain(With(&FlipOptions::NumberOfPieces, 2, angle)), "pieces"));
+  EXPECT_TRUE(has(explain(WithAngle(34.0)), "33"));
+  EXPECT_TRUE(has(explain(WithGoal(&FlipOptions::MaximumArea, -1.0)), "MaximumArea"));
+  const std::vector<double> sizes(room.Points.size() / 3, 0.0);
+  EXPECT_TRUE(has(explain({}, sizes.data()), "point 0"));
+  std::vector<std::int32_t> ids = room.Triangles;
+  EXPECT_TRUE(
+    has(GetMessage<InvalidOptions>([&]
+          { FlipToDelaunay(mesh, angle, MutableTriangleArray(ids.data(), mesh.Triangles.Count)); }),
+      "session"));
+}
+
+}
+}
