@@ -34,6 +34,7 @@ void PointRun::ListStages()
       [this] { return this->Flip([this] { return this->GivesUpFlips(); }); }, flips },
     { "divide and conquer if flips are slow", OnStop::Forgets, 0.0,
       Whole([this] { this->ReplaceSlowFlips(); }), divide },
+    { "decide ties", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
   };
   // In the Delaunay triangulation segments cross few edges, and many are edges already.
   if (this->Points.GetCaller().NumberOfSegments > 0)

@@ -197,6 +197,31 @@ TEST(PointTriangulation, EqualsCanonicalFlips)
   }
 }
 
+/// Divide and conquer, which takes over after many flips, leaves ties to decide.
+TEST(PointTriangulation, TiesAfterManyFlips)
+{
+  constexpr int Radius = 1105; // of a circle through 108 points of the lattice
+  Places points;
+  for (int x = -Radius; x <= Radius; ++x)
+  {
+    const double y = std::sqrt(double(Radius * Radius - x * x));
+    if (y == std::floor(y))
+    {
+      for (const double far : { 0.0, 1e6 })
+      {
+        points.push_back({ x + far, far - y });
+        points.push_back({ x + far, far + y });
+      }
+    }
+  }
+  const Triangulation made = Triangulate(points);
+  EXPECT_EQ(StopReasonKind::Converged, made.Report.StopReason);
+  EXPECT_EQ(0, made.Report.NonDelaunayAfter);
+  const OwnedMesh<double> swept = MakeSweptMesh(points);
+  const FlipResult flipped = Flip(swept.View(), InPlane(TieRuleKind::Canonical));
+  EXPECT_EQ(ByPlaces(flipped.Triangles, points), ByPlaces(made.Triangles, points));
+}
+
 //------------------------------------------------------------------------------
 TEST(PointTriangulation, EqualPlacesAreOnePoint)
 {
