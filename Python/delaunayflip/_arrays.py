@@ -37,10 +37,10 @@ class _HostArrays:
     def join(self, x, y):
         return numpy.stack(numpy.broadcast_arrays(as_array("x", x), as_array("y", y)), axis=-1)
 
-    def as_doubles(self, values):
-        values = as_array("values", values)
+    def as_doubles(self, name, values):
+        values = as_array(name, values)
         if values.dtype.kind not in "fiu":
-            raise TypeError(f"values must be real numbers, not {values.dtype}")
+            raise TypeError(f"{name} must be real numbers, not {values.dtype}")
         return _convert(values, numpy.float64)
 
 
@@ -66,7 +66,7 @@ class _CupyArrays(_DeviceArrays):
     def as_contiguous(self, array):
         return importlib.import_module("cupy").ascontiguousarray(array)
 
-    def as_doubles(self, values):
+    def as_doubles(self, _, values):
         return importlib.import_module("cupy").ascontiguousarray(values, dtype="float64")
 
     def join(self, x, y):
@@ -93,7 +93,7 @@ class _TorchArrays(_DeviceArrays):
     def as_contiguous(self, array):
         return array.detach().contiguous()
 
-    def as_doubles(self, values):
+    def as_doubles(self, _, values):
         return self.as_contiguous(values).double()
 
     def join(self, x, y):
@@ -120,9 +120,9 @@ class _NumbaArrays(_DeviceArrays):
             raise ValueError("points, triangles and targets of Numba must be contiguous, row by row")
         return array
 
-    def as_doubles(self, values):
+    def as_doubles(self, name, values):
         if type_of(values) != "float64":
-            raise TypeError(f"values of Numba must be float64, not {type_of(values)}")
+            raise TypeError(f"{name} of Numba must be float64, not {type_of(values)}")
         return self.as_contiguous(values)
 
     def join(self, x, y):
@@ -321,15 +321,15 @@ def join_columns(x, y):
     return _ADAPTERS[library].join(_view("x", x, library), _view("y", y, library))
 
 
-def as_values(values):
+def as_values(values, name="values"):
     """Values of points in two dimensions, float64, and the shape of those of a point."""
     adapter, values = _adapt(values)
     if "complex" in str(getattr(values, "dtype", "")):  # of which libraries drop the imaginary part
-        raise TypeError(f"values must be real numbers, not {values.dtype}")
-    values = adapter.as_doubles(values)
+        raise TypeError(f"{name} must be real numbers, not {values.dtype}")
+    values = adapter.as_doubles(name, values)
     shape = tuple(values.shape)
     if len(shape) == 0 or 0 in shape[1:]:
-        raise _shape_error("values", values, "(n,) or (n, ...), a row per point")
+        raise _shape_error(name, values, "(n,) or (n, ...), a row per point")
     return values.reshape((shape[0], math.prod(shape[1:]))), shape[1:]
 
 

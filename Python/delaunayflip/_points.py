@@ -62,9 +62,11 @@ Struct = _library.make_struct("Points", (
     (c_double, "minimum_angle maximum_area maximum_edge"), (c_int32, "keep_boundary"),
     (c_int64, "point_limit"), (c_void_p, "sizes regions"), (c_int64, "number_of_regions")))
 
-# Kinds of defects that are warned of: the caller gave something that is not used as it is.
+# Kinds of defects that are warned of: the caller gave something that is not used as it is, or wants
+# triangles that there are not.
 _WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
-              "rings without area", "rings repeated", "rings run again", "hole points outside")
+              "rings without area", "rings repeated", "rings run again", "hole points outside",
+              "region seeds outside", "triangles not refined", "point limit reached")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -236,7 +238,7 @@ def triangulate(
             crossing is exact, rounded once; z is that of the earlier segment.
         minimum_angle, maximum_area, maximum_edge: Points are added until no angle is smaller, in degrees up
             to 33, and no triangle or edge is larger; 0: no limit. What cannot get better, because segments
-            meet at a small angle, is left and counted. z is linear between the points.
+            meet at a small angle, is left, and a warning counts it. z is linear between the points.
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
         regions: (x, y, label[, area]): a place in what segments enclose, the label and largest area there.
         keep_boundary: Split no edge of the boundary, where triangles then may stay as they are.
@@ -483,7 +485,7 @@ class Input:
         """Takes the longest edges near points; None: no limit."""
         if sizes is None:
             return
-        values, shape = _arrays.as_values(_arrays.to_host(sizes))
+        values, shape = _arrays.as_values(_arrays.to_host(sizes), "size")
         if shape:
             raise ValueError("size must have one number for each point, not the shape "
                              f"{tuple(numpy.shape(sizes))}")

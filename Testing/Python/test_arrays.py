@@ -381,7 +381,8 @@ class Refine(unittest.TestCase):
             self.assertLessEqual(areas[is_left].max(), 0.3)
             self.assertGreater(areas[~is_left].max(), 0.3)
             self.assertAlmostEqual(areas[is_left].sum(), 40)
-        mesh = delaunayflip.triangulate(self.SQUARE, regions=[(20, 20, 5)])
+        with self.assertWarnsRegex(UserWarning, "^1 region seed outside of all triangles$"):
+            mesh = delaunayflip.triangulate(self.SQUARE, regions=[(20, 20, 5)])
         self.assertEqual(mesh.regions.tolist(), [0, 0])
         for wrong, error in (((1, 2), ValueError), ((1, 2, 3.5), TypeError), ((1, 2, 2**31), ValueError),
                              ("abc", ValueError), ((1, 2, 3, -1.0), delaunayflip.InvalidOptions),
@@ -409,29 +410,36 @@ class Refine(unittest.TestCase):
             delaunayflip.triangulate(grid, size=[1.0, 2])
         with self.assertRaisesRegex(ValueError, "size must have one number for each point"):
             delaunayflip.triangulate(grid, size=grid)
+        with self.assertRaisesRegex(TypeError, "^size must be real numbers"):
+            delaunayflip.triangulate(grid, size=["a"] * 9)
         with self.assertRaisesRegex(delaunayflip.InvalidOptions, "size of point 3"):
             delaunayflip.triangulate(grid, size=[1, 1, 1, -1, 1, 1, 1, 1, 1])
 
     def test_boundary_and_limit(self):
         thin = [[0, 0], [40, 0], [40, 1], [0, 1]]
-        mesh, _ = self.refine(thin, outline=[0, 1, 2, 3], minimum_angle=30, keep_boundary=True)
+        with self.assertWarnsRegex(UserWarning, r"^\d+ triangles that are not as good as wanted"):
+            mesh, _ = self.refine(thin, outline=[0, 1, 2, 3], minimum_angle=30, keep_boundary=True)
         self.assertEqual({frozenset(edge) for edge in mesh.segments.tolist()},
                          {frozenset((i, (i + 1) % 4)) for i in range(4)})
         self.assertEqual((mesh.neighbors < 0).sum(), 4)
         self.assertGreater(mesh.report.unrefined_triangles, 0)
         self.assertRegex(mesh.report.defects, r"\d+ triangle")
-        mesh = delaunayflip.triangulate(thin, maximum_area=0.001, point_limit=50)
+        with self.assertWarnsRegex(UserWarning, "refinement has ended: point_limit allows no more"):
+            mesh = delaunayflip.triangulate(thin, maximum_area=0.001, point_limit=50)
         self.assertEqual(mesh.report.reached_point_limit, 1)
         self.assertIn("refinement has ended: point_limit allows no more", mesh.report.defects)
         self.assertLessEqual(mesh.report.used_points, 50)
         points = numpy.random.default_rng(1).random((30, 2)) * 10
         wall = [[[8.7, 4.9], [9.3, 2]], [[5.9, 2.6], [1.7, 9.3], [2.1, 8.5]], [[3.1, 2.2], [9.9, 3.2]]]
         for limit in range(60, 400, 20):  # also while subsegments are too short to be split
-            mesh = delaunayflip.triangulate(points, wall, split_crossings=True, minimum_angle=25,
-                                            maximum_edge=0.8, point_limit=limit)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                mesh = delaunayflip.triangulate(points, wall, split_crossings=True, minimum_angle=25,
+                                                maximum_edge=0.8, point_limit=limit)
             self.assertLessEqual(mesh.report.used_points, limit)
         sharp = [[0, 0], [10, 0], [10, 0.5]]
-        mesh, _ = self.refine(sharp, outline=[0, 1, 2], minimum_angle=25)
+        with self.assertWarnsRegex(UserWarning, "not as good as wanted"):
+            mesh, _ = self.refine(sharp, outline=[0, 1, 2], minimum_angle=25)
         angles = delaunayflip.smallest_angles(mesh.points, mesh.triangles)
         self.assertEqual((angles < 25).sum(), mesh.report.unrefined_triangles)
         corner = numpy.degrees(numpy.arctan2(0.5, 10))
