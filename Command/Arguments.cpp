@@ -425,6 +425,19 @@ void RelateOptions(CLI::App& app)
     "--quality");
 }
 
+/// Checks that options about heights are given with one that asks for heights.
+void CheckHeightOptions(const CLI::App& app)
+{
+  const bool areWanted = app.count("--raster") > 0 || app.count("--heights-at") > 0;
+  for (const char* const option : { "--raster-method", "--raster-array" })
+  {
+    if (app.count(option) > 0 && !areWanted)
+    {
+      throw CLI::RequiresError(option, "--raster or --heights-at");
+    }
+  }
+}
+
 }
 
 std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
@@ -444,6 +457,7 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   try
   {
     app.parse(argc, argv);
+    CheckHeightOptions(app);
     CheckArguments(arguments);
   }
   catch (const CLI::Success& success)
