@@ -40,6 +40,15 @@ inline void Require(bool isKept, const char* rule)
   }
 }
 
+/// @throws RunAborted
+inline void RequireNotStopped(bool isComplete)
+{
+  if (!isComplete)
+  {
+    throw RunAborted();
+  }
+}
+
 /// Requires that the caller has set the size of a struct.
 template <typename Struct>
 void RequireSize(const Struct* given)

@@ -465,24 +465,53 @@ extern "C"
       {
         const delaunayflip_points c = Complete(points, delaunayflip_points_init);
         Require(!IsOnDevice(c.memory), "points to insert must be in the host's memory");
-        if (!session->Session.Insert(ToPlane(c), ToProgress(callbacks)))
-        {
-          throw RunAborted();
-        }
+        RequireNotStopped(session->Session.Insert(ToPlane(c), ToProgress(callbacks)));
       });
+  }
+
+  delaunayflip_status delaunayflip_move_points(delaunayflip_session* session,
+    const delaunayflip_points* places, const std::int64_t* ids,
+    const delaunayflip_callbacks* callbacks)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        const delaunayflip_points c = Complete(places, delaunayflip_points_init);
+        Require(!ids || !IsOnDevice(c.memory),
+          "some points can be moved only to places in the host's memory");
+        const PointMove move{ ToPlane(c), ids, IsOnDevice(c.memory), { c.stream } };
+        RequireNotStopped(session->Session.Move(move, ToProgress(callbacks)));
+      });
+  }
+
+  delaunayflip_status delaunayflip_remove_points(delaunayflip_session* session,
+    const std::int64_t* ids, std::int64_t number_of_ids, const delaunayflip_callbacks* callbacks)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        RequireArray(ids, number_of_ids, "ids");
+        RequireNotStopped(session->Session.Remove(ids, number_of_ids, ToProgress(callbacks)));
+      });
+  }
+
+  delaunayflip_status delaunayflip_compact_points(
+    delaunayflip_session* session, const delaunayflip_callbacks* callbacks)
+  {
+    return TryWith(
+      session, [=]() { RequireNotStopped(session->Session.Compact(ToProgress(callbacks))); });
+  }
+
+  std::int64_t delaunayflip_count_triangles(const delaunayflip_session* session)
+  {
+    return session->Session.CountTriangles();
   }
 
   delaunayflip_status delaunayflip_ask(delaunayflip_session* session,
     const delaunayflip_query* query, const delaunayflip_callbacks* callbacks)
   {
     return TryWith(session,
-      [=]()
-      {
-        if (!session->Session.Ask(ToQuery(query), ToProgress(callbacks)))
-        {
-          throw RunAborted();
-        }
-      });
+      [=]() { RequireNotStopped(session->Session.Ask(ToQuery(query), ToProgress(callbacks))); });
   }
 
   delaunayflip_status delaunayflip_expect(

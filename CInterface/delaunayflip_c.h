@@ -340,6 +340,9 @@ extern "C"
     int64_t unrefined_triangles; /**< With an angle below minimum_angle, or too large: they could
                                     not get better. */
     int64_t reached_point_limit; /**< 1 if point_limit has ended refinement. */
+    int64_t removed_points; /**< Points that delaunayflip_remove_points has removed. */
+    int64_t move_rounds; /**< In how many rounds the triangulation has followed the points when they
+                            moved last; 0 if they have not moved, or were triangulated anew. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -516,6 +519,43 @@ extern "C"
    * DELAUNAYFLIP_STOPPED, and the next delaunayflip_advance begins with all points. */
   delaunayflip_status delaunayflip_insert_points(delaunayflip_session* session,
     const delaunayflip_points* points, const delaunayflip_callbacks* callbacks);
+
+  /** Moves points. The triangles are then those of the points where they are now, perhaps in
+   * another order than if these had been triangulated, and perhaps more or fewer than before. If
+   * there are no segments, nothing was removed, and no two points are at one place, the mesh
+   * follows the points by flips, unless many triangles would turn over. Otherwise the triangulation
+   * is made anew. For sessions from points, after delaunayflip_advance. A frame of moving points:
+   *
+   *     delaunayflip_points places;
+   *     delaunayflip_points_init(&places);
+   *     places.points = xy;
+   *     places.number_of_points = count;
+   *     delaunayflip_move_points(session, &places, NULL, NULL);
+   *     triangles = delaunayflip_count_triangles(session);
+   *
+   * @param places of all points of the caller, or, with ids, of these. Those in the host's memory
+   * are copied, in the precision of the points. Those on a GPU must have that precision and stay
+   * unchanged until the next move; then `ids` must be null. Members that do not say where they are
+   * and how many have no effect.
+   * @param ids of the points that move, in the host's memory; null: all.
+   * @param callbacks may be null. If `progress` returns 0, the call fails with
+   * DELAUNAYFLIP_STOPPED, and all points are where they were. */
+  delaunayflip_status delaunayflip_move_points(delaunayflip_session* session,
+    const delaunayflip_points* places, const int64_t* ids, const delaunayflip_callbacks* callbacks);
+
+  /** Removes points. The others keep their numbers. A removed point is used no more, as if it were
+   * not finite, whatever place it gets by later moves. For sessions from points, after
+   * delaunayflip_advance. `callbacks` as above. */
+  delaunayflip_status delaunayflip_remove_points(delaunayflip_session* session, const int64_t* ids,
+    int64_t number_of_ids, const delaunayflip_callbacks* callbacks);
+
+  /** Numbers the points anew without those that are removed; they keep their order. For sessions
+   * from points without segments or sizes, after delaunayflip_advance. `callbacks` as above. */
+  delaunayflip_status delaunayflip_compact_points(
+    delaunayflip_session* session, const delaunayflip_callbacks* callbacks);
+
+  /** Returns how many triangles the session has, which takes less time than a report. */
+  int64_t delaunayflip_count_triangles(const delaunayflip_session* session);
 
   typedef enum
   {

@@ -267,8 +267,21 @@ public:
     const void* const arrays[] = { query.Places.Data(), query.Triangles, query.Values,
       query.Results };
     return std::all_of(std::begin(arrays), std::end(arrays),
-      [&](const void* array)
-      { return !array || FindDeviceOf(array) == this->GetBackend().GetContext().Device; });
+      [&](const void* array) { return !array || this->HasMemory(array); });
+  }
+
+  bool HasMemory(const void* array) const override
+  {
+    return FindDeviceOf(array) == this->GetBackend().GetContext().Device;
+  }
+
+  MotionResult MovePoints(const PointInput& targets) override
+  {
+    if (targets.OnDevice)
+    {
+      this->GetBackend().WaitFor(targets.Stream);
+    }
+    return MeshOnBackend::MovePoints(targets);
   }
 
 private:

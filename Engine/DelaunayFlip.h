@@ -115,6 +115,9 @@ public:
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
     const ProgressObserver& progress = {});
 
+  /// How many triangles there are, for which nothing is measured.
+  std::int64_t CountTriangles() const;
+
   /// Announces memory that a Store function will write after the next Advance, such as a new array
   /// for the result. Its contents are lost, and it must stay until that Advance returns. While a
   /// GPU flips, CPU threads touch its pages.
@@ -169,6 +172,37 @@ public:
   /// @throws InvalidOptions if the session is not one from points, or with PointInput::Sizes;
   /// InvalidMesh if there are too many points, or as the constructor; BackendUnavailable.
   bool Insert(const PlaneArray& points, const ProgressObserver& progress = {});
+
+  /// Moves points. The triangles are then those of the points where they are now, perhaps in
+  /// another order than if these had been triangulated. Where there are no segments, nothing was
+  /// removed and no two points are at one place, the mesh follows the points: it moves all of them
+  /// as far as its triangles allow, flips, and goes on until they are there. If many triangles
+  /// would turn over, and in all other cases, the points are triangulated anew.
+  /// PointCounts::MoveRounds tells.
+  ///
+  /// If a GPU fails later, the CPU triangulates the points where they are, and the triangles may be
+  /// in another order. For sessions from points.
+  /// @param move coordinates in the host's memory are copied, in the precision of the points. Those
+  /// in the memory of a GPU must have that precision, and stay unchanged until the next move.
+  /// @param progress is asked before points move, and while they are triangulated anew.
+  /// @returns false if that has asked to stop. Then all points are where they were.
+  /// @throws InvalidOptions if the session is not one from points, or if numbers or ids do not fit
+  /// it; else what the constructor and Advance throw. Then all points are where they were, and the
+  /// next Advance begins anew.
+  bool Move(const PointMove& move, const ProgressObserver& progress = {});
+
+  /// Removes points. The others keep their numbers. A removed point is used no more, as if it were
+  /// not finite, whatever place it gets by later moves. For sessions from points.
+  /// @param ids of points; those that are removed already have no effect.
+  /// @returns false if `progress` has asked to stop. Then no point is removed.
+  /// @throws the same as Move.
+  bool Remove(const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress = {});
+
+  /// Numbers the points anew without those that are removed; they keep their order. For sessions
+  /// from points without segments or sizes.
+  /// @returns false if `progress` has asked to stop. Then the points keep their numbers.
+  /// @throws the same as Move.
+  bool Compact(const ProgressObserver& progress = {});
 
   /// Answers a query about places: see PlaceQuery. Nothing in the session changes. Triangles that
   /// an outline, holes or options have removed are outside. For sessions from points.

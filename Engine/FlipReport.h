@@ -315,6 +315,8 @@ void ForEachNumber(const Visit& visit, Reports&... reports)
   visit("refinement_rounds", points, reports.FromPoints.RefinementRounds...);
   visit("unrefined_triangles", points, reports.FromPoints.UnrefinedTriangles...);
   visit("reached_point_limit", points, reports.FromPoints.ReachedPointLimit...);
+  visit("removed_points", whole, reports.FromPoints.Removed...);
+  visit("move_rounds", whole, reports.FromPoints.MoveRounds...);
 }
 
 /// Called on the calling thread for every iteration; returning false aborts the run. Some

@@ -181,6 +181,16 @@ struct AddedPoint
   double Z = 0.0; ///< In a session from triangles.
 };
 
+/// New places of points, for FlipSession::Move.
+struct PointMove
+{
+  PlaneArray Points; ///< One for each point of the caller, or for each id.
+  const std::int64_t* Ids = nullptr; ///< The points that move; null: all. In the host's memory.
+  /// Whether the coordinates are in the memory of a GPU, ordered by Stream; not with Ids.
+  bool OnDevice = false;
+  DeviceStream Stream{};
+};
+
 /// What is reported about points beside the flips.
 struct PointCounts
 {
@@ -200,6 +210,10 @@ struct PointCounts
   /// Triangles with an angle below MinimumAngle or that are too large, which could not get better.
   std::int64_t UnrefinedTriangles = 0;
   std::int64_t ReachedPointLimit = 0; ///< 1 if FlipOptions::PointLimit has ended refinement.
+  std::int64_t Removed = 0; ///< Points that FlipSession::Remove has removed.
+  /// In how many rounds the triangulation has followed the points when they moved last; 0 if they
+  /// have not moved, or were triangulated anew.
+  std::int64_t MoveRounds = 0;
 };
 
 }

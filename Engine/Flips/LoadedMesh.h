@@ -48,6 +48,14 @@ struct InsertedSegments
   std::int64_t Flips = 0;
 };
 
+/// How points have moved.
+struct MotionResult
+{
+  bool IsThere = false; ///< Otherwise the mesh is of no use.
+  std::int64_t Rounds = 0;
+  std::int64_t Flips = 0;
+};
+
 /// @returns whether to go on.
 using SegmentObserver = std::function<bool(const InsertedSegments&)>;
 
@@ -85,6 +93,13 @@ public:
   /// @param places x and y. The numbers of these points follow those of the mesh's.
   /// @returns how many flips it took.
   virtual std::int64_t InsertPoints(const std::vector<double>& places) = 0;
+
+  /// Moves the points of a Delaunay triangulation of points without fixed edges inside, and flips
+  /// until it is one again.
+  /// @param targets the places of all points. Only if HasMemory says so, they may be on a device.
+  virtual MotionResult MovePoints(const PointInput& targets) = 0;
+  /// Whether an array is in the memory of the backend's device.
+  virtual bool HasMemory(const void*) const { return false; }
 
   /// Begins to refine a Delaunay triangulation of points, in which segments are fixed edges, unless
   /// it has begun.

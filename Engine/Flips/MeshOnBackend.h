@@ -12,6 +12,7 @@
 #include "HiddenEdges.h"
 #include "InputChecks.h"
 #include "LoadedMesh.h"
+#include "MeshMotion.h"
 #include "MeshSurvey.h"
 #include "MeshSurveyBuilder.h"
 #include "PlaceAsker.h"
@@ -29,6 +30,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -216,6 +218,17 @@ public:
     this->RequireStates();
     return this->Places.Floats ? this->InsertPoints(places, this->Points.Floats)
                                : this->InsertPoints(places, this->Points.Doubles);
+  }
+
+  MotionResult MovePoints(const PointInput& targets) override
+  {
+    if (this->Range != CoordinateRange::Usual || this->Mesh.NumberOfTriangles == 0)
+    {
+      return MotionResult();
+    }
+    const bool isLocal = BackendT::IsOnHost || targets.OnDevice;
+    return targets.Points.Floats ? this->MoveTo(targets.Points, targets.Points.Floats, isLocal)
+                                 : this->MoveTo(targets.Points, targets.Points.Doubles, isLocal);
   }
 
   void StartRefinement(const RefinementPlan& plan) override
@@ -637,6 +650,48 @@ private:
     return flips;
   }
 
+  /// @param values of the targets.
+  template <typename Value>
+  MotionResult MoveTo(PlaneArray targets, const Value* values, bool isLocal)
+  {
+    this->RequireStates();
+    if (!isLocal)
+    {
+      // This array is kept for later motions.
+      Array<Value>& copy = std::get<Array<Value>>(this->Targets);
+      const std::int64_t numbers = (targets.Count - 1) * targets.Stride + 2;
+      Reserve(copy, 0, numbers, this->Backend);
+      this->Backend.Upload(values, numbers, copy.Data());
+      targets = PlaneArray(copy.Data(), targets.Count, targets.Stride);
+    }
+    this->Asker = PlaceAsker<BackendT>();
+    return this->Places.Floats ? this->MoveHere(targets, this->Points.Floats)
+                               : this->MoveHere(targets, this->Points.Doubles);
+  }
+
+  template <typename Real>
+  MotionResult MoveHere(const PlaneArray& targets, Array<Real>& coordinates)
+  {
+    const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
+      this->Order.VertexOfRank.Data() };
+    const auto settle = [&](bool hasOtherEdges)
+    {
+      if (hasOtherEdges)
+      {
+        this->MakeLoopOfGrown<Real>(coordinates.Data());
+      }
+      else
+      {
+        this->Loop->Restart();
+      }
+      return this->Loop->Converge();
+    };
+    const MotionResult result =
+      this->Motion.Move(mesh, targets, this->UsedPoint, this->Backend, settle);
+    this->CountGrown();
+    return result;
+  }
+
   /// A mesh while it is refined.
   template <typename Real>
   struct RefinedMesh
@@ -808,6 +863,8 @@ private:
   PlaneFrame Frame;
   Array<VertexId> UsedPoint; ///< What MergePlaces returned.
   PlaceAsker<BackendT> Asker;
+  MeshMotion<BackendT> Motion;
+  std::tuple<Array<float>, Array<double>> Targets; ///< A copy of those of the last motion.
   RefinedMesh<float> RefinedFloats; ///< If coordinates are floats; else the next one.
   RefinedMesh<double> RefinedDoubles;
   OrientationSample Orientations;

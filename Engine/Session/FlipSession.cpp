@@ -110,6 +110,8 @@ bool FlipSession::Advance(
 
 void FlipSession::Expect(void* memory, std::int64_t bytes) { this->Run->Expect({ memory, bytes }); }
 
+std::int64_t FlipSession::CountTriangles() const { return this->Run->CountTriangles(); }
+
 const FlipReport& FlipSession::GetReport() const { return this->Run->GetReport(); }
 
 void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
@@ -120,6 +122,22 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 bool FlipSession::Insert(const PlaneArray& points, const ProgressObserver& progress)
 {
   return RequirePoints(*this->Run).Insert(points, progress);
+}
+
+bool FlipSession::Move(const PointMove& move, const ProgressObserver& progress)
+{
+  return RequirePoints(*this->Run).Move(move, progress);
+}
+
+bool FlipSession::Remove(
+  const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress)
+{
+  return RequirePoints(*this->Run).Remove(ids, count, progress);
+}
+
+bool FlipSession::Compact(const ProgressObserver& progress)
+{
+  return RequirePoints(*this->Run).Compact(progress);
 }
 
 bool FlipSession::Ask(const PlaceQuery& query, const ProgressObserver& progress) const

@@ -58,20 +58,25 @@ bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress
   return this->Report.StopReason != StopReasonKind::Aborted;
 }
 
-/// Whether all points are in triangles of a Delaunay triangulation that has no segments, and of
-/// which nothing was removed.
-bool PointRun::CanInsertInPlace(const PlaneArray& points)
+/// Whether this has become a Delaunay triangulation without segments, of which nothing was removed.
+bool PointRun::IsPlain() const
 {
   const PointOptions& options = this->Points.GetOptions();
   const PointInput& caller = this->Points.GetCaller();
   const bool isFree = caller.NumberOfSegments + caller.NumberOfHoleSeeds == 0 &&
     !this->WantsRefinement() && caller.NumberOfRegions == 0 && options.PointTolerance == 0.0 &&
     options.Alpha == 0.0 && options.LongestEdge == 0.0;
-  if (!isFree || !this->Loaded || !this->IsOver() || this->Found.Bad > 0)
+  return isFree && this->Loaded && this->IsOver() && this->Found.Bad == 0;
+}
+
+/// Whether all points are in triangles.
+bool PointRun::CanInsertInPlace(const PlaneArray& points)
+{
+  if (!this->IsPlain())
   {
     return false;
   }
-  const std::vector<double> places = RoundLike(points, caller.Points);
+  const std::vector<double> places = RoundLike(points, this->Points.GetCaller().Points);
   std::vector<std::int32_t> triangles(points.Count);
   PlaceQuery query;
   query.Places = PlaneArray(places.data(), points.Count, 2);

@@ -148,13 +148,54 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
   this->IsPrepared = true;
 }
 
-void PreparedPoints::Append(const PlaneArray& points)
+/// Forgets all but what the caller has given.
+void PreparedPoints::Unprepare()
 {
   this->Prepared = this->Caller;
   this->NearPoint.clear();
   this->Added.clear();
   this->Counts = PointCounts();
   this->IsPrepared = false;
+}
+
+void PreparedPoints::Exchange(PointPlaces& places)
+{
+  std::swap(this->Caller.Points, places.Points);
+  std::swap(this->Caller.OnDevice, places.OnDevice);
+  std::swap(this->Caller.Stream, places.Stream);
+  this->CallerFloats.swap(places.Floats);
+  this->CallerDoubles.swap(places.Doubles);
+  this->Unprepare();
+}
+
+void PreparedPoints::CopyPlaces(PointPlaces& places)
+{
+  this->Unprepare();
+  const PlaneArray from = this->CopyToHost();
+  const auto copy = [&](auto& coordinates)
+  {
+    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
+    coordinates.resize(2 * from.Count);
+    for (std::int64_t i = 0; i < 2 * from.Count; ++i)
+    {
+      coordinates[i] = static_cast<Real>(from.Get(i / 2, static_cast<int>(i % 2)));
+    }
+    places.Points = PlaneArray(coordinates.data(), from.Count, 2);
+  };
+  if (from.Floats)
+  {
+    copy(places.Floats);
+  }
+  else
+  {
+    copy(places.Doubles);
+  }
+  places.OnDevice = false;
+}
+
+void PreparedPoints::Append(const PlaneArray& points)
+{
+  this->Unprepare();
   const PlaneArray before = this->CopyToHost();
   const auto append = [&](auto& coordinates)
   {

@@ -7,14 +7,26 @@
 #include "PointTriangulation.h"
 #include "SegmentCrossings.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
 {
 
 class LoadedMesh;
+
+/// Where all points of the caller are, with their memory if it is not the caller's.
+struct PointPlaces
+{
+  PlaneArray Points;
+  bool OnDevice = false;
+  DeviceStream Stream{};
+  std::vector<float> Floats;
+  std::vector<double> Doubles;
+};
 
 /// The caller's points and segments as they are triangulated: without points that are too near to
 /// others, with points where segments cross, and with rings that run in one direction.
@@ -50,6 +62,20 @@ public:
   /// are no segments and no tolerance. From now on this has a copy of all points.
   void Append(const PlaneArray& points);
 
+  /// Puts the points of the caller at other places. Prepare must follow, as for Append.
+  /// @param places in their precision; becomes the places before.
+  void Exchange(PointPlaces& places);
+  /// Fills places with those of now, in the host's memory. Exchange must follow.
+  void CopyPlaces(PointPlaces& places);
+
+  /// The points that are removed, ascending. Their places are NaN.
+  const std::vector<std::int64_t>& GetRemoved() const { return this->Removed; }
+  void SetRemoved(std::vector<std::int64_t> ids) { this->Removed = std::move(ids); }
+  bool IsRemoved(std::int64_t point) const
+  {
+    return std::binary_search(this->Removed.begin(), this->Removed.end(), point);
+  }
+
   const PointInput& GetCaller() const { return this->Caller; }
   const PointOptions& GetOptions() const { return this->Options; }
 
@@ -76,6 +102,7 @@ public:
   void StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const;
 
 private:
+  void Unprepare();
   void FindNearPoints(const ProgressObserver& observer);
   void CopyPoints();
   template <typename Real>
@@ -100,6 +127,7 @@ private:
   std::vector<Segment> Segments;
   std::vector<std::int32_t> LeftOutRings;
   PointCounts Counts;
+  std::vector<std::int64_t> Removed;
   bool IsPrepared = false;
 };
 

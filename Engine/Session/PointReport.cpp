@@ -68,8 +68,10 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
   const std::int64_t places =
     points.GetInput().Points.Count - notFinite - repeated - prepared.TooNear;
   counts = prepared;
-  counts.NotFinite = notFinite;
+  counts.Removed = SizeOf(points.GetRemoved());
+  counts.NotFinite = notFinite - counts.Removed;
   counts.Repeated = repeated;
+  counts.MoveRounds = result.MoveRounds;
   std::int64_t inside = 0; // of these edges
   for (const SegmentEdge& edge : result.Edges)
   {
@@ -130,7 +132,7 @@ void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedP
     AddDefect(defect, report.Defects);
   };
   add(DefectKind::PointsNotFinite, counts.NotFinite,
-    [&](std::int64_t i) { return used[i] < 0 && !points.IsNear(i); });
+    [&](std::int64_t i) { return used[i] < 0 && !points.IsNear(i) && !points.IsRemoved(i); });
   add(DefectKind::PointsRepeated, counts.Repeated,
     [&](std::int64_t i) { return used[i] >= 0 && used[i] != i; });
   add(DefectKind::PointsTooNear, counts.TooNear, [&](std::int64_t i) { return points.IsNear(i); });

@@ -17,7 +17,7 @@
 namespace delaunayflip
 {
 
-/// What the insertion of segments and the removal of triangles have done to a mesh from points.
+/// What was done beside flips to a mesh from points.
 struct PointResult
 {
   std::size_t Taken = 0; ///< How many segments are inserted or refused; they are the first ones.
@@ -35,6 +35,7 @@ struct PointResult
   std::int64_t RefinementRounds = 0;
   Defect Unrefined; ///< Triangles that do not reach the goals.
   bool HasReachedLimit = false;
+  std::int64_t MoveRounds = 0; ///< PointCounts::MoveRounds.
 
   bool HasRemoved() const { return !this->Kept.Numbers.empty(); }
 };

@@ -59,9 +59,16 @@ void PointRun::ListStages()
     this->Stages.push_back(
       { "refine", OnStop::KeepsMesh, 0.5, [this] { return this->Refine(); }, refine });
   }
-  // Points that are inserted later are in the journal as done by this stage.
+  // Points that are inserted or moved later are in the journal as done by this stage.
   const auto insertPoints = [this](LoadedMesh& mesh, std::int64_t batch)
-  { this->InsertBatch(mesh, static_cast<std::size_t>(batch)); };
+  {
+    if (batch == AllPoints)
+    {
+      mesh.GetLoop().Converge();
+      return;
+    }
+    this->InsertBatch(mesh, static_cast<std::size_t>(batch));
+  };
   this->Stages.push_back(
     { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), insertPoints });
 }
@@ -102,7 +109,9 @@ void PointRun::Triangulate()
 
 std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)
 {
-  this->Result = PointResult();
+  PointResult result;
+  result.MoveRounds = this->Result.MoveRounds;
+  this->Result = result;
   PointInput input = this->Points.GetInput();
   input.Points.Count =
     this->BatchEnds.empty() ? this->Points.CountBeforeRefinement() : this->BatchEnds.front();

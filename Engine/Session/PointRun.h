@@ -40,10 +40,19 @@ public:
   /// The same as FlipSession's. (PointInsertion.cpp)
   bool Insert(const PlaneArray& points, const ProgressObserver& progress);
 
+  /// The same as FlipSession's. (PointMoves.cpp)
+  bool Move(const PointMove& move, const ProgressObserver& progress);
+  bool Remove(const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress);
+  bool Compact(const ProgressObserver& progress);
+
   /// The same as FlipSession's. (PointAnswers.cpp)
   bool Ask(const PlaceQuery& query, const ProgressObserver& progress);
 
 private:
+  /// In the journal, instead of the number of a batch: the mesh was made of all points, wherever
+  /// they are now, and has become Delaunay.
+  static constexpr std::int64_t AllPoints = -1;
+
   void ListStages();
   void Prepare();
   void Triangulate();
@@ -57,9 +66,14 @@ private:
   void ExplainRefused(LoadedMesh& mesh);
   void CutOff();
   void RemoveTriangles(LoadedMesh& mesh);
+  bool IsPlain() const;
   bool CanInsertInPlace(const PlaneArray& points);
   void InsertInPlace(const PlaneArray& points);
   void InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
+  void ReadPlaces(const PointMove& move);
+  bool GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress);
+  bool MoveInPlace();
+  void RecordMotion(const MotionResult& motion);
   bool WantsRefinement() const;
   void LabelRegions();
   void LabelRegions(LoadedMesh& mesh);
@@ -81,6 +95,7 @@ private:
   /// The loaded mesh was made of the first points up to the first of these numbers. Those from one
   /// number to the next were inserted together. Empty: it was made of all.
   std::vector<std::int64_t> BatchEnds;
+  PointPlaces Places; ///< Those to go to, or those before; kept for the memory.
   PointResult Result; ///< What was done to the loaded mesh beside flips.
   bool AreFlipsSlow = false; ///< Whether divide and conquer takes over.
 };

@@ -12,6 +12,9 @@ With NumPy arrays:
     triangulation = delaunayflip.triangulate(points)
     triangulation.triangles  # of points that have none
 
+    mesh = delaunayflip.MovingTriangulation(points)
+    mesh.move(points)  # follows points that move
+
     height = delaunayflip.LinearInterpolator(points, heights)
     height(places)  # values between points
 
@@ -41,6 +44,7 @@ if typing.TYPE_CHECKING:
     from ._library import (
         BackendUnavailable, FlipError, InvalidMesh, InvalidOptions, MeshTooLarge, Stopped,
         has_cuda_device, release_cuda_memory)
+    from ._moving import MovingTriangulation
     from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
@@ -50,8 +54,8 @@ if typing.TYPE_CHECKING:
 
 __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "LinearInterpolator",
-    "MeshTooLarge", "NaturalNeighborInterpolator", "Report", "Result", "Session", "Stopped",
-    "Triangulation", "flip", "griddata", "has_cuda_device", "release_cuda_memory", "smallest_angles",
+    "MeshTooLarge", "MovingTriangulation", "NaturalNeighborInterpolator", "Report", "Result", "Session",
+    "Stopped", "Triangulation", "flip", "griddata", "has_cuda_device", "release_cuda_memory", "smallest_angles",
     "triangulate",
 ]
 if importlib.util.find_spec("vtkmodules"):
@@ -60,7 +64,7 @@ if importlib.util.find_spec("vtkmodules"):
 # Modules of the names that are in neither _library nor _vtk.
 _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
-    "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
+    "MovingTriangulation": "_moving", "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
     "LinearInterpolator": "_interpolators", "NaturalNeighborInterpolator": "_interpolators",
     "griddata": "_interpolators",
 }

@@ -119,7 +119,7 @@ def library():
         raise ImportError(f"{loaded._name} has another interface than this Python package")
     for name in ("version", "error_message"):
         getattr(loaded, f"delaunayflip_{name}").restype = c_char_p
-    for name in ("error_cell", "error_point", "error_ring", "count_defects"):
+    for name in ("error_cell", "error_point", "error_ring", "count_defects", "count_triangles"):
         getattr(loaded, f"delaunayflip_{name}").restype = c_int64
     return loaded
 

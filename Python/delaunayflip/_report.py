@@ -94,6 +94,9 @@ class Report:
     refinement_rounds: int = 0  #: How often it has added points.
     unrefined_triangles: int = 0  #: With an angle too small, or too large: they could not get better.
     reached_point_limit: int = 0  #: 1 if point_limit has ended refinement.
+    removed_points: int = 0  #: Points that were removed from a triangulation of moving points.
+    #: In how many rounds it has followed the points when they moved last; 0: it was made anew.
+    move_rounds: int = 0
 
     @property
     def converged(self) -> bool:

@@ -697,6 +697,50 @@ static void TestInsertion(void)
   delaunayflip_close(session);
 }
 
+/** Points move, and one goes. */
+static void TestMove(void)
+{
+  const float places[] = { 0, 0, 2, -1, 4, 0, 2, 3 };
+  const double place[] = { 2, 0.5 };
+  const int64_t ids[] = { 3 }, beyond[] = { 4 };
+  delaunayflip_points points;
+  delaunayflip_callbacks callbacks;
+  delaunayflip_session* session = NULL;
+  Log log = { 0, 1, 0.0 };
+  delaunayflip_points_init(&points);
+  points.points = Points;
+  points.number_of_points = 4;
+  points.point_components = 3;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  points.points = places;
+  points.point_type = DELAUNAYFLIP_FLOAT32;
+  points.point_components = 2;
+  CHECK(delaunayflip_move_points(session, &points, NULL, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_count_triangles(session) == 2 && GetReport(session).move_rounds > 0);
+  points.number_of_points = 3;
+  CHECK(delaunayflip_move_points(session, &points, NULL, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  points.points = place;
+  points.point_type = DELAUNAYFLIP_FLOAT64;
+  points.number_of_points = 1;
+  CHECK(delaunayflip_move_points(session, &points, ids, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_count_triangles(session) == 2);
+  CHECK(delaunayflip_move_points(session, &points, beyond, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  points.memory = DELAUNAYFLIP_CUDA;
+  CHECK(delaunayflip_move_points(session, &points, ids, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  points.memory = DELAUNAYFLIP_HOST;
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = LogProgress;
+  callbacks.user = &log;
+  CHECK(delaunayflip_remove_points(session, ids, 1, &callbacks) == DELAUNAYFLIP_STOPPED);
+  CHECK(delaunayflip_remove_points(session, ids, 1, NULL) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_count_triangles(session) == 1);
+  CHECK(GetReport(session).removed_points == 1 && GetReport(session).points == 4);
+  CHECK(delaunayflip_compact_points(session, NULL) == DELAUNAYFLIP_OK);
+  CHECK(GetReport(session).removed_points == 0 && GetReport(session).points == 3);
+  delaunayflip_close(session);
+}
+
 /** Two diagonals that cross, and a ring of one edge. Then a ring that is not closed. */
 static void TestDefects(void)
 {
@@ -757,6 +801,7 @@ int main(void)
   TestInsertion();
   TestRefinement();
   TestRefinementOfMesh();
+  TestMove();
   TestDefects();
   return 0;
 }

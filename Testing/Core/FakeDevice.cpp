@@ -104,6 +104,13 @@ public:
     this->Report.Backend = "CUDA: fake";
     return flips;
   }
+  MotionResult MovePoints(const PointInput& targets) override
+  {
+    const MotionResult result = this->Engine->MovePoints(targets);
+    this->Report = this->Engine->GetInputReport();
+    this->Report.Backend = "CUDA: fake";
+    return result;
+  }
   void StartRefinement(const RefinementPlan& plan) override { this->Engine->StartRefinement(plan); }
   std::int64_t Refine() override
   {

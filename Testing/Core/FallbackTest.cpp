@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -290,6 +291,59 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
       break;
     }
     EXPECT_EQ("as the test wants it", session.GetReport().Fallback);
+  }
+}
+
+/// Where a GPU fails when points have moved, the triangles are the same.
+TEST_F(FallbackTest, AnyCallMayFailForPointsThatMove)
+{
+  std::vector<double> xy;
+  for (int i = 0; i < 12000; ++i)
+  {
+    const double radius = std::sqrt(i);
+    xy.insert(xy.end(), { std::cos(2.4 * i) * radius, std::sin(2.4 * i) * radius });
+  }
+  const auto run = [&](BackendKind backend, int call)
+  {
+    CallsToFailure = call;
+    FlipSession session(
+      PointInput{ PlaneArray(xy.data(), 12000, 2) }, PointOptions{ OnBackend(backend) });
+    session.Advance();
+    std::vector<double> moved = xy;
+    for (const double step : { 0.01, 0.02, 3.0, 0.01 })
+    {
+      for (std::size_t i = 0; i < moved.size(); ++i)
+      {
+        moved[i] += step * std::sin(static_cast<double>(7 * i));
+      }
+      EXPECT_TRUE(session.Move({ PlaneArray(moved.data(), 12000, 2) }));
+      // Where the GPU fails meanwhile, the CPU begins where the points are.
+      const bool isInPlace = session.GetReport().FromPoints.MoveRounds > 0;
+      EXPECT_TRUE(isInPlace || step > 1.0) << step << ' ' << call;
+    }
+    return session;
+  };
+  const auto list = [](const FlipSession& session)
+  {
+    const std::vector<std::int32_t> ids = StoreTriangles(session);
+    std::set<std::set<std::int32_t>> triangles;
+    for (std::size_t i = 0; i < ids.size(); i += 3)
+    {
+      triangles.insert({ ids[i], ids[i + 1], ids[i + 2] });
+    }
+    return triangles;
+  };
+  const auto expected = list(run(BackendKind::Threads, 0));
+  for (int call = 1;; ++call)
+  {
+    const FlipSession session = run(BackendKind::Auto, call);
+    ASSERT_TRUE(expected == list(session)) << call;
+    EXPECT_TRUE(session.GetReport().Converged());
+    if (CallsToFailure > 0)
+    {
+      EXPECT_LT(10, call);
+      break;
+    }
   }
 }
 

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_MESHMOTION_H
+#define DELAUNAYFLIP_MESHMOTION_H
+
+#include "Array.h"
+#include "EdgeMesh.h"
+#include "LoadedMesh.h"
+#include "PointMotion.h"
+
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+namespace delaunayflip
+{
+
+/// Moves the points of a mesh from points, in rounds of steps and flips.
+template <typename Backend>
+class MeshMotion
+{
+public:
+  /// @param mesh Delaunay.
+  /// @param targets by point, in the memory of the backend.
+  /// @param used by point, what MergePlaces returned.
+  /// @param settle flips until the mesh is Delaunay, and returns the flips. Its argument says
+  /// whether the mesh has other edges than before.
+  template <typename Real, typename Settle>
+  MotionResult Move(const MovingMesh<Real>& mesh, const PlaneArray& targets,
+    const Array<VertexId>& used, const Backend& backend, const Settle& settle)
+  {
+    MotionResult result;
+    if (!KeepsUse(targets, used, backend))
+    {
+      return result;
+    }
+    auto& motion = this->GetMotion<Real>(backend);
+    motion.Begin(mesh, targets);
+    do
+    {
+      if (!motion.MakeRound(mesh))
+      {
+        return result;
+      }
+      result.Flips += settle(motion.HasChangedHull());
+      ClearCandidates(mesh.Edges, backend);
+    } while (motion.CountLate() > 0);
+    motion.End(mesh);
+    result.Rounds = motion.CountRounds();
+    result.IsThere = true;
+    return result;
+  }
+
+  // Public for nvcc.
+
+  /// Whether the points that are not used are at the places of the same ones afterwards, or not
+  /// finite.
+  static bool KeepsUse(
+    const PlaneArray& targets, const Array<VertexId>& used, const Backend& backend)
+  {
+    const VertexId* usedPoint = used.Data();
+    return backend.template Sum<std::int64_t>(static_cast<std::int64_t>(used.Size()),
+             [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+             {
+               const VertexId own = usedPoint[i];
+               const double x = targets.Get(i, 0), y = targets.Get(i, 1);
+               bool isKept = own == i || (own == NoVertex && !(IsFinite(x) && IsFinite(y)));
+               if (!isKept && own != NoVertex)
+               {
+                 isKept = x == targets.Get(own, 0) && y == targets.Get(own, 1);
+               }
+               sum += isKept ? 0 : 1;
+             }) == 0;
+  }
+
+  /// On a device the states of edges are only what the loop is told, which it takes over again.
+  static void ClearCandidates(EdgeMesh& mesh, const Backend& backend)
+  {
+    if constexpr (!Backend::IsOnHost)
+    {
+      EdgeState* states = mesh.States.Data();
+      backend.ForEach(mesh.NumberOfEdges,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
+        {
+          const bool isFixed = states[edge] == EdgeState::Fixed;
+          states[edge] = isFixed ? EdgeState::Fixed : EdgeState::Good;
+        });
+    }
+  }
+
+private:
+  template <typename Real>
+  PointMotion<Real, Backend>& GetMotion(const Backend& backend)
+  {
+    const auto require = [&](auto& motion) -> auto&
+    {
+      if (!motion)
+      {
+        motion = std::make_unique<PointMotion<Real, Backend>>(backend);
+      }
+      return *motion;
+    };
+    if constexpr (std::is_same<Real, float>::value)
+    {
+      return require(this->Floats);
+    }
+    else
+    {
+      return require(this->Doubles);
+    }
+  }
+
+  std::unique_ptr<PointMotion<float, Backend>> Floats; ///< One of them.
+  std::unique_ptr<PointMotion<double, Backend>> Doubles;
+};
+
+}
+
+#endif

@@ -1,0 +1,437 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_HULLCHANGE_H
+#define DELAUNAYFLIP_HULLCHANGE_H
+
+#include "Array.h"
+#include "EdgeMesh.h"
+#include "MeshRoom.h"
+#include "PlaneMesh.h"
+
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+/// @file
+/// How the boundary of a triangulation follows points that move. A triangle at the boundary that a
+/// point leaves through its boundary edge is cut off, and where the boundary has become concave
+/// there is a new triangle. These changes are few, and one thread makes them, one after the other.
+
+namespace delaunayflip
+{
+
+constexpr std::uint32_t NoSide = 0xFFFFFFFFu;
+
+/// An edge of the boundary. Its only triangle is on its half-edge 2 * Edge, to the left.
+struct BoundarySide
+{
+  EdgeId Edge;
+  std::uint32_t Before, After; ///< The numbers of the sides that end and begin where it does.
+};
+
+/// How much a mesh has while one thread changes it.
+struct HullSizes
+{
+  std::int64_t Triangles, Edges, Sides;
+  std::int64_t MostSides; ///< There is room for so many.
+  std::int32_t HasFailed; ///< Whether there was none left.
+};
+
+/// The boundary, and what one thread does to it.
+struct HullView
+{
+  PlaneMesh Mesh;
+  BoundarySide* Sides;
+  std::uint32_t* SideOfVertex; ///< By vertex, the side that begins there, or NoSide.
+
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetStart(const BoundarySide& side) const
+  {
+    return this->Mesh.GetStart(2 * side.Edge);
+  }
+  DELAUNAYFLIP_HOST_DEVICE bool IsInside(VertexId vertex) const
+  {
+    return this->SideOfVertex[vertex] == NoSide;
+  }
+
+  /// The orientation of the triangle at a side.
+  DELAUNAYFLIP_HOST_DEVICE int FindOrientationAt(const BoundarySide& side) const
+  {
+    const TriangleRecord& triangle =
+      this->Mesh.Edges.Triangles[TriangleOf(this->Mesh.Edges.CornerOfHalfEdge[2 * side.Edge])];
+    return this->Mesh.FindOrientation(
+      triangle.Vertices[0], triangle.Vertices[1], triangle.Vertices[2]);
+  }
+  /// Whether the triangle at a side is not counter-clockwise, and its third vertex is inside.
+  DELAUNAYFLIP_HOST_DEVICE bool MustCut(const BoundarySide& side) const
+  {
+    const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[2 * side.Edge];
+    return this->IsInside(this->Mesh.GetVertex(corner)) && this->FindOrientationAt(side) <= 0;
+  }
+
+  /// The orientation of the boundary where a side begins: -1 where it is concave.
+  DELAUNAYFLIP_HOST_DEVICE int FindTurn(const BoundarySide& side) const
+  {
+    return this->Mesh.FindOrientation(this->GetStart(this->Sides[side.Before]),
+      this->GetStart(side), this->GetStart(this->Sides[side.After]));
+  }
+
+  /// Whether a side runs to larger x, or straight up.
+  DELAUNAYFLIP_HOST_DEVICE bool RunsUp(const BoundarySide& side) const
+  {
+    const PlanePoint from = this->Mesh.GetPoint(this->GetStart(side));
+    const PlanePoint to = this->Mesh.GetPoint(this->GetStart(this->Sides[side.After]));
+    return from.U < to.U || (from.U == to.U && from.V < to.V);
+  }
+};
+
+/// Changes the boundary. The mesh and the arrays have room for it.
+class HullEditor
+{
+public:
+  DELAUNAYFLIP_HOST_DEVICE HullEditor(const HullView& hull, HullSizes* sizes)
+    : Hull(hull),
+      Edges(hull.Mesh.Edges),
+      Sizes(*sizes),
+      Result(sizes)
+  {
+  }
+
+  /// Cuts off the triangles at the sides that begin at these vertices, and those that then are at
+  /// the boundary, where that must be.
+  /// @param pending has room for two more of each change.
+  DELAUNAYFLIP_HOST_DEVICE void CutOff(VertexId* pending, std::int64_t count)
+  {
+    while (count > 0 && this->Sizes.HasFailed == 0)
+    {
+      const VertexId start = pending[--count];
+      VertexId opposite = NoVertex;
+      if (this->CutAt(start, opposite))
+      {
+        pending[count++] = start;
+        pending[count++] = opposite;
+      }
+    }
+    *this->Result = this->Sizes;
+  }
+
+  /// Adds triangles until the boundary is nowhere concave at these vertices and their neighbours.
+  DELAUNAYFLIP_HOST_DEVICE void FillUp(VertexId* pending, std::int64_t count)
+  {
+    while (count > 0 && this->Sizes.HasFailed == 0)
+    {
+      const VertexId vertex = pending[--count];
+      VertexId ends[2];
+      if (this->FillAt(vertex, ends))
+      {
+        pending[count++] = ends[0];
+        pending[count++] = ends[1];
+      }
+    }
+    *this->Result = this->Sizes;
+  }
+
+private:
+  /// Cuts the triangle at the side from `start` off, if it must be. @returns whether it was.
+  DELAUNAYFLIP_HOST_DEVICE bool CutAt(VertexId start, VertexId& opposite)
+  {
+    const std::uint32_t number = this->Hull.SideOfVertex[start];
+    if (!this->Hull.MustCut(this->Hull.Sides[number]))
+    {
+      return false;
+    }
+    if (this->Sizes.Sides == this->Sizes.MostSides)
+    {
+      this->Sizes.HasFailed = 1;
+      return false;
+    }
+    const EdgeId edge = this->Hull.Sides[number].Edge;
+    const CornerId corner = this->Edges.CornerOfHalfEdge[2 * edge];
+    const TriangleRecord triangle = this->Edges.Triangles[TriangleOf(corner)];
+    const int slot = SlotOf(corner);
+    opposite = triangle.Vertices[slot];
+    const EdgeId first = this->Expose(triangle.HalfEdges[PreviousSlot(slot)]);
+    const EdgeId second = this->Expose(triangle.HalfEdges[NextSlot(slot)]);
+    const auto added = static_cast<std::uint32_t>(this->Sizes.Sides++);
+    const std::uint32_t after = this->Hull.Sides[number].After;
+    this->Hull.Sides[number].Edge = first;
+    this->Hull.Sides[number].After = added;
+    this->Hull.Sides[added] = { second, number, after };
+    this->Hull.Sides[after].Before = added;
+    this->Hull.SideOfVertex[opposite] = added;
+    this->DropTriangle(TriangleOf(corner));
+    this->DropEdge(edge);
+    return true;
+  }
+
+  /// Puts an edge on the boundary whose triangle on this half-edge is cut off.
+  DELAUNAYFLIP_HOST_DEVICE EdgeId Expose(HalfEdgeId cut)
+  {
+    const EdgeId edge = EdgeOf(cut);
+    const CornerId left = this->Edges.CornerOfHalfEdge[cut ^ 1u];
+    this->Edges.SetCorners(edge, { left, NoCorner });
+    this->Edges.Triangles[TriangleOf(left)].HalfEdges[SlotOf(left)] = 2 * edge;
+    this->Edges.States[edge] = EdgeState::Fixed;
+    return edge;
+  }
+
+  /// Adds a triangle at a vertex where the boundary is concave. @returns whether it is.
+  DELAUNAYFLIP_HOST_DEVICE bool FillAt(VertexId vertex, VertexId (&ends)[2])
+  {
+    const std::uint32_t number = this->Hull.SideOfVertex[vertex];
+    if (number == NoSide || this->Hull.FindTurn(this->Hull.Sides[number]) >= 0)
+    {
+      return false;
+    }
+    if (this->Sizes.Sides <= 3)
+    {
+      this->Sizes.HasFailed = 1;
+      return false;
+    }
+    const BoundarySide own = this->Hull.Sides[number];
+    const EdgeId before = this->Hull.Sides[own.Before].Edge;
+    ends[0] = this->Hull.GetStart(this->Hull.Sides[own.Before]);
+    ends[1] = this->Hull.GetStart(this->Hull.Sides[own.After]);
+    const auto added = static_cast<TriangleId>(this->Sizes.Triangles++);
+    const auto edge = static_cast<EdgeId>(this->Sizes.Edges++);
+    TriangleRecord triangle{ { ends[0], ends[1], vertex }, added, {}, 0 };
+    triangle.HalfEdges[0] = 2 * own.Edge + 1;
+    triangle.HalfEdges[1] = 2 * before + 1;
+    triangle.HalfEdges[2] = 2 * edge;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Edges.CornerOfHalfEdge[triangle.HalfEdges[slot]] = MakeCorner(added, slot);
+    }
+    this->Edges.CornerOfHalfEdge[2 * edge + 1] = NoCorner;
+    this->Edges.Triangles[added] = triangle;
+    this->Edges.States[edge] = EdgeState::Fixed;
+    this->Edges.States[before] = EdgeState::Candidate;
+    this->Edges.States[own.Edge] = EdgeState::Candidate;
+    this->Hull.Sides[own.Before].Edge = edge;
+    this->Hull.Sides[own.Before].After = own.After;
+    this->Hull.Sides[own.After].Before = own.Before;
+    this->Hull.SideOfVertex[vertex] = NoSide;
+    this->DropSide(number);
+    return true;
+  }
+
+  /// The last one takes the number of the one that is dropped; so do the next two.
+  DELAUNAYFLIP_HOST_DEVICE void DropSide(std::uint32_t number)
+  {
+    const auto last = static_cast<std::uint32_t>(--this->Sizes.Sides);
+    if (last == number)
+    {
+      return;
+    }
+    const BoundarySide side = this->Hull.Sides[last];
+    this->Hull.Sides[number] = side;
+    this->Hull.Sides[side.Before].After = number;
+    this->Hull.Sides[side.After].Before = number;
+    this->Hull.SideOfVertex[this->Hull.GetStart(side)] = number;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void DropTriangle(TriangleId number)
+  {
+    const auto last = static_cast<TriangleId>(--this->Sizes.Triangles);
+    if (last == number)
+    {
+      return;
+    }
+    TriangleRecord triangle = this->Edges.Triangles[last];
+    triangle.InputTriangle = number;
+    this->Edges.Triangles[number] = triangle;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Edges.CornerOfHalfEdge[triangle.HalfEdges[slot]] = MakeCorner(number, slot);
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void DropEdge(EdgeId number)
+  {
+    const auto last = static_cast<EdgeId>(--this->Sizes.Edges);
+    if (last != number)
+    {
+      const CornerPair corners = this->Edges.GetCorners(last);
+      this->Edges.SetCorners(number, corners);
+      this->Edges.States[number] = this->Edges.States[last];
+      this->Edges.Triangles[TriangleOf(corners.A)].HalfEdges[SlotOf(corners.A)] = 2 * number;
+      if (corners.B != NoCorner)
+      {
+        this->Edges.Triangles[TriangleOf(corners.B)].HalfEdges[SlotOf(corners.B)] = 2 * number + 1;
+      }
+      else
+      {
+        this->Hull.Sides[this->Hull.SideOfVertex[this->Hull.Mesh.GetStart(2 * number)]].Edge =
+          number;
+      }
+    }
+    this->Edges.States[last] = EdgeState::Fixed; // as after the last edge
+  }
+
+  HullView Hull;
+  EdgeMeshView Edges;
+  HullSizes Sizes;
+  HullSizes* Result;
+};
+
+/// The boundary of a mesh on a backend, which is kept while points move.
+template <typename Backend>
+class HullBoundary
+{
+public:
+  explicit HullBoundary(const Backend& backend)
+    : Device(backend)
+  {
+  }
+
+  HullView View(const PlaneMesh& mesh)
+  {
+    return { mesh, this->Sides.Data(), this->SideOfVertex.Data() };
+  }
+
+  /// Cuts triangles off that are not counter-clockwise at the places of now.
+  /// @returns whether it has changed the mesh.
+  bool CutOff(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, true); }
+  /// Makes the boundary convex.
+  bool FillUp(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, false); }
+
+  /// Whether there was no room for what has to be cut off; then points do not move in place.
+  bool HasFailed() const { return this->Failed; }
+
+  // Public for nvcc.
+
+  /// Finds the boundary of a mesh.
+  void Build(const EdgeMesh& mesh, const PlaneMesh& plane)
+  {
+    const CornerId* corners = mesh.CornerOfHalfEdge.Data();
+    const auto isOnBoundary = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
+    { return corners[2 * edge + 1] == NoCorner ? 1 : 0; };
+    const typename Backend::Numbering numbering =
+      this->Device.Count(mesh.NumberOfEdges, isOnBoundary);
+    this->Count = numbering.Total;
+    const std::int64_t vertices = plane.Places.Count;
+    Reserve(this->Sides, 0, this->Count + MostCuts, this->Device);
+    Reserve(this->SideOfVertex, 0, vertices, this->Device);
+    BoundarySide* sides = this->Sides.Data();
+    std::uint32_t* sideOfVertex = this->SideOfVertex.Data();
+    this->Device.ForEachNumbered(numbering, mesh.NumberOfEdges, isOnBoundary,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge, std::int64_t number)
+      {
+        if (isOnBoundary(edge) != 0)
+        {
+          sides[number] = { static_cast<EdgeId>(edge), NoSide, NoSide };
+        }
+      });
+    this->Device.ForEach(
+      vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sideOfVertex[i] = NoSide; });
+    this->Device.ForEach(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { sideOfVertex[plane.GetStart(2 * sides[i].Edge)] = static_cast<std::uint32_t>(i); });
+    this->Device.ForEach(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        const std::uint32_t after = sideOfVertex[plane.GetEnd(2 * sides[i].Edge)];
+        sides[i].After = after;
+        sides[after].Before = static_cast<std::uint32_t>(i);
+      });
+  }
+
+  /// Whether the boundary is a convex polygon that goes around once. If all triangles are
+  /// counter-clockwise, too, none overlap.
+  bool IsConvex(const PlaneMesh& plane)
+  {
+    const HullView hull = this->View(plane);
+    const BoundarySide* sides = this->Sides.Data();
+    constexpr std::int64_t Concave = std::int64_t(1) << 40;
+    const std::int64_t changes = this->Device.template Sum<std::int64_t>(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+      {
+        const BoundarySide side = sides[i];
+        const int turn = hull.FindTurn(side);
+        const bool isOther = hull.RunsUp(side) != hull.RunsUp(sides[side.Before]);
+        // On a line that goes on its sides run the same way.
+        const bool turnsBack = turn == 0 && isOther;
+        sum += turn < 0 || turnsBack ? Concave : std::int64_t(isOther);
+      });
+    return changes == 2;
+  }
+
+  /// Lists the vertices where the boundary must change. @returns how many there are.
+  std::int64_t ListPending(const HullView& hull, bool cuts)
+  {
+    const BoundarySide* sides = this->Sides.Data();
+    const auto mustChange = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    {
+      const bool must = cuts ? hull.MustCut(sides[i]) : hull.FindTurn(sides[i]) < 0;
+      return must ? 1 : 0;
+    };
+    const typename Backend::Numbering numbering = this->Device.Count(this->Count, mustChange);
+    if (numbering.Total > 0)
+    {
+      Reserve(this->Pending, 0, 2 * (this->Count + MostCuts), this->Device);
+      VertexId* pending = this->Pending.Data();
+      this->Device.ForEachNumbered(numbering, this->Count, mustChange,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
+        {
+          if (mustChange(i) != 0)
+          {
+            pending[number] = hull.GetStart(sides[i]);
+          }
+        });
+    }
+    return numbering.Total;
+  }
+
+  bool Change(EdgeMesh& mesh, PlaneMesh plane, bool cuts)
+  {
+    const std::int64_t pendingCount = this->ListPending(this->View(plane), cuts);
+    if (pendingCount == 0)
+    {
+      return false;
+    }
+    const std::int64_t added = cuts ? 0 : this->Count;
+    ReserveMesh(mesh, mesh.NumberOfTriangles + added, mesh.NumberOfEdges + added, this->Device);
+    Reserve(this->Sides, this->Count, this->Count + MostCuts, this->Device);
+    plane.Edges = mesh.View();
+    HullSizes sizes{ mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count,
+      this->Count + MostCuts, 0 };
+    Reserve(this->Sizes, 0, 1, this->Device);
+    this->Device.Upload(&sizes, 1, this->Sizes.Data());
+    const HullView hull = this->View(plane);
+    HullSizes* result = this->Sizes.Data();
+    VertexId* pending = this->Pending.Data();
+    this->Device.ForEach(1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
+      {
+        HullEditor editor(hull, result);
+        if (cuts)
+        {
+          editor.CutOff(pending, pendingCount);
+        }
+        else
+        {
+          editor.FillUp(pending, pendingCount);
+        }
+      });
+    this->Device.Download(result, 1, &sizes);
+    mesh.NumberOfTriangles = sizes.Triangles;
+    mesh.NumberOfEdges = sizes.Edges;
+    this->Count = sizes.Sides;
+    this->Failed = sizes.HasFailed != 0;
+    return true;
+  }
+
+private:
+  static constexpr std::int64_t MostCuts = 4096; ///< In one round.
+
+  const Backend& Device;
+  Array<BoundarySide> Sides;
+  Array<std::uint32_t> SideOfVertex;
+  Array<VertexId> Pending;
+  Array<HullSizes> Sizes;
+  std::int64_t Count = 0; ///< How many sides there are.
+  bool Failed = false;
+};
+
+}
+
+#endif

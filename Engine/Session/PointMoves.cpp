@@ -1,0 +1,269 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointRun.h"
+
+#include "Array.h"
+#include "CallerMesh.h"
+#include "FlipError.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// @file
+/// How the run of points follows those that move, and does without those that are removed.
+
+namespace delaunayflip
+{
+namespace
+{
+
+/// @throws InvalidOptions.
+void CheckIds(const std::int64_t* ids, std::int64_t count, std::int64_t points)
+{
+  const auto* const wrong =
+    std::find_if(ids, ids + count, [=](std::int64_t id) { return id < 0 || id >= points; });
+  if (wrong != ids + count)
+  {
+    throw InvalidOptions(
+      "point " + std::to_string(*wrong) + " does not exist; there are " + Count(points, "point"));
+  }
+}
+
+/// Sets x and y of a point.
+void SetPlace(PointPlaces& places, std::int64_t point, double x, double y)
+{
+  const auto set = [&](auto& coordinates)
+  {
+    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
+    coordinates[2 * point] = static_cast<Real>(x);
+    coordinates[2 * point + 1] = static_cast<Real>(y);
+  };
+  if (places.Points.Floats)
+  {
+    set(places.Floats);
+  }
+  else
+  {
+    set(places.Doubles);
+  }
+}
+
+/// Copies coordinates into an array of its own.
+template <typename Real>
+void CopyInto(const PlaneArray& from, std::vector<Real>& coordinates, PointPlaces& places)
+{
+  coordinates.resize(2 * from.Count);
+  for (std::int64_t i = 0; i < from.Count; ++i)
+  {
+    coordinates[2 * i] = static_cast<Real>(from.Get(i, 0));
+    coordinates[2 * i + 1] = static_cast<Real>(from.Get(i, 1));
+  }
+  places.Points = PlaneArray(coordinates.data(), from.Count, 2);
+}
+
+}
+
+bool PointRun::Move(const PointMove& move, const ProgressObserver& progress)
+{
+  const std::int64_t points = this->Points.GetCaller().Points.Count;
+  if (!move.Ids && move.Points.Count != points)
+  {
+    throw InvalidOptions("there are " + Count(points, "point") + " to move, but places for " +
+      Count(move.Points.Count, "point"));
+  }
+  if (move.Ids)
+  {
+    CheckIds(move.Ids, move.Points.Count, points);
+  }
+  if (progress && !progress(0.0))
+  {
+    return false;
+  }
+  this->ReadPlaces(move);
+  return this->GoToPlaces(this->Points.GetRemoved(), progress);
+}
+
+bool PointRun::Remove(const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress)
+{
+  CheckIds(ids, count, this->Points.GetCaller().Points.Count);
+  if (progress && !progress(0.0))
+  {
+    return false;
+  }
+  std::vector<std::int64_t> removed = this->Points.GetRemoved();
+  removed.insert(removed.end(), ids, ids + count);
+  std::sort(removed.begin(), removed.end());
+  removed.erase(std::unique(removed.begin(), removed.end()), removed.end());
+  this->Points.CopyPlaces(this->Places);
+  for (const std::int64_t id : removed)
+  {
+    SetPlace(this->Places, id, NAN, NAN);
+  }
+  return this->GoToPlaces(std::move(removed), progress);
+}
+
+bool PointRun::Compact(const ProgressObserver& progress)
+{
+  const PointInput& caller = this->Points.GetCaller();
+  const bool namesPoints = caller.NumberOfSegments > 0 || caller.Sizes != nullptr;
+  if (namesPoints)
+  {
+    throw InvalidOptions("points cannot get other numbers, because segments or sizes name them");
+  }
+  if (progress && !progress(0.0))
+  {
+    return false;
+  }
+  this->Points.CopyPlaces(this->Places);
+  const PlaneArray all = this->Places.Points;
+  std::int64_t kept = 0;
+  for (std::int64_t i = 0; i < all.Count; ++i)
+  {
+    if (!this->Points.IsRemoved(i))
+    {
+      SetPlace(this->Places, kept++, all.Get(i, 0), all.Get(i, 1));
+    }
+  }
+  this->Places.Points.Count = kept;
+  return this->GoToPlaces({}, progress);
+}
+
+/// Fills this->Places.
+void PointRun::ReadPlaces(const PointMove& move)
+{
+  const PlaneArray& now = this->Points.GetCaller().Points;
+  PointPlaces& places = this->Places;
+  const bool staysThere =
+    move.OnDevice && !move.Ids && this->Points.GetRemoved().empty() && move.Points.Count > 0;
+  if (move.OnDevice)
+  {
+    const bool isSame = (move.Points.Floats == nullptr) == (now.Floats == nullptr);
+    if (!staysThere || !isSame)
+    {
+      throw InvalidOptions(
+        "places in the memory of a GPU must be those of all points, with the type "
+        "of their coordinates, and no point may be removed");
+    }
+    RequireOnDevice(move.Points.Data(), move.Points.Count, "the places are");
+    places.Points = move.Points;
+    places.OnDevice = true;
+    places.Stream = move.Stream;
+    return;
+  }
+  if (move.Ids)
+  {
+    this->Points.CopyPlaces(places);
+    for (std::int64_t i = 0; i < move.Points.Count; ++i)
+    {
+      SetPlace(places, move.Ids[i], move.Points.Get(i, 0), move.Points.Get(i, 1));
+    }
+  }
+  else if (now.Floats)
+  {
+    CopyInto(move.Points, places.Floats, places);
+  }
+  else
+  {
+    CopyInto(move.Points, places.Doubles, places);
+  }
+  places.OnDevice = false;
+  for (const std::int64_t id : this->Points.GetRemoved())
+  {
+    SetPlace(places, id, NAN, NAN);
+  }
+}
+
+/// Moves all points to this->Places. @param removed the points that are removed then.
+bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress)
+{
+  std::vector<std::int64_t> removedBefore = this->Points.GetRemoved();
+  const bool keepsPoints =
+    removed == removedBefore && this->Places.Points.Count == this->Points.GetCaller().Points.Count;
+  this->Points.Exchange(this->Places);
+  this->Points.SetRemoved(std::move(removed));
+  const auto goBack = [&]
+  {
+    this->Points.Exchange(this->Places);
+    this->Points.SetRemoved(std::move(removedBefore));
+    this->Reset();
+  };
+  try
+  {
+    if (keepsPoints && this->IsPlain() && this->MoveInPlace())
+    {
+      return true;
+    }
+    this->Reset();
+    this->Advance(-1, {}, progress);
+  }
+  catch (...)
+  {
+    goBack();
+    throw;
+  }
+  const bool isThere = this->Report.StopReason != StopReasonKind::Aborted;
+  if (!isThere)
+  {
+    goBack();
+    this->Advance(-1, {}, {});
+  }
+  return isThere;
+}
+
+/// @returns false if the points have to be triangulated anew.
+bool PointRun::MoveInPlace()
+{
+  if (this->Points.GetOptions().MaximumIterations >= 0)
+  {
+    return false;
+  }
+  const StopWatch watch;
+  this->BatchEnds.clear();
+  this->Journal = { { this->Stages.size() - 1, AllPoints } };
+  MotionResult motion;
+  const bool isLoaded = this->TryOnBackend(
+    [&](LoadedMesh& mesh)
+    {
+      PointInput targets = this->Points.GetInput();
+      if (targets.OnDevice && !mesh.HasMemory(targets.Points.Data()))
+      {
+        targets.Points = this->Points.CopyToHost();
+        targets.OnDevice = false;
+      }
+      motion = mesh.MovePoints(targets);
+    });
+  if (!isLoaded || !motion.IsThere)
+  {
+    return false;
+  }
+  this->RecordMotion(motion);
+  this->Report.FlipSeconds = watch.GetSeconds();
+  return true;
+}
+
+/// Reports a motion as if it were all that the run has done.
+void PointRun::RecordMotion(const MotionResult& motion)
+{
+  FlipReport& report = this->Report;
+  const FlipReport& made = this->Loaded->GetInputReport();
+  report.Triangles = made.Triangles;
+  report.EulerCharacteristic = made.EulerCharacteristic;
+  report.Iterations.clear();
+  report.TotalFlips = motion.Flips;
+  report.TotalExcluded = 0;
+  report.TotalBlocked = 0;
+  report.NonDelaunayBefore = 0;
+  report.BuildSeconds = 0.0;
+  this->Result.MoveRounds = motion.Rounds;
+  this->AreAnglesKnown = false;
+  this->AreKeptEdgesKnown = false;
+  this->RecordFound(this->Loaded->GetLoop().GetFound());
+  this->ListDefects();
+}
+
+}

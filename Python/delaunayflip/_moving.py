@@ -1,0 +1,223 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""A triangulation of points that move, come and go."""
+from __future__ import annotations  # help() shows types by their names
+
+import contextlib
+import ctypes
+import threading
+from typing import Any, Optional
+
+import numpy
+
+from . import _arrays, _library, _report
+from ._arrays import address
+from ._options import Array, Backend, Numbers, Progress, make_options
+from ._points import Input, triangulate
+from ._report import Report
+from ._session import call, observe
+
+
+class MovingTriangulation:
+    """The Delaunay triangulation of points that move, come and go.
+
+    After each call the triangles are those that `triangulate` makes of the points where they are,
+    perhaps in another order. While points move a little, up to about a tenth of their distance, the
+    engine keeps its mesh and flips; otherwise it triangulates the points anew. Both give the same
+    triangles; `report.move_rounds` tells.
+
+    Points may be arrays of CuPy, PyTorch or Numba on a GPU, also to `move`. Then `triangles` and
+    `neighbors` are arrays of that library, and nothing goes through the host. They are made when they are
+    first read after a change; an array that was read before stays as it is.
+
+    It does one thing at a time: while a call is at work, its observers and other threads get
+    RuntimeError. It is a context manager; leaving it frees the engine's memory.
+
+    Args:
+        points: (n, 2) or (n, 3) float32 or float64; z is ignored. They are copied, except on a GPU, where
+            they must stay unchanged until the next `move`.
+        backend, threads, device: As for `triangulate`.
+        progress: Called with the share of the work done, 0 to 1; returning False stops it.
+
+    Raises:
+        delaunayflip.Stopped: progress has returned False.
+        InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError, ValueError.
+
+    Example:
+        >>> import numpy
+        >>> points = numpy.array([[0, 0], [1, 0], [0, 1], [1, 1.1]])
+        >>> with MovingTriangulation(points) as mesh:
+        ...     points[3] = [0.3, 0.3]
+        ...     mesh.move(points)
+        ...     mesh.triangles.shape
+        (3, 3)
+    """
+
+    def __init__(
+        self, points: Numbers, *, backend: Backend = "auto", threads: int = 0, device: int = -1,
+        progress: Optional[Progress] = None,
+    ) -> None:
+        self._handle = ctypes.c_void_p()
+        self._lock, self._stored, self._count = threading.Lock(), {}, 0
+        self._given = Input(self._own(points))
+        options = make_options(triangulate, backend=backend, threads=threads, device=device)
+        call("open_points", self._given.struct, options, ctypes.byref(self._handle), progress)
+        self._count = len(self._given.points)
+        call("advance", self._handle, -1, None, progress)
+        if _report.is_aborted(_report.read_struct(self._handle)):
+            raise _library.Stopped("progress has stopped the triangulation")
+
+    @staticmethod
+    def _own(points):
+        """Points that nobody else changes, unless they are on a GPU."""
+        points = _arrays.as_plane(points)
+        return points.copy() if isinstance(points, numpy.ndarray) else points
+
+    def __enter__(self) -> "MovingTriangulation":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None):
+            self.close()
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a triangulation of moving points cannot be copied or pickled")
+
+    def close(self) -> None:
+        """Frees the engine's memory. Nothing can be asked or moved afterwards."""
+        with self._open(may_be_closed=True) as handle:
+            self._handle = None
+            if handle:
+                _library.run("close", handle)
+
+    def __len__(self) -> int:
+        """The number of points, removed ones included."""
+        return self._count
+
+    def move(
+        self, points: Numbers, ids: Optional[Numbers] = None, *, progress: Optional[Progress] = None,
+    ) -> None:
+        """Moves all points, or those with these ids.
+
+        Args:
+            points: (n, 2) or (n, 3), or as many as ids. They are copied, in the precision of the first
+                ones. On a GPU they must have that precision, and stay unchanged until the next `move`.
+            ids: (k,) integers, with points in the host's memory. With an id twice, the last place counts.
+            progress: Is asked at first, and while points are triangulated anew; False stops it.
+
+        Raises:
+            delaunayflip.Stopped: progress has returned False. All points are where they were.
+            InvalidOptions, InvalidMesh, BackendUnavailable, MemoryError, TypeError, ValueError.
+        """
+        given = Input(points)
+        wanted = len(self)
+        if ids is not None:
+            given = Input(_arrays.to_host(given.points))
+            ids = self._read_ids(ids)
+            wanted = len(ids)
+        if len(given.points) != wanted:
+            raise ValueError(f"there must be {wanted} points, not {len(given.points)}")
+        number = None if ids is None else address(ids)
+        with self._change() as handle, observe(progress) as callbacks:
+            _library.call("move_points", handle, given.struct, number, callbacks)
+        if ids is None:
+            self._given = given  # keeps arrays on a GPU
+
+    def insert(self, points: Numbers, *, progress: Optional[Progress] = None) -> Array:
+        """Inserts points, (k, 2) or (k, 3), and gives their ids, (k,) int64, which follow the others.
+
+        Raises:
+            The same as move.
+        """
+        batch = Input(_arrays.to_host(_arrays.as_plane(points)))
+        before = len(self)
+        with self._change() as handle, observe(progress) as callbacks:
+            _library.call("insert_points", handle, batch.struct, callbacks)
+            self._count = before + len(batch.points)
+        return numpy.arange(before, self._count)
+
+    def remove(self, ids: Numbers, *, progress: Optional[Progress] = None) -> None:
+        """Removes points. The others keep their ids. A removed point is used no more, whatever place it
+        gets by later moves, and counts among all points until `compact`.
+
+        Raises:
+            The same as move.
+        """
+        ids = self._read_ids(ids)
+        with self._change() as handle, observe(progress) as callbacks:
+            _library.call("remove_points", handle, address(ids), len(ids), callbacks)
+
+    def compact(self, *, progress: Optional[Progress] = None) -> None:
+        """Numbers the points anew without those that are removed; they keep their order.
+
+        Raises:
+            The same as move.
+        """
+        removed = self.report.removed_points
+        with self._change() as handle, observe(progress) as callbacks:
+            _library.call("compact_points", handle, callbacks)
+            self._count -= removed
+
+    @property
+    def triangles(self) -> Array:
+        """(m, 3) int32, counter-clockwise in x and y."""
+        return self._store("triangles", _library.TYPES["int32"])
+
+    @property
+    def neighbors(self) -> Array:
+        """(m, 3) int32: the triangle opposite each corner, -1 where there is none."""
+        return self._store("neighbors")
+
+    @property
+    def used_points(self) -> Array:
+        """(n,) int64: the point that is used at the place of each point; -1: it is removed or not
+        finite."""
+        used = numpy.empty(len(self), dtype=numpy.int64)
+        with self._open() as handle:
+            _library.call("store_used_points", handle, address(used))
+        return used
+
+    @property
+    def report(self) -> Report:
+        """The `Report` on the last change, which measures all angles."""
+        with self._open() as handle:
+            return _report.read(handle)
+
+    @staticmethod
+    def _read_ids(ids):
+        ids = numpy.asarray(_arrays.to_host(ids))
+        if ids.ndim != 1 or (ids.dtype.kind not in "iu" and ids.size):
+            raise ValueError(f"ids must be integers of shape (k,), not {ids.dtype} of shape {ids.shape}")
+        return numpy.ascontiguousarray(ids, dtype=numpy.int64)
+
+    @contextlib.contextmanager
+    def _change(self):
+        with self._open() as handle:
+            self._stored = {}
+            yield handle
+
+    def _store(self, name, *more):
+        """An array of the last change."""
+        with self._open() as handle:
+            if name not in self._stored:
+                count = _library.run("count_triangles", handle)
+                room = _arrays.make_empty(self._given.points, (count, 3), "int32")
+                _arrays.store(name, handle, room, *more)
+                self._stored[name] = room
+            return self._stored[name]
+
+    @contextlib.contextmanager
+    def _open(self, may_be_closed=False):
+        """The handle, which nothing else uses meanwhile."""
+        if not self._lock.acquire(blocking=False):
+            raise RuntimeError("the triangulation is at work: observers, and other threads, have to wait "
+                               "until its call has returned")
+        try:
+            if not self._handle and not may_be_closed:
+                raise ValueError("the triangulation is closed")
+            yield self._handle
+        finally:
+            self._lock.release()

@@ -1,0 +1,599 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "GrowTestSupport.h"
+#include "PointSets.h"
+#include "PointTestSupport.h"
+#include "RandomInputs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// @file
+/// Points that move, come and go. DELAUNAYFLIP_FRAMES is the number of frames for each family.
+
+namespace delaunayflip
+{
+namespace
+{
+
+int CountFrames(int usual)
+{
+  const char* wanted = std::getenv("DELAUNAYFLIP_FRAMES");
+  return wanted ? std::atoi(wanted) : usual / Reduction;
+}
+
+Drawing ToDrawing(const Places& points)
+{
+  Drawing drawing;
+  drawing.Points = points;
+  return drawing;
+}
+
+/// Sessions of the same points on several numbers of threads, which must have the same triangles.
+class Moving
+{
+public:
+  explicit Moving(Drawing drawing)
+    : Now(std::move(drawing))
+  {
+    for (const int threads : { 1, 2, 3, 16 })
+    {
+      this->Sessions.emplace_back(this->Now.View(), PointOptions{ WithThreads(threads) });
+      this->Sessions.back().Advance();
+    }
+  }
+
+  /// Moves all points, and expects what a triangulation has.
+  void GoTo(const Places& points)
+  {
+    this->Now.Points = points;
+    for (FlipSession& session : this->Sessions)
+    {
+      EXPECT_TRUE(session.Move({ View(points) }));
+    }
+    this->Expect();
+  }
+
+  void Expect()
+  {
+    const Triangulation expected = Triangulate(this->Now);
+    const FlipReport& report = this->Sessions.front().GetReport();
+    const std::vector<std::int32_t> triangles = StoreTriangles(this->Sessions.front());
+    ASSERT_EQ(Normalize(expected.Triangles), Normalize(triangles));
+    for (const FlipSession& session : this->Sessions)
+    {
+      ASSERT_EQ(triangles, StoreTriangles(session));
+      ASSERT_EQ(report.FromPoints.MoveRounds, session.GetReport().FromPoints.MoveRounds);
+    }
+    std::vector<std::int64_t> used(this->Now.Points.size());
+    this->Sessions.front().StoreUsedPoints(used.data());
+    ASSERT_EQ(expected.UsedPoints, used);
+    ASSERT_EQ(StopReasonKind::Converged, report.StopReason);
+    ASSERT_EQ(expected.Report.Edges.Edges, report.Edges.Edges);
+    ASSERT_EQ(expected.Report.Edges.Boundary, report.Edges.Boundary);
+    ASSERT_EQ(expected.Report.FromPoints.Used, report.FromPoints.Used);
+    ASSERT_EQ(expected.Report.FromPoints.Repeated, report.FromPoints.Repeated);
+    const double angle = expected.Report.MinimumAngleAfter;
+    ASSERT_NEAR(angle, report.MinimumAngleAfter, 1e-9 * angle);
+    ++this->Frames;
+    this->InPlace += report.FromPoints.MoveRounds > 0 ? 1 : 0;
+  }
+
+  Drawing Now;
+  std::vector<FlipSession> Sessions;
+  int Frames = 0, InPlace = 0;
+};
+
+double DrawStep(std::mt19937& random, double size)
+{
+  // The sum of three is nearly normal.
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    sum += static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 19) - 1.0;
+  }
+  return sum * size;
+}
+
+void Shake(std::mt19937& random, double size, Places& points)
+{
+  for (Place& point : points)
+  {
+    point[0] += DrawStep(random, size);
+    point[1] += DrawStep(random, size);
+  }
+}
+
+/// About the distance of neighbours.
+double FindSpacing(const Places& points)
+{
+  Place low = points.front(), high = points.front();
+  for (const Place& point : points)
+  {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
+  return std::sqrt((high[0] - low[0]) * (high[1] - low[1]) / static_cast<double>(points.size()));
+}
+
+Places DrawPlaces(std::mt19937& random, int count)
+{
+  Places points;
+  for (int i = 0; i < count; ++i)
+  {
+    points.push_back({ static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20),
+      static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20) });
+  }
+  return points;
+}
+
+/// Also the boundary changes in nearly every frame.
+TEST(Move, ByStepsOfAllSizes)
+{
+  std::mt19937 random(1);
+  for (const double share : { 0.001, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0 })
+  {
+    SCOPED_TRACE(share);
+    const Places points = DrawPlaces(random, 2000);
+    const double size = share * FindSpacing(points);
+    Moving moving(ToDrawing(points));
+    for (int frame = 0; frame < CountFrames(10); ++frame)
+    {
+      Places next = moving.Now.Points;
+      Shake(random, size, next);
+      moving.GoTo(next);
+      if (HasFailure())
+      {
+        return;
+      }
+    }
+    if (share < 0.05)
+    {
+      EXPECT_LT(0.9 * moving.Frames, moving.InPlace);
+    }
+    RecordProperty("InPlace" + std::to_string(share),
+      std::to_string(moving.InPlace) + " of " + std::to_string(moving.Frames));
+  }
+}
+
+TEST(Move, PointSets)
+{
+  std::mt19937 random(2);
+  for (const PointSet& set : ListPointSets())
+  {
+    SCOPED_TRACE(set.Name);
+    Moving moving(ToDrawing(MakePlaces(set, 1000 / Reduction)));
+    const double spacing = FindSpacing(moving.Now.Points);
+    const double steps[] = { 0.0, 0.001, 0.01, 0.05, 0.0, 3.0, 0.001, 0.01 };
+    for (int frame = 0; frame < CountFrames(8); ++frame)
+    {
+      Places next = moving.Now.Points;
+      Shake(random, steps[frame % 8] * spacing, next);
+      moving.GoTo(next);
+      if (HasFailure())
+      {
+        return;
+      }
+    }
+  }
+}
+
+/// Two clusters go through each other, and some points through the others.
+TEST(Move, ThroughEachOther)
+{
+  std::mt19937 random(3);
+  for (const double speed : { 0.0005, 0.02 })
+  {
+    Places points = DrawPlaces(random, 600);
+    for (std::size_t i = 0; i < 300; ++i)
+    {
+      points[i] = { 0.3 * points[i][0] - 1.0, 0.3 * points[i][1] + 0.35 };
+    }
+    Moving moving(ToDrawing(points));
+    for (int frame = 0; frame < CountFrames(120); ++frame)
+    {
+      const double way = frame % 240 < 120 ? speed : -speed;
+      Places next = moving.Now.Points;
+      for (std::size_t i = 0; i < 300; ++i)
+      {
+        next[i][0] += way;
+      }
+      next[400][0] -= 10.0 * way; // one point goes faster
+      moving.GoTo(next);
+      ASSERT_FALSE(HasFailure()) << frame;
+    }
+    EXPECT_LT(0, moving.InPlace);
+  }
+}
+
+/// Ties, and points that meet others and part again.
+TEST(Move, OnLattices)
+{
+  std::mt19937 random(4);
+  Places points;
+  for (int i = 0; i < 900; ++i)
+  {
+    points.push_back({ static_cast<double>(i % 30), static_cast<double>(i / 30) });
+  }
+  Moving moving(ToDrawing(points));
+  const auto shift = [&](std::size_t every, double x, double y)
+  {
+    Places next = moving.Now.Points;
+    for (std::size_t i = 0; i < next.size(); i += every)
+    {
+      next[i] = { next[i][0] + x, next[i][1] + y };
+    }
+    moving.GoTo(next);
+  };
+  shift(1, 1.0, 0.0); // all alike
+  EXPECT_EQ(1, moving.InPlace);
+  shift(1, 0.0, 0.0);
+  EXPECT_EQ(2, moving.InPlace);
+  shift(30, 0.25, 0.0); // a side of the boundary
+  shift(30, -0.5, 0.0);
+  EXPECT_EQ(4, moving.InPlace);
+  shift(7, 0.5, 0.5); // to the middle of cells
+  shift(7, -0.5, -0.5);
+  shift(2, 1.0, 0.0); // to others
+  EXPECT_LT(0, moving.Sessions[0].GetReport().FromPoints.Repeated);
+  shift(2, -1.0, 0.0);
+  EXPECT_EQ(0, moving.Sessions[0].GetReport().FromPoints.Repeated);
+  for (int frame = 0; frame < CountFrames(40); ++frame)
+  {
+    Places next = moving.Now.Points;
+    for (int i = 0; i < 20; ++i)
+    {
+      Place& point = next[DrawIndex(random, next.size())];
+      point[0] += 0.5 * (static_cast<double>(DrawIndex(random, 3)) - 1.0);
+      point[1] += 0.5 * (static_cast<double>(DrawIndex(random, 3)) - 1.0);
+    }
+    moving.GoTo(next);
+    ASSERT_FALSE(HasFailure()) << frame;
+  }
+}
+
+/// Two points at one place move together in place, and apart.
+TEST(Move, PointsAtOnePlace)
+{
+  std::mt19937 random(5);
+  Places points = DrawPlaces(random, 300);
+  points.push_back(points[7]);
+  points.push_back({ NAN, 0.0 });
+  Moving moving(ToDrawing(points));
+  for (Place& point : points)
+  {
+    point[0] += 0.125;
+  }
+  moving.GoTo(points);
+  EXPECT_EQ(1, moving.InPlace);
+  points[300][0] += 0.01;
+  moving.GoTo(points);
+  EXPECT_EQ(1, moving.InPlace);
+  points[301] = { 0.5, 0.5 };
+  moving.GoTo(points);
+  points[17][0] = INFINITY;
+  moving.GoTo(points);
+  points[17][0] = 0.5;
+  moving.GoTo(points);
+}
+
+/// Points on the boundary go in and out, all of them or only a few, also along a line.
+TEST(Move, TheBoundary)
+{
+  std::mt19937 random(6);
+  Places points;
+  for (int i = 0; i < 200; ++i)
+  {
+    points.push_back({ std::cos(0.1 * M_PI * i / 10.0), std::sin(0.1 * M_PI * i / 10.0) });
+  }
+  const Places inner = DrawPlaces(random, 200);
+  for (const Place& point : inner)
+  {
+    points.push_back({ point[0] - 0.5, point[1] - 0.5 });
+  }
+  Moving moving(ToDrawing(points));
+  for (int frame = 0; frame < CountFrames(60); ++frame)
+  {
+    Places next = points;
+    for (int i = 0; i < 200; ++i)
+    {
+      const double wave = 1.0 + 0.02 * std::sin(0.3 * frame + 7.0 * i) * int(frame % 7 > 3);
+      next[i] = { wave * points[i][0], wave * points[i][1] };
+    }
+    moving.GoTo(next);
+    ASSERT_FALSE(HasFailure()) << frame;
+  }
+  EXPECT_LT(0, moving.InPlace);
+}
+
+/// Segments move with their points. One that crosses an earlier one is refused until it fits again.
+TEST(Move, Segments)
+{
+  std::mt19937 random(7);
+  Drawing drawing;
+  drawing.Points = DrawPlaces(random, 200);
+  drawing.AddRing({ { 0.2, 0.2 }, { 0.8, 0.3 }, { 0.5, 0.8 } });
+  for (std::int64_t i = 0; i < 20; ++i)
+  {
+    drawing.Segments.push_back({ i, 20 + i });
+    drawing.Rings.push_back(-1);
+  }
+  drawing.Segments.erase(drawing.Segments.begin() + 3, drawing.Segments.begin() + 15);
+  drawing.Rings.erase(drawing.Rings.begin() + 3, drawing.Rings.begin() + 15);
+  drawing.Segments[3] = { 200, 201 };
+  Moving moving(drawing);
+  for (int frame = 0; frame < CountFrames(20); ++frame)
+  {
+    Places next = moving.Now.Points;
+    for (std::size_t i = 0; i < 200; ++i)
+    {
+      next[i][0] += DrawStep(random, 0.01);
+    }
+    try
+    {
+      moving.GoTo(next);
+    }
+    catch (const InvalidMesh&) // the ring is crossed
+    {
+      EXPECT_THROW(Triangulate(moving.Now), InvalidMesh);
+    }
+    ASSERT_FALSE(HasFailure()) << frame;
+  }
+}
+
+/// What is left of points of which some are removed.
+class Changing
+{
+public:
+  explicit Changing(Places points)
+    : Points(std::move(points)),
+      Start(Points),
+      Session(PointInput{ View(Start) }, PointOptions{ WithThreads(1) })
+  {
+    this->Session.Advance();
+    this->Removed.resize(this->Points.size());
+  }
+
+  void Expect() const
+  {
+    Places left = this->Points;
+    for (std::size_t i = 0; i < left.size(); ++i)
+    {
+      if (this->Removed[i])
+      {
+        left[i] = { NAN, NAN };
+      }
+    }
+    const Triangulation expected = Triangulate(left);
+    ASSERT_EQ(Normalize(expected.Triangles), Normalize(StoreTriangles(this->Session)));
+    std::vector<std::int64_t> used(left.size());
+    this->Session.StoreUsedPoints(used.data());
+    ASSERT_EQ(expected.UsedPoints, used);
+    const PointCounts& counts = this->Session.GetReport().FromPoints;
+    ASSERT_EQ(std::count(this->Removed.begin(), this->Removed.end(), true), counts.Removed);
+    ASSERT_EQ(expected.Report.FromPoints.NotFinite, counts.NotFinite + counts.Removed);
+    ASSERT_EQ(this->Session.GetReport().Triangles, this->Session.CountTriangles());
+  }
+
+  Places Points, Start;
+  std::vector<bool> Removed;
+  FlipSession Session;
+};
+
+/// Points that move, come and go, in any order.
+TEST(Move, ComeAndGo)
+{
+  std::mt19937 random(8);
+  for (int trial = 0; trial < CountFrames(300); ++trial)
+  {
+    const int grid = 2 + static_cast<int>(DrawIndex(random, trial % 2 == 0 ? 6 : 1000));
+    const auto draw = [&](std::size_t count)
+    {
+      Places points;
+      while (points.size() < count)
+      {
+        points.push_back({ static_cast<double>(DrawIndex(random, grid)),
+          static_cast<double>(DrawIndex(random, grid)) });
+      }
+      return points;
+    };
+    Changing all(draw(DrawIndex(random, 40)));
+    for (int change = 0; change < 8; ++change)
+    {
+      const std::size_t count = all.Points.size();
+      std::vector<std::int64_t> ids;
+      ids.reserve(1); // not null
+      for (std::size_t i = 0; i < std::min<std::size_t>(count, DrawIndex(random, 5)); ++i)
+      {
+        ids.push_back(static_cast<std::int64_t>(DrawIndex(random, count)));
+      }
+      switch (DrawIndex(random, 5))
+      {
+        case 0:
+        {
+          const Places more = draw(DrawIndex(random, 5));
+          EXPECT_TRUE(all.Session.Insert(View(more)));
+          all.Points.insert(all.Points.end(), more.begin(), more.end());
+          all.Removed.resize(all.Points.size());
+          break;
+        }
+        case 1:
+          EXPECT_TRUE(all.Session.Remove(ids.data(), static_cast<std::int64_t>(ids.size())));
+          for (const std::int64_t id : ids)
+          {
+            all.Removed[id] = true;
+          }
+          break;
+        case 2:
+        {
+          const Places places = draw(ids.size());
+          PointMove move{ View(places) };
+          move.Ids = ids.data();
+          EXPECT_TRUE(all.Session.Move(move));
+          for (std::size_t i = 0; i < ids.size(); ++i)
+          {
+            all.Points[ids[i]] = places[i];
+          }
+          break;
+        }
+        case 3:
+          Shake(random, 0.02, all.Points);
+          EXPECT_TRUE(all.Session.Move({ View(all.Points) }));
+          break;
+        default:
+        {
+          EXPECT_TRUE(all.Session.Compact());
+          Places left;
+          for (std::size_t i = 0; i < count; ++i)
+          {
+            if (!all.Removed[i])
+            {
+              left.push_back(all.Points[i]);
+            }
+          }
+          all.Points = left;
+          all.Removed.assign(left.size(), false);
+        }
+      }
+      all.Expect();
+      ASSERT_FALSE(HasFailure()) << trial << ' ' << change;
+    }
+  }
+}
+
+/// After a stop, and after an error, all points are where they were.
+TEST(Move, AnObserverMayStop)
+{
+  std::mt19937 random(9);
+  const Places points = DrawPlaces(random, 3000), others = DrawPlaces(random, 3000);
+  FlipSession session(PointInput{ View(points) }, PointOptions());
+  session.Advance();
+  const Triples expected = Normalize(StoreTriangles(session));
+  for (int calls = 0; calls < 4; ++calls)
+  {
+    int left = calls;
+    EXPECT_FALSE(session.Move({ View(others) }, [&](double) { return left-- > 0; }));
+    EXPECT_EQ(expected, Normalize(StoreTriangles(session)));
+    EXPECT_TRUE(session.GetReport().Converged());
+  }
+  EXPECT_TRUE(session.Move({ View(others) }));
+  EXPECT_EQ(Normalize(Triangulate(others).Triangles), Normalize(StoreTriangles(session)));
+  const Places few = { { 0.0, 0.0 } };
+  EXPECT_THROW(session.Move({ View(few) }), InvalidOptions);
+  const std::int64_t beyond = 3000;
+  EXPECT_THROW(session.Remove(&beyond, 1), InvalidOptions);
+  EXPECT_EQ(Normalize(Triangulate(others).Triangles), Normalize(StoreTriangles(session)));
+}
+
+TEST(Move, Floats)
+{
+  std::mt19937 random(10);
+  std::vector<float> coordinates;
+  Places points = DrawPlaces(random, 3000);
+  for (const Place& point : points)
+  {
+    coordinates.insert(
+      coordinates.end(), { static_cast<float>(point[0]), static_cast<float>(point[1]), 7.0F });
+  }
+  FlipSession session(PointInput{ PlaneArray(coordinates.data(), 3000, 3) }, PointOptions());
+  session.Advance();
+  for (int frame = 0; frame < 10; ++frame)
+  {
+    Shake(random, 1e-4, points);
+    EXPECT_TRUE(session.Move({ View(points) })); // is rounded
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      coordinates[3 * i] = static_cast<float>(points[i][0]);
+      coordinates[3 * i + 1] = static_cast<float>(points[i][1]);
+    }
+    const Triangulation expected =
+      Triangulate(PointInput{ PlaneArray(coordinates.data(), 3000, 3) });
+    ASSERT_EQ(Normalize(expected.Triangles), Normalize(StoreTriangles(session)));
+    EXPECT_LT(0, session.GetReport().FromPoints.MoveRounds);
+    EXPECT_TRUE(session.Move({ PlaneArray(coordinates.data(), 3000, 3) }));
+    EXPECT_EQ(0, session.GetReport().TotalFlips);
+  }
+}
+
+/// Places in the mesh are found after points have moved, and more points can be inserted.
+TEST(Move, AsksAndGrows)
+{
+  std::mt19937 random(11);
+  Places points = DrawPlaces(random, 2000);
+  FlipSession session(PointInput{ View(points) }, PointOptions());
+  session.Advance();
+  for (int frame = 0; frame < 6; ++frame)
+  {
+    Places moved = points;
+    Shake(random, 2e-4, moved);
+    points = moved;
+    EXPECT_TRUE(session.Move({ View(points) }));
+    EXPECT_LT(0, session.GetReport().FromPoints.MoveRounds);
+    Places more = DrawPlaces(random, 50);
+    for (Place& place : more)
+    {
+      place = { 0.1 + 0.8 * place[0], 0.1 + 0.8 * place[1] };
+    }
+    std::vector<double> values, results(more.size());
+    for (const Place& point : points)
+    {
+      values.push_back(point[0]);
+    }
+    PlaceQuery query;
+    query.Places = View(more);
+    query.Values = values.data();
+    query.Results = results.data();
+    query.Method = InterpolationKind::Natural;
+    EXPECT_TRUE(session.Ask(query));
+    for (std::size_t i = 0; i < more.size(); ++i)
+    {
+      EXPECT_NEAR(more[i][0], results[i], 1e-10);
+    }
+    EXPECT_TRUE(session.Insert(View(more)));
+    points.insert(points.end(), more.begin(), more.end());
+    ASSERT_EQ(Normalize(Triangulate(points).Triangles), Normalize(StoreTriangles(session)));
+  }
+}
+
+#if !defined(DELAUNAYFLIP_REDUCED_TESTS) // sanitizers keep what is freed
+/// Frames take no more memory than the first ones.
+TEST(Move, TakesNoMoreMemory)
+{
+  const auto measure = []
+  {
+    std::ifstream file("/proc/self/statm");
+    std::int64_t pages = 0, resident = 0;
+    file >> pages >> resident;
+    return resident;
+  };
+  std::mt19937 random(12);
+  const Places points = DrawPlaces(random, 20000);
+  FlipSession session(PointInput{ View(points) }, PointOptions{ WithThreads(2) });
+  session.Advance();
+  std::int64_t before = 0;
+  for (int frame = 0; frame < 300; ++frame)
+  {
+    Places next = points;
+    Shake(random, frame % 10 == 9 ? 0.1 : 0.0002, next);
+    EXPECT_TRUE(session.Move({ View(next) }));
+    if (frame == 60)
+    {
+      before = measure();
+    }
+  }
+  EXPECT_GT(1.3 * static_cast<double>(before), static_cast<double>(measure()));
+}
+#endif
+
+}
+}

@@ -1,0 +1,130 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests of triangulations of points that move, come and go."""
+import doctest
+import pickle
+import threading
+import unittest
+
+import numpy
+from delaunayflip import InvalidOptions, MovingTriangulation, Stopped, _moving, triangulate
+
+
+def list_triangles(mesh):
+    return {tuple(sorted(ids)) for ids in mesh.triangles.tolist()}
+
+
+class Moving(unittest.TestCase):
+    def setUp(self):
+        self.random = numpy.random.default_rng(1)
+        self.points = self.random.random((2000, 2))
+
+    def expect(self, mesh, points):
+        expected = triangulate(points)
+        self.assertEqual(list_triangles(mesh), list_triangles(expected))
+        self.assertEqual(mesh.used_points.tolist(), expected.used_points.tolist())
+        self.assertEqual(mesh.report.edges, expected.report.edges)
+
+    def test_frames(self):
+        """The results follow the points, in place and anew, and arrays of frames before stay."""
+        for dtype in (numpy.float64, numpy.float32):
+            points = self.points.astype(dtype)
+            with MovingTriangulation(points, threads=2) as mesh:
+                self.expect(mesh, points)
+                first, copied = mesh.triangles, mesh.triangles.copy()
+                self.assertIs(mesh.triangles, first)
+                for size in (1e-4, 1e-4, 0.5, 1e-4):
+                    points = (points + self.random.normal(0.0, size, points.shape)).astype(dtype)
+                    mesh.move(points)
+                    self.assertEqual(mesh.report.move_rounds > 0, size < 0.1)
+                    self.expect(mesh, points)
+                numpy.testing.assert_array_equal(first, copied)
+
+    def test_neighbors(self):
+        with MovingTriangulation(self.points) as mesh:
+            mesh.move(self.points + self.random.normal(0.0, 1e-4, self.points.shape))
+            triangles, neighbors = mesh.triangles, mesh.neighbors
+            for t in range(0, len(triangles), 17):
+                for corner, other in enumerate(neighbors[t]):
+                    edge = set(triangles[t]) - {triangles[t][corner]}
+                    self.assertTrue(other < 0 or edge < set(triangles[other]))
+
+    def test_points_come_and_go(self):
+        points = self.points
+        with MovingTriangulation(points) as mesh:
+            more = self.random.random((10, 3))
+            self.assertEqual(mesh.insert(more).tolist(), list(range(2000, 2010)))
+            points = numpy.concatenate([points, more[:, :2]])
+            self.expect(mesh, points)
+            mesh.remove([5, 2003, 5])
+            left = points.copy()
+            left[[5, 2003]] = numpy.nan
+            self.expect(mesh, left)
+            self.assertEqual((mesh.report.removed_points, mesh.report.points_not_finite), (2, 0))
+            mesh.move(points + 0.25)
+            self.expect(mesh, left + 0.25)
+            mesh.move([[0.5, 0.5], [2.0, 2.0]], [7, 1])
+            left += 0.25
+            left[[7, 1]] = [[0.5, 0.5], [2.0, 2.0]]
+            self.expect(mesh, left)
+            mesh.compact()
+            self.assertEqual((len(mesh), mesh.report.removed_points), (2008, 0))
+            self.expect(mesh, left[numpy.isfinite(left[:, 0])])
+
+    def test_stops(self):
+        """After a stop the points are where they were."""
+        with MovingTriangulation(self.points) as mesh:
+            for most in range(4):
+                shares = []
+
+                def observe(share):
+                    shares.append(share)
+                    return len(shares) <= most
+
+                with self.assertRaises(Stopped):
+                    mesh.move(self.random.random((2000, 2)), progress=observe)
+                self.assertEqual(len(shares), most + 1)
+                self.expect(mesh, self.points)
+        with self.assertRaises(Stopped):
+            MovingTriangulation(self.points, progress=lambda share: False)
+
+    def test_what_is_refused(self):
+        mesh = MovingTriangulation(self.points)
+        for points, ids in ((self.points[1:], None), (self.points, [1, 2]), ([[0.0, 0.0]], [[1]]),
+                            ([[0.0, 0.0]], [0.5])):
+            with self.assertRaises(ValueError):
+                mesh.move(points, ids)
+        with self.assertRaisesRegex(InvalidOptions, "point 2000 does not exist; there are 2,000 points"):
+            mesh.remove([2000])
+        with self.assertRaises(TypeError):
+            pickle.dumps(mesh)
+        self.expect(mesh, self.points)
+        mesh.close()
+        mesh.close()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            mesh.move(self.points)
+
+    def test_one_thing_at_a_time(self):
+        with MovingTriangulation(self.points) as mesh:
+            raised = []
+
+            def read():
+                try:
+                    mesh.triangles
+                except RuntimeError as error:
+                    raised.append(error)
+
+            def observe(share):
+                thread = threading.Thread(target=read)
+                thread.start()
+                thread.join()
+
+            mesh.move(self.points, progress=observe)
+            self.assertEqual(len(raised), 1)
+
+    def test_docstrings(self):
+        self.assertEqual(doctest.testmod(_moving).failed, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
