@@ -29,11 +29,18 @@ struct BoundarySide
   std::uint32_t Before, After; ///< The numbers of the sides that end and begin where it does.
 };
 
+/// A triangle that was cut off, and the last one, which has its number now.
+struct CutTriangle
+{
+  TriangleId Number, Last;
+};
+
 /// How much a mesh has while one thread changes it.
 struct HullSizes
 {
   std::int64_t Triangles, Edges, Sides;
   std::int64_t MostSides; ///< There is room for so many.
+  std::int64_t Cuts; ///< How many triangles were cut off.
   std::int32_t HasFailed; ///< Whether there was none left.
 };
 
@@ -43,6 +50,27 @@ struct HullView
   PlaneMesh Mesh;
   BoundarySide* Sides;
   std::uint32_t* SideOfVertex; ///< By vertex, the side that begins there, or NoSide.
+  CutTriangle* Cuts; ///< The triangles that were cut off last, in their order.
+  std::int64_t NumberOfCuts;
+
+  /// A corner of a vertex that had this one before the cuts.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex, CornerId before) const
+  {
+    TriangleId triangle = TriangleOf(before);
+    bool isCut = false;
+    for (std::int64_t i = 0; i < this->NumberOfCuts && !isCut; ++i)
+    {
+      isCut = triangle == this->Cuts[i].Number;
+      triangle = triangle == this->Cuts[i].Last ? this->Cuts[i].Number : triangle;
+    }
+    if (!isCut)
+    {
+      return MakeCorner(triangle, SlotOf(before));
+    }
+    // All vertices of a triangle that is cut off are then on the boundary.
+    const EdgeId edge = this->Sides[this->SideOfVertex[vertex]].Edge;
+    return PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[2 * edge]);
+  }
 
   DELAUNAYFLIP_HOST_DEVICE VertexId GetStart(const BoundarySide& side) const
   {
@@ -232,6 +260,7 @@ private:
   DELAUNAYFLIP_HOST_DEVICE void DropTriangle(TriangleId number)
   {
     const auto last = static_cast<TriangleId>(--this->Sizes.Triangles);
+    this->Hull.Cuts[this->Sizes.Cuts++] = { number, last };
     if (last == number)
     {
       return;
@@ -285,7 +314,8 @@ public:
 
   HullView View(const PlaneMesh& mesh)
   {
-    return { mesh, this->Sides.Data(), this->SideOfVertex.Data() };
+    return { mesh, this->Sides.Data(), this->SideOfVertex.Data(), this->Cuts.Data(),
+      this->NumberOfCuts };
   }
 
   /// Cuts triangles off that are not counter-clockwise at the places of now.
@@ -311,6 +341,7 @@ public:
     const std::int64_t vertices = plane.Places.Count;
     Reserve(this->Sides, 0, this->Count + MostCuts, this->Device);
     Reserve(this->SideOfVertex, 0, vertices, this->Device);
+    Reserve(this->Cuts, 0, MostCuts, this->Device);
     BoundarySide* sides = this->Sides.Data();
     std::uint32_t* sideOfVertex = this->SideOfVertex.Data();
     this->Device.ForEachNumbered(numbering, mesh.NumberOfEdges, isOnBoundary,
@@ -393,7 +424,7 @@ public:
     Reserve(this->Sides, this->Count, this->Count + MostCuts, this->Device);
     plane.Edges = mesh.View();
     HullSizes sizes{ mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count,
-      this->Count + MostCuts, 0 };
+      this->Count + MostCuts, 0, 0 };
     Reserve(this->Sizes, 0, 1, this->Device);
     this->Device.Upload(&sizes, 1, this->Sizes.Data());
     const HullView hull = this->View(plane);
@@ -416,6 +447,7 @@ public:
     mesh.NumberOfTriangles = sizes.Triangles;
     mesh.NumberOfEdges = sizes.Edges;
     this->Count = sizes.Sides;
+    this->NumberOfCuts = sizes.Cuts;
     this->Failed = sizes.HasFailed != 0;
     return true;
   }
@@ -426,6 +458,8 @@ private:
   const Backend& Device;
   Array<BoundarySide> Sides;
   Array<std::uint32_t> SideOfVertex;
+  Array<CutTriangle> Cuts;
+  std::int64_t NumberOfCuts = 0; ///< In the last change.
   Array<VertexId> Pending;
   Array<HullSizes> Sizes;
   std::int64_t Count = 0; ///< How many sides there are.

@@ -262,8 +262,11 @@ public:
     {
       return false;
     }
-    // Corners have other numbers after the boundary has changed.
-    const bool all = this->Rounds == 1 || this->ChangedHull;
+    const bool all = this->Rounds == 1;
+    if (this->ChangedHull && !all)
+    {
+      this->FindCornersAgain(mesh);
+    }
     this->SetCounts(0, 0, 0);
     this->FindAllInverted(mesh, all);
     if (!this->Halve(mesh))
@@ -334,6 +337,16 @@ public:
     this->Device.ForEach(
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(late[i].Vertex); });
     return true;
+  }
+
+  /// After triangles were cut off, others have their numbers.
+  void FindCornersAgain(const MovingMesh<Real>& mesh)
+  {
+    const HullView hull = this->Hull.View(this->ViewPlane(mesh));
+    LateVertex* late = this->Late.Data();
+    this->Device.ForEach(this->NumberOfLate,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { late[i].Corner = hull.FindCorner(late[i].Vertex, late[i].Corner); });
   }
 
   /// Lists the triangles that are not counter-clockwise.
