@@ -239,10 +239,70 @@ void ExpectRefined(const PointCase& drawn, const Places& points, const Triangula
   }
 }
 
+/// The triangles, whatever their order.
+std::set<std::set<std::int32_t>> ListTriangles(const std::vector<std::int32_t>& ids)
+{
+  std::set<std::set<std::int32_t>> triangles;
+  for (std::size_t i = 0; i < ids.size(); i += 3)
+  {
+    triangles.insert({ ids[i], ids[i + 1], ids[i + 2] });
+  }
+  return triangles;
+}
+
+/// Points that move by steps of several sizes, and one that is removed, leave the triangles of a
+/// triangulation of the points where they are.
+void ExpectMotion(const PointCase& drawn)
+{
+  const PointOptions options = WithThreads(1, drawn.Options);
+  FlipSession session(drawn.Input.View(), options);
+  session.Advance();
+  PointCase now = drawn;
+  Places& points = now.Input.Points;
+  std::mt19937 random(static_cast<std::uint32_t>(points.size()));
+  double size = 0.0;
+  for (const Place& point : points)
+  {
+    const double sum = std::fabs(point[0]) + std::fabs(point[1]);
+    size = std::isfinite(sum) ? std::max(size, sum) : size;
+  }
+  for (const double share : { 0.0, 1e-7, 1e-4, 1e-3, 0.01, 0.1, 1e-3, -1.0 })
+  {
+    try
+    {
+      if (share < 0.0)
+      {
+        const auto id = static_cast<std::int64_t>(DrawIndex(random, points.size()));
+        points[id] = { NAN, NAN };
+        EXPECT_TRUE(session.Remove(&id, 1));
+      }
+      else
+      {
+        for (Place& point : points)
+        {
+          point[0] += share * size * (static_cast<double>(DrawIndex(random, 2001)) / 1000.0 - 1.0);
+          point[1] += share * size * (static_cast<double>(DrawIndex(random, 2001)) / 1000.0 - 1.0);
+        }
+        EXPECT_TRUE(session.Move({ View(points) }));
+      }
+    }
+    catch (const InvalidMesh&)
+    {
+      EXPECT_THROW(Triangulate(now.Input, options), InvalidMesh);
+      return;
+    }
+    const Triangulation expected = Triangulate(now.Input, options);
+    EXPECT_EQ(ListTriangles(expected.Triangles), ListTriangles(StoreTriangles(session)));
+    std::vector<std::int64_t> used(points.size());
+    session.StoreUsedPoints(used.data());
+    EXPECT_EQ(expected.UsedPoints, used);
+  }
+}
+
 /// Reports a failure of GoogleTest for each promise that is broken: the result is the same on one
 /// thread and on several; triangles turn left and are constrained Delaunay; their number is right;
-/// queries about places are answered right. An open ring, or one that crosses a segment, is an
-/// error.
+/// queries about places are answered right; and it follows points that move. An open ring, or one
+/// that crosses a segment, is an error.
 void JudgePointCase(const PointCase& drawn)
 {
   Triangulation result;
@@ -285,6 +345,7 @@ void JudgePointCase(const PointCase& drawn)
       FlipPoints(drawn.Input.View(), WithThreads(2, drawn.Options)), points, result.Triangles);
   }
   ExpectRightNumber(drawn, points, result);
+  ExpectMotion(drawn);
 }
 
 }
