@@ -385,22 +385,13 @@ public:
     this->OriginOfVertex = this->Device.template MakeArray<std::uint32_t>(vertices);
     this->IsSharp = this->Device.template MakeArray<std::uint8_t>(vertices);
     std::uint32_t* origins = this->OriginOfVertex.Data();
-    std::uint8_t* isSharp = this->IsSharp.Data();
-    this->Device.ForEach(vertices,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      {
-        origins[i] = NoOrigin;
-        isSharp[i] = 0;
-      });
+    this->Device.ForEach(
+      vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { origins[i] = NoOrigin; });
     if (this->IsOfCaller)
     {
       this->ListStarts(grown);
     }
-    const SharpCornerStep step{ grown.View(), this->Regions.Data(), isSharp };
-    const EdgeId* segments = this->Segments.Data();
-    this->Device.ForEach(2 * this->NumberOfSegments,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { step(2 * segments[i / 2] + static_cast<HalfEdgeId>(i % 2)); });
+    this->MarkSharpCorners(grown);
     const auto points = static_cast<std::int64_t>(plan.Sizes.size());
     if (points > 0)
     {
@@ -413,6 +404,32 @@ public:
       this->Device.ForEach(
         vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sizes[i] = from[ids[i]]; });
     }
+  }
+
+  void MarkSharpCorners(const GrowingMesh<Real>& grown)
+  {
+    Array<std::uint32_t> sectors = this->Device.template MakeArray<std::uint32_t>(grown.Vertices);
+    std::uint32_t* sectorsOf = sectors.Data();
+    std::uint8_t* isSharp = this->IsSharp.Data();
+    this->Device.ForEach(grown.Vertices,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        isSharp[i] = 0;
+        sectorsOf[i] = 0;
+      });
+    const SharpCornerStep step{ grown.View(), this->Regions.Data(), isSharp, sectorsOf };
+    const EdgeId* segments = this->Segments.Data();
+    this->Device.ForEach(2 * this->NumberOfSegments,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { step(2 * segments[i / 2] + static_cast<HalfEdgeId>(i % 2)); });
+    this->Device.ForEach(grown.Vertices,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (isSharp[i] == SharpCorner && sectorsOf[i] == 1)
+        {
+          isSharp[i] = LoneSharpCorner;
+        }
+      });
   }
 
   /// A corner of a kept triangle for each vertex of a mesh of the caller.

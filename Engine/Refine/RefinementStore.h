@@ -207,12 +207,13 @@ private:
 };
 
 /// Marks a vertex where a kept triangle's edge meets the next segment around it at less than 60
-/// degrees.
+/// degrees, and counts the sectors between segments there.
 struct SharpCornerStep
 {
   PlaneMesh Mesh;
   const std::int32_t* Regions;
   std::uint8_t* IsSharp;
+  std::uint32_t* Sectors; ///< By vertex.
 
   /// @param side of a segment; the corner at its start is judged.
   DELAUNAYFLIP_HOST_DEVICE void operator()(HalfEdgeId side) const
@@ -224,6 +225,7 @@ struct SharpCornerStep
       return;
     }
     const VertexId vertex = this->Mesh.GetStart(side);
+    AtomicAdd(&this->Sectors[vertex], 1);
     const PlanePoint place = this->Mesh.GetPoint(vertex),
                      end = this->Mesh.GetPoint(this->Mesh.GetEnd(side));
     const double u = end.U - place.U, v = end.V - place.V;
@@ -240,7 +242,7 @@ struct SharpCornerStep
       const HalfEdgeId next = this->Mesh.GetHalfEdge(PlaneMesh::Previous(corner));
       if (this->Mesh.IsFixed(next))
       {
-        AtomicStore(&this->IsSharp[vertex], std::uint8_t(1));
+        AtomicStore(&this->IsSharp[vertex], std::uint8_t(SharpCorner));
         return;
       }
       corner = this->Mesh.Edges.CornerOfHalfEdge[next ^ 1u];

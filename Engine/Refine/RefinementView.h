@@ -31,6 +31,13 @@ enum SegmentMark : std::uint8_t
 constexpr std::uint32_t NoSegment = 0xFFFFFFFFu;
 constexpr std::uint32_t FixedForNow = 0xFFFFFFFEu; ///< Of an edge that was fixed in a later round.
 
+/// What is known of a vertex.
+enum CornerMark : std::uint8_t
+{
+  SharpCorner = 1, ///< Segments meet there at less than 60 degrees.
+  LoneSharpCorner = 2 ///< Likewise, and it has triangles only between these two segments.
+};
+
 /// What is known of a triangle.
 enum class ShapeKind : std::uint32_t
 {
@@ -59,7 +66,7 @@ struct RefinementView
   const std::uint32_t* SegmentOfEdge;
   const std::uint32_t* OriginOfVertex; ///< By vertex: the segment that it has split, or NoOrigin.
   const VertexId* Ends; ///< By segment, two.
-  const std::uint8_t* IsSharp; ///< By vertex: whether segments meet there at a small angle.
+  const std::uint8_t* IsSharp; ///< By vertex: CornerMark, or 0.
 
   DELAUNAYFLIP_HOST_DEVICE bool IsKept(TriangleId triangle) const
   {
@@ -156,7 +163,10 @@ struct RefinementView
   }
 
   /// Whether the shortest edge of a triangle connects two segments that meet at a small angle, at
-  /// equal distances from their corner. Its angles cannot get better then.
+  /// equal distances from their corner, and the angles of the triangle are left as they are. Those
+  /// at the corner itself cannot get better. The others can if nothing else is at the corner, and
+  /// need about as many points as the inverse of the angle in radians. Beside other triangles at
+  /// the corner, small ones would follow small ones without end.
   DELAUNAYFLIP_HOST_DEVICE bool IsAcrossSharpCorner(
     TriangleId triangle, const TriangleShape& shape) const
   {
@@ -174,10 +184,13 @@ struct RefinementView
       if (isCommon && this->IsSharp[corner] != 0)
       {
         constexpr double Close = 1.001; // of squared distances, as Triangle has it
+        constexpr double SquaredDegree = 3.046e-4; // the square of the chord of a degree
         const PlanePoint place = this->Mesh.GetPoint(corner);
         const double from = TriangleShape::GetSquaredDistance(place, shape.From);
         const double to = TriangleShape::GetSquaredDistance(place, shape.To);
-        return from < Close * to && to < Close * from;
+        const bool canRefine = this->IsSharp[corner] == LoneSharpCorner &&
+          corner != vertices[shape.Slot] && shape.SquaredShortest > SquaredDegree * from;
+        return !canRefine && from < Close * to && to < Close * from;
       }
     }
     return false;

@@ -227,10 +227,11 @@ TEST(Refine, PointSetsGetTheAngle)
   }
 }
 
-/// Between segments that meet at a small angle, the angle stays, and all others get the goal.
+/// Where only two segments meet at a small angle, all triangles get the goal but the one at the
+/// corner. Below a degree, those along the segments are left, too.
 TEST(Refine, SharpCornersEnd)
 {
-  for (const double corner : { 50.0, 20.0, 5.0, 1.0, 0.1 })
+  for (const double corner : { 50.0, 20.0, 5.0, 1.5, 0.1 })
   {
     SCOPED_TRACE(corner);
     Drawing wedge;
@@ -244,7 +245,36 @@ TEST(Refine, SharpCornersEnd)
     EXPECT_LE(0.85 * std::min(corner, 25.0), refined.SmallestAngle);
     EXPECT_GT(500, refined.Result.Report.FromPoints.Used);
     EXPECT_EQ(corner<25.0, refined.Bad> 0);
+    std::int64_t badAtCorners = 0;
+    for (std::size_t i = 0; i < refined.Result.Triangles.size(); ++i)
+    {
+      const bool isCorner = refined.Result.Triangles[i] < 3;
+      badAtCorners += isCorner && refined.GetAngle(i) < options.MinimumAngle ? 1 : 0;
+    }
+    EXPECT_EQ(corner > 1.0, badAtCorners == refined.Bad);
   }
+}
+
+/// Segments that meet at small angles of different sizes would need smaller and smaller triangles
+/// beside each other.
+TEST(Refine, FansOfSegmentsEnd)
+{
+  std::mt19937 random(3);
+  Drawing fan;
+  fan.Points.push_back({ 0, 0 });
+  double angle = 0.0;
+  for (std::int64_t i = 1; i < 20; ++i)
+  {
+    angle += std::uniform_real_distribution<>(0.02, 0.6)(random);
+    const double length = std::uniform_real_distribution<>(1.0, 3.0)(random);
+    fan.Points.push_back({ length * std::cos(angle), length * std::sin(angle) });
+    fan.Segments.push_back({ 0, i });
+    fan.Rings.push_back(-1);
+  }
+  PointOptions options;
+  options.MinimumAngle = 28.0;
+  const Refined refined = ExpectRefined(fan, options);
+  EXPECT_GT(2000, refined.Result.Report.FromPoints.Used);
 }
 
 Drawing MakeSquare(double side)
