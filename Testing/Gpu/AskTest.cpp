@@ -220,6 +220,51 @@ void ExpectInsertionAgrees(std::int64_t count)
 
 TEST_F(AskTest, PointsThatComeLaterAreInsertedAlike) { ExpectInsertionAgrees(20000); }
 
+/// Points move in place on both backends, with the same bits. The boundary changes, too.
+TEST_F(AskTest, PointsMoveAlike)
+{
+  std::mt19937 random(7);
+  for (const std::size_t count : { 3000, 100000 })
+  {
+    Places points;
+    while (points.size() < count)
+    {
+      points.push_back({ static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20),
+        static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20) });
+    }
+    std::vector<FlipSession> sessions;
+    for (const BackendKind backend : { BackendKind::Threads, BackendKind::CUDA })
+    {
+      PointOptions options;
+      static_cast<FlipOptions&>(options) = OnBackend(backend);
+      sessions.emplace_back(
+        PointInput{ PlaneArray(points.front().data(), SizeOf(points), 2) }, options);
+      sessions.back().Advance();
+    }
+    Places moved = points;
+    for (const double share : { 0.01, 0.03, 0.05, 1.0, 0.01 })
+    {
+      for (double *end = moved.back().data() + 2, *x = moved.front().data(); x < end; ++x)
+      {
+        const double way = static_cast<double>(DrawIndex(random, 2001)) / 1000.0 - 1.0;
+        *x += share * way / std::sqrt(static_cast<double>(count));
+      }
+      for (FlipSession& session : sessions)
+      {
+        EXPECT_TRUE(session.Move({ PlaneArray(moved.front().data(), SizeOf(moved), 2) }));
+      }
+      const FlipReport& expected = sessions[0].GetReport();
+      const FlipReport& actual = sessions[1].GetReport();
+      EXPECT_EQ(share<0.5, expected.FromPoints.MoveRounds> 0);
+      EXPECT_EQ(expected.FromPoints.MoveRounds, actual.FromPoints.MoveRounds);
+      EXPECT_EQ(expected.TotalFlips, actual.TotalFlips);
+      EXPECT_EQ(expected.MinimumAngleAfter, actual.MinimumAngleAfter);
+      EXPECT_TRUE(IsOnGpu(actual)) << actual.Backend;
+      EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
+    }
+  }
+}
+
 TEST_F(AskTest, WithSegmentsAndRemovedTriangles)
 {
   std::mt19937 random(6);

@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Particles swim in eddies that change, and stay in a square. After each step their triangulation gives
+the density around each: a third of the area of its triangles, inverted. It needs NumPy, not VTK.
+
+    swimming_particles.py [PARTICLES] [STEPS]
+"""
+import sys
+
+import delaunayflip
+import numpy
+
+
+def find_velocity(places, time):
+    """That of a flow without sources, which does not leave the square from 0 to 1."""
+    x, y = numpy.pi * places.T
+    wave = 1 + 0.5 * numpy.sin(time)
+    return numpy.c_[numpy.sin(wave * x) * numpy.sin(x) * numpy.cos(y),
+                    -numpy.cos(wave * x) * numpy.sin(x) * numpy.sin(y)]
+
+
+def find_densities(places, triangles):
+    """Particles per area, around each."""
+    a, b, c = (places[triangles[:, corner]] for corner in range(3))
+    areas = numpy.cross(b - a, c - a) / 2
+    cells = numpy.bincount(triangles.ravel(), numpy.repeat(areas / 3, 3), len(places))
+    return 1 / cells
+
+
+count, steps = (int(number) for number in (*sys.argv[1:3], 5000, 20)[:2])
+particles = numpy.random.default_rng(1).random((count, 2))
+length = 0.05 / numpy.sqrt(count)  # of a step: a twentieth of the particles' distance
+in_place = 0
+with delaunayflip.MovingTriangulation(particles) as mesh:
+    for step in range(steps):
+        particles += length * find_velocity(particles, 0.1 * step)
+        mesh.move(particles)
+        densities = find_densities(particles, mesh.triangles)
+        in_place += mesh.report.move_rounds > 0
+print(f"{steps} steps of {count} particles, {in_place} in place; the median density is",
+      f"{numpy.median(densities):.0f}")

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Moves random points frame by frame, beside a triangulation from scratch, on one machine and in one run.
+
+    PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Benchmarks/moving.py \\
+      [--points 1000000] [--steps 0.001,0.01,0.03,0.1,0.3,1] [--frames 5] [--threads 1,2]
+
+Steps are the standard deviations of normal ones, in units of the distance of points. A row has the median
+milliseconds of a frame, from places to triangles; those of `triangulate` for the same places; in how many
+frames the mesh has followed the points; and the rounds of the last frame. All frames are counted but the
+first, which makes the arrays that are kept.
+
+threads: N  arrays of NumPy
+cuda        the same on a GPU
+cuda, cupy  arrays of CuPy that stay on the GPU
+"""
+import argparse
+import importlib.util
+import statistics
+import time
+
+import numpy
+
+import delaunayflip
+
+
+def list_programs(threads):
+    """Names, a function that brings an array to where it is used, one that waits, and options."""
+    for number in threads:
+        yield f"threads: {number}", numpy.asarray, lambda: None, {"backend": "threads", "threads": number}
+    if not delaunayflip.has_cuda_device():
+        print("cuda: there is no GPU")
+        return
+    yield "cuda", numpy.asarray, lambda: None, {"backend": "cuda"}
+    if importlib.util.find_spec("cupy"):
+        import cupy
+        yield "cuda, cupy", cupy.asarray, cupy.cuda.Device().synchronize, {"backend": "cuda"}
+    else:
+        print("cuda, cupy: not installed")
+
+
+def measure(wait, work):
+    """Milliseconds."""
+    wait()
+    start = time.perf_counter()
+    work()
+    wait()
+    return 1000 * (time.perf_counter() - start)
+
+
+def run(points, step, frames, bring, wait, options):
+    """A row: medians of a frame and from scratch, the frames in place, and the rounds of the last."""
+    draw = numpy.random.default_rng(2)
+    size = step / numpy.sqrt(len(points))
+    moved, scratch, rounds = [], [], []
+    with delaunayflip.MovingTriangulation(bring(points), **options) as mesh:
+        for _ in range(frames + 1):
+            points = points + draw.normal(0, size, points.shape)
+            places = bring(points)
+
+            def move():
+                mesh.move(places)
+                mesh.triangles
+
+            moved.append(measure(wait, move))
+            rounds.append(mesh.report.move_rounds)
+            scratch.append(measure(wait, lambda: delaunayflip.triangulate(places, **options)))
+    in_place = sum(number > 0 for number in rounds[1:])
+    return statistics.median(moved[1:]), statistics.median(scratch[1:]), in_place, rounds[-1]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--points", type=int, default=1_000_000)
+    parser.add_argument("--steps", default="0.001,0.01,0.03,0.1,0.3,1")
+    parser.add_argument("--frames", type=int, default=5)
+    parser.add_argument("--threads", default="1,2")
+    given = parser.parse_args()
+    points = numpy.random.default_rng(1).random((given.points, 2))
+    print(f"{given.points} points, medians of {given.frames} frames")
+    print(f"{'':12} {'step':>6} {'frame ms':>9} {'scratch ms':>10} {'in place':>8} {'rounds':>6}")
+    for name, bring, wait, options in list_programs(given.threads.split(",")):
+        options = {key: int(value) if key == "threads" else value for key, value in options.items()}
+        for step in map(float, given.steps.split(",")):
+            frame, scratch, in_place, rounds = run(points, step, given.frames, bring, wait, options)
+            print(f"{name:12} {step:6g} {frame:9.2f} {scratch:10.2f} {in_place:8} {rounds:6}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
