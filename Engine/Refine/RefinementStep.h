@@ -92,7 +92,8 @@ struct RefinementStep
   }
 
   /// Makes the place that splits the subsegment of an item, and claims its triangles. The place is
-  /// not exactly on the segment, so it must not turn triangles over.
+  /// rounded, so it is not exactly on the segment. It must be between the ends, and it must not
+  /// turn triangles over.
   DELAUNAYFLIP_HOST_DEVICE void ProposeForSegment(std::int64_t i) const
   {
     const PlaneMesh& mesh = this->View.Mesh;
@@ -107,7 +108,9 @@ struct RefinementStep
     item.Place = this->View.FindSplit(segment);
     item.SquaredRadius = TriangleShape::GetSquaredDistance(
       item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
-    if (!IsFinite(item.Place) || !this->FitsBoth(item))
+    const bool isBetween =
+      IsFinite(item.Place) && this->View.IsEncroached(this->View.GetSide(segment), item.Place);
+    if (!isBetween || !this->FitsBoth(item))
     {
       item.State = ItemState::Dropped;
       this->View.Marks[segment] = CannotSplit;

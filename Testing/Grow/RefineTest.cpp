@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <vector>
 
 /// @file
@@ -430,6 +431,21 @@ TEST(Refine, SinglePrecision)
   {
     EXPECT_EQ(point[0], static_cast<double>(static_cast<float>(point[0])));
   }
+}
+
+/// Far smaller distances than that of the farthest point are too short to be split: their middles
+/// would all be rounded to 0.
+TEST(Refine, DistancesOfVeryDifferentSizes)
+{
+  Drawing drawing;
+  drawing.Points = { { 3e-94, 1e16 }, { 0, 8e-32 }, { -1e-144, 0 }, { -2e247, 0 },
+    { -8e-28, -5e-228 }, { -2e-26, -6e4 } };
+  PointOptions options;
+  options.MinimumAngle = 15.0;
+  options.PointLimit = 1000;
+  const Refined refined = Refine(drawing.View(), options);
+  const std::set<Place> places(refined.Points.begin(), refined.Points.end());
+  EXPECT_EQ(refined.Points.size(), places.size());
 }
 
 /// Random segments that cross, meet and touch, with sharp corners between them.
