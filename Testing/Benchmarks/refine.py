@@ -14,7 +14,8 @@ threads: N  triangulate(minimum_angle=...)
 cuda        the same on a GPU, from and to arrays of NumPy
 triangle    Triangle by its Python package, with the switches p and q
 pythoncdt   CDT's refinement
-gmsh        Gmsh has no smallest angle, so it is left out
+gmsh        Gmsh's Delaunay algorithm, on coasts alone. It has no smallest angle: sizes grow with the distance
+            from the coast, so its numbers of points and angles are results, not goals
 
 What is not installed is named and left out.
 """
@@ -84,6 +85,34 @@ def refine_cdt(points, ring, angle):
     return count() if callable(count) else count
 
 
+def refine_gmsh(points, ring, _angle):
+    gmsh = importlib.import_module("gmsh")
+    gmsh.initialize(interruptible=False)
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.option.setNumber("Mesh.Algorithm", 5)
+    lengths = numpy.hypot(*(points[numpy.roll(ring, -1)] - points[ring]).T)
+    sizes = (lengths + numpy.roll(lengths, 1)) / 2
+    draw = gmsh.model.geo
+    corners = [draw.addPoint(*points[corner], 0, size) for corner, size in zip(ring, sizes)]
+    lines = [draw.addLine(a, b) for a, b in zip(corners, corners[1:] + corners[:1])]
+    surface = draw.addPlaneSurface([draw.addCurveLoop(lines)])
+    draw.synchronize()
+    grow = gmsh.model.mesh.field.add("Extend")  # sizes grow linearly with the distance
+    gmsh.model.mesh.field.setNumbers(grow, "CurvesList", lines)
+    gmsh.model.mesh.field.setNumbers(grow, "SurfacesList", [surface])
+    gmsh.model.mesh.field.setNumber(grow, "DistMax", 1)
+    gmsh.model.mesh.field.setNumber(grow, "SizeMax", 1)
+    gmsh.model.mesh.field.setAsBackgroundMesh(grow)
+    gmsh.option.setNumber("Mesh.MeshSizeExtendFromBoundary", 0)
+    gmsh.model.mesh.generate(2)
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    _, corners_of = gmsh.model.mesh.getElementsByType(2)
+    gmsh.finalize()
+    number = numpy.zeros(int(tags.max()) + 1, dtype=int)
+    number[tags] = numpy.arange(len(tags))
+    return coordinates.reshape(-1, 3)[:, :2], number[corners_of].reshape(-1, 3)
+
+
 def list_programs(threads):
     """Pairs of a name and a function, and the names of those that are left out."""
     programs = [(f"threads: {count}",
@@ -94,7 +123,7 @@ def list_programs(threads):
         programs.append(("cuda", lambda *case: refine_ours(*case, backend="cuda")))
     else:
         absent.append("cuda (no GPU)")
-    for name, function in (("triangle", refine_triangle), ("pythoncdt", refine_cdt)):
+    for name, function in (("triangle", refine_triangle), ("pythoncdt", refine_cdt), ("gmsh", refine_gmsh)):
         try:
             importlib.import_module(name)
             programs.append((name, function))
@@ -112,6 +141,8 @@ def describe(found):
 
 def run(title, points, ring, angle, programs, rounds):
     print(f"\n{title}, {angle:g} degrees")
+    if len(points) > len(ring):
+        programs = [program for program in programs if program[0] != "gmsh"]
     print(f"{'':14}{'processor':>10}{'seconds':>10}{'points':>10}{'smallest':>10}")
     times = {name: [] for name, _ in programs}
     results = {}
