@@ -158,7 +158,7 @@ inline TriangleMesh ToMesh(const delaunayflip_mesh* given)
   const delaunayflip_mesh c = Complete(given, delaunayflip_mesh_init);
   Require(!IsOnDevice(c.memory), "this function needs a mesh in the host's memory");
   Require(c.point_components == 3, "point_components must be 3 for points in the host's memory");
-  return { ToFixedEdges(c), ToPoints<PointArray>(c), ToTriangles(c), {} };
+  return { ToFixedEdges(c), ToPoints<PointArray>(c), ToTriangles(c), {}, {} };
 }
 
 inline PlaneArray ToPlane(const delaunayflip_points& c)
@@ -210,6 +210,7 @@ void ForEachPointOption(Struct& c, Options& options, const Visit& visit)
   visit(c.point_tolerance, options.PointTolerance);
   visit(c.split_crossings, options.SplitCrossings);
   visit(c.ring_rule, options.RingRule);
+  visit(c.projection, options.Projection);
   visit(c.minimum_angle, options.MinimumAngle);
   visit(c.maximum_area, options.MaximumArea);
   visit(c.maximum_edge, options.MaximumEdge);
@@ -225,6 +226,7 @@ constexpr auto CopyOption = [](const auto& from, auto& to)
 inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
 {
   ToEnumeration(c.ring_rule, RingRuleKind::Orientation, "ring_rule");
+  ToEnumeration(c.projection, ProjectionKind::OpenSphere, "projection");
   PointOptions all{ options };
   ForEachPointOption(c, all, CopyOption);
   return all;
@@ -301,7 +303,7 @@ inline FlipOptions ToOptions(const delaunayflip_options* given)
     return {};
   }
   const delaunayflip_options c = Complete(given, delaunayflip_options_init);
-  ToEnumeration(c.geometry, GeometryKind::Surface, "geometry");
+  ToEnumeration(c.geometry, GeometryKind::Sphere, "geometry");
   ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion");
   ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
   ToEnumeration(c.backend, BackendKind::Threads, "backend");

@@ -372,6 +372,21 @@ extern "C"
       });
   }
 
+  delaunayflip_status delaunayflip_place_on_sphere(
+    const double* degrees, std::int64_t number_of_places, double* xyz)
+  {
+    return Try(
+      [=]()
+      {
+        Require(number_of_places >= 0, "number_of_places is negative");
+        Require((degrees && xyz) || number_of_places == 0, "degrees or xyz is null");
+        for (std::int64_t i = 0; i < number_of_places; ++i)
+        {
+          PlaceOnSphere(degrees[2 * i], degrees[2 * i + 1], xyz + 3 * i);
+        }
+      });
+  }
+
   delaunayflip_status delaunayflip_store_added_weights(delaunayflip_session* session, double* xy,
     std::int64_t* ids, double* weights, std::int64_t* segments)
   {
@@ -674,7 +689,7 @@ extern "C"
         const TriangleMesh view = ToMesh(mesh);
         Require(angles || view.Triangles.Count == 0, "angles is null");
         FindSmallestAngles(
-          view, ToEnumeration(geometry, GeometryKind::Surface, "geometry"), 0, angles);
+          view, ToEnumeration(geometry, GeometryKind::Sphere, "geometry"), 0, angles);
       });
   }
 

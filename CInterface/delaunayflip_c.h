@@ -136,7 +136,9 @@ extern "C"
     DELAUNAYFLIP_GEOMETRY_PLANAR = 1, /**< In the plane of the points; an error if there is none. */
     DELAUNAYFLIP_GEOMETRY_PLANAR_XY = 2, /**< By x and y; z has no effect. */
     DELAUNAYFLIP_GEOMETRY_SURFACE = 3, /**< In space. */
-    DELAUNAYFLIP_GEOMETRY_MIXED = 4 /**< For delaunayflip_summarize; no option. */
+    DELAUNAYFLIP_GEOMETRY_SPHERE = 4, /**< On a sphere around the origin, by the exact sign of four
+                                           points: towards the convex hull. */
+    DELAUNAYFLIP_GEOMETRY_MIXED = 5 /**< For delaunayflip_summarize; no option. */
   } delaunayflip_geometry;
 
   typedef enum
@@ -238,7 +240,9 @@ extern "C"
     DELAUNAYFLIP_DEFECT_POINTS_WITHOUT_HEIGHTS = 32,
     DELAUNAYFLIP_DEFECT_REGION_SEEDS_OUTSIDE = 33,
     DELAUNAYFLIP_DEFECT_TRIANGLES_NOT_REFINED = 34,
-    DELAUNAYFLIP_DEFECT_POINT_LIMIT_REACHED = 35
+    DELAUNAYFLIP_DEFECT_POINT_LIMIT_REACHED = 35,
+    DELAUNAYFLIP_DEFECT_POINTS_INSIDE = 36, /**< Of the hull, where triangles are on a sphere. */
+    DELAUNAYFLIP_DEFECT_POINTS_IN_ONE_PLANE = 37 /**< Likewise. */
   } delaunayflip_defect_kind;
 
   /** A kind of defect: how often it occurs, and where first. */
@@ -343,6 +347,7 @@ extern "C"
     int64_t removed_points; /**< Points that delaunayflip_remove_points has removed. */
     int64_t move_rounds; /**< In how many rounds the triangulation has followed the points when they
                             moved last; 0 if they have not moved, or were triangulated anew. */
+    int64_t points_inside; /**< On a sphere: points inside of the convex hull, not used. */
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
@@ -380,6 +385,15 @@ extern "C"
     DELAUNAYFLIP_ORIENTATION = 2 /**< In the outline: they add up to more than 0 or, if no ring is
                                     counter-clockwise, to 0. In holes: as NONZERO. */
   } delaunayflip_ring_rule; /**< When a place is inside a set of rings. */
+
+  typedef enum
+  {
+    DELAUNAYFLIP_PLANE = 0, /**< By x and y. */
+    DELAUNAYFLIP_SPHERE = 1, /**< The convex hull of points around the origin, by x, y and z:
+                                point_components is 3, and there are no segments or regions. */
+    DELAUNAYFLIP_OPEN_SPHERE = 2 /**< The same, without triangles whose circle is at least as large
+                                    as a great circle. */
+  } delaunayflip_projection; /**< Where points are triangulated. */
 
   /** Names the part, enclosed by segments, that a place is in. */
   typedef struct
@@ -430,6 +444,7 @@ extern "C"
                             near that point. Null: no limit. */
     const delaunayflip_region* regions; /**< If several are in one region, the first one counts. */
     int64_t number_of_regions;
+    int32_t projection; /**< A delaunayflip_projection. [PLANE] */
   } delaunayflip_points;
 
   void delaunayflip_points_init(delaunayflip_points* points);
@@ -464,6 +479,13 @@ extern "C"
    * the second. */
   delaunayflip_status delaunayflip_store_added_points(
     delaunayflip_session* session, double* xy, int64_t* ends, double* shares);
+
+  /** Writes x, y and z of places on the unit sphere, as doubles. Multiples of 90 degrees give exact
+   * zeros and ones: longitudes that differ by 360 degrees give one place, as do all longitudes at a
+   * pole. Places that are not finite give NaN.
+   * @param degrees longitude and latitude of each. */
+  delaunayflip_status delaunayflip_place_on_sphere(
+    const double* degrees, int64_t number_of_places, double* xyz);
 
   /** Writes all points that were made: where segments cross, and then by refinement, as many as the
    * report's crossings and refinement_points. For sessions from points. Each gets `xy`, two

@@ -115,9 +115,10 @@ void AddJudgeOptions(CLI::App& app, Arguments& arguments)
 {
   app.option_defaults()->group(ToJudge);
   AddChoice(app, "--geometry", Set(arguments, &vtkDelaunayFlip::SetGeometry),
-    { "auto", "planar", "planar-xy", "surface" },
+    { "auto", "planar", "planar-xy", "surface", "sphere" },
     "Where edges are judged: in the plane of the points (planar), by x and y alone "
-    "(planar-xy, for terrain) or in space (surface). auto: planar if all points lie in one plane, "
+    "(planar-xy, for terrain), in space (surface) or on a globe around the origin (sphere). auto: "
+    "planar if all points lie in one plane, "
     "planar-xy if the mesh is a height field of gentle slopes or mixed units, else surface [auto]");
   AddChoice(app, "--criterion", Set(arguments, &vtkDelaunayFlip::SetCriterion),
     { "in-circle", "opposite-angles" },
@@ -229,8 +230,14 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "Leave out points that are nearer than this to an earlier one; 0: only those at the same "
     "place [0]");
   AddChoice(app, "--projection", Set(arguments, &vtkDelaunayFlipPoints::SetProjection),
-    { "xy", "plane" },
-    "Where points are joined: by x and y, or in the plane that fits them best [xy]");
+    { "xy", "plane", "sphere", "open-sphere" },
+    "Where points are joined: by x and y, in the plane that fits them best, or on a sphere around "
+    "the origin, by their convex hull. open-sphere: without triangles whose circle is at least as "
+    "large as a great circle [xy]");
+  app.add_flag_callback("--degrees", Set(arguments, &vtkDelaunayFlipPoints::DegreesOn),
+    "On a sphere, x and y are longitudes and latitudes in degrees. The points are written as "
+    "places "
+    "on the unit sphere");
 }
 
 /// Reads x,y,label or x,y,label,area.

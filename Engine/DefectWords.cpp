@@ -121,6 +121,16 @@ constexpr DefectWords AllWords[] = {
   { Kind::PointLimitReached, DefectIds::Points,
     "point is there, so refinement has ended: PointLimit allows no more",
     "points are there, so refinement has ended: PointLimit allows no more" },
+  { Kind::PointsInside, DefectIds::Points,
+    "point inside of the convex hull of the others, not used: it is not on the sphere, or rounding "
+    "has put it inside",
+    "points inside of the convex hull of the others, not used: they are not on the sphere, or "
+    "rounding has put them inside" },
+  { Kind::PointsInOnePlane, DefectIds::Points,
+    "point without a triangle: there are fewer than four places, or all are in one plane "
+    "but for rounding",
+    "points without a triangle: there are fewer than four places, or all are in one plane "
+    "but for rounding" },
 };
 
 constexpr bool AreInOrder()
@@ -134,8 +144,8 @@ constexpr bool AreInOrder()
   }
   return true;
 }
-static_assert(AreInOrder() &&
-    std::size(AllWords) == static_cast<std::size_t>(DefectKind::PointLimitReached) + 1,
+static_assert(
+  AreInOrder() && std::size(AllWords) == static_cast<std::size_t>(DefectKind::PointsInOnePlane) + 1,
   "one row per kind");
 
 const DefectWords& GetWords(DefectKind kind) { return AllWords[static_cast<std::size_t>(kind)]; }

@@ -41,24 +41,33 @@ enum class GeometryKind
   Planar, ///< In the plane of the points, in any orientation; an error if there is none.
   PlanarXY, ///< By x and y alone, for terrain.
   Surface, ///< In space, by opposite-angle sums.
+           /// On a sphere around the origin, which every triangle must face with the same side. An
+           /// edge stays if neither of its triangles has the other's far corner beyond its plane.
+           /// So the mesh becomes the convex hull of the points, which is their Delaunay
+           /// triangulation on the sphere. Signs are exact for the points as given. A flip that
+           /// would turn a triangle over, seen from the origin, is not made: such an edge ends at a
+           /// point inside of the hull. Auto never chooses it.
+  Sphere,
   Mixed ///< Several meshes with different ones (AddReport); no option.
 };
 
 /// How an edge is judged.
 enum class CriterionKind
 {
-  InCircle, ///< The exact in-circle predicate. Only in planar geometry; surfaces ignore it.
+  InCircle, ///< The exact in-circle predicate. Not on surfaces, which ignore it; spheres have the
+            ///< exact sign of four points in space in its place.
   OppositeAngles ///< The paper's eq. 5: opposite-angle sum > pi + Tolerance. Surfaces always use
-                 ///< it.
+                 ///< it; an error on spheres.
 };
 
-/// What happens to an edge if its four points lie exactly on one circle.
+/// What happens to an edge if its four points lie exactly on one circle; on a sphere, in one plane.
 enum class TieRuleKind
 {
   Keep, ///< It stays: a Delaunay mesh comes back bit-identical.
   /// Planar, in-circle: where nothing overlaps and no edge is left blocked, all triangles with an
   /// area are the same for every triangulation with the same fixed edges. Triangles without area
-  /// are left only along fixed edges, cut as the input has them. An error on surfaces.
+  /// are left only along fixed edges, cut as the input has them. On a sphere likewise, if no point
+  /// is inside of the hull. An error on surfaces.
   Canonical
 };
 

@@ -53,7 +53,7 @@ const char* ToString(StopReasonKind reason)
 
 const char* ToString(GeometryKind geometry)
 {
-  constexpr const char* Names[] = { "auto", "planar", "planar-xy", "surface", "mixed" };
+  constexpr const char* Names[] = { "auto", "planar", "planar-xy", "surface", "sphere", "mixed" };
   return GetName(Names, geometry);
 }
 
@@ -378,11 +378,12 @@ std::string DescribePoints(const FlipReport& flip)
       text += ", " + Count(count) + " " + what;
     }
   };
-  const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear;
+  const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear + counts.Inside;
   std::string points = Count(counts.Used) + " used";
   add(points, counts.Repeated, "repeated");
   add(points, counts.TooNear, "too near to another");
   add(points, counts.NotFinite, "not finite");
+  add(points, counts.Inside, "inside of the hull");
   add(points, flip.Points - unused - counts.Used, "without a triangle");
   std::string text = "points: " + points + '\n';
   if (counts.SegmentEdges + counts.RefusedSegments > 0)

@@ -128,7 +128,9 @@ enum class DefectKind
   PointsWithoutHeights, ///< Of segments, where other points have heights.
   RegionSeedsOutside, ///< In no triangle that is kept.
   TrianglesNotRefined, ///< Triangles that do not reach the goals of refinement.
-  PointLimitReached ///< By refinement.
+  PointLimitReached, ///< By refinement.
+  PointsInside, ///< Points inside of the convex hull, where triangles are wanted on a sphere.
+  PointsInOnePlane ///< There are fewer than four places, or all are in one plane, likewise.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.
@@ -317,6 +319,7 @@ void ForEachNumber(const Visit& visit, Reports&... reports)
   visit("reached_point_limit", points, reports.FromPoints.ReachedPointLimit...);
   visit("removed_points", whole, reports.FromPoints.Removed...);
   visit("move_rounds", whole, reports.FromPoints.MoveRounds...);
+  visit("points_inside", points, reports.FromPoints.Inside...);
 }
 
 /// Called on the calling thread for every iteration; returning false aborts the run. Some
@@ -339,7 +342,7 @@ struct RunAborted
 /// "converged", "iteration limit", "aborted", "running" or "not started".
 DELAUNAYFLIP_EXPORT const char* ToString(StopReasonKind reason);
 
-/// "auto", "planar", "planar-xy", "surface" or "mixed".
+/// "auto", "planar", "planar-xy", "surface", "sphere" or "mixed".
 DELAUNAYFLIP_EXPORT const char* ToString(GeometryKind geometry);
 
 /// E.g. "TotalFlips" for "total_flips".

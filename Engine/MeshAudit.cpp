@@ -158,6 +158,10 @@ public:
     {
       return !this->IsFeature(quad) && this->HasLargeAngles(quad);
     }
+    if (this->Geometry == GeometryKind::Sphere)
+    {
+      return this->IsReflex(quad);
+    }
     const int upper = this->Orient(quad[0], quad[1], quad[2]);
     const int lower = this->Orient(quad[3], quad[2], quad[1]);
     const bool byAngles = this->Options.Criterion == CriterionKind::OppositeAngles;
@@ -207,6 +211,23 @@ private:
   int Orient(std::int64_t a, std::int64_t b, std::int64_t c) const
   {
     return Orientation(this->Project(a).data(), this->Project(b).data(), this->Project(c).data());
+  }
+
+  /// Whether, on a sphere, the quad's far corner lies beyond the plane of the first triangle.
+  bool IsReflex(const std::array<std::int64_t, 4>& quad) const
+  {
+    const auto position = [this](std::int64_t point)
+    {
+      const PointArray& points = this->Mesh.Points;
+      return std::array<double, 3>{ points.Get(point, 0), points.Get(point, 1),
+        points.Get(point, 2) };
+    };
+    const auto a = position(quad[0]), p = position(quad[1]);
+    const auto q = position(quad[2]), b = position(quad[3]);
+    const double* const center = this->Mesh.Center;
+    const int upper = Orientation3D(a.data(), p.data(), q.data(), center);
+    const int lower = Orientation3D(b.data(), q.data(), p.data(), center);
+    return (upper + lower) * Orientation3D(a.data(), p.data(), q.data(), b.data()) < 0;
   }
 
   int JudgeInCircle(const std::array<std::int64_t, 4>& quad) const

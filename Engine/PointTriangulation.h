@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_POINTTRIANGULATION_H
 
 #include "DeviceMesh.h"
+#include "EngineExport.h"
 #include "FlipOptions.h"
 #include "TriangleMesh.h"
 
@@ -48,6 +49,13 @@
 /// and the edges of the boundary if others come too near (Ruppert 1995). Triangles that cannot get
 /// better, because segments meet at a small angle or must not be split, are left and counted.
 /// Regions are the parts that segments enclose.
+///
+/// **On a sphere** (PointOptions::Projection) triangles are those of the convex hull: n places have
+/// 2 n - 4 of them, counter-clockwise from outside. Signs are exact for the points as given, so a
+/// point that rounding has put inside of the hull is not used. Of four points in one plane the
+/// triangles without the lexicographically largest diagonal are taken, as by flips with canonical
+/// ties. PlaceOnSphere makes such points of longitudes and latitudes. Segments, questions and more
+/// points are not supported there yet.
 
 namespace delaunayflip
 {
@@ -61,6 +69,18 @@ enum class RingRuleKind
   /// numbers is positive or, if no ring of the outline is counter-clockwise, if it is 0. It is
   /// inside the holes by NonZero.
   Orientation
+};
+
+/// Where points are triangulated.
+enum class ProjectionKind
+{
+  Plane, ///< By x and y.
+  /// On a sphere around the origin: the convex hull of the points, by x, y and z. Points inside of
+  /// it are not used.
+  Sphere,
+  /// The same, without triangles whose circle is at least as large as a great circle. So points on
+  /// less than half of the sphere get an open mesh.
+  OpenSphere
 };
 
 /// Names the part, enclosed by segments, that a place is in.
@@ -132,6 +152,10 @@ struct PointOptions : FlipOptions
 
   /// Triangles with a longer edge are removed in the same way. 0 (default): none.
   double LongestEdge = 0.0;
+
+  /// On a sphere points have x, y and z: PlaneArray::Stride is at least 3. There are no segments,
+  /// rings, sizes and regions, nor any other option of this struct, nor refinement.
+  ProjectionKind Projection = ProjectionKind::Plane;
 };
 
 /// Calls visit(name, option...) for each option that FlipOptions do not have, and for those of
@@ -149,6 +173,7 @@ void ForEachPointOption(const Visit& visit, Options&... options)
   visit("maximum_edge", options.MaximumEdge...);
   visit("keep_boundary", options.KeepBoundary...);
   visit("point_limit", options.PointLimit...);
+  visit("projection", options.Projection...);
 }
 
 inline bool operator==(const PointOptions& a, const PointOptions& b)
@@ -214,7 +239,15 @@ struct PointCounts
   /// In how many rounds the triangulation has followed the points when they moved last; 0 if they
   /// have not moved, or were triangulated anew.
   std::int64_t MoveRounds = 0;
+  std::int64_t Inside = 0; ///< On a sphere: points inside of the convex hull, which are not used.
 };
+
+/// Writes x, y and z of a place on the unit sphere. Multiples of 90 degrees give exact zeros and
+/// ones. So longitudes that differ by 360 degrees give one place, as do all longitudes at a pole.
+/// What is not finite gives NaN. Libraries of mathematics differ in the last bit of the sines of
+/// other angles.
+/// @param longitude, latitude in degrees. A latitude beyond 90 degrees goes on across the pole.
+DELAUNAYFLIP_EXPORT void PlaceOnSphere(double longitude, double latitude, double xyz[3]);
 
 }
 

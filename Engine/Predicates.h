@@ -18,6 +18,8 @@
 ///     InCircle(a, b, c, d); // 0
 ///     const double inside[] = { 0.5, 0.1 };
 ///     InCircle(a, b, c, inside); // 1
+///     const double o[] = { 0, 0, 0 }, x[] = { 1, 0, 0 }, y[] = { 0, 1, 0 }, z[] = { 0, 0, 1 };
+///     Orientation3D(x, y, z, o); // 1
 
 namespace delaunayflip
 {
@@ -36,6 +38,11 @@ DELAUNAYFLIP_EXPORT int InCircle(
 /// this is the in-circle test times the sign of the projected triangle. For nearly coplanar points
 /// it is the test for a fixed lifting of the points, so flips by it still end.
 DELAUNAYFLIP_EXPORT int InCircleTilted(
+  const double a[3], const double b[3], const double c[3], const double d[3]);
+
+/// The orientation of a, b, c in space, seen from the other side of their plane than `d`: +1
+/// counter-clockwise, -1 clockwise, 0 if the four points lie in one plane.
+DELAUNAYFLIP_EXPORT int Orientation3D(
   const double a[3], const double b[3], const double c[3], const double d[3]);
 
 }

@@ -218,6 +218,8 @@ struct TriangleMesh : FixedEdges
 {
   PointArray Points;
   TriangleArray Triangles;
+  /// For GeometryKind::Sphere: from where triangles are seen, a place inside of all of them.
+  double Center[3] = { 0.0, 0.0, 0.0 };
   WholeMesh Whole; ///< Only for pieces of a larger mesh.
 };
 

@@ -181,7 +181,8 @@ private:
 
 bool IsProjected(const TriangulationRequest& request)
 {
-  return request.Transform || request.FitsPlane;
+  const bool isOnSphere = request.Options.Projection != ProjectionKind::Plane;
+  return request.Transform || request.FitsPlane || isOnSphere;
 }
 
 /// Whether points of the second input get point data of the first one, whatever their heights.

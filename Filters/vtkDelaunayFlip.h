@@ -126,6 +126,11 @@ public:
    * SURFACE otherwise. If no more triangles than that ruled out a height field, a warning says so.
    * Choose PLANAR_XY yourself for steeper terrain.
    *
+   * SPHERE, which AUTO never chooses, is for globes around the origin: an edge stays if neither of
+   * its triangles has the other's far corner beyond its plane, by exact arithmetic. So the mesh
+   * becomes the convex hull of its points, the Delaunay triangulation on the sphere. No flip turns
+   * a triangle over as seen from the origin.
+   *
    * GetGeometryReason() says why a geometry was used. If SURFACE is used on a height field, chosen
    * by AUTO or by you, and flips turn triangles over in x and y, a warning counts them.
    */
@@ -135,14 +140,16 @@ public:
     GEOMETRY_PLANAR = 1,
     GEOMETRY_PLANAR_XY = 2,
     GEOMETRY_SURFACE = 3,
-    GEOMETRY_MIXED = 4 ///< Returned by GetGeometryUsed(); cannot be set.
+    GEOMETRY_SPHERE = 4,
+    GEOMETRY_MIXED = 5 ///< Returned by GetGeometryUsed(); cannot be set.
   };
-  vtkSetClampMacro(Geometry, int, GEOMETRY_AUTO, GEOMETRY_SURFACE);
+  vtkSetClampMacro(Geometry, int, GEOMETRY_AUTO, GEOMETRY_SPHERE);
   vtkGetMacro(Geometry, int);
   void SetGeometryToAuto() { this->SetGeometry(GEOMETRY_AUTO); }
   void SetGeometryToPlanar() { this->SetGeometry(GEOMETRY_PLANAR); }
   void SetGeometryToPlanarXY() { this->SetGeometry(GEOMETRY_PLANAR_XY); }
   void SetGeometryToSurface() { this->SetGeometry(GEOMETRY_SURFACE); }
+  void SetGeometryToSphere() { this->SetGeometry(GEOMETRY_SPHERE); }
   ///@}
 
   ///@{

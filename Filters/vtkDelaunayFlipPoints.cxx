@@ -43,10 +43,39 @@ vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
 }
 
 //------------------------------------------------------------------------------
+namespace
+{
+bool IsSphere(int projection)
+{
+  return projection == vtkDelaunayFlipPoints::PROJECTION_SPHERE ||
+    projection == vtkDelaunayFlipPoints::PROJECTION_OPEN_SPHERE;
+}
+
+/// The places of longitudes and latitudes on the unit sphere.
+vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees)
+{
+  auto places = vtkSmartPointer<vtkPoints>::New();
+  places->SetDataTypeToDouble();
+  places->SetNumberOfPoints(degrees->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
+  {
+    double given[3], place[3];
+    degrees->GetPoint(i, given);
+    PlaceOnSphere(given[0], given[1], place);
+    places->SetPoint(i, place);
+  }
+  return places;
+}
+}
+
 vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(vtkPointSet* input) const
 {
   auto points = vtkSmartPointer<vtkPolyData>::New();
   points->SetPoints(input->GetPoints());
+  if (this->Degrees && IsSphere(this->Projection) && input->GetPoints())
+  {
+    points->SetPoints(PlacePoints(input->GetPoints()));
+  }
   points->GetPointData()->ShallowCopy(input->GetPointData());
   points->GetFieldData()->ShallowCopy(input->GetFieldData());
   DropResults(points->GetFieldData());
@@ -95,6 +124,14 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   };
   this->Superclass::ForEachOption<PointOptions>(copy);
   this->ForEachOption<PointOptions>(copy);
+  if (this->Projection == PROJECTION_SPHERE)
+  {
+    request.Options.Projection = ProjectionKind::Sphere;
+  }
+  else if (this->Projection == PROJECTION_OPEN_SPHERE)
+  {
+    request.Options.Projection = ProjectionKind::OpenSphere;
+  }
   return request;
 }
 
@@ -169,6 +206,7 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Projection: " << this->Projection << "\n";
+  os << indent << "Degrees: " << this->Degrees << "\n";
   os << indent << "Transform: " << this->Transform << "\n";
   this->ForEachOption<PointOptions>([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });

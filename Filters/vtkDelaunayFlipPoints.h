@@ -35,8 +35,8 @@
  * Crossings (the points added where segments cross), LargestShift (how far rounding has moved one
  * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by Alpha and
  * LongestEdge), LeftOutRings, RefinementPoints, RefinementRounds (how often they were added),
- * UnrefinedTriangles (those that could not get better) and ReachedPointLimit (1 if PointLimit has
- * ended refinement).
+ * UnrefinedTriangles (those that could not get better), ReachedPointLimit (1 if PointLimit has
+ * ended refinement) and PointsInside (on a sphere, of the convex hull).
  *
  * Some points are not used. If several are at one place in the plane, only the one with the lowest
  * id is used, for any z. Points with a NaN or infinite coordinate are not used, but in XY their z
@@ -133,19 +133,40 @@ public:
 
   ///@{
   /**
-   * The plane in which the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that of
+   * Where the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that of
    * vtkPlane::ComputeBestFittingPlane, seen from above. For thick clouds it differs by some degrees
    * from the plane with the smallest sum of squared distances. A Transform replaces both.
+   *
+   * SPHERE makes the convex hull of points around the origin, the Delaunay triangulation on a
+   * sphere: n places have 2 n - 4 triangles, counter-clockwise from outside. Points inside of the
+   * hull are not used, and a warning counts them. OPEN_SPHERE leaves out triangles whose circle is
+   * at least as large as a great circle, which close a part of a sphere. On a sphere there are no
+   * segments, regions and lengths, and nothing can be interpolated, yet: all that is an error.
    */
   enum ProjectionType
   {
     PROJECTION_XY = 0,
-    PROJECTION_BEST_FITTING_PLANE = 1
+    PROJECTION_BEST_FITTING_PLANE = 1,
+    PROJECTION_SPHERE = 2,
+    PROJECTION_OPEN_SPHERE = 3
   };
-  vtkSetClampMacro(Projection, int, PROJECTION_XY, PROJECTION_BEST_FITTING_PLANE);
+  vtkSetClampMacro(Projection, int, PROJECTION_XY, PROJECTION_OPEN_SPHERE);
   vtkGetMacro(Projection, int);
   void SetProjectionToXY() { this->SetProjection(PROJECTION_XY); }
   void SetProjectionToBestFittingPlane() { this->SetProjection(PROJECTION_BEST_FITTING_PLANE); }
+  void SetProjectionToSphere() { this->SetProjection(PROJECTION_SPHERE); }
+  void SetProjectionToOpenSphere() { this->SetProjection(PROJECTION_OPEN_SPHERE); }
+  ///@}
+
+  ///@{
+  /**
+   * On a sphere, whether x and y are longitudes and latitudes in degrees. Then the output has the
+   * points at these places on the unit sphere, in double precision: z of the input is lost. All
+   * longitudes of a pole are one place. Default off.
+   */
+  vtkSetMacro(Degrees, bool);
+  vtkGetMacro(Degrees, bool);
+  vtkBooleanMacro(Degrees, bool);
   ///@}
 
   ///@{
@@ -370,6 +391,7 @@ protected:
 
   int SegmentsPort = 1;
   int Projection = PROJECTION_XY;
+  bool Degrees = false;
   vtkAbstractTransform* Transform = nullptr;
   double Alpha = 0.0;
   double LongestEdge = 0.0;

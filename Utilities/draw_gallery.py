@@ -204,6 +204,40 @@ def draw_edges(command, folder, output):
     save(figure, os.path.join(output, "guide_edges.png"))
 
 
+def draw_globe(command, folder, output):
+    """guide_globe.png: stations joined on the sphere, and the cells nearest to each."""
+    direction = np.array((0.4, -1.0, 0.35))
+    points, triangles, _ = run(command, folder, "stations.csv", [
+        "--from-points", "--projection", "sphere", "--degrees"])
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    normals = np.cross(b - a, c - a)
+    areas = np.linalg.norm(normals, axis=1)
+    centers = normals / areas[:, None]
+    sides = np.sort([np.linalg.norm(u - v, axis=1) for u, v in ((a, b), (b, c), (c, a))], axis=0)
+    angles = np.degrees(np.arcsin(areas / (sides[1] * sides[2])))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4.9))
+    draw_mesh(left, (points, triangles, angles), direction, (-1.02, 1.02, -1.02, 1.02))
+    left.set_title("triangles", color=INK)
+    plan, _ = project(points, triangles, direction)
+    corners, _ = project(centers, triangles[:0], direction)
+    forward = direction / np.linalg.norm(direction)
+    cells = []
+    for station in np.flatnonzero(points @ forward > 0):
+        own = corners[(triangles == station).any(axis=1)]
+        turn = np.arctan2(*(own - plan[station]).T)
+        cells.append(own[np.argsort(turn)])
+    right.add_collection(PolyCollection(cells, facecolors="#f4f1ea", edgecolors=INK, linewidths=0.5))
+    right.plot(*plan[points @ forward > 0].T, ".", color=WATER, markersize=2)
+    right.set_xlim(left.get_xlim())
+    right.set_ylim(left.get_ylim())
+    right.set_aspect("equal")
+    right.axis("off")
+    right.set_title("Voronoi cells", color=INK)
+    figure.subplots_adjust(0.01, 0.13, 0.99, 0.93, wspace=0.04)
+    add_angle_legend(figure, 0.1)
+    save(figure, os.path.join(output, "guide_globe.png"))
+
+
 def draw_picture(name, command, folder, output):
     mesh, options, direction, window = PICTURES[name]
     figure, both = plt.subplots(1, 2, figsize=(9, 4.8))
@@ -232,7 +266,7 @@ def main():
         subprocess.run(["/usr/bin/python3", f"{HERE}/make_examples.py", folder], check=True)
         for name in PICTURES:
             draw_picture(name, os.path.abspath(arguments.command), folder, arguments.output)
-        for draw in (draw_survey, draw_dem, draw_edges):
+        for draw in (draw_survey, draw_dem, draw_edges, draw_globe):
             draw(os.path.abspath(arguments.command), folder, arguments.output)
 
 

@@ -7,7 +7,8 @@ terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over
 scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring with sharp edges. part.stl:
 an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell
 array Material. survey.csv: points of a valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
-outline of the survey, and pond.vtk. Equal arguments give equal files.
+outline of the survey, and pond.vtk. stations.csv: longitudes and latitudes on a globe. Equal arguments
+give equal files.
 """
 import argparse
 import os
@@ -162,6 +163,16 @@ def write_valley(folder, valley):
         write_lines(folder, f"{name}.vtk", f"A ring: {name}", [np.r_[ring, ring[:1]]])
 
 
+def write_stations(folder, random, single=500, centers=6, around=80):
+    """Stations in degrees: some anywhere, some around a few places, and one at each pole."""
+    places = random.normal(size=(centers, 3))
+    places /= np.linalg.norm(places, axis=1, keepdims=True)
+    near = np.repeat(places, around, axis=0) + 0.12 * random.normal(size=(centers * around, 3))
+    x, y, z = np.concatenate([random.normal(size=(single, 3)), near, [[0, 0, 1], [0, 0, -1]]]).T
+    degrees = np.degrees(np.c_[np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))]).round(3)
+    write(folder, "stations.csv", "longitude,latitude\n" + rows_of(degrees).replace(" ", ","))
+
+
 def write_terrain(folder, count):
     mesh = make_terrain(count, seed=4)
     writer = vtkXMLPolyDataWriter()
@@ -206,7 +217,9 @@ def main():
     write_plate(arguments.folder, *plate(random))
     write_valley(arguments.folder, Valley(random))
     write_ply(arguments.folder, "edges.ply", *square_ring(random))
-    print("terrain.vtp road.vtk scan.ply edges.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk")
+    write_stations(arguments.folder, random)
+    print("terrain.vtp road.vtk scan.ply edges.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk "
+          "stations.csv")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ namespace delaunayflip
 /// @param asFloat whether the caller's coordinates are of type float.
 inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion, bool asFloat)
 {
-  if (survey.Geometry == GeometryKind::Surface)
+  if (survey.Geometry == GeometryKind::Surface || survey.Geometry == GeometryKind::Sphere)
   {
     return { { 0, 1, 2 }, 3, asFloat, false, false };
   }
@@ -36,8 +36,12 @@ inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion
 /// Which rule of FlipRules.h judges a mesh.
 struct RuleChoice
 {
-  RuleChoice(const MeshSurvey& survey, const FlipOptions& options)
+  /// @param center TriangleMesh::Center, for spheres.
+  RuleChoice(const MeshSurvey& survey, const FlipOptions& options,
+    const PlanePoint& center = { 0.0, 0.0, 0.0 })
     : IsSurface(survey.Geometry == GeometryKind::Surface),
+      IsSphere(survey.Geometry == GeometryKind::Sphere),
+      Center(center),
       ByAngles(options.Criterion == CriterionKind::OppositeAngles),
       IsTilted(survey.Projection.Tilted),
       IsCanonical(options.TieRule == TieRuleKind::Canonical),
@@ -51,7 +55,7 @@ struct RuleChoice
   }
 
   /// Calls visit(rule) for packed coordinates (PlanPacking), of one type or the other.
-  /// @param uniformSide PlanarSurvey::UniformSide.
+  /// @param uniformSide PlanarSurvey::UniformSide or that of SurveySphere.
   template <typename Function>
   auto Visit(
     const float* floats, const double* doubles, int uniformSide, const Function& visit) const
@@ -65,6 +69,16 @@ struct RuleChoice
     {
       return visit(
         SurfaceRule<double>{ { doubles, this->Tolerance, this->Range }, this->MaximumDeviation });
+    }
+    if (this->IsSphere && floats)
+    {
+      return visit(SphereRule<float>{
+        floats, this->Center, uniformSide, this->IsCanonical, this->FiltersApply });
+    }
+    if (this->IsSphere)
+    {
+      return visit(SphereRule<double>{
+        doubles, this->Center, uniformSide, this->IsCanonical, this->FiltersApply });
     }
     if (this->ByAngles)
     {
@@ -84,7 +98,9 @@ struct RuleChoice
       PlanarRule<double, 2>{ doubles, uniformSide, this->IsCanonical, this->FiltersApply });
   }
 
-  bool IsSurface, ByAngles, IsTilted, IsCanonical, FiltersApply;
+  bool IsSurface, IsSphere;
+  PlanePoint Center;
+  bool ByAngles, IsTilted, IsCanonical, FiltersApply;
   CoordinateRange Range;
   AngleTolerance Tolerance;
   double MaximumDeviation;

@@ -63,6 +63,20 @@ DELAUNAYFLIP_HOST_DEVICE inline int JoinOrientations(int upper, int lower)
   return upper != 0 ? upper : lower;
 }
 
+template <SignKind Kind>
+DELAUNAYFLIP_HOST_DEVICE int FindOrientation3DBy(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  if constexpr (Kind == SignKind::Exact)
+  {
+    return ExactOrientation3D(a, b, c, d);
+  }
+  else
+  {
+    return FilteredOrientation3D(a, b, c, d);
+  }
+}
+
 /// The orientation of the two triangles of a quad: 1 or -1; 0 if they have different ones or
 /// neither has an area; or UncertainSign. `strict` receives whether both have an area.
 template <SignKind Kind>
@@ -221,6 +235,119 @@ private:
       return CheckConvex<Kind>(apqb, side);
     }
     return state;
+  }
+};
+
+DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess3D(
+  const PlanePoint& a, const PlanePoint& b)
+{
+  return IsLexicographicallyLess(a, b) || (a.U == b.U && a.V == b.V && a.W < b.W);
+}
+
+/// Does the same in space.
+DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest3D(const PlanePoint (&apqb)[4])
+{
+  const auto isBelow = [&](const PlanePoint& point) {
+    return IsLexicographicallyLess3D(point, apqb[1]) || IsLexicographicallyLess3D(point, apqb[2]);
+  };
+  return isBelow(apqb[0]) && isBelow(apqb[3]);
+}
+
+/// Judges on a sphere, by the exact orientation of four points in space: an edge is convex if the
+/// far corner of one triangle is not beyond the plane of the other. Seen from the center, a flip
+/// turns no triangle over. So each flip of an edge that is not convex makes the volume larger, and
+/// flips end.
+template <typename Real>
+struct SphereRule
+{
+  static constexpr bool MayBlock = true;
+  static constexpr bool IsInSpace = false;
+
+  const Real* Coordinates; ///< x, y and z of every vertex.
+  PlanePoint Center; ///< From where triangles are seen.
+  int UniformSide; ///< As in PlanarRule, seen from the center.
+  bool Canonical; ///< Whether ties are decided instead of kept.
+  bool FiltersApply; ///< Whether coordinates are in the range of the filters.
+
+  DELAUNAYFLIP_HOST_DEVICE const Real* Address(VertexId vertex) const
+  {
+    return this->Coordinates + std::size_t(3) * vertex;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint Get(VertexId vertex) const
+  {
+    const Real* x = this->Address(vertex);
+    return { x[0], x[1], x[2] };
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Judge(const Quad& quad) const
+  {
+    if (!this->FiltersApply)
+    {
+      return EdgeState::Uncertain;
+    }
+    return this->Decide<SignKind::Filtered>(quad);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE EdgeState JudgeExactly(const Quad& quad) const
+  {
+    return this->Decide<SignKind::Exact>(quad);
+  }
+
+private:
+  template <SignKind Kind>
+  DELAUNAYFLIP_HOST_DEVICE EdgeState Decide(const Quad& quad) const
+  {
+    const PlanePoint apqb[4] = { this->Get(quad.A), this->Get(quad.P), this->Get(quad.Q),
+      this->Get(quad.B) };
+    int side = this->UniformSide;
+    if (side == 0)
+    {
+      side = this->FindSide<Kind>(apqb);
+    }
+    const int below = FindOrientation3DBy<Kind>(apqb[0], apqb[1], apqb[2], apqb[3]);
+    if (side == UncertainSign || below == UncertainSign)
+    {
+      return EdgeState::Uncertain;
+    }
+    const bool isTie = below == 0;
+    const bool mayFlip =
+      below * side < 0 || (isTie && side != 0 && this->Canonical && EdgeHoldsLargest3D(apqb));
+    if (!mayFlip)
+    {
+      return EdgeState::Good;
+    }
+    const EdgeState state = this->CheckConvex<Kind>(apqb, side);
+    if (isTie && state == EdgeState::BlockedByShape)
+    {
+      return EdgeState::Good; // nothing is better than this
+    }
+    return state;
+  }
+
+  /// Does what the function FindSide does in the plane, and the next one what CheckConvex does.
+  template <SignKind Kind>
+  DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint (&apqb)[4]) const
+  {
+    const int upper = FindOrientation3DBy<Kind>(apqb[0], apqb[1], apqb[2], this->Center);
+    const int lower = FindOrientation3DBy<Kind>(apqb[3], apqb[2], apqb[1], this->Center);
+    if (upper == UncertainSign || lower == UncertainSign)
+    {
+      return UncertainSign;
+    }
+    return JoinOrientations(upper, lower);
+  }
+
+  template <SignKind Kind>
+  DELAUNAYFLIP_HOST_DEVICE EdgeState CheckConvex(const PlanePoint (&apqb)[4], int side) const
+  {
+    const int left = FindOrientation3DBy<Kind>(apqb[0], apqb[1], apqb[3], this->Center);
+    const int right = FindOrientation3DBy<Kind>(apqb[3], apqb[2], apqb[0], this->Center);
+    if (left == UncertainSign || right == UncertainSign)
+    {
+      return EdgeState::Uncertain;
+    }
+    return left == side && right == side ? EdgeState::Bad : EdgeState::BlockedByShape;
   }
 };
 

@@ -24,6 +24,7 @@
 #include "SegmentInsertion.h"
 #include "SmallestAngle.h"
 #include "SpatialOrder.h"
+#include "SphereSurvey.h"
 #include "StoreSteps.h"
 #include "SurfaceAngles.h"
 
@@ -570,7 +571,15 @@ private:
     std::vector<Defect> defects;
     bool needsGuard = true;
     int uniformSide = 0;
-    if (!isSurface)
+    const PlanePoint center{ mesh.Center[0], mesh.Center[1], mesh.Center[2] };
+    if (survey.Geometry == GeometryKind::Sphere)
+    {
+      const SphereSurvey sphere = SurveySphere(this->Mesh, this->Points, center, this->Backend);
+      defects = sphere.Defects;
+      uniformSide = sphere.UniformSide;
+      needsGuard = !mesh.Whole.StarsAreSimple;
+    }
+    else if (!isSurface)
     {
       const EdgeCounts& edges = this->Report.Edges;
       const bool brokenFans =
@@ -590,7 +599,7 @@ private:
       guard = EdgeGuard(this->Mesh, mesh.Points.Count, this->Backend, std::move(shared));
     }
     const PackedPointsView packed = this->Points.View();
-    RuleChoice(survey, options)
+    RuleChoice(survey, options, center)
       .Visit(packed.Floats, packed.Doubles, uniformSide,
         [&](const auto& rule) { this->MakeLoop(rule, std::move(guard)); });
     const AngleSums angles = this->Loop->MeasureAngles();

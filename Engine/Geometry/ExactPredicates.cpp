@@ -77,6 +77,22 @@ int WideInCircle(const PlanePoint (&points)[4], bool tilted)
   return determinant.sign();
 }
 
+int WideOrientation3D(const PlanePoint (&points)[4])
+{
+  const WidePoint d(points[3]);
+  Integer u[3], v[3], w[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    const WidePoint p(points[i]);
+    u[i] = p.U - d.U;
+    v[i] = p.V - d.V;
+    w[i] = p.W - d.W;
+  }
+  const Integer determinant = w[0] * (u[1] * v[2] - u[2] * v[1]) +
+    w[1] * (u[2] * v[0] - u[0] * v[2]) + w[2] * (u[0] * v[1] - u[1] * v[0]);
+  return determinant.sign();
+}
+
 namespace
 {
 int DecideInCircle(const PlanePoint (&points)[4], bool tilted)
@@ -128,6 +144,20 @@ int InCircleTilted(const double a[3], const double b[3], const double c[3], cons
   return DecideInCircle(
     { { a[0], a[1], a[2] }, { b[0], b[1], b[2] }, { c[0], c[1], c[2] }, { d[0], d[1], d[2] } },
     true);
+}
+
+int Orientation3D(const double a[3], const double b[3], const double c[3], const double d[3])
+{
+  const PlanePoint points[4] = { { a[0], a[1], a[2] }, { b[0], b[1], b[2] }, { c[0], c[1], c[2] },
+    { d[0], d[1], d[2] } };
+  for (const PlanePoint& p : points)
+  {
+    if (!IsFinite(p))
+    {
+      return 0;
+    }
+  }
+  return FindOrientation3D(points[0], points[1], points[2], points[3]);
 }
 
 }

@@ -151,6 +151,14 @@ DELAUNAYFLIP_HOST_DEVICE inline Integer512 Multiply(const Integer256& a, const I
   return { Multiply(a.High, b.High) + carried, { middle.Low, low.Low } };
 }
 
+/// The number in twice the bits.
+DELAUNAYFLIP_HOST_DEVICE inline Integer128 Widen(std::int64_t a) { return a; }
+
+DELAUNAYFLIP_HOST_DEVICE inline Integer256 Widen(Integer128 a)
+{
+  return { -Integer128(a < 0), static_cast<Unsigned128>(a) };
+}
+
 /// A finite double taken apart: +-Mantissa * 2^Exponent. Zero is 0 * 2^-1074.
 struct DoubleParts
 {
@@ -251,6 +259,7 @@ private:
 /// Wide-integer signs, for any finite coordinates; on the CPU only.
 int WideOrientation(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 int WideInCircle(const PlanePoint (&points)[4], bool tilted);
+int WideOrientation3D(const PlanePoint (&points)[4]);
 
 /// A point relative to an origin, in units. Lifts and minors are integers of twice the width.
 template <typename Integer>
@@ -297,6 +306,14 @@ public:
     return { this->Narrow(this->Unit.Convert(p.U, this->Fits) - this->U),
       this->Narrow(this->Unit.Convert(p.V, this->Fits) - this->V), this->Narrow(w - this->W),
       this->Narrow(w + this->W) };
+  }
+
+  /// Leaves WSum out, which may be larger than all offsets.
+  DELAUNAYFLIP_HOST_DEVICE FixedPointOffset<Integer> OffsetInSpace(const PlanePoint& p)
+  {
+    return { this->Narrow(this->Unit.Convert(p.U, this->Fits) - this->U),
+      this->Narrow(this->Unit.Convert(p.V, this->Fits) - this->V),
+      this->Narrow(this->ConvertW(p) - this->W), Integer(0) };
   }
 
   DELAUNAYFLIP_HOST_DEVICE bool AllFit() const { return this->Fits; }
@@ -384,6 +401,44 @@ DELAUNAYFLIP_HOST_DEVICE inline int FixedPointInCircle(const PlanePoint (&points
   return FixedPointInCircleIn<Integer128>(points[0], points[1], points[2], points[3], tilted);
 }
 
+/// Sign of the determinant with rows a - d, b - d and c - d, or UncertainSign where their offsets
+/// do not fit Integer.
+///
+/// With offsets of at most 2^k, minors are at most 2^(2k + 1), products of both 2^(3k + 1), the sum
+/// of three less than 2^(3k + 3). 64 bits, k = 62: minors are at most 2^125, as Multiply takes
+/// them, and the sum is below 2^189, in 256 bits. 128 bits, k = 126: minors are at most 2^253, and
+/// the sum is below 2^381, in 512.
+template <typename Integer>
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE int FixedPointOrientation3DIn(
+  PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d)
+{
+  const FixedPointUnit unit(true, a, b, c, d);
+  FixedPointFrame<Integer> frame(unit, d, true);
+  const auto first = frame.OffsetInSpace(a);
+  const auto second = frame.OffsetInSpace(b);
+  const auto third = frame.OffsetInSpace(c);
+  if (!frame.AllFit())
+  {
+    return UncertainSign;
+  }
+  const auto firstTerm = Multiply(MinorOf(second, third), Widen(first.W));
+  const auto secondTerm = Multiply(MinorOf(third, first), Widen(second.W));
+  const auto thirdTerm = Multiply(MinorOf(first, second), Widen(third.W));
+  return SignOf(firstTerm + secondTerm + thirdTerm);
+}
+
+/// Computes with 64 bits if the offsets fit, else with 128; UncertainSign if neither suffices.
+DELAUNAYFLIP_HOST_DEVICE inline int FixedPointOrientation3D(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  const int sign = FixedPointOrientation3DIn<std::int64_t>(a, b, c, d);
+  if (sign != UncertainSign)
+  {
+    return sign;
+  }
+  return FixedPointOrientation3DIn<Integer128>(a, b, c, d);
+}
+
 /// Orientation of a, b, c in (u, v). UncertainSign only on a device, where wide integers are
 /// needed.
 DELAUNAYFLIP_HOST_DEVICE inline int ExactOrientation(
@@ -412,6 +467,20 @@ DELAUNAYFLIP_HOST_DEVICE inline int ExactInCircle(const PlanePoint (&points)[4],
   return sign;
 }
 
+/// Sign of the determinant with rows a - d, b - d and c - d. UncertainSign as above.
+DELAUNAYFLIP_HOST_DEVICE inline int ExactOrientation3D(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  const int sign = FixedPointOrientation3D(a, b, c, d);
+#if !defined(__CUDA_ARCH__)
+  if (sign == UncertainSign)
+  {
+    return WideOrientation3D({ a, b, c, d });
+  }
+#endif
+  return sign;
+}
+
 /// Orientation of a, b, c in (u, v), filtered, then exact: for coordinates of any size.
 /// UncertainSign only on a device.
 DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation(
@@ -425,6 +494,20 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation(
     return sign;
   }
   return ExactOrientation(a, b, c);
+}
+
+/// Sign of the determinant with rows a - d, b - d and c - d, likewise.
+DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation3D(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  const int sign = FilteredOrientation3D(a, b, c, d);
+  const bool certain = sign != UncertainSign && IsInFilterRange3D(a) && IsInFilterRange3D(b) &&
+    IsInFilterRange3D(c) && IsInFilterRange3D(d);
+  if (certain)
+  {
+    return sign;
+  }
+  return ExactOrientation3D(a, b, c, d);
 }
 
 }

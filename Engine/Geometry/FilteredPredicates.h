@@ -65,7 +65,7 @@ DELAUNAYFLIP_HOST_DEVICE inline Vector3 AreaVector(
 constexpr int UncertainSign = 2;
 
 /// A point of the plane of decision: u and v span it; W is the coordinate along the dropped axis,
-/// which only the lift of tilted planes uses.
+/// which only the lift of tilted planes uses. Or a point in space: x, y and z.
 struct PlanePoint
 {
   double U, V, W;
@@ -87,14 +87,22 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsInFilterRange(const PlanePoint& point)
     std::fabs(point.V) <= LargestFilteredCoordinate;
 }
 
+/// Whether they may be used for all three coordinates.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsInFilterRange3D(const PlanePoint& point)
+{
+  return IsInFilterRange(point) && std::fabs(point.W) <= LargestFilteredCoordinate;
+}
+
 DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(const PlanePoint& point)
 {
   return IsFinite(point.U) && IsFinite(point.V) && IsFinite(point.W);
 }
 
-/// Relative to the sum of the products' magnitudes: (3 + 16 eps) eps and (10 + 96 eps) eps with
-/// eps = 2^-53. The lift of a tilted plane has one product and two sums more: (12 + 128 eps) eps.
+/// Relative to the sum of the products' magnitudes: (3 + 16 eps) eps, (7 + 56 eps) eps in space and
+/// (10 + 96 eps) eps with eps = 2^-53. The lift of a tilted plane has one product and two sums
+/// more: (12 + 128 eps) eps.
 constexpr double OrientationBound = 3.34e-16;
+constexpr double SpaceOrientationBound = 7.78e-16;
 constexpr double InCircleBound = 1.112e-15;
 constexpr double TiltedInCircleBound = 1.56e-15;
 
@@ -169,6 +177,26 @@ DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
   const FilteredDeterminant determinant = InCircleDeterminant<Tilted>(a, b, c, d);
   constexpr double Bound = Tilted ? TiltedInCircleBound : InCircleBound;
   return CertifiedSign(determinant.Value, Bound * determinant.Permanent);
+}
+
+/// Sign of the determinant with rows a - d, b - d and c - d, where W is the third coordinate; or
+/// UncertainSign. See Orientation3D in Predicates.h.
+DELAUNAYFLIP_HOST_DEVICE inline int FilteredOrientation3D(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
+{
+  const double au = a.U - d.U, av = a.V - d.V;
+  const double bu = b.U - d.U, bv = b.V - d.V;
+  const double cu = c.U - d.U, cv = c.V - d.V;
+  FilteredDeterminant determinant;
+  const auto addTerm = [&](double w, double first, double second)
+  {
+    determinant.Value += w * (first - second);
+    determinant.Permanent += std::fabs(w) * (std::fabs(first) + std::fabs(second));
+  };
+  addTerm(a.W - d.W, bu * cv, cu * bv);
+  addTerm(b.W - d.W, cu * av, au * cv);
+  addTerm(c.W - d.W, au * bv, bu * av);
+  return CertifiedSign(determinant.Value, SpaceOrientationBound * determinant.Permanent);
 }
 
 }

@@ -351,7 +351,8 @@ public:
   /// @throws InvalidOptions for GeometryKind::Planar if the points lie in no plane.
   void Choose(GeometryKind requested)
   {
-    if (requested == GeometryKind::PlanarXY || requested == GeometryKind::Surface)
+    if (requested == GeometryKind::PlanarXY || requested == GeometryKind::Surface ||
+      requested == GeometryKind::Sphere)
     {
       this->Take(requested, AsRequested);
       if (requested == GeometryKind::Surface)

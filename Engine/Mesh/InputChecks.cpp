@@ -46,11 +46,28 @@ void CheckGoals(const FlipOptions& options)
   Require(options.PointLimit >= 0, "PointLimit must be 0 or more");
 }
 
+void CheckSphere(const FlipOptions& options)
+{
+  const bool isSphere = options.Geometry == GeometryKind::Sphere;
+  Require(!isSphere || options.Criterion == CriterionKind::InCircle,
+    "on a sphere edges are judged by the exact sign of four points: use the criterion 'in-circle', "
+    "or geometry 'surface' for opposite angles");
+  Require(!isSphere || options.NumberOfPieces <= 1,
+    "a mesh on a sphere cannot be flipped in several pieces: leave the number of pieces 0 or 1");
+}
+}
+
+void RefuseParts(GeometryKind geometry)
+{
+  Require(geometry != GeometryKind::Sphere,
+    "a mesh on a sphere cannot be flipped in several pieces: give it to one process, with at most "
+    "715 million triangles");
 }
 
 void CheckOptions(const FlipOptions& options)
 {
   Require(options.Geometry != GeometryKind::Mixed, "a mesh has one geometry");
+  CheckSphere(options);
   Require(options.Tolerance == -1.0 || (options.Tolerance >= 0.0 && options.Tolerance < 1.0),
     "the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
   Require(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0,
@@ -101,6 +118,10 @@ void CheckRefinement(const FlipOptions& options, const double* sizes, GeometryKi
     throw InvalidOptions(
       "refinement is for the plane and for terrain, but the mesh is a surface in "
       "space; use 'planar-xy' to refine it in x and y, or set no goals");
+  }
+  if (isWanted && geometry == GeometryKind::Sphere)
+  {
+    throw InvalidOptions("a mesh on a sphere cannot be refined yet; set no goals");
   }
   if (isWanted && options.Criterion != CriterionKind::InCircle)
   {

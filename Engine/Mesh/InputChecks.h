@@ -31,6 +31,8 @@ void CheckSizes(const double* sizes, std::int64_t points);
 /// @param what cannot be refined, for the message.
 /// @throws InvalidOptions if refinement is asked for.
 void RefuseRefinement(const FlipOptions& options, const double* sizes, const char* what);
+/// @throws InvalidOptions if a mesh of this geometry must be in one piece.
+void RefuseParts(GeometryKind geometry);
 
 /// In how many pieces a mesh is flipped.
 /// @throws MeshTooLarge if it has too many triangles for these.

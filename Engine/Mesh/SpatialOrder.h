@@ -218,7 +218,7 @@ struct OrderingFrame
 
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetKey(const PointArray& points, std::int64_t i) const
   {
-    if (this->Geometry == GeometryKind::Surface)
+    if (this->Geometry == GeometryKind::Surface || this->Geometry == GeometryKind::Sphere)
     {
       constexpr int Bits = SortKeyBits / 3;
       std::uint32_t cell[3] = { this->GetCell(points, i, 0, Bits),
@@ -257,9 +257,9 @@ struct TriangleKey
 };
 
 /// Sorts the vertices by their cell of a Hilbert curve through the bounding box (2048^2 cells in
-/// planar geometry, 128^3 on surfaces) and the triangles by the rank of their first vertex. So the
-/// triangles of a star are together: iterations within chunks then do 51 instead of 43 of 100 flips
-/// of the random bad mesh of 5 M points (Documentation/notebook/performance.md).
+/// planar geometry, 128^3 on surfaces and spheres) and the triangles by the rank of their first
+/// vertex. So the triangles of a star are together: iterations within chunks then do 51 instead of
+/// 43 of 100 flips of the random bad mesh of 5 M points (Documentation/notebook/performance.md).
 template <typename Backend>
 SpatialOrder OrderMesh(const MeshInput& input, const MeshSurvey& survey, const Backend& backend)
 {

@@ -72,6 +72,7 @@ public:
       BuildMeshSurvey(MeshInput{ this->Mesh, this->Mesh }, this->Options.Geometry, this->Threads),
       this->Mesh.Points.Floats != nullptr);
     CheckTieRule(options, this->Survey.Geometry);
+    RefuseParts(this->Survey.Geometry);
     std::vector<int> axes; // to cut across: in planar geometry not the one across the plane
     for (int axis = 0; axis < 3; ++axis)
     {

@@ -182,6 +182,7 @@ PartSurvey SurveyParts(
     [](unsigned char isUsed) { return isUsed != 0 ? PointUse::Used : PointUse::Unused; });
   SurveyPointsAndGeometry(found, MeshInput{ mesh, mesh }, options.Geometry, backend);
   CheckTieRule(options, found.Geometry);
+  RefuseParts(found.Geometry);
   const bool hasDoubles = mesh.Points.Count > 0 && !mesh.Points.Floats;
   PartSurvey survey(std::move(found), !IsOnAnyRank(group, hasDoubles));
   survey.NearlyHeightField.FirstIds.clear(); // of other ranks

@@ -7,6 +7,7 @@
 #include "MeshRun.h"
 #include "PiecesRun.h"
 #include "PointRun.h"
+#include "SphereRun.h"
 
 #include <memory>
 #include <type_traits>
@@ -42,15 +43,14 @@ std::unique_ptr<SessionRun> MakeRun(
   return std::make_unique<MeshRun>(caller, options, progress);
 }
 
-/// @throws InvalidOptions
-PointRun& RequirePoints(SessionRun& run)
+std::unique_ptr<SessionRun> MakeRun(
+  const PointInput& points, const PointOptions& options, const ProgressObserver& progress)
 {
-  auto* points = dynamic_cast<PointRun*>(&run);
-  if (points == nullptr)
+  if (options.Projection == ProjectionKind::Plane)
   {
-    throw InvalidOptions("this session was not made from points");
+    return std::make_unique<PointRun>(points, options, progress);
   }
-  return *points;
+  return std::make_unique<SphereRun>(points, options, progress);
 }
 
 /// An array in the memory of a device, ordered by a stream.
@@ -94,7 +94,7 @@ FlipSession::FlipSession(
 
 FlipSession::FlipSession(
   const PointInput& points, const PointOptions& options, const ProgressObserver& progress)
-  : Run(std::make_unique<PointRun>(points, options, progress))
+  : Run(MakeRun(points, options, progress))
 {
 }
 
@@ -121,28 +121,25 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
 
 bool FlipSession::Insert(const PlaneArray& points, const ProgressObserver& progress)
 {
-  return RequirePoints(*this->Run).Insert(points, progress);
+  return this->Run->Insert(points, progress);
 }
 
 bool FlipSession::Move(const PointMove& move, const ProgressObserver& progress)
 {
-  return RequirePoints(*this->Run).Move(move, progress);
+  return this->Run->Move(move, progress);
 }
 
 bool FlipSession::Remove(
   const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress)
 {
-  return RequirePoints(*this->Run).Remove(ids, count, progress);
+  return this->Run->Remove(ids, count, progress);
 }
 
-bool FlipSession::Compact(const ProgressObserver& progress)
-{
-  return RequirePoints(*this->Run).Compact(progress);
-}
+bool FlipSession::Compact(const ProgressObserver& progress) { return this->Run->Compact(progress); }
 
 bool FlipSession::Ask(const PlaceQuery& query, const ProgressObserver& progress) const
 {
-  return RequirePoints(*this->Run).Ask(query, progress);
+  return this->Run->Ask(query, progress);
 }
 
 void FlipSession::StoreFlipCounts(std::int32_t* counts) const
@@ -152,13 +149,10 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts) const
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors) const
 {
-  RequirePoints(*this->Run).StoreNeighbors(neighbors);
+  this->Run->StoreNeighbors(neighbors);
 }
 
-void FlipSession::StoreUsedPoints(std::int64_t* ids) const
-{
-  RequirePoints(*this->Run).StoreUsedPoints(ids);
-}
+void FlipSession::StoreUsedPoints(std::int64_t* ids) const { this->Run->StoreUsedPoints(ids); }
 
 const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
 {
@@ -176,18 +170,15 @@ void FlipSession::StoreSources(std::int32_t* sources) const
 
 std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
 {
-  return RequirePoints(*this->Run).ListSegmentEdges();
+  return this->Run->ListSegmentEdges();
 }
 
 std::vector<std::int64_t> FlipSession::ListSegmentsOfEdges() const
 {
-  return RequirePoints(*this->Run).ListSegmentsOfEdges();
+  return this->Run->ListSegmentsOfEdges();
 }
 
-void FlipSession::StoreRegions(std::int32_t* labels) const
-{
-  RequirePoints(*this->Run).StoreRegions(labels);
-}
+void FlipSession::StoreRegions(std::int32_t* labels) const { this->Run->StoreRegions(labels); }
 
 void FlipSession::StoreTriangles(
   const MutableTriangleArray& triangles, const DeviceStream& stream, std::int32_t* written) const
@@ -221,7 +212,7 @@ void FlipSession::StoreFlipCounts(std::int32_t* counts, const DeviceStream& stre
 
 void FlipSession::StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) const
 {
-  PointRun& run = RequirePoints(*this->Run);
+  SessionRun& run = *this->Run;
   StoreOnDevice(
     DeviceArray<std::int32_t>{ neighbors, 3 * run.CountTriangles(), stream },
     "the array for neighbours is", [&] { return run.StoreNeighborsOnDevice(neighbors, stream); },

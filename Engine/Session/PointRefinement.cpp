@@ -249,7 +249,7 @@ void PointRun::StoreRegions(std::int32_t* labels)
   }
 }
 
-std::vector<std::int64_t> PointRun::ListSegmentsOfEdges() const
+std::vector<std::int64_t> PointRun::ListSegmentsOfEdges()
 {
   std::vector<std::int64_t> numbers;
   for (const SegmentEdge& edge : this->Result.Edges)

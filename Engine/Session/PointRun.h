@@ -27,26 +27,27 @@ public:
     std::int32_t* written) override;
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) override;
 
-  void StoreNeighbors(std::int32_t* neighbors);
-  bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream);
-  void StoreUsedPoints(std::int64_t* ids);
+  void StoreNeighbors(std::int32_t* neighbors) override;
+  bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream) override;
+  void StoreUsedPoints(std::int64_t* ids) override;
   const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Points.GetAdded(); }
-  std::vector<std::int64_t> ListSegmentEdges();
+  std::vector<std::int64_t> ListSegmentEdges() override;
 
   /// The same as FlipSession's. (PointRefinement.cpp)
-  std::vector<std::int64_t> ListSegmentsOfEdges() const;
-  void StoreRegions(std::int32_t* labels);
+  std::vector<std::int64_t> ListSegmentsOfEdges() override;
+  void StoreRegions(std::int32_t* labels) override;
 
   /// The same as FlipSession's. (PointInsertion.cpp)
-  bool Insert(const PlaneArray& points, const ProgressObserver& progress);
+  bool Insert(const PlaneArray& points, const ProgressObserver& progress) override;
 
   /// The same as FlipSession's. (PointMoves.cpp)
-  bool Move(const PointMove& move, const ProgressObserver& progress);
-  bool Remove(const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress);
-  bool Compact(const ProgressObserver& progress);
+  bool Move(const PointMove& move, const ProgressObserver& progress) override;
+  bool Remove(
+    const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress) override;
+  bool Compact(const ProgressObserver& progress) override;
 
   /// The same as FlipSession's. (PointAnswers.cpp)
-  bool Ask(const PlaceQuery& query, const ProgressObserver& progress);
+  bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
 private:
   /// In the journal, instead of the number of a batch: the mesh was made of all points, wherever

@@ -111,6 +111,22 @@ public:
   }
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
 
+  // What only sessions from points have.
+  virtual void StoreNeighbors(std::int32_t*) { RefuseQuestion(); }
+  virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
+  virtual void StoreUsedPoints(std::int64_t*) { RefuseQuestion(); }
+  virtual std::vector<std::int64_t> ListSegmentEdges() { RefuseQuestion(); }
+  virtual std::vector<std::int64_t> ListSegmentsOfEdges() { RefuseQuestion(); }
+  virtual void StoreRegions(std::int32_t*) { RefuseQuestion(); }
+  virtual bool Insert(const PlaneArray&, const ProgressObserver&) { RefuseQuestion(); }
+  virtual bool Move(const PointMove&, const ProgressObserver&) { RefuseQuestion(); }
+  virtual bool Remove(const std::int64_t*, std::int64_t, const ProgressObserver&)
+  {
+    RefuseQuestion();
+  }
+  virtual bool Compact(const ProgressObserver&) { RefuseQuestion(); }
+  virtual bool Ask(const PlaceQuery&, const ProgressObserver&) { RefuseQuestion(); }
+
   /// How many triangles the Store functions write.
   std::int64_t CountTriangles() const { return this->Report.Triangles; }
 
@@ -119,6 +135,11 @@ public:
 
 protected:
   SessionRun() = default;
+
+  [[noreturn]] static void RefuseQuestion()
+  {
+    throw InvalidOptions("this session was not made from points");
+  }
 
   /// Does the stages from the current one on, up to the one with this number.
   /// @returns whether all are complete.

@@ -432,7 +432,8 @@ ConstraintInsertion::ConstraintInsertion(
   }
   const MeshInput input{ mesh, mesh };
   const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
-  const bool isOnSurface = survey.Geometry == GeometryKind::Surface;
+  const bool isOnSurface =
+    survey.Geometry == GeometryKind::Surface || survey.Geometry == GeometryKind::Sphere;
   if (isOnSurface || mesh.Whole.SharedPoints)
   {
     this->RefuseAll(mesh, missing, isOnSurface ? Refusal::OnSurface : Refusal::NeedsGuard);

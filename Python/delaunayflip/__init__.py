@@ -15,6 +15,8 @@ With NumPy arrays:
     mesh = delaunayflip.MovingTriangulation(points)
     mesh.move(points)  # follows points that move
 
+    globe = delaunayflip.triangulate_sphere(longitudes_and_latitudes)
+
     height = delaunayflip.LinearInterpolator(points, heights)
     height(places)  # values between points
 
@@ -48,6 +50,7 @@ if typing.TYPE_CHECKING:
     from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
+    from ._sphere import SphereTriangulation, triangulate_sphere
     from ._vtk import vtkDelaunayFlip, vtkDelaunayFlipInterpolator, vtkDelaunayFlipPoints
 
     __version__: str
@@ -55,8 +58,8 @@ if typing.TYPE_CHECKING:
 __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "LinearInterpolator",
     "MeshTooLarge", "MovingTriangulation", "NaturalNeighborInterpolator", "Report", "Result", "Session",
-    "Stopped", "Triangulation", "flip", "griddata", "has_cuda_device", "release_cuda_memory", "smallest_angles",
-    "triangulate",
+    "SphereTriangulation", "Stopped", "Triangulation", "flip", "griddata", "has_cuda_device",
+    "release_cuda_memory", "smallest_angles", "triangulate", "triangulate_sphere",
 ]
 if importlib.util.find_spec("vtkmodules"):
     __all__ += ["vtkDelaunayFlip", "vtkDelaunayFlipInterpolator", "vtkDelaunayFlipPoints"]
@@ -66,7 +69,7 @@ _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
     "MovingTriangulation": "_moving", "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
     "LinearInterpolator": "_interpolators", "NaturalNeighborInterpolator": "_interpolators",
-    "griddata": "_interpolators",
+    "griddata": "_interpolators", "SphereTriangulation": "_sphere", "triangulate_sphere": "_sphere",
 }
 # The names of _vtk, and what they need beside VTK.
 _NEEDS = {

@@ -62,7 +62,8 @@ DEFECT_KINDS = (
     "segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
     "rings without area", "rings repeated", "rings run again", "hole points outside",
     "points without triangles", "nothing left", "polygons too small", "constraints not in mesh",
-    "points without heights", "region seeds outside", "triangles not refined", "point limit reached")
+    "points without heights", "region seeds outside", "triangles not refined", "point limit reached",
+    "points inside", "points in one plane")
 
 
 def make_struct(name, members):

@@ -36,7 +36,7 @@ class ByDlpack(typing.Protocol):
 Numbers = typing.Union[numpy.typing.ArrayLike, OnDevice, ByDlpack]
 Array = numpy.typing.NDArray[typing.Any]
 # In the order of the enumerations of the header.
-Geometry = typing.Literal["auto", "planar", "planar-xy", "surface"]
+Geometry = typing.Literal["auto", "planar", "planar-xy", "surface", "sphere"]
 Criterion = typing.Literal["in-circle", "opposite-angles"]
 TieRule = typing.Literal["keep", "canonical"]
 Backend = typing.Literal["auto", "cuda", "threads"]

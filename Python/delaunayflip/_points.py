@@ -60,7 +60,8 @@ Struct = _library.make_struct("Points", (
     (c_double, "point_tolerance alpha longest_edge"), (c_int32, "ring_rule split_crossings memory"),
     (c_void_p, "stream"), (c_int32, "first_hole"), (c_int64, "first_added"),
     (c_double, "minimum_angle maximum_area maximum_edge"), (c_int32, "keep_boundary"),
-    (c_int64, "point_limit"), (c_void_p, "sizes regions"), (c_int64, "number_of_regions")))
+    (c_int64, "point_limit"), (c_void_p, "sizes regions"), (c_int64, "number_of_regions"),
+    (c_int32, "projection")))
 
 # Kinds of defects that are warned of: the caller gave something that is not used as it is, or wants
 # triangles that there are not.

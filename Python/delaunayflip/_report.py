@@ -35,7 +35,7 @@ class Report:
     """
 
     stop_reason: str  #: "converged", "iteration limit", "aborted", "running" or "not started".
-    geometry_used: str  #: "planar", "planar-xy" or "surface".
+    geometry_used: str  #: "planar", "planar-xy", "surface" or "sphere".
     geometry_reason: str  #: Why.
     backend: str  #: E.g. ``"Threads: 8"`` or ``"CUDA: NVIDIA H200"``.
     fallback: str  #: Why the CPU replaced a GPU; "" if it did not.
@@ -97,6 +97,7 @@ class Report:
     removed_points: int = 0  #: Points that were removed from a triangulation of moving points.
     #: In how many rounds it has followed the points when they moved last; 0: it was made anew.
     move_rounds: int = 0
+    points_inside: int = 0  #: On a sphere: points inside of the convex hull, which are not used.
 
     @property
     def converged(self) -> bool:
@@ -113,7 +114,7 @@ MAIN_NUMBERS = ("total_flips", "non_delaunay_after", "blocked_by_shape", "blocke
 POINT_NUMBERS = ("points_not_finite", "repeated_points", "points_too_near", "segment_edges",
                  "refused_segments", "crossings", "largest_shift", "outside_triangles", "large_triangles",
                  "used_points", "left_out_rings", "refinement_points", "refinement_rounds", "unrefined_triangles",
-                 "reached_point_limit")
+                 "reached_point_limit", "points_inside")
 _TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
 _NAMES = tuple(field.name for field in dataclasses.fields(Report))
 _TEXTS = [field.name for field in dataclasses.fields(Report)[2:] if field.type is str]

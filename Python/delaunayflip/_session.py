@@ -354,9 +354,10 @@ def flip(
         points: (n, 3) float32 or float64, used without a copy if contiguous; (n, 2) gets z = 0.
         triangles: (m, 3) int32 or int64, used without a copy if contiguous; never written.
         geometry: "planar": edges are judged in the plane of the points; "planar-xy": by x and y
-            (terrain); "surface": in space; "auto": whichever fits.
+            (terrain); "surface": in space; "sphere": exactly, on a globe around the origin, towards
+            the convex hull; "auto": whichever of the first three fits.
         criterion: "in-circle" (exact; surfaces ignore it) or "opposite-angles".
-        tie_rule: For points on one circle: "keep" edges or, in the plane, "canonical" triangles.
+        tie_rule: For points on one circle: "keep" edges or "canonical" triangles; not on surfaces.
         tolerance: Radians by which opposite angles must exceed pi to be bad, 0 to below 1; -1:
             automatic, from the precision of the points. For "opposite-angles" and surfaces.
         feature_angle: On surfaces, edges sharper than this many degrees stay; 180 turns it off.

@@ -426,7 +426,7 @@ class vtkDelaunayFlip(Filter):
     Properties can be given as keywords, in snake case: vtkDelaunayFlip(geometry=2).
     """
 
-    GEOMETRY_MIXED = 4
+    GEOMETRY_MIXED = 5
 
     def SetConstraintsConnection(self, port):
         self.SetInputConnection(1, port)

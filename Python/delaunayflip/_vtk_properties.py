@@ -64,7 +64,7 @@ COMMON_PROPERTIES = (
 )
 
 FLIP_PROPERTIES = (
-    Property("Geometry", 0, 0, 3, ("Auto", "Planar", "PlanarXY", "Surface")),
+    Property("Geometry", 0, 0, 4, ("Auto", "Planar", "PlanarXY", "Surface", "Sphere")),
     Property("Criterion", 0, 0, 1, ("InCircle", "OppositeAngles")),
     Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
     *make_properties(flip, _OWN_OPTIONS, OPTION_RANGES),

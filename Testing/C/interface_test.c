@@ -160,7 +160,7 @@ static void TestInvalidOptions(void)
   CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
   CHECK(strstr(delaunayflip_error_message(), "deviation") != NULL);
   delaunayflip_options_init(&options);
-  options.geometry = 4;
+  options.geometry = DELAUNAYFLIP_GEOMETRY_MIXED;
   CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
   options.geometry = -1;
   CHECK(delaunayflip_flip(&mesh, &options, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
@@ -742,6 +742,42 @@ static void TestMove(void)
 }
 
 /** Two diagonals that cross, and a ring of one edge. Then a ring that is not closed. */
+/** Longitudes and latitudes of an octahedron, whose poles are there twice. */
+static void TestSphere(void)
+{
+  const double degrees[] = { 0, 0, 90, 0, 180, 0, -90, 0, 0, 90, 77, 90, 5, -90, -5, -90, 270, 0 };
+  double places[27];
+  int32_t triangles[24], neighbors[24];
+  int64_t used[9];
+  int i;
+  delaunayflip_points points;
+  delaunayflip_session* session = NULL;
+  CHECK(delaunayflip_place_on_sphere(degrees, 9, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_place_on_sphere(degrees, 9, places) == DELAUNAYFLIP_OK);
+  CHECK(places[3] == 0 && places[4] == 1 && places[5] == 0 && places[14] == 1);
+  delaunayflip_points_init(&points);
+  points.points = places;
+  points.number_of_points = 9;
+  points.projection = DELAUNAYFLIP_SPHERE;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);
+  points.point_components = 3;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  CHECK(GetReport(session).triangles == 8 && GetReport(session).repeated_points == 3);
+  CHECK(GetReport(session).geometry_used == DELAUNAYFLIP_GEOMETRY_SPHERE);
+  CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT32) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_neighbors(session, neighbors) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_used_points(session, used) == DELAUNAYFLIP_OK);
+  CHECK(used[5] == 4 && used[7] == 6 && used[8] == 3);
+  for (i = 0; i < 24; ++i)
+  {
+    CHECK(used[triangles[i]] == triangles[i] && neighbors[i] >= 0);
+  }
+  delaunayflip_close(session);
+  points.projection = 3;
+  CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
+}
+
 static void TestDefects(void)
 {
   const double places[] = { 0, 0, 4, 0, 4, 4, 0, 4 };
@@ -802,6 +838,7 @@ int main(void)
   TestRefinement();
   TestRefinementOfMesh();
   TestMove();
+  TestSphere();
   TestDefects();
   return 0;
 }

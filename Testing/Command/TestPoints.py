@@ -297,6 +297,20 @@ class Results(PointTest):
                 mesh, _ = self.triangulate("in.xyz", "--projection", "plane", option, ring)
                 self.assertEqual(len(triangles_of(mesh)), 2)
 
+    def test_sphere(self):
+        """Longitudes that meet, and poles in every column."""
+        rows = [(x, y) for y in range(-90, 91, 30) for x in range(-180, 181, 30)]
+        self.write("in.csv", text_of(rows, ",", "lon,lat"))
+        mesh, result = self.triangulate("in.csv", "--projection", "sphere", "--degrees")
+        self.assertEqual(len(triangles_of(mesh)), 2 * (12 * 5 + 2) - 4)
+        self.assertRegex(result.stdout, "points +62 used, 29 repeated")
+        self.assertTrue(all(math.isclose(math.hypot(*point), 1) for point in points_of(mesh)))
+        self.write("in.csv", text_of([row for row in rows if row[1] > 0], ",", "lon,lat"))
+        mesh, _ = self.triangulate("in.csv", "--projection", "open-sphere", "--degrees")
+        self.assertEqual(len(triangles_of(mesh)), 2 * 12 + 12)
+        self.fail_with(2, "in.csv", "out.vtk", "--from-points", "--projection", "sphere", "--degrees",
+                       "--alpha", 1, naming=["--alpha has no meaning on a sphere"])
+
     def test_large_triangles(self):
         self.write("in.xyz", text_of(grid(4) + [(20, 1, 0)]))
         mesh, _ = self.triangulate("in.xyz")

@@ -64,6 +64,10 @@ TEST_P(PredicatesTest, AreExact)
       const int tilted = RationalInCircle(p[0], p[1], p[2], p[3], true);
       EXPECT_EQ(tilted, InCircleTilted(a, b, c, d)) << Describe(p);
       EXPECT_EQ(-tilted, InCircleTilted(a, b, d, c)) << Describe(p);
+      const int inSpace = RationalOrientation3D(p[0], p[1], p[2], p[3]);
+      EXPECT_EQ(inSpace, Orientation3D(a, b, c, d)) << Describe(p);
+      EXPECT_EQ(-inSpace, Orientation3D(b, a, c, d)) << Describe(p);
+      EXPECT_EQ(-inSpace, Orientation3D(d, b, c, a)) << Describe(p);
     });
 }
 
@@ -93,6 +97,11 @@ TEST_P(PredicatesTest, FixedPointIsExact)
       const int fixedTurn = FixedPointOrientation(points[0], points[1], points[2]);
       ExpectFixedPointSign(turn, fixedTurn, fit, p);
       EXPECT_EQ(turn, ExactOrientation(points[0], points[1], points[2])) << Describe(p);
+      const int inSpace = RationalOrientation3D(p[0], p[1], p[2], p[3]);
+      const int fixedInSpace = FixedPointOrientation3D(points[0], points[1], points[2], points[3]);
+      ExpectFixedPointSign(inSpace, fixedInSpace, fit, p);
+      EXPECT_EQ(inSpace, ExactOrientation3D(points[0], points[1], points[2], points[3]))
+        << Describe(p);
       for (const bool tilted : { false, true })
       {
         const int expected = RationalInCircle(p[0], p[1], p[2], p[3], tilted);

@@ -243,6 +243,11 @@ int RationalTurn(const Point3& a, const Point3& b, const Point3& c)
   return Sign(p[0] * q[1] - p[1] * q[0]);
 }
 
+int RationalOrientation3D(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+{
+  return Sign(Determinant(Subtract(a, d), Subtract(b, d), Subtract(c, d)));
+}
+
 int RationalInCircle(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, bool tilted)
 {

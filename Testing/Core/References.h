@@ -98,6 +98,9 @@ Places DrawDistinct(std::mt19937& random, int count, int columns, int rows);
 /// The sign of the turn a, b, c in x and y.
 int RationalTurn(const Point3& a, const Point3& b, const Point3& c);
 
+/// The sign of the determinant with rows a - d, b - d and c - d.
+int RationalOrientation3D(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
 /// Sign of the determinant with rows (x, y, x^2 + y^2, 1); with `tilted`, z^2 joins the third.
 int RationalInCircle(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, bool tilted = false);

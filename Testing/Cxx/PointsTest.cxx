@@ -180,6 +180,45 @@ TEST(FromPoints, Projections)
   EXPECT_EQ(GetTriangles(other->GetOutput()), byTransform);
 }
 
+TEST(FromPoints, OnASphere)
+{
+  Points degrees;
+  for (int column = -18; column <= 18; ++column)
+  {
+    for (int row = -9; row <= 9; ++row)
+    {
+      degrees.push_back({ 10.0 * column, 10.0 * row, 5.0 });
+    }
+  }
+  const std::size_t places = 36 * 17 + 2;
+  PointsFilter globe(ToMesh(degrees));
+  globe->SetProjectionToSphere();
+  globe->DegreesOn();
+  ExpectHolds(RunToWarning(globe), "duplicate points skipped");
+  EXPECT_EQ(2 * places - 4, globe.GetPolygons().size());
+  const double* pole = globe->GetOutput()->GetPoint(18);
+  EXPECT_EQ(
+    (std::array<double, 3>{ 0.0, 0.0, 1.0 }), (std::array<double, 3>{ pole[0], pole[1], pole[2] }));
+  // The points of the output are what the filter joins without degrees.
+  vtkNew<vtkPolyData> given;
+  given->SetPoints(globe->GetOutput()->GetPoints());
+  PointsFilter again(given);
+  again->SetProjectionToSphere();
+  RunToWarning(again);
+  EXPECT_EQ(GetTriangles(globe->GetOutput()), GetTriangles(again->GetOutput()));
+  Points half;
+  std::copy_if(degrees.begin(), degrees.end(), std::back_inserter(half),
+    [](const auto& point) { return point[1] >= 10.0; });
+  PointsFilter part(ToMesh(half));
+  part->SetProjectionToOpenSphere();
+  part->DegreesOn();
+  RunToWarning(part);
+  EXPECT_EQ(36u + 7 * 72, part.GetPolygons().size()); // a fan at the pole, and bands
+  part->SetMinimumAngle(20.0);
+  ExpectHolds(
+    RunToError(part, vtkDelaunayFlip::FAILURE_OPTIONS), "MinimumAngle has no meaning on a sphere");
+}
+
 /// Points on a wall: what is added is on it, too. Each property makes another mesh.
 TEST(FromPoints, Refinement)
 {

@@ -80,6 +80,9 @@ const AgreementCase Cases[] = {
   { "CanonicalGrid", MakeGrid, Auto, InCircleOnly, TieRuleKind::Canonical },
   { "Chain", [] { return MakeWorstCaseMesh(60); } },
   { "Sphere", MakeSphere },
+  { "Globe", MakeSphere, GeometryKind::Sphere },
+  { "CanonicalGlobe", [] { return MakeLatLongSphere(300, 150); }, GeometryKind::Sphere,
+    InCircleOnly, TieRuleKind::Canonical },
   { "SphereWithFeatures", MakeSphere, Auto, InCircleOnly, TieRuleKind::Keep, 30.0 },
   { "SphereWithDeviation", MakeSphere, Auto, InCircleOnly, TieRuleKind::Keep, 180.0, 0.001 },
   { "GentleHills", [] { return MakeHills(0.5); } },
@@ -262,6 +265,27 @@ TEST_F(SmallMeshTest, EdgesThatWouldBecomeTheSame)
     ExpectGpuAgrees(MakeBipyramids(Count).View(), MakeOptions(BackendKind::CUDA)).Report;
   EXPECT_EQ(Count, report.TotalFlips);
   EXPECT_EQ(2 * Count, report.BlockedByEdge);
+}
+
+/// Points of a longitude-latitude grid, where everything ties but for rounding.
+TEST_F(SmallMeshTest, PointsOnASphere)
+{
+  const OwnedMesh<double> globe = MakeLatLongSphere(40, 20);
+  PointInput input;
+  input.Points = PlaneArray(globe.Points.data(), globe.NumberOfPoints(), 3);
+  std::vector<std::int32_t> triangles[2];
+  for (const BackendKind backend : { BackendKind::Threads, BackendKind::CUDA })
+  {
+    PointOptions options;
+    options.Backend = backend;
+    options.Projection = ProjectionKind::Sphere;
+    FlipSession session(input, options);
+    session.Advance();
+    EXPECT_EQ(2 * globe.NumberOfPoints() - 4, session.GetReport().Triangles);
+    EXPECT_EQ(backend == BackendKind::CUDA, IsOnGpu(session.GetReport()));
+    triangles[int(backend == BackendKind::CUDA)] = StoreTriangles(session);
+  }
+  EXPECT_EQ(triangles[0], triangles[1]);
 }
 
 TEST_F(SmallMeshTest, Messes) { ExpectMessesAgree(5001, 5012); }

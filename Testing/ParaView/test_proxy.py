@@ -42,7 +42,7 @@ class Proxy(PluginTest):
     name, label = "DelaunayFlip", "Delaunay Flip"
     vtk_class, bases = "vtkDelaunayFlip", ("vtkDelaunayFlipAlgorithm",)
     ports, is_live = ["Mesh", "Iterations"], True
-    choices = {"Geometry": ["Auto", "Planar", "Planar XY", "Surface"],
+    choices = {"Geometry": ["Auto", "Planar", "Planar XY", "Surface", "Sphere"],
                "Criterion": ["In-circle", "Opposite angles"],
                "TieRule": ["Keep", "Canonical"],
                "Backend": ["Auto", "CUDA", "Threads"]}
@@ -112,7 +112,7 @@ class PointsProxy(Proxy):
     name, label = "DelaunayFromPoints", "Delaunay From Points"
     vtk_class = "vtkDelaunayFlipPoints"
     choices = {"RingRule": ["Even-odd", "Nonzero", "Orientation"],
-               "Projection": ["XY", "Best-fitting plane"]}
+               "Projection": ["XY", "Best-fitting plane", "Sphere", "Open sphere"]}
 
 
 class InterpolatorProxy(Proxy):

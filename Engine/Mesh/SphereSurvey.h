@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SPHERESURVEY_H
+#define DELAUNAYFLIP_SPHERESURVEY_H
+
+#include "EdgeMesh.h"
+#include "ExactPredicates.h"
+#include "FlipError.h"
+#include "FlipReport.h"
+#include "HostDevice.h"
+#include "MeshSurvey.h"
+#include "SpatialOrder.h"
+
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// Properties of a mesh on a sphere before the first flip, from exact orientations.
+
+namespace delaunayflip
+{
+
+struct SphereSums
+{
+  OrientationSample Orientations; ///< Seen from outside: Left is counter-clockwise.
+  std::int64_t Uncertain = 0; ///< A device cannot tell.
+
+  DELAUNAYFLIP_HOST_DEVICE SphereSums& operator+=(const SphereSums& part)
+  {
+    this->Orientations += part.Orientations;
+    this->Uncertain += part.Uncertain;
+    return *this;
+  }
+};
+
+struct SphereSurvey
+{
+  /// 1 or -1 if the center is strictly on one side of every triangle, which flips do not change;
+  /// else 0.
+  int UniformSide = 0;
+
+  std::vector<Defect> Defects;
+};
+
+/// Looks at all triangles from the center. Triangles with a non-finite coordinate, which never
+/// flip, do not count.
+/// @param center TriangleMesh::Center.
+/// @throws BeyondDevice if a device cannot decide an orientation.
+template <typename Backend>
+SphereSurvey SurveySphere(const EdgeMesh& mesh, const PackedPoints& packed,
+  const PlanePoint& center, const Backend& backend)
+{
+  const TriangleRecord* triangles = mesh.Triangles.Data();
+  const PackedPointsView points = packed.View();
+  const PlanePoint from = center;
+  const SphereSums sums = backend.template Sum<SphereSums>(mesh.NumberOfTriangles,
+    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, SphereSums & sum)
+    {
+      const VertexId* v = triangles[t].Vertices;
+      PlanePoint corners[3];
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        const Vector3 p = points.GetPosition(v[slot]);
+        corners[slot] = { p.X, p.Y, p.Z };
+        if (!IsFinite(corners[slot]))
+        {
+          return;
+        }
+      }
+      const int side = FindOrientation3D(corners[0], corners[1], corners[2], from);
+      if (side == UncertainSign)
+      {
+        ++sum.Uncertain;
+        return;
+      }
+      sum.Orientations.Note(side, triangles[t].InputTriangle);
+    });
+  if (sums.Uncertain > 0)
+  {
+    throw BeyondDevice();
+  }
+  const OrientationSample& orientations = sums.Orientations;
+  SphereSurvey survey;
+  survey.Defects = { MakeDefect(DefectKind::TrianglesWithoutArea, orientations.Flat),
+    MakeDefect(DefectKind::TurnedFromMost, orientations.GetOthers()) };
+  for (Defect& defect : survey.Defects)
+  {
+    defect.Detail = ", seen from the center of the sphere";
+  }
+  if (orientations.CountStrays() == 0)
+  {
+    survey.UniformSide = orientations.GetSide();
+  }
+  return survey;
+}
+
+}
+
+#endif

@@ -1,0 +1,433 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SphereStart.h"
+
+#include "ExactPredicates.h"
+#include "Strips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <tuple>
+
+namespace delaunayflip
+{
+
+namespace
+{
+Vector3 ToVector(const PlanePoint& p) { return { p.U, p.V, p.W }; }
+
+Vector3 Scale(double factor, const Vector3& a)
+{
+  return { factor * a.X, factor * a.Y, factor * a.Z };
+}
+
+/// NaN if it has no direction. The largest coordinate becomes 1 first, so that nothing overflows.
+Vector3 Normalize(const Vector3& a)
+{
+  const double largest = std::max({ std::fabs(a.X), std::fabs(a.Y), std::fabs(a.Z) });
+  const Vector3 near = { a.X / largest, a.Y / largest, a.Z / largest };
+  const double length = Length(near);
+  return { near.X / length, near.Y / length, near.Z / length };
+}
+
+/// The active point with the largest measure; of equals the one farthest north. Points at one place
+/// are all the same for this, so that the first of them is as good as another.
+template <typename Measure>
+std::int32_t FindLargest(
+  const SpacePoints& points, const std::vector<std::int32_t>& active, const Measure& measure)
+{
+  std::int32_t best = active.front();
+  double most = measure(points[best]);
+  for (const std::int32_t i : active)
+  {
+    const double value = measure(points[i]);
+    const bool isTie = value == most && IsFartherNorth(points[i], points[best]);
+    if (value > most || isTie)
+    {
+      best = i;
+      most = value;
+    }
+  }
+  return best;
+}
+
+/// Whether the center of a simplex, which is rounded, is inside of it.
+bool HoldsCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex)
+{
+  const PlanePoint center = FindCenter(points, simplex);
+  for (int i = 0; i < 4; ++i)
+  {
+    PlanePoint corners[4];
+    std::transform(
+      simplex.begin(), simplex.end(), corners, [&](std::int32_t id) { return points[id]; });
+    corners[i] = center;
+    if (FindOrientation3D(corners[0], corners[1], corners[2], corners[3]) <= 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void SortOnce(std::vector<std::int32_t>& ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+}
+
+bool IsSamePlace(const PlanePoint& a, const PlanePoint& b)
+{
+  return a.U == b.U && a.V == b.V && a.W == b.W;
+}
+
+bool AreOnLine(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+{
+  const auto turn = [](const PlanePoint& p) { return PlanePoint{ p.V, p.W, p.U }; };
+  const PlanePoint d = turn(a), e = turn(b), f = turn(c);
+  return FindOrientation(a, b, c) == 0 && FindOrientation(d, e, f) == 0 &&
+    FindOrientation(turn(d), turn(e), turn(f)) == 0;
+}
+
+bool IsFartherNorth(const PlanePoint& a, const PlanePoint& b)
+{
+  return std::tie(a.W, a.V, a.U) > std::tie(b.W, b.V, b.U);
+}
+
+StereographicProjection::StereographicProjection(const PlanePoint& pole)
+  : Pole(Normalize(ToVector(pole)))
+{
+  const double x = std::fabs(this->Pole.X), y = std::fabs(this->Pole.Y),
+               z = std::fabs(this->Pole.Z);
+  Vector3 across = { 0.0, 0.0, 1.0 }; // along the axis that is farthest from the pole
+  if (x <= y && x <= z)
+  {
+    across = { 1.0, 0.0, 0.0 };
+  }
+  else if (y <= z)
+  {
+    across = { 0.0, 1.0, 0.0 };
+  }
+  this->First = Normalize(Cross(across, this->Pole));
+  this->Second = Cross(this->Pole, this->First);
+}
+
+/// An inversion about the pole takes the sphere to a plane. The difference to the pole is taken
+/// before anything else, so that places near it keep their precision.
+void StereographicProjection::Project(const PlanePoint& point, double (&xy)[2]) const
+{
+  const Vector3 offset = Normalize(ToVector(point)) - this->Pole;
+  const double square = Dot(offset, offset);
+  if (!(square > 0.0))
+  {
+    xy[0] = xy[1] = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  xy[0] = Dot(offset, this->Second) / square;
+  xy[1] = Dot(offset, this->First) / square;
+}
+
+std::vector<std::int32_t> FindNeighbors(
+  const std::vector<std::int32_t>& triangles, std::int64_t points)
+{
+  struct Side
+  {
+    std::int32_t Larger; ///< The end with the larger number.
+    std::int32_t Corner; ///< 3 * triangle + slot.
+  };
+  const std::int64_t corners = SizeOf(triangles);
+  const auto getEnds = [&](std::int64_t corner)
+  {
+    const std::int64_t first = corner - corner % 3;
+    const std::int32_t a = triangles[first + (corner + 1) % 3];
+    const std::int32_t b = triangles[first + (corner + 2) % 3];
+    return std::minmax({ a, b });
+  };
+  // The sides by the smaller number of their ends.
+  std::vector<std::int64_t> starts(points + 1);
+  for (std::int64_t corner = 0; corner < corners; ++corner)
+  {
+    ++starts[getEnds(corner).first + 1];
+  }
+  for (std::int64_t i = 0; i < points; ++i)
+  {
+    starts[i + 1] += starts[i];
+  }
+  std::vector<Side> sides(corners);
+  std::vector<std::int64_t> ends(starts.begin(), starts.end() - 1);
+  for (std::int64_t corner = 0; corner < corners; ++corner)
+  {
+    const auto [smaller, larger] = getEnds(corner);
+    sides[ends[smaller]++] = { larger, static_cast<std::int32_t>(corner) };
+  }
+  std::vector<std::int32_t> neighbors(corners, -1);
+  for (std::int64_t i = 0; i < points; ++i)
+  {
+    Side* const begin = sides.data() + starts[i];
+    Side* const end = sides.data() + starts[i + 1];
+    std::sort(begin, end, [](const Side& a, const Side& b) { return a.Larger < b.Larger; });
+    for (Side* side = begin; side + 1 < end; ++side)
+    {
+      if (side[0].Larger == side[1].Larger)
+      {
+        neighbors[side[0].Corner] = side[1].Corner / 3;
+        neighbors[side[1].Corner] = side[0].Corner / 3;
+      }
+    }
+  }
+  return neighbors;
+}
+
+void JoinPole(std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors,
+  std::int32_t pole)
+{
+  const std::size_t corners = triangles.size();
+  for (std::size_t corner = 0; corner < corners; ++corner)
+  {
+    if (neighbors[corner] < 0)
+    {
+      const std::size_t first = corner - corner % 3;
+      const std::int32_t from = triangles[first + (corner + 1) % 3];
+      const std::int32_t to = triangles[first + (corner + 2) % 3];
+      triangles.insert(triangles.end(), { to, from, pole });
+    }
+  }
+}
+
+std::vector<std::int32_t> FindSimplex(
+  const SpacePoints& points, const std::vector<std::int32_t>& active)
+{
+  if (active.size() < 4)
+  {
+    return {};
+  }
+  const std::int32_t north = FindLargest(points, active, [](const PlanePoint&) { return 0.0; });
+  const Vector3 a = ToVector(points[north]);
+  // Halves, so that nothing overflows; the measures need not be exact.
+  const auto getOffset = [&](const PlanePoint& p)
+  { return Scale(0.5, ToVector(p)) - Scale(0.5, a); };
+  double largest = 0.0;
+  for (const std::int32_t i : active)
+  {
+    const Vector3 offset = getOffset(points[i]);
+    largest = std::max({ largest, std::fabs(offset.X), std::fabs(offset.Y), std::fabs(offset.Z) });
+  }
+  if (largest == 0.0)
+  {
+    return {};
+  }
+  const auto getPlace = [&](const PlanePoint& p)
+  {
+    const Vector3 offset = getOffset(p);
+    return Vector3{ offset.X / largest, offset.Y / largest, offset.Z / largest };
+  };
+  const std::int32_t far = FindLargest(points, active,
+    [&](const PlanePoint& p)
+    {
+      const Vector3 place = getPlace(p);
+      return Dot(place, place);
+    });
+  const Vector3 axis = getPlace(points[far]);
+  std::int32_t aside = FindLargest(points, active,
+    [&](const PlanePoint& p)
+    {
+      const Vector3 normal = Cross(axis, getPlace(p));
+      return Dot(normal, normal);
+    });
+  const auto isOnAxis = [&](std::int32_t i)
+  { return AreOnLine(points[north], points[far], points[i]); };
+  if (isOnAxis(aside)) // by rounding, or because all points are
+  {
+    const auto off = std::find_if_not(active.begin(), active.end(), isOnAxis);
+    if (off == active.end())
+    {
+      return {};
+    }
+    aside = *off;
+  }
+  const Vector3 normal = Cross(axis, getPlace(points[aside]));
+  std::int32_t above = FindLargest(
+    points, active, [&](const PlanePoint& p) { return std::fabs(Dot(normal, getPlace(p))); });
+  const auto findSide = [&](std::int32_t i)
+  { return FindOrientation3D(points[north], points[far], points[aside], points[i]); };
+  if (findSide(above) == 0) // by rounding, or because all points lie in one plane
+  {
+    const auto off =
+      std::find_if(active.begin(), active.end(), [&](std::int32_t i) { return findSide(i) != 0; });
+    if (off == active.end())
+    {
+      return {};
+    }
+    above = *off;
+  }
+  std::vector<std::int32_t> simplex = { north, far, aside, above };
+  if (findSide(above) < 0)
+  {
+    std::swap(simplex[1], simplex[2]);
+  }
+  return HoldsCenter(points, simplex) ? simplex : std::vector<std::int32_t>();
+}
+
+PlanePoint FindCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex)
+{
+  PlanePoint center{ 0.0, 0.0, 0.0 };
+  for (const std::int32_t i : simplex)
+  {
+    center.U += 0.25 * points[i].U;
+    center.V += 0.25 * points[i].V;
+    center.W += 0.25 * points[i].W;
+  }
+  return center;
+}
+
+bool FacesOutside(const SpacePoints& points, const std::int32_t* triangle, const PlanePoint& center)
+{
+  return FindOrientation3D(points[triangle[0]], points[triangle[1]], points[triangle[2]], center) >
+    0;
+}
+
+std::vector<std::int32_t> FindStrays(
+  const SpacePoints& points, const std::vector<std::int32_t>& triangles, const PlanePoint& center)
+{
+  std::vector<std::int32_t> strays;
+  for (std::size_t first = 0; first < triangles.size(); first += 3)
+  {
+    const std::int32_t* ids = triangles.data() + first;
+    if (FacesOutside(points, ids, center))
+    {
+      continue;
+    }
+    double shortest = INFINITY;
+    std::int32_t stray = ids[0];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int32_t a = ids[slot], b = ids[(slot + 1) % 3];
+      const double length = Length(ToVector(points[a]) - ToVector(points[b]));
+      if (length < shortest)
+      {
+        shortest = length;
+        stray = IsFartherNorth(points[a], points[b]) ? a : b;
+      }
+    }
+    strays.push_back(stray);
+  }
+  SortOnce(strays);
+  return strays;
+}
+
+std::vector<std::int32_t> FindHidden(
+  const SpacePoints& points, const std::vector<std::int32_t>& triangles, const PlanePoint& center)
+{
+  const std::vector<std::int32_t> neighbors =
+    FindNeighbors(triangles, static_cast<std::int64_t>(points.size()));
+  std::vector<std::int32_t> hidden;
+  for (std::size_t corner = 0; corner < triangles.size(); ++corner)
+  {
+    const std::size_t t = corner / 3, slot = corner % 3;
+    const std::int32_t across = neighbors[corner];
+    if (across < 0)
+    {
+      continue;
+    }
+    const std::int32_t a = triangles[corner];
+    const std::int32_t p = triangles[3 * t + (slot + 1) % 3];
+    const std::int32_t q = triangles[3 * t + (slot + 2) % 3];
+    const std::int32_t* other = triangles.data() + std::size_t(3) * across;
+    const std::int32_t b = other[0] + other[1] + other[2] - p - q;
+    if (FindOrientation3D(points[a], points[p], points[q], points[b]) >= 0)
+    {
+      continue;
+    }
+    const std::int32_t without[3] = { b, q, a }; // the triangle that p would not be a corner of
+    const bool isHidden = FindOrientation3D(points[a], points[p], points[b], center) <= 0 &&
+      FindOrientation3D(points[b], points[q], points[a], points[p]) > 0;
+    if (isHidden && FacesOutside(points, without, center))
+    {
+      hidden.push_back(p);
+    }
+  }
+  SortOnce(hidden);
+  return hidden;
+}
+
+std::vector<std::int32_t> FindBetween(
+  const SpacePoints& points, const std::vector<std::int32_t>& triangles)
+{
+  std::vector<std::int32_t> between;
+  for (std::size_t first = 0; first < triangles.size(); first += 3)
+  {
+    std::int32_t ids[] = { triangles[first], triangles[first + 1], triangles[first + 2] };
+    if (AreOnLine(points[ids[0]], points[ids[1]], points[ids[2]]))
+    {
+      std::sort(ids, ids + 3,
+        [&](std::int32_t a, std::int32_t b) { return IsFartherNorth(points[a], points[b]); });
+      between.push_back(ids[1]);
+    }
+  }
+  SortOnce(between);
+  return between;
+}
+
+namespace
+{
+/// Calls visit(a, p, q, b) for every edge p-q of a closed mesh, once.
+template <typename Visit>
+void ForEachQuad(const std::vector<std::int32_t>& triangles,
+  const std::vector<std::int32_t>& neighbors, const Visit& visit)
+{
+  for (std::size_t corner = 0; corner < triangles.size(); ++corner)
+  {
+    const std::size_t first = corner - corner % 3;
+    const std::int32_t across = neighbors[corner];
+    if (std::size_t(across) > corner / 3)
+    {
+      const std::int32_t p = triangles[first + (corner + 1) % 3];
+      const std::int32_t q = triangles[first + (corner + 2) % 3];
+      const std::int32_t* other = triangles.data() + std::size_t(3) * across;
+      visit(triangles[corner], p, q, other[0] + other[1] + other[2] - p - q);
+    }
+  }
+}
+}
+
+std::vector<std::int32_t> FindFlat(
+  const SpacePoints& points, const std::vector<std::int32_t>& triangles)
+{
+  constexpr int Enough = 3;
+  const std::vector<std::int32_t> neighbors =
+    FindNeighbors(triangles, static_cast<std::int64_t>(points.size()));
+  // Nearly always floating-point arithmetic finds enough sharp edges at every point.
+  std::vector<std::int32_t> sharp(points.size());
+  const auto count = [&](std::int32_t p, std::int32_t q, int sign)
+  {
+    sharp[p] += int(sign > 0);
+    sharp[q] += int(sign > 0);
+  };
+  const auto areUsual = std::all_of(points.begin(), points.end(), IsInFilterRange3D);
+  ForEachQuad(triangles, neighbors,
+    [&](std::int32_t a, std::int32_t p, std::int32_t q, std::int32_t b)
+    {
+      const int sign = FilteredOrientation3D(points[a], points[p], points[q], points[b]);
+      count(p, q, areUsual && sign == 1 ? 1 : 0);
+    });
+  const auto isShort = [&](std::int32_t id) { return sharp[id] < Enough; };
+  std::vector<std::int32_t> flat;
+  std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(flat), isShort);
+  if (flat.empty())
+  {
+    return flat;
+  }
+  std::fill(sharp.begin(), sharp.end(), 0);
+  ForEachQuad(triangles, neighbors,
+    [&](std::int32_t a, std::int32_t p, std::int32_t q, std::int32_t b)
+    { count(p, q, FindOrientation3D(points[a], points[p], points[q], points[b])); });
+  flat.erase(
+    std::remove_if(flat.begin(), flat.end(), [&](std::int32_t id) { return !isShort(id); }),
+    flat.end());
+  SortOnce(flat);
+  return flat;
+}
+
+}

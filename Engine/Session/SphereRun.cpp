@@ -1,0 +1,646 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SphereRun.h"
+
+#include "Array.h"
+#include "ExactPredicates.h"
+#include "HullInserter.h"
+#include "InputChecks.h"
+#include "SmallestAngle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <type_traits>
+
+namespace delaunayflip
+{
+
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+/// Sine and cosine of an angle in degrees, exact at multiples of 90. The angle is first reduced by
+/// such multiples, which rounds nothing.
+void FindSineAndCosine(double degrees, double& sine, double& cosine)
+{
+  const double turned = std::fmod(degrees, 360.0);
+  const double quarters = std::floor(turned / 90.0 + 0.5);
+  const double rest = (turned - 90.0 * quarters) * (Pi / 180.0);
+  const double first = std::sin(rest), second = std::cos(rest);
+  switch (static_cast<int>(quarters) & 3)
+  {
+    case 0:
+      sine = first;
+      cosine = second;
+      break;
+    case 1:
+      sine = second;
+      cosine = -first;
+      break;
+    case 2:
+      sine = -first;
+      cosine = -second;
+      break;
+    default:
+      sine = -second;
+      cosine = first;
+  }
+}
+
+void RequirePlainPoints(const PointInput& input, const PointOptions& options)
+{
+  const auto require = [](bool isValid, const std::string& message)
+  {
+    if (!isValid)
+    {
+      throw InvalidOptions(message);
+    }
+  };
+  require(input.Points.Count == 0 || input.Points.Stride >= 3,
+    "points on a sphere need x, y and z; PlaceOnSphere makes them of longitudes and latitudes");
+  require(input.NumberOfSegments == 0,
+    "a triangulation on a sphere cannot have segments, outlines or holes yet");
+  require(input.NumberOfHoleSeeds == 0 && input.NumberOfRegions == 0 && !input.Sizes,
+    "a triangulation on a sphere cannot have hole seeds, regions or sizes yet");
+  require(options.NumberOfPieces <= 1,
+    "points cannot be triangulated in several pieces: gather them in one process first");
+  require(options.MaximumIterations < 0,
+    "a triangulation on a sphere cannot be stopped after a number of iterations");
+  PointOptions plain = options;
+  const PointOptions defaults;
+  ForEachPointOption(
+    [&](const char* name, const auto& given, const auto& standard)
+    {
+      using Option = std::decay_t<decltype(given)>;
+      const bool isOfPlane =
+        !std::is_same_v<Option, ProjectionKind> && !std::is_same_v<Option, RingRuleKind>;
+      require(!isOfPlane || given == standard,
+        ToCamelCase(name) + " has no meaning on a sphere yet: leave it out");
+    },
+    plain, defaults);
+}
+
+/// @throws RunAborted if an observer stops it, or has stopped its constructor.
+void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
+{
+  const auto isAborted = [&] { return session.GetReport().StopReason == StopReasonKind::Aborted; };
+  if (!isAborted())
+  {
+    session.Advance(-1, {}, progress);
+  }
+  if (isAborted())
+  {
+    throw RunAborted();
+  }
+}
+}
+
+void PlaceOnSphere(double longitude, double latitude, double xyz[3])
+{
+  double sine = 0.0, cosine = 0.0, ofEast = 0.0, toPole = 0.0;
+  FindSineAndCosine(longitude, sine, cosine);
+  FindSineAndCosine(latitude, toPole, ofEast);
+  xyz[0] = ofEast * cosine + 0.0; // never -0.0
+  xyz[1] = ofEast * sine + 0.0;
+  xyz[2] = toPole + 0.0;
+}
+
+SphereRun::SphereRun(
+  const PointInput& input, const PointOptions& options, const ProgressObserver& progress)
+  : Input(input),
+    Options(options)
+{
+  CheckOptions(options);
+  CheckPointCount(input.Points.Count);
+  RequirePlainPoints(input, options);
+  this->Observer = progress;
+  this->Reset();
+  this->Stages = { { "triangulate on the sphere", OnStop::Forgets, 0.0,
+    Whole([this] { this->Run(); }), {} } };
+}
+
+void SphereRun::Reset()
+{
+  this->Current = 0;
+  this->Done = 0.0;
+  this->Starts = 0;
+  this->Triangles.clear();
+  this->Neighbors.clear();
+  this->FlipCounts.clear();
+  this->States.clear();
+  this->Planar = FlipReport();
+  this->Report = FlipReport();
+  this->Report.Points = this->Input.Points.Count;
+  this->Report.GeometryUsed = GeometryKind::Sphere;
+  this->Report.GeometryReason = "points are triangulated on a sphere";
+  KeepAnglesBefore({}, this->Report);
+  KeepAnglesAfter({}, this->Report);
+}
+
+bool SphereRun::Advance(
+  std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress)
+try
+{
+  if (iterations == 0 || this->IsOver())
+  {
+    return !this->IsOver();
+  }
+  const TemporaryValue<ProgressObserver> told(this->Observer, progress);
+  this->Reset();
+  this->RunStages(this->Stages.size());
+  if (progress)
+  {
+    progress(1.0);
+  }
+  for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
+  {
+    observer(this->Report.Iterations[i]);
+  }
+  return false;
+}
+catch (const RunAborted&)
+{
+  this->Abort();
+  return false;
+}
+catch (...)
+{
+  this->Reset();
+  throw;
+}
+
+void SphereRun::Run()
+{
+  this->ReadPoints();
+  while (this->Start())
+  {
+    this->Flip();
+    std::vector<std::int32_t> hidden;
+    if (this->Report.NonDelaunayAfter > 0)
+    {
+      hidden = FindHidden(this->Points, this->Triangles, this->Center);
+    }
+    if (this->LeaveOut(hidden, PointState::Inside) || !this->InsertLeftOut())
+    {
+      continue;
+    }
+    if (!this->LeaveOut(FindFlat(this->Points, this->Triangles), PointState::Inside))
+    {
+      break;
+    }
+  }
+  this->Complete();
+}
+
+void SphereRun::ReadPoints()
+{
+  const PlaneArray& given = this->Input.Points;
+  const std::int64_t numbers = given.Count == 0 ? 0 : (given.Count - 1) * given.Stride + 3;
+  PlaneArray points = given;
+  std::vector<float> floats;
+  std::vector<double> doubles;
+  const auto copy = [&](const auto* values, auto& copied)
+  {
+    copied.resize(numbers);
+    CopyMemory(values, numbers * static_cast<std::int64_t>(sizeof(*values)), copied.data(),
+      this->Input.Stream);
+    points = PlaneArray(copied.data(), given.Count, given.Stride);
+  };
+  if (this->Input.OnDevice && given.Floats)
+  {
+    copy(given.Floats, floats);
+  }
+  else if (this->Input.OnDevice)
+  {
+    copy(given.Doubles, doubles);
+  }
+  this->Points.resize(given.Count);
+  this->States.assign(given.Count, PointState::Used);
+  this->UsedPoint.resize(given.Count);
+  std::iota(this->UsedPoint.begin(), this->UsedPoint.end(), 0);
+  for (std::int64_t i = 0; i < given.Count; ++i)
+  {
+    this->Points[i] = { points.Get(i, 0), points.Get(i, 1), points.Get(i, 2) };
+    if (!IsFinite(this->Points[i]))
+    {
+      this->States[i] = PointState::NotFinite;
+    }
+  }
+}
+
+std::vector<std::int32_t> SphereRun::ListActive() const
+{
+  std::vector<std::int32_t> active;
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    if (this->States[i] == PointState::Used)
+    {
+      active.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  return active;
+}
+
+/// Makes a closed mesh in which all triangles face outside, of the points that are not left out, or
+/// of four points.
+/// @returns false if there is none, because all points lie in one plane.
+bool SphereRun::Start()
+{
+  constexpr int MostStarts = 50;
+  for (;;)
+  {
+    const std::vector<std::int32_t> simplex = FindSimplex(this->Points, this->ListActive());
+    this->Triangles.clear();
+    if (simplex.empty() || ++this->Starts > MostStarts)
+    {
+      return this->StartFromSimplex();
+    }
+    this->StartInPlane(simplex.front());
+    if (this->Triangles.empty())
+    {
+      return this->StartFromSimplex();
+    }
+    if (this->ChooseCenter(simplex))
+    {
+      return true;
+    }
+    this->LeaveOut(FindStrays(this->Points, this->Triangles, this->Center), PointState::LeftOut);
+  }
+}
+
+/// Triangulates the active points, projected from the one that is farthest north. Points at places
+/// of others are marked.
+void SphereRun::StartInPlane(std::int32_t pole)
+{
+  const StereographicProjection projection(this->Points[pole]);
+  std::vector<std::int32_t> ids;
+  std::vector<double> places;
+  for (const std::int32_t i : this->ListActive())
+  {
+    double place[2];
+    projection.Project(this->Points[i], place);
+    if (IsSamePlace(this->Points[i], this->Points[pole]))
+    {
+      this->UsedPoint[i] = pole;
+      this->States[i] = i == pole ? PointState::Used : PointState::Repeated;
+    }
+    else if (!IsFinite(place[0]) || !IsFinite(place[1]))
+    {
+      this->States[i] = PointState::LeftOut;
+    }
+    else
+    {
+      ids.push_back(i);
+      places.insert(places.end(), place, place + 2);
+    }
+  }
+  PointInput plane;
+  plane.Points = PlaneArray(places.data(), SizeOf(ids), 2);
+  PointOptions options;
+  static_cast<FlipOptions&>(options) = this->Options;
+  const ProgressObserver progress = this->TellHalf();
+  FlipSession session(plane, options, progress);
+  AdvanceToEnd(session, progress);
+  const FlipReport& report = session.GetReport();
+  AddReport(this->Planar, report);
+  std::vector<std::int64_t> used(ids.size());
+  session.StoreUsedPoints(used.data());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const std::int32_t other = ids[used[i]];
+    if (other != ids[i])
+    {
+      const bool isSame = IsSamePlace(this->Points[ids[i]], this->Points[other]);
+      this->UsedPoint[ids[i]] = isSame ? other : ids[i];
+      this->States[ids[i]] = isSame ? PointState::Repeated : PointState::LeftOut;
+    }
+  }
+  this->Triangles.resize(3 * report.Triangles);
+  this->Neighbors.resize(3 * report.Triangles);
+  session.StoreTriangles(MutableTriangleArray(this->Triangles.data(), report.Triangles));
+  session.StoreNeighbors(this->Neighbors.data());
+  for (std::int32_t& id : this->Triangles)
+  {
+    id = ids[id];
+  }
+  JoinPole(this->Triangles, this->Neighbors, pole);
+}
+
+/// The four triangles of a simplex of all points that are not inside. The others are inserted in
+/// the end.
+bool SphereRun::StartFromSimplex()
+{
+  for (PointState& state : this->States)
+  {
+    state = state == PointState::LeftOut ? PointState::Used : state;
+  }
+  const std::vector<std::int32_t> active = this->ListActive();
+  const std::vector<std::int32_t> simplex = FindSimplex(this->Points, active);
+  if (simplex.empty())
+  {
+    return false;
+  }
+  this->LeaveOut(active, PointState::LeftOut);
+  this->LeaveOut(simplex, PointState::Used);
+  const std::int32_t a = simplex[0], b = simplex[1], c = simplex[2], d = simplex[3];
+  this->Triangles = { a, b, c, b, a, d, c, b, d, a, c, d };
+  this->Center = FindCenter(this->Points, simplex);
+  return true;
+}
+
+/// Marks those of the points that are left out which are at the place of another one, or of a
+/// corner of the simplex. The projection has found all others.
+void SphereRun::MarkRepeated()
+{
+  const bool isSimplex = SizeOf(this->Triangles) == 12;
+  std::vector<std::int32_t> ids;
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    const bool isCorner = isSimplex && this->States[i] == PointState::Used;
+    if (isCorner || this->States[i] == PointState::LeftOut)
+    {
+      ids.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  std::stable_sort(ids.begin(), ids.end(),
+    [this](std::int32_t a, std::int32_t b)
+    {
+      const bool isFirst =
+        this->States[a] == PointState::Used && this->States[b] != PointState::Used;
+      return IsFartherNorth(this->Points[a], this->Points[b]) ||
+        (IsSamePlace(this->Points[a], this->Points[b]) && isFirst);
+    });
+  for (std::size_t i = 1; i < ids.size(); ++i)
+  {
+    if (IsSamePlace(this->Points[ids[i]], this->Points[ids[i - 1]]))
+    {
+      this->States[ids[i]] = PointState::Repeated;
+      this->UsedPoint[ids[i]] = ids[i - 1];
+    }
+  }
+}
+
+/// Takes the origin if it is inside of the mesh, else a place inside of the simplex.
+/// @returns whether all triangles face outside, seen from there.
+bool SphereRun::ChooseCenter(const std::vector<std::int32_t>& simplex)
+{
+  const auto faceOutside = [this](const PlanePoint& center)
+  {
+    this->Center = center;
+    for (std::size_t first = 0; first < this->Triangles.size(); first += 3)
+    {
+      if (!FacesOutside(this->Points, &this->Triangles[first], center))
+      {
+        return false;
+      }
+    }
+    return true;
+  };
+  return faceOutside({ 0.0, 0.0, 0.0 }) || faceOutside(FindCenter(this->Points, simplex));
+}
+
+/// @returns whether there are any.
+bool SphereRun::LeaveOut(const std::vector<std::int32_t>& points, PointState state)
+{
+  for (const std::int32_t i : points)
+  {
+    this->States[i] = state;
+  }
+  return !points.empty();
+}
+
+/// Flips the mesh until all edges are convex, as far as triangles do not turn over.
+void SphereRun::Flip()
+{
+  TriangleMesh mesh;
+  mesh.Points = PointArray(&this->Points.data()->U, SizeOf(this->Points));
+  mesh.Triangles = TriangleArray(this->Triangles.data(), SizeOf(this->Triangles) / 3);
+  mesh.Center[0] = this->Center.U;
+  mesh.Center[1] = this->Center.V;
+  mesh.Center[2] = this->Center.W;
+  mesh.Whole.StarsAreSimple = true; // the mesh is closed and every triangle faces outside
+  FlipOptions options = this->Options;
+  options.Geometry = GeometryKind::Sphere;
+  options.Criterion = CriterionKind::InCircle;
+  options.TieRule = TieRuleKind::Canonical;
+  const ProgressObserver progress = this->TellHalf();
+  FlipSession session(mesh, options, progress);
+  AdvanceToEnd(session, progress);
+  this->Report = session.GetReport();
+  this->FlipCounts.resize(mesh.Triangles.Count);
+  session.StoreFlipCounts(this->FlipCounts.data());
+  session.StoreTriangles(MutableTriangleArray(this->Triangles.data(), mesh.Triangles.Count));
+}
+
+/// @returns false if there are points that others have put inside of the hull, and all must begin
+/// again.
+bool SphereRun::InsertLeftOut()
+{
+  this->MarkRepeated();
+  HullInserter hull(this->Points, this->Center, this->Triangles);
+  bool isSame = true;
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    if (this->States[i] == PointState::LeftOut)
+    {
+      hull.Insert(static_cast<std::int32_t>(i));
+      isSame = false;
+    }
+  }
+  if (isSame)
+  {
+    return true;
+  }
+  this->Triangles = hull.ListTriangles();
+  if (this->LeaveOut(FindBetween(this->Points, this->Triangles), PointState::Inside))
+  {
+    return false;
+  }
+  this->Flip(); // decides ties
+  return true;
+}
+
+/// Tells half of the work that is left, because nobody knows how much follows.
+ProgressObserver SphereRun::TellHalf()
+{
+  const double begin = this->Done;
+  const double half = 0.5 * (1.0 - begin);
+  this->Done += half;
+  if (!this->Observer)
+  {
+    return {};
+  }
+  return [this, begin, half](double share) { return this->Observer(begin + half * share); };
+}
+
+//------------------------------------------------------------------------------
+/// Removes the triangles behind which the origin is not.
+void SphereRun::OpenMesh()
+{
+  std::size_t kept = 0;
+  for (std::size_t t = 0; 3 * t < this->Triangles.size(); ++t)
+  {
+    if (FacesOutside(this->Points, &this->Triangles[3 * t], { 0.0, 0.0, 0.0 }))
+    {
+      std::copy_n(&this->Triangles[3 * t], 3, &this->Triangles[3 * kept]);
+      this->FlipCounts[kept++] = this->FlipCounts[t];
+    }
+  }
+  this->Report.FromPoints.LargeTriangles = SizeOf(this->Triangles) / 3 - std::int64_t(kept);
+  this->Triangles.resize(3 * kept);
+  this->FlipCounts.resize(kept);
+}
+
+void SphereRun::Complete()
+{
+  FlipReport& report = this->Report;
+  report.Points = SizeOf(this->Points);
+  report.GeometryUsed = GeometryKind::Sphere;
+  report.GeometryReason = "points are triangulated on a sphere";
+  report.FromPoints = PointCounts();
+  report.Defects.clear();
+  report.StopReason = StopReasonKind::Converged;
+  report.BuildSeconds += this->Planar.BuildSeconds;
+  report.FlipSeconds += this->Planar.FlipSeconds;
+  if (this->Options.Projection == ProjectionKind::OpenSphere)
+  {
+    this->OpenMesh();
+  }
+  this->Neighbors = FindNeighbors(this->Triangles, SizeOf(this->Points));
+  report.Triangles = SizeOf(this->Triangles) / 3;
+  const auto boundary = std::count(this->Neighbors.begin(), this->Neighbors.end(), -1);
+  report.Edges = EdgeCounts();
+  report.Edges.Edges = (SizeOf(this->Triangles) + boundary) / 2;
+  report.Edges.Boundary = report.Edges.Fixed = boundary;
+  KeepAnglesBefore({}, report); // nobody sees the triangles from which flips begin
+  this->ListUnused();
+  report.EulerCharacteristic = report.FromPoints.Used - report.Edges.Edges + report.Triangles;
+}
+
+/// Counts and names the points that have no triangle.
+void SphereRun::ListUnused()
+{
+  std::vector<char> hasTriangle(this->Points.size());
+  for (const std::int32_t id : this->Triangles)
+  {
+    hasTriangle[id] = 1;
+  }
+  FlipReport& report = this->Report;
+  PointCounts& counts = report.FromPoints;
+  counts.Used = std::count(hasTriangle.begin(), hasTriangle.end(), 1);
+  Defect notFinite(DefectKind::PointsNotFinite), repeated(DefectKind::PointsRepeated),
+    inside(DefectKind::PointsInside);
+  const auto note = [](Defect& defect, std::int64_t id)
+  {
+    ++defect.Count;
+    if (SizeOf(defect.FirstIds) < MostNamedIds)
+    {
+      defect.FirstIds.push_back(id);
+    }
+  };
+  const bool hasHull = counts.Used > 0;
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    const auto id = static_cast<std::int64_t>(i);
+    if (this->States[i] == PointState::NotFinite)
+    {
+      note(notFinite, id);
+    }
+    else if (this->States[i] == PointState::Repeated)
+    {
+      note(repeated, id);
+    }
+    else if (hasHull && hasTriangle[i] == 0)
+    {
+      this->States[i] = PointState::Inside;
+      note(inside, id);
+    }
+  }
+  counts.NotFinite = notFinite.Count;
+  counts.Repeated = repeated.Count;
+  counts.Inside = inside.Count;
+  Defect inPlane(DefectKind::PointsInOnePlane);
+  inPlane.Count = hasHull ? 0 : report.Points;
+  for (const Defect& defect : { notFinite, repeated, inside, inPlane })
+  {
+    AddDefect(defect, report.Defects);
+  }
+}
+
+//------------------------------------------------------------------------------
+void SphereRun::StoreTriangles(const MutableTriangleArray& triangles)
+{
+  for (std::int64_t t = 0; t < triangles.Count; ++t)
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      triangles.Set(t, slot, this->Triangles[3 * t + slot]);
+    }
+  }
+}
+
+void SphereRun::StoreFlipCounts(std::int32_t* counts)
+{
+  std::copy(this->FlipCounts.begin(), this->FlipCounts.end(), counts);
+}
+
+void SphereRun::StoreNeighbors(std::int32_t* neighbors)
+{
+  std::copy(this->Neighbors.begin(), this->Neighbors.end(), neighbors);
+}
+
+void SphereRun::StoreUsedPoints(std::int64_t* ids)
+{
+  std::iota(ids, ids + this->Input.Points.Count, std::int64_t(0));
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    std::size_t place = i;
+    while (this->States[place] == PointState::Repeated)
+    {
+      place = this->UsedPoint[place];
+    }
+    const bool isUsed =
+      this->States[place] == PointState::Used || this->States[place] == PointState::LeftOut;
+    ids[i] = isUsed ? std::int64_t(place) : -1;
+  }
+}
+
+void SphereRun::StoreRegions(std::int32_t* labels)
+{
+  std::fill_n(labels, this->Report.Triangles, 0);
+}
+
+//------------------------------------------------------------------------------
+namespace
+{
+[[noreturn]] void RefuseChange()
+{
+  throw InvalidOptions(
+    "points of a triangulation on a sphere cannot be inserted, moved or removed yet");
+}
+}
+
+void SphereRun::StoreSources(std::int32_t*)
+{
+  throw InvalidOptions("triangles of points have no sources; these are for a mesh");
+}
+
+bool SphereRun::Insert(const PlaneArray&, const ProgressObserver&) { RefuseChange(); }
+
+bool SphereRun::Move(const PointMove&, const ProgressObserver&) { RefuseChange(); }
+
+bool SphereRun::Remove(const std::int64_t*, std::int64_t, const ProgressObserver&)
+{
+  RefuseChange();
+}
+
+bool SphereRun::Compact(const ProgressObserver&) { RefuseChange(); }
+
+bool SphereRun::Ask(const PlaceQuery&, const ProgressObserver&)
+{
+  throw InvalidOptions("a triangulation on a sphere cannot be asked about places yet");
+}
+
+}

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ByteSource.h"
+#include "FilteredPredicates.h"
+#include "FlipTestSupport.h"
+#include "FuzzTarget.h"
+#include "PointTriangulation.h"
+#include "RandomInputs.h"
+#include "References.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <numeric>
+#include <set>
+
+/// @file
+/// Triangulations on a sphere from points as a target for fuzzers, judged by rational numbers.
+
+namespace delaunayflip
+{
+namespace
+{
+
+struct SphereCase
+{
+  std::vector<Point3> Points;
+  bool AreFloats = false;
+  bool AreAnywhere = false; ///< On no sphere, perhaps so nearly in a plane that nothing is inside.
+  std::vector<float> Floats; ///< If they are.
+
+  PlaneArray View() const
+  {
+    const auto count = static_cast<std::int64_t>(this->Points.size());
+    if (this->AreFloats)
+    {
+      return { this->Floats.data(), count, 3 };
+    }
+    return { this->Points.data()->data(), count, 3 };
+  }
+};
+
+/// A point with small whole coordinates at one distance from the origin, of which there are many.
+Point3 DrawLatticePoint(ByteSource& source)
+{
+  constexpr int Kinds[][3] = { { 0, 0, 9 }, { 1, 4, 8 }, { 3, 6, 6 }, { 4, 4, 7 } };
+  Point3 p{};
+  std::copy_n(Kinds[source.Draw(4)], 3, p.begin());
+  std::rotate(p.begin(), p.begin() + source.Draw(3), p.end());
+  if (source.Once(2))
+  {
+    std::swap(p[0], p[1]);
+  }
+  for (double& x : p)
+  {
+    x = source.Once(2) ? -x : x;
+  }
+  return p;
+}
+
+/// Longitudes and latitudes on a grid, of the whole globe or of a part.
+Point3 DrawGridPoint(ByteSource& source, int step, int part)
+{
+  Point3 p{};
+  PlaceOnSphere(step * static_cast<int>(source.Draw(part)),
+    step * (static_cast<int>(source.Draw(13)) - 6), p.data());
+  return p;
+}
+
+/// A direction, of length 1 but for rounding.
+Point3 DrawDirection(std::mt19937& random, double spread)
+{
+  std::normal_distribution<double> normal;
+  Point3 p{ spread * normal(random), spread * normal(random), 1.0 };
+  if (spread >= 1.0)
+  {
+    p[2] = normal(random);
+  }
+  const double length = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+  for (double& x : p)
+  {
+    x /= length;
+  }
+  return p;
+}
+
+SphereCase MakeSphereCase(const std::uint8_t* bytes, std::size_t size)
+{
+  ByteSource source(bytes, size);
+  SphereCase drawn;
+  std::vector<Point3>& points = drawn.Points;
+  const std::uint32_t count = 1 + source.Draw(source.Once(8) ? 200 : 24);
+  const std::uint32_t kind = source.Draw(5);
+  const double spreads[] = { 1.0, 1.0, 0.1, 1e-3, 1e-7 };
+  const double spread = spreads[source.Draw(5)];
+  const int step = 1 + static_cast<int>(source.Draw(15)), part = source.Once(2) ? 4 : 36;
+  std::mt19937 random = source.MakeRandom();
+  const std::vector<PointFamily> families = ListPointFamilies();
+  const PointFamily& family = families[source.Draw(static_cast<std::uint32_t>(families.size()))];
+  while (points.size() < count)
+  {
+    if (kind == 0)
+    {
+      points.push_back(DrawLatticePoint(source));
+    }
+    else if (kind == 1)
+    {
+      points.push_back(DrawGridPoint(source, step, part));
+    }
+    else if (kind == 2)
+    {
+      const FourPoints four = family.Draw(random);
+      points.insert(points.end(), four.begin(), four.end());
+    }
+    else
+    {
+      points.push_back(DrawDirection(random, spread));
+    }
+    if (source.Once(8)) // one that nearly coincides
+    {
+      Point3 near = points[source.Draw(static_cast<std::uint32_t>(points.size()))];
+      near[source.Draw(3)] *= 1.0 + 0x1p-52 * source.Draw(3);
+      points.push_back(near);
+    }
+  }
+  if (source.Once(8))
+  {
+    points[source.Draw(static_cast<std::uint32_t>(points.size()))][source.Draw(3)] = NAN;
+  }
+  drawn.AreAnywhere = kind == 2;
+  drawn.AreFloats = kind != 2 && source.Once(3);
+  for (Point3& p : points)
+  {
+    for (double& x : p)
+    {
+      x = drawn.AreFloats ? float(x) : x;
+      drawn.Floats.push_back(float(x));
+    }
+  }
+  return drawn;
+}
+
+struct SphereResult
+{
+  std::vector<std::int32_t> Triangles, Neighbors;
+  std::vector<std::int64_t> Used;
+  FlipReport Report;
+};
+
+SphereResult Triangulate(const SphereCase& drawn, int threads)
+{
+  PointInput input;
+  input.Points = drawn.View();
+  const PointOptions sphere = With(&PointOptions::Projection, ProjectionKind::Sphere);
+  FlipSession session(input, WithThreads(threads, sphere));
+  session.Advance();
+  SphereResult result;
+  result.Report = session.GetReport();
+  result.Triangles = StoreTriangles(session);
+  result.Neighbors.resize(result.Triangles.size());
+  session.StoreNeighbors(result.Neighbors.data());
+  result.Used.resize(drawn.Points.size());
+  session.StoreUsedPoints(result.Used.data());
+  return result;
+}
+
+/// The triangles face outside, all points are on their inner sides, and there is the right number.
+void ExpectHull(const std::vector<Point3>& points, const SphereResult& result)
+{
+  const PointCounts& counts = result.Report.FromPoints;
+  EXPECT_EQ(2 * counts.Used - 4, result.Report.Triangles);
+  EXPECT_EQ(2, result.Report.EulerCharacteristic);
+  for (const std::int32_t neighbor : result.Neighbors)
+  {
+    EXPECT_LE(0, neighbor);
+  }
+  for (std::size_t i = 0; i < result.Triangles.size(); i += 3)
+  {
+    const Point3 &a = points[result.Triangles[i]], &b = points[result.Triangles[i + 1]],
+                 &c = points[result.Triangles[i + 2]];
+    for (const Point3& p : points)
+    {
+      if (std::isfinite(p[0] + p[1] + p[2]))
+      {
+        EXPECT_LE(0, RationalOrientation3D(a, b, c, p));
+      }
+    }
+  }
+}
+
+/// All points lie in one plane but for rounding, or there are fewer than four places. Points are at
+/// most 9 from the origin.
+void ExpectFlat(const std::vector<Point3>& points)
+{
+  std::vector<Point3> finite;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(finite),
+    [](const Point3& p) { return std::isfinite(p[0] + p[1] + p[2]); });
+  std::sort(finite.begin(), finite.end());
+  finite.erase(std::unique(finite.begin(), finite.end()), finite.end());
+  for (std::size_t i = 0; i + 3 < finite.size(); ++i)
+  {
+    const auto offset = [&](int k)
+    {
+      const Point3 &p = finite[i + k], &q = finite[i + 3];
+      return Vector3{ p[0] - q[0], p[1] - q[1], p[2] - q[2] };
+    };
+    EXPECT_LT(std::fabs(Dot(offset(0), Cross(offset(1), offset(2)))), 1e-13);
+  }
+}
+
+/// Reports a failure of GoogleTest for each promise that is broken: the result is the same on one
+/// thread and on several and for points in another order; the triangles are the convex hull.
+void JudgeSphereCase(const SphereCase& drawn)
+{
+  const SphereResult result = Triangulate(drawn, 1);
+  const SphereResult other = Triangulate(drawn, 3);
+  EXPECT_EQ(result.Triangles, other.Triangles);
+  EXPECT_EQ(result.Used, other.Used);
+  ExpectSameStatistics(result.Report, other.Report);
+  if (result.Report.Triangles == 0)
+  {
+    if (!drawn.AreAnywhere)
+    {
+      ExpectFlat(drawn.Points);
+    }
+    return;
+  }
+  ExpectHull(drawn.Points, result);
+  SphereCase reversed = drawn;
+  std::reverse(reversed.Points.begin(), reversed.Points.end());
+  for (std::size_t i = 0; i < reversed.Floats.size(); ++i)
+  {
+    reversed.Floats[i] = float(reversed.Points[i / 3][i % 3]);
+  }
+  const auto list = [](const SphereCase& points, const SphereResult& made)
+  {
+    std::set<std::set<Point3>> triangles;
+    for (std::size_t i = 0; i < made.Triangles.size(); i += 3)
+    {
+      triangles.insert({ points.Points[made.Triangles[i]], points.Points[made.Triangles[i + 1]],
+        points.Points[made.Triangles[i + 2]] });
+    }
+    return triangles;
+  };
+  EXPECT_EQ(list(drawn, result), list(reversed, Triangulate(reversed, 1)));
+}
+
+}
+}
+
+using namespace delaunayflip;
+
+void SetUpTarget(int* argc, char** argv)
+{
+  testing::InitGoogleTest(argc, argv);
+  testing::GTEST_FLAG(throw_on_failure) = true;
+}
+
+void RunTarget(const std::uint8_t* bytes, std::size_t size)
+{
+  JudgeSphereCase(MakeSphereCase(bytes, size));
+}
+
+void PrintTarget(const std::uint8_t* bytes, std::size_t size)
+{
+  const SphereCase drawn = MakeSphereCase(bytes, size);
+  std::cout.precision(17);
+  std::cout << (drawn.AreFloats ? "floats\n" : "doubles\n");
+  for (const Point3& p : drawn.Points)
+  {
+    std::cout << "point " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  }
+}

@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests of triangulations on a sphere, and of meshes of globes, by NumPy arrays."""
+import unittest
+import warnings
+
+import delaunayflip
+import numpy
+
+
+def make_directions(count, seed=1):
+    points = numpy.random.default_rng(seed).normal(size=(count, 3))
+    return points / numpy.linalg.norm(points, axis=1, keepdims=True)
+
+
+def make_grid(step):
+    longitudes, latitudes = numpy.meshgrid(numpy.arange(-180, 181, step), numpy.arange(-90, 91, step))
+    return numpy.c_[longitudes.ravel(), latitudes.ravel()]
+
+
+def find_volume(points, triangles):
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    return (numpy.cross(a, b) * c).sum() / 6
+
+
+def sort_rows(triangles):
+    """The triangles, each beginning with its lowest id, in order."""
+    first = triangles.argmin(axis=1)[:, None]
+    return sorted(map(tuple, numpy.take_along_axis(triangles, (first + numpy.arange(3)) % 3, axis=1).tolist()))
+
+
+class Sphere(unittest.TestCase):
+    def test_grid(self):
+        """Both ends of a row are one place, and so is a pole."""
+        grid = make_grid(10)
+        globe = delaunayflip.triangulate_sphere(grid)
+        places = 36 * 17 + 2
+        self.assertEqual(globe.report.used_points, places)
+        self.assertEqual(globe.report.repeated_points, len(grid) - places)
+        self.assertEqual(globe.triangles.shape, (2 * places - 4, 3))
+        self.assertEqual(len(set(globe.used_points[grid[:, 1] == 90])), 1)
+        self.assertTrue((globe.used_points[grid[:, 0] == 180] == globe.used_points[grid[:, 0] == -180]).all())
+        self.assertGreater(find_volume(globe.points, globe.triangles), 4.1)
+        numpy.testing.assert_array_equal(globe.points[grid[:, 1] == -90], [[0, 0, -1]] * 37)
+
+    def test_neighbors(self):
+        globe = delaunayflip.triangulate_sphere(make_directions(300))
+        for slot in range(3):
+            ends = globe.triangles[:, [(slot + 1) % 3, (slot + 2) % 3]]
+            across = globe.triangles[globe.neighbors[:, slot]]
+            for end in (0, 1):
+                self.assertTrue((across == ends[:, [end]]).any(axis=1).all())
+
+    def test_flips_end_there(self):
+        """Flips of a mesh, here that of points which then move, end at the same triangles."""
+        points = make_directions(500, 2)
+        before = points + 0.003 * make_directions(500, 3)
+        before /= numpy.linalg.norm(before, axis=1, keepdims=True)
+        start = delaunayflip.triangulate_sphere(before).triangles
+        flipped = delaunayflip.flip(points, start, geometry="sphere", tie_rule="canonical")
+        self.assertEqual(flipped.report.geometry_used, "sphere")
+        self.assertGreater(flipped.report.total_flips, 2)
+        self.assertEqual(flipped.report.defects, "")
+        globe = delaunayflip.triangulate_sphere(points)
+        self.assertEqual(sort_rows(flipped.triangles), sort_rows(globe.triangles))
+
+    def test_degrees_and_radians(self):
+        degrees = numpy.random.default_rng(4).uniform((-180, -90), (180, 90), (100, 2))
+        first = delaunayflip.triangulate_sphere(degrees)
+        second = delaunayflip.triangulate_sphere(numpy.radians(degrees), degrees=False)
+        numpy.testing.assert_allclose(first.points, second.points, atol=1e-14)
+        self.assertEqual(sort_rows(first.triangles), sort_rows(second.triangles))
+        places = delaunayflip.triangulate_sphere(first.points)
+        numpy.testing.assert_array_equal(places.triangles, first.triangles)
+
+    def test_open(self):
+        europe = numpy.random.default_rng(5).uniform((-10, 35), (30, 70), (200, 2))
+        whole = delaunayflip.triangulate_sphere(europe)
+        self.assertEqual(len(whole.triangles), 2 * 200 - 4)
+        part = delaunayflip.triangulate_sphere(europe, open=True)
+        self.assertEqual(part.report.large_triangles, len(whole.triangles) - len(part.triangles))
+        self.assertEqual(part.report.euler_characteristic, 1)
+        self.assertGreater((part.neighbors == -1).sum(), 3)
+        self.assertLess(set(sort_rows(part.triangles)), set(sort_rows(whole.triangles)))
+
+    def test_voronoi_corners(self):
+        globe = delaunayflip.triangulate_sphere(make_directions(200, 6))
+        corners = globe.voronoi_corners
+        numpy.testing.assert_allclose(numpy.linalg.norm(corners, axis=1), 1, atol=1e-15)
+        reach = (corners[:, None] * globe.points[globe.triangles]).sum(axis=2)
+        numpy.testing.assert_allclose(reach, reach[:, :1] * [1, 1, 1], atol=1e-12)
+        self.assertTrue((corners @ globe.points.T <= reach[:, :1] + 1e-12).all())  # none is nearer
+
+    def test_points_inside(self):
+        points = make_directions(100, 7)
+        points[[3, 8]] *= 0.5
+        points[20, 1] = numpy.nan
+        with self.assertWarnsRegex(UserWarning, r"2 points inside .*\(first: 3, 8\)"):
+            globe = delaunayflip.triangulate_sphere(points)
+        self.assertEqual(globe.report.points_inside, 2)
+        self.assertEqual(globe.used_points[[3, 8, 20]].tolist(), [-1, -1, -1])
+        self.assertEqual(globe.report.points_not_finite, 1)
+
+    def test_no_triangles(self):
+        for points in (numpy.empty((0, 2)), [[0, 0], [90, 0], [0, 90]],
+                       numpy.c_[numpy.arange(0, 360, 45), numpy.zeros(8)]):
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                globe = delaunayflip.triangulate_sphere(points)
+            self.assertEqual(globe.triangles.shape, (0, 3))
+            self.assertEqual(globe.voronoi_corners.shape, (0, 3))
+        self.assertIn("one plane", globe.report.defects)
+
+    def test_callbacks(self):
+        shares, rows = [], []
+        globe = delaunayflip.triangulate_sphere(
+            make_directions(1000, 8), progress=shares.append, on_iteration=rows.append)
+        self.assertEqual(shares, sorted(shares))
+        self.assertEqual(shares[-1], 1)
+        self.assertEqual(len(rows), globe.report.number_of_iterations)
+        stopped = delaunayflip.triangulate_sphere(make_directions(1000, 8), progress=lambda share: share < 0.3)
+        self.assertEqual(stopped.report.stop_reason, "aborted")
+        self.assertEqual(len(stopped.triangles), 0)
+
+    def test_refusals(self):
+        points = make_directions(10)
+        triangles = delaunayflip.triangulate_sphere(points).triangles
+        for words, options in (("several pieces", {"pieces": 2}), ("in-circle", {"criterion": "opposite-angles"})):
+            with self.assertRaisesRegex(delaunayflip.InvalidOptions, words):
+                delaunayflip.flip(points, triangles, geometry="sphere", **options)
+        with self.assertRaises(ValueError):
+            delaunayflip.triangulate_sphere(numpy.zeros((3, 4)))
+
+
+if __name__ == "__main__":
+    unittest.main()

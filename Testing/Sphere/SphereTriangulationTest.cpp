@@ -1,0 +1,340 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipError.h"
+#include "HullInserter.h"
+#include "MeshAudit.h"
+#include "PointTriangulation.h"
+#include "References.h"
+#include "SphereTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+/// @file
+/// Triangulations on a sphere from points.
+
+namespace delaunayflip
+{
+namespace
+{
+
+struct SphereResult
+{
+  std::vector<std::int32_t> Triangles, Neighbors;
+  std::vector<std::int64_t> Used;
+  FlipReport Report;
+};
+
+PointOptions Projected(ProjectionKind projection = ProjectionKind::Sphere)
+{
+  return With(&PointOptions::Projection, projection);
+}
+
+SphereResult Triangulate(
+  const std::vector<Point3>& points, const PointOptions& options = Projected())
+{
+  PointInput input;
+  input.Points = PlaneArray(points.data()->data(), static_cast<std::int64_t>(points.size()), 3);
+  const FlipSession session = FlipPoints(input, options);
+  SphereResult result;
+  result.Report = session.GetReport();
+  result.Triangles = StoreTriangles(session);
+  result.Neighbors.resize(result.Triangles.size());
+  session.StoreNeighbors(result.Neighbors.data());
+  result.Used.resize(points.size());
+  session.StoreUsedPoints(result.Used.data());
+  return result;
+}
+
+/// Triangles by the places of their corners, which names of points do not change.
+std::set<std::array<Point3, 3>> ListPlaces(
+  const std::vector<Point3>& points, const std::vector<std::int32_t>& triangles)
+{
+  std::set<std::array<Point3, 3>> places;
+  for (std::size_t i = 0; i < triangles.size(); i += 3)
+  {
+    std::array<Point3, 3> corners{ points[triangles[i]], points[triangles[i + 1]],
+      points[triangles[i + 2]] };
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    places.insert(corners);
+  }
+  return places;
+}
+
+/// How many edges are not convex, in rational numbers.
+std::int64_t CountReflexEdges(const std::vector<Point3>& points, const SphereResult& result)
+{
+  std::int64_t reflex = 0;
+  for (std::size_t corner = 0; corner < result.Triangles.size(); ++corner)
+  {
+    if (result.Neighbors[corner] < 0)
+    {
+      continue;
+    }
+    const std::size_t t = corner - corner % 3;
+    const std::int32_t* ids = &result.Triangles[t];
+    const std::int32_t* other = &result.Triangles[3 * result.Neighbors[corner]];
+    const std::int32_t across =
+      other[0] + other[1] + other[2] - (ids[0] + ids[1] + ids[2] - ids[corner % 3]);
+    reflex += static_cast<std::int64_t>(
+      RationalOrientation3D(points[ids[0]], points[ids[1]], points[ids[2]], points[across]) < 0);
+  }
+  return reflex;
+}
+
+class SphereTest : public testing::TestWithParam<SphereFamily>
+{
+protected:
+  std::vector<Point3> Points = GetParam().Make();
+  OwnedMesh<double> Hull = MakeHull(this->Points);
+};
+
+TEST_P(SphereTest, IsTheConvexHull)
+{
+  const SphereResult result = Triangulate(this->Points);
+  EXPECT_EQ(0, CountReflexEdges(this->Points, result));
+  const FlipReport& report = result.Report;
+  EXPECT_EQ(2 * report.FromPoints.Used - 4, report.Triangles);
+  EXPECT_EQ(2, report.EulerCharacteristic);
+  EXPECT_EQ(0, report.Edges.Boundary);
+  EXPECT_EQ(this->Hull.Triangles.size(), result.Triangles.size());
+  if (!GetParam().HasTies)
+  {
+    EXPECT_EQ(ToTriangleSet(this->Hull.Triangles), ToTriangleSet(result.Triangles));
+  }
+  std::set<Point3> places(this->Points.begin(), this->Points.end());
+  const auto given = static_cast<std::int64_t>(this->Points.size());
+  EXPECT_EQ(given - static_cast<std::int64_t>(places.size()), report.FromPoints.Repeated);
+  EXPECT_EQ(
+    static_cast<std::int64_t>(places.size()) - report.FromPoints.Used, report.FromPoints.Inside);
+}
+
+TEST_P(SphereTest, DependsOnThePlacesAlone)
+{
+  const auto expected = ListPlaces(this->Points, Triangulate(this->Points).Triangles);
+  std::mt19937 random(5);
+  for (int i = 0; i < 3; ++i)
+  {
+    std::shuffle(this->Points.begin(), this->Points.end(), random);
+    EXPECT_EQ(expected, ListPlaces(this->Points, Triangulate(this->Points).Triangles));
+  }
+}
+
+TEST_P(SphereTest, IsTheSameOnThreads)
+{
+  const SphereResult one = Triangulate(this->Points, WithThreads(1, Projected()));
+  for (const int threads : { 2, 3, 16 })
+  {
+    const SphereResult several = Triangulate(this->Points, WithThreads(threads, Projected()));
+    EXPECT_EQ(one.Triangles, several.Triangles);
+    EXPECT_EQ(one.Neighbors, several.Neighbors);
+    EXPECT_EQ(one.Used, several.Used);
+  }
+}
+
+/// It is what flips make of any mesh of the same points.
+TEST_P(SphereTest, IsWhatFlipsEndAt)
+{
+  const SphereResult result = Triangulate(this->Points);
+  OwnedMesh<double> start{ this->Hull.Points, result.Triangles };
+  Scramble(start, 5000, 1);
+  const FlipResult flipped = Flip(start.View(), OnSphere());
+  if (!GetParam().IsPart) // the origin sees all triangles
+  {
+    EXPECT_EQ(ToTriangleSet(result.Triangles), ToTriangleSet(flipped.Triangles));
+  }
+}
+
+/// What the fast way makes, the slow one makes, too: one point after the other.
+TEST_P(SphereTest, IsTheHullOfInsertion)
+{
+  SpacePoints points;
+  std::vector<std::int32_t> all(this->Points.size());
+  std::iota(all.begin(), all.end(), 0);
+  for (const Point3& p : this->Points)
+  {
+    points.push_back({ p[0], p[1], p[2] });
+  }
+  const std::vector<std::int32_t> s = FindSimplex(points, all);
+  HullInserter hull(points, FindCenter(points, s),
+    { s[0], s[1], s[2], s[1], s[0], s[3], s[2], s[1], s[3], s[0], s[2], s[3] });
+  for (const std::int32_t i : all)
+  {
+    hull.Insert(i);
+  }
+  EXPECT_EQ(this->Hull.Triangles.size(), hull.ListTriangles().size());
+  if (!GetParam().HasTies)
+  {
+    EXPECT_EQ(ToTriangleSet(this->Hull.Triangles), ToTriangleSet(hull.ListTriangles()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, SphereTest, testing::ValuesIn(ListSphereFamilies()),
+  [](const auto& each) { return std::string(each.param.Name); });
+
+std::vector<Point3> PlaceAll(const std::vector<std::array<double, 2>>& degrees)
+{
+  std::vector<Point3> points(degrees.size());
+  for (std::size_t i = 0; i < degrees.size(); ++i)
+  {
+    PlaceOnSphere(degrees[i][0], degrees[i][1], points[i].data());
+  }
+  return points;
+}
+
+TEST(SphereTriangulation, HasOnePointWhereLongitudesMeet)
+{
+  const std::vector<Point3> points = PlaceAll({ { 0, 90 }, { 77, 90 }, { -90, -90 }, { 0, -90 },
+    { 180, 0 }, { -180, -0.0 }, { 540, 0 }, { 0, 0 }, { 360, 0 }, { 90, 0 }, { -90, 0 } });
+  const SphereResult result = Triangulate(points);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 0, 2, 2, 4, 4, 4, 7, 7, 9, 10 }), result.Used);
+  EXPECT_EQ(5, result.Report.FromPoints.Repeated);
+  EXPECT_EQ(8, result.Report.Triangles);
+  ASSERT_EQ(1u, result.Report.Defects.size());
+  EXPECT_EQ(DefectKind::PointsRepeated, result.Report.Defects[0].Kind);
+  EXPECT_EQ((std::vector<std::int64_t>{ 1, 3, 5 }), result.Report.Defects[0].FirstIds);
+}
+
+TEST(SphereTriangulation, PlacesAnglesExactly)
+{
+  double xyz[3];
+  PlaceOnSphere(90.0, 0.0, xyz);
+  EXPECT_EQ((Point3{ 0.0, 1.0, 0.0 }), (Point3{ xyz[0], xyz[1], xyz[2] }));
+  EXPECT_FALSE(std::signbit(xyz[0]));
+  PlaceOnSphere(45.0, 30.0, xyz);
+  EXPECT_NEAR(std::sqrt(0.375), xyz[0], 1e-15);
+  EXPECT_NEAR(std::sqrt(0.375), xyz[1], 1e-15);
+  EXPECT_NEAR(0.5, xyz[2], 1e-15);
+  double turned[3];
+  for (const double longitude : { -135.0, -45.0, 45.0, 135.0, 12.5 })
+  {
+    PlaceOnSphere(longitude, 30.0, xyz);
+    PlaceOnSphere(longitude + 360.0, 30.0, turned);
+    EXPECT_TRUE(std::equal(xyz, xyz + 3, turned)) << longitude;
+  }
+  PlaceOnSphere(std::numeric_limits<double>::infinity(), 0.0, xyz);
+  EXPECT_TRUE(std::isnan(xyz[0]));
+}
+
+TEST(SphereTriangulation, OpensPartsOfASphere)
+{
+  for (const SphereFamily& family : ListSphereFamilies())
+  {
+    const std::vector<Point3> points = family.Make();
+    const SphereResult closed = Triangulate(points);
+    const SphereResult open = Triangulate(points, Projected(ProjectionKind::OpenSphere));
+    const bool isPart = family.IsPart;
+    EXPECT_EQ(isPart, open.Report.Edges.Boundary > 0) << family.Name;
+    EXPECT_EQ(isPart ? 1 : 2, open.Report.EulerCharacteristic) << family.Name;
+    EXPECT_EQ(
+      closed.Report.Triangles, open.Report.Triangles + open.Report.FromPoints.LargeTriangles)
+      << family.Name;
+    EXPECT_EQ(closed.Report.FromPoints.Used, open.Report.FromPoints.Used) << family.Name;
+  }
+}
+
+TEST(SphereTriangulation, LeavesPointsInsideOut)
+{
+  std::vector<Point3> points = MakeRandomPoints<double>(300, 4);
+  for (std::size_t i = 0; i < points.size(); i += 10)
+  {
+    std::for_each(points[i].begin(), points[i].end(), [](double& x) { x *= 0.9; });
+  }
+  points[17][1] = std::numeric_limits<double>::quiet_NaN();
+  points[5] = { 0.0, 0.0, 0.0 };
+  const SphereResult result = Triangulate(points);
+  EXPECT_EQ(31, result.Report.FromPoints.Inside);
+  EXPECT_EQ(1, result.Report.FromPoints.NotFinite);
+  EXPECT_EQ(268, result.Report.FromPoints.Used);
+  EXPECT_EQ(-1, result.Used[10]);
+  EXPECT_EQ(-1, result.Used[17]);
+  EXPECT_EQ(11, result.Used[11]);
+  points[17] = points[16];
+  EXPECT_EQ(0, CountReflexEdges(points, Triangulate(points)));
+}
+
+/// Differences in the last bits, which the projection does not see.
+TEST(SphereTriangulation, IsExactWherePointsNearlyCoincide)
+{
+  std::vector<Point3> points = MakeRandomPoints<double>(30, 6);
+  std::mt19937 random(3);
+  for (std::size_t i = 0; i < 300; ++i)
+  {
+    Point3 near = points[i];
+    for (double& x : near)
+    {
+      x += static_cast<double>(random() % 9) * 0x1p-53;
+    }
+    points.push_back(near);
+  }
+  const SphereResult result = Triangulate(points);
+  EXPECT_EQ(0, CountReflexEdges(points, result));
+  EXPECT_EQ(MakeHull(points).Triangles.size(), result.Triangles.size());
+  const auto expected = ListPlaces(points, result.Triangles);
+  std::shuffle(points.begin(), points.end(), random);
+  EXPECT_EQ(expected, ListPlaces(points, Triangulate(points).Triangles));
+}
+
+TEST(SphereTriangulation, HasNoTrianglesInOnePlane)
+{
+  std::vector<Point3> points;
+  for (int i = 0; i < 8; ++i)
+  {
+    points.push_back(PlaceAll({ { 45.0 * i, 0.0 } })[0]);
+  }
+  const SphereResult result = Triangulate(points);
+  EXPECT_EQ(0, result.Report.Triangles);
+  ASSERT_EQ(1u, result.Report.Defects.size());
+  EXPECT_EQ(DefectKind::PointsInOnePlane, result.Report.Defects[0].Kind);
+  EXPECT_EQ(0, Triangulate({ { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 } }).Report.Triangles);
+  EXPECT_EQ(
+    4, Triangulate({ { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 1 } }).Report.Triangles);
+}
+
+TEST(SphereTriangulation, MayBeStopped)
+{
+  const std::vector<Point3> points = MakeRandomPoints<double>(20000, 7);
+  PointInput input;
+  input.Points = PlaneArray(points.data()->data(), 20000, 3);
+  FlipSession session(input, Projected());
+  double last = -1.0;
+  EXPECT_FALSE(session.Advance(-1, {},
+    [&](double share)
+    {
+      EXPECT_LE(last, share);
+      last = share;
+      return share < 0.6;
+    }));
+  EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
+  EXPECT_EQ(0, session.GetReport().Triangles);
+  session.Advance();
+  EXPECT_TRUE(session.GetReport().Converged());
+  EXPECT_EQ(2 * 20000 - 4, session.GetReport().Triangles);
+}
+
+TEST(SphereTriangulation, RefusesWhatItCannotDoYet)
+{
+  const std::vector<Point3> points = MakeRandomPoints<double>(20, 7);
+  PointInput input;
+  input.Points = PlaneArray(points.data()->data(), 20, 3);
+  FlipSession session = FlipPoints(input, Projected());
+  EXPECT_THROW(session.Insert(input.Points), InvalidOptions);
+  EXPECT_THROW(session.Ask(PlaceQuery()), InvalidOptions);
+  EXPECT_THROW(
+    FlipSession(input, With(&PointOptions::MinimumAngle, 20.0, Projected())), InvalidOptions);
+  const std::int64_t segment[] = { 0, 1 };
+  input.Segments = segment;
+  input.NumberOfSegments = 1;
+  EXPECT_THROW(FlipSession(input, Projected()), InvalidOptions);
+  PointInput flat;
+  flat.Points = PlaneArray(points.data()->data(), 30, 2);
+  EXPECT_THROW(FlipSession(flat, Projected()), InvalidOptions);
+}
+
+}
+}
