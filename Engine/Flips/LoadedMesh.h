@@ -98,6 +98,9 @@ public:
   /// until it is one again.
   /// @param targets the places of all points. Only if HasMemory says so, they may be on a device.
   virtual MotionResult MovePoints(const PointInput& targets) = 0;
+  /// Removes points from such a triangulation.
+  /// @param ids ascending.
+  virtual MotionResult RemovePoints(const std::vector<VertexId>& ids) = 0;
   /// Whether an array is in the memory of the backend's device.
   virtual bool HasMemory(const void*) const { return false; }
 

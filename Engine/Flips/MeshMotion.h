@@ -51,6 +51,23 @@ public:
     return result;
   }
 
+  /// Removes points. @param ids of the mesh, by vertex. @param removed their ids, ascending, in the
+  /// memory of the backend. @param settle as above.
+  template <typename Real, typename Settle>
+  MotionResult Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed,
+    const Backend& backend, const Settle& settle)
+  {
+    MotionResult result;
+    result.IsThere = this->GetMotion<Real>(backend).Remove(mesh, ids, removed);
+    if (result.IsThere)
+    {
+      result.Rounds = 1;
+      result.Flips = settle(true);
+      ClearCandidates(mesh.Edges, backend);
+    }
+    return result;
+  }
+
   // Public for nvcc.
 
   /// Whether the points that are not used are at the places of the same ones afterwards, or not

@@ -221,6 +221,19 @@ public:
                                : this->InsertPoints(places, this->Points.Doubles);
   }
 
+  MotionResult RemovePoints(const std::vector<VertexId>& ids) override
+  {
+    const bool canRemove = this->Mesh.NumberOfTriangles > 0 && this->FiltersApply &&
+      this->Report.FromPoints.Repeated == 0;
+    if (!canRemove)
+    {
+      return MotionResult();
+    }
+    this->RequireStates();
+    return this->Places.Floats ? this->RemoveHere(ids, this->Points.Floats)
+                               : this->RemoveHere(ids, this->Points.Doubles);
+  }
+
   MotionResult MovePoints(const PointInput& targets) override
   {
     if (this->Range != CoordinateRange::Usual || this->Mesh.NumberOfTriangles == 0)
@@ -349,6 +362,22 @@ public:
         }
       });
     return places;
+  }
+
+  /// Tells UsedPoint of points that are used no more. Public for nvcc, too.
+  void ForgetUsed(const Array<VertexId>& removed)
+  {
+    const bool isNew = this->UsedPoint.Size() == 0;
+    if (isNew)
+    {
+      this->UsedPoint = this->Backend.template MakeArray<VertexId>(this->Report.Points);
+    }
+    VertexId* used = this->UsedPoint.Data();
+    this->Backend.ForEach(isNew ? this->Report.Points : 0,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { used[i] = static_cast<VertexId>(i); });
+    const VertexId* ids = removed.Data();
+    this->Backend.ForEach(static_cast<std::int64_t>(removed.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { used[ids[i]] = NoVertex; });
   }
 
   /// Makes the states of edges if there are none.
@@ -684,20 +713,50 @@ private:
     const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
       this->Order.VertexOfRank.Data() };
     const auto settle = [&](bool hasOtherEdges)
-    {
-      if (hasOtherEdges)
-      {
-        this->MakeLoopOfGrown<Real>(coordinates.Data());
-      }
-      else
-      {
-        this->Loop->Restart();
-      }
-      return this->Loop->Converge();
-    };
+    { return this->Settle(coordinates.Data(), hasOtherEdges); };
     const MotionResult result =
       this->Motion.Move(mesh, targets, this->UsedPoint, this->Backend, settle);
     this->CountGrown();
+    return result;
+  }
+
+  /// Flips until the mesh is Delaunay, after points have moved or gone. @returns the flips.
+  template <typename Real>
+  std::int64_t Settle(const Real* coordinates, bool hasOtherEdges)
+  {
+    if (hasOtherEdges)
+    {
+      this->MakeLoopOfGrown<Real>(coordinates);
+    }
+    else
+    {
+      this->Loop->Restart();
+    }
+    return this->Loop->Converge();
+  }
+
+  template <typename Real>
+  MotionResult RemoveHere(const std::vector<VertexId>& ids, Array<Real>& coordinates)
+  {
+    Array<VertexId> removed = this->Backend.template MakeArray<VertexId>(SizeOf(ids));
+    this->Backend.Upload(ids.data(), SizeOf(ids), removed.Data());
+    const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
+      this->Order.VertexOfRank.Data() };
+    const auto settle = [&](bool hasOtherEdges)
+    {
+      this->Points.Count -= SizeOf(ids);
+      this->Places = PlaneArray(coordinates.Data(), this->Points.Count, 2);
+      return this->Settle(coordinates.Data(), hasOtherEdges);
+    };
+    this->Asker = PlaceAsker<BackendT>();
+    const MotionResult result =
+      this->Motion.Remove(mesh, this->Order.VertexOfRank.Data(), removed, this->Backend, settle);
+    if (result.IsThere)
+    {
+      this->ForgetUsed(removed);
+      this->Report.FromPoints.NotFinite += SizeOf(ids);
+      this->CountGrown();
+    }
     return result;
   }
 

@@ -3,14 +3,10 @@
 #ifndef DELAUNAYFLIP_HULLCHANGE_H
 #define DELAUNAYFLIP_HULLCHANGE_H
 
-#include "Array.h"
 #include "EdgeMesh.h"
-#include "MeshRoom.h"
 #include "PlaneMesh.h"
 
 #include <cstdint>
-#include <stdexcept>
-#include <utility>
 
 /// @file
 /// How the boundary of a triangulation follows points that move. A triangle at the boundary that a
@@ -35,6 +31,13 @@ struct CutTriangle
   TriangleId Number, Last;
 };
 
+/// A vertex of which a corner is known while triangles change.
+struct TrackedVertex
+{
+  VertexId Vertex;
+  CornerId Corner;
+};
+
 /// How much a mesh has while one thread changes it.
 struct HullSizes
 {
@@ -52,6 +55,15 @@ struct HullView
   std::uint32_t* SideOfVertex; ///< By vertex, the side that begins there, or NoSide.
   CutTriangle* Cuts; ///< The triangles that were cut off last, in their order.
   std::int64_t NumberOfCuts;
+  std::uint32_t* TrackOf = nullptr; ///< By vertex, its number among these, or NoSide; or null.
+  TrackedVertex* Tracked = nullptr;
+
+  /// A corner of a vertex that is on the boundary.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex) const
+  {
+    const EdgeId edge = this->Sides[this->SideOfVertex[vertex]].Edge;
+    return PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[2 * edge]);
+  }
 
   /// A corner of a vertex that had this one before the cuts.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex, CornerId before) const
@@ -68,8 +80,7 @@ struct HullView
       return MakeCorner(triangle, SlotOf(before));
     }
     // All vertices of a triangle that is cut off are then on the boundary.
-    const EdgeId edge = this->Sides[this->SideOfVertex[vertex]].Edge;
-    return PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[2 * edge]);
+    return this->FindCorner(vertex);
   }
 
   DELAUNAYFLIP_HOST_DEVICE VertexId GetStart(const BoundarySide& side) const
@@ -158,7 +169,21 @@ public:
     *this->Result = this->Sizes;
   }
 
-private:
+protected:
+  /// Keeps the corners of a triangle that has changed.
+  DELAUNAYFLIP_HOST_DEVICE void Track(TriangleId triangle) const
+  {
+    for (int slot = 0; slot < 3 && this->Hull.TrackOf; ++slot)
+    {
+      const std::uint32_t track =
+        this->Hull.TrackOf[this->Edges.Triangles[triangle].Vertices[slot]];
+      if (track != NoSide)
+      {
+        this->Hull.Tracked[track].Corner = MakeCorner(triangle, slot);
+      }
+    }
+  }
+
   /// Cuts the triangle at the side from `start` off, if it must be. @returns whether it was.
   DELAUNAYFLIP_HOST_DEVICE bool CutAt(VertexId start, VertexId& opposite)
   {
@@ -260,7 +285,10 @@ private:
   DELAUNAYFLIP_HOST_DEVICE void DropTriangle(TriangleId number)
   {
     const auto last = static_cast<TriangleId>(--this->Sizes.Triangles);
-    this->Hull.Cuts[this->Sizes.Cuts++] = { number, last };
+    if (!this->Hull.TrackOf)
+    {
+      this->Hull.Cuts[this->Sizes.Cuts++] = { number, last };
+    }
     if (last == number)
     {
       return;
@@ -272,6 +300,7 @@ private:
     {
       this->Edges.CornerOfHalfEdge[triangle.HalfEdges[slot]] = MakeCorner(number, slot);
     }
+    this->Track(number);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void DropEdge(EdgeId number)
@@ -300,170 +329,6 @@ private:
   EdgeMeshView Edges;
   HullSizes Sizes;
   HullSizes* Result;
-};
-
-/// The boundary of a mesh on a backend, which is kept while points move.
-template <typename Backend>
-class HullBoundary
-{
-public:
-  explicit HullBoundary(const Backend& backend)
-    : Device(backend)
-  {
-  }
-
-  HullView View(const PlaneMesh& mesh)
-  {
-    return { mesh, this->Sides.Data(), this->SideOfVertex.Data(), this->Cuts.Data(),
-      this->NumberOfCuts };
-  }
-
-  /// Cuts triangles off that are not counter-clockwise at the places of now.
-  /// @returns whether it has changed the mesh.
-  bool CutOff(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, true); }
-  /// Makes the boundary convex.
-  bool FillUp(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, false); }
-
-  /// Whether there was no room for what has to be cut off; then points do not move in place.
-  bool HasFailed() const { return this->Failed; }
-
-  // Public for nvcc.
-
-  /// Finds the boundary of a mesh.
-  void Build(const EdgeMesh& mesh, const PlaneMesh& plane)
-  {
-    const CornerId* corners = mesh.CornerOfHalfEdge.Data();
-    const auto isOnBoundary = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
-    { return corners[2 * edge + 1] == NoCorner ? 1 : 0; };
-    const typename Backend::Numbering numbering =
-      this->Device.Count(mesh.NumberOfEdges, isOnBoundary);
-    this->Count = numbering.Total;
-    const std::int64_t vertices = plane.Places.Count;
-    Reserve(this->Sides, 0, this->Count + MostCuts, this->Device);
-    Reserve(this->SideOfVertex, 0, vertices, this->Device);
-    Reserve(this->Cuts, 0, MostCuts, this->Device);
-    BoundarySide* sides = this->Sides.Data();
-    std::uint32_t* sideOfVertex = this->SideOfVertex.Data();
-    this->Device.ForEachNumbered(numbering, mesh.NumberOfEdges, isOnBoundary,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge, std::int64_t number)
-      {
-        if (isOnBoundary(edge) != 0)
-        {
-          sides[number] = { static_cast<EdgeId>(edge), NoSide, NoSide };
-        }
-      });
-    this->Device.ForEach(
-      vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sideOfVertex[i] = NoSide; });
-    this->Device.ForEach(this->Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { sideOfVertex[plane.GetStart(2 * sides[i].Edge)] = static_cast<std::uint32_t>(i); });
-    this->Device.ForEach(this->Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      {
-        const std::uint32_t after = sideOfVertex[plane.GetEnd(2 * sides[i].Edge)];
-        sides[i].After = after;
-        sides[after].Before = static_cast<std::uint32_t>(i);
-      });
-  }
-
-  /// Whether the boundary is a convex polygon that goes around once. If all triangles are
-  /// counter-clockwise, too, none overlap.
-  bool IsConvex(const PlaneMesh& plane)
-  {
-    const HullView hull = this->View(plane);
-    const BoundarySide* sides = this->Sides.Data();
-    constexpr std::int64_t Concave = std::int64_t(1) << 40;
-    const std::int64_t changes = this->Device.template Sum<std::int64_t>(this->Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
-      {
-        const BoundarySide side = sides[i];
-        const int turn = hull.FindTurn(side);
-        const bool isOther = hull.RunsUp(side) != hull.RunsUp(sides[side.Before]);
-        // On a line that goes on its sides run the same way.
-        const bool turnsBack = turn == 0 && isOther;
-        sum += turn < 0 || turnsBack ? Concave : std::int64_t(isOther);
-      });
-    return changes == 2;
-  }
-
-  /// Lists the vertices where the boundary must change. @returns how many there are.
-  std::int64_t ListPending(const HullView& hull, bool cuts)
-  {
-    const BoundarySide* sides = this->Sides.Data();
-    const auto mustChange = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    {
-      const bool must = cuts ? hull.MustCut(sides[i]) : hull.FindTurn(sides[i]) < 0;
-      return must ? 1 : 0;
-    };
-    const typename Backend::Numbering numbering = this->Device.Count(this->Count, mustChange);
-    if (numbering.Total > 0)
-    {
-      Reserve(this->Pending, 0, 2 * (this->Count + MostCuts), this->Device);
-      VertexId* pending = this->Pending.Data();
-      this->Device.ForEachNumbered(numbering, this->Count, mustChange,
-        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
-        {
-          if (mustChange(i) != 0)
-          {
-            pending[number] = hull.GetStart(sides[i]);
-          }
-        });
-    }
-    return numbering.Total;
-  }
-
-  bool Change(EdgeMesh& mesh, PlaneMesh plane, bool cuts)
-  {
-    const std::int64_t pendingCount = this->ListPending(this->View(plane), cuts);
-    if (pendingCount == 0)
-    {
-      return false;
-    }
-    const std::int64_t added = cuts ? 0 : this->Count;
-    ReserveMesh(mesh, mesh.NumberOfTriangles + added, mesh.NumberOfEdges + added, this->Device);
-    Reserve(this->Sides, this->Count, this->Count + MostCuts, this->Device);
-    plane.Edges = mesh.View();
-    HullSizes sizes{ mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count,
-      this->Count + MostCuts, 0, 0 };
-    Reserve(this->Sizes, 0, 1, this->Device);
-    this->Device.Upload(&sizes, 1, this->Sizes.Data());
-    const HullView hull = this->View(plane);
-    HullSizes* result = this->Sizes.Data();
-    VertexId* pending = this->Pending.Data();
-    this->Device.ForEach(1,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
-      {
-        HullEditor editor(hull, result);
-        if (cuts)
-        {
-          editor.CutOff(pending, pendingCount);
-        }
-        else
-        {
-          editor.FillUp(pending, pendingCount);
-        }
-      });
-    this->Device.Download(result, 1, &sizes);
-    mesh.NumberOfTriangles = sizes.Triangles;
-    mesh.NumberOfEdges = sizes.Edges;
-    this->Count = sizes.Sides;
-    this->NumberOfCuts = sizes.Cuts;
-    this->Failed = sizes.HasFailed != 0;
-    return true;
-  }
-
-private:
-  static constexpr std::int64_t MostCuts = 4096; ///< In one round.
-
-  const Backend& Device;
-  Array<BoundarySide> Sides;
-  Array<std::uint32_t> SideOfVertex;
-  Array<CutTriangle> Cuts;
-  std::int64_t NumberOfCuts = 0; ///< In the last change.
-  Array<VertexId> Pending;
-  Array<HullSizes> Sizes;
-  std::int64_t Count = 0; ///< How many sides there are.
-  bool Failed = false;
 };
 
 }

@@ -6,7 +6,7 @@
 #include "Array.h"
 #include "Atomics.h"
 #include "FlipError.h"
-#include "HullChange.h"
+#include "HullBoundary.h"
 #include "MeshRoom.h"
 #include "PlaceWalk.h"
 #include "PlaneMesh.h"
@@ -237,14 +237,30 @@ public:
     this->MostInverted =
       static_cast<std::uint32_t>(mesh.Edges.NumberOfTriangles / MostShare + Fewest);
     this->MakeRoom(mesh);
-    const EdgeMesh& edges = mesh.Edges;
-    const bool isKnown = edges.NumberOfTriangles == this->KnownTriangles &&
-      edges.NumberOfEdges == this->KnownEdges && mesh.Vertices == this->KnownVertices;
-    if (!isKnown)
+    this->RequireHull(mesh);
+  }
+
+  /// Removes the points with these ids, ascending. The states of edges say which have to be judged.
+  /// @param coordinates those of the mesh, and `ids` likewise. @param removed in the memory of the
+  /// backend.
+  /// @returns false if they have to be triangulated anew.
+  /// @throws BeyondDevice.
+  bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed)
+  {
+    Reserve(this->Failed, 0, 1, this->Device);
+    this->ResetFailed();
+    this->RequireHull(mesh);
+    const bool isDone =
+      this->Hull.Remove(mesh.Edges, this->ViewPlane(mesh), mesh.Coordinates, ids, removed);
+    MovingMesh<Real> left = mesh;
+    left.Vertices -= static_cast<std::int64_t>(removed.Size());
+    const bool isConvex = isDone && this->Hull.IsConvex(this->ViewPlane(left));
+    this->CheckFailed();
+    if (isConvex)
     {
-      this->Hull.Build(edges, this->ViewPlane(mesh));
+      this->End(left);
     }
-    this->KnownTriangles = -1; // until it ends well
+    return isConvex;
   }
 
   /// Moves all vertices that are not at their targets, some of them only a part of the way. The
@@ -298,6 +314,17 @@ public:
   }
 
   // Public for nvcc.
+
+  void RequireHull(const MovingMesh<Real>& mesh)
+  {
+    const bool isKnown = mesh.Edges.NumberOfTriangles == this->KnownTriangles &&
+      mesh.Edges.NumberOfEdges == this->KnownEdges && mesh.Vertices == this->KnownVertices;
+    if (!isKnown)
+    {
+      this->Hull.Build(mesh.Edges, this->ViewPlane(mesh));
+    }
+    this->KnownTriangles = -1; // until a change ends well
+  }
 
   /// All vertices go to their targets. @returns whether all these are usual.
   bool StartAll(const MovingMesh<Real>& mesh)

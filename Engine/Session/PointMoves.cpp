@@ -182,8 +182,8 @@ void PointRun::ReadPlaces(const PointMove& move)
 bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress)
 {
   std::vector<std::int64_t> removedBefore = this->Points.GetRemoved();
-  const bool keepsPoints =
-    removed == removedBefore && this->Places.Points.Count == this->Points.GetCaller().Points.Count;
+  const bool keepsNumbers = this->Places.Points.Count == this->Points.GetCaller().Points.Count;
+  const bool keepsPoints = removed == removedBefore;
   this->Points.Exchange(this->Places);
   this->Points.SetRemoved(std::move(removed));
   const auto goBack = [&]
@@ -194,7 +194,8 @@ bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObser
   };
   try
   {
-    if (keepsPoints && this->IsPlain() && this->MoveInPlace())
+    const bool isPlain = keepsNumbers && this->IsPlain();
+    if (isPlain && (keepsPoints ? this->MoveInPlace() : this->RemoveInPlace(removedBefore)))
     {
       return true;
     }
@@ -218,15 +219,7 @@ bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObser
 /// @returns false if the points have to be triangulated anew.
 bool PointRun::MoveInPlace()
 {
-  if (this->Points.GetOptions().MaximumIterations >= 0)
-  {
-    return false;
-  }
-  const StopWatch watch;
-  this->BatchEnds.clear();
-  this->Journal = { { this->Stages.size() - 1, AllPoints } };
-  MotionResult motion;
-  const bool isLoaded = this->TryOnBackend(
+  return this->ChangeInPlace(
     [&](LoadedMesh& mesh)
     {
       PointInput targets = this->Points.GetInput();
@@ -235,8 +228,36 @@ bool PointRun::MoveInPlace()
         targets.Points = this->Points.CopyToHost();
         targets.OnDevice = false;
       }
-      motion = mesh.MovePoints(targets);
+      return mesh.MovePoints(targets);
     });
+}
+
+/// Removes those that were not removed before. More than some are triangulated anew in less time,
+/// because one thread removes them, also on a GPU.
+bool PointRun::RemoveInPlace(const std::vector<std::int64_t>& before)
+{
+  constexpr std::size_t Most = 256;
+  const std::vector<std::int64_t>& now = this->Points.GetRemoved();
+  std::vector<VertexId> ids;
+  std::set_difference(
+    now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(ids));
+  return ids.size() <= Most &&
+    this->ChangeInPlace([&](LoadedMesh& mesh) { return mesh.RemovePoints(ids); });
+}
+
+/// @param change what to do with the mesh, unless that is made anew where the points are.
+template <typename Change>
+bool PointRun::ChangeInPlace(const Change& change)
+{
+  if (this->Points.GetOptions().MaximumIterations >= 0)
+  {
+    return false;
+  }
+  const StopWatch watch;
+  this->BatchEnds.clear();
+  this->Journal = { { this->Stages.size() - 1, AllPoints } };
+  MotionResult motion;
+  const bool isLoaded = this->TryOnBackend([&](LoadedMesh& mesh) { motion = change(mesh); });
   if (!isLoaded || !motion.IsThere)
   {
     return false;

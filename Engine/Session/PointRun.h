@@ -74,6 +74,9 @@ private:
   void ReadPlaces(const PointMove& move);
   bool GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress);
   bool MoveInPlace();
+  bool RemoveInPlace(const std::vector<std::int64_t>& before);
+  template <typename Change>
+  bool ChangeInPlace(const Change& change);
   void RecordMotion(const MotionResult& motion);
   bool WantsRefinement() const;
   void LabelRegions();

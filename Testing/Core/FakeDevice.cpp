@@ -111,6 +111,13 @@ public:
     this->Report.Backend = "CUDA: fake";
     return result;
   }
+  MotionResult RemovePoints(const std::vector<VertexId>& ids) override
+  {
+    const MotionResult result = this->Engine->RemovePoints(ids);
+    this->Report = this->Engine->GetInputReport();
+    this->Report.Backend = "CUDA: fake";
+    return result;
+  }
   void StartRefinement(const RefinementPlan& plan) override { this->Engine->StartRefinement(plan); }
   std::int64_t Refine() override
   {

@@ -471,6 +471,60 @@ TEST(Move, ComeAndGo)
   }
 }
 
+/// Points go in place: inside, on the boundary, on lattices, and those with many triangles.
+TEST(Move, PointsGoInPlace)
+{
+  std::mt19937 random(13);
+  Places lattice, wheel = { { 0.0, 0.0 } };
+  for (int i = 0; i < 900; ++i)
+  {
+    lattice.push_back({ static_cast<double>(i % 30), static_cast<double>(i / 30) });
+  }
+  for (int i = 0; i < 40; ++i)
+  {
+    wheel.push_back({ std::cos(0.05 * M_PI * i), std::sin(0.05 * M_PI * i) });
+  }
+  int inPlace = 0, all = 0;
+  for (const Places& points : { DrawPlaces(random, 2000), lattice, wheel, DrawPlaces(random, 20) })
+  {
+    std::vector<FlipSession> sessions;
+    for (const int threads : { 1, 3 })
+    {
+      sessions.emplace_back(PointInput{ View(points) }, PointOptions{ WithThreads(threads) });
+      sessions.back().Advance();
+    }
+    Places left = points;
+    for (int frame = 0; frame < 20; ++frame)
+    {
+      std::vector<std::int64_t> ids;
+      for (std::size_t i = 0; i < (frame % 3 == 0 ? 1 : points.size() / 40); ++i)
+      {
+        ids.push_back(static_cast<std::int64_t>(DrawIndex(random, points.size())));
+      }
+      for (FlipSession& session : sessions)
+      {
+        EXPECT_TRUE(session.Remove(ids.data(), static_cast<std::int64_t>(ids.size())));
+      }
+      for (const std::int64_t id : ids)
+      {
+        left[id] = { NAN, NAN };
+      }
+      const Triangulation expected = Triangulate(left);
+      ASSERT_EQ(Normalize(expected.Triangles), Normalize(StoreTriangles(sessions[0]))) << frame;
+      ASSERT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
+      std::vector<std::int64_t> used(points.size());
+      sessions[0].StoreUsedPoints(used.data());
+      ASSERT_EQ(expected.UsedPoints, used);
+      const FlipReport& report = sessions[0].GetReport();
+      ASSERT_EQ(expected.Report.Edges.Boundary, report.Edges.Boundary);
+      ASSERT_EQ(expected.Report.EulerCharacteristic, report.EulerCharacteristic);
+      inPlace += report.FromPoints.MoveRounds > 0 ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_LT(0.7 * all, inPlace);
+}
+
 /// After a stop, and after an error, all points are where they were.
 TEST(Move, AnObserverMayStop)
 {

@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_HULLBOUNDARY_H
+#define DELAUNAYFLIP_HULLBOUNDARY_H
+
+#include "Array.h"
+#include "Atomics.h"
+#include "BinarySearch.h"
+#include "EdgeMesh.h"
+#include "HullChange.h"
+#include "MeshRoom.h"
+#include "PlaneMesh.h"
+#include "VertexRemoval.h"
+
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// The boundary of a mesh on a backend, which is kept while points move.
+template <typename Backend>
+class HullBoundary
+{
+public:
+  explicit HullBoundary(const Backend& backend)
+    : Device(backend)
+  {
+  }
+
+  HullView View(const PlaneMesh& mesh)
+  {
+    return { mesh, this->Sides.Data(), this->SideOfVertex.Data(), this->Cuts.Data(),
+      this->NumberOfCuts };
+  }
+
+  /// Cuts triangles off that are not counter-clockwise at the places of now.
+  /// @returns whether it has changed the mesh.
+  bool CutOff(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, true); }
+  /// Makes the boundary convex.
+  bool FillUp(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, false); }
+
+  /// Whether there was no room for what has to be cut off; then points do not move in place.
+  bool HasFailed() const { return this->Failed; }
+
+  // Public for nvcc.
+
+  /// Removes the points with these ids, ascending.
+  /// @param ids by vertex, its point. @param targets the ids to remove, in the memory of the
+  /// backend.
+  /// @returns whether all were vertices, and could be removed one by one.
+  template <typename Real>
+  bool Remove(EdgeMesh& mesh, const PlaneMesh& plane, Real* coordinates, VertexId* ids,
+    const Array<VertexId>& targets)
+  {
+    const auto count = static_cast<std::int64_t>(targets.Size());
+    this->FindTracked(mesh, plane, ids, targets);
+    Reserve(this->Pending, 0, 2 * (this->Count + MostCuts), this->Device);
+    Reserve(this->Sides, this->Count, this->Count + MostCuts, this->Device);
+    HullSizes sizes{ mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count,
+      this->Count + MostCuts, 0, 0 };
+    Reserve(this->Sizes, 0, 1, this->Device);
+    this->Device.Upload(&sizes, 1, this->Sizes.Data());
+    HullView hull = this->View(plane);
+    hull.TrackOf = this->TrackOf.Data();
+    hull.Tracked = this->Tracked.Data();
+    HullSizes* result = this->Sizes.Data();
+    VertexId* pending = this->Pending.Data();
+    const std::int64_t vertices = plane.Places.Count;
+    this->Device.ForEach(1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
+      {
+        bool areVertices = true;
+        for (std::int64_t i = 0; i < count; ++i)
+        {
+          areVertices = areVertices && hull.Tracked[i].Corner != NoCorner;
+        }
+        result->HasFailed = areVertices ? 0 : 1;
+        VertexRemover<Real>(hull, result, coordinates, ids, vertices).Remove(count, pending);
+      });
+    this->Device.Download(result, 1, &sizes);
+    mesh.NumberOfTriangles = sizes.Triangles;
+    mesh.NumberOfEdges = sizes.Edges;
+    this->Count = sizes.Sides;
+    this->NumberOfCuts = 0;
+    return sizes.HasFailed == 0;
+  }
+
+  /// Finds a corner of each vertex to remove, and of as many that are the last ones.
+  void FindTracked(
+    EdgeMesh& mesh, const PlaneMesh& plane, const VertexId* ids, const Array<VertexId>& targets)
+  {
+    const auto count = static_cast<std::int64_t>(targets.Size());
+    const std::int64_t vertices = plane.Places.Count;
+    Reserve(this->TrackOf, 0, vertices, this->Device);
+    Reserve(this->Tracked, 0, 2 * count, this->Device);
+    std::uint32_t* trackOf = this->TrackOf.Data();
+    TrackedVertex* tracked = this->Tracked.Data();
+    const VertexId* wanted = targets.Data();
+    this->Device.ForEach(2 * count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) {
+        tracked[i] = { NoVertex, NoCorner };
+      });
+    this->Device.ForEach(vertices,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v)
+      {
+        const std::int64_t place =
+          FindEnd(std::int64_t(0), count, [=](std::int64_t i) { return wanted[i] < ids[v]; });
+        std::int64_t track = NoSide;
+        if (place < count && wanted[place] == ids[v])
+        {
+          track = place;
+        }
+        else if (v >= vertices - count)
+        {
+          track = v - (vertices - count) + count;
+        }
+        trackOf[v] = static_cast<std::uint32_t>(track);
+        if (track != NoSide)
+        {
+          tracked[track].Vertex = static_cast<VertexId>(v);
+        }
+      });
+    const TriangleRecord* triangles = mesh.Triangles.Data();
+    this->Device.ForEach(mesh.NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+      {
+        for (int slot = 0; slot < 3; ++slot)
+        {
+          const std::uint32_t track = trackOf[triangles[t].Vertices[slot]];
+          if (track != NoSide)
+          {
+            AtomicMin(&tracked[track].Corner, MakeCorner(static_cast<TriangleId>(t), slot));
+          }
+        }
+      });
+  }
+
+  /// Finds the boundary of a mesh.
+  void Build(const EdgeMesh& mesh, const PlaneMesh& plane)
+  {
+    const CornerId* corners = mesh.CornerOfHalfEdge.Data();
+    const auto isOnBoundary = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
+    { return corners[2 * edge + 1] == NoCorner ? 1 : 0; };
+    const typename Backend::Numbering numbering =
+      this->Device.Count(mesh.NumberOfEdges, isOnBoundary);
+    this->Count = numbering.Total;
+    const std::int64_t vertices = plane.Places.Count;
+    Reserve(this->Sides, 0, this->Count + MostCuts, this->Device);
+    Reserve(this->SideOfVertex, 0, vertices, this->Device);
+    Reserve(this->Cuts, 0, MostCuts, this->Device);
+    BoundarySide* sides = this->Sides.Data();
+    std::uint32_t* sideOfVertex = this->SideOfVertex.Data();
+    this->Device.ForEachNumbered(numbering, mesh.NumberOfEdges, isOnBoundary,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge, std::int64_t number)
+      {
+        if (isOnBoundary(edge) != 0)
+        {
+          sides[number] = { static_cast<EdgeId>(edge), NoSide, NoSide };
+        }
+      });
+    this->Device.ForEach(
+      vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sideOfVertex[i] = NoSide; });
+    this->Device.ForEach(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { sideOfVertex[plane.GetStart(2 * sides[i].Edge)] = static_cast<std::uint32_t>(i); });
+    this->Device.ForEach(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        const std::uint32_t after = sideOfVertex[plane.GetEnd(2 * sides[i].Edge)];
+        sides[i].After = after;
+        sides[after].Before = static_cast<std::uint32_t>(i);
+      });
+  }
+
+  /// Whether the boundary is a convex polygon that goes around once. If all triangles are
+  /// counter-clockwise, too, none overlap.
+  bool IsConvex(const PlaneMesh& plane)
+  {
+    const HullView hull = this->View(plane);
+    const BoundarySide* sides = this->Sides.Data();
+    constexpr std::int64_t Concave = std::int64_t(1) << 40;
+    const std::int64_t changes = this->Device.template Sum<std::int64_t>(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+      {
+        const BoundarySide side = sides[i];
+        const int turn = hull.FindTurn(side);
+        const bool isOther = hull.RunsUp(side) != hull.RunsUp(sides[side.Before]);
+        // On a line that goes on its sides run the same way.
+        const bool turnsBack = turn == 0 && isOther;
+        sum += turn < 0 || turnsBack ? Concave : std::int64_t(isOther);
+      });
+    return changes == 2;
+  }
+
+  /// Lists the vertices where the boundary must change. @returns how many there are.
+  std::int64_t ListPending(const HullView& hull, bool cuts)
+  {
+    const BoundarySide* sides = this->Sides.Data();
+    const auto mustChange = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    {
+      const bool must = cuts ? hull.MustCut(sides[i]) : hull.FindTurn(sides[i]) < 0;
+      return must ? 1 : 0;
+    };
+    const typename Backend::Numbering numbering = this->Device.Count(this->Count, mustChange);
+    if (numbering.Total > 0)
+    {
+      Reserve(this->Pending, 0, 2 * (this->Count + MostCuts), this->Device);
+      VertexId* pending = this->Pending.Data();
+      this->Device.ForEachNumbered(numbering, this->Count, mustChange,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
+        {
+          if (mustChange(i) != 0)
+          {
+            pending[number] = hull.GetStart(sides[i]);
+          }
+        });
+    }
+    return numbering.Total;
+  }
+
+  bool Change(EdgeMesh& mesh, PlaneMesh plane, bool cuts)
+  {
+    const std::int64_t pendingCount = this->ListPending(this->View(plane), cuts);
+    if (pendingCount == 0)
+    {
+      return false;
+    }
+    const std::int64_t added = cuts ? 0 : this->Count;
+    ReserveMesh(mesh, mesh.NumberOfTriangles + added, mesh.NumberOfEdges + added, this->Device);
+    Reserve(this->Sides, this->Count, this->Count + MostCuts, this->Device);
+    plane.Edges = mesh.View();
+    HullSizes sizes{ mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count,
+      this->Count + MostCuts, 0, 0 };
+    Reserve(this->Sizes, 0, 1, this->Device);
+    this->Device.Upload(&sizes, 1, this->Sizes.Data());
+    const HullView hull = this->View(plane);
+    HullSizes* result = this->Sizes.Data();
+    VertexId* pending = this->Pending.Data();
+    this->Device.ForEach(1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
+      {
+        HullEditor editor(hull, result);
+        if (cuts)
+        {
+          editor.CutOff(pending, pendingCount);
+        }
+        else
+        {
+          editor.FillUp(pending, pendingCount);
+        }
+      });
+    this->Device.Download(result, 1, &sizes);
+    mesh.NumberOfTriangles = sizes.Triangles;
+    mesh.NumberOfEdges = sizes.Edges;
+    this->Count = sizes.Sides;
+    this->NumberOfCuts = sizes.Cuts;
+    this->Failed = sizes.HasFailed != 0;
+    return true;
+  }
+
+private:
+  static constexpr std::int64_t MostCuts = 4096; ///< In one round.
+
+  const Backend& Device;
+  Array<BoundarySide> Sides;
+  Array<std::uint32_t> SideOfVertex;
+  Array<CutTriangle> Cuts;
+  std::int64_t NumberOfCuts = 0; ///< In the last change.
+  Array<VertexId> Pending;
+  Array<std::uint32_t> TrackOf;
+  Array<TrackedVertex> Tracked;
+  Array<HullSizes> Sizes;
+  std::int64_t Count = 0; ///< How many sides there are.
+  bool Failed = false;
+};
+
+}
+
+#endif
