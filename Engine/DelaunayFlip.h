@@ -192,7 +192,9 @@ public:
   bool Move(const PointMove& move, const ProgressObserver& progress = {});
 
   /// Removes points. The others keep their numbers. A removed point is used no more, as if it were
-  /// not finite, whatever place it gets by later moves. For sessions from points.
+  /// not finite, whatever place it gets by later moves. Up to 256 points at a time are removed in
+  /// place where Move would keep the mesh; otherwise the triangulation is made anew. For sessions
+  /// from points.
   /// @param ids of points; those that are removed already have no effect.
   /// @returns false if `progress` has asked to stop. Then no point is removed.
   /// @throws the same as Move.

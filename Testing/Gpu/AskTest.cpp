@@ -220,8 +220,8 @@ void ExpectInsertionAgrees(std::int64_t count)
 
 TEST_F(AskTest, PointsThatComeLaterAreInsertedAlike) { ExpectInsertionAgrees(20000); }
 
-/// Points move in place on both backends, with the same bits. The boundary changes, too.
-TEST_F(AskTest, PointsMoveAlike)
+/// Points move and go in place on both backends, with the same bits. The boundary changes, too.
+TEST_F(AskTest, PointsMoveAndGoAlike)
 {
   std::mt19937 random(7);
   for (const std::size_t count : { 3000, 100000 })
@@ -262,6 +262,18 @@ TEST_F(AskTest, PointsMoveAlike)
       EXPECT_TRUE(IsOnGpu(actual)) << actual.Backend;
       EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
     }
+    std::vector<std::int64_t> ids;
+    for (int i = 0; i < 100; ++i)
+    {
+      ids.push_back(static_cast<std::int64_t>(DrawIndex(random, count)));
+    }
+    for (FlipSession& session : sessions)
+    {
+      EXPECT_TRUE(session.Remove(ids.data(), SizeOf(ids)));
+    }
+    EXPECT_EQ(sessions[0].GetReport().FromPoints.MoveRounds,
+      sessions[1].GetReport().FromPoints.MoveRounds);
+    EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
   }
 }
 
