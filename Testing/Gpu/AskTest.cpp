@@ -271,8 +271,8 @@ TEST_F(AskTest, PointsMoveAndGoAlike)
     {
       EXPECT_TRUE(session.Remove(ids.data(), SizeOf(ids)));
     }
-    EXPECT_EQ(sessions[0].GetReport().FromPoints.MoveRounds,
-      sessions[1].GetReport().FromPoints.MoveRounds);
+    EXPECT_EQ(
+      sessions[0].GetReport().FromPoints.MoveRounds, sessions[1].GetReport().FromPoints.MoveRounds);
     EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
   }
 }
