@@ -104,7 +104,8 @@ class MovingTriangulation:
 
         Args:
             points: (n, 2) or (n, 3), or as many as ids. They are copied, in the precision of the first
-                ones. On a GPU they must have that precision, and stay unchanged until the next `move`.
+                ones. On a GPU they must have that precision and stay unchanged until the next `move`,
+                and no point may be removed before `compact`.
             ids: (k,) integers, with points in the host's memory. With an id twice, the last place counts.
             progress: Is asked at first, and while points are triangulated anew; False stops it.
 
