@@ -211,7 +211,8 @@ struct PointMove
 {
   PlaneArray Points; ///< One for each point of the caller, or for each id.
   const std::int64_t* Ids = nullptr; ///< The points that move; null: all. In the host's memory.
-  /// Whether the coordinates are in the memory of a GPU, ordered by Stream; not with Ids.
+  /// Whether the coordinates are in the memory of a GPU, ordered by Stream; not with Ids, nor while
+  /// points are removed.
   bool OnDevice = false;
   DeviceStream Stream{};
 };
