@@ -402,9 +402,7 @@ public:
     this->Report = report;
     for (Defect& defect : this->Report.Defects)
     {
-      // Triangles that are not refined are those of the result.
-      const bool isOfInput = defect.Kind != DefectKind::TrianglesNotRefined;
-      if (numbers && isOfInput && defect.Ids == DefectIds::Triangles)
+      if (numbers && defect.Ids == DefectIds::Triangles)
       {
         std::vector<std::int64_t>& ids = defect.FirstIds;
         for (std::int64_t& id : ids)

@@ -43,6 +43,18 @@ std::function<void(T...)> Set(Arguments& arguments, void (Filter::*method)(T...)
   };
 }
 
+/// Calls the method of the filter of a mesh, and that of the filter of points.
+template <typename... T>
+std::function<void(T...)> SetBoth(Arguments& arguments, void (vtkDelaunayFlip::*ofMesh)(T...),
+  void (vtkDelaunayFlipPoints::*ofPoints)(T...))
+{
+  return [one = Set(arguments, ofMesh), other = Set(arguments, ofPoints)](T... value)
+  {
+    one(value...);
+    other(value...);
+  };
+}
+
 /// @param words the choices, in the order of the enumeration.
 void AddChoice(CLI::App& app, const std::string& name, const std::function<void(int)>& set,
   const std::vector<std::string>& words, const std::string& help)
@@ -186,6 +198,56 @@ void AddStayOptions(CLI::App& app, Arguments& arguments)
     ->check(FindFaultOfName);
 }
 
+/// Reads x,y,label or x,y,label,area.
+/// @returns what is wrong, or "".
+std::string ParseRegion(const std::string& text, std::array<double, 4>& region)
+{
+  region = {};
+  std::istringstream words(text + ',');
+  std::size_t count = 0;
+  bool areNumbers = true;
+  for (std::string word; std::getline(words, word, ',') && count <= region.size(); ++count)
+  {
+    std::int32_t label = 0;
+    double value = 0.0;
+    const bool isLabel = count == 2;
+    std::errc error = isLabel ? ReadNumber(word, label) : ReadNumber(word, value);
+    areNumbers = areNumbers && error == std::errc() && std::isfinite(value);
+    region[std::min<std::size_t>(count, 3)] = isLabel ? label : value;
+  }
+  if (!areNumbers || count < 3 || count > region.size() || region[3] < 0.0)
+  {
+    return "'" + text + "' is not x,y,label or x,y,label,area, with an integer as label";
+  }
+  return "";
+}
+
+void AddRegionOption(CLI::App& app, Arguments& arguments)
+{
+  const auto addRegions = [&arguments](const std::vector<std::string>& regions)
+  {
+    for (const std::string& text : regions)
+    {
+      std::array<double, 4> region{};
+      ParseRegion(text, region);
+      arguments.Points->AddRegion(region[0], region[1], region[2], region[3]);
+    }
+  };
+  const auto findFault = [](const std::string& text)
+  {
+    std::array<double, 4> region{};
+    return ParseRegion(text, region);
+  };
+  app
+    .add_option_function<std::vector<std::string>>("--region", addRegions,
+      "A place in a part that segments enclose: x,y,label or x,y,label,area. Its triangles get the "
+      "label, an integer, in the cell array Region, and are not larger than the area. May be "
+      "given several times")
+    ->type_name("LIST")
+    ->allow_extra_args(false)
+    ->check(findFault);
+}
+
 void AddPointOptions(CLI::App& app, Arguments& arguments)
 {
   app.option_defaults()->group(OfPoints);
@@ -238,79 +300,44 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "On a sphere, x and y are longitudes and latitudes in degrees. The points are written as "
     "places "
     "on the unit sphere");
+  AddRegionOption(app, arguments);
 }
 
-/// Reads x,y,label or x,y,label,area.
-/// @returns what is wrong, or "".
-std::string ParseRegion(const std::string& text, std::array<double, 4>& region)
-{
-  region = {};
-  std::istringstream words(text + ',');
-  std::size_t count = 0;
-  bool areNumbers = true;
-  for (std::string word; std::getline(words, word, ',') && count <= region.size(); ++count)
-  {
-    std::int32_t label = 0;
-    double value = 0.0;
-    const bool isLabel = count == 2;
-    std::errc error = isLabel ? ReadNumber(word, label) : ReadNumber(word, value);
-    areNumbers = areNumbers && error == std::errc() && std::isfinite(value);
-    region[std::min<std::size_t>(count, 3)] = isLabel ? label : value;
-  }
-  if (!areNumbers || count < 3 || count > region.size() || region[3] < 0.0)
-  {
-    return "'" + text + "' is not x,y,label or x,y,label,area, with an integer as label";
-  }
-  return "";
-}
-
-/// Options of --from-points that add points.
+/// Options that add points, to a mesh and from points.
 void AddRefinementOptions(CLI::App& app, Arguments& arguments)
 {
+  app.option_defaults()->group(ToRefine);
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
-  AddValue(app, "--minimum-angle", Set(arguments, &vtkDelaunayFlipPoints::SetMinimumAngle),
+  AddValue(app, "--minimum-angle",
+    SetBoth(arguments, &vtkDelaunayFlip::SetMinimumAngle, &vtkDelaunayFlipPoints::SetMinimumAngle),
     "DEGREES", Within(0.0, 33.0, "an angle from 0 to 33 degrees"),
-    "Add points until no angle is smaller; 0: no limit. Triangles that cannot get better, because "
-    "segments meet at a small angle, are left [0]");
-  AddValue(app, "--maximum-area", Set(arguments, &vtkDelaunayFlipPoints::SetMaximumArea), "AREA",
-    Within(0.0, std::numeric_limits<double>::max(), "an area of 0 or more"),
+    "In the plane and on terrain, add points until no angle is smaller; 0: no limit. Triangles "
+    "that "
+    "cannot get better, because edges that stay meet at a small angle, are left [0]");
+  AddValue(app, "--maximum-area",
+    SetBoth(arguments, &vtkDelaunayFlip::SetMaximumArea, &vtkDelaunayFlipPoints::SetMaximumArea),
+    "AREA", Within(0.0, std::numeric_limits<double>::max(), "an area of 0 or more"),
     "Add points until no triangle is larger; 0: no limit [0]");
-  AddValue(app, "--maximum-edge", Set(arguments, &vtkDelaunayFlipPoints::SetMaximumEdge), "LENGTH",
-    length, "Add points until no edge is longer; 0: no limit [0]");
+  AddValue(app, "--maximum-edge",
+    SetBoth(arguments, &vtkDelaunayFlip::SetMaximumEdge, &vtkDelaunayFlipPoints::SetMaximumEdge),
+    "LENGTH", length, "Add points until no edge is longer; 0: no limit [0]");
   const auto setArray = [&arguments](const std::string& name)
-  { arguments.Points->SetSizeArray(name.c_str()); };
+  {
+    arguments.Flip->SetSizeArray(name.c_str());
+    arguments.Points->SetSizeArray(name.c_str());
+  };
   app
     .add_option_function<std::string>("--size-array", setArray,
       "A point array of INPUT: add points until no edge is longer than it says there, linear "
       "between the points")
     ->type_name("NAME")
     ->check(FindFaultOfName);
-  const auto addRegions = [&arguments](const std::vector<std::string>& regions)
-  {
-    for (const std::string& text : regions)
-    {
-      std::array<double, 4> region{};
-      ParseRegion(text, region);
-      arguments.Points->AddRegion(region[0], region[1], region[2], region[3]);
-    }
-  };
-  const auto findFault = [](const std::string& text)
-  {
-    std::array<double, 4> region{};
-    return ParseRegion(text, region);
-  };
-  app
-    .add_option_function<std::vector<std::string>>("--region", addRegions,
-      "A place in a part that segments enclose: x,y,label or x,y,label,area. Its triangles get the "
-      "label, an integer, in the cell array Region, and are not larger than the area. May be "
-      "given several times")
-    ->type_name("LIST")
-    ->allow_extra_args(false)
-    ->check(findFault);
-  app.add_flag_callback("--keep-boundary", Set(arguments, &vtkDelaunayFlipPoints::KeepBoundaryOn),
+  app.add_flag_callback("--keep-boundary",
+    SetBoth(arguments, &vtkDelaunayFlip::KeepBoundaryOn, &vtkDelaunayFlipPoints::KeepBoundaryOn),
     "Add no points on the boundary of the mesh. Some triangles there may stay as they are");
-  AddValue(app, "--point-limit", Set(arguments, &vtkDelaunayFlipPoints::SetPointLimit), "INT",
-    Within<std::int64_t>(0, std::numeric_limits<std::int64_t>::max(), "a number of points"),
+  AddValue(app, "--point-limit",
+    SetBoth(arguments, &vtkDelaunayFlip::SetPointLimit, &vtkDelaunayFlipPoints::SetPointLimit),
+    "INT", Within<std::int64_t>(0, std::numeric_limits<std::int64_t>::max(), "a number of points"),
     "Add no more points when the mesh has this many; 0: ten times as many as are given, at least "
     "a million [0]");
 }

@@ -27,7 +27,8 @@ std::string PlainFormatter::make_help(
 {
   std::string text =
     "Usage: " + name + " [OPTIONS] INPUT OUTPUT\n\n" + app->get_description() + "\n";
-  for (const char* group : { ToRead, ToJudge, ToStay, OfPoints, ToAsk, ToRun, ToWrite, ToHelp })
+  for (const char* group :
+    { ToRead, ToJudge, ToStay, OfPoints, ToRefine, ToAsk, ToRun, ToWrite, ToHelp })
   {
     text += std::string("\n") + group + ":\n";
     const auto isInGroup = [group](const CLI::Option* option)
@@ -84,6 +85,8 @@ std::string DescribeCommand()
          "      flips a surface; edges sharper than 30 degrees stay\n"
          "  delaunay-flip terrain.vtp better.vtp --constraints roads.vtk\n"
          "      makes the lines in roads.vtk edges that stay\n"
+         "  delaunay-flip basin.vtp fine.vtp --minimum-angle 28 --region-array zone\n"
+         "      adds points for good angles, and keeps the borders of zones\n"
          "  delaunay-flip survey.csv terrain.vtp --from-points\n"
          "      makes a mesh from points alone\n"
          "  delaunay-flip shore.gpkg mesh.vtp --from-points --outline shore.gpkg \\\n"
@@ -111,7 +114,7 @@ std::string ExplainAngle(const CLI::App& app)
   }
   return found->substr(0, found->find('=')) +
     ": flips alone guarantee no smallest angle. They choose the best triangles for the points that "
-    "are there. --minimum-angle with --from-points adds points until no angle is smaller";
+    "are there. --minimum-angle adds points until no angle is smaller";
 }
 
 std::string SuggestOption(const CLI::App& app)

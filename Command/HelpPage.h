@@ -18,6 +18,7 @@ inline constexpr const char* ToRead = "What to read";
 inline constexpr const char* ToJudge = "Where edges are judged";
 inline constexpr const char* ToStay = "What stays";
 inline constexpr const char* OfPoints = "From points";
+inline constexpr const char* ToRefine = "Points to add";
 inline constexpr const char* ToAsk = "Heights from points";
 inline constexpr const char* ToRun = "Where it runs";
 inline constexpr const char* ToWrite = "What to write";

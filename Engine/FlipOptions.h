@@ -144,8 +144,8 @@ struct FlipOptions
   /// planar geometry by the in-circle criterion, once no edge is bad; an error on surfaces, for
   /// other criteria, and for a mesh in several pieces. Boundary edges and all edges that stay are
   /// segments there: they are split, but triangles never cross them. Non-manifold and wrongly wound
-  /// edges are not split, and triangles that do not face the same side as most stay as they are.
-  /// TriangleMesh::Sizes is a goal, too.
+  /// edges are not split. Triangles that do not face the same side as most, and frozen ones, stay
+  /// as they are. TriangleMesh::Sizes is a goal, too.
   ///@{
 
   /// Points are added until no angle is smaller, in degrees from 0 to 33. 0 (default): no limit. It

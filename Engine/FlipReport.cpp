@@ -367,46 +367,55 @@ std::string DescribeConstraints(const FlipReport& flip)
   return text + ", " + Count(flip.UnmatchedConstraints, "") + " not in the mesh\n";
 }
 
+/// Appends a count, unless it is 0.
+void AddCount(std::string& text, std::int64_t count, const char* what)
+{
+  if (count > 0)
+  {
+    text += ", " + Count(count) + " " + what;
+  }
+}
+
+/// A line, or nothing without refinement.
+std::string DescribeRefinement(const PointCounts& counts)
+{
+  if (counts.RefinementPoints + counts.UnrefinedTriangles == 0)
+  {
+    return {};
+  }
+  std::string refinement = Count(counts.RefinementPoints, "point") + " added in " +
+    Count(counts.RefinementRounds, "round");
+  AddCount(refinement, counts.UnrefinedTriangles, "triangles left that do not reach the goals");
+  if (counts.ReachedPointLimit > 0)
+  {
+    refinement += ", ended by the point limit";
+  }
+  return "refinement: " + refinement + '\n';
+}
+
 /// The lines that only a mesh from points has.
 std::string DescribePoints(const FlipReport& flip)
 {
   const PointCounts& counts = flip.FromPoints;
-  const auto add = [](std::string& text, std::int64_t count, const char* what)
-  {
-    if (count > 0)
-    {
-      text += ", " + Count(count) + " " + what;
-    }
-  };
   const std::int64_t unused = counts.NotFinite + counts.Repeated + counts.TooNear + counts.Inside;
   std::string points = Count(counts.Used) + " used";
-  add(points, counts.Repeated, "repeated");
-  add(points, counts.TooNear, "too near to another");
-  add(points, counts.NotFinite, "not finite");
-  add(points, counts.Inside, "inside of the hull");
-  add(points, flip.Points - unused - counts.Used, "without a triangle");
+  AddCount(points, counts.Repeated, "repeated");
+  AddCount(points, counts.TooNear, "too near to another");
+  AddCount(points, counts.NotFinite, "not finite");
+  AddCount(points, counts.Inside, "inside of the hull");
+  AddCount(points, flip.Points - unused - counts.Used, "without a triangle");
   std::string text = "points: " + points + '\n';
   if (counts.SegmentEdges + counts.RefusedSegments > 0)
   {
     std::string segments = Count(counts.SegmentEdges, "edge");
-    add(segments, counts.RefusedSegments, "refused");
+    AddCount(segments, counts.RefusedSegments, "refused");
     if (counts.Crossings > 0)
     {
       segments += ", " + Count(counts.Crossings, "crossing") + " added";
     }
     text += "segments: " + segments + '\n';
   }
-  if (counts.RefinementPoints + counts.UnrefinedTriangles > 0)
-  {
-    std::string refinement = Count(counts.RefinementPoints, "point") + " added in " +
-      Count(counts.RefinementRounds, "round");
-    add(refinement, counts.UnrefinedTriangles, "triangles left that do not reach the goals");
-    if (counts.ReachedPointLimit > 0)
-    {
-      refinement += ", ended by the point limit";
-    }
-    text += "refinement: " + refinement + '\n';
-  }
+  text += DescribeRefinement(counts);
   if (counts.OutsideTriangles + counts.LargeTriangles > 0)
   {
     text += "removed: " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
@@ -431,9 +440,9 @@ std::string DescribeMesh(const FlipReport& report)
   {
     return mesh + DescribePoints(report) + kept;
   }
-  return mesh + kept + Advise(report) + AdviseRepair(report) +
-    "geometry: " + ToString(report.GeometryUsed) + (reason.empty() ? "" : ": ") + reason + "\n" +
-    DescribeConstraints(report);
+  return mesh + DescribeRefinement(report.FromPoints) + kept + Advise(report) +
+    AdviseRepair(report) + "geometry: " + ToString(report.GeometryUsed) +
+    (reason.empty() ? "" : ": ") + reason + "\n" + DescribeConstraints(report);
 }
 
 /// What has become of it. Nobody has seen the triangles that a run from points begins with, so

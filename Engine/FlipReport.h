@@ -313,10 +313,10 @@ void ForEachNumber(const Visit& visit, Reports&... reports)
   visit("triangles_below_30_before", main, reports.TrianglesBelow30Before...);
   visit("triangles_below_30_after", main, reports.TrianglesBelow30After...);
   visit("left_out_rings", points, reports.FromPoints.LeftOutRings...);
-  visit("refinement_points", points, reports.FromPoints.RefinementPoints...);
-  visit("refinement_rounds", points, reports.FromPoints.RefinementRounds...);
-  visit("unrefined_triangles", points, reports.FromPoints.UnrefinedTriangles...);
-  visit("reached_point_limit", points, reports.FromPoints.ReachedPointLimit...);
+  visit("refinement_points", main, reports.FromPoints.RefinementPoints...);
+  visit("refinement_rounds", main, reports.FromPoints.RefinementRounds...);
+  visit("unrefined_triangles", main, reports.FromPoints.UnrefinedTriangles...);
+  visit("reached_point_limit", main, reports.FromPoints.ReachedPointLimit...);
   visit("removed_points", whole, reports.FromPoints.Removed...);
   visit("move_rounds", whole, reports.FromPoints.MoveRounds...);
   visit("points_inside", points, reports.FromPoints.Inside...);

@@ -321,6 +321,46 @@ vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkI
   return points;
 }
 
+namespace
+{
+/// Writes the tuple of an added point: between those of two or three others.
+void InterpolateTuple(vtkIdType target, const AddedPoint& point, vtkAbstractArray* array)
+{
+  if (point.Third < 0)
+  {
+    array->InterpolateTuple(target, point.From, array, point.To, array, point.Share);
+    return;
+  }
+  vtkNew<vtkIdList> corners;
+  for (const std::int64_t corner : { point.From, point.To, point.Third })
+  {
+    corners->InsertNextId(corner);
+  }
+  double weights[] = { 1.0 - point.Share - point.ThirdShare, point.Share, point.ThirdShare };
+  array->InterpolateTuple(target, corners, array, weights);
+}
+}
+
+void InterpolateTuples(
+  const std::vector<AddedPoint>& added, vtkIdType first, vtkDataSetAttributes* data)
+{
+  vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
+    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = data->GetAbstractArray(i);
+    if (std::count(std::begin(labels), std::end(labels), array) > 0)
+    {
+      continue;
+    }
+    vtkIdType next = first;
+    for (const AddedPoint& point : added)
+    {
+      InterpolateTuple(next++, point, array);
+    }
+  }
+}
+
 void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids, vtkDataSetAttributes* data,
   vtkPolyData* output)
 {

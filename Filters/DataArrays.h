@@ -5,6 +5,7 @@
 
 #include "EngineExport.h"
 #include "FlipReport.h"
+#include "PointTriangulation.h"
 #include "TriangleMesh.h"
 
 #include "vtkCellArray.h"
@@ -183,6 +184,11 @@ DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources
 /// Turns global ids into pedigree ids: when cells are divided or points added, several share an id.
 /// If there are pedigree ids already, the array is no attribute any more.
 DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
+
+/// Writes the tuples of points that the engine has added, from `first` on, between those of others;
+/// not of labels of points.
+void InterpolateTuples(
+  const std::vector<AddedPoint>& added, vtkIdType first, vtkDataSetAttributes* data);
 
 /// Makes arrays of integers ones of doubles, so that what is interpolated is not rounded.
 void TurnToDoubles(vtkDataSetAttributes* data);

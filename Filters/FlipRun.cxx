@@ -4,6 +4,8 @@
 #include "UpdateReport.h"
 #include "UpdateRequests.h"
 
+#include "vtkPointData.h"
+
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -34,6 +36,8 @@ Stamps StampEdges(const FlipRequest& request)
   vtkCellData* data = request.Input->GetCellData();
   stamps.AddArray(data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
   stamps.AddArray(data->GetAbstractArray(request.Settings.RegionArray.c_str()));
+  const std::string& sizes = request.Settings.SizeArray;
+  stamps.AddArray(request.Input->GetPointData()->GetAbstractArray(sizes.c_str()));
   if (request.Others)
   {
     stamps.AddCells(request.Others->GetPolys());
@@ -84,6 +88,10 @@ public:
 
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
+  const FlipSession* GetSession() const override
+  {
+    return this->Bridge.IsRefined() ? nullptr : this->Session.get();
+  }
 
   InputChange FindChange(const FlipRequest& request) const;
 
@@ -237,7 +245,10 @@ FlipReport FlipRun::GetReport() const
   {
     report.Defects.push_back(slots.NoTriangles);
   }
-  const auto malformed = ListMalformedArrays(this->Current, true, slots.InPlace);
+  const auto added = static_cast<std::int64_t>(this->Session->GetAddedPoints().size());
+  report.Points += added;
+  const auto malformed =
+    ListMalformedArrays(this->Current, added == 0, slots.InPlace && !this->Bridge.IsRefined());
   report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
   return report;
 }
@@ -300,7 +311,8 @@ bool FlipRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) const
     last->Renew(*this);
     return true;
   }
-  const bool isWarm = change == InputChange::Points;
+  const bool isRefined = this->Settings.HasGoals || !this->Settings.SizeArray.empty();
+  const bool isWarm = change == InputChange::Points && !isRefined;
   UpdatePlan plan = MakePlan(*this, isWarm);
   RunStart start;
   if (isWarm)

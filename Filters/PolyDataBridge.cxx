@@ -236,6 +236,7 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   const BridgeSettings& settings, const UpdatePlan& plan)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
+    Refines(settings.HasGoals || !settings.SizeArray.empty()),
     Slots(mesh, Points, settings.Triangulate, plan.For(UpdatePlan::Polygons))
 {
   this->Constraints = FindConstraintEdges(
@@ -257,6 +258,30 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   if (!settings.RegionArray.empty())
   {
     this->LabelRegions(settings.RegionArray, plan.For(UpdatePlan::Regions));
+  }
+  if (!settings.SizeArray.empty())
+  {
+    this->ReadSizes(settings.SizeArray);
+  }
+}
+
+void PolyDataBridge::ReadSizes(const std::string& name)
+{
+  vtkPointData* data = this->Mesh->GetPointData();
+  vtkDataArray* array = data->GetArray(name.c_str());
+  if (!array)
+  {
+    throw InvalidOptions("SizeArray: the input has no point array of numbers named \"" + name +
+      "\"; " + ListNames(data) + ".");
+  }
+  if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() < this->Points.Count)
+  {
+    throw InvalidOptions("SizeArray: \"" + name +
+      "\" must have one component, and as many tuples as there are points.");
+  }
+  for (vtkIdType i = 0; i < this->Points.Count; ++i)
+  {
+    this->Sizes.push_back(array->GetComponent(i, 0));
   }
 }
 
@@ -350,6 +375,7 @@ TriangleMesh PolyDataBridge::GetMesh() const
   }
   mesh.Regions = ViewValues(this->Regions);
   mesh.FrozenTriangles = ViewValues(this->Slots.Frozen);
+  mesh.Sizes = ViewValues(this->Sizes);
   return mesh;
 }
 
@@ -373,7 +399,7 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkCellArray> PolyDataBridge::MakeRoom() const
 {
-  if (!this->Slots.ArePolygonsTriangles())
+  if (this->Refines || !this->Slots.ArePolygonsTriangles())
   {
     return nullptr;
   }
@@ -383,6 +409,11 @@ vtkSmartPointer<vtkCellArray> PolyDataBridge::MakeRoom() const
 void PolyDataBridge::Store(const FlipSession& session, const vtkSmartPointer<vtkCellArray>& room,
   vtkPolyData* mesh, vtkPolyData* output) const
 {
+  if (this->Refines)
+  {
+    this->StoreRefined(session, mesh, output);
+    return;
+  }
   const TriangleSlots& slots = this->Slots;
   output->SetPoints(mesh->GetPoints());
   output->GetPointData()->ShallowCopy(mesh->GetPointData());
@@ -415,8 +446,93 @@ void PolyDataBridge::Store(const FlipSession& session, const vtkSmartPointer<vtk
     });
 }
 
+PolyDataBridge::RefinedPolygons PolyDataBridge::ListRefined(const FlipSession& session) const
+{
+  const TriangleSlots& slots = this->Slots;
+  RefinedPolygons refined;
+  refined.Sources.resize(session.GetReport().Triangles);
+  session.StoreSources(refined.Sources.data());
+  for (vtkIdType polygon = 0; polygon < slots.GetNumberOfPolygons(); ++polygon)
+  {
+    refined.Polygons.push_back(slots.GetPolygon(polygon));
+  }
+  const auto count = static_cast<vtkIdType>(refined.Sources.size());
+  for (vtkIdType triangle = slots.Triangles.Count; triangle < count; ++triangle)
+  {
+    refined.Polygons.push_back({ TriangleSlots::None, triangle });
+  }
+  for (OutputPolygon& polygon : refined.Polygons)
+  {
+    if (polygon.Triangle != TriangleSlots::None)
+    {
+      polygon.Cell = slots.GetCell(refined.Sources[polygon.Triangle]);
+    }
+  }
+  return refined;
+}
+
+void PolyDataBridge::StoreRefined(
+  const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output) const
+{
+  const TriangleSlots& slots = this->Slots;
+  const RefinedPolygons refined = this->ListRefined(session);
+  const auto count = static_cast<vtkIdType>(refined.Sources.size());
+  std::vector<std::int64_t> ids(3 * count);
+  session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+  AppendRefinedPoints(session, mesh, output);
+  output->SetPolys(BuildPolygons(refined.Polygons, { std::as_const(ids).data(), count }, mesh));
+  StoreCells(mesh, slots, refined.Polygons, nullptr, output);
+  if (slots.AreDivided || count > slots.Triangles.Count)
+  {
+    DemoteGlobalIds(output->GetCellData());
+  }
+  RenewNormals(output,
+    [&](vtkIdType polygon, const std::int64_t of[3], std::int64_t before[3])
+    {
+      const vtkIdType source = refined.GetSource(polygon);
+      for (int slot = 0; slot < 3 && source != TriangleSlots::None; ++slot)
+      {
+        before[slot] = slots.Triangles.Get(source, slot);
+      }
+      return !std::equal(of, of + 3, before);
+    });
+}
+
+/// Gives an output the points of the mesh, and behind them those of refinement, with their data.
+void PolyDataBridge::AppendRefinedPoints(
+  const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output)
+{
+  const std::vector<AddedPoint>& added = session.GetAddedPoints();
+  if (added.empty())
+  {
+    output->SetPoints(mesh->GetPoints());
+    output->GetPointData()->ShallowCopy(mesh->GetPointData());
+    return;
+  }
+  vtkNew<vtkPoints> more;
+  more->SetDataTypeToDouble();
+  for (const AddedPoint& point : added)
+  {
+    more->InsertNextPoint(point.X, point.Y, point.Z);
+  }
+  const auto size = static_cast<vtkIdType>(added.size());
+  AppendPoints(mesh, more, MakeRange(0, size), nullptr, output);
+  InterpolateTuples(added, mesh->GetNumberOfPoints(), output->GetPointData());
+  DemoteGlobalIds(output->GetPointData());
+}
+
 void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const
 {
+  if (this->Refines)
+  {
+    const RefinedPolygons refined = this->ListRefined(session);
+    std::vector<std::int32_t> all(refined.Sources.size());
+    session.StoreFlipCounts(all.data());
+    AddTriangleArray(
+      "vtkDelaunayFlipCount", all, 0,
+      [&refined](vtkIdType polygon) { return refined.Polygons[polygon].Triangle; }, output);
+    return;
+  }
   std::vector<std::int32_t> counts(this->Slots.Triangles.Count);
   session.StoreFlipCounts(counts.data());
   AddTriangleArray(
@@ -431,6 +547,24 @@ void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,
   TriangleMesh mesh = this->GetMesh();
   std::vector<double> before(mesh.Triangles.Count), after(mesh.Triangles.Count);
   FindSmallestAngles(mesh, geometry, threads, before.data(), MakePart(progress, 0.0, 0.5));
+  if (this->Refines)
+  {
+    const RefinedPolygons refined = this->ListRefined(session);
+    const auto count = static_cast<vtkIdType>(refined.Sources.size());
+    std::vector<std::int64_t> ids(3 * count);
+    session.StoreTriangles(MutableTriangleArray(ids.data(), count));
+    std::vector<double> storage;
+    TriangleMesh whole;
+    whole.Points = ViewPoints(output, storage);
+    whole.Triangles = TriangleArray(std::as_const(ids).data(), count);
+    after.resize(count);
+    FindSmallestAngles(whole, geometry, threads, after.data(), MakePart(progress, 0.5, 1.0));
+    const auto sourceOf = [&](vtkIdType polygon) { return refined.GetSource(polygon); };
+    const auto triangleOf = [&](vtkIdType polygon) { return refined.Polygons[polygon].Triangle; };
+    AddTriangleArray("Smallest angle before (degrees)", before, NaN, sourceOf, output);
+    AddTriangleArray("Smallest angle after (degrees)", after, NaN, triangleOf, output);
+    return;
+  }
   std::vector<std::int64_t> ids(3 * mesh.Triangles.Count);
   session.StoreTriangles(MutableTriangleArray(ids.data(), mesh.Triangles.Count));
   mesh.Triangles =
@@ -536,7 +670,8 @@ void StoreCells(vtkPolyData* mesh, const TriangleSlots& slots,
   output->SetStrips(mesh->GetStrips());
   output->GetFieldData()->ShallowCopy(mesh->GetFieldData());
   vtkCellData* data = output->GetCellData();
-  if (slots.InPlace && !received)
+  const bool areAsBefore = slots.InPlace && !received && polygons.empty();
+  if (areAsBefore)
   {
     data->ShallowCopy(mesh->GetCellData());
     return;

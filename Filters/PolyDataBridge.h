@@ -33,14 +33,16 @@ struct BridgeSettings : ConstraintSettings
 {
   bool Triangulate = true;
   std::string RegionArray; ///< Empty: no regions.
+  std::string SizeArray; ///< A point array of longest edges. Empty: none.
+  bool HasGoals = false; ///< Whether options ask for refinement.
 };
 
 inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
 {
   const auto tie = [](const BridgeSettings& s)
   {
-    return std::tie(
-      s.Triangulate, s.LinesAsConstraints, s.InsertLines, s.InsertConstraints, s.RegionArray);
+    return std::tie(s.Triangulate, s.LinesAsConstraints, s.InsertLines, s.InsertConstraints,
+      s.RegionArray, s.SizeArray, s.HasGoals);
   };
   return tie(a) == tie(b);
 }
@@ -136,7 +138,11 @@ public:
 
   const TriangleSlots& GetSlots() const { return this->Slots; }
 
-  /// New cells for the polygons of an output; null unless they all are triangles of the session.
+  /// Whether the session may add points and triangles.
+  bool IsRefined() const { return this->Refines; }
+
+  /// New cells for the polygons of an output; null unless they all are triangles of the session,
+  /// and no others will be.
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
 
   /// Writes the session's triangles, and whatever passes from the mesh.
@@ -163,10 +169,30 @@ public:
 
 private:
   void LabelRegions(const std::string& name, const ProgressObserver& progress);
+  void ReadSizes(const std::string& name);
+
+  /// The polygons of an output of a refined mesh.
+  struct RefinedPolygons
+  {
+    std::vector<std::int32_t> Sources; ///< By triangle, that of the mesh that has its centroid.
+    std::vector<OutputPolygon> Polygons; ///< Each with the cell of the source.
+
+    vtkIdType GetSource(vtkIdType polygon) const
+    {
+      const vtkIdType triangle = this->Polygons[polygon].Triangle;
+      return triangle < 0 ? triangle : this->Sources[triangle];
+    }
+  };
+  RefinedPolygons ListRefined(const FlipSession& session) const;
+  void StoreRefined(const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output) const;
+  static void AppendRefinedPoints(
+    const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output);
 
   vtkPolyData* Mesh;
   std::vector<double> Coordinates; ///< A copy of points that cannot be viewed in place.
   PointArray Points;
+  std::vector<double> Sizes; ///< By point; empty: no limits.
+  bool Refines;
   TriangleSlots Slots;
   ConstraintEdges Constraints;
 };

@@ -112,23 +112,6 @@ vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtk
   return copy;
 }
 
-/// Writes the tuple of an added point: between those of two or three others.
-void InterpolateTuple(vtkIdType target, const AddedPoint& point, vtkAbstractArray* array)
-{
-  if (point.Third < 0)
-  {
-    array->InterpolateTuple(target, point.From, array, point.To, array, point.Share);
-    return;
-  }
-  vtkNew<vtkIdList> corners;
-  for (const std::int64_t corner : { point.From, point.To, point.Third })
-  {
-    corners->InsertNextId(corner);
-  }
-  double weights[] = { 1.0 - point.Share - point.ThirdShare, point.Share, point.ThirdShare };
-  array->InterpolateTuple(target, corners, array, weights);
-}
-
 //------------------------------------------------------------------------------
 /// Triangulates points.
 class TriangulationRun : public UpdateRun
@@ -161,7 +144,6 @@ private:
   Defect DescribeFlatPoints() const;
   PlaneArray Project();
   void AppendAdded(vtkPolyData* output) const;
-  void InterpolateData(vtkPointData* data) const;
 
   TriangulationRequest Asked; ///< Its meshes may be gone.
   Stamps StampedPoints;
@@ -562,7 +544,7 @@ void TriangulationRun::AppendAdded(vtkPolyData* output) const
   zeros->SetNumberOfPoints(size);
   zeros->GetData()->Fill(0.0);
   AppendPoints(this->Points, zeros, MakeRange(0, size), nullptr, output);
-  this->InterpolateData(output->GetPointData());
+  InterpolateTuples(added, first, output->GetPointData());
   vtkDataArray* xyz = output->GetPoints()->GetData();
   const bool isProjected = this->Projected->GetNumberOfPoints() > 0;
   for (vtkIdType i = 0; i < size; ++i)
@@ -585,26 +567,6 @@ void TriangulationRun::AppendAdded(vtkPolyData* output) const
       place[1] = point.Y;
     }
     xyz->SetTuple(first + i, place);
-  }
-}
-
-/// Gives the added points the data between those of others, except labels of points.
-void TriangulationRun::InterpolateData(vtkPointData* data) const
-{
-  vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
-    data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
-  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
-  {
-    vtkAbstractArray* array = data->GetAbstractArray(i);
-    if (std::count(std::begin(labels), std::end(labels), array) > 0)
-    {
-      continue;
-    }
-    vtkIdType next = this->Points->GetNumberOfPoints();
-    for (const AddedPoint& point : this->Session->GetAddedPoints())
-    {
-      InterpolateTuple(next++, point, array);
-    }
   }
 }
 

@@ -70,7 +70,9 @@ public:
   /// @returns false when the observer stopped it. Then there are no angles.
   virtual bool Store(vtkPolyData* output) const = 0;
 
-  const FlipSession* GetSession() const { return this->Session.get(); }
+  /// The session, for views that draw its triangles with the points of the output. Null if it adds
+  /// points meanwhile.
+  virtual const FlipSession* GetSession() const { return this->Session.get(); }
 
   std::string Warning; ///< The text of the last warning.
 

@@ -29,7 +29,9 @@
  * and Seconds. Port 0 has the same columns as field data, unless there are no rows, and arrays with
  * one value each: Converged, StopReason, Summary, TotalFlips, NonDelaunayAfter, BlockedByShape,
  * BlockedByDeviation, BlockedByEdge, TrianglesBelow10Before, TrianglesBelow10After and so on for 20
- * and 30 degrees, FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraints,
+ * and 30 degrees, RefinementPoints, RefinementRounds (how often they were added),
+ * UnrefinedTriangles (those that could not get better), ReachedPointLimit (1 if PointLimit has
+ * ended refinement), FixedEdges, NonManifoldEdges, ConstraintEdges, UnmatchedConstraints,
  * InsertedConstraints, ConstraintFlips, GeometryUsed, GeometryReason, Tolerance ("automatic", the
  * value, or "none" if the in-circle predicate decides) and Backend. In the field data each name
  * begins with "DelaunayFlip:", e.g. "DelaunayFlip:Flipped", so that input arrays with the short
@@ -50,7 +52,7 @@
  * with any number of threads. Only Seconds and Backend may differ.
  *
  * @warning
- * Points that belong to no triangle stay unused: nothing is inserted. On surfaces the result is
+ * Points that belong to no triangle stay unused. On surfaces the result is
  * Delaunay in the sense of opposite-angle sums. An edge stays and is reported as blocked if its
  * flip would fold the surface over, or create an edge that exists already.
  *
@@ -230,6 +232,53 @@ public:
    */
   vtkSetStdStringFromCharMacro(RegionArray);
   vtkGetCharFromStdStringMacro(RegionArray);
+  ///@}
+
+  ///@{
+  /**
+   * Refinement of meshes in the plane and of terrain, once no edge is bad: add points until no
+   * angle is smaller than MinimumAngle (0 to 33 degrees), no triangle has a larger area than
+   * MaximumArea, and no edge is longer than MaximumEdge; 0 (default): no limit. With PLANAR_XY all
+   * are measured in x and y. Boundary edges and all edges that stay are split, but never crossed. z
+   * and point data are linear in the mesh before. Each triangle gets the data of the cell that has
+   * its centroid, and so exactly the label of its region. Triangles that cannot get better, because
+   * such edges meet at a small angle, are left, and a warning counts them. Lines and verts, cells
+   * that are not split (Triangulate), and ghost cells stay as they are. On surfaces, and for a mesh
+   * in several partitions or pieces, it is an error.
+   */
+  vtkSetClampMacro(MinimumAngle, double, 0.0, 33.0);
+  vtkGetMacro(MinimumAngle, double);
+  vtkSetClampMacro(MaximumArea, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumArea, double);
+  vtkSetClampMacro(MaximumEdge, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumEdge, double);
+  ///@}
+
+  ///@{
+  /**
+   * A point array of numbers: the longest edge that triangles may have near each point, linear in
+   * between. NaN: no limit near that point. "" (default): none.
+   */
+  vtkSetStdStringFromCharMacro(SizeArray);
+  vtkGetCharFromStdStringMacro(SizeArray);
+  ///@}
+
+  ///@{
+  /**
+   * Split no edge of the boundary. Then some triangles there stay as they are. Default off.
+   */
+  vtkSetMacro(KeepBoundary, bool);
+  vtkGetMacro(KeepBoundary, bool);
+  vtkBooleanMacro(KeepBoundary, bool);
+  ///@}
+
+  ///@{
+  /**
+   * How many points the mesh may have. Refinement ends before it would add more, with a warning. 0
+   * (default): ten times as many as are given, at least a million.
+   */
+  vtkSetClampMacro(PointLimit, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(PointLimit, vtkIdType);
   ///@}
 
   ///@{
@@ -415,6 +464,11 @@ protected:
     visit("MaximumDeviation", this->MaximumDeviation, &Options::MaximumDeviation);
     visit("NumberOfPieces", this->NumberOfPieces, &Options::NumberOfPieces);
     visit("TrackQuality", this->TrackQuality, &Options::TrackQuality);
+    visit("MinimumAngle", this->MinimumAngle, &Options::MinimumAngle);
+    visit("MaximumArea", this->MaximumArea, &Options::MaximumArea);
+    visit("MaximumEdge", this->MaximumEdge, &Options::MaximumEdge);
+    visit("KeepBoundary", this->KeepBoundary, &Options::KeepBoundary);
+    visit("PointLimit", this->PointLimit, &Options::PointLimit);
   }
 #endif
 
@@ -441,6 +495,12 @@ protected:
   double FeatureAngle = 30.0;
   double MaximumDeviation = VTK_DOUBLE_MAX;
   std::string RegionArray;
+  double MinimumAngle = 0.0;
+  double MaximumArea = 0.0;
+  double MaximumEdge = 0.0;
+  std::string SizeArray;
+  bool KeepBoundary = false;
+  vtkIdType PointLimit = 0;
   bool LinesAsConstraints = true;
   bool InsertConstraints = true;
   bool InsertLines = false;

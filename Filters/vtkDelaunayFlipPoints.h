@@ -34,9 +34,7 @@
  * (see PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
  * Crossings (the points added where segments cross), LargestShift (how far rounding has moved one
  * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by Alpha and
- * LongestEdge), LeftOutRings, RefinementPoints, RefinementRounds (how often they were added),
- * UnrefinedTriangles (those that could not get better), ReachedPointLimit (1 if PointLimit has
- * ended refinement) and PointsInside (on a sphere, of the convex hull).
+ * LongestEdge), LeftOutRings and PointsInside (on a sphere, of the convex hull).
  *
  * Some points are not used. If several are at one place in the plane, only the one with the lowest
  * id is used, for any z. Points with a NaN or infinite coordinate are not used, but in XY their z

@@ -91,6 +91,8 @@ protected:
   /// @returns whether it has ended.
   bool Refine();
   void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
+  /// Whether triangles that are not good will stay so: while rounds go on, they may get better.
+  bool HasEndedRefinement() const { return this->IsRefined || this->WasStopped; }
   /// A plan with the goals of the options. @param points how many may be used.
   RefinementPlan PlanGoals(std::int64_t points) const;
 

@@ -76,10 +76,12 @@ RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
   return plan;
 }
 
-/// Numbers from 0 for the caller's labels; empty without labels.
+/// Numbers from 0 for the caller's labels, and -1 for triangles whose edges stay. Empty without
+/// either.
 std::vector<std::int32_t> MeshRun::NumberRegions() const
 {
   const std::int32_t* labels = this->Mesh.GetFixedEdges().Regions;
+  const unsigned char* frozen = this->Mesh.GetFixedEdges().FrozenTriangles;
   std::vector<std::int32_t> numbers;
   if (labels)
   {
@@ -93,6 +95,14 @@ std::vector<std::int32_t> MeshRun::NumberRegions() const
       number = static_cast<std::int32_t>(place - sorted.begin());
     }
   }
+  if (frozen)
+  {
+    numbers.resize(this->Mesh.CountTriangles(), 0);
+    for (std::size_t t = 0; t < numbers.size(); ++t)
+    {
+      numbers[t] = frozen[t] != 0 ? -1 : numbers[t];
+    }
+  }
   return numbers;
 }
 
@@ -101,10 +111,15 @@ void MeshRun::TakeRefinement(LoadedMesh& mesh)
   const RefinementResult made = mesh.FetchRefinement();
   this->AddRefinedPoints(made);
   this->Refined.Sources = made.Sources;
-  this->Refined.Unrefined = Defect(DefectKind::TrianglesNotRefined, made.Unrefined);
-  this->Refined.Unrefined.FirstIds.assign(made.FirstUnrefined.begin(), made.FirstUnrefined.end());
+  const std::int64_t unrefined = this->HasEndedRefinement() ? made.Unrefined : 0;
+  this->Refined.Unrefined = Defect(DefectKind::TrianglesNotRefined, unrefined);
   std::vector<std::int64_t>& first = this->Refined.Unrefined.FirstIds;
+  for (const TriangleId triangle : made.FirstUnrefined)
+  {
+    first.push_back(made.Sources[triangle]); // the caller knows that one
+  }
   std::sort(first.begin(), first.end());
+  first.erase(std::unique(first.begin(), first.end()), first.end());
   this->Refined.HasReachedLimit = made.HasReachedLimit;
   FlipReport& report = this->Report;
   const std::int64_t segments = SizeOf(made.Segments) - SizeOf(made.Ends) / 2;
@@ -118,7 +133,7 @@ void MeshRun::TakeRefinement(LoadedMesh& mesh)
   PointCounts& counts = report.FromPoints;
   counts.RefinementPoints = SizeOf(this->Refined.Points);
   counts.RefinementRounds = this->Rounds;
-  counts.UnrefinedTriangles = made.Unrefined;
+  counts.UnrefinedTriangles = unrefined;
   counts.ReachedPointLimit = made.HasReachedLimit ? 1 : 0;
   this->AreKeptEdgesKnown = false;
 }

@@ -151,7 +151,8 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
     origins[subsegment.Edge] = subsegment.Origin;
   }
   this->AddRefinedPoints(made, origins);
-  result.Unrefined = Defect(DefectKind::TrianglesNotRefined, made.Unrefined);
+  const std::int64_t unrefined = this->HasEndedRefinement() ? made.Unrefined : 0;
+  result.Unrefined = Defect(DefectKind::TrianglesNotRefined, unrefined);
   result.HasReachedLimit = made.HasReachedLimit;
   result.RefinementRounds = this->Rounds;
   const auto countRegions = static_cast<std::int64_t>(result.Regions.size());

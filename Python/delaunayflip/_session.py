@@ -28,8 +28,7 @@ except ImportError:
     from signal import getsignal as _get_handler, signal as _set_handler
 
 _SIGNALS = tuple(map(int, signal.Signals))
-#: The options of refinement.
-REFINEMENT = (*GOALS, "keep_boundary", "point_limit")
+_REFINEMENT = (*GOALS, "keep_boundary", "point_limit")
 
 
 @contextlib.contextmanager
@@ -124,19 +123,19 @@ def run(name, struct, options, make_room, progress, on_iteration):
 
 
 @contextlib.contextmanager
-def _with_keywords():
-    """Messages of the engine name its options by keywords."""
+def _with_keywords(names=_REFINEMENT):
+    """Messages of the engine name its options by these keywords."""
     try:
         yield
     except _library.InvalidOptions as error:
-        error.args = (name_keywords(str(error), REFINEMENT), *error.args[1:])
+        error.args = (name_keywords(str(error), names), *error.args[1:])
         raise
 
 
-def _read_report(handle):
+def _read_report(handle, names=_REFINEMENT):
     report = _report.read(handle)
     if report.reached_point_limit:
-        report = dataclasses.replace(report, defects=name_keywords(report.defects, REFINEMENT))
+        report = dataclasses.replace(report, defects=name_keywords(report.defects, names))
     return report
 
 
@@ -171,6 +170,8 @@ class Session:
         converged
     """
 
+    _keywords = _REFINEMENT  # in messages
+
     def __init__(
         self, points: Numbers, triangles: Numbers, *, constraints: Optional[Numbers] = None,
         insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
@@ -182,7 +183,7 @@ class Session:
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
                                   insert_constraints, triangle_numbers, size)
         self._refines = size is not None or any(has_goal(options, goal) for goal in GOALS)
-        with _with_keywords():
+        with _with_keywords(self._keywords):
             call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
 
     def __enter__(self) -> "Session":
@@ -229,7 +230,7 @@ class Session:
     def report(self) -> Report:
         """The `Report` on the run so far."""
         with self._open() as handle:
-            return _read_report(handle)
+            return _read_report(handle, self._keywords)
 
     @property
     def iterations(self) -> Array:
@@ -249,8 +250,7 @@ class Session:
     @property
     def points(self) -> Array:
         """The points, and behind them those that refinement has added so far."""
-        with self._open() as handle:
-            return self._mesh.read_points(handle, _report.read_struct(handle).refinement_points)[0]
+        return self._read_points()[0]
 
     @property
     def sources(self) -> Array:
@@ -259,6 +259,11 @@ class Session:
         count = self._count_triangles()
         with self._open() as handle:
             return self._mesh.read_sources(handle, count)
+
+    def _read_points(self):
+        """The points; and for each that was added, three points and their weights."""
+        with self._open() as handle:
+            return self._mesh.read_points(handle, _report.read_struct(handle).refinement_points)
 
     def _count_triangles(self):
         if not self._refines:

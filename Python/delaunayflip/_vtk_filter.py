@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkAlgorithm, vtkDemandDrivenPipeline, vtkStreamingDemandDrivenPipeline)
 
 from . import _library
-from ._options import CHOICES, OPTION_KINDS
+from ._options import CHOICES, GOALS, OPTION_KINDS
 from ._points import POINT_OPTIONS, run_points
 from ._report import (
     FIELD_PREFIX, GEOMETRIES, ITERATION, MAIN_NUMBERS, POINT_NUMBERS, Totals, describe, to_camel_case)
@@ -433,6 +433,15 @@ class vtkDelaunayFlip(Filter):
 
     def SetConstraintsData(self, constraints):
         self.SetInputDataObject(1, constraints)
+
+    def _judge_partitions(self, leaves, constraints):
+        options = self._get_options(*GOALS)
+        is_refined = self.GetSizeArray() or any(options[goal] for goal in GOALS)
+        if is_refined and len(leaves) > 1:
+            raise _library.InvalidOptions(
+                "a mesh in several partitions cannot be refined; join them first, by vtkAppendPolyData, or "
+                "Merge Blocks in ParaView")
+        super()._judge_partitions(leaves, constraints)
 
     def _flip(self, mesh, constraints, output):
         """Returns the text of a warning, or ""."""

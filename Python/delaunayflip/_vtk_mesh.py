@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Converts meshes, points and segments of any VTK to the engine's arrays, and back."""
+import dataclasses
 import functools
 import importlib
 import itertools
@@ -9,14 +10,15 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._options import choose
+from ._options import GOALS, choose
 from ._points import Input, interpolate_in_survey
 from ._report import FIELD_PREFIX, POINT_NUMBERS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
 from ._surface import NONE, Constraints, Slots, Surface, join_corners, number_places, number_tuples
 
 #: Keywords of MeshInput.
-SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints", "region_array")
+SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_constraints", "region_array",
+            "size_array")
 #: Names of cell arrays of results.
 CELL_ARRAYS = (
     "vtkDelaunayFlipCount", "Smallest angle before (degrees)", "Smallest angle after (degrees)")
@@ -74,6 +76,23 @@ class Vtk:
                 _add_attributes(data, data.AddArray(target), _find_attributes(own, array))
             taken.append(target)
             target.InsertTuples(places, ids, array)
+
+    def interpolate_tuples(self, data, first, ids, weights):
+        """Writes the tuples of added points, from `first` on: between those of two or three others. Not
+        of labels of points."""
+        labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
+        corners = self.core.vtkIdList()
+        corners.SetNumberOfIds(3)
+        for array in _list_arrays(data):
+            if _is_among(array, labels):
+                continue
+            for place, (near, share) in enumerate(zip(ids.tolist(), weights.tolist()), first):
+                if near[2] < 0:
+                    array.InterpolateTuple(place, near[0], array, near[1], array, share[1])
+                    continue
+                for k in range(3):
+                    corners.SetId(k, near[k])
+                array.InterpolateTuple(place, corners, array, share)
 
     def read(self, mesh):
         """A Surface. Its arrays are copies: observers may change the input during the run."""
@@ -142,13 +161,19 @@ def vtk_of(data):
     return _load(module.rpartition(".")[0])
 
 
+class _Session(Session):
+    """Its messages name properties, as the engine does."""
+
+    _keywords = ()
+
+
 class MeshInput:
     """What a Session gets of a mesh, and the way back. `others`: the second input, or None. The
     keywords are properties of the filter."""
 
     def __init__(self, mesh, others, progress=None, *, triangulate=True, lines_as_constraints=True,
-                 insert_lines=False, insert_constraints=True, region_array=""):
-        self.vtk = vtk_of(mesh)
+                 insert_lines=False, insert_constraints=True, region_array="", size_array=""):
+        self.vtk, self.session_type = vtk_of(mesh), _Session
         self.mesh = self.vtk.model.vtkPolyData()
         self.mesh.ShallowCopy(mesh)
         others = self.vtk.read(others) if others is not None else None
@@ -160,6 +185,7 @@ class MeshInput:
         self._regions, self._frozen = None, self.slots.frozen
         if region_array:
             self._regions = self.vtk.label_cells(mesh, region_array)[self.slots.cells]
+        self._sizes = self._read_sizes(size_array) if size_array else None
         ghosts = self.mesh.GetCellData().GetArray(_GHOSTS)
         if ghosts is not None and not _find_ghost_fault(ghosts):
             missing = numpy.zeros(self.mesh.GetNumberOfCells(), numpy.uint8)  # there may be too few
@@ -167,14 +193,30 @@ class MeshInput:
             are_ghosts = (types[self.slots.cells] & _GHOST) != 0
             self._frozen = are_ghosts if self._frozen is None else are_ghosts | self._frozen
 
+    def take_sizes(self, sizes):
+        """Takes the longest edges near points, an array."""
+        self._sizes = sizes
+
+    def _read_sizes(self, name):
+        data = self.mesh.GetPointData()
+        array = data.GetArray(name)
+        if array is None:
+            raise InvalidOptions(f'SizeArray: the input has no point array of numbers named "{name}"; '
+                                 f"{list_names(data)}.")
+        if array.GetNumberOfComponents() != 1 or array.GetNumberOfTuples() < len(self.points):
+            raise InvalidOptions(f'SizeArray: "{name}" must have one component, and as many tuples as there '
+                                 "are points.")
+        return self.vtk.view(array)[:len(self.points)].astype(float)
+
     def open(self, **arguments):
         """Begins a Session, and returns it. Errors name the cell, not the triangle."""
         self._arguments = arguments
+        self._refines = self._sizes is not None or any(arguments.get(goal) for goal in GOALS)
         try:
-            self.session = Session(
+            self.session = self.session_type(
                 self.points, self.slots.triangles, regions=self._regions, frozen=self._frozen,
                 constraints=self.constraints.pairs, insert_constraints=self.constraints.to_insert,
-                triangle_numbers=self.slots.cells, **arguments)
+                triangle_numbers=self.slots.cells, size=self._sizes, **arguments)
         except InvalidMesh:
             self.slots.polygons.require_points(len(self.points))
             raise
@@ -182,8 +224,9 @@ class MeshInput:
 
     def sum_up(self):
         """The Totals of the run."""
-        return Totals.of_run(
-            self.session.report, self.session.iterations, self.constraints.unmatched)
+        report = self.session.report
+        report = dataclasses.replace(report, points=report.points + report.refinement_points)
+        return Totals.of_run(report, self.session.iterations, self.constraints.unmatched)
 
     def report(self, output, totals):
         """Adds the numbers of the run to the output's field data. Returns the text of a warning, or ""."""
@@ -197,9 +240,10 @@ class MeshInput:
                 "does not have" + (stranger and ": ends are not points of the mesh (coordinates must be "
                                    f"equal, not just close), first {stranger}"))
         texts += self.slots.describe_no_triangles()
-        texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point", passed)
+        texts += _describe_short(mesh.GetPointData(), mesh.GetNumberOfPoints(), "point",
+                                "left out" if report.refinement_points else passed)
         texts += _describe_short(mesh.GetCellData(), mesh.GetNumberOfCells(), "cell",
-                                passed if self.slots.in_place else "left out")
+                                passed if self.slots.in_place and not self._refines else "left out")
         ghosts = mesh.GetCellData().GetAbstractArray(_GHOSTS)
         fault = _find_ghost_fault(ghosts) if ghosts is not None else ""
         texts += [f'1 ghost array {fault} ignored: "{_GHOSTS}"'] if fault else []
@@ -208,35 +252,68 @@ class MeshInput:
     def store(self, output, counts, angles):
         """Writes the current mesh, with the requested cell arrays."""
         mesh, slots = self.mesh, self.slots
+        self._list_polygons()
         given = mesh.GetPolys() if mesh.GetNumberOfPolys() else mesh.GetStrips()
         is_wide = _is_wide(given) or 3 * len(slots.triangles) > self.vtk.core.VTK_INT_MAX
         chosen = slots.kept_strips - slots.strips.first
         strips, corners = self.vtk.make_cells(slots.strips.sizes[chosen], _is_wide(mesh.GetStrips()))
         corners[:] = slots.strips.gather(chosen)
-        pass_points(mesh, output)
+        self._pass_points(output)
         output.SetVerts(mesh.GetVerts())
         output.SetLines(mesh.GetLines())
         output.SetPolys(self._make_polygons(is_wide))
         output.SetStrips(strips)
         self._pass_cell_data(output)
-        polygons, chosen = slots.list_triangles()
+        polygons = numpy.flatnonzero(self._of_polygons != NONE)
+        chosen = self._of_polygons[polygons]
         for name, elsewhere, values in self._list_numbers(counts, angles):
             of_cells = numpy.full(output.GetNumberOfCells(), elsewhere, dtype=values.dtype)
             of_cells[slots.first_polygon + polygons] = values[chosen]
             self.vtk.add_arrays(output.GetCellData(), "", [(name, of_cells)])
 
+    def _list_polygons(self):
+        """Finds the polygons of the output: the triangle of each or NONE, and the cell from which it is
+        made; and for each triangle that of the input with its data."""
+        slots = self.slots
+        self._of_polygons, self._cells = slots.polygon_triangles, slots.polygon_cells
+        self._points, self._added = self.points, ((), ())
+        self._sources = numpy.arange(len(slots.triangles))
+        if self._refines:
+            self._points, *self._added = self.session._read_points()
+            self._sources = self.session.sources
+            more = numpy.arange(len(slots.triangles), len(self._sources))
+            self._of_polygons = numpy.concatenate([slots.polygon_triangles, more])
+            self._cells = numpy.concatenate([slots.polygon_cells, more])
+            is_triangle = self._of_polygons != NONE
+            self._cells[is_triangle] = slots.cells[self._sources[self._of_polygons[is_triangle]]]
+
+    def _pass_points(self, output):
+        """The points, with their data, and those that refinement has added."""
+        mesh, count = self.mesh, len(self.points)
+        pass_points(mesh, output)
+        if len(self._points) == count:
+            return
+        points = self.vtk.core.vtkPoints()
+        points.SetData(self.vtk.support.numpy_to_vtk(self._points, deep=True))
+        output.SetPoints(points)
+        data = output.GetPointData()
+        data.Initialize()
+        self.vtk.add_tuples(mesh.GetPointData(), count, range(count), 0, len(self._points), data)
+        self.vtk.interpolate_tuples(data, count, *self._added)
+        _demote_global_ids(data)
+
     def _make_polygons(self, is_wide):
         slots = self.slots
-        is_triangle = slots.polygon_triangles != NONE
-        whole = slots.polygon_cells[~is_triangle] - slots.first_polygon
+        is_triangle = self._of_polygons != NONE
+        whole = self._cells[~is_triangle] - slots.first_polygon
         sizes = numpy.full(len(is_triangle), 3)
         sizes[~is_triangle] = slots.polygons.sizes[whole]
         cells, corners = self.vtk.make_cells(sizes, is_wide)
-        if len(whole) == 0 and len(sizes) == len(slots.triangles):
+        if len(whole) == 0 and len(sizes) == len(self._sources):
             self.session.store_triangles(corners.reshape(-1, 3))
         else:
             of_triangle = numpy.repeat(is_triangle, sizes)
-            triangles = self.session.triangles[slots.polygon_triangles[is_triangle]]
+            triangles = self.session.triangles[self._of_polygons[is_triangle]]
             corners[of_triangle] = triangles.ravel()
             corners[~of_triangle] = slots.polygons.gather(whole)
         return cells
@@ -244,14 +321,14 @@ class MeshInput:
     def _pass_cell_data(self, output):
         mesh, data, slots = self.mesh, output.GetCellData(), self.slots
         data.Initialize()
-        if slots.in_place:
+        if slots.in_place and not self._refines:
             data.ShallowCopy(mesh.GetCellData())
         else:
             sources = numpy.concatenate(
-                [numpy.arange(slots.first_polygon), slots.polygon_cells, slots.kept_strips])
+                [numpy.arange(slots.first_polygon), self._cells, slots.kept_strips])
             self.vtk.add_tuples(
                 mesh.GetCellData(), mesh.GetNumberOfCells(), sources, 0, len(sources), data)
-        if slots.divides_cells:
+        if slots.divides_cells or len(self._sources) > len(slots.triangles):
             _demote_global_ids(data)
         shared = data.GetNormals()
         if (shared is not None and shared.GetNumberOfComponents() == 3
@@ -264,16 +341,17 @@ class MeshInput:
     def _renew_normals(self, values, triangles):
         """Writes the normals of changed triangles to those of all output cells. Normals that pointed
         against the winding still do."""
-        polygons, chosen = self.slots.list_triangles()
-        changed = (self.slots.triangles[chosen] != triangles[chosen]).any(axis=1)
+        polygons = numpy.flatnonzero(self._of_polygons != NONE)
+        chosen, before = self._of_polygons[polygons], self.slots.triangles[self._sources]
+        changed = (before[chosen] != triangles[chosen]).any(axis=1)
         cells, chosen = self.slots.first_polygon + polygons[changed], chosen[changed]
-        old, new = (self._find_normals(some[chosen]) for some in (self.slots.triangles, triangles))
+        old, new = (self._find_normals(some[chosen]) for some in (before, triangles))
         against = (old * values[cells]).sum(axis=1) < 0
         values[cells] = new * numpy.where(against, -1.0, 1.0)[:, None]
 
     def _find_normals(self, triangles):
         """Unit normals by the right-hand rule; 0 for triangles without area."""
-        mesh = _arrays.Mesh(self.points, triangles)
+        mesh = _arrays.Mesh(self._points, triangles)
         normals = numpy.empty((len(triangles), 3))
         _library.call("triangle_normals", mesh.struct, _arrays.address(normals))
         return normals
@@ -283,9 +361,11 @@ class MeshInput:
         if counts:
             yield CELL_ARRAYS[0], 0, self.session.flip_counts
         if angles:
-            used, after = self.session.report.geometry_used, self.session.triangles
-            for name, triangles in zip(CELL_ARRAYS[1:], (self.slots.triangles, after)):
-                yield name, numpy.nan, smallest_angles(self.points, triangles, geometry=used)
+            used = self.session.report.geometry_used
+            before = smallest_angles(self.points, self.slots.triangles, geometry=used)
+            after = smallest_angles(self._points, self.session.triangles, geometry=used)
+            yield CELL_ARRAYS[1], numpy.nan, before[self._sources]
+            yield CELL_ARRAYS[2], numpy.nan, after
 
 
 class Cloud(Input):
@@ -472,24 +552,8 @@ class Cloud(Input):
             if numbers.dtype.kind != "f":
                 values = numpy.nan_to_num(numpy.trunc(values + numpy.copysign(0.5, values)))
             numbers.reshape(size, -1)[ids] = values
-        labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
-        for array in _list_arrays(data):
-            if not _is_among(array, labels):
-                self._interpolate_added(array)
+        self.vtk.interpolate_tuples(data, len(self.points), *self.added)
         _demote_global_ids(data)
-
-
-    def _interpolate_added(self, array):
-        """Writes the tuples of added points: between those of two or three others."""
-        corners = self.vtk.core.vtkIdList()
-        corners.SetNumberOfIds(3)
-        for place, (ids, weights) in enumerate(zip(*(one.tolist() for one in self.added)), len(self.points)):
-            if ids[2] < 0:
-                array.InterpolateTuple(place, ids[0], array, ids[1], array, weights[1])
-                continue
-            for k in range(3):
-                corners.SetId(k, ids[k])
-            array.InterpolateTuple(place, corners, array, weights)
 
 
 def _list_arrays(data):

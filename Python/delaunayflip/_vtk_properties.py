@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, VTK_ID_MAX
 from ._options import OPTION_KINDS, OPTION_RANGES
 from ._points import POINT_OPTIONS, POINT_RANGES, triangulate
 from ._report import to_camel_case
-from ._session import REFINEMENT, flip
+from ._session import flip
 
 #: The names here of options that the engine calls otherwise.
 PROPERTY_OF = {"threads": "number_of_threads", "device": "device_id", "pieces": "number_of_pieces"}
@@ -52,7 +52,7 @@ def make_properties(function, keywords, ranges):
 #: The numbers and switches of the engine that every filter has, and those of vtkDelaunayFlip alone.
 COMMON_OPTIONS = "device", "threads", "maximum_iterations"
 _OWN_OPTIONS = [name for name, kind in OPTION_KINDS.items()
-                if kind in (float, int, bool) and name not in (*COMMON_OPTIONS, *REFINEMENT)]
+                if kind in (float, int, bool) and name not in COMMON_OPTIONS]
 
 #: Those of every filter.
 COMMON_PROPERTIES = (
@@ -69,6 +69,7 @@ FLIP_PROPERTIES = (
     Property("TieRule", 0, 0, 1, ("Keep", "Canonical")),
     *make_properties(flip, _OWN_OPTIONS, OPTION_RANGES),
     Property("RegionArray", ""),
+    Property("SizeArray", ""),
     *(Property(name, True) for name in ("LinesAsConstraints", "InsertConstraints", "Triangulate")),
     Property("Devices", ""),
     *(Property(name, False) for name in ("InsertLines", "GenerateFlipCount", "GenerateQuality")),

@@ -25,7 +25,7 @@ import pyvista
 
 from ._ask import Field, Method, Outside, halve, read_places
 from ._library import InvalidOptions, Stopped
-from ._session import smallest_angles as _angles_of_arrays
+from ._session import Session, smallest_angles as _angles_of_arrays
 from ._options import Array, Numbers, OnIteration, Progress, check_integer, make_options, show
 from ._options import Options as _Options
 from ._points import Heights, run_points
@@ -50,6 +50,7 @@ class Options(_Options, total=False):
     insert_lines: bool
     insert_constraints: bool
     triangulate: bool
+    size: typing.Union[None, str, Numbers]
 
 
 if typing.TYPE_CHECKING:
@@ -73,7 +74,10 @@ def flip(
         progress, on_iteration: Functions, as for delaunayflip.flip; returning False aborts.
         **options: Options of delaunayflip.flip, such as geometry and feature_angle. region_array: a
             cell array; edges between its values stay. lines_as_constraints, insert_lines,
-            insert_constraints and triangulate as in vtkDelaunayFlip.
+            insert_constraints and triangulate as in vtkDelaunayFlip. size: an array, or the name of
+            a point array. Points that refinement adds (minimum_angle, maximum_area, ...) get z and
+            data that are linear between the others; new triangles get the data of the cell that has
+            their centroid.
 
     Returns:
         The mesh. Its field data tells what was done, e.g. "DelaunayFlip:TotalFlips".
@@ -282,14 +286,14 @@ def animate(
             plotter.open_gif(str(filename), fps=fps)
         else:
             plotter.open_movie(str(filename), framerate=fps)
-        shown = _color_by_quality(run.points, run.session.triangles)
+        shown = _color_by_quality(run.session.points, run.session.triangles)
         plotter.add_mesh(shown, **_LOOK)
         plotter.camera_position = _choose_camera(mesh) or "iso"
         plotter.write_frame()
         is_running = True
         while is_running:
             is_running = run.session.advance(iterations_per_frame)
-            shown.copy_from(_color_by_quality(run.points, run.session.triangles))
+            shown.copy_from(_color_by_quality(run.session.points, run.session.triangles))
             plotter.write_frame()
     finally:
         plotter.close()
@@ -375,7 +379,7 @@ def _open(mesh, constraints, options, progress=None):
     if constraints is not None:
         _require_mesh("constraints", constraints)
     flags = {name: bool(check_integer(name, options.pop(name), 0, 1, "True or False"))
-             for name in SETTINGS[:-1] if name in options}
+             for name in SETTINGS[:-2] if name in options}
     regions = options.pop("region_array", None)
     regions = "" if regions is None else regions
     if not isinstance(regions, str):
@@ -384,8 +388,16 @@ def _open(mesh, constraints, options, progress=None):
         listed = ", ".join(map(repr, mesh.cell_data)) or "none"
         raise InvalidOptions(
             f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
+    size = options.pop("size", None)
     make_options(**options)  # refuses what is none, such as `regions`
-    run = MeshInput(mesh, constraints, **flags, region_array=regions)
+    name = size if isinstance(size, str) else ""
+    if name and name not in mesh.point_data:
+        listed = ", ".join(map(repr, mesh.point_data)) or "none"
+        raise InvalidOptions(f"size: the mesh has no point array {name!r}; it has {listed}")
+    run = MeshInput(mesh, constraints, **flags, region_array=regions, size_array=name)
+    if size is not None and not name:
+        run.take_sizes(size)
+    run.session_type = Session
     run.open(progress=progress, **options)
     return run
 

@@ -37,8 +37,7 @@ class WrongUsage(CommandTest):
         """Asked for, as of a mesh generator, it is answered by what guarantees one."""
         for words in (["--min-angle", "20"], ["--MINIMUM-ANGLE=20"], ["--min_angle", "20"]):
             self.refuse(words[0].split("=")[0] + ": flips alone guarantee no smallest angle", *words)
-            self.refuse("--minimum-angle with --from-points", *words)
-        self.refuse("--from-points", "--minimum-angle", "20")
+            self.refuse("--minimum-angle adds points", *words)
         self.refuse("--minimum-angle", "--from-points", "--minimum-angle", "34")
 
     def test_unknown_extension(self):
@@ -127,7 +126,7 @@ class Success(CommandTest):
         self.assertEqual([line for line in text.splitlines() if len(line) > 80], [])
         groups = [line for line in text.splitlines() if line.endswith(":") and line[0] != " "]
         self.assertEqual(groups, ["Examples:", "What to read:", "Where edges are judged:", "What stays:",
-                                  "From points:", "Heights from points:", "Where it runs:",
+                                  "From points:", "Points to add:", "Heights from points:", "Where it runs:",
                                   "What to write:", "Help:"])
         self.assertIn("\n  --merge-points            First join points", text)
         for code in ("0 done", "2 wrong", "3 input", "4 iteration", "5 the", "129, 130, 131 or 143"):

@@ -522,7 +522,7 @@ class Usage(PointTest):
             ["--outline", path], ["--holes", path], ["--split-crossings"], ["--alpha", 1],
             ["--longest-edge", 1], ["--point-tolerance", 1], ["--projection", "xy"],
             ["--heights", "own"], ["--ring-rule", "nonzero"], ["--columns", "1,2"],
-            ["--minimum-angle", 20], ["--region", "1,2,3"], ["--keep-boundary"],
+            ["--region", "1,2,3"],
         ):
             self.fail_with(2, path, "out.vtk", *option,
                            naming=[option[0], "requires --from-points"])
@@ -565,6 +565,36 @@ class Usage(PointTest):
         self.assertEqual(sum(x in (0, 8) or y in (0, 8) for x, y, _ in points_of(mesh)), 4)
         self.fail_with(2, "in.vtk", "out.vtk", "--from-points", "--size-array", "width",
                        naming=["in.vtk", "--size-array", '"depth"'])
+
+    def test_refinement_of_a_mesh(self):
+        """A square of four triangles in two zones, whose plane rises, with a size at each point."""
+        square = make_mesh([(0, 0, 0), (8, 0, 8), (8, 8, 8), (0, 8, 0), (4, 0, 4), (4, 8, 4)],
+                           [(0, 4, 3), (4, 5, 3), (4, 1, 5), (1, 2, 5)])
+        square.GetPointData().AddArray(make_array("depth", [3.0, 1.0, 1.0, 3.0, 2.0, 2.0]))
+        square.GetCellData().AddArray(make_array("zone", [7.0, 7.0, -2.0, -2.0]))
+        self.write_mesh(square, "in.vtk")
+        goals = ("--geometry", "planar-xy", "--region-array", "zone", "--report", self.path("report.json"))
+        for more in (["--minimum-angle", 28], ["--maximum-area", 0.2], ["--size-array", "depth"]):
+            result = self.succeed("in.vtk", "out.vtk", *goals, *more)
+            report = read_report(self.path("report.json"))
+            mesh = self.read_mesh("out.vtk")
+            points, labels = points_of(mesh), mesh.GetCellData().GetArray("zone")
+            self.assertEqual(len(points), 6 + report["refinement_points"])
+            self.assertLess(2, report["refinement_points"])
+            self.assertAlmostEqual(area_of(mesh), 64)
+            for number, ids in enumerate(triangles_of(mesh)):
+                is_left = sum(points[i][0] for i in ids) < 12
+                self.assertEqual(labels.GetValue(number), 7 if is_left else -2)
+            self.assertTrue(all(abs(x - z) < 1e-5 for x, _, z in points))
+            self.assertRegex(result.stdout, r"points added in \d+ rounds?\n")
+        mesh = self.read_mesh("out.vtk")
+        depths = mesh.GetPointData().GetArray("depth")
+        self.assertTrue(all(abs(3 - x / 4 - depths.GetValue(i)) < 1e-5 for i, (x, _, _) in enumerate(points)))
+        self.fail_with(2, "in.vtk", "out.vtk", "--geometry", "surface", "--minimum-angle", 20,
+                       naming=["surface in space"])
+        self.fail_with(2, "in.vtk", "out.vtk", "--size-array", "width", naming=["--size-array", '"depth"'])
+        result = self.succeed("in.vtk", "out.vtk", "--maximum-edge", "0.1", "--point-limit", "100")
+        self.assertIn("so refinement has ended: --point-limit allows no more", result.stderr)
 
     def test_values(self):
         self.write("in.xyz", text_of(PLACES))

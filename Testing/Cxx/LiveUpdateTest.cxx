@@ -17,8 +17,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
+#include <vector>
 
 namespace
 {
@@ -83,6 +85,33 @@ TEST(LiveUpdate, EveryStepGivesAValidMesh)
   } while (filter->Advance());
   EXPECT_TRUE(filter->GetConverged());
   EXPECT_GT(iterations, 5);
+}
+
+/// Each round of refinement is a step. Points that move begin anew.
+TEST(LiveUpdate, ShowsRoundsOfRefinement)
+{
+  const auto refine = [](vtkDelaunayFlip* flip) { flip->SetMaximumArea(1e-4); };
+  auto mesh = MakeBadPlane();
+  LiveFilter filter(mesh);
+  refine(filter.Get());
+  std::vector<vtkIdType> triangles;
+  do
+  {
+    vtkPolyData* output = RunCleanly(filter);
+    EXPECT_EQ(CountViolations(output), filter->GetNonDelaunayAfter());
+    triangles.push_back(output->GetNumberOfPolys());
+  } while (filter->Advance());
+  EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
+  EXPECT_LT(filter->GetNumberOfIterations() + 3, static_cast<vtkIdType>(triangles.size()));
+  EXPECT_LT(2 * triangles.front(), triangles.back());
+  EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(mesh, refine));
+  EXPECT_EQ(filter->GetSession(), nullptr); // whose triangles have points that the input lacks
+  auto moved = MakeBadPlane();
+  moved->GetPoints()->SetPoint(0, -0.5, -0.5, 0.0);
+  filter->SetInputData(moved);
+  filter->Restart();
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(moved, refine));
 }
 
 TEST(LiveUpdate, OtherOptionsInputsAndCellsStartAgain)

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -16,13 +17,32 @@ namespace delaunayflip
 namespace
 {
 
+/// Expects the same bits.
+void ExpectSamePoints(
+  const std::vector<AddedPoint>& expected, const std::vector<AddedPoint>& points)
+{
+  ASSERT_EQ(expected.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const AddedPoint& own = points[i];
+    const AddedPoint& other = expected[i];
+    const double numbers[] = { own.X, own.Y, own.Z, own.Share, own.ThirdShare };
+    const double others[] = { other.X, other.Y, other.Z, other.Share, other.ThirdShare };
+    ASSERT_EQ(0, std::memcmp(numbers, others, sizeof numbers)) << i;
+    ASSERT_EQ(other.From, own.From);
+    ASSERT_EQ(other.To, own.To);
+    ASSERT_EQ(other.Third, own.Third);
+    ASSERT_EQ(other.Segment, own.Segment);
+  }
+}
+
 /// Refines on both backends, and expects the same.
 void ExpectSameRefinement(const PointInput& input, const PointOptions& options)
 {
   const auto refine = [&](BackendKind backend)
   {
     PointOptions own = options;
-    static_cast<FlipOptions&>(own) = OnBackend(backend);
+    own.Backend = backend;
     FlipSession session(input, own);
     session.Advance();
     return session;
@@ -38,20 +58,7 @@ void ExpectSameRefinement(const PointInput& input, const PointOptions& options)
   session.StoreRegions(labels.data());
   expected.StoreRegions(expectedLabels.data());
   EXPECT_EQ(expectedLabels, labels);
-  const std::vector<AddedPoint>& points = session.GetAddedPoints();
-  ASSERT_EQ(expected.GetAddedPoints().size(), points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const AddedPoint& own = points[i];
-    const AddedPoint& other = expected.GetAddedPoints()[i];
-    const double numbers[] = { own.X, own.Y, own.Share, own.ThirdShare };
-    const double others[] = { other.X, other.Y, other.Share, other.ThirdShare };
-    ASSERT_EQ(0, std::memcmp(numbers, others, sizeof numbers)) << i;
-    ASSERT_EQ(other.From, own.From);
-    ASSERT_EQ(other.To, own.To);
-    ASSERT_EQ(other.Third, own.Third);
-    ASSERT_EQ(other.Segment, own.Segment);
-  }
+  ExpectSamePoints(expected.GetAddedPoints(), session.GetAddedPoints());
 }
 
 /// A star with sharp corners around points, and a wall in it.
@@ -127,6 +134,45 @@ TEST_F(RefineTest, SmallAndSinglePrecision)
   PointOptions options;
   options.MinimumAngle = 25.0;
   ExpectSameRefinement(input, options);
+}
+
+/// A mesh with bays and turned triangles, with sizes: places, sources and data are those of the
+/// CPU.
+TEST_F(RefineTest, Meshes)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(20000, 5);
+  std::vector<std::int32_t> some;
+  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
+  {
+    const double* place = &mesh.Points[3 * std::size_t(mesh.Triangles[t])];
+    if (std::sin(11.0 * place[0]) * std::cos(13.0 * place[1]) < 0.5)
+    {
+      some.insert(some.end(), mesh.Triangles.begin() + t, mesh.Triangles.begin() + t + 3);
+    }
+  }
+  mesh.Triangles = some;
+  std::swap(mesh.Triangles[0], mesh.Triangles[1]);
+  std::vector<double> sizes(mesh.Points.size() / 3, 0.02);
+  TriangleMesh view = mesh.View();
+  view.Sizes = sizes.data();
+  const auto refine = [&](BackendKind backend)
+  {
+    FlipOptions options = OnBackend(backend, InPlane());
+    options.MinimumAngle = 25.0;
+    FlipSession session(view, options);
+    session.Advance();
+    return session;
+  };
+  const FlipSession expected = refine(BackendKind::Threads), session = refine(BackendKind::CUDA);
+  EXPECT_TRUE(IsOnGpu(session.GetReport())) << session.GetReport().Backend;
+  ExpectSameStatistics(expected.GetReport(), session.GetReport());
+  EXPECT_LT(1000, session.GetReport().FromPoints.RefinementPoints);
+  EXPECT_EQ(StoreTriangles(expected), StoreTriangles(session));
+  std::vector<std::int32_t> sources(session.GetReport().Triangles), expectedSources(sources.size());
+  session.StoreSources(sources.data());
+  expected.StoreSources(expectedSources.data());
+  EXPECT_EQ(expectedSources, sources);
+  ExpectSamePoints(expected.GetAddedPoints(), session.GetAddedPoints());
 }
 
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkDelaunayFlip in C++ and in Python give the same outputs, bit for bit, and the same messages."""
 import dataclasses
+import itertools
 import math
 import pathlib
 import random
@@ -23,7 +24,7 @@ from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator as Python
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, vtkObject
+from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, vtkObject, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
     vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid, vtkTable)
@@ -332,6 +333,48 @@ class Same(Pair, unittest.TestCase):
             mesh.SetPolys(make_cells(cells))
             told = self.expect_same(mesh)
             self.assertIn(hint, told["answers"]["GetSummary"])
+
+    def test_refinement(self):
+        """Of polygons and strips, with data, ghosts, regions, constraints and sizes."""
+        for triangulate, kind in itertools.product((True, False), (float, numpy.float32)):
+            mesh = make_polygon_mesh()
+            points = vtk_to_numpy(mesh.GetPoints().GetData()).astype(kind)
+            mesh.SetPoints(vtkPoints())
+            mesh.GetPoints().SetData(numpy_to_vtk(points, deep=True))
+            add_regions(mesh)
+            add_ghosts(mesh)
+            count = len(points)
+            add_array(mesh.GetPointData(), "real", points[:, :2] / 7)
+            add_array(mesh.GetPointData(), "size", numpy.full(count, 0.8))
+            add_array(mesh.GetPointData(), "text", list("abcde" * count)[:count])
+            add_array(mesh.GetPointData(), "numbers", numpy.arange(count))
+            mesh.GetPointData().SetActiveGlobalIds("numbers")
+
+            def prepare(flip):
+                flip.SetGeometryToPlanarXY()
+                flip.SetTriangulate(triangulate)
+                flip.SetMinimumAngle(20.0)
+                flip.SetMaximumArea(0.1)
+                flip.SetPointLimit(4000)
+
+            told = self.expect_same(mesh, lambda flip: (
+                prepare(flip), flip.GenerateQualityOn(), flip.GenerateFlipCountOn(), flip.SetRegionArray("Tree"),
+                flip.SetConstraintsData(make_constraints(mesh, kind))))
+            self.assertEqual(told["errors"], [])
+            self.assertNotIn(("DelaunayFlip:RefinementPoints", "vtkIdTypeArray", 1, ["0"]), told["meshes"][0])
+            self.assertGreater(len(told["meshes"][0][3][0]), 100)
+            told = self.expect_same(mesh, lambda flip: (
+                prepare(flip), flip.SetSizeArray("size"), flip.KeepBoundaryOn(), flip.SetMaximumEdge(0.7)))
+            self.assertEqual(told["errors"], [])
+            for name in ("sizes", "text", "real"):
+                told = self.expect_same(mesh, lambda flip: flip.SetSizeArray(name))
+                self.assertIn(f'SizeArray: ', told["errors"][0])
+            told = self.expect_same(mesh, lambda flip: (prepare(flip), flip.SetPointLimit(count + 5)))
+            self.assertIn("PointLimit allows no more", told["warnings"][0])
+            told = self.expect_same(mesh, lambda flip: (prepare(flip), flip.SetGeometryToSurface()))
+            self.assertIn("surface in space", told["errors"][0])
+            told = self.expect_same(join([make_rhombus(), make_rhombus()]), prepare)
+            self.assertIn("several partitions", told["errors"][0])
 
     def test_results_of_an_earlier_update(self):
         points, flip = CxxPoints(), CxxFilter()

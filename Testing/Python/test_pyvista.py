@@ -252,6 +252,28 @@ class PyVista(unittest.TestCase):
         with self.assertRaisesRegex(delaunayflip.InvalidOptions, 'no point array of numbers named "size"'):
             cloud.delaunay.triangulate(size="size")
 
+    def test_refinement_of_meshes(self):
+        import delaunayflip.pyvista
+        mesh = self.pyvista.PolyData([[0.0, 0, 0], [4, 0, 8], [10, 0, 20], [10, 10, 30], [4, 10, 18], [0, 10, 10]],
+                                     faces=[3, 0, 1, 5, 3, 1, 4, 5, 4, 1, 2, 3, 4])
+        mesh["Plane"] = 2 * mesh.points[:, 0] + mesh.points[:, 1]
+        mesh["Size"] = [1.0, 2, 3, 3, 2, 1]
+        mesh.cell_data["Zone"] = [7, 7, -2]
+        options = {"minimum_angle": 28, "region_array": "Zone", "geometry": "planar-xy"}
+        made = mesh.delaunay.flip(size="Size", quality=True, **options)
+        self.assertGreater(made.n_points, 30)
+        numpy.testing.assert_allclose(made.points[:, 2], 2 * made.points[:, 0] + made.points[:, 1], atol=1e-4)
+        numpy.testing.assert_allclose(made["Plane"], made.points[:, 2], atol=1e-4)
+        is_left = made.cell_centers().points[:, 0] < 4
+        numpy.testing.assert_array_equal(made["Zone"], numpy.where(is_left, 7, -2))
+        self.assertGreaterEqual(made["Smallest angle after (degrees)"].min(), 28)
+        same = mesh.delaunay.flip(size=[1.0, 2, 3, 3, 2, 1], **options)
+        numpy.testing.assert_array_equal(same.faces, made.faces)
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "size: the mesh has no point array 'size'"):
+            mesh.delaunay.flip(size="size")
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "minimum_angle must be from 0 to 33"):
+            mesh.delaunay.flip(minimum_angle=40)
+
     def test_heights_of_rings(self):
         """Those that have none, and their data, come from the survey."""
         import delaunayflip.pyvista
