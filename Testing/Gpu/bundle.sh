@@ -80,7 +80,7 @@ fill()
     carry_loader "$folder"
   else
     cp "$here/test_device_arrays.py" "$here/../Python/lattice.py" \
-      "$here/../Benchmarks/"{compare,interpolate,refine}.py "$folder/"
+      "$here/../Benchmarks/"{compare,interpolate,moving,refine,sphere}.py "$folder/"
     cp -r "$root/Python/delaunayflip" "$folder/"
     cp -L "$build/lib/libdelaunayflip.so.1" "$folder/delaunayflip/"
     if [ -d "$build/meshes" ]; then
