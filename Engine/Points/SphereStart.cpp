@@ -199,11 +199,23 @@ void JoinPole(std::vector<std::int32_t>& triangles, const std::vector<std::int32
 std::vector<std::int32_t> FindSimplex(
   const SpacePoints& points, const std::vector<std::int32_t>& active)
 {
+  constexpr std::int32_t None = -1;
   if (active.size() < 4)
   {
     return {};
   }
-  const std::int32_t north = FindLargest(points, active, [](const PlanePoint&) { return 0.0; });
+  // The northernmost of some points. Their order does not matter to it.
+  const auto findNorth = [&](const auto& isChosen)
+  {
+    std::vector<std::int32_t> chosen;
+    std::copy_if(active.begin(), active.end(), std::back_inserter(chosen), isChosen);
+    if (chosen.empty())
+    {
+      return None;
+    }
+    return FindLargest(points, chosen, [](const PlanePoint&) { return 0.0; });
+  };
+  const std::int32_t north = findNorth([](std::int32_t) { return true; });
   const Vector3 a = ToVector(points[north]);
   // Halves, so that nothing overflows; the measures need not be exact.
   const auto getOffset = [&](const PlanePoint& p)
@@ -240,12 +252,11 @@ std::vector<std::int32_t> FindSimplex(
   { return AreOnLine(points[north], points[far], points[i]); };
   if (isOnAxis(aside)) // by rounding, or because all points are
   {
-    const auto off = std::find_if_not(active.begin(), active.end(), isOnAxis);
-    if (off == active.end())
+    aside = findNorth([&](std::int32_t i) { return !isOnAxis(i); });
+    if (aside == None)
     {
       return {};
     }
-    aside = *off;
   }
   const Vector3 normal = Cross(axis, getPlace(points[aside]));
   std::int32_t above = FindLargest(
@@ -254,13 +265,11 @@ std::vector<std::int32_t> FindSimplex(
   { return FindOrientation3D(points[north], points[far], points[aside], points[i]); };
   if (findSide(above) == 0) // by rounding, or because all points lie in one plane
   {
-    const auto off =
-      std::find_if(active.begin(), active.end(), [&](std::int32_t i) { return findSide(i) != 0; });
-    if (off == active.end())
+    above = findNorth([&](std::int32_t i) { return findSide(i) != 0; });
+    if (above == None)
     {
       return {};
     }
-    above = *off;
   }
   std::vector<std::int32_t> simplex = { north, far, aside, above };
   if (findSide(above) < 0)
