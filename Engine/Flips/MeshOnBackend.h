@@ -250,6 +250,12 @@ public:
     this->RequireStates();
     if (plan.IsOfCaller && this->Places.Count == 0)
     {
+      // The loop on a device does not tell which edges are blocked.
+      if (!BackendT::IsOnHost && this->Frame.NeedsGuard)
+      {
+        throw BackendUnavailable(
+          "a mesh with triangles that overlap or are turned over is refined by threads");
+      }
       this->MakePlaces();
     }
     if (this->Places.Floats)

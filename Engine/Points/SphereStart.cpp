@@ -53,6 +53,22 @@ std::int32_t FindLargest(
   return best;
 }
 
+constexpr std::int32_t NoPoint = -1;
+
+/// The chosen point farthest north, whatever the order of the points; NoPoint if none is chosen.
+template <typename IsChosen>
+std::int32_t FindNorth(
+  const SpacePoints& points, const std::vector<std::int32_t>& active, const IsChosen& isChosen)
+{
+  std::vector<std::int32_t> chosen;
+  std::copy_if(active.begin(), active.end(), std::back_inserter(chosen), isChosen);
+  if (chosen.empty())
+  {
+    return NoPoint;
+  }
+  return FindLargest(points, chosen, [](const PlanePoint&) { return 0.0; });
+}
+
 /// Whether the center of a simplex, which is rounded, is inside of it.
 bool HoldsCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex)
 {
@@ -199,23 +215,11 @@ void JoinPole(std::vector<std::int32_t>& triangles, const std::vector<std::int32
 std::vector<std::int32_t> FindSimplex(
   const SpacePoints& points, const std::vector<std::int32_t>& active)
 {
-  constexpr std::int32_t None = -1;
   if (active.size() < 4)
   {
     return {};
   }
-  // The northernmost of some points. Their order does not matter to it.
-  const auto findNorth = [&](const auto& isChosen)
-  {
-    std::vector<std::int32_t> chosen;
-    std::copy_if(active.begin(), active.end(), std::back_inserter(chosen), isChosen);
-    if (chosen.empty())
-    {
-      return None;
-    }
-    return FindLargest(points, chosen, [](const PlanePoint&) { return 0.0; });
-  };
-  const std::int32_t north = findNorth([](std::int32_t) { return true; });
+  const std::int32_t north = FindNorth(points, active, [](std::int32_t) { return true; });
   const Vector3 a = ToVector(points[north]);
   // Halves, so that nothing overflows; the measures need not be exact.
   const auto getOffset = [&](const PlanePoint& p)
@@ -252,8 +256,8 @@ std::vector<std::int32_t> FindSimplex(
   { return AreOnLine(points[north], points[far], points[i]); };
   if (isOnAxis(aside)) // by rounding, or because all points are
   {
-    aside = findNorth([&](std::int32_t i) { return !isOnAxis(i); });
-    if (aside == None)
+    aside = FindNorth(points, active, [&](std::int32_t i) { return !isOnAxis(i); });
+    if (aside == NoPoint)
     {
       return {};
     }
@@ -265,8 +269,8 @@ std::vector<std::int32_t> FindSimplex(
   { return FindOrientation3D(points[north], points[far], points[aside], points[i]); };
   if (findSide(above) == 0) // by rounding, or because all points lie in one plane
   {
-    above = findNorth([&](std::int32_t i) { return findSide(i) != 0; });
-    if (above == None)
+    above = FindNorth(points, active, [&](std::int32_t i) { return findSide(i) != 0; });
+    if (above == NoPoint)
     {
       return {};
     }

@@ -63,8 +63,9 @@ struct FixWallStep
     const CornerPair corners = this->Mesh.GetCorners(e);
     const EdgeState state = this->Mesh.States[e];
     const bool isAtRemoved = this->IsRemoved(corners.A) || this->IsRemoved(corners.B);
-    const bool becomesFixed =
-      state != EdgeState::Fixed && (isAtRemoved || state != EdgeState::Good);
+    // A loop on a device does not write states: there edges that are good are still candidates.
+    const bool isBad = state >= EdgeState::BlockedByDeviation && state <= EdgeState::Bad;
+    const bool becomesFixed = state != EdgeState::Fixed && (isAtRemoved || isBad);
     if (becomesFixed)
     {
       this->Mesh.States[e] = EdgeState::Fixed;

@@ -107,7 +107,11 @@ TEST(LiveUpdate, ShowsRoundsOfRefinement)
   EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(mesh, refine));
   EXPECT_EQ(filter->GetSession(), nullptr); // whose triangles have points that the input lacks
   auto moved = MakeBadPlane();
-  moved->GetPoints()->SetPoint(0, -0.5, -0.5, 0.0);
+  for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
+  {
+    const double* point = mesh->GetPoint(i);
+    moved->GetPoints()->SetPoint(i, 1.5 * point[0], 1.5 * point[1], point[2]);
+  }
   filter->SetInputData(moved);
   filter->Restart();
   filter.RunToTheEnd();

@@ -105,11 +105,14 @@ class WithoutProjection:
         self.projection = projection
         self.Modified()
 
+    def SetDegrees(self, _):
+        """Only a sphere asks for it."""
+
     def _flip_all(self, *data):
         if self.projection:
             raise delaunayflip.InvalidOptions(
-                "Projection: the best-fitting plane needs the plugin in C++; this one, in Python, joins "
-                "points in x and y")
+                "Projection: the best-fitting plane and the sphere need the plugin in C++; this one, in "
+                "Python, joins points in x and y")
         super()._flip_all(*data)
 
 
