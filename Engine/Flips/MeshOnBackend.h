@@ -254,7 +254,8 @@ public:
       if (!BackendT::IsOnHost && this->Frame.NeedsGuard)
       {
         throw BackendUnavailable(
-          "a mesh with triangles that overlap or are turned over is refined by threads");
+          "a mesh whose triangles overlap, are turned over or meet in a point alone is refined by "
+          "threads");
       }
       this->MakePlaces();
     }

@@ -137,20 +137,10 @@ TEST_F(RefineTest, SmallAndSinglePrecision)
   ExpectSameRefinement(input, options);
 }
 
-/// A mesh with bays, with sizes: places, sources and data are those of the CPU.
+/// A mesh with sizes: places, sources and data are those of the CPU.
 TEST_F(RefineTest, Meshes)
 {
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(20000, 5);
-  std::vector<std::int32_t> some;
-  for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
-  {
-    const double* place = &mesh.Points[3 * std::size_t(mesh.Triangles[t])];
-    if (std::sin(11.0 * place[0]) * std::cos(13.0 * place[1]) < 0.5)
-    {
-      some.insert(some.end(), mesh.Triangles.begin() + t, mesh.Triangles.begin() + t + 3);
-    }
-  }
-  mesh.Triangles = some;
   std::vector<double> sizes(mesh.Points.size() / 3, 0.02);
   TriangleMesh view = mesh.View();
   view.Sizes = sizes.data();
