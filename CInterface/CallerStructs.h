@@ -40,7 +40,7 @@ inline void Require(bool isKept, const char* rule)
   }
 }
 
-/// @throws RunAborted
+/// @throws RunAborted if an observer has asked to stop.
 inline void RequireNotStopped(bool isComplete)
 {
   if (!isComplete)

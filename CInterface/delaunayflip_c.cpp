@@ -171,7 +171,7 @@ struct delaunayflip_session
 
   FlipSession Session;
   bool IsFromPoints = false;
-  bool MakesTriangles = false; ///< Whether they are from points, or refined.
+  bool MakesTriangles = false; ///< Whether their number may change: from points, or by refinement.
   std::int64_t NumberOfTriangles = 0;
   const std::int64_t* TriangleNumbers = nullptr; ///< The caller's, or null.
   KeptReport Report;
@@ -194,7 +194,7 @@ delaunayflip_status TryWithPoints(
     });
 }
 
-/// Writes between which points an added one lies, and their weights.
+/// Writes the points between which an added point lies, and their weights.
 void StoreWeights(const AddedPoint& point, std::int64_t* ids, double* weights)
 {
   const std::int64_t of[] = { point.From, point.To, point.Third };
@@ -492,8 +492,7 @@ extern "C"
       [=]()
       {
         const delaunayflip_points c = Complete(places, delaunayflip_points_init);
-        Require(!ids || !IsOnDevice(c.memory),
-          "some points can be moved only to places in the host's memory");
+        Require(!ids || !IsOnDevice(c.memory), "with ids, the places must be in the host's memory");
         const PointMove move{ ToPlane(c), ids, IsOnDevice(c.memory), { c.stream } };
         RequireNotStopped(session->Session.Move(move, ToProgress(callbacks)));
       });

@@ -136,8 +136,8 @@ extern "C"
     DELAUNAYFLIP_GEOMETRY_PLANAR = 1, /**< In the plane of the points; an error if there is none. */
     DELAUNAYFLIP_GEOMETRY_PLANAR_XY = 2, /**< By x and y; z has no effect. */
     DELAUNAYFLIP_GEOMETRY_SURFACE = 3, /**< In space. */
-    DELAUNAYFLIP_GEOMETRY_SPHERE = 4, /**< On a sphere around the origin, by the exact sign of four
-                                           points: towards the convex hull. */
+    DELAUNAYFLIP_GEOMETRY_SPHERE = 4, /**< On a sphere around the origin, by the exact orientation
+                                           of four points: towards the convex hull. */
     DELAUNAYFLIP_GEOMETRY_MIXED = 5 /**< For delaunayflip_summarize; no option. */
   } delaunayflip_geometry;
 
@@ -181,16 +181,16 @@ extern "C"
                             null or "": the one of device. [NULL] */
     double maximum_deviation; /**< An edge of a surface stays if its flip would move the surface by
                                  more than this length; 0 or more. [INFINITY] */
-    /** Refinement of a mesh in the plane or of terrain, in a session: this and what follows. For
-     * points, delaunayflip_points has the same. Points are added until no angle is smaller: 0 to 33
+    /** This and the members below refine a mesh in the plane or of terrain, in a session only. For
+     * points they are in delaunayflip_points. Points are added until no angle is smaller: 0 to 33
      * degrees. [0] */
     double minimum_angle;
     double maximum_area; /**< Points are added until no triangle is larger; 0: no limit. [0] */
     double maximum_edge; /**< Points are added until no edge is longer; 0: no limit. [0] */
-    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split, so that some triangles
-                              there may stay as they are. [0] */
-    int64_t point_limit; /**< How many points the mesh may have; 0: ten times as many as are given,
-                            at least a million. [0] */
+    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split, so some triangles there
+                              may stay as they are. [0] */
+    int64_t point_limit; /**< The most points that the mesh may have; 0: ten times as many as are
+                            given, at least a million. [0] */
   } delaunayflip_options;
 
   typedef enum
@@ -241,8 +241,8 @@ extern "C"
     DELAUNAYFLIP_DEFECT_REGION_SEEDS_OUTSIDE = 33,
     DELAUNAYFLIP_DEFECT_TRIANGLES_NOT_REFINED = 34,
     DELAUNAYFLIP_DEFECT_POINT_LIMIT_REACHED = 35,
-    DELAUNAYFLIP_DEFECT_POINTS_INSIDE = 36, /**< Of the hull, where triangles are on a sphere. */
-    DELAUNAYFLIP_DEFECT_POINTS_IN_ONE_PLANE = 37 /**< Likewise. */
+    DELAUNAYFLIP_DEFECT_POINTS_INSIDE = 36, /**< On a sphere: inside of the convex hull. */
+    DELAUNAYFLIP_DEFECT_POINTS_IN_ONE_PLANE = 37 /**< On a sphere: there is no hull. */
   } delaunayflip_defect_kind;
 
   /** A kind of defect: how often it occurs, and where first. */
@@ -345,8 +345,8 @@ extern "C"
                                     not get better. */
     int64_t reached_point_limit; /**< 1 if point_limit has ended refinement. */
     int64_t removed_points; /**< Points that delaunayflip_remove_points has removed. */
-    int64_t move_rounds; /**< In how many rounds the triangulation has followed the points when they
-                            moved last; 0 if they have not moved, or were triangulated anew. */
+    int64_t move_rounds; /**< The number of rounds of the last move or removal; 0 if there was none,
+                            or if it triangulated the points anew. */
     int64_t points_inside; /**< On a sphere: points inside of the convex hull, not used. */
   } delaunayflip_report;
 
@@ -388,12 +388,12 @@ extern "C"
 
   typedef enum
   {
-    DELAUNAYFLIP_PLANE = 0, /**< By x and y. */
+    DELAUNAYFLIP_PLANE = 0, /**< The plane of x and y. */
     DELAUNAYFLIP_SPHERE = 1, /**< The convex hull of points around the origin, by x, y and z:
                                 point_components is 3, and there are no segments or regions. */
-    DELAUNAYFLIP_OPEN_SPHERE = 2 /**< The same, without triangles whose circle is at least as large
-                                    as a great circle. */
-  } delaunayflip_projection; /**< Where points are triangulated. */
+    DELAUNAYFLIP_OPEN_SPHERE = 2 /**< As on a sphere, without triangles whose circumcircle encloses
+                                    half of the sphere or more. */
+  } delaunayflip_projection; /**< The surface on which points are triangulated. */
 
   /** Names the part, enclosed by segments, that a place is in. */
   typedef struct
@@ -481,9 +481,9 @@ extern "C"
     delaunayflip_session* session, double* xy, int64_t* ends, double* shares);
 
   /** Writes x, y and z of places on the unit sphere, as doubles. Multiples of 90 degrees give exact
-   * zeros and ones: longitudes that differ by 360 degrees give one place, as do all longitudes at a
-   * pole. Places that are not finite give NaN.
-   * @param degrees longitude and latitude of each. */
+   * zeros and ones. So longitudes that differ by 360 degrees give one place, and so do all
+   * longitudes at a pole. If an angle is not finite, all three are NaN.
+   * @param degrees longitude and latitude of each place. */
   delaunayflip_status delaunayflip_place_on_sphere(
     const double* degrees, int64_t number_of_places, double* xyz);
 
@@ -497,15 +497,17 @@ extern "C"
     delaunayflip_session* session, double* xy, int64_t* ids, double* weights, int64_t* segments);
 
   /** Writes the points that refinement has added to a mesh, as many as the report's
-   * refinement_points; they are numbered behind those of the mesh. For sessions from triangles.
-   * Each gets `xyz`, three numbers; `ids`, three points of the mesh, of which the last one is -1 if
-   * there are only two; and `weights`, three numbers: what belongs to the point is the sum of those
-   * of these points, each times its weight. */
+   * refinement_points. They are numbered after those of the mesh. For sessions from triangles.
+   * @param xyz three coordinates of each.
+   * @param ids three points of the mesh for each; the last one is -1 if there are only two.
+   * @param weights three numbers for each. The data of the point are the sum of those of the three
+   * points, each times its weight. */
   delaunayflip_status delaunayflip_store_refined_points(
     delaunayflip_session* session, double* xyz, int64_t* ids, double* weights);
 
-  /** Writes, for each triangle, the one before refinement that has its centroid, and whose data
-   * belong to it, too: as many as the report's triangles. For sessions from triangles. */
+  /** Writes, for each triangle, its source: the triangle before refinement that contains its
+   * centroid, whose data it gets. One number for each of delaunayflip_count_triangles triangles.
+   * For sessions from triangles. */
   delaunayflip_status delaunayflip_store_sources(delaunayflip_session* session, int32_t* sources);
 
   /** Writes the label of the region that each triangle is in, and 0 where there is none: as many as
@@ -523,10 +525,11 @@ extern "C"
 
   /** Inserts more points into the triangulation, numbered after the others of the caller; those at
    * crossings come after them. The triangles are then those of all points, perhaps in another order
-   * than if all had been given at once. If there are no segments, nothing was removed, and all new
-   * points are in the hull, only the triangles around them change. Otherwise the triangulation is
-   * made anew. For sessions from points, after delaunayflip_advance. Many points at a time, such as
-   * 10,000, take less time than one by one. This inserts one point:
+   * than if all had been given at once. If there are no segments, regions or goals, no options
+   * remove points or triangles, and all new points are in the hull, only the triangles around them
+   * change. Otherwise the triangulation is made anew. For sessions from points, after
+   * delaunayflip_advance. Many points at a time, such as 10,000, take less time than one by one.
+   * This inserts one point:
    *
    *     const double place[] = { 0.5, 0.25 };
    *     delaunayflip_points more;
@@ -542,11 +545,12 @@ extern "C"
   delaunayflip_status delaunayflip_insert_points(delaunayflip_session* session,
     const delaunayflip_points* points, const delaunayflip_callbacks* callbacks);
 
-  /** Moves points. The triangles are then those of the points where they are now, perhaps in
-   * another order than if these had been triangulated, and perhaps more or fewer than before. If
-   * there are no segments, nothing was removed, and no two points are at one place, the mesh
-   * follows the points by flips, unless many triangles would turn over. Otherwise the triangulation
-   * is made anew. For sessions from points, after delaunayflip_advance. A frame of moving points:
+  /** Moves points. The triangles are then those of a triangulation of the points where they are
+   * now, perhaps in another order; there may be more or fewer than before. If there are no
+   * segments, regions or goals, no options remove points or triangles, and no two points meet at
+   * one place or part, the mesh follows the points by flips, unless many triangles would turn over.
+   * Otherwise the triangulation is made anew. For sessions from points, after delaunayflip_advance.
+   * A frame of moving points:
    *
    *     delaunayflip_points places;
    *     delaunayflip_points_init(&places);
@@ -555,28 +559,28 @@ extern "C"
    *     delaunayflip_move_points(session, &places, NULL, NULL);
    *     triangles = delaunayflip_count_triangles(session);
    *
-   * @param places of all points of the caller, or, with ids, of these. Those in the host's memory
-   * are copied, in the precision of the points. Those on a GPU must have that precision and stay
-   * unchanged until the next move; then `ids` must be null. Members that do not say where they are
-   * and how many have no effect.
+   * @param places of all points of the caller, or of those in `ids`. Places in the host's memory
+   * are copied, in the precision of the points. Places on a GPU must have that precision and stay
+   * unchanged until the next move, and `ids` must be null. Only the members that say where the
+   * places are, and how many, have an effect.
    * @param ids of the points that move, in the host's memory; null: all.
    * @param callbacks may be null. If `progress` returns 0, the call fails with
    * DELAUNAYFLIP_STOPPED, and all points are where they were. */
   delaunayflip_status delaunayflip_move_points(delaunayflip_session* session,
     const delaunayflip_points* places, const int64_t* ids, const delaunayflip_callbacks* callbacks);
 
-  /** Removes points. The others keep their numbers. A removed point is used no more, as if it were
-   * not finite, whatever place it gets by later moves. For sessions from points, after
+  /** Removes points. The others keep their numbers. A removed point is no longer used, as if it
+   * were not finite, and later moves do not bring it back. For sessions from points, after
    * delaunayflip_advance. `callbacks` as above. */
   delaunayflip_status delaunayflip_remove_points(delaunayflip_session* session, const int64_t* ids,
     int64_t number_of_ids, const delaunayflip_callbacks* callbacks);
 
-  /** Numbers the points anew without those that are removed; they keep their order. For sessions
-   * from points without segments or sizes, after delaunayflip_advance. `callbacks` as above. */
+  /** Numbers the points anew, without the removed ones and in the same order. For sessions from
+   * points without segments or sizes, after delaunayflip_advance. `callbacks` as above. */
   delaunayflip_status delaunayflip_compact_points(
     delaunayflip_session* session, const delaunayflip_callbacks* callbacks);
 
-  /** Returns how many triangles the session has, which takes less time than a report. */
+  /** Returns the number of triangles, which takes less time than a report. */
   int64_t delaunayflip_count_triangles(const delaunayflip_session* session);
 
   typedef enum

@@ -115,7 +115,7 @@ public:
   bool Advance(std::int64_t iterations = -1, const FlipObserver& observer = {},
     const ProgressObserver& progress = {});
 
-  /// How many triangles there are, for which nothing is measured.
+  /// The number of triangles. Unlike GetReport it measures nothing.
   std::int64_t CountTriangles() const;
 
   /// Announces memory that a Store function will write after the next Advance, such as a new array
@@ -129,8 +129,8 @@ public:
   const FlipReport& GetReport() const;
 
   /// Writes the triangles, each in its input slot. A triangle that no flip changed keeps its three
-  /// ids in their order. `triangles.Count` must be that of the input, or with refinement
-  /// GetReport().Triangles: those that it has added follow.
+  /// ids in their order. Triangles that refinement has added follow. `triangles.Count` must be
+  /// CountTriangles().
   void StoreTriangles(const MutableTriangleArray& triangles) const;
 
   /// Writes three numbers for every triangle: the triangles across its edges. Number k is opposite
@@ -157,15 +157,17 @@ public:
   /// is none. For sessions from points.
   void StoreRegions(std::int32_t* labels) const;
 
-  /// Writes, for every triangle, the one before refinement that has its centroid: GetReport()
-  /// .Triangles numbers. The data of that triangle belong to it. Edges that stay are never crossed,
-  /// so it has that one's region. Without refinement each is its own. For sessions from triangles.
+  /// Writes, for each of CountTriangles() triangles, its source: the triangle before refinement
+  /// that contains its centroid. The triangle gets the source's data. It has exactly the source's
+  /// region, because edges between regions are never crossed. Without refinement each triangle is
+  /// its own source. For sessions from triangles.
   void StoreSources(std::int32_t* sources) const;
 
   /// Inserts more points into the triangulation, numbered after the others. The triangles are then
   /// those of all points, perhaps in another order than if all had been given at once. If there are
-  /// no segments, nothing was removed, and all new points are in the hull, only the triangles
-  /// around them change. Otherwise the triangulation is made anew. For sessions from points.
+  /// no segments, regions or goals, no options remove points or triangles, and all new points are
+  /// in the hull, only the triangles around them change. Otherwise the triangulation is made anew.
+  /// For sessions from points.
   /// @param points in the host's memory; they are copied, in the precision of the others.
   /// @param progress is told the share that is done if all is made anew.
   /// @returns false if that has asked to stop. Then Advance begins with all points.
@@ -173,35 +175,35 @@ public:
   /// InvalidMesh if there are too many points, or as the constructor; BackendUnavailable.
   bool Insert(const PlaneArray& points, const ProgressObserver& progress = {});
 
-  /// Moves points. The triangles are then those of the points where they are now, perhaps in
-  /// another order than if these had been triangulated. Where there are no segments, nothing was
-  /// removed and no two points are at one place, the mesh follows the points: it moves all of them
-  /// as far as its triangles allow, flips, and goes on until they are there. If many triangles
-  /// would turn over, and in all other cases, the points are triangulated anew.
-  /// PointCounts::MoveRounds tells.
+  /// Moves points. The triangles are then those of a triangulation of the points where they are
+  /// now, perhaps in another order. If there are no segments, regions or goals, no options remove
+  /// points or triangles, and no two points meet at one place or part, the mesh follows the points
+  /// in rounds. A round moves the points as far as the triangles allow, and flips. If many
+  /// triangles would turn over, and in all other cases, the points are triangulated anew.
+  /// PointCounts::MoveRounds is then 0.
   ///
   /// If a GPU fails later, the CPU triangulates the points where they are, and the triangles may be
   /// in another order. For sessions from points.
   /// @param move coordinates in the host's memory are copied, in the precision of the points. Those
   /// in the memory of a GPU must have that precision, and stay unchanged until the next move.
   /// @param progress is asked before points move, and while they are triangulated anew.
-  /// @returns false if that has asked to stop. Then all points are where they were.
-  /// @throws InvalidOptions if the session is not one from points, or if numbers or ids do not fit
-  /// it; else what the constructor and Advance throw. Then all points are where they were, and the
-  /// next Advance begins anew.
+  /// @returns false if `progress` has asked to stop. Then all points are where they were.
+  /// @throws InvalidOptions if the session is not one from points, or if the number of places or an
+  /// id does not fit it; also what the constructor and Advance throw. After an exception all points
+  /// are where they were, and the next Advance begins anew.
   bool Move(const PointMove& move, const ProgressObserver& progress = {});
 
-  /// Removes points. The others keep their numbers. A removed point is used no more, as if it were
-  /// not finite, whatever place it gets by later moves. Up to 256 points at a time are removed in
-  /// place where Move would keep the mesh; otherwise the triangulation is made anew. For sessions
-  /// from points.
-  /// @param ids of points; those that are removed already have no effect.
+  /// Removes points. The others keep their numbers. A removed point is no longer used, as if it
+  /// were not finite, and later moves do not bring it back. Up to 256 points at a time are removed
+  /// in place where Move would keep the mesh; otherwise the triangulation is made anew. For
+  /// sessions from points.
+  /// @param ids of points. Ids of points that were removed before have no effect.
   /// @returns false if `progress` has asked to stop. Then no point is removed.
   /// @throws the same as Move.
   bool Remove(const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress = {});
 
-  /// Numbers the points anew without those that are removed; they keep their order. For sessions
-  /// from points without segments or sizes.
+  /// Numbers the points anew, without the removed ones and in the same order. For sessions from
+  /// points without segments or sizes.
   /// @returns false if `progress` has asked to stop. Then the points keep their numbers.
   /// @throws the same as Move.
   bool Compact(const ProgressObserver& progress = {});

@@ -40,13 +40,14 @@ enum class GeometryKind
   Auto,
   Planar, ///< In the plane of the points, in any orientation; an error if there is none.
   PlanarXY, ///< By x and y alone, for terrain.
-  Surface, ///< In space, by opposite-angle sums.
-           /// On a sphere around the origin, which every triangle must face with the same side. An
-           /// edge stays if neither of its triangles has the other's far corner beyond its plane.
-           /// So the mesh becomes the convex hull of the points, which is their Delaunay
-           /// triangulation on the sphere. Signs are exact for the points as given. A flip that
-           /// would turn a triangle over, seen from the origin, is not made: such an edge ends at a
-           /// point inside of the hull. Auto never chooses it.
+            /// In space, by opposite-angle sums.
+  Surface,
+  /// On a sphere around the origin, which every triangle must face with the same side. An edge is
+  /// good if the far corner of one triangle is not beyond the plane of the other. So the mesh
+  /// becomes the convex hull of the points, which is their Delaunay triangulation on the sphere.
+  /// Signs are exact for the points as given. No flip turns a triangle over, seen from the origin.
+  /// An edge that is blocked for this reason ends at a point inside of the hull. Auto never chooses
+  /// this geometry.
   Sphere,
   Mixed ///< Several meshes with different ones (AddReport); no option.
 };
@@ -54,20 +55,23 @@ enum class GeometryKind
 /// How an edge is judged.
 enum class CriterionKind
 {
-  InCircle, ///< The exact in-circle predicate. Not on surfaces, which ignore it; spheres have the
-            ///< exact sign of four points in space in its place.
-  OppositeAngles ///< The paper's eq. 5: opposite-angle sum > pi + Tolerance. Surfaces always use
-                 ///< it; an error on spheres.
+  /// The exact in-circle predicate; on a sphere, the exact orientation of four points in space.
+  /// Surfaces ignore this choice.
+  InCircle,
+  /// The paper's eq. 5: opposite-angle sum > pi + Tolerance. Surfaces always use it. An error on
+  /// spheres.
+  OppositeAngles
 };
 
-/// What happens to an edge if its four points lie exactly on one circle; on a sphere, in one plane.
+/// What happens to an edge if its four points lie exactly on one circle or, on a sphere, in one
+/// plane.
 enum class TieRuleKind
 {
   Keep, ///< It stays: a Delaunay mesh comes back bit-identical.
   /// Planar, in-circle: where nothing overlaps and no edge is left blocked, all triangles with an
   /// area are the same for every triangulation with the same fixed edges. Triangles without area
-  /// are left only along fixed edges, cut as the input has them. On a sphere likewise, if no point
-  /// is inside of the hull. An error on surfaces.
+  /// are left only along fixed edges, cut as the input has them. This is also true on a sphere, if
+  /// no point is inside of the hull. An error on surfaces.
   Canonical
 };
 
@@ -140,17 +144,17 @@ struct FlipOptions
   bool TrackQuality = false;
 
   /// @name Refinement
-  /// Points are added until all triangles reach these goals (PointTriangulation.h says how). In
-  /// planar geometry by the in-circle criterion, once no edge is bad; an error on surfaces, for
-  /// other criteria, and for a mesh in several pieces. Boundary edges and all edges that stay are
-  /// segments there: they are split, but triangles never cross them. Non-manifold and wrongly wound
-  /// edges are not split. Triangles that do not face the same side as most, and frozen ones, stay
-  /// as they are. TriangleMesh::Sizes is a goal, too.
+  /// Once no edge is bad, points are added until all triangles reach these goals
+  /// (PointTriangulation.h says how). It needs planar geometry and the in-circle criterion; goals
+  /// are an error on surfaces, on spheres and for a mesh in several pieces. Boundary edges and all
+  /// edges that stay are segments: they are split, but triangles never cross them. Non-manifold and
+  /// wrongly wound edges are not split. Frozen triangles, and those that do not face the same side
+  /// as most, stay as they are. TriangleMesh::Sizes is a goal, too.
   ///@{
 
-  /// Points are added until no angle is smaller, in degrees from 0 to 33. 0 (default): no limit. It
-  /// is proved that this ends up to 20.7 degrees (Ruppert 1995) where no segments meet at less than
-  /// 60 degrees; in practice it does up to about 33.
+  /// Points are added until no angle is smaller, in degrees from 0 to 33. 0 (default): no limit.
+  /// Ruppert (1995) proved that this ends for up to 20.7 degrees if no segments meet at less than
+  /// 60 degrees. In practice it ends for up to about 33.
   double MinimumAngle = 0.0;
 
   /// Points are added until no triangle is larger. 0 (default): no limit.
@@ -159,12 +163,12 @@ struct FlipOptions
   /// Points are added until no edge is longer. 0 (default): no limit.
   double MaximumEdge = 0.0;
 
-  /// Whether no edge of the boundary is split: that of the mesh, of the hull of points, or of what
-  /// is kept. Then some triangles at the boundary stay as they are.
+  /// Whether boundary edges are never split. From points the boundary is the hull, or that of the
+  /// triangles that are kept. Some triangles at the boundary may then stay as they are.
   bool KeepBoundary = false;
 
-  /// How many points all triangles together may have. Refinement ends before it would add more. 0
-  /// (default): ten times as many as are given, at least a million.
+  /// The most points that the mesh may have in the end. Refinement stops before it would add more.
+  /// 0 (default): ten times as many as are given, at least a million.
   std::int64_t PointLimit = 0;
   ///@}
 };

@@ -376,7 +376,7 @@ void AddCount(std::string& text, std::int64_t count, const char* what)
   }
 }
 
-/// A line, or nothing without refinement.
+/// One line, or nothing if there was no refinement.
 std::string DescribeRefinement(const PointCounts& counts)
 {
   if (counts.RefinementPoints + counts.UnrefinedTriangles == 0)

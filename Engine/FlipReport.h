@@ -128,9 +128,9 @@ enum class DefectKind
   PointsWithoutHeights, ///< Of segments, where other points have heights.
   RegionSeedsOutside, ///< In no triangle that is kept.
   TrianglesNotRefined, ///< Triangles that do not reach the goals of refinement.
-  PointLimitReached, ///< By refinement.
-  PointsInside, ///< Points inside of the convex hull, where triangles are wanted on a sphere.
-  PointsInOnePlane ///< There are fewer than four places, or all are in one plane, likewise.
+  PointLimitReached, ///< Refinement has reached it.
+  PointsInside, ///< On a sphere: points inside of the convex hull.
+  PointsInOnePlane ///< On a sphere: there are fewer than four places, or all are in one plane.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.

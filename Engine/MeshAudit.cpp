@@ -213,7 +213,7 @@ private:
     return Orientation(this->Project(a).data(), this->Project(b).data(), this->Project(c).data());
   }
 
-  /// Whether, on a sphere, the quad's far corner lies beyond the plane of the first triangle.
+  /// Whether, on a sphere, the far corner of the quad lies beyond the plane of the first triangle.
   bool IsReflex(const std::array<std::int64_t, 4>& quad) const
   {
     const auto position = [this](std::int64_t point)

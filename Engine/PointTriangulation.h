@@ -52,10 +52,10 @@
 ///
 /// **On a sphere** (PointOptions::Projection) triangles are those of the convex hull: n places have
 /// 2 n - 4 of them, counter-clockwise from outside. Signs are exact for the points as given, so a
-/// point that rounding has put inside of the hull is not used. Of four points in one plane the
-/// triangles without the lexicographically largest diagonal are taken, as by flips with canonical
-/// ties. PlaceOnSphere makes such points of longitudes and latitudes. Segments, questions and more
-/// points are not supported there yet.
+/// point that rounding has put inside of the hull is not used. If four points lie in one plane, the
+/// diagonal is the one that flips with TieRuleKind::Canonical choose. PlaceOnSphere makes such
+/// points from longitudes and latitudes. Segments and queries are not supported there yet, and
+/// points cannot be inserted, moved or removed.
 
 namespace delaunayflip
 {
@@ -71,15 +71,15 @@ enum class RingRuleKind
   Orientation
 };
 
-/// Where points are triangulated.
+/// The surface on which points are triangulated.
 enum class ProjectionKind
 {
-  Plane, ///< By x and y.
-  /// On a sphere around the origin: the convex hull of the points, by x, y and z. Points inside of
-  /// it are not used.
+  Plane, ///< The plane of x and y.
+  /// A sphere around the origin: the triangles are the convex hull of the points, by x, y and z.
+  /// Points inside of it are not used.
   Sphere,
-  /// The same, without triangles whose circle is at least as large as a great circle. So points on
-  /// less than half of the sphere get an open mesh.
+  /// As Sphere, but triangles whose circumcircle encloses half of the sphere or more are left out.
+  /// So points on less than half of the sphere get an open mesh.
   OpenSphere
 };
 
@@ -153,13 +153,14 @@ struct PointOptions : FlipOptions
   /// Triangles with a longer edge are removed in the same way. 0 (default): none.
   double LongestEdge = 0.0;
 
-  /// On a sphere points have x, y and z: PlaneArray::Stride is at least 3. There are no segments,
-  /// rings, sizes and regions, nor any other option of this struct, nor refinement.
+  /// On a sphere points have x, y and z: PlaneArray::Stride is at least 3. Segments, hole seeds,
+  /// sizes, regions, refinement and the other options of this struct are errors there.
   ProjectionKind Projection = ProjectionKind::Plane;
 };
 
-/// Calls visit(name, option...) for each option that FlipOptions do not have, and for those of
-/// refinement, with those of all structs side by side. The name is that of the C struct.
+/// Calls visit(name, option...) for each option that delaunayflip_points has: those that
+/// FlipOptions do not have, and those of refinement. Those of all structs are side by side. The
+/// name is that of the C struct.
 template <typename Visit, typename... Options>
 void ForEachPointOption(const Visit& visit, Options&... options)
 {
@@ -201,18 +202,19 @@ struct AddedPoint
   double Share = 0.0;
   std::int64_t Third = -1; ///< -1: there are only two.
   double ThirdShare = 0.0;
-  /// The segment on which refinement has put the point, or -1. In a session from triangles -1.
+  /// The segment on which refinement has put the point, or -1. Always -1 in a session from
+  /// triangles.
   std::int64_t Segment = -1;
-  double Z = 0.0; ///< In a session from triangles.
+  double Z = 0.0; ///< Used in a session from triangles only.
 };
 
 /// New places of points, for FlipSession::Move.
 struct PointMove
 {
   PlaneArray Points; ///< One for each point of the caller, or for each id.
-  const std::int64_t* Ids = nullptr; ///< The points that move; null: all. In the host's memory.
-  /// Whether the coordinates are in the memory of a GPU, ordered by Stream; not with Ids, nor while
-  /// points are removed.
+  const std::int64_t* Ids = nullptr; ///< The points that move, in the host's memory; null: all.
+  /// Whether the coordinates are in the memory of a GPU, ordered by Stream. Not allowed with Ids,
+  /// or after points were removed, until FlipSession::Compact.
   bool OnDevice = false;
   DeviceStream Stream{};
 };
@@ -237,17 +239,17 @@ struct PointCounts
   std::int64_t UnrefinedTriangles = 0;
   std::int64_t ReachedPointLimit = 0; ///< 1 if FlipOptions::PointLimit has ended refinement.
   std::int64_t Removed = 0; ///< Points that FlipSession::Remove has removed.
-  /// In how many rounds the triangulation has followed the points when they moved last; 0 if they
-  /// have not moved, or were triangulated anew.
+  /// The number of rounds of the last move or removal; 0 if there was none, or if it triangulated
+  /// the points anew.
   std::int64_t MoveRounds = 0;
   std::int64_t Inside = 0; ///< On a sphere: points inside of the convex hull, which are not used.
 };
 
 /// Writes x, y and z of a place on the unit sphere. Multiples of 90 degrees give exact zeros and
-/// ones. So longitudes that differ by 360 degrees give one place, as do all longitudes at a pole.
-/// What is not finite gives NaN. Libraries of mathematics differ in the last bit of the sines of
-/// other angles.
-/// @param longitude, latitude in degrees. A latitude beyond 90 degrees goes on across the pole.
+/// ones. So longitudes that differ by 360 degrees give one place, and so do all longitudes at a
+/// pole. For other angles the last bit depends on the system's sine and cosine. If an angle is not
+/// finite, all three are NaN.
+/// @param longitude, latitude in degrees. A latitude beyond 90 degrees continues across the pole.
 DELAUNAYFLIP_EXPORT void PlaceOnSphere(double longitude, double latitude, double xyz[3]);
 
 }

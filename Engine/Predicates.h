@@ -40,7 +40,7 @@ DELAUNAYFLIP_EXPORT int InCircle(
 DELAUNAYFLIP_EXPORT int InCircleTilted(
   const double a[3], const double b[3], const double c[3], const double d[3]);
 
-/// The orientation of a, b, c in space, seen from the other side of their plane than `d`: +1
+/// The orientation of a, b, c in space, seen from the side of their plane opposite to `d`: +1
 /// counter-clockwise, -1 clockwise, 0 if the four points lie in one plane.
 DELAUNAYFLIP_EXPORT int Orientation3D(
   const double a[3], const double b[3], const double c[3], const double d[3]);

@@ -218,7 +218,7 @@ struct TriangleMesh : FixedEdges
 {
   PointArray Points;
   TriangleArray Triangles;
-  /// For GeometryKind::Sphere: from where triangles are seen, a place inside of all of them.
+  /// For GeometryKind::Sphere: the place from which triangles are seen, inside of the mesh.
   double Center[3] = { 0.0, 0.0, 0.0 };
   WholeMesh Whole; ///< Only for pieces of a larger mesh.
 };

@@ -78,8 +78,8 @@ public:
   }
 
   /// Sorts the places of a block by their cells, if most are far from the ones before. Then
-  /// triangles that are near each other are read at about the same time. Public for nvcc, as is the
-  /// next function.
+  /// triangles that are near each other are read at about the same time. This and the next function
+  /// are public because device lambdas require it.
   /// @returns the order, or nothing.
   static Array<std::uint32_t> SortPlaces(const PlaceGridFrame& frame, const PlaceBlock& block,
     std::int64_t count, const Backend& backend)

@@ -36,7 +36,7 @@ inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion
 /// Which rule of FlipRules.h judges a mesh.
 struct RuleChoice
 {
-  /// @param center TriangleMesh::Center, for spheres.
+  /// @param center TriangleMesh::Center; only spheres use it.
   RuleChoice(const MeshSurvey& survey, const FlipOptions& options,
     const PlanePoint& center = { 0.0, 0.0, 0.0 })
     : IsSurface(survey.Geometry == GeometryKind::Surface),
@@ -55,7 +55,7 @@ struct RuleChoice
   }
 
   /// Calls visit(rule) for packed coordinates (PlanPacking), of one type or the other.
-  /// @param uniformSide PlanarSurvey::UniformSide or that of SurveySphere.
+  /// @param uniformSide PlanarSurvey::UniformSide or SphereSurvey::UniformSide.
   template <typename Function>
   auto Visit(
     const float* floats, const double* doubles, int uniformSide, const Function& visit) const

@@ -244,7 +244,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsLexicographicallyLess3D(
   return IsLexicographicallyLess(a, b) || (a.U == b.U && a.V == b.V && a.W < b.W);
 }
 
-/// Does the same in space.
+/// What EdgeHoldsLargest finds, in space.
 DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest3D(const PlanePoint (&apqb)[4])
 {
   const auto isBelow = [&](const PlanePoint& point) {
@@ -253,10 +253,10 @@ DELAUNAYFLIP_HOST_DEVICE inline bool EdgeHoldsLargest3D(const PlanePoint (&apqb)
   return isBelow(apqb[0]) && isBelow(apqb[3]);
 }
 
-/// Judges on a sphere, by the exact orientation of four points in space: an edge is convex if the
-/// far corner of one triangle is not beyond the plane of the other. Seen from the center, a flip
-/// turns no triangle over. So each flip of an edge that is not convex makes the volume larger, and
-/// flips end.
+/// Judges on a sphere, by the exact orientation of four points in space. An edge is convex if the
+/// far corner of one triangle is not beyond the plane of the other. An edge that is not convex
+/// flips unless a new triangle would be turned over, seen from the center. Each flip makes the
+/// volume larger, so the flips end.
 template <typename Real>
 struct SphereRule
 {
@@ -264,7 +264,7 @@ struct SphereRule
   static constexpr bool IsInSpace = false;
 
   const Real* Coordinates; ///< x, y and z of every vertex.
-  PlanePoint Center; ///< From where triangles are seen.
+  PlanePoint Center; ///< The place from which triangles are seen.
   int UniformSide; ///< As in PlanarRule, seen from the center.
   bool Canonical; ///< Whether ties are decided instead of kept.
   bool FiltersApply; ///< Whether coordinates are in the range of the filters.
@@ -325,7 +325,7 @@ private:
     return state;
   }
 
-  /// Does what the function FindSide does in the plane, and the next one what CheckConvex does.
+  /// What the function FindSide finds in the plane. The next one is CheckConvex of the plane.
   template <SignKind Kind>
   DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint (&apqb)[4]) const
   {

@@ -48,10 +48,10 @@ struct InsertedSegments
   std::int64_t Flips = 0;
 };
 
-/// How points have moved.
+/// The outcome of a motion or a removal of points.
 struct MotionResult
 {
-  bool IsThere = false; ///< Otherwise the mesh is of no use.
+  bool IsThere = false; ///< False: it did not end, and the mesh is of no use.
   std::int64_t Rounds = 0;
   std::int64_t Flips = 0;
 };
@@ -94,12 +94,12 @@ public:
   /// @returns how many flips it took.
   virtual std::int64_t InsertPoints(const std::vector<double>& places) = 0;
 
-  /// Moves the points of a Delaunay triangulation of points without fixed edges inside, and flips
-  /// until it is one again.
-  /// @param targets the places of all points. Only if HasMemory says so, they may be on a device.
+  /// Moves the points of a Delaunay triangulation of points without fixed interior edges, and flips
+  /// until it is Delaunay again.
+  /// @param targets the places of all points, on a device only if HasMemory is true of them.
   virtual MotionResult MovePoints(const PointInput& targets) = 0;
   /// Removes points from such a triangulation.
-  /// @param ids ascending.
+  /// @param ids of points, ascending.
   virtual MotionResult RemovePoints(const std::vector<VertexId>& ids) = 0;
   /// Whether an array is in the memory of the backend's device.
   virtual bool HasMemory(const void*) const { return false; }

@@ -15,16 +15,17 @@
 namespace delaunayflip
 {
 
-/// Moves the points of a mesh from points, in rounds of steps and flips.
+/// Moves and removes points of a triangulation of points, in rounds of steps and flips.
 template <typename Backend>
 class MeshMotion
 {
 public:
-  /// @param mesh Delaunay.
+  /// Moves all points.
+  /// @param mesh must be Delaunay.
   /// @param targets by point, in the memory of the backend.
   /// @param used by point, what MergePlaces returned.
-  /// @param settle flips until the mesh is Delaunay, and returns the flips. Its argument says
-  /// whether the mesh has other edges than before.
+  /// @param settle flips until the mesh is Delaunay, and returns the number of flips. Its argument
+  /// says whether edges were added or dropped.
   template <typename Real, typename Settle>
   MotionResult Move(const MovingMesh<Real>& mesh, const PlaneArray& targets,
     const Array<VertexId>& used, const Backend& backend, const Settle& settle)
@@ -51,8 +52,10 @@ public:
     return result;
   }
 
-  /// Removes points. @param ids of the mesh, by vertex. @param removed their ids, ascending, in the
-  /// memory of the backend. @param settle as above.
+  /// Removes points.
+  /// @param ids the mesh's own, which change.
+  /// @param removed the ids of these points, ascending, in the memory of the backend.
+  /// @param settle as for Move.
   template <typename Real, typename Settle>
   MotionResult Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed,
     const Backend& backend, const Settle& settle)
@@ -68,10 +71,10 @@ public:
     return result;
   }
 
-  // Public for nvcc.
+  // The functions below are public because device lambdas require it.
 
-  /// Whether the points that are not used are at the places of the same ones afterwards, or not
-  /// finite.
+  /// Whether each point that is not used will be at the place of the same used point as now, or not
+  /// finite as now.
   static bool KeepsUse(
     const PlaneArray& targets, const Array<VertexId>& used, const Backend& backend)
   {
@@ -90,7 +93,8 @@ public:
              }) == 0;
   }
 
-  /// On a device the states of edges are only what the loop is told, which it takes over again.
+  /// Ends the state Candidate of edges. A loop on a device reads states and does not write them, so
+  /// the next loop would judge these edges again.
   static void ClearCandidates(EdgeMesh& mesh, const Backend& backend)
   {
     if constexpr (!Backend::IsOnHost)
@@ -127,7 +131,8 @@ private:
     }
   }
 
-  std::unique_ptr<PointMotion<float, Backend>> Floats; ///< One of them.
+  // The mesh has coordinates of one type. The other pointer stays null.
+  std::unique_ptr<PointMotion<float, Backend>> Floats;
   std::unique_ptr<PointMotion<double, Backend>> Doubles;
 };
 

@@ -250,11 +250,11 @@ public:
     this->RequireStates();
     if (plan.IsOfCaller && this->Places.Count == 0)
     {
-      // The loop on a device does not tell which edges are blocked.
+      // FixBlocked needs the states of edges, which the loop on a device does not write.
       if (!BackendT::IsOnHost && this->Frame.NeedsGuard)
       {
         throw BackendUnavailable(
-          "a mesh whose triangles overlap, are turned over or meet in a point alone is refined by "
+          "a mesh whose triangles overlap, are turned over or meet only at a point is refined by "
           "threads");
       }
       this->MakePlaces();
@@ -344,8 +344,8 @@ public:
 
   void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
 
-  /// Returns the place of each point of a mesh from points, or NoVertex. Public for nvcc, as is the
-  /// next function.
+  /// Returns the place of each point of a mesh from points, or NoVertex. This and the next function
+  /// are public because device lambdas require it.
   Array<VertexId> ListPlaces() const
   {
     Array<VertexId> places = this->Backend.template MakeArray<VertexId>(this->Report.Points);
@@ -371,7 +371,7 @@ public:
     return places;
   }
 
-  /// Tells UsedPoint of points that are used no more. Public for nvcc, too.
+  /// Writes to UsedPoint which points are no longer used. Public because device lambdas require it.
   void ForgetUsed(const Array<VertexId>& removed)
   {
     const bool isNew = this->UsedPoint.Size() == 0;
@@ -403,8 +403,9 @@ public:
     }
   }
 
-  /// Makes a mesh of the caller one of places in a plane, in which most triangles are
-  /// counter-clockwise. Public for nvcc, as are the next two functions.
+  /// Projects the points of the caller's mesh into a plane in which most triangles are
+  /// counter-clockwise. This and the next two functions are public because device lambdas require
+  /// it.
   void MakePlaces()
   {
     this->RequireIds();
@@ -441,7 +442,7 @@ public:
     this->MakeLoopOfGrown<Real>(coordinates.Data());
   }
 
-  /// Makes the points of vertices if there are none, because each is its own.
+  /// Fills the ids of vertices if there are none: the id of each vertex is its number.
   void RequireIds()
   {
     if (this->Order.VertexOfRank.Size() == 0)
@@ -695,14 +696,14 @@ private:
     return flips;
   }
 
-  /// @param values of the targets.
+  /// @param values the coordinates of the targets, in the caller's type.
   template <typename Value>
   MotionResult MoveTo(PlaneArray targets, const Value* values, bool isLocal)
   {
     this->RequireStates();
     if (!isLocal)
     {
-      // This array is kept for later motions.
+      // The array is kept, so that later motions need no new memory.
       Array<Value>& copy = std::get<Array<Value>>(this->Targets);
       const std::int64_t numbers = (targets.Count - 1) * targets.Stride + 2;
       Reserve(copy, 0, numbers, this->Backend);
@@ -727,7 +728,8 @@ private:
     return result;
   }
 
-  /// Flips until the mesh is Delaunay, after points have moved or gone. @returns the flips.
+  /// Flips until the mesh is Delaunay, after points were moved or removed. @returns the number of
+  /// flips.
   template <typename Real>
   std::int64_t Settle(const Real* coordinates, bool hasOtherEdges)
   {
@@ -774,7 +776,7 @@ private:
     GrowingMesh<Real> Grown;
     std::unique_ptr<Refinement<Real, BackendT>> Rounds;
     bool IsComplete = false;
-    RefinementResult Result; ///< Once it is complete.
+    RefinementResult Result; ///< Valid if IsComplete.
   };
 
   template <typename Real>
@@ -797,7 +799,7 @@ private:
     {
       return;
     }
-    this->Loop->Converge(); // iterations may have ended before
+    this->Loop->Converge(); // because a limit may have ended the iterations
     refined.Grown = { &this->Mesh, &this->GetCoordinates<Real>(), &this->Order.VertexOfRank,
       this->Points.Count, this->Report.Points, this->FiltersApply };
     refined.Rounds =
@@ -834,7 +836,7 @@ private:
     return added;
   }
 
-  /// Lets edges flip that stayed for refinement alone, after what it has made is known.
+  /// Fetches the result, and then lets edges flip that were fixed for refinement alone.
   template <typename Real>
   void EndRefinement(RefinedMesh<Real>& refined)
   {
@@ -888,7 +890,7 @@ private:
     report.Triangles = this->Mesh.NumberOfTriangles;
     if (!this->IsFromPoints)
     {
-      return; // other edges may be fixed there
+      return; // because edges inside may be fixed, too
     }
     const std::int64_t hullEdges = 2 * this->Mesh.NumberOfEdges - 3 * this->Mesh.NumberOfTriangles;
     report.Edges.Edges = this->Mesh.NumberOfEdges;
@@ -931,16 +933,16 @@ private:
   EdgeMesh Mesh;
   PackedPoints Points;
   CoordinateRange Range = CoordinateRange::Usual;
-  bool FiltersApply = false; ///< Whether those of planar rules do.
+  bool FiltersApply = false; ///< Whether coordinates are in the range of the planar filters.
   bool IsFromPoints = false;
-  /// A view of Points: of a mesh from points, or of the caller's once it is refined.
+  /// A view of Points, in a mesh from points, or in the caller's mesh once refinement has begun.
   PlaneArray Places;
   PlaneFrame Frame;
   Array<VertexId> UsedPoint; ///< What MergePlaces returned.
   PlaceAsker<BackendT> Asker;
   MeshMotion<BackendT> Motion;
-  std::tuple<Array<float>, Array<double>> Targets; ///< A copy of those of the last motion.
-  RefinedMesh<float> RefinedFloats; ///< If coordinates are floats; else the next one.
+  std::tuple<Array<float>, Array<double>> Targets; ///< The targets of the last motion, copied.
+  RefinedMesh<float> RefinedFloats; ///< Used if coordinates are floats, else the next one.
   RefinedMesh<double> RefinedDoubles;
   OrientationSample Orientations;
   std::unique_ptr<FlipLoop> Loop;

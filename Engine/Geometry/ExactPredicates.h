@@ -151,7 +151,7 @@ DELAUNAYFLIP_HOST_DEVICE inline Integer512 Multiply(const Integer256& a, const I
   return { Multiply(a.High, b.High) + carried, { middle.Low, low.Low } };
 }
 
-/// The number in twice the bits.
+/// Converts a number to an integer with twice as many bits.
 DELAUNAYFLIP_HOST_DEVICE inline Integer128 Widen(std::int64_t a) { return a; }
 
 DELAUNAYFLIP_HOST_DEVICE inline Integer256 Widen(Integer128 a)
@@ -308,7 +308,7 @@ public:
       this->Narrow(w + this->W) };
   }
 
-  /// Leaves WSum out, which may be larger than all offsets.
+  /// Like OffsetOf, but without WSum, which is not needed and may not fit.
   DELAUNAYFLIP_HOST_DEVICE FixedPointOffset<Integer> OffsetInSpace(const PlanePoint& p)
   {
     return { this->Narrow(this->Unit.Convert(p.U, this->Fits) - this->U),
@@ -404,10 +404,10 @@ DELAUNAYFLIP_HOST_DEVICE inline int FixedPointInCircle(const PlanePoint (&points
 /// Sign of the determinant with rows a - d, b - d and c - d, or UncertainSign where their offsets
 /// do not fit Integer.
 ///
-/// With offsets of at most 2^k, minors are at most 2^(2k + 1), products of both 2^(3k + 1), the sum
-/// of three less than 2^(3k + 3). 64 bits, k = 62: minors are at most 2^125, as Multiply takes
-/// them, and the sum is below 2^189, in 256 bits. 128 bits, k = 126: minors are at most 2^253, and
-/// the sum is below 2^381, in 512.
+/// If offsets are at most 2^k, minors are at most 2^(2k + 1), the products of a minor and an offset
+/// 2^(3k + 1), and the sum of three products is less than 2^(3k + 3). 64-bit offsets have k = 62:
+/// minors of at most 2^125 are in the range of Multiply, and sums below 2^189 fit 256 bits. 128-bit
+/// offsets have k = 126: minors are at most 2^253, and sums below 2^381 fit 512 bits.
 template <typename Integer>
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE int FixedPointOrientation3DIn(
   PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d)
@@ -467,7 +467,7 @@ DELAUNAYFLIP_HOST_DEVICE inline int ExactInCircle(const PlanePoint (&points)[4],
   return sign;
 }
 
-/// Sign of the determinant with rows a - d, b - d and c - d. UncertainSign as above.
+/// Sign of the determinant with rows a - d, b - d and c - d. UncertainSign as for ExactOrientation.
 DELAUNAYFLIP_HOST_DEVICE inline int ExactOrientation3D(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
 {
@@ -496,7 +496,7 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation(
   return ExactOrientation(a, b, c);
 }
 
-/// Sign of the determinant with rows a - d, b - d and c - d, likewise.
+/// Sign of the determinant with rows a - d, b - d and c - d, in the same way as FindOrientation.
 DELAUNAYFLIP_HOST_DEVICE inline int FindOrientation3D(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)
 {

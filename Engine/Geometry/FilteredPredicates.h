@@ -64,8 +64,8 @@ DELAUNAYFLIP_HOST_DEVICE inline Vector3 AreaVector(
 /// What a filter returns when it cannot decide.
 constexpr int UncertainSign = 2;
 
-/// A point of the plane of decision: u and v span it; W is the coordinate along the dropped axis,
-/// which only the lift of tilted planes uses. Or a point in space: x, y and z.
+/// A point in the plane in which edges are judged: u and v span it; W is the coordinate along the
+/// dropped axis, which only the lift of tilted planes uses. Predicates in space use it for x, y, z.
 struct PlanePoint
 {
   double U, V, W;
@@ -87,7 +87,7 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsInFilterRange(const PlanePoint& point)
     std::fabs(point.V) <= LargestFilteredCoordinate;
 }
 
-/// Whether they may be used for all three coordinates.
+/// Whether the filters may be used for all three coordinates.
 DELAUNAYFLIP_HOST_DEVICE inline bool IsInFilterRange3D(const PlanePoint& point)
 {
   return IsInFilterRange(point) && std::fabs(point.W) <= LargestFilteredCoordinate;
@@ -98,9 +98,10 @@ DELAUNAYFLIP_HOST_DEVICE inline bool IsFinite(const PlanePoint& point)
   return IsFinite(point.U) && IsFinite(point.V) && IsFinite(point.W);
 }
 
-/// Relative to the sum of the products' magnitudes: (3 + 16 eps) eps, (7 + 56 eps) eps in space and
-/// (10 + 96 eps) eps with eps = 2^-53. The lift of a tilted plane has one product and two sums
-/// more: (12 + 128 eps) eps.
+/// Bounds of the errors, relative to the sum of the products' magnitudes, with eps = 2^-53:
+/// (3 + 16 eps) eps for orientations in the plane, (7 + 56 eps) eps in space, and (10 + 96 eps) eps
+/// for in-circle tests. The lift of a tilted plane has one product and two sums more:
+/// (12 + 128 eps) eps.
 constexpr double OrientationBound = 3.34e-16;
 constexpr double SpaceOrientationBound = 7.78e-16;
 constexpr double InCircleBound = 1.112e-15;
@@ -179,7 +180,7 @@ DELAUNAYFLIP_HOST_DEVICE inline int FilteredInCircle(
   return CertifiedSign(determinant.Value, Bound * determinant.Permanent);
 }
 
-/// Sign of the determinant with rows a - d, b - d and c - d, where W is the third coordinate; or
+/// Sign of the determinant with rows a - d, b - d and c - d, with W as the third coordinate, or
 /// UncertainSign. See Orientation3D in Predicates.h.
 DELAUNAYFLIP_HOST_DEVICE inline int FilteredOrientation3D(
   const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d)

@@ -199,7 +199,7 @@ public:
     return added[0];
   }
 
-  // Public for nvcc.
+  // The functions below are public because device lambdas require it.
 
   void Start()
   {

@@ -66,7 +66,7 @@ public:
 
   /// Edges of the triangles that are split become candidates, except fixed ones. The new edges are
   /// good: the new vertex is inside of the triangle, or on an edge that was good. Only a vertex
-  /// that splits a fixed edge may be beside it, by rounding.
+  /// that splits a fixed edge may, by rounding, lie beside that edge.
   DELAUNAYFLIP_HOST_DEVICE void Split(const NewVertex& vertex) const
   {
     if (vertex.Place.FindEdgeSlot() >= 0)

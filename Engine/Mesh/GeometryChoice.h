@@ -488,7 +488,7 @@ private:
     this->Take(GeometryKind::Planar, reason);
   }
 
-  /// Finds directions in a tilted plane from its normal, which is not 0 along W.
+  /// Finds two directions in a tilted plane from its normal, whose component along W is not 0.
   static void FindDirections(const Vector3& normal, PlaneProjection& plane)
   {
     const double xyz[3] = { normal.X, normal.Y, normal.Z };
@@ -497,7 +497,7 @@ private:
     const double lengthU = std::sqrt(1.0 + slopeU * slopeU);
     const double length = std::sqrt(1.0 + slopeU * slopeU + slopeV * slopeV);
     const double first[3] = { 1.0 / lengthU, 0.0, slopeU / lengthU };
-    // The cross product of the normal of length 1 and the first direction.
+    // This is the cross product of the unit normal and the first direction.
     const double second[3] = { -slopeU * slopeV / (lengthU * length), lengthU / length,
       slopeV / (lengthU * length) };
     std::copy_n(first, 3, plane.Along[0]);

@@ -50,8 +50,8 @@ void CheckSphere(const FlipOptions& options)
 {
   const bool isSphere = options.Geometry == GeometryKind::Sphere;
   Require(!isSphere || options.Criterion == CriterionKind::InCircle,
-    "on a sphere edges are judged by the exact sign of four points: use the criterion 'in-circle', "
-    "or geometry 'surface' for opposite angles");
+    "on a sphere edges are judged by the exact orientation of four points: use the criterion "
+    "'in-circle', or geometry 'surface' for opposite angles");
   Require(!isSphere || options.NumberOfPieces <= 1,
     "a mesh on a sphere cannot be flipped in several pieces: leave the number of pieces 0 or 1");
 }

@@ -17,21 +17,22 @@ void CheckOptions(const FlipOptions& options);
 /// @throws InvalidOptions if the tie rule does not apply to the geometry.
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry);
 
-/// Whether the options, without sizes of points, ask for refinement.
+/// Whether options ask for refinement. Sizes of points, which are none of them, do so, too.
 bool HasGoals(const FlipOptions& options);
 
-/// Requires what refinement of a mesh needs, if it is asked for.
+/// Checks the geometry and the criterion, if refinement is asked for.
 /// @param sizes TriangleMesh::Sizes.
 /// @throws InvalidOptions.
 void CheckRefinement(const FlipOptions& options, const double* sizes, GeometryKind geometry);
 
-/// Requires the sizes of points, if there are any, to be above 0 or NaN. @throws InvalidOptions.
+/// Checks that the sizes of points, if there are any, are above 0 or NaN. @throws InvalidOptions.
 void CheckSizes(const double* sizes, std::int64_t points);
 
 /// @param what cannot be refined, for the message.
 /// @throws InvalidOptions if refinement is asked for.
 void RefuseRefinement(const FlipOptions& options, const double* sizes, const char* what);
-/// @throws InvalidOptions if a mesh of this geometry must be in one piece.
+
+/// @throws InvalidOptions if a mesh of this geometry must be flipped in one piece.
 void RefuseParts(GeometryKind geometry);
 
 /// In how many pieces a mesh is flipped.

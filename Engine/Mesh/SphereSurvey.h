@@ -23,7 +23,7 @@ namespace delaunayflip
 struct SphereSums
 {
   OrientationSample Orientations; ///< Seen from outside: Left is counter-clockwise.
-  std::int64_t Uncertain = 0; ///< A device cannot tell.
+  std::int64_t Uncertain = 0; ///< Triangles that a device cannot decide.
 
   DELAUNAYFLIP_HOST_DEVICE SphereSums& operator+=(const SphereSums& part)
   {
@@ -35,15 +35,15 @@ struct SphereSums
 
 struct SphereSurvey
 {
-  /// 1 or -1 if the center is strictly on one side of every triangle, which flips do not change;
-  /// else 0.
+  /// 1 or -1 if all triangles face the center strictly with the same side, which flips keep; else
+  /// 0.
   int UniformSide = 0;
 
   std::vector<Defect> Defects;
 };
 
-/// Looks at all triangles from the center. Triangles with a non-finite coordinate, which never
-/// flip, do not count.
+/// Finds the orientations of all triangles, seen from the center. Triangles with a non-finite
+/// coordinate, which never flip, do not count.
 /// @param center TriangleMesh::Center.
 /// @throws BeyondDevice if a device cannot decide an orientation.
 template <typename Backend>

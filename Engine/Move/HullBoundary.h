@@ -33,7 +33,7 @@ public:
       this->NumberOfCuts };
   }
 
-  /// Cuts triangles off that are not counter-clockwise at the places of now.
+  /// Cuts off triangles at the boundary that are not counter-clockwise at the current places.
   /// @returns whether it has changed the mesh.
   bool CutOff(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, true); }
   /// Makes the boundary convex.
@@ -42,11 +42,11 @@ public:
   /// Whether there was no room for what has to be cut off; then points do not move in place.
   bool HasFailed() const { return this->Failed; }
 
-  // Public for nvcc.
+  // The functions below are public because device lambdas require it.
 
-  /// Removes the points with these ids, ascending.
-  /// @param ids by vertex, its point. @param targets the ids to remove, in the memory of the
-  /// backend.
+  /// Removes points.
+  /// @param ids the point of each vertex.
+  /// @param targets the ids to remove, ascending, in the memory of the backend.
   /// @returns whether all were vertices, and could be removed one by one.
   template <typename Real>
   bool Remove(EdgeMesh& mesh, const PlaneMesh& plane, Real* coordinates, VertexId* ids,
@@ -85,7 +85,8 @@ public:
     return sizes.HasFailed == 0;
   }
 
-  /// Finds a corner of each vertex to remove, and of as many that are the last ones.
+  /// Finds a corner of each vertex to remove, and of each of the last vertices, as many, which may
+  /// take their numbers.
   void FindTracked(
     EdgeMesh& mesh, const PlaneMesh& plane, const VertexId* ids, const Array<VertexId>& targets)
   {
@@ -185,7 +186,7 @@ public:
         const BoundarySide side = sides[i];
         const int turn = hull.FindTurn(side);
         const bool isOther = hull.RunsUp(side) != hull.RunsUp(sides[side.Before]);
-        // On a line that goes on its sides run the same way.
+        // Two sides on one line must run the same way.
         const bool turnsBack = turn == 0 && isOther;
         sum += turn < 0 || turnsBack ? Concave : std::int64_t(isOther);
       });
@@ -259,18 +260,18 @@ public:
   }
 
 private:
-  static constexpr std::int64_t MostCuts = 4096; ///< In one round.
+  static constexpr std::int64_t MostCuts = 4096; ///< The most in one round.
 
   const Backend& Device;
   Array<BoundarySide> Sides;
   Array<std::uint32_t> SideOfVertex;
   Array<CutTriangle> Cuts;
-  std::int64_t NumberOfCuts = 0; ///< In the last change.
+  std::int64_t NumberOfCuts = 0; ///< Those of the last change.
   Array<VertexId> Pending;
   Array<std::uint32_t> TrackOf;
   Array<TrackedVertex> Tracked;
   Array<HullSizes> Sizes;
-  std::int64_t Count = 0; ///< How many sides there are.
+  std::int64_t Count = 0; ///< The number of sides.
   bool Failed = false;
 };
 

@@ -9,9 +9,9 @@
 #include <cstdint>
 
 /// @file
-/// How the boundary of a triangulation follows points that move. A triangle at the boundary that a
-/// point leaves through its boundary edge is cut off, and where the boundary has become concave
-/// there is a new triangle. These changes are few, and one thread makes them, one after the other.
+/// How the boundary of a triangulation follows points that move. If a point leaves a triangle
+/// through its boundary edge, the triangle is cut off. Where the boundary has become concave, a
+/// triangle is added. These changes are few, and one thread makes them, one after the other.
 
 namespace delaunayflip
 {
@@ -22,29 +22,29 @@ constexpr std::uint32_t NoSide = 0xFFFFFFFFu;
 struct BoundarySide
 {
   EdgeId Edge;
-  std::uint32_t Before, After; ///< The numbers of the sides that end and begin where it does.
+  std::uint32_t Before, After; ///< The numbers of the previous and the next side.
 };
 
-/// A triangle that was cut off, and the last one, which has its number now.
+/// A triangle that was cut off, and the last triangle, which has taken its number.
 struct CutTriangle
 {
   TriangleId Number, Last;
 };
 
-/// A vertex of which a corner is known while triangles change.
+/// A vertex with one of its corners, which is kept up to date while triangles change.
 struct TrackedVertex
 {
   VertexId Vertex;
   CornerId Corner;
 };
 
-/// How much a mesh has while one thread changes it.
+/// The sizes of a mesh while one thread changes it.
 struct HullSizes
 {
   std::int64_t Triangles, Edges, Sides;
-  std::int64_t MostSides; ///< There is room for so many.
+  std::int64_t MostSides; ///< The number of sides that there is room for.
   std::int64_t Cuts; ///< How many triangles were cut off.
-  std::int32_t HasFailed; ///< Whether there was none left.
+  std::int32_t HasFailed; ///< 1: there was no room left, or the change is not possible.
 };
 
 /// The boundary, and what one thread does to it.
@@ -55,7 +55,7 @@ struct HullView
   std::uint32_t* SideOfVertex; ///< By vertex, the side that begins there, or NoSide.
   CutTriangle* Cuts; ///< The triangles that were cut off last, in their order.
   std::int64_t NumberOfCuts;
-  std::uint32_t* TrackOf = nullptr; ///< By vertex, its number among these, or NoSide; or null.
+  std::uint32_t* TrackOf = nullptr; ///< By vertex, its index in Tracked, or NoSide. May be null.
   TrackedVertex* Tracked = nullptr;
 
   /// A corner of a vertex that is on the boundary.
@@ -65,7 +65,7 @@ struct HullView
     return PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[2 * edge]);
   }
 
-  /// A corner of a vertex that had this one before the cuts.
+  /// A corner of a vertex, one of whose corners was `before` until the cuts.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex, CornerId before) const
   {
     TriangleId triangle = TriangleOf(before);
@@ -79,7 +79,7 @@ struct HullView
     {
       return MakeCorner(triangle, SlotOf(before));
     }
-    // All vertices of a triangle that is cut off are then on the boundary.
+    // All vertices of a triangle that was cut off are now on the boundary.
     return this->FindCorner(vertex);
   }
 
@@ -114,7 +114,7 @@ struct HullView
       this->GetStart(side), this->GetStart(this->Sides[side.After]));
   }
 
-  /// Whether a side runs to larger x, or straight up.
+  /// Whether a side runs towards larger x or, at equal x, towards larger y.
   DELAUNAYFLIP_HOST_DEVICE bool RunsUp(const BoundarySide& side) const
   {
     const PlanePoint from = this->Mesh.GetPoint(this->GetStart(side));
@@ -123,7 +123,7 @@ struct HullView
   }
 };
 
-/// Changes the boundary. The mesh and the arrays have room for it.
+/// Changes the boundary. The mesh and the arrays must have room for that.
 class HullEditor
 {
 public:
@@ -135,9 +135,9 @@ public:
   {
   }
 
-  /// Cuts off the triangles at the sides that begin at these vertices, and those that then are at
-  /// the boundary, where that must be.
-  /// @param pending has room for two more of each change.
+  /// Cuts off the triangles at the sides that begin at these vertices, if they must be cut, and
+  /// then those that have come to the boundary.
+  /// @param pending the vertices, with room for two more per change.
   DELAUNAYFLIP_HOST_DEVICE void CutOff(VertexId* pending, std::int64_t count)
   {
     while (count > 0 && this->Sizes.HasFailed == 0)
@@ -153,7 +153,8 @@ public:
     *this->Result = this->Sizes;
   }
 
-  /// Adds triangles until the boundary is nowhere concave at these vertices and their neighbours.
+  /// Adds triangles until the boundary is concave at none of these vertices, nor at neighbours that
+  /// the new triangles affect.
   DELAUNAYFLIP_HOST_DEVICE void FillUp(VertexId* pending, std::int64_t count)
   {
     while (count > 0 && this->Sizes.HasFailed == 0)
@@ -170,7 +171,7 @@ public:
   }
 
 protected:
-  /// Keeps the corners of a triangle that has changed.
+  /// Updates the corners of tracked vertices in a triangle that has changed.
   DELAUNAYFLIP_HOST_DEVICE void Track(TriangleId triangle) const
   {
     for (int slot = 0; slot < 3 && this->Hull.TrackOf; ++slot)
@@ -184,7 +185,8 @@ protected:
     }
   }
 
-  /// Cuts the triangle at the side from `start` off, if it must be. @returns whether it was.
+  /// Cuts off the triangle at the side that begins at `start`, if it must be cut.
+  /// @returns whether it was.
   DELAUNAYFLIP_HOST_DEVICE bool CutAt(VertexId start, VertexId& opposite)
   {
     const std::uint32_t number = this->Hull.SideOfVertex[start];
@@ -216,7 +218,7 @@ protected:
     return true;
   }
 
-  /// Puts an edge on the boundary whose triangle on this half-edge is cut off.
+  /// Makes an edge a boundary edge, because the triangle on this half-edge is cut off.
   DELAUNAYFLIP_HOST_DEVICE EdgeId Expose(HalfEdgeId cut)
   {
     const EdgeId edge = EdgeOf(cut);
@@ -227,7 +229,7 @@ protected:
     return edge;
   }
 
-  /// Adds a triangle at a vertex where the boundary is concave. @returns whether it is.
+  /// Adds a triangle at a vertex if the boundary is concave there. @returns whether it was added.
   DELAUNAYFLIP_HOST_DEVICE bool FillAt(VertexId vertex, VertexId (&ends)[2])
   {
     const std::uint32_t number = this->Hull.SideOfVertex[vertex];
@@ -267,7 +269,8 @@ protected:
     return true;
   }
 
-  /// The last one takes the number of the one that is dropped; so do the next two.
+  /// Drops a side. The last side takes its number. The next two functions do so with triangles and
+  /// edges.
   DELAUNAYFLIP_HOST_DEVICE void DropSide(std::uint32_t number)
   {
     const auto last = static_cast<std::uint32_t>(--this->Sizes.Sides);
@@ -322,7 +325,7 @@ protected:
           number;
       }
     }
-    this->Edges.States[last] = EdgeState::Fixed; // as after the last edge
+    this->Edges.States[last] = EdgeState::Fixed; // like all states behind the last edge
   }
 
   HullView Hull;

@@ -18,9 +18,9 @@
 
 /// @file
 /// Moves the vertices of a Delaunay triangulation in rounds. In a round all vertices that are not
-/// at their targets try to go there. While a triangle would not be counter-clockwise, the steps of
-/// its vertices are halved. After each round edges flip. So where a vertex goes depends on the mesh
-/// and the targets alone.
+/// at their targets make a step there. As long as a triangle is not counter-clockwise, the steps of
+/// its vertices are halved. After each round edges flip. So the place of a vertex depends on the
+/// mesh and the targets alone.
 
 namespace delaunayflip
 {
@@ -30,17 +30,17 @@ enum Halvings : std::uint8_t
 {
   WholeStep = 0,
   NoStep = 24, ///< The vertex stays where it is.
-  AtTarget = 255 ///< It was there before the round.
+  AtTarget = 255 ///< The vertex was at its target before the round.
 };
 
 /// A vertex that is not at its target yet.
 struct LateVertex
 {
   VertexId Vertex;
-  CornerId Corner; ///< One of its corners; between rounds one that is near.
+  CornerId Corner; ///< One of its corners or, between rounds, a corner near it.
 };
 
-/// The lists that are filled by several threads. No result depends on the order in them.
+/// The lists that several threads fill. No result depends on their order.
 enum class MotionList : int
 {
   Inverted,
@@ -49,17 +49,17 @@ enum class MotionList : int
   Count
 };
 
-/// Pointers to what moves, for a round.
+/// Pointers to the arrays of a round.
 template <typename Real>
 struct MotionView
 {
-  PlaneMesh Mesh; ///< At the places of now.
-  Real* Now; ///< x and y by vertex.
-  Real* Before; ///< The places before this round.
+  PlaneMesh Mesh; ///< At the current places.
+  Real* Now; ///< The current places, x and y by vertex.
+  Real* Before; ///< The places before this round, likewise.
   PlaneArray Targets; ///< By point.
   const VertexId* Ids; ///< By vertex, its point.
   std::uint8_t* HalvingsOf; ///< By vertex.
-  std::uint32_t* VertexMarks; ///< The number of the step that has handled a vertex last.
+  std::uint32_t* VertexMarks; ///< The stamp of the last pass that has handled a vertex.
   std::uint32_t* TriangleMarks;
   std::uint32_t* Counts; ///< By list.
   std::uint32_t MostInverted, MostLate;
@@ -69,8 +69,7 @@ struct MotionView
     return static_cast<Real>(this->Targets.Get(this->Ids[vertex], axis));
   }
 
-  /// Whether coordinates can be computed with: not so large or small that a product overflows or
-  /// vanishes.
+  /// Whether a coordinate is neither so large nor so small that products of it overflow or vanish.
   DELAUNAYFLIP_HOST_DEVICE static bool IsUsual(Real coordinate)
   {
     constexpr double Least = 7.8886090522101181e-31; // 2^-100
@@ -78,7 +77,7 @@ struct MotionView
     return size == 0.0 || (size >= Least && size <= 1.0 / Least);
   }
 
-  /// Goes to the target. @returns whether this is a usual place.
+  /// Moves a vertex to its target. @returns whether the target's coordinates are usual.
   DELAUNAYFLIP_HOST_DEVICE bool Start(VertexId vertex) const
   {
     bool isUsual = true;
@@ -94,7 +93,7 @@ struct MotionView
     return isUsual;
   }
 
-  /// Goes as far as the halvings of a vertex say.
+  /// Moves a vertex as far as its halvings say.
   DELAUNAYFLIP_HOST_DEVICE void Step(VertexId vertex) const
   {
     const std::uint8_t halvings = this->HalvingsOf[vertex];
@@ -118,7 +117,7 @@ struct MotionView
       this->Before[std::int64_t(2) * vertex + 1] == this->GetTarget(vertex, 1);
   }
 
-  /// Adds one to a list. @returns its place there.
+  /// Makes room for an element in a list. @returns its index.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t Append(MotionList list) const
   {
     return AtomicAdd(&this->Counts[static_cast<int>(list)], 1u);
@@ -138,7 +137,7 @@ struct MotionView
     }
   }
 
-  /// Calls visit(corner) for all corners of the vertex of one.
+  /// Calls visit(corner) for all corners of the vertex that has the corner `first`.
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE void ForStar(CornerId first, const Visit& visit) const
   {
@@ -216,7 +215,7 @@ struct MovingMesh
   const VertexId* Ids; ///< By vertex, its point.
 };
 
-/// What moves the vertices, and what it keeps from one motion to the next.
+/// Moves the vertices of a mesh, and keeps its arrays from one motion to the next.
 template <typename Real, typename Backend>
 class PointMotion
 {
@@ -240,10 +239,10 @@ public:
     this->RequireHull(mesh);
   }
 
-  /// Removes the points with these ids, ascending. The states of edges say which have to be judged.
-  /// @param coordinates those of the mesh, and `ids` likewise. @param removed in the memory of the
-  /// backend.
-  /// @returns false if they have to be triangulated anew.
+  /// Removes points. Edges that have to be judged become candidates.
+  /// @param ids the mesh's own, which change.
+  /// @param removed the ids of these points, ascending, in the memory of the backend.
+  /// @returns false if all points have to be triangulated anew.
   /// @throws BeyondDevice.
   bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed)
   {
@@ -263,8 +262,8 @@ public:
     return isConvex;
   }
 
-  /// Moves all vertices that are not at their targets, some of them only a part of the way. The
-  /// states of edges say which have to be judged.
+  /// Moves all vertices that are not at their targets, some of them only a part of the way. Edges
+  /// that have to be judged become candidates.
   /// @returns false if the motion does not suit steps: too many triangles would be inverted, or the
   /// boundary would not be simple. Then the places of the mesh are of no use.
   /// @throws BeyondDevice.
@@ -313,7 +312,7 @@ public:
     this->KnownVertices = mesh.Vertices;
   }
 
-  // Public for nvcc.
+  // The functions below are public because device lambdas require it.
 
   void RequireHull(const MovingMesh<Real>& mesh)
   {
@@ -326,7 +325,8 @@ public:
     this->KnownTriangles = -1; // until a change ends well
   }
 
-  /// All vertices go to their targets. @returns whether all these are usual.
+  /// Moves all vertices to their targets. @returns whether the coordinates of all targets are
+  /// usual.
   bool StartAll(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
@@ -336,7 +336,7 @@ public:
     return unusual == 0;
   }
 
-  /// Those that are late go to their targets.
+  /// Moves the late vertices to their targets.
   bool StartLate(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
@@ -366,7 +366,8 @@ public:
     return true;
   }
 
-  /// After triangles were cut off, others have their numbers.
+  /// Finds the corners of late vertices again after triangles were cut off and others have taken
+  /// their numbers.
   void FindCornersAgain(const MovingMesh<Real>& mesh)
   {
     const HullView hull = this->Hull.View(this->ViewPlane(mesh));
@@ -377,7 +378,7 @@ public:
   }
 
   /// Lists the triangles that are not counter-clockwise.
-  /// @param all whether to look everywhere, instead of where vertices were late.
+  /// @param all whether to look at all triangles, instead of those around late vertices.
   void FindAllInverted(const MovingMesh<Real>& mesh, bool all)
   {
     const MotionView<Real> motion = this->View(mesh);
@@ -391,7 +392,7 @@ public:
     this->CheckStars(motion, this->Late.Data(), this->NumberOfLate, list);
   }
 
-  /// Lists the inverted triangles of stars, each once for a stamp.
+  /// Lists the inverted triangles around vertices, each once.
   void CheckStars(const MotionView<Real>& motion, const LateVertex* corners, std::int64_t count,
     TriangleId* list) const
   {
@@ -413,6 +414,7 @@ public:
   }
 
   /// Halves the steps of vertices until no triangle is inverted.
+  /// @returns false if too many triangles are inverted, or too many passes are needed.
   bool Halve(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
@@ -477,7 +479,7 @@ public:
       motion, changed, counts[static_cast<int>(MotionList::Changed)], this->Inverted.Data());
   }
 
-  /// Edges must be judged if a vertex of their two triangles has moved.
+  /// Makes edges candidates if a vertex of their two triangles has moved.
   void ChooseCandidates(const MovingMesh<Real>& mesh, bool all)
   {
     const MotionView<Real> motion = this->View(mesh);
@@ -501,7 +503,7 @@ public:
       });
   }
 
-  /// Only those that are not at their targets move in the next round.
+  /// Keeps the vertices that are not at their targets for the next round.
   void KeepLate(const MovingMesh<Real>& mesh)
   {
     std::uint8_t* halvings = this->HalvingsOf.Data();
@@ -520,7 +522,7 @@ public:
 private:
   static constexpr int NumberOfLists = static_cast<int>(MotionList::Count);
   static constexpr std::int64_t Fewest = 64;
-  /// More inverted triangles than this share, and points are triangulated anew in less time.
+  /// If more than one triangle in 64 is inverted, triangulating anew takes less time.
   static constexpr std::int64_t MostShare = 64;
   static constexpr std::int64_t MostRounds = 48;
   static constexpr int MostPasses = 256;
@@ -604,9 +606,9 @@ private:
   Array<std::uint32_t> VertexMarks, TriangleMarks, Counts;
   Array<std::int32_t> Failed;
   Array<TriangleId> Inverted;
-  Array<LateVertex> Changed; ///< Since the triangles were checked.
-  Array<LateVertex> Late; ///< Those that this round moves, if it is not the first.
-  Array<LateVertex> Next; ///< Those that the next round moves.
+  Array<LateVertex> Changed; ///< Vertices whose steps have changed since triangles were checked.
+  Array<LateVertex> Late; ///< Vertices that this round moves, if it is not the first.
+  Array<LateVertex> Next; ///< Vertices that the next round moves.
   std::int64_t NumberOfLate = 0, NumberOfNext = 0;
   std::int64_t Rounds = 0;
   std::int64_t Allowance = 0;

@@ -8,9 +8,9 @@
 #include <cstdint>
 
 /// @file
-/// Removes vertices from a triangulation. The triangles around one that is inside are replaced by
-/// others of the same polygon. Those around one on the boundary go, and the hull is filled up. One
-/// thread does it, one vertex after the other.
+/// Removes vertices from a triangulation, one after the other, on one thread. If a vertex is
+/// inside, others of the same polygon replace the triangles around it. If it is on the boundary,
+/// its triangles are removed, and triangles are added until the boundary is convex.
 
 namespace delaunayflip
 {
@@ -22,12 +22,12 @@ struct VertexFan
 
   int Count = 0;
   VertexId Link[Most + 1]; ///< Triangle i has the vertex, Link[i] and Link[i + 1].
-  HalfEdgeId Outer[Most]; ///< Its half-edge from Link[i] to Link[i + 1].
+  HalfEdgeId Outer[Most]; ///< The half-edge of triangle i from Link[i] to Link[i + 1].
   TriangleId Triangles[Most];
   EdgeId Spokes[Most + 1]; ///< Spoke i runs to Link[i].
 };
 
-/// Puts the largest number last, and so on.
+/// Sorts a few numbers in ascending order.
 DELAUNAYFLIP_HOST_DEVICE inline void SortNumbers(std::uint32_t* numbers, int count)
 {
   for (int i = 1; i < count; ++i)
@@ -42,12 +42,12 @@ DELAUNAYFLIP_HOST_DEVICE inline void SortNumbers(std::uint32_t* numbers, int cou
   }
 }
 
-/// Removes vertices. The last vertices take their numbers.
+/// Removes vertices. The last vertices take the numbers of removed ones.
 template <typename Real>
 class VertexRemover : public HullEditor
 {
 public:
-  /// @param vertices how many there are. All that are removed, and as many of the last ones, are
+  /// @param vertices the number of vertices. Those to remove, and as many of the last ones, must be
   /// tracked.
   DELAUNAYFLIP_HOST_DEVICE VertexRemover(
     const HullView& hull, HullSizes* sizes, Real* coordinates, VertexId* ids, std::int64_t vertices)
@@ -58,7 +58,7 @@ public:
   {
   }
 
-  /// Removes the first vertices that are tracked.
+  /// Removes the first `count` of the tracked vertices.
   /// @param pending as for FillUp.
   DELAUNAYFLIP_HOST_DEVICE void Remove(std::int64_t count, VertexId* pending)
   {
@@ -118,8 +118,8 @@ private:
   //------------------------------------------------------------------------------
   // A vertex inside.
 
-  /// Cuts ears off the polygon around the vertex until it is a triangle. There are two triangles
-  /// and three edges fewer then.
+  /// Cuts ears off the polygon around the vertex until it is a triangle. Then there are two
+  /// triangles and three edges fewer.
   DELAUNAYFLIP_HOST_DEVICE void FillStar(VertexFan& fan)
   {
     const int all = fan.Count;
@@ -155,8 +155,9 @@ private:
     this->DropAll(fan.Triangles + all - 2, 2, fan.Spokes + all - 3, 3);
   }
 
-  /// A corner of a polygon that is convex, and whose triangle has no other corner, also on its
-  /// boundary. @returns -1 if there is none.
+  /// Finds a convex corner of a polygon whose triangle has no other corner inside or on its
+  /// boundary.
+  /// @returns -1 if there is none.
   DELAUNAYFLIP_HOST_DEVICE int FindEar(const VertexFan& fan, int size) const
   {
     const PlaneMesh& mesh = this->Hull.Mesh;
@@ -198,8 +199,8 @@ private:
     this->Track(number);
   }
 
-  /// Drops triangles and edges, those with the largest numbers first, so that the others keep
-  /// theirs.
+  /// Drops triangles and edges, the largest numbers first, so that the others in the lists keep
+  /// their numbers.
   DELAUNAYFLIP_HOST_DEVICE void DropAll(
     TriangleId* triangles, int numberOfTriangles, EdgeId* edges, int numberOfEdges)
   {
@@ -227,7 +228,7 @@ private:
       const bool isOpen = this->Edges.CornerOfHalfEdge[fan.Outer[i] ^ 1u] != NoCorner;
       isSimple = isSimple && isOpen && (i == 0 || this->Hull.IsInside(fan.Link[i]));
     }
-    if (!isSimple) // the rest would hang together at a vertex
+    if (!isSimple) // the rest would be connected by a single vertex
     {
       this->Sizes.HasFailed = 1;
       return;
@@ -246,7 +247,7 @@ private:
     this->FillUp(pending, count + 1);
   }
 
-  /// The outer edges become sides instead of those at the vertex.
+  /// Puts the outer edges on the boundary in place of the two sides at the vertex.
   DELAUNAYFLIP_HOST_DEVICE void ReplaceSides(VertexId vertex, const VertexFan& fan)
   {
     BoundarySide* sides = this->Hull.Sides;
@@ -276,7 +277,7 @@ private:
   }
 
   //------------------------------------------------------------------------------
-  /// The last vertex takes its number.
+  /// Drops a vertex. The last vertex takes its number.
   DELAUNAYFLIP_HOST_DEVICE void DropVertex(VertexId vertex)
   {
     const VertexId last = --this->Vertices;

@@ -38,7 +38,7 @@ struct HullPoint
   Edge Leaving;
 };
 
-/// An edge beside a base, and its destination.
+/// An edge at one end of a base, and its destination.
 struct Candidate
 {
   Edge E;
@@ -364,7 +364,7 @@ private:
       const Candidate onRight = this->FindCandidate(set, made, base, false);
       if (onLeft.E == None && onRight.E == None)
       {
-        this->ReplaceEnds(made, set); // now the upper tangent
+        this->ReplaceEnds(made, set); // `made` is now the upper tangent
         return set;
       }
       const bool takesRight = onLeft.E == None ||
@@ -397,7 +397,7 @@ private:
   }
 
   /// The next edge above the base on one side, after the edges that are not Delaunay any more have
-  /// been deleted. It is None if there is none above the base.
+  /// been deleted. Its edge is None if no edge is above the base.
   Candidate FindCandidate(Subset& set, Edge baseEdge, const Base& base, bool isLeft)
   {
     // Goes through the edges around this end of the base, until it comes back to the base.

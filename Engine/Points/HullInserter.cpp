@@ -30,8 +30,8 @@ void HullInserter::Insert(std::int32_t point)
   }
 }
 
-/// Walks to the triangle that the ray from the center to the point goes through. In a convex hull a
-/// walk comes to its end, and visits no triangle twice.
+/// Walks to the triangle through which the ray from the center to the point goes. In a convex hull
+/// a walk ends, and visits no triangle twice.
 std::int32_t HullInserter::Locate(std::int32_t point) const
 {
   std::int32_t t = this->Last;
@@ -80,10 +80,10 @@ void HullInserter::CollectVisible(std::int32_t first, std::int32_t point)
   }
 }
 
-/// Joins the point to the edges between what it sees and what it does not.
+/// Replaces the visible triangles by triangles from the point to the edges of their boundary.
 void HullInserter::ReplaceVisible(std::int32_t point)
 {
-  std::unordered_map<std::int32_t, std::int32_t> triangleFrom; // by the first end of its edge
+  std::unordered_map<std::int32_t, std::int32_t> triangleFrom; // by the first end of its outer edge
   std::vector<std::int32_t> made;
   for (const std::int32_t t : this->Visible)
   {

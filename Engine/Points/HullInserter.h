@@ -12,16 +12,17 @@ namespace delaunayflip
 {
 
 /// Inserts points into a convex hull, one after the other, by exact arithmetic. It is for the few
-/// points that a projection confuses, because they are nearer to others than its rounding.
+/// points that are so near to others that the rounding of the projection confuses them.
 class HullInserter
 {
 public:
-  /// @param triangles of the hull, counter-clockwise from outside. @param center inside of it.
+  /// @param center a place inside of the hull.
+  /// @param triangles those of the hull, counter-clockwise from outside.
   HullInserter(
     const SpacePoints& points, const PlanePoint& center, std::vector<std::int32_t> triangles);
 
-  /// Makes the hull that of all its points and one more. Points that are inside then lose their
-  /// triangles; the new one gets none if it is not outside. Of points at one place the first stays.
+  /// Extends the hull to a point, if that is outside. Points that are then inside lose their
+  /// triangles.
   void Insert(std::int32_t point);
 
   /// The triangles of the hull.
@@ -35,9 +36,9 @@ private:
 
   const SpacePoints& Points;
   const PlanePoint Center;
-  std::vector<std::int32_t> Triangles; ///< The first id is -1 for what was removed.
+  std::vector<std::int32_t> Triangles; ///< Those that were removed have -1 as their first id.
   std::vector<std::int32_t> Neighbors;
-  std::int32_t Last = 0; ///< A triangle near the last point.
+  std::int32_t Last = 0; ///< A triangle near the point that was inserted last.
   std::vector<std::int32_t> Visible; ///< Triangles that the new point sees.
   std::vector<char> IsSeen; ///< By triangle.
 };

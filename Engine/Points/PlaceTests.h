@@ -22,21 +22,21 @@ struct Place
   std::uint32_t Number;
 };
 
-/// The directed edge between two sets from which the next triangle is made. Its places and those
-/// beside it are taken relative to its origin, so that what one test computes serves the next one.
+/// The directed edge between two sets on which the next triangle is made. Coordinates are relative
+/// to its origin, so that one test can use what an earlier one has computed.
 struct Base
 {
   std::uint32_t From, To; ///< Places.
   PlanePoint Origin;
-  double U, V, Square; ///< Of the destination: offset, and its squared length.
+  double U, V, Square; ///< The offset of the destination, and its squared length.
 };
 
 /// A place beside a base.
 struct PlaceBeside
 {
   std::uint32_t At;
-  double U, V, Square; ///< Offset from the base's origin, and its squared length.
-  double Side; ///< The area of the parallelogram with the base: > 0 if it is on the left.
+  double U, V, Square; ///< The offset from the base's origin, and its squared length.
+  double Side; ///< Twice the area of the triangle with the base; > 0 if the place is on the left.
   double Magnitude; ///< The sum of the magnitudes of the two products of Side.
 };
 
@@ -48,7 +48,7 @@ struct PlaceTests
     return { this->Places[place].U, this->Places[place].V, 0.0 };
   }
 
-  /// 1: counter-clockwise; -1: clockwise; 0: on one line.
+  /// 1: counter-clockwise; -1: clockwise; 0: in one line.
   int Orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
   {
     const PlanePoint points[3] = { this->GetPoint(a), this->GetPoint(b), this->GetPoint(c) };
@@ -75,7 +75,7 @@ struct PlaceTests
     return { place, u, v, u * u + v * v, first - second, std::fabs(first) + std::fabs(second) };
   }
 
-  /// 1: a place is left of a base; -1: right.
+  /// 1: the place is to the left of the base; -1: to the right; 0: in line with it.
   int FindSide(const Base& base, const PlaceBeside& place) const
   {
     const int sign = CertifiedSign(place.Side, OrientationBound * place.Magnitude);
@@ -87,8 +87,8 @@ struct PlaceTests
       this->GetPoint(base.From), this->GetPoint(base.To), this->GetPoint(place.At));
   }
 
-  /// Whether `d` is in the circle of a base and of `c`, which is right of it. The determinant is
-  /// that of FilteredInCircle, relative to the origin of the base.
+  /// Whether `d` is in the circle through the ends of the base and `c`. The determinant is that of
+  /// FilteredInCircle, relative to the origin of the base.
   bool IsInCircle(const Base& base, const PlaceBeside& c, const PlaceBeside& d) const
   {
     const double first = c.U * d.V, second = c.V * d.U;

@@ -23,7 +23,8 @@ Vector3 Scale(double factor, const Vector3& a)
   return { factor * a.X, factor * a.Y, factor * a.Z };
 }
 
-/// NaN if it has no direction. The largest coordinate becomes 1 first, so that nothing overflows.
+/// Gives NaN for the zero vector. Divides by the largest coordinate first, so that nothing
+/// overflows.
 Vector3 Normalize(const Vector3& a)
 {
   const double largest = std::max({ std::fabs(a.X), std::fabs(a.Y), std::fabs(a.Z) });
@@ -32,8 +33,8 @@ Vector3 Normalize(const Vector3& a)
   return { near.X / length, near.Y / length, near.Z / length };
 }
 
-/// The active point with the largest measure; of equals the one farthest north. Points at one place
-/// are all the same for this, so that the first of them is as good as another.
+/// Finds the active point with the largest measure. If several have it, the one farthest north is
+/// taken. If several points are at that place, the first one is.
 template <typename Measure>
 std::int32_t FindLargest(
   const SpacePoints& points, const std::vector<std::int32_t>& active, const Measure& measure)
@@ -55,7 +56,7 @@ std::int32_t FindLargest(
 
 constexpr std::int32_t NoPoint = -1;
 
-/// The chosen point farthest north, whatever the order of the points; NoPoint if none is chosen.
+/// Finds the chosen point farthest north; NoPoint if none is chosen.
 template <typename IsChosen>
 std::int32_t FindNorth(
   const SpacePoints& points, const std::vector<std::int32_t>& active, const IsChosen& isChosen)
@@ -69,7 +70,7 @@ std::int32_t FindNorth(
   return FindLargest(points, chosen, [](const PlanePoint&) { return 0.0; });
 }
 
-/// Whether the center of a simplex, which is rounded, is inside of it.
+/// Whether the rounded center of a simplex is inside of it.
 bool HoldsCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex)
 {
   const PlanePoint center = FindCenter(points, simplex);
@@ -130,8 +131,8 @@ StereographicProjection::StereographicProjection(const PlanePoint& pole)
   this->Second = Cross(this->Pole, this->First);
 }
 
-/// An inversion about the pole takes the sphere to a plane. The difference to the pole is taken
-/// before anything else, so that places near it keep their precision.
+/// An inversion about the pole takes the sphere to a plane. The difference from the pole is
+/// computed first, so that places near the pole keep their precision.
 void StereographicProjection::Project(const PlanePoint& point, double (&xy)[2]) const
 {
   const Vector3 offset = Normalize(ToVector(point)) - this->Pole;
@@ -150,7 +151,7 @@ std::vector<std::int32_t> FindNeighbors(
 {
   struct Side
   {
-    std::int32_t Larger; ///< The end with the larger number.
+    std::int32_t Larger; ///< The larger id of the two ends.
     std::int32_t Corner; ///< 3 * triangle + slot.
   };
   const std::int64_t corners = SizeOf(triangles);
@@ -161,7 +162,7 @@ std::vector<std::int32_t> FindNeighbors(
     const std::int32_t b = triangles[first + (corner + 2) % 3];
     return std::minmax({ a, b });
   };
-  // The sides by the smaller number of their ends.
+  // Sides are listed by the smaller id of their ends.
   std::vector<std::int64_t> starts(points + 1);
   for (std::int64_t corner = 0; corner < corners; ++corner)
   {
@@ -221,7 +222,7 @@ std::vector<std::int32_t> FindSimplex(
   }
   const std::int32_t north = FindNorth(points, active, [](std::int32_t) { return true; });
   const Vector3 a = ToVector(points[north]);
-  // Halves, so that nothing overflows; the measures need not be exact.
+  // Halves cannot overflow. The measures need not be exact.
   const auto getOffset = [&](const PlanePoint& p)
   { return Scale(0.5, ToVector(p)) - Scale(0.5, a); };
   double largest = 0.0;
@@ -254,7 +255,7 @@ std::vector<std::int32_t> FindSimplex(
     });
   const auto isOnAxis = [&](std::int32_t i)
   { return AreOnLine(points[north], points[far], points[i]); };
-  if (isOnAxis(aside)) // by rounding, or because all points are
+  if (isOnAxis(aside)) // by rounding, or because all points are on it
   {
     aside = FindNorth(points, active, [&](std::int32_t i) { return !isOnAxis(i); });
     if (aside == NoPoint)
@@ -353,7 +354,7 @@ std::vector<std::int32_t> FindHidden(
     {
       continue;
     }
-    const std::int32_t without[3] = { b, q, a }; // the triangle that p would not be a corner of
+    const std::int32_t without[3] = { b, q, a }; // the new triangle without p
     const bool isHidden = FindOrientation3D(points[a], points[p], points[b], center) <= 0 &&
       FindOrientation3D(points[b], points[q], points[a], points[p]) > 0;
     if (isHidden && FacesOutside(points, without, center))
@@ -411,7 +412,7 @@ std::vector<std::int32_t> FindFlat(
   constexpr int Enough = 3;
   const std::vector<std::int32_t> neighbors =
     FindNeighbors(triangles, static_cast<std::int64_t>(points.size()));
-  // Nearly always floating-point arithmetic finds enough sharp edges at every point.
+  // Floating-point arithmetic nearly always finds enough convex edges at every point.
   std::vector<std::int32_t> sharp(points.size());
   const auto count = [&](std::int32_t p, std::int32_t q, int sign)
   {

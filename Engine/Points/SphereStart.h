@@ -11,10 +11,10 @@
 /// @file
 /// From points on a sphere to a closed mesh of triangles, from which flips begin.
 ///
-/// Projected stereographically from one of the points, circles on the sphere stay circles. So the
+/// A stereographic projection from one of the points takes circles on the sphere to circles. So the
 /// Delaunay triangulation of the projected points in the plane, with triangles between its boundary
-/// and that point, is the convex hull, but for rounding. Only the combinatorial mesh is taken from
-/// the plane: what it is worth is found out with the points as given.
+/// and that point, is the convex hull, except for rounding. Only the ids of the triangles are taken
+/// from the plane; exact tests with the points as given then check them.
 
 namespace delaunayflip
 {
@@ -24,28 +24,29 @@ using SpacePoints = std::vector<PlanePoint>;
 
 bool IsSamePlace(const PlanePoint& a, const PlanePoint& b);
 
-/// Exactly.
+/// Whether three points are in one line, by exact arithmetic.
 bool AreOnLine(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
 
-/// In the order of z, then y, then x.
+/// Whether z of `a` is larger; if both are equal, y; and then x. This decides between points that
+/// measure the same, whatever their order.
 bool IsFartherNorth(const PlanePoint& a, const PlanePoint& b);
 
-/// Projects directions, seen from the origin, from a pole onto a plane. What is counter-clockwise
-/// from outside stays so.
+/// Projects points from a pole onto a plane, by their directions from the origin. Triangles that
+/// are counter-clockwise from outside are counter-clockwise in the plane.
 class StereographicProjection
 {
 public:
   explicit StereographicProjection(const PlanePoint& pole);
 
-  /// NaN for what has no direction, or that of the pole.
+  /// Gives NaN for the origin, and for points in the direction of the pole.
   void Project(const PlanePoint& point, double (&xy)[2]) const;
 
 private:
   Vector3 Pole, First, Second;
 };
 
-/// The triangles across the edges of triangles, as FlipSession::StoreNeighbors gives them.
-/// @param points how many there are.
+/// Finds the triangles across the edges of triangles, as FlipSession::StoreNeighbors does.
+/// @param points the number of points.
 std::vector<std::int32_t> FindNeighbors(
   const std::vector<std::int32_t>& triangles, std::int64_t points);
 
@@ -53,37 +54,40 @@ std::vector<std::int32_t> FindNeighbors(
 void JoinPole(std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors,
   std::int32_t pole);
 
-/// Four points that span a large volume, counter-clockwise as seen from the other side than the
-/// last one, beginning with the one farthest north; empty if all lie in one plane, or so nearly
-/// that no place between them has coordinates in double precision. They depend on
-/// the places alone.
+/// Finds four points that span a large volume. The first one is the farthest north. The first three
+/// are counter-clockwise, seen from the side opposite to the fourth. They depend on the places
+/// alone.
+/// @returns nothing if all points lie in one plane, or so nearly that rounding puts the center of
+/// the four points outside.
 std::vector<std::int32_t> FindSimplex(
   const SpacePoints& points, const std::vector<std::int32_t>& active);
 
-/// A place inside of a simplex.
+/// The center of a simplex, rounded.
 PlanePoint FindCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex);
 
-/// Whether the triangle is counter-clockwise and has an area, seen from outside.
+/// Whether the triangle has an area and is counter-clockwise, seen from the side opposite to the
+/// center.
 bool FacesOutside(
   const SpacePoints& points, const std::int32_t* triangle, const PlanePoint& center);
 
-/// For each triangle that does not face outside, the end of its shortest edge that is farther
-/// north, each point once.
+/// For each triangle that does not face outside, finds one end of its shortest edge: the one
+/// farther north. Lists each point once.
 std::vector<std::int32_t> FindStrays(
   const SpacePoints& points, const std::vector<std::int32_t>& triangles, const PlanePoint& center);
 
-/// Finds points at which edges end that are not convex and cannot flip, because a triangle would
-/// turn over, each once. Such a point is inside of the hull: it is below the plane of the triangle
-/// that its neighbors at the flip would make, seen from the center.
+/// Finds the ends of edges that are not convex and cannot flip, because a triangle would turn over.
+/// Such an end is inside of the hull: seen from the center it is below the plane of the other three
+/// points of the edge's two triangles. Lists each point once.
 std::vector<std::int32_t> FindHidden(
   const SpacePoints& points, const std::vector<std::int32_t>& triangles, const PlanePoint& center);
 
-/// Of each triangle without an area the point between the others, each once.
+/// For each triangle without an area, finds the point between the other two. Lists each point once.
 std::vector<std::int32_t> FindBetween(
   const SpacePoints& points, const std::vector<std::int32_t>& triangles);
 
-/// Finds points of a convex hull, made of triangles with an area, that are no corners of it: they
-/// are within a plane or an edge of the hull. Such a point has fewer than three sharp edges.
+/// Finds points of a convex hull that are no corners of it, because they lie within a face or an
+/// edge of the hull. Fewer than three convex edges end at such a point. All triangles must have an
+/// area.
 std::vector<std::int32_t> FindFlat(
   const SpacePoints& points, const std::vector<std::int32_t>& triangles);
 

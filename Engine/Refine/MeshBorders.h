@@ -14,18 +14,18 @@
 #include <vector>
 
 /// @file
-/// What refinement leaves alone in a mesh of the caller, which may have any defect: triangles that
-/// are not counter-clockwise, edges between these and others, and edges of more triangles than two.
+/// What refinement leaves as it is in a mesh of the caller, which may have any defect: triangles
+/// that are not counter-clockwise, their edges, and edges with three or more triangles.
 
 namespace delaunayflip
 {
 
-/// Finds the region of a triangle: that of the caller, 0 if there are none, or -1 if it is removed
-/// because it is not counter-clockwise.
+/// Finds the region of a triangle: the caller's, or 0 if the caller has given none. It is -1 if the
+/// triangle is not counter-clockwise; such a triangle counts as removed.
 struct CallerRegionStep
 {
   PlaneMesh Mesh;
-  const std::int32_t* Given; ///< By the caller's triangle; null: there are none.
+  const std::int32_t* Given; ///< By the caller's triangle; null: none are given.
   std::int32_t* Regions;
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(TriangleId t) const
@@ -48,14 +48,15 @@ private:
   }
 };
 
-/// Fixes an edge that must not flip while triangles are refined: one of a removed triangle, or one
-/// that is bad but cannot flip. Walks and cavities end there.
+/// Fixes an edge that must not flip during refinement: an edge of a removed triangle, or an edge
+/// that is bad but cannot flip. Walks and cavities end at fixed edges.
 struct FixWallStep
 {
   EdgeMeshView Mesh;
-  /// By triangle, -1: it is removed. Null after a round: only edges that cannot flip are fixed.
+  /// By triangle; -1: it is removed. Null after a round, when only edges that cannot flip are
+  /// fixed.
   const std::int32_t* Regions;
-  std::uint8_t* Marks; ///< By edge, those that its subsegment gets; null after a round.
+  std::uint8_t* Marks; ///< By edge, the marks for its subsegment; null after a round.
   std::uint32_t* SegmentOfEdge; ///< See RefinementView.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(EdgeId e) const
@@ -63,7 +64,7 @@ struct FixWallStep
     const CornerPair corners = this->Mesh.GetCorners(e);
     const EdgeState state = this->Mesh.States[e];
     const bool isAtRemoved = this->IsRemoved(corners.A) || this->IsRemoved(corners.B);
-    // A loop on a device does not write states: there edges that are good are still candidates.
+    // A loop on a device does not write states. So good edges are still candidates there.
     const bool isBad = state >= EdgeState::BlockedByDeviation && state <= EdgeState::Bad;
     const bool becomesFixed = state != EdgeState::Fixed && (isAtRemoved || isBad);
     if (becomesFixed)
@@ -93,7 +94,7 @@ private:
   {
     return corner != NoCorner && this->Regions && this->Regions[TriangleOf(corner)] < 0;
   }
-  /// Whether both triangles run through the edge the same way.
+  /// Whether the edge is wrongly wound: both triangles run through it the same way.
   DELAUNAYFLIP_HOST_DEVICE bool RunAlike(const CornerPair& corners) const
   {
     const TriangleRecord& a = this->Mesh.Triangles[TriangleOf(corners.A)];
@@ -102,7 +103,7 @@ private:
   }
 };
 
-/// Lets an edge flip again. @returns 1 if it was fixed for refinement alone, else 0.
+/// Lets an edge flip again if it was fixed for refinement alone. @returns 1 if it was, else 0.
 struct FreeEdgeStep
 {
   EdgeMeshView Mesh;
@@ -129,7 +130,7 @@ struct FreeEdgeStep
   }
 };
 
-/// Marks the records of edges that have several: they are non-manifold, and are not split.
+/// Marks records that stand for the same edge. Such an edge is non-manifold, and is not split.
 inline void MarkRepeatedEdges(const std::vector<TriangleRecord>& triangles,
   const std::vector<CornerId>& corners, std::vector<std::uint8_t>& marks)
 {
@@ -153,7 +154,7 @@ inline void MarkRepeatedEdges(const std::vector<TriangleRecord>& triangles,
   }
 }
 
-/// How many of some edges are at the boundary, and between regions.
+/// How many of the given edges are boundary edges, and how many are between regions.
 struct BorderSums
 {
   std::int64_t Boundary = 0, Regions = 0;

@@ -10,10 +10,11 @@
 #include <cstdint>
 
 /// @file
-/// Finds where places of a mesh of the caller were before refinement. Such a mesh may have holes,
-/// or cover places twice, so a walk from anywhere could end at a boundary or in another sheet. But
-/// a triangle of the refined mesh is part of the one before, and crosses no segment. So the
-/// straight line from one of its corners to a place in it is in that mesh, too.
+/// Finds the triangle in which a place was before refinement, in a mesh of the caller. Such a mesh
+/// may have holes, or cover places twice. So a walk from an arbitrary triangle could end at a
+/// boundary, or in another sheet. But every refined triangle lies in the mesh before, and crosses
+/// no segment. So the straight line from one of its corners to a place in it lies in that mesh,
+/// too.
 
 namespace delaunayflip
 {
@@ -21,14 +22,14 @@ namespace delaunayflip
 struct OldPlaceFinder
 {
   PlaneMesh Now, Old; ///< The mesh, and the one before refinement.
-  const std::uint32_t* SegmentOfEdge; ///< As in RefinementView, and the next one.
+  const std::uint32_t* SegmentOfEdge; ///< As in RefinementView; so is the next one.
   const std::uint32_t* Origins;
-  const EdgeId* EdgeOfOrigin; ///< By segment, what it was at first.
-  const CornerId* StartOfVertex; ///< By vertex before refinement, one of its corners there.
-  const TriangleId* TriangleOfAdded; ///< By vertex that was added, where it was.
-  VertexId FirstAdded; ///< Vertices from here on were added.
+  const EdgeId* EdgeOfOrigin; ///< By segment, its edge in the mesh before.
+  const CornerId* StartOfVertex; ///< By vertex of the mesh before, one of its corners there.
+  const TriangleId* TriangleOfAdded; ///< By added vertex, its triangle in the mesh before.
+  VertexId FirstAdded; ///< Vertices from this number on were added.
 
-  /// @returns the triangle, before refinement, of a place that is in a triangle now.
+  /// Finds the triangle of the mesh before that has a place, which is in `triangle` now.
   DELAUNAYFLIP_HOST_DEVICE TriangleId Find(TriangleId triangle, const PlanePoint& place) const
   {
     const CornerId corner = MakeCorner(triangle, 0);
@@ -42,8 +43,8 @@ struct OldPlaceFinder
   }
 
 private:
-  /// The number of the segment that an edge is, or was, a piece of; or NoOrigin. Segments keep
-  /// their numbers of edges, and no other edge becomes one.
+  /// The number of the segment of which an edge of either mesh is a piece, or NoOrigin. Edges on
+  /// segments keep their numbers, and no other edge comes to lie on one.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetOrigin(EdgeId edge) const
   {
     if (this->Now.Edges.States[edge] != EdgeState::Fixed ||
@@ -54,7 +55,8 @@ private:
     return this->Origins[this->SegmentOfEdge[edge]];
   }
 
-  /// A corner, before refinement, on the same side of all segments at its vertex.
+  /// Finds a corner of the mesh before at the same vertex, or of the triangle in which the vertex
+  /// was, on the same side of all segments there.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindStart(CornerId corner) const
   {
     CornerId turned = corner;
@@ -62,7 +64,7 @@ private:
     {
       const HalfEdgeId side = this->Now.GetHalfEdge(PlaneMesh::Previous(turned));
       const std::uint32_t origin = this->GetOrigin(EdgeOf(side));
-      if (origin != NoOrigin) // its sides have kept their numbers
+      if (origin != NoOrigin) // half-edges of a segment keep their sides
       {
         const HalfEdgeId before = 2 * this->EdgeOfOrigin[origin] + (side & 1u);
         return PlaneMesh::Next(this->Old.Edges.CornerOfHalfEdge[before]);
@@ -77,7 +79,7 @@ private:
     return MakeCorner(this->TriangleOfAdded[vertex - this->FirstAdded], 0);
   }
 
-  /// Turns around a vertex, up to the next segment, to the corner that looks at a place.
+  /// Turns around a vertex, up to the next segment, to the corner whose angle contains a place.
   DELAUNAYFLIP_HOST_DEVICE CornerId TurnTowards(const PlanePoint& place, CornerId first) const
   {
     const PlanePoint from = this->Old.GetPoint(this->Old.GetVertex(first));
@@ -95,16 +97,16 @@ private:
       }
       if (this->GetOrigin(EdgeOf(side)) != NoOrigin)
       {
-        return first; // the place is there but for rounding
+        return first; // the place is in that angle except for rounding
       }
       corner = this->Old.FindNextAround(corner);
     } while (corner != first && corner != NoCorner);
     return first;
   }
 
-  /// Follows a straight line, but not across a segment. Every step is to a triangle whose
-  /// circumcircle is nearer to the place, so this ends even where the line begins beside the
-  /// triangle because of rounding.
+  /// Follows a straight line without crossing a segment. Each step goes to a triangle with a
+  /// smaller power of the place. So the walk ends, even if rounding lets the line begin beside the
+  /// triangle.
   DELAUNAYFLIP_HOST_DEVICE TriangleId Walk(
     const PlanePoint& from, const PlanePoint& place, TriangleId triangle) const
   {
@@ -117,7 +119,8 @@ private:
     return triangle;
   }
 
-  /// The corner across the edge through which a line leaves a triangle, or NoCorner.
+  /// Finds the corner opposite the edge through which a line leaves a triangle, on the other side
+  /// of it; NoCorner if the place is in the triangle.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindExit(
     const PlanePoint& from, const PlanePoint& place, TriangleId triangle) const
   {
@@ -140,7 +143,7 @@ private:
     {
       const int firstOrLast = isBeyond[1] ? 0 : 1;
       const int common = isBeyond[0] && isBeyond[1] ? 2 : firstOrLast;
-      // Both edges end at this vertex. The one to the right of it is opposite the next slot.
+      // Both edges end at this vertex. The edge to its right is opposite the next slot.
       const PlanePoint vertex =
         this->Old.GetPoint(this->Old.GetVertex(MakeCorner(triangle, common)));
       const bool isLeft = this->FindSign(from, place, vertex) >= 0;
@@ -157,12 +160,12 @@ private:
   }
 };
 
-/// Finds the triangle, before refinement, that has the centroid of a triangle.
+/// Finds the source of a triangle: the triangle before refinement that contains its centroid.
 struct SourceStep
 {
   OldPlaceFinder Finder;
-  const std::int32_t* Regions; ///< By triangle, -1: it has not changed.
-  std::int64_t OldTriangles; ///< How many there were.
+  const std::int32_t* Regions; ///< By triangle; -1: it is removed and has not changed.
+  std::int64_t OldTriangles; ///< The number of triangles before refinement.
   TriangleId* Sources; ///< By slot.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(TriangleId t) const

@@ -18,7 +18,7 @@ struct PlaneFrame
   bool IsCanonical = true; ///< FlipOptions::TieRule.
   bool NeedsGuard = false; ///< Whether triangles may overlap or be turned over.
 
-  /// The caller's coordinate that is U (0) or V (1). Not for a tilted plane.
+  /// Which of the caller's coordinates is U (0) or V (1). Not for a tilted plane.
   int GetAxis(int number) const
   {
     const bool isFirst = (number == 0) != this->IsMirrored;
@@ -29,7 +29,7 @@ struct PlaneFrame
 /// Finds the places of vertices in a plane.
 struct PlacementStep
 {
-  PackedPointsView Points; ///< As PlanPacking has planned it.
+  PackedPointsView Points; ///< Packed as PlanPacking plans.
   PlaneFrame Frame;
 
   DELAUNAYFLIP_HOST_DEVICE PlanePoint Find(VertexId vertex) const

@@ -27,8 +27,8 @@
 namespace delaunayflip
 {
 
-/// Whether a place on a segment wins, and its segment is on the hull of the mesh, as 1 or 0. It
-/// splits one triangle instead of two.
+/// Whether a place wins that is on a segment of the hull, as 1 or 0. Such a place splits one
+/// triangle instead of two.
 struct WinsOnHull
 {
   TriangleSplitter Splitter;
@@ -47,9 +47,9 @@ struct WinsOnHull
 struct CountOfWinners
 {
   std::int64_t InTriangles, OnSegments;
-  std::int64_t OnHull; ///< Of those on segments.
+  std::int64_t OnHull; ///< Those on segments of the hull.
 
-  /// What the first ones add.
+  /// How many elements of each kind these winners add.
   DELAUNAYFLIP_HOST_DEVICE RefinementNumbers GetAdded() const
   {
     const std::int64_t vertices = this->InTriangles + this->OnSegments;
@@ -73,8 +73,9 @@ public:
     backend.Upload(&none, 1, this->Failed.Data());
   }
 
-  /// Inserts the places of a round. The loop must flip then. @returns how many; 0: all triangles
-  /// are good or cannot get better, or the limit is reached.
+  /// Inserts the places of a round. The loop must flip afterwards.
+  /// @returns how many places; 0: all triangles are good or cannot get better, or the limit is
+  /// reached.
   /// @throws BeyondDevice.
   std::int64_t InsertSome(GrowingMesh<Real>& grown)
   {
@@ -89,7 +90,7 @@ public:
       {
         return added;
       }
-      // Subsegments have turned out to be too short, or a last look at all triangles is due.
+      // Some subsegments were too short to be split, or all triangles must be judged a last time.
       const bool mayGoOn = this->NumberOfSegments > 0 || !this->LooksAtAll;
       this->LooksAtAll = this->NumberOfSegments == 0;
       if (!mayGoOn)
@@ -101,7 +102,7 @@ public:
 
   bool HasReachedLimit() const { return this->ReachedLimit; }
 
-  /// The same as those of RefinementArrays.
+  /// These two are described in RefinementArrays.
   void FixBlocked(const GrowingMesh<Real>& grown) { this->Arrays.FixBlocked(grown); }
   std::int64_t FreeEdges(const GrowingMesh<Real>& grown) { return this->Arrays.FreeEdges(grown); }
 
@@ -112,7 +113,7 @@ public:
     return result;
   }
 
-  // Public for nvcc.
+  // The functions below are public because device lambdas require it.
 
   void BeginRound(const GrowingMesh<Real>& grown)
   {
@@ -185,7 +186,7 @@ public:
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { step.ProposeForSegment(first + i); });
   }
 
-  /// Decides which places win, and splits what they split. @returns how many there are.
+  /// Decides which places win, and inserts them. @returns how many there are.
   std::int64_t InsertWinners(GrowingMesh<Real>& grown, const RefinementView& view)
   {
     const RefinementStep step = this->GetStep(view);
@@ -260,7 +261,7 @@ public:
       });
   }
 
-  /// @param inTriangles how many winners precede those on segments.
+  /// @param inTriangles the number of winners in triangles, which precede those on segments.
   void SplitSegments(const RefinementStore<Real>& store,
     const typename Backend::Numbering& numbering, std::int64_t inTriangles)
   {
@@ -308,7 +309,7 @@ private:
   Array<std::uint32_t> Counts; ///< See RefinementSources.
   Array<RefinementItem> Items; ///< First those for triangles, then those on segments.
   Array<RefinementItem> ItemsBefore;
-  std::int64_t NumberOfPlaces = 0; ///< For triangles.
+  std::int64_t NumberOfPlaces = 0; ///< Items for triangles.
   std::int64_t NumberOfSegments = 0; ///< Items on segments.
   Array<Cavity> Cavities;
   Array<std::int64_t> OnHullBefore; ///< By item on a segment, the winners on the hull before it.

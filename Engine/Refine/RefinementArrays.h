@@ -90,7 +90,7 @@ public:
   std::int64_t CountSegments() const { return this->NumberOfSegments; }
   std::uint64_t* GetClaims() { return this->Claims.Data(); }
 
-  /// By vertex that the last round has added, a triangle that it has split.
+  /// For each vertex that the last round has added, a triangle that it has split.
   const TriangleId* GetSplits() const { return this->Splits.Data(); }
 
   /// Makes room for what a round adds.
@@ -138,7 +138,7 @@ public:
     return old;
   }
 
-  /// Finds where the places that win were before refinement, in a mesh of the caller.
+  /// In a mesh of the caller: finds in which triangles the winning places were before refinement.
   void FindOldPlaces(
     const GrowingMesh<Real>& grown, RefinementItem* items, std::int64_t count, std::int32_t* failed)
   {
@@ -158,7 +158,7 @@ public:
       });
   }
 
-  /// After a round in a mesh that needs a guard: edges that are bad but cannot flip stay.
+  /// Fixes edges that are bad but cannot flip, after a round in a mesh that needs a guard.
   void FixBlocked(const GrowingMesh<Real>& grown)
   {
     const FixWallStep step{ grown.Mesh->View(), nullptr, nullptr, this->SegmentOfEdge.Data() };
@@ -166,7 +166,7 @@ public:
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e) { step(static_cast<EdgeId>(e)); });
   }
 
-  /// Lets edges flip again that stayed for refinement alone. @returns how many there are.
+  /// Lets edges flip again that were fixed for refinement alone. @returns how many there are.
   std::int64_t FreeEdges(const GrowingMesh<Real>& grown)
   {
     const FreeEdgeStep step{ grown.Mesh->View(), this->SegmentOfEdge.Data(), this->Marks.Data() };
@@ -206,7 +206,7 @@ public:
     return result;
   }
 
-  // Public for nvcc.
+  // The functions below are public because device lambdas require it.
 
   void KeepOldMesh(const GrowingMesh<Real>& grown)
   {
@@ -259,8 +259,8 @@ public:
     }
   }
 
-  /// In a mesh of the caller: removes triangles that are not counter-clockwise, and takes the
-  /// regions of the others.
+  /// In a mesh of the caller: takes the caller's regions, and marks triangles that are not
+  /// counter-clockwise as removed.
   void TakeRegionsOfCaller(const GrowingMesh<Real>& grown, const RefinementPlan& plan)
   {
     Array<std::int32_t> given;
@@ -286,7 +286,7 @@ public:
     this->Device.Upload(&none, 1, failed.Data());
     return failed;
   }
-  /// @throws BeyondDevice.
+  /// @throws BeyondDevice if a device could not decide an orientation.
   void RequireDecided(const Array<std::int32_t>& failed) const
   {
     std::int32_t hasFailed = 0;
@@ -297,8 +297,8 @@ public:
     }
   }
 
-  /// Edges between triangles that are kept and others stay. In a mesh of the caller, so do all
-  /// edges of others, and edges that are bad but cannot flip.
+  /// Fixes the edges between kept and removed triangles. In a mesh of the caller it fixes all edges
+  /// of removed triangles, and edges that are bad but cannot flip.
   void FixBorders(const GrowingMesh<Real>& grown)
   {
     const EdgeMeshView mesh = grown.Mesh->View();
@@ -325,7 +325,8 @@ public:
       });
   }
 
-  /// Non-manifold edges of a mesh of the caller are not split: several records stand for one.
+  /// Marks non-manifold edges in a mesh of the caller, which are not split because several records
+  /// stand for each.
   void MarkNonManifold(const GrowingMesh<Real>& grown)
   {
     std::vector<TriangleRecord> triangles(grown.Mesh->NumberOfTriangles);
@@ -432,7 +433,7 @@ public:
       });
   }
 
-  /// A corner of a kept triangle for each vertex of a mesh of the caller.
+  /// Finds a corner of a kept triangle for each vertex of a mesh of the caller.
   void ListStarts(const GrowingMesh<Real>& grown)
   {
     this->StartOfVertex = this->Device.template MakeArray<CornerId>(grown.Vertices);
@@ -490,7 +491,7 @@ public:
     this->Device.Download(ends.Data(), SizeOf(result.Ends), result.Ends.data());
   }
 
-  /// The points at the ends of the segments there were at first.
+  /// The points at the ends of the original segments.
   Array<VertexId> NameEnds(const GrowingMesh<Real>& grown) const
   {
     Array<VertexId> named = this->Device.template MakeArray<VertexId>(2 * this->SegmentsBefore);
@@ -586,7 +587,7 @@ private:
   Array<RefinedVertex> AddedVertices;
   Array<TriangleId> OldTriangleOf; ///< See RefinementStore.
   Array<CornerId> StartOfVertex; ///< As in OldPlaceFinder.
-  Array<std::uint8_t> MarksOfEdges; ///< Those of subsegments at first, in a mesh of the caller.
+  Array<std::uint8_t> MarksOfEdges; ///< In a mesh of the caller: the first marks of subsegments.
 
   PlaceGrid Grid; ///< Of the mesh before.
   Array<TriangleRecord> OldTriangles;

@@ -21,7 +21,8 @@ struct Cavity
   static constexpr int Most = 24; ///< Six times as many as there are on average.
   static constexpr int NoSlot = 3;
 
-  /// Of each triangle, the corner opposite the edge through which it was reached, or NoSlot.
+  /// For each triangle, the corner opposite the edge through which it was reached; for the first
+  /// one the slot is NoSlot.
   CornerId Corners[Most];
   int Count = 0;
 
@@ -37,10 +38,10 @@ struct Cavity
 /// What becomes of a place in a round.
 enum class ItemState : std::uint32_t
 {
-  Dropped, ///< Is not inserted.
+  Dropped, ///< It is not inserted.
   Waiting,
-  Encroaches, ///< Is not inserted, because it is in the diametral circle of a subsegment.
-  Wins ///< Is inserted.
+  Encroaches, ///< It is not inserted, because it is in the diametral circle of a subsegment.
+  Wins ///< It is inserted.
 };
 
 /// A place that may be inserted.
@@ -49,13 +50,13 @@ struct RefinementItem
   PlanePoint Place;
   double SquaredRadius; ///< The square of its distance from the ends of the edge that it is for.
   std::uint64_t Key;
-  FoundPlace Found; ///< What it splits; before that, where the search begins.
-  std::uint32_t Source; ///< The number of the subsegment if it is on one, else the bad triangle.
-  std::uint32_t Flips; ///< Of the bad triangle. After a flip there may be a better place.
-  std::uint32_t Rank; ///< Of the key.
+  FoundPlace Found; ///< What it splits; before it is located, where the search begins.
+  std::uint32_t Source; ///< The subsegment for a place on a segment, else the bad triangle.
+  std::uint32_t Flips; ///< Flips of the bad triangle so far. After another one the place is stale.
+  std::uint32_t Rank; ///< The rank in the key.
   ItemState State;
   bool IsOnSegment;
-  TriangleId Old; ///< Where it was before refinement, in a mesh of the caller.
+  TriangleId Old; ///< In a mesh of the caller: its triangle before refinement.
 };
 
 /// Where a walk within subsegments ends.

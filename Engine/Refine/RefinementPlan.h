@@ -20,10 +20,10 @@ struct RefinementPlan
   RefinementGoals Goals;
   std::int64_t MostVertices = 0; ///< Rounds that would make more are not made.
   bool KeepsBoundary = false; ///< Whether no edge of the boundary is split.
-  /// Whether the mesh is the caller's. Then Regions is by the caller's triangle, and triangles that
-  /// are not counter-clockwise are removed, which keeps all their edges.
+  /// Whether the mesh is the caller's. Then Regions is by the caller's triangle. Triangles that are
+  /// not counter-clockwise count as removed, and all their edges stay.
   bool IsOfCaller = false;
-  bool HasNonManifold = false; ///< Whether edges of such a mesh may have three triangles or more.
+  bool HasNonManifold = false; ///< Whether edges of such a mesh may have three or more triangles.
   /// The region of every triangle, -1 for one that is removed. Empty: all are in region 0. Edges
   /// between removed triangles and others stay.
   std::vector<std::int32_t> Regions;
@@ -57,15 +57,15 @@ struct RefinementResult
   std::vector<RefinedVertex> Vertices;
   std::vector<Subsegment> Segments; ///< First those that there were at first.
   std::vector<std::int32_t> Regions; ///< As in the plan.
-  std::vector<VertexId> Ends; ///< Of the segments there were at first, two points each.
-  /// Of a mesh of the caller: for every triangle the one before refinement that has its centroid.
-  /// Both are named by their slots.
+  std::vector<VertexId> Ends; ///< The ends of the original segments, two points each.
+  /// In a mesh of the caller: the source of each triangle, the triangle before refinement that
+  /// contains its centroid. Both are given by their slots.
   std::vector<TriangleId> Sources;
   std::int64_t Edges = 0, BoundaryEdges = 0, RegionEdges = 0; ///< How many were added.
   std::int64_t Unrefined = 0; ///< Triangles that do not reach the goals.
   std::vector<TriangleId> FirstUnrefined; ///< Those with the smallest angles, the smallest first.
   bool HasReachedLimit = false;
-  /// Which of the caller's coordinates U and V are; -1: none, in a tilted plane or from points.
+  /// The caller's coordinates that are U and V; -1 in a tilted plane, or from points.
   int Axes[2] = { -1, -1 };
 };
 

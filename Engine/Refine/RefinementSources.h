@@ -10,33 +10,33 @@
 #include <cstdint>
 
 /// @file
-/// Where a round finds bad triangles: those whose places were not inserted in the round before, if
-/// they have not changed, and those around the new vertices, because insertion changes no others.
-/// So a round takes the time of what it changes. The first and the last round look at all
-/// triangles.
+/// Where a round finds bad triangles. These are the triangles whose places the round before did not
+/// insert, if they have not changed, and the triangles around the new vertices, because insertion
+/// changes no others. So the time of a round is proportional to what it changes. The first and the
+/// last round look at all triangles.
 
 namespace delaunayflip
 {
 
-/// The sources of places, numbered: first the items of the round before, then the new vertices,
-/// then all triangles if the round looks at them.
+/// The sources of places. They are numbered: first the items of the round before, then the new
+/// vertices, then all triangles if the round looks at all.
 struct RefinementSources
 {
   RefinementView View;
-  const RefinementItem* Items; ///< Those for triangles, of the round before.
+  const RefinementItem* Items; ///< The items for triangles of the round before.
   std::int64_t NumberOfItems;
   const TriangleId* Splits; ///< By new vertex, the triangle that it has split.
   std::int64_t FirstVertex; ///< The first new vertex.
   std::int64_t NumberOfVertices;
-  std::int64_t NumberOfTriangles; ///< All, or 0.
-  std::uint32_t* Counts; ///< By source: how many bad triangles it has.
+  std::int64_t NumberOfTriangles; ///< All triangles, or 0 if the round does not look at all.
+  std::uint32_t* Counts; ///< By source, the number of its bad triangles.
 
   DELAUNAYFLIP_HOST_DEVICE std::int64_t GetSize() const
   {
     return this->NumberOfItems + this->NumberOfVertices + this->NumberOfTriangles;
   }
 
-  /// Counts whether the triangle of an item is as it was. This must precede all calls of Count.
+  /// Counts an item if its triangle is bad and has not changed. Must precede all calls of Count.
   DELAUNAYFLIP_HOST_DEVICE void Keep(std::int64_t i) const
   {
     const RefinementItem& item = this->Items[i];
@@ -60,7 +60,7 @@ struct RefinementSources
   }
 
   /// Proposes places for the bad triangles of a source.
-  /// @param first the number for the first of them.
+  /// @param first the number of the first place.
   DELAUNAYFLIP_HOST_DEVICE void Propose(
     std::int64_t source, std::int64_t first, const RefinementStep& step) const
   {
@@ -75,7 +75,7 @@ struct RefinementSources
       return;
     }
     std::int64_t next = first;
-    // Places change shapes to Left, but only those of their own triangles.
+    // LocateAndClaim may change a shape to Left, but only that of its own triangle.
     this->ForTriangles(source,
       [&](TriangleId triangle)
       {
@@ -89,7 +89,7 @@ struct RefinementSources
   }
 
 private:
-  /// Calls visit(triangle) for the triangles of a source that is no item.
+  /// Calls visit(triangle) for the triangles of a source that is not an item.
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE void ForTriangles(std::int64_t source, const Visit& visit) const
   {
@@ -112,7 +112,7 @@ private:
         return;
       }
     }
-    // The vertex is on the hull, so some triangles are on the other way.
+    // The vertex is on the hull, so the other triangles follow clockwise.
     corner = first == NoCorner ? NoCorner : mesh.FindPreviousAround(first);
     while (corner != NoCorner)
     {
@@ -121,7 +121,8 @@ private:
     }
   }
 
-  /// A triangle belongs to its newest vertex.
+  /// Calls visit(triangle) if the vertex is the newest one of the triangle, so that each triangle
+  /// is visited once.
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE void VisitOwn(VertexId vertex, CornerId corner, const Visit& visit) const
   {
@@ -134,8 +135,8 @@ private:
     }
   }
 
-  /// A corner of a new vertex. Flips may have taken it from the triangle that it has split, but
-  /// then it is near.
+  /// Finds a corner of a new vertex. If flips have taken the vertex from the triangle that it has
+  /// split, a short walk finds it.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex, TriangleId start) const
   {
     const PlaneMesh& mesh = this->View.Mesh;

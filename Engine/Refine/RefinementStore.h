@@ -15,21 +15,21 @@
 #include <cstdint>
 
 /// @file
-/// What belongs to a mesh that grows, and how a place is inserted: what it splits, what the new
-/// vertex interpolates, and which edges are segments.
+/// How a place is inserted into a mesh that grows: what it splits, between which points the new
+/// vertex is interpolated, and which edges become subsegments.
 
 namespace delaunayflip
 {
 
-/// The arrays of a mesh that become larger.
+/// A mesh whose arrays become larger.
 template <typename Real>
 struct GrowingMesh
 {
   EdgeMesh* Mesh;
   Array<Real>* Coordinates; ///< x and y by vertex.
   Array<VertexId>* Ids; ///< By vertex, the number of its point.
-  std::int64_t Vertices; ///< How many there are.
-  std::int64_t FirstId; ///< The number of the first point that is added.
+  std::int64_t Vertices; ///< The number of vertices.
+  std::int64_t FirstId; ///< The id of the first point that refinement adds.
   bool IsInFilterRange; ///< Whether the filters may be used for all places.
 
   PlaneMesh View() const
@@ -42,21 +42,21 @@ struct GrowingMesh
   }
 };
 
-/// The numbers of what an item adds, kind by kind.
+/// Numbers of vertices, triangles, edges and subsegments.
 struct RefinementNumbers
 {
   std::int64_t Vertex, Triangle, Edge, Subsegment;
 };
 
-/// Splits what items split, and stores what belongs to it.
+/// Inserts the places of items, and stores the data of new vertices, triangles and edges.
 template <typename Real>
 struct RefinementStore
 {
   TriangleSplitter Splitter;
-  RefinementNumbers Before; ///< How much there was.
+  RefinementNumbers Before; ///< How many there were before the round.
   Real* Coordinates;
   VertexId* Ids;
-  std::int64_t FirstId, FirstVertex; ///< Those of the first vertex that refinement has added.
+  std::int64_t FirstId, FirstVertex; ///< Id and number of the first vertex of refinement.
   std::uint32_t* Shapes;
   std::int32_t* Regions;
   double* Sizes;
@@ -68,13 +68,13 @@ struct RefinementStore
   std::uint32_t* OriginOfVertex;
   const VertexId* Ends;
   std::uint8_t* IsSharp;
-  TriangleId* Splits; ///< By vertex that the round adds, a triangle that it splits.
-  RefinedVertex* Added; ///< From the first one on that refinement has added.
-  /// Of the old mesh, that of each of these vertices; NoTriangle for those on segments.
+  TriangleId* Splits; ///< By vertex of the round, a triangle that it splits.
+  RefinedVertex* Added; ///< The vertices that refinement has added.
+  /// By these, the triangle of the old mesh, or NoTriangle for a vertex on a segment.
   TriangleId* OldTriangleOf;
   PlaneMesh Old; ///< The mesh before refinement.
   PlaceGridView Grid;
-  bool IsOfCaller; ///< Whether items know where they were in it.
+  bool IsOfCaller; ///< Whether the mesh is the caller's. Then RefinementItem::Old is known.
 
   DELAUNAYFLIP_HOST_DEVICE void Split(
     const RefinementItem& item, const RefinementNumbers& own) const
@@ -122,7 +122,7 @@ struct RefinementStore
   }
 
 private:
-  /// A new triangle is in the region of the one that is split, and both are judged again.
+  /// Puts a new triangle into the region of the split one, and lets both be judged again.
   DELAUNAYFLIP_HOST_DEVICE void TakeOver(TriangleId from, TriangleId to) const
   {
     this->Regions[to] = this->Regions[from];
@@ -131,8 +131,8 @@ private:
     this->Shapes[to] = static_cast<std::uint32_t>(ShapeKind::Unknown);
   }
 
-  /// What belongs to a vertex is linear along the segment that it splits, and else in the triangle
-  /// that it was in at first.
+  /// Interpolates linearly along the segment that the vertex splits, or else in the triangle that
+  /// it was in before refinement.
   DELAUNAYFLIP_HOST_DEVICE RefinedVertex Interpolate(
     const RefinementItem& item, std::uint32_t origin, TriangleId triangle) const
   {
@@ -168,7 +168,8 @@ private:
     return vertex;
   }
 
-  /// The walk begins where the newest corner of the triangle that is split was at first.
+  /// Finds the triangle that a place was in before refinement. The walk begins at that of the
+  /// newest corner of the triangle that is split.
   DELAUNAYFLIP_HOST_DEVICE TriangleId FindOldTriangle(const RefinementItem& item) const
   {
     if (this->IsOfCaller)
@@ -215,7 +216,7 @@ struct SharpCornerStep
   std::uint8_t* IsSharp;
   std::uint32_t* Sectors; ///< By vertex.
 
-  /// @param side of a segment; the corner at its start is judged.
+  /// @param side a half-edge of a segment; the angle at its start is judged.
   DELAUNAYFLIP_HOST_DEVICE void operator()(HalfEdgeId side) const
   {
     CornerId corner =

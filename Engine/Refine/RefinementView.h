@@ -24,18 +24,19 @@ enum SegmentMark : std::uint8_t
 {
   SplitRequested = 1, ///< A vertex or a place is in its diametral circle, or a place beyond it.
   CannotSplit = 2, ///< It must not be split, or is too short.
-  FixedMeanwhile = 4 ///< It may flip when refinement is over.
+  FixedMeanwhile = 4 ///< It is fixed for refinement alone, and may flip afterwards.
 };
 
-/// Instead of the number of a subsegment.
+/// In place of the number of a subsegment: the edge is on none.
 constexpr std::uint32_t NoSegment = 0xFFFFFFFFu;
-constexpr std::uint32_t FixedForNow = 0xFFFFFFFEu; ///< Of an edge that was fixed in a later round.
+/// In place of the number of a subsegment: the edge is fixed for refinement alone.
+constexpr std::uint32_t FixedForNow = 0xFFFFFFFEu;
 
 /// What is known of a vertex.
 enum CornerMark : std::uint8_t
 {
   SharpCorner = 1, ///< Segments meet there at less than 60 degrees.
-  LoneSharpCorner = 2 ///< Likewise, and it has triangles only between these two segments.
+  LoneSharpCorner = 2 ///< A sharp corner with triangles only between its two segments.
 };
 
 /// What is known of a triangle.
@@ -62,7 +63,8 @@ struct RefinementView
   const EdgeId* Segments; ///< The edges that are subsegments.
   std::uint8_t* Marks; ///< By subsegment: SegmentMarks.
   const std::uint32_t* Origins; ///< By subsegment: the number of its segment.
-  /// By fixed edge: the number of its subsegment. In a mesh of the caller also the other two.
+  /// By fixed edge: the number of its subsegment or, in a mesh of the caller, NoSegment or
+  /// FixedForNow.
   const std::uint32_t* SegmentOfEdge;
   const std::uint32_t* OriginOfVertex; ///< By vertex: the segment that it has split, or NoOrigin.
   const VertexId* Ends; ///< By segment, two.
@@ -96,7 +98,7 @@ struct RefinementView
       static_cast<ShapeKind>(shape % OneFlip) != ShapeKind::Unknown;
   }
 
-  /// What a triangle is now.
+  /// Finds what is known of a triangle, or judges it.
   DELAUNAYFLIP_HOST_DEVICE ShapeKind FindShape(TriangleId triangle) const
   {
     if (this->IsJudged(triangle))
@@ -120,8 +122,9 @@ struct RefinementView
     return ShapeKind::Good;
   }
 
-  /// Judges a triangle again if it has changed, and its subsegments. Of the vertices that see one,
-  /// those opposite to it are the nearest to its middle, because the mesh is constrained Delaunay.
+  /// Judges a triangle if it has changed, and requests that its subsegments are split if the
+  /// opposite vertices encroach upon them. No other vertices need be tested: because the mesh is
+  /// constrained Delaunay, the opposite vertices are the nearest to the middle of a subsegment.
   DELAUNAYFLIP_HOST_DEVICE ShapeKind Judge(TriangleId triangle) const
   {
     const bool isNew = !this->IsJudged(triangle);
@@ -162,11 +165,11 @@ struct RefinementView
     return isLarge;
   }
 
-  /// Whether the shortest edge of a triangle connects two segments that meet at a small angle, at
-  /// equal distances from their corner, and the angles of the triangle are left as they are. Those
-  /// at the corner itself cannot get better. The others can if nothing else is at the corner, and
-  /// need about as many points as the inverse of the angle in radians. Beside other triangles at
-  /// the corner, small ones would follow small ones without end.
+  /// Whether a triangle is left as it is because its shortest edge connects two segments that meet
+  /// at a small angle, at equal distances from their corner. The angle at the corner itself cannot
+  /// get better. Farther from the corner angles can, with about as many points as the inverse of
+  /// the angle in radians, but only if no other triangles are at the corner. Otherwise refinement
+  /// might not end: small triangles on one side of a segment make those on the other side smaller.
   DELAUNAYFLIP_HOST_DEVICE bool IsAcrossSharpCorner(
     TriangleId triangle, const TriangleShape& shape) const
   {
@@ -183,8 +186,8 @@ struct RefinementView
       const bool isCommon = corner == this->Ends[2 * std::size_t(b) + i % 2];
       if (isCommon && this->IsSharp[corner] != 0)
       {
-        constexpr double Close = 1.001; // of squared distances, as Triangle has it
-        constexpr double SquaredDegree = 3.046e-4; // the square of the chord of a degree
+        constexpr double Close = 1.001; // ratio of squared distances, as in the program Triangle
+        constexpr double SquaredDegree = 3.046e-4; // the square of a degree in radians
         const PlanePoint place = this->Mesh.GetPoint(corner);
         const double from = TriangleShape::GetSquaredDistance(place, shape.From);
         const double to = TriangleShape::GetSquaredDistance(place, shape.To);
@@ -207,7 +210,7 @@ struct RefinementView
     return (a.U - place.U) * (b.U - place.U) + (a.V - place.V) * (b.V - place.V) < 0.0;
   }
 
-  /// A side of a subsegment that has a triangle.
+  /// Returns a half-edge of a subsegment that has a triangle.
   DELAUNAYFLIP_HOST_DEVICE HalfEdgeId GetSide(std::int64_t segment) const
   {
     const HalfEdgeId side = 2 * this->Segments[segment];
@@ -238,10 +241,10 @@ struct RefinementView
     return this->Marks[segment] == SplitRequested;
   }
 
-  /// Where a subsegment is split: in the middle, or where its segment has an end at which segments
-  /// meet at a small angle, at a simple distance from there. So all of them are split at the same
-  /// distances from their corner, and no piece is in the diametral circle of another one. These are
-  /// Ruppert's concentric shells, with simple distances between them, too.
+  /// Finds where a subsegment is split: in the middle or, if its segment ends at a sharp corner, at
+  /// a simple distance from that corner. So all segments of the corner are split at the same
+  /// distances from it, and no piece is in the diametral circle of another one. These are Ruppert's
+  /// concentric shells, with simple distances in between, too.
   DELAUNAYFLIP_HOST_DEVICE PlanePoint FindSplit(std::int64_t segment) const
   {
     const HalfEdgeId side = this->GetSide(segment);

@@ -119,9 +119,9 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t UnshuffleItem(std::uint32_t shuffl
   return shuffled * Inverse;
 }
 
-/// The order in which places for triangles are inserted if they exclude each other: the lowest rank
-/// first. Those for small angles come before those for large triangles. The first ones are those of
-/// the shortest edges, and the largest triangles. Many have the same rank, so that many can be
+/// The rank of the place for a triangle. If places exclude each other, the one with the lowest rank
+/// is inserted. Places for small angles come first, by the shortest edge; places for large
+/// triangles follow, the largest first. Many places have the same rank, so that many can be
 /// inserted at a time. Ranks have RefinementKey::RankBits bits and are not 0.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t FindRank(const TriangleShape& shape, bool isSharp)
 {
@@ -134,14 +134,15 @@ DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t FindRank(const TriangleShape& shap
   return (rank >> UnusedBits) + 1;
 }
 
-/// What a place claims triangles with: the lowest key wins. A key is lower than all those of rounds
-/// before, so that claims need not be cleared. Below that it has the rank, and then the number of
-/// the item, shuffled, so that keys are different.
+/// The key with which a place claims triangles. The lowest key wins. Its highest bits make it lower
+/// than all keys of earlier rounds, so that claims need not be cleared. The rank follows, and then
+/// the shuffled number of the item, so that all keys are different.
 struct RefinementKey
 {
   static constexpr int RankBits = 10, RoundShift = 32 + RankBits;
   static constexpr std::uint64_t MostRounds = (std::uint64_t(1) << (64 - RoundShift)) - 1;
-  static constexpr std::uint64_t None = ~std::uint64_t(0); ///< Of triangles without a claim.
+  static constexpr std::uint64_t None =
+    ~std::uint64_t(0); ///< The key of triangles without a claim.
 
   /// @param round from 1 to MostRounds.
   DELAUNAYFLIP_HOST_DEVICE static std::uint64_t Make(

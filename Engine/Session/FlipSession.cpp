@@ -163,7 +163,7 @@ void FlipSession::StoreSources(std::int32_t* sources) const
 {
   if (dynamic_cast<PointRun*>(this->Run.get()) != nullptr)
   {
-    throw InvalidOptions("triangles of points have no sources; these are for a mesh");
+    throw InvalidOptions("triangles have sources only in a session from triangles");
   }
   this->Run->StoreSources(sources);
 }

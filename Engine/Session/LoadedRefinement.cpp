@@ -13,7 +13,7 @@ namespace delaunayflip
 namespace
 {
 
-/// The limit of points that the options set.
+/// FlipOptions::PointLimit, or its default.
 std::int64_t GetPointLimit(std::int64_t limit, std::int64_t points)
 {
   constexpr std::int64_t Times = 10, Fewest = 1000000;
@@ -42,7 +42,7 @@ RefinementPlan LoadedRun::PlanGoals(std::int64_t points) const
 
 bool LoadedRun::Refine()
 {
-  // Nobody knows how many rounds are needed; most meshes need 10 to 30.
+  // The number of rounds is not known before; most meshes need 10 to 30.
   constexpr double Usual = 10.0;
   if (this->Report.Triangles == 0)
   {
@@ -90,7 +90,7 @@ void LoadedRun::RepeatRounds(LoadedMesh& mesh, std::int64_t rounds)
   }
   if (this->IsRefined)
   {
-    this->RefineOnce(mesh); // ends it
+    this->RefineOnce(mesh); // adds no point, and ends refinement
   }
   this->TakeRefinement(mesh);
 }

@@ -86,14 +86,14 @@ protected:
   bool Flip(const std::function<bool()>& givesUp = {});
   void RepeatFlips(LoadedMesh& mesh, std::int64_t iterations);
 
-  /// Makes rounds of refinement until all triangles are good, or no iteration is left, as which
-  /// they count. (LoadedRefinement.cpp)
-  /// @returns whether it has ended.
+  /// Makes rounds of refinement until all triangles are good, or no iteration is left. A round
+  /// counts as an iteration. (LoadedRefinement.cpp)
+  /// @returns whether refinement has ended.
   bool Refine();
   void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
-  /// Whether triangles that are not good will stay so: while rounds go on, they may get better.
+  /// Whether no more rounds follow, so that triangles that are not good stay as they are.
   bool HasEndedRefinement() const { return this->IsRefined || this->WasStopped; }
-  /// A plan with the goals of the options. @param points how many may be used.
+  /// Makes a plan with the goals of the options. @param points the number of the caller's points.
   RefinementPlan PlanGoals(std::int64_t points) const;
 
   /// Measures the mesh at the end of a run.
@@ -197,7 +197,7 @@ private:
 
   FlipObserver IterationObserver; ///< Of the Advance under way.
   std::int64_t Limit = 0; ///< The number of iterations at which it returns.
-  std::int64_t RoundsBefore = 0; ///< Those before it.
+  std::int64_t RoundsBefore = 0; ///< Rounds of refinement before the Advance under way.
   bool IsRefined = false; ///< Whether there is nothing more to refine.
   StopWatch SinceBegin;
   bool OnCuda = false; ///< Whether a GPU has the mesh.

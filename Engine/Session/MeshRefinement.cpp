@@ -17,7 +17,8 @@ namespace delaunayflip
 namespace
 {
 
-/// A weighted mean, but a value that all have stays as it is, so that a plane stays one.
+/// Computes a weighted mean. If all values are equal, it is exactly this value, so that planes stay
+/// planar.
 double Mean(const double (&values)[3], const double (&weights)[3])
 {
   double sum = 0.0;
@@ -30,7 +31,7 @@ double Mean(const double (&values)[3], const double (&weights)[3])
   return areEqual ? values[0] : sum;
 }
 
-/// The coordinates of a point that was added, in the precision of the caller's points.
+/// Finds the coordinates of an added point, in the precision of the caller's points.
 void FindPosition(
   const PointArray& points, const RefinedVertex& vertex, const int (&axes)[2], double (&xyz)[3])
 {
@@ -76,8 +77,8 @@ RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
   return plan;
 }
 
-/// Numbers from 0 for the caller's labels, and -1 for triangles whose edges stay. Empty without
-/// either.
+/// Numbers the caller's labels from 0; frozen triangles get -1. Returns nothing if there are
+/// neither labels nor frozen triangles.
 std::vector<std::int32_t> MeshRun::NumberRegions() const
 {
   const std::int32_t* labels = this->Mesh.GetFixedEdges().Regions;
@@ -116,7 +117,7 @@ void MeshRun::TakeRefinement(LoadedMesh& mesh)
   std::vector<std::int64_t>& first = this->Refined.Unrefined.FirstIds;
   for (const TriangleId triangle : made.FirstUnrefined)
   {
-    first.push_back(made.Sources[triangle]); // the caller knows that one
+    first.push_back(made.Sources[triangle]); // a triangle of the caller
   }
   std::sort(first.begin(), first.end());
   first.erase(std::unique(first.begin(), first.end()), first.end());
@@ -138,7 +139,7 @@ void MeshRun::TakeRefinement(LoadedMesh& mesh)
   this->AreKeptEdgesKnown = false;
 }
 
-/// Counts the pieces that were added to constraint edges.
+/// Counts the edges that splits of constraint edges have added.
 std::int64_t MeshRun::CountConstraints(const RefinementResult& made) const
 {
   const FixedEdges& edges = this->Start->GetFixedEdges();

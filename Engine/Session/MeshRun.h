@@ -17,8 +17,7 @@ namespace delaunayflip
 struct RefinedCallerMesh
 {
   std::vector<AddedPoint> Points;
-  std::vector<TriangleId>
-    Sources; ///< By triangle, that of the mesh before; empty: all are the same.
+  std::vector<TriangleId> Sources; ///< By triangle, its source; empty: each is its own.
   Defect Unrefined; ///< Triangles that do not reach the goals.
   bool HasReachedLimit = false;
 };

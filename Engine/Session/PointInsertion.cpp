@@ -58,7 +58,8 @@ bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress
   return this->Report.StopReason != StopReasonKind::Aborted;
 }
 
-/// Whether this has become a Delaunay triangulation without segments, of which nothing was removed.
+/// Whether this has become a Delaunay triangulation of all points, without segments, regions or
+/// goals, in which no option has removed points or triangles.
 bool PointRun::IsPlain() const
 {
   const PointOptions& options = this->Points.GetOptions();

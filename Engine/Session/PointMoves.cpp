@@ -15,7 +15,7 @@
 #include <vector>
 
 /// @file
-/// How the run of points follows those that move, and does without those that are removed.
+/// How the run of points moves and removes them.
 
 namespace delaunayflip
 {
@@ -53,7 +53,7 @@ void SetPlace(PointPlaces& places, std::int64_t point, double x, double y)
   }
 }
 
-/// Copies coordinates into an array of its own.
+/// Copies x and y of places into an array that the run owns.
 template <typename Real>
 void CopyInto(const PlaneArray& from, std::vector<Real>& coordinates, PointPlaces& places)
 {
@@ -133,7 +133,7 @@ bool PointRun::Compact(const ProgressObserver& progress)
   return this->GoToPlaces({}, progress);
 }
 
-/// Fills this->Places.
+/// Reads the new places of all points into this->Places.
 void PointRun::ReadPlaces(const PointMove& move)
 {
   const PlaneArray& now = this->Points.GetCaller().Points;
@@ -146,8 +146,8 @@ void PointRun::ReadPlaces(const PointMove& move)
     if (!staysThere || !isSame)
     {
       throw InvalidOptions(
-        "places in the memory of a GPU must be those of all points, with the type "
-        "of their coordinates, and no point may be removed");
+        "places in the memory of a GPU must be those of all points, in the type of their "
+        "coordinates; if points were removed, compact the triangulation first");
     }
     RequireOnDevice(move.Points.Data(), move.Points.Count, "the places are");
     places.Points = move.Points;
@@ -178,7 +178,7 @@ void PointRun::ReadPlaces(const PointMove& move)
   }
 }
 
-/// Moves all points to this->Places. @param removed the points that are removed then.
+/// Moves all points to this->Places. @param removed the ids of all removed points.
 bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress)
 {
   std::vector<std::int64_t> removedBefore = this->Points.GetRemoved();
@@ -232,8 +232,9 @@ bool PointRun::MoveInPlace()
     });
 }
 
-/// Removes those that were not removed before. More than some are triangulated anew in less time,
-/// because one thread removes them, also on a GPU.
+/// Removes the points that were not removed before. If there are many, triangulating anew takes
+/// less time, because a single thread removes points, also on a GPU.
+/// @returns false if the points have to be triangulated anew.
 bool PointRun::RemoveInPlace(const std::vector<std::int64_t>& before)
 {
   constexpr std::size_t Most = 256;
@@ -245,7 +246,8 @@ bool PointRun::RemoveInPlace(const std::vector<std::int64_t>& before)
     this->ChangeInPlace([&](LoadedMesh& mesh) { return mesh.RemovePoints(ids); });
 }
 
-/// @param change what to do with the mesh, unless that is made anew where the points are.
+/// Changes the loaded mesh in place.
+/// @returns false if the points have to be triangulated anew.
 template <typename Change>
 bool PointRun::ChangeInPlace(const Change& change)
 {
@@ -267,7 +269,7 @@ bool PointRun::ChangeInPlace(const Change& change)
   return true;
 }
 
-/// Reports a motion as if it were all that the run has done.
+/// Makes the report that of the motion alone.
 void PointRun::RecordMotion(const MotionResult& motion)
 {
   FlipReport& report = this->Report;

@@ -148,7 +148,7 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
   this->IsPrepared = true;
 }
 
-/// Forgets all but what the caller has given.
+/// Drops what Prepare has made, and keeps what the caller has given.
 void PreparedPoints::Unprepare()
 {
   this->Prepared = this->Caller;

@@ -18,7 +18,7 @@ namespace delaunayflip
 
 class LoadedMesh;
 
-/// Where all points of the caller are, with their memory if it is not the caller's.
+/// The places of all points of the caller, and their memory if it is not the caller's.
 struct PointPlaces
 {
   PlaneArray Points;
@@ -62,10 +62,10 @@ public:
   /// are no segments and no tolerance. From now on this has a copy of all points.
   void Append(const PlaneArray& points);
 
-  /// Puts the points of the caller at other places. Prepare must follow, as for Append.
-  /// @param places in their precision; becomes the places before.
+  /// Moves the points of the caller to other places. Prepare must follow, as for Append.
+  /// @param places the new places, in the precision of the points; receives the old ones.
   void Exchange(PointPlaces& places);
-  /// Fills places with those of now, in the host's memory. Exchange must follow.
+  /// Copies the current places to the host's memory. Exchange must follow.
   void CopyPlaces(PointPlaces& places);
 
   /// The points that are removed, ascending. Their places are NaN.
@@ -98,7 +98,7 @@ public:
   }
   bool IsNear(std::int64_t point) const { return this->GetNear(point) != point; }
 
-  /// The same as FlipSession's.
+  /// As FlipSession's.
   void StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const;
 
 private:

@@ -19,7 +19,7 @@ namespace delaunayflip
 namespace
 {
 
-/// A piece of an edge, and where it begins.
+/// A piece of an edge, and the vertex at which it begins.
 struct Piece
 {
   VertexId Start;
@@ -29,7 +29,7 @@ struct Piece
 };
 
 /// Appends the subsegments of a segment's edge, in the direction of the segment.
-/// @param edgesOfPieces those of the edge that there was before.
+/// @param edgesOfPieces the edges into which refinement has split that edge.
 void AppendPieces(const PointMeshView& view, const SegmentEdge& before,
   const std::vector<EdgeId>& edgesOfPieces, std::vector<SegmentEdge>& edges)
 {
@@ -198,7 +198,8 @@ void PointRun::RenumberKept(const PointMeshView& view, const std::vector<std::in
   }
 }
 
-/// @param origins by subsegment's edge, the number of the edge that there was before.
+/// @param origins by edge on a segment, the number of the edge before refinement of which it is a
+/// piece.
 void PointRun::AddRefinedPoints(
   const RefinementResult& made, const std::vector<std::uint32_t>& origins)
 {

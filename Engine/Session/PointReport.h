@@ -17,7 +17,7 @@
 namespace delaunayflip
 {
 
-/// What was done beside flips to a mesh from points.
+/// What was done to a mesh from points beside flips.
 struct PointResult
 {
   std::size_t Taken = 0; ///< How many segments are inserted or refused; they are the first ones.

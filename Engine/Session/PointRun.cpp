@@ -59,7 +59,7 @@ void PointRun::ListStages()
     this->Stages.push_back(
       { "refine", OnStop::KeepsMesh, 0.5, [this] { return this->Refine(); }, refine });
   }
-  // Points that are inserted or moved later are in the journal as done by this stage.
+  // The journal records later insertions and motions as done by this stage.
   const auto insertPoints = [this](LoadedMesh& mesh, std::int64_t batch)
   {
     if (batch == AllPoints)

@@ -33,25 +33,25 @@ public:
   const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Points.GetAdded(); }
   std::vector<std::int64_t> ListSegmentEdges() override;
 
-  /// The same as FlipSession's. (PointRefinement.cpp)
+  /// As FlipSession's. (PointRefinement.cpp)
   std::vector<std::int64_t> ListSegmentsOfEdges() override;
   void StoreRegions(std::int32_t* labels) override;
 
-  /// The same as FlipSession's. (PointInsertion.cpp)
+  /// As FlipSession's. (PointInsertion.cpp)
   bool Insert(const PlaneArray& points, const ProgressObserver& progress) override;
 
-  /// The same as FlipSession's. (PointMoves.cpp)
+  /// As FlipSession's. (PointMoves.cpp)
   bool Move(const PointMove& move, const ProgressObserver& progress) override;
   bool Remove(
     const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress) override;
   bool Compact(const ProgressObserver& progress) override;
 
-  /// The same as FlipSession's. (PointAnswers.cpp)
+  /// As FlipSession's. (PointAnswers.cpp)
   bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
 private:
-  /// In the journal, instead of the number of a batch: the mesh was made of all points, wherever
-  /// they are now, and has become Delaunay.
+  /// In the journal, in place of the number of a batch: the Delaunay triangulation of all points,
+  /// at their current places.
   static constexpr std::int64_t AllPoints = -1;
 
   void ListStages();
@@ -99,7 +99,7 @@ private:
   /// The loaded mesh was made of the first points up to the first of these numbers. Those from one
   /// number to the next were inserted together. Empty: it was made of all.
   std::vector<std::int64_t> BatchEnds;
-  PointPlaces Places; ///< Those to go to, or those before; kept for the memory.
+  PointPlaces Places; ///< The next places, or the last ones. Kept so that moves reuse the memory.
   PointResult Result; ///< What was done to the loaded mesh beside flips.
   bool AreFlipsSlow = false; ///< Whether divide and conquer takes over.
 };

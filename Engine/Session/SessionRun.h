@@ -91,7 +91,7 @@ public:
   virtual void StoreTriangles(const MutableTriangleArray& triangles) = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) = 0;
 
-  /// The same as FlipSession's.
+  /// As FlipSession's.
   virtual const std::vector<AddedPoint>& GetAddedPoints() const
   {
     static const std::vector<AddedPoint> none;
@@ -111,7 +111,7 @@ public:
   }
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
 
-  // What only sessions from points have.
+  // Only sessions from points have these.
   virtual void StoreNeighbors(std::int32_t*) { RefuseQuestion(); }
   virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
   virtual void StoreUsedPoints(std::int64_t*) { RefuseQuestion(); }

@@ -21,8 +21,8 @@ namespace
 {
 constexpr double Pi = 3.14159265358979323846;
 
-/// Sine and cosine of an angle in degrees, exact at multiples of 90. The angle is first reduced by
-/// such multiples, which rounds nothing.
+/// Finds the sine and the cosine of an angle in degrees. They are exact at multiples of 90, because
+/// the angle is first reduced by such multiples, without rounding.
 void FindSineAndCosine(double degrees, double& sine, double& cosine)
 {
   const double turned = std::fmod(degrees, 360.0);
@@ -59,7 +59,7 @@ void RequirePlainPoints(const PointInput& input, const PointOptions& options)
     }
   };
   require(input.Points.Count == 0 || input.Points.Stride >= 3,
-    "points on a sphere need x, y and z; PlaceOnSphere makes them of longitudes and latitudes");
+    "points on a sphere need x, y and z; PlaceOnSphere makes them from longitudes and latitudes");
   require(input.NumberOfSegments == 0,
     "a triangulation on a sphere cannot have segments, outlines or holes yet");
   require(input.NumberOfHoleSeeds == 0 && input.NumberOfRegions == 0 && !input.Sizes,
@@ -82,7 +82,7 @@ void RequirePlainPoints(const PointInput& input, const PointOptions& options)
     plain, defaults);
 }
 
-/// @throws RunAborted if an observer stops it, or has stopped its constructor.
+/// @throws RunAborted if an observer stops the session, or has stopped its constructor.
 void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
 {
   const auto isAborted = [&] { return session.GetReport().StopReason == StopReasonKind::Aborted; };
@@ -243,9 +243,9 @@ std::vector<std::int32_t> SphereRun::ListActive() const
   return active;
 }
 
-/// Makes a closed mesh in which all triangles face outside, of the points that are not left out, or
-/// of four points.
-/// @returns false if there is none, because all points lie in one plane.
+/// Makes a closed mesh in which all triangles face outside, from the points that are not left out,
+/// or from four points.
+/// @returns false if there is no such mesh because all points lie in one plane.
 bool SphereRun::Start()
 {
   constexpr int MostStarts = 50;
@@ -270,8 +270,8 @@ bool SphereRun::Start()
   }
 }
 
-/// Triangulates the active points, projected from the one that is farthest north. Points at places
-/// of others are marked.
+/// Triangulates the active points, projected from one of them, the pole. Marks points at the places
+/// of others.
 void SphereRun::StartInPlane(std::int32_t pole)
 {
   const StereographicProjection projection(this->Points[pole]);
@@ -328,8 +328,8 @@ void SphereRun::StartInPlane(std::int32_t pole)
   JoinPole(this->Triangles, this->Neighbors, pole);
 }
 
-/// The four triangles of a simplex of all points that are not inside. The others are inserted in
-/// the end.
+/// Makes the four triangles of a simplex of points that are not inside. The other points are
+/// inserted at the end.
 bool SphereRun::StartFromSimplex()
 {
   for (PointState& state : this->States)
@@ -350,8 +350,8 @@ bool SphereRun::StartFromSimplex()
   return true;
 }
 
-/// Marks those of the points that are left out which are at the place of another one, or of a
-/// corner of the simplex. The projection has found all others.
+/// Marks points that are left out and are at the place of another such point, or of a corner of the
+/// simplex. The projection has found all other repeated points.
 void SphereRun::MarkRepeated()
 {
   const bool isSimplex = SizeOf(this->Triangles) == 12;
@@ -382,7 +382,7 @@ void SphereRun::MarkRepeated()
   }
 }
 
-/// Takes the origin if it is inside of the mesh, else a place inside of the simplex.
+/// Takes the origin as the center if it is inside of the mesh, else a place inside of the simplex.
 /// @returns whether all triangles face outside, seen from there.
 bool SphereRun::ChooseCenter(const std::vector<std::int32_t>& simplex)
 {
@@ -401,7 +401,7 @@ bool SphereRun::ChooseCenter(const std::vector<std::int32_t>& simplex)
   return faceOutside({ 0.0, 0.0, 0.0 }) || faceOutside(FindCenter(this->Points, simplex));
 }
 
-/// @returns whether there are any.
+/// Gives points a state in which they are not active. @returns whether there are any.
 bool SphereRun::LeaveOut(const std::vector<std::int32_t>& points, PointState state)
 {
   for (const std::int32_t i : points)
@@ -411,7 +411,7 @@ bool SphereRun::LeaveOut(const std::vector<std::int32_t>& points, PointState sta
   return !points.empty();
 }
 
-/// Flips the mesh until all edges are convex, as far as triangles do not turn over.
+/// Flips until every edge is convex, or its flip would turn a triangle over.
 void SphereRun::Flip()
 {
   TriangleMesh mesh;
@@ -434,8 +434,9 @@ void SphereRun::Flip()
   session.StoreTriangles(MutableTriangleArray(this->Triangles.data(), mesh.Triangles.Count));
 }
 
-/// @returns false if there are points that others have put inside of the hull, and all must begin
-/// again.
+/// Inserts the points that are left out.
+/// @returns false if this has made triangles without area, so that the run must begin again without
+/// their middle points.
 bool SphereRun::InsertLeftOut()
 {
   this->MarkRepeated();
@@ -462,7 +463,7 @@ bool SphereRun::InsertLeftOut()
   return true;
 }
 
-/// Tells half of the work that is left, because nobody knows how much follows.
+/// Reports progress through half of the remaining share, because nobody knows how much follows.
 ProgressObserver SphereRun::TellHalf()
 {
   const double begin = this->Done;
@@ -476,7 +477,7 @@ ProgressObserver SphereRun::TellHalf()
 }
 
 //------------------------------------------------------------------------------
-/// Removes the triangles behind which the origin is not.
+/// Removes the triangles that do not face away from the origin.
 void SphereRun::OpenMesh()
 {
   std::size_t kept = 0;
@@ -624,7 +625,7 @@ namespace
 
 void SphereRun::StoreSources(std::int32_t*)
 {
-  throw InvalidOptions("triangles of points have no sources; these are for a mesh");
+  throw InvalidOptions("triangles have sources only in a session from triangles");
 }
 
 bool SphereRun::Insert(const PlaneArray&, const ProgressObserver&) { RefuseChange(); }

@@ -13,19 +13,19 @@
 namespace delaunayflip
 {
 
-/// Makes the convex hull of points, seen as a triangulation on a sphere. It is made of two other
-/// sessions, one of the projected points in the plane and one of the closed mesh on the sphere.
-/// Advance does all, whatever the number of iterations.
+/// Makes the triangulation of points on a sphere, which is their convex hull. It uses two other
+/// sessions: one for the projected points in the plane, and one for the closed mesh on the sphere.
+/// Advance does all the work, whatever the number of iterations.
 ///
-/// After the flips in the plane everything is judged by exact signs of the points as given. Points
-/// where the projection has folded the mesh over are left out, and inserted at the end. Edges that
-/// flips cannot make convex end at points that are inside of the hull: without these all begins
-/// again. So it does without points within a plane or an edge of the hull, because which of these
-/// have triangles would depend on the start.
+/// After the flips in the plane all decisions are exact, for the points as given. Points where the
+/// projection has folded the mesh over are left out, and inserted at the end. If flips cannot make
+/// an edge convex, one of its ends is inside of the hull; the run then begins again without that
+/// point. It also begins again without points within a face or an edge of the hull, because the
+/// start would decide which of these have triangles.
 class SphereRun final : public SessionRun
 {
 public:
-  /// @throws InvalidOptions for what there is only in the plane.
+  /// @throws InvalidOptions for segments and options that only triangulations in the plane have.
   SphereRun(const PointInput& input, const PointOptions& options, const ProgressObserver& progress);
 
   bool Advance(std::int64_t iterations, const FlipObserver& observer,
@@ -52,8 +52,8 @@ private:
   {
     Used,
     NotFinite,
-    Repeated, ///< Another one at its place is used.
-    LeftOut, ///< The projection does not suit it. It is inserted at the end.
+    Repeated, ///< Another point at its place is used.
+    LeftOut, ///< The projection cannot place it. It is inserted at the end.
     Inside
   };
 
@@ -78,10 +78,10 @@ private:
   const PointOptions Options;
   SpacePoints Points;
   std::vector<PointState> States; ///< By point.
-  std::vector<std::int32_t> UsedPoint; ///< By point: the one at its place.
+  std::vector<std::int32_t> UsedPoint; ///< By point, the one that is used at its place.
   std::vector<std::int32_t> Triangles, Neighbors, FlipCounts;
-  PlanePoint Center{ 0.0, 0.0, 0.0 }; ///< From where triangles are seen.
-  double Done = 0.0; ///< The share of the work.
+  PlanePoint Center{ 0.0, 0.0, 0.0 }; ///< The place from which triangles are seen.
+  double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;
   FlipReport Planar; ///< Sums over the flips in the plane.
 };
