@@ -121,6 +121,8 @@ class MovingTriangulation:
             wanted = len(ids)
         if len(given.points) != wanted:
             raise ValueError(f"there must be {wanted} points, not {len(given.points)}")
+        if ids is not None and wanted == 0:
+            return  # no address says that there are no ids: it would mean all points
         number = None if ids is None else address(ids)
         with self._change() as handle, observe(progress) as callbacks:
             _library.call("move_points", handle, given.struct, number, callbacks)
@@ -131,14 +133,25 @@ class MovingTriangulation:
         """Inserts points, (k, 2) or (k, 3), and gives their ids, (k,) int64, which follow the others.
 
         Raises:
-            The same as move.
+            The same as move. If points are triangulated anew and that does not end, the new ones count
+            as removed points.
         """
         batch = Input(_arrays.to_host(_arrays.as_plane(points)))
         before = len(self)
         with self._change() as handle, observe(progress) as callbacks:
-            _library.call("insert_points", handle, batch.struct, callbacks)
+            try:
+                _library.call("insert_points", handle, batch.struct, callbacks)
+            except Exception:
+                self._remove_from(before, handle)
+                raise
             self._count = before + len(batch.points)
         return numpy.arange(before, self._count)
+
+    def _remove_from(self, first, handle):
+        """Removes the points that the engine has taken in since there were `first` of them."""
+        self._count = _report.read_struct(handle).points
+        ids = numpy.arange(first, self._count)
+        _library.call("remove_points", handle, address(ids), len(ids), None)
 
     def remove(self, ids: Numbers, *, progress: Optional[Progress] = None) -> None:
         """Removes points. The others keep their ids. A removed point is used no more, whatever place it

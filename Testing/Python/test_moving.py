@@ -88,6 +88,33 @@ class Moving(unittest.TestCase):
         with self.assertRaises(Stopped):
             MovingTriangulation(self.points, progress=lambda share: False)
 
+    def test_insertion_stops(self):
+        """The new points count as removed ones then, also if the observer has failed."""
+        for share in (0.0, 0.5):
+            def observe(done):
+                if done >= share:
+                    raise KeyError(share)
+
+            with MovingTriangulation(self.points) as mesh:
+                mesh.remove([3])
+                left = self.points.copy()
+                with self.assertRaises(KeyError):
+                    mesh.insert(self.random.random((9, 2)) * 3.0, progress=observe)
+                self.assertEqual((len(mesh), mesh.report.removed_points), (2009, 10))
+                left[3] = numpy.nan
+                self.expect(mesh, numpy.concatenate([left, numpy.full((9, 2), numpy.nan)]))
+                self.assertEqual(mesh.insert([[2.0, 2.0]]).tolist(), [2009])
+                mesh.compact()
+                self.expect(mesh, numpy.concatenate([numpy.delete(left, 3, axis=0), [[2.0, 2.0]]]))
+
+    def test_no_ids(self):
+        with MovingTriangulation(self.points) as mesh:
+            mesh.move(numpy.empty((0, 2)), [])
+            mesh.remove([])
+            self.expect(mesh, self.points)
+            with self.assertRaisesRegex(ValueError, "there must be 0 points, not 1"):
+                mesh.move([[0.0, 0.0]], [])
+
     def test_what_is_refused(self):
         mesh = MovingTriangulation(self.points)
         for points, ids in ((self.points[1:], None), (self.points, [1, 2]), ([[0.0, 0.0]], [[1]]),
