@@ -430,7 +430,7 @@ class Mesh:
         self._keep("constraints_to_insert", numpy.full(len(edges), flags, dtype=numpy.uint8))
 
     def _take_sizes(self, size):
-        values, shape = as_values(size)
+        values, shape = as_values(size, "size")
         if shape or len(values) != self.struct.number_of_points:
             raise ValueError(f"size must have one number for each of the {self.struct.number_of_points} points, "
                              f"not the shape {tuple(numpy.shape(size))}")

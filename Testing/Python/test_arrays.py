@@ -494,6 +494,19 @@ class RefineMeshes(unittest.TestCase):
         numpy.testing.assert_array_equal(result.sources, numpy.arange(len(self.triangles)))
         numpy.testing.assert_array_equal(result.at_points(self.points), self.points)
 
+    def test_stops(self):
+        """Wherever a run stops, its mesh is whole, and has the area and the sources of the given one."""
+        flip = functools.partial(delaunayflip.flip, self.points, self.triangles, geometry="planar-xy",
+                                 maximum_area=0.01)
+        area = self.find_areas(self.points, self.triangles).sum()
+        for most in (1, 2, 5, 10, 20):
+            calls = iter(range(most))
+            result = flip(progress=lambda share, left=calls: next(left, None) is not None)
+            self.assertEqual(result.report.stop_reason, "aborted")
+            self.assertAlmostEqual(self.find_areas(result.points, result.triangles).sum(), area, 9)
+            self.assertEqual(result.sources.shape, (len(result.triangles),))
+            numpy.testing.assert_allclose(result.at_points(self.points), result.points, atol=1e-12)
+
     def test_sizes_and_sessions(self):
         size = 0.2 + 0.1 * self.points[:, 0]
         keywords = dict(geometry="planar-xy", size=size, point_limit=3000)
@@ -526,6 +539,7 @@ class RefineMeshes(unittest.TestCase):
                 ({"minimum_angle": 20, "geometry": "planar-xy", "pieces": 2}, "in several pieces"),
                 ({"minimum_angle": 20, "criterion": "opposite-angles"}, "in-circle"),
                 ({"size": self.points[1:, 0]}, "one number for each"),
+                ({"size": 0.5}, "size must have the shape"),
                 ({"size": numpy.zeros(len(self.points))}, "size of point 0")):
             with self.subTest(words), self.assertRaisesRegex(ValueError, words):
                 flip(**keywords)
