@@ -22,7 +22,7 @@ namespace
   throw CommandError(ExitCode::WrongUsage, message);
 }
 
-/// Checks that the output can be written, as a mesh or what is written instead.
+/// Checks that the format of the output fits what is written: a mesh, a raster or heights.
 void CheckOutput(Arguments& arguments)
 {
   const HeightOptions& heights = arguments.Heights;
@@ -54,7 +54,7 @@ void CheckOutput(Arguments& arguments)
   }
 }
 
-/// Checks that files can be read or written as what they are given for.
+/// Checks that the formats of files fit their purposes.
 void CheckFormats(Arguments& arguments)
 {
   CheckOutput(arguments);
@@ -82,7 +82,7 @@ void CheckFormats(Arguments& arguments)
   {
     if (!file.empty())
     {
-      FormatOf(file); // fails for an unknown one before anything is read
+      FormatOf(file); // fails for an unknown format before anything is read
     }
   }
 }
@@ -98,7 +98,7 @@ void CheckArguments(Arguments& arguments)
   {
     FailOnUsage(arguments.Output + ": --quality needs a .vtk or .vtp file");
   }
-  // What is read may be one file. The input may also be the output.
+  // One file may be read for several purposes, and the output may replace the input.
   std::set<std::filesystem::path> used;
   for (const std::string& file : arguments.ListOthers())
   {

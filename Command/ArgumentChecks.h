@@ -8,8 +8,8 @@
 namespace delaunayflip
 {
 
-/// Checks what involves files or more than one option, and finds the format of the output.
-/// @throws CommandError.
+/// Checks what involves files or several options, and finds the format of the output.
+/// @throws CommandError
 void CheckArguments(Arguments& arguments);
 
 }

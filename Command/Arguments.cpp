@@ -43,7 +43,7 @@ std::function<void(T...)> Set(Arguments& arguments, void (Filter::*method)(T...)
   };
 }
 
-/// Calls the method of the filter of a mesh, and that of the filter of points.
+/// Calls a method of the filter for meshes, and one of the filter for points.
 template <typename... T>
 std::function<void(T...)> SetBoth(Arguments& arguments, void (vtkDelaunayFlip::*ofMesh)(T...),
   void (vtkDelaunayFlipPoints::*ofPoints)(T...))
@@ -130,8 +130,8 @@ void AddJudgeOptions(CLI::App& app, Arguments& arguments)
     { "auto", "planar", "planar-xy", "surface", "sphere" },
     "Where edges are judged: in the plane of the points (planar), by x and y alone "
     "(planar-xy, for terrain), in space (surface) or on a globe around the origin (sphere). auto: "
-    "planar if all points lie in one plane, "
-    "planar-xy if the mesh is a height field of gentle slopes or mixed units, else surface [auto]");
+    "planar if all points lie in one plane, planar-xy if the mesh is a height field of gentle "
+    "slopes or mixed units, else surface [auto]");
   AddChoice(app, "--criterion", Set(arguments, &vtkDelaunayFlip::SetCriterion),
     { "in-circle", "opposite-angles" },
     "Exact in-circle test, or opposite-angle sum above pi; surfaces always use the latter "
@@ -198,8 +198,7 @@ void AddStayOptions(CLI::App& app, Arguments& arguments)
     ->check(FindFaultOfName);
 }
 
-/// Reads x,y,label or x,y,label,area.
-/// @returns what is wrong, or "".
+/// Reads x,y,label or x,y,label,area. @returns what is wrong, or "".
 std::string ParseRegion(const std::string& text, std::array<double, 4>& region)
 {
   region = {};
@@ -294,16 +293,15 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   AddChoice(app, "--projection", Set(arguments, &vtkDelaunayFlipPoints::SetProjection),
     { "xy", "plane", "sphere", "open-sphere" },
     "Where points are joined: by x and y, in the plane that fits them best, or on a sphere around "
-    "the origin, by their convex hull. open-sphere: without triangles whose circle is at least as "
-    "large as a great circle [xy]");
+    "the origin, by their convex hull. open-sphere: without triangles whose circumcircle encloses "
+    "half of the sphere or more [xy]");
   app.add_flag_callback("--degrees", Set(arguments, &vtkDelaunayFlipPoints::DegreesOn),
     "On a sphere, x and y are longitudes and latitudes in degrees. The points are written as "
-    "places "
-    "on the unit sphere");
+    "places on the unit sphere");
   AddRegionOption(app, arguments);
 }
 
-/// Options that add points, to a mesh and from points.
+/// Options that add points, to a mesh or to what is made from points.
 void AddRefinementOptions(CLI::App& app, Arguments& arguments)
 {
   app.option_defaults()->group(ToRefine);
@@ -312,8 +310,7 @@ void AddRefinementOptions(CLI::App& app, Arguments& arguments)
     SetBoth(arguments, &vtkDelaunayFlip::SetMinimumAngle, &vtkDelaunayFlipPoints::SetMinimumAngle),
     "DEGREES", Within(0.0, 33.0, "an angle from 0 to 33 degrees"),
     "In the plane and on terrain, add points until no angle is smaller; 0: no limit. Triangles "
-    "that "
-    "cannot get better, because edges that stay meet at a small angle, are left [0]");
+    "that cannot get better, because edges that stay meet at a small angle, are left [0]");
   AddValue(app, "--maximum-area",
     SetBoth(arguments, &vtkDelaunayFlip::SetMaximumArea, &vtkDelaunayFlipPoints::SetMaximumArea),
     "AREA", Within(0.0, std::numeric_limits<double>::max(), "an area of 0 or more"),
@@ -459,7 +456,7 @@ void RelateOptions(CLI::App& app)
     "--quality");
 }
 
-/// Checks that options about heights are given with one that asks for heights.
+/// Checks that options about heights are used only with an option that asks for heights.
 void CheckHeightOptions(const CLI::App& app)
 {
   const bool areWanted = app.count("--raster") > 0 || app.count("--heights-at") > 0;

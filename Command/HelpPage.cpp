@@ -13,7 +13,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Whether a word asks for a smallest angle, as programs that add points do.
+/// Whether an unknown option asks for a smallest angle, in the words of other programs.
 bool AsksForAngle(const std::string& word)
 {
   static const std::regex angle("--?min(imum)?[-_]?angle(=.*)?", std::regex::icase);
@@ -93,7 +93,7 @@ std::string DescribeCommand()
          "      --minimum-angle 28 --maximum-area 500\n"
          "      fills an outline with good triangles\n"
          "  delaunay-flip survey.csv dem.tif --from-points --raster 1 --crs EPSG:25832\n"
-         "      writes their heights on a raster of 1 x 1 cells";
+         "      writes heights on a raster of 1 x 1 cells";
 }
 
 std::string DescribeExitCodes()

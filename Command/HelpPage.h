@@ -8,7 +8,7 @@
 #include <string>
 
 /// @file
-/// What the command says of itself, and of words that it does not know.
+/// The text of the command's help, and its answers to unknown options.
 
 namespace delaunayflip
 {
@@ -24,8 +24,8 @@ inline constexpr const char* ToRun = "Where it runs";
 inline constexpr const char* ToWrite = "What to write";
 inline constexpr const char* ToHelp = "Help";
 
-/// Help in 80 columns, by group; of an option it says what it takes, and not how it goes with
-/// others. Every version of CLI11 lays it out like this.
+/// Lays out the help in 80 columns, by group, in the same way for every version of CLI11. For each
+/// option it says what the option takes, but not which other options it needs or excludes.
 class PlainFormatter : public CLI::FormatterBase
 {
 public:
@@ -36,16 +36,18 @@ private:
   static std::string Describe(const CLI::Option& option);
 };
 
-/// What stands above the options: what the command does, and examples.
+/// The text above the options: what the command does, and examples.
 std::string DescribeCommand();
 
-/// What stands below them.
+/// The text below the options.
 std::string DescribeExitCodes();
 
-/// An answer to a word that asks for a smallest angle by another name; or "".
+/// Returns an answer to an unknown option that asks for a smallest angle, such as --min-angle; or
+/// "".
 std::string ExplainAngle(const CLI::App& app);
 
-/// "; did you mean --geometry?" if a word that is no option begins like one.
+/// Returns, for example, "; did you mean --geometry?" if an unknown option begins like a known one;
+/// or "".
 std::string SuggestOption(const CLI::App& app);
 
 }

@@ -103,7 +103,8 @@ public:
   }
 
 private:
-  int MostDigits = 7; ///< What was not rounded has more: a float at least 8, a double 16 mostly.
+  /// Numbers that were not rounded have more digits: floats at least 8, doubles mostly 16.
+  int MostDigits = 7;
   static constexpr std::size_t FewestPoints = 100; ///< Others may have short numbers by chance.
 
   /// The largest value of 99 % of the numbers; a few of another origin may have more.

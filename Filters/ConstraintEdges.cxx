@@ -378,7 +378,7 @@ SegmentList::SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPol
   {
     return;
   }
-  const auto segments = ShareMesh(source.Others); // which observers cannot take away
+  const auto segments = ShareMesh(source.Others); // so that observers cannot take it away
   std::vector<double> storage, otherStorage;
   const PointArray own = ViewPoints(given, storage);
   const PointArray others = ViewPoints(segments, otherStorage);
@@ -497,7 +497,7 @@ std::vector<vtkIdType> SegmentList::AddPoints(const PointArray& own, const Point
   std::vector<vtkIdType> ids(others.Count);
   for (vtkIdType i = 0; i < others.Count; ++i)
   {
-    ids[i] = places.Add(others, i); // at first the number of its place
+    ids[i] = places.Add(others, i); // the number of its place, for now
   }
   std::vector<vtkIdType> first(places.GetNumberOfPlaces(), PointPlaces::None);
   WorkProgress progress(observer, own.Count);

@@ -117,7 +117,7 @@ DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPolyData> JoinConstraints(
   const std::vector<std::pair<vtkPolyData*, vtkPolyData*>>& sources);
 
 //------------------------------------------------------------------------------
-/// The finite heights of the first points. Low exceeds High if there are none.
+/// The range of the finite heights of the first points. Low exceeds High if there are none.
 struct HeightRange
 {
   double Low = INFINITY, High = -INFINITY;
@@ -136,17 +136,17 @@ struct SegmentSource
   bool FillsData = false;
 };
 
-/// The segments of both inputs of a triangulation, as pairs of ids of points. Points of the second
-/// input that are new come after those of the first one.
+/// The segments of both inputs of a triangulation, as pairs of point ids. New points of the second
+/// input follow those of the first one.
 class SegmentList
 {
 public:
-  /// @param points receives those of the first input and the new ones.
+  /// @param points receives the points of the first input and the new ones.
   SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPolyData* points,
     const ProgressObserver& progress);
 
-  /// Finds the added points of lines, outlines or holes, each of the three by itself, that have
-  /// z = 0 throughout, while the given points have other heights.
+  /// Finds the added points without heights, if the given points have other heights than 0. Lines,
+  /// outlines and holes are looked at separately; each has no heights if z = 0 throughout.
   std::vector<std::int64_t> FindFlatPoints(std::int64_t firstHole) const;
 
   std::vector<std::int64_t> Ends; ///< Pairs of ids.
@@ -161,21 +161,21 @@ private:
     Ring
   };
 
-  /// @param ids are those of the points that the cells name. Empty: the cells name them by these.
+  /// @param ids the id of each point that the cells name. Empty: the cells name these ids.
   void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
     CellKind kind);
-  /// Rings have the numbers of their cells.
+  /// Adds the segments along a path. The number of a ring is that of its cell.
   void AddPath(const std::vector<vtkIdType>& path, bool isRing, std::int32_t cell);
   /// Whether a line of three or more points ends at the place where it begins.
   bool IsClosed(const std::vector<vtkIdType>& path) const;
-  /// Adds the points of the segments where they are new. @returns the id of each.
+  /// Adds the points of the segments that are new. @returns the id of each point of the segments.
   std::vector<vtkIdType> AddPoints(const PointArray& own, const PointArray& others,
     vtkPolyData* segments, const ProgressObserver& observer);
 
   vtkPolyData* Given;
   vtkPolyData* Points;
   bool FillsData;
-  std::size_t FirstOther = 0; ///< Where the ends of the second input begin.
+  std::size_t FirstOther = 0; ///< The index in Ends at which those of the second input begin.
 };
 
 }

@@ -299,7 +299,7 @@ void TurnToDoubles(vtkDataSetAttributes* data)
       vtkNew<vtkDoubleArray> doubles;
       doubles->DeepCopy(array);
       const int attributes = FindAttributes(data, array);
-      AddAttributes(data, data->AddArray(doubles), attributes); // in its place
+      AddAttributes(data, data->AddArray(doubles), attributes); // replaces the array
     }
   }
 }
@@ -323,7 +323,7 @@ vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkI
 
 namespace
 {
-/// Writes the tuple of an added point: between those of two or three others.
+/// Writes the tuple of an added point, interpolated between those of two or three other points.
 void InterpolateTuple(vtkIdType target, const AddedPoint& point, vtkAbstractArray* array)
 {
   if (point.Third < 0)

@@ -185,12 +185,12 @@ DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources
 /// If there are pedigree ids already, the array is no attribute any more.
 DELAUNAYFLIP_EXPORT void DemoteGlobalIds(vtkDataSetAttributes* data);
 
-/// Writes the tuples of points that the engine has added, from `first` on, between those of others;
-/// not of labels of points.
+/// Writes the tuples of points that the engine has added, from `first` on, interpolated between
+/// those of other points. Labels of points are not interpolated.
 void InterpolateTuples(
   const std::vector<AddedPoint>& added, vtkIdType first, vtkDataSetAttributes* data);
 
-/// Makes arrays of integers ones of doubles, so that what is interpolated is not rounded.
+/// Turns arrays of integers into arrays of doubles, so that interpolated values are not rounded.
 void TurnToDoubles(vtkDataSetAttributes* data);
 
 /// The points of a mesh, then some of `more`: as double, unless those of the mesh are float.

@@ -498,7 +498,7 @@ void PolyDataBridge::StoreRefined(
     });
 }
 
-/// Gives an output the points of the mesh, and behind them those of refinement, with their data.
+/// Gives an output the points of the mesh, followed by those of refinement, with their data.
 void PolyDataBridge::AppendRefinedPoints(
   const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output)
 {

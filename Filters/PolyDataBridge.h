@@ -33,7 +33,7 @@ struct BridgeSettings : ConstraintSettings
 {
   bool Triangulate = true;
   std::string RegionArray; ///< Empty: no regions.
-  std::string SizeArray; ///< A point array of longest edges. Empty: none.
+  std::string SizeArray; ///< The name of a point array of longest edges. Empty: none.
   bool HasGoals = false; ///< Whether options ask for refinement.
 };
 
@@ -141,8 +141,8 @@ public:
   /// Whether the session may add points and triangles.
   bool IsRefined() const { return this->Refines; }
 
-  /// New cells for the polygons of an output; null unless they all are triangles of the session,
-  /// and no others will be.
+  /// Makes new cells for the polygons of an output. Returns null unless all polygons are triangles
+  /// of the session, and refinement will add none.
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
 
   /// Writes the session's triangles, and whatever passes from the mesh.
@@ -174,8 +174,8 @@ private:
   /// The polygons of an output of a refined mesh.
   struct RefinedPolygons
   {
-    std::vector<std::int32_t> Sources; ///< By triangle, that of the mesh that has its centroid.
-    std::vector<OutputPolygon> Polygons; ///< Each with the cell of the source.
+    std::vector<std::int32_t> Sources; ///< By triangle: FlipSession::StoreSources.
+    std::vector<OutputPolygon> Polygons; ///< Each has the cell of its triangle's source.
 
     vtkIdType GetSource(vtkIdType polygon) const
     {

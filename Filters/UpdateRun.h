@@ -70,8 +70,8 @@ public:
   /// @returns false when the observer stopped it. Then there are no angles.
   virtual bool Store(vtkPolyData* output) const = 0;
 
-  /// The session, for views that draw its triangles with the points of the output. Null if it adds
-  /// points meanwhile.
+  /// The session, for views that draw its triangles with the points of the output. Null if the
+  /// session may add points.
   virtual const FlipSession* GetSession() const { return this->Session.get(); }
 
   std::string Warning; ///< The text of the last warning.

@@ -52,9 +52,9 @@
  * with any number of threads. Only Seconds and Backend may differ.
  *
  * @warning
- * Points that belong to no triangle stay unused. On surfaces the result is
- * Delaunay in the sense of opposite-angle sums. An edge stays and is reported as blocked if its
- * flip would fold the surface over, or create an edge that exists already.
+ * Points that belong to no triangle stay unused. On surfaces the result is Delaunay in the sense of
+ * opposite-angle sums. An edge stays and is reported as blocked if its flip would fold the surface
+ * over, or create an edge that exists already.
  *
  * @warning
  * Points and triangles of the input are viewed, not copied. Observers may stop, remove, replace or
@@ -128,10 +128,10 @@ public:
    * SURFACE otherwise. If no more triangles than that ruled out a height field, a warning says so.
    * Choose PLANAR_XY yourself for steeper terrain.
    *
-   * SPHERE, which AUTO never chooses, is for globes around the origin: an edge stays if neither of
-   * its triangles has the other's far corner beyond its plane, by exact arithmetic. So the mesh
+   * SPHERE, which AUTO never chooses, is for globes around the origin. An edge is good if the far
+   * corner of one triangle is not beyond the plane of the other, by exact arithmetic. So the mesh
    * becomes the convex hull of its points, the Delaunay triangulation on the sphere. No flip turns
-   * a triangle over as seen from the origin.
+   * a triangle over, seen from the origin.
    *
    * GetGeometryReason() says why a geometry was used. If SURFACE is used on a height field, chosen
    * by AUTO or by you, and flips turn triangles over in x and y, a warning counts them.
@@ -236,15 +236,16 @@ public:
 
   ///@{
   /**
-   * Refinement of meshes in the plane and of terrain, once no edge is bad: add points until no
-   * angle is smaller than MinimumAngle (0 to 33 degrees), no triangle has a larger area than
+   * Refinement of meshes in the plane and of terrain. Once no edge is bad, points are added until
+   * no angle is smaller than MinimumAngle (0 to 33 degrees), no triangle has a larger area than
    * MaximumArea, and no edge is longer than MaximumEdge; 0 (default): no limit. With PLANAR_XY all
-   * are measured in x and y. Boundary edges and all edges that stay are split, but never crossed. z
-   * and point data are linear in the mesh before. Each triangle gets the data of the cell that has
-   * its centroid, and so exactly the label of its region. Triangles that cannot get better, because
-   * such edges meet at a small angle, are left, and a warning counts them. Lines and verts, cells
-   * that are not split (Triangulate), and ghost cells stay as they are. On surfaces, and for a mesh
-   * in several partitions or pieces, it is an error.
+   * three are measured in x and y. Boundary edges and all edges that stay are split, but never
+   * crossed. New points get z and point data that are linear in the mesh before. Each triangle gets
+   * the data of the cell that contains its centroid, and so exactly the label of its region.
+   * Triangles that cannot get better, because such edges meet at a small angle, are left, and a
+   * warning counts them. Lines and verts, cells that are not split (Triangulate), and ghost cells
+   * stay as they are. Refinement is an error on surfaces and spheres, and for a mesh in several
+   * partitions or pieces.
    */
   vtkSetClampMacro(MinimumAngle, double, 0.0, 33.0);
   vtkGetMacro(MinimumAngle, double);
@@ -274,8 +275,8 @@ public:
 
   ///@{
   /**
-   * How many points the mesh may have. Refinement ends before it would add more, with a warning. 0
-   * (default): ten times as many as are given, at least a million.
+   * The most points that the mesh may have. Refinement stops before it would add more, and a
+   * warning says so. 0 (default): ten times as many as are given, at least a million.
    */
   vtkSetClampMacro(PointLimit, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(PointLimit, vtkIdType);

@@ -34,7 +34,7 @@
  * (see PointTolerance), SegmentEdges (the edges that segments have become), RefusedSegments,
  * Crossings (the points added where segments cross), LargestShift (how far rounding has moved one
  * of them at most), OutsideTriangles and LargeTriangles (those removed by rings, and by Alpha and
- * LongestEdge), LeftOutRings and PointsInside (on a sphere, of the convex hull).
+ * LongestEdge), LeftOutRings and PointsInside (on a sphere: points inside of the convex hull).
  *
  * Some points are not used. If several are at one place in the plane, only the one with the lowest
  * id is used, for any z. Points with a NaN or infinite coordinate are not used, but in XY their z
@@ -137,9 +137,10 @@ public:
    *
    * SPHERE makes the convex hull of points around the origin, the Delaunay triangulation on a
    * sphere: n places have 2 n - 4 triangles, counter-clockwise from outside. Points inside of the
-   * hull are not used, and a warning counts them. OPEN_SPHERE leaves out triangles whose circle is
-   * at least as large as a great circle, which close a part of a sphere. On a sphere there are no
-   * segments, regions and lengths, and nothing can be interpolated, yet: all that is an error.
+   * hull are not used, and a warning counts them. OPEN_SPHERE leaves out triangles whose
+   * circumcircle encloses half of the sphere or more, so points on a part of the sphere get an open
+   * mesh. On a sphere segments, regions, lengths and interpolation are errors; they are not
+   * supported there yet.
    */
   enum ProjectionType
   {
@@ -158,8 +159,8 @@ public:
 
   ///@{
   /**
-   * On a sphere, whether x and y are longitudes and latitudes in degrees. Then the output has the
-   * points at these places on the unit sphere, in double precision: z of the input is lost. All
+   * On a sphere, whether x and y are longitudes and latitudes in degrees. Then the points of the
+   * output are the places on the unit sphere, in double precision, and z of the input is lost. All
    * longitudes of a pole are one place. Default off.
    */
   vtkSetMacro(Degrees, bool);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes a bay from a shoreline, refines its mesh by a size field from the depth, prints what that does to a
-solver, and draws both meshes, their angles and their areas. Needs SciPy and matplotlib:
+"""Makes the mesh of a bay from its shoreline and soundings, refines it by a size field from the depth, prints
+what a solver gains, and draws both meshes, their angles and their areas. Needs SciPy and matplotlib:
 
     python3 Utilities/draw_bay.py [FOLDER]
 """
@@ -21,7 +21,7 @@ from matplotlib import pyplot
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import ListedColormap, BoundaryNorm
 
-COLORS = ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"]  # of the smallest angle
+COLORS = ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"]  # by smallest angle
 GRAVITY = 9.81
 
 
@@ -40,7 +40,7 @@ def make_shore(seed=7):
 
 
 def find_distance(points, shore, island):
-    """From the coasts."""
+    """The distance from the coasts, in km."""
     coast = numpy.concatenate([shore[:-2], island])
     return numpy.linalg.norm(points[:, None] - coast[None], axis=2).min(axis=1)
 
@@ -53,7 +53,7 @@ def make_soundings(shore, island, seed=1):
 
 
 def find_depth(points, shore, island):
-    """In metres: it grows from the coasts."""
+    """The depth in metres, which grows with the distance from the coasts."""
     return 1.0 + 45.0 * (1.0 - numpy.exp(-find_distance(points, shore, island) / 1.5))
 
 
@@ -73,7 +73,7 @@ def measure(points, triangles, depths):
     matrix = matrix[is_inside][:, is_inside]
     largest = eigsh(matrix, 1, which="LA", return_eigenvectors=False)[0]
     smallest = eigsh(matrix.tocsc(), 1, sigma=0.0, return_eigenvectors=False)[0]
-    heights = doubled / numpy.linalg.norm(edges, axis=2).max(axis=1)  # the smallest of each triangle
+    heights = doubled / numpy.linalg.norm(edges, axis=2).max(axis=1)  # the smallest height of each triangle
     step = (1000.0 * heights / numpy.sqrt(GRAVITY * depths[triangles].max(axis=1))).min()
     angles = delaunayflip.smallest_angles(points, triangles, geometry="planar-xy")
     return angles, doubled / 2.0, largest / smallest, step
@@ -105,7 +105,7 @@ def main():
     soundings = make_soundings(shore, island)
     chart = delaunayflip.triangulate(soundings, outline=shore, holes=island)
     depths = find_depth(chart.points, shore, island)
-    size = 0.05 * numpy.sqrt(depths)  # so that waves take as long through each triangle
+    size = 0.05 * numpy.sqrt(depths)  # waves take about the same time through each triangle
     mesh = delaunayflip.flip(chart.points, chart.triangles, geometry="planar-xy", minimum_angle=28, size=size)
     meshes = []
     for name, points, triangles, depth in (("before", chart.points, chart.triangles, depths),

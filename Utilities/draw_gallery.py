@@ -205,7 +205,7 @@ def draw_edges(command, folder, output):
 
 
 def draw_globe(command, folder, output):
-    """guide_globe.png: stations joined on the sphere, and the cells nearest to each."""
+    """guide_globe.png: stations joined on the sphere, and their Voronoi cells."""
     direction = np.array((0.4, -1.0, 0.35))
     points, triangles, _ = run(command, folder, "stations.csv", [
         "--from-points", "--projection", "sphere", "--degrees"])

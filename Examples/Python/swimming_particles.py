@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Particles swim in eddies that change, and stay in a square. After each step their triangulation gives
-the density around each: a third of the area of its triangles, inverted. It needs NumPy, not VTK.
+"""Particles swim in changing eddies within a square. After each step their triangulation gives the
+density around each particle: the inverse of a third of the area of its triangles. It needs NumPy, not VTK.
 
     swimming_particles.py [PARTICLES] [STEPS]
 """
@@ -13,7 +13,7 @@ import numpy
 
 
 def find_velocity(places, time):
-    """That of a flow without sources, which does not leave the square from 0 to 1."""
+    """The velocity of a divergence-free flow that stays in the square from 0 to 1."""
     x, y = numpy.pi * places.T
     wave = 1 + 0.5 * numpy.sin(time)
     return numpy.c_[numpy.sin(wave * x) * numpy.sin(x) * numpy.cos(y),
@@ -21,7 +21,7 @@ def find_velocity(places, time):
 
 
 def find_densities(places, triangles):
-    """Particles per area, around each."""
+    """The number of particles per area around each particle."""
     a, b, c = (places[triangles[:, corner]] for corner in range(3))
     areas = numpy.cross(b - a, c - a) / 2
     cells = numpy.bincount(triangles.ravel(), numpy.repeat(areas / 3, 3), len(places))
@@ -30,7 +30,7 @@ def find_densities(places, triangles):
 
 count, steps = (int(number) for number in (*sys.argv[1:3], 5000, 20)[:2])
 particles = numpy.random.default_rng(1).random((count, 2))
-length = 0.05 / numpy.sqrt(count)  # of a step: a twentieth of the particles' distance
+length = 0.05 / numpy.sqrt(count)  # the longest step: a twentieth of the distance of particles
 in_place = 0
 with delaunayflip.MovingTriangulation(particles) as mesh:
     for step in range(steps):

@@ -13,7 +13,7 @@ With NumPy arrays:
     triangulation.triangles  # of points that have none
 
     mesh = delaunayflip.MovingTriangulation(points)
-    mesh.move(points)  # follows points that move
+    mesh.move(points)  # follows the points to new places
 
     globe = delaunayflip.triangulate_sphere(longitudes_and_latitudes)
 

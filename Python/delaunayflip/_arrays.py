@@ -437,7 +437,7 @@ class Mesh:
         self._keep("sizes", values)
 
     def make_triangles(self, count=None):
-        """Room for the triangles, by default as many as are given."""
+        """An empty array for the triangles, by default as many as are given."""
         count = self.struct.number_of_triangles if count is None else count
         return make_empty(self.triangles, (count, 3), type_of(self.triangles))
 
@@ -447,14 +447,14 @@ class Mesh:
         return make_empty(self.triangles, (count,), "int32")
 
     def read_sources(self, session, count):
-        """For each of `count` triangles the one before refinement that has its centroid."""
+        """For each of `count` triangles its source: see Result.sources."""
         sources = numpy.empty(count, dtype=numpy.int32)
         _library.call("store_sources", session, address(sources))
         return sources
 
     def read_points(self, session, count):
-        """The points with `count` behind them that refinement has added, and between which of them each
-        of these lies: three ids, of which the last one may be -1, and their weights."""
+        """The points, followed by the `count` points that refinement has added; and for each of these the
+        ids of three points between which it lies, the last one perhaps -1, and their weights."""
         xyz, weights = numpy.empty((count, 3)), numpy.empty((count, 3))
         ids = numpy.empty((count, 3), dtype=numpy.int64)
         _library.call("store_refined_points", session, address(xyz), address(ids), address(weights))

@@ -21,17 +21,17 @@ from ._session import call, observe
 class MovingTriangulation:
     """The Delaunay triangulation of points that move, come and go.
 
-    After each call the triangles are those that `triangulate` makes of the points where they are,
-    perhaps in another order. While points move a little, up to about a tenth of their distance, the
-    engine keeps its mesh and flips; otherwise it triangulates the points anew. Both give the same
-    triangles; `report.move_rounds` tells.
+    After each call the triangles are those that `triangulate` makes of the points where they are now,
+    perhaps in another order. If points move a little, up to about a tenth of the distance between
+    neighbours, the engine keeps its mesh and flips edges. Otherwise it triangulates the points anew, and
+    `report.move_rounds` is 0. Both ways give the same triangles.
 
-    Points may be arrays of CuPy, PyTorch or Numba on a GPU, also to `move`. Then `triangles` and
-    `neighbors` are arrays of that library, and nothing goes through the host. They are made when they are
-    first read after a change; an array that was read before stays as it is.
+    Points may be arrays of CuPy, PyTorch or Numba on a GPU, here and in `move`. Then `triangles` and
+    `neighbors` are arrays of that library, and nothing goes through the host. These two are made when they
+    are first read after a change. An array that was read before does not change.
 
-    It does one thing at a time: while a call is at work, its observers and other threads get
-    RuntimeError. It is a context manager; leaving it frees the engine's memory.
+    It does one thing at a time: during a call, observers and other threads that use it get RuntimeError.
+    It is a context manager; leaving it frees the engine's memory.
 
     Args:
         points: (n, 2) or (n, 3) float32 or float64; z is ignored. They are copied, except on a GPU, where
@@ -69,7 +69,7 @@ class MovingTriangulation:
 
     @staticmethod
     def _own(points):
-        """Points that nobody else changes, unless they are on a GPU."""
+        """A copy of the points, unless they are on a GPU."""
         points = _arrays.as_plane(points)
         return points.copy() if isinstance(points, numpy.ndarray) else points
 
@@ -103,11 +103,12 @@ class MovingTriangulation:
         """Moves all points, or those with these ids.
 
         Args:
-            points: (n, 2) or (n, 3), or as many as ids. They are copied, in the precision of the first
-                ones. On a GPU they must have that precision and stay unchanged until the next `move`,
-                and no point may be removed before `compact`.
-            ids: (k,) integers, with points in the host's memory. With an id twice, the last place counts.
-            progress: Is asked at first, and while points are triangulated anew; False stops it.
+            points: The new places, (n, 2) or (n, 3), or as many as ids. They are copied, in the precision
+                of the first points. On a GPU they must have that precision and stay unchanged until the
+                next `move`; if points were removed, call `compact` before.
+            ids: (k,) integers, with points in the host's memory. If an id is given twice, its last place
+                counts.
+            progress: Called first, and while points are triangulated anew; returning False stops it.
 
         Raises:
             delaunayflip.Stopped: progress has returned False. All points are where they were.
@@ -130,11 +131,11 @@ class MovingTriangulation:
             self._given = given  # keeps arrays on a GPU
 
     def insert(self, points: Numbers, *, progress: Optional[Progress] = None) -> Array:
-        """Inserts points, (k, 2) or (k, 3), and gives their ids, (k,) int64, which follow the others.
+        """Inserts points, (k, 2) or (k, 3). Returns their ids, (k,) int64, which follow the others.
 
         Raises:
-            The same as move. If points are triangulated anew and that does not end, the new ones count
-            as removed points.
+            As for `move`. If the points have to be triangulated anew and that is stopped or fails, the
+            new points count as removed.
         """
         batch = Input(_arrays.to_host(_arrays.as_plane(points)))
         before = len(self)
@@ -154,21 +155,21 @@ class MovingTriangulation:
         _library.call("remove_points", handle, address(ids), len(ids), None)
 
     def remove(self, ids: Numbers, *, progress: Optional[Progress] = None) -> None:
-        """Removes points. The others keep their ids. A removed point is used no more, whatever place it
-        gets by later moves, and counts among all points until `compact`.
+        """Removes points. The others keep their ids. A removed point is no longer used, and later moves do
+        not bring it back. It counts among all points until `compact`.
 
         Raises:
-            The same as move.
+            As for `move`.
         """
         ids = self._read_ids(ids)
         with self._change() as handle, observe(progress) as callbacks:
             _library.call("remove_points", handle, address(ids), len(ids), callbacks)
 
     def compact(self, *, progress: Optional[Progress] = None) -> None:
-        """Numbers the points anew without those that are removed; they keep their order.
+        """Numbers the points anew, without the removed ones and in the same order.
 
         Raises:
-            The same as move.
+            As for `move`.
         """
         removed = self.report.removed_points
         with self._change() as handle, observe(progress) as callbacks:
@@ -196,7 +197,7 @@ class MovingTriangulation:
 
     @property
     def report(self) -> Report:
-        """The `Report` on the last change, which measures all angles."""
+        """The `Report` on the last change. Reading it measures all angles."""
         with self._open() as handle:
             return _report.read(handle)
 
@@ -214,7 +215,7 @@ class MovingTriangulation:
             yield handle
 
     def _store(self, name, *more):
-        """An array of the last change."""
+        """An array of the current triangulation; the second time it is the same object."""
         with self._open() as handle:
             if name not in self._stored:
                 count = _library.run("count_triangles", handle)
@@ -225,9 +226,9 @@ class MovingTriangulation:
 
     @contextlib.contextmanager
     def _open(self, may_be_closed=False):
-        """The handle, which nothing else uses meanwhile."""
+        """The handle, for this call alone."""
         if not self._lock.acquire(blocking=False):
-            raise RuntimeError("the triangulation is at work: observers, and other threads, have to wait "
+            raise RuntimeError("the triangulation is at work: observers and other threads have to wait "
                                "until its call has returned")
         try:
             if not self._handle and not may_be_closed:

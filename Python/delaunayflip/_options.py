@@ -105,7 +105,7 @@ CHOICES = {name: typing.get_args(Options.__annotations__[name])
            for name in ("geometry", "criterion", "tie_rule", "backend")}
 OPTION_KINDS = typing.get_type_hints(Options)
 OPTION_RANGES = list_ranges(Options)
-#: The goals of refinement, of which one is enough; sizes of points are another one.
+#: The goals of refinement, beside `size`. Each of them asks for refinement.
 GOALS = ("minimum_angle", "maximum_area", "maximum_edge")
 #: The members of the struct that have another name than their keyword.
 _NAMES = {"threads": "number_of_threads", "pieces": "number_of_pieces"}
@@ -145,13 +145,13 @@ def make_options(function=None, **keywords):
 
 
 def has_goal(options, name):
-    """Whether a goal of refinement is among keywords."""
+    """Whether keywords have this goal of refinement."""
     given = options.get(name)
     return given is not None if name == "size" else bool(given)
 
 
 def refuse_goals(options, name):
-    """Raises InvalidOptions if there are goals of refinement, which a module does not know."""
+    """Raises InvalidOptions if there are goals of refinement, which this module does not support."""
     given = [goal for goal in (*GOALS, "size") if has_goal(options, goal)]
     if given:
         raise InvalidOptions(f"{given[0]}: delaunayflip.{name} keeps the points; use delaunayflip.flip to "

@@ -63,8 +63,8 @@ Struct = _library.make_struct("Points", (
     (c_int64, "point_limit"), (c_void_p, "sizes regions"), (c_int64, "number_of_regions"),
     (c_int32, "projection")))
 
-# Kinds of defects that are warned of: the caller gave something that is not used as it is, or wants
-# triangles that there are not.
+# Kinds of defects that cause a warning: something that was given is not used as it is, or triangles do
+# not reach the goals.
 _WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
               "rings without area", "rings repeated", "rings run again", "hole points outside",
               "region seeds outside", "triangles not refined", "point limit reached")

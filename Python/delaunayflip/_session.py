@@ -124,7 +124,7 @@ def run(name, struct, options, make_room, progress, on_iteration):
 
 @contextlib.contextmanager
 def _with_keywords(names=_REFINEMENT):
-    """Messages of the engine name its options by these keywords."""
+    """Puts these keywords into messages of the engine, in place of its own names of options."""
     try:
         yield
     except _library.InvalidOptions as error:
@@ -154,8 +154,7 @@ class Session:
     viewed by DLPack, with CuPy or PyTorch, of which the results then are. Only to insert
     constraints, for `backend="threads"`, or if the GPU fails, the mesh is copied to the host.
 
-    With goals of refinement, rounds count as iterations, and after each there are more points and
-    triangles.
+    With goals of refinement, a round counts as an iteration, and adds points and triangles.
 
     Example:
         >>> import numpy
@@ -170,7 +169,7 @@ class Session:
         converged
     """
 
-    _keywords = _REFINEMENT  # in messages
+    _keywords = _REFINEMENT  # these appear in messages
 
     def __init__(
         self, points: Numbers, triangles: Numbers, *, constraints: Optional[Numbers] = None,
@@ -249,19 +248,19 @@ class Session:
 
     @property
     def points(self) -> Array:
-        """The points, and behind them those that refinement has added so far."""
+        """The points, followed by those that refinement has added so far."""
         return self._read_points()[0]
 
     @property
     def sources(self) -> Array:
-        """(m,) int32: for each triangle the one before refinement that has its centroid, and whose data
-        belong to it, too."""
+        """(m,) int32: for each triangle its source, the triangle before refinement that contains its
+        centroid, whose data it gets."""
         count = self._count_triangles()
         with self._open() as handle:
             return self._mesh.read_sources(handle, count)
 
     def _read_points(self):
-        """The points; and for each that was added, three points and their weights."""
+        """The points, and for each added one the ids of three points and their weights."""
         with self._open() as handle:
             return self._mesh.read_points(handle, _report.read_struct(handle).refinement_points)
 
@@ -309,21 +308,22 @@ class Result:
     flip_counts: Array  #: (m,) int32: how many flips each triangle was part of.
     iterations: Array  #: Structured, a row per iteration; see Session.iterations.
     report: Report
-    points: Array  #: Those of the input, (n, 3) unless on a GPU, then those that refinement has added.
-    #: Of refinement: the sources, and for each point that was added three points and their weights.
+    points: Array  #: (n, 3) unless on a GPU: those of the input, then those that refinement has added.
+    #: After refinement: the sources, and for each added point the ids of three points and their weights.
     _added: Any = dataclasses.field(default=None, repr=False)
 
     @property
     def sources(self) -> Array:
-        """(m,) int32: for each triangle the one before refinement that has its centroid. That one's data
-        belong to it, too; labels of regions do so exactly. Without refinement each is its own."""
+        """(m,) int32: for each triangle its source, the triangle before refinement that contains its
+        centroid. The triangle has the source's data, and exactly its region. Without refinement each
+        triangle is its own source."""
         if self._added is None:
             return numpy.arange(len(self.triangles), dtype=numpy.int32)
         return self._added[0]
 
     def at_points(self, values: Numbers) -> Array:
-        """Values at all points from those at the points of the input, float64 of the same shape but for
-        the number of points: those that refinement has added are linear in the mesh before."""
+        """Values at all points, as float64, from values at the points of the input: (n,) or (n, ...).
+        Values at points that refinement has added are linear in the mesh before."""
         given, shape = _arrays.as_values(_arrays.to_host(values))
         added = 0 if self._added is None else len(self._added[1])
         if len(given) != len(self.points) - added:
@@ -331,9 +331,9 @@ class Result:
                              f"input; there are {len(given)}")
         if added:
             _, ids, weights = self._added
-            weights = numpy.where(ids < 0, 0.0, weights)  # of the last point in the list, which has no part
+            weights = numpy.where(ids < 0, 0.0, weights)  # id -1 would read the last point
             near = given[ids]
-            near[weights == 0.0] = 0.0  # not NaN
+            near[weights == 0.0] = 0.0  # a value may be NaN
             given = numpy.concatenate([given, numpy.einsum("ij,ijk->ik", weights, near)])
         return given.reshape((-1, *shape))
 
@@ -350,7 +350,7 @@ def flip(
     threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0, track_quality: bool = False,
     progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
 ) -> Result:
-    """Turns a triangle mesh into a Delaunay mesh of the same points by flipping edges, and refines it.
+    """Makes a triangle mesh Delaunay by flipping edges, and on request refines it by adding points.
 
     Any mesh is accepted: open, non-manifold, of mixed winding, degenerate. Edges that cannot flip
     safely stay and are counted. The result is identical on any threads or GPUs.
@@ -372,13 +372,13 @@ def flip(
         insert_constraints: In the plane, flips turn missing constraints into edges; or (k,) flags.
         regions: (m,) integers: edges between triangles of different labels stay.
         frozen: (m,) flags: the edges of these triangles stay.
-        minimum_angle, maximum_area, maximum_edge: In the plane and on terrain, points are added once
-            no edge is bad, until no angle is smaller, in degrees up to 33, and no triangle or edge is
-            larger; 0: no limit. Boundaries and edges that stay are split, but never crossed. What
+        minimum_angle, maximum_area, maximum_edge: In the plane and on terrain, once no edge is bad,
+            points are added until no angle is smaller, in degrees up to 33, and no triangle or edge is
+            larger; 0: no limit. Boundary edges and edges that stay are split, but never crossed. What
             cannot get better, because such edges meet at a small angle, is left and counted.
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
-        keep_boundary: Split no edge of the boundary, where triangles then may stay as they are.
-        point_limit: Of all points. 0: ten times as many as are given, at least a million.
+        keep_boundary: Split no edge of the boundary. Some triangles there may then stay as they are.
+        point_limit: The most points in the end. 0: ten times as many as are given, at least a million.
         maximum_iterations: -1: until done; 0: only test.
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
         threads: 0: as many as the machine has.
@@ -420,8 +420,8 @@ def flip(
 
 
 def _store(mesh, handle, room):
-    """The Result of a session that has ended. `room`: for triangles and flip counts; empty if more were
-    made."""
+    """The Result of a session that has ended. `room`: arrays for triangles and flip counts, or empty if
+    refinement may have added triangles."""
     added, points = None, mesh.points
     if not room:
         report = _report.read_struct(handle)

@@ -37,11 +37,11 @@ class SphereTriangulation:
 
     @functools.cached_property
     def voronoi_corners(self) -> Array:
-        """(m, 3) float64: the center of the circle of each triangle, on the unit sphere. They are the
-        corners of the Voronoi cells of the points: the cell of a point has those of its triangles."""
+        """(m, 3) float64: the center of the circumcircle of each triangle, on the unit sphere. The
+        Voronoi cell of a point has as corners the centers of the triangles around it."""
         corners = self.points[self.triangles].astype(numpy.float64)
         normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        with numpy.errstate(invalid="ignore", divide="ignore"):  # of triangles without area
+        with numpy.errstate(invalid="ignore", divide="ignore"):  # triangles without area
             return normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
 
 
@@ -53,19 +53,19 @@ def triangulate_sphere(
     """The Delaunay triangulation of points on a sphere: the triangles of their convex hull.
 
     It is exact for the points as given, and depends on their places alone: not on their order, the
-    threads or the GPU. n places have 2 n - 4 triangles. It has no segments, and cannot be asked about
-    places, yet.
+    threads or the GPU. n places have 2 n - 4 triangles. Segments and queries about places are not
+    supported yet.
 
     Args:
         points: (n, 2) longitudes and latitudes, which become float64 places on the unit sphere. Multiples
             of 90 degrees are exact, so -180 and 180 are one longitude, and a pole is one place whatever its
             longitude. Or (n, 3) x, y and z, float32 or float64, on a sphere around the origin, used as
-            they are. Several points at one place are one, the one with the lowest id. Points that are
-            not finite are not used, nor are points inside of the convex hull, where rounding to float32
-            puts those that are near to others; a warning counts them.
+            they are. If several points are at one place, the one with the lowest id is used. Points that
+            are not finite are not used, nor are points inside of the convex hull; a warning counts the
+            latter. Rounding to float32 puts points inside that are near to others.
         degrees: Whether longitudes and latitudes are in degrees, not radians.
-        open: Leave out triangles whose circle is at least as large as a great circle. Then points on less
-            than half of the sphere have an open mesh. Otherwise triangles close it.
+        open: Leave out triangles whose circumcircle encloses half of the sphere or more, so that points
+            on less than half of the sphere have an open mesh. Otherwise triangles close the mesh.
         backend, threads, device: As for `triangulate`. Arrays on a GPU are copied to the host.
         progress, on_iteration: Called with the share of the work done, 0 to 1, and at the end for each
             iteration with a dict of its numbers; returning False from `progress` aborts.
@@ -95,7 +95,7 @@ def triangulate_sphere(
 
 
 def _place_on_sphere(points, degrees):
-    """x, y and z of points, which are these or longitudes and latitudes."""
+    """x, y and z of points, given as these or as longitudes and latitudes."""
     if points.shape[1] == 3:
         return points
     angles = numpy.ascontiguousarray(points if degrees else numpy.degrees(points), dtype=numpy.float64)

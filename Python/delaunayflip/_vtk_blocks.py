@@ -7,7 +7,7 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet, vtkDataObjectTree
 
 
 def iterate(iterator):
-    """Yields an iterator of VTK at each of its places."""
+    """Yields an iterator of VTK at each of its positions."""
     iterator.InitTraversal()
     while not iterator.IsDoneWithTraversal():
         yield iterator
@@ -15,19 +15,19 @@ def iterate(iterator):
 
 
 def name_leaf(leaf):
-    """"block 3 (wing)", by VTK's flat index."""
+    """The name of a leaf in messages, such as "block 3 (wing)"; the number is VTK's flat index."""
     about = leaf.GetCurrentMetaData() if leaf.HasCurrentMetaData() else None
     name = about.Get(vtkCompositeDataSet.NAME()) if about is not None else None
     return f"block {leaf.GetCurrentFlatIndex()}" + (f" ({name})" if name else "")
 
 
 def list_blocks(data, elements):
-    """The leaves of composite data by their place, each after its name; any other data alone. A place
-    is the numbers of children, from the root on. The partitions of a dataset that are not empty have one
-    place, and each empty one has another.
+    """Lists the leaves of composite data: a dict from places to pairs of a name and a leaf. Other data is
+    the only leaf. A place is the tuple of child numbers from the root to the leaf. All partitions of a
+    dataset that are not empty have the same place; each empty one has a place of its own.
 
     Args:
-        elements: What sizes are measured by: vtkDataObject.CELL or POINT.
+        elements: vtkDataObject.CELL or POINT: a partition without any of these is empty.
     """
     if not isinstance(data, vtkCompositeDataSet):
         return {(): [("", data)]} if data is not None else {}
@@ -40,12 +40,12 @@ def list_blocks(data, elements):
 
 
 def find_leaves(blocks, place, kind):
-    """The leaves among the blocks of another input, of this class, that are for the block at a place."""
+    """The leaves of this class in another input that belong to the block at a place."""
     return [leaf for _, leaf in blocks.get((), blocks.get(place, ())) if isinstance(leaf, kind)]
 
 
 def choose_leaf(leaves, number):
-    """The leaf for a partition: the only one there is, or the one that has its number."""
+    """The leaf for a partition: the only one, or the one with the partition's number."""
     if len(leaves) == 1:
         return leaves[0]
     return leaves[number] if number < len(leaves) else None
@@ -70,7 +70,7 @@ def _list_places(tree, elements, place=()):
 
 
 def copy_data(source):
-    """A shallow copy. Its leaves are copies, too, as only newer versions of VTK make them."""
+    """A shallow copy whose leaves are copies, too. Older versions of VTK do not copy leaves."""
     made = source.NewInstance()
     if isinstance(source, vtkDataObjectTree) and not source.IsA("vtkUniformGridAMR"):
         made.CopyStructure(source)

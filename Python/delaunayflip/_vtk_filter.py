@@ -41,7 +41,7 @@ class Filter(VTKPythonAlgorithmBase):
     others = (vtkPolyData,)  #: What the other inputs are; the last one is optional.
     keeps_type = False  #: Whether the output is of the first input's type, not a vtkPolyData.
     flips_partitions_alone = True  #: Whether each partition of a dataset is a mesh of its own.
-    #: What the sizes of blocks, and of those of the second input, are measured by.
+    #: Whether blocks without cells or without points are empty, in the first and the second input.
     size_of_blocks = size_of_others = vtkDataObject.CELL
     properties = ()
 
@@ -265,7 +265,7 @@ class Filter(VTKPythonAlgorithmBase):
             output.SetDataSet(leaf, results[name_leaf(leaf)])
 
     def _flip_leaves(self, leaves, given, total):
-        """The results of a block's leaves, by their names."""
+        """The results for the leaves of a block, by name."""
         results, errors = {}, len(self._errors)
         try:
             self._judge_partitions(leaves, given)
@@ -282,7 +282,7 @@ class Filter(VTKPythonAlgorithmBase):
         return results
 
     def _make_result(self, data):
-        """The empty output for a mesh; a copy of what is none."""
+        """An empty output for a mesh; for other data a copy."""
         if not isinstance(data, self.kind):
             return copy_data(data)
         return data.NewInstance() if self.keeps_type else vtkPolyData()

@@ -96,8 +96,8 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         return self._write(places, columns, found, output) or trouble
 
     def _prepare(self, source):
-        """Makes the Triangulation of a block, which its partitions share, and its Columns. There is none
-        without points, and neither if the update was aborted. Returns the text of a warning, or ""."""
+        """Makes the Triangulation of a block, which its partitions share, and its Columns. Without points
+        there is no Triangulation; after an abort there is neither. Returns the text of a warning, or ""."""
         segments, mesh = self._find_segments(), vtkPolyData()
         if source.GetNumberOfPoints() == 0:
             self._warnings.append((self._where, "the source has no points, so there are no values"))

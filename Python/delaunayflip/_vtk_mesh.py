@@ -78,8 +78,8 @@ class Vtk:
             target.InsertTuples(places, ids, array)
 
     def interpolate_tuples(self, data, first, ids, weights):
-        """Writes the tuples of added points, from `first` on: between those of two or three others. Not
-        of labels of points."""
+        """Writes the tuples of added points, from `first` on, interpolated between those of two or three
+        other points. Labels of points are not interpolated."""
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
         corners = self.core.vtkIdList()
         corners.SetNumberOfIds(3)
@@ -162,7 +162,7 @@ def vtk_of(data):
 
 
 class _Session(Session):
-    """Its messages name properties, as the engine does."""
+    """A Session whose messages name properties, as the engine does."""
 
     _keywords = ()
 
@@ -194,7 +194,7 @@ class MeshInput:
             self._frozen = are_ghosts if self._frozen is None else are_ghosts | self._frozen
 
     def take_sizes(self, sizes):
-        """Takes the longest edges near points, an array."""
+        """Takes an array of the longest edge near each point."""
         self._sizes = sizes
 
     def _read_sizes(self, name):
@@ -272,8 +272,8 @@ class MeshInput:
             self.vtk.add_arrays(output.GetCellData(), "", [(name, of_cells)])
 
     def _list_polygons(self):
-        """Finds the polygons of the output: the triangle of each or NONE, and the cell from which it is
-        made; and for each triangle that of the input with its data."""
+        """Finds, for each polygon of the output, its triangle or NONE, and the cell from which it is made;
+        and for each triangle its source."""
         slots = self.slots
         self._of_polygons, self._cells = slots.polygon_triangles, slots.polygon_cells
         self._points, self._added = self.points, ((), ())
@@ -288,7 +288,7 @@ class MeshInput:
             self._cells[is_triangle] = slots.cells[self._sources[self._of_polygons[is_triangle]]]
 
     def _pass_points(self, output):
-        """The points, with their data, and those that refinement has added."""
+        """Passes the points and those that refinement has added, with their data."""
         mesh, count = self.mesh, len(self.points)
         pass_points(mesh, output)
         if len(self._points) == count:

@@ -76,7 +76,7 @@ def flip(
             cell array; edges between its values stay. lines_as_constraints, insert_lines,
             insert_constraints and triangulate as in vtkDelaunayFlip. size: an array, or the name of
             a point array. Points that refinement adds (minimum_angle, maximum_area, ...) get z and
-            data that are linear between the others; new triangles get the data of the cell that has
+            data that are linear between the others. Triangles get the data of the cell that contains
             their centroid.
 
     Returns:

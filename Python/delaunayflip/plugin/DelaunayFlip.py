@@ -106,7 +106,7 @@ class WithoutProjection:
         self.Modified()
 
     def SetDegrees(self, _):
-        """Only a sphere asks for it."""
+        """Has no effect: only a sphere uses it."""
 
     def _flip_all(self, *data):
         if self.projection:
