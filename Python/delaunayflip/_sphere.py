@@ -19,6 +19,7 @@ from ._session import run
 
 #: The values of delaunayflip_projection.
 PROJECTIONS = ("plane", "sphere", "open-sphere")
+_ROUNDING = 1e-4  # degrees: more than that of latitudes in radians of single precision
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -62,7 +63,8 @@ def triangulate_sphere(
             longitude. Or (n, 3) x, y and z, float32 or float64, on a sphere around the origin, used as
             they are. If several points are at one place, the one with the lowest id is used. Points that
             are not finite are not used, nor are points inside of the convex hull; a warning counts the
-            latter. Rounding to float32 puts points inside that are near to others.
+            latter. Rounding to float32 puts points inside that are near to others. Another warning counts
+            latitudes beyond 90 degrees.
         degrees: Whether longitudes and latitudes are in degrees, not radians.
         open: Leave out triangles whose circumcircle encloses half of the sphere or more, so that points
             on less than half of the sphere have an open mesh. Otherwise triangles close the mesh.
@@ -82,26 +84,37 @@ def triangulate_sphere(
         (8, 3)
     """
     struct = _library.make(Struct)
-    places = _place_on_sphere(_arrays.to_host(_arrays.as_plane(points)), degrees)
+    places, misplaced = _place_on_sphere(_arrays.to_host(_arrays.as_plane(points)), degrees)
     struct.points, struct.number_of_points = address(places), len(places)
     struct.point_type, struct.point_components = _library.TYPES[_arrays.type_of(places)], 3
     struct.projection = PROJECTIONS.index("open-sphere" if open else "sphere")
     options = make_options(backend=backend, threads=threads, device=device)
     with run("open_points", struct, options, lambda _: (), progress, on_iteration) as (handle, _):
         result, trouble = _store(handle, places)
-    if trouble:
-        warnings.warn(trouble, stacklevel=2)
+    for text in filter(None, (misplaced, trouble)):
+        warnings.warn(text, stacklevel=2)
     return result
 
 
 def _place_on_sphere(points, degrees):
-    """x, y and z of points, given as these or as longitudes and latitudes."""
+    """x, y and z of points, given as these or as longitudes and latitudes, and the text of a warning, or
+    ""."""
     if points.shape[1] == 3:
-        return points
+        return points, ""
     angles = numpy.ascontiguousarray(points if degrees else numpy.degrees(points), dtype=numpy.float64)
     places = numpy.empty((len(angles), 3))
     _library.call("place_on_sphere", address(angles), len(angles), address(places))
-    return places
+    return places, _describe_latitudes(angles[:, 1])
+
+
+def _describe_latitudes(latitudes):
+    """The text of a warning about those, in degrees, that are none, or ""."""
+    ids = numpy.flatnonzero(abs(latitudes) > 90 + _ROUNDING)
+    if not len(ids):
+        return ""
+    first = ", ".join(map(str, ids[:3]))
+    return (f"{len(ids):,} point{'s' * (len(ids) > 1)} with a latitude beyond 90 degrees (first: {first}); "
+            "longitudes come first")
 
 
 def _store(handle, places):

@@ -91,6 +91,16 @@ class Sphere(unittest.TestCase):
         numpy.testing.assert_allclose(reach, reach[:, :1] * [1, 1, 1], atol=1e-12)
         self.assertTrue((corners @ globe.points.T <= reach[:, :1] + 1e-12).all())  # none is nearer
 
+    def test_latitudes_first(self):
+        grid = make_grid(30)
+        text = r"35 points with a latitude beyond 90 degrees \(first: 0, 1, 2\); longitudes come first"
+        with self.assertWarnsRegex(UserWarning, text):
+            delaunayflip.triangulate_sphere(grid[grid[:, 0] != 180][:, ::-1])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            delaunayflip.triangulate_sphere(numpy.radians(grid).astype(numpy.float32), degrees=False)
+            delaunayflip.triangulate_sphere(numpy.concatenate([grid + [360, 0], [[0, numpy.nan]]]))
+
     def test_points_inside(self):
         points = make_directions(100, 7)
         points[[3, 8]] *= 0.5
