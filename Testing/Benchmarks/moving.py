@@ -26,7 +26,7 @@ import delaunayflip
 
 
 def list_programs(threads):
-    """Names, a function that brings an array to where it is used, one that waits, and options."""
+    """Yields for each backend its name, a function that moves an array there, one that waits, and options."""
     for number in threads:
         yield f"threads: {number}", numpy.asarray, lambda: None, {"backend": "threads", "threads": number}
     if not delaunayflip.has_cuda_device():
@@ -41,7 +41,7 @@ def list_programs(threads):
 
 
 def measure(wait, work):
-    """Milliseconds."""
+    """The milliseconds that the work takes."""
     wait()
     start = time.perf_counter()
     work()
@@ -50,7 +50,7 @@ def measure(wait, work):
 
 
 def run(points, step, frames, bring, wait, options):
-    """A row: medians of a frame and from scratch, the frames in place, and the rounds of the last."""
+    """A row: the median times of a frame and from scratch, the frames in place, the rounds of the last one."""
     draw = numpy.random.default_rng(2)
     size = step / numpy.sqrt(len(points))
     moved, scratch, rounds = [], [], []

@@ -6,9 +6,9 @@
     PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Benchmarks/sphere.py \\
       [--points 200000] [--kinds uniform,fibonacci,grid] [--threads 1] [--rounds 3]
 
-A row has the median seconds from an array of x, y and z to triangles, how many times as many as ours, the
-number of triangles, and how many of Qhull's triangles are not among ours. Where four points tie, both may
-choose other triangles. Qhull is SciPy's ConvexHull; without SciPy its rows are left out.
+A row has the median seconds from an array of x, y and z to triangles, the ratio to our time, the number of
+triangles, and how many of Qhull's triangles are not among ours. Where four points tie, the two may choose
+different triangles. Qhull is SciPy's ConvexHull; without SciPy its rows are left out.
 """
 import argparse
 import statistics
@@ -54,7 +54,7 @@ def measure(function, rounds):
 
 
 def number_triangles(triangles):
-    """A number for each triangle, whatever its first corner and winding."""
+    """A number for each triangle, which does not depend on its first corner and its winding."""
     ids = numpy.sort(triangles.astype(object if triangles.max(initial=0) >= 2**21 else numpy.int64), axis=1)
     return ids @ numpy.array([1 << 42, 1 << 21, 1])
 

@@ -579,7 +579,8 @@ static void TestRefinement(void)
   CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
 }
 
-/** Two triangles of terrain with different labels. Added points are where their weights say. */
+/** Refines two triangles of terrain with different labels. Weights give the places of new points.
+ */
 static void TestRefinementOfMesh(void)
 {
   const double xyz[] = { 0, 0, 1, 4, -3, 2, 8, 0, 9, 4, 5, 5 };
@@ -697,7 +698,7 @@ static void TestInsertion(void)
   delaunayflip_close(session);
 }
 
-/** Points move, and one goes. */
+/** Points move, and one is removed. */
 static void TestMove(void)
 {
   const float places[] = { 0, 0, 2, -1, 4, 0, 2, 3 };
@@ -742,7 +743,7 @@ static void TestMove(void)
 }
 
 /** Two diagonals that cross, and a ring of one edge. Then a ring that is not closed. */
-/** Longitudes and latitudes of an octahedron, whose poles are there twice. */
+/** Longitudes and latitudes of an octahedron. Each pole is given twice. */
 static void TestSphere(void)
 {
   const double degrees[] = { 0, 0, 90, 0, 180, 0, -90, 0, 0, 90, 77, 90, 5, -90, -5, -90, 270, 0 };

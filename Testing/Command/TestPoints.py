@@ -298,7 +298,7 @@ class Results(PointTest):
                 self.assertEqual(len(triangles_of(mesh)), 2)
 
     def test_sphere(self):
-        """Longitudes that meet, and poles in every column."""
+        """A grid has -180 and 180 degrees, and a pole at every longitude."""
         rows = [(x, y) for y in range(-90, 91, 30) for x in range(-180, 181, 30)]
         self.write("in.csv", text_of(rows, ",", "lon,lat"))
         mesh, result = self.triangulate("in.csv", "--projection", "sphere", "--degrees")
@@ -567,7 +567,7 @@ class Usage(PointTest):
                        naming=["in.vtk", "--size-array", '"depth"'])
 
     def test_refinement_of_a_mesh(self):
-        """A square of four triangles in two zones, whose plane rises, with a size at each point."""
+        """A square of four triangles in two zones, in a plane that rises, with a size at each point."""
         square = make_mesh([(0, 0, 0), (8, 0, 8), (8, 8, 8), (0, 8, 0), (4, 0, 4), (4, 8, 4)],
                            [(0, 4, 3), (4, 5, 3), (4, 1, 5), (1, 2, 5)])
         square.GetPointData().AddArray(make_array("depth", [3.0, 1.0, 1.0, 3.0, 2.0, 2.0]))

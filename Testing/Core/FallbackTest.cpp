@@ -222,7 +222,7 @@ TEST_F(FallbackTest, AnyCallMayFailForRefinement)
   }
 }
 
-/// The same for a mesh, of which a part is not counter-clockwise.
+/// A GPU also fails while it refines a mesh with triangles that are not counter-clockwise.
 TEST_F(FallbackTest, AnyCallMayFailForRefinementOfMeshes)
 {
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(11000, 4);
@@ -294,7 +294,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
   }
 }
 
-/// Where a GPU fails when points have moved, the triangles are the same.
+/// If a GPU fails after points have moved, the triangles are those of the CPU.
 TEST_F(FallbackTest, AnyCallMayFailForPointsThatMove)
 {
   std::vector<double> xy;
@@ -317,7 +317,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatMove)
         moved[i] += step * std::sin(static_cast<double>(7 * i));
       }
       EXPECT_TRUE(session.Move({ PlaneArray(moved.data(), 12000, 2) }));
-      // Where the GPU fails meanwhile, the CPU begins where the points are.
+      // If the GPU fails meanwhile, the CPU begins with the points at their current places.
       const bool isInPlace = session.GetReport().FromPoints.MoveRounds > 0;
       EXPECT_TRUE(isInPlace || step > 1.0) << step << ' ' << call;
     }

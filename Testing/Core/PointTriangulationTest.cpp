@@ -197,10 +197,10 @@ TEST(PointTriangulation, EqualsCanonicalFlips)
   }
 }
 
-/// Divide and conquer, which takes over after many flips, leaves ties to decide.
+/// Ties are also decided if divide and conquer takes over after many flips.
 TEST(PointTriangulation, TiesAfterManyFlips)
 {
-  constexpr int Radius = 1105; // of a circle through 108 points of the lattice
+  constexpr int Radius = 1105; // this circle goes through 108 points of the lattice
   Places points;
   for (int x = -Radius; x <= Radius; ++x)
   {

@@ -87,7 +87,7 @@ TEST(LiveUpdate, EveryStepGivesAValidMesh)
   EXPECT_GT(iterations, 5);
 }
 
-/// Each round of refinement is a step. Points that move begin anew.
+/// Each round of refinement is a step. If points move, the update begins anew.
 TEST(LiveUpdate, ShowsRoundsOfRefinement)
 {
   const auto refine = [](vtkDelaunayFlip* flip) { flip->SetMaximumArea(1e-4); };
@@ -105,7 +105,7 @@ TEST(LiveUpdate, ShowsRoundsOfRefinement)
   EXPECT_LT(filter->GetNumberOfIterations() + 3, static_cast<vtkIdType>(triangles.size()));
   EXPECT_LT(2 * triangles.front(), triangles.back());
   EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(mesh, refine));
-  EXPECT_EQ(filter->GetSession(), nullptr); // whose triangles have points that the input lacks
+  EXPECT_EQ(filter->GetSession(), nullptr); // its triangles have points that the input lacks
   auto moved = MakeBadPlane();
   for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)
   {

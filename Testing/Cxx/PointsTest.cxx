@@ -199,7 +199,7 @@ TEST(FromPoints, OnASphere)
   const double* pole = globe->GetOutput()->GetPoint(18);
   EXPECT_EQ(
     (std::array<double, 3>{ 0.0, 0.0, 1.0 }), (std::array<double, 3>{ pole[0], pole[1], pole[2] }));
-  // The points of the output are what the filter joins without degrees.
+  // Without Degrees the filter triangulates the points of that output in the same way.
   vtkNew<vtkPolyData> given;
   given->SetPoints(globe->GetOutput()->GetPoints());
   PointsFilter again(given);
@@ -213,7 +213,7 @@ TEST(FromPoints, OnASphere)
   part->SetProjectionToOpenSphere();
   part->DegreesOn();
   RunToWarning(part);
-  EXPECT_EQ(36u + 7 * 72, part.GetPolygons().size()); // a fan at the pole, and bands
+  EXPECT_EQ(36u + 7 * 72, part.GetPolygons().size()); // a fan at the pole, and seven bands
   part->SetMinimumAngle(20.0);
   ExpectHolds(
     RunToError(part, vtkDelaunayFlip::FAILURE_OPTIONS), "MinimumAngle has no meaning on a sphere");

@@ -26,7 +26,7 @@ struct PointCase
   PointOptions Options;
 };
 
-/// What refinement finds hard: segments that meet at small angles, and others that nearly touch.
+/// Hard cases for refinement: segments that meet at small angles, and segments that nearly touch.
 void AddHardSegments(ByteSource& source, Drawing& drawing)
 {
   const auto add = [&](double x, double y)
@@ -312,8 +312,8 @@ std::set<std::set<std::int32_t>> ListTriangles(const std::vector<std::int32_t>& 
   return triangles;
 }
 
-/// Points that move by steps of several sizes, and one that is removed, leave the triangles of a
-/// triangulation of the points where they are.
+/// After points have moved by steps of several sizes, and one was removed, the triangles are those
+/// of a triangulation of the points where they are.
 void ExpectMotion(const PointCase& drawn)
 {
   const PointOptions options = WithThreads(1, drawn.Options);
@@ -363,8 +363,8 @@ void ExpectMotion(const PointCase& drawn)
 
 /// Reports a failure of GoogleTest for each promise that is broken: the result is the same on one
 /// thread and on several; triangles turn left and are constrained Delaunay; their number is right;
-/// queries about places are answered right; and it follows points that move. An open ring, or one
-/// that crosses a segment, is an error.
+/// queries about places are answered correctly; and it follows points that move. An open ring, or
+/// one that crosses a segment, is an error.
 void JudgePointCase(const PointCase& drawn)
 {
   Triangulation result;
@@ -408,7 +408,7 @@ void JudgePointCase(const PointCase& drawn)
       FlipPoints(drawn.Input.View(), WithThreads(2, drawn.Options)), points, result.Triangles);
   }
   ExpectRightNumber(drawn, points, result);
-  if (points.size() % 4 == 0) // it takes long
+  if (points.size() % 4 == 0) // for a part of the cases, because it takes long
   {
     ExpectMotion(drawn);
   }

@@ -17,7 +17,7 @@
 #include <set>
 
 /// @file
-/// Triangulations on a sphere from points as a target for fuzzers, judged by rational numbers.
+/// Triangulations of points on a sphere, as a target for fuzzers, judged by rational numbers.
 
 namespace delaunayflip
 {
@@ -28,8 +28,8 @@ struct SphereCase
 {
   std::vector<Point3> Points;
   bool AreFloats = false;
-  bool AreAnywhere = false; ///< On no sphere, perhaps so nearly in a plane that nothing is inside.
-  std::vector<float> Floats; ///< If they are.
+  bool AreAnywhere = false; ///< Not on a sphere, and perhaps nearly in a plane.
+  std::vector<float> Floats; ///< The points, if they are floats.
 
   PlaneArray View() const
   {
@@ -42,7 +42,7 @@ struct SphereCase
   }
 };
 
-/// A point with small whole coordinates at one distance from the origin, of which there are many.
+/// A point with small integer coordinates at a distance from the origin that many such points have.
 Point3 DrawLatticePoint(ByteSource& source)
 {
   constexpr int Kinds[][3] = { { 0, 0, 9 }, { 1, 4, 8 }, { 3, 6, 6 }, { 4, 4, 7 } };
@@ -69,7 +69,7 @@ Point3 DrawGridPoint(ByteSource& source, int step, int part)
   return p;
 }
 
-/// A direction, of length 1 but for rounding.
+/// A direction, of length 1 except for rounding.
 Point3 DrawDirection(std::mt19937& random, double spread)
 {
   std::normal_distribution<double> normal;
@@ -118,7 +118,7 @@ SphereCase MakeSphereCase(const std::uint8_t* bytes, std::size_t size)
     {
       points.push_back(DrawDirection(random, spread));
     }
-    if (source.Once(8)) // one that nearly coincides
+    if (source.Once(8)) // a point that nearly coincides with another one
     {
       Point3 near = points[source.Draw(static_cast<std::uint32_t>(points.size()))];
       near[source.Draw(3)] *= 1.0 + 0x1p-52 * source.Draw(3);
@@ -166,7 +166,7 @@ SphereResult Triangulate(const SphereCase& drawn, int threads)
   return result;
 }
 
-/// The triangles face outside, all points are on their inner sides, and there is the right number.
+/// All triangles face outside, all points are on their inner sides, and their number is right.
 void ExpectHull(const std::vector<Point3>& points, const SphereResult& result)
 {
   const PointCounts& counts = result.Report.FromPoints;
@@ -190,8 +190,8 @@ void ExpectHull(const std::vector<Point3>& points, const SphereResult& result)
   }
 }
 
-/// All points lie in one plane but for rounding, or there are fewer than four places. Points are at
-/// most 9 from the origin.
+/// All points lie in one plane except for rounding, or there are fewer than four places. The
+/// distance of points from the origin is at most 9.
 void ExpectFlat(const std::vector<Point3>& points)
 {
   std::vector<Point3> finite;

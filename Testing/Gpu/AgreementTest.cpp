@@ -267,7 +267,7 @@ TEST_F(SmallMeshTest, EdgesThatWouldBecomeTheSame)
   EXPECT_EQ(2 * Count, report.BlockedByEdge);
 }
 
-/// Points of a longitude-latitude grid, where everything ties but for rounding.
+/// Points of a longitude-latitude grid, where everything would tie without rounding.
 TEST_F(SmallMeshTest, PointsOnASphere)
 {
   const OwnedMesh<double> globe = MakeLatLongSphere(40, 20);

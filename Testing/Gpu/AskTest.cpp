@@ -220,7 +220,8 @@ void ExpectInsertionAgrees(std::int64_t count)
 
 TEST_F(AskTest, PointsThatComeLaterAreInsertedAlike) { ExpectInsertionAgrees(20000); }
 
-/// Points move and go in place on both backends, with the same bits. The boundary changes, too.
+/// Points are moved and removed in place on both backends, with the same bits. The boundary
+/// changes, too.
 TEST_F(AskTest, PointsMoveAndGoAlike)
 {
   std::mt19937 random(7);

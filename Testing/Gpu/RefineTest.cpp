@@ -17,7 +17,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Expects the same bits.
+/// Expects arrays with the same bits.
 void ExpectSamePoints(
   const std::vector<AddedPoint>& expected, const std::vector<AddedPoint>& points)
 {
@@ -137,7 +137,7 @@ TEST_F(RefineTest, SmallAndSinglePrecision)
   ExpectSameRefinement(input, options);
 }
 
-/// A mesh with sizes: places, sources and data are those of the CPU.
+/// Refines a mesh with sizes: places, sources and data are those of the CPU.
 TEST_F(RefineTest, Meshes)
 {
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(20000, 5);

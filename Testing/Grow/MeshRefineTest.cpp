@@ -14,7 +14,7 @@
 #include <vector>
 
 /// @file
-/// Refinement of meshes that exist: borders, data, defects.
+/// Refinement of meshes of the caller: borders, data, defects.
 
 namespace delaunayflip
 {
@@ -100,7 +100,7 @@ FlipOptions WithGoal(double FlipOptions::*goal, double value)
 
 FlipOptions WithAngle(double angle) { return WithGoal(&FlipOptions::MinimumAngle, angle); }
 
-/// The edges of one triangle alone.
+/// The edges that belong to one triangle only.
 std::set<std::pair<std::int64_t, std::int64_t>> FindBoundary(const TriangleArray& triangles)
 {
   std::map<std::pair<std::int64_t, std::int64_t>, int> uses;
@@ -122,7 +122,7 @@ std::set<std::pair<std::int64_t, std::int64_t>> FindBoundary(const TriangleArray
   return boundary;
 }
 
-/// An L with a square hole and a step of narrow triangles, whose points rise by 2 x + 3 y.
+/// An L with a square hole and a step of narrow triangles. Heights are 2 x + 3 y.
 struct Room
 {
   std::vector<double> Points;
@@ -206,7 +206,7 @@ TEST(MeshRefineTest, ReachesGoalsInDomainsWithHoles)
   const std::map<std::int32_t, double> areas = SumAreas(refined, room.Regions.data());
   EXPECT_NEAR(45.0 - 1.5, areas.at(7), Rounding);
   EXPECT_NEAR(20.0, areas.at(-3), Rounding);
-  // The hole and the notch stay: the boundary is longer in points, not in length.
+  // The hole and the notch stay: the boundary has more points, but the same length.
   double length = 0.0;
   const auto boundary = FindBoundary(ViewTriangles(refined.Triangles));
   for (const auto& [a, b] : boundary)
@@ -232,7 +232,7 @@ TEST(MeshRefineTest, InterpolatesInTheMeshBefore)
     ASSERT_NEAR(2.0 * point.X + 3.0 * point.Y, point.Z, 1e-12);
     ASSERT_EQ(point.Third < 0, point.ThirdShare == 0.0 && point.Third < 0);
   }
-  // Every centroid is in its source, in the mesh that has been flipped but not refined.
+  // The source of each triangle, in the mesh that was flipped but not refined, has its centroid.
   const FlipResult before = Flip(mesh, InPlane());
   for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
   {
@@ -294,7 +294,7 @@ TEST(MeshRefineTest, KeepsSegmentsRegionsAndWinding)
 TEST(MeshRefineTest, SameForAllThreads)
 {
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(4000 / Reduction, 5);
-  std::vector<std::int32_t> some; // with holes and bays
+  std::vector<std::int32_t> some; // these leave holes and bays
   for (std::size_t t = 0; t < mesh.Triangles.size(); t += 3)
   {
     const double x = mesh.Points[3 * mesh.Triangles[t]], y = mesh.Points[3 * mesh.Triangles[t] + 1];
@@ -322,7 +322,7 @@ TEST(MeshRefineTest, SameForAllThreads)
   }
 }
 
-/// A fan that covers two turns: places have two triangles, and each new point belongs to one.
+/// A fan that goes around twice: each place has two triangles, and each new point belongs to one.
 TEST(MeshRefineTest, StaysInItsSheet)
 {
   OwnedMesh<double> fan;
@@ -375,7 +375,7 @@ TEST(MeshRefineTest, RefinesInAnyPlane)
     const double share = double(refined.Triangles.size()) / double(expected.Triangles.size());
     EXPECT_NEAR(1.0, share, 0.2);
     const FlipOptions planar = With(&FlipOptions::Geometry, GeometryKind::Planar);
-    EXPECT_NO_THROW(MakeSession(refined.View(), planar)); // it is still one
+    EXPECT_NO_THROW(MakeSession(refined.View(), planar)); // it is still planar
   }
 }
 
@@ -385,7 +385,7 @@ TEST(MeshRefineTest, LeavesDefectsAlone)
   const std::int32_t first[] = { room.Triangles[0], room.Triangles[1], room.Triangles[2] };
   const auto points = static_cast<std::int32_t>(room.Points.size() / 3);
   room.Points.insert(room.Points.end(), { 4.0, 6.0, 1.0, NAN, 0.0, 0.0 });
-  // A third triangle at an edge, one that is turned over, a copy, and two without area.
+  // These are a third triangle at an edge, one turned over, a copy, and two without area.
   const std::vector<std::vector<std::int32_t>> more = { { first[0], first[1], points },
     { first[0], first[2], first[1] }, { first[0], first[1], first[2] },
     { first[0], first[0], first[1] }, { first[0], first[1], points + 1 } };
@@ -406,7 +406,7 @@ TEST(MeshRefineTest, LeavesDefectsAlone)
   EXPECT_TRUE(HasEdge(refined.Triangles, first[0], first[1]));
 }
 
-/// Random triangles: no claim but that it ends with a valid mesh, the same for all threads.
+/// Random triangles: refinement ends with a valid mesh, the same for any number of threads.
 TEST(MeshRefineTest, EndsForAnySoup)
 {
   for (std::uint32_t seed = 0; seed < 60 / Reduction; ++seed)
@@ -439,7 +439,7 @@ TEST(MeshRefineTest, KeepsBoundaryAndLimits)
   EXPECT_NE(std::string::npos, DescribeDefects(limited.Report.Defects).find("PointLimit"));
 }
 
-/// Rounds count as iterations of Advance, and an observer may stop each.
+/// Rounds count as iterations of Advance, and an observer may stop the run in each.
 TEST(MeshRefineTest, AdvancesRoundByRound)
 {
   const Room room;

@@ -16,7 +16,8 @@
 #include <vector>
 
 /// @file
-/// Points that move, come and go. DELAUNAYFLIP_FRAMES is the number of frames for each family.
+/// Points that move, are inserted and are removed. DELAUNAYFLIP_FRAMES is the number of frames for
+/// each family.
 
 namespace delaunayflip
 {
@@ -36,7 +37,7 @@ Drawing ToDrawing(const Places& points)
   return drawing;
 }
 
-/// Sessions of the same points on several numbers of threads, which must have the same triangles.
+/// Sessions of the same points on different numbers of threads. All must have the same triangles.
 class Moving
 {
 public:
@@ -50,7 +51,7 @@ public:
     }
   }
 
-  /// Moves all points, and expects what a triangulation has.
+  /// Moves all points, and expects the triangles of a new triangulation.
   void GoTo(const Places& points)
   {
     this->Now.Points = points;
@@ -111,7 +112,7 @@ void Shake(std::mt19937& random, double size, Places& points)
   }
 }
 
-/// About the distance of neighbours.
+/// About the distance between neighbours.
 double FindSpacing(const Places& points)
 {
   Place low = points.front(), high = points.front();
@@ -137,7 +138,7 @@ Places DrawPlaces(std::mt19937& random, int count)
   return points;
 }
 
-/// Also the boundary changes in nearly every frame.
+/// The boundary also changes in nearly every frame.
 TEST(Move, ByStepsOfAllSizes)
 {
   std::mt19937 random(1);
@@ -188,7 +189,7 @@ TEST(Move, PointSets)
   }
 }
 
-/// Two clusters go through each other, and some points through the others.
+/// Two clusters pass through each other, and some points pass all others.
 TEST(Move, ThroughEachOther)
 {
   std::mt19937 random(3);
@@ -235,16 +236,16 @@ TEST(Move, OnLattices)
     }
     moving.GoTo(next);
   };
-  shift(1, 1.0, 0.0); // all alike
+  shift(1, 1.0, 0.0); // all points, by the same step
   EXPECT_EQ(1, moving.InPlace);
   shift(1, 0.0, 0.0);
   EXPECT_EQ(2, moving.InPlace);
   shift(30, 0.25, 0.0); // a side of the boundary
   shift(30, -0.5, 0.0);
   EXPECT_EQ(4, moving.InPlace);
-  shift(7, 0.5, 0.5); // to the middle of cells
+  shift(7, 0.5, 0.5); // some points, to the middle of cells
   shift(7, -0.5, -0.5);
-  shift(2, 1.0, 0.0); // to others
+  shift(2, 1.0, 0.0); // some points, to the places of others
   EXPECT_LT(0, moving.Sessions[0].GetReport().FromPoints.Repeated);
   shift(2, -1.0, 0.0);
   EXPECT_EQ(0, moving.Sessions[0].GetReport().FromPoints.Repeated);
@@ -262,7 +263,7 @@ TEST(Move, OnLattices)
   }
 }
 
-/// Two points at one place move together in place, and apart.
+/// Two points at one place move together, which is done in place, and then apart.
 TEST(Move, PointsAtOnePlace)
 {
   std::mt19937 random(5);
@@ -287,7 +288,7 @@ TEST(Move, PointsAtOnePlace)
   moving.GoTo(points);
 }
 
-/// Points on the boundary go in and out, all of them or only a few, also along a line.
+/// Points on the boundary move inwards and outwards, all of them or only a few, also along a line.
 TEST(Move, TheBoundary)
 {
   std::mt19937 random(6);
@@ -351,7 +352,7 @@ TEST(Move, Segments)
   }
 }
 
-/// What is left of points of which some are removed.
+/// The points without the removed ones.
 class Changing
 {
 public:
@@ -390,7 +391,7 @@ public:
   FlipSession Session;
 };
 
-/// Points that move, come and go, in any order.
+/// Points are moved, inserted and removed, in any order.
 TEST(Move, ComeAndGo)
 {
   std::mt19937 random(8);
@@ -412,7 +413,7 @@ TEST(Move, ComeAndGo)
     {
       const std::size_t count = all.Points.size();
       std::vector<std::int64_t> ids;
-      ids.reserve(1); // not null
+      ids.reserve(1); // so that data() is not null
       for (std::size_t i = 0; i < std::min<std::size_t>(count, DrawIndex(random, 5)); ++i)
       {
         ids.push_back(static_cast<std::int64_t>(DrawIndex(random, count)));
@@ -471,7 +472,7 @@ TEST(Move, ComeAndGo)
   }
 }
 
-/// Points go in place: inside, on the boundary, on lattices, and those with many triangles.
+/// Points are removed in place: inside, on the boundary, on lattices, and with many triangles.
 TEST(Move, PointsGoInPlace)
 {
   std::mt19937 random(13);
@@ -564,7 +565,7 @@ TEST(Move, Floats)
   for (int frame = 0; frame < 10; ++frame)
   {
     Shake(random, 1e-4, points);
-    EXPECT_TRUE(session.Move({ View(points) })); // is rounded
+    EXPECT_TRUE(session.Move({ View(points) })); // rounds the doubles to floats
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       coordinates[3 * i] = static_cast<float>(points[i][0]);

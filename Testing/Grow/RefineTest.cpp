@@ -228,7 +228,7 @@ TEST(Refine, PointSetsGetTheAngle)
   }
 }
 
-/// Where only two segments meet at a small angle, all triangles get the goal but the one at the
+/// If only two segments meet at a small angle, all triangles reach the goal except the one at the
 /// corner. Below a degree, those along the segments are left, too.
 TEST(Refine, SharpCornersEnd)
 {
@@ -433,8 +433,8 @@ TEST(Refine, SinglePrecision)
   }
 }
 
-/// Far smaller distances than that of the farthest point are too short to be split: their middles
-/// would all be rounded to 0.
+/// Segments that are far shorter than the largest coordinate are not split: their middles would all
+/// be rounded to 0.
 TEST(Refine, DistancesOfVeryDifferentSizes)
 {
   Drawing drawing;

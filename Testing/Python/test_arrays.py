@@ -448,7 +448,7 @@ class Refine(unittest.TestCase):
 
 
 class RefineMeshes(unittest.TestCase):
-    """Refinement of meshes that exist, by flip and in sessions."""
+    """Refinement of meshes by flip and in sessions."""
 
     @classmethod
     def setUpClass(cls):

@@ -335,7 +335,7 @@ class Same(Pair, unittest.TestCase):
             self.assertIn(hint, told["answers"]["GetSummary"])
 
     def test_refinement(self):
-        """Of polygons and strips, with data, ghosts, regions, constraints and sizes."""
+        """Refines polygons and strips with data, ghosts, regions, constraints and sizes."""
         for triangulate, kind in itertools.product((True, False), (float, numpy.float32)):
             mesh = make_polygon_mesh()
             points = vtk_to_numpy(mesh.GetPoints().GetData()).astype(kind)

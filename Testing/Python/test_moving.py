@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of triangulations of points that move, come and go."""
+"""Tests of triangulations whose points are moved, inserted and removed."""
 import doctest
 import pickle
 import threading
@@ -26,7 +26,7 @@ class Moving(unittest.TestCase):
         self.assertEqual(mesh.report.edges, expected.report.edges)
 
     def test_frames(self):
-        """The results follow the points, in place and anew, and arrays of frames before stay."""
+        """The results follow the points, in place and anew, and arrays of earlier frames do not change."""
         for dtype in (numpy.float64, numpy.float32):
             points = self.points.astype(dtype)
             with MovingTriangulation(points, threads=2) as mesh:
@@ -89,7 +89,7 @@ class Moving(unittest.TestCase):
             MovingTriangulation(self.points, progress=lambda share: False)
 
     def test_insertion_stops(self):
-        """The new points count as removed ones then, also if the observer has failed."""
+        """If an insertion is stopped or its observer fails, the new points count as removed."""
         for share in (0.0, 0.5):
             def observe(done):
                 if done >= share:

@@ -24,14 +24,14 @@ def find_volume(points, triangles):
 
 
 def sort_rows(triangles):
-    """The triangles, each beginning with its lowest id, in order."""
+    """The triangles in order, each from its lowest id on."""
     first = triangles.argmin(axis=1)[:, None]
     return sorted(map(tuple, numpy.take_along_axis(triangles, (first + numpy.arange(3)) % 3, axis=1).tolist()))
 
 
 class Sphere(unittest.TestCase):
     def test_grid(self):
-        """Both ends of a row are one place, and so is a pole."""
+        """Both ends of a row are one place, and so are all points at a pole."""
         grid = make_grid(10)
         globe = delaunayflip.triangulate_sphere(grid)
         places = 36 * 17 + 2
@@ -52,7 +52,7 @@ class Sphere(unittest.TestCase):
                 self.assertTrue((across == ends[:, [end]]).any(axis=1).all())
 
     def test_flips_end_there(self):
-        """Flips of a mesh, here that of points which then move, end at the same triangles."""
+        """Flips of a mesh whose points have moved end with the triangles of a triangulation."""
         points = make_directions(500, 2)
         before = points + 0.003 * make_directions(500, 3)
         before /= numpy.linalg.norm(before, axis=1, keepdims=True)

@@ -10,7 +10,7 @@
 #include <algorithm>
 
 /// @file
-/// Meshes of a globe that exist.
+/// Flips of meshes of a globe.
 
 namespace delaunayflip
 {
@@ -21,7 +21,7 @@ class SphereFlipTest : public testing::TestWithParam<SphereFamily>
 {
 };
 
-/// In the others the origin does not see all triangles.
+/// Lists the sets whose triangles all face the origin with the same side.
 std::vector<SphereFamily> ListWholeFamilies()
 {
   std::vector<SphereFamily> families;
@@ -99,7 +99,7 @@ TEST(SphereFlip, DoesNotDependOnTheNumbersOfPoints)
   EXPECT_EQ(ToTriangleSet(Flip(mesh.View(), OnSphere()).Triangles), ToTriangleSet(renamed));
 }
 
-/// A power of two does not change the signs, also where the filters do not apply.
+/// Scaling by a power of two does not change the signs, also where the filters do not apply.
 TEST(SphereFlip, DoesNotDependOnTheUnit)
 {
   const OwnedMesh<double> mesh = MakeScrambledLattice();
@@ -141,7 +141,7 @@ TEST(SphereFlip, TakesMeshesTurnedInside)
   EXPECT_EQ(expected, ToTriangleSet(turned));
 }
 
-/// A point inside of the hull keeps its edges, which are counted.
+/// The edges of a point inside of the hull stay, and are counted.
 TEST(SphereFlip, CountsEdgesOfPointsInside)
 {
   const double xyz[] = { 0, 0, -1.2, 4, 0, -1, -2, 3, -1, -2, -3, -1, 0, 0, -4 };

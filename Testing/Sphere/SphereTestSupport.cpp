@@ -45,7 +45,7 @@ std::vector<Point3> MakeFibonacci()
   return points;
 }
 
-/// Poles are in every column.
+/// A longitude-latitude grid with a pole at every longitude.
 std::vector<Point3> MakeLatLon()
 {
   std::vector<Point3> points;
@@ -116,7 +116,7 @@ std::vector<Point3> MakeIcosahedral()
   return points;
 }
 
-/// Dense around a place, and a few everywhere.
+/// Many points around one place, and a few everywhere.
 std::vector<Point3> MakeCluster()
 {
   std::mt19937 random(7);
@@ -130,7 +130,7 @@ std::vector<Point3> MakeCluster()
   return points;
 }
 
-/// All in a small part of the sphere, around its equator.
+/// All points in a small part of the sphere, around its equator.
 std::vector<Point3> MakeCap()
 {
   std::mt19937 random(8);
@@ -229,7 +229,7 @@ OwnedMesh<double> MakeHull(const std::vector<Point3>& points)
   OwnedMesh<double> mesh;
   for (const Point3& p : points)
   {
-    ids.emplace(p, static_cast<std::int32_t>(given.size())); // the first of those at one place
+    ids.emplace(p, static_cast<std::int32_t>(given.size())); // keeps the first point at a place
     given.emplace_back(p[0], p[1], p[2]);
     mesh.Points.insert(mesh.Points.end(), p.begin(), p.end());
   }
@@ -248,7 +248,7 @@ OwnedMesh<double> MakeHull(const std::vector<Point3>& points)
 
 void Scramble(OwnedMesh<double>& mesh, int flips, std::uint32_t seed)
 {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> sides; // the triangle of each
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> sides; // the triangle of each side
   const auto enter = [&](std::int64_t t)
   {
     for (int slot = 0; slot < 3; ++slot)

@@ -20,10 +20,10 @@ struct SphereFamily
   const char* Name;
   std::vector<Point3> (*Make)();
   bool HasTies; ///< Whether four points may lie in one plane, exactly.
-  bool IsPart = false; ///< Whether a half of the sphere has no points.
+  bool IsPart = false; ///< Whether one half of the sphere has no points.
 };
 
-/// Sets of some hundred points, of many kinds. Parts come last.
+/// Sets of some hundred points, of many kinds. Those on a part of the sphere come last.
 std::vector<SphereFamily> ListSphereFamilies();
 
 /// All points with integer coordinates at the square root of `square` from the origin. They lie
@@ -34,11 +34,11 @@ std::vector<Point3> MakeLatticePoints(int square);
 template <typename Real>
 std::vector<Point3> MakeRandomPoints(std::int64_t count, std::uint32_t seed);
 
-/// The convex hull, as CGAL finds it. Its triangles are counter-clockwise from outside; which ones
-/// tie depends on CGAL. Points inside have none.
+/// The convex hull, as CGAL finds it. Its triangles are counter-clockwise from outside. Where four
+/// points tie, CGAL chooses the diagonal. Points inside have no triangles.
 OwnedMesh<double> MakeHull(const std::vector<Point3>& points);
 
-/// Flips edges at random, so often, where no triangle turns over seen from the origin.
+/// Makes a number of random flips that turn no triangle over, seen from the origin.
 void Scramble(OwnedMesh<double>& mesh, int flips, std::uint32_t seed);
 
 FlipOptions OnSphere(TieRuleKind ties = TieRuleKind::Canonical);

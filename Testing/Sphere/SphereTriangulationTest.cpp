@@ -16,7 +16,7 @@
 #include <set>
 
 /// @file
-/// Triangulations on a sphere from points.
+/// Triangulations of points on a sphere.
 
 namespace delaunayflip
 {
@@ -51,7 +51,7 @@ SphereResult Triangulate(
   return result;
 }
 
-/// Triangles by the places of their corners, which names of points do not change.
+/// Triangles as the places of their corners, which do not depend on the ids of points.
 std::set<std::array<Point3, 3>> ListPlaces(
   const std::vector<Point3>& points, const std::vector<std::int32_t>& triangles)
 {
@@ -137,20 +137,20 @@ TEST_P(SphereTest, IsTheSameOnThreads)
   }
 }
 
-/// It is what flips make of any mesh of the same points.
+/// Flips make the same triangles of any mesh of the same points.
 TEST_P(SphereTest, IsWhatFlipsEndAt)
 {
   const SphereResult result = Triangulate(this->Points);
   OwnedMesh<double> start{ this->Hull.Points, result.Triangles };
   Scramble(start, 5000, 1);
   const FlipResult flipped = Flip(start.View(), OnSphere());
-  if (!GetParam().IsPart) // the origin sees all triangles
+  if (!GetParam().IsPart) // then all triangles face the origin with the same side
   {
     EXPECT_EQ(ToTriangleSet(result.Triangles), ToTriangleSet(flipped.Triangles));
   }
 }
 
-/// What the fast way makes, the slow one makes, too: one point after the other.
+/// The insertion of one point after the other makes the same triangles as the projection.
 TEST_P(SphereTest, IsTheHullOfInsertion)
 {
   SpacePoints points;
@@ -258,7 +258,7 @@ TEST(SphereTriangulation, LeavesPointsInsideOut)
   EXPECT_EQ(0, CountReflexEdges(points, Triangulate(points)));
 }
 
-/// Differences in the last bits, which the projection does not see.
+/// Points that differ in the last bits, which the projection cannot tell from each other.
 TEST(SphereTriangulation, IsExactWherePointsNearlyCoincide)
 {
   std::vector<Point3> points = MakeRandomPoints<double>(30, 6);
