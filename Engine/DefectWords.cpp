@@ -127,10 +127,10 @@ constexpr DefectWords AllWords[] = {
     "points inside of the convex hull of the others, not used: they are not on the sphere, or "
     "rounding has put them inside" },
   { Kind::PointsInOnePlane, DefectIds::Points,
-    "point without a triangle: there are fewer than four places, or all are in one plane "
-    "but for rounding",
-    "points without a triangle: there are fewer than four places, or all are in one plane "
-    "but for rounding" },
+    "point without a triangle: there are fewer than four places, or all are in one plane, "
+    "except for rounding",
+    "points without a triangle: there are fewer than four places, or all are in one plane, "
+    "except for rounding" },
 };
 
 constexpr bool AreInOrder()

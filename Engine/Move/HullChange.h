@@ -153,7 +153,7 @@ public:
     *this->Result = this->Sizes;
   }
 
-  /// Adds triangles until the boundary is concave at none of these vertices, nor at neighbours that
+  /// Adds triangles until the boundary is concave at none of these vertices, or at neighbours that
   /// the new triangles affect.
   DELAUNAYFLIP_HOST_DEVICE void FillUp(VertexId* pending, std::int64_t count)
   {

@@ -123,7 +123,7 @@ class MovingTriangulation:
         if len(given.points) != wanted:
             raise ValueError(f"there must be {wanted} points, not {len(given.points)}")
         if ids is not None and wanted == 0:
-            return  # no address says that there are no ids: it would mean all points
+            return  # the address of an empty array may be null, which means all points
         number = None if ids is None else address(ids)
         with self._change() as handle, observe(progress) as callbacks:
             _library.call("move_points", handle, given.struct, number, callbacks)
@@ -149,7 +149,7 @@ class MovingTriangulation:
         return numpy.arange(before, self._count)
 
     def _remove_from(self, first, handle):
-        """Removes the points that the engine has taken in since there were `first` of them."""
+        """Removes the points from the id `first` on, which an insertion that failed has added."""
         self._count = _report.read_struct(handle).points
         ids = numpy.arange(first, self._count)
         _library.call("remove_points", handle, address(ids), len(ids), None)

@@ -19,7 +19,7 @@ from ._session import run
 
 #: The values of delaunayflip_projection.
 PROJECTIONS = ("plane", "sphere", "open-sphere")
-_ROUNDING = 1e-4  # degrees: more than that of latitudes in radians of single precision
+_ROUNDING = 1e-4  # in degrees; more than the rounding of latitudes given in radians in single precision
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -62,9 +62,8 @@ def triangulate_sphere(
             of 90 degrees are exact, so -180 and 180 are one longitude, and a pole is one place whatever its
             longitude. Or (n, 3) x, y and z, float32 or float64, on a sphere around the origin, used as
             they are. If several points are at one place, the one with the lowest id is used. Points that
-            are not finite are not used, nor are points inside of the convex hull; a warning counts the
-            latter. Rounding to float32 puts points inside that are near to others. Another warning counts
-            latitudes beyond 90 degrees.
+            are not finite, or inside of the convex hull, are not used. Rounding to float32 puts points
+            inside that are near to others. Warnings count points inside, and latitudes beyond 90 degrees.
         degrees: Whether longitudes and latitudes are in degrees, not radians.
         open: Leave out triangles whose circumcircle encloses half of the sphere or more, so that points
             on less than half of the sphere have an open mesh. Otherwise triangles close the mesh.
@@ -108,7 +107,7 @@ def _place_on_sphere(points, degrees):
 
 
 def _describe_latitudes(latitudes):
-    """The text of a warning about those, in degrees, that are none, or ""."""
+    """The text of a warning about latitudes beyond 90 degrees, or ""."""
     ids = numpy.flatnonzero(abs(latitudes) > 90 + _ROUNDING)
     if not len(ids):
         return ""

@@ -495,7 +495,7 @@ class RefineMeshes(unittest.TestCase):
         numpy.testing.assert_array_equal(result.at_points(self.points), self.points)
 
     def test_stops(self):
-        """Wherever a run stops, its mesh is whole, and has the area and the sources of the given one."""
+        """Wherever a run stops, its mesh is complete: it has the given area, and a source per triangle."""
         flip = functools.partial(delaunayflip.flip, self.points, self.triangles, geometry="planar-xy",
                                  maximum_area=0.01)
         area = self.find_areas(self.points, self.triangles).sum()
