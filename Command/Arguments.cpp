@@ -43,18 +43,6 @@ std::function<void(T...)> Set(Arguments& arguments, void (Filter::*method)(T...)
   };
 }
 
-/// Calls a method of the filter for meshes, and one of the filter for points.
-template <typename... T>
-std::function<void(T...)> SetBoth(Arguments& arguments, void (vtkDelaunayFlip::*ofMesh)(T...),
-  void (vtkDelaunayFlipPoints::*ofPoints)(T...))
-{
-  return [one = Set(arguments, ofMesh), other = Set(arguments, ofPoints)](T... value)
-  {
-    one(value...);
-    other(value...);
-  };
-}
-
 /// @param words the choices, in the order of the enumeration.
 void AddChoice(CLI::App& app, const std::string& name, const std::function<void(int)>& set,
   const std::vector<std::string>& words, const std::string& help)
@@ -306,17 +294,14 @@ void AddRefinementOptions(CLI::App& app, Arguments& arguments)
 {
   app.option_defaults()->group(ToRefine);
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
-  AddValue(app, "--minimum-angle",
-    SetBoth(arguments, &vtkDelaunayFlip::SetMinimumAngle, &vtkDelaunayFlipPoints::SetMinimumAngle),
+  AddValue(app, "--minimum-angle", Set(arguments, &vtkDelaunayFlipAlgorithm::SetMinimumAngle),
     "DEGREES", Within(0.0, 33.0, "an angle from 0 to 33 degrees"),
     "In the plane and on terrain, add points until no angle is smaller; 0: no limit. Triangles "
     "that cannot get better, because edges that stay meet at a small angle, are left [0]");
-  AddValue(app, "--maximum-area",
-    SetBoth(arguments, &vtkDelaunayFlip::SetMaximumArea, &vtkDelaunayFlipPoints::SetMaximumArea),
-    "AREA", Within(0.0, std::numeric_limits<double>::max(), "an area of 0 or more"),
+  AddValue(app, "--maximum-area", Set(arguments, &vtkDelaunayFlipAlgorithm::SetMaximumArea), "AREA",
+    Within(0.0, std::numeric_limits<double>::max(), "an area of 0 or more"),
     "Add points until no triangle is larger; 0: no limit [0]");
-  AddValue(app, "--maximum-edge",
-    SetBoth(arguments, &vtkDelaunayFlip::SetMaximumEdge, &vtkDelaunayFlipPoints::SetMaximumEdge),
+  AddValue(app, "--maximum-edge", Set(arguments, &vtkDelaunayFlipAlgorithm::SetMaximumEdge),
     "LENGTH", length, "Add points until no edge is longer; 0: no limit [0]");
   const auto setArray = [&arguments](const std::string& name)
   {
@@ -330,11 +315,10 @@ void AddRefinementOptions(CLI::App& app, Arguments& arguments)
     ->type_name("NAME")
     ->check(FindFaultOfName);
   app.add_flag_callback("--keep-boundary",
-    SetBoth(arguments, &vtkDelaunayFlip::KeepBoundaryOn, &vtkDelaunayFlipPoints::KeepBoundaryOn),
+    Set(arguments, &vtkDelaunayFlipAlgorithm::KeepBoundaryOn),
     "Add no points on the boundary of the mesh. Some triangles there may stay as they are");
-  AddValue(app, "--point-limit",
-    SetBoth(arguments, &vtkDelaunayFlip::SetPointLimit, &vtkDelaunayFlipPoints::SetPointLimit),
-    "INT", Within<std::int64_t>(0, std::numeric_limits<std::int64_t>::max(), "a number of points"),
+  AddValue(app, "--point-limit", Set(arguments, &vtkDelaunayFlipAlgorithm::SetPointLimit), "INT",
+    Within<std::int64_t>(0, std::numeric_limits<std::int64_t>::max(), "a number of points"),
     "Add no more points when the mesh has this many; 0: ten times as many as are given, at least "
     "a million [0]");
 }

@@ -285,6 +285,23 @@ void DemoteGlobalIds(vtkDataSetAttributes* data)
   }
 }
 
+vtkDataArray* FindSizes(vtkPolyData* mesh, const std::string& name, vtkIdType count)
+{
+  vtkPointData* data = mesh->GetPointData();
+  vtkDataArray* array = data->GetArray(name.c_str());
+  if (!array)
+  {
+    throw InvalidOptions("SizeArray: the input has no point array of numbers named \"" + name +
+      "\"; " + ListNames(data) + ".");
+  }
+  if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() < count)
+  {
+    throw InvalidOptions("SizeArray: \"" + name +
+      "\" must have one component, and as many tuples as there are points.");
+  }
+  return array;
+}
+
 void TurnToDoubles(vtkDataSetAttributes* data)
 {
   const vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),

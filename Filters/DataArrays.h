@@ -117,6 +117,10 @@ void VisitEdges(vtkCellArray* cells, bool areClosed, const PointIdCheck& check, 
 }
 
 //------------------------------------------------------------------------------
+/// The point array with the longest edges near points, which SizeArray names.
+/// @throws InvalidOptions if there is none of one number for each of `count` points.
+vtkDataArray* FindSizes(vtkPolyData* mesh, const std::string& name, vtkIdType count);
+
 /// The values, or null if there are none.
 template <typename Value>
 const Value* ViewValues(const std::vector<Value>& values)

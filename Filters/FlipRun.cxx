@@ -311,8 +311,7 @@ bool FlipRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) const
     last->Renew(*this);
     return true;
   }
-  const bool isRefined = this->Settings.HasGoals || !this->Settings.SizeArray.empty();
-  const bool isWarm = change == InputChange::Points && !isRefined;
+  const bool isWarm = change == InputChange::Points && !this->Settings.Refines;
   UpdatePlan plan = MakePlan(*this, isWarm);
   RunStart start;
   if (isWarm)

@@ -236,7 +236,7 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   const BridgeSettings& settings, const UpdatePlan& plan)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
-    Refines(settings.HasGoals || !settings.SizeArray.empty()),
+    Refines(settings.Refines),
     Slots(mesh, Points, settings.Triangulate, plan.For(UpdatePlan::Polygons))
 {
   this->Constraints = FindConstraintEdges(
@@ -267,18 +267,7 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
 
 void PolyDataBridge::ReadSizes(const std::string& name)
 {
-  vtkPointData* data = this->Mesh->GetPointData();
-  vtkDataArray* array = data->GetArray(name.c_str());
-  if (!array)
-  {
-    throw InvalidOptions("SizeArray: the input has no point array of numbers named \"" + name +
-      "\"; " + ListNames(data) + ".");
-  }
-  if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() < this->Points.Count)
-  {
-    throw InvalidOptions("SizeArray: \"" + name +
-      "\" must have one component, and as many tuples as there are points.");
-  }
+  vtkDataArray* array = FindSizes(this->Mesh, name, this->Points.Count);
   for (vtkIdType i = 0; i < this->Points.Count; ++i)
   {
     this->Sizes.push_back(array->GetComponent(i, 0));

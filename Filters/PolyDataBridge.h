@@ -34,7 +34,7 @@ struct BridgeSettings : ConstraintSettings
   bool Triangulate = true;
   std::string RegionArray; ///< Empty: no regions.
   std::string SizeArray; ///< The name of a point array of longest edges. Empty: none.
-  bool HasGoals = false; ///< Whether options ask for refinement.
+  bool Refines = false; ///< Whether options or SizeArray ask for refinement.
 };
 
 inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
@@ -42,7 +42,7 @@ inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
   const auto tie = [](const BridgeSettings& s)
   {
     return std::tie(s.Triangulate, s.LinesAsConstraints, s.InsertLines, s.InsertConstraints,
-      s.RegionArray, s.SizeArray, s.HasGoals);
+      s.RegionArray, s.SizeArray, s.Refines);
   };
   return tie(a) == tie(b);
 }

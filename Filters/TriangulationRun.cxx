@@ -340,17 +340,7 @@ void TriangulationRun::ReadSizes()
     return;
   }
   const vtkIdType given = this->Given->GetNumberOfPoints(), count = this->View.Points.Count;
-  vtkDataArray* array = this->Points->GetPointData()->GetArray(name.c_str());
-  if (!array)
-  {
-    throw InvalidOptions("SizeArray: the input has no point array of numbers named \"" + name +
-      "\"; " + ListNames(this->Points->GetPointData()) + ".");
-  }
-  if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() < count)
-  {
-    throw InvalidOptions("SizeArray: \"" + name +
-      "\" must have one component, and as many tuples as there are points.");
-  }
+  vtkDataArray* array = FindSizes(this->Points, name, count);
   const auto has = [&name](vtkPolyData* points)
   { return points && points->GetPointData()->HasArray(name.c_str()) != 0; };
   const bool areGiven = has(this->Given);

@@ -90,8 +90,9 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
   this->Superclass::ForEachOption<FlipOptions>(copy);
   this->ForEachOption<FlipOptions>(copy);
   request.Settings.SizeArray = this->SizeArray;
-  request.Settings.HasGoals =
+  const bool hasGoals =
     this->MinimumAngle > 0.0 || this->MaximumArea > 0.0 || this->MaximumEdge > 0.0;
+  request.Settings.Refines = hasGoals || !this->SizeArray.empty();
   request.Options.Devices = ParseDevices(this->Devices);
   request.WantsFlipCounts = this->GenerateFlipCount;
   request.WantsAngles = this->GenerateQuality;
@@ -111,8 +112,7 @@ void vtkDelaunayFlip::FlipLeaves(
     return;
   }
   FlipRequest request = this->MakeRequest(mesh.GetMesh(), edges);
-  const bool isRefined = request.Settings.HasGoals || !request.Settings.SizeArray.empty();
-  if (isRefined && block.Leaves.size() > 1)
+  if (request.Settings.Refines && block.Leaves.size() > 1)
   {
     throw InvalidOptions("a mesh in several partitions cannot be refined; join them first, by "
                          "vtkAppendPolyData, or Merge Blocks in ParaView");
@@ -130,7 +130,6 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   this->ForEachOption<FlipOptions>([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
   os << indent << "RegionArray: " << this->RegionArray << "\n";
-  os << indent << "SizeArray: " << this->SizeArray << "\n";
   os << indent << "LinesAsConstraints: " << this->LinesAsConstraints << "\n";
   os << indent << "InsertLines: " << this->InsertLines << "\n";
   os << indent << "InsertConstraints: " << this->InsertConstraints << "\n";

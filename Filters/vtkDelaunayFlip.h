@@ -236,54 +236,6 @@ public:
 
   ///@{
   /**
-   * Refinement of meshes in the plane and of terrain. Once no edge is bad, points are added until
-   * no angle is smaller than MinimumAngle (0 to 33 degrees), no triangle has a larger area than
-   * MaximumArea, and no edge is longer than MaximumEdge; 0 (default): no limit. With PLANAR_XY all
-   * three are measured in x and y. Boundary edges and all edges that stay are split, but never
-   * crossed. New points get z and point data that are linear in the mesh before. Each triangle gets
-   * the data of the cell that contains its centroid, and so exactly the label of its region.
-   * Triangles that cannot get better, because such edges meet at a small angle, are left, and a
-   * warning counts them. Lines and verts, cells that are not split (Triangulate), and ghost cells
-   * stay as they are. Refinement is an error on surfaces and spheres, and for a mesh in several
-   * partitions or pieces.
-   */
-  vtkSetClampMacro(MinimumAngle, double, 0.0, 33.0);
-  vtkGetMacro(MinimumAngle, double);
-  vtkSetClampMacro(MaximumArea, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumArea, double);
-  vtkSetClampMacro(MaximumEdge, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumEdge, double);
-  ///@}
-
-  ///@{
-  /**
-   * A point array of numbers: the longest edge that triangles may have near each point, linear in
-   * between. NaN: no limit near that point. "" (default): none.
-   */
-  vtkSetStdStringFromCharMacro(SizeArray);
-  vtkGetCharFromStdStringMacro(SizeArray);
-  ///@}
-
-  ///@{
-  /**
-   * Split no edge of the boundary. Then some triangles there stay as they are. Default off.
-   */
-  vtkSetMacro(KeepBoundary, bool);
-  vtkGetMacro(KeepBoundary, bool);
-  vtkBooleanMacro(KeepBoundary, bool);
-  ///@}
-
-  ///@{
-  /**
-   * The most points that the mesh may have. Refinement stops before it would add more, and a
-   * warning says so. 0 (default): ten times as many as are given, at least a million.
-   */
-  vtkSetClampMacro(PointLimit, vtkIdType, 0, VTK_ID_MAX);
-  vtkGetMacro(PointLimit, vtkIdType);
-  ///@}
-
-  ///@{
-  /**
    * Keep the edges of the mesh that lie along lines of the input, that is, join consecutive points
    * of its polylines. Default on. Lines always pass to the output.
    */
@@ -465,11 +417,6 @@ protected:
     visit("MaximumDeviation", this->MaximumDeviation, &Options::MaximumDeviation);
     visit("NumberOfPieces", this->NumberOfPieces, &Options::NumberOfPieces);
     visit("TrackQuality", this->TrackQuality, &Options::TrackQuality);
-    visit("MinimumAngle", this->MinimumAngle, &Options::MinimumAngle);
-    visit("MaximumArea", this->MaximumArea, &Options::MaximumArea);
-    visit("MaximumEdge", this->MaximumEdge, &Options::MaximumEdge);
-    visit("KeepBoundary", this->KeepBoundary, &Options::KeepBoundary);
-    visit("PointLimit", this->PointLimit, &Options::PointLimit);
   }
 #endif
 
@@ -496,12 +443,6 @@ protected:
   double FeatureAngle = 30.0;
   double MaximumDeviation = VTK_DOUBLE_MAX;
   std::string RegionArray;
-  double MinimumAngle = 0.0;
-  double MaximumArea = 0.0;
-  double MaximumEdge = 0.0;
-  std::string SizeArray;
-  bool KeepBoundary = false;
-  vtkIdType PointLimit = 0;
   bool LinesAsConstraints = true;
   bool InsertConstraints = true;
   bool InsertLines = false;

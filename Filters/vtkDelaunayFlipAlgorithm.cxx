@@ -516,6 +516,7 @@ void vtkDelaunayFlipAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   this->ForEachOption<FlipOptions>([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
+  os << indent << "SizeArray: " << this->SizeArray << "\n";
   os << indent << "LiveUpdate: " << this->LiveUpdate << "\n";
   os << indent << "IterationsPerUpdate: " << this->IterationsPerUpdate << "\n";
   os << indent << "Paused: " << this->Paused << "\n";

@@ -91,6 +91,59 @@ public:
 
   ///@{
   /**
+   * Refinement: points are added until no angle is smaller than MinimumAngle (0 to 33 degrees), no
+   * triangle has a larger area than MaximumArea, and no edge is longer than MaximumEdge; 0
+   * (default): no limit. All three are measured in the plane, with PLANAR_XY in x and y. Segments,
+   * the boundary and all edges that stay are split, but never crossed. Triangles that cannot get
+   * better, because such edges meet at a small angle or must not be split, are left, and a warning
+   * counts them.
+   *
+   * From points, the new points get z and point data that are linear between the others; in a
+   * projection x, y and z are. A mesh in the plane or of terrain is refined once no edge is bad: z
+   * and point data are linear in the mesh before, and each triangle gets the data of the cell that
+   * contains its centroid, and so exactly the label of its region. Lines and verts, cells that are
+   * not split (Triangulate), and ghost cells stay as they are. Refinement is an error on surfaces
+   * and spheres, and for a mesh in several partitions or pieces.
+   */
+  vtkSetClampMacro(MinimumAngle, double, 0.0, 33.0);
+  vtkGetMacro(MinimumAngle, double);
+  vtkSetClampMacro(MaximumArea, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumArea, double);
+  vtkSetClampMacro(MaximumEdge, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MaximumEdge, double);
+  ///@}
+
+  ///@{
+  /**
+   * A point array of numbers: the longest edge that triangles may have near each point, linear in
+   * between. NaN: no limit near that point. Points that only the second input of a triangulation
+   * has, without such an array, get it from the first input, and so they do all arrays that the
+   * second one does not have (see SegmentHeights). "" (default): none.
+   */
+  vtkSetStdStringFromCharMacro(SizeArray);
+  vtkGetCharFromStdStringMacro(SizeArray);
+  ///@}
+
+  ///@{
+  /**
+   * Split no edge of the boundary. Then some triangles there stay as they are. Default off.
+   */
+  vtkSetMacro(KeepBoundary, bool);
+  vtkGetMacro(KeepBoundary, bool);
+  vtkBooleanMacro(KeepBoundary, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The most points that the mesh may have. Refinement stops before it would add more, and a
+   * warning says so. 0 (default): ten times as many as are given, at least a million.
+   */
+  vtkSetClampMacro(PointLimit, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(PointLimit, vtkIdType);
+  ///@}
+
+  ///@{
+  /**
    * Show the mesh while it improves: every update makes IterationsPerUpdate more iterations and
    * outputs the mesh, with its statistics, as it is then. Default off. The filter keeps the state
    * between updates, in memory of the host or of a GPU, until LiveUpdate is turned off. The last
@@ -335,6 +388,11 @@ protected:
     visit("DeviceId", this->DeviceId, &Options::Device);
     visit("NumberOfThreads", this->NumberOfThreads, &Options::NumberOfThreads);
     visit("MaximumIterations", this->MaximumIterations, &Options::MaximumIterations);
+    visit("MinimumAngle", this->MinimumAngle, &Options::MinimumAngle);
+    visit("MaximumArea", this->MaximumArea, &Options::MaximumArea);
+    visit("MaximumEdge", this->MaximumEdge, &Options::MaximumEdge);
+    visit("KeepBoundary", this->KeepBoundary, &Options::KeepBoundary);
+    visit("PointLimit", this->PointLimit, &Options::PointLimit);
   }
 
   /**
@@ -358,6 +416,12 @@ protected:
   int DeviceId = -1;
   int NumberOfThreads = 0;
   vtkIdType MaximumIterations = -1;
+  double MinimumAngle = 0.0;
+  double MaximumArea = 0.0;
+  double MaximumEdge = 0.0;
+  bool KeepBoundary = false;
+  vtkIdType PointLimit = 0;
+  std::string SizeArray;
   bool LiveUpdate = false;
   vtkIdType IterationsPerUpdate = 1;
   bool Paused = false;

@@ -210,7 +210,6 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Transform: " << this->Transform << "\n";
   this->ForEachOption<PointOptions>([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
-  os << indent << "SizeArray: " << this->SizeArray << "\n";
   os << indent << "Regions: " << this->Regions.size() << "\n";
   os << indent << "FirstHole: " << this->FirstHole << "\n";
   os << indent << "SegmentHeights: " << this->SegmentHeights << "\n";

@@ -210,33 +210,6 @@ public:
 
   ///@{
   /**
-   * Refinement: add points until no angle is smaller than MinimumAngle (0 to 33 degrees), no
-   * triangle has a larger area than MaximumArea, and no edge is longer than MaximumEdge; 0
-   * (default): no limit. All are measured in the plane. z and point data are linear between the
-   * points; in a projection x, y and z are. Triangles that cannot get better, because segments meet
-   * at a small angle or must not be split, are left, and a warning counts them.
-   */
-  vtkSetClampMacro(MinimumAngle, double, 0.0, 33.0);
-  vtkGetMacro(MinimumAngle, double);
-  vtkSetClampMacro(MaximumArea, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumArea, double);
-  vtkSetClampMacro(MaximumEdge, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumEdge, double);
-  ///@}
-
-  ///@{
-  /**
-   * A point array of numbers: the longest edge that triangles may have near each point, linear in
-   * between. NaN: no limit near that point. Points that only the second input has, without such an
-   * array, get it from the first input, and so they do all arrays that the second one does not have
-   * (see SegmentHeights). "" (default): none.
-   */
-  vtkSetStdStringFromCharMacro(SizeArray);
-  vtkGetCharFromStdStringMacro(SizeArray);
-  ///@}
-
-  ///@{
-  /**
    * Add a region: a place in a part that segments enclose, the label of its triangles (a 32-bit
    * integer), and the largest area of a triangle there (0: as elsewhere). If there are regions, the
    * output has a cell array "Region" with these labels, 0 elsewhere. Of several in one part the
@@ -244,25 +217,6 @@ public:
    */
   void AddRegion(double x, double y, double label, double maximumArea);
   void RemoveAllRegions();
-  ///@}
-
-  ///@{
-  /**
-   * Split no edge of the boundary: that of the hull, or of what is kept. Then some triangles there
-   * stay as they are. Default off.
-   */
-  vtkSetMacro(KeepBoundary, bool);
-  vtkGetMacro(KeepBoundary, bool);
-  vtkBooleanMacro(KeepBoundary, bool);
-  ///@}
-
-  ///@{
-  /**
-   * How many points the triangles may have. Refinement ends before it would add more, with a
-   * warning. 0 (default): ten times as many as are given, at least a million.
-   */
-  vtkSetClampMacro(PointLimit, vtkIdType, 0, VTK_ID_MAX);
-  vtkGetMacro(PointLimit, vtkIdType);
   ///@}
 
   ///@{
@@ -366,11 +320,6 @@ protected:
     visit("PointTolerance", this->PointTolerance, &Options::PointTolerance);
     visit("SplitCrossings", this->SplitCrossings, &Options::SplitCrossings);
     visit("RingRule", this->RingRule, &Options::RingRule);
-    visit("MinimumAngle", this->MinimumAngle, &Options::MinimumAngle);
-    visit("MaximumArea", this->MaximumArea, &Options::MaximumArea);
-    visit("MaximumEdge", this->MaximumEdge, &Options::MaximumEdge);
-    visit("KeepBoundary", this->KeepBoundary, &Options::KeepBoundary);
-    visit("PointLimit", this->PointLimit, &Options::PointLimit);
   }
 
   void FlipLeaves(delaunayflip::MeshBlock& block,
@@ -397,12 +346,6 @@ protected:
   double PointTolerance = 0.0;
   bool SplitCrossings = false;
   int RingRule = RING_RULE_EVEN_ODD;
-  double MinimumAngle = 0.0;
-  double MaximumArea = 0.0;
-  double MaximumEdge = 0.0;
-  bool KeepBoundary = false;
-  vtkIdType PointLimit = 0;
-  std::string SizeArray;
   std::vector<std::array<double, 4>> Regions; ///< x, y, label and largest area of each.
   vtkIdType FirstHole = -1;
   int SegmentHeights = SEGMENT_HEIGHTS_AUTO;
