@@ -5,8 +5,7 @@ from __future__ import annotations  # help() shows types by their names
 
 import contextlib
 import ctypes
-import threading
-from typing import Any, Optional
+from typing import Optional
 
 import numpy
 
@@ -15,10 +14,10 @@ from ._arrays import address
 from ._options import Array, Backend, Numbers, Progress, make_options
 from ._points import Input, triangulate
 from ._report import Report
-from ._session import call, observe
+from ._session import Handle, call, observe
 
 
-class MovingTriangulation:
+class MovingTriangulation(Handle):
     """The Delaunay triangulation of points that move, come and go.
 
     After each call the triangles are those that `triangulate` makes of the points where they are now,
@@ -53,12 +52,14 @@ class MovingTriangulation:
         (3, 3)
     """
 
+    _what = "triangulation"  # in messages
+
     def __init__(
         self, points: Numbers, *, backend: Backend = "auto", threads: int = 0, device: int = -1,
         progress: Optional[Progress] = None,
     ) -> None:
-        self._handle = ctypes.c_void_p()
-        self._lock, self._stored, self._count = threading.Lock(), {}, 0
+        super().__init__()
+        self._stored, self._count = {}, 0
         self._given = Input(self._own(points))
         options = make_options(triangulate, backend=backend, threads=threads, device=device)
         call("open_points", self._given.struct, options, ctypes.byref(self._handle), progress)
@@ -72,26 +73,6 @@ class MovingTriangulation:
         """A copy of the points, unless they are on a GPU."""
         points = _arrays.as_plane(points)
         return points.copy() if isinstance(points, numpy.ndarray) else points
-
-    def __enter__(self) -> "MovingTriangulation":
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            self.close()
-
-    def __reduce__(self) -> Any:
-        raise TypeError("a triangulation of moving points cannot be copied or pickled")
-
-    def close(self) -> None:
-        """Frees the engine's memory. Nothing can be asked or moved afterwards."""
-        with self._open(may_be_closed=True) as handle:
-            self._handle = None
-            if handle:
-                _library.run("close", handle)
 
     def __len__(self) -> int:
         """The number of points, removed ones included."""
@@ -223,16 +204,3 @@ class MovingTriangulation:
                 _arrays.store(name, handle, room, *more)
                 self._stored[name] = room
             return self._stored[name]
-
-    @contextlib.contextmanager
-    def _open(self, may_be_closed=False):
-        """The handle, for this call alone."""
-        if not self._lock.acquire(blocking=False):
-            raise RuntimeError("the triangulation is at work: observers and other threads have to wait "
-                               "until its call has returned")
-        try:
-            if not self._handle and not may_be_closed:
-                raise ValueError("the triangulation is closed")
-            yield self._handle
-        finally:
-            self._lock.release()

@@ -8,7 +8,7 @@ import ctypes
 import dataclasses
 import signal
 import threading
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, TypeVar, Union
 
 import numpy
 
@@ -139,7 +139,53 @@ def _read_report(handle, names=_REFINEMENT):
     return report
 
 
-class Session:
+_Self = TypeVar("_Self", bound="Handle")
+
+
+class Handle:
+    """What the engine keeps for an object: it does one thing at a time, and is freed at last."""
+
+    _what = "session"  # in messages
+
+    def __init__(self):
+        self._handle, self._lock = ctypes.c_void_p(), threading.Lock()
+
+    def __enter__(self: _Self) -> _Self:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_handle", None):
+            self.close()
+
+    def __reduce__(self) -> Any:
+        raise TypeError(f"a {self._what} cannot be copied or pickled")
+
+    def close(self) -> None:
+        """Frees the memory of the engine. Nothing else can be called afterwards; closing again is
+        allowed."""
+        with self._open(may_be_closed=True) as handle:
+            self._handle = None
+            if handle:
+                _library.run("close", handle)
+
+    @contextlib.contextmanager
+    def _open(self, may_be_closed=False):
+        """The handle, for this call alone."""
+        if not self._lock.acquire(blocking=False):
+            raise RuntimeError(f"the {self._what} is at work: observers and other threads have to wait "
+                               "until its call has returned")
+        try:
+            if not self._handle and not may_be_closed:
+                raise ValueError(f"the {self._what} is closed")
+            yield self._handle
+        finally:
+            self._lock.release()
+
+
+class Session(Handle):
     """Flips a mesh step by step.
 
     Points, triangles and keywords are those of `flip`. Building finds the edges and tests them all;
@@ -177,33 +223,12 @@ class Session:
         frozen: Optional[Numbers] = None, triangle_numbers: Optional[Numbers] = None,
         size: Optional[Numbers] = None, progress: Optional[Progress] = None, **options: "Unpack[Options]",
     ) -> None:
-        self._handle = ctypes.c_void_p()
-        self._lock = threading.Lock()
+        super().__init__()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
                                   insert_constraints, triangle_numbers, size)
         self._refines = size is not None or any(has_goal(options, goal) for goal in GOALS)
         with _with_keywords(self._keywords):
             call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
-
-    def __enter__(self) -> "Session":
-        return self
-
-    def __exit__(self, *_: Any) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_handle", None):
-            self.close()
-
-    def close(self) -> None:
-        """Frees the session's memory. It cannot be used afterwards; closing again is allowed."""
-        with self._open(may_be_closed=True) as handle:
-            self._handle = None
-            if handle:
-                _library.run("close", handle)
-
-    def __reduce__(self) -> Any:
-        raise TypeError("a session cannot be copied or pickled")
 
     def advance(
         self, iterations: int = -1, *, progress: Optional[Progress] = None,
@@ -284,19 +309,6 @@ class Session:
         with self._open() as handle:
             _arrays.store("flip_counts", handle, counts)
         return counts
-
-    @contextlib.contextmanager
-    def _open(self, may_be_closed=False):
-        """The handle, which nothing else uses meanwhile."""
-        if not self._lock.acquire(blocking=False):
-            raise RuntimeError("the session is at work: observers, and other threads, have to wait "
-                               "until its call has returned")
-        try:
-            if not self._handle and not may_be_closed:
-                raise ValueError("the session is closed")
-            yield self._handle
-        finally:
-            self._lock.release()
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
