@@ -159,14 +159,7 @@ const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
   return this->Run->GetAddedPoints();
 }
 
-void FlipSession::StoreSources(std::int32_t* sources) const
-{
-  if (dynamic_cast<PointRun*>(this->Run.get()) != nullptr)
-  {
-    throw InvalidOptions("triangles have sources only in a session from triangles");
-  }
-  this->Run->StoreSources(sources);
-}
+void FlipSession::StoreSources(std::int32_t* sources) const { this->Run->StoreSources(sources); }
 
 std::vector<std::int64_t> FlipSession::ListSegmentEdges() const
 {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -191,7 +192,7 @@ void MeshRun::StoreSources(std::int32_t* sources)
 {
   if (this->Refined.Sources.empty())
   {
-    SessionRun::StoreSources(sources);
+    std::iota(sources, sources + this->CountTriangles(), 0);
     return;
   }
   std::copy(this->Refined.Sources.begin(), this->Refined.Sources.end(), sources);

@@ -7,6 +7,7 @@
 #include "ThreadBackend.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace delaunayflip
 {
@@ -91,14 +92,7 @@ try
   }
   this->RunStages(this->Stages.size());
   this->Report = this->Parts->Report;
-  if (progress && isDone())
-  {
-    progress(1.0);
-  }
-  for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
-  {
-    observer(this->Report.Iterations[i]);
-  }
+  this->TellEnd(observer, isDone() ? progress : ProgressObserver());
   return false;
 }
 catch (const RunAborted&)
@@ -141,6 +135,11 @@ void PiecesRun::StoreFlipCounts(std::int32_t* counts)
     return;
   }
   std::fill_n(counts, this->Mesh.Triangles.Count, 0);
+}
+
+void PiecesRun::StoreSources(std::int32_t* sources)
+{
+  std::iota(sources, sources + this->CountTriangles(), 0);
 }
 
 //------------------------------------------------------------------------------

@@ -28,6 +28,7 @@ public:
   PiecesReport GetPiecesReport() const;
   void StoreTriangles(const MutableTriangleArray& triangles) override;
   void StoreFlipCounts(std::int32_t* counts) override;
+  void StoreSources(std::int32_t* sources) override;
 
 private:
   void ListStages();

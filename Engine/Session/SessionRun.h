@@ -7,7 +7,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -97,9 +96,10 @@ public:
     static const std::vector<AddedPoint> none;
     return none;
   }
-  virtual void StoreSources(std::int32_t* sources)
+  /// Only sessions from triangles have them.
+  virtual void StoreSources(std::int32_t*)
   {
-    std::iota(sources, sources + this->CountTriangles(), 0);
+    throw InvalidOptions("triangles have sources only in a session from triangles");
   }
 
   /// Stores in device memory. @returns false, and writes nothing, if the values have to be copied
@@ -136,9 +136,23 @@ public:
 protected:
   SessionRun() = default;
 
-  [[noreturn]] static void RefuseQuestion()
+  /// Why the functions of sessions from points throw InvalidOptions.
+  [[noreturn]] virtual void RefuseQuestion() const
   {
     throw InvalidOptions("this session was not made from points");
+  }
+
+  /// For a run that is done at once: tells its end and, once it is there, all iterations.
+  void TellEnd(const FlipObserver& observer, const ProgressObserver& progress) const
+  {
+    if (progress)
+    {
+      progress(1.0);
+    }
+    for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
+    {
+      observer(this->Report.Iterations[i]);
+    }
   }
 
   /// Does the stages from the current one on, up to the one with this number.

@@ -150,14 +150,7 @@ try
   const TemporaryValue<ProgressObserver> told(this->Observer, progress);
   this->Reset();
   this->RunStages(this->Stages.size());
-  if (progress)
-  {
-    progress(1.0);
-  }
-  for (std::size_t i = 0; observer && i < this->Report.Iterations.size(); ++i)
-  {
-    observer(this->Report.Iterations[i]);
-  }
+  this->TellEnd(observer, progress);
   return false;
 }
 catch (const RunAborted&)
@@ -614,34 +607,10 @@ void SphereRun::StoreRegions(std::int32_t* labels)
 }
 
 //------------------------------------------------------------------------------
-namespace
+void SphereRun::RefuseQuestion() const
 {
-[[noreturn]] void RefuseChange()
-{
-  throw InvalidOptions(
-    "points of a triangulation on a sphere cannot be inserted, moved or removed yet");
-}
-}
-
-void SphereRun::StoreSources(std::int32_t*)
-{
-  throw InvalidOptions("triangles have sources only in a session from triangles");
-}
-
-bool SphereRun::Insert(const PlaneArray&, const ProgressObserver&) { RefuseChange(); }
-
-bool SphereRun::Move(const PointMove&, const ProgressObserver&) { RefuseChange(); }
-
-bool SphereRun::Remove(const std::int64_t*, std::int64_t, const ProgressObserver&)
-{
-  RefuseChange();
-}
-
-bool SphereRun::Compact(const ProgressObserver&) { RefuseChange(); }
-
-bool SphereRun::Ask(const PlaceQuery&, const ProgressObserver&)
-{
-  throw InvalidOptions("a triangulation on a sphere cannot be asked about places yet");
+  throw InvalidOptions("a triangulation on a sphere has no interpolation, and its points cannot be "
+                       "inserted, moved or removed");
 }
 
 }

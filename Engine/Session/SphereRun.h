@@ -38,14 +38,6 @@ public:
   std::vector<std::int64_t> ListSegmentEdges() override { return {}; }
   std::vector<std::int64_t> ListSegmentsOfEdges() override { return {}; }
   void StoreRegions(std::int32_t* labels) override;
-  // These throw InvalidOptions.
-  void StoreSources(std::int32_t* sources) override;
-  bool Insert(const PlaneArray& points, const ProgressObserver& progress) override;
-  bool Move(const PointMove& move, const ProgressObserver& progress) override;
-  bool Remove(
-    const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress) override;
-  bool Compact(const ProgressObserver& progress) override;
-  bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
 private:
   enum class PointState : char
@@ -73,6 +65,7 @@ private:
   std::vector<std::int32_t> ListActive() const;
   ProgressObserver TellHalf();
   void Reset() override;
+  [[noreturn]] void RefuseQuestion() const override;
 
   const PointInput Input;
   const PointOptions Options;
