@@ -190,10 +190,13 @@ void ExpectHull(const std::vector<Point3>& points, const SphereResult& result)
   }
 }
 
-/// All points lie in one plane except for rounding, or there are fewer than four places. The
-/// distance of points from the origin is at most 9.
+/// All points lie in one plane but for rounding, or there are fewer than four places.
 void ExpectFlat(const std::vector<Point3>& points)
 {
+  // Coordinates are at most 9, and differ from those of a lattice by at most two units in the last
+  // place: 2^-48. That moves a corner of a parallelepiped with sides of at most 32 by twice as
+  // much.
+  constexpr double LargestVolume = 32.0 * 32.0 * 0x1p-47;
   std::vector<Point3> finite;
   std::copy_if(points.begin(), points.end(), std::back_inserter(finite),
     [](const Point3& p) { return std::isfinite(p[0] + p[1] + p[2]); });
@@ -206,7 +209,7 @@ void ExpectFlat(const std::vector<Point3>& points)
       const Point3 &p = finite[i + k], &q = finite[i + 3];
       return Vector3{ p[0] - q[0], p[1] - q[1], p[2] - q[2] };
     };
-    EXPECT_LT(std::fabs(Dot(offset(0), Cross(offset(1), offset(2)))), 1e-13);
+    EXPECT_LT(std::fabs(Dot(offset(0), Cross(offset(1), offset(2)))), LargestVolume);
   }
 }
 
