@@ -187,8 +187,8 @@ extern "C"
     double minimum_angle;
     double maximum_area; /**< Points are added until no triangle is larger; 0: no limit. [0] */
     double maximum_edge; /**< Points are added until no edge is longer; 0: no limit. [0] */
-    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split, so some triangles there
-                              may stay as they are. [0] */
+    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split. Angles there may stay
+                              small, or become smaller. [0] */
     int64_t point_limit; /**< The most points that the mesh may have; 0: ten times as many as are
                             given, at least a million. [0] */
   } delaunayflip_options;
@@ -436,8 +436,8 @@ extern "C"
     double minimum_angle; /**< Points are added until no angle is smaller: 0 to 33 degrees. [0] */
     double maximum_area; /**< Points are added until no triangle is larger; 0: no limit. [0] */
     double maximum_edge; /**< Points are added until no edge is longer; 0: no limit. [0] */
-    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split, so that some triangles
-                              there may stay as they are. [0] */
+    int32_t keep_boundary; /**< Not 0: no edge of the boundary is split. Angles there may stay
+                              small, or become smaller. [0] */
     int64_t point_limit; /**< How many points the mesh may have; 0: ten times as many as are given,
                             at least a million. [0] */
     const double* sizes; /**< The longest edge near each point, linear in between; NaN: no limit

@@ -22,6 +22,18 @@ namespace
   throw CommandError(ExitCode::WrongUsage, message);
 }
 
+/// Checks that longitudes and latitudes are given for a sphere.
+void CheckDegrees(const Arguments& arguments)
+{
+  const int projection = arguments.Points->GetProjection();
+  const bool isSphere = projection == vtkDelaunayFlipPoints::PROJECTION_SPHERE ||
+    projection == vtkDelaunayFlipPoints::PROJECTION_OPEN_SPHERE;
+  if (arguments.Points->GetDegrees() && !isSphere)
+  {
+    FailOnUsage("--degrees needs --projection sphere or open-sphere");
+  }
+}
+
 /// Checks that the format of the output fits what is written: a mesh, a raster or heights.
 void CheckOutput(Arguments& arguments)
 {
@@ -92,6 +104,7 @@ void CheckFormats(Arguments& arguments)
 void CheckArguments(Arguments& arguments)
 {
   CheckFormats(arguments);
+  CheckDegrees(arguments);
   const bool holdsCellData =
     arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
   if (arguments.Flip->GetGenerateQuality() && !holdsCellData)

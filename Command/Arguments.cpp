@@ -316,7 +316,7 @@ void AddRefinementOptions(CLI::App& app, Arguments& arguments)
     ->check(FindFaultOfName);
   app.add_flag_callback("--keep-boundary",
     Set(arguments, &vtkDelaunayFlipAlgorithm::KeepBoundaryOn),
-    "Add no points on the boundary of the mesh. Some triangles there may stay as they are");
+    "Add no points on the boundary of the mesh. Angles there may stay small, or become smaller");
   AddValue(app, "--point-limit", Set(arguments, &vtkDelaunayFlipAlgorithm::SetPointLimit), "INT",
     Within<std::int64_t>(0, std::numeric_limits<std::int64_t>::max(), "a number of points"),
     "Add no more points when the mesh has this many; 0: ten times as many as are given, at least "

@@ -112,6 +112,7 @@ struct FlipOptions
 
   /// The most iterations to make: 0 makes none, -1 (default) sets no limit. On surfaces, where with
   /// a fixed tolerance nothing proves that the loop ends, -1 means the number of triangles + 1000.
+  /// Rounds of refinement count as iterations.
   std::int64_t MaximumIterations = -1;
 
   /// The number of threads; 0 (default): as many as the machine has. At most twice as many are

@@ -126,7 +126,8 @@ public:
 
   ///@{
   /**
-   * Split no edge of the boundary. Then some triangles there stay as they are. Default off.
+   * Split no edge of the boundary. Then angles there may stay small, or become smaller. Default
+   * off.
    */
   vtkSetMacro(KeepBoundary, bool);
   vtkGetMacro(KeepBoundary, bool);

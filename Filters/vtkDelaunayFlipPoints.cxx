@@ -16,6 +16,8 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <type_traits>
 
 using namespace delaunayflip;
@@ -49,6 +51,28 @@ bool IsSphere(int projection)
 {
   return projection == vtkDelaunayFlipPoints::PROJECTION_SPHERE ||
     projection == vtkDelaunayFlipPoints::PROJECTION_OPEN_SPHERE;
+}
+
+/// The text of a warning about latitudes beyond 90 degrees, or "".
+std::string DescribeLatitudes(vtkPoints* degrees)
+{
+  constexpr double Rounding = 1e-4; // more than that of pi / 2 in single precision
+  vtkIdType count = 0, first = 0;
+  for (vtkIdType i = degrees->GetNumberOfPoints() - 1; i >= 0; --i)
+  {
+    if (std::fabs(degrees->GetPoint(i)[1]) > 90.0 + Rounding)
+    {
+      ++count;
+      first = i;
+    }
+  }
+  if (count == 0)
+  {
+    return "";
+  }
+  return std::to_string(count) + (count == 1 ? " point" : " points") +
+    " with a latitude beyond 90 degrees (first: " + std::to_string(first) +
+    "); x is the longitude and y the latitude";
 }
 
 /// The places of longitudes and latitudes on the unit sphere.
@@ -158,6 +182,14 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   if (this->GetOutputInformation(0)->Get(Asked::UPDATE_PIECE_NUMBER()) > 0) // the first has all
   {
     return;
+  }
+  if (this->Degrees && IsSphere(this->Projection) && given->GetPoints())
+  {
+    const std::string trouble = DescribeLatitudes(given->GetPoints());
+    if (!trouble.empty())
+    {
+      summary.Warnings.push_back({ block.Name, trouble });
+    }
   }
   const auto others = FindSegments(block, segments);
   TriangulationRequest request = this->MakeRequest(given);

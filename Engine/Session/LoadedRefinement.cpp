@@ -50,7 +50,7 @@ bool LoadedRun::Refine()
   }
   const auto mayRefine = [this]
   { return this->CountIterations() + this->Rounds - this->RoundsBefore < this->Limit; };
-  while (!this->IsRefined && !this->WasStopped && mayRefine())
+  while (!this->IsRefined && !this->WasStopped && !this->IsAtIterationLimit() && mayRefine())
   {
     const auto refine = [this](LoadedMesh& mesh) { return this->RefineOnce(mesh); };
     this->IsRefined = this->OnBackend(refine) == 0;
@@ -67,7 +67,13 @@ bool LoadedRun::Refine()
     this->RecordFound(this->Loaded->GetLoop().GetFound());
     this->AreAnglesKnown = false;
   }
-  return this->IsRefined;
+  return this->IsRefined || this->IsAtIterationLimit();
+}
+
+bool LoadedRun::IsAtIterationLimit() const
+{
+  const std::int64_t most = this->Options.MaximumIterations;
+  return most >= 0 && this->CountIterations() + this->Rounds >= most;
 }
 
 std::int64_t LoadedRun::RefineOnce(LoadedMesh& mesh)

@@ -201,7 +201,8 @@ void LoadedRun::RepeatFlips(LoadedMesh& mesh, std::int64_t iterations)
 
 void LoadedRun::MeasureEnd()
 {
-  const bool hasConverged = this->Found.Bad == 0;
+  const bool isCutShort = this->WantsRefinement() && !this->IsRefined && this->Report.Triangles > 0;
+  const bool hasConverged = this->Found.Bad == 0 && !isCutShort;
   this->Report.StopReason =
     hasConverged ? StopReasonKind::Converged : StopReasonKind::IterationLimit;
   this->Measure();

@@ -92,7 +92,14 @@ protected:
   bool Refine();
   void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
   /// Whether no more rounds follow, so that triangles that are not good stay as they are.
-  bool HasEndedRefinement() const { return this->IsRefined || this->WasStopped; }
+  bool HasEndedRefinement() const
+  {
+    return this->IsRefined || this->WasStopped || this->IsAtIterationLimit();
+  }
+  /// Whether the options allow no more iterations. Rounds count as iterations.
+  bool IsAtIterationLimit() const;
+  /// Whether the options ask for refinement.
+  virtual bool WantsRefinement() const = 0;
   /// Makes a plan with the goals of the options. @param points the number of the caller's points.
   RefinementPlan PlanGoals(std::int64_t points) const;
 

@@ -48,7 +48,7 @@ private:
   void Measure() override;
 
   // (MeshRefinement.cpp)
-  bool WantsRefinement() const;
+  bool WantsRefinement() const override;
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
   void TakeRefinement(LoadedMesh& mesh) override;
   void AddRefinedPoints(const RefinementResult& made);

@@ -78,7 +78,7 @@ private:
   template <typename Change>
   bool ChangeInPlace(const Change& change);
   void RecordMotion(const MotionResult& motion);
-  bool WantsRefinement() const;
+  bool WantsRefinement() const override;
   void LabelRegions();
   void LabelRegions(LoadedMesh& mesh);
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;

@@ -23,7 +23,7 @@ from ._options import (
     make_options, show)
 from ._report import Report, name_keywords
 from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
-from ._session import run
+from ._session import LEFT_BY_REFINEMENT, run
 
 Heights = typing.Literal["survey", "own"]
 Length = typing.Annotated[float, (0.0, math.inf)]
@@ -67,7 +67,7 @@ Struct = _library.make_struct("Points", (
 # not reach the goals.
 _WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
               "rings without area", "rings repeated", "rings run again", "hole points outside",
-              "region seeds outside", "triangles not refined", "point limit reached")
+              "region seeds outside", *LEFT_BY_REFINEMENT)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -242,7 +242,7 @@ def triangulate(
             meet at a small angle, is left, and a warning counts it. z is linear between the points.
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
         regions: (x, y, label[, area]): a place in what segments enclose, the label and largest area there.
-        keep_boundary: Split no edge of the boundary, where triangles then may stay as they are.
+        keep_boundary: Split no edge of the boundary. Angles there may stay small, or become smaller.
         point_limit: Of all points. 0: ten times as many as are given, at least a million.
         heights: z of points that lines and rings add. "survey": that of the points there, linear in
             their triangulation without segments, and beyond its hull that of the nearest place on it.
@@ -251,7 +251,7 @@ def triangulate(
             if other points have heights, with a warning that counts them; "own" for the others.
         backend, threads, device: "cuda", "threads", or "auto": a GPU for many points if there is one. 0
             threads: as many as the machine has. Device: CUDA's number of the GPU; -1: the current one.
-        maximum_iterations: -1: until done; 0 gives the valid triangulation that flips start from.
+        maximum_iterations: -1: until done; 0: the triangulation that flips start from. Rounds count, too.
         progress, on_iteration: Called with the share of the work done, 0 to 1, and after each iteration
             with a dict of its numbers; returning False aborts.
 

@@ -8,6 +8,7 @@ import ctypes
 import dataclasses
 import signal
 import threading
+import warnings
 from typing import TYPE_CHECKING, Any, Optional, TypeVar, Union
 
 import numpy
@@ -28,6 +29,8 @@ except ImportError:
     from signal import getsignal as _get_handler, signal as _set_handler
 
 _SIGNALS = tuple(map(int, signal.Signals))
+#: The kinds of defects in which refinement ends.
+LEFT_BY_REFINEMENT = "triangles not refined", "point limit reached"
 _REFINEMENT = (*GOALS, "keep_boundary", "point_limit")
 
 
@@ -391,7 +394,7 @@ def flip(
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
         keep_boundary: Split no edge of the boundary. Some triangles there may then stay as they are.
         point_limit: The most points in the end. 0: ten times as many as are given, at least a million.
-        maximum_iterations: -1: until done; 0: only test.
+        maximum_iterations: -1: until done; 0: only test. Rounds of refinement count, too.
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.
         threads: 0: as many as the machine has.
         device: CUDA's number of the GPU; -1: that of arrays on a GPU (see Session), or the current.
@@ -426,9 +429,17 @@ def flip(
     def make_room(_):
         return () if refines else (mesh.make_triangles(), mesh.make_flip_counts())
 
-    with _with_keywords(), run("open", mesh.struct, wanted, make_room, progress, on_iteration) as (
-            handle, room):
-        return _store(mesh, handle, room)
+    with _with_keywords(), run("open", mesh.struct, wanted, make_room, progress, on_iteration) as (handle, room):
+        result = _store(mesh, handle, room)
+        _warn_of_refinement(handle)
+    return result
+
+
+def _warn_of_refinement(handle):
+    """Warns, where `flip` was called, of what refinement has left."""
+    trouble = [text for kind, _, text in _report.list_defects(handle) if kind in LEFT_BY_REFINEMENT]
+    if trouble:
+        warnings.warn(name_keywords("; ".join(trouble), _REFINEMENT), stacklevel=3)
 
 
 def _store(mesh, handle, room):

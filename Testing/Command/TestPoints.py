@@ -310,6 +310,9 @@ class Results(PointTest):
         self.assertEqual(len(triangles_of(mesh)), 2 * 12 + 12)
         self.fail_with(2, "in.csv", "out.vtk", "--from-points", "--projection", "sphere", "--degrees",
                        "--alpha", 1, naming=["--alpha has no meaning on a sphere"])
+        for projection in ([], ["--projection", "plane"]):
+            self.fail_with(2, "in.csv", "out.vtk", "--from-points", "--degrees", *projection,
+                           naming=["--degrees needs --projection sphere"])
 
     def test_large_triangles(self):
         self.write("in.xyz", text_of(grid(4) + [(20, 1, 0)]))

@@ -217,6 +217,10 @@ TEST(FromPoints, OnASphere)
   part->SetMinimumAngle(20.0);
   ExpectHolds(
     RunToError(part, vtkDelaunayFlip::FAILURE_OPTIONS), "MinimumAngle has no meaning on a sphere");
+  PointsFilter turned(ToMesh({ { 3, 0, 0 }, { 45, 90, 0 }, { 10, 120, 0 }, { -9, -91, 0 } }));
+  turned->SetProjectionToSphere();
+  turned->DegreesOn();
+  ExpectHolds(RunToWarning(turned), "2 points with a latitude beyond 90 degrees (first: 2)");
 }
 
 /// Points on a wall: what is added is on it, too. Each property makes another mesh.

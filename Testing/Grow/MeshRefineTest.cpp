@@ -439,6 +439,23 @@ TEST(MeshRefineTest, KeepsBoundaryAndLimits)
   EXPECT_NE(std::string::npos, DescribeDefects(limited.Report.Defects).find("PointLimit"));
 }
 
+/// Rounds count as iterations of the options, too.
+TEST(MeshRefineTest, KeepsTheIterationLimit)
+{
+  const Room room;
+  FlipOptions options = WithAngle(28.0);
+  const auto flips =
+    static_cast<std::int64_t>(Refine(room.View(), options).Report.Iterations.size());
+  for (const std::int64_t rounds : { -flips, std::int64_t(0), std::int64_t(2) })
+  {
+    options.MaximumIterations = flips + rounds;
+    const RefinedMesh refined = Refine(room.View(), options);
+    EXPECT_EQ(StopReasonKind::IterationLimit, refined.Report.StopReason);
+    EXPECT_EQ(std::max<std::int64_t>(rounds, 0), refined.Report.FromPoints.RefinementRounds);
+    EXPECT_EQ(rounds > 0, refined.Report.FromPoints.UnrefinedTriangles > 0);
+  }
+}
+
 /// Rounds count as iterations of Advance, and an observer may stop the run in each.
 TEST(MeshRefineTest, AdvancesRoundByRound)
 {

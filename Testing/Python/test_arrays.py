@@ -459,6 +459,15 @@ class RefineMeshes(unittest.TestCase):
         cls.points, cls.triangles = points, mesh.triangles
         cls.left = (points[mesh.triangles, 0].mean(axis=1) < 4).astype(int) * 5 - 2
 
+    def test_warnings(self):
+        options = dict(geometry="planar-xy", minimum_angle=20)
+        with self.assertWarnsRegex(UserWarning, "points are there.*point_limit allows no more"):
+            delaunayflip.flip(self.points, self.triangles, **options, point_limit=5)
+        wedge = numpy.array([[0, 0, 0], [10, -0.5, 0], [10, 0.5, 0]])
+        with self.assertWarnsRegex(UserWarning, "1 triangle that is not as good as wanted") as caught:
+            delaunayflip.flip(wedge, [[0, 1, 2]], **options)
+        self.assertEqual(caught.filename, __file__)
+
     def find_areas(self, points, triangles):
         a, b, c = points[triangles, :2].transpose(1, 0, 2)
         return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
