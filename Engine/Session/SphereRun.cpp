@@ -9,7 +9,6 @@
 #include "SmallestAngle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 #include <type_traits>
@@ -19,36 +18,6 @@ namespace delaunayflip
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
-
-/// Finds the sine and the cosine of an angle in degrees. They are exact at multiples of 90, because
-/// the angle is first reduced by such multiples, without rounding.
-void FindSineAndCosine(double degrees, double& sine, double& cosine)
-{
-  const double turned = std::fmod(degrees, 360.0);
-  const double quarters = std::floor(turned / 90.0 + 0.5);
-  const double rest = (turned - 90.0 * quarters) * (Pi / 180.0);
-  const double first = std::sin(rest), second = std::cos(rest);
-  switch (static_cast<int>(quarters) & 3)
-  {
-    case 0:
-      sine = first;
-      cosine = second;
-      break;
-    case 1:
-      sine = second;
-      cosine = -first;
-      break;
-    case 2:
-      sine = -first;
-      cosine = -second;
-      break;
-    default:
-      sine = -second;
-      cosine = first;
-  }
-}
-
 void RequirePlainPoints(const PointInput& input, const PointOptions& options)
 {
   const auto require = [](bool isValid, const std::string& message)
@@ -95,16 +64,6 @@ void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
     throw RunAborted();
   }
 }
-}
-
-void PlaceOnSphere(double longitude, double latitude, double xyz[3])
-{
-  double sine = 0.0, cosine = 0.0, ofEast = 0.0, toPole = 0.0;
-  FindSineAndCosine(longitude, sine, cosine);
-  FindSineAndCosine(latitude, toPole, ofEast);
-  xyz[0] = ofEast * cosine + 0.0; // never -0.0
-  xyz[1] = ofEast * sine + 0.0;
-  xyz[2] = toPole + 0.0;
 }
 
 SphereRun::SphereRun(
@@ -467,143 +426,6 @@ ProgressObserver SphereRun::TellHalf()
     return {};
   }
   return [this, begin, half](double share) { return this->Observer(begin + half * share); };
-}
-
-//------------------------------------------------------------------------------
-/// Removes the triangles that do not face away from the origin.
-void SphereRun::OpenMesh()
-{
-  std::size_t kept = 0;
-  for (std::size_t t = 0; 3 * t < this->Triangles.size(); ++t)
-  {
-    if (FacesOutside(this->Points, &this->Triangles[3 * t], { 0.0, 0.0, 0.0 }))
-    {
-      std::copy_n(&this->Triangles[3 * t], 3, &this->Triangles[3 * kept]);
-      this->FlipCounts[kept++] = this->FlipCounts[t];
-    }
-  }
-  this->Report.FromPoints.LargeTriangles = SizeOf(this->Triangles) / 3 - std::int64_t(kept);
-  this->Triangles.resize(3 * kept);
-  this->FlipCounts.resize(kept);
-}
-
-void SphereRun::Complete()
-{
-  FlipReport& report = this->Report;
-  report.Points = SizeOf(this->Points);
-  report.GeometryUsed = GeometryKind::Sphere;
-  report.GeometryReason = "points are triangulated on a sphere";
-  report.FromPoints = PointCounts();
-  report.Defects.clear();
-  report.StopReason = StopReasonKind::Converged;
-  report.BuildSeconds += this->Planar.BuildSeconds;
-  report.FlipSeconds += this->Planar.FlipSeconds;
-  if (this->Options.Projection == ProjectionKind::OpenSphere)
-  {
-    this->OpenMesh();
-  }
-  this->Neighbors = FindNeighbors(this->Triangles, SizeOf(this->Points));
-  report.Triangles = SizeOf(this->Triangles) / 3;
-  const auto boundary = std::count(this->Neighbors.begin(), this->Neighbors.end(), -1);
-  report.Edges = EdgeCounts();
-  report.Edges.Edges = (SizeOf(this->Triangles) + boundary) / 2;
-  report.Edges.Boundary = report.Edges.Fixed = boundary;
-  KeepAnglesBefore({}, report); // nobody sees the triangles from which flips begin
-  this->ListUnused();
-  report.EulerCharacteristic = report.FromPoints.Used - report.Edges.Edges + report.Triangles;
-}
-
-/// Counts and names the points that have no triangle.
-void SphereRun::ListUnused()
-{
-  std::vector<char> hasTriangle(this->Points.size());
-  for (const std::int32_t id : this->Triangles)
-  {
-    hasTriangle[id] = 1;
-  }
-  FlipReport& report = this->Report;
-  PointCounts& counts = report.FromPoints;
-  counts.Used = std::count(hasTriangle.begin(), hasTriangle.end(), 1);
-  Defect notFinite(DefectKind::PointsNotFinite), repeated(DefectKind::PointsRepeated),
-    inside(DefectKind::PointsInside);
-  const auto note = [](Defect& defect, std::int64_t id)
-  {
-    ++defect.Count;
-    if (SizeOf(defect.FirstIds) < MostNamedIds)
-    {
-      defect.FirstIds.push_back(id);
-    }
-  };
-  const bool hasHull = counts.Used > 0;
-  for (std::size_t i = 0; i < this->States.size(); ++i)
-  {
-    const auto id = static_cast<std::int64_t>(i);
-    if (this->States[i] == PointState::NotFinite)
-    {
-      note(notFinite, id);
-    }
-    else if (this->States[i] == PointState::Repeated)
-    {
-      note(repeated, id);
-    }
-    else if (hasHull && hasTriangle[i] == 0)
-    {
-      this->States[i] = PointState::Inside;
-      note(inside, id);
-    }
-  }
-  counts.NotFinite = notFinite.Count;
-  counts.Repeated = repeated.Count;
-  counts.Inside = inside.Count;
-  Defect inPlane(DefectKind::PointsInOnePlane);
-  inPlane.Count = hasHull ? 0 : report.Points;
-  for (const Defect& defect : { notFinite, repeated, inside, inPlane })
-  {
-    AddDefect(defect, report.Defects);
-  }
-}
-
-//------------------------------------------------------------------------------
-void SphereRun::StoreTriangles(const MutableTriangleArray& triangles)
-{
-  for (std::int64_t t = 0; t < triangles.Count; ++t)
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      triangles.Set(t, slot, this->Triangles[3 * t + slot]);
-    }
-  }
-}
-
-void SphereRun::StoreFlipCounts(std::int32_t* counts)
-{
-  std::copy(this->FlipCounts.begin(), this->FlipCounts.end(), counts);
-}
-
-void SphereRun::StoreNeighbors(std::int32_t* neighbors)
-{
-  std::copy(this->Neighbors.begin(), this->Neighbors.end(), neighbors);
-}
-
-void SphereRun::StoreUsedPoints(std::int64_t* ids)
-{
-  std::iota(ids, ids + this->Input.Points.Count, std::int64_t(0));
-  for (std::size_t i = 0; i < this->States.size(); ++i)
-  {
-    std::size_t place = i;
-    while (this->States[place] == PointState::Repeated)
-    {
-      place = this->UsedPoint[place];
-    }
-    const bool isUsed =
-      this->States[place] == PointState::Used || this->States[place] == PointState::LeftOut;
-    ids[i] = isUsed ? std::int64_t(place) : -1;
-  }
-}
-
-void SphereRun::StoreRegions(std::int32_t* labels)
-{
-  std::fill_n(labels, this->Report.Triangles, 0);
 }
 
 //------------------------------------------------------------------------------
