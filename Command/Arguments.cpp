@@ -269,6 +269,11 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     Set(arguments, &vtkDelaunayFlipPoints::SplitCrossingsOn),
     "Add a point where segments cross. Otherwise a segment that crosses an earlier one is left "
     "out");
+  app.add_flag_callback("--pass-segments", Set(arguments, &vtkDelaunayFlipPoints::PassSegmentsOn),
+    "Also write the edges that segments have become, as lines. The cell array SegmentIds has the "
+    "number of the segment's line or ring in its files: first lines, then rings of --outline and "
+    "of --holes. The point array SegmentIds has it for points that refinement puts there. -1: "
+    "none");
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
   AddValue(app, "--alpha", Set(arguments, &vtkDelaunayFlipPoints::SetAlpha), "RADIUS", length,
     "Remove triangles whose circumcircle has a larger radius; 0: none [0]");
@@ -432,6 +437,7 @@ void RelateOptions(CLI::App& app)
   CLI::Option* const heightsAt = app.get_option("--heights-at");
   raster->needs(fromPoints)->excludes(heightsAt, app.get_option("--projection"));
   heightsAt->needs(fromPoints)->excludes(app.get_option("--projection"));
+  app.get_option("--pass-segments")->excludes(raster, heightsAt);
   app.get_option("--extent")->needs(raster);
   app.get_option("--crs")->needs(raster);
   fromPoints->excludes("--geometry", "--criterion", "--feature-angle", "--max-deviation",

@@ -371,8 +371,10 @@ SegmentList::SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPol
     FillsData(source.FillsData)
 {
   const vtkIdType count = given->GetNumberOfPoints();
+  this->FirstNumber = source.Others ? source.Others->GetNumberOfCells() : 0;
   this->AddCells(
     given->GetLines(), { "line, cell", given->GetNumberOfVerts(), count }, {}, CellKind::Line);
+  this->FirstNumber = 0;
   this->FirstOther = this->Ends.size();
   if (!source.Others)
   {
@@ -461,11 +463,11 @@ void SegmentList::AddCells(
       {
         path.push_back(path.front());
       }
-      this->AddPath(path, isRing, static_cast<std::int32_t>(check.FirstCell + cell));
+      this->AddPath(path, isRing, check.FirstCell + cell);
     });
 }
 
-void SegmentList::AddPath(const std::vector<vtkIdType>& path, bool isRing, std::int32_t cell)
+void SegmentList::AddPath(const std::vector<vtkIdType>& path, bool isRing, vtkIdType cell)
 {
   constexpr std::int32_t NoRing = -1;
   for (std::size_t i = 1; i < path.size(); ++i)
@@ -473,7 +475,8 @@ void SegmentList::AddPath(const std::vector<vtkIdType>& path, bool isRing, std::
     if (path[i - 1] != path[i] || isRing)
     {
       this->Ends.insert(this->Ends.end(), { path[i - 1], path[i] });
-      this->Rings.push_back(isRing ? cell : NoRing);
+      this->Rings.push_back(isRing ? static_cast<std::int32_t>(cell) : NoRing);
+      this->Cells.push_back(this->FirstNumber + cell);
     }
   }
 }

@@ -151,6 +151,9 @@ public:
 
   std::vector<std::int64_t> Ends; ///< Pairs of ids.
   std::vector<std::int32_t> Rings; ///< One number per segment.
+  /// One number per segment: the id of its cell. Cells of the first input are numbered after all
+  /// cells of the second one.
+  std::vector<vtkIdType> Cells;
   Defect ShortArrays; ///< Point arrays of the second input that are left out.
 
 private:
@@ -165,7 +168,7 @@ private:
   void AddCells(vtkCellArray* cells, const PointIdCheck& check, const std::vector<vtkIdType>& ids,
     CellKind kind);
   /// Adds the segments along a path. The number of a ring is that of its cell.
-  void AddPath(const std::vector<vtkIdType>& path, bool isRing, std::int32_t cell);
+  void AddPath(const std::vector<vtkIdType>& path, bool isRing, vtkIdType cell);
   /// Whether a line of three or more points ends at the place where it begins.
   bool IsClosed(const std::vector<vtkIdType>& path) const;
   /// Adds the points of the segments that are new. @returns the id of each point of the segments.
@@ -175,6 +178,7 @@ private:
   vtkPolyData* Given;
   vtkPolyData* Points;
   bool FillsData;
+  vtkIdType FirstNumber = 0; ///< What is added to cell ids.
   std::size_t FirstOther = 0; ///< The index in Ends at which those of the second input begin.
 };
 

@@ -8,6 +8,7 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellData.h"
+#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkPlane.h"
@@ -65,7 +66,7 @@ bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& 
   const auto tie = [](const TriangulationRequest& r)
   {
     return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
-      r.FirstHole, r.Heights, r.SizeArray, r.Regions, r.Options);
+      r.PassesSegments, r.FirstHole, r.Heights, r.SizeArray, r.Regions, r.Options);
   };
   return tie(a) == tie(b);
 }
@@ -144,6 +145,8 @@ private:
   Defect DescribeFlatPoints() const;
   PlaneArray Project();
   void AppendAdded(vtkPolyData* output) const;
+  void StoreSegments(vtkPolyData* output) const;
+  void StoreRegions(vtkPolyData* output) const;
 
   TriangulationRequest Asked; ///< Its meshes may be gone.
   Stamps StampedPoints;
@@ -513,15 +516,60 @@ bool TriangulationRun::Store(vtkPolyData* output) const
   }
   FillTriangles(*this->Session, triangles);
   output->SetPolys(triangles);
+  if (this->Asked.PassesSegments)
+  {
+    this->StoreSegments(output);
+  }
   if (!this->Regions.empty())
   {
-    vtkNew<vtkIntArray> labels;
-    labels->SetName("Region");
-    labels->SetNumberOfValues(triangles->GetNumberOfCells());
-    this->Session->StoreRegions(labels->GetPointer(0));
-    output->GetCellData()->AddArray(labels);
+    this->StoreRegions(output);
   }
   return true;
+}
+
+/// Stores the edges that segments have become, as lines, and the ids of their cells.
+void TriangulationRun::StoreSegments(vtkPolyData* output) const
+{
+  const std::vector<std::int64_t> ends = this->Session->ListSegmentEdges();
+  const std::vector<std::int64_t> segments = this->Session->ListSegmentsOfEdges();
+  const auto count = static_cast<vtkIdType>(segments.size());
+  const auto make = [](vtkIdType size)
+  {
+    auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+    ids->SetName("SegmentIds");
+    ids->SetNumberOfValues(size);
+    ids->FillValue(-1);
+    return ids;
+  };
+  const auto ofCells = make(count + output->GetNumberOfPolys());
+  vtkNew<vtkCellArray> lines;
+  lines->AllocateExact(count, 2 * count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    lines->InsertNextCell({ vtkIdType(ends[2 * i]), vtkIdType(ends[2 * i + 1]) });
+    ofCells->SetValue(i, this->Segments.Cells[segments[i]]);
+  }
+  output->SetLines(lines);
+  output->GetCellData()->AddArray(ofCells);
+  const auto ofPoints = make(output->GetNumberOfPoints());
+  vtkIdType id = this->Points->GetNumberOfPoints();
+  for (const AddedPoint& point : this->Session->GetAddedPoints())
+  {
+    ofPoints->SetValue(id, point.Segment < 0 ? -1 : this->Segments.Cells[point.Segment]);
+    ++id;
+  }
+  output->GetPointData()->AddArray(ofPoints);
+}
+
+/// Stores the labels of the triangles; lines have none.
+void TriangulationRun::StoreRegions(vtkPolyData* output) const
+{
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Region");
+  labels->SetNumberOfValues(output->GetNumberOfCells());
+  labels->FillValue(0);
+  this->Session->StoreRegions(labels->GetPointer(output->GetNumberOfLines()));
+  output->GetCellData()->AddArray(labels);
 }
 
 /// Appends the points where segments cross, and those of refinement, to an output.

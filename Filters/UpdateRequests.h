@@ -60,6 +60,7 @@ struct TriangulationRequest : UpdateRequest
   bool FitsPlane = false; ///< Points are projected to the plane that fits them best.
   bool LinesAsSegments = false;
   bool ClosedLinesAsRings = true;
+  bool PassesSegments = false; ///< The output has the edges along segments, as lines.
   vtkIdType FirstHole = -1;
   HeightsKind Heights = HeightsKind::Auto; ///< In a projection Auto is Own.
   /// Points that only the second input has get point data of the first one, whatever their heights.

@@ -411,6 +411,7 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   TriangulationRequest request = this->MakeRequest(given);
   request.Input = points;
   request.Others = segments;
+  request.PassesSegments = false; // an array of numbers of segments is nothing to interpolate
   request.FillsData = true; // zeros of points of segments would be seen
   if (elevation.empty() && request.Heights == HeightsKind::Auto)
   {

@@ -37,8 +37,8 @@
  * no memory for their coordinates.
  *
  * The triangulation is kept for the next update, also in memory of a GPU. It is made again only if
- * the source, the segments or an option that decides it has changed. LiveUpdate has no effect. An
- * aborted update gives the first input without new arrays.
+ * the source, the segments or an option that decides it has changed. LiveUpdate and PassSegments
+ * have no effect. An aborted update gives the first input without new arrays.
  *
  * Composite first input: every block has values of the source; if the source or the segments are
  * composite, of their blocks at the same place. Blocks that are no datasets pass unchanged, with a

@@ -137,6 +137,7 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   request.FitsPlane = this->Projection == PROJECTION_BEST_FITTING_PLANE;
   request.LinesAsSegments = this->LinesAsSegments;
   request.ClosedLinesAsRings = this->ClosedLinesAsRings;
+  request.PassesSegments = this->PassSegments;
   request.FirstHole = this->FirstHole;
   request.Heights = static_cast<HeightsKind>(this->SegmentHeights);
   request.SizeArray = this->SizeArray;
@@ -204,7 +205,11 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   }
   this->Runs->Update(request, *this->Report, output);
   output->SetVerts(nullptr);
-  output->SetLines(nullptr);
+  const bool areLinesGiven = output->GetLines() == points->GetLines(); // after an abort
+  if (areLinesGiven)
+  {
+    output->SetLines(nullptr);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -247,4 +252,5 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SegmentHeights: " << this->SegmentHeights << "\n";
   os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";
   os << indent << "ClosedLinesAsRings: " << this->ClosedLinesAsRings << "\n";
+  os << indent << "PassSegments: " << this->PassSegments << "\n";
 }

@@ -26,8 +26,9 @@
  * those of the second input with their z and point data; an array that only one input has is 0 or
  * empty for the points of the other. Then come those where segments cross, and those of refinement
  * (MinimumAngle, MaximumArea, MaximumEdge, SizeArray, AddRegion). Global point ids become
- * pedigree ids if points are added, since they are no longer unique. Port 1: the table of
- * iterations, as of vtkDelaunayFlip.
+ * pedigree ids if points are added, since they are no longer unique. With PassSegments the output
+ * also has the edges of the segments, as lines. Port 1: the table of iterations, as of
+ * vtkDelaunayFlip.
  *
  * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each. Their
  * names begin with "DelaunayFlip:", too: UsedPoints, PointsNotFinite, RepeatedPoints, PointsTooNear
@@ -292,6 +293,20 @@ public:
 
   ///@{
   /**
+   * Whether the output has the edges that segments have become, each once, as lines before the
+   * triangles. Then its cell array "SegmentIds" has, for each line, the id of the cell of the
+   * second input along which it runs (of several, the first one), and -1 for each triangle. Its
+   * point array "SegmentIds" has the id of the cell on which refinement has put each point, and -1
+   * for all other points. With LinesAsSegments, lines of the first input have the number of cells
+   * of the second input plus their own cell id. Default off.
+   */
+  vtkSetMacro(PassSegments, bool);
+  vtkGetMacro(PassSegments, bool);
+  vtkBooleanMacro(PassSegments, bool);
+  ///@}
+
+  ///@{
+  /**
    * The number of edges that segments have become in the last update, and of segments that were
    * refused, summed over blocks. The field data have all counts.
    */
@@ -351,6 +366,7 @@ protected:
   int SegmentHeights = SEGMENT_HEIGHTS_AUTO;
   bool LinesAsSegments = false;
   bool ClosedLinesAsRings = true;
+  bool PassSegments = false;
 
 private:
   vtkDelaunayFlipPoints(const vtkDelaunayFlipPoints&) = delete;

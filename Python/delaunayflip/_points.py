@@ -94,6 +94,13 @@ class Triangulation:
     _used: Optional[Array] = dataclasses.field(repr=False)  # None: each point is used
     #: Arguments and keywords, and the points that were inserted together.
     _made_from: Tuple[Any, Any, Tuple[Array, ...]] = dataclasses.field(repr=False)
+    _added_segments: Array = dataclasses.field(repr=False)  # Of the points that come last.
+
+    @functools.cached_property
+    def point_segments(self) -> Array:
+        """(n,) int64: the segment on which refinement has put each point; -1: none."""
+        others = numpy.full(len(self.points) - len(self._added_segments), -1)
+        return numpy.concatenate([others, self._added_segments])
 
     @functools.cached_property
     def used_points(self) -> Array:
@@ -546,18 +553,19 @@ class Input:
         if self.struct.number_of_regions:
             _library.call("store_regions", handle, address(regions))
         used = self._find_used_points(handle, report)
-        points = self.points
+        points, added = self.points, numpy.empty(0, dtype=numpy.int64)
         if report.defects:
             report = dataclasses.replace(report, defects=self._describe_defects(handle))
         report = self._report_flat_points(report, triangles)
         if self._is_nothing_left(report, triangles):
             self.trouble = [report.defects]
         if report.crossings + report.refinement_points:
-            points = self._append_added(handle, report.crossings + report.refinement_points)
+            points, added = self._append_added(handle, report.crossings + report.refinement_points)
             report = dataclasses.replace(report, points=len(points))
         iterations = _report.read_iterations(handle, report)
         return Triangulation(
-            points, triangles, neighbors, edges, segments, regions, iterations, report, used, made_from)
+            points, triangles, neighbors, edges, segments, regions, iterations, report, used, made_from,
+            added)
 
     def _is_nothing_left(self, report, triangles):
         """Whether triangles are removed, and none is left that has one of the caller's points."""
@@ -581,17 +589,18 @@ class Input:
         return used
 
     def _append_added(self, handle, count):
-        """The points, with those that were made behind them."""
+        """The points, with those that were made behind them, and the segments of these."""
         points = _arrays.to_host(self.points)
         first = len(points)
         places, weights = numpy.empty((count, 2)), numpy.empty((count, 3))
-        ids = numpy.empty((count, 3), dtype=numpy.int64)
-        _library.call("store_added_weights", handle, address(places), address(ids), address(weights), 0)
+        ids, segments = numpy.empty((count, 3), dtype=numpy.int64), numpy.empty(count, dtype=numpy.int64)
+        _library.call("store_added_weights", handle, address(places), address(ids), address(weights),
+                      address(segments))
         points = numpy.concatenate([points, numpy.zeros((count, points.shape[1]), points.dtype)])
         points[first:, :2] = places
         self.added = ids, weights
         self.fill_added(points[:, 2:], first)
-        return points
+        return points, segments
 
     def fill_added(self, values, first):
         """Writes values of added points, from row `first` on: those of others, each times its weight. Some

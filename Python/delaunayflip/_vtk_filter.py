@@ -549,7 +549,8 @@ class vtkDelaunayFlipPoints(Filter):
         options = self._get_options("backend", *POINT_OPTIONS)
         cloud = Cloud(
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
-            closed_lines_as_rings=self.closed_lines_as_rings, ring_rule=RING_RULES[self.ring_rule],
+            closed_lines_as_rings=self.closed_lines_as_rings, pass_segments=self.pass_segments and not keeps,
+            ring_rule=RING_RULES[self.ring_rule],
             heights=heights, fills_data=keeps, size_array=self.size_array,
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True

@@ -372,9 +372,9 @@ class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
     def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
-                 first_hole=-1, heights=None, fills_data=False, size_array="", backend=None, **rings):
+                 pass_segments=False, first_hole=-1, heights=None, fills_data=False, size_array="", backend=None, **rings):
         """`others`: the second input of the filter, or pairs of point ids. `heights`: SegmentHeights.
-        `fills_data`: whether added points get data whatever their heights. `size_array`: SizeArray.
+        `pass_segments`: whether the mesh gets the edges along segments. `fills_data`: whether added points get data whatever their heights. `size_array`: SizeArray.
         `backend`: keywords that say where data are found. `rings`: outline, holes, hole_seeds and
         ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data
@@ -384,8 +384,13 @@ class Cloud(Input):
             mesh.SetVerts(data.GetVerts())  # so that lines have their cell ids
             mesh.SetLines(data.GetLines())
         own = self.vtk.read(mesh)
-        self._own, self._sources, self._pairs, self._numbers = own.points, [], [], []
-        self._others = others
+        self._own, self._sources, self._pairs, self._numbers, self._cells = own.points, [], [], [], []
+        self._others, self._passes_segments = others, pass_segments
+        if hasattr(others, "GetPolys"):
+            self._first_own = others.GetNumberOfCells()
+        else:
+            self._first_own = 0 if others is None else len(others)
+        self._first_ring = self._first_own + mesh.GetNumberOfCells()
         self._add_cells(own.read("Lines", "line, cell"), numpy.arange(len(own.points)), False)
         if hasattr(others, "GetPolys"):
             theirs = self.vtk.read(others)
@@ -395,6 +400,8 @@ class Cloud(Input):
         elif others is not None:
             self._pairs.append(_arrays.as_ids("segments", others, 2))
             self._numbers.append(numpy.full(len(self._pairs[-1]), -1))
+            self._cells.append(numpy.arange(len(self._pairs[-1])))
+        self._cells[0] += self._first_own
         super().__init__(self._own, numpy.concatenate(self._pairs),
                          ring_numbers=numpy.concatenate(self._numbers), **rings)
         if first_hole >= 0:
@@ -475,11 +482,13 @@ class Cloud(Input):
                 is_ring[some] = ((first == last) | (self._own[first] == self._own[last]).all(axis=1)) & (
                     cells.sizes[some] > 2)
         pairs = ids[join_corners(cells, returns)]
-        numbers = numpy.where(is_ring, cells.first + numpy.arange(cells.count), -1)
-        numbers = numpy.repeat(numbers, numpy.maximum(cells.sizes - ~returns, 0))
+        ids_of_cells = cells.first + numpy.arange(cells.count)
+        counts = numpy.maximum(cells.sizes - ~returns, 0)
+        numbers = numpy.repeat(numpy.where(is_ring, ids_of_cells, -1), counts)
         kept = (pairs[:, 0] != pairs[:, 1]) | (numbers >= 0)
         self._pairs.append(pairs[kept])
         self._numbers.append(numbers[kept])
+        self._cells.append(numpy.repeat(ids_of_cells, counts)[kept])
 
     def _add_points(self, others):
         """The ids of the points of the segments; those at new places are added."""
@@ -509,8 +518,13 @@ class Cloud(Input):
             points.SetData(vtk.support.numpy_to_vtk(result.points, deep=True))
             output.SetPoints(points)
             self._extend_data(output.GetPointData(), count)
+        lines = numpy.empty(0, dtype=numpy.int32)
+        if self._passes_segments:
+            self._write_segments(result, output)
+            lines = numpy.zeros(len(result.segments), dtype=numpy.int32)
         if self.struct.number_of_regions:
-            vtk.add_arrays(output.GetCellData(), "", [("Region", result.regions)])
+            regions = numpy.concatenate([lines, result.regions])
+            vtk.add_arrays(output.GetCellData(), "", [("Region", regions)])
         totals = Totals.of_run(report, result.iterations)
         vtk.add_arrays(output.GetFieldData(), FIELD_PREFIX,
                        [*totals.list_numbers(POINT_NUMBERS), *totals.list_fields()])
@@ -521,6 +535,20 @@ class Cloud(Input):
             texts += _describe_short(self._others.GetPointData(), self._others.GetNumberOfPoints(),
                                      "point", "left out", " of the second input")
         return "; ".join(texts)
+
+    def _write_segments(self, result, output):
+        """Writes the edges that segments have become, as lines, and the ids of their cells. Rings that are
+        no cells have the next numbers."""
+        given = sum(map(len, self._cells))
+        first_ring = self.all_rings[:given].max(initial=-1) + 1
+        ids = numpy.concatenate([*self._cells, self._first_ring + self.all_rings[given:] - first_ring, [-1]])
+        lines, ends = self.vtk.make_cells(numpy.full(len(result.segments), 2), is_wide=True)
+        ends[:] = result.segments.ravel()
+        output.SetLines(lines)
+        triangles = numpy.full(len(result.triangles), -1)
+        of_cells = numpy.concatenate([ids[result.segment_numbers], triangles])
+        self.vtk.add_arrays(output.GetCellData(), "", [("SegmentIds", of_cells)])
+        self.vtk.add_arrays(output.GetPointData(), "", [("SegmentIds", ids[result.point_segments])])
 
     def _as_doubles(self, data):
         """A copy with arrays of doubles for those of integers, so that what is interpolated is not

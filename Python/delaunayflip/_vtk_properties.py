@@ -79,6 +79,7 @@ POINT_PROPERTIES = (
     *make_properties(triangulate, POINT_OPTIONS, POINT_RANGES),
     Property("LinesAsSegments", False),
     Property("ClosedLinesAsRings", True),
+    Property("PassSegments", False),
     Property("RingRule", 0, 0, 2, ("EvenOdd", "NonZero", "Orientation")),
     Property("FirstHole", -1, -1, VTK_ID_MAX),
     Property("SegmentHeights", 0, 0, 2, ("Auto", "Survey", "Own")),

@@ -107,7 +107,7 @@ def triangulate(
     outline: "typing.Union[None, pyvista.PolyData, Rings]" = None,
     holes: "typing.Union[None, pyvista.PolyData, Rings]" = None,
     hole_seeds: "typing.Optional[Numbers]" = None, ring_rule: "RingRule" = "evenodd",
-    lines_as_segments: bool = False, closed_lines_as_rings: bool = True,
+    lines_as_segments: bool = False, closed_lines_as_rings: bool = True, pass_segments: bool = False,
     heights: "typing.Optional[Heights]" = None, size: "typing.Union[None, str, Numbers]" = None,
     **options: typing.Any,
 ) -> "pyvista.PolyData":
@@ -124,6 +124,11 @@ def triangulate(
         hole_seeds, ring_rule: As for delaunayflip.triangulate.
         lines_as_segments: Whether the lines of `cloud` become edges, too.
         closed_lines_as_rings: If False, closed lines of the segments are only edges, such as contours.
+        pass_segments: Whether the mesh also gets the edges that segments have become, as lines before the
+            triangles, with two arrays "SegmentIds". That of cells has the id of the cell of `segments`
+            (or its row) along which each line runs, -1 for triangles; that of points has the cell on
+            which refinement has put each point, else -1. Cells of `cloud` are numbered after those of
+            `segments`; rings of outline and holes follow.
         heights: As for delaunayflip.triangulate, for the points of segments and rings. Points that get
             heights of the cloud also get its data, in arrays of numbers that the segments do not have.
         size: As for delaunayflip.triangulate, or the name of a point array. Points that refinement adds
@@ -132,7 +137,7 @@ def triangulate(
             regions, alpha, backend and progress.
 
     Returns:
-        The mesh, with the cell array "Region" if there are regions. Its field data tells what was done,
+        The mesh, with the cell array "Region" if there are regions (0 for lines). Its field data tells what was done,
         e.g. "DelaunayFlip:SegmentEdges".
 
     Raises:
@@ -151,7 +156,7 @@ def triangulate(
     given = _read_cloud(
         cloud, segments, outline, holes, options, heights=heights, hole_seeds=hole_seeds,
         size_array=size_array, ring_rule=ring_rule, lines_as_segments=lines_as_segments,
-        closed_lines_as_rings=closed_lines_as_rings)
+        pass_segments=pass_segments, closed_lines_as_rings=closed_lines_as_rings)
     made = pyvista.PolyData()
     _warn(given.write(_triangulate_arrays(given, **options), made))
     return made

@@ -555,6 +555,17 @@ class Usage(PointTest):
         self.assertEqual(len(points), 6 + added)
         self.assertRegex(result.stdout, rf"refinement +{added:,} points added in \d+ rounds?\n")
         self.assertRegex(result.stdout, r"smallest angle +[\d.]+ degrees \(asked for: 28\)")
+        self.assertEqual((mesh.GetNumberOfLines(), mesh.GetPointData().HasArray("SegmentIds")), (0, 0))
+        marked, _ = self.triangulate("in.vtk", *goals, "--pass-segments", "--region", "1,1,7")
+        ids = marked.GetCellData().GetArray("SegmentIds")
+        for line in range(marked.GetNumberOfLines()):
+            ends = [points_of(marked)[marked.GetCell(line).GetPointId(k)] for k in range(2)]
+            self.assertEqual(ids.GetValue(line), 0 if all(x == 4 for x, _, _ in ends) else 1)
+            self.assertEqual(marked.GetCellData().GetArray("Region").GetValue(line), 0)
+        self.assertEqual(ids.GetValue(marked.GetNumberOfLines()), -1)
+        on_wall = [marked.GetPointData().GetArray("SegmentIds").GetValue(i) == 0 and x != 4
+                   for i, (x, _, _) in enumerate(points_of(marked))]
+        self.assertFalse(any(on_wall))
         mesh, _ = self.triangulate("in.vtk", "--size-array", "depth")
         points = points_of(mesh)
         for ids in triangles_of(mesh):

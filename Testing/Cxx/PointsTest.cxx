@@ -12,6 +12,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkElevationFilter.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkPartitionedDataSet.h"
@@ -272,9 +273,57 @@ TEST(FromPoints, Refinement)
   filter->AddRegion(5.0, 5.0, 3, 0.01);
   filter->RemoveAllRegions();
   EXPECT_EQ(RunCleanly(filter)->GetCellData()->GetNumberOfArrays(), 0);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfLines(), 0);
   filter->SetPointLimit(500);
   ExpectHolds(RunToWarning(filter), "PointLimit allows no more");
   EXPECT_LE(filter->GetOutput()->GetNumberOfPoints(), 500);
+}
+
+//------------------------------------------------------------------------------
+/// Lines of the second input have their cell ids, those of the first one follow.
+TEST(FromPoints, SegmentsArePassed)
+{
+  const auto cloud =
+    MakeLines({ { 0, 0, 0 }, { 8, 0, 0 }, { 8, 8, 0 }, { 0, 8, 0 } }, { { 0, 1 } });
+  PointsFilter filter(cloud);
+  filter->LinesAsSegmentsOn();
+  filter->PassSegmentsOn();
+  const auto wall =
+    MakeLines({ { 2, 1, 0 }, { 2, 7, 0 }, { 6, 1, 0 }, { 6, 7, 0 } }, { { 0, 1 }, { 2, 3 } });
+  filter->SetSegmentsData(wall);
+  filter->SetMaximumEdge(1.0);
+  filter->AddRegion(4.0, 4.0, 3, 0.0);
+  const auto output = RunCleanly(filter);
+  auto* const ofCells = vtkIdTypeArray::SafeDownCast(output->GetCellData()->GetArray("SegmentIds"));
+  auto* const ofPoints =
+    vtkIdTypeArray::SafeDownCast(output->GetPointData()->GetArray("SegmentIds"));
+  ASSERT_TRUE(ofCells && ofPoints);
+  ASSERT_EQ(output->GetNumberOfLines(), filter->GetNumberOfSegmentEdges());
+  EXPECT_EQ(ofCells->GetNumberOfValues(), output->GetNumberOfCells());
+  EXPECT_EQ(ofPoints->GetNumberOfValues(), output->GetNumberOfPoints());
+  const auto find = [&](vtkIdType point) -> vtkIdType
+  {
+    const double* const place = output->GetPoint(point);
+    const vtkIdType onWall = place[0] == 2.0 ? 0 : 1;
+    return place[1] == 0.0 ? 2 : onWall;
+  };
+  vtkIdType inner = 0;
+  for (vtkIdType cell = 0; cell < output->GetNumberOfCells(); ++cell)
+  {
+    const bool isLine = cell < output->GetNumberOfLines();
+    const vtkIdType point = output->GetCell(cell)->GetPointId(0);
+    EXPECT_EQ(ofCells->GetValue(cell), isLine ? find(point) : -1);
+    EXPECT_EQ(output->GetCellData()->GetArray("Region")->GetTuple1(cell), isLine ? 0 : 3);
+  }
+  for (vtkIdType point = 0; point < output->GetNumberOfPoints(); ++point)
+  {
+    const vtkIdType segment = ofPoints->GetValue(point);
+    inner += segment >= 0 ? 1 : 0;
+    EXPECT_TRUE(segment < 0 || (point >= 8 && segment == find(point)));
+  }
+  EXPECT_GE(inner, 7 + 5 + 5);
+  filter->PassSegmentsOff();
+  EXPECT_EQ(RunCleanly(filter)->GetNumberOfLines(), 0);
 }
 
 //------------------------------------------------------------------------------

@@ -357,6 +357,10 @@ class Refine(unittest.TestCase):
             self.assertAlmostEqual(along.sum(), length, 9)
             share = numpy.linalg.norm(pieces[:, :, :2] - given[start, :2], axis=2)[..., None] / length
             numpy.testing.assert_allclose(pieces, (1 - share) * given[start] + share * given[end], atol=1e-9)
+            inner = numpy.setdiff1d(mesh.segments[mesh.segment_numbers == number], [start, end])
+            numpy.testing.assert_array_equal(numpy.flatnonzero(mesh.point_segments == number), inner)
+        self.assertGreater(numpy.count_nonzero(mesh.point_segments >= 0), 5)
+        self.assertEqual((len(mesh.point_segments), mesh.point_segments[:9].tolist()), (len(mesh.points), 9 * [-1]))
 
     def test_heights_and_values(self):
         points = numpy.random.default_rng(3).random((60, 3)) * 10

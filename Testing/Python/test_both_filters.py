@@ -258,7 +258,7 @@ class Shown(unittest.TestCase):
         for kind in (PythonFilter, PythonPoints, PythonInterpolator):
             shown = {element.get("name"): element for element in proxies[kind.name]}
             for item in kind.properties:
-                if kind is PythonInterpolator and item.name in ("LiveUpdate", "IterationsPerUpdate", "Paused"):
+                if kind is PythonInterpolator and item.name in ("LiveUpdate", "IterationsPerUpdate", "Paused", "PassSegments"):
                     continue
                 self.expect_shown(item, shown[item.name])
 
@@ -644,15 +644,19 @@ class SamePoints(Pair, unittest.TestCase):
                 points.SetMinimumAngle(22.0)
                 points.SetMaximumArea(8.0)
                 points.SetPointLimit(5000)
+                points.SetPassSegments(True)
                 points.AddRegion(9, 9, 7, 2.0)
                 points.AddRegion(1, 1, -3, 0.0)
 
             told = self.expect_same(cloud, prepare)
             self.assertEqual(told["errors"], [])
             self.assertIn("Region", str(told["meshes"]))
+            self.assertIn("SegmentIds", str(told["meshes"]))
             self.assertIn("RefinementPoints", str(told["meshes"]))
             self.expect_same(cloud, lambda points: (prepare(points), points.RemoveAllRegions(),
                                                     points.KeepBoundaryOn(), points.SetMaximumEdge(4.0)))
+            cloud.SetVerts(make_cells([(0,), (1,)])), cloud.SetLines(make_cells([(5, 9), (2, 3, 2)]))
+            self.expect_same(cloud, lambda points: (prepare(points), points.LinesAsSegmentsOn()))
             told = self.expect_same(cloud, lambda points: points.AddRegion(1, 1, 1.5, 0.0))
             self.assertIn("the label of region 0 must be an integer", told["errors"][0])
             told = self.expect_same(cloud, lambda points: (prepare(points), points.SetSizeArray("size")))

@@ -247,6 +247,23 @@ class PyVista(unittest.TestCase):
         numpy.testing.assert_array_equal(made["Region"], numpy.where(is_left, 7, -2))
         self.assertGreaterEqual(delaunayflip.smallest_angles(made.points, made.regular_faces,
                                                              geometry="planar-xy").min(), 28)
+        ring = [[0.0, 0], [10, 0], [10, 10], [0, 10]]
+        for segments in (wall, [[0, 1], [1, 2]]):
+            marked = cloud.delaunay.triangulate(segments, outline=ring, pass_segments=True, minimum_angle=28)
+            lines, ids = marked.lines.reshape(-1, 3)[:, 1:], marked.cell_data["SegmentIds"]
+            places = marked.points[lines, 0]
+            if segments is wall:
+                wanted = numpy.where((places == 4).all(axis=1), 0, 1)
+            else:  # rows of pairs; the ring follows
+                wanted = numpy.where((marked.points[lines, 1] == 0).all(axis=1), 0,
+                                     numpy.where((places == 10).all(axis=1), 1, 2))
+            numpy.testing.assert_array_equal(ids[:len(lines)], wanted)
+            self.assertTrue((ids[len(lines):] == -1).all())
+            on_points = marked.point_data["SegmentIds"]
+            inner = numpy.flatnonzero(on_points >= 0)
+            self.assertGreater(len(inner), 0)
+            for point in inner:
+                self.assertEqual(set(wanted[(lines == point).any(axis=1)]), {on_points[point]})
         same = cloud.delaunay.triangulate(wall, size=[1.0, 3, 3, 1], **options)
         numpy.testing.assert_array_equal(same.faces, made.faces)
         with self.assertRaisesRegex(delaunayflip.InvalidOptions, 'no point array of numbers named "size"'):
