@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_BACKENDMESH_H
+#define DELAUNAYFLIP_BACKENDMESH_H
+
+#include "Array.h"
+#include "EdgeGuard.h"
+#include "EdgeMesh.h"
+#include "EdgeMeshBuilder.h"
+#include "FlipLoopChoice.h"
+#include "GeometryChoice.h"
+#include "HiddenEdges.h"
+#include "LoadedMesh.h"
+#include "MeshSurvey.h"
+#include "PlaceAsker.h"
+#include "PlaneFrame.h"
+#include "SegmentInsertion.h"
+#include "SmallestAngle.h"
+#include "SpatialOrder.h"
+#include "StoreSteps.h"
+#include "SurfaceAngles.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A mesh in the memory of a backend, and the loop that flips its edges.
+template <typename BackendT>
+class BackendMesh : public LoadedMesh
+{
+public:
+  std::unique_ptr<DeviceScope> MakeCurrent() const override { return this->Backend.MakeCurrent(); }
+
+  FlipLoop& GetLoop() override { return *this->Loop; }
+
+  const FlipReport& GetInputReport() const override { return this->Report; }
+
+  void StoreTriangles(const MutableTriangleArray& triangles) const override
+  {
+    this->Backend.StoreTriangles(triangles, this->GetStoreStep(), this->IsFromPoints);
+  }
+
+  void StoreFlipCounts(std::int32_t* counts) const override
+  {
+    this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts, this->GetFlipCountStep());
+  }
+
+  void StoreNeighbors(std::int32_t* neighbors) const override
+  {
+    this->Backend.StoreValues(3 * this->Mesh.NumberOfTriangles, neighbors, this->GetNeighborStep());
+  }
+
+  void StoreUsedPoints(std::int64_t* ids) const override
+  {
+    const std::int64_t count = this->Report.Points;
+    std::vector<VertexId> used(this->UsedPoint.Size());
+    this->Backend.Download(
+      this->UsedPoint.Data(), static_cast<std::int64_t>(used.size()), used.data());
+    constexpr std::int64_t Piece = 65536;
+    this->Backend.ForTasks((count + Piece - 1) / Piece,
+      [&](std::int64_t piece)
+      {
+        for (std::int64_t i = piece * Piece; i < std::min(count, (piece + 1) * Piece); ++i)
+        {
+          ids[i] = i;
+          if (!used.empty())
+          {
+            ids[i] = used[i] == NoVertex ? -1 : std::int64_t(used[i]);
+          }
+        }
+      });
+  }
+
+  void InsertSegments(
+    const std::vector<std::uint32_t>& ends, const SegmentObserver& onBatch) override
+  {
+    this->RequireStates();
+    const Array<VertexId> placeOf = this->ListPlaces();
+    if (onBatch({})) // what precedes the first segments takes long, too
+    {
+      SegmentInsertion<BackendT>(this->Mesh, this->Places, placeOf.Data(), this->Backend)
+        .Insert(ends, onBatch);
+    }
+    this->Loop->Restart();
+  }
+
+  AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) override
+  {
+    this->RequireStates();
+    AskResult result = this->Asker.Answer(this->ViewHere(), asked, this->Backend, observer);
+    if (result == AskResult::Undecided && !asked.Query.OnDevice)
+    {
+      const ThreadBackend& threads = this->Backend.GetThreads();
+      this->ViewOnHost([&](const PointMeshView& view)
+        { result = PlaceAsker<ThreadBackend>().Answer(view, asked, threads, observer); });
+    }
+    return result;
+  }
+
+  void ViewOnHost(const HostView& use) override
+  {
+    PointMeshView view = this->ViewHere();
+    if constexpr (BackendT::IsOnHost)
+    {
+      use(view);
+      return;
+    }
+    EdgeMesh& mesh = this->Mesh;
+    const auto fetch = [&](const auto* values, std::int64_t size)
+    {
+      std::vector<std::remove_const_t<std::remove_pointer_t<decltype(values)>>> copy(size);
+      this->Backend.Download(values, size, copy.data());
+      return copy;
+    };
+    this->RequireStates();
+    auto triangles = fetch(mesh.Triangles.Data(), mesh.NumberOfTriangles);
+    auto corners = fetch(mesh.CornerOfHalfEdge.Data(), 2 * mesh.NumberOfEdges);
+    auto states = fetch(mesh.States.Data(), mesh.NumberOfEdges);
+    const auto ids = fetch(this->Order.VertexOfRank.Data(), this->Points.Count);
+    view.Edges = { triangles.data(), corners.data(), states.data() };
+    view.Ids = ids.data();
+    const auto useWith = [&](const auto& places)
+    {
+      view.Places = PlaneArray(places.data(), this->Points.Count, 2);
+      use(view);
+    };
+    if (this->Places.Floats)
+    {
+      useWith(fetch(this->Places.Floats, 2 * this->Points.Count));
+    }
+    else
+    {
+      useWith(fetch(this->Places.Doubles, 2 * this->Points.Count));
+    }
+  }
+
+  Defect FindTurnedTriangles() const override
+  {
+    const bool wasHeightField =
+      this->Report.GeometryUsed == GeometryKind::Surface && this->Orientations.AreNearlyUniform();
+    if (!wasHeightField)
+    {
+      return Defect();
+    }
+    return delaunayflip::FindTurnedTriangles(
+      this->Mesh, this->Points, this->Orientations, this->Backend);
+  }
+
+  bool KeepsSliver() override
+  {
+    return KeepsWorstSliver(
+      this->Mesh, this->Points, this->Range, this->Loop->MeasureAngles().Largest, this->Backend);
+  }
+
+  HiddenSums CountHidden() override
+  {
+    return this->Backend.template Sum<HiddenSums>(
+      this->Mesh.NumberOfEdges, HiddenEdgeSurvey{ this->Mesh.View(), this->Points.View() });
+  }
+
+  void Audit() const override { RequireConsistent(this->Mesh, this->Backend); }
+
+  /// Returns the place of each point of a mesh from points, or NoVertex. Public
+  /// because device lambdas require it.
+  Array<VertexId> ListPlaces() const
+  {
+    Array<VertexId> places = this->Backend.template MakeArray<VertexId>(this->Report.Points);
+    VertexId* placeOf = places.Data();
+    const VertexId* ids = this->Order.VertexOfRank.Data();
+    this->Backend.ForEach(this->Points.Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t place)
+      { placeOf[ids[place]] = static_cast<VertexId>(place); });
+    // Repeated points are not the used one, so what is read here is not written.
+    const VertexId* used = this->UsedPoint.Data();
+    this->Backend.ForEach(static_cast<std::int64_t>(this->UsedPoint.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (used[i] == NoVertex)
+        {
+          placeOf[i] = NoVertex;
+        }
+        else if (used[i] != i)
+        {
+          placeOf[i] = placeOf[used[i]];
+        }
+      });
+    return places;
+  }
+
+  /// Makes the states of edges if there are none.
+  void RequireStates()
+  {
+    if (this->Mesh.States.Size() == 0)
+    {
+      MakeStates(this->Mesh, this->Backend);
+      const EdgeMeshView edges = this->Mesh.View();
+      this->Backend.ForEach(this->Mesh.NumberOfEdges,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e)
+        {
+          const bool isFixed = edges.CornerOfHalfEdge[2 * e + 1] == NoCorner;
+          edges.States[e] = isFixed ? EdgeState::Fixed : EdgeState::Good;
+        });
+    }
+  }
+
+protected:
+  const BackendT& GetBackend() const { return this->Backend; }
+  StoreStep GetStoreStep() const { return { this->Mesh.Triangles.Data(), this->Order.View() }; }
+  NeighborStep GetNeighborStep() const
+  {
+    return { this->Mesh.Triangles.Data(), this->Mesh.CornerOfHalfEdge.Data() };
+  }
+  FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
+
+  explicit BackendMesh(BackendT backend)
+    : Backend(std::move(backend))
+  {
+  }
+
+  /// A view of a mesh from points, in the memory of the backend.
+  PointMeshView ViewHere()
+  {
+    PointMeshView view;
+    view.Edges = this->Mesh.View();
+    view.Places = this->Places;
+    view.NumberOfTriangles = this->Mesh.NumberOfTriangles;
+    view.NumberOfEdges = this->Mesh.NumberOfEdges;
+    view.NumberOfPlaces = this->Points.Count;
+    view.Ids = this->Order.VertexOfRank.Data();
+    view.Range = this->Range;
+    return view;
+  }
+
+  template <typename Rule>
+  void MakeLoop(const Rule& rule, EdgeGuard guard = EdgeGuard())
+  {
+    using Type = typename LoopOf<BackendT, Rule>::Type;
+    this->Loop.reset(new Type(this->Mesh, rule, this->Range, std::move(guard), this->Backend));
+  }
+
+  /// Makes a loop without chunks: edges that are added are not in the order of the triangles.
+  template <typename Real>
+  void MakeLoopOfGrown(const Real* coordinates)
+  {
+    EdgeGuard guard;
+    if (this->Frame.NeedsGuard)
+    {
+      guard = EdgeGuard(this->Mesh, this->Points.Count, this->Backend);
+    }
+    const int side = this->Frame.NeedsGuard ? 0 : 1;
+    this->MakeLoop(
+      PlanarRule<Real, 2>{ coordinates, side, this->Frame.IsCanonical, this->FiltersApply },
+      std::move(guard));
+    this->Loop->Restart();
+  }
+
+  BackendT Backend;
+  SpatialOrder Order;
+  EdgeMesh Mesh;
+  PackedPoints Points;
+  CoordinateRange Range = CoordinateRange::Usual;
+  bool FiltersApply = false; ///< Whether coordinates are in the range of the planar filters.
+  bool IsFromPoints = false;
+  /// A view of Points, in a mesh from points, or in the caller's mesh once refinement has begun.
+  PlaneArray Places;
+  PlaneFrame Frame;
+  Array<VertexId> UsedPoint; ///< What MergePlaces returned.
+  PlaceAsker<BackendT> Asker;
+  OrientationSample Orientations;
+  std::unique_ptr<FlipLoop> Loop;
+  FlipReport Report;
+};
+
+}
+
+#endif

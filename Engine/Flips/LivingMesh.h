@@ -1,0 +1,441 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_LIVINGMESH_H
+#define DELAUNAYFLIP_LIVINGMESH_H
+
+#include "BackendMesh.h"
+#include "MeshMotion.h"
+#include "PointGrowth.h"
+#include "Refinement.h"
+
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace delaunayflip
+{
+
+/// A mesh that grows and lives: points are inserted, moved and removed, and triangles are refined.
+template <typename BackendT>
+class LivingMesh : public BackendMesh<BackendT>
+{
+public:
+  std::int64_t InsertPoints(const std::vector<double>& places) override
+  {
+    this->RequireStates();
+    return this->Places.Floats ? this->InsertPoints(places, this->Points.Floats)
+                               : this->InsertPoints(places, this->Points.Doubles);
+  }
+
+  MotionResult RemovePoints(const std::vector<VertexId>& ids) override
+  {
+    const bool canRemove = this->Mesh.NumberOfTriangles > 0 && this->FiltersApply &&
+      this->Report.FromPoints.Repeated == 0;
+    if (!canRemove)
+    {
+      return MotionResult();
+    }
+    this->RequireStates();
+    return this->Places.Floats ? this->RemoveHere(ids, this->Points.Floats)
+                               : this->RemoveHere(ids, this->Points.Doubles);
+  }
+
+  MotionResult MovePoints(const PointInput& targets) override
+  {
+    if (this->Range != CoordinateRange::Usual || this->Mesh.NumberOfTriangles == 0)
+    {
+      return MotionResult();
+    }
+    const bool isLocal = BackendT::IsOnHost || targets.OnDevice;
+    return targets.Points.Floats ? this->MoveTo(targets.Points, targets.Points.Floats, isLocal)
+                                 : this->MoveTo(targets.Points, targets.Points.Doubles, isLocal);
+  }
+
+  void StartRefinement(const RefinementPlan& plan) override
+  {
+    this->RequireStates();
+    if (plan.IsOfCaller && this->Places.Count == 0)
+    {
+      // FixBlocked needs the states of edges, which the loop on a device does not write.
+      if (!BackendT::IsOnHost && this->Frame.NeedsGuard)
+      {
+        throw BackendUnavailable(
+          "a mesh whose triangles overlap, are turned over or meet only at a point is refined by "
+          "threads");
+      }
+      this->MakePlaces();
+    }
+    if (this->Places.Floats)
+    {
+      this->StartRefinement(plan, this->RefinedFloats);
+    }
+    else
+    {
+      this->StartRefinement(plan, this->RefinedDoubles);
+    }
+  }
+
+  std::int64_t Refine() override
+  {
+    return this->Places.Floats ? this->RefineOnce(this->RefinedFloats)
+                               : this->RefineOnce(this->RefinedDoubles);
+  }
+
+  RefinementResult FetchRefinement() override
+  {
+    return this->Places.Floats ? this->FetchRefinement(this->RefinedFloats)
+                               : this->FetchRefinement(this->RefinedDoubles);
+  }
+
+  /// Writes to UsedPoint which points are no longer used. Public because device lambdas require it.
+  void ForgetUsed(const Array<VertexId>& removed)
+  {
+    const bool isNew = this->UsedPoint.Size() == 0;
+    if (isNew)
+    {
+      this->UsedPoint = this->Backend.template MakeArray<VertexId>(this->Report.Points);
+    }
+    VertexId* used = this->UsedPoint.Data();
+    this->Backend.ForEach(isNew ? this->Report.Points : 0,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { used[i] = static_cast<VertexId>(i); });
+    const VertexId* ids = removed.Data();
+    this->Backend.ForEach(static_cast<std::int64_t>(removed.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { used[ids[i]] = NoVertex; });
+  }
+
+  /// Projects the points of the caller's mesh into a plane in which most triangles are
+  /// counter-clockwise. This and the next two functions are public because device lambdas require
+  /// it.
+  void MakePlaces()
+  {
+    this->RequireIds();
+    if (this->Points.IsFloat())
+    {
+      this->MakePlaces(this->Points.Floats);
+    }
+    else
+    {
+      this->MakePlaces(this->Points.Doubles);
+    }
+    this->Points.Components = 2;
+  }
+
+  template <typename Real>
+  void MakePlaces(Array<Real>& coordinates)
+  {
+    const std::int64_t count = this->Points.Count;
+    const PlacementStep step{ this->Points.View(), this->Frame };
+    if (this->Frame.IsMirrored || this->Points.Components == 3)
+    {
+      Array<Real> places = this->Backend.template MakeArray<Real>(2 * count);
+      Real* to = places.Data();
+      this->Backend.ForEach(count,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+        {
+          const PlanePoint place = step.Find(static_cast<VertexId>(i));
+          to[2 * i] = static_cast<Real>(place.U);
+          to[2 * i + 1] = static_cast<Real>(place.V);
+        });
+      coordinates = std::move(places);
+    }
+    this->Places = PlaneArray(static_cast<const Real*>(coordinates.Data()), count, 2);
+    this->template MakeLoopOfGrown<Real>(coordinates.Data());
+  }
+
+  /// Fills the ids of vertices if there are none: the id of each vertex is its number.
+  void RequireIds()
+  {
+    if (this->Order.VertexOfRank.Size() == 0)
+    {
+      this->Order.VertexOfRank = this->Backend.template MakeArray<VertexId>(this->Points.Count);
+      VertexId* ids = this->Order.VertexOfRank.Data();
+      this->Backend.ForEach(this->Points.Count,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ids[i] = static_cast<VertexId>(i); });
+    }
+  }
+
+protected:
+  using BackendMesh<BackendT>::BackendMesh;
+
+private:
+  template <typename Real>
+  std::int64_t InsertPoints(const std::vector<double>& places, Array<Real>& coordinates)
+  {
+    const std::int64_t count = SizeOf(places) / 2;
+    Array<double> placesHere = this->Backend.template MakeArray<double>(2 * count);
+    this->Backend.Upload(places.data(), 2 * count, placesHere.Data());
+    PlaneMesh plane{ this->Mesh.View(), this->Places, true };
+    const PlaceGridView grid =
+      this->Asker.RequireGrid(plane, this->Mesh.NumberOfTriangles, this->Backend);
+    const auto grow = [&](std::int64_t vertices)
+    {
+      Reserve(coordinates, 2 * this->Points.Count, 2 * vertices, this->Backend);
+      Reserve(this->Order.VertexOfRank, this->Points.Count, vertices, this->Backend);
+      return StoreVertex<Real>{ coordinates.Data(), this->Order.VertexOfRank.Data(),
+        placesHere.Data(), this->Report.Points };
+    };
+    PointGrowth<BackendT> growth(placesHere.Data(), count, this->Backend);
+    std::int64_t flips = 0;
+    for (;;)
+    {
+      plane = { this->Mesh.View(), this->Places, true };
+      const std::int64_t added =
+        growth.InsertSome(this->Mesh, plane, this->Points.Count, grid, grow);
+      if (added == 0)
+      {
+        break;
+      }
+      this->Points.Count += added;
+      this->Places = PlaneArray(coordinates.Data(), this->Points.Count, 2);
+      this->template MakeLoopOfGrown<Real>(coordinates.Data());
+      flips += this->Loop->Converge();
+    }
+    this->CountInserted(growth, count);
+    return flips;
+  }
+
+  /// @param values the coordinates of the targets, in the caller's type.
+  template <typename Value>
+  MotionResult MoveTo(PlaneArray targets, const Value* values, bool isLocal)
+  {
+    this->RequireStates();
+    if (!isLocal)
+    {
+      // The array is kept, so that later motions need no new memory.
+      Array<Value>& copy = std::get<Array<Value>>(this->Targets);
+      const std::int64_t numbers = (targets.Count - 1) * targets.Stride + 2;
+      Reserve(copy, 0, numbers, this->Backend);
+      this->Backend.Upload(values, numbers, copy.Data());
+      targets = PlaneArray(copy.Data(), targets.Count, targets.Stride);
+    }
+    this->Asker = PlaceAsker<BackendT>();
+    return this->Places.Floats ? this->MoveHere(targets, this->Points.Floats)
+                               : this->MoveHere(targets, this->Points.Doubles);
+  }
+
+  template <typename Real>
+  MotionResult MoveHere(const PlaneArray& targets, Array<Real>& coordinates)
+  {
+    const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
+      this->Order.VertexOfRank.Data() };
+    const auto settle = [&](bool hasOtherEdges)
+    { return this->Settle(coordinates.Data(), hasOtherEdges); };
+    const MotionResult result =
+      this->Motion.Move(mesh, targets, this->UsedPoint, this->Backend, settle);
+    this->CountGrown();
+    return result;
+  }
+
+  /// Flips until the mesh is Delaunay, after points were moved or removed. @returns the number of
+  /// flips.
+  template <typename Real>
+  std::int64_t Settle(const Real* coordinates, bool hasOtherEdges)
+  {
+    if (hasOtherEdges)
+    {
+      this->template MakeLoopOfGrown<Real>(coordinates);
+    }
+    else
+    {
+      this->Loop->Restart();
+    }
+    return this->Loop->Converge();
+  }
+
+  template <typename Real>
+  MotionResult RemoveHere(const std::vector<VertexId>& ids, Array<Real>& coordinates)
+  {
+    Array<VertexId> removed = this->Backend.template MakeArray<VertexId>(SizeOf(ids));
+    this->Backend.Upload(ids.data(), SizeOf(ids), removed.Data());
+    const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
+      this->Order.VertexOfRank.Data() };
+    const auto settle = [&](bool hasOtherEdges)
+    {
+      this->Points.Count -= SizeOf(ids);
+      this->Places = PlaneArray(coordinates.Data(), this->Points.Count, 2);
+      return this->Settle(coordinates.Data(), hasOtherEdges);
+    };
+    this->Asker = PlaceAsker<BackendT>();
+    const MotionResult result =
+      this->Motion.Remove(mesh, this->Order.VertexOfRank.Data(), removed, this->Backend, settle);
+    if (result.IsThere)
+    {
+      this->ForgetUsed(removed);
+      this->Report.FromPoints.NotFinite += SizeOf(ids);
+      this->CountGrown();
+    }
+    return result;
+  }
+
+  /// A mesh while it is refined.
+  template <typename Real>
+  struct RefinedMesh
+  {
+    GrowingMesh<Real> Grown;
+    std::unique_ptr<Refinement<Real, BackendT>> Rounds;
+    bool IsComplete = false;
+    RefinementResult Result; ///< Valid if IsComplete.
+  };
+
+  template <typename Real>
+  Array<Real>& GetCoordinates()
+  {
+    if constexpr (std::is_same<Real, float>::value)
+    {
+      return this->Points.Floats;
+    }
+    else
+    {
+      return this->Points.Doubles;
+    }
+  }
+
+  template <typename Real>
+  void StartRefinement(const RefinementPlan& plan, RefinedMesh<Real>& refined)
+  {
+    if (refined.Rounds)
+    {
+      return;
+    }
+    this->Loop->Converge(); // because a limit may have ended the iterations
+    refined.Grown = { &this->Mesh, &this->GetCoordinates<Real>(), &this->Order.VertexOfRank,
+      this->Points.Count, this->Report.Points, this->FiltersApply };
+    refined.Rounds =
+      std::make_unique<Refinement<Real, BackendT>>(refined.Grown, plan, this->Backend);
+  }
+
+  template <typename Real>
+  std::int64_t RefineOnce(RefinedMesh<Real>& refined)
+  {
+    std::int64_t added = 0;
+    if (!refined.IsComplete)
+    {
+      added = refined.Rounds->InsertSome(refined.Grown);
+    }
+    if (added == 0)
+    {
+      this->EndRefinement(refined);
+      return 0;
+    }
+    this->Points.Count = refined.Grown.Vertices;
+    const Real* coordinates = this->GetCoordinates<Real>().Data();
+    this->Places = PlaneArray(coordinates, this->Points.Count, 2);
+    this->template MakeLoopOfGrown<Real>(coordinates);
+    this->Loop->Converge();
+    if (this->Frame.NeedsGuard)
+    {
+      refined.Rounds->FixBlocked(refined.Grown);
+    }
+    this->Asker = PlaceAsker<BackendT>();
+    std::vector<VertexId> used(added);
+    std::iota(used.begin(), used.end(), static_cast<VertexId>(this->Report.Points));
+    this->AppendUsed(used);
+    this->CountGrown();
+    return added;
+  }
+
+  /// Fetches the result, and then lets edges flip that were fixed for refinement alone.
+  template <typename Real>
+  void EndRefinement(RefinedMesh<Real>& refined)
+  {
+    if (refined.IsComplete)
+    {
+      return;
+    }
+    refined.Result = refined.Rounds->Fetch(refined.Grown);
+    refined.IsComplete = true;
+    if (refined.Rounds->FreeEdges(refined.Grown) > 0)
+    {
+      this->template MakeLoopOfGrown<Real>(this->GetCoordinates<Real>().Data());
+      this->Loop->Converge();
+    }
+  }
+
+  template <typename Real>
+  RefinementResult FetchRefinement(RefinedMesh<Real>& refined)
+  {
+    RefinementResult result =
+      refined.IsComplete ? refined.Result : refined.Rounds->Fetch(refined.Grown);
+    const bool isOnAxes = !this->IsFromPoints && !this->Frame.Projection.Tilted;
+    if (isOnAxes)
+    {
+      result.Axes[0] = this->Frame.GetAxis(0);
+      result.Axes[1] = this->Frame.GetAxis(1);
+    }
+    return result;
+  }
+
+  /// Adds to UsedPoint what is used at the places of points that come last.
+  void AppendUsed(const std::vector<VertexId>& added)
+  {
+    const auto before = static_cast<std::int64_t>(this->UsedPoint.Size());
+    const std::int64_t points = this->Report.Points + SizeOf(added);
+    if (before > 0)
+    {
+      std::vector<VertexId> used(this->Report.Points);
+      this->Backend.Download(this->UsedPoint.Data(), this->Report.Points, used.data());
+      used.insert(used.end(), added.begin(), added.end());
+      this->UsedPoint = this->Backend.template MakeArray<VertexId>(points);
+      this->Backend.Upload(used.data(), points, this->UsedPoint.Data());
+    }
+    this->Report.Points = points;
+  }
+
+  /// Counts what a mesh has after it has grown.
+  void CountGrown()
+  {
+    FlipReport& report = this->Report;
+    report.Triangles = this->Mesh.NumberOfTriangles;
+    if (!this->IsFromPoints)
+    {
+      return; // because edges inside may be fixed, too
+    }
+    const std::int64_t hullEdges = 2 * this->Mesh.NumberOfEdges - 3 * this->Mesh.NumberOfTriangles;
+    report.Edges.Edges = this->Mesh.NumberOfEdges;
+    report.Edges.Boundary = hullEdges;
+    report.Edges.Fixed = hullEdges;
+    report.EulerCharacteristic = this->Points.Count - report.Edges.Edges + report.Triangles;
+  }
+
+  /// Brings the report and UsedPoint up to date.
+  void CountInserted(const PointGrowth<BackendT>& growth, std::int64_t count)
+  {
+    std::vector<GrowthItem> items(count);
+    this->Backend.Download(growth.GetItems(), count, items.data());
+    FlipReport& report = this->Report;
+    const std::int64_t before = report.Points;
+    std::vector<VertexId> used(this->UsedPoint.Size());
+    this->Backend.Download(
+      this->UsedPoint.Data(), static_cast<std::int64_t>(used.size()), used.data());
+    if (used.empty())
+    {
+      used.resize(before);
+      std::iota(used.begin(), used.end(), VertexId(0));
+    }
+    std::vector<VertexId> ids(this->Points.Count);
+    this->Backend.Download(this->Order.VertexOfRank.Data(), this->Points.Count, ids.data());
+    for (const GrowthItem& item : items)
+    {
+      report.FromPoints.Repeated += item.State == GrowthState::Repeated ? 1 : 0;
+      report.FromPoints.NotFinite += item.State == GrowthState::Outside ? 1 : 0;
+      used.push_back(item.Vertex == NoVertex ? NoVertex : ids[item.Vertex]);
+    }
+    this->UsedPoint = this->Backend.template MakeArray<VertexId>(SizeOf(used));
+    this->Backend.Upload(used.data(), SizeOf(used), this->UsedPoint.Data());
+    report.Points = before + count;
+    this->CountGrown();
+  }
+
+  MeshMotion<BackendT> Motion;
+  std::tuple<Array<float>, Array<double>> Targets; ///< The targets of the last motion, copied.
+  RefinedMesh<float> RefinedFloats; ///< Used if coordinates are floats, else the next one.
+  RefinedMesh<double> RefinedDoubles;
+};
+
+}
+
+#endif
