@@ -203,7 +203,7 @@ inline PointInput ToPointInput(const delaunayflip_points& c, const std::vector<R
 
 /// Calls visit(member, the engine's) for each option of points.
 template <typename Struct, typename Options, typename Visit>
-void ForEachPointOption(Struct& c, Options& options, const Visit& visit)
+void PairPointOptions(Struct& c, Options& options, const Visit& visit)
 {
   visit(c.alpha, options.Alpha);
   visit(c.longest_edge, options.LongestEdge);
@@ -228,7 +228,7 @@ inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptio
   ToEnumeration(c.ring_rule, RingRuleKind::Orientation, "ring_rule");
   ToEnumeration(c.projection, ProjectionKind::OpenSphere, "projection");
   PointOptions all{ options };
-  ForEachPointOption(c, all, CopyOption);
+  PairPointOptions(c, all, CopyOption);
   return all;
 }
 
@@ -274,7 +274,7 @@ inline MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int
 
 /// Calls visit(member, the engine's) for each option, but for the devices, which are a text.
 template <typename Struct, typename Options, typename Visit>
-void ForEachOption(Struct& c, Options& options, const Visit& visit)
+void PairOptions(Struct& c, Options& options, const Visit& visit)
 {
   visit(c.geometry, options.Geometry);
   visit(c.criterion, options.Criterion);
@@ -308,7 +308,7 @@ inline FlipOptions ToOptions(const delaunayflip_options* given)
   ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
   ToEnumeration(c.backend, BackendKind::Threads, "backend");
   FlipOptions options;
-  ForEachOption(c, options, CopyOption);
+  PairOptions(c, options, CopyOption);
   options.Devices = ParseDevices(c.devices ? c.devices : "");
   return options;
 }

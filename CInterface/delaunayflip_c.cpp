@@ -1,6 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#if defined(__GNUC__) // what this header declares is exported, and nothing else
+#pragma GCC visibility push(default)
+#endif
 #include "delaunayflip_c.h"
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
 
 #include "CallerStructs.h"
 #include "CudaDevice.h"
@@ -260,7 +266,7 @@ extern "C"
     points->first_hole = PointInput().FirstHole;
     points->first_added = PointInput().FirstAdded;
     const PointOptions defaults;
-    ForEachPointOption(
+    PairPointOptions(
       *points, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
   }
 
@@ -277,7 +283,7 @@ extern "C"
   {
     const FlipOptions defaults;
     *options = MakeEmpty<delaunayflip_options>();
-    ForEachOption(
+    PairOptions(
       *options, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
   }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointTriangulation.h"
 
+#include "PortableMath.h"
+
 #include <cmath>
 
 namespace delaunayflip
@@ -13,12 +15,12 @@ constexpr double Pi = 3.14159265358979323846;
 
 /// Finds the sine and the cosine of an angle in degrees. They are exact at multiples of 90, because
 /// the angle is first reduced by such multiples, without rounding.
-void FindSineAndCosine(double degrees, double& sine, double& cosine)
+void TurnByDegrees(double degrees, double& sine, double& cosine)
 {
   const double turned = std::fmod(degrees, 360.0);
   const double quarters = std::floor(turned / 90.0 + 0.5);
   const double rest = (turned - 90.0 * quarters) * (Pi / 180.0);
-  const double first = std::sin(rest), second = std::cos(rest);
+  const auto [first, second] = FindSineAndCosine(rest);
   switch (static_cast<int>(quarters) & 3)
   {
     case 0:
@@ -43,8 +45,8 @@ void FindSineAndCosine(double degrees, double& sine, double& cosine)
 void PlaceOnSphere(double longitude, double latitude, double xyz[3])
 {
   double sine = 0.0, cosine = 0.0, ofEast = 0.0, toPole = 0.0;
-  FindSineAndCosine(longitude, sine, cosine);
-  FindSineAndCosine(latitude, toPole, ofEast);
+  TurnByDegrees(longitude, sine, cosine);
+  TurnByDegrees(latitude, toPole, ofEast);
   xyz[0] = ofEast * cosine + 0.0; // never -0.0
   xyz[1] = ofEast * sine + 0.0;
   xyz[2] = toPole + 0.0;

@@ -6,6 +6,7 @@
 #include "FlipOptions.h"
 #include "FlipRules.h"
 #include "MeshSurvey.h"
+#include "PortableMath.h"
 #include "SpatialOrder.h"
 
 #include <cmath>
@@ -49,7 +50,7 @@ struct RuleChoice
       Range(survey.Range),
       Tolerance(options.Tolerance < 0.0
           ? AngleTolerance{ 0.0, 1.0, survey.Precision }
-          : AngleTolerance{ std::sin(options.Tolerance), std::cos(options.Tolerance), 0.0 }),
+          : AngleTolerance{ Sine(options.Tolerance), Cosine(options.Tolerance), 0.0 }),
       MaximumDeviation(options.MaximumDeviation < 1e299 ? options.MaximumDeviation : INFINITY)
   {
   }

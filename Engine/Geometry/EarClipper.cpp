@@ -3,11 +3,13 @@
 #include "EarClipper.h"
 
 #include "FilteredPredicates.h"
+#include "PortableMath.h"
 #include "Predicates.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace delaunayflip
@@ -170,7 +172,11 @@ private:
       const auto begin = this->Order.begin();
       std::nth_element(begin + range.Begin, begin + range.GetMiddle(), begin + range.End,
         [&](std::int64_t v, std::int64_t w)
-        { return Along(direction, this->Scaled[v]) < Along(direction, this->Scaled[w]); });
+        {
+          const double first = Along(direction, this->Scaled[v]);
+          const double second = Along(direction, this->Scaled[w]);
+          return std::tie(first, v) < std::tie(second, w);
+        });
       this->MakeNodes(range.GetChild(false));
       this->MakeNodes(range.GetChild(true));
     }
@@ -232,7 +238,7 @@ private:
     const Extent& longer = v.GetLength() > u.GetLength() ? v : u;
     const PlanePoint& first = this->Scaled[longer.First];
     const PlanePoint& last = this->Scaled[longer.Last];
-    const double length = std::hypot(last.U - first.U, last.V - first.V);
+    const double length = PlaneLength(last.U - first.U, last.V - first.V);
     PlanePoint direction = { 1.0, 0.0, 0.0 };
     if (length > 0.0)
     {

@@ -11,6 +11,7 @@
 #include "FlipReport.h"
 #include "InputChecks.h"
 #include "MeshSurvey.h"
+#include "PortableMath.h"
 #include "SpatialOrder.h"
 #include "SurfaceAngles.h"
 #include "WideAngles.h"
@@ -146,9 +147,13 @@ bool FixByInput(const EdgeMeshInput& input, EdgeMeshResult& result, const Backen
 {
   const bool hasFeatures =
     input.Survey.Geometry == GeometryKind::Surface && input.FeatureAngle < 180.0;
+  double featureCosine = 0.0;
+  if (hasFeatures)
+  {
+    featureCosine = Cosine(input.FeatureAngle * DegreesToRadians);
+  }
   FixEdgeStep step{ result.Edges.View(), input.Input.Local.Regions, input.Input.Local.Points,
-    input.Order.View(), input.Survey.Range, hasFeatures,
-    std::cos(input.FeatureAngle * DegreesToRadians) };
+    input.Order.View(), input.Survey.Range, hasFeatures, featureCosine };
   if (input.Packed.Count > 0)
   {
     step.Points = input.Packed;

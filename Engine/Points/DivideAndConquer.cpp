@@ -464,7 +464,8 @@ private:
   void ForTasks(std::size_t size, const Work& work) const
   {
     this->Run(static_cast<std::int64_t>((size + TaskSize - 1) / TaskSize),
-      [&](std::int64_t i) { work(i, i * TaskSize, std::min(size, (i + 1) * TaskSize)); });
+      [&](std::int64_t i)
+      { work(i, i * TaskSize, std::min<std::size_t>(size, (i + 1) * TaskSize)); });
   }
 
   PointTriangles Collect(const Subset& whole) const

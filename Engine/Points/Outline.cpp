@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Outline.h"
 
+#include "PortableMath.h"
 #include "SmallestAngle.h"
 #include "SurfaceAngles.h"
 
@@ -524,9 +525,9 @@ private:
   bool IsLarge(const TriangleRecord& triangle, double alpha, double longestEdge) const
   {
     const auto [a, b, c] = this->GetCorners(triangle);
-    const double ab = std::hypot(b.X - a.X, b.Y - a.Y);
-    const double bc = std::hypot(c.X - b.X, c.Y - b.Y);
-    const double ca = std::hypot(a.X - c.X, a.Y - c.Y);
+    const double ab = PlaneLength(b.X - a.X, b.Y - a.Y);
+    const double bc = PlaneLength(c.X - b.X, c.Y - b.Y);
+    const double ca = PlaneLength(a.X - c.X, a.Y - c.Y);
     if (longestEdge > 0.0 && std::max({ ab, bc, ca }) > longestEdge)
     {
       return true;

@@ -3,6 +3,7 @@
 #include "SegmentCrossings.h"
 
 #include "ExactPredicates.h"
+#include "PortableMath.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -287,7 +288,7 @@ private:
       }
       points.push_back(found->second);
       this->Result.LargestShift =
-        std::max(this->Result.LargestShift, std::hypot(crossing.X.Shift, crossing.Y.Shift));
+        std::max(this->Result.LargestShift, PlaneLength(crossing.X.Shift, crossing.Y.Shift));
     }
     return points;
   }
@@ -322,7 +323,7 @@ private:
     }
     std::sort(cuts.begin(), cuts.end(),
       [](const Cut& a, const Cut& b)
-      { return std::tie(a.Segment, a.Share) < std::tie(b.Segment, b.Share); });
+      { return std::tie(a.Segment, a.Share, a.Point) < std::tie(b.Segment, b.Share, b.Point); });
     std::vector<Segment> split;
     auto cut = cuts.begin();
     for (std::size_t i = 0; i < this->Result.Segments.size(); ++i)

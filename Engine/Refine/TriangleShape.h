@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_TRIANGLESHAPE_H
 
 #include "PlaneMesh.h"
+#include "PortableMath.h"
 
 #include <cmath>
 #include <cstdint>
@@ -36,8 +37,8 @@ inline void SetSmallestAngle(double degrees, RefinementGoals& goals)
     // Below 1/2, as rounding must not make the angle smaller than the goal. Triangle has the same.
     constexpr double Share = 0.475;
     const double angle = degrees * RadiansPerDegree;
-    goals.Cotangent = 1.0 / std::tan(angle);
-    goals.OffCenter = Share / std::tan(0.5 * angle);
+    goals.Cotangent = 1.0 / Tangent(angle);
+    goals.OffCenter = Share / Tangent(0.5 * angle);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "FlipError.h"
 #include "InputChecks.h"
 #include "LoadedMesh.h"
+#include "PortableMath.h"
 #include "Predicates.h"
 #include "Strips.h"
 
@@ -354,7 +355,7 @@ void PreparedPoints::FindNearPoints(const ProgressObserver& observer)
       }
       for (std::int64_t j = found->second; j >= 0; j = before[j])
       {
-        if (std::hypot(points.Get(j, 0) - x, points.Get(j, 1) - y) < tolerance)
+        if (PlaneLength(points.Get(j, 0) - x, points.Get(j, 1) - y) < tolerance)
         {
           nearPoint[i] = std::min(nearPoint[i], j);
         }

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_HOSTMEMORY_H
 
 #include "Array.h"
+#include "SystemMemory.h"
 
 #include <cstddef>
 #include <vector>
@@ -11,14 +12,14 @@
 namespace delaunayflip
 {
 
-/// Memory of this process. Allocations of 16 MiB and more use huge pages, because otherwise almost
-/// every scattered access to gigabytes misses the TLB; when freed, they are returned to the system.
-/// Thread-safe.
+/// Memory of this process. On Linux, allocations of 16 MiB and more use huge pages, because
+/// otherwise almost every scattered access to gigabytes misses the TLB; when freed, they are
+/// returned to the system. Thread-safe.
 class HostMemory : public Memory
 {
 public:
-  void* Allocate(std::size_t bytes) override;
-  void Free(void* memory, std::size_t bytes) noexcept override;
+  void* Allocate(std::size_t bytes) override { return AllocateFromSystem(bytes); }
+  void Free(void* memory, std::size_t bytes) noexcept override { FreeToSystem(memory, bytes); }
 };
 
 template <typename T>

@@ -4,6 +4,7 @@
 #include "HullInserter.h"
 #include "MeshAudit.h"
 #include "PointTriangulation.h"
+#include "PortableMath.h"
 #include "References.h"
 #include "SphereTestSupport.h"
 
@@ -219,6 +220,38 @@ TEST(SphereTriangulation, PlacesAnglesExactly)
   }
   PlaceOnSphere(std::numeric_limits<double>::infinity(), 0.0, xyz);
   EXPECT_TRUE(std::isnan(xyz[0]));
+}
+
+TEST(SphereTriangulation, PlacesAnglesAlikeOnAllSystems)
+{
+  constexpr int Count = 40000 / Reduction;
+  int different = 0; // from correctly rounded, which the sines of C libraries often are not
+  for (int i = 0; i <= Count; ++i)
+  {
+    const double radians = (2.0 * i / Count - 1.0) * 0.78539816339744828;
+    const SineAndCosine found = FindSineAndCosine(radians);
+    const double sine = Sine(radians), cosine = Cosine(radians);
+    EXPECT_NEAR(sine, found.Sine, 0x1p-52 * std::fabs(sine));
+    EXPECT_NEAR(cosine, found.Cosine, 0x1p-53);
+    different += static_cast<int>(sine != found.Sine) + static_cast<int>(cosine != found.Cosine);
+  }
+  EXPECT_GE(4, different);
+  EXPECT_NEAR(std::tan(0.3), Tangent(0.3), 1e-16);
+  EXPECT_NEAR(std::cos(2.5), Cosine(2.5), 2e-16);
+}
+
+TEST(SphereTriangulation, FindsLengthsOfAllSizes)
+{
+  for (int i = 0; i < 20000 / Reduction; ++i)
+  {
+    const double x = std::ldexp(1.0 + 4e-5 * i, i % 2000 - 1000);
+    const double y = std::ldexp(1.5 + 3e-5 * i, i % 2000 - 1040 + i % 61);
+    const double length = std::hypot(x, y); // its error is below one unit, too
+    EXPECT_NEAR(length, PlaneLength(-x, y), 0x1p-52 * length) << x << " " << y;
+    EXPECT_EQ(PlaneLength(y, x), PlaneLength(x, y));
+  }
+  EXPECT_EQ(5.0 * 0x1p1020, PlaneLength(3.0 * 0x1p1020, 4.0 * 0x1p1020));
+  EXPECT_EQ(0.0, PlaneLength(0.0, -0.0));
 }
 
 TEST(SphereTriangulation, OpensPartsOfASphere)

@@ -5,8 +5,9 @@
 
 licences: every source file begins with the two SPDX lines (after a #! line, if any).
 sizes: no file of the repository is over 1 MB.
-words: the libraries never print to standard output and never end the process; the engine has one
-word for each idea (CONTRIBUTING.md, Words).
+words: the libraries never print to standard output and never end the process; the engine calls no
+function whose last bits depend on the system, and has one word for each idea (CONTRIBUTING.md,
+Words).
 markdown: lines of text are under 100 columns. Tables, pictures, code and the targets of links may
 be wider.
 release: the citation and the changelog have the version that CMakeLists.txt has.
@@ -42,6 +43,12 @@ LIBRARY_FOLDERS = (
     "CInterface/", "CUDA/", "Engine/", "Filters/", "FiltersParallel/", "Plugin/", "Rendering/")
 FORBIDDEN = re.compile(
     r"\b(?:_?exit|quick_exit|abort|terminate|printf|puts)\s*\(|\bstd::cout\b|\bstdout\b")
+# Other systems have other last bits. These may be used where no mesh depends on them.
+SYSTEM_MATH = re.compile(
+    r"\b(?:sin|cos|tan|asin|acos|atan|atan2|pow|exp|exp2|log|log2|log10|cbrt|hypot|fma)\s*\(")
+MAY_USE_SYSTEM_MATH = (
+    "Engine/Geometry/PortableMath.cpp", "Engine/Geometry/SurfaceAngles.h", "Engine/MeshAudit.cpp",
+    "Engine/Mesh/SmallestAngle.h", "Engine/Session/RunProgress.h")
 COMMENT_OR_STRING = re.compile(
     r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
 TWINS = {"phase": "pass", "cloud": "points"}  # words for what has another name already
@@ -115,6 +122,9 @@ def check_words(root):
         if path.startswith(LIBRARY_FOLDERS):
             for where, line in list_lines(root, path, COMMENT_OR_STRING):
                 yield from (f"{where}: {word}" for word in FORBIDDEN.findall(line))
+                if path.startswith(("CUDA/", "Engine/")) and path not in MAY_USE_SYSTEM_MATH:
+                    yield from (f"{where}: {word}: its bits depend on the system; see PortableMath.h"
+                                for word in SYSTEM_MATH.findall(line))
         if path.startswith(TWIN_FOLDERS):
             for where, line in list_lines(root, path, nothing):
                 yield from (f"{where}: {twin}: say {word}" for twin, word in TWINS.items()

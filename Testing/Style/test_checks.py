@@ -45,6 +45,7 @@ FAULTS = {
     "words": [("Engine/Mesh/Bad.h", "/* one\n two */ void F() { abort(); }\n", "Bad.h:2: abort("),
               ("FiltersParallel/Bad.cxx", "std::cout << 1;\n", "Bad.cxx:1: std::cout"),
               ("Engine/Flips/Bad.h", "// The second\n// phase flips.\n", "Bad.h:2: phase: say pass"),
+              ("Engine/Flips/Bad.h", "double s = std::sin(x);\n", "Bad.h:1: sin(: its bits"),
               ("CUDA/Bad.cuh", "struct PointCloud;\n", "Bad.cuh:1: cloud: say points")],
     "markdown": [("README.md", f"Short.\n\n{WIDE}\n", "README.md:3: 150 columns")],
     "release": [("CITATION.cff", "version: 1.2.2\n", "CITATION.cff: version 1.2.2, "),

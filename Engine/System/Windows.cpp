@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SystemMemory.h"
+
+#include <malloc.h>
+#include <new>
+
+namespace delaunayflip
+{
+
+void* AllocateFromSystem(std::size_t bytes)
+{
+  void* memory = _aligned_malloc(bytes > 0 ? bytes : 1, CacheLine);
+  if (!memory)
+  {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+void FreeToSystem(void* memory, std::size_t) noexcept { _aligned_free(memory); }
+
+}
