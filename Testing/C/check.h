@@ -21,7 +21,7 @@
   } while (0)
 
 /** Whether the two triangles of a quad have the diagonal from point 1 to point 3. */
-static int HasShortDiagonal(const int64_t* triangles)
+static inline int HasShortDiagonal(const int64_t* triangles)
 {
   int ends = 0;
   int i;
