@@ -42,17 +42,23 @@ public:
     const PlaceQuery& query = asked.Query;
     const bool wantsValues = query.Values != nullptr;
     const LocalCopy<double> valuesHere(query.Values, asked.NumberOfPoints * query.Components,
-      wantsValues && !query.OnDevice, backend);
+      wantsValues && !query.OnDevice && !Backend::IsOnHost, backend);
     PlaceBoundary boundary;
     if (wantsValues && query.Outside == OutsideKind::Nearest)
     {
       boundary =
         BuildPlaceBoundary(plane, mesh.NumberOfEdges, here.Numbers, this->Grid.Frame, backend);
     }
-    const AskedValues values{ query.OnDevice ? query.Values : valuesHere.Get(), mesh.Ids,
-      query.Components, query.Method == InterpolationKind::Natural, boundary.View(mesh.Places) };
-
+    const bool areHere = query.OnDevice || Backend::IsOnHost;
+    AskedValues values{ areHere ? query.Values : valuesHere.Get(), mesh.Ids, query.Components,
+      query.Method == InterpolationKind::Natural, boundary.View(mesh.Places) };
     const std::int64_t count = query.CountPlaces();
+    const Array<double> sorted = SortValues(values, mesh.NumberOfPlaces, count, backend);
+    if (sorted.Size() > 0)
+    {
+      values.Values = sorted.Data();
+      values.PointOfVertex = nullptr;
+    }
     for (std::int64_t first = 0; first < count; first += MostAtATime)
     {
       if (observer && !observer(static_cast<double>(first) / static_cast<double>(count)))
@@ -98,6 +104,25 @@ public:
     }
     return backend.template SortIndices<PlaceGridFrame::KeyBits>(count,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return frame.FindKey(block.GetPlace(i)); });
+  }
+
+  /// Copies values into the order of vertices, which is that of their places, if there are enough
+  /// places to ask for. Then a thread waits for memory less often.
+  /// @returns the copy, or nothing.
+  static Array<double> SortValues(
+    const AskedValues& values, std::int64_t vertices, std::int64_t places, const Backend& backend)
+  {
+    Array<double> sorted;
+    if constexpr (Backend::IsOnHost)
+    {
+      constexpr std::int64_t VerticesPerPlace = 4;
+      if (values.Values && VerticesPerPlace * places >= vertices)
+      {
+        sorted = backend.template MakeArray<double>(vertices * values.Components);
+        backend.ForEach(vertices, CopyValues{ values, sorted.Data() });
+      }
+    }
+    return sorted;
   }
 
   /// On the host a thread answers many places one after the other, which saves steps of walks.

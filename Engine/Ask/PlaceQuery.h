@@ -28,14 +28,16 @@ struct AskedMesh
 
   /// Finds a place. It is outside if it is not finite, or if its triangles are removed.
   /// @param last is where the last place was found, and becomes where this one is.
-  DELAUNAYFLIP_HOST_DEVICE FoundPlace Find(const PlanePoint& place, LastPlace& last) const
+  /// @param sides become those of the triangle that is found, unless the place is on its boundary.
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE FoundPlace Find(
+    const PlanePoint& place, LastPlace& last, PlaceSides& sides) const
   {
     if (!this->Grid.Frame.Box.Has(place))
     {
       return FoundPlace();
     }
     const TriangleId start = this->Grid.FindStart(place, last);
-    const FoundPlace found = WalkToPlace(this->Mesh, place, start);
+    const FoundPlace found = WalkToPlace(this->Mesh, place, start, sides);
     last.Triangle = found.Triangle;
     if (found.IsOutside() || (found.OnEdges == 0 && !this->Numbers))
     {
@@ -60,23 +62,29 @@ struct AskedMesh
 struct AskedValues
 {
   const double* Values;
-  const VertexId* PointOfVertex;
+  const VertexId* PointOfVertex; ///< Null: the values are those of vertices.
   int Components;
   bool IsNatural;
   PlaceBoundaryView Boundary; ///< Without edges: what is outside has no value.
 
   DELAUNAYFLIP_HOST_DEVICE const double* At(VertexId vertex) const
   {
-    return this->Values + std::int64_t(this->PointOfVertex[vertex]) * this->Components;
+    const VertexId point = this->PointOfVertex ? this->PointOfVertex[vertex] : vertex;
+    return this->Values + std::int64_t(point) * this->Components;
   }
 
   /// Interpolates at a place. @param result receives one value for each component.
-  DELAUNAYFLIP_HOST_DEVICE void Interpolate(
-    const AskedMesh& asked, const PlanePoint& place, const FoundPlace& found, double* result) const
+  DELAUNAYFLIP_HOST_DEVICE void Interpolate(const AskedMesh& asked, const PlanePoint& place,
+    const FoundPlace& found, const PlaceSides& sides, double* result) const
   {
     if (found.IsOutside())
     {
       this->TakeNearest(place, result);
+      return;
+    }
+    if (!this->IsNatural && found.OnEdges == 0 && sides.AreWeights())
+    {
+      this->TakeLinear(asked.Mesh.Edges.Triangles[found.Triangle], sides, result);
       return;
     }
     // At vertices, on the hull and on segments there are no natural weights.
@@ -95,6 +103,26 @@ private:
     for (int i = 0; i < this->Components; ++i)
     {
       result[i] += weight * value[i];
+    }
+  }
+
+  /// The result of VisitLinearWeights, to the last bit: powers of two do not change quotients.
+  DELAUNAYFLIP_HOST_DEVICE void TakeLinear(
+    ConstTriangleAccess triangle, const PlaceSides& sides, double* result) const
+  {
+    const double* from[3];
+    double weights[3];
+    const double sum = sides.Areas[0] + sides.Areas[1] + sides.Areas[2];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      from[slot] = this->At(triangle.Vertices[slot]);
+      weights[slot] = sides.Areas[slot] / sum;
+    }
+    for (int i = 0; i < this->Components; ++i)
+    {
+      const double first = 0.0 + weights[0] * from[0][i];
+      const double two = first + weights[1] * from[1][i];
+      result[i] = two + weights[2] * from[2][i];
     }
   }
 
@@ -152,6 +180,26 @@ private:
   }
 };
 
+/// Copies the values of a vertex.
+struct CopyValues
+{
+  AskedValues From;
+  double* To; ///< By vertex.
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t vertex) const
+  {
+    const double* const from = this->From.At(static_cast<VertexId>(vertex));
+    for (int i = 0; i < this->From.Components; ++i)
+    {
+      this->To[vertex * this->From.Components + i] = from[i];
+    }
+  }
+  void Prefetch(std::int64_t vertex) const
+  {
+    delaunayflip::Prefetch(this->From.At(static_cast<VertexId>(vertex)));
+  }
+};
+
 /// Consecutive places of a query, with their results in the memory of a backend.
 struct PlaceBlock
 {
@@ -189,7 +237,8 @@ struct AnswerPlaces
     {
       const std::int64_t i = this->Order ? this->Order[k] : k;
       const PlanePoint place = this->Block.GetPlace(i);
-      const FoundPlace found = this->Asked.Find(place, last);
+      PlaceSides sides;
+      const FoundPlace found = this->Asked.Find(place, last, sides);
       if (this->Block.Triangles)
       {
         this->Block.Triangles[i] = this->Asked.GetNumber(found);
@@ -197,7 +246,7 @@ struct AnswerPlaces
       if (this->Block.Results)
       {
         double* const result = this->Block.Results + i * this->Values.Components;
-        this->Values.Interpolate(this->Asked, place, found, result);
+        this->Values.Interpolate(this->Asked, place, found, sides, result);
       }
     }
   }

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_PLACEWALK_H
 #define DELAUNAYFLIP_PLACEWALK_H
 
+#include "PlaceOffsets.h"
 #include "PlaneMesh.h"
 
 #include <cstdint>
@@ -77,51 +78,136 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindSide(
   return mesh.RequireSign(FindOrientation(from, to, place));
 }
 
-/// Walks from a triangle to a finite place. If mesh.IsInFilterRange, the place is in it, too.
-DELAUNAYFLIP_HOST_DEVICE inline FoundPlace WalkToPlace(
-  const PlaneMesh& mesh, const PlanePoint& place, TriangleId start)
+/// On which sides of the edges of a triangle a place is, and the areas that say so.
+struct PlaceSides
 {
-  constexpr int None = 3;
+  static constexpr int AllEdges = 7;
+
+  /// The bit of a slot is 1 if the place is beyond the edge opposite that slot.
+  int Beyond = 0;
+  int OnEdges = 0; ///< Likewise, if it is on the line of that edge.
+
+  PlaceOffset Offsets[3]; ///< From the place to the vertices.
+  /// Twice those of the triangles of the place and the edges, and what was subtracted to get them.
+  double Areas[3] = {}, Magnitudes[3] = {};
+
+  /// Whether each area is positive and has lost few digits only, and the triangle is not a sliver
+  /// beyond measure. The signs must be certain without exact arithmetic.
+  DELAUNAYFLIP_HOST_DEVICE bool AreWeights() const
+  {
+    constexpr double Measurable = 1e-28; // of the square of the triangle's size
+    double size = 0.0;
+    bool areExact = true;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const double u = std::fabs(this->Offsets[slot].U), v = std::fabs(this->Offsets[slot].V);
+      for (const double one : { u, v })
+      {
+        if (one > size)
+        {
+          size = one;
+        }
+      }
+      areExact &= this->Areas[slot] > CrossProduct::Cancelled * this->Magnitudes[slot] &&
+        this->Areas[slot] > SmallestCertifiable;
+    }
+    return areExact && this->Areas[0] + this->Areas[1] + this->Areas[2] > Measurable * size * size;
+  }
+};
+
+/// The bits of PlaceSides for the sides that a filter has left open.
+struct OpenSides
+{
+  int Beyond = 0, OnEdges = 0;
+};
+
+/// @param open their bits.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline OpenSides DecideSides(
+  const PlaneMesh& mesh, PlanePoint place, TriangleId triangle, int open)
+{
+  OpenSides sides;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    if (((open >> slot) & 1) != 0)
+    {
+      const int sign = FindSide(mesh, place, MakeCorner(triangle, slot));
+      sides.Beyond |= int(sign < 0) << slot;
+      sides.OnEdges |= int(sign == 0) << slot;
+    }
+  }
+  return sides;
+}
+
+/// Finds all three sides without a branch, because it would be mispredicted half of the time.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE PlaceSides FindSides(
+  const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle)
+{
+  ConstTriangleAccess record = mesh.Edges.Triangles[triangle];
+  PlaceSides sides;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const PlanePoint point = mesh.GetPoint(record.Vertices[slot]);
+    sides.Offsets[slot] = { point.U - place.U, point.V - place.V };
+  }
+  int within = 0;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    const CrossProduct area(sides.Offsets[NextSlot(slot)], sides.Offsets[PreviousSlot(slot)]);
+    const double magnitude = area.GetMagnitude();
+    const double bound = GetBound(OrientationBound * magnitude);
+    within |= int(area.Value > bound) << slot;
+    sides.Beyond |= int(-area.Value > bound) << slot;
+    sides.Areas[slot] = area.Value;
+    sides.Magnitudes[slot] = magnitude;
+  }
+  if ((within | sides.Beyond) != PlaceSides::AllEdges || !mesh.IsInFilterRange)
+  {
+    const int certain = mesh.IsInFilterRange ? within | sides.Beyond : 0;
+    const OpenSides decided = DecideSides(mesh, place, triangle, PlaceSides::AllEdges & ~certain);
+    sides.Beyond = (sides.Beyond & certain) | decided.Beyond;
+    sides.OnEdges = decided.OnEdges;
+  }
+  return sides;
+}
+
+/// The first slot from `begin` on whose bit in `slots` is 1. It comes from a table, as NextSlot.
+DELAUNAYFLIP_HOST_DEVICE inline int FindFirstSlot(int slots, int begin)
+{
+  return static_cast<int>((0xAA105A501210u >> (16 * begin + 2 * slots)) & 3u);
+}
+
+/// Walks from a triangle to a finite place. If mesh.IsInFilterRange, the place is in it, too.
+/// @param sides become those of the triangle that is found.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE FoundPlace WalkToPlace(
+  const PlaneMesh& mesh, const PlanePoint& place, TriangleId start, PlaceSides& sides)
+{
   FoundPlace found;
   found.Triangle = start;
-  int entered = None; // the slot opposite the edge that the walk came through
   std::uint32_t random = start;
   for (;;)
   {
-    random = random * 1664525u + 1013904223u; // Numerical Recipes' generator
-    int slot = static_cast<int>((random >> 16) % 3);
-    CornerId across = NoCorner;
-    bool leaves = false;
-    found.OnEdges = 0;
-    for (int i = 0; i < 3 && !leaves; ++i, slot = NextSlot(slot))
+    sides = FindSides(mesh, place, found.Triangle);
+    if (sides.Beyond == 0)
     {
-      if (slot == entered)
-      {
-        continue; // the place is on this side
-      }
-      const CornerId corner = MakeCorner(found.Triangle, slot);
-      const int side = FindSide(mesh, place, corner);
-      if (side == 0)
-      {
-        found.OnEdges |= 1 << slot;
-      }
-      if (side < 0)
-      {
-        leaves = true;
-        across = mesh.Edges.CornerOfHalfEdge[mesh.GetHalfEdge(corner) ^ 1u];
-      }
-    }
-    if (!leaves)
-    {
+      found.OnEdges = sides.OnEdges;
       return found;
     }
+    random = random * 1664525u + 1013904223u; // Numerical Recipes' generator
+    const int slot = FindFirstSlot(sides.Beyond, static_cast<int>((random >> 16) % 3));
+    const HalfEdgeId side = mesh.GetHalfEdge(MakeCorner(found.Triangle, slot));
+    const CornerId across = mesh.Edges.CornerOfHalfEdge[side ^ 1u];
     if (across == NoCorner)
     {
       return FoundPlace();
     }
     found.Triangle = TriangleOf(across);
-    entered = SlotOf(across);
   }
+}
+DELAUNAYFLIP_HOST_DEVICE inline FoundPlace WalkToPlace(
+  const PlaneMesh& mesh, const PlanePoint& place, TriangleId start)
+{
+  PlaceSides sides;
+  return WalkToPlace(mesh, place, start, sides);
 }
 
 /// Keeps the triangle with the lower number, if that is not negative.

@@ -3,9 +3,9 @@
 #ifndef DELAUNAYFLIP_PLACEWEIGHTS_H
 #define DELAUNAYFLIP_PLACEWEIGHTS_H
 
-#include "PlaceWalk.h"
-
 #include "ExactPredicates.h"
+#include "PlaceOffsets.h"
+#include "PlaceWalk.h"
 
 #include <cmath>
 #include <cstdint>
@@ -20,107 +20,6 @@
 
 namespace delaunayflip
 {
-
-/// A vector.
-struct PlaceOffset
-{
-  double U, V;
-};
-
-/// A point, scaled so that products of differences neither overflow nor underflow.
-struct ScaledPoint
-{
-  double U, V;
-};
-
-/// a - origin, rounded.
-DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset Subtract(
-  const ScaledPoint& a, const ScaledPoint& origin)
-{
-  return { a.U - origin.U, a.V - origin.V };
-}
-
-/// The rounding error of the difference a - b, exactly (Knuth).
-DELAUNAYFLIP_HOST_DEVICE inline double GetDifferenceError(double a, double b, double difference)
-{
-  const double subtracted = a - difference;
-  return (a - (difference + subtracted)) + (subtracted - b);
-}
-
-/// Dekker's product: the rounding error of a b, if nothing overflows or underflows.
-DELAUNAYFLIP_HOST_DEVICE inline double GetProductError(double a, double b, double product)
-{
-  constexpr double Splitter = 134217729.0; // 2^27 + 1
-  const double aBig = Splitter * a, bBig = Splitter * b;
-  const double aHigh = aBig - (aBig - a), bHigh = bBig - (bBig - b);
-  const double aLow = a - aHigh, bLow = b - bHigh;
-  return aLow * bLow - (((product - aHigh * bHigh) - aLow * bHigh) - aHigh * bLow);
-}
-
-/// The cross product of two vectors.
-class CrossProduct
-{
-public:
-  DELAUNAYFLIP_HOST_DEVICE CrossProduct(const PlaceOffset& a, const PlaceOffset& b)
-    : Left(a.U * b.V),
-      Right(a.V * b.U),
-      Value(Left - Right)
-  {
-  }
-
-  /// Whether the value has lost more than three of 16 digits.
-  DELAUNAYFLIP_HOST_DEVICE bool IsCancelled() const
-  {
-    constexpr double Cancelled = 1e-3;
-    return !(std::fabs(this->Value) > Cancelled * (std::fabs(this->Left) + std::fabs(this->Right)));
-  }
-
-  /// What the rounding of the two products has taken from the value (Kahan).
-  DELAUNAYFLIP_HOST_DEVICE double GetRest(const PlaceOffset& a, const PlaceOffset& b) const
-  {
-    return GetProductError(a.U, b.V, this->Left) - GetProductError(a.V, b.U, this->Right);
-  }
-
-  double Left, Right, Value;
-};
-
-/// A point as seen from another one.
-struct SeenPoint
-{
-  DELAUNAYFLIP_HOST_DEVICE SeenPoint(const ScaledPoint& point, const ScaledPoint& origin)
-    : Point(point),
-      Offset(Subtract(point, origin)),
-      Square(Offset.U * Offset.U + Offset.V * Offset.V)
-  {
-  }
-
-  ScaledPoint Point;
-  PlaceOffset Offset;
-  double Square; ///< Of the distance.
-};
-
-/// Twice the area of a triangle, with a relative error of a few roundings even if it is a sliver.
-/// @param seenA, seenB as seen from the origin.
-DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(
-  const ScaledPoint& origin, const SeenPoint& seenA, const SeenPoint& seenB)
-{
-  const ScaledPoint& a = seenA.Point;
-  const ScaledPoint& b = seenB.Point;
-  const PlaceOffset& toA = seenA.Offset;
-  const PlaceOffset& toB = seenB.Offset;
-  const CrossProduct cross(toA, toB);
-  if (!cross.IsCancelled())
-  {
-    return cross.Value;
-  }
-  const double restUOfA = GetDifferenceError(a.U, origin.U, toA.U);
-  const double restVOfA = GetDifferenceError(a.V, origin.V, toA.V);
-  const double restUOfB = GetDifferenceError(b.U, origin.U, toB.U);
-  const double restVOfB = GetDifferenceError(b.V, origin.V, toB.V);
-  const double ofDifferences =
-    (toA.U * restVOfB - toA.V * restUOfB) + (restUOfA * toB.V - restVOfA * toB.U);
-  return cross.Value + (cross.GetRest(toA, toB) + ofDifferences);
-}
 
 /// The power of two by which a number that is not negative comes to be between 1 and 2; the largest
 /// one that is finite for the smallest numbers.
@@ -178,12 +77,6 @@ private:
   ScaledPoint Place;
   double Scale;
 };
-
-/// The length of a vector, by the sum of its components.
-DELAUNAYFLIP_HOST_DEVICE inline double FindSize(const PlaceOffset& offset)
-{
-  return std::fabs(offset.U) + std::fabs(offset.V);
-}
 
 /// The slot opposite the longest edge of a triangle.
 DELAUNAYFLIP_HOST_DEVICE inline int FindLongestEdge(const ScaledPoint (&points)[3])
