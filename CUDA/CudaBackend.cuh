@@ -10,6 +10,7 @@
 #include "EdgeTable.h"
 #include "FlipError.h"
 #include "ThreadBackend.h"
+#include "ThreadGroup.h"
 #include "TriangleMesh.h"
 
 #include <cub/cub.cuh>
@@ -71,6 +72,14 @@ __global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items
   {
     work(i);
   }
+}
+
+constexpr int ThreadsOfGroup = 512;
+
+template <typename Work>
+__global__ void __launch_bounds__(ThreadsOfGroup) GroupKernel(Work work)
+{
+  work(ThreadGroup{ threadIdx.x, ThreadsOfGroup });
 }
 
 /// Does the work of ForEachKernel and sums up: every block writes its partial sum.
@@ -223,6 +232,13 @@ public:
     this->LaunchShared(size,
       [&](cudaStream_t stream, const ItemRange& items, int)
       { ForEachKernel<<<this->GetBlocks(items), ThreadsPerBlock, 0, stream>>>(items, work); });
+  }
+
+  template <typename Work>
+  void RunGroup(const Work& work) const
+  {
+    Launch(this->GetStream(),
+      [&](cudaStream_t stream) { GroupKernel<<<1, ThreadsOfGroup, 0, stream>>>(work); });
   }
 
   template <typename Result, typename Work>

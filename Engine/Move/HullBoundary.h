@@ -17,6 +17,16 @@
 namespace delaunayflip
 {
 
+/// What threads count at the boundary of a mesh.
+enum class HullCount : int
+{
+  Cuts, ///< Sides of triangles that CutOff would cut off.
+  Concave, ///< Vertices where FillUp would add a triangle.
+  TurnsBack, ///< Vertices where the next side runs back on the line of the one before.
+  Reversals, ///< Sides that run up after one that runs down, or the other way round.
+  End
+};
+
 /// The boundary of a mesh on a backend, which is kept while points move.
 template <typename Backend>
 class HullBoundary
@@ -139,6 +149,7 @@ public:
   /// Finds the boundary of a mesh.
   void Build(const EdgeMesh& mesh, const PlaneMesh& plane)
   {
+    this->Failed = false;
     const CornerId* corners = mesh.CornerOfHalfEdge.Data();
     const auto isOnBoundary = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
     { return corners[2 * edge + 1] == NoCorner ? 1 : 0; };
@@ -173,24 +184,39 @@ public:
       });
   }
 
-  /// Whether the boundary is a convex polygon that goes around once. If all triangles are
-  /// counter-clockwise, too, none overlap.
-  bool IsConvex(const PlaneMesh& plane)
+  /// Adds to HullCount::Cuts.
+  void CountCuts(const PlaneMesh& plane, std::uint32_t* counts)
   {
     const HullView hull = this->View(plane);
     const BoundarySide* sides = this->Sides.Data();
-    constexpr std::int64_t Concave = std::int64_t(1) << 40;
-    const std::int64_t changes = this->Device.template Sum<std::int64_t>(this->Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+    this->Device.ForEach(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { Add(hull.MustCut(sides[i]), HullCount::Cuts, counts); });
+  }
+
+  /// Adds to the other counts.
+  void CountTurns(const PlaneMesh& plane, std::uint32_t* counts)
+  {
+    const HullView hull = this->View(plane);
+    const BoundarySide* sides = this->Sides.Data();
+    this->Device.ForEach(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
         const BoundarySide side = sides[i];
         const int turn = hull.FindTurn(side);
-        const bool isOther = hull.RunsUp(side) != hull.RunsUp(sides[side.Before]);
-        // Two sides on one line must run the same way.
-        const bool turnsBack = turn == 0 && isOther;
-        sum += turn < 0 || turnsBack ? Concave : std::int64_t(isOther);
+        const bool isReversed = hull.RunsUp(side) != hull.RunsUp(sides[side.Before]);
+        Add(turn < 0, HullCount::Concave, counts);
+        Add(turn == 0 && isReversed, HullCount::TurnsBack, counts);
+        Add(isReversed, HullCount::Reversals, counts);
       });
-    return changes == 2;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE static void Add(bool is, HullCount count, std::uint32_t* counts)
+  {
+    if (is)
+    {
+      AtomicAdd(counts + static_cast<int>(count), 1u);
+    }
   }
 
   /// Lists the vertices where the boundary must change. @returns how many there are.

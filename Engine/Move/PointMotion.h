@@ -4,15 +4,14 @@
 #define DELAUNAYFLIP_POINTMOTION_H
 
 #include "Array.h"
-#include "Atomics.h"
 #include "FlipError.h"
 #include "HullBoundary.h"
 #include "MeshRoom.h"
+#include "MotionView.h"
 #include "PlaceWalk.h"
 #include "PlaneMesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -24,186 +23,6 @@
 
 namespace delaunayflip
 {
-
-/// How often the step of a vertex has been halved in a round.
-enum Halvings : std::uint8_t
-{
-  WholeStep = 0,
-  NoStep = 24, ///< The vertex stays where it is.
-  AtTarget = 255 ///< The vertex was at its target before the round.
-};
-
-/// A vertex that is not at its target yet.
-struct LateVertex
-{
-  VertexId Vertex;
-  CornerId Corner; ///< One of its corners or, between rounds, a corner near it.
-};
-
-/// The lists that several threads fill. No result depends on their order.
-enum class MotionList : int
-{
-  Inverted,
-  Changed,
-  Late,
-  Count
-};
-
-/// Pointers to the arrays of a round.
-template <typename Real>
-struct MotionView
-{
-  PlaneMesh Mesh; ///< At the current places.
-  Real* Now; ///< The current places, x and y by vertex.
-  Real* Before; ///< The places before this round, likewise.
-  PlaneArray Targets; ///< By point.
-  const VertexId* Ids; ///< By vertex, its point.
-  std::uint8_t* HalvingsOf; ///< By vertex.
-  std::uint32_t* VertexMarks; ///< The stamp of the last pass that has handled a vertex.
-  std::uint32_t* TriangleMarks;
-  std::uint32_t* Counts; ///< By list.
-  std::uint32_t MostInverted, MostLate;
-
-  DELAUNAYFLIP_HOST_DEVICE Real GetTarget(VertexId vertex, int axis) const
-  {
-    return static_cast<Real>(this->Targets.Get(this->Ids[vertex], axis));
-  }
-
-  /// Whether a coordinate is neither so large nor so small that products of it overflow or vanish.
-  DELAUNAYFLIP_HOST_DEVICE static bool IsUsual(Real coordinate)
-  {
-    constexpr double Least = 7.8886090522101181e-31; // 2^-100
-    const double size = std::fabs(static_cast<double>(coordinate));
-    return size == 0.0 || (size >= Least && size <= 1.0 / Least);
-  }
-
-  /// Moves a vertex to its target. @returns whether the target's coordinates are usual.
-  DELAUNAYFLIP_HOST_DEVICE bool Start(VertexId vertex) const
-  {
-    bool isUsual = true;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      const std::int64_t i = std::int64_t(2) * vertex + axis;
-      const Real target = this->GetTarget(vertex, axis);
-      this->Before[i] = this->Now[i];
-      this->Now[i] = target;
-      isUsual = isUsual && IsUsual(target);
-    }
-    this->HalvingsOf[vertex] = WholeStep;
-    return isUsual;
-  }
-
-  /// Moves a vertex as far as its halvings say.
-  DELAUNAYFLIP_HOST_DEVICE void Step(VertexId vertex) const
-  {
-    const std::uint8_t halvings = this->HalvingsOf[vertex];
-    const double share = 1.0 / static_cast<double>(std::uint32_t(1) << halvings);
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      const std::int64_t i = std::int64_t(2) * vertex + axis;
-      const double before = this->Before[i];
-      double place = before;
-      if (halvings < NoStep)
-      {
-        place += (static_cast<double>(this->GetTarget(vertex, axis)) - before) * share;
-      }
-      this->Now[i] = static_cast<Real>(place);
-    }
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE bool IsAtTarget(VertexId vertex) const
-  {
-    return this->Before[std::int64_t(2) * vertex] == this->GetTarget(vertex, 0) &&
-      this->Before[std::int64_t(2) * vertex + 1] == this->GetTarget(vertex, 1);
-  }
-
-  /// Makes room for an element in a list. @returns its index.
-  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Append(MotionList list) const
-  {
-    return AtomicAdd(&this->Counts[static_cast<int>(list)], 1u);
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE bool IsInverted(TriangleId triangle) const
-  {
-    const VertexId* v = this->Mesh.Edges.Triangles[triangle].Vertices;
-    return this->Mesh.FindOrientation(v[0], v[1], v[2]) <= 0;
-  }
-  DELAUNAYFLIP_HOST_DEVICE void AppendInverted(TriangleId triangle, TriangleId* list) const
-  {
-    const std::uint32_t place = this->Append(MotionList::Inverted);
-    if (place < this->MostInverted)
-    {
-      list[place] = triangle;
-    }
-  }
-
-  /// Calls visit(corner) for all corners of the vertex that has the corner `first`.
-  template <typename Visit>
-  DELAUNAYFLIP_HOST_DEVICE void ForStar(CornerId first, const Visit& visit) const
-  {
-    visit(first);
-    CornerId corner = this->Mesh.FindNextAround(first);
-    for (; corner != NoCorner && corner != first; corner = this->Mesh.FindNextAround(corner))
-    {
-      visit(corner);
-    }
-    if (corner == NoCorner) // the vertex is on the boundary
-    {
-      corner = this->Mesh.FindPreviousAround(first);
-      for (; corner != NoCorner; corner = this->Mesh.FindPreviousAround(corner))
-      {
-        visit(corner);
-      }
-    }
-  }
-
-  /// Makes the edges of a triangle candidates.
-  DELAUNAYFLIP_HOST_DEVICE void JudgeEdges(TriangleId triangle) const
-  {
-    for (const HalfEdgeId side : this->Mesh.Edges.Triangles[triangle].HalfEdges)
-    {
-      EdgeState* state = &this->Mesh.Edges.States[EdgeOf(side)];
-      if (AtomicLoad(state) != EdgeState::Fixed)
-      {
-        AtomicStore(state, EdgeState::Candidate);
-      }
-    }
-  }
-};
-
-/// Finds the triangles that are not counter-clockwise.
-template <typename Real>
-struct FindInverted
-{
-  MotionView<Real> Motion;
-  TriangleId* List;
-
-  void Prefetch(std::int64_t triangle) const
-  {
-    for (const VertexId vertex : this->Motion.Mesh.Edges.Triangles[triangle].Vertices)
-    {
-      delaunayflip::Prefetch(this->Motion.Now + std::int64_t(2) * vertex);
-    }
-  }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t triangle) const
-  {
-    const VertexId* v = this->Motion.Mesh.Edges.Triangles[triangle].Vertices;
-    const PlanePoint a = this->Get(v[0]), b = this->Get(v[1]), c = this->Get(v[2]);
-    // All coordinates are in the range of the filter.
-    if (FilteredOrientation(a, b, c) != 1 &&
-      this->Motion.IsInverted(static_cast<TriangleId>(triangle)))
-    {
-      this->Motion.AppendInverted(static_cast<TriangleId>(triangle), this->List);
-    }
-  }
-
-private:
-  DELAUNAYFLIP_HOST_DEVICE PlanePoint Get(VertexId vertex) const
-  {
-    const Real* place = this->Motion.Now + std::int64_t(2) * vertex;
-    return { place[0], place[1], 0.0 };
-  }
-};
 
 /// A mesh whose vertices move.
 template <typename Real>
@@ -220,6 +39,27 @@ template <typename Real, typename Backend>
 class PointMotion
 {
 public:
+  static constexpr int NumberOfCounts = static_cast<int>(MotionCount::End);
+
+  /// A copy of the counts.
+  struct CountsOnHost
+  {
+    std::uint32_t Values[NumberOfCounts];
+
+    std::uint32_t Get(MotionCount count) const { return this->Values[static_cast<int>(count)]; }
+    std::uint32_t Get(HullCount count) const
+    {
+      return this->Values[static_cast<int>(MotionCount::Hull) + static_cast<int>(count)];
+    }
+    /// Whether the boundary is a convex polygon that goes around once. If all triangles are
+    /// counter-clockwise, too, none overlap.
+    bool IsConvex() const
+    {
+      return this->Get(HullCount::Concave) == 0 && this->Get(HullCount::TurnsBack) == 0 &&
+        this->Get(HullCount::Reversals) == 2;
+    }
+  };
+
   explicit PointMotion(const Backend& backend)
     : Device(backend),
       Hull(backend)
@@ -246,15 +86,18 @@ public:
   /// @throws BeyondDevice.
   bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed)
   {
-    Reserve(this->Failed, 0, 1, this->Device);
-    this->ResetFailed();
+    Reserve(this->Counts, 0, NumberOfCounts, this->Device);
+    this->ClearCounts();
     this->RequireHull(mesh);
     const bool isDone =
       this->Hull.Remove(mesh.Edges, this->ViewPlane(mesh), mesh.Coordinates, ids, removed);
     MovingMesh<Real> left = mesh;
     left.Vertices -= static_cast<std::int64_t>(removed.Size());
-    const bool isConvex = isDone && this->Hull.IsConvex(this->ViewPlane(left));
-    this->CheckFailed();
+    if (isDone)
+    {
+      this->Hull.CountTurns(this->ViewPlane(left), this->GetHullCounts());
+    }
+    const bool isConvex = isDone && this->FetchCounts().IsConvex();
     if (isConvex)
     {
       this->End(left);
@@ -269,33 +112,29 @@ public:
   /// @throws BeyondDevice.
   bool MakeRound(const MovingMesh<Real>& mesh)
   {
-    ++this->Rounds;
-    this->ResetFailed();
-    const bool moved = this->Rounds == 1 ? this->StartAll(mesh) : this->StartLate(mesh);
-    this->ChangedHull = moved && this->Hull.CutOff(mesh.Edges, this->ViewPlane(mesh));
-    if (!moved || this->Hull.HasFailed())
+    const bool all = ++this->Rounds == 1;
+    this->ClearCounts();
+    CountsOnHost counts = all ? this->StartAll(mesh) : this->StartLate(mesh);
+    const bool isUsual = counts.Get(MotionCount::Unusual) == 0;
+    if (!isUsual || this->Hull.HasFailed() || !this->Halve(mesh, counts))
     {
       return false;
     }
-    const bool all = this->Rounds == 1;
-    if (this->ChangedHull && !all)
+    this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
+    counts = this->FetchCounts();
+    if (counts.Get(HullCount::Concave) > 0)
     {
-      this->FindCornersAgain(mesh);
+      this->ChangedHull |= this->Hull.FillUp(mesh.Edges, this->ViewPlane(mesh));
+      this->ClearCounts();
+      this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
+      counts = this->FetchCounts();
     }
-    this->SetCounts(0, 0, 0);
-    this->FindAllInverted(mesh, all);
-    if (!this->Halve(mesh))
-    {
-      return false;
-    }
-    this->ChangedHull |= this->Hull.FillUp(mesh.Edges, this->ViewPlane(mesh));
-    if (this->Hull.HasFailed() || !this->Hull.IsConvex(this->ViewPlane(mesh)))
+    if (this->Hull.HasFailed() || !counts.IsConvex())
     {
       return false;
     }
     this->ChooseCandidates(mesh, all);
     this->KeepLate(mesh);
-    this->CheckFailed();
     return this->Rounds < MostRounds && this->CountLate() <= this->Allowance;
   }
 
@@ -325,19 +164,31 @@ public:
     this->KnownTriangles = -1; // until a change ends well
   }
 
-  /// Moves all vertices to their targets. @returns whether the coordinates of all targets are
-  /// usual.
-  bool StartAll(const MovingMesh<Real>& mesh)
+  /// Moves all vertices to their targets, cuts off triangles at the boundary that are inverted
+  /// then, and lists the others that are, unless coordinates are unusual.
+  CountsOnHost StartAll(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
-    const std::int64_t unusual = this->Device.template Sum<std::int64_t>(mesh.Vertices,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
-      { sum += motion.Start(static_cast<VertexId>(i)) ? 0 : 1; });
-    return unusual == 0;
+    this->Device.ForEach(mesh.Vertices,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(static_cast<VertexId>(i)); });
+    this->ChangedHull = false;
+    const CountsOnHost counts = this->FetchCounts();
+    if (counts.Get(MotionCount::Unusual) > 0)
+    {
+      return counts;
+    }
+    this->Hull.CountCuts(this->ViewPlane(mesh), this->GetHullCounts());
+    if (this->FetchCounts().Get(HullCount::Cuts) > 0)
+    {
+      this->ChangedHull = this->Hull.CutOff(mesh.Edges, this->ViewPlane(mesh));
+    }
+    this->Device.ForEach(mesh.Edges.NumberOfTriangles, FindInverted<Real>{ this->View(mesh) });
+    return this->FetchCounts();
   }
 
-  /// Moves the late vertices to their targets.
-  bool StartLate(const MovingMesh<Real>& mesh)
+  /// Moves the late vertices to their targets. Most often no triangle at the boundary has to be cut
+  /// off, so the inverted triangles are listed before this is known.
+  CountsOnHost StartLate(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
     LateVertex* late = this->Late.Data();
@@ -351,19 +202,31 @@ public:
         start = start < triangles ? start : 0;
         const FoundPlace found = WalkToPlace(motion.Mesh, motion.Mesh.GetPoint(vertex), start);
         const int slot = found.IsOutside() ? -1 : found.FindVertexSlot();
+        late[i].Corner = MakeCorner(start, 0);
         if (slot >= 0)
         {
           late[i].Corner = MakeCorner(found.Triangle, slot);
         }
-        else // a device could not decide
+        else // a device could not decide, which ends the motion later
         {
           *motion.Mesh.Failed = 1;
         }
       });
-    this->CheckFailed();
     this->Device.ForEach(
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(late[i].Vertex); });
-    return true;
+    this->Hull.CountCuts(this->ViewPlane(mesh), this->GetHullCounts());
+    this->CheckStars(motion, late, count);
+    this->ChangedHull = false;
+    CountsOnHost counts = this->FetchCounts();
+    if (counts.Get(HullCount::Cuts) > 0)
+    {
+      this->ChangedHull = this->Hull.CutOff(mesh.Edges, this->ViewPlane(mesh));
+      this->FindCornersAgain(mesh);
+      this->ClearCounts();
+      this->CheckStars(this->View(mesh), late, count);
+      counts = this->FetchCounts();
+    }
+    return counts;
   }
 
   /// Finds the corners of late vertices again after triangles were cut off and others have taken
@@ -377,106 +240,62 @@ public:
       { late[i].Corner = hull.FindCorner(late[i].Vertex, late[i].Corner); });
   }
 
-  /// Lists the triangles that are not counter-clockwise.
-  /// @param all whether to look at all triangles, instead of those around late vertices.
-  void FindAllInverted(const MovingMesh<Real>& mesh, bool all)
-  {
-    const MotionView<Real> motion = this->View(mesh);
-    TriangleId* list = this->Inverted.Data();
-    if (all)
-    {
-      this->Device.ForEach(mesh.Edges.NumberOfTriangles, FindInverted<Real>{ motion, list });
-      return;
-    }
-    ++this->Stamp;
-    this->CheckStars(motion, this->Late.Data(), this->NumberOfLate, list);
-  }
-
   /// Lists the inverted triangles around vertices, each once.
-  void CheckStars(const MotionView<Real>& motion, const LateVertex* corners, std::int64_t count,
-    TriangleId* list) const
+  void CheckStars(const MotionView<Real>& motion, const LateVertex* corners, std::int64_t count)
   {
-    const std::uint32_t stamp = this->Stamp;
-    this->Device.ForEach(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      {
-        motion.ForStar(corners[i].Corner,
-          [&](CornerId corner)
-          {
-            const TriangleId triangle = TriangleOf(corner);
-            if (motion.IsInverted(triangle) &&
-              AtomicExchange(&motion.TriangleMarks[triangle], stamp) != stamp)
-            {
-              motion.AppendInverted(triangle, list);
-            }
-          });
-      });
+    const std::uint32_t stamp = ++this->Stamp;
+    this->Device.ForEach(
+      count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.CheckStar(corners[i], stamp); });
   }
 
   /// Halves the steps of vertices until no triangle is inverted.
+  /// @param counts what has been counted so far.
   /// @returns false if too many triangles are inverted, or too many passes are needed.
-  bool Halve(const MovingMesh<Real>& mesh)
+  bool Halve(const MovingMesh<Real>& mesh, CountsOnHost counts)
   {
     const MotionView<Real> motion = this->View(mesh);
-    std::int64_t late = 0;
-    for (int pass = 0;; ++pass)
+    for (;; counts = this->FetchCounts())
     {
-      std::uint32_t counts[NumberOfLists];
-      this->Device.Download(this->Counts.Data(), NumberOfLists, counts);
-      const std::int64_t inverted = counts[static_cast<int>(MotionList::Inverted)];
-      late = counts[static_cast<int>(MotionList::Late)];
-      if (inverted > this->MostInverted || late > motion.MostLate || pass > MostPasses)
+      const std::uint32_t inverted = counts.Get(MotionCount::Inverted);
+      const std::uint32_t passes = counts.Get(MotionCount::Passes);
+      this->NumberOfNext = counts.Get(MotionCount::Late);
+      if (inverted > this->MostInverted || this->NumberOfNext > motion.MostLate ||
+        passes > MostPasses)
       {
         return false;
       }
       if (inverted == 0)
       {
-        break;
+        return true;
       }
-      this->HalvePass(motion, inverted);
+      if (inverted <= MostForGroup)
+      {
+        const std::uint32_t left = MostPasses + 1 - passes;
+        this->Device.RunGroup(HalveInGroup<Real>{ motion, this->Stamp + 1, left });
+        this->Stamp += left;
+      }
+      else
+      {
+        this->HalvePass(motion, inverted);
+      }
     }
-    this->NumberOfNext = late;
-    return true;
   }
 
   /// Halves the steps of the vertices of listed triangles, and lists those that are inverted then.
   void HalvePass(const MotionView<Real>& motion, std::int64_t inverted)
   {
-    const std::uint32_t stamp = ++this->Stamp;
-    const TriangleId* list = this->Inverted.Data();
-    LateVertex* changed = this->Changed.Data();
-    LateVertex* next = this->Next.Data();
-    this->Device.ForEach(inverted,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+    const std::uint32_t stamp = this->Stamp + 1;
+    this->Device.ForEach(
+      inverted, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.HalveSteps(i, stamp); });
+    const std::int64_t changed = this->FetchCounts().Get(MotionCount::Changed);
+    this->Device.ForEach(1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
       {
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          const VertexId vertex = motion.Mesh.Edges.Triangles[list[i]].Vertices[slot];
-          const bool isMine = motion.HalvingsOf[vertex] < NoStep &&
-            AtomicExchange(&motion.VertexMarks[vertex], stamp) != stamp;
-          if (!isMine)
-          {
-            continue;
-          }
-          const LateVertex late{ vertex, MakeCorner(list[i], slot) };
-          motion.HalvingsOf[vertex] = static_cast<std::uint8_t>(motion.HalvingsOf[vertex] + 1);
-          motion.Step(vertex);
-          changed[motion.Append(MotionList::Changed)] = late;
-          if (motion.HalvingsOf[vertex] == 1 && !motion.IsAtTarget(vertex))
-          {
-            const std::uint32_t place = motion.Append(MotionList::Late);
-            if (place < motion.MostLate)
-            {
-              next[place] = late;
-            }
-          }
-        }
+        *motion.Get(MotionCount::Inverted) = 0;
+        *motion.Get(MotionCount::Changed) = 0;
+        motion.Increment(MotionCount::Passes);
       });
-    std::uint32_t counts[NumberOfLists];
-    this->Device.Download(this->Counts.Data(), NumberOfLists, counts);
-    this->SetCounts(0, 0, counts[static_cast<int>(MotionList::Late)]);
-    this->CheckStars(
-      motion, changed, counts[static_cast<int>(MotionList::Changed)], this->Inverted.Data());
+    this->CheckStars(motion, this->Changed.Data(), changed);
   }
 
   /// Makes edges candidates if a vertex of their two triangles has moved.
@@ -520,17 +339,20 @@ public:
   }
 
 private:
-  static constexpr int NumberOfLists = static_cast<int>(MotionList::Count);
+  /// So few inverted triangles are handled by one group of threads, which need not wait for the
+  /// host between passes.
+  static constexpr std::uint32_t MostForGroup = Backend::IsOnHost ? 64 : 2048;
   static constexpr std::int64_t Fewest = 64;
   /// If more than one triangle in 64 is inverted, triangulating anew takes less time.
   static constexpr std::int64_t MostShare = 64;
   static constexpr std::int64_t MostRounds = 48;
-  static constexpr int MostPasses = 256;
+  static constexpr std::uint32_t MostPasses = 256;
 
   PlaneMesh ViewPlane(const MovingMesh<Real>& mesh)
   {
     PlaneMesh plane{ mesh.Edges.View(), PlaneArray(mesh.Coordinates, mesh.Vertices, 2), true };
-    plane.Failed = this->Failed.Data();
+    plane.Failed = reinterpret_cast<std::int32_t*>(
+      this->Counts.Data() + static_cast<int>(MotionCount::Undecided));
     return plane;
   }
 
@@ -538,7 +360,8 @@ private:
   {
     return { this->ViewPlane(mesh), mesh.Coordinates, this->Before.Data(), this->Targets, mesh.Ids,
       this->HalvingsOf.Data(), this->VertexMarks.Data(), this->TriangleMarks.Data(),
-      this->Counts.Data(), this->MostInverted, 4 * this->MostInverted };
+      this->Inverted.Data(), this->Changed.Data(), this->Next.Data(), this->Counts.Data(),
+      this->MostInverted, 4 * this->MostInverted };
   }
 
   void MakeRoom(const MovingMesh<Real>& mesh)
@@ -551,8 +374,7 @@ private:
     Reserve(this->Changed, 0, 3 * std::int64_t(this->MostInverted), device);
     Reserve(this->Late, 0, 4 * std::int64_t(this->MostInverted), device);
     Reserve(this->Next, 0, 4 * std::int64_t(this->MostInverted), device);
-    Reserve(this->Counts, 0, NumberOfLists, device);
-    Reserve(this->Failed, 0, 1, device);
+    Reserve(this->Counts, 0, NumberOfCounts, device);
     // A triangulation has fewer than two triangles per vertex, whatever its boundary.
     const std::int64_t triangles = 2 * mesh.Vertices;
     constexpr std::uint32_t LastStamp = 1u << 31;
@@ -577,25 +399,23 @@ public:
   }
 
 private:
-  void SetCounts(std::uint32_t inverted, std::uint32_t changed, std::uint32_t late)
-  {
-    const std::uint32_t counts[NumberOfLists] = { inverted, changed, late };
-    this->Device.Upload(counts, NumberOfLists, this->Counts.Data());
-  }
+  void ClearCounts() { this->Device.Fill(this->Counts.Data(), 0, NumberOfCounts); }
 
-  void ResetFailed()
+  /// Waits for what is counted. @throws BeyondDevice if a device could not decide.
+  CountsOnHost FetchCounts() const
   {
-    const std::int32_t none = 0;
-    this->Device.Upload(&none, 1, this->Failed.Data());
-  }
-  void CheckFailed() const
-  {
-    std::int32_t hasFailed = 0;
-    this->Device.Download(this->Failed.Data(), 1, &hasFailed);
-    if (hasFailed != 0)
+    CountsOnHost counts;
+    this->Device.Download(this->Counts.Data(), NumberOfCounts, counts.Values);
+    if (counts.Get(MotionCount::Undecided) != 0)
     {
       throw BeyondDevice();
     }
+    return counts;
+  }
+
+  std::uint32_t* GetHullCounts()
+  {
+    return this->Counts.Data() + static_cast<int>(MotionCount::Hull);
   }
 
   const Backend& Device;
@@ -604,7 +424,6 @@ private:
   Array<Real> Before;
   Array<std::uint8_t> HalvingsOf;
   Array<std::uint32_t> VertexMarks, TriangleMarks, Counts;
-  Array<std::int32_t> Failed;
   Array<TriangleId> Inverted;
   Array<LateVertex> Changed; ///< Vertices whose steps have changed since triangles were checked.
   Array<LateVertex> Late; ///< Vertices that this round moves, if it is not the first.

@@ -8,11 +8,13 @@
 #include "EdgeTable.h"
 #include "HostMemory.h"
 #include "LoadedMesh.h"
+#include "ThreadGroup.h"
 #include "TriangleMesh.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -119,6 +121,13 @@ public:
     this->ForRange(size,
       [&work](std::int64_t begin, std::int64_t end)
       { Loop(begin, end, work, [&work](std::int64_t i) { work(i); }); });
+  }
+
+  /// Calls work(group) on each thread of a group.
+  template <typename Work>
+  void RunGroup(const Work& work) const
+  {
+    work(ThreadGroup{ 0, 1 });
   }
 
   /// Calls work(i, sum) for i = 0 .. size - 1 on partial sums. @returns their sum by operator+=,
@@ -283,6 +292,13 @@ public:
   Array<T> MakeArray(std::int64_t size) const
   {
     return Array<T>(static_cast<std::size_t>(size), *this->Memory);
+  }
+
+  /// Sets the bytes of `size` values.
+  template <typename T>
+  void Fill(T* values, int byte, std::int64_t size) const
+  {
+    std::memset(values, byte, static_cast<std::size_t>(size) * sizeof(T));
   }
 
   /// `size` values from the backend's memory to the host's, and back.

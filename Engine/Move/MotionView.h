@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_MOTIONVIEW_H
+#define DELAUNAYFLIP_MOTIONVIEW_H
+
+#include "Atomics.h"
+#include "HullBoundary.h"
+#include "PlaneMesh.h"
+#include "ThreadGroup.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace delaunayflip
+{
+
+/// How often the step of a vertex has been halved in a round.
+enum Halvings : std::uint8_t
+{
+  WholeStep = 0,
+  NoStep = 24, ///< The vertex stays where it is.
+  AtTarget = 255 ///< The vertex was at its target before the round.
+};
+
+/// A vertex that is not at its target yet.
+struct LateVertex
+{
+  VertexId Vertex;
+  CornerId Corner; ///< One of its corners or, between rounds, a corner near it.
+};
+
+/// What threads count together. The first three count what is in lists, on whose order no result
+/// depends.
+enum class MotionCount : int
+{
+  Inverted, ///< Triangles that are not counter-clockwise.
+  Changed, ///< Vertices that were halved in the last pass.
+  Late, ///< Vertices that the next round moves.
+  Passes, ///< Passes of a round that have halved steps.
+  Unusual, ///< Targets with unusual coordinates.
+  Undecided, ///< 1 if a device could not decide.
+  Hull, ///< The first of HullCount.
+  End = Hull + static_cast<int>(HullCount::End)
+};
+
+/// Pointers to the arrays of a round.
+template <typename Real>
+struct MotionView
+{
+  PlaneMesh Mesh; ///< At the current places.
+  Real* Now; ///< The current places, x and y by vertex.
+  Real* Before; ///< The places before this round, likewise.
+  PlaneArray Targets; ///< By point.
+  const VertexId* Ids; ///< By vertex, its point.
+  std::uint8_t* HalvingsOf; ///< By vertex.
+  std::uint32_t* VertexMarks; ///< The stamp of the last pass that has handled a vertex.
+  std::uint32_t* TriangleMarks;
+  TriangleId* Inverted; ///< The list of inverted triangles.
+  LateVertex* Changed; ///< Vertices whose steps have changed since triangles were checked.
+  LateVertex* Next; ///< Vertices that the next round moves.
+  std::uint32_t* Counts; ///< By MotionCount.
+  std::uint32_t MostInverted, MostLate;
+
+  DELAUNAYFLIP_HOST_DEVICE Real GetTarget(VertexId vertex, int axis) const
+  {
+    return static_cast<Real>(this->Targets.Get(this->Ids[vertex], axis));
+  }
+
+  /// Whether a coordinate is neither so large nor so small that products of it overflow or vanish.
+  DELAUNAYFLIP_HOST_DEVICE static bool IsUsual(Real coordinate)
+  {
+    constexpr double Least = 7.8886090522101181e-31; // 2^-100
+    const double size = std::fabs(static_cast<double>(coordinate));
+    return size == 0.0 || (size >= Least && size <= 1.0 / Least);
+  }
+
+  /// Moves a vertex to its target.
+  DELAUNAYFLIP_HOST_DEVICE void Start(VertexId vertex) const
+  {
+    bool isUsual = true;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const std::int64_t i = std::int64_t(2) * vertex + axis;
+      const Real target = this->GetTarget(vertex, axis);
+      this->Before[i] = this->Now[i];
+      this->Now[i] = target;
+      isUsual = isUsual && IsUsual(target);
+    }
+    this->HalvingsOf[vertex] = WholeStep;
+    if (!isUsual)
+    {
+      this->Increment(MotionCount::Unusual);
+    }
+  }
+
+  /// Moves a vertex as far as its halvings say.
+  DELAUNAYFLIP_HOST_DEVICE void Step(VertexId vertex) const
+  {
+    const std::uint8_t halvings = this->HalvingsOf[vertex];
+    const double share = 1.0 / static_cast<double>(std::uint32_t(1) << halvings);
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      const std::int64_t i = std::int64_t(2) * vertex + axis;
+      const double before = this->Before[i];
+      double place = before;
+      if (halvings < NoStep)
+      {
+        place += (static_cast<double>(this->GetTarget(vertex, axis)) - before) * share;
+      }
+      this->Now[i] = static_cast<Real>(place);
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsAtTarget(VertexId vertex) const
+  {
+    return this->Before[std::int64_t(2) * vertex] == this->GetTarget(vertex, 0) &&
+      this->Before[std::int64_t(2) * vertex + 1] == this->GetTarget(vertex, 1);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t* Get(MotionCount count) const
+  {
+    return this->Counts + static_cast<int>(count);
+  }
+  /// @returns the count before, which is the index of a new element of a list.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t Increment(MotionCount count) const
+  {
+    return AtomicAdd(this->Get(count), 1u);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsInverted(TriangleId triangle) const
+  {
+    const VertexId* v = this->Mesh.Edges.Triangles[triangle].Vertices;
+    return this->Mesh.FindOrientation(v[0], v[1], v[2]) <= 0;
+  }
+  DELAUNAYFLIP_HOST_DEVICE void AppendInverted(TriangleId triangle) const
+  {
+    const std::uint32_t place = this->Increment(MotionCount::Inverted);
+    if (place < this->MostInverted)
+    {
+      this->Inverted[place] = triangle;
+    }
+  }
+
+  /// Calls visit(corner) for all corners of the vertex that has the corner `first`.
+  template <typename Visit>
+  DELAUNAYFLIP_HOST_DEVICE void ForStar(CornerId first, const Visit& visit) const
+  {
+    visit(first);
+    CornerId corner = this->Mesh.FindNextAround(first);
+    for (; corner != NoCorner && corner != first; corner = this->Mesh.FindNextAround(corner))
+    {
+      visit(corner);
+    }
+    if (corner == NoCorner) // the vertex is on the boundary
+    {
+      corner = this->Mesh.FindPreviousAround(first);
+      for (; corner != NoCorner; corner = this->Mesh.FindPreviousAround(corner))
+      {
+        visit(corner);
+      }
+    }
+  }
+
+  /// Lists the inverted triangles around a vertex that have not been listed under this stamp.
+  DELAUNAYFLIP_HOST_DEVICE void CheckStar(const LateVertex& late, std::uint32_t stamp) const
+  {
+    this->ForStar(late.Corner,
+      [&](CornerId corner)
+      {
+        const TriangleId triangle = TriangleOf(corner);
+        if (this->IsInverted(triangle) &&
+          AtomicExchange(&this->TriangleMarks[triangle], stamp) != stamp)
+        {
+          this->AppendInverted(triangle);
+        }
+      });
+  }
+
+  /// Halves the steps of the vertices of a listed triangle, once under each stamp.
+  DELAUNAYFLIP_HOST_DEVICE void HalveSteps(std::int64_t inverted, std::uint32_t stamp) const
+  {
+    const TriangleId triangle = this->Inverted[inverted];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const VertexId vertex = this->Mesh.Edges.Triangles[triangle].Vertices[slot];
+      const bool isMine = this->HalvingsOf[vertex] < NoStep &&
+        AtomicExchange(&this->VertexMarks[vertex], stamp) != stamp;
+      if (!isMine)
+      {
+        continue;
+      }
+      const LateVertex late{ vertex, MakeCorner(triangle, slot) };
+      this->HalvingsOf[vertex] = static_cast<std::uint8_t>(this->HalvingsOf[vertex] + 1);
+      this->Step(vertex);
+      this->Changed[this->Increment(MotionCount::Changed)] = late;
+      if (this->HalvingsOf[vertex] == 1 && !this->IsAtTarget(vertex))
+      {
+        const std::uint32_t place = this->Increment(MotionCount::Late);
+        if (place < this->MostLate)
+        {
+          this->Next[place] = late;
+        }
+      }
+    }
+  }
+
+  /// Makes the edges of a triangle candidates.
+  DELAUNAYFLIP_HOST_DEVICE void JudgeEdges(TriangleId triangle) const
+  {
+    for (const HalfEdgeId side : this->Mesh.Edges.Triangles[triangle].HalfEdges)
+    {
+      EdgeState* state = &this->Mesh.Edges.States[EdgeOf(side)];
+      if (AtomicLoad(state) != EdgeState::Fixed)
+      {
+        AtomicStore(state, EdgeState::Candidate);
+      }
+    }
+  }
+};
+
+/// Finds the triangles that are not counter-clockwise.
+template <typename Real>
+struct FindInverted
+{
+  MotionView<Real> Motion;
+
+  void Prefetch(std::int64_t triangle) const
+  {
+    for (const VertexId vertex : this->Motion.Mesh.Edges.Triangles[triangle].Vertices)
+    {
+      delaunayflip::Prefetch(this->Motion.Now + std::int64_t(2) * vertex);
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t triangle) const
+  {
+    const VertexId* v = this->Motion.Mesh.Edges.Triangles[triangle].Vertices;
+    const PlanePoint a = this->Get(v[0]), b = this->Get(v[1]), c = this->Get(v[2]);
+    // All coordinates are in the range of the filter.
+    if (FilteredOrientation(a, b, c) != 1 &&
+      this->Motion.IsInverted(static_cast<TriangleId>(triangle)))
+    {
+      this->Motion.AppendInverted(static_cast<TriangleId>(triangle));
+    }
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint Get(VertexId vertex) const
+  {
+    const Real* place = this->Motion.Now + std::int64_t(2) * vertex;
+    return { place[0], place[1], 0.0 };
+  }
+};
+
+/// Halves the steps of vertices, by one group of threads, until no triangle is inverted.
+template <typename Real>
+struct HalveInGroup
+{
+  MotionView<Real> Motion;
+  std::uint32_t Stamp; ///< The stamp of the first pass.
+  std::uint32_t MostPasses;
+
+  DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& group) const
+  {
+    for (std::uint32_t pass = 0; pass < this->MostPasses; ++pass)
+    {
+      const std::uint32_t inverted = AtomicLoad(this->Motion.Get(MotionCount::Inverted));
+      group.Sync();
+      if (inverted == 0 || inverted > this->Motion.MostInverted)
+      {
+        return;
+      }
+      for (std::uint32_t i = group.Rank; i < inverted; i += group.Size)
+      {
+        this->Motion.HalveSteps(i, this->Stamp + pass);
+      }
+      group.Sync();
+      const std::uint32_t changed = AtomicLoad(this->Motion.Get(MotionCount::Changed));
+      group.Sync();
+      if (group.Rank == 0)
+      {
+        AtomicStore(this->Motion.Get(MotionCount::Inverted), 0u);
+        AtomicStore(this->Motion.Get(MotionCount::Changed), 0u);
+        this->Motion.Increment(MotionCount::Passes);
+      }
+      group.Sync();
+      for (std::uint32_t i = group.Rank; i < changed; i += group.Size)
+      {
+        this->Motion.CheckStar(this->Motion.Changed[i], this->Stamp + pass);
+      }
+      group.Sync();
+    }
+  }
+};
+
+}
+
+#endif
