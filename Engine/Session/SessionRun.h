@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -136,11 +137,9 @@ public:
 protected:
   SessionRun() = default;
 
-  /// Why the functions of sessions from points throw InvalidOptions.
-  [[noreturn]] virtual void RefuseQuestion() const
-  {
-    throw InvalidOptions("this session was not made from points");
-  }
+  /// Says why the functions of sessions from points are refused.
+  virtual std::string ExplainRefusal() const { return "this session was not made from points"; }
+  [[noreturn]] void RefuseQuestion() const { throw InvalidOptions(this->ExplainRefusal()); }
 
   /// For a run that is done at once: tells its end and, once it is there, all iterations.
   void TellEnd(const FlipObserver& observer, const ProgressObserver& progress) const

@@ -429,10 +429,10 @@ ProgressObserver SphereRun::TellHalf()
 }
 
 //------------------------------------------------------------------------------
-void SphereRun::RefuseQuestion() const
+std::string SphereRun::ExplainRefusal() const
 {
-  throw InvalidOptions("a triangulation on a sphere has no interpolation, and its points cannot be "
-                       "inserted, moved or removed");
+  return "a triangulation on a sphere has no interpolation, and its points cannot be "
+         "inserted, moved or removed";
 }
 
 }

@@ -8,6 +8,7 @@
 #include "SphereStart.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace delaunayflip
@@ -65,7 +66,7 @@ private:
   std::vector<std::int32_t> ListActive() const;
   ProgressObserver TellHalf();
   void Reset() override;
-  [[noreturn]] void RefuseQuestion() const override;
+  std::string ExplainRefusal() const override;
 
   const PointInput Input;
   const PointOptions Options;
