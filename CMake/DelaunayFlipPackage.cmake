@@ -11,6 +11,7 @@ install(EXPORT DelaunayFlipEngine NAMESPACE DelaunayFlip:: FILE DelaunayFlip-eng
   DESTINATION "${delaunayflip_cmake}")
 install(TARGETS DelaunayFlipC EXPORT DelaunayFlipC
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
   PUBLIC_HEADER DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/delaunayflip")
 install(EXPORT DelaunayFlipC NAMESPACE DelaunayFlip:: FILE DelaunayFlip-c-targets.cmake
   DESTINATION "${delaunayflip_cmake}")

@@ -8,7 +8,8 @@ if(DELAUNAYFLIP_WHEEL)
     VERSION 1
     INSTALL_RPATH_USE_LINK_PATH ON)
   install(TARGETS DelaunayFlipC
-    LIBRARY DESTINATION delaunayflip COMPONENT wheel NAMELINK_SKIP)
+    LIBRARY DESTINATION delaunayflip COMPONENT wheel NAMELINK_SKIP
+    RUNTIME DESTINATION delaunayflip COMPONENT wheel) # of Windows
   install(FILES "${PROJECT_SOURCE_DIR}/Plugin/DelaunayFlip.xml"
     "${PROJECT_SOURCE_DIR}/Plugin/AngleColors.json"
     DESTINATION delaunayflip COMPONENT wheel)

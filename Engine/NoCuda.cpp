@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Array.h"
 #include "CudaDevice.h"
+#include "CudaSupport.h"
 #include "FlipError.h"
 #include "LoadedMesh.h"
+
+#include <string>
 
 /// @file
 /// Replaces the CUDA backend in a build without it.
@@ -13,32 +16,36 @@ namespace delaunayflip
 
 namespace
 {
-constexpr const char* NoArrays =
-  "this build has no CUDA backend, so it can use no arrays in the memory of a GPU";
+[[noreturn]] void Refuse(const char* consequence)
+{
+  const std::string reason = ExplainNoCuda();
+  throw BackendUnavailable("this build has no CUDA backend" + reason + consequence);
+}
+
+[[noreturn]] void RefuseRun() { Refuse("; use 'auto' or 'threads'"); }
+
+[[noreturn]] void RefuseArrays() { Refuse(", so it can use no arrays in the memory of a GPU"); }
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const TriangleMesh&, const FlipOptions&, const BuildProgress&)
 {
-  throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
+  RefuseRun();
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(const DeviceMesh&, const FlipOptions&, const BuildProgress&)
 {
-  throw BackendUnavailable(NoArrays);
+  RefuseArrays();
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput&, const FlipOptions&, const BuildProgress&)
 {
-  throw BackendUnavailable("this build has no CUDA backend; use 'auto' or 'threads'");
+  RefuseRun();
 }
 
-int FindDeviceOf(const void*) { throw BackendUnavailable(NoArrays); }
+int FindDeviceOf(const void*) { RefuseArrays(); }
 
-void CopyMemory(const void*, std::int64_t, void*, const DeviceStream&)
-{
-  throw BackendUnavailable(NoArrays);
-}
+void CopyMemory(const void*, std::int64_t, void*, const DeviceStream&) { RefuseArrays(); }
 
 bool HasCudaDevice() { return false; }
 

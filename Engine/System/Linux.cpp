@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CudaSupport.h"
 #include "SystemMemory.h"
 
 #include <cstdlib>
@@ -53,5 +54,7 @@ void FreeToSystem(void* memory, std::size_t bytes) noexcept
   }
   std::free(memory);
 }
+
+const char* ExplainNoCuda() { return ""; }
 
 }

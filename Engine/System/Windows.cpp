@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CudaSupport.h"
 #include "SystemMemory.h"
 
 #include <malloc.h>
@@ -19,5 +20,7 @@ void* AllocateFromSystem(std::size_t bytes)
 }
 
 void FreeToSystem(void* memory, std::size_t) noexcept { _aligned_free(memory); }
+
+const char* ExplainNoCuda() { return " (builds for Windows have none yet)"; }
 
 }

@@ -45,7 +45,16 @@ class BackendUnavailable(FlipError, RuntimeError):
 
 
 INTERFACE_VERSION = 1
-LIBRARY = f"libdelaunayflip.so.{INTERFACE_VERSION}"
+
+
+def name_library(system):
+    """The file of the library, for a value of sys.platform."""
+    return {"win32": f"delaunayflip-{INTERFACE_VERSION}.dll",
+            "darwin": f"libdelaunayflip.{INTERFACE_VERSION}.dylib",
+            }.get(system, f"libdelaunayflip.so.{INTERFACE_VERSION}")
+
+
+LIBRARY = name_library(sys.platform)
 
 #: By NumPy's names.
 TYPES = {"float32": 0, "float64": 1, "int32": 2, "int64": 3}

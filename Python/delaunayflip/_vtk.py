@@ -26,6 +26,8 @@ _IN_CXX = {
 
 def _is_built_for_this_vtk():
     """Whether this package has C++ modules that link the libraries of VTK already loaded."""
+    if not hasattr(os, "RTLD_NOLOAD"):  # as on Windows
+        return False
     try:
         from ._vtk_build import COMMON_CORE
 

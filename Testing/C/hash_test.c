@@ -421,7 +421,7 @@ static void HashAll(void)
         HashOfPoints(kind, variant, Sizes[size]);
         End("points", kind, variant, Sizes[size]);
       }
-      HashOfMoves(kind, 3 * Sizes[size] - 80);
+      HashOfMoves(kind, 2 * Sizes[size]);
       End("moves", kind, 0, Sizes[size]);
     }
     for (kind = 0; kind < 3; ++kind)

@@ -14,6 +14,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import types
 import unittest
@@ -939,6 +940,25 @@ class Package(unittest.TestCase):
                    "from delaunayflip import *")
         self.assertRegex(run_python(program), r"^False \d{5}")
         self.assertFalse(hasattr(delaunayflip, "flop"))
+
+    def test_library(self):
+        """Each system's library is taken from the package. Without one, the system searches."""
+        names = {"linux": "libdelaunayflip.so.1", "darwin": "libdelaunayflip.1.dylib",
+                 "win32": "delaunayflip-1.dll"}
+        load = _library.library.__wrapped__
+        for system, name in names.items():
+            self.assertEqual(name, _library.name_library(system))
+            with (self.subTest(system), tempfile.TemporaryDirectory() as folder,
+                  unittest.mock.patch.object(_library, "LIBRARY", name),
+                  unittest.mock.patch.object(delaunayflip, "__path__", ["/absent", folder]),
+                  unittest.mock.patch.object(_library, "__file__", f"{folder}/_library.py"),
+                  unittest.mock.patch("ctypes.CDLL", side_effect=OSError) as taken):
+                file = pathlib.Path(folder).resolve() / name
+                self.assertRaises(OSError, load)
+                taken.assert_called_with(name)
+                file.touch()
+                self.assertRaises(OSError, load)
+                taken.assert_called_with(str(file))
 
     def test_docstrings(self):
         result = doctest.testmod(_session)

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CUDASUPPORT_H
+#define DELAUNAYFLIP_CUDASUPPORT_H
+
+/// @file
+/// Whether builds for this system can have the CUDA backend.
+
+namespace delaunayflip
+{
+
+/// @returns why they cannot, in parentheses and after a space; "" if they can.
+const char* ExplainNoCuda();
+
+}
+
+#endif
