@@ -59,6 +59,7 @@ DELAUNAYFLIP_HOST_DEVICE inline double GetProductError(double a, double b, doubl
 class CrossProduct
 {
 public:
+  CrossProduct() = default;
   DELAUNAYFLIP_HOST_DEVICE CrossProduct(const PlaceOffset& a, const PlaceOffset& b)
     : Left(a.U * b.V),
       Right(a.V * b.U),
@@ -92,6 +93,7 @@ public:
 /// A point as seen from another one.
 struct SeenPoint
 {
+  SeenPoint() = default;
   DELAUNAYFLIP_HOST_DEVICE SeenPoint(const ScaledPoint& point, const ScaledPoint& origin)
     : Point(point),
       Offset(Subtract(point, origin)),
@@ -105,19 +107,18 @@ struct SeenPoint
 };
 
 /// Twice the area of a triangle, with a relative error of a few roundings even if it is a sliver.
-/// @param seenA, seenB as seen from the origin.
-DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(
-  const ScaledPoint& origin, const SeenPoint& seenA, const SeenPoint& seenB)
+/// @param seenA, seenB as seen from the origin. @param cross of their offsets.
+DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(const ScaledPoint& origin,
+  const SeenPoint& seenA, const SeenPoint& seenB, const CrossProduct& cross)
 {
-  const ScaledPoint& a = seenA.Point;
-  const ScaledPoint& b = seenB.Point;
-  const PlaceOffset& toA = seenA.Offset;
-  const PlaceOffset& toB = seenB.Offset;
-  const CrossProduct cross(toA, toB);
   if (!cross.IsCancelled())
   {
     return cross.Value;
   }
+  const ScaledPoint& a = seenA.Point;
+  const ScaledPoint& b = seenB.Point;
+  const PlaceOffset& toA = seenA.Offset;
+  const PlaceOffset& toB = seenB.Offset;
   const double restUOfA = GetDifferenceError(a.U, origin.U, toA.U);
   const double restVOfA = GetDifferenceError(a.V, origin.V, toA.V);
   const double restUOfB = GetDifferenceError(b.U, origin.U, toB.U);
@@ -125,6 +126,11 @@ DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(
   const double ofDifferences =
     (toA.U * restVOfB - toA.V * restUOfB) + (restUOfA * toB.V - restVOfA * toB.U);
   return cross.Value + (cross.GetRest(toA, toB) + ofDifferences);
+}
+DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(
+  const ScaledPoint& origin, const SeenPoint& seenA, const SeenPoint& seenB)
+{
+  return FindTwiceArea(origin, seenA, seenB, CrossProduct(seenA.Offset, seenB.Offset));
 }
 
 }

@@ -251,6 +251,65 @@ TEST(Ask, LinearFunctionsAreReproduced)
   }
 }
 
+/// The products of coordinates have 80 bits, and 34 of them cancel.
+TEST(Ask, SliversHaveExactWeights)
+{
+  constexpr std::int64_t Far = 1000000000001;
+  Drawing drawing;
+  drawing.Points = { { 0.0, 0.0 }, { Far, Far + 3 }, { Far / 3, Far / 3 + 41 } };
+  const Asked asked(drawing);
+  for (const std::int64_t x : { Far / 3 - 9, Far / 3 + 7, Far / 2 })
+  {
+    const std::int64_t y = x + 20;
+    const auto ofThird = static_cast<double>(__int128(Far) * y - __int128(Far + 3) * x);
+    const auto ofAll =
+      static_cast<double>(__int128(Far) * (Far / 3 + 41) - __int128(Far + 3) * (Far / 3));
+    const std::vector<double> weight = asked.Interpolate({ 0.0, 0.0, 1.0 },
+      { { static_cast<double>(x), static_cast<double>(y) } }, InterpolationKind::Linear);
+    EXPECT_NEAR(ofThird / ofAll, weight[0], 1e-15);
+  }
+}
+
+/// Far beyond the range of the filters, areas come from scaled points, and cavities from exact
+/// tests without a tour. The results are those of small places.
+TEST(Ask, ThereIsNoScale)
+{
+  std::mt19937 random(15);
+  const Drawing drawing = DrawSurvey(random, 1000);
+  Drawing scaled = drawing;
+  const auto enlarge = [](Places& places)
+  {
+    for (Place& place : places)
+    {
+      place = { std::ldexp(place[0], 600), std::ldexp(place[1], 600) };
+    }
+  };
+  enlarge(scaled.Points);
+  const Asked asked(drawing);
+  const Asked large(scaled);
+  std::vector<double> values;
+  for (const Place& point : asked.Points)
+  {
+    values.push_back(std::sin(5.0 * point[0]) * point[1]);
+  }
+  const Places places = DrawPlaces(asked, random, 20000 / Reduction);
+  Places placesOfLarge = places;
+  enlarge(placesOfLarge);
+  for (const InterpolationKind method : { InterpolationKind::Linear, InterpolationKind::Natural })
+  {
+    const std::vector<double> expected = asked.Interpolate(values, places, method);
+    const std::vector<double> found = large.Interpolate(values, placesOfLarge, method);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      ASSERT_EQ(std::isnan(expected[i]), std::isnan(found[i]));
+      if (!std::isnan(expected[i]))
+      {
+        ASSERT_NEAR(expected[i], found[i], 1e-12) << places[i][0] << ' ' << places[i][1];
+      }
+    }
+  }
+}
+
 TEST(Ask, NaturalNeighborsAreCgals)
 {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

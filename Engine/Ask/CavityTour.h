@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_CAVITYTOUR_H
+#define DELAUNAYFLIP_CAVITYTOUR_H
+
+#include "PlaceCavity.h"
+
+#include <cmath>
+
+namespace delaunayflip
+{
+
+/// Finds the natural weights of a place in a tour along the boundary of its cavity. They have the
+/// bits of VisitNaturalWeights, but a tour is faster on a host. It sees each triangle, edge and
+/// vertex once, and keeps them.
+class CavityTour
+{
+public:
+  DELAUNAYFLIP_HOST_DEVICE CavityTour(
+    const PlaceCavity& cavity, const PlaneMesh& mesh, const PlaceFrame& frame)
+    : Cavity(cavity),
+      Mesh(mesh),
+      Frame(frame)
+  {
+  }
+
+  /// @param triangle has the place inside.
+  /// @returns whether the cavity is not too large. Otherwise there are no weights.
+  DELAUNAYFLIP_HOST_DEVICE bool Run(TriangleId triangle)
+  {
+    if (!this->Mesh.IsInFilterRange)
+    {
+      return false;
+    }
+    this->Begin(triangle);
+    while (this->NumberOfEdges > 0)
+    {
+      --this->NumberOfEdges;
+      const Edge edge = this->Edges[this->NumberOfEdges];
+      this->ReturnTo(edge.Owner);
+      if (!this->GoAcross(edge))
+      {
+        this->AddBoundaryEdge(edge);
+      }
+      if (this->NumberOfTriangles == MostTriangles)
+      {
+        return false;
+      }
+    }
+    this->End();
+    return true;
+  }
+
+  /// Calls visit(vertex, weight).
+  template <typename Visit>
+  DELAUNAYFLIP_HOST_DEVICE void VisitWeights(const Visit& visit) const
+  {
+    for (int i = 0; i < this->NumberOfWeights; ++i)
+    {
+      visit(this->Weights[i].Vertex, this->Weights[i].Value);
+    }
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool AreGood() const { return this->Check.IsGood(); }
+
+private:
+  static constexpr int MostTriangles = 16;
+
+  struct Vertex
+  {
+    VertexId Id;
+    SeenPoint Seen;
+  };
+
+  /// A triangle of the cavity.
+  struct Triangle
+  {
+    AreaCorner Centre;
+    const Triangle* Before; ///< The triangle from which this one was entered.
+    AreaStep Step; ///< From that one's centre to this one's.
+  };
+
+  /// An edge of a triangle of the cavity.
+  struct Edge
+  {
+    CornerId Opposite;
+    const Vertex* From;
+    const Vertex* To;
+    const Triangle* Owner;
+    CrossProduct Cross; ///< Of the offsets of its ends.
+  };
+
+  struct Weight
+  {
+    VertexId Vertex;
+    double Value;
+  };
+
+  /// Begins with the triangle that has the place.
+  DELAUNAYFLIP_HOST_DEVICE void Begin(TriangleId triangle)
+  {
+    const Vertex* ends[3];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      ends[slot] = this->See(MakeCorner(triangle, slot));
+      ++this->NumberOfVertices;
+    }
+    this->Triangles[0].Centre =
+      FindCentre(this->Frame, ends[0]->Seen.Point, ends[1]->Seen.Point, ends[2]->Seen.Point);
+    this->NumberOfTriangles = 1;
+    for (const int slot : { 2, 1, 0 })
+    {
+      const Vertex* from = ends[NextSlot(slot)];
+      const Vertex* to = ends[PreviousSlot(slot)];
+      this->Push({ MakeCorner(triangle, slot), from, to, this->Triangles, FindCross(from, to) });
+    }
+  }
+
+  /// Stores the vertex of a corner after the others.
+  DELAUNAYFLIP_HOST_DEVICE const Vertex* See(CornerId corner)
+  {
+    Vertex* vertex = this->Vertices + this->NumberOfVertices;
+    vertex->Id = this->Mesh.GetVertex(corner);
+    vertex->Seen = SeenPoint(this->Frame.GetPoint(vertex->Id), this->Frame.GetPlace());
+    return vertex;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE static CrossProduct FindCross(const Vertex* from, const Vertex* to)
+  {
+    return CrossProduct(from->Seen.Offset, to->Seen.Offset);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void Push(const Edge& edge)
+  {
+    this->Edges[this->NumberOfEdges] = edge;
+    ++this->NumberOfEdges;
+  }
+
+  /// Goes back to a triangle that was entered before.
+  DELAUNAYFLIP_HOST_DEVICE void ReturnTo(const Triangle* triangle)
+  {
+    while (this->Current != triangle)
+    {
+      const Triangle& left = *this->Current;
+      this->Twice = left.Step.AddBack(this->Twice, left.Centre, left.Before->Centre);
+      this->Current = left.Before;
+    }
+  }
+
+  /// Enters the triangle across an edge.
+  /// @returns whether there is one in the cavity.
+  DELAUNAYFLIP_HOST_DEVICE bool GoAcross(const Edge& edge)
+  {
+    const HalfEdgeId side = this->Mesh.GetHalfEdge(edge.Opposite);
+    const CornerId across = this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+    if (across == NoCorner || this->Mesh.IsFixed(side))
+    {
+      return false;
+    }
+    const Vertex* apex = this->See(across);
+    const CrossProduct first = FindCross(edge.From, apex), second = FindCross(apex, edge.To);
+    if (!this->IsInCircle(edge, first, second, apex, across))
+    {
+      return false;
+    }
+    this->Enter(edge, apex, SlotOf(across));
+    this->Push({ PlaneMesh::Previous(across), apex, edge.To, this->Current, second });
+    this->Push({ PlaneMesh::Next(across), edge.From, apex, this->Current, first });
+    return true;
+  }
+
+  /// Whether the place is in the circle through an edge and a vertex beyond.
+  /// @param first, second of the edges from and to it.
+  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(const Edge& edge, const CrossProduct& first,
+    const CrossProduct& second, const Vertex* apex, CornerId across) const
+  {
+    constexpr double LargestSquare = 1.6e60; // 2^200: no underflow spoils what is certain
+    const double a = apex->Seen.Square;
+    const double b = edge.To->Seen.Square, c = edge.From->Seen.Square;
+    const double determinant = b * first.Value + c * second.Value - a * edge.Cross.Value;
+    // The magnitude of a cross product is at most the product of the lengths. So this is at least
+    // the permanent, which takes longer.
+    const double most = b * c + a * (b + c);
+    if (std::fabs(determinant) > GetBound(InCircleBound * most) && a + b + c < LargestSquare)
+    {
+      return determinant > 0.0;
+    }
+    return this->Cavity.IsInCircle(across);
+  }
+
+  /// Enters the triangle of an edge and a vertex beyond, which is at a slot.
+  DELAUNAYFLIP_HOST_DEVICE void Enter(const Edge& edge, const Vertex* apex, int slot)
+  {
+    const Vertex* ring[5] = { edge.To, edge.From, apex, edge.To, edge.From };
+    const Vertex** first = ring + 2 - slot; // the vertex of slot 0
+    Triangle* entered = this->Triangles + this->NumberOfTriangles;
+    entered->Centre =
+      FindCentre(this->Frame, first[0]->Seen.Point, first[1]->Seen.Point, first[2]->Seen.Point);
+    entered->Before = edge.Owner;
+    entered->Step = AreaStep(edge.Owner->Centre, entered->Centre);
+    this->Twice = entered->Step.Add(this->Twice);
+    this->Current = entered;
+    ++this->NumberOfTriangles;
+    ++this->NumberOfVertices;
+  }
+
+  /// Ends the area of the vertex where an edge of the boundary begins, and begins that of its end.
+  DELAUNAYFLIP_HOST_DEVICE void AddBoundaryEdge(const Edge& edge)
+  {
+    const AreaCorner& centre = edge.Owner->Centre;
+    const AreaCorner ofNew =
+      FindCentre(this->Frame.GetPlace(), edge.From->Seen, edge.To->Seen, edge.Cross);
+    const AreaStep step(centre, ofNew);
+    if (this->IsBegun)
+    {
+      this->AddWeight(step, edge.From, ofNew);
+    }
+    else
+    {
+      this->IsBegun = true;
+      this->OwnerOfFirst = edge.Owner;
+      this->StepOfFirst = step;
+      this->FromOfFirst = edge.From;
+      this->CentreOfFirst = ofNew;
+    }
+    this->Twice = step.AddBack(0.0, ofNew, centre);
+    this->Last = ofNew;
+  }
+
+  /// Ends the area of a vertex.
+  /// @param step to the last corner of the area. @param corner that corner.
+  DELAUNAYFLIP_HOST_DEVICE void AddWeight(
+    const AreaStep& step, const Vertex* vertex, const AreaCorner& corner)
+  {
+    const double weight = AreaStep(corner, this->Last).Add(step.Add(this->Twice));
+    this->Check.Add(weight, vertex->Seen.Offset);
+    this->Weights[this->NumberOfWeights] = { vertex->Id, weight };
+    ++this->NumberOfWeights;
+  }
+
+  /// Goes once more to the first edge of the boundary.
+  DELAUNAYFLIP_HOST_DEVICE void End()
+  {
+    this->ReturnTo(this->Triangles);
+    while (this->Current != this->OwnerOfFirst) // Triangles begin with those on the way there
+    {
+      ++this->Current;
+      this->Twice = this->Current->Step.Add(this->Twice);
+    }
+    this->AddWeight(this->StepOfFirst, this->FromOfFirst, this->CentreOfFirst);
+  }
+
+  const PlaceCavity& Cavity;
+  const PlaneMesh& Mesh;
+  const PlaceFrame& Frame;
+  WeightCheck Check;
+
+  int NumberOfVertices = 0, NumberOfEdges = 0, NumberOfTriangles = 0, NumberOfWeights = 0;
+  Vertex Vertices[MostTriangles + 3];
+  Edge Edges[MostTriangles + 3]; ///< To go across, the next one last.
+  Triangle Triangles[MostTriangles];
+  Weight Weights[MostTriangles + 2];
+
+  const Triangle* Current = Triangles; ///< The triangle that the tour is in.
+  double Twice = 0.0; ///< The area of a vertex, so far.
+  AreaCorner Last; ///< The first corner of that area.
+  bool IsBegun = false; ///< Whether there was an edge of the boundary.
+  const Triangle* OwnerOfFirst = nullptr;
+  const Vertex* FromOfFirst = nullptr;
+  AreaStep StepOfFirst;
+  AreaCorner CentreOfFirst;
+};
+
+}
+
+#endif
