@@ -638,6 +638,17 @@ extern "C"
     return StoreTriangles(session, triangles, id_type);
   }
 
+  delaunayflip_status delaunayflip_store_ordered_triangles(
+    delaunayflip_session* session, void* triangles, std::int32_t id_type)
+  {
+    return TryWith(session,
+      [=]()
+      {
+        session->Session.StoreOrderedTriangles(
+          ToOutput(triangles, session->CountTriangles(), id_type));
+      });
+  }
+
   delaunayflip_status delaunayflip_store_flip_counts(
     delaunayflip_session* session, std::int32_t* counts)
   {

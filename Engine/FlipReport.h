@@ -318,7 +318,7 @@ void ForEachNumber(const Visit& visit, Reports&... reports)
   visit("unrefined_triangles", main, reports.FromPoints.UnrefinedTriangles...);
   visit("reached_point_limit", main, reports.FromPoints.ReachedPointLimit...);
   visit("removed_points", whole, reports.FromPoints.Removed...);
-  visit("move_rounds", whole, reports.FromPoints.MoveRounds...);
+  visit("move_rounds", points, reports.FromPoints.MoveRounds...);
   visit("points_inside", points, reports.FromPoints.Inside...);
 }
 

@@ -393,4 +393,55 @@ void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids, vtkDataSet
   }
 }
 
+void AppendAdded(
+  const std::vector<AddedPoint>& added, bool hasPlaces, vtkPolyData* mesh, vtkPolyData* output)
+{
+  const vtkIdType first = mesh->GetNumberOfPoints();
+  const auto size = static_cast<vtkIdType>(added.size());
+  vtkNew<vtkPoints> zeros;
+  zeros->SetNumberOfPoints(size);
+  zeros->GetData()->Fill(0.0);
+  AppendPoints(mesh, zeros, MakeRange(0, size), nullptr, output);
+  InterpolateTuples(added, first, output->GetPointData());
+  vtkDataArray* xyz = output->GetPoints()->GetData();
+  for (vtkIdType i = 0; i < size; ++i)
+  {
+    const AddedPoint& point = added[i];
+    double place[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      // InterpolateTuple would make infinite floats finite.
+      place[axis] = (1.0 - point.Share - point.ThirdShare) * xyz->GetComponent(point.From, axis) +
+        point.Share * xyz->GetComponent(point.To, axis);
+      if (point.Third >= 0)
+      {
+        place[axis] += point.ThirdShare * xyz->GetComponent(point.Third, axis);
+      }
+    }
+    if (hasPlaces)
+    {
+      place[0] = point.X;
+      place[1] = point.Y;
+    }
+    xyz->SetTuple(first + i, place);
+  }
+}
+
+PlaneArray CopyPlaces(
+  const PlaneArray& places, std::vector<float>& floats, std::vector<double>& doubles)
+{
+  const auto copy = [&places](auto* from, auto& storage)
+  {
+    std::decay_t<decltype(storage)> copied(2 * places.Count);
+    for (std::int64_t i = 0; i < places.Count; ++i)
+    {
+      copied[2 * i] = from[i * places.Stride];
+      copied[2 * i + 1] = from[i * places.Stride + 1];
+    }
+    storage = std::move(copied);
+    return PlaneArray(std::as_const(storage).data(), places.Count, 2);
+  };
+  return places.Floats ? copy(places.Floats, floats) : copy(places.Doubles, doubles);
+}
+
 }

@@ -205,6 +205,16 @@ vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkI
 DELAUNAYFLIP_EXPORT void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids,
   vtkDataSetAttributes* data, vtkPolyData* output);
 
+/// The same for points that the engine has added to those of a triangulation. What they have is
+/// interpolated.
+/// @param hasPlaces whether x and y of the mesh are the engine's.
+void AppendAdded(
+  const std::vector<AddedPoint>& added, bool hasPlaces, vtkPolyData* mesh, vtkPolyData* output);
+
+/// A copy of x and y, in the storage of their precision.
+PlaneArray CopyPlaces(
+  const PlaneArray& places, std::vector<float>& floats, std::vector<double>& doubles);
+
 }
 
 #endif

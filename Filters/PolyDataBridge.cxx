@@ -594,7 +594,7 @@ std::vector<ResultMemory> ListMemory(vtkCellArray* room)
   return memory;
 }
 
-void FillTriangles(const FlipSession& session, vtkCellArray* room)
+void FillTriangles(const FlipSession& session, vtkCellArray* room, bool areOrdered)
 {
   const vtkIdType count = room->GetNumberOfCells();
   const auto fill = [&](auto* offsets, auto* ids)
@@ -607,7 +607,15 @@ void FillTriangles(const FlipSession& session, vtkCellArray* room)
           offsets[i] = static_cast<std::decay_t<decltype(*offsets)>>(3 * i);
         }
       });
-    session.StoreTriangles(MutableTriangleArray(ids, count));
+    const MutableTriangleArray triangles(ids, count);
+    if (areOrdered)
+    {
+      session.StoreOrderedTriangles(triangles);
+    }
+    else
+    {
+      session.StoreTriangles(triangles);
+    }
   };
   void* offsets = room->GetOffsetsArray()->GetVoidPointer(0);
   void* ids = room->GetConnectivityArray()->GetVoidPointer(0);

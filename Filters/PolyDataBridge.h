@@ -210,7 +210,8 @@ vtkSmartPointer<vtkCellArray> MakeRoomForTriangles(vtkIdType count, bool areWide
 std::vector<ResultMemory> ListMemory(vtkCellArray* room);
 
 /// Writes the session's triangles to such cells.
-void FillTriangles(const FlipSession& session, vtkCellArray* room);
+/// @param areOrdered whether by FlipSession::StoreOrderedTriangles.
+void FillTriangles(const FlipSession& session, vtkCellArray* room, bool areOrdered = false);
 
 /// Whether the ids of the polygons of a mesh, or of its strips if it has no polygons, have 64 bits.
 DELAUNAYFLIP_EXPORT bool UsesWideIds(vtkPolyData* mesh);

@@ -10,11 +10,8 @@
 #include "vtkCellData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
-#include "vtkMath.h"
-#include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
-#include "vtkTransform.h"
 
 #include <algorithm>
 #include <array>
@@ -24,6 +21,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,41 +30,13 @@ namespace delaunayflip
 namespace
 {
 
-/// The rotation that takes the plane of the first points to that of x and y. Points that are not
-/// finite do not matter.
-vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points, vtkIdType count)
-{
-  vtkNew<vtkPoints> finite;
-  finite->SetDataTypeToDouble();
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const double* x = points->GetPoint(i);
-    if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
-    {
-      finite->InsertNextPoint(x);
-    }
-  }
-  double origin[3], normal[3] = { 0.0, 0.0, 1.0 }, axis[3];
-  vtkPlane::ComputeBestFittingPlane(finite, origin, normal);
-  if (normal[2] < 0.0)
-  {
-    vtkMath::MultiplyScalar(normal, -1.0);
-  }
-  const double up[3] = { 0.0, 0.0, 1.0 };
-  vtkMath::Cross(normal, up, axis);
-  auto rotation = vtkSmartPointer<vtkTransform>::New();
-  rotation->RotateWXYZ(
-    vtkMath::DegreesFromRadians(std::atan2(vtkMath::Norm(axis), normal[2])), axis);
-  return rotation;
-}
-
 /// Whether two requests have the same options. Their inputs may differ.
 bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& b)
 {
   const auto tie = [](const TriangulationRequest& r)
   {
     return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
-      r.PassesSegments, r.FirstHole, r.Heights, r.SizeArray, r.Regions, r.Options);
+      r.PassesSegments, r.FirstHole, r.Heights, r.SizeArray, r.Regions, r.Options, r.KeepsRun);
   };
   return tie(a) == tie(b);
 }
@@ -118,7 +88,20 @@ vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtk
 class TriangulationRun : public UpdateRun
 {
 public:
+  /// Reads the input. The session is not open yet.
   explicit TriangulationRun(const TriangulationRequest& request);
+
+  /// Opens a session for the points. @throws as FlipSession's constructor.
+  void OpenSession();
+
+  /// Whether the points of a request may be those of this run at other places.
+  bool MayBeFollowed(const TriangulationRequest& request) const;
+
+  /// Takes over the session of such a run, whose points move to the places of these. Nothing
+  /// happens if their coordinates have another precision.
+  /// @returns whether there is a session now.
+  /// @throws RunAborted; then the other run is what it was. As FlipSession::Move.
+  bool Follow(TriangulationRun& last);
 
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
@@ -144,7 +127,6 @@ private:
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
   Defect DescribeFlatPoints() const;
   PlaneArray Project();
-  void AppendAdded(vtkPolyData* output) const;
   void StoreSegments(vtkPolyData* output) const;
   void StoreRegions(vtkPolyData* output) const;
 
@@ -159,7 +141,8 @@ private:
   bool HasSurveyed = false; ///< Added points have got data of the given ones.
   std::vector<double> Sizes; ///< Longest edges near points, if they are limited.
   std::vector<RegionSeed> Regions;
-  std::vector<double> Storage; ///< Points that cannot be viewed in place.
+  std::vector<double> Storage; ///< Points that cannot be viewed in place, or must not.
+  std::vector<float> FloatStorage; ///< The same.
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
   PointInput View; ///< Views of these.
 };
@@ -216,8 +199,18 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
     this->View.FirstHole =
       static_cast<std::int32_t>(std::min<vtkIdType>(request.FirstHole, VTK_INT_MAX));
   }
-  this->Session = std::make_unique<FlipSession>(this->View, request.Options, this->GetProgress());
-  if (!request.IsLive)
+}
+
+void TriangulationRun::OpenSession()
+{
+  if (this->Asked.KeepsRun)
+  {
+    this->View.Points = CopyPlaces(
+      this->View.Points, this->FloatStorage, this->Storage); // the caller may change them
+  }
+  this->Session =
+    std::make_unique<FlipSession>(this->View, this->Asked.Options, this->GetProgress());
+  if (!this->Asked.IsLive)
   {
     this->Room = this->MakeRoom();
     for (const ResultMemory& memory : ListMemory(this->Room))
@@ -225,6 +218,32 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
       this->Session->Expect(memory.First, memory.Bytes);
     }
   }
+}
+
+bool TriangulationRun::MayBeFollowed(const TriangulationRequest& request) const
+{
+  return request.KeepsRun && this->Asked.IsLive == request.IsLive &&
+    HaveSameOptions(this->Asked, request) &&
+    this->Given->GetNumberOfPoints() == request.Input->GetNumberOfPoints() &&
+    this->Session->GetReport().Converged();
+}
+
+bool TriangulationRun::Follow(TriangulationRun& last)
+{
+  const PlaneArray& places = this->View.Points;
+  const bool isSame = (places.Floats == nullptr) == (last.View.Points.Floats == nullptr);
+  if (!isSame)
+  {
+    return false;
+  }
+  PointMove move;
+  move.Points = places;
+  if (!last.Session->Move(move, this->GetProgress()))
+  {
+    throw RunAborted();
+  }
+  this->Session = std::move(last.Session);
+  return true;
 }
 
 bool TriangulationRun::Fits(const TriangulationRequest& request) const
@@ -503,7 +522,8 @@ bool TriangulationRun::Store(vtkPolyData* output) const
   AddPointFieldData(this->Session->GetReport(), output->GetFieldData());
   if (!this->Session->GetAddedPoints().empty())
   {
-    this->AppendAdded(output);
+    const bool isProjected = this->Projected->GetNumberOfPoints() > 0;
+    AppendAdded(this->Session->GetAddedPoints(), !isProjected, this->Points, output);
   }
   if (this->AddsPoints())
   {
@@ -514,7 +534,7 @@ bool TriangulationRun::Store(vtkPolyData* output) const
   {
     triangles = this->MakeRoom(); // triangles may have been removed since the room was made
   }
-  FillTriangles(*this->Session, triangles);
+  FillTriangles(*this->Session, triangles, this->Asked.KeepsRun);
   output->SetPolys(triangles);
   if (this->Asked.PassesSegments)
   {
@@ -572,42 +592,6 @@ void TriangulationRun::StoreRegions(vtkPolyData* output) const
   output->GetCellData()->AddArray(labels);
 }
 
-/// Appends the points where segments cross, and those of refinement, to an output.
-void TriangulationRun::AppendAdded(vtkPolyData* output) const
-{
-  const std::vector<AddedPoint>& added = this->Session->GetAddedPoints();
-  const vtkIdType first = this->Points->GetNumberOfPoints();
-  const auto size = static_cast<vtkIdType>(added.size());
-  vtkNew<vtkPoints> zeros;
-  zeros->SetNumberOfPoints(size);
-  zeros->GetData()->Fill(0.0);
-  AppendPoints(this->Points, zeros, MakeRange(0, size), nullptr, output);
-  InterpolateTuples(added, first, output->GetPointData());
-  vtkDataArray* xyz = output->GetPoints()->GetData();
-  const bool isProjected = this->Projected->GetNumberOfPoints() > 0;
-  for (vtkIdType i = 0; i < size; ++i)
-  {
-    const AddedPoint& point = added[i];
-    double place[3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // InterpolateTuple would make infinite floats finite.
-      place[axis] = (1.0 - point.Share - point.ThirdShare) * xyz->GetComponent(point.From, axis) +
-        point.Share * xyz->GetComponent(point.To, axis);
-      if (point.Third >= 0)
-      {
-        place[axis] += point.ThirdShare * xyz->GetComponent(point.Third, axis);
-      }
-    }
-    if (!isProjected)
-    {
-      place[0] = point.X;
-      place[1] = point.Y;
-    }
-    xyz->SetTuple(first + i, place);
-  }
-}
-
 }
 
 //------------------------------------------------------------------------------
@@ -620,24 +604,36 @@ bool TriangulationRequest::HasWork() const
 bool TriangulationRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) const
 {
   auto* last = static_cast<TriangulationRun*>(run.get());
-  if (last && last->Fits(*this))
+  if (last && this->IsLive && last->Fits(*this))
   {
     last->Renew(*this);
     return true;
   }
-  run.reset(); // its memory may be needed
-  run = std::make_unique<TriangulationRun>(*this);
+  if (last && !last->MayBeFollowed(*this))
+  {
+    run.reset(); // its memory may be needed
+    last = nullptr;
+  }
+  auto made = std::make_unique<TriangulationRun>(*this);
+  if (!last || !made->Follow(*last))
+  {
+    run.reset(); // its memory may be needed
+    made->OpenSession();
+  }
+  run = std::move(made);
   return false;
 }
 
-vtkSmartPointer<vtkAbstractTransform> FindProjection(
-  const TriangulationRequest& request, vtkPoints* points, vtkIdType count)
+bool TriangulationRequest::IsPlain() const
 {
-  if (!request.Transform && request.FitsPlane)
-  {
-    return FitPlane(points, count);
-  }
-  return request.Transform;
+  const PointOptions& options = this->Options;
+  const bool hasSegments = this->Others || this->Input->GetNumberOfLines() > 0;
+  const bool isRefined = options.MinimumAngle + options.MaximumArea + options.MaximumEdge > 0.0 ||
+    !this->SizeArray.empty() || !this->Regions.empty();
+  const bool leavesOut =
+    options.PointTolerance > 0.0 || options.Alpha > 0.0 || options.LongestEdge > 0.0;
+  return !hasSegments && !isRefined && !leavesOut && options.MaximumIterations < 0 &&
+    options.Projection == ProjectionKind::Plane;
 }
 
 }

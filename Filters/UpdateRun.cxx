@@ -88,7 +88,8 @@ void RunKeeper::Update(const UpdateRequest& request, FlipReport& report, vtkPoly
     output->ShallowCopy(request.Input);
     return;
   }
-  if (!request.IsLive)
+  const bool keepsRun = request.IsLive || request.KeepsRun;
+  if (!keepsRun)
   {
     run.reset(); // before another takes as much memory
   }
@@ -125,9 +126,10 @@ void RunKeeper::Update(const UpdateRequest& request, FlipReport& report, vtkPoly
     output->ShallowCopy(request.Input);
     this->CanContinue = request.IsLive;
   }
-  if (request.IsLive)
+  if (keepsRun)
   {
     this->Run = std::move(run);
+    this->IsLive = request.IsLive;
   }
 }
 
@@ -140,12 +142,12 @@ void RunKeeper::Drop(bool canContinue)
 
 const FlipSession* RunKeeper::GetSession() const
 {
-  return this->Run ? this->Run->GetSession() : nullptr;
+  return this->HasRun() ? this->Run->GetSession() : nullptr;
 }
 
 bool RunKeeper::IsNewWarning(const std::string& text)
 {
-  return !this->Run || std::exchange(this->Run->Warning, text) != text;
+  return !this->HasRun() || std::exchange(this->Run->Warning, text) != text;
 }
 
 //------------------------------------------------------------------------------

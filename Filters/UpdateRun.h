@@ -40,6 +40,8 @@ struct UpdateRequest
   vtkPolyData* Input = nullptr;
   vtkPolyData* Others = nullptr; ///< The second input, or null.
   bool IsLive = false; ///< More updates will follow, and points may be moved in place between them.
+  /// The run is kept for the next update, which may have the same points at other places.
+  bool KeepsRun = false;
   vtkIdType IterationsPerUpdate = 1; ///< If the run is live; 0: as many as fit into 50 ms.
   ProgressObserver Progress; ///< Kept by the run.
   std::function<bool()> IsAborted; ///< Asked before a run begins.
@@ -84,9 +86,10 @@ protected:
   std::unique_ptr<FlipSession> Session; ///< May still touch the room when it is destroyed.
 };
 
-/// Makes the runs of a filter. In a live update it keeps the run until the next update.
+/// Makes the runs of a filter. In a live update it keeps the run until the next update. It does so,
+/// too, if the request says so; but such a run is at its end.
 ///
-/// Its states between two updates:
+/// Its states between two updates, where a run is that of a live update:
 ///
 ///     run   next          can continue  what the next update does
 ///     null  StepAndStore  yes           begins a run; the filter is new or was restarted
@@ -117,9 +120,10 @@ public:
   /// @param canContinue whether the next update is asked for as a step of a live run.
   void Drop(bool canContinue);
 
-  bool HasRun() const { return this->Run != nullptr; }
+  /// Whether there is a live run.
+  bool HasRun() const { return this->Run != nullptr && this->IsLive; }
 
-  /// The session of the run; null if there is no run.
+  /// The session of the live run; null if there is none.
   const FlipSession* GetSession() const;
 
   /// Keeps the text of a warning.
@@ -131,6 +135,7 @@ public:
 
 private:
   std::unique_ptr<UpdateRun> Run;
+  bool IsLive = false; ///< The run is that of a live update.
 };
 
 //------------------------------------------------------------------------------

@@ -353,9 +353,10 @@ int vtkDelaunayFlipAlgorithm::RequestData(
       this->FlipBlock(block, others, summary);
       before += block.Size;
     }
-    if (!isLive)
+    const bool isOfEarlierMesh = blocks.size() != 1 || this->Runs->HasRun();
+    if (!isLive && isOfEarlierMesh)
     {
-      this->Runs->Drop(false); // it was the run of an earlier mesh
+      this->Runs->Drop(false);
     }
     StoreResults(blocks, structure, output);
   }

@@ -331,7 +331,8 @@ public:
    *
    * GetSession() returns the session of the last update, or null if LiveUpdate is off or the update
    * failed. It is valid until the next update. Its triangles are the polygons of the output, in
-   * their order, if the input has no other polygons than triangles and no strips.
+   * their order, if the input has no other polygons than triangles and no strips, and if a
+   * vtkDelaunayFlipPoints does not sort them (see KeepSession there).
    */
 #ifndef __VTK_WRAP__
   bool AdvanceSession();

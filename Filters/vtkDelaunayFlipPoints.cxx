@@ -10,10 +10,15 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkInformation.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTransform.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,6 +97,47 @@ vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees)
 }
 }
 
+namespace
+{
+/// The rotation that takes the plane of the first points to that of x and y. Points that are not
+/// finite do not matter.
+vtkSmartPointer<vtkTransform> FitPlane(vtkPoints* points, vtkIdType count)
+{
+  vtkNew<vtkPoints> finite;
+  finite->SetDataTypeToDouble();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const double* x = points->GetPoint(i);
+    if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]))
+    {
+      finite->InsertNextPoint(x);
+    }
+  }
+  double origin[3], normal[3] = { 0.0, 0.0, 1.0 }, axis[3];
+  vtkPlane::ComputeBestFittingPlane(finite, origin, normal);
+  if (normal[2] < 0.0)
+  {
+    vtkMath::MultiplyScalar(normal, -1.0);
+  }
+  const double up[3] = { 0.0, 0.0, 1.0 };
+  vtkMath::Cross(normal, up, axis);
+  auto rotation = vtkSmartPointer<vtkTransform>::New();
+  rotation->RotateWXYZ(
+    vtkMath::DegreesFromRadians(std::atan2(vtkMath::Norm(axis), normal[2])), axis);
+  return rotation;
+}
+}
+
+vtkSmartPointer<vtkAbstractTransform> delaunayflip::FindProjection(
+  const TriangulationRequest& request, vtkPoints* points, vtkIdType count)
+{
+  if (!request.Transform && request.FitsPlane)
+  {
+    return FitPlane(points, count);
+  }
+  return request.Transform;
+}
+
 vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(vtkPointSet* input) const
 {
   auto points = vtkSmartPointer<vtkPolyData>::New();
@@ -160,6 +206,17 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   return request;
 }
 
+/// Whether later updates may have the same points at other places.
+bool vtkDelaunayFlipPoints::WantsToKeep()
+{
+  using Asked = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = this->GetInputInformation(0, 0);
+  const bool hasTimes =
+    info && info->Has(Asked::TIME_STEPS()) && info->Length(Asked::TIME_STEPS()) > 1;
+  return this->KeepSession == KEEP_SESSION_ON ||
+    (this->KeepSession == KEEP_SESSION_AUTO && hasTimes);
+}
+
 void vtkDelaunayFlipPoints::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& segments, UpdateSummary& summary)
 {
@@ -203,6 +260,7 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   {
     request.Others = others;
   }
+  request.KeepsRun = block.Place.empty() && request.IsPlain() && this->WantsToKeep();
   this->Runs->Update(request, *this->Report, output);
   output->SetVerts(nullptr);
   const bool areLinesGiven = output->GetLines() == points->GetLines(); // after an abort
@@ -253,4 +311,5 @@ void vtkDelaunayFlipPoints::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LinesAsSegments: " << this->LinesAsSegments << "\n";
   os << indent << "ClosedLinesAsRings: " << this->ClosedLinesAsRings << "\n";
   os << indent << "PassSegments: " << this->PassSegments << "\n";
+  os << indent << "KeepSession: " << this->KeepSession << "\n";
 }

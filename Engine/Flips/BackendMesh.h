@@ -19,6 +19,7 @@
 #include "SpatialOrder.h"
 #include "StoreSteps.h"
 #include "SurfaceAngles.h"
+#include "TriangleOrder.h"
 
 #include <algorithm>
 #include <memory>
@@ -42,6 +43,13 @@ public:
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
     this->Backend.StoreTriangles(triangles, this->GetStoreStep(), this->IsFromPoints);
+  }
+
+  void StoreOrderedTriangles(const MutableTriangleArray& triangles) const override
+  {
+    const Array<OrderedIds> listed =
+      ListInOrder(this->Mesh, this->Order.View(), this->Report.Points, this->Backend);
+    this->Backend.StoreTriangles(triangles, OrderedStoreStep{ listed.Data() }, true);
   }
 
   void StoreFlipCounts(std::int32_t* counts) const override

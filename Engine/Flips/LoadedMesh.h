@@ -77,6 +77,7 @@ public:
 
   /// These do what FlipSession's functions of the same names do.
   virtual void StoreTriangles(const MutableTriangleArray& triangles) const = 0;
+  virtual void StoreOrderedTriangles(const MutableTriangleArray& triangles) const = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) const = 0;
   virtual void StoreNeighbors(std::int32_t* neighbors) const = 0;
   virtual void StoreUsedPoints(std::int64_t* ids) const = 0;

@@ -119,6 +119,11 @@ void FlipSession::StoreTriangles(const MutableTriangleArray& triangles) const
   this->Run->StoreTriangles(triangles);
 }
 
+void FlipSession::StoreOrderedTriangles(const MutableTriangleArray& triangles) const
+{
+  this->Run->StoreOrderedTriangles(triangles);
+}
+
 bool FlipSession::Insert(const PlaneArray& points, const ProgressObserver& progress)
 {
   return this->Run->Insert(points, progress);

@@ -10,8 +10,10 @@
 #include "Strips.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <string>
+#include <type_traits>
 
 namespace delaunayflip
 {
@@ -377,6 +379,37 @@ void PointRun::ListDefects()
 }
 
 //------------------------------------------------------------------------------
+namespace
+{
+/// Does with triangles what StoreOrderedTriangles does with all of them.
+void SortTriangles(const MutableTriangleArray& triangles)
+{
+  const auto sort = [&](auto* ids)
+  {
+    using Triple = std::array<std::decay_t<decltype(*ids)>, 3>;
+    std::vector<Triple> sorted(triangles.Count);
+    for (std::int64_t t = 0; t < triangles.Count; ++t)
+    {
+      auto* const first = ids + 3 * t;
+      std::rotate_copy(first, std::min_element(first, first + 3), first + 3, sorted[t].begin());
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (std::int64_t t = 0; t < triangles.Count; ++t)
+    {
+      std::copy(sorted[t].begin(), sorted[t].end(), ids + 3 * t);
+    }
+  };
+  if (triangles.Ids32)
+  {
+    sort(triangles.Ids32);
+  }
+  else
+  {
+    sort(triangles.Ids64);
+  }
+}
+}
+
 /// Stores `width` values for every triangle that is kept. @param store stores those of all.
 template <typename Value, typename Store>
 void PointRun::StoreKept(int width, Value* values, const Store& store)
@@ -415,6 +448,17 @@ void PointRun::StoreTriangles(const MutableTriangleArray& triangles)
   {
     this->StoreKept(3, triangles.Ids64, store);
   }
+}
+
+void PointRun::StoreOrderedTriangles(const MutableTriangleArray& triangles)
+{
+  if (this->Result.HasRemoved())
+  {
+    this->StoreTriangles(triangles);
+    SortTriangles(triangles);
+    return;
+  }
+  this->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreOrderedTriangles(triangles); });
 }
 
 void PointRun::StoreFlipCounts(std::int32_t* counts)

@@ -22,6 +22,7 @@ public:
   PointRun(const PointInput& input, const PointOptions& options, const ProgressObserver& progress);
 
   void StoreTriangles(const MutableTriangleArray& triangles) override;
+  void StoreOrderedTriangles(const MutableTriangleArray& triangles) override;
   void StoreFlipCounts(std::int32_t* counts) override;
   bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream,
     std::int32_t* written) override;

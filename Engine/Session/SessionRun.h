@@ -113,6 +113,7 @@ public:
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
 
   // Only sessions from points have these.
+  virtual void StoreOrderedTriangles(const MutableTriangleArray&) { RefuseQuestion(); }
   virtual void StoreNeighbors(std::int32_t*) { RefuseQuestion(); }
   virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
   virtual void StoreUsedPoints(std::int64_t*) { RefuseQuestion(); }

@@ -135,6 +135,18 @@ class Answers:
             _library.call("insert_points", handle, batch, callbacks)
         return Answers(more, handle, opened)
 
+    def move_to(self, given, keywords, progress):
+        """The Triangulation of another Input, after the points have moved there. It has as many points,
+        in the same precision.
+
+        Raises:
+            Stopped: The observer has returned False, and all points are where they were.
+        """
+        with self._alone(), observe(progress) as callbacks:
+            _library.call("move_points", self._handle, given.struct, None, callbacks)
+        self.given = given
+        return self.store((given, keywords, ()))
+
     def store(self, made_from):
         """The Triangulation."""
         room = self.given.make_room(_report.read_struct(self._handle))

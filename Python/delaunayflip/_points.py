@@ -341,6 +341,7 @@ _NOTHING_ADDED = numpy.empty((0, 3), dtype=numpy.int64), numpy.empty((0, 3))
 class Input:
     """The arrays of a call, which live as long, and their C struct."""
 
+    triangle_order = "triangles"  #: Or "ordered_triangles", as the engine calls what it stores.
     are_properties = False  #: Whether the caller knows options by the names of VTK's properties.
     #: What a message says of segments without heights.
     flat_fate = ("the mesh goes to z = 0 there; if it should not, give them heights, for example those of "
@@ -532,6 +533,11 @@ class Input:
         defects = "; ".join(filter(None, (report.defects, self.trouble[-1])))
         return dataclasses.replace(report, defects=defects)
 
+    def own_points(self):
+        """Copies the points, which the caller may change."""
+        self.points = self.points.copy()
+        self.struct.points = address(self.points)
+
     def make_room(self, report):
         """Arrays for the triangles that a report counts and for their neighbors."""
         shape = (report.triangles, 3)
@@ -546,7 +552,7 @@ class Input:
         edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
         segments = numpy.empty(report.segment_edges, dtype=numpy.int64)
         regions = numpy.zeros(report.triangles, dtype=numpy.int32)
-        _arrays.store("triangles", handle, triangles, _library.TYPES["int32"])
+        _arrays.store(self.triangle_order, handle, triangles, _library.TYPES["int32"])
         _arrays.store("neighbors", handle, neighbors)
         _library.call("store_segment_edges", handle, address(edges))
         _library.call("store_segments_of_edges", handle, address(segments))

@@ -114,7 +114,7 @@ MAIN_NUMBERS = ("total_flips", "non_delaunay_after", "blocked_by_shape", "blocke
                 "refinement_points", "refinement_rounds", "unrefined_triangles", "reached_point_limit")
 POINT_NUMBERS = ("points_not_finite", "repeated_points", "points_too_near", "segment_edges",
                  "refused_segments", "crossings", "largest_shift", "outside_triangles", "large_triangles",
-                 "used_points", "left_out_rings", "points_inside")
+                 "used_points", "left_out_rings", "move_rounds", "points_inside")
 _TYPES = {int: ctypes.c_int64, float: ctypes.c_double, str: ctypes.c_char_p}
 _NAMES = tuple(field.name for field in dataclasses.fields(Report))
 _TEXTS = [field.name for field in dataclasses.fields(Report)[2:] if field.type is str]

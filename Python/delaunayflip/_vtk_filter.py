@@ -494,6 +494,7 @@ class vtkDelaunayFlipPoints(Filter):
     no_mesh = "has no points of its own, passed unchanged"
     no_composite = "the segments of a single dataset cannot be a composite dataset"
     _regions = ()
+    _last = None  #: What the last update asked for, and the Answers that have its session.
 
     def SetSegmentsConnection(self, port):
         self.SetInputConnection(len(self.others), port)
@@ -538,9 +539,45 @@ class vtkDelaunayFlipPoints(Filter):
         count = data.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments is not None else 0)
         if count == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if count else "converged")
-        return self._triangulate(data, segments, output, self._observe_part(1.0))[1]
+        try:
+            return self._triangulate(data, segments, output, self._observe_part(1.0), follows=True)[1]
+        except _library.Stopped:
+            return self._pass(data, output, "aborted")
 
-    def _triangulate(self, data, segments, output, progress, *, keeps=False, has_heights=True):
+    def _is_followed(self, cloud, segments, options):
+        """Whether the points alone decide about the triangles, and later ones may be these, moved."""
+        times, info = vtkStreamingDemandDrivenPipeline.TIME_STEPS(), self.GetInputInformation(0, 0)
+        has_times = info is not None and info.Has(times) and info.Length(times) > 1
+        is_wanted = (has_times, True, False)[self.keep_session]
+        limits = ("alpha", "longest_edge", "point_tolerance", *GOALS)
+        return is_wanted and segments is None and len(cloud.all_segments) == 0 and not (
+            isinstance(self.GetInput(), vtkCompositeDataSet) or self._regions or self.size_array
+            or any(options[name] for name in limits) or options["maximum_iterations"] >= 0
+            or options.get("projection", 0))
+
+    def _follow(self, cloud, options, progress):
+        """The Triangulation of a cloud. If the last cloud was this one before it has moved, the engine
+        keeps its mesh."""
+        cloud.triangle_order = "ordered_triangles"
+        asked = (*options.items(), len(cloud.points), str(cloud.points.dtype))
+        last, self._last = self._last, None
+        answers = last[1] if last is not None and last[0] == asked else None
+        if answers is None:
+            cloud.own_points()
+            result, _ = run_points(cloud, options, progress, self._observe, True)
+            answers = result._answers
+        else:
+            try:
+                result = answers.move_to(cloud, options, progress)
+            except _library.Stopped:
+                self._last = last
+                raise
+        if result.report.converged:
+            self._last = asked, answers
+        return result
+
+    def _triangulate(
+            self, data, segments, output, progress, *, keeps=False, has_heights=True, follows=False):
         """Returns the Triangulation, whose session is kept or not, and the text of a warning, or "".
         Without heights nobody has to be told of z."""
         heights = HEIGHTS[self.segment_heights]
@@ -559,8 +596,12 @@ class vtkDelaunayFlipPoints(Filter):
             if not float(label).is_integer():
                 raise _library.InvalidOptions(f"the label of region {number} must be an integer from "
                                               f"{-2**31} to {2**31 - 1}, not {label:g}")
-        options["regions"] = self._regions
-        result, _ = run_points(cloud, options, progress, self._observe, keeps)
+        if follows and self._is_followed(cloud, segments, options):
+            result = self._follow(cloud, options, progress)
+        else:
+            self._last = None
+            options["regions"] = self._regions
+            result, _ = run_points(cloud, options, progress, self._observe, keeps)
         self._totals = Totals.of_run(result.report, result.iterations)
         return result, cloud.write(result, output)
 

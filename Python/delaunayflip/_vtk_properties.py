@@ -83,6 +83,7 @@ POINT_PROPERTIES = (
     Property("RingRule", 0, 0, 2, ("EvenOdd", "NonZero", "Orientation")),
     Property("FirstHole", -1, -1, VTK_ID_MAX),
     Property("SegmentHeights", 0, 0, 2, ("Auto", "Survey", "Own")),
+    Property("KeepSession", 0, 0, 2, ("Auto", "On", "Off")),
     Property("SizeArray", ""),
 )
 

@@ -340,6 +340,9 @@ static void TestPoints(void)
     CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
     CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT64) == DELAUNAYFLIP_OK);
     CHECK(HasShortDiagonal(triangles) == (i == 0));
+    CHECK(delaunayflip_store_ordered_triangles(session, triangles, DELAUNAYFLIP_INT64) ==
+      DELAUNAYFLIP_OK);
+    CHECK(triangles[0] == 0 && triangles[3] == 0 + (i == 0));
     CHECK(delaunayflip_store_neighbors(session, neighbors) == DELAUNAYFLIP_OK);
     CHECK(neighbors[0] + neighbors[1] + neighbors[2] == -1);
     CHECK(delaunayflip_store_segment_edges(session, edge) == DELAUNAYFLIP_OK);

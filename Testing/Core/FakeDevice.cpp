@@ -84,6 +84,10 @@ public:
   {
     this->Engine->StoreTriangles(triangles);
   }
+  void StoreOrderedTriangles(const MutableTriangleArray& triangles) const override
+  {
+    this->Engine->StoreOrderedTriangles(triangles);
+  }
   void StoreFlipCounts(std::int32_t* counts) const override
   {
     this->Engine->StoreFlipCounts(counts);

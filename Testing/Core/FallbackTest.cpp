@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -323,21 +322,11 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatMove)
     }
     return session;
   };
-  const auto list = [](const FlipSession& session)
-  {
-    const std::vector<std::int32_t> ids = StoreTriangles(session);
-    std::set<std::set<std::int32_t>> triangles;
-    for (std::size_t i = 0; i < ids.size(); i += 3)
-    {
-      triangles.insert({ ids[i], ids[i + 1], ids[i + 2] });
-    }
-    return triangles;
-  };
-  const auto expected = list(run(BackendKind::Threads, 0));
+  const auto expected = StoreOrderedTriangles(run(BackendKind::Threads, 0));
   for (int call = 1;; ++call)
   {
     const FlipSession session = run(BackendKind::Auto, call);
-    ASSERT_TRUE(expected == list(session)) << call;
+    ASSERT_TRUE(expected == StoreOrderedTriangles(session)) << call;
     EXPECT_TRUE(session.GetReport().Converged());
     if (CallsToFailure > 0)
     {

@@ -120,6 +120,14 @@ std::vector<std::int32_t> StoreTriangles(const FlipSession& session)
   return triangles;
 }
 
+std::vector<std::int32_t> StoreOrderedTriangles(const FlipSession& session)
+{
+  const std::int64_t count = session.GetReport().Triangles;
+  std::vector<std::int32_t> triangles(3 * count);
+  session.StoreOrderedTriangles(MutableTriangleArray(triangles.data(), count));
+  return triangles;
+}
+
 std::vector<std::int32_t> StoreFlipCounts(const FlipSession& session)
 {
   std::vector<std::int32_t> counts(session.GetReport().Triangles, -1);

@@ -55,6 +55,7 @@ FlipSession FlipPoints(const PointInput& points, const PointOptions& options = {
 
 /// The triangles that a session has now, and their flips.
 std::vector<std::int32_t> StoreTriangles(const FlipSession& session);
+std::vector<std::int32_t> StoreOrderedTriangles(const FlipSession& session);
 std::vector<std::int32_t> StoreFlipCounts(const FlipSession& session);
 
 /// Runs all flips on a copy of the triangles, on the backend that MakeSession chooses.

@@ -262,6 +262,7 @@ TEST_F(AskTest, PointsMoveAndGoAlike)
       EXPECT_EQ(expected.MinimumAngleAfter, actual.MinimumAngleAfter);
       EXPECT_TRUE(IsOnGpu(actual)) << actual.Backend;
       EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
+      EXPECT_EQ(StoreOrderedTriangles(sessions[0]), StoreOrderedTriangles(sessions[1]));
     }
     std::vector<std::int64_t> ids;
     for (int i = 0; i < 100; ++i)

@@ -30,6 +30,16 @@ int CountFrames(int usual)
   return wanted ? std::atoi(wanted) : usual / Reduction;
 }
 
+Triples ToTriples(const std::vector<std::int32_t>& ids)
+{
+  Triples triples;
+  for (std::size_t i = 0; i < ids.size(); i += 3)
+  {
+    triples.push_back({ ids[i], ids[i + 1], ids[i + 2] });
+  }
+  return triples;
+}
+
 Drawing ToDrawing(const Places& points)
 {
   Drawing drawing;
@@ -71,6 +81,7 @@ public:
     for (const FlipSession& session : this->Sessions)
     {
       ASSERT_EQ(triangles, StoreTriangles(session));
+      ASSERT_EQ(Normalize(triangles), ToTriples(StoreOrderedTriangles(session)));
       ASSERT_EQ(report.FromPoints.MoveRounds, session.GetReport().FromPoints.MoveRounds);
     }
     std::vector<std::int64_t> used(this->Now.Points.size());
@@ -315,6 +326,29 @@ TEST(Move, TheBoundary)
     ASSERT_FALSE(HasFailure()) << frame;
   }
   EXPECT_LT(0, moving.InPlace);
+}
+
+/// Where triangles have been removed, and where many have the same lowest id.
+TEST(Move, StoresTrianglesInOrder)
+{
+  Drawing wheel;
+  wheel.Points.push_back({ 0.0, 0.0 });
+  for (int i = 0; i < 6000; ++i)
+  {
+    wheel.Points.push_back({ std::cos(0.001 * i * i), std::sin(0.001 * i * i) });
+  }
+  Drawing ring = ToDrawing(wheel.Points);
+  ring.AddRing({ { 0.3, 0.0 }, { 0.6, 0.2 }, { 0.1, 0.5 } });
+  for (const Drawing& drawing : { wheel, ring })
+  {
+    FlipSession session(drawing.View(), PointOptions());
+    session.Advance();
+    EXPECT_LT(0, session.CountTriangles());
+    EXPECT_EQ(Normalize(StoreTriangles(session)), ToTriples(StoreOrderedTriangles(session)));
+    std::vector<std::int64_t> ids(3 * session.CountTriangles());
+    session.StoreOrderedTriangles(MutableTriangleArray(ids.data(), session.CountTriangles()));
+    EXPECT_TRUE(std::equal(ids.begin(), ids.end(), StoreOrderedTriangles(session).begin()));
+  }
 }
 
 /// Segments move with their points. One that crosses an earlier one is refused until it fits again.

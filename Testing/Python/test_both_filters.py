@@ -258,7 +258,9 @@ class Shown(unittest.TestCase):
         for kind in (PythonFilter, PythonPoints, PythonInterpolator):
             shown = {element.get("name"): element for element in proxies[kind.name]}
             for item in kind.properties:
-                if kind is PythonInterpolator and item.name in ("LiveUpdate", "IterationsPerUpdate", "Paused", "PassSegments"):
+                if kind is PythonInterpolator and item.name in (
+                        "LiveUpdate", "IterationsPerUpdate", "Paused", "PassSegments",
+                        "KeepSession"):
                     continue
                 self.expect_shown(item, shown[item.name])
 
@@ -609,6 +611,30 @@ class SamePoints(Pair, unittest.TestCase):
         self.expect_same(make_cloud(), lambda points: points.SetMaximumIterations(1))
         for count in (0, 1, 2, 3):
             self.expect_same(make_cloud(count, seed=2))
+
+    def test_points_that_move(self):
+        """Each frame is that of a new filter, and the triangulation is kept as long as that is possible."""
+        draw = numpy.random.default_rng(3)
+        for kind in (numpy.float32, numpy.float64):
+            cloud = make_mesh(draw.random((900, 3)).astype(kind), [])
+            places = vtk_to_numpy(cloud.GetPoints().GetData())
+            told = [Watched(cloud, kind) for kind in self.kinds]
+            for each in told:
+                each.filter.SetKeepSessionToOn()
+            for step, is_followed in ((0, False), (1e-4, True), (1e-3, True), (1, False), (1e-4, True),
+                                      (math.nan, False), (1e-4, True)):
+                places[:] += step * draw.normal(size=places.shape) if step == step else 0
+                places[17, 0] = math.nan if step != step else places[17, 0]
+                cloud.GetPoints().Modified()
+                cxx, python = (read_mesh(each.run()) for each in told)
+                self.assertEqual(cxx, python)
+                fresh = run(PythonPoints, cloud, lambda points: points.SetKeepSessionToOn())["meshes"][0]
+                self.assertEqual(cxx[3], fresh[3])
+                rounds = dict((field[0], field[3]) for field in python[5:] if isinstance(field, tuple))
+                self.assertEqual(rounds["DelaunayFlip:MoveRounds"][0] != "0", is_followed, step)
+            for each in told:
+                each.filter.SetAlpha(0.1)
+            self.assertEqual(*(read_mesh(each.run()) for each in told))
 
     def test_segments(self):
         for own in (numpy.float32, numpy.float64):

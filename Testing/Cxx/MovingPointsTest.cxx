@@ -1,0 +1,365 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+/// vtkDelaunayFlipPoints with points that move between updates.
+
+#include "FilterTestSupport.h"
+
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkDelaunayFlipPoints.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkTransform.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace
+{
+
+using PointsFilter = Watched<vtkDelaunayFlipPoints>;
+
+constexpr int Count = 2000;
+
+/// Points at random in a square of 10 x 10, about 0.22 apart, with point data. Each time they are
+/// other points.
+Mesh MakeCloud(int count = Count)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> draw(0.0, 10.0);
+  Points points(count);
+  for (auto& point : points)
+  {
+    point = { draw(random), draw(random), 0.1 * draw(random) };
+  }
+  auto cloud = MakeMesh(points, {});
+  AddNumbers(cloud->GetPointData(), "n", count, 5);
+  return cloud;
+}
+
+/// Moves every point in its own direction, by up to this much.
+void Shake(vtkPolyData* cloud, double size)
+{
+  int i = 0;
+  MovePoints(cloud,
+    [&](double* x)
+    {
+      x[0] += size * std::sin(12.3 * i);
+      x[1] += size * std::cos(45.6 * i);
+      ++i;
+    });
+}
+
+/// The array of a result; null if there is none.
+vtkDataArray* GetResult(vtkPolyData* mesh, const std::string& name)
+{
+  return mesh->GetFieldData()->GetArray(("DelaunayFlip:" + name).c_str());
+}
+
+/// That two arrays have the same values of the same type.
+void ExpectSame(vtkAbstractArray* expected, vtkAbstractArray* actual)
+{
+  ASSERT_TRUE(expected && actual);
+  ASSERT_EQ(expected->GetDataType(), actual->GetDataType());
+  ASSERT_EQ(expected->GetNumberOfValues(), actual->GetNumberOfValues());
+  for (vtkIdType i = 0; i < expected->GetNumberOfValues(); ++i)
+  {
+    const vtkVariant value = expected->GetVariantValue(i);
+    const bool areNan =
+      std::isnan(value.ToDouble()) && std::isnan(actual->GetVariantValue(i).ToDouble());
+    ASSERT_TRUE(areNan || value == actual->GetVariantValue(i)) << expected->GetName() << ' ' << i;
+  }
+}
+
+/// Whether a result tells of iterations and flips, which differ between the ways.
+bool TellsTheWay(const std::string& name)
+{
+  static const std::set<std::string> names = { "Iteration", "Tested", "NonDelaunay", "Flipped",
+    "Excluded", "Blocked", "MinimumAngle", "Seconds", "TotalFlips", "MoveRounds" };
+  const std::string prefix = "DelaunayFlip:";
+  return name.rfind(prefix, 0) == 0 && names.count(name.substr(prefix.size())) > 0;
+}
+
+/// Updates a filter, and compares its output with that of a new one.
+/// @returns the rounds that the points have taken to their places.
+double Update(PointsFilter& filter, const std::function<void(PointsFilter&)>& set = {})
+{
+  const std::size_t warnings = filter.GetWarnings().size();
+  vtkPolyData* actual = filter.Run();
+  PointsFilter fresh(filter->GetInput());
+  fresh->SetKeepSessionToOn();
+  if (set)
+  {
+    set(fresh);
+  }
+  vtkPolyData* expected = fresh.Run();
+  EXPECT_EQ(fresh.GetWarnings().size(), filter.GetWarnings().size() - warnings);
+  EXPECT_EQ(expected->GetPoints(), actual->GetPoints());
+  EXPECT_EQ(GetTotal(expected, "MoveRounds"), 0.0);
+  ExpectSame(
+    expected->GetPolys()->GetConnectivityArray(), actual->GetPolys()->GetConnectivityArray());
+  ExpectSame(expected->GetPolys()->GetOffsetsArray(), actual->GetPolys()->GetOffsetsArray());
+  EXPECT_EQ(expected->GetPointData()->GetArray("n"), actual->GetPointData()->GetArray("n"));
+  vtkFieldData* fields = expected->GetFieldData();
+  for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
+  {
+    const char* name = fields->GetArrayName(i);
+    if (!TellsTheWay(name))
+    {
+      ExpectSame(fields->GetAbstractArray(i), actual->GetFieldData()->GetAbstractArray(name));
+    }
+  }
+  return GetTotal(actual, "MoveRounds");
+}
+
+/// Points for three time steps.
+class MovingSource : public vtkPolyDataAlgorithm
+{
+public:
+  static MovingSource* New() { VTK_STANDARD_NEW_BODY(MovingSource); }
+  vtkTypeMacro(MovingSource, vtkPolyDataAlgorithm);
+
+protected:
+  MovingSource() { this->SetNumberOfInputPorts(0); }
+
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    const double times[] = { 0.0, 1.0, 2.0 };
+    const double range[] = { 0.0, 2.0 };
+    vtkInformation* info = output->GetInformationObject(0);
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times, 3);
+    info->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+    return 1;
+  }
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    vtkInformation* info = output->GetInformationObject(0);
+    double time = 0.0;
+    if (info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+    {
+      time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
+    }
+    const Mesh cloud = MakeCloud();
+    Shake(cloud, 0.003 * time);
+    vtkPolyData::GetData(output)->ShallowCopy(cloud);
+    return 1;
+  }
+};
+
+}
+
+TEST(MovingPoints, GiveTheOutputOfANewFilter)
+{
+  auto cloud = MakeCloud();
+  PointsFilter filter(cloud);
+  filter->SetKeepSessionToOn();
+  EXPECT_EQ(Update(filter), 0.0);
+  vtkNew<vtkPolyData> first;
+  first->ShallowCopy(filter->GetOutput());
+  const Cells before = GetCells(first->GetPolys());
+  for (const double size : { 0.002, 0.01, 0.02 })
+  {
+    Shake(cloud, size);
+    EXPECT_GT(Update(filter), 0.0) << size;
+    EXPECT_EQ(filter->GetNumberOfIterations(), 0);
+  }
+  EXPECT_GT(filter->GetTotalFlips(), 0);
+  EXPECT_NE(filter.GetPolygons(), before);
+  EXPECT_EQ(GetCells(first->GetPolys()), before);
+  Shake(cloud, 3.0);
+  EXPECT_EQ(Update(filter), 0.0);
+  Shake(cloud, 0.002);
+  EXPECT_GT(Update(filter), 0.0);
+
+  // The boundary grows and shrinks, and nothing has moved.
+  for (const double factor : { 1.02, 0.97, 1.0 })
+  {
+    MovePoints(cloud,
+      [factor](double* x)
+      {
+        const double far = std::hypot(x[0] - 5.0, x[1] - 5.0);
+        x[0] = 5.0 + (x[0] - 5.0) * (far > 5.0 ? factor : 1.0);
+      });
+    Update(filter);
+  }
+
+  // Values that are changed in place without a notice count, too.
+  static_cast<double*>(cloud->GetPoints()->GetVoidPointer(0))[300] += 0.003;
+  filter->Modified();
+  EXPECT_GT(Update(filter), 0.0);
+
+  // Other data of the same points.
+  AddNumbers(cloud->GetPointData(), "n", Count, 8);
+  Update(filter);
+  EXPECT_TRUE(filter.GetErrors().empty());
+}
+
+TEST(MovingPoints, ThatMeetOrLeaveOrGetMore)
+{
+  auto cloud = MakeCloud();
+  PointsFilter filter(cloud);
+  filter->SetKeepSessionToOn();
+  Update(filter);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  double x[3], y[3];
+  cloud->GetPoint(7, x);
+  cloud->GetPoint(20, y);
+  const auto place = [&cloud](vtkIdType point, const double* at)
+  {
+    cloud->GetPoints()->SetPoint(point, at);
+    cloud->GetPoints()->Modified();
+  };
+  const double none[] = { nan, 0.0, 0.0 };
+  for (const double* at : { static_cast<const double*>(y), none, static_cast<const double*>(x) })
+  {
+    place(7, at);
+    EXPECT_EQ(Update(filter), 0.0);
+    Shake(cloud, 0.002); // two points at one place part again
+    EXPECT_EQ(Update(filter) > 0.0, at != y);
+  }
+  for (const int count : { 1500, 2100, 2 })
+  {
+    auto other = MakeCloud(count);
+    filter->SetInputData(other);
+    EXPECT_EQ(Update(filter), 0.0);
+    Shake(other, 0.002);
+    EXPECT_EQ(Update(filter) > 0.0, count > 2);
+  }
+}
+
+TEST(MovingPoints, OtherOptionsAndTypesStartAgain)
+{
+  auto cloud = MakeCloud();
+  PointsFilter filter(cloud);
+  filter->SetKeepSessionToOn();
+  Update(filter);
+  const auto move = [&cloud] { Shake(cloud, 0.002); };
+  const auto expect = [&](double isFollowed, const std::function<void(PointsFilter&)>& set)
+  {
+    move();
+    set(filter);
+    EXPECT_EQ(Update(filter, set) > 0.0, isFollowed);
+  };
+  const auto same = [](PointsFilter&) {};
+  expect(true, same);
+  const auto threads = [](PointsFilter& each) { each->SetNumberOfThreads(2); };
+  expect(false, threads);
+  expect(true, threads);
+  const auto alpha = [](PointsFilter& each) { each->SetAlpha(0.5); };
+  expect(false, alpha);
+  expect(false, alpha);
+  const auto none = [](PointsFilter& each) { each->SetAlpha(0.0); };
+  expect(false, none);
+  expect(true, none);
+  const auto segments = MakeLines({ { 1, 1, 0 }, { 9, 8, 0 } }, { { 0, 1 } });
+  filter->SetSegmentsData(segments);
+  move();
+  EXPECT_EQ(GetTotal(filter.Run(), "MoveRounds"), 0.0);
+  filter->SetSegmentsData(nullptr);
+  expect(false, none);
+  ReplacePoints<vtkFloatArray>(cloud);
+  expect(false, none);
+  expect(true, none);
+
+  // In other planes.
+  vtkNew<vtkTransform> transform;
+  transform->RotateX(20.0);
+  const auto tilt = [&](PointsFilter& each) { each->SetTransform(transform); };
+  expect(false, tilt);
+  expect(true, tilt);
+  const auto fit = [](PointsFilter& each)
+  {
+    each->SetTransform(nullptr);
+    each->SetProjectionToBestFittingPlane();
+  };
+  expect(false, fit);
+  expect(true, fit);
+}
+
+TEST(MovingPoints, GoOnAfterAnAbort)
+{
+  auto cloud = MakeCloud();
+  PointsFilter filter(cloud);
+  filter->SetKeepSessionToOn();
+  bool isAborting = true;
+  OnProgress(filter.Get(), [&] { filter->SetAbortExecute(isAborting); });
+  filter.Run();
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+  isAborting = false;
+  EXPECT_EQ(Update(filter), 0.0);
+  for (const double size : { 0.002, 3.0 })
+  {
+    Shake(cloud, size);
+    isAborting = true;
+    filter.Run();
+    EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_ABORTED);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), Count);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 0);
+    isAborting = false;
+    filter->Modified();
+    EXPECT_EQ(Update(filter) > 0.0, size < 1.0);
+  }
+}
+
+TEST(MovingPoints, KeepTheSessionWhereThereIsTime)
+{
+  vtkNew<MovingSource> source;
+  PointsFilter filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  const auto updateTo = [&](double time)
+  {
+    filter->UpdateTimeStep(time);
+    return GetTotal(filter->GetOutput(), "MoveRounds");
+  };
+  EXPECT_EQ(updateTo(0.0), 0.0);
+  const Cells first = filter.GetPolygons();
+  EXPECT_GT(updateTo(2.0), 0.0);
+  EXPECT_GT(updateTo(1.0), 0.0);
+  EXPECT_GT(updateTo(0.0), 0.0);
+  EXPECT_EQ(filter.GetPolygons(), first);
+  filter->SetKeepSessionToOff();
+  EXPECT_EQ(updateTo(1.0), 0.0);
+  EXPECT_EQ(updateTo(2.0), 0.0);
+
+  auto cloud = MakeCloud();
+  PointsFilter still(cloud);
+  still.Run();
+  Shake(cloud, 0.002);
+  EXPECT_EQ(GetTotal(still.Run(), "MoveRounds"), 0.0);
+}
+
+TEST(MovingPoints, InLiveUpdates)
+{
+  auto cloud = MakeCloud();
+  PointsFilter filter(cloud), atOnce(cloud);
+  for (PointsFilter* each : { &filter, &atOnce })
+  {
+    (*each)->SetKeepSessionToOn();
+  }
+  filter->LiveUpdateOn();
+  filter.Run();
+  Shake(cloud, 0.002); // in the middle of a run
+  EXPECT_GT(RunToTheEnd(filter), 2);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    atOnce.Run();
+    EXPECT_EQ(filter.GetPolygons(), atOnce.GetPolygons());
+    Shake(cloud, 0.002);
+    filter.Run();
+    EXPECT_GT(GetTotal(filter->GetOutput(), "MoveRounds"), 0.0);
+    EXPECT_TRUE(filter->GetConverged());
+    EXPECT_FALSE(filter->GetNeedsUpdate());
+  }
+}
