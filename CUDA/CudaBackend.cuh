@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <string>
@@ -244,8 +245,9 @@ public:
   template <typename Result, typename Work>
   Result Sum(std::int64_t size, const Work& work) const
   {
+    static_assert(sizeof(Result) <= CudaContext::ResultBytes);
     const int most = this->GetBlocks({ 0, size });
-    Array<Result> partials = this->MakeArrayOnFirst<Result>(most * this->CountDevices() + 1);
+    Array<Result> partials = this->MakeArrayOnFirst<Result>(most * this->CountDevices());
     int blocks = 0;
     this->LaunchShared(size,
       [&](cudaStream_t stream, const ItemRange& items, int)
@@ -255,14 +257,13 @@ public:
         blocks += own;
       });
     const AddPartial<Result> add{ partials.Data() };
-    Result* all = partials.Data() + blocks;
+    auto* all = static_cast<Result*>(this->Context->GetResult());
     Launch(this->GetStream(),
       [&](cudaStream_t stream) {
         SumKernel<<<1, ThreadsPerBlock, 0, stream>>>(ItemRange{ 0, blocks }, add, all);
       });
-    Result total;
-    this->Download(all, 1, &total);
-    return total;
+    this->Synchronize();
+    return *all;
   }
 
   using Numbering = DeviceNumbering;
@@ -346,9 +347,16 @@ public:
   template <typename T>
   void Download(const T* values, std::int64_t size, T* host) const
   {
-    CallCuda("copy from the GPU", cudaMemcpyAsync, host, values, size * sizeof(T),
-      cudaMemcpyDeviceToHost, this->GetStream());
+    const std::size_t bytes = static_cast<std::size_t>(size) * sizeof(T);
+    const bool isSmall = bytes <= CudaContext::ResultBytes;
+    void* const to = isSmall ? this->Context->GetResult() : static_cast<void*>(host);
+    CallCuda("copy from the GPU", cudaMemcpyAsync, to, values, bytes, cudaMemcpyDeviceToHost,
+      this->GetStream());
     this->Synchronize();
+    if (isSmall)
+    {
+      std::memcpy(static_cast<void*>(host), to, bytes);
+    }
   }
 
   /// Waits until `host` has been read.

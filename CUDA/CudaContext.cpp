@@ -105,6 +105,14 @@ CudaEvent MakeEvent()
   return CudaEvent(event);
 }
 
+PageLocked LockPages(std::size_t bytes)
+{
+  void* memory = nullptr;
+  CallCuda("allocate page-locked memory",
+    [&] { return cudaHostAlloc(&memory, bytes, cudaHostAllocPortable | cudaHostAllocMapped); });
+  return PageLocked(memory);
+}
+
 }
 
 CudaContext::CudaContext(const std::vector<int>& devices)
@@ -155,12 +163,18 @@ const StagingBuffer& CudaContext::GetBuffer(std::int64_t i)
   StagingBuffer& buffer = this->Staging[i % this->Staging.size()];
   if (!buffer.Memory)
   {
-    void* memory = nullptr;
-    CallCuda("allocate page-locked memory",
-      [&] { return cudaHostAlloc(&memory, StagingBytes, cudaHostAllocPortable); });
-    buffer.Memory = PageLocked(memory);
+    buffer.Memory = LockPages(StagingBytes);
   }
   return buffer;
+}
+
+void* CudaContext::GetResult()
+{
+  if (!this->Result)
+  {
+    this->Result = LockPages(ResultBytes);
+  }
+  return this->Result.Get();
 }
 
 Memory& CudaContext::GetMemory() const
