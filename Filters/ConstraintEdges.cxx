@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintEdges.h"
 
+#include "DelaunayFlip.h"
 #include "UpdateReport.h"
 
+#include "vtkCellData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
@@ -536,6 +540,39 @@ std::vector<vtkIdType> SegmentList::AddPoints(const PointArray& own, const Point
       data, others.Count, "point", " of the second input with too few tuples left out");
   }
   return ids;
+}
+
+void SegmentList::StoreEdges(const FlipSession& session, vtkPolyData* output) const
+{
+  const std::vector<std::int64_t> ends = session.ListSegmentEdges();
+  const std::vector<std::int64_t> segments = session.ListSegmentsOfEdges();
+  const auto count = static_cast<vtkIdType>(segments.size());
+  const auto make = [](vtkIdType size)
+  {
+    auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+    ids->SetName("SegmentIds");
+    ids->SetNumberOfValues(size);
+    ids->FillValue(-1);
+    return ids;
+  };
+  const auto ofCells = make(count + output->GetNumberOfPolys());
+  vtkNew<vtkCellArray> lines;
+  lines->AllocateExact(count, 2 * count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    lines->InsertNextCell({ vtkIdType(ends[2 * i]), vtkIdType(ends[2 * i + 1]) });
+    ofCells->SetValue(i, this->Cells[segments[i]]);
+  }
+  output->SetLines(lines);
+  output->GetCellData()->AddArray(ofCells);
+  const auto ofPoints = make(output->GetNumberOfPoints());
+  vtkIdType id = this->Points->GetNumberOfPoints();
+  for (const AddedPoint& point : session.GetAddedPoints())
+  {
+    ofPoints->SetValue(id, point.Segment < 0 ? -1 : this->Cells[point.Segment]);
+    ++id;
+  }
+  output->GetPointData()->AddArray(ofPoints);
 }
 
 }

@@ -25,6 +25,8 @@ class vtkPolyData;
 namespace delaunayflip
 {
 
+class FlipSession;
+
 /// A hash of ids or coordinates.
 struct HashWords
 {
@@ -148,6 +150,9 @@ public:
   /// Finds the added points without heights, if the given points have other heights than 0. Lines,
   /// outlines and holes are looked at separately; each has no heights if z = 0 throughout.
   std::vector<std::int64_t> FindFlatPoints(std::int64_t firstHole) const;
+
+  /// Stores the edges that segments have become, as lines, and the ids of their cells.
+  void StoreEdges(const FlipSession& session, vtkPolyData* output) const;
 
   std::vector<std::int64_t> Ends; ///< Pairs of ids.
   std::vector<std::int32_t> Rings; ///< One number per segment.

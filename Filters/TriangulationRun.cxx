@@ -8,7 +8,6 @@
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -127,7 +126,6 @@ private:
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
   Defect DescribeFlatPoints() const;
   PlaneArray Project();
-  void StoreSegments(vtkPolyData* output) const;
   void StoreRegions(vtkPolyData* output) const;
 
   TriangulationRequest Asked; ///< Its meshes may be gone.
@@ -538,47 +536,13 @@ bool TriangulationRun::Store(vtkPolyData* output) const
   output->SetPolys(triangles);
   if (this->Asked.PassesSegments)
   {
-    this->StoreSegments(output);
+    this->Segments.StoreEdges(*this->Session, output);
   }
   if (!this->Regions.empty())
   {
     this->StoreRegions(output);
   }
   return true;
-}
-
-/// Stores the edges that segments have become, as lines, and the ids of their cells.
-void TriangulationRun::StoreSegments(vtkPolyData* output) const
-{
-  const std::vector<std::int64_t> ends = this->Session->ListSegmentEdges();
-  const std::vector<std::int64_t> segments = this->Session->ListSegmentsOfEdges();
-  const auto count = static_cast<vtkIdType>(segments.size());
-  const auto make = [](vtkIdType size)
-  {
-    auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
-    ids->SetName("SegmentIds");
-    ids->SetNumberOfValues(size);
-    ids->FillValue(-1);
-    return ids;
-  };
-  const auto ofCells = make(count + output->GetNumberOfPolys());
-  vtkNew<vtkCellArray> lines;
-  lines->AllocateExact(count, 2 * count);
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    lines->InsertNextCell({ vtkIdType(ends[2 * i]), vtkIdType(ends[2 * i + 1]) });
-    ofCells->SetValue(i, this->Segments.Cells[segments[i]]);
-  }
-  output->SetLines(lines);
-  output->GetCellData()->AddArray(ofCells);
-  const auto ofPoints = make(output->GetNumberOfPoints());
-  vtkIdType id = this->Points->GetNumberOfPoints();
-  for (const AddedPoint& point : this->Session->GetAddedPoints())
-  {
-    ofPoints->SetValue(id, point.Segment < 0 ? -1 : this->Segments.Cells[point.Segment]);
-    ++id;
-  }
-  output->GetPointData()->AddArray(ofPoints);
 }
 
 /// Stores the labels of the triangles; lines have none.
@@ -622,18 +586,6 @@ bool TriangulationRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) cons
   }
   run = std::move(made);
   return false;
-}
-
-bool TriangulationRequest::IsPlain() const
-{
-  const PointOptions& options = this->Options;
-  const bool hasSegments = this->Others || this->Input->GetNumberOfLines() > 0;
-  const bool isRefined = options.MinimumAngle + options.MaximumArea + options.MaximumEdge > 0.0 ||
-    !this->SizeArray.empty() || !this->Regions.empty();
-  const bool leavesOut =
-    options.PointTolerance > 0.0 || options.Alpha > 0.0 || options.LongestEdge > 0.0;
-  return !hasSegments && !isRefined && !leavesOut && options.MaximumIterations < 0 &&
-    options.Projection == ProjectionKind::Plane;
 }
 
 }
