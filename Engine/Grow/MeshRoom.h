@@ -39,8 +39,9 @@ void ReserveMesh(EdgeMesh& mesh, std::int64_t triangles, std::int64_t edges, con
   Reserve(mesh.Triangles, mesh.NumberOfTriangles, triangles, backend);
   Reserve(mesh.CornerOfHalfEdge, 2 * mesh.NumberOfEdges, 2 * edges, backend);
   Reserve(mesh.States, mesh.NumberOfEdges, states, backend);
-  EdgeState* padding = mesh.States.Data() + edges;
-  backend.ForEach(states - edges,
+  // Fewer edges may be added than there is room for, and loops read states behind the last edge.
+  EdgeState* padding = mesh.States.Data() + mesh.NumberOfEdges;
+  backend.ForEach(states - mesh.NumberOfEdges,
     [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { padding[i] = EdgeState::Fixed; });
 }
 
