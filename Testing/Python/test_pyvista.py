@@ -247,9 +247,9 @@ class PyVista(unittest.TestCase):
         numpy.testing.assert_array_equal(made["Region"], numpy.where(is_left, 7, -2))
         self.assertGreaterEqual(delaunayflip.smallest_angles(made.points, made.regular_faces,
                                                              geometry="planar-xy").min(), 28)
-        ring = [[0.0, 0], [10, 0], [10, 10], [0, 10]]
         for segments in (wall, [[0, 1], [1, 2]]):
-            marked = cloud.delaunay.triangulate(segments, outline=ring, pass_segments=True, minimum_angle=28)
+            marked = cloud.delaunay.triangulate(
+                segments, outline=[0, 1, 2, 3], pass_segments=True, maximum_edge=2.0)
             lines, ids = marked.lines.reshape(-1, 3)[:, 1:], marked.cell_data["SegmentIds"]
             places = marked.points[lines, 0]
             if segments is wall:
