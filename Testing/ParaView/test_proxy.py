@@ -52,7 +52,7 @@ class Proxy(PluginTest):
         self.proxy = getattr(simple, self.name)(Input=simple.Sphere())
         self.of_class = list_properties(self.vtk_class, *self.bases) - {"Transform"}
         if not self.is_live:
-            self.of_class -= {"LiveUpdate", "IterationsPerUpdate", "Paused", "KeepSession"}
+            self.of_class -= {"LiveUpdate", "IterationsPerUpdate", "Paused", "KeepSession", "PassSegments"}
 
     def property(self, name):
         return self.proxy.SMProxy.GetProperty(name)
