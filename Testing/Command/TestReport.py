@@ -32,8 +32,8 @@ class Report(CommandTest):
         report = self.report(path, "out.vtk", "--from-points")
         self.assertEqual(list(report), names)
         more = {name for name in names if name not in ("refinement_points", "removed_points") and re.search(
-            "_points|points_|^segment|segments$|^crossings|^largest_|^outside_|^large_|^left_out_", name)}
-        self.assertEqual(len(more), 12)
+            "_points|points_|^segment|segments$|^crossings|^largest_|^outside_|^large_|^left_out_|^move_", name)}
+        self.assertEqual(len(more), 13)
         report = self.report(path, "out.vtk")
         self.assertEqual(list(report), [name for name in names if name not in more])
         for name in ("read_seconds", "build_seconds", "flip_seconds", "write_seconds"):

@@ -60,12 +60,6 @@ void Shake(vtkPolyData* cloud, double size)
     });
 }
 
-/// The array of a result; null if there is none.
-vtkDataArray* GetResult(vtkPolyData* mesh, const std::string& name)
-{
-  return mesh->GetFieldData()->GetArray(("DelaunayFlip:" + name).c_str());
-}
-
 /// That two arrays have the same values of the same type.
 void ExpectSame(vtkAbstractArray* expected, vtkAbstractArray* actual)
 {
