@@ -372,9 +372,11 @@ class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
     def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
-                 pass_segments=False, first_hole=-1, heights=None, fills_data=False, size_array="", backend=None, **rings):
+                 pass_segments=False, first_hole=-1, heights=None, fills_data=False, size_array="", backend=None,
+                 **rings):
         """`others`: the second input of the filter, or pairs of point ids. `heights`: SegmentHeights.
-        `pass_segments`: whether the mesh gets the edges along segments. `fills_data`: whether added points get data whatever their heights. `size_array`: SizeArray.
+        `pass_segments`: whether the mesh gets the edges along segments. `fills_data`: whether added points
+        get data whatever their heights. `size_array`: SizeArray.
         `backend`: keywords that say where data are found. `rings`: outline, holes, hole_seeds and
         ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data

@@ -137,8 +137,8 @@ def triangulate(
             regions, alpha, backend and progress.
 
     Returns:
-        The mesh, with the cell array "Region" if there are regions (0 for lines). Its field data tells what was done,
-        e.g. "DelaunayFlip:SegmentEdges".
+        The mesh, with the cell array "Region" if there are regions (0 for lines). Its field data tells what
+        was done, e.g. "DelaunayFlip:SegmentEdges".
 
     Raises:
         The same exceptions as delaunayflip.triangulate; TypeError for other datasets.
