@@ -121,6 +121,36 @@ public:
       });
   }
 
+  /// Writes what is known after a detection.
+  void PutStates(EdgeMesh& mesh) const
+  {
+    const EdgeBits bits = this->Bits;
+    EdgeState* states = mesh.States.Data();
+    this->Backend.ForEach(mesh.NumberOfEdges,
+      [=] __device__(std::int64_t e)
+      {
+        const auto edge = static_cast<EdgeId>(e);
+        EdgeState state = EdgeState::Good;
+        if (EdgeBits::Has(bits.FixedOrDeferred, edge))
+        {
+          state = EdgeState::Fixed;
+        }
+        else if (EdgeBits::Has(bits.BlockedByEdge, edge)) // maybe the same array as the next one
+        {
+          state = EdgeState::BlockedByEdge;
+        }
+        else if (EdgeBits::Has(bits.BlockedByShape, edge))
+        {
+          state = EdgeState::BlockedByShape;
+        }
+        else if (EdgeBits::Has(bits.Bad, edge))
+        {
+          state = EdgeState::Bad;
+        }
+        states[edge] = state;
+      });
+  }
+
   /// @param chunkBits chunks of 2^chunkBits triangles.
   void DeferEdgesBetweenChunks(EdgeMesh& edgeMesh, int chunkBits)
   {
@@ -199,6 +229,8 @@ public:
     const AngleSurvey<Rule> survey{ this->Mesh.Triangles.Data(), this->Decision, this->Range };
     return this->Backend.template Sum<AngleSums>(this->Mesh.NumberOfTriangles, survey);
   }
+
+  void PutStates() override { this->Bits.PutStates(this->Mesh); }
 
   // Public because device lambdas require it.
 

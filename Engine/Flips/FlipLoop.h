@@ -78,6 +78,10 @@ public:
   /// the state Candidate. Detect must follow.
   void Restart();
 
+  /// Writes the states of all edges, as the last detection has found them, where the loop does not
+  /// write them anyway: on a device. Needs a loop without chunks.
+  virtual void PutStates() {}
+
   /// The counts of the last detection.
   const StepCounts& GetFound() const { return this->Found; }
 

@@ -60,13 +60,6 @@ public:
     this->RequireStates();
     if (plan.IsOfCaller && this->Places.Count == 0)
     {
-      // FixBlocked needs the states of edges, which the loop on a device does not write.
-      if (!BackendT::IsOnHost && this->Frame.NeedsGuard)
-      {
-        throw BackendUnavailable(
-          "a mesh whose triangles overlap, are turned over or meet only at a point is refined by "
-          "threads");
-      }
       this->MakePlaces();
     }
     if (this->Places.Floats)
@@ -302,6 +295,7 @@ private:
       return;
     }
     this->Loop->Converge(); // because a limit may have ended the iterations
+    this->PutStates();
     refined.Grown = { &this->Mesh, &this->GetCoordinates<Real>(), &this->Order.VertexOfRank,
       this->Points.Count, this->Report.Points, this->FiltersApply };
     refined.Rounds =
@@ -326,6 +320,7 @@ private:
     this->Places = PlaneArray(coordinates, this->Points.Count, 2);
     this->template MakeLoopOfGrown<Real>(coordinates);
     this->Loop->Converge();
+    this->PutStates();
     if (this->Frame.NeedsGuard)
     {
       refined.Rounds->FixBlocked(refined.Grown);
@@ -336,6 +331,15 @@ private:
     this->AppendUsed(used);
     this->CountGrown();
     return added;
+  }
+
+  /// Brings the states of edges up to date where edges may be blocked, which refinement fixes.
+  void PutStates()
+  {
+    if (this->Frame.NeedsGuard)
+    {
+      this->Loop->PutStates();
+    }
   }
 
   /// Fetches the result, and then lets edges flip that were fixed for refinement alone.
