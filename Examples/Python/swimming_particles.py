@@ -28,15 +28,25 @@ def find_densities(places, triangles):
     return 1 / cells
 
 
-count, steps = (int(number) for number in (*sys.argv[1:3], 5000, 20)[:2])
-particles = numpy.random.default_rng(1).random((count, 2))
-length = 0.05 / numpy.sqrt(count)  # the longest step: a twentieth of the distance of particles
-in_place = 0
-with delaunayflip.MovingTriangulation(particles) as mesh:
-    for step in range(steps):
-        particles += length * find_velocity(particles, 0.1 * step)
-        mesh.move(particles)
-        densities = find_densities(particles, mesh.triangles)
-        in_place += mesh.report.move_rounds > 0
-print(f"{steps} steps of {count} particles, {in_place} in place; the median density is",
-      f"{numpy.median(densities):.0f}")
+def swim(count, steps):
+    """Yields the places, the triangles, the densities and the report after each step."""
+    particles = numpy.random.default_rng(1).random((count, 2))
+    length = 0.05 / numpy.sqrt(count)  # the longest step: a twentieth of the distance of particles
+    with delaunayflip.MovingTriangulation(particles) as mesh:
+        for step in range(steps):
+            particles += length * find_velocity(particles, 0.1 * step)
+            mesh.move(particles)
+            yield particles, mesh.triangles, find_densities(particles, mesh.triangles), mesh.report
+
+
+def main():
+    count, steps = (int(number) for number in (*sys.argv[1:3], 5000, 20)[:2])
+    in_place = 0
+    for _, _, densities, report in swim(count, steps):
+        in_place += report.move_rounds > 0
+    print(f"{steps} steps of {count} particles, {in_place} in place; the median density is",
+          f"{numpy.median(densities):.0f}")
+
+
+if __name__ == "__main__":
+    main()
