@@ -120,11 +120,11 @@ Array ToPoints(const Struct& c, Components... components)
   return ToCoordinates<Array>(c.points, c.number_of_points, c.point_type, "point", components...);
 }
 
-inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c)
+inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c, const std::vector<RegionSeed>& seeds)
 {
   RequireArray(c.constraint_edges, c.number_of_constraint_edges, "constraint_edges");
   return { c.constraint_edges, c.number_of_constraint_edges, c.constraints_to_insert, c.regions,
-    c.frozen_triangles, c.sizes };
+    c.frozen_triangles, c.sizes, seeds.data(), static_cast<std::int64_t>(seeds.size()) };
 }
 
 /// A view of the caller's integers as `Array`, whose 32-bit ids are Id32 and 64-bit ids Id64.
@@ -152,13 +152,14 @@ inline bool IsOnDevice(std::int32_t memory)
   return memory == DELAUNAYFLIP_CUDA;
 }
 
-/// Views of the arrays of a mesh in the host's memory.
-inline TriangleMesh ToMesh(const delaunayflip_mesh* given)
+/// Views of the arrays of a mesh in the host's memory, and of these region seeds.
+inline TriangleMesh ToMesh(
+  const delaunayflip_mesh* given, const std::vector<RegionSeed>& seeds = {})
 {
   const delaunayflip_mesh c = Complete(given, delaunayflip_mesh_init);
   Require(!IsOnDevice(c.memory), "this function needs a mesh in the host's memory");
   Require(c.point_components == 3, "point_components must be 3 for points in the host's memory");
-  return { ToFixedEdges(c), ToPoints<PointArray>(c), ToTriangles(c), {}, {} };
+  return { ToFixedEdges(c, seeds), ToPoints<PointArray>(c), ToTriangles(c), {}, {} };
 }
 
 inline PlaneArray ToPlane(const delaunayflip_points& c)
@@ -167,13 +168,15 @@ inline PlaneArray ToPlane(const delaunayflip_points& c)
   return ToPoints<PlaneArray>(c, c.point_components);
 }
 
-inline std::vector<RegionSeed> ToRegions(const delaunayflip_points& c)
+/// @param name of the array.
+inline std::vector<RegionSeed> ToRegions(
+  const delaunayflip_region* given, std::int64_t count, const std::string& name)
 {
-  RequireArray(c.regions, c.number_of_regions, "regions");
+  RequireArray(given, count, name);
   std::vector<RegionSeed> regions;
-  for (std::int64_t i = 0; i < c.number_of_regions; ++i)
+  for (std::int64_t i = 0; i < count; ++i)
   {
-    const delaunayflip_region& region = c.regions[i];
+    const delaunayflip_region& region = given[i];
     regions.push_back({ region.x, region.y, region.label, region.maximum_area });
   }
   return regions;
@@ -258,12 +261,13 @@ inline PlaceQuery ToQuery(const delaunayflip_query* given)
   return query;
 }
 
-/// Views of the arrays of a complete mesh in device memory.
-inline DeviceMesh ToDeviceMesh(const delaunayflip_mesh& c)
+/// Views of the arrays of a complete mesh in device memory, and of these region seeds.
+inline DeviceMesh ToDeviceMesh(
+  const delaunayflip_mesh& c, const std::vector<RegionSeed>& seeds = {})
 {
   Require(c.point_components == 2 || c.point_components == 3, "point_components is not 2 or 3");
-  return { ToFixedEdges(c), ToPoints<DevicePointArray>(c, c.point_components), ToTriangles(c),
-    { c.stream } };
+  return { ToFixedEdges(c, seeds), ToPoints<DevicePointArray>(c, c.point_components),
+    ToTriangles(c), { c.stream } };
 }
 
 /// A view of an array for three ids per triangle, of a delaunayflip_type.

@@ -309,13 +309,18 @@ extern "C"
         Require(session, "session is null");
         const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init);
         const FlipOptions wanted = ToOptions(options);
+        std::vector<RegionSeed> seeds =
+          ToRegions(c.region_seeds, c.number_of_region_seeds, "region_seeds");
         const bool isRefined = wanted.MinimumAngle > 0.0 || wanted.MaximumArea > 0.0 ||
-          wanted.MaximumEdge > 0.0 || c.sizes;
+          wanted.MaximumEdge > 0.0 || c.sizes ||
+          std::any_of(seeds.begin(), seeds.end(),
+            [](const RegionSeed& seed) { return seed.MaximumArea > 0.0; });
         const auto open = [&](const auto& view)
         { return FlipSession(view, wanted, ToProgress(callbacks)); };
-        *session =
-          new delaunayflip_session{ IsOnDevice(c.memory) ? open(ToDeviceMesh(c)) : open(ToMesh(&c)),
-            false, isRefined, c.number_of_triangles, c.triangle_numbers, {}, {} };
+        FlipSession opened =
+          IsOnDevice(c.memory) ? open(ToDeviceMesh(c, seeds)) : open(ToMesh(&c, seeds));
+        *session = new delaunayflip_session{ std::move(opened), false, isRefined,
+          c.number_of_triangles, c.triangle_numbers, {}, std::move(seeds) };
       });
   }
 
@@ -328,7 +333,7 @@ extern "C"
       {
         Require(session, "session is null");
         const delaunayflip_points c = Complete(points, delaunayflip_points_init);
-        std::vector<RegionSeed> regions = ToRegions(c);
+        std::vector<RegionSeed> regions = ToRegions(c.regions, c.number_of_regions, "regions");
         FlipSession opened(
           ToPointInput(c, regions), ToPointOptions(c, ToOptions(options)), ToProgress(callbacks));
         *session = new delaunayflip_session{ std::move(opened), true, true, 0, nullptr, {},
@@ -450,8 +455,12 @@ extern "C"
   delaunayflip_status delaunayflip_store_regions(
     delaunayflip_session* session, std::int32_t* labels)
   {
-    return TryWithPoints(
-      session, labels, &FlipReport::Triangles, [=]() { session->Session.StoreRegions(labels); });
+    return TryWith(session,
+      [=]()
+      {
+        Require(labels || session->CountTriangles() == 0, "labels is null");
+        session->Session.StoreRegions(labels);
+      });
   }
 
   delaunayflip_status delaunayflip_store_segments_of_edges(
@@ -687,7 +696,10 @@ extern "C"
             ToOutput(triangles, c.number_of_triangles, c.id_type), ToObserver(callbacks),
             ToProgress(callbacks));
         };
-        const FlipReport result = IsOnDevice(c.memory) ? flip(ToDeviceMesh(c)) : flip(ToMesh(&c));
+        const std::vector<RegionSeed> seeds =
+          ToRegions(c.region_seeds, c.number_of_region_seeds, "region_seeds");
+        const FlipReport result =
+          IsOnDevice(c.memory) ? flip(ToDeviceMesh(c, seeds)) : flip(ToMesh(&c, seeds));
         if (report)
         {
           thread_local KeptReport kept;

@@ -102,6 +102,15 @@ extern "C"
     DELAUNAYFLIP_CUDA = 1 /**< The memory of a GPU, as CUDA allocates it. */
   } delaunayflip_memory;
 
+  /** Names the part, enclosed by segments or by edges that stay, that a place is in. */
+  typedef struct
+  {
+    double x;
+    double y;
+    int32_t label; /**< That of all triangles of the region. */
+    double maximum_area; /**< The largest triangle there; 0: as elsewhere. */
+  } delaunayflip_region;
+
   /** A triangle mesh. Any mesh is accepted: non-manifold, open, of mixed winding, with duplicate,
    * degenerate or unused parts. */
   typedef struct
@@ -128,6 +137,10 @@ extern "C"
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
     const double* sizes; /**< For refinement: the longest edge near each point, linear in between;
                             NaN: no limit near that point. Null: no limit. In the host's memory. */
+    const delaunayflip_region* region_seeds; /**< For delaunayflip_open, in x and y: places in parts
+                                                of the mesh that edges enclose which stay; or null.
+                                                Of several in one part the first one counts. */
+    int64_t number_of_region_seeds;
   } delaunayflip_mesh;
 
   typedef enum
@@ -395,15 +408,6 @@ extern "C"
                                     half of the sphere or more. */
   } delaunayflip_projection; /**< The surface on which points are triangulated. */
 
-  /** Names the part, enclosed by segments, that a place is in. */
-  typedef struct
-  {
-    double x;
-    double y;
-    int32_t label; /**< That of all triangles of the region. */
-    double maximum_area; /**< The largest triangle there; 0: as elsewhere. */
-  } delaunayflip_region;
-
   /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each
    * member in full. */
   typedef struct
@@ -510,8 +514,8 @@ extern "C"
    * For sessions from triangles. */
   delaunayflip_status delaunayflip_store_sources(delaunayflip_session* session, int32_t* sources);
 
-  /** Writes the label of the region that each triangle is in, and 0 where there is none: as many as
-   * there are triangles. For sessions from points. */
+  /** Writes the label of the region that each triangle is in, and 0 where there is none: one for
+   * each of delaunayflip_count_triangles triangles. Not for a mesh in several pieces. */
   delaunayflip_status delaunayflip_store_regions(delaunayflip_session* session, int32_t* labels);
 
   /** Writes the edges that segments have become, as pairs of point ids, in the order and direction

@@ -159,8 +159,8 @@ public:
   /// Returns the number of the caller's segment for each of these edges; of several, the first one.
   std::vector<std::int64_t> ListSegmentsOfEdges() const;
 
-  /// Writes the label of the region that each triangle is in (PointInput::Regions); 0 where there
-  /// is none. For sessions from points.
+  /// Writes the label of the region that each triangle is in (PointInput::Regions, or
+  /// FixedEdges::RegionSeeds); 0 where there is none. Not for a mesh in several pieces.
   void StoreRegions(std::int32_t* labels) const;
 
   /// Writes, for each of CountTriangles() triangles, its source: the triangle before refinement

@@ -83,14 +83,6 @@ enum class ProjectionKind
   OpenSphere
 };
 
-/// Names the part, enclosed by segments, that a place is in.
-struct RegionSeed
-{
-  double X = 0.0, Y = 0.0;
-  std::int32_t Label = 0; ///< That of all triangles of the region.
-  double MaximumArea = 0.0; ///< The largest triangle there; 0: as elsewhere.
-};
-
 /// Points in the plane, and the segments between them.
 struct PointInput
 {

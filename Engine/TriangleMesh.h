@@ -164,6 +164,14 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
+/// Names the part, enclosed by segments or by edges that stay, that a place is in.
+struct RegionSeed
+{
+  double X = 0.0, Y = 0.0;
+  std::int32_t Label = 0; ///< That of all triangles of the region.
+  double MaximumArea = 0.0; ///< The largest triangle there; 0: as elsewhere.
+};
+
 /// What the caller knows about the edges of a mesh: which of them are fixed, i.e. never flip.
 struct FixedEdges
 {
@@ -188,6 +196,12 @@ struct FixedEdges
   /// For refinement: the longest edge that triangles may have near each point, or null: no limit.
   /// Between points it is interpolated linearly. NaN: no limit near that point.
   const double* Sizes = nullptr;
+
+  /// In x and y: places in parts of the mesh that edges enclose which stay. They label these parts
+  /// (FlipSession::StoreRegions), and may limit the areas of triangles there. If several are in one
+  /// part, the first one counts.
+  const RegionSeed* RegionSeeds = nullptr;
+  std::int64_t NumberOfRegionSeeds = 0;
 };
 
 /// A mesh that is a piece of a larger one has this information about the larger one (PieceFlip.h).

@@ -169,6 +169,13 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
 std::vector<std::int64_t> ListInnerFixedEdges(
   const TriangleMesh& mesh, const FlipOptions& options, const EdgeCounts& counts);
 
+/// The regions that the region seeds of a mesh in x and y are in: by triangle of the caller, the
+/// number of the first seed there, from 1, or 0 where there is none. Flips change none of them,
+/// because they cross no edge that stays.
+/// @param seedsOutside receives how many are in no triangle that runs as most do.
+std::vector<std::int32_t> FindSeededRegions(
+  const TriangleMesh& mesh, const FlipOptions& options, std::int64_t& seedsOutside);
+
 /// @throws RunAborted.
 /// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the
 /// mesh needs the CPU. The message says why.

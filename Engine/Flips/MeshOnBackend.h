@@ -42,7 +42,9 @@ public:
     const MeshInput input{ mesh, local.Mesh, local.IsOnHost };
     MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
-    CheckRefinement(options, mesh.Sizes, survey.Geometry);
+    const bool isPlanar =
+      survey.Geometry == GeometryKind::Planar || survey.Geometry == GeometryKind::PlanarXY;
+    CheckRefinement(options, mesh, survey.Geometry, isPlanar && survey.Projection.IsInXY());
     this->Range = survey.Range;
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);

@@ -6,6 +6,7 @@
 #include "FlipError.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -29,11 +30,21 @@ void Require(bool isValid, const std::string& message)
   }
 }
 
+/// The smallest and the largest length or area that can be meant.
+constexpr double SmallestGoal = 1e-60, LargestGoal = 1e60;
+
 /// Requires a goal of refinement to be finite and not negative.
 void RequireGoal(double goal, const std::string& name)
 {
   Require(goal >= 0.0 && goal <= std::numeric_limits<double>::max(),
     name + " must be finite and 0 or more");
+}
+
+/// Requires a length or area to be 0, or one that can be meant. @param name with a verb.
+void RequireSize(double size, const std::string& name)
+{
+  Require(size == 0.0 || (size >= SmallestGoal && size <= LargestGoal),
+    name + " from 1e-60 to 1e60, or 0 for no limit");
 }
 
 void CheckGoals(const FlipOptions& options)
@@ -42,6 +53,8 @@ void CheckGoals(const FlipOptions& options)
   RequireGoal(options.MinimumAngle, "MinimumAngle");
   RequireGoal(options.MaximumArea, "MaximumArea");
   RequireGoal(options.MaximumEdge, "MaximumEdge");
+  RequireSize(options.MaximumArea, "MaximumArea must be");
+  RequireSize(options.MaximumEdge, "MaximumEdge must be");
   Require(options.MinimumAngle <= LargestAngle, "MinimumAngle must be from 0 to 33 degrees");
   Require(options.PointLimit >= 0, "PointLimit must be 0 or more");
 }
@@ -110,9 +123,21 @@ bool HasGoals(const FlipOptions& options)
   return options.MinimumAngle > 0.0 || options.MaximumArea > 0.0 || options.MaximumEdge > 0.0;
 }
 
-void CheckRefinement(const FlipOptions& options, const double* sizes, GeometryKind geometry)
+bool HasAreas(const RegionSeed* regions, std::int64_t count)
 {
-  const bool isWanted = HasGoals(options) || sizes;
+  return std::any_of(
+    regions, regions + count, [](const RegionSeed& region) { return region.MaximumArea > 0.0; });
+}
+
+bool HasGoals(const FlipOptions& options, const FixedEdges& mesh)
+{
+  return HasGoals(options) || mesh.Sizes || HasAreas(mesh.RegionSeeds, mesh.NumberOfRegionSeeds);
+}
+
+void CheckRefinement(
+  const FlipOptions& options, const FixedEdges& mesh, GeometryKind geometry, bool isInXY)
+{
+  const bool isWanted = HasGoals(options, mesh);
   if (isWanted && geometry == GeometryKind::Surface)
   {
     throw InvalidOptions(
@@ -127,6 +152,9 @@ void CheckRefinement(const FlipOptions& options, const double* sizes, GeometryKi
   {
     throw InvalidOptions("refinement needs the in-circle criterion, not opposite angles");
   }
+  Require(mesh.NumberOfRegionSeeds == 0 || isInXY,
+    "region seeds are places in x and y, but the mesh is not in this plane; use 'planar-xy', or "
+    "give no region seeds");
 }
 
 void CheckSizes(const double* sizes, std::int64_t points)
@@ -137,15 +165,34 @@ void CheckSizes(const double* sizes, std::int64_t points)
     {
       throw InvalidOptions("the size of point " + std::to_string(i) + " is not above 0");
     }
+    const bool isLimit = sizes[i] <= std::numeric_limits<double>::max(); // else NaN or infinite
+    Require(!isLimit || (sizes[i] >= SmallestGoal && sizes[i] <= LargestGoal),
+      "the size of point " + std::to_string(i) +
+        " must be from 1e-60 to 1e60, or NaN for no limit");
   }
 }
 
-void RefuseRefinement(const FlipOptions& options, const double* sizes, const char* what)
+void CheckRegions(const RegionSeed* regions, std::int64_t count)
 {
-  if (HasGoals(options) || sizes)
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const RegionSeed& region = regions[i];
+    const bool isSound = std::isfinite(region.X) && std::isfinite(region.Y) &&
+      region.MaximumArea >= 0.0 && region.MaximumArea <= std::numeric_limits<double>::max();
+    Require(isSound,
+      "region " + std::to_string(i) +
+        " has a coordinate that is NaN or infinite, or an area that is not finite and 0 or more");
+    RequireSize(region.MaximumArea, "the area of region " + std::to_string(i) + " must be");
+  }
+}
+
+void RefuseRefinement(const FlipOptions& options, const FixedEdges& mesh, const char* what)
+{
+  if (HasGoals(options, mesh) || mesh.NumberOfRegionSeeds > 0)
   {
     throw InvalidOptions(std::string(what) +
-      " cannot be refined; set MinimumAngle, MaximumArea and MaximumEdge to 0, and give no sizes");
+      " cannot be refined; set MinimumAngle, MaximumArea and MaximumEdge to 0, and give no sizes "
+      "and no region seeds");
   }
 }
 

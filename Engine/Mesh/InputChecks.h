@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_INPUTCHECKS_H
 
 #include "FlipOptions.h"
+#include "TriangleMesh.h"
 
 #include <cstdint>
 #include <string>
@@ -17,20 +18,32 @@ void CheckOptions(const FlipOptions& options);
 /// @throws InvalidOptions if the tie rule does not apply to the geometry.
 void CheckTieRule(const FlipOptions& options, GeometryKind geometry);
 
-/// Whether options ask for refinement. Sizes of points, which are none of them, do so, too.
+/// Whether options ask for refinement.
 bool HasGoals(const FlipOptions& options);
 
-/// Checks the geometry and the criterion, if refinement is asked for.
-/// @param sizes TriangleMesh::Sizes.
+/// Whether options, sizes of points or areas of regions ask for refinement.
+bool HasGoals(const FlipOptions& options, const FixedEdges& mesh);
+
+/// Whether a region has a largest area.
+bool HasAreas(const RegionSeed* regions, std::int64_t count);
+
+/// Checks the geometry and the criterion, if refinement is asked for, and the geometry for region
+/// seeds.
+/// @param isInXY whether geometry is planar in x and y.
 /// @throws InvalidOptions.
-void CheckRefinement(const FlipOptions& options, const double* sizes, GeometryKind geometry);
+void CheckRefinement(
+  const FlipOptions& options, const FixedEdges& mesh, GeometryKind geometry, bool isInXY);
 
 /// Checks that the sizes of points, if there are any, are above 0 or NaN. @throws InvalidOptions.
 void CheckSizes(const double* sizes, std::int64_t points);
 
+/// Checks that region seeds are finite, and their areas finite and not negative.
+/// @throws InvalidOptions.
+void CheckRegions(const RegionSeed* regions, std::int64_t count);
+
 /// @param what cannot be refined, for the message.
-/// @throws InvalidOptions if refinement is asked for.
-void RefuseRefinement(const FlipOptions& options, const double* sizes, const char* what);
+/// @throws InvalidOptions if refinement or labels of regions are asked for.
+void RefuseRefinement(const FlipOptions& options, const FixedEdges& mesh, const char* what);
 
 /// @throws InvalidOptions if a mesh of this geometry must be flipped in one piece.
 void RefuseParts(GeometryKind geometry);

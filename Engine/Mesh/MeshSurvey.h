@@ -163,6 +163,8 @@ struct PlaneProjection
   int AxisV = 1;
   int AxisW = 2;
   bool Tilted = false; ///< W is not constant, so it belongs to the lift of the in-circle test.
+
+  bool IsInXY() const { return this->AxisW == 2 && !this->Tilted; }
   /// For refinement in a tilted plane: two orthogonal unit vectors in it, as (U, V, W). Seen from
   /// the positive end of W, the second one is to the left of the first.
   double Along[2][3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 } };

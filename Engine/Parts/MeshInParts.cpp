@@ -35,7 +35,7 @@ ConstraintInsertion InsertConstraints(
   const TriangleMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
 {
   CheckOptions(options);
-  RefuseRefinement(options, nullptr, "a mesh in several pieces");
+  RefuseRefinement(options, mesh, "a mesh in several pieces");
   if (!ConstraintInsertion::IsRequested(mesh))
   {
     return {};

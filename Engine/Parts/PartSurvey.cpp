@@ -137,7 +137,7 @@ void CheckParts(const MeshPiece& piece, const FlipOptions& options, PieceGroup& 
     [&]()
     {
       CheckOptions(options);
-      RefuseRefinement(options, piece.Mesh.Sizes, "a mesh in several pieces");
+      RefuseRefinement(options, piece.Mesh, "a mesh in several pieces");
       CheckMeshSize(piece.Mesh.Triangles.Count, piece.Mesh.Points.Count,
         "on one rank; divide the mesh among more ranks");
       if (piece.Mesh.Points.Count > std::numeric_limits<std::int32_t>::max())

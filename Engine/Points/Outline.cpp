@@ -283,10 +283,11 @@ private:
 };
 
 /// Finds the triangle that each seed is in. It is the first of several, and NoTriangle if there is
-/// none. @param getSeed returns a seed's place.
-template <typename GetSeed>
-std::vector<TriangleId> FindTriangles(
-  const PointMeshView& mesh, std::int64_t count, const GetSeed& getSeed)
+/// none. @param getSeed returns a seed's place. @param side the orientation of triangles, 1 or -1.
+/// @param counts whether a triangle may have seeds.
+template <typename GetSeed, typename Counts>
+std::vector<TriangleId> FindTriangles(const PointMeshView& mesh, std::int64_t count,
+  const GetSeed& getSeed, int side, const Counts& counts)
 {
   std::vector<std::int64_t> order(count); // by x
   std::iota(order.begin(), order.end(), 0);
@@ -295,6 +296,10 @@ std::vector<TriangleId> FindTriangles(
   std::vector<TriangleId> found(count, NoTriangle);
   for (std::int64_t t = 0; t < mesh.NumberOfTriangles; ++t)
   {
+    if (!counts(t))
+    {
+      continue;
+    }
     PlanePoint corners[3];
     for (int slot = 0; slot < 3; ++slot)
     {
@@ -308,7 +313,8 @@ std::vector<TriangleId> FindTriangles(
       bool isInside = found[*next] == NoTriangle;
       for (int slot = 0; slot < 3 && isInside; ++slot)
       {
-        isInside = FindOrientation(corners[slot], corners[NextSlot(slot)], getSeed(*next)) >= 0;
+        const PlanePoint &from = corners[slot], &to = corners[NextSlot(slot)];
+        isInside = side * FindOrientation(from, to, getSeed(*next)) >= 0;
       }
       if (isInside)
       {
@@ -357,7 +363,8 @@ public:
     const auto getSeed = [=](std::int64_t i) {
       return PlanePoint{ seeds[2 * i], seeds[2 * i + 1], 0.0 };
     };
-    std::vector<TriangleId> stack = FindTriangles(this->Mesh, count, getSeed);
+    std::vector<TriangleId> stack =
+      FindTriangles(this->Mesh, count, getSeed, 1, [](std::int64_t) { return true; });
     const std::int64_t outside = std::count(stack.begin(), stack.end(), NoTriangle);
     stack.erase(std::remove(stack.begin(), stack.end(), NoTriangle), stack.end());
     while (!stack.empty())
@@ -585,6 +592,43 @@ void RenumberTriangles(const PointMeshView& mesh, std::vector<unsigned char> isR
   segments = remover.ListKeptSegments();
 }
 
+std::int64_t SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std::int64_t count,
+  int side, std::vector<std::int32_t>& regions)
+{
+  const auto getSeed = [&](std::int64_t i) { return PlanePoint{ seeds[i].X, seeds[i].Y, 0.0 }; };
+  const std::vector<TriangleId> starts =
+    FindTriangles(mesh, count, getSeed, side, [&](std::int64_t t) { return regions[t] >= 0; });
+  std::vector<TriangleId> stack;
+  for (std::size_t i = 0; i < starts.size(); ++i)
+  {
+    const auto enter = [&](TriangleId triangle)
+    {
+      if (regions[triangle] == 0)
+      {
+        regions[triangle] = static_cast<std::int32_t>(i + 1);
+        stack.push_back(triangle);
+      }
+    };
+    if (starts[i] != NoTriangle)
+    {
+      enter(starts[i]);
+    }
+    while (!stack.empty())
+    {
+      const TriangleRecord& triangle = mesh.Edges.Triangles[stack.back()];
+      stack.pop_back();
+      for (const HalfEdgeId half : triangle.HalfEdges)
+      {
+        if (!mesh.IsFixed(half))
+        {
+          enter(TriangleOf(mesh.Edges.CornerOfHalfEdge[half ^ 1u]));
+        }
+      }
+    }
+  }
+  return std::count(starts.begin(), starts.end(), NoTriangle);
+}
+
 std::vector<std::int32_t> FindRegions(const PointMeshView& mesh, const PointInput& input,
   const KeptTriangles& kept, std::int64_t& seedsOutside)
 {
@@ -594,41 +638,7 @@ std::vector<std::int32_t> FindRegions(const PointMeshView& mesh, const PointInpu
     const TriangleId slot = mesh.Edges.Triangles[t].InputTriangle;
     regions[t] = kept.Numbers[slot] < 0 ? -1 : 0;
   }
-  const auto getSeed = [&](std::int64_t i) {
-    return PlanePoint{ input.Regions[i].X, input.Regions[i].Y, 0.0 };
-  };
-  const std::vector<TriangleId> starts = FindTriangles(mesh, input.NumberOfRegions, getSeed);
-  seedsOutside = 0;
-  std::vector<TriangleId> stack;
-  for (std::size_t i = 0; i < starts.size(); ++i)
-  {
-    const bool isOutside = starts[i] == NoTriangle || regions[starts[i]] < 0;
-    seedsOutside += isOutside ? 1 : 0;
-    const auto enter = [&](TriangleId triangle)
-    {
-      if (regions[triangle] == 0)
-      {
-        regions[triangle] = static_cast<std::int32_t>(i + 1);
-        stack.push_back(triangle);
-      }
-    };
-    if (!isOutside)
-    {
-      enter(starts[i]);
-    }
-    while (!stack.empty())
-    {
-      const TriangleRecord& triangle = mesh.Edges.Triangles[stack.back()];
-      stack.pop_back();
-      for (const HalfEdgeId side : triangle.HalfEdges)
-      {
-        if (!mesh.IsFixed(side))
-        {
-          enter(TriangleOf(mesh.Edges.CornerOfHalfEdge[side ^ 1u]));
-        }
-      }
-    }
-  }
+  seedsOutside = SpreadSeeds(mesh, input.Regions, input.NumberOfRegions, 1, regions);
   return regions;
 }
 

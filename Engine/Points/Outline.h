@@ -70,6 +70,14 @@ KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
 void RenumberTriangles(const PointMeshView& mesh, std::vector<unsigned char> isRemoved,
   std::int64_t firstAdded, std::vector<SegmentEdge>& segments, KeptTriangles& kept);
 
+/// Spreads the numbers of seeds, from 1, over the regions that they are in. Regions end at fixed
+/// edges and at removed triangles.
+/// @param regions by triangle, 0 or, for a removed one, -1; receives the number of the first seed
+/// there. @param side the orientation of the triangles that are not removed, 1 or -1.
+/// @returns how many seeds are in no region.
+std::int64_t SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std::int64_t count,
+  int side, std::vector<std::int32_t>& regions);
+
 /// The region of each triangle: the number of the first seed there plus 1, 0 where there is none,
 /// and -1 if it is removed. Regions end at segments and at removed triangles.
 /// @param kept numbers the triangles. @param seedsOutside receives how many are in no region.

@@ -64,7 +64,7 @@ struct FixWallStep
     const CornerPair corners = this->Mesh.GetCorners(e);
     const EdgeState state = this->Mesh.States[e];
     const bool isAtRemoved = this->IsRemoved(corners.A) || this->IsRemoved(corners.B);
-    // A loop on a device does not write states. So good edges are still candidates there.
+    // Without a guard a loop on a device does not write states. Good edges are candidates there.
     const bool isBad = state >= EdgeState::BlockedByDeviation && state <= EdgeState::Bad;
     const bool becomesFixed = state != EdgeState::Fixed && (isAtRemoved || isBad);
     if (becomesFixed)
@@ -154,7 +154,7 @@ inline void MarkRepeatedEdges(const std::vector<TriangleRecord>& triangles,
   }
 }
 
-/// How many of the given edges are boundary edges, and how many are between regions.
+/// How many of the given edges are boundary edges, and how many are between regions of the caller.
 struct BorderSums
 {
   std::int64_t Boundary = 0, Regions = 0;
@@ -171,6 +171,7 @@ struct BorderCount
 {
   EdgeMeshView Mesh;
   const std::int32_t* Regions;
+  const std::int32_t* LabelOfRegion; ///< RefinementPlan's, or null.
   const EdgeId* Edges;
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, BorderSums& sums) const
@@ -181,9 +182,14 @@ struct BorderCount
       ++sums.Boundary;
       return;
     }
-    const std::int32_t a = this->Regions[TriangleOf(corners.A)];
-    const std::int32_t b = this->Regions[TriangleOf(corners.B)];
-    sums.Regions += int(a != b);
+    sums.Regions += int(this->GetLabel(corners.A) != this->GetLabel(corners.B));
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE std::int32_t GetLabel(CornerId corner) const
+  {
+    const std::int32_t region = this->Regions[TriangleOf(corner)];
+    return this->LabelOfRegion && region >= 0 ? this->LabelOfRegion[region] : region;
   }
 };
 

@@ -43,10 +43,27 @@ struct GradedTriangle
 struct UnrefinedTest
 {
   RefinementView View;
+  bool IsOfCaller; ///< RefinementPlan's.
 
   DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t t) const
   {
-    return this->View.FindShape(static_cast<TriangleId>(t)) >= ShapeKind::Bad ? 1 : 0;
+    const auto triangle = static_cast<TriangleId>(t);
+    if (this->View.IsKept(triangle))
+    {
+      return this->View.FindShape(triangle) >= ShapeKind::Bad ? 1 : 0;
+    }
+    return this->IsOfCaller && this->IsBadThoughFrozen(triangle) ? 1 : 0;
+  }
+
+private:
+  /// Whether a triangle of the caller's mesh that is left as it is does not reach the goals. Those
+  /// that are not counter-clockwise are other defects.
+  DELAUNAYFLIP_HOST_DEVICE bool IsBadThoughFrozen(TriangleId triangle) const
+  {
+    const TriangleShape shape(this->View.Mesh, triangle);
+    const RefinementGoals& goals = this->View.Goals;
+    const bool isLarge = shape.GetArea() > goals.Area || shape.SquaredLongest > goals.SquaredEdge;
+    return shape.Cross > 0.0 && (isLarge || shape.IsSharperThan(goals.Cotangent));
   }
 };
 
@@ -250,6 +267,12 @@ public:
     else if (this->HasRegions)
     {
       this->Device.Upload(plan.Regions.data(), triangles, regions);
+    }
+    const auto labels = static_cast<std::int64_t>(plan.LabelOfRegion.size());
+    if (labels > 0)
+    {
+      this->LabelOfRegion = this->Device.template MakeArray<std::int32_t>(labels);
+      this->Device.Upload(plan.LabelOfRegion.data(), labels, this->LabelOfRegion.Data());
     }
     const auto areas = static_cast<std::int64_t>(plan.AreaOfRegion.size());
     if (areas > 0)
@@ -482,7 +505,7 @@ public:
     const EdgeId* added = this->Segments.Data() + this->SegmentsBefore;
     const BorderSums sums =
       this->Device.template Sum<BorderSums>(this->NumberOfSegments - this->SegmentsBefore,
-        BorderCount{ mesh, this->Regions.Data(), added });
+        BorderCount{ mesh, this->Regions.Data(), this->LabelOfRegion.Data(), added });
     result.Edges = grown.Mesh->NumberOfEdges - this->OldEdges;
     result.BoundaryEdges = sums.Boundary;
     result.RegionEdges = sums.Regions;
@@ -541,7 +564,7 @@ public:
   {
     const RefinementView view = this->View(grown, nullptr);
     const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
-    const UnrefinedTest isUnrefined{ view };
+    const UnrefinedTest isUnrefined{ view, this->IsOfCaller };
     const typename Backend::Numbering numbering = this->Device.Count(triangles, isUnrefined);
     result.Unrefined = numbering.Total;
     Array<GradedTriangle> left = this->Device.template MakeArray<GradedTriangle>(numbering.Total);
@@ -576,6 +599,7 @@ private:
 
   Array<std::uint32_t> Shapes; ///< See RefinementView for this one and the next.
   Array<std::int32_t> Regions;
+  Array<std::int32_t> LabelOfRegion; ///< RefinementPlan's.
   Array<double> AreaOfRegion, Sizes;
   Array<EdgeId> Segments;
   Array<std::uint8_t> Marks;

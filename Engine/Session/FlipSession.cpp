@@ -25,7 +25,7 @@ std::unique_ptr<SessionRun> MakeRun(const TriangleMesh& mesh, const FlipOptions&
   CheckOptions(options);
   if (CountPieces(options, mesh.Triangles.Count) > 1)
   {
-    RefuseRefinement(options, mesh.Sizes, "a mesh in several pieces");
+    RefuseRefinement(options, mesh, "a mesh in several pieces");
     return std::make_unique<PiecesRun>(mesh, options, progress);
   }
   return std::make_unique<MeshRun>(CallerMesh(mesh), options, progress, expected);
@@ -255,7 +255,7 @@ FlipReport FlipToDelaunay(const TriangleMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer,
   const ProgressObserver& progress)
 {
-  RefuseRefinement(options, mesh.Sizes, InOneCall);
+  RefuseRefinement(options, mesh, InOneCall);
   return RunToEnd(FlipSession(mesh, options, progress), observer, progress,
     [&](const FlipSession& session) { session.StoreTriangles(triangles); });
 }
@@ -264,7 +264,7 @@ FlipReport FlipToDelaunay(const DeviceMesh& mesh, const FlipOptions& options,
   const MutableTriangleArray& triangles, const FlipObserver& observer,
   const ProgressObserver& progress)
 {
-  RefuseRefinement(options, mesh.Sizes, InOneCall);
+  RefuseRefinement(options, mesh, InOneCall);
   return RunToEnd(FlipSession(mesh, options, progress), observer, progress,
     [&](const FlipSession& session) { session.StoreTriangles(triangles, mesh.Stream); });
 }

@@ -22,7 +22,7 @@ std::int64_t GetPointLimit(std::int64_t limit, std::int64_t points)
 
 }
 
-RefinementPlan LoadedRun::PlanGoals(std::int64_t points) const
+RefinementPlan LoadedRun::PlanGoals(std::int64_t points)
 {
   const FlipOptions& options = this->Options;
   RefinementPlan plan;
@@ -35,9 +35,18 @@ RefinementPlan LoadedRun::PlanGoals(std::int64_t points) const
   {
     plan.Goals.SquaredEdge = options.MaximumEdge * options.MaximumEdge;
   }
-  plan.MostVertices = GetPointLimit(options.PointLimit, points);
+  this->MostPoints = GetPointLimit(options.PointLimit, points);
+  plan.MostVertices = this->MostPoints;
   plan.KeepsBoundary = options.KeepBoundary;
   return plan;
+}
+
+Defect LoadedRun::DescribeLimit(std::int64_t points) const
+{
+  Defect defect(DefectKind::PointLimitReached, points);
+  defect.Detail =
+    " than " + std::to_string(this->MostPoints) + "; set it higher, or ask for larger triangles";
+  return defect;
 }
 
 bool LoadedRun::Refine()

@@ -101,7 +101,9 @@ protected:
   /// Whether the options ask for refinement.
   virtual bool WantsRefinement() const = 0;
   /// Makes a plan with the goals of the options. @param points the number of the caller's points.
-  RefinementPlan PlanGoals(std::int64_t points) const;
+  RefinementPlan PlanGoals(std::int64_t points);
+  /// Says that there are so many points, and refinement may add no more.
+  Defect DescribeLimit(std::int64_t points) const;
 
   /// Measures the mesh at the end of a run.
   void MeasureEnd();
@@ -187,6 +189,7 @@ protected:
   StepCounts Found; ///< The counts of the last detection.
   bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
   std::int64_t Rounds = 0; ///< How often refinement has added points.
+  std::int64_t MostPoints = 0; ///< FlipOptions::PointLimit, or its default.
   bool MayForget = false; ///< Whether an observer may stop the stage under way and lose the run.
 
   // What is known of the mesh as it is; Measure finds out the rest.

@@ -5,6 +5,7 @@
 #include "InputChecks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -60,7 +61,7 @@ void FindPosition(
 
 bool MeshRun::WantsRefinement() const
 {
-  return HasGoals(this->Options) || this->Mesh.GetFixedEdges().Sizes != nullptr;
+  return HasGoals(this->Options, this->Mesh.GetFixedEdges());
 }
 
 RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
@@ -69,7 +70,7 @@ RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
   RefinementPlan plan = this->PlanGoals(points);
   plan.IsOfCaller = true;
   plan.HasNonManifold = mesh.GetInputReport().Edges.NonManifold > 0;
-  plan.Regions = this->NumberRegions();
+  this->NumberRegions(plan);
   const double* sizes = this->Mesh.GetFixedEdges().Sizes;
   if (sizes)
   {
@@ -78,34 +79,53 @@ RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
   return plan;
 }
 
-/// Numbers the caller's labels from 0; frozen triangles get -1. Returns nothing if there are
-/// neither labels nor frozen triangles.
-std::vector<std::int32_t> MeshRun::NumberRegions() const
+void MeshRun::LabelRegions()
 {
-  const std::int32_t* labels = this->Mesh.GetFixedEdges().Regions;
-  const unsigned char* frozen = this->Mesh.GetFixedEdges().FrozenTriangles;
-  std::vector<std::int32_t> numbers;
-  if (labels)
+  const std::int64_t seeds = this->Mesh.GetFixedEdges().NumberOfRegionSeeds;
+  if (seeds > 0)
   {
-    numbers.assign(labels, labels + this->Mesh.CountTriangles());
-    std::vector<std::int32_t> sorted = numbers;
-    std::sort(sorted.begin(), sorted.end());
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    for (std::int32_t& number : numbers)
+    FlipOptions options = this->Insertion.GetOptions(this->Options);
+    options.Geometry = this->Report.GeometryUsed;
+    this->Regions = FindSeededRegions(this->Start->CopyToHost(), options, this->RegionSeedsOutside);
+  }
+}
+
+/// Numbers the regions from 0: triangles with the same label of the caller and the same seed.
+/// Frozen triangles get -1. There are no numbers without labels, seeds and frozen triangles.
+void MeshRun::NumberRegions(RefinementPlan& plan) const
+{
+  using Key = std::pair<std::int32_t, std::int32_t>; // the label, and the number of the seed
+  const FixedEdges& given = this->Mesh.GetFixedEdges();
+  const auto getKey = [&](std::size_t t) {
+    return Key(given.Regions ? given.Regions[t] : 0, this->Regions.empty() ? 0 : this->Regions[t]);
+  };
+  const bool hasRegions = given.Regions || !this->Regions.empty();
+  plan.Regions.resize(hasRegions || given.FrozenTriangles ? this->Mesh.CountTriangles() : 0, 0);
+  std::vector<Key> keys;
+  for (std::size_t t = 0; hasRegions && t < plan.Regions.size(); ++t)
+  {
+    keys.push_back(getKey(t));
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  for (const auto& [label, seed] : keys)
+  {
+    const double area = seed > 0 ? given.RegionSeeds[seed - 1].MaximumArea : 0.0;
+    plan.LabelOfRegion.push_back(label);
+    plan.AreaOfRegion.push_back(area > 0.0 ? area : INFINITY);
+  }
+  for (std::size_t t = 0; t < plan.Regions.size(); ++t)
+  {
+    if (given.FrozenTriangles && given.FrozenTriangles[t] != 0)
     {
-      const auto place = std::lower_bound(sorted.begin(), sorted.end(), number);
-      number = static_cast<std::int32_t>(place - sorted.begin());
+      plan.Regions[t] = -1;
+    }
+    else if (hasRegions)
+    {
+      const auto place = std::lower_bound(keys.begin(), keys.end(), getKey(t));
+      plan.Regions[t] = static_cast<std::int32_t>(place - keys.begin());
     }
   }
-  if (frozen)
-  {
-    numbers.resize(this->Mesh.CountTriangles(), 0);
-    for (std::size_t t = 0; t < numbers.size(); ++t)
-    {
-      numbers[t] = frozen[t] != 0 ? -1 : numbers[t];
-    }
-  }
-  return numbers;
 }
 
 void MeshRun::TakeRefinement(LoadedMesh& mesh)
@@ -196,6 +216,17 @@ void MeshRun::StoreSources(std::int32_t* sources)
     return;
   }
   std::copy(this->Refined.Sources.begin(), this->Refined.Sources.end(), sources);
+}
+
+void MeshRun::StoreRegions(std::int32_t* labels)
+{
+  this->StoreSources(labels);
+  const RegionSeed* seeds = this->Mesh.GetFixedEdges().RegionSeeds;
+  for (std::int64_t t = 0; t < this->CountTriangles(); ++t)
+  {
+    const std::int32_t seed = this->Regions.empty() ? 0 : this->Regions[labels[t]];
+    labels[t] = seed > 0 ? seeds[seed - 1].Label : 0;
+  }
 }
 
 }

@@ -21,6 +21,7 @@ void MeshRun::ListStages()
     { "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
       Whole([this] { this->InsertConstraints(); }), {} },
     { "load", OnStop::Forgets, 0.0, Whole([this] { this->LoadMesh(); }), {} },
+    { "label regions", OnStop::Forgets, 0.0, Whole([this] { this->LabelRegions(); }), {} },
     { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
     { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
   };
@@ -41,7 +42,9 @@ MeshRun::MeshRun(const CallerMesh& mesh, const FlipOptions& options,
     Mesh(mesh)
 {
   CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
-  CheckSizes(mesh.GetFixedEdges().Sizes, mesh.CountPoints());
+  const FixedEdges& given = mesh.GetFixedEdges();
+  CheckSizes(given.Sizes, mesh.CountPoints());
+  CheckRegions(given.RegionSeeds, given.NumberOfRegionSeeds);
   this->Options.Device = mesh.ChooseDevice(options.Device);
   this->ListStages();
   for (const ResultMemory& memory : expected)
@@ -97,6 +100,8 @@ void MeshRun::Reset()
   this->Start.reset();
   this->Insertion = ConstraintInsertion();
   this->Refined = RefinedCallerMesh();
+  this->Regions.clear();
+  this->RegionSeedsOutside = 0;
   this->Report.Points = this->Mesh.CountPoints();
   this->Report.Triangles = this->Mesh.CountTriangles();
 }
@@ -106,11 +111,12 @@ void MeshRun::ListDefects()
   FlipReport& report = this->Report;
   report.Defects = this->Loaded->GetInputReport().Defects;
   AddDefects(this->Insertion.GetRefused(), report.Defects);
+  AddDefect(Defect(DefectKind::RegionSeedsOutside, this->RegionSeedsOutside), report.Defects);
   AddDefect(this->Refined.Unrefined, report.Defects);
   if (this->Refined.HasReachedLimit)
   {
     const std::int64_t points = this->Mesh.CountPoints() + SizeOf(this->Refined.Points);
-    AddDefect(Defect(DefectKind::PointLimitReached, points), report.Defects);
+    AddDefect(this->DescribeLimit(points), report.Defects);
   }
   const EdgeCounts& edges = report.Edges;
   if (report.Triangles > 1 && edges.Edges > 0 && edges.Boundary == edges.Edges)

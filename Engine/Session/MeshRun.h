@@ -37,6 +37,7 @@ public:
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) override;
   const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Refined.Points; }
   void StoreSources(std::int32_t* sources) override;
+  void StoreRegions(std::int32_t* labels) override;
 
 private:
   void ListStages();
@@ -52,13 +53,16 @@ private:
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
   void TakeRefinement(LoadedMesh& mesh) override;
   void AddRefinedPoints(const RefinementResult& made);
-  std::vector<std::int32_t> NumberRegions() const;
+  void LabelRegions();
+  void NumberRegions(RefinementPlan& plan) const;
   std::int64_t CountConstraints(const RefinementResult& made) const;
 
   CallerMesh Mesh;
   ConstraintInsertion Insertion; ///< The loaded mesh starts from its arrays.
   std::optional<CallerMesh> Start; ///< The mesh that iterations start from.
   RefinedCallerMesh Refined;
+  std::vector<std::int32_t> Regions; ///< What FindSeededRegions returns, if there are seeds.
+  std::int64_t RegionSeedsOutside = 0;
 };
 
 }

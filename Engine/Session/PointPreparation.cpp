@@ -54,27 +54,12 @@ void CheckNumber(const char*, Choice)
 {
 }
 
-void CheckRegionsAndSizes(const PointInput& input)
-{
-  for (std::int64_t i = 0; i < input.NumberOfRegions; ++i)
-  {
-    const RegionSeed& region = input.Regions[i];
-    const bool isSound = IsFinite(region.X) && IsFinite(region.Y) && region.MaximumArea >= 0.0 &&
-      region.MaximumArea < INFINITY;
-    if (!isSound)
-    {
-      throw InvalidOptions("region " + std::to_string(i) +
-        " has a coordinate that is NaN or infinite, or an area that is not finite and 0 or more");
-    }
-  }
-  CheckSizes(input.Sizes, input.Points.Count);
-}
-
 void CheckInput(const PointInput& input, const PointOptions& options)
 {
   ForEachPointOption(
     [](const char* name, const auto& option) { CheckNumber(name, option); }, options);
-  CheckRegionsAndSizes(input);
+  CheckRegions(input.Regions, input.NumberOfRegions);
+  CheckSizes(input.Sizes, input.Points.Count);
   if (options.NumberOfPieces > 1)
   {
     throw InvalidOptions(

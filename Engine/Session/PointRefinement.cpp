@@ -87,10 +87,8 @@ std::vector<SegmentEdge> SplitEdges(const PointMeshView& view,
 bool PointRun::WantsRefinement() const
 {
   const PointInput& input = this->Points.GetCaller();
-  const RegionSeed* regions = input.Regions;
-  const bool hasArea = std::any_of(regions, regions + input.NumberOfRegions,
-    [](const RegionSeed& region) { return region.MaximumArea > 0.0; });
-  return HasGoals(this->Options) || input.Sizes != nullptr || hasArea;
+  return HasGoals(this->Options) || input.Sizes != nullptr ||
+    HasAreas(input.Regions, input.NumberOfRegions);
 }
 
 void PointRun::LabelRegions()

@@ -205,15 +205,13 @@ void AddPointsTo(
   {
     pointsWithoutMesh = report.Points;
   }
-  const PointCounts& counts = report.FromPoints;
   for (const Defect& defect : { Defect(DefectKind::HoleSeedsOutside, kept.SeedsOutside),
          NameRings(DefectKind::RingsWithoutArea, ListRingsWithoutArea(points, kept)),
          NameRings(DefectKind::RingsRepeated, kept.RepeatedRings),
          NameRings(DefectKind::RingsRunAgain, kept.RingsRunAgain),
          Defect(DefectKind::HolePointsOutside, kept.HolePointsOutside),
          Defect(DefectKind::PointsWithoutTriangles, pointsWithoutMesh), result.Loss,
-         Defect(DefectKind::RegionSeedsOutside, result.RegionSeedsOutside), result.Unrefined,
-         Defect(DefectKind::PointLimitReached, counts.ReachedPointLimit * counts.Used) })
+         Defect(DefectKind::RegionSeedsOutside, result.RegionSeedsOutside), result.Unrefined })
   {
     AddDefect(defect, report.Defects);
   }

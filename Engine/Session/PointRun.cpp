@@ -376,6 +376,10 @@ void PointRun::ListDefects()
       this->Report.Edges = mesh.GetInputReport().Edges;
       AddPointsTo(this->Report, mesh, this->Points, this->Result);
     });
+  if (this->Result.HasReachedLimit)
+  {
+    AddDefect(this->DescribeLimit(this->Report.FromPoints.Used), this->Report.Defects);
+  }
 }
 
 //------------------------------------------------------------------------------

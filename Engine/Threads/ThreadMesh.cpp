@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace delaunayflip
@@ -129,20 +130,36 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
 
 namespace
 {
+/// The edges of a mesh on the host, before any flip.
+struct HostEdges
+{
+  HostEdges(const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
+    : Backend(options.NumberOfThreads)
+  {
+    const ThreadBackend& backend = this->Backend;
+    const MeshInput input{ mesh, mesh };
+    const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
+    progress.Reach(survey.Geometry, BuildStep::Surveyed);
+    this->Order = OrderMesh(input, survey, backend);
+    progress.Reach(survey.Geometry, BuildStep::Ordered);
+    const EdgeMeshInput edges{ input, survey, this->Order, options.FeatureAngle };
+    this->Edges =
+      std::move(BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, progress).Edges);
+    progress.Reach(survey.Geometry, BuildStep::Fixed);
+  }
+
+  ThreadBackend Backend; ///< It has the memory of the others.
+  SpatialOrder Order;
+  EdgeMesh Edges;
+};
+
 /// Pairs of vertex ids of the fixed edges with two triangles and, if asked for, of those with more,
 /// once for each of their triangles.
 std::vector<std::int64_t> ListFixedEdges(const TriangleMesh& mesh, const FlipOptions& options,
   const BuildProgress& progress, bool withNonManifold)
 {
-  const ThreadBackend backend(options.NumberOfThreads);
-  const MeshInput input{ mesh, mesh };
-  const MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, backend);
-  progress.Reach(survey.Geometry, BuildStep::Surveyed);
-  const SpatialOrder order = OrderMesh(input, survey, backend);
-  progress.Reach(survey.Geometry, BuildStep::Ordered);
-  const EdgeMeshInput edges{ input, survey, order, options.FeatureAngle };
-  EdgeMeshResult built = BuildEdgeMesh(edges, LoadTriangles(edges, backend), backend, progress);
-  progress.Reach(survey.Geometry, BuildStep::Fixed);
+  HostEdges built(mesh, options, progress);
+  const SpatialOrder& order = built.Order;
   const EdgeMeshView view = built.Edges.View();
   std::vector<std::int64_t> pairs;
   for (std::int64_t e = 0; e < built.Edges.NumberOfEdges; ++e)
@@ -181,6 +198,48 @@ std::vector<std::int64_t> ListInnerFixedEdges(
     return {};
   }
   return ListFixedEdges(mesh, options, {}, true);
+}
+
+std::vector<std::int32_t> FindSeededRegions(
+  const TriangleMesh& mesh, const FlipOptions& options, std::int64_t& seedsOutside)
+{
+  HostEdges built(mesh, options, {});
+  const SpatialOrderView order = built.Order.View();
+  std::vector<double> places;
+  for (std::int64_t vertex = 0; vertex < mesh.Points.Count; ++vertex)
+  {
+    const std::int64_t point = order.GetVertex(static_cast<VertexId>(vertex));
+    places.push_back(mesh.Points.Get(point, 0));
+    places.push_back(mesh.Points.Get(point, 1));
+  }
+  PointMeshView view;
+  view.Edges = built.Edges.View();
+  view.Places = PlaneArray(places.data(), mesh.Points.Count, 2);
+  view.NumberOfTriangles = built.Edges.NumberOfTriangles;
+  std::vector<std::int32_t> orientations;
+  std::int64_t sum = 0;
+  for (std::int64_t t = 0; t < view.NumberOfTriangles; ++t)
+  {
+    const TriangleRecord& triangle = view.Edges.Triangles[t];
+    const VertexId* v = triangle.Vertices;
+    const bool isSound =
+      HasEdges(triangle) && view.IsFinite(v[0]) && view.IsFinite(v[1]) && view.IsFinite(v[2]);
+    orientations.push_back(isSound ? view.FindOrientation(v[0], v[1], v[2]) : 0);
+    sum += orientations.back();
+  }
+  const int side = sum < 0 ? -1 : 1;
+  std::vector<std::int32_t> regions = std::move(orientations);
+  for (std::int32_t& region : regions)
+  {
+    region = region == side ? 0 : -1;
+  }
+  seedsOutside = SpreadSeeds(view, mesh.RegionSeeds, mesh.NumberOfRegionSeeds, side, regions);
+  std::vector<std::int32_t> bySlot(regions.size());
+  for (std::size_t t = 0; t < regions.size(); ++t)
+  {
+    bySlot[view.Edges.Triangles[t].InputTriangle] = std::max(regions[t], 0);
+  }
+  return bySlot;
 }
 
 GeometryKind FindGeometry(const TriangleMesh& mesh, const FlipOptions& options)

@@ -12,7 +12,7 @@ import numpy
 
 from . import _library
 from ._library import TYPES, InvalidMesh
-from ._options import shorten, show
+from ._options import check_integer, shorten, show
 
 _KNOWN_TYPES = {numpy.dtype(name): name for name in TYPES}
 _FEWEST_EXPECTED = 1 << 16  # bytes of an array that a session is told of
@@ -386,12 +386,33 @@ def as_flags(name, values, *shapes):
     return values != 0
 
 
+#: delaunayflip_region.
+_REGION = numpy.dtype([("x", "f8"), ("y", "f8"), ("label", "i4"), ("maximum_area", "f8")], align=True)
+
+
+def as_regions(name, regions):
+    """Region seeds, as `triangulate` and `flip` get them, as an array of delaunayflip_region."""
+    if not hasattr(regions, "__len__") or isinstance(regions, (str, bytes, dict)):
+        raise TypeError(f"{name} must be a list of (x, y, label) or (x, y, label, area), not {show(regions)}")
+    made = numpy.zeros(len(regions), _REGION)
+    for number, row in enumerate(regions):
+        region = as_array(f"region {number}", row)
+        if region.shape not in ((3,), (4,)) or region.dtype.kind not in "fiu":
+            raise ValueError(f"region {number} must be (x, y, label) or (x, y, label, area), not {show(row)}")
+        label = row[2].item() if hasattr(row[2], "item") else row[2]
+        if isinstance(label, float) and label.is_integer():
+            label = int(label)  # of an array of floats
+        label = check_integer(f"the label of region {number}", label, -2**31, 2**31 - 1)
+        made[number] = (*region[:2], label, region[3] if len(region) == 4 else 0.0)
+    return made
+
+
 class Mesh:
     """A mesh as C struct, and its arrays, which live as long. Points and triangles are in one memory,
     that of the host or of a GPU."""
 
     def __init__(self, points, triangles, constraints=None, regions=None, frozen=None,
-                 insert_constraints=True, triangle_numbers=None, size=None):
+                 insert_constraints=True, triangle_numbers=None, size=None, region_seeds=()):
         self.struct, self._kept = _library.make(_library.Mesh), []
         if _is_on_device(points) or _is_on_device(triangles):
             self._take_from_device(points, triangles)
@@ -416,6 +437,15 @@ class Mesh:
                        _per_triangle("triangle_numbers", triangle_numbers, numpy.int64, count))
         if size is not None:
             self._take_sizes(to_host(size))
+        self.region_seeds = as_regions("region_seeds", region_seeds)
+        if len(self.region_seeds):
+            self._keep("region_seeds", self.region_seeds)
+            struct.number_of_region_seeds = len(self.region_seeds)
+
+    @property
+    def has_goals(self):
+        """Whether sizes of points or areas of regions ask for refinement."""
+        return bool(self.struct.sizes) or bool((self.region_seeds["maximum_area"] > 0.0).any())
 
     def _keep(self, member, array):
         """Sets a pointer of the struct to an array, which lives as long."""
@@ -451,6 +481,12 @@ class Mesh:
         sources = numpy.empty(count, dtype=numpy.int32)
         _library.call("store_sources", session, address(sources))
         return sources
+
+    def read_regions(self, session, count):
+        """For each of `count` triangles the label of its region: see Result.regions."""
+        labels = numpy.empty(count, dtype=numpy.int32)
+        _library.call("store_regions", session, address(labels))
+        return labels
 
     def read_points(self, session, count):
         """The points, followed by the `count` points that refinement has added; and for each of these the

@@ -86,7 +86,8 @@ Mesh = make_struct("Mesh", (
     (c_int64, "number_of_triangles"), (c_int32, "point_type id_type"), (c_void_p, "constraint_edges"),
     (c_int64, "number_of_constraint_edges"),
     (c_void_p, "constraints_to_insert regions frozen_triangles triangle_numbers"),
-    (c_int32, "memory point_components"), (c_void_p, "stream sizes")))
+    (c_int32, "memory point_components"), (c_void_p, "stream sizes region_seeds"),
+    (c_int64, "number_of_region_seeds")))
 
 Polygons = make_struct("Polygons", (
     (c_int64, "size number_of_polygons"), (c_void_p, "offsets corners triangle_counts")))

@@ -23,16 +23,12 @@ from ._options import (
     make_options, show)
 from ._report import Report, name_keywords
 from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
-from ._session import LEFT_BY_REFINEMENT, run
+from ._session import LEFT_BY_REFINEMENT, Region, run
 
 Heights = typing.Literal["survey", "own"]
 Length = typing.Annotated[float, (0.0, math.inf)]
 Angle = typing.Annotated[float, (0.0, 33.0)]
 Count = typing.Annotated[int, (0, 2**63 - 1)]
-#: x, y, label and perhaps the largest area of a triangle.
-Region = typing.Tuple[float, ...]
-#: delaunayflip_region.
-_REGION = numpy.dtype([("x", "f8"), ("y", "f8"), ("label", "i4"), ("maximum_area", "f8")], align=True)
 
 
 class PointOptions(typing.TypedDict, total=False):
@@ -503,20 +499,7 @@ class Input:
 
     def take_regions(self, regions):
         """Takes regions, as `triangulate` gets them."""
-        if not hasattr(regions, "__len__") or isinstance(regions, (str, bytes, dict)):
-            raise TypeError("regions must be a list of (x, y, label) or (x, y, label, area), not "
-                            f"{show(regions)}")
-        self.regions = numpy.zeros(len(regions), _REGION)
-        for number, row in enumerate(regions):
-            region = _arrays.as_array(f"region {number}", row)
-            if region.shape not in ((3,), (4,)) or region.dtype.kind not in "fiu":
-                raise ValueError(f"region {number} must be (x, y, label) or (x, y, label, area), "
-                                 f"not {show(row)}")
-            label = row[2].item() if hasattr(row[2], "item") else row[2]
-            if isinstance(label, float) and label.is_integer():
-                label = int(label)  # of an array of floats
-            label = check_integer(f"the label of region {number}", label, -2**31, 2**31 - 1)
-            self.regions[number] = (*region[:2], label, region[3] if len(region) == 4 else 0.0)
+        self.regions = _arrays.as_regions("regions", regions)
         self.struct.regions, self.struct.number_of_regions = address(self.regions), len(self.regions)
 
     def _report_flat_points(self, report, triangles):

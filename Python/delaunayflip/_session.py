@@ -9,7 +9,7 @@ import dataclasses
 import signal
 import threading
 import warnings
-from typing import TYPE_CHECKING, Any, Optional, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy
 
@@ -31,6 +31,8 @@ except ImportError:
 _SIGNALS = tuple(map(int, signal.Signals))
 #: The kinds of defects in which refinement ends.
 LEFT_BY_REFINEMENT = "triangles not refined", "point limit reached"
+#: x, y, label and perhaps the largest area of a triangle.
+Region = Tuple[float, ...]
 _REFINEMENT = (*GOALS, "keep_boundary", "point_limit")
 
 
@@ -224,12 +226,13 @@ class Session(Handle):
         self, points: Numbers, triangles: Numbers, *, constraints: Optional[Numbers] = None,
         insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
         frozen: Optional[Numbers] = None, triangle_numbers: Optional[Numbers] = None,
-        size: Optional[Numbers] = None, progress: Optional[Progress] = None, **options: "Unpack[Options]",
+        size: Optional[Numbers] = None, region_seeds: Sequence[Region] = (),
+        progress: Optional[Progress] = None, **options: "Unpack[Options]",
     ) -> None:
         super().__init__()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
-                                  insert_constraints, triangle_numbers, size)
-        self._refines = size is not None or any(has_goal(options, goal) for goal in GOALS)
+                                  insert_constraints, triangle_numbers, size, region_seeds)
+        self._refines = self._mesh.has_goals or any(has_goal(options, goal) for goal in GOALS)
         with _with_keywords(self._keywords):
             call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
 
@@ -287,6 +290,13 @@ class Session(Handle):
         with self._open() as handle:
             return self._mesh.read_sources(handle, count)
 
+    @property
+    def regions(self) -> Array:
+        """(m,) int32: the label of the region of each triangle, 0 where no seed names one."""
+        count = self._count_triangles()
+        with self._open() as handle:
+            return self._mesh.read_regions(handle, count)
+
     def _read_points(self):
         """The points, and for each added one the ids of three points and their weights."""
         with self._open() as handle:
@@ -326,6 +336,14 @@ class Result:
     points: Array  #: (n, 3) unless on a GPU: those of the input, then those that refinement has added.
     #: After refinement: the sources, and for each added point the ids of three points and their weights.
     _added: Any = dataclasses.field(default=None, repr=False)
+    _regions: Optional[Array] = dataclasses.field(default=None, repr=False)
+
+    @property
+    def regions(self) -> Array:
+        """(m,) int32: the label of the region of each triangle, 0 where no seed names one."""
+        if self._regions is None:
+            return numpy.zeros(len(self.triangles), dtype=numpy.int32)
+        return self._regions
 
     @property
     def sources(self) -> Array:
@@ -357,11 +375,10 @@ def flip(
     points: Numbers, triangles: Numbers, *, geometry: Geometry = "auto",
     criterion: Criterion = "in-circle", tie_rule: TieRule = "keep", tolerance: float = -1.0,
     feature_angle: float = 30.0, maximum_deviation: float = float("inf"),
-    constraints: Optional[Numbers] = None,
-    insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
-    frozen: Optional[Numbers] = None, minimum_angle: float = 0.0, maximum_area: float = 0.0,
-    maximum_edge: float = 0.0, size: Optional[Numbers] = None, keep_boundary: bool = False,
-    point_limit: int = 0, maximum_iterations: int = -1, backend: Backend = "auto",
+    constraints: Optional[Numbers] = None, insert_constraints: Union[bool, Numbers] = True,
+    regions: Optional[Numbers] = None, frozen: Optional[Numbers] = None,
+    minimum_angle: float = 0.0, maximum_area: float = 0.0, maximum_edge: float = 0.0, size: Optional[Numbers] = None, region_seeds: Sequence[Region] = (),
+    keep_boundary: bool = False, point_limit: int = 0, maximum_iterations: int = -1, backend: Backend = "auto",
     threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0, track_quality: bool = False,
     progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
 ) -> Result:
@@ -392,6 +409,7 @@ def flip(
             larger; 0: no limit. Boundary edges and edges that stay are split, but never crossed. What
             cannot get better, because such edges meet at a small angle, is left and counted.
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
+        region_seeds: (x, y, label[, area]): a place in what edges that stay enclose, its label and area.
         keep_boundary: Split no edge of the boundary. Some triangles there may then stay as they are.
         point_limit: The most points in the end. 0: ten times as many as are given, at least a million.
         maximum_iterations: -1: until done; 0: only test. Rounds of refinement count, too.
@@ -416,15 +434,15 @@ def flip(
         >>> result.report.total_flips, sorted(sorted(ids) for ids in result.triangles.tolist())
         (1, [[0, 1, 3], [1, 2, 3]])
     """
-    mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints, None, size)
+    mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints, None, size,
+                        region_seeds)
     wanted = make_options(
         flip, geometry=geometry, criterion=criterion, tie_rule=tie_rule, tolerance=tolerance,
-        feature_angle=feature_angle, maximum_deviation=maximum_deviation,
-        maximum_iterations=maximum_iterations, backend=backend, threads=threads, device=device,
-        devices=devices, pieces=pieces, track_quality=track_quality, minimum_angle=minimum_angle,
-        maximum_area=maximum_area, maximum_edge=maximum_edge, keep_boundary=keep_boundary,
-        point_limit=point_limit)
-    refines = size is not None or bool(minimum_angle or maximum_area or maximum_edge)
+        feature_angle=feature_angle, maximum_deviation=maximum_deviation, maximum_iterations=maximum_iterations,
+        backend=backend, threads=threads, device=device, devices=devices, pieces=pieces,
+        track_quality=track_quality, minimum_angle=minimum_angle, maximum_area=maximum_area,
+        maximum_edge=maximum_edge, keep_boundary=keep_boundary, point_limit=point_limit)
+    refines = mesh.has_goals or bool(minimum_angle or maximum_area or maximum_edge)
 
     def make_room(_):
         return () if refines else (mesh.make_triangles(), mesh.make_flip_counts())
@@ -436,8 +454,9 @@ def flip(
 
 
 def _warn_of_refinement(handle):
-    """Warns, where `flip` was called, of what refinement has left."""
-    trouble = [text for kind, _, text in _report.list_defects(handle) if kind in LEFT_BY_REFINEMENT]
+    """Warns, where `flip` was called, of what refinement has left, and of region seeds that name nothing."""
+    trouble = [text for kind, _, text in _report.list_defects(handle)
+               if kind in ("region seeds outside", *LEFT_BY_REFINEMENT)]
     if trouble:
         warnings.warn(name_keywords("; ".join(trouble), _REFINEMENT), stacklevel=3)
 
@@ -454,7 +473,8 @@ def _store(mesh, handle, room):
     _arrays.store_triangles(handle, room[0], len(room[0]))
     _arrays.store("flip_counts", handle, room[1])
     report = _read_report(handle)
-    return Result(*room, _report.read_iterations(handle, report), report, points, added)
+    regions = mesh.read_regions(handle, len(room[0])) if len(mesh.region_seeds) else None
+    return Result(*room, _report.read_iterations(handle, report), report, points, added, regions)
 
 
 def smallest_angles(

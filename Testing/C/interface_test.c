@@ -582,6 +582,36 @@ static void TestRefinement(void)
   CHECK(delaunayflip_open_points(&points, NULL, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
 }
 
+/** Labels the lower of two regions of a mesh, and refines it to an area. */
+static void TestRegionSeeds(delaunayflip_mesh mesh)
+{
+  const delaunayflip_region seeds[] = { { 4, -1, 7, 0.5 }, { 100, 100, 8, 0 } };
+  static int32_t labels[500], sources[500];
+  delaunayflip_options options;
+  delaunayflip_session* session = NULL;
+  int64_t copy[6], i, count;
+  delaunayflip_options_init(&options);
+  options.geometry = DELAUNAYFLIP_GEOMETRY_PLANAR_XY;
+  CHECK(mesh.region_seeds == NULL && mesh.number_of_region_seeds == 0);
+  mesh.number_of_region_seeds = 2;
+  CHECK(delaunayflip_open(&mesh, &options, NULL, &session) == DELAUNAYFLIP_INVALID_CALL);
+  mesh.region_seeds = seeds;
+  CHECK(delaunayflip_open(&mesh, &options, NULL, &session) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_advance(session, -1, NULL, NULL) == DELAUNAYFLIP_OK);
+  count = delaunayflip_count_triangles(session);
+  CHECK(count > 20 && count < 500);
+  CHECK(delaunayflip_store_regions(session, labels) == DELAUNAYFLIP_OK);
+  CHECK(delaunayflip_store_sources(session, sources) == DELAUNAYFLIP_OK);
+  for (i = 0; i < count; ++i)
+  {
+    CHECK(labels[i] == (sources[i] == 0 ? 7 : 0));
+  }
+  CHECK(GetReport(session).unrefined_triangles == 0);
+  CHECK(delaunayflip_count_defects(session) == 1);
+  delaunayflip_close(session);
+  CHECK(delaunayflip_flip(&mesh, &options, NULL, copy, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+}
+
 /** Refines two triangles of terrain with different labels. Weights give the places of new points.
  */
 static void TestRefinementOfMesh(void)
@@ -620,7 +650,8 @@ static void TestRefinementOfMesh(void)
   CHECK(delaunayflip_store_refined_points(session, added, of, weights) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_store_refined_points(session, added, of, NULL) == DELAUNAYFLIP_INVALID_CALL);
   CHECK(delaunayflip_store_sources(session, NULL) == DELAUNAYFLIP_INVALID_CALL);
-  CHECK(delaunayflip_store_regions(session, sources) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_store_regions(session, NULL) == DELAUNAYFLIP_INVALID_CALL);
+  CHECK(delaunayflip_store_regions(session, sources) == DELAUNAYFLIP_OK && sources[0] == 0);
   CHECK(delaunayflip_store_sources(session, sources) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_store_triangles(session, triangles, DELAUNAYFLIP_INT32) == DELAUNAYFLIP_OK);
   for (i = 0; i < report.refinement_points; ++i)
@@ -644,6 +675,7 @@ static void TestRefinementOfMesh(void)
     CHECK(sources[i] == (y < 0 ? 0 : 1));
   }
   delaunayflip_close(session);
+  TestRegionSeeds(mesh);
   CHECK(delaunayflip_flip(&mesh, &options, NULL, copy, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
   options.geometry = DELAUNAYFLIP_GEOMETRY_SURFACE;
   CHECK(delaunayflip_open(&mesh, &options, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);

@@ -291,6 +291,81 @@ TEST(MeshRefineTest, KeepsSegmentsRegionsAndWinding)
   EXPECT_NEAR(-43.5, areas.at(7), Rounding);
 }
 
+/// Region seeds name parts that constraints enclose. They give labels, and limits of areas.
+TEST(MeshRefineTest, LabelsRegionsOfSeeds)
+{
+  Room room;
+  const std::vector<std::int64_t> wall = { 10, 3 };
+  const RegionSeed seeds[] = { { 1.0, 8.0, 4, 0.05 }, { 8.0, 2.0, -6, 0.0 }, { 0.5, 0.5, 9, 1e-3 },
+    { 7.0, 8.0, 5, 0.0 } };
+  for (const bool isReversed : { false, true })
+  {
+    if (isReversed)
+    {
+      ReverseTriangles(room.Triangles);
+    }
+    TriangleMesh mesh = WithConstraints(room.View(), wall);
+    mesh.Regions = nullptr;
+    mesh.RegionSeeds = seeds;
+    mesh.NumberOfRegionSeeds = 4;
+    FlipSession session = MakeSession(mesh, InPlane());
+    session.Advance();
+    const RefinedMesh refined = Take(session, mesh);
+    std::vector<std::int32_t> labels(refined.Sources.size());
+    session.StoreRegions(labels.data());
+    std::map<std::int32_t, double> areas, largest;
+    for (std::size_t t = 0; t < labels.size(); ++t)
+    {
+      const double area = std::fabs(refined.GetArea(t));
+      areas[labels[t]] += area;
+      largest[labels[t]] = std::max(largest[labels[t]], area);
+    }
+    EXPECT_NEAR(43.5, areas[4], Rounding);
+    EXPECT_NEAR(20.0, areas[-6], Rounding);
+    EXPECT_GE(0.05, largest[4]);
+    EXPECT_LT(0.5, largest[-6]);
+    EXPECT_EQ(2U, areas.size());
+    EXPECT_NE(std::string::npos, DescribeDefects(refined.Report.Defects).find("region seed"));
+  }
+}
+
+/// The caller's labels and those of seeds are independent of each other.
+TEST(MeshRefineTest, LabelsRegionsWithinRegions)
+{
+  const Room room;
+  const std::vector<std::int64_t> wall = { 11, 12 };
+  const unsigned char insert = 1;
+  const RegionSeed seeds[] = { { 9.0, 0.5, 1, 0.0 }, { 5.5, 3.5, 2, 0.0 } };
+  TriangleMesh mesh = WithConstraints(room.View(), wall, &insert);
+  mesh.RegionSeeds = seeds;
+  mesh.NumberOfRegionSeeds = 2;
+  for (const double angle : { 0.0, 25.0 })
+  {
+    FlipSession session = MakeSession(mesh, WithAngle(angle));
+    session.Advance();
+    const RefinedMesh refined = Take(session, mesh);
+    EXPECT_EQ(angle > 0.0, !refined.Added.empty());
+    std::vector<std::int32_t> labels(refined.Sources.size());
+    session.StoreRegions(labels.data());
+    // The wall does not reach the boundary, so that both seeds are in one region.
+    std::map<std::pair<std::int64_t, std::int64_t>, std::set<std::int32_t>> regionsOfEdge;
+    for (std::size_t t = 0; t < labels.size(); ++t)
+    {
+      const std::int32_t region = room.Regions[refined.Sources[t]];
+      ASSERT_EQ(region == -3 ? 1 : 0, labels[t]) << t;
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        const std::int64_t a = refined.Triangles[3 * t + slot];
+        const std::int64_t b = refined.Triangles[3 * t + (slot + 1) % 3];
+        regionsOfEdge[std::minmax(a, b)].insert(region);
+      }
+    }
+    EXPECT_EQ(refined.Report.Edges.Region,
+      std::count_if(regionsOfEdge.begin(), regionsOfEdge.end(),
+        [](const auto& edge) { return edge.second.size() > 1; }));
+  }
+}
+
 TEST(MeshRefineTest, SameForAllThreads)
 {
   OwnedMesh<double> mesh = MakeRandomBadMeshDouble(4000 / Reduction, 5);
@@ -436,7 +511,27 @@ TEST(MeshRefineTest, KeepsBoundaryAndLimits)
   const RefinedMesh limited = Refine(mesh, options);
   EXPECT_GE(100, limited.Report.Points + limited.Report.FromPoints.RefinementPoints);
   EXPECT_EQ(1, limited.Report.FromPoints.ReachedPointLimit);
-  EXPECT_NE(std::string::npos, DescribeDefects(limited.Report.Defects).find("PointLimit"));
+  EXPECT_NE(std::string::npos,
+    DescribeDefects(limited.Report.Defects)
+      .find("PointLimit allows no more than 100; set it higher"));
+}
+
+/// Triangles that must stay as they are count, too, if they do not reach the goals.
+TEST(MeshRefineTest, CountsFrozenTriangles)
+{
+  const Room room;
+  const std::vector<unsigned char> frozen(room.Triangles.size() / 3, 1);
+  TriangleMesh mesh = room.View();
+  mesh.FrozenTriangles = frozen.data();
+  const RefinedMesh refined = Refine(mesh, WithAngle(28.0));
+  EXPECT_TRUE(refined.Added.empty());
+  std::int64_t narrow = 0;
+  for (std::size_t t = 0; t < frozen.size(); ++t)
+  {
+    narrow += refined.GetSmallestAngle(t) < 28.0 ? 1 : 0;
+  }
+  EXPECT_LT(5, narrow);
+  EXPECT_EQ(narrow, refined.Report.FromPoints.UnrefinedTriangles);
 }
 
 /// Rounds count as iterations of the options, too.
@@ -500,6 +595,25 @@ TEST(MeshRefineTest, SaysWhatCannotBeRefined)
   EXPECT_TRUE(has(explain(With(&FlipOptions::NumberOfPieces, 2, angle)), "pieces"));
   EXPECT_TRUE(has(explain(WithAngle(34.0)), "33"));
   EXPECT_TRUE(has(explain(WithGoal(&FlipOptions::MaximumArea, -1.0)), "MaximumArea"));
+  EXPECT_TRUE(has(explain(WithGoal(&FlipOptions::MaximumArea, NAN)), "MaximumArea"));
+  for (const double goal : { 1e-61, 1e61, 1e300 })
+  {
+    EXPECT_TRUE(has(explain(WithGoal(&FlipOptions::MaximumArea, goal)), "1e-60 to 1e60"));
+    EXPECT_TRUE(has(explain(WithGoal(&FlipOptions::MaximumEdge, goal)), "MaximumEdge must be"));
+    const std::vector<double> sizes(room.Points.size() / 3, goal);
+    EXPECT_TRUE(has(explain({}, sizes.data()), "point 0 must be from"));
+  }
+  const RegionSeed seed{ NAN, 0.0, 1, 0.0 };
+  TriangleMesh seeded = mesh;
+  seeded.RegionSeeds = &seed;
+  seeded.NumberOfRegionSeeds = 1;
+  const auto explainSeed = [&](const FlipOptions& options)
+  { return GetMessage<InvalidOptions>([&] { MakeSession(seeded, options).Advance(); }); };
+  EXPECT_TRUE(has(explainSeed(InPlane()), "region 0"));
+  const RegionSeed sound{ 1.0, 0.0, 1, 0.0 };
+  seeded.RegionSeeds = &sound;
+  EXPECT_TRUE(has(
+    explainSeed(With(&FlipOptions::Geometry, GeometryKind::Surface)), "region seeds are places"));
   const std::vector<double> sizes(room.Points.size() / 3, 0.0);
   EXPECT_TRUE(has(explain({}, sizes.data()), "point 0"));
   std::vector<std::int32_t> ids = room.Triangles;

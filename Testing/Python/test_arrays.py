@@ -502,8 +502,37 @@ class RefineMeshes(unittest.TestCase):
         again = delaunayflip.flip(result.points, result.triangles, geometry="planar-xy", regions=labels)
         self.assertEqual(again.report.total_flips, 0)
 
+    def test_region_seeds(self):
+        """They label what constraints and borders of labels enclose, and limit areas there."""
+        before = self.find_areas(self.points, self.triangles)
+        centers = self.points[self.triangles].mean(axis=1)
+        left, right = (centers[numpy.flatnonzero(self.left == label)[0], :2] for label in (3, -2))
+        seeds = [(*left, 7, 0.05), (*right, -4)]
+        for given in (seeds, numpy.array([(*row, 0)[:4] for row in seeds])):
+            result = delaunayflip.flip(self.points, self.triangles, geometry="planar-xy", regions=self.left,
+                                       region_seeds=given)
+            numpy.testing.assert_array_equal(
+                result.regions, numpy.where(self.left[result.sources] == 3, 7, -4))
+            areas = self.find_areas(result.points, result.triangles)
+            self.assertAlmostEqual(areas[result.regions == 7].sum(), before[self.left == 3].sum(), 9)
+            self.assertLessEqual(areas[result.regions == 7].max(), 0.05)
+            self.assertGreater(result.report.refinement_points, 10)
+        with delaunayflip.Session(self.points, self.triangles, geometry="planar-xy", regions=self.left,
+                                  region_seeds=seeds) as session:
+            session.advance()
+            numpy.testing.assert_array_equal(session.regions, result.regions)
+        with self.assertWarnsRegex(UserWarning, "^1 region seed outside of all triangles$"):
+            result = delaunayflip.flip(self.points, self.triangles, geometry="planar-xy",
+                                       region_seeds=[(1e3, 1e3, 5)])
+        self.assertFalse(result.regions.any())
+        for error, wrong in ((ValueError, (1, 2)), (TypeError, (1, 2, 2.5)),
+                             (delaunayflip.InvalidOptions, (numpy.nan, 0, 1))):
+            with self.assertRaisesRegex(error, "region 0"):
+                delaunayflip.flip(self.points, self.triangles, region_seeds=[wrong])
+
     def test_without_goals(self):
         result = delaunayflip.flip(self.points, self.triangles)
+        self.assertFalse(result.regions.any())
         self.assertTrue(numpy.shares_memory(result.points, self.points))
         numpy.testing.assert_array_equal(result.sources, numpy.arange(len(self.triangles)))
         numpy.testing.assert_array_equal(result.at_points(self.points), self.points)
