@@ -11,7 +11,8 @@
 /// @file
 /// Finds the triangle of a place in a triangulation of points by a walk from triangle to triangle:
 /// the remembering stochastic walk of Devillers, Pion and Teillaud (2002), which ends in every
-/// triangulation. The triangulation must fill the convex hull of its points.
+/// triangulation. The triangulation must fill the convex hull of its points, but for what rounding
+/// takes away where refinement has split edges of the hull.
 
 namespace delaunayflip
 {
@@ -176,14 +177,47 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindFirstSlot(int slots, int begin)
   return static_cast<int>((0xAA105A501210u >> (16 * begin + 2 * slots)) & 3u);
 }
 
+/// Follows the hull from an edge to the one that a place is next to. Points that refinement puts on
+/// the hull are rounded. Where this makes the hull concave, a place beyond one of its edges may be
+/// in a triangle at another edge, on almost the same line.
+/// @param corner opposite an edge of the hull that the place is beyond.
+/// @returns the triangle at the edge that is found; NoTriangle if the place is beyond that, too.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline TriangleId FollowHull(
+  const PlaneMesh& mesh, PlanePoint place, CornerId corner)
+{
+  const CornerId first = corner;
+  int direction = 0; // 1 for the next edge, -1 for the one before
+  do
+  {
+    const PlanePoint from = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner)));
+    const PlanePoint to = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Previous(corner)));
+    const double u = to.U - from.U, v = to.V - from.V;
+    const double along = (place.U - from.U) * u + (place.V - from.V) * v;
+    const int step = int(along > u * u + v * v) - int(along < 0.0);
+    if (step == 0 && FindSide(mesh, place, corner) >= 0)
+    {
+      return TriangleOf(corner);
+    }
+    if (step == 0 || step == -direction) // next to the edge, or to a vertex
+    {
+      return NoTriangle;
+    }
+    direction = step;
+    corner = step > 0 ? mesh.FindNextOnHull(corner) : mesh.FindPreviousOnHull(corner);
+  } while (corner != first);
+  return NoTriangle;
+}
+
 /// Walks from a triangle to a finite place. If mesh.IsInFilterRange, the place is in it, too.
 /// @param sides become those of the triangle that is found.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE FoundPlace WalkToPlace(
   const PlaneMesh& mesh, const PlanePoint& place, TriangleId start, PlaceSides& sides)
 {
+  constexpr int MostTimesAtHull = 8; // more than one is rare
   FoundPlace found;
   found.Triangle = start;
   std::uint32_t random = start;
+  int timesAtHull = 0;
   for (;;)
   {
     sides = FindSides(mesh, place, found.Triangle);
@@ -196,11 +230,17 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE FoundPlace WalkToPlace(
     const int slot = FindFirstSlot(sides.Beyond, static_cast<int>((random >> 16) % 3));
     const HalfEdgeId side = mesh.GetHalfEdge(MakeCorner(found.Triangle, slot));
     const CornerId across = mesh.Edges.CornerOfHalfEdge[side ^ 1u];
-    if (across == NoCorner)
+    if (across != NoCorner)
+    {
+      found.Triangle = TriangleOf(across);
+      continue;
+    }
+    found.Triangle = FollowHull(mesh, place, MakeCorner(found.Triangle, slot));
+    ++timesAtHull;
+    if (found.Triangle == NoTriangle || timesAtHull > MostTimesAtHull)
     {
       return FoundPlace();
     }
-    found.Triangle = TriangleOf(across);
   }
 }
 DELAUNAYFLIP_HOST_DEVICE inline FoundPlace WalkToPlace(

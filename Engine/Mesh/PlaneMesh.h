@@ -132,6 +132,28 @@ struct PlaneMesh
     return across == NoCorner ? NoCorner : Previous(across);
   }
 
+  /// The corner opposite the next edge of the hull, counter-clockwise.
+  /// @param corner opposite an edge of the hull.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindNextOnHull(CornerId corner) const
+  {
+    CornerId last = Previous(corner);
+    for (CornerId next = last; next != NoCorner; next = this->FindPreviousAround(next))
+    {
+      last = next;
+    }
+    return Previous(last);
+  }
+  /// The corner opposite the edge of the hull before.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindPreviousOnHull(CornerId corner) const
+  {
+    CornerId last = Next(corner);
+    for (CornerId next = last; next != NoCorner; next = this->FindNextAround(next))
+    {
+      last = next;
+    }
+    return Next(last);
+  }
+
   DELAUNAYFLIP_HOST_DEVICE bool IsFixed(HalfEdgeId halfEdge) const
   {
     return this->Edges.States[EdgeOf(halfEdge)] == EdgeState::Fixed;

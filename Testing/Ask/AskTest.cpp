@@ -190,6 +190,38 @@ TEST(Ask, LocateFindsTheLowestTriangle)
   }
 }
 
+/// Refinement puts rounded points on the hull, which is then a little concave.
+TEST(Ask, LocateFindsPlacesOnASplitHull)
+{
+  std::mt19937 random(5);
+  for (int round = 0; round < 60; ++round)
+  {
+    Drawing drawing;
+    const int corners = 3 + round % 40;
+    for (int i = 0; i < corners; ++i)
+    {
+      drawing.Points.push_back(
+        { DrawIndex(random, 1000) / 997.0, DrawIndex(random, 1000) / 991.0 });
+    }
+    PointOptions options;
+    options.MinimumAngle = 25.0;
+    options.MaximumEdge = round % 3 == 0 ? 0.07 : 0.0;
+    const Asked asked(drawing, options);
+    Places places = asked.Points;
+    for (std::size_t i = 0; i + 2 < asked.Triangles.size(); i += 3) // also the middles of edges
+    {
+      const Place& a = asked.Points[asked.Triangles[i]];
+      const Place& b = asked.Points[asked.Triangles[i + 1]];
+      places.push_back({ (a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0 });
+    }
+    const std::vector<std::int32_t> found = asked.Locate(places);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      ASSERT_EQ(found[i], asked.FindByHand(places[i])) << "round " << round << ", place " << i;
+    }
+  }
+}
+
 TEST(Ask, NothingIsThere)
 {
   const Place notFinite = { NAN, 0.0 };
