@@ -221,9 +221,21 @@ void PairPointOptions(Struct& c, Options& options, const Visit& visit)
   visit(c.point_limit, options.PointLimit);
 }
 
-/// Gives an option the value of another type: a number, a switch or a choice.
-constexpr auto CopyOption = [](const auto& from, auto& to)
-{ to = static_cast<std::decay_t<decltype(to)>>(from); };
+/// Gives an option the value of another type: a number, a switch, a choice, or devices, which are a
+/// text in C.
+constexpr struct
+{
+  template <typename From, typename To>
+  void operator()(const From& from, To& to) const
+  {
+    to = static_cast<To>(from);
+  }
+  void operator()(const char* devices, std::vector<int>& to) const
+  {
+    to = ParseDevices(devices ? devices : "");
+  }
+  void operator()(const std::vector<int>&, const char*& none) const { none = nullptr; }
+} CopyOption;
 
 /// @param options of the run.
 inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
@@ -276,27 +288,13 @@ inline MutableTriangleArray ToOutput(void* ids, std::int64_t triangles, std::int
   return ToIds<MutableTriangleArray, std::int32_t, std::int64_t>(ids, triangles, type);
 }
 
-/// Calls visit(member, the engine's) for each option, but for the devices, which are a text.
+/// Calls visit(member, the engine's) for each option.
 template <typename Struct, typename Options, typename Visit>
 void PairOptions(Struct& c, Options& options, const Visit& visit)
 {
-  visit(c.geometry, options.Geometry);
-  visit(c.criterion, options.Criterion);
-  visit(c.tie_rule, options.TieRule);
-  visit(c.backend, options.Backend);
-  visit(c.tolerance, options.Tolerance);
-  visit(c.feature_angle, options.FeatureAngle);
-  visit(c.maximum_deviation, options.MaximumDeviation);
-  visit(c.maximum_iterations, options.MaximumIterations);
-  visit(c.number_of_threads, options.NumberOfThreads);
-  visit(c.device, options.Device);
-  visit(c.number_of_pieces, options.NumberOfPieces);
-  visit(c.track_quality, options.TrackQuality);
-  visit(c.minimum_angle, options.MinimumAngle);
-  visit(c.maximum_area, options.MaximumArea);
-  visit(c.maximum_edge, options.MaximumEdge);
-  visit(c.keep_boundary, options.KeepBoundary);
-  visit(c.point_limit, options.PointLimit);
+#define DELAUNAYFLIP_PAIR(name, Member, isForAll, range) visit(c.name, options.Member)
+  DELAUNAYFLIP_OPTIONS(DELAUNAYFLIP_PAIR);
+#undef DELAUNAYFLIP_PAIR
 }
 
 /// The engine's defaults where `given` is null.
@@ -313,7 +311,6 @@ inline FlipOptions ToOptions(const delaunayflip_options* given)
   ToEnumeration(c.backend, BackendKind::Threads, "backend");
   FlipOptions options;
   PairOptions(c, options, CopyOption);
-  options.Devices = ParseDevices(c.devices ? c.devices : "");
   return options;
 }
 

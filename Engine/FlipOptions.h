@@ -174,33 +174,40 @@ struct FlipOptions
   ///@}
 };
 
+/// The table of options: entry(name in C, member, whether all ranks that share a mesh must have the
+/// same value, range). Within(low, high, words) is a range, whose words end a message; Any has
+/// none, or InputChecks.cpp knows more.
+#define DELAUNAYFLIP_OPTIONS(entry)                                                              \
+  entry(geometry, Geometry, true, Any);                                                          \
+  entry(criterion, Criterion, true, Any);                                                        \
+  entry(tie_rule, TieRule, true, Any);                                                           \
+  entry(backend, Backend, false, Any);                                                           \
+  entry(tolerance, Tolerance, true, Any);                                                        \
+  entry(feature_angle, FeatureAngle, true, Within(0, 180, "from 0 to 180 degrees"));             \
+  entry(maximum_deviation, MaximumDeviation, true,                                               \
+    AtLeast(0, "a length of 0 or more, or infinite (none)"));                                    \
+  entry(maximum_iterations, MaximumIterations, true, AtLeast(-1, "-1 (until done), 0 or more")); \
+  entry(number_of_threads, NumberOfThreads, false, AtLeast(0, "0 (all) or more"));               \
+  entry(device, Device, false, AtLeast(-1, "-1 (CUDA's current one), or the number of a GPU"));  \
+  entry(devices, Devices, false, Any);                                                           \
+  entry(number_of_pieces, NumberOfPieces, false,                                                 \
+    Within(0, MostPieces, "from 1 to 255, or 0 (as few as possible)"));                          \
+  entry(track_quality, TrackQuality, true, Any);                                                 \
+  entry(minimum_angle, MinimumAngle, true, Any);                                                 \
+  entry(maximum_area, MaximumArea, true, Any);                                                   \
+  entry(maximum_edge, MaximumEdge, true, Any);                                                   \
+  entry(keep_boundary, KeepBoundary, true, Any);                                                 \
+  entry(point_limit, PointLimit, true, Any)
+
 /// Calls visit(name, isForAll, option...) for each option, with those of all structs side by side.
-///
-/// The name is that of the C struct. isForAll is std::true_type where all ranks that share a mesh
-/// must have the same value, and std::false_type where each chooses for its own machine.
+/// isForAll is std::true_type or std::false_type.
 template <typename Visit, typename... Options>
 void ForEachOption(const Visit& visit, Options&... options)
 {
-  constexpr std::true_type forAll;
-  constexpr std::false_type forOne;
-  visit("geometry", forAll, options.Geometry...);
-  visit("criterion", forAll, options.Criterion...);
-  visit("tie_rule", forAll, options.TieRule...);
-  visit("backend", forOne, options.Backend...);
-  visit("tolerance", forAll, options.Tolerance...);
-  visit("feature_angle", forAll, options.FeatureAngle...);
-  visit("maximum_deviation", forAll, options.MaximumDeviation...);
-  visit("maximum_iterations", forAll, options.MaximumIterations...);
-  visit("number_of_threads", forOne, options.NumberOfThreads...);
-  visit("device", forOne, options.Device...);
-  visit("devices", forOne, options.Devices...);
-  visit("number_of_pieces", forOne, options.NumberOfPieces...);
-  visit("track_quality", forAll, options.TrackQuality...);
-  visit("minimum_angle", forAll, options.MinimumAngle...);
-  visit("maximum_area", forAll, options.MaximumArea...);
-  visit("maximum_edge", forAll, options.MaximumEdge...);
-  visit("keep_boundary", forAll, options.KeepBoundary...);
-  visit("point_limit", forAll, options.PointLimit...);
+#define DELAUNAYFLIP_VISIT(name, Member, isForAll, range) \
+  visit(#name, std::bool_constant<isForAll>(), options.Member...)
+  DELAUNAYFLIP_OPTIONS(DELAUNAYFLIP_VISIT);
+#undef DELAUNAYFLIP_VISIT
 }
 
 inline bool operator==(const FlipOptions& a, const FlipOptions& b)

@@ -33,6 +33,37 @@ void Require(bool isValid, const std::string& message)
 /// The smallest and the largest length or area that can be meant.
 constexpr double SmallestGoal = 1e-60, LargestGoal = 1e60;
 
+struct Range
+{
+  double Low, High;
+  const char* Words; ///< What is allowed: the end of a message.
+};
+
+constexpr Range Within(double low, double high, const char* words) { return { low, high, words }; }
+
+constexpr Range AtLeast(double low, const char* words)
+{
+  return { low, std::numeric_limits<double>::infinity(), words };
+}
+
+constexpr struct AnyValue
+{
+} Any;
+
+template <typename Value>
+void CheckRange(const Value&, const char*, AnyValue)
+{
+}
+
+/// @param name in C.
+template <typename Value>
+void CheckRange(Value value, std::string name, const Range& range)
+{
+  std::replace(name.begin(), name.end(), '_', ' ');
+  const double number = static_cast<double>(value);
+  Require(number >= range.Low && number <= range.High, "the " + name + " must be " + range.Words);
+}
+
 /// Requires a goal of refinement to be finite and not negative.
 void RequireGoal(double goal, const std::string& name)
 {
@@ -83,17 +114,9 @@ void CheckOptions(const FlipOptions& options)
   CheckSphere(options);
   Require(options.Tolerance == -1.0 || (options.Tolerance >= 0.0 && options.Tolerance < 1.0),
     "the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
-  Require(options.FeatureAngle >= 0.0 && options.FeatureAngle <= 180.0,
-    "the feature angle must be from 0 to 180 degrees");
-  Require(options.MaximumDeviation >= 0.0,
-    "the maximum deviation must be a length of 0 or more, or infinite (none)");
-  Require(
-    options.MaximumIterations >= -1, "the number of iterations must be -1 (until done), 0 or more");
-  Require(options.NumberOfThreads >= 0, "the number of threads must be 0 (all) or more");
-  Require(options.Device >= -1, "the number of the GPU must be -1 (CUDA's current one), 0 or more");
-  Require(options.NumberOfPieces >= 0 && options.NumberOfPieces <= MostPieces,
-    "the number of pieces must be from 1 to " + std::to_string(MostPieces) +
-      ", or 0 (as few as possible)");
+#define DELAUNAYFLIP_CHECK(name, Member, isForAll, range) CheckRange(options.Member, #name, range)
+  DELAUNAYFLIP_OPTIONS(DELAUNAYFLIP_CHECK);
+#undef DELAUNAYFLIP_CHECK
   CheckGoals(options);
   std::vector<int> devices = options.Devices;
   std::sort(devices.begin(), devices.end());
