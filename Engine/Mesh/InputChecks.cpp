@@ -164,8 +164,8 @@ void CheckRefinement(
   if (isWanted && geometry == GeometryKind::Surface)
   {
     throw InvalidOptions(
-      "refinement is for the plane and for terrain, but the mesh is a surface in "
-      "space; use 'planar-xy' to refine it in x and y, or set no goals");
+      "refinement is for the plane and for terrain, but the mesh is taken for a surface in space; "
+      "choose the geometry 'planar-xy' to refine it in x and y, or set no goals");
   }
   if (isWanted && geometry == GeometryKind::Sphere)
   {

@@ -35,7 +35,12 @@ class _HostArrays:
         return array.flags.carray
 
     def join(self, x, y):
-        return numpy.stack(numpy.broadcast_arrays(as_array("x", x), as_array("y", y)), axis=-1)
+        x, y = as_array("x", x), as_array("y", y)
+        try:
+            return numpy.stack(numpy.broadcast_arrays(x, y), axis=-1)
+        except ValueError:
+            raise ValueError(f"x of shape {x.shape} and y of shape {y.shape} do not fit together; for a grid "
+                             "of their values give x[None, :] and y[:, None]") from None
 
     def as_doubles(self, name, values):
         values = as_array(name, values)
@@ -299,10 +304,14 @@ def as_plane(points, name="points"):
 def as_places(places):
     """Places of shape (..., 2) or (..., 3) in two dimensions, as as_plane has points, and the shape of
     values at them, one each."""
+    is_list_of_two = isinstance(places, (list, tuple)) and len(places) == 2
     adapter, places = _adapt(places)
     if adapter is _HOST:
         places = as_array("places", places)
     shape = tuple(places.shape)
+    if is_list_of_two and shape == (2, 3):
+        raise ValueError("places may be two of x, y and z, or three of x and y: give the latter as two "
+                         "arguments, x and y, and the former as an array of shape (2, 3)")
     if shape in ((0,), (2,)):
         shape = (shape[0] // 2, 2)  # as in SciPy
     if len(shape) < 2 or shape[-1] not in (2, 3):
