@@ -420,8 +420,7 @@ def flip(
         pieces: 1 to 255, flipped in turn where a GPU is too small for the mesh; 0: the fewest.
         track_quality: Compute the smallest angle after every iteration; not with several pieces.
         progress: Called with the share of the work done, 0 to 1; returning False aborts.
-        on_iteration: Called after each iteration of flips with a dict of its numbers; False aborts. Rounds of
-            refinement call only `progress`.
+        on_iteration: Called after each iteration, but not after rounds, with its numbers; False aborts.
 
     Returns:
         A `Result`. After an abort it holds the valid mesh of the last whole iteration.
