@@ -218,6 +218,7 @@ void AddRegionOption(CLI::App& app, Arguments& arguments)
       std::array<double, 4> region{};
       ParseRegion(text, region);
       arguments.Points->AddRegion(region[0], region[1], region[2], region[3]);
+      arguments.Flip->AddRegion(region[0], region[1], region[2], region[3]);
     }
   };
   const auto findFault = [](const std::string& text)
@@ -227,9 +228,9 @@ void AddRegionOption(CLI::App& app, Arguments& arguments)
   };
   app
     .add_option_function<std::vector<std::string>>("--region", addRegions,
-      "A place in a part that segments enclose: x,y,label or x,y,label,area. Its triangles get the "
-      "label, an integer, in the cell array Region, and are not larger than the area. May be "
-      "given several times")
+      "A place in a part that segments enclose, or edges of a mesh that stay: x,y,label or "
+      "x,y,label,area. Its triangles get the label, an integer, in the cell array Region, and are "
+      "not larger than the area. May be given several times")
     ->type_name("LIST")
     ->allow_extra_args(false)
     ->check(findFault);
@@ -291,13 +292,13 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   app.add_flag_callback("--degrees", Set(arguments, &vtkDelaunayFlipPoints::DegreesOn),
     "On a sphere, x and y are longitudes and latitudes in degrees. The points are written as "
     "places on the unit sphere");
-  AddRegionOption(app, arguments);
 }
 
 /// Options that add points, to a mesh or to what is made from points.
 void AddRefinementOptions(CLI::App& app, Arguments& arguments)
 {
   app.option_defaults()->group(ToRefine);
+  AddRegionOption(app, arguments);
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
   AddValue(app, "--minimum-angle", Set(arguments, &vtkDelaunayFlipAlgorithm::SetMinimumAngle),
     "DEGREES", Within(0.0, 33.0, "an angle from 0 to 33 degrees"),

@@ -14,6 +14,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <set>
@@ -300,6 +302,23 @@ vtkDataArray* FindSizes(vtkPolyData* mesh, const std::string& name, vtkIdType co
       "\" must have one component, and as many tuples as there are points.");
   }
   return array;
+}
+
+std::vector<RegionSeed> ReadRegionSeeds(const std::vector<std::array<double, 4>>& regions)
+{
+  std::vector<RegionSeed> seeds;
+  for (const std::array<double, 4>& region : regions)
+  {
+    const double label = region[2];
+    const bool isInteger = label >= INT32_MIN && label <= INT32_MAX && label == std::floor(label);
+    if (!isInteger)
+    {
+      throw InvalidOptions("the label of region " + std::to_string(seeds.size()) +
+        " must be an integer from -2147483648 to 2147483647, not " + FormatNumber(label, 10));
+    }
+    seeds.push_back({ region[0], region[1], static_cast<std::int32_t>(label), region[3] });
+  }
+  return seeds;
 }
 
 void TurnToDoubles(vtkDataSetAttributes* data)

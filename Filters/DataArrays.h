@@ -15,6 +15,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,10 @@ void VisitEdges(vtkCellArray* cells, bool areClosed, const PointIdCheck& check, 
 /// The point array with the longest edges near points, which SizeArray names.
 /// @throws InvalidOptions if there is none of one number for each of `count` points.
 vtkDataArray* FindSizes(vtkPolyData* mesh, const std::string& name, vtkIdType count);
+
+/// Region seeds, from x, y, label and largest area of each.
+/// @throws InvalidOptions if a label is no 32-bit integer.
+std::vector<RegionSeed> ReadRegionSeeds(const std::vector<std::array<double, 4>>& regions);
 
 /// The values, or null if there are none.
 template <typename Value>

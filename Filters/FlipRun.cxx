@@ -275,6 +275,7 @@ bool FlipRun::Store(vtkPolyData* output) const
 {
   const auto room = this->Room ? this->Room : this->Bridge.MakeRoom();
   this->Bridge.Store(*this->Session, room, this->Current, output);
+  this->Bridge.StoreRegions(*this->Session, output);
   if (this->Asked.WantsFlipCounts)
   {
     this->Bridge.StoreFlipCounts(*this->Session, output);

@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #if defined(__linux__)
@@ -236,6 +237,8 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   const BridgeSettings& settings, const UpdatePlan& plan)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
+    RegionSeeds(ReadRegionSeeds(settings.RegionSeeds)),
+    AreLinesConstraints(settings.LinesAsConstraints),
     Refines(settings.Refines),
     Slots(mesh, Points, settings.Triangulate, plan.For(UpdatePlan::Polygons))
 {
@@ -365,6 +368,8 @@ TriangleMesh PolyDataBridge::GetMesh() const
   mesh.Regions = ViewValues(this->Regions);
   mesh.FrozenTriangles = ViewValues(this->Slots.Frozen);
   mesh.Sizes = ViewValues(this->Sizes);
+  mesh.RegionSeeds = ViewValues(this->RegionSeeds);
+  mesh.NumberOfRegionSeeds = static_cast<std::int64_t>(this->RegionSeeds.size());
   return mesh;
 }
 
@@ -435,6 +440,66 @@ void PolyDataBridge::Store(const FlipSession& session, const vtkSmartPointer<vtk
     });
 }
 
+namespace
+{
+/// A point that refinement has added on an edge.
+struct PointOnEdge
+{
+  std::pair<std::int64_t, std::int64_t> Edge; ///< Its points, the lower one first.
+  double Share; ///< How far the point is on the way from the first of these to the second.
+  vtkIdType Point;
+
+  bool operator<(const PointOnEdge& other) const
+  {
+    return std::tie(this->Edge, this->Share) < std::tie(other.Edge, other.Share);
+  }
+};
+
+/// The lines of a mesh, with the points that refinement has added on edges along them.
+vtkSmartPointer<vtkCellArray> SplitLines(const std::vector<AddedPoint>& added, vtkPolyData* mesh)
+{
+  vtkSmartPointer<vtkCellArray> lines = mesh->GetLines();
+  std::vector<PointOnEdge> points;
+  vtkIdType next = mesh->GetNumberOfPoints();
+  for (const AddedPoint& point : added)
+  {
+    if (point.Third < 0)
+    {
+      const bool isForward = point.From < point.To;
+      points.push_back(
+        { std::minmax(point.From, point.To), isForward ? point.Share : 1.0 - point.Share, next });
+    }
+    ++next;
+  }
+  if (points.empty() || lines->GetNumberOfCells() == 0)
+  {
+    return lines;
+  }
+  std::sort(points.begin(), points.end());
+  const auto split = vtkSmartPointer<vtkCellArray>::New();
+  vtkNew<vtkIdList> ids, path;
+  for (vtkIdType line = 0; line < lines->GetNumberOfCells(); ++line)
+  {
+    lines->GetCellAtId(line, ids);
+    path->Reset();
+    for (vtkIdType i = 0; i < ids->GetNumberOfIds(); ++i)
+    {
+      const std::int64_t to = ids->GetId(i), from = i > 0 ? ids->GetId(i - 1) : to;
+      const std::pair<std::int64_t, std::int64_t> edge = std::minmax(from, to);
+      auto first = std::lower_bound(points.begin(), points.end(), PointOnEdge{ edge, -1.0, 0 });
+      auto last = std::lower_bound(first, points.end(), PointOnEdge{ edge, 2.0, 0 });
+      while (first != last)
+      {
+        path->InsertNextId(from < to ? (first++)->Point : (--last)->Point);
+      }
+      path->InsertNextId(to);
+    }
+    split->InsertNextCell(path);
+  }
+  return split;
+}
+}
+
 PolyDataBridge::RefinedPolygons PolyDataBridge::ListRefined(const FlipSession& session) const
 {
   const TriangleSlots& slots = this->Slots;
@@ -471,6 +536,10 @@ void PolyDataBridge::StoreRefined(
   AppendRefinedPoints(session, mesh, output);
   output->SetPolys(BuildPolygons(refined.Polygons, { std::as_const(ids).data(), count }, mesh));
   StoreCells(mesh, slots, refined.Polygons, nullptr, output);
+  if (this->AreLinesConstraints)
+  {
+    output->SetLines(SplitLines(session.GetAddedPoints(), mesh));
+  }
   if (slots.AreDivided || count > slots.Triangles.Count)
   {
     DemoteGlobalIds(output->GetCellData());
@@ -512,21 +581,34 @@ void PolyDataBridge::AppendRefinedPoints(
 
 void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const
 {
-  if (this->Refines)
-  {
-    const RefinedPolygons refined = this->ListRefined(session);
-    std::vector<std::int32_t> all(refined.Sources.size());
-    session.StoreFlipCounts(all.data());
-    AddTriangleArray(
-      "vtkDelaunayFlipCount", all, 0,
-      [&refined](vtkIdType polygon) { return refined.Polygons[polygon].Triangle; }, output);
-    return;
-  }
-  std::vector<std::int32_t> counts(this->Slots.Triangles.Count);
+  std::vector<std::int32_t> counts(session.CountTriangles());
   session.StoreFlipCounts(counts.data());
-  AddTriangleArray(
-    "vtkDelaunayFlipCount", counts, 0,
-    [this](vtkIdType polygon) { return this->Slots.GetPolygon(polygon).Triangle; }, output);
+  this->AddNumbers("vtkDelaunayFlipCount", counts, output);
+}
+
+void PolyDataBridge::StoreRegions(const FlipSession& session, vtkPolyData* output) const
+{
+  if (!this->RegionSeeds.empty())
+  {
+    std::vector<std::int32_t> labels(session.CountTriangles());
+    session.StoreRegions(labels.data());
+    this->AddNumbers("Region", labels, output);
+  }
+}
+
+/// Adds a number per triangle of the session; other cells get 0. Triangles that refinement has
+/// added are the last polygons.
+void PolyDataBridge::AddNumbers(
+  const char* name, const std::vector<std::int32_t>& numbers, vtkPolyData* output) const
+{
+  const TriangleSlots& slots = this->Slots;
+  const vtkIdType polygons = slots.GetNumberOfPolygons();
+  const auto triangleOf = [&](vtkIdType polygon)
+  {
+    return polygon < polygons ? slots.GetPolygon(polygon).Triangle
+                              : slots.Triangles.Count + polygon - polygons;
+  };
+  AddTriangleArray(name, numbers, 0, triangleOf, output);
 }
 
 void PolyDataBridge::StoreAngles(const FlipSession& session, int threads,

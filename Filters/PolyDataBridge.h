@@ -16,6 +16,7 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -34,7 +35,8 @@ struct BridgeSettings : ConstraintSettings
   bool Triangulate = true;
   std::string RegionArray; ///< Empty: no regions.
   std::string SizeArray; ///< The name of a point array of longest edges. Empty: none.
-  bool Refines = false; ///< Whether options or SizeArray ask for refinement.
+  std::vector<std::array<double, 4>> RegionSeeds; ///< x, y, label and largest area of each.
+  bool Refines = false; ///< Whether options, SizeArray or areas of regions ask for refinement.
 };
 
 inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
@@ -42,7 +44,7 @@ inline bool operator==(const BridgeSettings& a, const BridgeSettings& b)
   const auto tie = [](const BridgeSettings& s)
   {
     return std::tie(s.Triangulate, s.LinesAsConstraints, s.InsertLines, s.InsertConstraints,
-      s.RegionArray, s.SizeArray, s.Refines);
+      s.RegionArray, s.SizeArray, s.RegionSeeds, s.Refines);
   };
   return tie(a) == tie(b);
 }
@@ -154,6 +156,9 @@ public:
   /// Adds vtkDelaunayFlipCount to the cells of an output that Store has written.
   void StoreFlipCounts(const FlipSession& session, vtkPolyData* output) const;
 
+  /// Adds the labels of region seeds, if there are any, to the cells of such an output.
+  void StoreRegions(const FlipSession& session, vtkPolyData* output) const;
+
   /// Adds the smallest angles before and after to the cells of such an output.
   /// @throws RunAborted; then there is neither of them.
   void StoreAngles(const FlipSession& session, int threads, const ProgressObserver& progress,
@@ -184,6 +189,8 @@ private:
     }
   };
   RefinedPolygons ListRefined(const FlipSession& session) const;
+  void AddNumbers(
+    const char* name, const std::vector<std::int32_t>& numbers, vtkPolyData* output) const;
   void StoreRefined(const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output) const;
   static void AppendRefinedPoints(
     const FlipSession& session, vtkPolyData* mesh, vtkPolyData* output);
@@ -192,6 +199,8 @@ private:
   std::vector<double> Coordinates; ///< A copy of points that cannot be viewed in place.
   PointArray Points;
   std::vector<double> Sizes; ///< By point; empty: no limits.
+  std::vector<RegionSeed> RegionSeeds;
+  bool AreLinesConstraints;
   bool Refines;
   TriangleSlots Slots;
   ConstraintEdges Constraints;

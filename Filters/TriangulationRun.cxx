@@ -379,17 +379,7 @@ void TriangulationRun::ReadSizes()
 
 void TriangulationRun::ReadRegions()
 {
-  for (const std::array<double, 4>& region : this->Asked.Regions)
-  {
-    const double label = region[2];
-    const bool isInteger = label >= INT32_MIN && label <= INT32_MAX && label == std::floor(label);
-    if (!isInteger)
-    {
-      throw InvalidOptions("the label of region " + std::to_string(this->Regions.size()) +
-        " must be an integer from -2147483648 to 2147483647, not " + FormatNumber(label, 10));
-    }
-    this->Regions.push_back({ region[0], region[1], static_cast<std::int32_t>(label), region[3] });
-  }
+  this->Regions = ReadRegionSeeds(this->Asked.Regions);
   this->View.Regions = ViewValues(this->Regions);
   this->View.NumberOfRegions = static_cast<std::int64_t>(this->Regions.size());
 }

@@ -12,6 +12,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <type_traits>
 
 using namespace delaunayflip;
@@ -71,6 +72,22 @@ const char* vtkDelaunayFlip::GetGeometryReason() const
 }
 
 //------------------------------------------------------------------------------
+void vtkDelaunayFlip::AddRegion(double x, double y, double label, double maximumArea)
+{
+  this->Regions.push_back({ x, y, label, maximumArea });
+  this->Modified();
+}
+
+void vtkDelaunayFlip::RemoveAllRegions()
+{
+  if (!this->Regions.empty())
+  {
+    this->Regions.clear();
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constraints)
 {
   FlipRequest request;
@@ -90,8 +107,11 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
   this->Superclass::ForEachOption<FlipOptions>(copy);
   this->ForEachOption<FlipOptions>(copy);
   request.Settings.SizeArray = this->SizeArray;
+  request.Settings.RegionSeeds = this->Regions;
+  const bool hasAreas = std::any_of(this->Regions.begin(), this->Regions.end(),
+    [](const std::array<double, 4>& region) { return region[3] > 0.0; });
   const bool hasGoals =
-    this->MinimumAngle > 0.0 || this->MaximumArea > 0.0 || this->MaximumEdge > 0.0;
+    this->MinimumAngle > 0.0 || this->MaximumArea > 0.0 || this->MaximumEdge > 0.0 || hasAreas;
   request.Settings.Refines = hasGoals || !this->SizeArray.empty();
   request.Options.Devices = ParseDevices(this->Devices);
   request.WantsFlipCounts = this->GenerateFlipCount;
@@ -112,7 +132,8 @@ void vtkDelaunayFlip::FlipLeaves(
     return;
   }
   FlipRequest request = this->MakeRequest(mesh.GetMesh(), edges);
-  if (request.Settings.Refines && block.Leaves.size() > 1)
+  const bool needsWhole = request.Settings.Refines || !this->Regions.empty();
+  if (needsWhole && block.Leaves.size() > 1)
   {
     throw InvalidOptions("a mesh in several partitions cannot be refined; join them first, by "
                          "vtkAppendPolyData, or Merge Blocks in ParaView");
@@ -130,6 +151,7 @@ void vtkDelaunayFlip::PrintSelf(ostream& os, vtkIndent indent)
   this->ForEachOption<FlipOptions>([&](const char* name, const auto& value, auto)
     { os << indent << name << ": " << value << "\n"; });
   os << indent << "RegionArray: " << this->RegionArray << "\n";
+  os << indent << "Regions: " << this->Regions.size() << "\n";
   os << indent << "LinesAsConstraints: " << this->LinesAsConstraints << "\n";
   os << indent << "InsertLines: " << this->InsertLines << "\n";
   os << indent << "InsertConstraints: " << this->InsertConstraints << "\n";

@@ -95,6 +95,9 @@
 #include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkDelaunayFlipFiltersModule.h" // For export macro
 
+#include <array>
+#include <vector>
+
 namespace delaunayflip
 {
 struct FlipRequest;
@@ -236,8 +239,20 @@ public:
 
   ///@{
   /**
+   * Add a region, for a mesh in x and y: a place in a part of the mesh that edges enclose which
+   * stay, the label of its triangles (a 32-bit integer), and the largest area of a triangle there
+   * (0: as elsewhere). If there are regions, the output has a cell array "Region" with these
+   * labels, 0 elsewhere. Of several in one part the first counts. Default: none.
+   */
+  void AddRegion(double x, double y, double label, double maximumArea);
+  void RemoveAllRegions();
+  ///@}
+
+  ///@{
+  /**
    * Keep the edges of the mesh that lie along lines of the input, that is, join consecutive points
-   * of its polylines. Default on. Lines always pass to the output.
+   * of its polylines. Default on. Lines always pass to the output; those that are constraints, with
+   * the points that refinement has added on their edges.
    */
   vtkSetMacro(LinesAsConstraints, bool);
   vtkGetMacro(LinesAsConstraints, bool);
@@ -443,6 +458,7 @@ protected:
   double FeatureAngle = 30.0;
   double MaximumDeviation = VTK_DOUBLE_MAX;
   std::string RegionArray;
+  std::vector<std::array<double, 4>> Regions; ///< x, y, label and largest area of each.
   bool LinesAsConstraints = true;
   bool InsertConstraints = true;
   bool InsertLines = false;

@@ -414,7 +414,30 @@ for _group, _names in (("STOP_REASON", (*_library.STOP_REASONS, "failed")),
 finish(Filter, COMMON_PROPERTIES, _COMMON_ANSWERS)
 
 
-class vtkDelaunayFlip(Filter):
+class _Regions:
+    """The region seeds of a filter."""
+
+    _regions = ()
+
+    def AddRegion(self, x, y, label, maximum_area):
+        self._regions = (*self._regions, (x, y, label, maximum_area))
+        self.Modified()
+
+    def RemoveAllRegions(self):
+        if self._regions:
+            self._regions = ()
+            self.Modified()
+
+    def _list_regions(self):
+        """(x, y, label, area) of each."""
+        for number, (_, _, label, _) in enumerate(self._regions):
+            if not (float(label).is_integer() and -2**31 <= label < 2**31):
+                raise _library.InvalidOptions(f"the label of region {number} must be an integer from "
+                                              f"{-2**31} to {2**31 - 1}, not {label:g}")
+        return self._regions
+
+
+class vtkDelaunayFlip(_Regions, Filter):
     """Turns a triangle mesh into a Delaunay mesh by parallel edge flips.
 
     This class has the methods, outputs, warnings and progress of the C++ class vtkDelaunayFlip, for
@@ -436,7 +459,7 @@ class vtkDelaunayFlip(Filter):
 
     def _judge_partitions(self, leaves, constraints):
         options = self._get_options(*GOALS)
-        is_refined = self.GetSizeArray() or any(options[goal] for goal in GOALS)
+        is_refined = self.GetSizeArray() or self._regions or any(options[goal] for goal in GOALS)
         if is_refined and len(leaves) > 1:
             raise _library.InvalidOptions(
                 "a mesh in several partitions cannot be refined; join them first, by vtkAppendPolyData, or "
@@ -452,7 +475,8 @@ class vtkDelaunayFlip(Filter):
         observe = self._observe_part(1.0)
         try:
             settings = {name: getattr(self, name) for name in SETTINGS}
-            data = MeshInput(mesh, constraints, self._observe_part(0.02), **settings)
+            data = MeshInput(mesh, constraints, self._observe_part(0.02), **settings,
+                             region_seeds=self._list_regions())
             session = data.open(progress=observe, **self._get_options(*OPTION_KINDS))
         except _library.Stopped:
             return self._pass(mesh, output, "aborted")
@@ -480,7 +504,7 @@ _ANSWERS = {
 finish(vtkDelaunayFlip, FLIP_PROPERTIES, _ANSWERS)
 
 
-class vtkDelaunayFlipPoints(Filter):
+class vtkDelaunayFlipPoints(_Regions, Filter):
     """Makes a Delaunay mesh from points, with or without segments.
 
     This class has the methods, outputs, warnings and progress of the C++ class
@@ -493,7 +517,6 @@ class vtkDelaunayFlipPoints(Filter):
     flips_partitions_alone = False
     no_mesh = "has no points of its own, passed unchanged"
     no_composite = "the segments of a single dataset cannot be a composite dataset"
-    _regions = ()
     _last = None  #: What the last update asked for, and the Answers that have its session.
 
     def SetSegmentsConnection(self, port):
@@ -501,15 +524,6 @@ class vtkDelaunayFlipPoints(Filter):
 
     def SetSegmentsData(self, segments):
         self.SetInputDataObject(len(self.others), segments)
-
-    def AddRegion(self, x, y, label, maximum_area):
-        self._regions = (*self._regions, (x, y, label, maximum_area))
-        self.Modified()
-
-    def RemoveAllRegions(self):
-        if self._regions:
-            self._regions = ()
-            self.Modified()
 
     def _judge_partitions(self, leaves, segments):
         if len(leaves) > 1:
@@ -592,15 +606,11 @@ class vtkDelaunayFlipPoints(Filter):
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
         cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")
-        for number, (_, _, label, _) in enumerate(self._regions):
-            if not float(label).is_integer():
-                raise _library.InvalidOptions(f"the label of region {number} must be an integer from "
-                                              f"{-2**31} to {2**31 - 1}, not {label:g}")
         if follows and self._is_followed(cloud, segments, options):
             result = self._follow(cloud, options, progress)
         else:
             self._last = None
-            options["regions"] = self._regions
+            options["regions"] = self._list_regions()
             result, _ = run_points(cloud, options, progress, self._observe, keeps)
         self._totals = Totals.of_run(result.report, result.iterations)
         return result, cloud.write(result, output)

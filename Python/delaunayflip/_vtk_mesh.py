@@ -172,7 +172,8 @@ class MeshInput:
     keywords are properties of the filter."""
 
     def __init__(self, mesh, others, progress=None, *, triangulate=True, lines_as_constraints=True,
-                 insert_lines=False, insert_constraints=True, region_array="", size_array=""):
+                 insert_lines=False, insert_constraints=True, region_array="", size_array="",
+                 region_seeds=()):
         self.vtk, self.session_type = vtk_of(mesh), _Session
         self.mesh = self.vtk.model.vtkPolyData()
         self.mesh.ShallowCopy(mesh)
@@ -186,6 +187,7 @@ class MeshInput:
         if region_array:
             self._regions = self.vtk.label_cells(mesh, region_array)[self.slots.cells]
         self._sizes = self._read_sizes(size_array) if size_array else None
+        self._region_seeds, self._splits_lines = region_seeds, lines_as_constraints
         ghosts = self.mesh.GetCellData().GetArray(_GHOSTS)
         if ghosts is not None and not _find_ghost_fault(ghosts):
             missing = numpy.zeros(self.mesh.GetNumberOfCells(), numpy.uint8)  # there may be too few
@@ -211,12 +213,14 @@ class MeshInput:
     def open(self, **arguments):
         """Begins a Session, and returns it. Errors name the cell, not the triangle."""
         self._arguments = arguments
-        self._refines = self._sizes is not None or any(arguments.get(goal) for goal in GOALS)
+        has_areas = any(len(region) > 3 and region[3] > 0 for region in self._region_seeds)
+        self._refines = has_areas or self._sizes is not None or any(arguments.get(goal) for goal in GOALS)
         try:
             self.session = self.session_type(
                 self.points, self.slots.triangles, regions=self._regions, frozen=self._frozen,
                 constraints=self.constraints.pairs, insert_constraints=self.constraints.to_insert,
-                triangle_numbers=self.slots.cells, size=self._sizes, **arguments)
+                triangle_numbers=self.slots.cells, size=self._sizes,
+                region_seeds=self._region_seeds, **arguments)
         except InvalidMesh:
             self.slots.polygons.require_points(len(self.points))
             raise
@@ -260,7 +264,7 @@ class MeshInput:
         corners[:] = slots.strips.gather(chosen)
         self._pass_points(output)
         output.SetVerts(mesh.GetVerts())
-        output.SetLines(mesh.GetLines())
+        output.SetLines(self._split_lines() if self._refines and self._splits_lines else mesh.GetLines())
         output.SetPolys(self._make_polygons(is_wide))
         output.SetStrips(strips)
         self._pass_cell_data(output)
@@ -301,6 +305,30 @@ class MeshInput:
         self.vtk.add_tuples(mesh.GetPointData(), count, range(count), 0, len(self._points), data)
         self.vtk.interpolate_tuples(data, count, *self._added)
         _demote_global_ids(data)
+
+    def _split_lines(self):
+        """The lines of the mesh, with the points that refinement has added on edges along them."""
+        lines, on_edges = self.mesh.GetLines(), {}
+        for number, (near, share) in enumerate(zip(*self._added), len(self.points)):
+            if near[2] < 0:
+                ends = int(near[0]), int(near[1])
+                is_forward = ends[0] < ends[1]
+                on_edges.setdefault((min(ends), max(ends)), []).append(
+                    (share[1] if is_forward else 1.0 - share[1], number))
+        if not on_edges or lines.GetNumberOfCells() == 0:
+            return lines
+        split, ids = self.vtk.model.vtkCellArray(), self.vtk.core.vtkIdList()
+        for line in range(lines.GetNumberOfCells()):
+            lines.GetCellAtId(line, ids)
+            corners = [ids.GetId(i) for i in range(ids.GetNumberOfIds())]
+            path = corners[:1]
+            for start, end in zip(corners, corners[1:]):
+                between = [number for _, number in sorted(on_edges.get((min(start, end), max(start, end)), ()))]
+                path += [*(between if start < end else reversed(between)), end]
+            split.InsertNextCell(len(path))
+            for point in path:
+                split.InsertCellPoint(point)
+        return split
 
     def _make_polygons(self, is_wide):
         slots = self.slots
@@ -358,6 +386,8 @@ class MeshInput:
 
     def _list_numbers(self, counts, angles):
         """(name, value elsewhere, values per triangle) of the requested cell arrays."""
+        if self._region_seeds:
+            yield "Region", 0, self.session.regions
         if counts:
             yield CELL_ARRAYS[0], 0, self.session.flip_counts
         if angles:

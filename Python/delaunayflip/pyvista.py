@@ -25,7 +25,7 @@ import pyvista
 
 from ._ask import Field, Method, Outside, halve, read_places
 from ._library import InvalidOptions, Stopped
-from ._session import Session, smallest_angles as _angles_of_arrays
+from ._session import Region, Session, smallest_angles as _angles_of_arrays
 from ._options import Array, Numbers, OnIteration, Progress, check_integer, make_options, show
 from ._options import Options as _Options
 from ._points import Heights, run_points
@@ -46,6 +46,7 @@ class Options(_Options, total=False):
     """Keywords of `flip`; see there and at delaunayflip.flip."""
 
     region_array: str
+    region_seeds: "typing.Sequence[Region]"
     lines_as_constraints: bool
     insert_lines: bool
     insert_constraints: bool
@@ -75,7 +76,8 @@ def flip(
         **options: Options of delaunayflip.flip, such as geometry and feature_angle. region_array: a
             cell array; edges between its values stay. lines_as_constraints, insert_lines,
             insert_constraints and triangulate as in vtkDelaunayFlip. size: an array, or the name of
-            a point array. Points that refinement adds (minimum_angle, maximum_area, ...) get z and
+            a point array. region_seeds as for delaunayflip.flip; labels are in the cell array
+            "Region". Points that refinement adds (minimum_angle, maximum_area, ...) get z and
             data that are linear between the others. Triangles get the data of the cell that contains
             their centroid.
 
@@ -393,13 +395,14 @@ def _open(mesh, constraints, options, progress=None):
         listed = ", ".join(map(repr, mesh.cell_data)) or "none"
         raise InvalidOptions(
             f"region_array: the mesh has no cell array {regions!r}; it has {listed}")
-    size = options.pop("size", None)
+    size, seeds = options.pop("size", None), options.pop("region_seeds", ())
     make_options(**options)  # refuses what is none, such as `regions`
     name = size if isinstance(size, str) else ""
     if name and name not in mesh.point_data:
         listed = ", ".join(map(repr, mesh.point_data)) or "none"
         raise InvalidOptions(f"size: the mesh has no point array {name!r}; it has {listed}")
-    run = MeshInput(mesh, constraints, **flags, region_array=regions, size_array=name)
+    run = MeshInput(mesh, constraints, **flags, region_array=regions, size_array=name,
+                    region_seeds=seeds)
     if size is not None and not name:
         run.take_sizes(size)
     run.session_type = Session

@@ -525,7 +525,6 @@ class Usage(PointTest):
             ["--outline", path], ["--holes", path], ["--split-crossings"], ["--alpha", 1],
             ["--longest-edge", 1], ["--point-tolerance", 1], ["--projection", "xy"],
             ["--heights", "own"], ["--ring-rule", "nonzero"], ["--columns", "1,2"],
-            ["--region", "1,2,3"],
         ):
             self.fail_with(2, path, "out.vtk", *option,
                            naming=[option[0], "requires --from-points"])
@@ -601,6 +600,13 @@ class Usage(PointTest):
                 self.assertEqual(labels.GetValue(number), 7 if is_left else -2)
             self.assertTrue(all(abs(x - z) < 1e-5 for x, _, z in points))
             self.assertRegex(result.stdout, r"points added in \d+ rounds?\n")
+        self.succeed("in.vtk", "seeded.vtk", *goals, "--region", "1,1,5,0.3", "--region", "7,1,-9")
+        mesh = self.read_mesh("seeded.vtk")
+        labels, seeded = (mesh.GetCellData().GetArray(name) for name in ("zone", "Region"))
+        for number, turn in enumerate(turns_of(mesh)):
+            self.assertEqual(seeded.GetValue(number), 5 if labels.GetValue(number) == 7 else -9)
+            self.assertLessEqual(turn / 2, 0.3 if labels.GetValue(number) == 7 else 64)
+        self.assertGreater(mesh.GetNumberOfPoints(), 50)
         mesh = self.read_mesh("out.vtk")
         depths = mesh.GetPointData().GetArray("depth")
         self.assertTrue(all(abs(3 - x / 4 - depths.GetValue(i)) < 1e-5 for i, (x, _, _) in enumerate(points)))

@@ -24,7 +24,7 @@ from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator as Python
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, vtkObject, vtkPoints
+from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, vtkIdList, vtkObject, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
     vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid, vtkTable)
@@ -368,6 +368,14 @@ class Same(Pair, unittest.TestCase):
             told = self.expect_same(mesh, lambda flip: (
                 prepare(flip), flip.SetSizeArray("size"), flip.KeepBoundaryOn(), flip.SetMaximumEdge(0.7)))
             self.assertEqual(told["errors"], [])
+            told = self.expect_same(mesh, lambda flip: (
+                prepare(flip), flip.SetRegionArray("Tree"), flip.AddRegion(*points[0, :2], 7, 0.05),
+                flip.AddRegion(1e3, 1e3, -3, 0.0)))
+            self.assertEqual(told["errors"], [])
+            self.assertIn("Region", str(told["meshes"]))
+            self.assertIn("1 region seed outside", told["warnings"][0])
+            told = self.expect_same(mesh, lambda flip: (flip.AddRegion(1, 1, 1.5, 0.0), flip.LinesAsConstraintsOff()))
+            self.assertIn("the label of region 0 must be an integer", told["errors"][0])
             for name in ("sizes", "text", "real"):
                 told = self.expect_same(mesh, lambda flip: flip.SetSizeArray(name))
                 self.assertIn(f'SizeArray: ', told["errors"][0])
@@ -377,6 +385,39 @@ class Same(Pair, unittest.TestCase):
             self.assertIn("surface in space", told["errors"][0])
             told = self.expect_same(join([make_rhombus(), make_rhombus()]), prepare)
             self.assertIn("several partitions", told["errors"][0])
+
+    def test_lines_after_refinement(self):
+        """Lines that are constraints get the points that refinement adds on their edges."""
+        mesh = make_rhombus()
+        mesh.SetLines(make_cells([(0, 2, 3), (1, 0)]))
+
+        def prepare(flip):
+            flip.SetGeometryToPlanarXY()
+            flip.SetMaximumEdge(0.3)
+
+        told = self.expect_same(mesh, prepare)
+        self.assertEqual(told["errors"], [])
+        for is_constraint in (True, False):
+            flip = CxxFilter()
+            flip.SetInputData(mesh)
+            prepare(flip)
+            flip.SetLinesAsConstraints(is_constraint)
+            flip.Update()
+            output, ids, edges = flip.GetOutput(), vtkIdList(), set()
+            for cell in range(output.GetNumberOfPolys()):
+                output.GetPolys().GetCellAtId(cell, ids)
+                corners = [ids.GetId(k) for k in range(3)]
+                edges.update(frozenset(pair) for pair in itertools.combinations(corners, 2))
+            self.assertEqual(output.GetNumberOfLines(), 2)
+            paths = []
+            for cell in range(2):
+                output.GetLines().GetCellAtId(cell, ids)
+                paths.append([ids.GetId(k) for k in range(ids.GetNumberOfIds())])
+            pairs = [frozenset(pair) for path in paths for pair in itertools.pairwise(path)]
+            self.assertEqual(all(pair in edges for pair in pairs), is_constraint)
+            self.assertEqual([(path[0], path[-1]) for path in paths], [(0, 3), (1, 0)])
+            self.assertIn(2, paths[0])
+            self.assertEqual(len(pairs) > 9, is_constraint)
 
     def test_results_of_an_earlier_update(self):
         points, flip = CxxPoints(), CxxFilter()

@@ -284,6 +284,9 @@ class PyVista(unittest.TestCase):
         is_left = made.cell_centers().points[:, 0] < 4
         numpy.testing.assert_array_equal(made["Zone"], numpy.where(is_left, 7, -2))
         self.assertGreaterEqual(made["Smallest angle after (degrees)"].min(), 28)
+        seeded = mesh.delaunay.flip(region_seeds=[(1, 1, 5, 0.5), (8, 1, -9)], **options)
+        numpy.testing.assert_array_equal(seeded["Region"], numpy.where(seeded["Zone"] == 7, 5, -9))
+        self.assertGreater(seeded.n_cells, 100)
         same = mesh.delaunay.flip(size=[1.0, 2, 3, 3, 2, 1], **options)
         numpy.testing.assert_array_equal(same.faces, made.faces)
         with self.assertRaisesRegex(delaunayflip.InvalidOptions, "size: the mesh has no point array 'size'"):
