@@ -3,6 +3,7 @@
 #include "LoadedRun.h"
 
 #include "CudaDevice.h"
+#include "CudaSupport.h"
 #include "FlipError.h"
 #include "SmallestAngle.h"
 
@@ -144,6 +145,10 @@ void LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
   this->Report = this->Loaded->GetInputReport();
   this->Report.Fallback = fallback;
   this->Report.BuildSeconds = this->SinceBegin.GetSeconds();
+  if (this->Options.Backend == BackendKind::Auto && !wantsCuda)
+  {
+    this->Report.Backend += ExplainNoCuda();
+  }
 }
 
 void LoadedRun::TestAllEdges()

@@ -4,12 +4,13 @@
 #define DELAUNAYFLIP_CUDASUPPORT_H
 
 /// @file
-/// Whether builds for this system can have the CUDA backend.
+/// Whether published builds for this platform can have the CUDA backend.
 
 namespace delaunayflip
 {
 
-/// @returns why they cannot, in parentheses and after a space; "" if they can.
+/// @returns why they cannot, in parentheses and after a space; "" if they can. It also follows the
+/// name of the backend in reports.
 const char* ExplainNoCuda();
 
 }

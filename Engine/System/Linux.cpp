@@ -55,6 +55,13 @@ void FreeToSystem(void* memory, std::size_t bytes) noexcept
   std::free(memory);
 }
 
-const char* ExplainNoCuda() { return ""; }
+const char* ExplainNoCuda()
+{
+#if defined(DELAUNAYFLIP_WITHOUT_CUDA) && !defined(__x86_64__)
+  return " (built without CUDA for this platform)";
+#else
+  return "";
+#endif
+}
 
 }

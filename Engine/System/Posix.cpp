@@ -21,6 +21,6 @@ void* AllocateFromSystem(std::size_t bytes)
 
 void FreeToSystem(void* memory, std::size_t) noexcept { std::free(memory); }
 
-const char* ExplainNoCuda() { return " (CUDA does not exist for this system)"; }
+const char* ExplainNoCuda() { return " (built without CUDA for this platform)"; }
 
 }

@@ -21,6 +21,6 @@ void* AllocateFromSystem(std::size_t bytes)
 
 void FreeToSystem(void* memory, std::size_t) noexcept { _aligned_free(memory); }
 
-const char* ExplainNoCuda() { return " (builds for Windows have none yet)"; }
+const char* ExplainNoCuda() { return " (built without CUDA for this platform)"; }
 
 }
