@@ -41,7 +41,7 @@ auditwheel repair --strip --wheel-dir /built/repaired /built/raw/*.whl
 licences=(/tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt)
 tbb=${licences[0]#*/tbb-}
 boost=$(sed -n 's/#define BOOST_LIB_VERSION "\(.*\)"/\1/p' /usr/include/boost/version.hpp | tr _ .)
-sed -n '/^ Boost Software License - Version/,/^$/{s/^ //;s/^\.$//;p}' \
+sed -n '/^ Boost Software License - Version/,/^$/{/^$/q;s/^ //;s/^\.$//;p}' \
   /usr/share/doc/libboost*-dev/copyright >/built/Boost.txt
 components=("oneTBB=${tbb%%.dist-info*}=Apache-2.0=${licences[0]}=shared library"
   "Boost=$boost=BSL-1.0=/built/Boost.txt=headers (Boost.Multiprecision)")

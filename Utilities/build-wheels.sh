@@ -96,7 +96,7 @@ get_boost()
     tr _ .)
   mkdir -p "$work/boost"
   ln -sfn /usr/include/boost "$work/boost/boost"
-  sed -n '/^ Boost Software License - Version/,/^$/{s/^ //;s/^\.$//;p}' \
+  sed -n '/^ Boost Software License - Version/,/^$/{/^$/q;s/^ //;s/^\.$//;p}' \
     /usr/share/doc/libboost*-dev/copyright >"$work/boost/LICENSE.txt"
 }
 

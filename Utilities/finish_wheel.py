@@ -47,8 +47,7 @@ def make_sbom(version, platform, components, files):
 
 
 def _join_licences(licences):
-    parts = [f"({part})" if " OR " in part else part for part in dict.fromkeys(licences)]
-    return " AND ".join(parts)
+    return " AND ".join(dict.fromkeys(" AND ".join(licences).split(" AND ")))
 
 
 def finish(files, platform, components):

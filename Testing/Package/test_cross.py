@@ -68,7 +68,7 @@ class FinishWheel(unittest.TestCase):
         (self.folder / "theirs").write_text("their licence", encoding="utf-8")
 
     def finish(self):
-        component = f"Their library=3=X AND MIT={self.folder / 'theirs'}=static library"
+        component = f"Their library=3=BSD-3-Clause AND MIT={self.folder / 'theirs'}=static library"
         made = run(sys.executable, FINISH, self.wheel, self.folder, "--platform", "win_amd64", component)
         with zipfile.ZipFile(made.strip()) as archive:
             files = {name.replace("delaunayflip-1.2.dist-info/", ""): archive.read(name)
@@ -79,13 +79,13 @@ class FinishWheel(unittest.TestCase):
         path, files = self.finish()
         self.assertEqual("delaunayflip-1.2-py3-none-win_amd64.whl", path.name)
         self.assertIn(b"Tag: py3-none-win_amd64\n", files["WHEEL"])
-        self.assertEqual("License-Expression: BSD-3-Clause AND X AND MIT\nLicense-File: LICENSE\n"
+        self.assertEqual("License-Expression: BSD-3-Clause AND MIT\nLicense-File: LICENSE\n"
                          "License-File: Their-library.txt\n", files["METADATA"].decode())
         self.assertEqual(b"their licence", files["licenses/Their-library.txt"])
         sbom = json.loads(files["sboms/delaunayflip.cdx.json"])
         self.assertEqual("CycloneDX", sbom["bomFormat"])
         theirs, library = sbom["components"]
-        self.assertEqual(("Their library", "3", [{"expression": "X AND MIT"}]),
+        self.assertEqual(("Their library", "3", [{"expression": "BSD-3-Clause AND MIT"}]),
                          (theirs["name"], theirs["version"], theirs["licenses"]))
         self.assertEqual(hashlib.sha256(b"code").hexdigest(), library["hashes"][0]["content"])
 
