@@ -30,8 +30,8 @@
 namespace delaunayflip
 {
 
-/// How values between points are found. Both methods reproduce linear functions, and both give the
-/// value of a point at its place.
+/// How values between points are found. In the plane both methods reproduce linear functions. Both
+/// give the value of a point at its place.
 enum class InterpolationKind
 {
   /// Linear in each triangle.
@@ -71,11 +71,23 @@ struct PlaceRaster
   }
 };
 
-/// Places in the plane, and what is wanted there.
+/// Places in the plane or on a sphere, and what is wanted there.
+///
+/// **On a sphere** a place is a direction from the origin, given by x, y and z of any length
+/// (PlaneArray::Stride is at least 3), or by longitude and latitude. Only triangles that face away
+/// from the origin have places; so a place beyond points on less than half of a sphere is outside,
+/// even if triangles close the mesh there. Linear weights are spherical barycentric coordinates:
+/// the volumes that the place and two vertices span with the origin, divided by their sum. Natural
+/// neighbours are Sibson's in the plane that touches the sphere at the place, into which the points
+/// are projected from the place's antipode. That keeps circles as circles, so the neighbours are
+/// those on the sphere. On threads of the CPU, also if a GPU has made the triangulation.
 struct PlaceQuery
 {
   PlaneArray Places; ///< In any order. Neighbouring ones one after the other are faster.
   PlaceRaster Raster; ///< Instead of Places, if it has cells.
+  /// On a sphere: whether Places are longitudes and latitudes in degrees, as PlaceOnSphere takes
+  /// them, instead of x, y and z. Those of a raster are anyway. An error in the plane.
+  bool Degrees = false;
 
   /// By place, the lowest number of a triangle that has it inside or on its boundary; -1 if there
   /// is none. Null: not wanted.

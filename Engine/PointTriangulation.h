@@ -54,8 +54,8 @@
 /// 2 n - 4 of them, counter-clockwise from outside. Signs are exact for the points as given, so a
 /// point that rounding has put inside of the hull is not used. If four points lie in one plane, the
 /// diagonal is the one that flips with TieRuleKind::Canonical choose. PlaceOnSphere makes such
-/// points from longitudes and latitudes. Segments and queries are not supported there yet, and
-/// points cannot be inserted, moved or removed.
+/// points from longitudes and latitudes. Segments are not supported there yet, and points cannot be
+/// inserted, moved or removed. Interpolation.h says what queries about places mean there.
 
 namespace delaunayflip
 {

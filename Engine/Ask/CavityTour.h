@@ -13,14 +13,12 @@ namespace delaunayflip
 /// Finds the natural weights of a place in a tour along the boundary of its cavity. They have the
 /// bits of VisitNaturalWeights, but a tour is faster on a host. It sees each triangle, edge and
 /// vertex once, and keeps them.
+template <typename Frame>
 class CavityTour
 {
 public:
-  DELAUNAYFLIP_HOST_DEVICE CavityTour(
-    const PlaceCavity& cavity, const PlaneMesh& mesh, const PlaceFrame& frame)
-    : Cavity(cavity),
-      Mesh(mesh),
-      Frame(frame)
+  DELAUNAYFLIP_HOST_DEVICE explicit CavityTour(const Frame& frame)
+    : Seen(frame)
   {
   }
 
@@ -28,7 +26,7 @@ public:
   /// @returns whether the cavity is not too large. Otherwise there are no weights.
   DELAUNAYFLIP_HOST_DEVICE bool Run(TriangleId triangle)
   {
-    if (!this->Mesh.IsInFilterRange)
+    if (!this->Seen.IsInFilterRange())
     {
       return false;
     }
@@ -106,7 +104,7 @@ private:
       ++this->NumberOfVertices;
     }
     this->Triangles[0].Centre =
-      FindCentre(this->Frame, ends[0]->Seen.Point, ends[1]->Seen.Point, ends[2]->Seen.Point);
+      FindCentre(this->Seen, ends[0]->Seen.Point, ends[1]->Seen.Point, ends[2]->Seen.Point);
     this->NumberOfTriangles = 1;
     for (const int slot : { 2, 1, 0 })
     {
@@ -120,8 +118,8 @@ private:
   DELAUNAYFLIP_HOST_DEVICE const Vertex* See(CornerId corner)
   {
     Vertex* vertex = this->Vertices + this->NumberOfVertices;
-    vertex->Id = this->Mesh.GetVertex(corner);
-    vertex->Seen = SeenPoint(this->Frame.GetPoint(vertex->Id), this->Frame.GetPlace());
+    vertex->Id = this->Seen.GetVertex(corner);
+    vertex->Seen = SeenPoint(this->Seen.GetPoint(vertex->Id), this->Seen.GetPlace());
     return vertex;
   }
 
@@ -151,9 +149,8 @@ private:
   /// @returns whether there is one in the cavity.
   DELAUNAYFLIP_HOST_DEVICE bool GoAcross(const Edge& edge)
   {
-    const HalfEdgeId side = this->Mesh.GetHalfEdge(edge.Opposite);
-    const CornerId across = this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
-    if (across == NoCorner || this->Mesh.IsFixed(side))
+    const CornerId across = this->Seen.FindBeyond(edge.Opposite);
+    if (across == NoCorner)
     {
       return false;
     }
@@ -185,7 +182,7 @@ private:
     {
       return determinant > 0.0;
     }
-    return this->Cavity.IsInCircle(across);
+    return this->Seen.IsInCircle(across);
   }
 
   /// Enters the triangle of an edge and a vertex beyond, which is at a slot.
@@ -195,7 +192,7 @@ private:
     const Vertex** first = ring + 2 - slot; // the vertex of slot 0
     Triangle* entered = this->Triangles + this->NumberOfTriangles;
     entered->Centre =
-      FindCentre(this->Frame, first[0]->Seen.Point, first[1]->Seen.Point, first[2]->Seen.Point);
+      FindCentre(this->Seen, first[0]->Seen.Point, first[1]->Seen.Point, first[2]->Seen.Point);
     entered->Before = edge.Owner;
     entered->Step = AreaStep(edge.Owner->Centre, entered->Centre);
     this->Twice = entered->Step.Add(this->Twice);
@@ -209,7 +206,7 @@ private:
   {
     const AreaCorner& centre = edge.Owner->Centre;
     const AreaCorner ofNew =
-      FindCentre(this->Frame.GetPlace(), edge.From->Seen, edge.To->Seen, edge.Cross);
+      FindCentre(this->Seen.GetPlace(), edge.From->Seen, edge.To->Seen, edge.Cross);
     const AreaStep step(centre, ofNew);
     if (this->IsBegun)
     {
@@ -250,9 +247,7 @@ private:
     this->AddWeight(this->StepOfFirst, this->FromOfFirst, this->CentreOfFirst);
   }
 
-  const PlaceCavity& Cavity;
-  const PlaneMesh& Mesh;
-  const PlaceFrame& Frame;
+  const Frame& Seen;
   WeightCheck Check;
 
   int NumberOfVertices = 0, NumberOfEdges = 0, NumberOfTriangles = 0, NumberOfWeights = 0;

@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_PLACECAVITY_H
 #define DELAUNAYFLIP_PLACECAVITY_H
 
-#include "ExactPredicates.h"
 #include "PlaceFrame.h"
 #include "PlaneMesh.h"
 
@@ -33,8 +32,9 @@ DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(
 
 /// The centre of the circumcircle of a triangle, from the place. All must begin with the corner of
 /// slot 0, so that a centre has the same bits wherever it is found.
-DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(const PlaceFrame& frame,
-  const ScaledPoint& first, const ScaledPoint& second, const ScaledPoint& third)
+template <typename Frame>
+DELAUNAYFLIP_HOST_DEVICE PlaceOffset FindCentre(
+  const Frame& frame, const ScaledPoint& first, const ScaledPoint& second, const ScaledPoint& third)
 {
   const PlaceOffset centre = FindCentre(first, { second, first }, { third, first });
   const PlaceOffset toFirst = Subtract(first, frame.GetPlace());
@@ -45,26 +45,24 @@ DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(const PlaceFrame& frame,
 /// crossing a segment: the ones that an insertion of the place would replace. There is no vertex
 /// inside of them all, so that they form a tree, and their boundary is one ring. A walk along it
 /// comes to each triangle three times, so the centres of the first ones are kept.
+template <typename Frame>
 class PlaceCavity
 {
 public:
-  DELAUNAYFLIP_HOST_DEVICE PlaceCavity(
-    const PlaneMesh& mesh, const PlanePoint& place, const PlaceFrame& frame)
-    : Mesh(mesh),
-      Place(place),
-      Frame(frame)
+  DELAUNAYFLIP_HOST_DEVICE explicit PlaceCavity(const Frame& frame)
+    : Seen(frame)
   {
   }
 
   DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetPoint(CornerId corner) const
   {
-    return this->Frame.GetPoint(this->Mesh.GetVertex(corner));
+    return this->Seen.GetPoint(this->Seen.GetVertex(corner));
   }
 
   /// The vertex of a corner, as seen from the place.
   DELAUNAYFLIP_HOST_DEVICE SeenPoint See(CornerId corner) const
   {
-    return { this->GetPoint(corner), this->Frame.GetPlace() };
+    return { this->GetPoint(corner), this->Seen.GetPlace() };
   }
 
   /// The centre of the circumcircle of a triangle of the cavity, from the place.
@@ -75,7 +73,7 @@ public:
     {
       return { this->KeptCentres[kept][0], this->KeptCentres[kept][1] };
     }
-    const PlaceOffset centre = FindCentre(this->Frame, this->GetPoint(MakeCorner(triangle, 0)),
+    const PlaceOffset centre = FindCentre(this->Seen, this->GetPoint(MakeCorner(triangle, 0)),
       this->GetPoint(MakeCorner(triangle, 1)), this->GetPoint(MakeCorner(triangle, 2)));
     if (this->NumberOfKept < MostKept)
     {
@@ -92,9 +90,8 @@ public:
   /// @param kept becomes the number of that triangle, if there is one, as for GetCentre.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindWithin(CornerId corner, int& kept) const
   {
-    const HalfEdgeId side = this->Mesh.GetHalfEdge(corner);
-    const CornerId across = this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
-    if (across == NoCorner || this->Mesh.IsFixed(side))
+    const CornerId across = this->Seen.FindBeyond(corner);
+    if (across == NoCorner)
     {
       return NoCorner;
     }
@@ -104,26 +101,12 @@ public:
       kept = found;
       return across;
     }
-    if (!this->IsInCircle(across))
+    if (!this->Seen.IsInCircle(across))
     {
       return NoCorner;
     }
     kept = NotKept;
     return across;
-  }
-
-  /// Whether the place is in the circumcircle of the triangle of a corner.
-  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(CornerId corner) const
-  {
-    const PlanePoint points[4] = { this->Mesh.GetPoint(this->Mesh.GetVertex(corner)),
-      this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Next(corner))),
-      this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Previous(corner))), this->Place };
-    int sign = FilteredInCircle(points[0], points[1], points[2], points[3]);
-    if (sign == UncertainSign || !this->Mesh.IsInFilterRange)
-    {
-      sign = ExactInCircle(points, false);
-    }
-    return this->Mesh.RequireSign(sign) == 1;
   }
 
   static constexpr int NotKept = -1;
@@ -143,9 +126,7 @@ private:
     return NotKept;
   }
 
-  const PlaneMesh& Mesh;
-  const PlanePoint& Place;
-  const PlaceFrame& Frame;
+  const Frame& Seen;
   int NumberOfKept = 0;
   TriangleId Kept[MostKept];
   double KeptCentres[MostKept][2];

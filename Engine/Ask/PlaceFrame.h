@@ -32,13 +32,15 @@ DELAUNAYFLIP_HOST_DEVICE inline double InvertPowerOfTwo(double number)
   return power;
 }
 
-/// The scale for a place and what is around it, by the triangle that has it.
+/// The triangulation as seen from a place, for the weights of vertices around it. Coordinates are
+/// scaled by the triangle that has the place. A frame is the parameter of their templates.
 class PlaceFrame
 {
 public:
   DELAUNAYFLIP_HOST_DEVICE PlaceFrame(
     const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle)
-    : Mesh(mesh)
+    : Mesh(mesh),
+      Unscaled(place)
   {
     double largest = 0.0;
     for (int slot = 0; slot < 3; ++slot)
@@ -64,8 +66,38 @@ public:
     return { point.U * this->Scale, point.V * this->Scale };
   }
 
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(CornerId corner) const
+  {
+    return this->Mesh.GetVertex(corner);
+  }
+
+  /// The corner on the other side of the edge opposite a corner, or NoCorner, as behind a segment.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindBeyond(CornerId corner) const
+  {
+    const HalfEdgeId side = this->Mesh.GetHalfEdge(corner);
+    return this->Mesh.IsFixed(side) ? NoCorner : this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+  }
+
+  /// Whether the place is in the circumcircle of the triangle of a corner.
+  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(CornerId corner) const
+  {
+    const PlanePoint points[4] = { this->Mesh.GetPoint(this->Mesh.GetVertex(corner)),
+      this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Next(corner))),
+      this->Mesh.GetPoint(this->Mesh.GetVertex(PlaneMesh::Previous(corner))), this->Unscaled };
+    int sign = FilteredInCircle(points[0], points[1], points[2], points[3]);
+    if (sign == UncertainSign || !this->Mesh.IsInFilterRange)
+    {
+      sign = ExactInCircle(points, false);
+    }
+    return this->Mesh.RequireSign(sign) == 1;
+  }
+
+  /// Whether filters may be used for all coordinates.
+  DELAUNAYFLIP_HOST_DEVICE bool IsInFilterRange() const { return this->Mesh.IsInFilterRange; }
+
 private:
   const PlaneMesh& Mesh;
+  const PlanePoint& Unscaled;
   ScaledPoint Place;
   double Scale;
 };

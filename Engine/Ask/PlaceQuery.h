@@ -87,12 +87,71 @@ struct AskedValues
       this->TakeLinear(asked.Mesh.Edges.Triangles[found.Triangle], sides, result);
       return;
     }
+    const PlaceFrame frame(asked.Mesh, place, found.Triangle);
     // At vertices, on the hull and on segments there are no natural weights.
-    if (!this->IsNatural || !this->AddNatural(asked.Mesh, place, found.Triangle, result))
+    if (!this->IsNatural || !this->TakeNatural(frame, found.Triangle, result))
     {
+      this->AddLinear(frame, found, result);
+    }
+  }
+
+  /// Interpolates linearly at a place that is in a triangle.
+  template <typename Frame>
+  DELAUNAYFLIP_HOST_DEVICE void AddLinear(
+    const Frame& frame, const FoundPlace& found, double* result) const
+  {
+    this->Fill(result, 0.0);
+    VisitLinearWeights(
+      frame, found, [&](VertexId vertex, double weight) { this->Add(vertex, weight, result); });
+  }
+
+  /// Interpolates by natural neighbours. @returns whether rounding has left anything.
+  template <typename Frame>
+  DELAUNAYFLIP_HOST_DEVICE bool TakeNatural(
+    const Frame& frame, TriangleId triangle, double* result) const
+  {
+    double scale = 1.0;
+    double sum = 0.0;
+    bool isGood = true, isFinite = false;
+    for (int trial = 0; trial < 2 && isGood && !isFinite; ++trial)
+    {
+      sum = 0.0;
       this->Fill(result, 0.0);
-      VisitLinearWeights(asked.Mesh, place, found,
-        [&](VertexId vertex, double weight) { this->Add(vertex, weight, result); });
+      isGood = VisitNaturalWeights(frame, triangle,
+        [&](VertexId vertex, double weight)
+        {
+          sum += weight * scale;
+          this->Add(vertex, weight * scale, result);
+        });
+      isFinite = true;
+      for (int i = 0; i < this->Components; ++i)
+      {
+        result[i] /= sum;
+        isFinite = isFinite && delaunayflip::IsFinite(result[i]);
+      }
+      // Sums of large values may overflow. With weights of less than 1 in all they do not.
+      scale = 0.25 * InvertPowerOfTwo(std::fabs(sum));
+    }
+    return isGood && sum != 0.0;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void Fill(double* result, double value) const
+  {
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] = value;
+    }
+  }
+
+  /// Interpolates along an edge. @param share that of its end.
+  DELAUNAYFLIP_HOST_DEVICE void TakeAlong(
+    const BoundaryEdge& edge, double share, double* result) const
+  {
+    const double* from = this->At(edge.From);
+    const double* to = this->At(edge.To);
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] = (1.0 - share) * from[i] + share * to[i];
     }
   }
 
@@ -126,35 +185,6 @@ private:
     }
   }
 
-  /// @returns whether rounding has left anything.
-  DELAUNAYFLIP_HOST_DEVICE bool AddNatural(
-    const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle, double* result) const
-  {
-    double scale = 1.0;
-    double sum = 0.0;
-    bool isGood = true, isFinite = false;
-    for (int trial = 0; trial < 2 && isGood && !isFinite; ++trial)
-    {
-      sum = 0.0;
-      this->Fill(result, 0.0);
-      isGood = VisitNaturalWeights(mesh, place, triangle,
-        [&](VertexId vertex, double weight)
-        {
-          sum += weight * scale;
-          this->Add(vertex, weight * scale, result);
-        });
-      isFinite = true;
-      for (int i = 0; i < this->Components; ++i)
-      {
-        result[i] /= sum;
-        isFinite = isFinite && delaunayflip::IsFinite(result[i]);
-      }
-      // Sums of large values may overflow. With weights of less than 1 in all they do not.
-      scale = 0.25 * InvertPowerOfTwo(std::fabs(sum));
-    }
-    return isGood && sum != 0.0;
-  }
-
   DELAUNAYFLIP_HOST_DEVICE void TakeNearest(const PlanePoint& place, double* result) const
   {
     if (this->Boundary.NumberOfEdges == 0 || !delaunayflip::IsFinite(place))
@@ -163,20 +193,7 @@ private:
       return;
     }
     const NearestOnBoundary nearest = this->Boundary.FindNearest(place);
-    const double* from = this->At(nearest.Edge.From);
-    const double* to = this->At(nearest.Edge.To);
-    for (int i = 0; i < this->Components; ++i)
-    {
-      result[i] = (1.0 - nearest.ShareOfTo) * from[i] + nearest.ShareOfTo * to[i];
-    }
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE void Fill(double* result, double value) const
-  {
-    for (int i = 0; i < this->Components; ++i)
-    {
-      result[i] = value;
-    }
+    this->TakeAlong(nearest.Edge, nearest.ShareOfTo, result);
   }
 };
 

@@ -273,8 +273,9 @@ struct LowestTriangle
 /// lowest number.
 /// @param numbers by triangle, its number in the output, or -1 if it is removed. Null: none is.
 /// @returns where the place is in that triangle; outside if all of them are removed.
-DELAUNAYFLIP_HOST_DEVICE inline FoundPlace ChooseTriangle(
-  const PlaneMesh& mesh, const FoundPlace& found, const std::int32_t* numbers)
+template <typename Mesh>
+DELAUNAYFLIP_HOST_DEVICE FoundPlace ChooseTriangle(
+  const Mesh& mesh, const FoundPlace& found, const std::int32_t* numbers)
 {
   constexpr int AllEdges = 7;
   LowestTriangle lowest{ numbers, INT64_MAX, FoundPlace() };
@@ -282,8 +283,7 @@ DELAUNAYFLIP_HOST_DEVICE inline FoundPlace ChooseTriangle(
   const int edge = found.FindEdgeSlot();
   if (edge >= 0)
   {
-    const HalfEdgeId side = mesh.GetHalfEdge(MakeCorner(found.Triangle, edge));
-    const CornerId across = mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+    const CornerId across = mesh.FindBeyond(MakeCorner(found.Triangle, edge));
     if (across != NoCorner)
     {
       lowest.Offer(TriangleOf(across), 1 << SlotOf(across));

@@ -37,17 +37,17 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindLongestEdge(const ScaledPoint (&points)[
 
 /// Calls visit(vertex, weight) for the three vertices of a triangle that has the place, or for
 /// fewer if it is on an edge or a vertex.
-template <typename Visit>
+/// @param frame of the place and the triangle.
+template <typename Frame, typename Visit>
 DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
-  const PlaneMesh& mesh, const PlanePoint& place, const FoundPlace& found, const Visit& visit)
+  const Frame& frame, const FoundPlace& found, const Visit& visit)
 {
   const TriangleId triangle = found.Triangle;
   VertexId vertices[3];
   ScaledPoint points[3];
-  const PlaceFrame frame(mesh, place, triangle);
   for (int slot = 0; slot < 3; ++slot)
   {
-    vertices[slot] = mesh.GetVertex(MakeCorner(triangle, slot));
+    vertices[slot] = frame.GetVertex(MakeCorner(triangle, slot));
     points[slot] = frame.GetPoint(vertices[slot]);
   }
   const int vertex = found.FindVertexSlot();
@@ -94,15 +94,15 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
 /// Calls visit(vertex, weight) for Sibson's natural neighbours of a place that is in a triangle and
 /// on none of its edges. A weight is twice the area that the place's Voronoi cell would take from
 /// that of the vertex (Watson 1992). Weights beyond a segment may be negative.
+/// @param frame of the place and the triangle.
 /// @returns whether rounding has left the weights good.
-template <typename Visit>
+template <typename Frame, typename Visit>
 DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
-  const PlaneMesh& mesh, const PlanePoint& place, TriangleId triangle, const Visit& visit)
+  const Frame& frame, TriangleId triangle, const Visit& visit)
 {
-  const PlaceFrame frame(mesh, place, triangle);
-  PlaceCavity cavity(mesh, place, frame);
+  PlaceCavity<Frame> cavity(frame);
 #if !DELAUNAYFLIP_ON_DEVICE // which has no fast memory for it
-  CavityTour tour(cavity, mesh, frame);
+  CavityTour<Frame> tour(frame);
   if (tour.Run(triangle))
   {
     tour.VisitWeights(visit);
@@ -110,13 +110,17 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   }
 #endif
   WeightCheck check;
-  int kept = PlaceCavity::NotKept;
+  int kept = PlaceCavity<Frame>::NotKept;
   cavity.GetCentre(triangle, kept);
   // An edge of the boundary: always on across the next edge, until nothing is beyond.
   CornerId first = MakeCorner(triangle, 0);
   CornerId within = cavity.FindWithin(first, kept);
   while (within != NoCorner)
   {
+    if (TriangleOf(within) == triangle) // around a vertex, as only rounding can do
+    {
+      return false;
+    }
     cavity.GetCentre(TriangleOf(within), kept);
     first = PlaneMesh::Next(within);
     within = cavity.FindWithin(first, kept);
@@ -129,7 +133,7 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   {
     // Around the end of this edge, to the edge of the boundary that begins there. The centres on
     // the way are the corners of the area that the vertex loses.
-    const VertexId vertex = mesh.GetVertex(PlaneMesh::Previous(opposite));
+    const VertexId vertex = frame.GetVertex(PlaneMesh::Previous(opposite));
     const SeenPoint begin = end;
     PolygonArea area(centre);
     within = opposite;

@@ -119,6 +119,12 @@ struct PlaneMesh
     return isPair ? across : NoCorner;
   }
 
+  /// The corner on the other side of the edge opposite a corner of a triangulation; or NoCorner.
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindBeyond(CornerId corner) const
+  {
+    return this->Edges.CornerOfHalfEdge[this->GetHalfEdge(corner) ^ 1u];
+  }
+
   /// The next corner of the same vertex, in the direction in which triangles run; or NoCorner.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindNextAround(CornerId corner) const
   {

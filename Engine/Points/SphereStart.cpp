@@ -23,16 +23,6 @@ Vector3 Scale(double factor, const Vector3& a)
   return { factor * a.X, factor * a.Y, factor * a.Z };
 }
 
-/// Gives NaN for the zero vector. Divides by the largest coordinate first, so that nothing
-/// overflows.
-Vector3 Normalize(const Vector3& a)
-{
-  const double largest = std::max({ std::fabs(a.X), std::fabs(a.Y), std::fabs(a.Z) });
-  const Vector3 near = { a.X / largest, a.Y / largest, a.Z / largest };
-  const double length = Length(near);
-  return { near.X / length, near.Y / length, near.Z / length };
-}
-
 /// Finds the active point with the largest measure. If several have it, the one farthest north is
 /// taken. If several points are at that place, the first one is.
 template <typename Measure>
@@ -114,36 +104,24 @@ bool IsFartherNorth(const PlanePoint& a, const PlanePoint& b)
 }
 
 StereographicProjection::StereographicProjection(const PlanePoint& pole)
-  : Pole(Normalize(ToVector(pole)))
+  : Pole(FindDirection(pole)),
+    Across(Pole)
 {
-  const double x = std::fabs(this->Pole.X), y = std::fabs(this->Pole.Y),
-               z = std::fabs(this->Pole.Z);
-  Vector3 across = { 0.0, 0.0, 1.0 }; // along the axis that is farthest from the pole
-  if (x <= y && x <= z)
-  {
-    across = { 1.0, 0.0, 0.0 };
-  }
-  else if (y <= z)
-  {
-    across = { 0.0, 1.0, 0.0 };
-  }
-  this->First = Normalize(Cross(across, this->Pole));
-  this->Second = Cross(this->Pole, this->First);
 }
 
 /// An inversion about the pole takes the sphere to a plane. The difference from the pole is
 /// computed first, so that places near the pole keep their precision.
 void StereographicProjection::Project(const PlanePoint& point, double (&xy)[2]) const
 {
-  const Vector3 offset = Normalize(ToVector(point)) - this->Pole;
+  const Vector3 offset = FindDirection(point) - this->Pole;
   const double square = Dot(offset, offset);
   if (!(square > 0.0))
   {
     xy[0] = xy[1] = std::numeric_limits<double>::quiet_NaN();
     return;
   }
-  xy[0] = Dot(offset, this->Second) / square;
-  xy[1] = Dot(offset, this->First) / square;
+  xy[0] = Dot(offset, this->Across.Second) / square;
+  xy[1] = Dot(offset, this->Across.First) / square;
 }
 
 std::vector<std::int32_t> FindNeighbors(

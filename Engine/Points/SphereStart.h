@@ -3,7 +3,7 @@
 #ifndef DELAUNAYFLIP_SPHERESTART_H
 #define DELAUNAYFLIP_SPHERESTART_H
 
-#include "FilteredPredicates.h"
+#include "SphereMesh.h"
 
 #include <cstdint>
 #include <vector>
@@ -42,7 +42,8 @@ public:
   void Project(const PlanePoint& point, double (&xy)[2]) const;
 
 private:
-  Vector3 Pole, First, Second;
+  Vector3 Pole;
+  AcrossAxis Across;
 };
 
 /// Finds the triangles across the edges of triangles, as FlipSession::StoreNeighbors does.

@@ -85,6 +85,7 @@ void SphereRun::Reset()
   this->Current = 0;
   this->Done = 0.0;
   this->Starts = 0;
+  this->Asker.reset();
   this->Triangles.clear();
   this->Neighbors.clear();
   this->FlipCounts.clear();
@@ -431,8 +432,7 @@ ProgressObserver SphereRun::TellHalf()
 //------------------------------------------------------------------------------
 std::string SphereRun::ExplainRefusal() const
 {
-  return "a triangulation on a sphere has no interpolation, and its points cannot be "
-         "inserted, moved or removed";
+  return "points of a triangulation on a sphere cannot be inserted, moved or removed";
 }
 
 }

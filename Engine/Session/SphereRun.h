@@ -5,9 +5,11 @@
 
 #include "DelaunayFlip.h"
 #include "SessionRun.h"
+#include "SphereAsker.h"
 #include "SphereStart.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,7 @@ public:
   std::vector<std::int64_t> ListSegmentEdges() override { return {}; }
   std::vector<std::int64_t> ListSegmentsOfEdges() override { return {}; }
   void StoreRegions(std::int32_t* labels) override;
+  bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
 private:
   enum class PointState : char
@@ -78,6 +81,7 @@ private:
   double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;
   FlipReport Planar; ///< Sums over the flips in the plane.
+  std::unique_ptr<const SphereAsker> Asker; ///< Of the triangles in the end, once it is needed.
 };
 
 }

@@ -142,8 +142,24 @@ SphereCase MakeSphereCase(const std::uint8_t* bytes, std::size_t size)
   return drawn;
 }
 
+/// Places at points, between two of them, and opposite to these.
+std::vector<Point3> ListSomePlaces(const std::vector<Point3>& points)
+{
+  constexpr std::size_t Most = 6;
+  std::vector<Point3> places;
+  for (std::size_t i = 0; i < points.size() && places.size() < Most; i += 1 + points.size() / 4)
+  {
+    const Point3 &p = points[i], &q = points[(7 * i + 1) % points.size()];
+    places.push_back(p);
+    places.push_back({ p[0] + q[0], p[1] + q[1], p[2] + q[2] });
+    places.push_back({ -p[0], -q[1], q[2] - p[2] });
+  }
+  return places;
+}
+
 struct SphereResult
 {
+  std::vector<std::int32_t> Found; ///< The triangles of these places.
   std::vector<std::int32_t> Triangles, Neighbors;
   std::vector<std::int64_t> Used;
   FlipReport Report;
@@ -163,6 +179,12 @@ SphereResult Triangulate(const SphereCase& drawn, int threads)
   session.StoreNeighbors(result.Neighbors.data());
   result.Used.resize(drawn.Points.size());
   session.StoreUsedPoints(result.Used.data());
+  const std::vector<Point3> places = ListSomePlaces(drawn.Points);
+  result.Found.resize(places.size());
+  PlaceQuery query;
+  query.Places = PlaneArray(places.data()->data(), static_cast<std::int64_t>(places.size()), 3);
+  query.Triangles = result.Found.data();
+  session.Ask(query);
   return result;
 }
 
@@ -190,6 +212,30 @@ void ExpectHull(const std::vector<Point3>& points, const SphereResult& result)
   }
 }
 
+/// A place is in the lowest of the triangles that have it and face away from the origin.
+void ExpectPlaces(const std::vector<Point3>& points, const SphereResult& result)
+{
+  const std::vector<Point3> places = ListSomePlaces(points);
+  const Point3 origin{};
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const Point3& place = places[i];
+    bool isFound = place == origin || !std::isfinite(place[0] + place[1] + place[2]);
+    std::int32_t expected = -1;
+    for (std::size_t t = 0; t < result.Triangles.size() && !isFound; t += 3)
+    {
+      const Point3 &a = points[result.Triangles[t]], &b = points[result.Triangles[t + 1]],
+                   &c = points[result.Triangles[t + 2]];
+      isFound = RationalOrientation3D(a, b, place, origin) >= 0 &&
+        RationalOrientation3D(b, c, place, origin) >= 0 &&
+        RationalOrientation3D(c, a, place, origin) >= 0 &&
+        RationalOrientation3D(a, b, c, origin) > 0;
+      expected = isFound ? static_cast<std::int32_t>(t / 3) : -1;
+    }
+    EXPECT_EQ(expected, result.Found[i]);
+  }
+}
+
 /// All points lie in one plane but for rounding, or there are fewer than four places.
 void ExpectFlat(const std::vector<Point3>& points)
 {
@@ -214,13 +260,15 @@ void ExpectFlat(const std::vector<Point3>& points)
 }
 
 /// Reports a failure of GoogleTest for each promise that is broken: the result is the same on one
-/// thread and on several and for points in another order; the triangles are the convex hull.
+/// thread and on several and for points in another order; the triangles are the convex hull; places
+/// are found.
 void JudgeSphereCase(const SphereCase& drawn)
 {
   const SphereResult result = Triangulate(drawn, 1);
   const SphereResult other = Triangulate(drawn, 3);
   EXPECT_EQ(result.Triangles, other.Triangles);
   EXPECT_EQ(result.Used, other.Used);
+  EXPECT_EQ(result.Found, other.Found);
   ExpectSameStatistics(result.Report, other.Report);
   if (result.Report.Triangles == 0)
   {
@@ -231,6 +279,7 @@ void JudgeSphereCase(const SphereCase& drawn)
     return;
   }
   ExpectHull(drawn.Points, result);
+  ExpectPlaces(drawn.Points, result);
   SphereCase reversed = drawn;
   std::reverse(reversed.Points.begin(), reversed.Points.end());
   for (std::size_t i = 0; i < reversed.Floats.size(); ++i)

@@ -357,7 +357,6 @@ TEST(SphereTriangulation, RefusesWhatItCannotDoYet)
   input.Points = PlaneArray(points.data()->data(), 20, 3);
   FlipSession session = FlipPoints(input, Projected());
   EXPECT_THROW(session.Insert(input.Points), InvalidOptions);
-  EXPECT_THROW(session.Ask(PlaceQuery()), InvalidOptions);
   EXPECT_THROW(
     FlipSession(input, With(&PointOptions::MinimumAngle, 20.0, Projected())), InvalidOptions);
   const std::int64_t segment[] = { 0, 1 };

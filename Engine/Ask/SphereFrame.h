@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef DELAUNAYFLIP_SPHEREFRAME_H
+#define DELAUNAYFLIP_SPHEREFRAME_H
+
+#include "PlaceFrame.h"
+#include "SphereMesh.h"
+
+#include <cmath>
+
+namespace delaunayflip
+{
+
+/// How a sphere is drawn on the plane that touches it at a place.
+enum class TangentKind
+{
+  /// Along the axis of the place. The triangle of the place and two points is as large as the
+  /// volume that both and the place span with the origin, so weights by areas are those by volumes:
+  /// spherical barycentric coordinates.
+  Orthographic,
+  /// From the place's antipode, which keeps circles as circles. So natural neighbours are the same
+  /// as on the sphere, and the cells are those of the plane. A circumcircle of a triangle that can
+  /// have places is smaller than half of the sphere. If it has the place inside, then it has not
+  /// the antipode, and the triangle is finite and counter-clockwise in the plane.
+  Stereographic
+};
+
+/// A triangulation on a sphere as seen from a place, in the plane that touches the sphere there: as
+/// PlaceFrame. Points and the place count by their directions.
+class SphereFrame
+{
+public:
+  /// @param place its direction. @param triangle has the place.
+  SphereFrame(
+    const SphereMesh& mesh, const Vector3& place, TriangleId triangle, TangentKind tangent)
+    : Mesh(mesh),
+      Axis(place),
+      Across(place),
+      Tangent(tangent)
+  {
+    double largest = 0.0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const ScaledPoint point = this->GetPoint(this->GetVertex(MakeCorner(triangle, slot)));
+      largest = std::max({ largest, std::fabs(point.U), std::fabs(point.V) });
+    }
+    this->Scale = InvertPowerOfTwo(largest);
+  }
+
+  ScaledPoint GetPlace() const { return { 0.0, 0.0 }; }
+
+  /// The difference from the place is computed first, so that points near it keep their precision.
+  ScaledPoint GetPoint(VertexId vertex) const
+  {
+    const Vector3 offset = FindDirection(this->Mesh.Points[vertex]) - this->Axis;
+    double factor = this->Scale;
+    if (this->Tangent == TangentKind::Stereographic)
+    {
+      factor /= 1.0 - 0.25 * Dot(offset, offset);
+    }
+    return { factor * Dot(offset, this->Across.First), factor * Dot(offset, this->Across.Second) };
+  }
+
+  VertexId GetVertex(CornerId corner) const { return this->Mesh.GetVertex(corner); }
+  CornerId FindBeyond(CornerId corner) const { return this->Mesh.FindBeyond(corner); }
+
+  /// Whether the place is in the circumcircle of the triangle of a corner, up to rounding. That is
+  /// the same for all corners of the triangle, so the triangles with such circles have a boundary.
+  bool IsInCircle(CornerId corner) const
+  {
+    PlanePoint points[3];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const ScaledPoint scaled =
+        this->GetPoint(this->GetVertex(MakeCorner(TriangleOf(corner), slot)));
+      points[slot] = { scaled.U, scaled.V, 0.0 };
+    }
+    return InCircleDeterminant(points[0], points[1], points[2], { 0.0, 0.0, 0.0 }).Value > 0.0;
+  }
+
+  bool IsInFilterRange() const { return true; }
+
+private:
+  const SphereMesh& Mesh;
+  const Vector3 Axis;
+  const AcrossAxis Across;
+  const TangentKind Tangent;
+  double Scale = 1.0;
+};
+
+}
+
+#endif

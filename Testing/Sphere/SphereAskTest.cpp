@@ -1,0 +1,451 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FlipError.h"
+#include "PointTriangulation.h"
+#include "Predicates.h"
+#include "SphereTestSupport.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+/// @file
+/// What a triangulation on a sphere answers: the triangles of places, and values there.
+
+namespace delaunayflip
+{
+namespace
+{
+
+double Multiply(const Point3& a, const Point3& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Point3 Scale(double factor, const Point3& a)
+{
+  return { factor * a[0], factor * a[1], factor * a[2] };
+}
+
+Point3 Add(const Point3& a, const Point3& b) { return { a[0] + b[0], a[1] + b[1], a[2] + b[2] }; }
+
+Point3 Normalize(const Point3& a) { return Scale(1.0 / std::sqrt(Multiply(a, a)), a); }
+
+double FindDistance(const Point3& a, const Point3& b)
+{
+  const Point3 offset = Add(a, Scale(-1.0, b));
+  return std::sqrt(Multiply(offset, offset));
+}
+
+double Smooth(const Point3& p) { return std::exp(p[0]) + p[1] * p[2] - p[2]; }
+
+std::vector<double> ListValues(const std::vector<Point3>& points, double (*function)(const Point3&))
+{
+  std::vector<double> values(points.size());
+  std::transform(points.begin(), points.end(), values.begin(), function);
+  return values;
+}
+
+PointOptions Projected(ProjectionKind projection = ProjectionKind::Sphere, int threads = 0)
+{
+  return WithThreads(threads, With(&PointOptions::Projection, projection));
+}
+
+/// A session, what it makes, and answers to queries.
+class AskedSphere
+{
+public:
+  explicit AskedSphere(const std::vector<Point3>& points, const PointOptions& options = Projected())
+    : Points(points),
+      Session(FlipPoints(MakeInput(points), options)),
+      Triangles(StoreTriangles(Session))
+  {
+  }
+
+  std::vector<std::int32_t> Locate(const std::vector<Point3>& places) const
+  {
+    std::vector<std::int32_t> found(places.size(), -2);
+    PlaceQuery query;
+    query.Places = View(places);
+    query.Triangles = found.data();
+    EXPECT_TRUE(this->Session.Ask(query));
+    return found;
+  }
+
+  std::vector<double> Interpolate(const std::vector<double>& values,
+    const std::vector<Point3>& places, InterpolationKind method,
+    OutsideKind outside = OutsideKind::NotANumber) const
+  {
+    PlaceQuery query;
+    query.Components = static_cast<int>(values.size() / this->Points.size());
+    std::vector<double> results(places.size() * query.Components, -1e99);
+    query.Places = View(places);
+    query.Values = values.data();
+    query.Method = method;
+    query.Outside = outside;
+    query.Results = results.data();
+    EXPECT_TRUE(this->Session.Ask(query));
+    return results;
+  }
+
+  /// By exact orientation, of all triangles the first that has the place.
+  std::int32_t FindByHand(const Point3& place) const
+  {
+    const auto findSide = [](const Point3& a, const Point3& b, const Point3& c)
+    {
+      const double origin[3] = {};
+      return Orientation3D(a.data(), b.data(), c.data(), origin);
+    };
+    for (std::size_t t = 0; t < this->Triangles.size(); t += 3)
+    {
+      const Point3 corners[3] = { this->Points[this->Triangles[t]],
+        this->Points[this->Triangles[t + 1]], this->Points[this->Triangles[t + 2]] };
+      bool isInside = findSide(corners[0], corners[1], corners[2]) > 0;
+      for (int i = 0; i < 3 && isInside; ++i)
+      {
+        isInside = findSide(corners[i], corners[(i + 1) % 3], place) >= 0;
+      }
+      if (isInside)
+      {
+        return static_cast<std::int32_t>(t / 3);
+      }
+    }
+    return -1;
+  }
+
+  static PlaneArray View(const std::vector<Point3>& places)
+  {
+    return PlaneArray(places.data()->data(), static_cast<std::int64_t>(places.size()), 3);
+  }
+
+  static PointInput MakeInput(const std::vector<Point3>& points)
+  {
+    PointInput input;
+    input.Points = View(points);
+    return input;
+  }
+
+  std::vector<Point3> Points;
+  FlipSession Session;
+  std::vector<std::int32_t> Triangles;
+};
+
+/// Places of every kind: anywhere, at vertices, on edges, nearly so, and at their antipodes.
+std::vector<Point3> DrawPlaces(const AskedSphere& asked, int count)
+{
+  std::mt19937 random(3);
+  std::vector<Point3> places = MakeRandomPoints<double>(count, 11);
+  const auto pick = [&] { return asked.Points[DrawIndex(random, asked.Points.size())]; };
+  for (int i = 0; i < count; ++i)
+  {
+    const Point3 a = pick(), b = pick();
+    places.push_back(a);
+    places.push_back(Add(a, b));
+    places.push_back(Scale(-1.0, a));
+  }
+  for (std::size_t t = 0; t < asked.Triangles.size() && t < 3 * std::size_t(count); t += 3)
+  {
+    const Point3& a = asked.Points[asked.Triangles[t]];
+    places.push_back(Add(a, asked.Points[asked.Triangles[t + 1]]));
+    places.push_back(Add(Scale(0.75, a), Scale(0.25, asked.Points[asked.Triangles[t + 2]])));
+  }
+  for (const double size : { 1.0, -1.0, 1e-300, 1e300 })
+  {
+    places.insert(
+      places.end(), { { size, 0, 0 }, { 0, size, 0 }, { 0, 0, size }, { size, size, 0 } });
+  }
+  return places;
+}
+
+class SphereAskTest : public testing::TestWithParam<SphereFamily>
+{
+protected:
+  std::vector<Point3> Points = GetParam().Make();
+};
+
+TEST_P(SphereAskTest, FindsTheLowestTriangle)
+{
+  for (const ProjectionKind projection : { ProjectionKind::Sphere, ProjectionKind::OpenSphere })
+  {
+    const AskedSphere asked(this->Points, Projected(projection));
+    const std::vector<Point3> places = DrawPlaces(asked, 100);
+    const std::vector<std::int32_t> found = asked.Locate(places);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      ASSERT_EQ(asked.FindByHand(places[i]), found[i]) << i;
+    }
+  }
+}
+
+/// The value where the ray to the place meets the flat triangle, for a linear function.
+TEST_P(SphereAskTest, InterpolatesLinearly)
+{
+  const Point3 slopes = { 2.0, -3.0, 0.5 };
+  std::vector<Point3> directions(this->Points.size());
+  std::transform(this->Points.begin(), this->Points.end(), directions.begin(), Normalize);
+  std::vector<double> values;
+  for (const Point3& direction : directions)
+  {
+    values.insert(values.end(), { Multiply(slopes, direction), 1.0 });
+  }
+  const AskedSphere asked(this->Points);
+  const std::vector<Point3> places = MakeRandomPoints<double>(200, 12);
+  const std::vector<std::int32_t> found = asked.Locate(places);
+  const auto results = asked.Interpolate(values, places, InterpolationKind::Linear);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    if (found[i] < 0)
+    {
+      EXPECT_TRUE(std::isnan(results[2 * i]));
+      continue;
+    }
+    const std::int32_t* ids = &asked.Triangles[3 * found[i]];
+    const Point3& a = directions[ids[0]];
+    const Point3 u = Add(directions[ids[1]], Scale(-1.0, a));
+    const Point3 v = Add(directions[ids[2]], Scale(-1.0, a));
+    const Point3 normal = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+      u[0] * v[1] - u[1] * v[0] };
+    const double reach = Multiply(normal, a) / Multiply(normal, places[i]);
+    EXPECT_NEAR(Multiply(slopes, Scale(reach, places[i])), results[2 * i], 1e-9);
+    EXPECT_NEAR(1.0, results[2 * i + 1], 1e-15);
+  }
+}
+
+TEST_P(SphereAskTest, HasTheValuesOfPoints)
+{
+  const AskedSphere asked(this->Points);
+  std::vector<std::int64_t> used(this->Points.size());
+  asked.Session.StoreUsedPoints(used.data());
+  const std::vector<double> values = ListValues(this->Points, Smooth);
+  for (const auto method : { InterpolationKind::Linear, InterpolationKind::Natural })
+  {
+    const std::vector<double> results = asked.Interpolate(values, this->Points, method);
+    for (std::size_t i = 0; i < used.size(); ++i)
+    {
+      const bool isAtVertex = used[i] >= 0 && asked.FindByHand(this->Points[i]) >= 0;
+      if (isAtVertex)
+      {
+        EXPECT_EQ(values[used[i]], results[i]) << i;
+      }
+    }
+  }
+}
+
+TEST_P(SphereAskTest, IsTheSameOnThreads)
+{
+  const AskedSphere one(this->Points, Projected(ProjectionKind::OpenSphere, 1));
+  const std::vector<Point3> places = MakeRandomPoints<double>(50000, 13);
+  const std::vector<double> values = ListValues(this->Points, Smooth);
+  const auto expected =
+    one.Interpolate(values, places, InterpolationKind::Natural, OutsideKind::Nearest);
+  for (const int threads : { 2, 3 })
+  {
+    const AskedSphere several(this->Points, Projected(ProjectionKind::OpenSphere, threads));
+    EXPECT_EQ(one.Locate(places), several.Locate(places));
+    EXPECT_EQ(expected,
+      several.Interpolate(values, places, InterpolationKind::Natural, OutsideKind::Nearest));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SphereAskTest, testing::ValuesIn(ListSphereFamilies()),
+  [](const testing::TestParamInfo<SphereFamily>& family) { return family.param.Name; });
+
+/// Projects all points from a place's antipode, and asks for natural neighbours in that plane.
+double AskInPlane(
+  const std::vector<Point3>& points, const std::vector<double>& values, const Point3& place)
+{
+  const Point3 axis = Normalize(place);
+  const Point3 first =
+    Normalize(Add({ 0.3, 0.5, 0.9 }, Scale(-Multiply({ 0.3, 0.5, 0.9 }, axis), axis)));
+  const Point3 second = { axis[1] * first[2] - axis[2] * first[1],
+    axis[2] * first[0] - axis[0] * first[2], axis[0] * first[1] - axis[1] * first[0] };
+  std::vector<double> plane;
+  for (const Point3& point : points)
+  {
+    const double factor = 2.0 / (1.0 + Multiply(point, axis));
+    plane.push_back(factor * Multiply(point, first));
+    plane.push_back(factor * Multiply(point, second));
+  }
+  PointInput input;
+  input.Points = PlaneArray(plane.data(), static_cast<std::int64_t>(points.size()), 2);
+  const FlipSession session = FlipPoints(input, PointOptions());
+  const double origin[] = { 0.0, 0.0 };
+  double result = 0.0;
+  PlaceQuery query;
+  query.Places = PlaneArray(origin, 1, 2);
+  query.Values = values.data();
+  query.Results = &result;
+  query.Method = InterpolationKind::Natural;
+  EXPECT_TRUE(session.Ask(query));
+  return result;
+}
+
+TEST(SphereAsk, HasTheNaturalNeighborsOfTheTangentPlane)
+{
+  const AskedSphere asked(MakeRandomPoints<double>(300, 1));
+  const std::vector<double> values = ListValues(asked.Points, Smooth);
+  const std::vector<Point3> places = MakeRandomPoints<double>(200, 2);
+  const auto results = asked.Interpolate(values, places, InterpolationKind::Natural);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    EXPECT_NEAR(AskInPlane(asked.Points, values, places[i]), results[i], 1e-10) << i;
+  }
+}
+
+/// On an edge, and where all longitudes meet, there are many triangles around a place.
+TEST(SphereAsk, InterpolatesInGrids)
+{
+  std::vector<Point3> points;
+  for (int latitude = -90; latitude <= 90; latitude += 3)
+  {
+    for (int longitude = -180; longitude <= 180; longitude += 3)
+    {
+      points.emplace_back();
+      PlaceOnSphere(longitude, latitude, points.back().data());
+    }
+  }
+  const AskedSphere asked(points);
+  const std::vector<double> values = ListValues(points, Smooth);
+  std::vector<Point3> places;
+  for (const double latitude : { 89.999, 89.0, 88.5, 87.0, 45.0, 1.5, 0.0, -33.3, -88.0, -90.0 })
+  {
+    for (double longitude = -180.0; longitude <= 180.0; longitude += 0.75)
+    {
+      places.emplace_back();
+      PlaceOnSphere(longitude, latitude, places.back().data());
+    }
+  }
+  const auto linear = asked.Interpolate(values, places, InterpolationKind::Linear);
+  const auto natural = asked.Interpolate(values, places, InterpolationKind::Natural);
+  double ofLinear = 0.0, ofNatural = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    ofLinear = std::max(ofLinear, std::fabs(linear[i] - Smooth(places[i])));
+    ofNatural = std::max(ofNatural, std::fabs(natural[i] - Smooth(places[i])));
+  }
+  EXPECT_LT(ofLinear, 3e-3);
+  EXPECT_LT(ofNatural, 2e-3);
+}
+
+TEST(SphereAsk, FindsTheNearestPlaceOnTheBoundary)
+{
+  std::vector<Point3> points = MakeRandomPoints<double>(400, 3);
+  points.erase(
+    std::remove_if(points.begin(), points.end(), [](const Point3& p) { return p[2] < 0.5; }),
+    points.end());
+  const AskedSphere asked(points, Projected(ProjectionKind::OpenSphere));
+  std::vector<std::int32_t> neighbors(asked.Triangles.size());
+  asked.Session.StoreNeighbors(neighbors.data());
+  std::vector<double> coordinates;
+  for (const Point3& point : points)
+  {
+    coordinates.insert(coordinates.end(), point.begin(), point.end());
+  }
+  std::vector<Point3> places = MakeRandomPoints<double>(100, 4);
+  places.push_back({ NAN, 0.0, 0.0 });
+  const auto found = asked.Locate(places);
+  const auto results =
+    asked.Interpolate(coordinates, places, InterpolationKind::Natural, OutsideKind::Nearest);
+  EXPECT_TRUE(std::isnan(results[3 * places.size() - 1]));
+  for (std::size_t i = 0; i + 1 < places.size(); ++i)
+  {
+    if (found[i] >= 0)
+    {
+      continue;
+    }
+    double least = INFINITY;
+    for (std::size_t corner = 0; corner < neighbors.size(); ++corner)
+    {
+      const std::size_t t = corner - corner % 3;
+      const Point3& from = points[asked.Triangles[t + (corner + 1) % 3]];
+      const Point3& to = points[asked.Triangles[t + (corner + 2) % 3]];
+      for (int step = 0; step <= 1000 && neighbors[corner] < 0; ++step)
+      {
+        const double share = step / 1000.0;
+        const Point3 near = Normalize(Add(Scale(1.0 - share, from), Scale(share, to)));
+        least = std::min(least, FindDistance(near, places[i]));
+      }
+    }
+    const Point3 nearest = Normalize({ results[3 * i], results[3 * i + 1], results[3 * i + 2] });
+    EXPECT_LT(FindDistance(nearest, places[i]), least + 1e-12);
+    EXPECT_NEAR(least, FindDistance(nearest, places[i]), 1e-4);
+  }
+}
+
+TEST(SphereAsk, TakesLongitudesAndLatitudes)
+{
+  const AskedSphere asked(MakeRandomPoints<double>(500, 5));
+  const std::vector<double> values = ListValues(asked.Points, Smooth);
+  PlaceQuery query;
+  query.Raster = { { -180.0, 90.0 }, { 22.5, -15.0 }, 17, 13 };
+  std::vector<double> raster(query.CountPlaces()), degrees(query.CountPlaces());
+  query.Values = values.data();
+  query.Results = raster.data();
+  EXPECT_TRUE(asked.Session.Ask(query));
+  std::vector<float> angles; // exact in single precision
+  std::vector<Point3> places;
+  for (std::int64_t i = 0; i < query.CountPlaces(); ++i)
+  {
+    const double longitude = query.Raster.Get(i, 0), latitude = query.Raster.Get(i, 1);
+    angles.insert(angles.end(), { float(longitude), float(latitude) });
+    places.emplace_back();
+    PlaceOnSphere(longitude, latitude, places.back().data());
+  }
+  query.Raster = PlaceRaster();
+  query.Places = PlaneArray(angles.data(), static_cast<std::int64_t>(places.size()), 2);
+  query.Degrees = true;
+  query.Results = degrees.data();
+  EXPECT_TRUE(asked.Session.Ask(query));
+  EXPECT_EQ(raster, degrees);
+  EXPECT_EQ(raster, asked.Interpolate(values, places, InterpolationKind::Linear));
+  for (std::size_t row = 0; row < 13; ++row)
+  {
+    EXPECT_EQ(raster[17 * row], raster[17 * row + 16]); // -180 and 180 degrees
+  }
+}
+
+TEST(SphereAsk, RefusesWhatHasNoMeaning)
+{
+  const AskedSphere asked(MakeRandomPoints<double>(20, 7));
+  std::int32_t triangle = 0;
+  const double place[] = { 1.0, 2.0, 3.0 };
+  PlaceQuery query;
+  query.Triangles = &triangle;
+  query.Places = PlaneArray(place, 1, 2);
+  EXPECT_THROW(asked.Session.Ask(query), InvalidOptions);
+  query.Degrees = true;
+  EXPECT_TRUE(asked.Session.Ask(query));
+  EXPECT_GE(triangle, 0);
+  PointInput plane;
+  plane.Points = PlaneArray(place, 1, 2);
+  EXPECT_THROW(FlipPoints(plane, PointOptions()).Ask(query), InvalidOptions);
+  query.Degrees = false;
+  query.Places = PlaneArray(place, 1, 3);
+  EXPECT_FALSE(asked.Session.Ask(query, [](double) { return false; }));
+  const Point3 zero{};
+  EXPECT_EQ(-1, asked.Locate({ zero })[0]);
+  EXPECT_EQ(-1, asked.Locate({ { std::numeric_limits<double>::infinity(), 0.0, 0.0 } })[0]);
+}
+
+TEST(SphereAsk, IsOutsideWithoutTriangles)
+{
+  PointInput input;
+  const double points[] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  input.Points = PlaneArray(points, 3, 3);
+  FlipSession session(input, Projected());
+  std::int32_t triangle = 0;
+  PlaceQuery query;
+  query.Triangles = &triangle;
+  query.Places = PlaneArray(points, 1, 3);
+  EXPECT_TRUE(session.Ask(query)); // before it has run
+  EXPECT_EQ(-1, triangle);
+  session.Advance();
+  triangle = 0;
+  EXPECT_TRUE(session.Ask(query));
+  EXPECT_EQ(-1, triangle);
+}
+
+}
+}
