@@ -262,6 +262,7 @@ inline PlaceQuery ToQuery(const delaunayflip_query* given)
       c.places, c.number_of_places, c.place_type, "place", c.place_components);
   }
   Require(!c.values || c.results, "results is null, but there are values");
+  query.Degrees = c.degrees != 0;
   query.Triangles = c.triangles;
   query.Values = c.values;
   query.Components = c.value_components;

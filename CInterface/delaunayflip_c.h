@@ -600,11 +600,14 @@ extern "C"
   } delaunayflip_outside; /**< What a place has that is in no triangle. */
 
   /** Places in x and y, given one by one or as the centres of the cells of a raster, and what is
-   * wanted there. Interpolation.h describes each member in full. */
+   * wanted there. On a sphere they are directions: x, y and z, or with `degrees` longitudes and
+   * latitudes; those of a raster are longitudes and latitudes in degrees. Interpolation.h describes
+   * each member in full. */
   typedef struct
   {
     int64_t size;
-    const void* places; /**< place_components numbers per place: x, y and, without effect, more. */
+    const void* places; /**< place_components numbers per place: x, y and, without effect except
+                           on a sphere, z. */
     int64_t number_of_places;
     int32_t place_type; /**< DELAUNAYFLIP_FLOAT32 or DELAUNAYFLIP_FLOAT64. [FLOAT64] */
     int32_t place_components; /**< At least 2. [2] */
@@ -624,6 +627,7 @@ extern "C"
     int32_t outside; /**< A delaunayflip_outside. [OUTSIDE_NAN] */
     int32_t memory; /**< A delaunayflip_memory: where all four arrays are. [HOST] */
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
+    int32_t degrees; /**< Boolean: places on a sphere are longitudes and latitudes in degrees. */
   } delaunayflip_query;
 
   void delaunayflip_query_init(delaunayflip_query* query);

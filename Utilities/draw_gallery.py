@@ -9,6 +9,7 @@ import os
 import subprocess
 import tempfile
 
+import delaunayflip
 import matplotlib
 
 matplotlib.use("Agg")
@@ -238,6 +239,23 @@ def draw_globe(command, folder, output):
     save(figure, os.path.join(output, "guide_globe.png"))
 
 
+def draw_globe_values(folder, output):
+    """guide_globe_values.png: temperatures between stations, linear and by natural neighbours."""
+    stations = np.loadtxt(os.path.join(folder, "stations.csv"), delimiter=",", skiprows=1)
+    figure, both = plt.subplots(1, 2, figsize=(9, 2.9))
+    for axes, method in zip(both, ("linear", "natural")):
+        between = delaunayflip.SphereInterpolator(stations[:, :2], stations[:, 2], method)
+        map_ = between.raster(origin=(-179.75, 89.75), step=(0.5, -0.5), shape=(360, 720))
+        image = axes.imshow(map_, extent=(-180, 180, -90, 90), cmap="RdYlBu_r", vmin=-30, vmax=36)
+        axes.plot(*stations[:, :2].T, ".", color=INK, markersize=0.8)
+        axes.set_title({"linear": "linear", "natural": "natural neighbours"}[method], color=INK)
+        axes.set_xticks((-180, -90, 0, 90, 180))
+        axes.set_yticks((-90, 0, 90))
+    figure.subplots_adjust(0.05, 0.16, 0.9, 0.94, wspace=0.14)
+    figure.colorbar(image, cax=figure.add_axes((0.92, 0.2, 0.015, 0.68)), label="°C")
+    save(figure, os.path.join(output, "guide_globe_values.png"))
+
+
 def draw_picture(name, command, folder, output):
     mesh, options, direction, window = PICTURES[name]
     figure, both = plt.subplots(1, 2, figsize=(9, 4.8))
@@ -268,6 +286,7 @@ def main():
             draw_picture(name, os.path.abspath(arguments.command), folder, arguments.output)
         for draw in (draw_survey, draw_dem, draw_edges, draw_globe):
             draw(os.path.abspath(arguments.command), folder, arguments.output)
+        draw_globe_values(folder, arguments.output)
 
 
 if __name__ == "__main__":

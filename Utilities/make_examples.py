@@ -7,7 +7,7 @@ terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over
 scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring with sharp edges. part.stl:
 an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell
 array Material. survey.csv: points of a valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
-outline of the survey, and pond.vtk. stations.csv: longitudes and latitudes on a globe. Equal arguments
+outline of the survey, and pond.vtk. stations.csv: longitudes, latitudes and temperatures on a globe. Equal arguments
 give equal files.
 """
 import argparse
@@ -164,13 +164,18 @@ def write_valley(folder, valley):
 
 
 def write_stations(folder, random, single=500, centers=6, around=80):
-    """Stations in degrees: some anywhere, some around a few places, and one at each pole."""
+    """Stations in degrees, with temperatures: some anywhere, some around a few places, and one at each
+    pole."""
     places = random.normal(size=(centers, 3))
     places /= np.linalg.norm(places, axis=1, keepdims=True)
     near = np.repeat(places, around, axis=0) + 0.12 * random.normal(size=(centers * around, 3))
     x, y, z = np.concatenate([random.normal(size=(single, 3)), near, [[0, 0, 1], [0, 0, -1]]]).T
     degrees = np.degrees(np.c_[np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))]).round(3)
-    write(folder, "stations.csv", "longitude,latitude\n" + rows_of(degrees).replace(" ", ","))
+    longitude, latitude = np.radians(degrees).T
+    waves = np.sin(2 * longitude + 3 * latitude) + np.sin(3 * longitude - 1) * np.cos(2 * latitude)
+    temperatures = 28 - 50 * np.sin(latitude) ** 2 + 6 * np.cos(latitude) * waves
+    rows = rows_of(np.c_[degrees, temperatures.round(1)])
+    write(folder, "stations.csv", "longitude,latitude,temperature\n" + rows.replace(" ", ","))
 
 
 def write_terrain(folder, count):

@@ -50,7 +50,7 @@ if typing.TYPE_CHECKING:
     from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
-    from ._sphere import SphereTriangulation, triangulate_sphere
+    from ._sphere import SphereInterpolator, SphereTriangulation, triangulate_sphere
     from ._vtk import vtkDelaunayFlip, vtkDelaunayFlipInterpolator, vtkDelaunayFlipPoints
 
     __version__: str
@@ -58,7 +58,7 @@ if typing.TYPE_CHECKING:
 __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "LinearInterpolator",
     "MeshTooLarge", "MovingTriangulation", "NaturalNeighborInterpolator", "Report", "Result", "Session",
-    "SphereTriangulation", "Stopped", "Triangulation", "flip", "griddata", "has_cuda_device",
+    "SphereInterpolator", "SphereTriangulation", "Stopped", "Triangulation", "flip", "griddata", "has_cuda_device",
     "release_cuda_memory", "smallest_angles", "triangulate", "triangulate_sphere",
 ]
 if importlib.util.find_spec("vtkmodules"):
@@ -69,7 +69,8 @@ _HOMES = {
     "Report": "_report", "Result": "_session", "Session": "_session", "flip": "_session",
     "MovingTriangulation": "_moving", "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
     "LinearInterpolator": "_interpolators", "NaturalNeighborInterpolator": "_interpolators",
-    "griddata": "_interpolators", "SphereTriangulation": "_sphere", "triangulate_sphere": "_sphere",
+    "griddata": "_interpolators", "SphereInterpolator": "_sphere",
+    "SphereTriangulation": "_sphere", "triangulate_sphere": "_sphere",
 }
 # The names of _vtk, and what they need beside VTK.
 _NEEDS = {

@@ -96,7 +96,8 @@ Query = make_struct("Query", (
     (c_int64, "size"), (c_void_p, "places"), (c_int64, "number_of_places"),
     (c_int32, "place_type place_components"), (c_int64, "columns rows"),
     (c_double, "origin_x origin_y step_x step_y"), (c_void_p, "triangles values results"),
-    (c_int32, "value_components method outside memory"), (c_void_p, "stream")))
+    (c_int32, "value_components method outside memory"), (c_void_p, "stream"),
+    (c_int32, "degrees")))
 
 Iteration = make_struct("Iteration", (
     (c_int64, "iteration tested non_delaunay flipped excluded blocked"),

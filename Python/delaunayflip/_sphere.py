@@ -1,17 +1,21 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Delaunay triangulation of points on a sphere."""
+"""The Delaunay triangulation of points on a sphere, and values between them."""
 from __future__ import annotations  # help() shows types by their names
 
+import contextlib
 import dataclasses
 import functools
+import math
 import warnings
-from typing import Optional
+from typing import Any, Dict, Optional, Tuple, Union
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
+from ._ask import Answers, Field, Method, Outside, Places, read_places, read_raster
+from ._library import Stopped
 from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
 from ._points import Struct
 from ._report import Report
@@ -24,7 +28,12 @@ _ROUNDING = 1e-4  # in degrees; more than the rounding of latitudes given in rad
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class SphereTriangulation:
-    """What `triangulate_sphere` returns. Only the same object is equal: compare the arrays."""
+    """What `triangulate_sphere` returns. Only the same object is equal: compare the arrays.
+
+    It can be asked about places. The first question makes the engine's triangulation anew, which then
+    stays in memory as long as this object. If many questions are known to come, `SphereInterpolator`
+    triangulates only once.
+    """
 
     points: Array  #: (n, 3): x, y and z of the points, of length 1 if longitudes and latitudes were given.
     triangles: Array  #: (m, 3) int32, counter-clockwise seen from outside.
@@ -35,6 +44,7 @@ class SphereTriangulation:
     #: (n,) int64: the point that is used at the place of each point; -1: it is not finite, or inside of
     #: the convex hull of the others.
     used_points: Array
+    _keywords: Dict[str, Any] = dataclasses.field(repr=False)  # Of _Input.
 
     @functools.cached_property
     def voronoi_corners(self) -> Array:
@@ -45,6 +55,54 @@ class SphereTriangulation:
         with numpy.errstate(invalid="ignore", divide="ignore"):  # triangles without area
             return normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
 
+    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
+        """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
+        the one with the lowest number. Places are given as to `SphereInterpolator`."""
+        return self._answers.locate(self._read_places(places), progress)
+
+    def interpolate(
+        self, values: Numbers, *places: Numbers, method: Method = "linear",
+        fill_value: float = math.nan, outside: Outside = "nan", progress: Optional[Progress] = None,
+    ) -> Array:
+        """Values at places from values at the points, which are given as to `SphereInterpolator`."""
+        field = self._make_field(values, method, fill_value, outside)
+        return field.find(self._read_places(places), progress)
+
+    def raster(
+        self, values: Numbers, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
+        method: Method = "linear", fill_value: float = math.nan, outside: Outside = "nan",
+        progress: Optional[Progress] = None,
+    ) -> Array:
+        """Values at the centres of the cells of a raster; see `SphereInterpolator.raster`."""
+        field = self._make_field(values, method, fill_value, outside)
+        return field.find(self._read_raster(origin, step, shape, field.values), progress)
+
+    def _make_field(self, values, method, fill_value, outside):
+        return Field(self._answers, values, method=method, fill_value=fill_value, outside=outside)
+
+    def _read_places(self, given):
+        return _read_directions(given, self._keywords["degrees"])
+
+    def _read_raster(self, origin, step, shape, like):
+        factor = 1.0 if self._keywords["degrees"] else 180.0 / math.pi
+        places = read_raster(origin, step, shape, like)
+        for name in ("origin_x", "origin_y", "step_x", "step_y"):
+            places.members[name] *= factor
+        return places
+
+    @functools.cached_property
+    def _answers(self):
+        if self.report.stop_reason == "aborted":
+            raise ValueError("the triangulation was stopped before its end, so it cannot be asked")
+        again, _ = _triangulate(self.points, self._keywords, keeps=True)
+        if not numpy.array_equal(again.triangles, self.triangles):
+            raise ValueError("the points have been changed since they were triangulated; triangulate them again")
+        return again._answers
+
+    def __getstate__(self):
+        """Without the engine's memory, which cannot be copied."""
+        return {name: value for name, value in self.__dict__.items() if name != "_answers"}
+
 
 def triangulate_sphere(
     points: Numbers, *, degrees: bool = True, open: bool = False, backend: Backend = "auto",
@@ -54,8 +112,7 @@ def triangulate_sphere(
     """The Delaunay triangulation of points on a sphere: the triangles of their convex hull.
 
     It is exact for the points as given, and depends on their places alone: not on their order, the
-    threads or the GPU. n places have 2 n - 4 triangles. Segments and queries about places are not
-    supported yet.
+    threads or the GPU. n places have 2 n - 4 triangles. Segments are not supported yet.
 
     Args:
         points: (n, 2) longitudes and latitudes, which become float64 places on the unit sphere. Multiples
@@ -82,17 +139,155 @@ def triangulate_sphere(
         >>> globe.triangles.shape
         (8, 3)
     """
-    struct = _library.make(Struct)
-    places, misplaced = _place_on_sphere(_arrays.to_host(_arrays.as_plane(points)), degrees)
-    struct.points, struct.number_of_points = address(places), len(places)
-    struct.point_type, struct.point_components = _library.TYPES[_arrays.type_of(places)], 3
-    struct.projection = PROJECTIONS.index("open-sphere" if open else "sphere")
-    options = make_options(backend=backend, threads=threads, device=device)
-    with run("open_points", struct, options, lambda _: (), progress, on_iteration) as (handle, _):
-        result, trouble = _store(handle, places)
-    for text in filter(None, (misplaced, trouble)):
+    keywords = {"degrees": degrees, "open": open, "backend": backend, "threads": threads, "device": device}
+    result, troubles = _triangulate(points, keywords, progress, on_iteration)
+    for text in troubles:
         warnings.warn(text, stacklevel=2)
     return result
+
+
+class SphereInterpolator:
+    """Interpolates values between points on a sphere.
+
+    It is called with places: `f(lonlat)` with longitudes and latitudes, an array of shape (..., 2);
+    `f(xyz)` with x, y and z, of shape (..., 3) and any length; or `f(longitude, latitude)` with two
+    arrays that are broadcast. The result, float64, has the shape of the places and, if there are several
+    values per point, the shape of these. It is the same on any number of threads.
+
+    A place is outside if no triangle that faces away from the center of the sphere has it: if all points
+    are on less than half of the sphere, everything beyond them. Values at poles and at 180 degrees are
+    like all others.
+
+    Values and places may be arrays in the memory of a GPU, as for `LinearInterpolator`; they are copied
+    to the host and back. Do not change the arrays of points and values as long as you use it. Threads
+    may share an interpolator; they take turns.
+
+    Args:
+        points: As for `triangulate_sphere`.
+        values: (n,) or (n, ...) real numbers: those of each point.
+        method: "linear": by spherical barycentric coordinates, the volumes that the place spans with two
+            corners of its triangle and the center, divided by their sum. "natural": Sibson's natural
+            neighbours in the plane that touches the sphere at the place; smooth except at the points.
+            The points are projected from the place's antipode, which keeps circles as circles, so the
+            neighbours are those on the sphere.
+        degrees: Whether longitudes and latitudes, of points, places and rasters, are in degrees, not
+            radians.
+        fill_value, outside, backend, threads, device: As for `LinearInterpolator`. Questions are answered
+            on threads of the CPU, whatever the backend.
+        progress: Called with the share of the triangulation done, 0 to 1; False stops it.
+
+    Attributes:
+        triangulation: The `SphereTriangulation`.
+
+    Raises:
+        ValueError: The points have no triangles, because there are too few or all lie in one plane; or
+            values do not fit them.
+        delaunayflip.Stopped: progress has returned False.
+        InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError.
+
+    Example:
+        >>> stations = [[0, 0], [90, 0], [180, 0], [270, 0], [0, 90], [0, -90]]
+        >>> f = SphereInterpolator(stations, [0.0, 1.0, 2.0, 1.0, 5.0, -5.0])
+        >>> f([[45, 0], [-180, 0], [123, 90]]).tolist()
+        [0.5, 2.0, 5.0]
+        >>> f.raster(origin=(0, 90), step=(90, -90), shape=(2, 4)).tolist()
+        [[5.0, 5.0, 5.0, 5.0], [0.0, 1.0, 2.0, 1.0]]
+    """
+
+    def __init__(
+        self, points: Numbers, values: Numbers, method: Method = "linear", *, degrees: bool = True,
+        fill_value: float = math.nan, outside: Outside = "nan", backend: Backend = "auto",
+        threads: int = 0, device: int = -1, progress: Optional[Progress] = None,
+    ) -> None:
+        how = {"method": method, "fill_value": fill_value, "outside": outside}
+        keywords = {"degrees": degrees, "backend": backend, "threads": threads, "device": device}
+        self._made_from = (points, values), {**keywords, **how}
+        if isinstance(points, tuple) and len(points) == 2:
+            points = _arrays.join_columns(*points)
+        self.triangulation, troubles = _triangulate(points, {**keywords, "open": False}, progress, keeps=True)
+        for text in troubles:
+            warnings.warn(text, stacklevel=2)
+        report = self.triangulation.report
+        if report.stop_reason == "aborted":
+            raise Stopped("stopped by progress")
+        if report.triangles == 0:
+            why = report.defects or "there are no triangles"
+            raise ValueError(f"nothing can be interpolated between {report.points} points: {why}")
+        self._field = Field(self.triangulation._answers, values, **how)
+
+    def __call__(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
+        """The values at places. `progress` is called with the share of the places done; if it returns
+        False, delaunayflip.Stopped is raised."""
+        return self._field.find(self.triangulation._read_places(places), progress)
+
+    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
+        """The triangle of each place, int32; see `SphereTriangulation.locate`."""
+        return self.triangulation.locate(*places, progress=progress)
+
+    def raster(
+        self, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
+        progress: Optional[Progress] = None,
+    ) -> Array:
+        """The values at the centres of the cells of a raster: where the values of the points are.
+
+        Args:
+            origin: Longitude and latitude of the centre of the first cell.
+            step: From one cell to the next, one number or that in longitude and that in latitude, which
+                may be negative.
+            shape: (rows, columns); the longitude changes along a row.
+        """
+        places = self.triangulation._read_raster(origin, step, shape, self._field.values)
+        return self._field.find(places, progress)
+
+    def __reduce__(self) -> Any:
+        places_and_values, keywords = self._made_from
+        return functools.partial(type(self), **keywords), places_and_values
+
+
+class _Input:
+    """The points of a call, which live as long, and their C struct."""
+
+    def __init__(self, points, degrees, open):
+        self.points, self.trouble = _place_on_sphere(_arrays.to_host(_arrays.as_plane(points)), degrees)
+        struct = self.struct = _library.make(Struct)
+        struct.points, struct.number_of_points = address(self.points), len(self.points)
+        struct.point_type, struct.point_components = _library.TYPES[_arrays.type_of(self.points)], 3
+        struct.projection = PROJECTIONS.index("open-sphere" if open else "sphere")
+
+    def complete_values(self, values):
+        if len(values) != len(self.points):
+            raise ValueError(f"values must have {len(self.points)} rows, one for each point; there are {len(values)}")
+        return values
+
+
+def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False):
+    """The SphereTriangulation of points, and the texts of warnings.
+
+    Args:
+        keywords: Those of `triangulate_sphere`.
+        keeps: Whether the session is kept for questions.
+    """
+    backend = {name: keywords[name] for name in ("backend", "threads", "device")}
+    given = _Input(points, keywords["degrees"], keywords["open"])
+    with contextlib.ExitStack() as stack:
+        handle, _ = stack.enter_context(
+            run("open_points", given.struct, make_options(**backend), lambda _: (), progress, on_iteration))
+        result, trouble = _store(handle, given.points, keywords)
+        if keeps:
+            result.__dict__["_answers"] = Answers(given, handle, stack.pop_all())
+    return result, list(filter(None, (given.trouble, trouble)))
+
+
+def _read_directions(given, degrees):
+    """Places as read_places reads them. Angles become degrees."""
+    places = read_places(given)
+    if places.members["place_components"] == 3:
+        return places
+    if not degrees:
+        turned = read_places([places.like * (180.0 / math.pi)])
+        places = Places(turned.members, places.shape, turned.like)
+    places.members["degrees"] = 1
+    return places
 
 
 def _place_on_sphere(points, degrees):
@@ -116,7 +311,7 @@ def _describe_latitudes(latitudes):
             "longitudes come first")
 
 
-def _store(handle, places):
+def _store(handle, places, keywords):
     """The SphereTriangulation of a session that has ended, and the text of a warning, or ""."""
     report = _report.read(handle)
     triangles = numpy.empty((report.triangles, 3), dtype=numpy.int32)
@@ -130,4 +325,4 @@ def _store(handle, places):
         trouble = "; ".join(
             text for kind, _, text in _report.list_defects(handle) if kind == "points inside")
     iterations = _report.read_iterations(handle, report)
-    return SphereTriangulation(places, triangles, neighbors, iterations, report, used), trouble
+    return SphereTriangulation(places, triangles, neighbors, iterations, report, used, keywords), trouble

@@ -220,7 +220,9 @@ void ExpectPlaces(const std::vector<Point3>& points, const SphereResult& result)
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     const Point3& place = places[i];
-    bool isFound = place == origin || !std::isfinite(place[0] + place[1] + place[2]);
+    const bool isFinite = std::all_of(
+      place.begin(), place.end(), [](double coordinate) { return std::isfinite(coordinate); });
+    bool isFound = place == origin || !isFinite;
     std::int32_t expected = -1;
     for (std::size_t t = 0; t < result.Triangles.size() && !isFound; t += 3)
     {

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of triangulations on a sphere, and of meshes of globes, by NumPy arrays."""
+import functools
+import pickle
 import unittest
 import warnings
 
@@ -132,6 +134,16 @@ class Sphere(unittest.TestCase):
         self.assertEqual(stopped.report.stop_reason, "aborted")
         self.assertEqual(len(stopped.triangles), 0)
 
+    def test_pickle(self):
+        globe = delaunayflip.triangulate_sphere(make_directions(50))
+        places = make_directions(20, 2)
+        found = globe.locate(places)
+        copied = pickle.loads(pickle.dumps(globe))
+        numpy.testing.assert_array_equal(copied.locate(places), found)
+        globe.points[3] = [0, 0, 2]
+        with self.assertRaisesRegex(ValueError, "have been changed"):
+            pickle.loads(pickle.dumps(globe)).locate(places)
+
     def test_refusals(self):
         points = make_directions(10)
         triangles = delaunayflip.triangulate_sphere(points).triangles
@@ -140,6 +152,88 @@ class Sphere(unittest.TestCase):
                 delaunayflip.flip(points, triangles, geometry="sphere", **options)
         with self.assertRaises(ValueError):
             delaunayflip.triangulate_sphere(numpy.zeros((3, 4)))
+
+
+def find_smooth(points):
+    return numpy.exp(points[..., 0]) + points[..., 1] * points[..., 2]
+
+
+class SphereValues(unittest.TestCase):
+    def test_locate(self):
+        """A place is in the triangle with three corners on whose sides it is."""
+        globe = delaunayflip.triangulate_sphere(make_directions(300))
+        places = make_directions(1000, 2)
+        corners = globe.points[globe.triangles[globe.locate(places)]]
+        for slot in range(3):
+            sides = numpy.cross(corners[:, slot], corners[:, (slot + 1) % 3])
+            self.assertTrue(((sides * places).sum(axis=1) >= 0).all())
+        self.assertIn(7, globe.triangles[globe.locate(globe.points[7:8])[0]])
+        self.assertEqual(globe.locate(places.reshape(10, 100, 3)).shape, (10, 100))
+
+    def test_methods(self):
+        points, places = make_directions(3000), make_directions(500, 2)
+        bounds = {"linear": 0.012, "natural": 0.009}
+        for method, bound in bounds.items():
+            f = delaunayflip.SphereInterpolator(points, find_smooth(points), method)
+            self.assertLess(abs(f(places) - find_smooth(places)).max(), bound)
+            numpy.testing.assert_array_equal(f(points), find_smooth(points))
+            again = f.triangulation.interpolate(find_smooth(points), places, method=method)
+            numpy.testing.assert_array_equal(f(places), again)
+            numpy.testing.assert_array_equal(pickle.loads(pickle.dumps(f))(places), again)
+            numpy.testing.assert_array_equal(
+                delaunayflip.SphereInterpolator(points, find_smooth(points), method, threads=3)(places), again)
+
+    def test_grid(self):
+        """Points where longitudes meet have the values of their grid, from both sides."""
+        grid = make_grid(10)
+        places = delaunayflip.triangulate_sphere(grid).points
+        f = delaunayflip.SphereInterpolator(grid, find_smooth(places))
+        numpy.testing.assert_array_equal(f(grid), find_smooth(places))
+        numpy.testing.assert_array_equal(f(grid + [360, 0]), f(grid))
+        raster = f.raster((-180, 90), (10, -10), (19, 37))
+        numpy.testing.assert_array_equal(raster[::-1].ravel(), f(grid))
+        numpy.testing.assert_array_equal(f(grid[:, 0], grid[:, 1]), f(grid))
+        numpy.testing.assert_allclose(f(5 * places), f(grid), atol=1e-14)
+        values = f.triangulation.raster(find_smooth(places), (-180, 90), (10, -10), (19, 37))
+        numpy.testing.assert_array_equal(values, raster)
+
+    def test_radians(self):
+        points = numpy.random.default_rng(3).uniform((-180, -90), (180, 90), (350, 2))
+        points, places = points[:300], points[300:]
+        values = numpy.random.default_rng(4).normal(size=(len(points), 2))
+        degrees = delaunayflip.SphereInterpolator(points, values)(places)
+        f = delaunayflip.SphereInterpolator(numpy.radians(points), values, degrees=False)
+        self.assertEqual(degrees.shape, (50, 2))
+        numpy.testing.assert_allclose(f(numpy.radians(places)), degrees, atol=1e-9)
+        first = f.raster(numpy.radians([10, 20]), numpy.radians([1, 2]), (1, 1))[0, 0]
+        numpy.testing.assert_allclose(first, f(numpy.radians([[10, 20]]))[0], atol=1e-9)
+
+    def test_outside(self):
+        points = numpy.random.default_rng(5).uniform((-10, 35), (30, 70), (200, 2))
+        places = [[10, 50], [-170, -50], [10, numpy.nan]]
+        make = functools.partial(delaunayflip.SphereInterpolator, points, points[:, 1])
+        self.assertEqual(numpy.isnan(make()(places)).tolist(), [False, True, True])
+        self.assertEqual(make().locate(places).tolist()[1:], [-1, -1])
+        self.assertEqual(make(fill_value=-1)(places).tolist()[1:], [-1, -1])
+        nearest = make(outside="nearest")(places)
+        self.assertTrue(35 <= nearest[1] <= 70)
+        self.assertTrue(numpy.isnan(nearest[2]))
+        with self.assertRaisesRegex(ValueError, "2 of 3 places are outside"):
+            make(outside="error")(places)
+
+    def test_refusals(self):
+        points = make_directions(20)
+        with self.assertRaisesRegex(ValueError, "20 rows"):
+            delaunayflip.SphereInterpolator(points, numpy.zeros(19))
+        with self.assertRaisesRegex(ValueError, "one plane"):
+            delaunayflip.SphereInterpolator(points[:3], numpy.zeros(3))
+        with self.assertRaises(ValueError):
+            delaunayflip.SphereInterpolator(points, numpy.zeros(20), method="cubic")
+        with self.assertRaises(delaunayflip.Stopped):
+            delaunayflip.SphereInterpolator(points, numpy.zeros(20), progress=lambda share: False)
+        stopped = delaunayflip.triangulate_sphere(points, progress=lambda share: False)
+        with self.assertRaisesRegex(ValueError, "stopped before its end"):
+            stopped.locate([[0, 0]])
 
 
 if __name__ == "__main__":
