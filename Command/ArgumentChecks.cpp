@@ -32,6 +32,11 @@ void CheckDegrees(const Arguments& arguments)
   {
     FailOnUsage("--degrees needs --projection sphere or open-sphere");
   }
+  if (arguments.Heights.Step > 0.0 && isSphere && !arguments.Points->GetDegrees())
+  {
+    FailOnUsage(
+      "--raster on a sphere needs --degrees, because its cells are in longitude and latitude");
+  }
 }
 
 /// Checks that the format of the output fits what is written: a mesh, a raster or heights.

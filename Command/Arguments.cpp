@@ -290,8 +290,8 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "the origin, by their convex hull. open-sphere: without triangles whose circumcircle encloses "
     "half of the sphere or more [xy]");
   app.add_flag_callback("--degrees", Set(arguments, &vtkDelaunayFlipPoints::DegreesOn),
-    "On a sphere, x and y are longitudes and latitudes in degrees. The points are written as "
-    "places on the unit sphere");
+    "On a sphere, x and y, also of places, are longitudes and latitudes in degrees. The points of "
+    "a mesh are written as places on the unit sphere");
 }
 
 /// Options that add points, to a mesh or to what is made from points.

@@ -40,16 +40,26 @@ static_assert(
 namespace
 {
 
+/// What the coordinates of places are.
+enum class PlaceKind
+{
+  InPlane,
+  Angles, ///< Longitudes and latitudes.
+  Directions ///< From the center of a sphere.
+};
+
 /// The points of a dataset, as the engine takes them.
 class Places
 {
 public:
   /// @param projection may be null.
-  Places(vtkDataSet* places, vtkAbstractTransform* projection)
+  Places(vtkDataSet* places, vtkAbstractTransform* projection, PlaceKind kind)
     : Count(places->GetNumberOfPoints())
   {
+    this->Query.Degrees = kind == PlaceKind::Angles;
     auto* image = vtkImageData::SafeDownCast(places);
-    if (image && !projection && this->SetRaster(image))
+    const bool mayBeRaster = !projection && kind != PlaceKind::Directions;
+    if (image && mayBeRaster && this->SetRaster(image))
     {
       return;
     }
@@ -150,10 +160,12 @@ std::string RemoveOthers(vtkPolyData* source)
 class Columns
 {
 public:
-  /// @param arrays how many of the mesh's point arrays, the first ones. @param elevation the name
-  /// of the array of z; "": none.
-  Columns(vtkPolyData* mesh, int arrays, const std::string& elevation)
+  /// @param arrays how many of the mesh's point arrays, the first ones.
+  /// @param lifted have the mesh's points in their order, with the z to take.
+  /// @param elevation the name of the array of z; "": none.
+  Columns(vtkPolyData* mesh, int arrays, vtkPoints* lifted, const std::string& elevation)
     : Mesh(mesh),
+      Lifted(lifted),
       HasElevation(!elevation.empty()),
       Width(static_cast<int>(HasElevation))
   {
@@ -183,7 +195,7 @@ public:
       }
       if (this->HasElevation)
       {
-        *next++ = this->Mesh->GetPoints()->GetData()->GetComponent(point, 2);
+        *next++ = this->Lifted->GetData()->GetComponent(point, 2);
       }
     }
     return values;
@@ -231,6 +243,7 @@ private:
   }
 
   vtkPolyData* Mesh;
+  vtkPoints* Lifted;
   std::vector<vtkDataArray*> Arrays;
   bool HasElevation;
   vtkNew<vtkDoubleArray> Elevation; ///< Has only a name.
@@ -243,6 +256,7 @@ struct Source
 {
   const FlipSession* Session; ///< Null: there are no triangles.
   vtkSmartPointer<vtkAbstractTransform> Projection;
+  PlaceKind Kind;
   const Columns& Arrays;
   std::vector<double> Values;
   InterpolationKind Method;
@@ -252,7 +266,7 @@ struct Source
   /// @returns whether it did not.
   bool Interpolate(vtkDataSet* dataset, const ProgressObserver& observer) const
   {
-    Places places(dataset, this->Projection);
+    Places places(dataset, this->Projection, this->Kind);
     PlaceQuery& query = places.Query;
     std::vector<std::int32_t> triangles(query.CountPlaces(), -1);
     std::vector<double> results(triangles.size() * this->Arrays.GetWidth(), NaN);
@@ -432,8 +446,12 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
     const auto added = static_cast<vtkIdType>(session->GetAddedPoints().size());
     projection = FindProjection(request, mesh->GetPoints(), mesh->GetNumberOfPoints() - added);
   }
-  const Columns columns(mesh, points->GetPointData()->GetNumberOfArrays(), elevation);
-  const Source source{ session, projection, columns, columns.Gather(),
+  const bool isOnSphere = this->IsOnSphere();
+  vtkPoints* const lifted = isOnSphere ? given->GetPoints() : mesh->GetPoints();
+  const Columns columns(mesh, points->GetPointData()->GetNumberOfArrays(), lifted, elevation);
+  const PlaceKind ofSphere = this->Degrees ? PlaceKind::Angles : PlaceKind::Directions;
+  const PlaceKind kind = isOnSphere ? ofSphere : PlaceKind::InPlane;
+  const Source source{ session, projection, kind, columns, columns.Gather(),
     static_cast<InterpolationKind>(this->Method), static_cast<OutsideKind>(this->Outside) };
   double begin = TriangulationShare;
   for (vtkDataSet* dataset : datasets)
@@ -456,6 +474,10 @@ std::string vtkDelaunayFlipInterpolator::ChooseArrays(
   if (!note.empty())
   {
     summary.Warnings.push_back({ where, note });
+  }
+  if (this->IsOnSphere() && !this->Degrees)
+  {
+    return ""; // z is one of three coordinates
   }
   const bool isTaken = points->GetPointData()->HasArray(this->ElevationArray.c_str()) != 0;
   if (!isTaken)

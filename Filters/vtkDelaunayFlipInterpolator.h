@@ -8,7 +8,8 @@
  * finds the values that the points of another one, the source, have there: heights on a raster, or
  * along a line. The source is triangulated as by vtkDelaunayFlipPoints, with all properties of that
  * class; so segments, outlines and holes are possible. Places, too, are taken in x and y, or in the
- * projection of the source.
+ * projection of the source. On a sphere they are directions from the origin or, with Degrees,
+ * longitudes and latitudes; Interpolation.h says what interpolation means there.
  *
  * Input port 0: the places, the points of any vtkDataSet. Port 1: the source, any vtkPointSet; its
  * cells do not matter, but see LinesAsSegments. Port 2, optional: the segments, a vtkPolyData, as
@@ -20,7 +21,7 @@
  * - each array of numbers of the source's point data, also one of several components. float stays
  *   float. Others, also integers, become double and are not rounded. Arrays of texts are left out,
  *   with a warning. Global and pedigree ids and ghost types are left out without one.
- * - "Elevation": z of the source's points (see ElevationArray).
+ * - "Elevation": z of the source's points (see ElevationArray). On a sphere only with Degrees.
  * - "vtkValidPointMask", char: 1 where a place is in a triangle or on its edge, else 0.
  *
  * Points that only the segments have get the data of the source there, as by SegmentHeights, but
@@ -31,10 +32,10 @@
  * has NaN, or see Outside. So has a place that is not finite. Port 1: the table of iterations of
  * the triangulation.
  *
- * Linear functions of x and y are reproduced within rounding, by both methods. At a point of the
- * source the value is that of the point; of several at one place, that with the lowest id. An image
- * without a direction matrix has the values of a point set with its points, bit for bit, but needs
- * no memory for their coordinates.
+ * Linear functions of x and y are reproduced within rounding, by both methods, except on a sphere.
+ * At a point of the source the value is that of the point; of several at one place, that with the
+ * lowest id. An image without a direction matrix has the values of a point set with its points, bit
+ * for bit, but needs no memory for their coordinates.
  *
  * The triangulation is kept for the next update, also in memory of a GPU. It is made again only if
  * the source, the segments or an option that decides it has changed. LiveUpdate and PassSegments

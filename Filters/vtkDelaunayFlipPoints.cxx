@@ -52,12 +52,6 @@ vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
 //------------------------------------------------------------------------------
 namespace
 {
-bool IsSphere(int projection)
-{
-  return projection == vtkDelaunayFlipPoints::PROJECTION_SPHERE ||
-    projection == vtkDelaunayFlipPoints::PROJECTION_OPEN_SPHERE;
-}
-
 /// The text of a warning about latitudes beyond 90 degrees, or "".
 std::string DescribeLatitudes(vtkPoints* degrees)
 {
@@ -138,11 +132,16 @@ vtkSmartPointer<vtkAbstractTransform> delaunayflip::FindProjection(
   return request.Transform;
 }
 
+bool vtkDelaunayFlipPoints::IsOnSphere() const
+{
+  return this->Projection == PROJECTION_SPHERE || this->Projection == PROJECTION_OPEN_SPHERE;
+}
+
 vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(vtkPointSet* input) const
 {
   auto points = vtkSmartPointer<vtkPolyData>::New();
   points->SetPoints(input->GetPoints());
-  if (this->Degrees && IsSphere(this->Projection) && input->GetPoints())
+  if (this->Degrees && this->IsOnSphere() && input->GetPoints())
   {
     points->SetPoints(PlacePoints(input->GetPoints()));
   }
@@ -253,7 +252,7 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   {
     return;
   }
-  if (this->Degrees && IsSphere(this->Projection) && given->GetPoints())
+  if (this->Degrees && this->IsOnSphere() && given->GetPoints())
   {
     const std::string trouble = DescribeLatitudes(given->GetPoints());
     if (!trouble.empty())

@@ -141,8 +141,7 @@ public:
    * sphere: n places have 2 n - 4 triangles, counter-clockwise from outside. Points inside of the
    * hull are not used, and a warning counts them. OPEN_SPHERE leaves out triangles whose
    * circumcircle encloses half of the sphere or more, so points on a part of the sphere get an open
-   * mesh. On a sphere segments, regions, lengths and interpolation are errors; they are not
-   * supported there yet.
+   * mesh. On a sphere segments, regions and lengths are errors; they are not supported there yet.
    */
   enum ProjectionType
   {
@@ -375,6 +374,8 @@ protected:
 
   /// Asks for the triangles of a dataset. The meshes of the request are not set yet.
   delaunayflip::TriangulationRequest MakeRequest(vtkPointSet* input);
+
+  bool IsOnSphere() const;
 
   /// The points of an input with their data and, if they are segments, its lines.
   vtkSmartPointer<vtkPolyData> ReadPoints(vtkPointSet* input) const;

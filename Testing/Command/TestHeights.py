@@ -114,6 +114,26 @@ class Rasters(HeightTest):
         self.assertEqual((header["xllcenter"], *rows.shape), (0.75, 3, 3))
         self.assertEqual(rows[2, 0], 0.75 / 2 * 5 + 0.625 * 1)
 
+    def test_globe(self):
+        """A map goes on at 180 degrees, and a pole has one value."""
+        rows = [(x, y, 100 - abs(y)) for y in range(-90, 91, 30) for x in range(-180, 180, 30)]
+        self.write("globe.csv", text_of(rows, ",", "lon,lat,z"))
+        sphere = ["--projection", "sphere", "--degrees"]
+        for method in ([], ["--raster-method", "natural"]):
+            result = self.ask("globe.csv", "map.asc", *sphere, "--raster", 30, "--extent", "-195,-105,195,105",
+                              *method)
+            self.assertIn("raster          13 x 7 cells, 0 outside\n", result.stdout)
+            _, values = self.grid("map.asc")
+            expected = [[100 - abs(y)] * 13 for y in range(90, -91, -30)]
+            self.assertEqual(values.tolist(), expected)
+        self.write("places.csv", "lon,lat\n179,0\n-181,0\n5,90\n")
+        self.ask("globe.csv", "out.csv", *sphere, "--heights-at", "places.csv")
+        heights = [float(line.split(",")[2]) for line in self.content("out.csv").decode().splitlines()[1:]]
+        self.assertEqual(heights[0], heights[1])
+        self.assertEqual(heights[2], 10)
+        self.fail_with(2, "globe.csv", "map.asc", "--from-points", "--projection", "sphere", "--raster", 1,
+                       naming=["--raster on a sphere needs --degrees"])
+
     def test_points_without_heights(self):
         self.write("flat.csv", "x,y\n0,0\n4,0\n0,4\n")
         result = self.ask("flat.csv", "o.asc", "--raster", "1")

@@ -5,6 +5,7 @@
 #include "FilterTestSupport.h"
 
 #include "DelaunayFlip.h"
+#include "PointTriangulation.h"
 
 #include "vtkDataArray.h"
 #include "vtkDelaunayFlipInterpolator.h"
@@ -278,6 +279,53 @@ TEST(Interpolator, SegmentsAndProjections)
   for (std::size_t i = 0; i < flat.size(); ++i)
   {
     EXPECT_NEAR(found[i], flat[i], 1e-9);
+  }
+}
+
+/// Longitudes and latitudes give the values of the directions that they are.
+TEST(Interpolator, OnASphere)
+{
+  Points angles, directions;
+  for (int i = 0; i < 200; ++i)
+  {
+    const double longitude = std::fmod(137.5 * i, 360.0) - 180.0, latitude = 0.89 * i - 89.0;
+    angles.push_back({ longitude, latitude, std::cos(0.05 * latitude) });
+    directions.emplace_back();
+    delaunayflip::PlaceOnSphere(longitude, latitude, directions.back().data());
+  }
+  const auto source = MakeMesh(angles, {}), turned = MakeMesh(directions, {});
+  const auto heights = MakeArray<vtkDoubleArray>("heights", 200);
+  heights->CopyComponent(0, source->GetPoints()->GetData(), 2);
+  turned->GetPointData()->AddArray(heights);
+  vtkNew<vtkImageData> map;
+  map->SetDimensions(37, 19, 1);
+  map->SetOrigin(-180.0, -90.0, 0.0);
+  map->SetSpacing(10.0, 10.0, 1.0);
+  Points places;
+  for (vtkIdType i = 0; i < map->GetNumberOfPoints(); ++i)
+  {
+    double angle[3];
+    map->GetPoint(i, angle);
+    places.emplace_back();
+    delaunayflip::PlaceOnSphere(angle[0], angle[1], places.back().data());
+  }
+  for (const int method : { 0, 1 })
+  {
+    Interpolator onMap(map), onSphere(MakeMesh(places, {}));
+    onMap->SetSourceData(source);
+    onMap->SetProjectionToSphere();
+    onMap->DegreesOn();
+    onMap->SetMethod(method);
+    onSphere->SetSourceData(turned);
+    onSphere->SetProjectionToOpenSphere();
+    onSphere->SetMethod(method);
+    const std::vector<double> found = GetValues(Update(onMap), "Elevation");
+    vtkPointData* data = Update(onSphere);
+    EXPECT_EQ(found, GetValues(data, "heights"));
+    EXPECT_EQ(nullptr, data->GetArray("Elevation"));
+    EXPECT_EQ(std::vector<double>(found.size(), 1.0), GetValues(data, "vtkValidPointMask"));
+    EXPECT_EQ(found.front(), found[36]); // at a pole, whatever the longitude
+    EXPECT_LE(*std::max_element(found.begin(), found.end()), method == 0 ? 1.0 : 1.001);
   }
 }
 
