@@ -22,8 +22,8 @@ namespace
   throw CommandError(ExitCode::WrongUsage, message);
 }
 
-/// Checks that longitudes and latitudes are given for a sphere.
-void CheckDegrees(const Arguments& arguments)
+/// Checks that longitudes and latitudes are given for a sphere, and that places fit the projection.
+void CheckProjection(const Arguments& arguments)
 {
   const int projection = arguments.Points->GetProjection();
   const bool isSphere = projection == vtkDelaunayFlipPoints::PROJECTION_SPHERE ||
@@ -31,6 +31,12 @@ void CheckDegrees(const Arguments& arguments)
   if (arguments.Points->GetDegrees() && !isSphere)
   {
     FailOnUsage("--degrees needs --projection sphere or open-sphere");
+  }
+  const bool isPlane = projection == vtkDelaunayFlipPoints::PROJECTION_BEST_FITTING_PLANE;
+  if (arguments.Heights.AreWanted() && isPlane)
+  {
+    FailOnUsage(
+      "--raster and --heights-at have places in x and y, which exclude --projection plane");
   }
   if (arguments.Heights.Step > 0.0 && isSphere && !arguments.Points->GetDegrees())
   {
@@ -109,7 +115,7 @@ void CheckFormats(Arguments& arguments)
 void CheckArguments(Arguments& arguments)
 {
   CheckFormats(arguments);
-  CheckDegrees(arguments);
+  CheckProjection(arguments);
   const bool holdsCellData =
     arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
   if (arguments.Flip->GetGenerateQuality() && !holdsCellData)

@@ -436,8 +436,8 @@ void RelateOptions(CLI::App& app)
   }
   CLI::Option* const raster = app.get_option("--raster");
   CLI::Option* const heightsAt = app.get_option("--heights-at");
-  raster->needs(fromPoints)->excludes(heightsAt, app.get_option("--projection"));
-  heightsAt->needs(fromPoints)->excludes(app.get_option("--projection"));
+  raster->needs(fromPoints)->excludes(heightsAt);
+  heightsAt->needs(fromPoints);
   app.get_option("--pass-segments")->excludes(raster, heightsAt);
   app.get_option("--extent")->needs(raster);
   app.get_option("--crs")->needs(raster);

@@ -241,7 +241,7 @@ def draw_globe(command, folder, output):
 
 def draw_globe_values(folder, output):
     """guide_globe_values.png: temperatures between stations, linear and by natural neighbours."""
-    stations = np.loadtxt(os.path.join(folder, "stations.csv"), delimiter=",", skiprows=1)
+    stations = np.loadtxt(os.path.join(folder, "warmth.csv"), delimiter=",", skiprows=1)
     figure, both = plt.subplots(1, 2, figsize=(9, 2.9))
     for axes, method in zip(both, ("linear", "natural")):
         between = delaunayflip.SphereInterpolator(stations[:, :2], stations[:, 2], method)

@@ -7,8 +7,8 @@ terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over
 scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring with sharp edges. part.stl:
 an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell
 array Material. survey.csv: points of a valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
-outline of the survey, and pond.vtk. stations.csv: longitudes, latitudes and temperatures on a globe. Equal arguments
-give equal files.
+outline of the survey, and pond.vtk. stations.csv: longitudes and latitudes on a globe,
+and warmth.csv: with temperatures. Equal arguments give equal files.
 """
 import argparse
 import os
@@ -174,8 +174,9 @@ def write_stations(folder, random, single=500, centers=6, around=80):
     longitude, latitude = np.radians(degrees).T
     waves = np.sin(2 * longitude + 3 * latitude) + np.sin(3 * longitude - 1) * np.cos(2 * latitude)
     temperatures = 28 - 50 * np.sin(latitude) ** 2 + 6 * np.cos(latitude) * waves
+    write(folder, "stations.csv", "longitude,latitude\n" + rows_of(degrees).replace(" ", ","))
     rows = rows_of(np.c_[degrees, temperatures.round(1)])
-    write(folder, "stations.csv", "longitude,latitude,temperature\n" + rows.replace(" ", ","))
+    write(folder, "warmth.csv", "longitude,latitude,temperature\n" + rows.replace(" ", ","))
 
 
 def write_terrain(folder, count):
@@ -224,7 +225,7 @@ def main():
     write_ply(arguments.folder, "edges.ply", *square_ring(random))
     write_stations(arguments.folder, random)
     print("terrain.vtp road.vtk scan.ply edges.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk "
-          "stations.csv")
+          "stations.csv warmth.csv")
 
 
 if __name__ == "__main__":
