@@ -255,7 +255,8 @@ extern "C"
     DELAUNAYFLIP_DEFECT_TRIANGLES_NOT_REFINED = 34,
     DELAUNAYFLIP_DEFECT_POINT_LIMIT_REACHED = 35,
     DELAUNAYFLIP_DEFECT_POINTS_INSIDE = 36, /**< On a sphere: inside of the convex hull. */
-    DELAUNAYFLIP_DEFECT_POINTS_IN_ONE_PLANE = 37 /**< On a sphere: there is no hull. */
+    DELAUNAYFLIP_DEFECT_POINTS_IN_ONE_PLANE = 37, /**< On a sphere: there is no hull. */
+    DELAUNAYFLIP_DEFECT_SEGMENTS_INSIDE = 38 /**< On a sphere: an end is inside of the hull. */
   } delaunayflip_defect_kind;
 
   /** A kind of defect: how often it occurs, and where first. */
@@ -397,13 +398,16 @@ extern "C"
     DELAUNAYFLIP_NONZERO = 1, /**< The winding numbers of the rings do not add up to 0. */
     DELAUNAYFLIP_ORIENTATION = 2 /**< In the outline: they add up to more than 0 or, if no ring is
                                     counter-clockwise, to 0. In holes: as NONZERO. */
-  } delaunayflip_ring_rule; /**< When a place is inside a set of rings. */
+  } delaunayflip_ring_rule; /**< When a place is inside a set of rings. On a sphere the inside of a
+                               ring is the smaller of its sides; with ORIENTATION, in the outline,
+                               the one to its left. */
 
   typedef enum
   {
     DELAUNAYFLIP_PLANE = 0, /**< The plane of x and y. */
     DELAUNAYFLIP_SPHERE = 1, /**< The convex hull of points around the origin, by x, y and z:
-                                point_components is 3, and there are no segments or regions. */
+                                point_components is 3. Segments run along great circles, the shorter
+                                way. There are no regions or sizes. */
     DELAUNAYFLIP_OPEN_SPHERE = 2 /**< As on a sphere, without triangles whose circumcircle encloses
                                     half of the sphere or more. */
   } delaunayflip_projection; /**< The surface on which points are triangulated. */
@@ -422,8 +426,8 @@ extern "C"
     const int32_t* rings; /**< For each segment the number of its ring, or -1; null: no rings.
                              Its segments may run in any direction. What is not inside the outline
                              or is inside the holes is removed; see ring_rule and first_hole. */
-    const double* hole_seeds; /**< x, y of places: what can be reached from there without crossing a
-                                 segment is removed. */
+    const double* hole_seeds; /**< x, y of places, on a sphere x, y, z: what can be reached from
+                                 there without crossing a segment is removed. */
     int64_t number_of_hole_seeds;
     double point_tolerance; /**< Points nearer than this to one with a lower id are not used. [0] */
     double alpha; /**< Triangles with a larger circumradius are removed; 0: none. [0] */

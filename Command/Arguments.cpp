@@ -288,10 +288,11 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     { "xy", "plane", "sphere", "open-sphere" },
     "Where points are joined: by x and y, in the plane that fits them best, or on a sphere around "
     "the origin, by their convex hull. open-sphere: without triangles whose circumcircle encloses "
-    "half of the sphere or more [xy]");
+    "half of the sphere or more. On a sphere segments run along great circles, and the inside of a "
+    "ring is its smaller side [xy]");
   app.add_flag_callback("--degrees", Set(arguments, &vtkDelaunayFlipPoints::DegreesOn),
-    "On a sphere, x and y, also of places, are longitudes and latitudes in degrees. The points of "
-    "a mesh are written as places on the unit sphere");
+    "On a sphere, x and y are longitudes and latitudes in degrees, in all files. The points of a "
+    "mesh are written as places on the unit sphere");
 }
 
 /// Options that add points, to a mesh or to what is made from points.

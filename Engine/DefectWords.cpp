@@ -131,6 +131,9 @@ constexpr DefectWords AllWords[] = {
     "except for rounding",
     "points without a triangle: there are fewer than four places, or all are in one plane, "
     "except for rounding" },
+  { Kind::SegmentsInside, DefectIds::PointPairs,
+    "segment that ends at a point inside of the convex hull",
+    "segments that end at a point inside of the convex hull" },
 };
 
 constexpr bool AreInOrder()
@@ -145,7 +148,7 @@ constexpr bool AreInOrder()
   return true;
 }
 static_assert(
-  AreInOrder() && std::size(AllWords) == static_cast<std::size_t>(DefectKind::PointsInOnePlane) + 1,
+  AreInOrder() && std::size(AllWords) == static_cast<std::size_t>(DefectKind::SegmentsInside) + 1,
   "one row per kind");
 
 const DefectWords& GetWords(DefectKind kind) { return AllWords[static_cast<std::size_t>(kind)]; }

@@ -130,7 +130,8 @@ enum class DefectKind
   TrianglesNotRefined, ///< Triangles that do not reach the goals of refinement.
   PointLimitReached, ///< Refinement has reached it.
   PointsInside, ///< On a sphere: points inside of the convex hull.
-  PointsInOnePlane ///< On a sphere: there are fewer than four places, or all are in one plane.
+  PointsInOnePlane, ///< On a sphere: there are fewer than four places, or all are in one plane.
+  SegmentsInside ///< On a sphere: an end is inside of the convex hull.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.

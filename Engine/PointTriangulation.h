@@ -54,8 +54,17 @@
 /// 2 n - 4 of them, counter-clockwise from outside. Signs are exact for the points as given, so a
 /// point that rounding has put inside of the hull is not used. If four points lie in one plane, the
 /// diagonal is the one that flips with TieRuleKind::Canonical choose. PlaceOnSphere makes such
-/// points from longitudes and latitudes. Segments are not supported there yet, and points cannot be
-/// inserted, moved or removed. Interpolation.h says what queries about places mean there.
+/// points from longitudes and latitudes. Points cannot be inserted, moved or removed.
+/// Interpolation.h says what queries about places mean there; with segments or hole seeds they are
+/// not supported yet.
+///
+/// Segments run along great circles, the shorter way around; ends on opposite sides of the sphere
+/// are an error. They are taken in their order, and not split where they cross. They need points
+/// all around the center, or ProjectionKind::OpenSphere. A ring has two sides on a sphere, so
+/// PointOptions::RingRule says which one is its inside. With EvenOdd and NonZero it is the smaller
+/// one, whatever the ring's direction. With Orientation it is the one to the left of the ring, seen
+/// from outside, as GeoJSON has it. If both are equally large, it is the left one. All else is as
+/// in the plane.
 
 namespace delaunayflip
 {
@@ -63,11 +72,16 @@ namespace delaunayflip
 /// When a place is inside a set of rings.
 enum class RingRuleKind
 {
-  EvenOdd, ///< If a path from there to infinity crosses the rings an odd number of times.
-  NonZero, ///< If the sum of the rings' winding numbers around it is not 0.
+  /// If a path from there to infinity crosses the rings an odd number of times. On a sphere: if it
+  /// is inside an odd number of rings.
+  EvenOdd,
+  /// If the sum of the rings' winding numbers around it is not 0. On a sphere, that of a ring is 0
+  /// outside of it.
+  NonZero,
   /// The rule of vtkDelaunay2D's Source. A place is inside the outline if the sum of the winding
   /// numbers is positive or, if no ring of the outline is counter-clockwise, if it is 0. It is
-  /// inside the holes by NonZero.
+  /// inside the holes by NonZero. On a sphere, a place is inside the outline if the sum is not the
+  /// smallest one of all places.
   Orientation
 };
 
@@ -99,8 +113,8 @@ struct PointInput
   /// Rings from this number on are holes; those before are the outline.
   std::int32_t FirstHole = INT32_MAX;
 
-  /// x and y of places in holes: the triangles that can be reached from there without crossing a
-  /// segment are removed. 2 * NumberOfHoleSeeds numbers.
+  /// x and y of places in holes, on a sphere x, y and z: the triangles that can be reached from
+  /// there without crossing a segment are removed. 2 or 3 * NumberOfHoleSeeds numbers.
   const double* HoleSeeds = nullptr;
   std::int64_t NumberOfHoleSeeds = 0;
 
@@ -145,8 +159,8 @@ struct PointOptions : FlipOptions
   /// Triangles with a longer edge are removed in the same way. 0 (default): none.
   double LongestEdge = 0.0;
 
-  /// On a sphere points have x, y and z: PlaneArray::Stride is at least 3. Segments, hole seeds,
-  /// sizes, regions, refinement and the other options of this struct are errors there.
+  /// On a sphere points have x, y and z: PlaneArray::Stride is at least 3. Sizes, regions,
+  /// refinement and the other options of this struct but RingRule are errors there.
   ProjectionKind Projection = ProjectionKind::Plane;
 };
 

@@ -145,10 +145,14 @@ private:
   PointInput View; ///< Views of these.
 };
 
+bool IsOnSphere(const TriangulationRequest& request)
+{
+  return request.Options.Projection != ProjectionKind::Plane;
+}
+
 bool IsProjected(const TriangulationRequest& request)
 {
-  const bool isOnSphere = request.Options.Projection != ProjectionKind::Plane;
-  return request.Transform || request.FitsPlane || isOnSphere;
+  return request.Transform || request.FitsPlane || IsOnSphere(request);
 }
 
 /// Whether points of the second input get point data of the first one, whatever their heights.
@@ -184,6 +188,10 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
       this->Plan.For(UpdatePlan::Constraints)),
     FlatPoints(Segments.FindFlatPoints(request.FirstHole))
 {
+  if (IsOnSphere(request))
+  {
+    this->FlatPoints.clear(); // those on the equator
+  }
   this->View.Points = this->Project();
   this->ChooseHeights();
   this->ReadSizes();

@@ -260,7 +260,14 @@ void vtkDelaunayFlipPoints::FlipLeaves(
       summary.Warnings.push_back({ block.Name, trouble });
     }
   }
-  const auto others = FindSegments(block, segments);
+  auto others = FindSegments(block, segments);
+  if (this->Degrees && this->IsOnSphere() && others && others->GetPoints())
+  {
+    const auto placed = vtkSmartPointer<vtkPolyData>::New();
+    placed->ShallowCopy(others);
+    placed->SetPoints(PlacePoints(others->GetPoints()));
+    others = placed;
+  }
   TriangulationRequest request = this->MakeRequest(given);
   const auto points = this->ReadPoints(given);
   request.Input = points;

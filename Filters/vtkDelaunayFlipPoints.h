@@ -141,7 +141,9 @@ public:
    * sphere: n places have 2 n - 4 triangles, counter-clockwise from outside. Points inside of the
    * hull are not used, and a warning counts them. OPEN_SPHERE leaves out triangles whose
    * circumcircle encloses half of the sphere or more, so points on a part of the sphere get an open
-   * mesh. On a sphere segments, regions and lengths are errors; they are not supported there yet.
+   * mesh. On a sphere segments run along great circles, the shorter way, and the inside of a ring
+   * is the smaller one of its sides; with the ring rule ORIENTATION, in the outline, the one to its
+   * left. Regions and lengths are errors; they are not supported there yet.
    */
   enum ProjectionType
   {

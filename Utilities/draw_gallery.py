@@ -256,6 +256,26 @@ def draw_globe_values(folder, output):
     save(figure, os.path.join(output, "guide_globe_values.png"))
 
 
+def draw_coast(command, folder, output):
+    """guide_coast.png: an ocean around two continents, seen from two sides."""
+    arguments = ["--from-points", "--projection", "sphere", "--degrees", "--quality"]
+    points, triangles, angles = run(command, folder, "stations.csv", [*arguments, "--holes", "land.vtk"])
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]))
+    edges, counts = np.unique(sides, axis=0, return_counts=True)
+    coast = edges[counts == 1]
+    figure, both = plt.subplots(1, 2, figsize=(9, 4.9))
+    for axes, direction, title in zip(both, ((1.0, -0.5, 0.4), (-1.0, 0.2, -0.2)),
+                                      ("a continent", "another one, across 180 degrees")):
+        draw_mesh(axes, (points, triangles, angles), direction, (-1.02, 1.02, -1.02, 1.02))
+        plan, _ = project(points, triangles[:0], direction)
+        shown = coast[(points[coast] @ np.array(direction) > 0).all(axis=1)]
+        axes.add_collection(LineCollection(plan[shown], colors=WATER, linewidths=1.5))
+        axes.set_title(title, color=INK)
+    figure.subplots_adjust(0.01, 0.13, 0.99, 0.93, wspace=0.04)
+    add_angle_legend(figure, 0.1)
+    save(figure, os.path.join(output, "guide_coast.png"))
+
+
 def draw_picture(name, command, folder, output):
     mesh, options, direction, window = PICTURES[name]
     figure, both = plt.subplots(1, 2, figsize=(9, 4.8))
@@ -284,7 +304,7 @@ def main():
         subprocess.run(["/usr/bin/python3", f"{HERE}/make_examples.py", folder], check=True)
         for name in PICTURES:
             draw_picture(name, os.path.abspath(arguments.command), folder, arguments.output)
-        for draw in (draw_survey, draw_dem, draw_edges, draw_globe):
+        for draw in (draw_survey, draw_dem, draw_edges, draw_globe, draw_coast):
             draw(os.path.abspath(arguments.command), folder, arguments.output)
         draw_globe_values(folder, arguments.output)
 

@@ -7,8 +7,8 @@ terrain.vtp: survey points in metres, see make_terrain.py; road.vtk: a line over
 scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring with sharp edges. part.stl:
 an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell
 array Material. survey.csv: points of a valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
-outline of the survey, and pond.vtk. stations.csv: longitudes and latitudes on a globe,
-and warmth.csv: with temperatures. Equal arguments give equal files.
+outline of the survey, and pond.vtk. stations.csv: longitudes and latitudes on a globe, warmth.csv: with
+temperatures, and land.vtk: the coasts of two continents there. Equal arguments give equal files.
 """
 import argparse
 import os
@@ -179,6 +179,18 @@ def write_stations(folder, random, single=500, centers=6, around=80):
     write(folder, "warmth.csv", "longitude,latitude,temperature\n" + rows.replace(" ", ","))
 
 
+def write_land(folder, corners=90):
+    """The coasts of two continents in degrees; the second one crosses 180 degrees. They have bays."""
+    turn = np.linspace(0, 2 * np.pi, corners + 1)[:, None]
+    coasts = []
+    for longitude, latitude, size, waves in ((-25, 15, 32, (3, 7)), (170, -15, 24, (2, 9))):
+        radius = size * (1 + 0.3 * np.sin(waves[0] * turn + 1) + 0.12 * np.sin(waves[1] * turn))
+        away = radius * np.c_[np.cos(turn), np.sin(turn)]
+        coast = np.c_[longitude + away[:, 0], latitude + away[:, 1], np.zeros(corners + 1)].round(3)
+        coasts.append(np.r_[coast[:-1], coast[:1]])
+    write_lines(folder, "land.vtk", "Two coasts", coasts)
+
+
 def write_terrain(folder, count):
     mesh = make_terrain(count, seed=4)
     writer = vtkXMLPolyDataWriter()
@@ -224,8 +236,9 @@ def main():
     write_valley(arguments.folder, Valley(random))
     write_ply(arguments.folder, "edges.ply", *square_ring(random))
     write_stations(arguments.folder, random)
+    write_land(arguments.folder)
     print("terrain.vtp road.vtk scan.ply edges.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk "
-          "stations.csv warmth.csv")
+          "stations.csv warmth.csv land.vtk")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -19,14 +18,6 @@ namespace delaunayflip
 
 namespace
 {
-/// An edge of a ring.
-struct RingEdge
-{
-  EdgeId Edge;
-  /// How often more the ring winds around the side with the even number than around the other one.
-  std::int64_t Turns;
-};
-
 /// Sums the turns at each edge. A spike, there and back, has none. A ring that runs more than once
 /// along its loop runs once. @returns whether it did so.
 bool Simplify(std::vector<RingEdge>& ring)
@@ -58,12 +49,8 @@ bool Simplify(std::vector<RingEdge>& ring)
   return rounds > 1;
 }
 
-/// The edges of rings, by their numbers.
-using RingMap = std::map<std::int32_t, std::vector<RingEdge>>;
+}
 
-/// Lists the edges of rings, each ring once: without the repeats of its own loop, and without rings
-/// that repeat an earlier one of their set in either direction. By even-odd both together would
-/// enclose nothing; by the other rules two directions would cancel each other.
 RingMap ListRings(
   const std::vector<SegmentEdge>& segments, std::int32_t firstHole, KeptTriangles& kept)
 {
@@ -104,6 +91,8 @@ RingMap ListRings(
   return rings;
 }
 
+namespace
+{
 /// Goes from triangle to triangle, and back, and counts how often each ring winds around them.
 class RingWalk
 {

@@ -9,6 +9,7 @@
 #include "WideAngles.h"
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 /// @file
@@ -56,6 +57,23 @@ struct KeptTriangles
   std::int64_t EulerCharacteristic = 0;
   AngleSums Angles;
 };
+
+/// An edge of a ring.
+struct RingEdge
+{
+  EdgeId Edge;
+  /// How often more the ring winds around the side with the even number than around the other one.
+  std::int64_t Turns;
+};
+
+/// The edges of rings, by their numbers.
+using RingMap = std::map<std::int32_t, std::vector<RingEdge>>;
+
+/// Lists the edges of rings, each ring once: without the repeats of its own loop, and without rings
+/// that repeat an earlier one of their set in either direction. By even-odd both together would
+/// enclose nothing; by the other rules two directions would cancel each other.
+RingMap ListRings(
+  const std::vector<SegmentEdge>& segments, std::int32_t firstHole, KeptTriangles& kept);
 
 /// Whether these options can remove triangles.
 bool MayRemove(const PointInput& input, const PointOptions& options);

@@ -21,13 +21,12 @@ bool AreApart(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, con
 {
   return FindOrientation(a, b, c) * FindOrientation(a, b, d) < 0;
 }
+}
 
-/// What helps where segments cross.
 const char* GetRemedy(bool wereSplit)
 {
   return wereSplit ? ", even after splitting"
                    : ": with SplitCrossings both get a point where they cross";
-}
 }
 
 std::uint32_t FindCrossed(const PointMeshView& mesh, const PlaneArray& points,
@@ -46,12 +45,12 @@ std::uint32_t FindCrossed(const PointMeshView& mesh, const PlaneArray& points,
 }
 
 void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* ends,
-  bool wereSplit, std::vector<Defect>& defects)
+  const char* remedy, std::vector<Defect>& defects)
 {
   constexpr DefectKind reasons[] = { DefectKind::SegmentsCross, DefectKind::SegmentsNotFinite,
-    DefectKind::SegmentsWithoutTriangles };
-  for (const RefusalKind why :
-    { RefusalKind::CrossesEarlier, RefusalKind::NotFinite, RefusalKind::NoTriangulation })
+    DefectKind::SegmentsWithoutTriangles, DefectKind::SegmentsInside };
+  for (const RefusalKind why : { RefusalKind::CrossesEarlier, RefusalKind::NotFinite,
+         RefusalKind::NoTriangulation, RefusalKind::EndInside })
   {
     Defect defect(reasons[static_cast<int>(why)]);
     for (const RefusedSegment& one : refused)
@@ -65,7 +64,7 @@ void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* 
     }
     if (why == RefusalKind::CrossesEarlier)
     {
-      defect.Detail = GetRemedy(wereSplit);
+      defect.Detail = remedy;
     }
     else
     {
@@ -75,7 +74,8 @@ void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* 
   }
 }
 
-std::string DescribeRefusal(const RefusedSegment& ofRing, const std::int64_t* ends, bool wereSplit)
+std::string DescribeRefusal(
+  const RefusedSegment& ofRing, const std::int64_t* ends, const char* remedy)
 {
   const std::int64_t* pair = ends + 2 * ofRing.Refused.Number;
   const std::string which = "the segment of ring " + std::to_string(ofRing.Refused.Ring) +
@@ -83,10 +83,13 @@ std::string DescribeRefusal(const RefusedSegment& ofRing, const std::int64_t* en
   switch (ofRing.Why)
   {
     case RefusalKind::CrossesEarlier:
-      return which + " " + DescribeCrossed(ofRing.Crossed, DefectKind::SegmentsCross) +
-        GetRemedy(wereSplit);
+      return which + " " + DescribeCrossed(ofRing.Crossed, DefectKind::SegmentsCross) + remedy;
     case RefusalKind::NotFinite:
       return which + " cannot be inserted: a coordinate of an end is NaN or infinite";
+    case RefusalKind::EndInside:
+      return which +
+        " cannot be inserted: an end is inside of the convex hull of the others, because it is not "
+        "on the sphere or rounding has put it inside";
     case RefusalKind::NoTriangulation:
       break;
   }

@@ -20,7 +20,8 @@ enum class RefusalKind : char
 {
   CrossesEarlier, ///< It crosses a segment that was inserted before it.
   NotFinite, ///< A coordinate of an end is NaN or infinite.
-  NoTriangulation ///< There are fewer than three places, or all are on one line.
+  NoTriangulation, ///< There are fewer than three places, or all are on one line.
+  EndInside ///< On a sphere: an end is inside of the convex hull, so it has no triangle.
 };
 
 struct RefusedSegment
@@ -38,13 +39,18 @@ struct RefusedSegment
 std::uint32_t FindCrossed(const PointMeshView& mesh, const PlaneArray& points,
   const std::vector<SegmentEdge>& edges, const RefusedSegment& refused);
 
+/// What helps where segments cross in the plane; follows the words of the defect.
+const char* GetRemedy(bool wereSplit);
+
 /// Adds a defect for every reason, which names the first segments.
 /// @param refused by their numbers. @param ends of the caller's segments, pairs of point ids.
+/// @param remedy what helps where segments cross.
 void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* ends,
-  bool wereSplit, std::vector<Defect>& defects);
+  const char* remedy, std::vector<Defect>& defects);
 
 /// Says why a segment of a ring is refused.
-std::string DescribeRefusal(const RefusedSegment& ofRing, const std::int64_t* ends, bool wereSplit);
+std::string DescribeRefusal(
+  const RefusedSegment& ofRing, const std::int64_t* ends, const char* remedy);
 
 }
 

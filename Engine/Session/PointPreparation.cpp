@@ -8,11 +8,12 @@
 #include "LoadedMesh.h"
 #include "PortableMath.h"
 #include "Predicates.h"
+#include "RingDirections.h"
 #include "Strips.h"
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <map>
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
@@ -31,12 +32,6 @@ void Tell(const ProgressObserver& observer)
   {
     throw RunAborted();
   }
-}
-
-/// The number of a segment's ring; -1: none.
-std::int32_t GetRing(const PointInput& input, std::int64_t segment)
-{
-  return input.Rings ? input.Rings[segment] : -1;
 }
 
 /// Requires an option that is a number to be finite and not negative.
@@ -65,6 +60,17 @@ void CheckInput(const PointInput& input, const PointOptions& options)
     throw InvalidOptions(
       "points cannot be triangulated in several pieces: gather them in one process first");
   }
+  CheckSegments(input, 2);
+}
+}
+
+std::int32_t GetRing(const PointInput& input, std::int64_t segment)
+{
+  return input.Rings ? input.Rings[segment] : -1;
+}
+
+void CheckSegments(const PointInput& input, int seedNumbers)
+{
   for (std::int64_t i = 0; i < 2 * input.NumberOfSegments; ++i)
   {
     const std::int64_t point = input.Segments[i];
@@ -80,16 +86,14 @@ void CheckInput(const PointInput& input, const PointOptions& options)
         i / 2, point, GetRing(input, i / 2));
     }
   }
-  for (std::int64_t i = 0; i < 2 * input.NumberOfHoleSeeds; ++i)
+  for (std::int64_t i = 0; i < seedNumbers * input.NumberOfHoleSeeds; ++i)
   {
     if (!IsFinite(input.HoleSeeds[i]))
     {
-      throw InvalidOptions(
-        "hole seed " + std::to_string(i / 2) + " has a coordinate that is NaN or infinite");
+      throw InvalidOptions("hole seed " + std::to_string(i / seedNumbers) +
+        " has a coordinate that is NaN or infinite");
     }
   }
-}
-
 }
 
 PreparedPoints::PreparedPoints(const PointInput& input, const PointOptions& options)
@@ -431,7 +435,7 @@ void PreparedPoints::PrepareRings(const LoadedMesh& mesh)
   {
     if (this->MayHaveArea(ring, used))
     {
-      this->TurnSegments(ring, used);
+      TurnSegments(ring, used, this->Segments);
       continue;
     }
     this->LeftOutRings.push_back(number);
@@ -467,77 +471,6 @@ bool PreparedPoints::MayHaveArea(
     }
   }
   return false;
-}
-
-/// Turns segments of a ring so that as many begin as end at each place.
-/// @throws InvalidMesh if it is not closed.
-void PreparedPoints::TurnSegments(
-  const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)
-{
-  std::map<std::int64_t, std::int64_t> surplus; // by place, the ends minus the beginnings there
-  SegmentsByPlace waiting;
-  for (const std::size_t i : ring)
-  {
-    const Segment& segment = this->Segments[i];
-    const std::int64_t from = used[segment.From], to = used[segment.To];
-    surplus[from] -= 1;
-    surplus[to] += 1;
-    if (from != to)
-    {
-      waiting[from].push_back(i);
-      waiting[to].push_back(i);
-    }
-  }
-  for (const std::size_t i : ring)
-  {
-    const Segment& segment = this->Segments[i];
-    for (const std::int64_t point : { segment.From, segment.To })
-    {
-      if (waiting[used[point]].size() % 2 != 0)
-      {
-        throw InvalidMesh("ring " + std::to_string(segment.Ring) + " is not closed at point " +
-            std::to_string(point) + ": close it, or make its segments part of no ring",
-          segment.Number, point, segment.Ring);
-      }
-    }
-  }
-  const bool isOneWay =
-    std::all_of(surplus.begin(), surplus.end(), [](const auto& item) { return item.second == 0; });
-  if (!isOneWay)
-  {
-    this->WalkRing(ring, used, waiting);
-  }
-}
-
-/// Walks along the segments of a ring, each once, and turns those that are met at their end.
-/// @param waiting the segments at each place, which is used up.
-void PreparedPoints::WalkRing(const std::vector<std::size_t>& ring,
-  const std::vector<std::int64_t>& used, SegmentsByPlace& waiting)
-{
-  for (auto& [place, segments] : waiting)
-  {
-    std::reverse(segments.begin(), segments.end()); // the first ones are taken first
-  }
-  std::set<std::size_t> taken;
-  for (const std::size_t first : ring)
-  {
-    std::int64_t place = used[this->Segments[first].From];
-    waiting[place].push_back(first);
-    while (!waiting[place].empty())
-    {
-      const std::size_t i = waiting[place].back();
-      waiting[place].pop_back();
-      if (taken.insert(i).second)
-      {
-        Segment& segment = this->Segments[i];
-        if (used[segment.From] != place)
-        {
-          std::swap(segment.From, segment.To);
-        }
-        place = used[segment.To];
-      }
-    }
-  }
 }
 
 //------------------------------------------------------------------------------

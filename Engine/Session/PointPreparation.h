@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -27,6 +26,13 @@ struct PointPlaces
   std::vector<float> Floats;
   std::vector<double> Doubles;
 };
+
+/// Requires segments to name points that there are, and hole seeds to be finite.
+/// @param seedNumbers how many numbers a hole seed has. @throws InvalidMesh, InvalidOptions.
+void CheckSegments(const PointInput& input, int seedNumbers);
+
+/// The number of a segment's ring; -1: none.
+std::int32_t GetRing(const PointInput& input, std::int64_t segment);
 
 /// The caller's points and segments as they are triangulated: without points that are too near to
 /// others, with points where segments cross, and with rings that run in one direction.
@@ -110,10 +116,6 @@ private:
   template <typename Real>
   void AppendTo(std::vector<Real>& coordinates, const std::vector<AddedPoint>& points);
   bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
-  void TurnSegments(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
-  using SegmentsByPlace = std::map<std::int64_t, std::vector<std::size_t>>;
-  void WalkRing(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used,
-    SegmentsByPlace& waiting);
 
   PointInput Caller;
   PointOptions Options;

@@ -41,15 +41,6 @@ struct CoordinateBox
   }
 };
 
-/// Rings that are left out, as a defect.
-Defect NameRings(DefectKind kind, std::vector<std::int32_t> numbers)
-{
-  std::sort(numbers.begin(), numbers.end());
-  const std::int64_t count = SizeOf(numbers);
-  numbers.resize(std::min<std::int64_t>(MostNamedIds, count));
-  return Defect(kind, count, { numbers.begin(), numbers.end() });
-}
-
 std::vector<std::int32_t> ListRingsWithoutArea(
   const PreparedPoints& points, const KeptTriangles& kept)
 {
@@ -139,6 +130,14 @@ void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedP
 }
 }
 
+Defect NameRings(DefectKind kind, std::vector<std::int32_t> numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  const std::int64_t count = SizeOf(numbers);
+  numbers.resize(std::min<std::int64_t>(MostNamedIds, count));
+  return Defect(kind, count, { numbers.begin(), numbers.end() });
+}
+
 bool IsLost(const PointInput& input, const KeptTriangles& kept)
 {
   if (kept.Outside + kept.Large == 0)
@@ -198,8 +197,8 @@ void AddPointsTo(
   const KeptTriangles& kept = result.Kept;
   AddCounts(report, points, result);
   AddUnusedPoints(report, mesh, points);
-  AddDefects(result.Refused, points.GetCaller().Segments, points.GetOptions().SplitCrossings,
-    report.Defects);
+  AddDefects(result.Refused, points.GetCaller().Segments,
+    GetRemedy(points.GetOptions().SplitCrossings), report.Defects);
   std::int64_t pointsWithoutMesh = 0;
   if (report.Triangles + kept.Outside + kept.Large == 0)
   {

@@ -40,6 +40,9 @@ struct PointResult
   bool HasRemoved() const { return !this->Kept.Numbers.empty(); }
 };
 
+/// Rings that are left out, or count once, as a defect.
+Defect NameRings(DefectKind kind, std::vector<std::int32_t> numbers);
+
 /// Whether triangles are removed, and none of the points that were given for themselves is left.
 bool IsLost(const PointInput& input, const KeptTriangles& kept);
 

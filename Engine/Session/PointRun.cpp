@@ -327,7 +327,8 @@ void PointRun::ExplainRefused(LoadedMesh& mesh)
   if (ofRing != nullptr)
   {
     const std::int64_t number = ofRing->Refused.Number;
-    throw InvalidMesh(DescribeRefusal(*ofRing, segments, this->Points.GetOptions().SplitCrossings),
+    throw InvalidMesh(
+      DescribeRefusal(*ofRing, segments, GetRemedy(this->Points.GetOptions().SplitCrossings)),
       number, segments[2 * number], ofRing->Refused.Ring);
   }
 }

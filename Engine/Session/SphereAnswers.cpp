@@ -18,6 +18,10 @@ bool SphereRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
 {
   constexpr std::int64_t Coordinates = 3;
   CheckQuery(query);
+  if (this->Input.NumberOfSegments + this->Input.NumberOfHoleSeeds > 0)
+  {
+    throw InvalidOptions("places cannot be found on a sphere with segments, outlines or holes yet");
+  }
   const bool hasDirections =
     query.Raster.CountCells() > 0 || query.Degrees || query.Places.Count == 0;
   if (!hasDirections && query.Places.Stride < Coordinates)

@@ -25,7 +25,7 @@ void SphereRun::OpenMesh()
       this->FlipCounts[kept++] = this->FlipCounts[t];
     }
   }
-  this->Report.FromPoints.LargeTriangles = SizeOf(this->Triangles) / 3 - std::int64_t(kept);
+  this->Opened = SizeOf(this->Triangles) / 3 - std::int64_t(kept);
   this->Triangles.resize(3 * kept);
   this->FlipCounts.resize(kept);
 }
@@ -41,10 +41,7 @@ void SphereRun::Complete()
   report.StopReason = StopReasonKind::Converged;
   report.BuildSeconds += this->Planar.BuildSeconds;
   report.FlipSeconds += this->Planar.FlipSeconds;
-  if (this->Options.Projection == ProjectionKind::OpenSphere)
-  {
-    this->OpenMesh();
-  }
+  report.FromPoints.LargeTriangles = this->Opened;
   this->Neighbors = FindNeighbors(this->Triangles, SizeOf(this->Points));
   report.Triangles = SizeOf(this->Triangles) / 3;
   const auto boundary = std::count(this->Neighbors.begin(), this->Neighbors.end(), -1);
@@ -53,10 +50,32 @@ void SphereRun::Complete()
   report.Edges.Boundary = report.Edges.Fixed = boundary;
   KeepAnglesBefore({}, report); // nobody sees the triangles from which flips begin
   this->ListUnused();
+  this->CountSegments();
+  this->ListRemoved();
   report.EulerCharacteristic = report.FromPoints.Used - report.Edges.Edges + report.Triangles;
 }
 
-/// Counts and names the points that have no triangle.
+/// Marks the points that have no triangle in the complete mesh.
+void SphereRun::MarkInside()
+{
+  std::vector<char> hasTriangle(this->Points.size());
+  for (const std::int32_t id : this->Triangles)
+  {
+    hasTriangle[id] = 1;
+  }
+  this->HasHull = !this->Triangles.empty();
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    const bool isUsed =
+      this->States[i] != PointState::NotFinite && this->States[i] != PointState::Repeated;
+    if (this->HasHull && isUsed && hasTriangle[i] == 0)
+    {
+      this->States[i] = PointState::Inside;
+    }
+  }
+}
+
+/// Counts the points that have triangles, and counts and names those that are not used.
 void SphereRun::ListUnused()
 {
   std::vector<char> hasTriangle(this->Points.size());
@@ -77,7 +96,6 @@ void SphereRun::ListUnused()
       defect.FirstIds.push_back(id);
     }
   };
-  const bool hasHull = counts.Used > 0;
   for (std::size_t i = 0; i < this->States.size(); ++i)
   {
     const auto id = static_cast<std::int64_t>(i);
@@ -89,9 +107,8 @@ void SphereRun::ListUnused()
     {
       note(repeated, id);
     }
-    else if (hasHull && hasTriangle[i] == 0)
+    else if (this->HasHull && this->States[i] == PointState::Inside)
     {
-      this->States[i] = PointState::Inside;
       note(inside, id);
     }
   }
@@ -99,7 +116,7 @@ void SphereRun::ListUnused()
   counts.Repeated = repeated.Count;
   counts.Inside = inside.Count;
   Defect inPlane(DefectKind::PointsInOnePlane);
-  inPlane.Count = hasHull ? 0 : report.Points;
+  inPlane.Count = this->HasHull ? 0 : report.Points;
   for (const Defect& defect : { notFinite, repeated, inside, inPlane })
   {
     AddDefect(defect, report.Defects);
@@ -133,15 +150,21 @@ void SphereRun::StoreUsedPoints(std::int64_t* ids)
   std::iota(ids, ids + this->Input.Points.Count, std::int64_t(0));
   for (std::size_t i = 0; i < this->States.size(); ++i)
   {
-    std::size_t place = i;
-    while (this->States[place] == PointState::Repeated)
-    {
-      place = this->UsedPoint[place];
-    }
-    const bool isUsed =
-      this->States[place] == PointState::Used || this->States[place] == PointState::LeftOut;
-    ids[i] = isUsed ? std::int64_t(place) : -1;
+    ids[i] = this->FindUsed(static_cast<std::int64_t>(i));
   }
+}
+
+/// The point that is used at the place of a point; -1: none.
+std::int64_t SphereRun::FindUsed(std::int64_t point) const
+{
+  std::int64_t place = point;
+  while (this->States[place] == PointState::Repeated)
+  {
+    place = this->UsedPoint[place];
+  }
+  const bool isUsed =
+    this->States[place] == PointState::Used || this->States[place] == PointState::LeftOut;
+  return isUsed ? place : -1;
 }
 
 void SphereRun::StoreRegions(std::int32_t* labels)

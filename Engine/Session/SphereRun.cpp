@@ -6,6 +6,7 @@
 #include "ExactPredicates.h"
 #include "HullInserter.h"
 #include "InputChecks.h"
+#include "PointPreparation.h"
 #include "SmallestAngle.h"
 
 #include <algorithm>
@@ -29,10 +30,8 @@ void RequirePlainPoints(const PointInput& input, const PointOptions& options)
   };
   require(input.Points.Count == 0 || input.Points.Stride >= 3,
     "points on a sphere need x, y and z; PlaceOnSphere makes them from longitudes and latitudes");
-  require(input.NumberOfSegments == 0,
-    "a triangulation on a sphere cannot have segments, outlines or holes yet");
-  require(input.NumberOfHoleSeeds == 0 && input.NumberOfRegions == 0 && !input.Sizes,
-    "a triangulation on a sphere cannot have hole seeds, regions or sizes yet");
+  require(input.NumberOfRegions == 0 && !input.Sizes,
+    "a triangulation on a sphere cannot have regions or sizes yet");
   require(options.NumberOfPieces <= 1,
     "points cannot be triangulated in several pieces: gather them in one process first");
   require(options.MaximumIterations < 0,
@@ -74,6 +73,8 @@ SphereRun::SphereRun(
   CheckOptions(options);
   CheckPointCount(input.Points.Count);
   RequirePlainPoints(input, options);
+  CheckSegments(input, 3);
+  this->CheckSeeds();
   this->Observer = progress;
   this->Reset();
   this->Stages = { { "triangulate on the sphere", OnStop::Forgets, 0.0,
@@ -91,6 +92,13 @@ void SphereRun::Reset()
   this->FlipCounts.clear();
   this->States.clear();
   this->Planar = FlipReport();
+  this->Opened = 0;
+  this->HasHull = false;
+  this->Segments.clear();
+  this->Edges.clear();
+  this->Refused.clear();
+  this->Replaced = 0;
+  this->Kept = KeptTriangles();
   this->Report = FlipReport();
   this->Report.Points = this->Input.Points.Count;
   this->Report.GeometryUsed = GeometryKind::Sphere;
@@ -127,6 +135,7 @@ catch (...)
 void SphereRun::Run()
 {
   this->ReadPoints();
+  this->CheckOpposite();
   while (this->Start())
   {
     this->Flip();
@@ -143,6 +152,20 @@ void SphereRun::Run()
     {
       break;
     }
+  }
+  if (this->Options.Projection == ProjectionKind::OpenSphere)
+  {
+    this->OpenMesh();
+  }
+  if (this->Input.NumberOfSegments + this->Input.NumberOfHoleSeeds > 0)
+  {
+    this->RequireFacesOutside();
+    this->InsertSegments();
+  }
+  this->MarkInside();
+  if (this->Input.Rings || this->Input.NumberOfHoleSeeds > 0)
+  {
+    this->RemoveTriangles();
   }
   this->Complete();
 }
@@ -364,7 +387,8 @@ bool SphereRun::LeaveOut(const std::vector<std::int32_t>& points, PointState sta
   return !points.empty();
 }
 
-/// Flips until every edge is convex, or its flip would turn a triangle over.
+/// Flips until every edge that is not of a segment is convex, or its flip would turn a triangle
+/// over.
 void SphereRun::Flip()
 {
   TriangleMesh mesh;
@@ -373,7 +397,10 @@ void SphereRun::Flip()
   mesh.Center[0] = this->Center.U;
   mesh.Center[1] = this->Center.V;
   mesh.Center[2] = this->Center.W;
-  mesh.Whole.StarsAreSimple = true; // the mesh is closed and every triangle faces outside
+  mesh.Whole.StarsAreSimple = true; // every triangle faces outside, and great circles enter once
+  const std::vector<std::int64_t> kept = this->ListSegmentEdges();
+  mesh.ConstraintEdges = kept.data();
+  mesh.NumberOfConstraintEdges = SizeOf(kept) / 2;
   FlipOptions options = this->Options;
   options.Geometry = GeometryKind::Sphere;
   options.Criterion = CriterionKind::InCircle;

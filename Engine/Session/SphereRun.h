@@ -4,8 +4,12 @@
 #define DELAUNAYFLIP_SPHERERUN_H
 
 #include "DelaunayFlip.h"
+#include "Outline.h"
+#include "RefusedSegments.h"
+#include "SegmentCrossings.h"
 #include "SessionRun.h"
 #include "SphereAsker.h"
+#include "SphereSegments.h"
 #include "SphereStart.h"
 
 #include <cstdint>
@@ -25,10 +29,14 @@ namespace delaunayflip
 /// an edge convex, one of its ends is inside of the hull; the run then begins again without that
 /// point. It also begins again without points within a face or an edge of the hull, because the
 /// start would decide which of these have triangles.
+///
+/// Segments are inserted into the complete mesh, and edges around them flip again. At the end rings
+/// and hole seeds remove triangles.
 class SphereRun final : public SessionRun
 {
 public:
-  /// @throws InvalidOptions for segments and options that only triangulations in the plane have.
+  /// @throws InvalidMesh for segments between points that there are not. @throws InvalidOptions for
+  /// options that only triangulations in the plane have.
   SphereRun(const PointInput& input, const PointOptions& options, const ProgressObserver& progress);
 
   bool Advance(std::int64_t iterations, const FlipObserver& observer,
@@ -38,8 +46,8 @@ public:
   void StoreFlipCounts(std::int32_t* counts) override;
   void StoreNeighbors(std::int32_t* neighbors) override;
   void StoreUsedPoints(std::int64_t* ids) override;
-  std::vector<std::int64_t> ListSegmentEdges() override { return {}; }
-  std::vector<std::int64_t> ListSegmentsOfEdges() override { return {}; }
+  std::vector<std::int64_t> ListSegmentEdges() override;
+  std::vector<std::int64_t> ListSegmentsOfEdges() override;
   void StoreRegions(std::int32_t* labels) override;
   bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
@@ -63,10 +71,24 @@ private:
   void Flip();
   bool LeaveOut(const std::vector<std::int32_t>& points, PointState state);
   bool InsertLeftOut();
-  void Complete();
   void OpenMesh();
+  void CheckSeeds() const;
+  void CheckOpposite() const;
+  void PrepareSegments();
+  void InsertSegments();
+  void RequireFacesOutside() const;
+  void Refuse(const Segment& segment, RefusalKind why, std::int32_t crossed);
+  void ExplainRingRefused() const;
+  void FlipAroundSegments();
+  void MarkInside();
+  void RemoveTriangles();
+  void DropTriangles(const std::vector<unsigned char>& isRemoved);
+  void Complete();
+  void CountSegments();
+  void ListRemoved();
   void ListUnused();
   std::vector<std::int32_t> ListActive() const;
+  std::int64_t FindUsed(std::int64_t point) const;
   ProgressObserver TellHalf();
   void Reset() override;
   std::string ExplainRefusal() const override;
@@ -82,6 +104,13 @@ private:
   int Starts = 0;
   FlipReport Planar; ///< Sums over the flips in the plane.
   std::unique_ptr<const SphereAsker> Asker; ///< Of the triangles in the end, once it is needed.
+  std::int64_t Opened = 0; ///< How many triangles OpenMesh has removed.
+  bool HasHull = false; ///< Whether there were triangles before rings and seeds removed them.
+  std::vector<Segment> Segments; ///< The caller's. Those of a ring run in one direction.
+  std::vector<SphereEdge> Edges; ///< Those that segments have become, of triangles that are kept.
+  std::vector<RefusedSegment> Refused;
+  std::int64_t Replaced = 0; ///< How many edges segments have replaced.
+  KeptTriangles Kept; ///< What rings and seeds have removed.
 };
 
 }

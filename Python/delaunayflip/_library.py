@@ -72,7 +72,7 @@ DEFECT_KINDS = (
     "rings without area", "rings repeated", "rings run again", "hole points outside",
     "points without triangles", "nothing left", "polygons too small", "constraints not in mesh",
     "points without heights", "region seeds outside", "triangles not refined", "point limit reached",
-    "points inside", "points in one plane")
+    "points inside", "points in one plane", "segments inside")
 
 
 def make_struct(name, members):

@@ -63,7 +63,8 @@ Struct = _library.make_struct("Points", (
 # not reach the goals.
 _WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
               "rings without area", "rings repeated", "rings run again", "hole points outside",
-              "region seeds outside", *LEFT_BY_REFINEMENT)
+              "region seeds outside", "points inside", "segments inside", "nothing left",
+              *LEFT_BY_REFINEMENT)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -438,7 +439,7 @@ class Input:
     def _name_ring(self, number):
         return self._ring_names.get(number, f"ring {number}")
 
-    def _describe_defects(self, handle):
+    def describe_defects(self, handle):
         """The defects as one text. Notes those that are warned of."""
         texts = []
         for kind, ids, given in _report.list_defects(handle):
@@ -544,7 +545,7 @@ class Input:
         used = self._find_used_points(handle, report)
         points, added = self.points, numpy.empty(0, dtype=numpy.int64)
         if report.defects:
-            report = dataclasses.replace(report, defects=self._describe_defects(handle))
+            report = dataclasses.replace(report, defects=self.describe_defects(handle))
         report = self._report_flat_points(report, triangles)
         if self._is_nothing_left(report, triangles):
             self.trouble = [report.defects]

@@ -17,8 +17,9 @@ from ._arrays import address
 from ._ask import Answers, Field, Method, Outside, Places, read_places, read_raster
 from ._library import Stopped
 from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
-from ._points import Struct
+from ._points import Input
 from ._report import Report
+from ._rings import RingRule, Rings, list_lines, list_rings
 from ._session import run
 
 #: The values of delaunayflip_projection.
@@ -35,7 +36,9 @@ class SphereTriangulation:
     triangulates only once.
     """
 
-    points: Array  #: (n, 3): x, y and z of the points, of length 1 if longitudes and latitudes were given.
+    #: (n, 3): x, y and z of the points, of length 1 if longitudes and latitudes were given; then those
+    #: of lines and rings that are given by coordinates.
+    points: Array
     triangles: Array  #: (m, 3) int32, counter-clockwise seen from outside.
     #: (m, 3) int32: the triangle opposite each corner; -1 where there is none.
     neighbors: Array
@@ -44,7 +47,10 @@ class SphereTriangulation:
     #: (n,) int64: the point that is used at the place of each point; -1: it is not finite, or inside of
     #: the convex hull of the others.
     used_points: Array
-    _keywords: Dict[str, Any] = dataclasses.field(repr=False)  # Of _Input.
+    #: (k, 2) int64: the edges that segments have become, in their order and direction, each once.
+    segments: Array
+    segment_numbers: Array  #: (k,) int64: the segment of each of these edges; of several, the first one.
+    _keywords: Dict[str, Any] = dataclasses.field(repr=False)  # Of _triangulate.
 
     @functools.cached_property
     def voronoi_corners(self) -> Array:
@@ -94,6 +100,8 @@ class SphereTriangulation:
     def _answers(self):
         if self.report.stop_reason == "aborted":
             raise ValueError("the triangulation was stopped before its end, so it cannot be asked")
+        if self._keywords["has_lines"]:
+            raise ValueError("places cannot be found on a sphere with segments, outlines or holes yet")
         again, _ = _triangulate(self.points, self._keywords, keeps=True)
         if not numpy.array_equal(again.triangles, self.triangles):
             raise ValueError("the points have been changed since they were triangulated; triangulate them again")
@@ -105,14 +113,16 @@ class SphereTriangulation:
 
 
 def triangulate_sphere(
-    points: Numbers, *, degrees: bool = True, open: bool = False, backend: Backend = "auto",
-    threads: int = 0, device: int = -1, progress: Optional[Progress] = None,
-    on_iteration: Optional[OnIteration] = None,
+    points: Numbers, segments: Optional[Numbers] = None, *, outline: Optional[Rings] = None,
+    holes: Optional[Rings] = None, hole_seeds: Optional[Numbers] = None, ring_rule: RingRule = "evenodd",
+    degrees: bool = True, open: bool = False, backend: Backend = "auto", threads: int = 0,
+    device: int = -1, progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
 ) -> SphereTriangulation:
     """The Delaunay triangulation of points on a sphere: the triangles of their convex hull.
 
     It is exact for the points as given, and depends on their places alone: not on their order, the
-    threads or the GPU. n places have 2 n - 4 triangles. Segments are not supported yet.
+    threads or the GPU. n places have 2 n - 4 triangles. With segments, outlines or holes it cannot be
+    asked about places yet.
 
     Args:
         points: (n, 2) longitudes and latitudes, which become float64 places on the unit sphere. Multiples
@@ -121,9 +131,23 @@ def triangulate_sphere(
             they are. If several points are at one place, the one with the lowest id is used. Points that
             are not finite, or inside of the convex hull, are not used. Rounding to float32 puts points
             inside that are near to others. Warnings count points inside, and latitudes beyond 90 degrees.
-        degrees: Whether longitudes and latitudes are in degrees, not radians.
+        segments: (k, 2) point ids: edges that the triangulation must have. They run along great circles,
+            the shorter way around; ends on opposite sides of the sphere are an error. One that passes
+            through points is split there; one that crosses an earlier one is left out, with a warning. Or a
+            list of lines, each an array of coordinates, of either kind, which become points.
+        outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of point ids,
+            or of coordinates of either kind, which become points. It may end with its first point.
+        holes: A ring, or a list of rings, of the same kinds: what is inside them is removed.
+        hole_seeds: (k, 2) or (k, 3) places: what is reached from there without crossing a segment is
+            removed.
+        ring_rule: What is inside a ring, and a set of rings. "evenodd": the smaller of the two sides of a
+            ring, whatever its direction; what is inside an odd number of rings. "nonzero": the same; where
+            the turns of the rings do not add up to 0. "orientation": of the outline, what is to the left of
+            the rings, as GeoJSON has it; of the holes, as "nonzero".
+        degrees: Whether longitudes and latitudes are in degrees, not radians, in all arguments.
         open: Leave out triangles whose circumcircle encloses half of the sphere or more, so that points
-            on less than half of the sphere have an open mesh. Otherwise triangles close the mesh.
+            on less than half of the sphere have an open mesh. Otherwise triangles close the mesh. Segments
+            need points on all sides of the center, or this.
         backend, threads, device: As for `triangulate`. Arrays on a GPU are copied to the host.
         progress, on_iteration: Called with the share of the work done, 0 to 1, and at the end for each
             iteration with a dict of its numbers; returning False from `progress` aborts.
@@ -132,6 +156,8 @@ def triangulate_sphere(
         A `SphereTriangulation`. It has no triangles if all places lie in one plane, or progress aborts.
 
     Raises:
+        InvalidMesh: A segment names a point that does not exist, or has ends on opposite sides; or a ring
+            crosses a segment.
         InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError, ValueError.
 
     Example:
@@ -140,7 +166,9 @@ def triangulate_sphere(
         (8, 3)
     """
     keywords = {"degrees": degrees, "open": open, "backend": backend, "threads": threads, "device": device}
-    result, troubles = _triangulate(points, keywords, progress, on_iteration)
+    lines = {"segments": segments, "outline": outline, "holes": holes, "hole_seeds": hole_seeds,
+             "ring_rule": ring_rule}
+    result, troubles = _triangulate(points, keywords, progress, on_iteration, lines=lines)
     for text in troubles:
         warnings.warn(text, stacklevel=2)
     return result
@@ -244,38 +272,49 @@ class SphereInterpolator:
         return functools.partial(type(self), **keywords), places_and_values
 
 
-class _Input:
-    """The points of a call, which live as long, and their C struct."""
-
-    def __init__(self, points, degrees, open):
-        self.points, self.trouble = _place_on_sphere(_arrays.to_host(_arrays.as_plane(points)), degrees)
-        struct = self.struct = _library.make(Struct)
-        struct.points, struct.number_of_points = address(self.points), len(self.points)
-        struct.point_type, struct.point_components = _library.TYPES[_arrays.type_of(self.points)], 3
-        struct.projection = PROJECTIONS.index("open-sphere" if open else "sphere")
-
-    def complete_values(self, values):
-        if len(values) != len(self.points):
-            raise ValueError(f"values must have {len(self.points)} rows, one for each point; there are {len(values)}")
-        return values
-
-
-def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False):
+def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False, lines=None):
     """The SphereTriangulation of points, and the texts of warnings.
 
     Args:
         keywords: Those of `triangulate_sphere`.
         keeps: Whether the session is kept for questions.
+        lines: The keywords of segments, outlines and holes; None: there are none.
     """
     backend = {name: keywords[name] for name in ("backend", "threads", "device")}
-    given = _Input(points, keywords["degrees"], keywords["open"])
+    given, misplaced = _read(points, keywords["degrees"], **(lines or {}))
+    given.struct.projection = PROJECTIONS.index("open-sphere" if keywords["open"] else "sphere")
+    keywords = {**keywords, "has_lines": given.struct.number_of_segments + given.struct.number_of_hole_seeds > 0}
     with contextlib.ExitStack() as stack:
-        handle, _ = stack.enter_context(
-            run("open_points", given.struct, make_options(**backend), lambda _: (), progress, on_iteration))
-        result, trouble = _store(handle, given.points, keywords)
+        try:
+            handle, _ = stack.enter_context(run(
+                "open_points", given.struct, make_options(**backend), lambda _: (), progress, on_iteration))
+            result = _store(handle, given, keywords)
+        except (_library.InvalidMesh, _library.InvalidOptions) as error:
+            error.args = (given.explain(str(error), getattr(error, "ring", -1)), *error.args[1:])
+            raise
         if keeps:
             result.__dict__["_answers"] = Answers(given, handle, stack.pop_all())
-    return result, list(filter(None, (given.trouble, trouble)))
+    return result, list(filter(None, (misplaced, "; ".join(given.trouble))))
+
+
+def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=None, ring_rule="evenodd"):
+    """The Input of places on the sphere, and the text of a warning, or "". Coordinates of lines, rings and
+    seeds are converted as those of points."""
+    def place(coordinates):
+        return _place_on_sphere(coordinates, degrees)[0]
+
+    places, misplaced = _place_on_sphere(_arrays.to_host(_arrays.as_plane(points)), degrees)
+    lines = list_lines(segments)
+    rings = {}
+    for name, value in (("outline", outline), ("holes", holes)):
+        rings[name] = [ring if ring.ndim == 1 else place(ring) for ring in list_rings(name, value)]
+    given = Input(places, [place(line) for line in lines] if lines else segments, **rings, ring_rule=ring_rule)
+    given.flat_points = given.flat_points[:0]  # those on the equator
+    if hole_seeds is not None:
+        seeds = place(_arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds")))
+        given.seeds = numpy.ascontiguousarray(seeds, dtype=numpy.float64)
+        given.struct.hole_seeds, given.struct.number_of_hole_seeds = address(given.seeds), len(seeds)
+    return given, misplaced
 
 
 def _read_directions(given, degrees):
@@ -311,18 +350,21 @@ def _describe_latitudes(latitudes):
             "longitudes come first")
 
 
-def _store(handle, places, keywords):
-    """The SphereTriangulation of a session that has ended, and the text of a warning, or ""."""
+def _store(handle, given, keywords):
+    """The SphereTriangulation of a session that has ended."""
     report = _report.read(handle)
     triangles = numpy.empty((report.triangles, 3), dtype=numpy.int32)
     neighbors = numpy.empty((report.triangles, 3), dtype=numpy.int32)
-    used = numpy.arange(len(places))
+    edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
+    numbers = numpy.empty(report.segment_edges, dtype=numpy.int64)
+    used = numpy.arange(len(given.points))
     _arrays.store("triangles", handle, triangles, _library.TYPES["int32"])
     _arrays.store("neighbors", handle, neighbors)
+    _library.call("store_segment_edges", handle, address(edges))
+    _library.call("store_segments_of_edges", handle, address(numbers))
     _library.call("store_used_points", handle, address(used))
-    trouble = ""
-    if report.points_inside:
-        trouble = "; ".join(
-            text for kind, _, text in _report.list_defects(handle) if kind == "points inside")
+    if report.defects:
+        report = dataclasses.replace(report, defects=given.describe_defects(handle))
     iterations = _report.read_iterations(handle, report)
-    return SphereTriangulation(places, triangles, neighbors, iterations, report, used, keywords), trouble
+    return SphereTriangulation(
+        given.points, triangles, neighbors, iterations, report, used, edges, numbers, keywords)

@@ -310,6 +310,14 @@ class Results(PointTest):
         self.assertEqual(len(triangles_of(mesh)), 2 * 12 + 12)
         self.fail_with(2, "in.csv", "out.vtk", "--from-points", "--projection", "sphere", "--degrees",
                        "--alpha", 1, naming=["--alpha has no meaning on a sphere"])
+        self.write("in.csv", text_of(rows, ",", "lon,lat"))
+        coast = self.rings("coast.vtk", [(165, -25, 0), (-175, -25, 0), (-175, 25, 0), (165, 25, 0)])
+        sizes = []
+        for option in ("--outline", "--holes"):
+            mesh, _ = self.triangulate("in.csv", "--projection", "sphere", "--degrees", option, coast)
+            sizes.append(len(triangles_of(mesh)))
+        self.assertEqual(sum(sizes), 2 * (12 * 5 + 2 + 4) - 4)
+        self.assertLess(sizes[0], 20)
         for projection in ([], ["--projection", "plane"]):
             self.fail_with(2, "in.csv", "out.vtk", "--from-points", "--degrees", *projection,
                            naming=["--degrees needs --projection sphere"])

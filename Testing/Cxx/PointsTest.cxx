@@ -224,6 +224,33 @@ TEST(FromPoints, OnASphere)
   ExpectHolds(RunToWarning(turned), "2 points with a latitude beyond 90 degrees (first: 2)");
 }
 
+/// A coast of the second input is in degrees, too. Its inside is its smaller side.
+TEST(FromPoints, CoastsOnASphere)
+{
+  Points degrees;
+  for (int i = 0; i < 300; ++i)
+  {
+    degrees.push_back({ 137.5 * i - 360.0 * (137 * i / 360), 0.6 * i - 89.7, 0.0 });
+  }
+  PointsFilter globe(ToMesh(degrees));
+  globe->SetProjectionToSphere();
+  globe->DegreesOn();
+  const std::size_t whole = 2 * 304 - 4;
+  const auto coast = MakeMesh(
+    { { 160, -20, 0 }, { -160, -20, 0 }, { -160, 20, 0 }, { 160, 20, 0 } }, { { 0, 1, 2, 3 } });
+  globe->SetSegmentsData(coast);
+  globe->Update();
+  const std::size_t inside = globe.GetPolygons().size();
+  EXPECT_LT(20u, inside);
+  EXPECT_GT(whole / 4, inside);
+  EXPECT_EQ(4, globe->GetNumberOfSegmentEdges());
+  globe->SetFirstHole(0);
+  globe->Update();
+  EXPECT_EQ(whole - inside, globe.GetPolygons().size());
+  const double* corner = globe->GetOutput()->GetPoint(300);
+  EXPECT_NEAR(1.0, std::hypot(corner[0], corner[1], corner[2]), 1e-15);
+}
+
 /// Points on a wall: what is added is on it, too. Each property makes another mesh.
 TEST(FromPoints, Refinement)
 {

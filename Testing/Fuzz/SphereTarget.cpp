@@ -7,14 +7,14 @@
 #include "PointTriangulation.h"
 #include "RandomInputs.h"
 #include "References.h"
+#include "SphereSegmentAudit.h"
+#include "SphereSegments.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <numeric>
-#include <set>
 
 /// @file
 /// Triangulations of points on a sphere, as a target for fuzzers, judged by rational numbers.
@@ -30,15 +30,20 @@ struct SphereCase
   bool AreFloats = false;
   bool AreAnywhere = false; ///< Not on a sphere, and perhaps nearly in a plane.
   std::vector<float> Floats; ///< The points, if they are floats.
+  std::vector<std::int64_t> Segments; ///< Pairs of points.
 
-  PlaneArray View() const
+  PointInput View() const
   {
     const auto count = static_cast<std::int64_t>(this->Points.size());
+    PointInput input;
+    input.Points = PlaneArray(this->Points.data()->data(), count, 3);
     if (this->AreFloats)
     {
-      return { this->Floats.data(), count, 3 };
+      input.Points = PlaneArray(this->Floats.data(), count, 3);
     }
-    return { this->Points.data()->data(), count, 3 };
+    input.Segments = this->Segments.data();
+    input.NumberOfSegments = static_cast<std::int64_t>(this->Segments.size()) / 2;
+    return input;
   }
 };
 
@@ -84,6 +89,26 @@ Point3 DrawDirection(std::mt19937& random, double spread)
     x /= length;
   }
   return p;
+}
+
+/// Draws segments between points that follow each other, or anywhere. None has ends on opposite
+/// sides of the sphere.
+void DrawSegments(ByteSource& source, SphereCase& drawn)
+{
+  const auto count = static_cast<std::uint32_t>(drawn.Points.size());
+  const std::uint32_t wanted = 1 + source.Draw(source.Once(4) ? 60 : 8);
+  std::uint32_t from = source.Draw(count);
+  for (std::uint32_t i = 0; i < wanted; ++i)
+  {
+    const std::uint32_t to = source.Draw(count);
+    const PlanePoint a{ drawn.Points[from][0], drawn.Points[from][1], drawn.Points[from][2] };
+    const PlanePoint b{ drawn.Points[to][0], drawn.Points[to][1], drawn.Points[to][2] };
+    if (!AreOpposite(a, b, 1e-5))
+    {
+      drawn.Segments.insert(drawn.Segments.end(), { from, to });
+    }
+    from = source.Once(3) ? source.Draw(count) : to;
+  }
 }
 
 SphereCase MakeSphereCase(const std::uint8_t* bytes, std::size_t size)
@@ -139,6 +164,10 @@ SphereCase MakeSphereCase(const std::uint8_t* bytes, std::size_t size)
       drawn.Floats.push_back(float(x));
     }
   }
+  if (source.Once(2))
+  {
+    DrawSegments(source, drawn);
+  }
   return drawn;
 }
 
@@ -157,39 +186,31 @@ std::vector<Point3> ListSomePlaces(const std::vector<Point3>& points)
   return places;
 }
 
-struct SphereResult
+struct SphereResult : SegmentResult
 {
-  std::vector<std::int32_t> Found; ///< The triangles of these places.
-  std::vector<std::int32_t> Triangles, Neighbors;
-  std::vector<std::int64_t> Used;
-  FlipReport Report;
+  std::vector<std::int32_t> Found; ///< The triangles of some places; without segments.
 };
 
-SphereResult Triangulate(const SphereCase& drawn, int threads)
+SphereResult Triangulate(const SphereCase& drawn, int threads, ProjectionKind projection)
 {
-  PointInput input;
-  input.Points = drawn.View();
-  const PointOptions sphere = With(&PointOptions::Projection, ProjectionKind::Sphere);
-  FlipSession session(input, WithThreads(threads, sphere));
-  session.Advance();
-  SphereResult result;
-  result.Report = session.GetReport();
-  result.Triangles = StoreTriangles(session);
-  result.Neighbors.resize(result.Triangles.size());
-  session.StoreNeighbors(result.Neighbors.data());
-  result.Used.resize(drawn.Points.size());
-  session.StoreUsedPoints(result.Used.data());
-  const std::vector<Point3> places = ListSomePlaces(drawn.Points);
-  result.Found.resize(places.size());
-  PlaceQuery query;
-  query.Places = PlaneArray(places.data()->data(), static_cast<std::int64_t>(places.size()), 3);
-  query.Triangles = result.Found.data();
-  session.Ask(query);
+  const PointOptions options = WithThreads(threads, With(&PointOptions::Projection, projection));
+  SphereResult result{ TriangulateOnSphere(drawn.View(), options), {} };
+  if (drawn.Segments.empty())
+  {
+    const std::vector<Point3> places = ListSomePlaces(drawn.Points);
+    result.Found.resize(places.size());
+    PlaceQuery query;
+    query.Places = PlaneArray(places.data()->data(), static_cast<std::int64_t>(places.size()), 3);
+    query.Triangles = result.Found.data();
+    FlipSession session(drawn.View(), options);
+    session.Advance();
+    session.Ask(query);
+  }
   return result;
 }
 
 /// All triangles face outside, all points are on their inner sides, and their number is right.
-void ExpectHull(const std::vector<Point3>& points, const SphereResult& result)
+void ExpectHull(const std::vector<Point3>& points, const SegmentResult& result)
 {
   const PointCounts& counts = result.Report.FromPoints;
   EXPECT_EQ(2 * counts.Used - 4, result.Report.Triangles);
@@ -261,44 +282,63 @@ void ExpectFlat(const std::vector<Point3>& points)
   }
 }
 
-/// Reports a failure of GoogleTest for each promise that is broken: the result is the same on one
-/// thread and on several and for points in another order; the triangles are the convex hull; places
-/// are found.
-void JudgeSphereCase(const SphereCase& drawn)
+SphereCase Reverse(const SphereCase& drawn)
 {
-  const SphereResult result = Triangulate(drawn, 1);
-  const SphereResult other = Triangulate(drawn, 3);
-  EXPECT_EQ(result.Triangles, other.Triangles);
-  EXPECT_EQ(result.Used, other.Used);
-  EXPECT_EQ(result.Found, other.Found);
-  ExpectSameStatistics(result.Report, other.Report);
-  if (result.Report.Triangles == 0)
-  {
-    if (!drawn.AreAnywhere)
-    {
-      ExpectFlat(drawn.Points);
-    }
-    return;
-  }
-  ExpectHull(drawn.Points, result);
-  ExpectPlaces(drawn.Points, result);
   SphereCase reversed = drawn;
   std::reverse(reversed.Points.begin(), reversed.Points.end());
   for (std::size_t i = 0; i < reversed.Floats.size(); ++i)
   {
     reversed.Floats[i] = float(reversed.Points[i / 3][i % 3]);
   }
-  const auto list = [](const SphereCase& points, const SphereResult& made)
+  for (std::int64_t& end : reversed.Segments)
   {
-    std::set<std::set<Point3>> triangles;
-    for (std::size_t i = 0; i < made.Triangles.size(); i += 3)
-    {
-      triangles.insert({ points.Points[made.Triangles[i]], points.Points[made.Triangles[i + 1]],
-        points.Points[made.Triangles[i + 2]] });
-    }
-    return triangles;
-  };
-  EXPECT_EQ(list(drawn, result), list(reversed, Triangulate(reversed, 1)));
+    end = static_cast<std::int64_t>(drawn.Points.size()) - 1 - end;
+  }
+  return reversed;
+}
+
+/// The result is the same on one thread and on several and for points in another order.
+SphereResult ExpectSame(const SphereCase& drawn, ProjectionKind projection)
+{
+  SphereResult result = Triangulate(drawn, 1, projection);
+  const SphereResult other = Triangulate(drawn, 3, projection);
+  EXPECT_EQ(result.Triangles, other.Triangles);
+  EXPECT_EQ(result.Used, other.Used);
+  EXPECT_EQ(result.Edges, other.Edges);
+  EXPECT_EQ(result.Found, other.Found);
+  ExpectSameStatistics(result.Report, other.Report);
+  const SphereCase reversed = Reverse(drawn);
+  EXPECT_EQ(ListTrianglePlaces(drawn.Points, result.Triangles),
+    ListTrianglePlaces(reversed.Points, Triangulate(reversed, 1, projection).Triangles));
+  return result;
+}
+
+/// Reports a failure of GoogleTest for each promise that is broken. The triangles are the convex
+/// hull. With segments, which need all triangles to face away from the origin, they are Delaunay
+/// but for these.
+void JudgeSphereCase(const SphereCase& drawn)
+{
+  SphereCase without = drawn;
+  without.Segments.clear();
+  const SphereResult hull = ExpectSame(without, ProjectionKind::Sphere);
+  if (hull.Report.Triangles > 0)
+  {
+    ExpectHull(drawn.Points, hull);
+    ExpectPlaces(drawn.Points, hull);
+  }
+  else if (!drawn.AreAnywhere)
+  {
+    ExpectFlat(drawn.Points);
+  }
+  if (!drawn.Segments.empty())
+  {
+    const SphereResult result = ExpectSame(drawn, ProjectionKind::OpenSphere);
+    ExpectDelaunayOnSphere(drawn.Points, result);
+    ExpectSegmentsOnSphere(drawn.Points, drawn.Segments, result);
+    EXPECT_EQ(0, result.Report.NonDelaunayAfter);
+    EXPECT_EQ(
+      hull.Report.Triangles, result.Report.Triangles + result.Report.FromPoints.LargeTriangles);
+  }
 }
 
 }
@@ -325,5 +365,9 @@ void PrintTarget(const std::uint8_t* bytes, std::size_t size)
   for (const Point3& p : drawn.Points)
   {
     std::cout << "point " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  }
+  for (std::size_t i = 0; i < drawn.Segments.size(); i += 2)
+  {
+    std::cout << "segment " << drawn.Segments[i] << ' ' << drawn.Segments[i + 1] << '\n';
   }
 }

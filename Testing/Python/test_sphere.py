@@ -144,6 +144,57 @@ class Sphere(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "have been changed"):
             pickle.loads(pickle.dumps(globe)).locate(places)
 
+    def test_segments(self):
+        points = make_directions(200, 9)
+        near = numpy.argsort(points @ points[0])[-4:-1]
+        globe = delaunayflip.triangulate_sphere(points, [[0, near[0]], [0, near[2]], [5, 5]])
+        self.assertEqual(globe.report.refused_segments, 0)
+        self.assertEqual(set(globe.segment_numbers.tolist()), {0, 1})
+        sides = {frozenset(ids[[i, i - 1]].tolist()) for ids in globe.triangles for i in range(3)}
+        self.assertLessEqual(set(map(frozenset, globe.segments.tolist())), sides)
+        line = [[170, 10], [-170, -10], [-160, 20]]  # by coordinates
+        globe = delaunayflip.triangulate_sphere(points, [line])
+        self.assertEqual(len(globe.points), 203)
+        self.assertEqual(globe.segments[0, 0], 200)
+        crossing = [[[0, 0], [20, 20]], [[0, 20], [20, 0]]]
+        with self.assertWarnsRegex(UserWarning, r"1 segment that crosses an earlier one: .*not split"):
+            globe = delaunayflip.triangulate_sphere(points, crossing)
+        self.assertEqual(globe.report.refused_segments, 1)
+        with self.assertRaisesRegex(ValueError, "cannot be found"):
+            globe.locate([[0, 0]])
+        with self.assertRaisesRegex(delaunayflip.InvalidMesh, "opposite sides"):
+            delaunayflip.triangulate_sphere(points, [[[10, 20], [-170, -20]]])
+        half = points[points[:, 2] > 0]
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, "need points all around"):
+            delaunayflip.triangulate_sphere(half, [[0, 1]])
+        self.assertEqual(delaunayflip.triangulate_sphere(half, [[0, 1]], open=True).report.refused_segments, 0)
+
+    def test_rings(self):
+        points = make_directions(500, 10)
+        square = numpy.array([[160, -20], [-160, -20], [-160, 20], [160, 20]])
+        inside = delaunayflip.triangulate_sphere(points, outline=square)
+        outside = delaunayflip.triangulate_sphere(points, holes=[square[::-1]])
+        self.assertEqual(len(inside.triangles) + len(outside.triangles), 2 * 504 - 4)
+        self.assertLess(len(inside.triangles), len(outside.triangles))
+        self.assertEqual(inside.report.outside_triangles, len(outside.triangles))
+        by_ids = delaunayflip.triangulate_sphere(inside.points, outline=[500, 501, 502, 503])
+        self.assertEqual(sort_rows(by_ids.triangles), sort_rows(inside.triangles))
+        radians = delaunayflip.triangulate_sphere(points, outline=numpy.radians(square), degrees=False)
+        self.assertEqual(sort_rows(radians.triangles), sort_rows(inside.triangles))
+        left = delaunayflip.triangulate_sphere(points, outline=square[::-1], ring_rule="orientation")
+        self.assertEqual(len(left.triangles), len(outside.triangles))
+        line = [numpy.r_[square, square[:1]]]
+        for seed in ([[180, 0]], [[-1.0, 0.0, 0.1]]):
+            emptied = delaunayflip.triangulate_sphere(points, line, hole_seeds=seed)
+            self.assertEqual(len(emptied.triangles), len(outside.triangles))
+        with self.assertWarnsRegex(UserWarning, "ring 1 of holes"):
+            delaunayflip.triangulate_sphere(points, holes=[square, [[0, 0], [10, 0]]])
+        with self.assertRaisesRegex(delaunayflip.InvalidMesh, "ring 0 of outline .* crosses segment 0"):
+            delaunayflip.triangulate_sphere(points, [[[180, -60], [180, 60]]], outline=square)
+        with self.assertWarnsRegex(UserWarning, "all triangles were removed"):
+            nothing = delaunayflip.triangulate_sphere(points, hole_seeds=[[0, 0]])
+        self.assertEqual(nothing.report.points_inside, 0)
+
     def test_refusals(self):
         points = make_directions(10)
         triangles = delaunayflip.triangulate_sphere(points).triangles

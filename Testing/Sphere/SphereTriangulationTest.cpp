@@ -359,9 +359,8 @@ TEST(SphereTriangulation, RefusesWhatItCannotDoYet)
   EXPECT_THROW(session.Insert(input.Points), InvalidOptions);
   EXPECT_THROW(
     FlipSession(input, With(&PointOptions::MinimumAngle, 20.0, Projected())), InvalidOptions);
-  const std::int64_t segment[] = { 0, 1 };
-  input.Segments = segment;
-  input.NumberOfSegments = 1;
+  const double sizes[20] = {};
+  input.Sizes = sizes;
   EXPECT_THROW(FlipSession(input, Projected()), InvalidOptions);
   PointInput flat;
   flat.Points = PlaneArray(points.data()->data(), 30, 2);
