@@ -554,10 +554,11 @@ extern "C"
     const delaunayflip_points* points, const delaunayflip_callbacks* callbacks);
 
   /** Moves points. The triangles are then those of a triangulation of the points where they are
-   * now, perhaps in another order; there may be more or fewer than before. If there are no
-   * segments, regions or goals, no options remove points or triangles, and no two points meet at
-   * one place or part, the mesh follows the points by flips, unless many triangles would turn over.
-   * Otherwise the triangulation is made anew. For sessions from points, after delaunayflip_advance.
+   * now, perhaps in another order; there may be more or fewer than before. If there are no goals,
+   * point_tolerance is 0, no two points meet at one place or part, and none goes through a segment,
+   * the mesh follows the points by flips, unless many triangles would turn over. Segments, outlines
+   * and holes move with their points. Otherwise the triangulation is made anew. For sessions from
+   * points, after delaunayflip_advance.
    * A frame of moving points:
    *
    *     delaunayflip_points places;

@@ -275,13 +275,13 @@ public:
     return FindDeviceOf(array) == this->GetBackend().GetContext().Device;
   }
 
-  MotionResult MovePoints(const PointInput& targets) override
+  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments) override
   {
     if (targets.OnDevice)
     {
       this->GetBackend().WaitFor(targets.Stream);
     }
-    return MeshOnBackend::MovePoints(targets);
+    return MeshOnBackend::MovePoints(targets, segments);
   }
 
 private:

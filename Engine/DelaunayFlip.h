@@ -182,10 +182,12 @@ public:
   bool Insert(const PlaneArray& points, const ProgressObserver& progress = {});
 
   /// Moves points. The triangles are then those of a triangulation of the points where they are
-  /// now, perhaps in another order. If there are no segments, regions or goals, no options remove
-  /// points or triangles, and no two points meet at one place or part, the mesh follows the points
-  /// in rounds. A round moves the points as far as the triangles allow, and flips. If many
-  /// triangles would turn over, and in all other cases, the points are triangulated anew.
+  /// now, perhaps in another order. If there are no goals, PointTolerance is 0, and no two points
+  /// meet at one place or part, the mesh follows the points in rounds. A round moves the points as
+  /// far as the triangles allow, and flips. Segments move with their points, and triangles that
+  /// outlines, holes and options remove are found anew. If many triangles would turn over, a point
+  /// goes through a segment, onto it or off it, a segment is refused because it crosses another one
+  /// or may be split there, and in all other cases, the points are triangulated anew.
   /// PointCounts::MoveRounds is then 0.
   ///
   /// If a GPU fails later, the CPU triangulates the points where they are, and the triangles may be
@@ -201,8 +203,8 @@ public:
 
   /// Removes points. The others keep their numbers. A removed point is no longer used, as if it
   /// were not finite, and later moves do not bring it back. Up to 256 points at a time are removed
-  /// in place where Move would keep the mesh; otherwise the triangulation is made anew. For
-  /// sessions from points.
+  /// in place where Move would keep the mesh, unless one is on a segment or an end of one.
+  /// Otherwise the triangulation is made anew. For sessions from points.
   /// @param ids of points. Ids of points that were removed before have no effect.
   /// @returns false if `progress` has asked to stop. Then no point is removed.
   /// @throws the same as Move.

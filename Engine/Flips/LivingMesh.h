@@ -31,7 +31,8 @@ public:
                                : this->InsertPoints(places, this->Points.Doubles);
   }
 
-  MotionResult RemovePoints(const std::vector<VertexId>& ids) override
+  MotionResult RemovePoints(
+    const std::vector<VertexId>& ids, const std::vector<EdgeId>& segments) override
   {
     const bool canRemove = this->Mesh.NumberOfTriangles > 0 && this->FiltersApply &&
       this->Report.FromPoints.Repeated == 0;
@@ -40,19 +41,20 @@ public:
       return MotionResult();
     }
     this->RequireStates();
-    return this->Places.Floats ? this->RemoveHere(ids, this->Points.Floats)
-                               : this->RemoveHere(ids, this->Points.Doubles);
+    return this->Places.Floats ? this->RemoveHere(ids, segments, this->Points.Floats)
+                               : this->RemoveHere(ids, segments, this->Points.Doubles);
   }
 
-  MotionResult MovePoints(const PointInput& targets) override
+  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments) override
   {
     if (this->Range != CoordinateRange::Usual || this->Mesh.NumberOfTriangles == 0)
     {
       return MotionResult();
     }
     const bool isLocal = BackendT::IsOnHost || targets.OnDevice;
-    return targets.Points.Floats ? this->MoveTo(targets.Points, targets.Points.Floats, isLocal)
-                                 : this->MoveTo(targets.Points, targets.Points.Doubles, isLocal);
+    return targets.Points.Floats
+      ? this->MoveTo(targets.Points, targets.Points.Floats, isLocal, segments)
+      : this->MoveTo(targets.Points, targets.Points.Doubles, isLocal, segments);
   }
 
   void StartRefinement(const RefinementPlan& plan) override
@@ -193,7 +195,8 @@ private:
 
   /// @param values the coordinates of the targets, in the caller's type.
   template <typename Value>
-  MotionResult MoveTo(PlaneArray targets, const Value* values, bool isLocal)
+  MotionResult MoveTo(
+    PlaneArray targets, const Value* values, bool isLocal, const std::vector<EdgeId>& segments)
   {
     this->RequireStates();
     if (!isLocal)
@@ -206,19 +209,20 @@ private:
       targets = PlaneArray(copy.Data(), targets.Count, targets.Stride);
     }
     this->Asker = PlaceAsker<BackendT>();
-    return this->Places.Floats ? this->MoveHere(targets, this->Points.Floats)
-                               : this->MoveHere(targets, this->Points.Doubles);
+    return this->Places.Floats ? this->MoveHere(targets, segments, this->Points.Floats)
+                               : this->MoveHere(targets, segments, this->Points.Doubles);
   }
 
   template <typename Real>
-  MotionResult MoveHere(const PlaneArray& targets, Array<Real>& coordinates)
+  MotionResult MoveHere(
+    const PlaneArray& targets, const std::vector<EdgeId>& segments, Array<Real>& coordinates)
   {
     const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
       this->Order.VertexOfRank.Data() };
     const auto settle = [&](bool hasOtherEdges)
     { return this->Settle(coordinates.Data(), hasOtherEdges); };
     const MotionResult result =
-      this->Motion.Move(mesh, targets, this->UsedPoint, this->Backend, settle);
+      this->Motion.Move(mesh, targets, this->UsedPoint, segments, this->Backend, settle);
     this->CountGrown();
     return result;
   }
@@ -240,7 +244,8 @@ private:
   }
 
   template <typename Real>
-  MotionResult RemoveHere(const std::vector<VertexId>& ids, Array<Real>& coordinates)
+  MotionResult RemoveHere(
+    const std::vector<VertexId>& ids, const std::vector<EdgeId>& segments, Array<Real>& coordinates)
   {
     Array<VertexId> removed = this->Backend.template MakeArray<VertexId>(SizeOf(ids));
     this->Backend.Upload(ids.data(), SizeOf(ids), removed.Data());
@@ -253,8 +258,8 @@ private:
       return this->Settle(coordinates.Data(), hasOtherEdges);
     };
     this->Asker = PlaceAsker<BackendT>();
-    const MotionResult result =
-      this->Motion.Remove(mesh, this->Order.VertexOfRank.Data(), removed, this->Backend, settle);
+    const MotionResult result = this->Motion.Remove(
+      mesh, this->Order.VertexOfRank.Data(), removed, segments, this->Backend, settle);
     if (result.IsThere)
     {
       this->ForgetUsed(removed);

@@ -54,6 +54,7 @@ struct MotionResult
   bool IsThere = false; ///< False: it did not end, and the mesh is of no use.
   std::int64_t Rounds = 0;
   std::int64_t Flips = 0;
+  std::vector<PinnedEdge> Edges; ///< The edges that were given. Empty: they are what they were.
 };
 
 /// @returns whether to go on.
@@ -95,13 +96,15 @@ public:
   /// @returns how many flips it took.
   virtual std::int64_t InsertPoints(const std::vector<double>& places) = 0;
 
-  /// Moves the points of a Delaunay triangulation of points without fixed interior edges, and flips
-  /// until it is Delaunay again.
+  /// Moves the points of a Delaunay triangulation of points, and flips until it is Delaunay again.
   /// @param targets the places of all points, on a device only if HasMemory is true of them.
-  virtual MotionResult MovePoints(const PointInput& targets) = 0;
+  /// @param segments the edges that segments have become, each once. They stay edges.
+  virtual MotionResult MovePoints(
+    const PointInput& targets, const std::vector<EdgeId>& segments) = 0;
   /// Removes points from such a triangulation.
-  /// @param ids of points, ascending.
-  virtual MotionResult RemovePoints(const std::vector<VertexId>& ids) = 0;
+  /// @param ids of points, ascending; none is an end of one of the segments.
+  virtual MotionResult RemovePoints(
+    const std::vector<VertexId>& ids, const std::vector<EdgeId>& segments) = 0;
   /// Whether an array is in the memory of the backend's device.
   virtual bool HasMemory(const void*) const { return false; }
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <type_traits>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -24,11 +25,13 @@ public:
   /// @param mesh must be Delaunay.
   /// @param targets by point, in the memory of the backend.
   /// @param used by point, what MergePlaces returned.
+  /// @param segments the edges that segments have become.
   /// @param settle flips until the mesh is Delaunay, and returns the number of flips. Its argument
   /// says whether edges were added or dropped.
   template <typename Real, typename Settle>
   MotionResult Move(const MovingMesh<Real>& mesh, const PlaneArray& targets,
-    const Array<VertexId>& used, const Backend& backend, const Settle& settle)
+    const Array<VertexId>& used, const std::vector<EdgeId>& segments, const Backend& backend,
+    const Settle& settle)
   {
     MotionResult result;
     if (!KeepsUse(targets, used, backend))
@@ -36,17 +39,23 @@ public:
       return result;
     }
     auto& motion = this->GetMotion<Real>(backend);
-    motion.Begin(mesh, targets);
+    motion.Begin(mesh, targets, segments);
+    bool hasOtherEdges = false;
     do
     {
       if (!motion.MakeRound(mesh))
       {
         return result;
       }
+      hasOtherEdges = hasOtherEdges || motion.HasChangedHull();
       result.Flips += settle(motion.HasChangedHull());
       ClearCandidates(mesh.Edges, backend);
     } while (motion.CountLate() > 0);
     motion.End(mesh);
+    if (hasOtherEdges)
+    {
+      result.Edges = motion.FetchPinned(mesh);
+    }
     result.Rounds = motion.CountRounds();
     result.IsThere = true;
     return result;
@@ -55,17 +64,20 @@ public:
   /// Removes points.
   /// @param ids the mesh's own, which change.
   /// @param removed the ids of these points, ascending, in the memory of the backend.
+  /// @param segments as for Move; none ends at one of these points.
   /// @param settle as for Move.
   template <typename Real, typename Settle>
   MotionResult Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed,
-    const Backend& backend, const Settle& settle)
+    const std::vector<EdgeId>& segments, const Backend& backend, const Settle& settle)
   {
     MotionResult result;
-    result.IsThere = this->GetMotion<Real>(backend).Remove(mesh, ids, removed);
+    auto& motion = this->GetMotion<Real>(backend);
+    result.IsThere = motion.Remove(mesh, ids, removed, segments);
     if (result.IsThere)
     {
       result.Rounds = 1;
       result.Flips = settle(true);
+      result.Edges = motion.FetchPinned(mesh);
       ClearCandidates(mesh.Edges, backend);
     }
     return result;

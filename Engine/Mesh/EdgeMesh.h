@@ -133,6 +133,13 @@ struct alignas(8) CornerPair
   CornerId A, B;
 };
 
+/// An edge that a segment has become, after points were moved or removed.
+struct PinnedEdge
+{
+  HalfEdgeId Side; ///< What its even half-edge has become.
+  std::uint32_t IsOnHull; ///< Whether it has only one triangle, which is on the even half-edge.
+};
+
 /// The quadrilateral around an edge of two triangles, every index named (see EdgeFlip.h's picture).
 struct Quad
 {

@@ -13,6 +13,7 @@
 #include "VertexRemoval.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace delaunayflip
 {
@@ -39,8 +40,14 @@ public:
 
   HullView View(const PlaneMesh& mesh)
   {
-    return { mesh, this->Sides.Data(), this->SideOfVertex.Data(), this->Cuts.Data(),
+    HullView hull{ mesh, this->Sides.Data(), this->SideOfVertex.Data(), this->Cuts.Data(),
       this->NumberOfCuts };
+    if (!this->PinnedEdges.empty())
+    {
+      hull.PinOf = this->PinOf.Data();
+      hull.Pinned = this->Pinned.Data();
+    }
+    return hull;
   }
 
   /// Cuts off triangles at the boundary that are not counter-clockwise at the current places.
@@ -53,6 +60,62 @@ public:
   bool HasFailed() const { return this->Failed; }
 
   // The functions below are public because device lambdas require it.
+
+  /// Sets the edges that must stay edges. @param vertices the number of vertices.
+  void Pin(const std::vector<EdgeId>& edges, std::int64_t vertices)
+  {
+    // A triangulation has fewer than three edges per vertex.
+    const bool isKnown =
+      edges == this->PinnedEdges && static_cast<std::int64_t>(this->PinOf.Size()) >= 3 * vertices;
+    if (isKnown || edges.empty())
+    {
+      this->PinnedEdges = edges;
+      return;
+    }
+    const auto count = static_cast<std::int64_t>(edges.size());
+    Reserve(this->PinOf, 0, 3 * vertices, this->Device);
+    Reserve(this->Pinned, 0, count, this->Device);
+    this->Device.Upload(edges.data(), count, this->Pinned.Data());
+    std::uint32_t* pinOf = this->PinOf.Data();
+    HalfEdgeId* pinned = this->Pinned.Data();
+    this->Device.ForEach(static_cast<std::int64_t>(this->PinOf.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { pinOf[i] = NoSide; });
+    this->Device.ForEach(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        pinOf[pinned[i]] = static_cast<std::uint32_t>(i);
+        pinned[i] *= 2;
+      });
+    this->PinnedEdges = edges;
+  }
+
+  /// What the pinned edges have become. From now on they are pinned by their new numbers.
+  std::vector<PinnedEdge> FetchPinned(const EdgeMesh& mesh)
+  {
+    const auto count = static_cast<std::int64_t>(this->PinnedEdges.size());
+    std::vector<PinnedEdge> fetched(count);
+    if (count == 0)
+    {
+      return fetched;
+    }
+    Array<PinnedEdge> found = this->Device.template MakeArray<PinnedEdge>(count);
+    PinnedEdge* to = found.Data();
+    HalfEdgeId* pinned = this->Pinned.Data();
+    const CornerId* corners = mesh.CornerOfHalfEdge.Data();
+    this->Device.ForEach(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        const HalfEdgeId side = pinned[i];
+        to[i] = { side, corners[side | 1u] == NoCorner ? 1u : 0u };
+        pinned[i] = side & ~1u;
+      });
+    this->Device.Download(to, count, fetched.data());
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      this->PinnedEdges[i] = EdgeOf(fetched[i].Side);
+    }
+    return fetched;
+  }
 
   /// Removes points.
   /// @param ids the point of each vertex.
@@ -297,6 +360,9 @@ private:
   Array<std::uint32_t> TrackOf;
   Array<TrackedVertex> Tracked;
   Array<HullSizes> Sizes;
+  std::vector<EdgeId> PinnedEdges; ///< The numbers of pinned edges. Empty: there are none.
+  Array<std::uint32_t> PinOf;
+  Array<HalfEdgeId> Pinned;
   std::int64_t Count = 0; ///< The number of sides.
   bool Failed = false;
 };

@@ -57,6 +57,15 @@ struct HullView
   std::int64_t NumberOfCuts;
   std::uint32_t* TrackOf = nullptr; ///< By vertex, its index in Tracked, or NoSide. May be null.
   TrackedVertex* Tracked = nullptr;
+  std::uint32_t* PinOf =
+    nullptr; ///< By edge, its index in Pinned, or NoSide. Null: none is pinned.
+  HalfEdgeId* Pinned = nullptr; ///< By pinned edge, its half-edge that was even at first.
+
+  /// Whether an edge must stay one, because a segment has become it.
+  DELAUNAYFLIP_HOST_DEVICE bool IsPinned(EdgeId edge) const
+  {
+    return this->PinOf && this->PinOf[edge] != NoSide;
+  }
 
   /// A corner of a vertex that is on the boundary.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex) const
@@ -200,6 +209,11 @@ protected:
       return false;
     }
     const EdgeId edge = this->Hull.Sides[number].Edge;
+    if (this->Hull.IsPinned(edge)) // a point would go through a segment
+    {
+      this->Sizes.HasFailed = 1;
+      return false;
+    }
     const CornerId corner = this->Edges.CornerOfHalfEdge[2 * edge];
     const TriangleRecord triangle = this->Edges.Triangles[TriangleOf(corner)];
     const int slot = SlotOf(corner);
@@ -226,6 +240,11 @@ protected:
     this->Edges.SetCorners(edge, { left, NoCorner });
     this->Edges.Triangles[TriangleOf(left)].HalfEdges[SlotOf(left)] = 2 * edge;
     this->Edges.States[edge] = EdgeState::Fixed;
+    const bool hasTurned = cut == 2 * edge && this->Hull.IsPinned(edge);
+    if (hasTurned)
+    {
+      this->Hull.Pinned[this->Hull.PinOf[edge]] ^= 1u;
+    }
     return edge;
   }
 
@@ -259,14 +278,23 @@ protected:
     this->Edges.CornerOfHalfEdge[2 * edge + 1] = NoCorner;
     this->Edges.Triangles[added] = triangle;
     this->Edges.States[edge] = EdgeState::Fixed;
-    this->Edges.States[before] = EdgeState::Candidate;
-    this->Edges.States[own.Edge] = EdgeState::Candidate;
+    this->MakeInner(before);
+    this->MakeInner(own.Edge);
     this->Hull.Sides[own.Before].Edge = edge;
     this->Hull.Sides[own.Before].After = own.After;
     this->Hull.Sides[own.After].Before = own.Before;
     this->Hull.SideOfVertex[vertex] = NoSide;
     this->DropSide(number);
     return true;
+  }
+
+  /// Ends that an edge is fixed because it is on the boundary.
+  DELAUNAYFLIP_HOST_DEVICE void MakeInner(EdgeId edge) const
+  {
+    if (!this->Hull.IsPinned(edge))
+    {
+      this->Edges.States[edge] = EdgeState::Candidate;
+    }
   }
 
   /// Drops a side. The last side takes its number. The next two functions do so with triangles and
@@ -324,8 +352,20 @@ protected:
         this->Hull.Sides[this->Hull.SideOfVertex[this->Hull.Mesh.GetStart(2 * number)]].Edge =
           number;
       }
+      this->MovePin(last, number);
     }
     this->Edges.States[last] = EdgeState::Fixed; // like all states behind the last edge
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE void MovePin(EdgeId from, EdgeId to) const
+  {
+    if (this->Hull.IsPinned(from))
+    {
+      const std::uint32_t pin = this->Hull.PinOf[from];
+      this->Hull.PinOf[from] = NoSide;
+      this->Hull.PinOf[to] = pin;
+      this->Hull.Pinned[pin] = 2 * to + (this->Hull.Pinned[pin] & 1u);
+    }
   }
 
   HullView Hull;

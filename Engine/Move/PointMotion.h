@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 /// @file
 /// Moves the vertices of a Delaunay triangulation in rounds. In a round all vertices that are not
@@ -68,7 +69,9 @@ public:
 
   /// Begins a motion. The mesh must be Delaunay.
   /// @param targets by point, in the memory of the backend.
-  void Begin(const MovingMesh<Real>& mesh, const PlaneArray& targets)
+  /// @param segments the edges that segments have become.
+  void Begin(
+    const MovingMesh<Real>& mesh, const PlaneArray& targets, const std::vector<EdgeId>& segments)
   {
     this->Targets = targets;
     this->Rounds = 0;
@@ -77,18 +80,22 @@ public:
       static_cast<std::uint32_t>(mesh.Edges.NumberOfTriangles / MostShare + Fewest);
     this->MakeRoom(mesh);
     this->RequireHull(mesh);
+    this->Hull.Pin(segments, mesh.Vertices);
   }
 
   /// Removes points. Edges that have to be judged become candidates.
   /// @param ids the mesh's own, which change.
   /// @param removed the ids of these points, ascending, in the memory of the backend.
+  /// @param segments as for Begin.
   /// @returns false if all points have to be triangulated anew.
   /// @throws BeyondDevice.
-  bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed)
+  bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed,
+    const std::vector<EdgeId>& segments)
   {
     Reserve(this->Counts, 0, NumberOfCounts, this->Device);
     this->ClearCounts();
     this->RequireHull(mesh);
+    this->Hull.Pin(segments, mesh.Vertices);
     const bool isDone =
       this->Hull.Remove(mesh.Edges, this->ViewPlane(mesh), mesh.Coordinates, ids, removed);
     MovingMesh<Real> left = mesh;
@@ -142,6 +149,12 @@ public:
   bool HasChangedHull() const { return this->ChangedHull; }
   std::int64_t CountLate() const { return this->NumberOfLate; }
   std::int64_t CountRounds() const { return this->Rounds; }
+
+  /// What the edges of segments have become.
+  std::vector<PinnedEdge> FetchPinned(const MovingMesh<Real>& mesh)
+  {
+    return this->Hull.FetchPinned(mesh.Edges);
+  }
 
   /// Ends a motion after which all vertices are at their targets.
   void End(const MovingMesh<Real>& mesh)

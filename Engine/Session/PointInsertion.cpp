@@ -58,16 +58,23 @@ bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress
   return this->Report.StopReason != StopReasonKind::Aborted;
 }
 
-/// Whether this has become a Delaunay triangulation of all points, without segments, regions or
-/// goals, in which no option has removed points or triangles.
+/// Whether this has become a constrained Delaunay triangulation of the caller's points alone.
+bool PointRun::IsDelaunay() const
+{
+  const PointOptions& options = this->Points.GetOptions();
+  const bool isSplit = options.SplitCrossings && this->Points.GetCaller().NumberOfSegments > 0;
+  const bool isOfCaller = !this->WantsRefinement() && options.PointTolerance == 0.0 && !isSplit;
+  return isOfCaller && this->Loaded && this->IsOver() && this->Found.Bad == 0;
+}
+
+/// Whether there are, in addition, no segments or regions, and no option has removed triangles.
 bool PointRun::IsPlain() const
 {
   const PointOptions& options = this->Points.GetOptions();
   const PointInput& caller = this->Points.GetCaller();
   const bool isFree = caller.NumberOfSegments + caller.NumberOfHoleSeeds == 0 &&
-    !this->WantsRefinement() && caller.NumberOfRegions == 0 && options.PointTolerance == 0.0 &&
-    options.Alpha == 0.0 && options.LongestEdge == 0.0;
-  return isFree && this->Loaded && this->IsOver() && this->Found.Bad == 0;
+    caller.NumberOfRegions == 0 && options.Alpha == 0.0 && options.LongestEdge == 0.0;
+  return isFree && this->IsDelaunay();
 }
 
 /// Whether all points are in triangles.

@@ -194,8 +194,8 @@ bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObser
   };
   try
   {
-    const bool isPlain = keepsNumbers && this->IsPlain();
-    if (isPlain && (keepsPoints ? this->MoveInPlace() : this->RemoveInPlace(removedBefore)))
+    const bool mayStay = keepsNumbers && this->IsDelaunay() && this->MaySegmentsStay();
+    if (mayStay && (keepsPoints ? this->MoveInPlace() : this->RemoveInPlace(removedBefore)))
     {
       return true;
     }
@@ -222,13 +222,19 @@ bool PointRun::MoveInPlace()
   return this->ChangeInPlace(
     [&](LoadedMesh& mesh)
     {
+      const SegmentPins& pins = this->Result.Pins;
+      const bool stay = !pins.HasBetween() || pins.AreStraight(this->Points.CopyToHost());
+      if (!stay)
+      {
+        return MotionResult();
+      }
       PointInput targets = this->Points.GetInput();
       if (targets.OnDevice && !mesh.HasMemory(targets.Points.Data()))
       {
         targets.Points = this->Points.CopyToHost();
         targets.OnDevice = false;
       }
-      return mesh.MovePoints(targets);
+      return mesh.MovePoints(targets, pins.GetEdges());
     });
 }
 
@@ -243,8 +249,90 @@ bool PointRun::RemoveInPlace(const std::vector<std::int64_t>& before)
   std::set_difference(
     now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(ids));
   return ids.size() <= Most &&
-    this->ChangeInPlace([&](LoadedMesh& mesh) { return mesh.RemovePoints(ids); });
+    this->ChangeInPlace(
+      [&](LoadedMesh& mesh)
+      {
+        const SegmentPins& pins = this->Result.Pins;
+        return pins.HavePoint(ids) ? MotionResult() : mesh.RemovePoints(ids, pins.GetEdges());
+      });
 }
+
+//------------------------------------------------------------------------------
+// Segments.
+
+/// Whether no segment is refused because it crosses another one. If no edge of a segment is lost in
+/// a motion, none is refused after it.
+bool PointRun::MaySegmentsStay()
+{
+  this->Points.Prepare(this->Observer);
+  const PointResult& result = this->Result;
+  const bool haveCrossed = std::any_of(result.Refused.begin(), result.Refused.end(),
+    [](const RefusedSegment& refused) { return refused.Why != RefusalKind::NotFinite; });
+  return !haveCrossed;
+}
+
+void PointRun::ListPins(LoadedMesh& mesh)
+{
+  PointResult& result = this->Result;
+  const bool isListed = result.Pins.AreListed() || this->Points.GetCaller().NumberOfSegments == 0;
+  if (!isListed)
+  {
+    const auto& edges = result.WholeEdges.empty() ? result.Edges : result.WholeEdges;
+    mesh.ViewOnHost([&](const PointMeshView& view)
+      { result.Pins.List(view, edges, this->Points.GetSegments()); });
+  }
+}
+
+/// Finds the triangles that are removed, and the regions, after a motion.
+/// @returns false if rings have got or lost an area.
+bool PointRun::JudgeAgain(const MotionResult& motion)
+{
+  PointResult& result = this->Result;
+  auto& edges = result.WholeEdges.empty() ? result.Edges : result.WholeEdges;
+  result.Pins.Renumber(motion.Edges, edges);
+  result.Flips = 0;
+  const std::vector<std::int32_t> leftOut = this->Points.GetLeftOutRings();
+  this->OnBackend([this](LoadedMesh& mesh) { this->Points.PrepareRings(mesh); });
+  if (leftOut != this->Points.GetLeftOutRings())
+  {
+    return false;
+  }
+  this->OnBackend(
+    [this](LoadedMesh& mesh)
+    {
+      if (MayRemove(this->Points.GetInput(), this->Points.GetOptions()))
+      {
+        this->RemoveTriangles(mesh);
+      }
+      if (this->Points.GetCaller().NumberOfRegions > 0)
+      {
+        this->LabelRegions(mesh);
+      }
+    });
+  return true;
+}
+
+/// Makes the mesh of all points on another backend.
+void PointRun::RepeatAll(LoadedMesh& mesh)
+{
+  mesh.GetLoop().Converge();
+  const std::vector<Segment>& segments = this->Points.GetSegments();
+  if (!segments.empty())
+  {
+    this->InsertUpTo(segments.size(), mesh, {});
+    mesh.GetLoop().Converge();
+  }
+  if (MayRemove(this->Points.GetInput(), this->Points.GetOptions()))
+  {
+    this->RemoveTriangles(mesh);
+  }
+  if (this->Points.GetCaller().NumberOfRegions > 0)
+  {
+    this->LabelRegions(mesh);
+  }
+}
+
+//------------------------------------------------------------------------------
 
 /// Changes the loaded mesh in place.
 /// @returns false if the points have to be triangulated anew.
@@ -259,8 +347,13 @@ bool PointRun::ChangeInPlace(const Change& change)
   this->BatchEnds.clear();
   this->Journal = { { this->Stages.size() - 1, AllPoints } };
   MotionResult motion;
-  const bool isLoaded = this->TryOnBackend([&](LoadedMesh& mesh) { motion = change(mesh); });
-  if (!isLoaded || !motion.IsThere)
+  const bool isLoaded = this->TryOnBackend(
+    [&](LoadedMesh& mesh)
+    {
+      this->ListPins(mesh);
+      motion = change(mesh);
+    });
+  if (!isLoaded || !motion.IsThere || !this->JudgeAgain(motion))
   {
     return false;
   }

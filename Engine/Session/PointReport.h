@@ -7,6 +7,7 @@
 #include "Outline.h"
 #include "PointPreparation.h"
 #include "RefusedSegments.h"
+#include "SegmentPins.h"
 
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,9 @@ struct PointResult
   std::int64_t Inserted = 0; ///< How many of these are not refused.
   std::int64_t Flips = 0; ///< That inserted segments.
   std::vector<SegmentEdge> Edges;
+  /// All of them, if triangles may be removed; then Edges are those that are left.
+  std::vector<SegmentEdge> WholeEdges;
+  SegmentPins Pins; ///< Listed once points move.
   std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
   /// By index. If pieces of a given segment are refused, only the first of them.
   std::vector<RefusedSegment> Refused;

@@ -66,7 +66,7 @@ void PointRun::ListStages()
   {
     if (batch == AllPoints)
     {
-      mesh.GetLoop().Converge();
+      this->RepeatAll(mesh);
       return;
     }
     this->InsertBatch(mesh, static_cast<std::size_t>(batch));
@@ -347,7 +347,14 @@ void PointRun::CutOff()
 void PointRun::RemoveTriangles(LoadedMesh& mesh)
 {
   const PointInput& input = this->Points.GetInput();
-  KeptTriangles& kept = this->Result.Kept;
+  PointResult& result = this->Result;
+  if (result.WholeEdges.empty())
+  {
+    result.WholeEdges = result.Edges;
+  }
+  result.Edges = result.WholeEdges;
+  result.Loss = Defect();
+  KeptTriangles& kept = result.Kept;
   mesh.ViewOnHost([&](const PointMeshView& view)
     { kept = KeepTriangles(view, input, this->Points.GetOptions(), this->Result.Edges); });
   if (IsLost(input, kept))

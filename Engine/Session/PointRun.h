@@ -69,6 +69,7 @@ private:
   void CutOff();
   void RemoveTriangles(LoadedMesh& mesh);
   bool IsPlain() const;
+  bool IsDelaunay() const;
   bool CanInsertInPlace(const PlaneArray& points);
   void InsertInPlace(const PlaneArray& points);
   void InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
@@ -79,6 +80,10 @@ private:
   template <typename Change>
   bool ChangeInPlace(const Change& change);
   void RecordMotion(const MotionResult& motion);
+  void RepeatAll(LoadedMesh& mesh);
+  bool MaySegmentsStay();
+  void ListPins(LoadedMesh& mesh);
+  bool JudgeAgain(const MotionResult& motion);
   bool WantsRefinement() const override;
   void LabelRegions();
   void LabelRegions(LoadedMesh& mesh);

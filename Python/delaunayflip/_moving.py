@@ -5,6 +5,8 @@ from __future__ import annotations  # help() shows types by their names
 
 import contextlib
 import ctypes
+import dataclasses
+import warnings
 from typing import Optional
 
 import numpy
@@ -14,7 +16,12 @@ from ._arrays import address
 from ._options import Array, Backend, Numbers, Progress, make_options
 from ._points import Input, triangulate
 from ._report import Report
+from ._rings import Rings
 from ._session import Handle, call, observe
+
+
+#: Part of a message that is for `triangulate` alone.
+_ADVICE = ": with split_crossings both get a point where they cross"
 
 
 class MovingTriangulation(Handle):
@@ -24,6 +31,10 @@ class MovingTriangulation(Handle):
     perhaps in another order. If points move a little, up to about a tenth of the distance between
     neighbours, the engine keeps its mesh and flips edges. Otherwise it triangulates the points anew, and
     `report.move_rounds` is 0. Both ways give the same triangles.
+
+    Segments, outlines and holes move with their points. As long as no point goes through a segment, the
+    mesh is kept. While a segment crosses an earlier one, it is left out, with a warning, and `report` names
+    it. It is back once it fits again.
 
     Points may be arrays of CuPy, PyTorch or Numba on a GPU, here and in `move`. Then `triangles` and
     `neighbors` are arrays of that library, and nothing goes through the host. These two are made when they
@@ -35,11 +46,14 @@ class MovingTriangulation(Handle):
     Args:
         points: (n, 2) or (n, 3) float32 or float64; z is ignored. They are copied, except on a GPU, where
             they must stay unchanged until the next `move`.
+        segments, outline, holes: As for `triangulate`. Points of those that are given by coordinates follow
+            the others; all of them have to be moved, too.
         backend, threads, device: As for `triangulate`.
         progress: Called with the share of the work done, 0 to 1; returning False stops it.
 
     Raises:
         delaunayflip.Stopped: progress has returned False.
+        InvalidMesh: As for `triangulate`.
         InvalidOptions, MeshTooLarge, BackendUnavailable, MemoryError, TypeError, ValueError.
 
     Example:
@@ -55,24 +69,50 @@ class MovingTriangulation(Handle):
     _what = "triangulation"  # in messages
 
     def __init__(
-        self, points: Numbers, *, backend: Backend = "auto", threads: int = 0, device: int = -1,
+        self, points: Numbers, segments: Optional[Numbers] = None, *, outline: Optional[Rings] = None,
+        holes: Optional[Rings] = None, backend: Backend = "auto", threads: int = 0, device: int = -1,
         progress: Optional[Progress] = None,
     ) -> None:
         super().__init__()
-        self._stored, self._count = {}, 0
-        self._given = Input(self._own(points))
+        self._stored, self._count, self._trouble = {}, 0, []
+        self._first = Input(self._own(points), segments, outline=outline, holes=holes)
+        self._given = self._first
         options = make_options(triangulate, backend=backend, threads=threads, device=device)
-        call("open_points", self._given.struct, options, ctypes.byref(self._handle), progress)
-        self._count = len(self._given.points)
-        call("advance", self._handle, -1, None, progress)
+        with self._explain():
+            call("open_points", self._given.struct, options, ctypes.byref(self._handle), progress)
+            self._count = len(self._given.points)
+            call("advance", self._handle, -1, None, progress)
         if _report.is_aborted(_report.read_struct(self._handle)):
             raise _library.Stopped("progress has stopped the triangulation")
+        self._warn(self._handle, 3)
 
     @staticmethod
     def _own(points):
         """A copy of the points, unless they are on a GPU."""
         points = _arrays.as_plane(points)
         return points.copy() if isinstance(points, numpy.ndarray) else points
+
+    @contextlib.contextmanager
+    def _explain(self):
+        """Puts the names of rings into messages of the engine."""
+        try:
+            yield
+        except _library.InvalidMesh as error:
+            error.args = (self._first.explain(str(error), error.ring), *error.args[1:])
+            raise
+
+    def _describe(self, handle):
+        """The defects as one text, and a list of those that are warned of."""
+        text, trouble = self._first.describe_defects(handle)
+        return text.replace(_ADVICE, ""), [warning.replace(_ADVICE, "") for warning in trouble]
+
+    def _warn(self, handle, level):
+        """Warns of what is not used of segments and rings, unless that was the same before."""
+        if self._first.struct.number_of_segments == 0:
+            return
+        before, self._trouble = self._trouble, self._describe(handle)[1]
+        if self._trouble and self._trouble != before:
+            warnings.warn("; ".join(self._trouble), stacklevel=level)
 
     def __len__(self) -> int:
         """The number of points, removed ones included."""
@@ -93,7 +133,8 @@ class MovingTriangulation(Handle):
 
         Raises:
             delaunayflip.Stopped: progress has returned False. All points are where they were.
-            InvalidOptions, InvalidMesh, BackendUnavailable, MemoryError, TypeError, ValueError.
+            InvalidMesh: A ring crosses a segment. All points are where they were.
+            InvalidOptions, BackendUnavailable, MemoryError, TypeError, ValueError.
         """
         given = Input(points)
         wanted = len(self)
@@ -147,7 +188,8 @@ class MovingTriangulation(Handle):
             _library.call("remove_points", handle, address(ids), len(ids), callbacks)
 
     def compact(self, *, progress: Optional[Progress] = None) -> None:
-        """Numbers the points anew, without the removed ones and in the same order.
+        """Numbers the points anew, without the removed ones and in the same order. Segments name points by
+        their numbers, so it is an error where there are some.
 
         Raises:
             As for `move`.
@@ -168,6 +210,14 @@ class MovingTriangulation(Handle):
         return self._store("neighbors")
 
     @property
+    def segments(self) -> Array:
+        """(k, 2) int64: the edges that segments have become, in their order and direction, each once."""
+        with self._open() as handle:
+            edges = numpy.empty((_report.read_struct(handle).segment_edges, 2), dtype=numpy.int64)
+            _library.call("store_segment_edges", handle, address(edges))
+            return edges
+
+    @property
     def used_points(self) -> Array:
         """(n,) int64: the point that is used at the place of each point; -1: it is removed or not
         finite."""
@@ -180,7 +230,10 @@ class MovingTriangulation(Handle):
     def report(self) -> Report:
         """The `Report` on the last change. Reading it measures all angles."""
         with self._open() as handle:
-            return _report.read(handle)
+            report = _report.read(handle)
+            if report.defects:
+                report = dataclasses.replace(report, defects=self._describe(handle)[0])
+            return report
 
     @staticmethod
     def _read_ids(ids):
@@ -191,9 +244,14 @@ class MovingTriangulation(Handle):
 
     @contextlib.contextmanager
     def _change(self):
-        with self._open() as handle:
+        with self._open() as handle, self._explain():
             self._stored = {}
-            yield handle
+            try:
+                yield handle
+            except _library.InvalidMesh:  # all points are where they were, but the mesh has to be made again
+                _library.call("advance", handle, -1, None, None)
+                raise
+            self._warn(handle, 5)
 
     def _store(self, name, *more):
         """An array of the current triangulation; the second time it is the same object."""

@@ -108,16 +108,17 @@ public:
     this->Report.Backend = "CUDA: fake";
     return flips;
   }
-  MotionResult MovePoints(const PointInput& targets) override
+  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments) override
   {
-    const MotionResult result = this->Engine->MovePoints(targets);
+    const MotionResult result = this->Engine->MovePoints(targets, segments);
     this->Report = this->Engine->GetInputReport();
     this->Report.Backend = "CUDA: fake";
     return result;
   }
-  MotionResult RemovePoints(const std::vector<VertexId>& ids) override
+  MotionResult RemovePoints(
+    const std::vector<VertexId>& ids, const std::vector<EdgeId>& segments) override
   {
-    const MotionResult result = this->Engine->RemovePoints(ids);
+    const MotionResult result = this->Engine->RemovePoints(ids, segments);
     this->Report = this->Engine->GetInputReport();
     this->Report.Backend = "CUDA: fake";
     return result;

@@ -336,6 +336,56 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatMove)
   }
 }
 
+/// The same with an outline, a hole and a segment: the CPU inserts them at the current places.
+TEST_F(FallbackTest, AnyCallMayFailForSegmentsThatMove)
+{
+  std::vector<double> xy{ -130, -130, 130, -130, 130, 130, -130, 130 };
+  for (int i = 0; i < 12000; ++i)
+  {
+    const double radius = std::sqrt(i);
+    xy.insert(xy.end(), { std::cos(2.4 * i) * radius, std::sin(2.4 * i) * radius });
+  }
+  const auto points = static_cast<std::int64_t>(xy.size()) / 2;
+  const std::vector<std::int64_t> segments{ 0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 4, 9, 7 };
+  const std::vector<std::int32_t> rings{ 0, 0, 0, 0, 1, 1, 1, -1 };
+  const auto run = [&](BackendKind backend, int call)
+  {
+    CallsToFailure = call;
+    PointInput input{ PlaneArray(xy.data(), points, 2) };
+    input.Segments = segments.data();
+    input.NumberOfSegments = 8;
+    input.Rings = rings.data();
+    input.FirstHole = 1;
+    FlipSession session(input, PointOptions{ OnBackend(backend) });
+    session.Advance();
+    std::vector<double> moved = xy;
+    for (const double step : { 0.01, 0.02, 0.0 })
+    {
+      for (std::size_t i = 0; i < moved.size(); ++i)
+      {
+        moved[i] += step * std::sin(static_cast<double>(7 * i));
+      }
+      EXPECT_TRUE(session.Move({ PlaneArray(moved.data(), points, 2) }));
+      EXPECT_LT(0, session.GetReport().FromPoints.MoveRounds) << step << ' ' << call;
+    }
+    return session;
+  };
+  const FlipSession whole = run(BackendKind::Threads, 0);
+  EXPECT_LT(0, whole.GetReport().FromPoints.OutsideTriangles);
+  for (int call = 1;; ++call)
+  {
+    const FlipSession session = run(BackendKind::Auto, call);
+    ASSERT_TRUE(StoreOrderedTriangles(whole) == StoreOrderedTriangles(session)) << call;
+    EXPECT_EQ(whole.ListSegmentEdges(), session.ListSegmentEdges()) << call;
+    EXPECT_TRUE(session.GetReport().Converged());
+    if (CallsToFailure > 0)
+    {
+      EXPECT_LT(10, call);
+      break;
+    }
+  }
+}
+
 /// The names of the stages in the journal of a finished run, and how much of each was done.
 std::vector<std::pair<std::string, std::int64_t>> ListJournal(const LoadedRun& run)
 {

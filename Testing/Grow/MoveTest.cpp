@@ -1,153 +1,22 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GrowTestSupport.h"
+#include "MoveTestSupport.h"
 #include "PointSets.h"
-#include "PointTestSupport.h"
-#include "RandomInputs.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 /// @file
-/// Points that move, are inserted and are removed. DELAUNAYFLIP_FRAMES is the number of frames for
-/// each family.
+/// Points that move, are inserted and are removed.
 
 namespace delaunayflip
 {
 namespace
 {
-
-int CountFrames(int usual)
-{
-  const char* wanted = std::getenv("DELAUNAYFLIP_FRAMES");
-  return wanted ? std::atoi(wanted) : usual / Reduction;
-}
-
-Triples ToTriples(const std::vector<std::int32_t>& ids)
-{
-  Triples triples;
-  for (std::size_t i = 0; i < ids.size(); i += 3)
-  {
-    triples.push_back({ ids[i], ids[i + 1], ids[i + 2] });
-  }
-  return triples;
-}
-
-Drawing ToDrawing(const Places& points)
-{
-  Drawing drawing;
-  drawing.Points = points;
-  return drawing;
-}
-
-/// Sessions of the same points on different numbers of threads. All must have the same triangles.
-class Moving
-{
-public:
-  explicit Moving(Drawing drawing)
-    : Now(std::move(drawing))
-  {
-    for (const int threads : { 1, 2, 3, 16 })
-    {
-      this->Sessions.emplace_back(this->Now.View(), PointOptions{ WithThreads(threads) });
-      this->Sessions.back().Advance();
-    }
-  }
-
-  /// Moves all points, and expects the triangles of a new triangulation.
-  void GoTo(const Places& points)
-  {
-    this->Now.Points = points;
-    for (FlipSession& session : this->Sessions)
-    {
-      EXPECT_TRUE(session.Move({ View(points) }));
-    }
-    this->Expect();
-  }
-
-  void Expect()
-  {
-    const Triangulation expected = Triangulate(this->Now);
-    const FlipReport& report = this->Sessions.front().GetReport();
-    const std::vector<std::int32_t> triangles = StoreTriangles(this->Sessions.front());
-    ASSERT_EQ(Normalize(expected.Triangles), Normalize(triangles));
-    for (const FlipSession& session : this->Sessions)
-    {
-      ASSERT_EQ(triangles, StoreTriangles(session));
-      ASSERT_EQ(Normalize(triangles), ToTriples(StoreOrderedTriangles(session)));
-      ASSERT_EQ(report.FromPoints.MoveRounds, session.GetReport().FromPoints.MoveRounds);
-    }
-    std::vector<std::int64_t> used(this->Now.Points.size());
-    this->Sessions.front().StoreUsedPoints(used.data());
-    ASSERT_EQ(expected.UsedPoints, used);
-    ASSERT_EQ(StopReasonKind::Converged, report.StopReason);
-    ASSERT_EQ(expected.Report.Edges.Edges, report.Edges.Edges);
-    ASSERT_EQ(expected.Report.Edges.Boundary, report.Edges.Boundary);
-    ASSERT_EQ(expected.Report.FromPoints.Used, report.FromPoints.Used);
-    ASSERT_EQ(expected.Report.FromPoints.Repeated, report.FromPoints.Repeated);
-    const double angle = expected.Report.MinimumAngleAfter;
-    ASSERT_NEAR(angle, report.MinimumAngleAfter, 1e-9 * angle);
-    ++this->Frames;
-    this->InPlace += report.FromPoints.MoveRounds > 0 ? 1 : 0;
-  }
-
-  Drawing Now;
-  std::vector<FlipSession> Sessions;
-  int Frames = 0, InPlace = 0;
-};
-
-double DrawStep(std::mt19937& random, double size)
-{
-  // The sum of three is nearly normal.
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i)
-  {
-    sum += static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 19) - 1.0;
-  }
-  return sum * size;
-}
-
-void Shake(std::mt19937& random, double size, Places& points)
-{
-  for (Place& point : points)
-  {
-    point[0] += DrawStep(random, size);
-    point[1] += DrawStep(random, size);
-  }
-}
-
-/// About the distance between neighbours.
-double FindSpacing(const Places& points)
-{
-  Place low = points.front(), high = points.front();
-  for (const Place& point : points)
-  {
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      low[axis] = std::min(low[axis], point[axis]);
-      high[axis] = std::max(high[axis], point[axis]);
-    }
-  }
-  return std::sqrt((high[0] - low[0]) * (high[1] - low[1]) / static_cast<double>(points.size()));
-}
-
-Places DrawPlaces(std::mt19937& random, int count)
-{
-  Places points;
-  for (int i = 0; i < count; ++i)
-  {
-    points.push_back({ static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20),
-      static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20) });
-  }
-  return points;
-}
 
 /// The boundary also changes in nearly every frame.
 TEST(Move, ByStepsOfAllSizes)
@@ -348,41 +217,6 @@ TEST(Move, StoresTrianglesInOrder)
     std::vector<std::int64_t> ids(3 * session.CountTriangles());
     session.StoreOrderedTriangles(MutableTriangleArray(ids.data(), session.CountTriangles()));
     EXPECT_TRUE(std::equal(ids.begin(), ids.end(), StoreOrderedTriangles(session).begin()));
-  }
-}
-
-/// Segments move with their points. One that crosses an earlier one is refused until it fits again.
-TEST(Move, Segments)
-{
-  std::mt19937 random(7);
-  Drawing drawing;
-  drawing.Points = DrawPlaces(random, 200);
-  drawing.AddRing({ { 0.2, 0.2 }, { 0.8, 0.3 }, { 0.5, 0.8 } });
-  for (std::int64_t i = 0; i < 20; ++i)
-  {
-    drawing.Segments.push_back({ i, 20 + i });
-    drawing.Rings.push_back(-1);
-  }
-  drawing.Segments.erase(drawing.Segments.begin() + 3, drawing.Segments.begin() + 15);
-  drawing.Rings.erase(drawing.Rings.begin() + 3, drawing.Rings.begin() + 15);
-  drawing.Segments[3] = { 200, 201 };
-  Moving moving(drawing);
-  for (int frame = 0; frame < CountFrames(20); ++frame)
-  {
-    Places next = moving.Now.Points;
-    for (std::size_t i = 0; i < 200; ++i)
-    {
-      next[i][0] += DrawStep(random, 0.01);
-    }
-    try
-    {
-      moving.GoTo(next);
-    }
-    catch (const InvalidMesh&) // the ring is crossed
-    {
-      EXPECT_THROW(Triangulate(moving.Now), InvalidMesh);
-    }
-    ASSERT_FALSE(HasFailure()) << frame;
   }
 }
 
@@ -655,32 +489,47 @@ TEST(Move, AsksAndGrows)
 }
 
 #if !defined(DELAUNAYFLIP_REDUCED_TESTS) // sanitizers keep what is freed
-/// Frames take no more memory than the first ones.
+/// The memory of this process, in pages.
+std::int64_t MeasureMemory()
+{
+  std::ifstream file("/proc/self/statm");
+  std::int64_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident;
+}
+
+/// Frames take no more memory than the first ones: of points alone, some of which come and go, and
+/// of points with segments.
 TEST(Move, TakesNoMoreMemory)
 {
-  const auto measure = []
-  {
-    std::ifstream file("/proc/self/statm");
-    std::int64_t pages = 0, resident = 0;
-    file >> pages >> resident;
-    return resident;
-  };
   std::mt19937 random(12);
-  const Places points = DrawPlaces(random, 20000);
+  const int frames = CountFrames(300);
+  const int count = frames > 1000 ? 500 : 5000;
+  const Places points = DrawPlaces(random, count);
+  Drawing drawing = ToDrawing(points);
+  drawing.AddRing({ { -1.0, -1.0 }, { 2.0, -1.0 }, { 0.5, 3.0 } });
   FlipSession session(PointInput{ View(points) }, PointOptions{ WithThreads(2) });
+  FlipSession segmented(drawing.View(), PointOptions{ WithThreads(2) });
   session.Advance();
+  segmented.Advance();
   std::int64_t before = 0;
-  for (int frame = 0; frame < 300; ++frame)
+  for (int frame = 0; frame < frames; ++frame)
   {
-    Places next = points;
+    Places next = drawing.Points;
     Shake(random, frame % 10 == 9 ? 0.1 : 0.0002, next);
+    EXPECT_TRUE(segmented.Move({ View(next) }));
+    next.resize(count);
     EXPECT_TRUE(session.Move({ View(next) }));
+    const std::int64_t removed = frame % count;
+    EXPECT_TRUE(session.Remove(&removed, 1));
+    EXPECT_TRUE(session.Insert(View(Places{ { 0.5, 0.5 } })));
+    EXPECT_TRUE(session.Compact());
     if (frame == 60)
     {
-      before = measure();
+      before = MeasureMemory();
     }
   }
-  EXPECT_GT(1.3 * static_cast<double>(before), static_cast<double>(measure()));
+  EXPECT_GT(1.3 * static_cast<double>(before), static_cast<double>(MeasureMemory()));
 }
 #endif
 

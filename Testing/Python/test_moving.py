@@ -5,9 +5,10 @@ import doctest
 import pickle
 import threading
 import unittest
+import warnings
 
 import numpy
-from delaunayflip import InvalidOptions, MovingTriangulation, Stopped, _moving, triangulate
+from delaunayflip import InvalidMesh, InvalidOptions, MovingTriangulation, Stopped, _moving, triangulate
 
 
 def list_triangles(mesh):
@@ -70,6 +71,55 @@ class Moving(unittest.TestCase):
             mesh.compact()
             self.assertEqual((len(mesh), mesh.report.removed_points), (2008, 0))
             self.expect(mesh, left[numpy.isfinite(left[:, 0])])
+
+    def test_segments(self):
+        """An outline, a hole and a line move with their points, in place."""
+        turns = numpy.arange(40) * numpy.pi / 20
+        circle = numpy.stack([numpy.cos(turns), numpy.sin(turns)], axis=1)
+        points = numpy.concatenate([0.45 * circle + 0.5, 0.1 * circle + 0.5, self.points])
+        near = 81 + numpy.argmin(numpy.hypot(*(points[81:] - points[80]).T))
+        given = {"segments": [[80, near]], "outline": numpy.arange(40), "holes": [numpy.arange(40, 80)]}
+        in_place = 0
+        with MovingTriangulation(points, **given) as mesh:
+            for _ in range(20):
+                points = points + self.random.normal(0.0, 5e-6, points.shape)
+                mesh.move(points)
+                in_place += mesh.report.move_rounds > 0
+                expected = triangulate(points, **given)
+                self.assertEqual(list_triangles(mesh), list_triangles(expected))
+                self.assertEqual(mesh.segments.tolist(), expected.segments.tolist())
+                self.assertEqual(mesh.report.outside_triangles, expected.report.outside_triangles)
+            with self.assertRaisesRegex(InvalidOptions, "segments"):
+                mesh.compact()
+        self.assertGreater(in_place, 15)
+
+    def test_segments_that_cross(self):
+        """The later one is left out, with one warning, and comes back."""
+        points = numpy.array([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0], [4.0, 1.0], [2.0, 2.0], [2.0, -1.0]])
+        with MovingTriangulation(points, [[0, 1], [2, 3]]) as mesh, warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            for height in (-0.5, -0.25, 1.0):
+                mesh.move([[0.0, height]], [2])
+                points[2, 1] = height
+                self.assertEqual(list_triangles(mesh), list_triangles(triangulate(points, [[0, 1], [2, 3]])))
+                crosses = height < 0.0
+                self.assertEqual(mesh.report.refused_segments, int(crosses))
+                self.assertEqual("crosses segment 0" in mesh.report.defects, crosses)
+                self.assertNotIn("split_crossings", mesh.report.defects)
+                self.assertEqual(len(mesh.segments), 1 if crosses else 2)
+        self.assertEqual(len(told), 3)  # two are of `triangulate`
+        self.assertEqual({warning.filename for warning in told}, {__file__})
+
+    def test_rings_that_cross(self):
+        """A ring that crosses a segment is an error that names it, and all points stay where they were."""
+        points = numpy.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.0, 1.0], [3.0, 1.5]])
+        with MovingTriangulation(points, [[4, 5]], outline=[0, 1, 2, 3]) as mesh:
+            before = list_triangles(mesh)
+            with self.assertRaisesRegex(InvalidMesh, "ring 0 of outline"):
+                mesh.move([[9.0, 1.5]], [5])
+            self.assertEqual(list_triangles(mesh), before)
+            mesh.move([[3.5, 1.5]], [5])
+            self.assertEqual(list_triangles(mesh), before)
 
     def test_stops(self):
         """After a stop the points are where they were."""
