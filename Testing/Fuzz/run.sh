@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: run.sh [engine|points|spheres|files|ranks|arrays] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
+# Usage: run.sh [engine|points|moves|spheres|files|ranks|arrays] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
 # Builds a fuzz target and runs cases 0 to N - 1 (default 1000000) of a seed (default 1) on J
 # processes (default: all cores), a thousand per process. The engine (default), and the same from
-# points, also on spheres, is built in build-fuzz/ with AddressSanitizer, UndefinedBehaviorSanitizer and the leak
+# points, also if they move or are on spheres, is built in build-fuzz/ with AddressSanitizer, UndefinedBehaviorSanitizer and the leak
 # check. The command, which gets mutated files, and the filter on several ranks, of which one may
 # have other options, are built in build-fuzz-files/ without them; the library for Python, whose
 # functions get arrays of all layouts (fuzz_arrays.py), in build-fuzz-arrays/. Results are kept in
@@ -26,7 +26,7 @@ fail_usage()
 }
 while [ $# -gt 0 ]; do
   case "$1" in
-    engine | points | spheres | files | ranks | arrays) target=$1 ;;
+    engine | points | moves | spheres | files | ranks | arrays) target=$1 ;;
     --cases | --seed | --jobs | --libfuzzer)
       [ $# -ge 2 ] || fail_usage
       case "$1" in
@@ -48,7 +48,7 @@ options=(-DDELAUNAYFLIP_BUILD_VTK=OFF -DDELAUNAYFLIP_SANITIZER=address)
 if [ "$target" = arrays ]; then
   build=$root/build-fuzz-arrays
   options=(-DDELAUNAYFLIP_BUILD_VTK=OFF)
-elif [ "$target" != engine ] && [ "$target" != points ] && [ "$target" != spheres ]; then
+elif [[ "$target" =~ ^(files|ranks)$ ]]; then
   build=$root/build-fuzz-files
   options=(-DDELAUNAYFLIP_BUILD_VTK=ON)
 fi
