@@ -461,7 +461,7 @@ public:
 private:
   FlipReport Report;
   std::string Defects;
-  std::vector<std::string> Texts; ///< Of each defect, and what follows.
+  std::vector<std::string> Texts; ///< The text of each defect, then those of what follows.
   std::vector<std::vector<std::int64_t>> Crossed;
 };
 

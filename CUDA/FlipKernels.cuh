@@ -166,7 +166,8 @@ __device__ int GetMostListed(const LoopView<Rule>& loop, const Team& team)
 
 /// Does what RunDetection does, and lists the bad edges. To be listed, bad edges that are not
 /// candidates are judged again, but do not count as tested. With a guard each bad edge already
-/// claims its new edge here. Warns if the list is too short or a claim is contested.
+/// claims its new edge here. Warns if an edge is uncertain, the list is too short or a claim is
+/// contested.
 template <bool IsGuarded, typename Rule>
 __device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
 {
@@ -223,7 +224,7 @@ __device__ void DetectAndList(const LoopView<Rule>& loop, const Team& team)
   }
 }
 
-/// Releases the claims of the listed edges, if these do not flip.
+/// Releases the claims of all listed edges. For lists that are not flipped.
 template <typename Rule>
 __device__ void ReleaseListed(const LoopView<Rule>& loop, const Team& team)
 {
@@ -380,17 +381,18 @@ private:
       this->IsWarned = this->Members.IsWarned();
     }
     this->Bad = this->Plan.BadAtStart + this->Members.GetBadChange();
-    bool isShort = list && !this->IsListed;
+    bool isDropped = list && !this->IsListed;
     if (IsGuarded && !this->IsListed)
     {
       this->FreshSlots += LoadSum(*iteration, IterationSum::FreshSlots) -
         LoadSum(*iteration, IterationSum::FreedSlots);
       this->HasRoom = this->FreshSlots <= this->Plan.FreshSlots &&
         LoadSum(*iteration, IterationSum::LostInserts) == 0;
-      isShort = isShort && LoadSum(*iteration, IterationSum::Contested) == 0;
+      isDropped = isDropped && LoadSum(*iteration, IterationSum::Contested) == 0;
     }
-    // After a list that was too short, lists are tried again once half of the bad edges are left.
-    if (isShort)
+    // After a list that could not be used, lists are tried again once half of the bad edges are
+    // left; after contested claims they are tried again at once.
+    if (isDropped)
     {
       this->MostToList = this->Bad / 2;
     }

@@ -30,7 +30,7 @@ struct HeightOptions
   std::string Places; ///< A file whose points are the places, instead of a raster.
   std::string Array; ///< A point array; empty: z.
   std::string Output; ///< The file that is written.
-  std::string Crs; ///< Of the raster; empty: that of the input, if its file names one.
+  std::string Crs; ///< That of the raster; empty: that of the input, if its file names one.
 
   bool AreWanted() const { return this->Step > 0.0 || !this->Places.empty(); }
 };

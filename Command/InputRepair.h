@@ -32,7 +32,7 @@ RepairedMesh MergeEqualPoints(vtkPolyData* mesh);
 RepairedMesh DropDuplicates(vtkPolyData* mesh);
 
 /// Turns triangles and polygons over so that those on two sides of an edge are wound the same way.
-/// Of each connected part the fewer ones are turned over. Strips become triangles.
+/// In each connected part the fewer ones are turned over. Strips become triangles.
 RepairedMesh Orient(vtkPolyData* mesh);
 
 }

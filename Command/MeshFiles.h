@@ -57,7 +57,7 @@ struct FileMesh
   std::vector<std::string> Notes; ///< What may be good to know, like warnings.
   std::vector<std::string> Labels; ///< The integer arrays of cells with more than one value.
 
-  std::string Crs; ///< Of the coordinates, as GDAL describes it; empty: the file names none.
+  std::string Crs; ///< That of the coordinates, as GDAL describes it; empty: the file names none.
 
   /// Adds the name of an array of cells to the labels, if it has more than one value.
   void AddLabels(vtkDataArray* array);

@@ -125,7 +125,7 @@ enum class DefectKind
   NothingLeft, ///< Points of which none is left when triangles are removed.
   PolygonsTooSmall, ///< With fewer than three different points.
   ConstraintsNotInMesh, ///< Those of a filter's second input.
-  PointsWithoutHeights, ///< Of segments, where other points have heights.
+  PointsWithoutHeights, ///< Those of segments, where other points have heights.
   RegionSeedsOutside, ///< In no triangle that is kept.
   TrianglesNotRefined, ///< Triangles that do not reach the goals of refinement.
   PointLimitReached, ///< Refinement has reached it.

@@ -210,7 +210,7 @@ vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkI
 DELAUNAYFLIP_EXPORT void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids,
   vtkDataSetAttributes* data, vtkPolyData* output);
 
-/// The same for points that the engine has added to those of a triangulation. What they have is
+/// Does so for points that the engine has added to those of a triangulation. What they have is
 /// interpolated.
 /// @param hasPlaces whether x and y of the mesh are the engine's.
 void AppendAdded(

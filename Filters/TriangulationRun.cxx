@@ -99,7 +99,7 @@ public:
   /// Takes over the session of such a run, whose points move to the places of these. Nothing
   /// happens if their coordinates have another precision.
   /// @returns whether there is a session now.
-  /// @throws RunAborted; then the other run is what it was. As FlipSession::Move.
+  /// @throws RunAborted; then the other run is what it was. See FlipSession::Move.
   bool Follow(TriangulationRun& last);
 
   FlipReport GetReport() const override;

@@ -156,7 +156,7 @@ public:
     Polygons, ///< Are split.
     Constraints, ///< Are matched.
     Regions, ///< Are labelled.
-    Heights, ///< Of points of segments, are found.
+    Heights, ///< Those of points of segments are found.
     Session, ///< The engine.
     Output,
     Angles, ///< For GenerateQuality.

@@ -412,7 +412,7 @@ protected:
   const char* InputType = "vtkPolyData"; ///< The first input's, unless it is composite.
   bool KeepsType = false; ///< Output port 0 has the first input's type; else a vtkPolyData.
   int SizeOfBlocks; ///< What it is measured by: vtkDataObject::CELL (default) or POINT.
-  int SizeOfOthers; ///< The same for the second input.
+  int SizeOfOthers; ///< What the second input is measured by.
   bool IsSilent = false; ///< Gives no messages and no rows of the table.
   int Backend = BACKEND_AUTO;
   int DeviceId = -1;

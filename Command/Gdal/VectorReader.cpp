@@ -348,7 +348,7 @@ private:
   std::vector<std::pair<int, vtkSmartPointer<vtkDoubleArray>>> Attributes; ///< Per field.
   bool HasHeights = false;
   std::int64_t Empty = 0;
-  std::int64_t Labels = 0; ///< Of a drawing.
+  std::int64_t Labels = 0; ///< How many labels a drawing has.
   std::string Crs;
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Lines, Rings;

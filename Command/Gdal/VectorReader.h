@@ -13,7 +13,7 @@ namespace delaunayflip
 /// A coordinate reference system in one of the formats that GDAL calls so.
 std::string WriteCrs(const OGRSpatialReference& crs, const std::string& format);
 
-/// As GdalModule::ReadVectors.
+/// Does what GdalModule::ReadVectors does.
 FileMesh ReadVectors(const VectorRequest& request);
 
 }

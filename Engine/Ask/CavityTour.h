@@ -85,7 +85,7 @@ private:
     const Vertex* From;
     const Vertex* To;
     const Triangle* Owner;
-    CrossProduct Cross; ///< Of the offsets of its ends.
+    CrossProduct Cross; ///< That of the offsets of its ends.
   };
 
   struct Weight

@@ -36,7 +36,7 @@ struct PlaceBoundaryView
 {
   static constexpr std::int64_t GroupSize = 32;
 
-  PlaneArray Places; ///< Of vertices.
+  PlaneArray Places; ///< Those of vertices.
   const BoundaryEdge* Edges;
   const PlaceBox* Boxes; ///< By group.
   std::int64_t NumberOfEdges;

@@ -126,7 +126,7 @@ struct PlaceGridFrame
 /// Where the last place was found. The next one is often near.
 struct LastPlace
 {
-  std::uint32_t Column = 0, Row = 0; ///< Of the finest grid.
+  std::uint32_t Column = 0, Row = 0; ///< A cell of the finest grid.
   TriangleId Triangle = NoTriangle;
 };
 

@@ -103,7 +103,7 @@ struct SeenPoint
 
   ScaledPoint Point;
   PlaceOffset Offset;
-  double Square; ///< Of the distance.
+  double Square; ///< That of the distance.
 };
 
 /// Twice the area of a triangle, with a relative error of a few roundings even if it is a sliver.

@@ -222,7 +222,7 @@ struct PlaceBlock
 {
   PlaneArray Places;
   PlaceRaster Raster; ///< Instead of Places, if it has cells.
-  std::int64_t FirstCell = 0; ///< Of the raster, in this block.
+  std::int64_t FirstCell = 0; ///< The first one of the raster in this block.
   std::int32_t* Triangles = nullptr;
   double* Results = nullptr;
 
@@ -243,7 +243,7 @@ struct AnswerPlaces
   AskedMesh Asked;
   AskedValues Values;
   PlaceBlock Block;
-  const std::uint32_t* Order; ///< Of the places, or null.
+  const std::uint32_t* Order; ///< That of the places, or null.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t k) const { (*this)(k, k + 1); }
 

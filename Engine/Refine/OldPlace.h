@@ -22,7 +22,7 @@ namespace delaunayflip
 struct OldPlaceFinder
 {
   PlaneMesh Now, Old; ///< The mesh, and the one before refinement.
-  const std::uint32_t* SegmentOfEdge; ///< As in RefinementView; so is the next one.
+  const std::uint32_t* SegmentOfEdge; ///< See RefinementView, also for the next one.
   const std::uint32_t* Origins;
   const EdgeId* EdgeOfOrigin; ///< By segment, its edge in the mesh before.
   const CornerId* StartOfVertex; ///< By vertex of the mesh before, one of its corners there.

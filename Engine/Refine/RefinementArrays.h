@@ -610,10 +610,10 @@ private:
   Array<TriangleId> Splits;
   Array<RefinedVertex> AddedVertices;
   Array<TriangleId> OldTriangleOf; ///< See RefinementStore.
-  Array<CornerId> StartOfVertex; ///< As in OldPlaceFinder.
+  Array<CornerId> StartOfVertex; ///< See OldPlaceFinder.
   Array<std::uint8_t> MarksOfEdges; ///< In a mesh of the caller: the first marks of subsegments.
 
-  PlaceGrid Grid; ///< Of the mesh before.
+  PlaceGrid Grid; ///< That of the mesh before.
   Array<TriangleRecord> OldTriangles;
   Array<CornerId> OldCorners;
 };

@@ -58,7 +58,7 @@ struct RefinementResult
 {
   std::vector<RefinedVertex> Vertices;
   std::vector<Subsegment> Segments; ///< First those that there were at first.
-  std::vector<std::int32_t> Regions; ///< As in the plan.
+  std::vector<std::int32_t> Regions; ///< See RefinementPlan.
   std::vector<VertexId> Ends; ///< The ends of the original segments, two points each.
   /// In a mesh of the caller: the source of each triangle, the triangle before refinement that
   /// contains its centroid. Both are given by their slots.

@@ -19,13 +19,13 @@ namespace delaunayflip
 /// What all triangles shall be like. Infinity is no limit.
 struct RefinementGoals
 {
-  double Cotangent = INFINITY; ///< Of the smallest angle.
+  double Cotangent = INFINITY; ///< That of the smallest angle.
   /// How far the point for a triangle may be from the middle of its shortest edge, in lengths of
   /// that edge. Together they make a triangle whose smallest angle is a little above the goal: the
   /// off-center of Üngör (2004).
   double OffCenter = INFINITY;
-  double Area = INFINITY; ///< Of the largest triangle.
-  double SquaredEdge = INFINITY; ///< Of the longest edge.
+  double Area = INFINITY; ///< That of the largest triangle.
+  double SquaredEdge = INFINITY; ///< That of the longest edge.
 };
 
 /// The goals for an angle in degrees; 0: none.

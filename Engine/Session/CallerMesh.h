@@ -47,7 +47,7 @@ public:
 private:
   TriangleMesh Host; ///< Without points and triangles, except counts, until they are copied.
   std::optional<DeviceMesh> Device;
-  std::vector<std::shared_ptr<const void>> Copies; ///< Of the arrays of a device.
+  std::vector<std::shared_ptr<const void>> Copies; ///< Copies of the arrays of a device.
 };
 
 /// @param what the array, for the message, e.g. "the points are".

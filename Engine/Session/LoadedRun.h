@@ -205,7 +205,7 @@ private:
   std::int64_t GetIterationLimit() const;
   void RecordIterations(const std::vector<IterationCounts>& batch, double seconds);
 
-  FlipObserver IterationObserver; ///< Of the Advance under way.
+  FlipObserver IterationObserver; ///< That of the Advance under way.
   std::int64_t Limit = 0; ///< The number of iterations at which it returns.
   std::int64_t RoundsBefore = 0; ///< Rounds of refinement before the Advance under way.
   bool IsRefined = false; ///< Whether there is nothing more to refine.

@@ -125,7 +125,7 @@ void MeshRun::ListDefects()
   }
 }
 
-/// While edges flip it is not known what kept edges hide in the end.
+/// Finds what fixed edges keep or hide, but not while edges flip.
 void MeshRun::Measure()
 {
   if (!this->AreKeptEdgesKnown)

@@ -17,7 +17,7 @@ namespace delaunayflip
 struct RefinedCallerMesh
 {
   std::vector<AddedPoint> Points;
-  std::vector<TriangleId> Sources; ///< By triangle, its source; empty: each is its own.
+  std::vector<TriangleId> Sources; ///< By triangle, its source. Empty before the first round.
   Defect Unrefined; ///< Triangles that do not reach the goals.
   bool HasReachedLimit = false;
 };
@@ -58,8 +58,8 @@ private:
   std::int64_t CountConstraints(const RefinementResult& made) const;
 
   CallerMesh Mesh;
-  ConstraintInsertion Insertion; ///< The loaded mesh starts from its arrays.
-  std::optional<CallerMesh> Start; ///< The mesh that iterations start from.
+  ConstraintInsertion Insertion; ///< Owns the arrays of Start if it has inserted constraints.
+  std::optional<CallerMesh> Start; ///< The caller's mesh, with its constraints inserted.
   RefinedCallerMesh Refined;
   std::vector<std::int32_t> Regions; ///< What FindSeededRegions returns, if there are seeds.
   std::int64_t RegionSeedsOutside = 0;

@@ -104,7 +104,7 @@ public:
   }
   bool IsNear(std::int64_t point) const { return this->GetNear(point) != point; }
 
-  /// As FlipSession's.
+  /// Does what FlipSession::StoreUsedPoints does.
   void StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const;
 
 private:

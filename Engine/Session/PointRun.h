@@ -34,20 +34,20 @@ public:
   const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Points.GetAdded(); }
   std::vector<std::int64_t> ListSegmentEdges() override;
 
-  /// As FlipSession's. (PointRefinement.cpp)
+  /// See FlipSession. (PointRefinement.cpp)
   std::vector<std::int64_t> ListSegmentsOfEdges() override;
   void StoreRegions(std::int32_t* labels) override;
 
-  /// As FlipSession's. (PointInsertion.cpp)
+  /// See FlipSession. (PointInsertion.cpp)
   bool Insert(const PlaneArray& points, const ProgressObserver& progress) override;
 
-  /// As FlipSession's. (PointMoves.cpp)
+  /// See FlipSession. (PointMoves.cpp)
   bool Move(const PointMove& move, const ProgressObserver& progress) override;
   bool Remove(
     const std::int64_t* ids, std::int64_t count, const ProgressObserver& progress) override;
   bool Compact(const ProgressObserver& progress) override;
 
-  /// As FlipSession's. (PointAnswers.cpp)
+  /// See FlipSession. (PointAnswers.cpp)
   bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
 private:

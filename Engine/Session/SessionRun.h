@@ -91,7 +91,7 @@ public:
   virtual void StoreTriangles(const MutableTriangleArray& triangles) = 0;
   virtual void StoreFlipCounts(std::int32_t* counts) = 0;
 
-  /// As FlipSession's.
+  /// See FlipSession.
   virtual const std::vector<AddedPoint>& GetAddedPoints() const
   {
     static const std::vector<AddedPoint> none;

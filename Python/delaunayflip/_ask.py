@@ -24,7 +24,7 @@ METHODS, OUTSIDES = typing.get_args(Method), typing.get_args(Outside)
 class Places:
     """Places of a query."""
 
-    members: dict  #: Of its struct.
+    members: dict  #: The fields of its struct.
     shape: tuple  #: Of the results, before that of a point's values.
     like: Array  #: An array in the memory of the results.
 

@@ -171,7 +171,7 @@ def griddata(
 
 
 def _keep(points, keywords, progress):
-    """As run_points. Requires triangles."""
+    """Does what run_points does, and requires triangles."""
     triangulation, trouble = run_points(points, keywords, progress, keeps=True)
     report = triangulation.report
     if report.stop_reason == "aborted":

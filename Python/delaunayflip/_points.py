@@ -91,7 +91,7 @@ class Triangulation:
     _used: Optional[Array] = dataclasses.field(repr=False)  # None: each point is used
     #: Arguments and keywords, and the points that were inserted together.
     _made_from: Tuple[Any, Any, Tuple[Array, ...]] = dataclasses.field(repr=False)
-    _added_segments: Array = dataclasses.field(repr=False)  # Of the points that come last.
+    _added_segments: Array = dataclasses.field(repr=False)  # Those of the points that come last.
 
     @functools.cached_property
     def point_segments(self) -> Array:

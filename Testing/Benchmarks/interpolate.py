@@ -102,7 +102,7 @@ class Theirs:
         self._wait()
 
     def ask(self, method, order):
-        """As that of Ours; None: it does not know the method."""
+        """Does what that of Ours does; None: it does not know the method."""
         function, places, count = self._functions[method == "natural"], self._places[order], 1000
         if function is None:
             return None

@@ -200,7 +200,7 @@ class Arrays(unittest.TestCase):
             self.assertEqual(found.tobytes(), f(x, y).tobytes())
 
     def test_shapes(self):
-        """As in SciPy."""
+        """Shapes are those of SciPy."""
         for kind, rest in itertools.product(KINDS, ((), (1,), (2, 3))):
             f = kind(POINTS, numpy.multiply.outer(plane(POINTS), numpy.ones(rest)))
             for places, shape in (
