@@ -50,7 +50,7 @@ bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress
   {
     this->Points.Append(points);
     this->InsertInPlace(points);
-    return true;
+    return this->Report.StopReason != StopReasonKind::Aborted;
   }
   this->Points.Append(points);
   this->Reset();
