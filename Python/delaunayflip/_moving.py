@@ -103,7 +103,7 @@ class MovingTriangulation(Handle):
 
     def _describe(self, handle):
         """The defects as one text, and a list of those that are warned of."""
-        text, trouble = self._first.describe_defects(handle)
+        text, trouble = self._first.describe_again(handle)
         return text.replace(_ADVICE, ""), [warning.replace(_ADVICE, "") for warning in trouble]
 
     def _warn(self, handle, level):

@@ -452,10 +452,10 @@ class Input:
             texts.append(text)
         return "; ".join(texts)
 
-    def describe_defects(self, handle):
-        """The defects of a session as one text, and a list of those that are warned of."""
+    def describe_again(self, handle):
+        """The defects of a session that goes on, as one text, and a list of those that are warned of."""
         self.trouble = []
-        return self._describe_defects(handle), self.trouble
+        return self.describe_defects(handle), self.trouble
 
     def find_flat_points(self, given, segments, rings):
         """Finds the points behind the `given` ones that rings without z have, or that lines, outlines

@@ -241,7 +241,7 @@ TEST(FromPoints, CoastsOnASphere)
   globe->SetSegmentsData(coast);
   globe->Update();
   const std::size_t inside = globe.GetPolygons().size();
-  EXPECT_LT(20u, inside);
+  EXPECT_LT(10u, inside);
   EXPECT_GT(whole / 4, inside);
   EXPECT_EQ(4, globe->GetNumberOfSegmentEdges());
   globe->SetFirstHole(0);
