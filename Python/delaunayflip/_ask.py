@@ -29,6 +29,15 @@ class Places:
     like: Array  #: An array in the memory of the results.
 
 
+def require_triangles(report):
+    """Raises Stopped or ValueError if the triangulation of this report was stopped or is empty."""
+    if report.stop_reason == "aborted":
+        raise _library.Stopped("stopped by progress")
+    if report.triangles == 0:
+        why = report.defects or "there are no triangles"
+        raise ValueError(f"nothing can be interpolated between {report.points} points: {why}")
+
+
 def read_places(given):
     """One array of shape (..., 2) or (..., 3), or two arrays, x and y."""
     if len(given) == 1 and isinstance(given[0], tuple):

@@ -10,8 +10,7 @@ import warnings
 from typing import Optional, Tuple, Union
 
 from . import _arrays
-from ._ask import METHODS, Field, Method, Outside, halve, read_places, read_raster
-from ._library import Stopped
+from ._ask import METHODS, Field, Method, Outside, halve, read_places, read_raster, require_triangles
 from ._options import Array, Backend, Numbers, Progress, choose, show_options
 from ._points import POINT_OPTIONS, PointOptions, Triangulation, run_points, triangulate
 from ._rings import RingRule, Rings
@@ -173,10 +172,5 @@ def griddata(
 def _keep(points, keywords, progress):
     """Does what run_points does, and requires triangles."""
     triangulation, trouble = run_points(points, keywords, progress, keeps=True)
-    report = triangulation.report
-    if report.stop_reason == "aborted":
-        raise Stopped("stopped by progress")
-    if report.triangles == 0:
-        why = report.defects or "there are no triangles"
-        raise ValueError(f"nothing can be interpolated between {report.points} points: {why}")
+    require_triangles(triangulation.report)
     return triangulation, trouble

@@ -14,8 +14,7 @@ import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
-from ._ask import Answers, Field, Method, Outside, Places, read_places, read_raster
-from ._library import Stopped
+from ._ask import Answers, Field, Method, Outside, Places, read_places, read_raster, require_triangles
 from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
 from ._points import Input
 from ._report import Report
@@ -235,12 +234,7 @@ class SphereInterpolator:
         self.triangulation, troubles = _triangulate(points, {**keywords, "open": False}, progress, keeps=True)
         for text in troubles:
             warnings.warn(text, stacklevel=2)
-        report = self.triangulation.report
-        if report.stop_reason == "aborted":
-            raise Stopped("stopped by progress")
-        if report.triangles == 0:
-            why = report.defects or "there are no triangles"
-            raise ValueError(f"nothing can be interpolated between {report.points} points: {why}")
+        require_triangles(self.triangulation.report)
         self._field = Field(self.triangulation._answers, values, **how)
 
     def __call__(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
