@@ -15,7 +15,7 @@ import numpy
 from . import _arrays, _library, _report
 from ._arrays import address
 from ._ask import Answers, Field, Method, Outside, Places, read_places, read_raster, require_triangles
-from ._options import Array, Backend, Numbers, OnIteration, Progress, make_options
+from ._options import Array, Backend, Numbers, OnIteration, Progress, convert, make_options
 from ._points import Input
 from ._report import Report
 from ._rings import RingRule, Rings, list_lines, list_rings
@@ -275,6 +275,7 @@ def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False
         lines: The keywords of segments, outlines and holes; None: there are none.
     """
     backend = {name: keywords[name] for name in ("backend", "threads", "device")}
+    keywords = {**keywords, **{name: convert(name, keywords[name], bool, None) for name in ("degrees", "open")}}
     given, misplaced = _read(points, keywords["degrees"], **(lines or {}))
     given.struct.projection = PROJECTIONS.index("open-sphere" if keywords["open"] else "sphere")
     keywords = {**keywords, "has_lines": given.struct.number_of_segments + given.struct.number_of_hole_seeds > 0}

@@ -196,6 +196,9 @@ class Sphere(unittest.TestCase):
         self.assertEqual(nothing.report.points_inside, 0)
 
     def test_refusals(self):
+        for keyword in ("degrees", "open"):
+            with self.assertRaisesRegex(TypeError, f"{keyword} must be True or False, not 'x'"):
+                delaunayflip.triangulate_sphere(numpy.eye(3), **{keyword: "x"})
         points = make_directions(10)
         triangles = delaunayflip.triangulate_sphere(points).triangles
         for words, options in (("several pieces", {"pieces": 2}), ("in-circle", {"criterion": "opposite-angles"})):
