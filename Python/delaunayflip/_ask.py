@@ -1,18 +1,21 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Queries about places: their triangles, and values between those of the points."""
+from __future__ import annotations  # help() shows types by their names
+
 import contextlib
 import dataclasses
+import functools
 import math
-import numbers
 import threading
 import typing
+from typing import Any, Optional, Tuple, Union
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
-from ._options import Array, check_integer, choose, show, to_number
+from ._options import Array, Numbers, Progress, check_integer, choose, show, to_number
 from ._session import observe
 
 Method = typing.Literal["linear", "natural"]
@@ -213,6 +216,82 @@ class Field:
             beyond = self._soft.ask(read_places([spots]), self, False)[1]
         _arrays.put(results, triangles, beyond)
         return triangles, results
+
+
+class Asked:
+    """What triangulations that are asked about places have in common. They have `_answers`, a property."""
+
+    _read_places = staticmethod(read_places)
+    _read_raster = staticmethod(read_raster)
+
+    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
+        """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
+        the one with the lowest number. Places are given as to the interpolators."""
+        return self._answers.locate(self._read_places(places), progress)
+
+    def interpolate(
+        self, values: Numbers, *places: Numbers, method: Method = "linear",
+        fill_value: float = math.nan, outside: Outside = "nan", progress: Optional[Progress] = None,
+    ) -> Array:
+        """Values at places from values at the points, which are given as to the interpolators.
+
+        Args:
+            method: "linear", or "natural" for natural neighbours.
+        """
+        field = self._make_field(values, method, fill_value, outside)
+        return field.find(self._read_places(places), progress)
+
+    def raster(
+        self, values: Numbers, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
+        method: Method = "linear", fill_value: float = math.nan, outside: Outside = "nan",
+        progress: Optional[Progress] = None,
+    ) -> Array:
+        """Values at the centres of the cells of a raster; see the interpolators."""
+        field = self._make_field(values, method, fill_value, outside)
+        return field.find(self._read_raster(origin, step, shape, field.values), progress)
+
+    def _make_field(self, values, method, fill_value, outside):
+        return Field(self._answers, values, method=method, fill_value=fill_value, outside=outside)
+
+    def __getstate__(self):
+        """Without the engine's memory, which cannot be copied."""
+        return {name: value for name, value in self.__dict__.items() if name != "_answers"}
+
+
+class Interpolator:
+    """What interpolators have in common: `triangulation`, an Asked; its `_answers`, which it keeps where
+    points are inserted into the triangulation; `_field`; and `_made_from`, arguments and keywords."""
+
+    triangulation: Any
+
+    def __call__(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
+        """The values at places. `progress` is called with the share of the places done; if it returns
+        False, delaunayflip.Stopped is raised."""
+        return self._field.find(self.triangulation._read_places(places), progress)
+
+    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
+        """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
+        the one with the lowest number."""
+        return self._answers.locate(self.triangulation._read_places(places), progress)
+
+    def raster(
+        self, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
+        progress: Optional[Progress] = None,
+    ) -> Array:
+        """The values at the centres of the cells of a raster: where the values of the points are.
+
+        Args:
+            origin: x and y, or longitude and latitude, of the centre of the first cell.
+            step: From one cell to the next, one number or one along a row and one from row to row, which
+                may be negative: (2.0, -2.0) begins with the northern row if the origin is there.
+            shape: (rows, columns); x or the longitude changes along a row.
+        """
+        places = self.triangulation._read_raster(origin, step, shape, self._field.values)
+        return self._field.find(places, progress)
+
+    def __reduce__(self) -> Any:
+        places_and_values, keywords = self._made_from
+        return functools.partial(type(self), **keywords), places_and_values
 
 
 def _require_inside(is_outside, shape):

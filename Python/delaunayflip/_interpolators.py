@@ -3,16 +3,15 @@
 """Interpolation between points, called as in scipy.interpolate."""
 from __future__ import annotations  # help() shows types by their names
 
-import functools
 import math
 import typing
 import warnings
-from typing import Optional, Tuple, Union
+from typing import Optional
 
 from . import _arrays
-from ._ask import METHODS, Field, Method, Outside, halve, read_places, read_raster, require_triangles
+from ._ask import METHODS, Field, Interpolator, Method, Outside, halve, require_triangles
 from ._options import Array, Backend, Numbers, Progress, choose, show_options
-from ._points import POINT_OPTIONS, PointOptions, Triangulation, run_points, triangulate
+from ._points import POINT_OPTIONS, PointOptions, run_points, triangulate
 from ._rings import RingRule, Rings
 
 if typing.TYPE_CHECKING:
@@ -21,7 +20,7 @@ if typing.TYPE_CHECKING:
 Breaklines = typing.Literal["hard", "soft"]
 
 
-class LinearInterpolator:
+class LinearInterpolator(Interpolator):
     """Interpolates values between points, linear in each triangle of their Delaunay triangulation.
 
     It is called with places, as SciPy's LinearNDInterpolator: `f(xy)` with an array of shape (..., 2),
@@ -105,34 +104,6 @@ class LinearInterpolator:
             keywords = {"point_tolerance": options.get("point_tolerance", 0.0), **given.backend}
             soft = _keep(given.points, keywords, halve(progress, 0.5))[0]._answers
         self._field = Field(self._answers, values, method=self._method, soft=soft, **how)
-
-    def __call__(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
-        """The values at places. `progress` is called with the share of the places done; if it returns
-        False, delaunayflip.Stopped is raised."""
-        return self._field.find(read_places(places), progress)
-
-    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
-        """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
-        the one with the lowest number."""
-        return self._answers.locate(read_places(places), progress)
-
-    def raster(
-        self, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
-        progress: Optional[Progress] = None,
-    ) -> Array:
-        """The values at the centres of the cells of a raster: where the values of the points are.
-
-        Args:
-            origin: x and y of the centre of the first cell.
-            step: From one cell to the next, one number or that in x and that in y, which may be
-                negative: (2.0, -2.0) begins with the northern row if the origin is there.
-            shape: (rows, columns); x changes along a row.
-        """
-        return self._field.find(read_raster(origin, step, shape, self._field.values), progress)
-
-    def __reduce__(self) -> typing.Any:
-        places_and_values, keywords = self._made_from
-        return functools.partial(type(self), **keywords), places_and_values
 
 
 show_options(LinearInterpolator.__init__, triangulate, POINT_OPTIONS)

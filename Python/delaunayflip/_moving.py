@@ -110,6 +110,7 @@ class MovingTriangulation(Handle):
         """Warns of what is not used of segments and rings, unless that was the same before."""
         if self._first.struct.number_of_segments == 0:
             return
+        _report.read_struct(handle)  # the defects are those of the last report
         before, self._trouble = self._trouble, self._describe(handle)[1]
         if self._trouble and self._trouble != before:
             warnings.warn("; ".join(self._trouble), stacklevel=level)

@@ -11,16 +11,15 @@ import math
 import typing
 import warnings
 from ctypes import c_double, c_int32, c_int64, c_void_p
-from typing import Any, Optional, Sequence, Tuple, Union
+from typing import Any, Optional, Sequence, Tuple
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
-from ._ask import Answers, Field, Method, Outside, read_places, read_raster
+from ._ask import Answers, Asked
 from ._options import (
-    Array, Backend, Numbers, OnIteration, Progress, check_integer, choose, convert, list_ranges,
-    make_options, show)
+    Array, Backend, Numbers, OnIteration, Progress, choose, convert, list_ranges, make_options)
 from ._report import Report, name_keywords
 from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
 from ._session import LEFT_BY_REFINEMENT, Region, run
@@ -68,7 +67,7 @@ _WARNED_OF = ("segments cross", "segments not finite", "segments without triangl
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Triangulation:
+class Triangulation(Asked):
     """What `triangulate` returns. Only the same object is equal: compare the arrays.
 
     It can be asked about places. The first question makes the engine's triangulation anew, which then
@@ -104,31 +103,6 @@ class Triangulation:
         """(n,) int64: the point that is used at the place of each point; -1: it is not finite. After
         an abort before there are triangles, each point itself."""
         return numpy.arange(len(self.points)) if self._used is None else self._used
-
-    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
-        """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
-        the one with the lowest number. Places are given as to `LinearInterpolator`."""
-        return self._answers.locate(read_places(places), progress)
-
-    def interpolate(
-        self, values: Numbers, *places: Numbers, method: Method = "linear",
-        fill_value: float = math.nan, outside: Outside = "nan", progress: Optional[Progress] = None,
-    ) -> Array:
-        """Values at places from values at the points, which are given as to `LinearInterpolator`.
-
-        Args:
-            method: "linear", or "natural" for natural neighbours.
-        """
-        return self._make_field(values, method, fill_value, outside).find(read_places(places), progress)
-
-    def raster(
-        self, values: Numbers, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
-        method: Method = "linear", fill_value: float = math.nan, outside: Outside = "nan",
-        progress: Optional[Progress] = None,
-    ) -> Array:
-        """Values at the centres of the cells of a raster; see `LinearInterpolator.raster`."""
-        field = self._make_field(values, method, fill_value, outside)
-        return field.find(read_raster(origin, step, shape, field.values), progress)
 
     def insert(self, points: Numbers, *, progress: Optional[Progress] = None) -> Triangulation:
         """The triangulation of these points and more. Its triangles are those that `triangulate` would
@@ -172,9 +146,6 @@ class Triangulation:
         result.__dict__["_answers"] = answers
         return result
 
-    def _make_field(self, values, method, fill_value, outside):
-        return Field(self._answers, values, method=method, fill_value=fill_value, outside=outside)
-
     @functools.cached_property
     def _answers(self):
         return self._triangulate_again()
@@ -191,10 +162,6 @@ class Triangulation:
             raise ValueError("the points or segments have been changed since they were triangulated; "
                              "triangulate them again")
         return again._answers
-
-    def __getstate__(self):
-        """Without the engine's memory, which cannot be copied."""
-        return {name: value for name, value in self.__dict__.items() if name != "_answers"}
 
 
 def triangulate(
@@ -287,17 +254,25 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
         keeps: Whether the session is kept for questions.
     """
     given, options = _prepare(points, **keywords)
+    result = run_input(given, options, given.make_room,
+                       lambda handle, room: given.store(handle, room, (points, keywords, ())),
+                       progress, on_iteration, keeps)
+    return result, "" if given is points else "; ".join(given.trouble)
+
+
+def run_input(given, options, make_room, store, progress, on_iteration, keeps):
+    """What store(handle, room) makes of the session of an Input. `keeps`: whether it can be asked."""
     with contextlib.ExitStack() as stack:
         try:
             handle, room = stack.enter_context(
-                run("open_points", given.struct, options, given.make_room, progress, on_iteration))
-            result = given.store(handle, room, (points, keywords, ()))
+                run("open_points", given.struct, options, make_room, progress, on_iteration))
+            result = store(handle, room)
         except (_library.InvalidMesh, _library.InvalidOptions) as error:
             error.args = (given.explain(str(error), getattr(error, "ring", -1)), *error.args[1:])
             raise
         if keeps:
             result.__dict__["_answers"] = Answers(given, handle, stack.pop_all())
-    return result, "" if given is points else "; ".join(given.trouble)
+    return result
 
 
 def _prepare(

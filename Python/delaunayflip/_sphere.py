@@ -3,23 +3,21 @@
 """The Delaunay triangulation of points on a sphere, and values between them."""
 from __future__ import annotations  # help() shows types by their names
 
-import contextlib
 import dataclasses
 import functools
 import math
 import warnings
-from typing import Any, Dict, Optional, Tuple, Union
+from typing import Any, Dict, Optional
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
-from ._ask import Answers, Field, Method, Outside, Places, read_places, read_raster, require_triangles
+from ._ask import Asked, Field, Interpolator, Method, Outside, Places, read_places, read_raster, require_triangles
 from ._options import Array, Backend, Numbers, OnIteration, Progress, convert, make_options
-from ._points import Input
+from ._points import Input, run_input
 from ._report import Report
 from ._rings import RingRule, Rings, list_lines, list_rings
-from ._session import run
 
 #: The values of delaunayflip_projection.
 PROJECTIONS = ("plane", "sphere", "open-sphere")
@@ -27,7 +25,7 @@ _ROUNDING = 1e-4  # in degrees; more than the rounding of latitudes given in rad
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class SphereTriangulation:
+class SphereTriangulation(Asked):
     """What `triangulate_sphere` returns. Only the same object is equal: compare the arrays.
 
     It can be asked about places. The first question makes the engine's triangulation anew, which then
@@ -60,31 +58,6 @@ class SphereTriangulation:
         with numpy.errstate(invalid="ignore", divide="ignore"):  # triangles without area
             return normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
 
-    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
-        """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
-        the one with the lowest number. Places are given as to `SphereInterpolator`."""
-        return self._answers.locate(self._read_places(places), progress)
-
-    def interpolate(
-        self, values: Numbers, *places: Numbers, method: Method = "linear",
-        fill_value: float = math.nan, outside: Outside = "nan", progress: Optional[Progress] = None,
-    ) -> Array:
-        """Values at places from values at the points, which are given as to `SphereInterpolator`."""
-        field = self._make_field(values, method, fill_value, outside)
-        return field.find(self._read_places(places), progress)
-
-    def raster(
-        self, values: Numbers, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
-        method: Method = "linear", fill_value: float = math.nan, outside: Outside = "nan",
-        progress: Optional[Progress] = None,
-    ) -> Array:
-        """Values at the centres of the cells of a raster; see `SphereInterpolator.raster`."""
-        field = self._make_field(values, method, fill_value, outside)
-        return field.find(self._read_raster(origin, step, shape, field.values), progress)
-
-    def _make_field(self, values, method, fill_value, outside):
-        return Field(self._answers, values, method=method, fill_value=fill_value, outside=outside)
-
     def _read_places(self, given):
         return _read_directions(given, self._keywords["degrees"])
 
@@ -105,10 +78,6 @@ class SphereTriangulation:
         if not numpy.array_equal(again.triangles, self.triangles):
             raise ValueError("the points have been changed since they were triangulated; triangulate them again")
         return again._answers
-
-    def __getstate__(self):
-        """Without the engine's memory, which cannot be copied."""
-        return {name: value for name, value in self.__dict__.items() if name != "_answers"}
 
 
 def triangulate_sphere(
@@ -173,7 +142,7 @@ def triangulate_sphere(
     return result
 
 
-class SphereInterpolator:
+class SphereInterpolator(Interpolator):
     """Interpolates values between points on a sphere.
 
     It is called with places: `f(lonlat)` with longitudes and latitudes, an array of shape (..., 2);
@@ -235,35 +204,8 @@ class SphereInterpolator:
         for text in troubles:
             warnings.warn(text, stacklevel=2)
         require_triangles(self.triangulation.report)
-        self._field = Field(self.triangulation._answers, values, **how)
-
-    def __call__(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
-        """The values at places. `progress` is called with the share of the places done; if it returns
-        False, delaunayflip.Stopped is raised."""
-        return self._field.find(self.triangulation._read_places(places), progress)
-
-    def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
-        """The triangle of each place, int32; see `SphereTriangulation.locate`."""
-        return self.triangulation.locate(*places, progress=progress)
-
-    def raster(
-        self, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
-        progress: Optional[Progress] = None,
-    ) -> Array:
-        """The values at the centres of the cells of a raster: where the values of the points are.
-
-        Args:
-            origin: Longitude and latitude of the centre of the first cell.
-            step: From one cell to the next, one number or that in longitude and that in latitude, which
-                may be negative.
-            shape: (rows, columns); the longitude changes along a row.
-        """
-        places = self.triangulation._read_raster(origin, step, shape, self._field.values)
-        return self._field.find(places, progress)
-
-    def __reduce__(self) -> Any:
-        places_and_values, keywords = self._made_from
-        return functools.partial(type(self), **keywords), places_and_values
+        self._answers = self.triangulation._answers
+        self._field = Field(self._answers, values, **how)
 
 
 def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False, lines=None):
@@ -279,37 +221,36 @@ def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False
     given, misplaced = _read(points, keywords["degrees"], **(lines or {}))
     given.struct.projection = PROJECTIONS.index("open-sphere" if keywords["open"] else "sphere")
     keywords = {**keywords, "has_lines": given.struct.number_of_segments + given.struct.number_of_hole_seeds > 0}
-    with contextlib.ExitStack() as stack:
-        try:
-            handle, _ = stack.enter_context(run(
-                "open_points", given.struct, make_options(**backend), lambda _: (), progress, on_iteration))
-            result = _store(handle, given, keywords)
-        except (_library.InvalidMesh, _library.InvalidOptions) as error:
-            error.args = (given.explain(str(error), getattr(error, "ring", -1)), *error.args[1:])
-            raise
-        if keeps:
-            result.__dict__["_answers"] = Answers(given, handle, stack.pop_all())
+    result = run_input(given, make_options(**backend), lambda _: (),
+                       lambda handle, _: _store(handle, given, keywords), progress, on_iteration, keeps)
     return result, list(filter(None, (misplaced, "; ".join(given.trouble))))
 
 
 def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=None, ring_rule="evenodd"):
     """The Input of places on the sphere, and the text of a warning, or "". Coordinates of lines, rings and
     seeds are converted as those of points."""
-    def place(coordinates):
-        return _place_on_sphere(coordinates, degrees)[0]
+    troubles = []
 
-    places, misplaced = _place_on_sphere(_arrays.to_host(_arrays.as_plane(points)), degrees)
+    def place(coordinates, name=""):
+        places, trouble = _place_on_sphere(coordinates, degrees)
+        if trouble:
+            troubles.append(name + trouble)
+        return places
+
+    places = place(_arrays.to_host(_arrays.as_plane(points)))
     lines = list_lines(segments)
     rings = {}
     for name, value in (("outline", outline), ("holes", holes)):
-        rings[name] = [ring if ring.ndim == 1 else place(ring) for ring in list_rings(name, value)]
-    given = Input(places, [place(line) for line in lines] if lines else segments, **rings, ring_rule=ring_rule)
+        rings[name] = [ring if ring.ndim == 1 else place(ring, f"{name}: ") for ring in list_rings(name, value)]
+    if lines:
+        segments = [place(line, "segments: ") for line in lines]
+    given = Input(places, segments, **rings, ring_rule=ring_rule)
     given.flat_points = given.flat_points[:0]  # those on the equator
     if hole_seeds is not None:
-        seeds = place(_arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds")))
+        seeds = place(_arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds")), "hole_seeds: ")
         given.seeds = numpy.ascontiguousarray(seeds, dtype=numpy.float64)
         given.struct.hole_seeds, given.struct.number_of_hole_seeds = address(given.seeds), len(seeds)
-    return given, misplaced
+    return given, "; ".join(dict.fromkeys(troubles))
 
 
 def _read_directions(given, degrees):

@@ -196,6 +196,10 @@ class Sphere(unittest.TestCase):
         self.assertEqual(nothing.report.points_inside, 0)
 
     def test_refusals(self):
+        high = [[10, 100], [20, 100], [20, 120]]
+        for name, given in (("segments", [high]), ("holes", high), ("hole_seeds", high)):
+            with self.assertWarnsRegex(UserWarning, f"{name}: 3 points with a latitude beyond 90"):
+                delaunayflip.triangulate_sphere(make_directions(30), **{name: given})
         for keyword in ("degrees", "open"):
             with self.assertRaisesRegex(TypeError, f"{keyword} must be True or False, not 'x'"):
                 delaunayflip.triangulate_sphere(numpy.eye(3), **{keyword: "x"})
