@@ -4,8 +4,8 @@
 # A wheel has the library in the package, where pyproject.toml puts the Python files. A wheel has no
 # symbolic links, so the library's file gets the name by which it is loaded.
 if(DELAUNAYFLIP_WHEEL)
-  message(STATUS "The engine for the Python package: two minutes on two cores, more with CUDA, "
-    "which --config-settings=cmake.define.DELAUNAYFLIP_ENABLE_CUDA=OFF leaves out")
+  message(STATUS "Compiling the engine takes about two minutes on two cores, and longer with "
+    "CUDA; --config-settings=cmake.define.DELAUNAYFLIP_ENABLE_CUDA=OFF leaves CUDA out")
   set_target_properties(DelaunayFlipC PROPERTIES
     VERSION 1
     INSTALL_RPATH_USE_LINK_PATH ON)

@@ -35,13 +35,12 @@ void CheckProjection(const Arguments& arguments)
   const bool isPlane = projection == vtkDelaunayFlipPoints::PROJECTION_BEST_FITTING_PLANE;
   if (arguments.Heights.AreWanted() && isPlane)
   {
-    FailOnUsage(
-      "--raster and --heights-at have places in x and y, which exclude --projection plane");
+    FailOnUsage("--raster and --heights-at take places in x and y, so they do not go with "
+                "--projection plane");
   }
   if (arguments.Heights.Step > 0.0 && isSphere && !arguments.Points->GetDegrees())
   {
-    FailOnUsage(
-      "--raster on a sphere needs --degrees, because its cells are in longitude and latitude");
+    FailOnUsage("--raster on a sphere needs --degrees: its cells are in longitude and latitude");
   }
 }
 

@@ -228,7 +228,7 @@ void AddRegionOption(CLI::App& app, Arguments& arguments)
   };
   app
     .add_option_function<std::vector<std::string>>("--region", addRegions,
-      "A place in a part that segments enclose, or edges of a mesh that stay: x,y,label or "
+      "A place in a part that segments, or kept edges of a mesh, enclose: x,y,label or "
       "x,y,label,area. Its triangles get the label, an integer, in the cell array Region, and are "
       "not larger than the area. May be given several times")
     ->type_name("LIST")

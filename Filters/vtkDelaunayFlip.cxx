@@ -135,8 +135,9 @@ void vtkDelaunayFlip::FlipLeaves(
   const bool needsWhole = request.Settings.Refines || !this->Regions.empty();
   if (needsWhole && block.Leaves.size() > 1)
   {
-    throw InvalidOptions("a mesh in several partitions cannot be refined; join them first, by "
-                         "vtkAppendPolyData, or Merge Blocks in ParaView");
+    throw InvalidOptions(
+      "a mesh in several partitions cannot be refined or have regions; join them "
+      "first, by vtkAppendPolyData, or Merge Blocks in ParaView");
   }
   request.IsLive = block.IsLive;
   vtkNew<vtkPolyData> flipped;

@@ -239,9 +239,9 @@ public:
 
   ///@{
   /**
-   * Add a region, for a mesh in x and y: a place in a part of the mesh that edges enclose which
-   * stay, the label of its triangles (a 32-bit integer), and the largest area of a triangle there
-   * (0: as elsewhere). If there are regions, the output has a cell array "Region" with these
+   * Add a region, for a mesh in x and y: a place in a part of the mesh that kept edges enclose, the
+   * label of its triangles (a 32-bit integer), and the largest area of a triangle there (0: as
+   * elsewhere). If there are regions, the output has a cell array "Region" with these
    * labels, 0 elsewhere. Of several in one part the first counts. Default: none.
    */
   void AddRegion(double x, double y, double label, double maximumArea);

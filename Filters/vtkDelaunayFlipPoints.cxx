@@ -252,17 +252,23 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   {
     return;
   }
-  if (this->Degrees && this->IsOnSphere() && given->GetPoints())
+  const auto warn = [&](vtkPoints* points, const char* name)
   {
-    const std::string trouble = DescribeLatitudes(given->GetPoints());
+    const std::string trouble = DescribeLatitudes(points);
     if (!trouble.empty())
     {
-      summary.Warnings.push_back({ block.Name, trouble });
+      summary.Warnings.push_back({ block.Name, name + trouble });
     }
+  };
+  const bool hasAngles = this->Degrees && this->IsOnSphere();
+  if (hasAngles && given->GetPoints())
+  {
+    warn(given->GetPoints(), "");
   }
   auto others = FindSegments(block, segments);
-  if (this->Degrees && this->IsOnSphere() && others && others->GetPoints())
+  if (hasAngles && others && others->GetPoints())
   {
+    warn(others->GetPoints(), "segments: ");
     const auto placed = vtkSmartPointer<vtkPolyData>::New();
     placed->ShallowCopy(others);
     placed->SetPoints(PlacePoints(others->GetPoints()));

@@ -8,8 +8,8 @@
 #   linux-aarch64   Arm, glibc 2.28 or newer        windows-x86_64  Windows 10 or newer
 #   macos-arm64     macOS 13 or newer               macos-x86_64    the same, for Intel
 # All but the first have no CUDA. They are compiled by the Clang of PyPI's ziglang, which has the
-# libraries of all these systems, and oneTBB is compiled into the library. A platform takes ten
-# minutes on two cores, and nothing of another one is run.
+# libraries of all these systems, and oneTBB is compiled into the library. A platform takes a quarter
+# of an hour on two cores. Nothing of the wheels is run.
 #
 # Needs Debian 12 or newer, libboost-dev and python3-venv, and for linux-x86_64 root and debootstrap.
 # All versions that decide what is in the wheels are below; those of oneTBB and Boost are Debian's.
@@ -64,6 +64,7 @@ get_tbb()
   if [ -z "$archive" ]; then
     mkdir -p "$apt/parts" "$apt/lists"
     for file in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
+      [ -f "$file" ] || continue
       case $file in
         *.sources) sed 's/^Types: .*/Types: deb-src/' "$file" ;;
         *.list) sed -n 's/^deb /deb-src /p' "$file" ;;
@@ -145,7 +146,7 @@ build()
   pip wheel "$project" --verbose --no-deps --no-build-isolation --disable-pip-version-check \
     --wheel-dir "$folder/raw" "${settings[@]}"
   list_components "$1"
-  python "$project/Utilities/finish_wheel.py" "$folder"/raw/*.whl "$work" --platform "$tag" \
+  python "$project/Utilities/finish_wheel.py" "$folder"/raw/*.whl "$work" "$tag" \
     "${components[@]}"
   if [ "$1" = linux-aarch64 ]; then
     auditwheel show "$work"/delaunayflip-*-"$tag".whl
@@ -166,7 +167,11 @@ for platform in "${platforms[@]}"; do
     "$project/Utilities/build-wheel.sh" "$work"
     continue
   fi
-  [ -n "$zig" ] || { get_tools && get_tbb && get_boost; }
+  if [ -z "$zig" ]; then
+    get_tools
+    get_tbb
+    get_boost
+  fi
   build "$platform"
 done
 ls -l "$work"/*.whl

@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws films of three seconds of meshes whose points move: the examples growing_stem.py, without and with
-flips, and swimming_particles.py, coloured by density. Needs NumPy and matplotlib:
+flips, and swimming_particles.py, coloured by density. Needs VTK, matplotlib and Pillow:
 
     python3 Utilities/draw_films.py [FOLDER]
 """
@@ -16,16 +16,17 @@ from PIL import Image
 
 matplotlib.use("Agg")
 from matplotlib import pyplot
-from matplotlib.collections import PolyCollection
-from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
+from matplotlib.colors import LogNorm
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "Examples" / "Python"))
 import delaunayflip
 import growing_stem
 import swimming_particles
+from draw_demo import add_angle_legend
+from draw_gallery import draw_mesh
 
 FRAMES, PAUSE = 36, 83  # three seconds, at 12 frames per second; milliseconds
-COLORS = ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"]  # by smallest angle
+VIEW = (0.0, -numpy.cos(numpy.radians(15)), numpy.sin(numpy.radians(15)))  # from in front, a little above
 
 
 def take_picture(figure):
@@ -35,49 +36,28 @@ def take_picture(figure):
     return Image.fromarray(pixels[:, :, :3].copy())
 
 
-def write_film(frames, path):
-    """All frames with the colours of the last one, which has all of them."""
-    palette = frames[-1].quantize(32, dither=Image.Dither.NONE)
+def write_film(frames, path, colors):
+    """All frames with so many colours of the last one, which has all of them."""
+    palette = frames[-1].quantize(colors, dither=Image.Dither.NONE)
     frames = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     frames[0].save(path, save_all=True, append_images=frames[1:], duration=PAUSE, loop=0, optimize=True)
     print(f"{path}: {len(frames)} frames, {os.path.getsize(path) / 1e3:.0f} kB")
 
 
-def project(places):
-    """Coordinates on the screen, and the depth, as seen from in front and a little above."""
-    rise = numpy.radians(15)
-    return (numpy.c_[places[:, 0], places[:, 2] * numpy.cos(rise) + places[:, 1] * numpy.sin(rise)],
-            places[:, 1] * numpy.cos(rise) - places[:, 2] * numpy.sin(rise))
-
-
-def draw_surface(axes, places, triangles, title, colors, norm):
-    """The triangles that face the viewer, coloured by their smallest angle; the nearest come last."""
-    screen, depth = project(places)
-    a, b, c = (screen[triangles[:, corner]] for corner in range(3))
-    front = triangles[numpy.cross(b - a, c - a) > 0]
-    front = front[numpy.argsort(-depth[front].mean(axis=1))]
-    angles = delaunayflip.smallest_angles(places, front)
-    axes.clear()
-    axes.add_collection(PolyCollection(screen[front], array=angles, cmap=colors, norm=norm,
-                                       edgecolors="#333333", linewidths=0.2))
-    axes.set(xlim=(-0.35, 1.35), ylim=(-0.1, 2.15), aspect="equal", title=title)
-    axes.axis("off")
-
-
 def film_stem(path):
-    colors, norm = ListedColormap(COLORS), BoundaryNorm(range(0, 61, 10), 6)
-    figure, axes = pyplot.subplots(1, 2, figsize=(6.4, 4.6), dpi=100)
-    figure.subplots_adjust(left=0, right=0.88, bottom=0.02, top=0.92, wspace=0)
-    place = figure.add_axes((0.9, 0.15, 0.02, 0.65))
-    bar = figure.colorbar(pyplot.cm.ScalarMappable(norm, colors), cax=place)
-    bar.set_label("smallest angle (degrees)")
+    figure, axes = pyplot.subplots(1, 2, figsize=(6.0, 4.8), dpi=100)
+    figure.subplots_adjust(left=0, right=1, bottom=0.16, top=0.92, wspace=0)
+    add_angle_legend(figure, 0.1)
     frames = []
-    for places, triangles, before, _ in growing_stem.run(1600, FRAMES - 1):
-        draw_surface(axes[0], places, before, "without flips", colors, norm)
-        draw_surface(axes[1], places, triangles, "with flips", colors, norm)
+    for places, triangles, before, _ in growing_stem.run(1000, FRAMES - 1):
+        for part, title, mesh in ((axes[0], "without flips", before), (axes[1], "with flips", triangles)):
+            part.clear()
+            angles = delaunayflip.smallest_angles(places, mesh)
+            draw_mesh(part, (places, mesh, angles), VIEW, (-0.35, 1.35, -0.1, 2.15))
+            part.set_title(title)
         frames.append(take_picture(figure))
     pyplot.close(figure)
-    write_film(frames, path)
+    write_film(frames, path, 48)
 
 
 def film_particles(path):
@@ -98,7 +78,7 @@ def film_particles(path):
             axes.axis("off")
             frames.append(take_picture(figure))
     pyplot.close(figure)
-    write_film(frames, path)
+    write_film(frames, path, 32)
 
 
 def main():

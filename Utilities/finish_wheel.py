@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Usage: finish_wheel.py WHEEL FOLDER [--platform TAG] [COMPONENT...]
+"""Usage: finish_wheel.py WHEEL FOLDER PLATFORM [COMPONENT...]
 
-Writes a copy of a wheel to FOLDER, for the platform TAG if it is given, with the licences of what
-is compiled in or shipped beside it, and with the list of these as an SBOM (CycloneDX, in
-*.dist-info/sboms). A component is NAME=VERSION=LICENCE=FILE=HOW: an SPDX expression, the file of
+Writes a copy of a wheel to FOLDER, with the tag PLATFORM, the licences of what is compiled in, and
+a list of these as an SBOM (CycloneDX, in *.dist-info/sboms). A component is NAME=VERSION=LICENCE=FILE=HOW: an SPDX expression, the file of
 the licence's text, and how it is part of the wheel, e.g.
 "oneTBB=2021.8.0=Apache-2.0=/tmp/LICENSE.txt=static library".
 """
@@ -62,9 +61,7 @@ def finish(files, platform, components):
             raise SystemExit(f"{name} of the wheel has no line {pattern}")
         files[f"{folder}/{name}"] = text.encode(), attributes
 
-    if platform:
-        edit("WHEEL", r"^Tag: py3-none-.*", f"Tag: py3-none-{platform}")
-    tag = re.search(r"^Tag: py3-none-(.*)$", files[f"{folder}/WHEEL"][0].decode(), re.MULTILINE)
+    edit("WHEEL", r"^Tag: py3-none-.*", f"Tag: py3-none-{platform}")
     expression = _join_licences(["BSD-3-Clause", *(part[2] for part in components)])
     edit("METADATA", r"^License-Expression: .*", f"License-Expression: {expression}")
     names = [f"{part[0].replace(' ', '-')}.txt" for part in components]
@@ -75,7 +72,7 @@ def finish(files, platform, components):
         files[f"{folder}/licenses/{name}"] = pathlib.Path(part[3]).read_bytes(), attributes
     libraries = {name: data for name, (data, _) in files.items()
                  if re.search(r"\.(dll|dylib|so[.0-9]*)$", name)}
-    sbom = make_sbom(version, tag.group(1), components, libraries)
+    sbom = make_sbom(version, platform, components, libraries)
     files[f"{folder}/sboms/delaunayflip.cdx.json"] = json.dumps(sbom, indent=1).encode(), attributes
 
 
@@ -97,17 +94,18 @@ def write(path, files):
 
 
 def main():
-    parser = argparse.ArgumentParser(usage=__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("wheel", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--platform")
+    parser.add_argument("platform")
     parser.add_argument("components", nargs="*")
-    options = parser.parse_intermixed_args()
+    options = parser.parse_args()
     files = _read(options.wheel)
     components = [component.split("=") for component in options.components]
     finish(files, options.platform, components)
-    start, tag = options.wheel.stem.split("-py3-none-")
-    path = options.folder / f"{start}-py3-none-{options.platform or tag}.whl"
+    start = options.wheel.stem.split("-py3-none-")[0]
+    path = options.folder / f"{start}-py3-none-{options.platform}.whl"
     write(path, files)
     print(path)
 

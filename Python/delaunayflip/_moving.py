@@ -46,8 +46,8 @@ class MovingTriangulation(Handle):
     Args:
         points: (n, 2) or (n, 3) float32 or float64; z is ignored. They are copied, except on a GPU, where
             they must stay unchanged until the next `move`.
-        segments, outline, holes: As for `triangulate`. Points of those that are given by coordinates follow
-            the others; all of them have to be moved, too.
+        segments, outline, holes: As for `triangulate`. Lines and rings that are given by coordinates add
+            points behind the others; a `move` without ids must place these, too.
         backend, threads, device: As for `triangulate`.
         progress: Called with the share of the work done, 0 to 1; returning False stops it.
 
@@ -189,8 +189,8 @@ class MovingTriangulation(Handle):
             _library.call("remove_points", handle, address(ids), len(ids), callbacks)
 
     def compact(self, *, progress: Optional[Progress] = None) -> None:
-        """Numbers the points anew, without the removed ones and in the same order. Segments name points by
-        their numbers, so it is an error where there are some.
+        """Numbers the points anew, without the removed ones and in the same order. It is an error with
+        segments, which name points by their numbers.
 
         Raises:
             As for `move`.

@@ -213,7 +213,7 @@ def triangulate(
             meet at a small angle, is left, and a warning counts it. z is linear between the points.
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
         regions: (x, y, label[, area]): a place in what segments enclose, the label and largest area there.
-        keep_boundary: Split no edge of the boundary. Angles and areas near it may then stay as they are.
+        keep_boundary: Split no edge of the boundary. Triangles near it may then miss the goals.
         point_limit: Of all points. 0: ten times as many as are given, at least a million.
         heights: z of points that lines and rings add. "survey": that of the points there, linear in
             their triangulation without segments, and beyond its hull that of the nearest place on it.

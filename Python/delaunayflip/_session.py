@@ -409,8 +409,8 @@ def flip(
             larger; 0: no limit. Boundary edges and edges that stay are split, but never crossed. What
             cannot get better, because such edges meet at a small angle, is left and counted.
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
-        region_seeds: (x, y, label[, area]): a place in what edges that stay enclose, its label and area.
-        keep_boundary: Split no edge of the boundary. Some triangles there may then stay as they are.
+        region_seeds: (x, y, label[, area]): a place in a part that kept edges enclose, its label and area.
+        keep_boundary: Split no edge of the boundary. Triangles near it may then miss the goals.
         point_limit: The most points in the end. 0: ten times as many as are given, at least a million.
         maximum_iterations: -1: until done; 0: only test. Rounds of refinement count, too.
         backend: "cuda", "threads", or "auto": a GPU for large meshes if there is one.

@@ -462,8 +462,8 @@ class vtkDelaunayFlip(_Regions, Filter):
         is_refined = self.GetSizeArray() or self._regions or any(options[goal] for goal in GOALS)
         if is_refined and len(leaves) > 1:
             raise _library.InvalidOptions(
-                "a mesh in several partitions cannot be refined; join them first, by vtkAppendPolyData, or "
-                "Merge Blocks in ParaView")
+                "a mesh in several partitions cannot be refined or have regions; join them first, by "
+                "vtkAppendPolyData, or Merge Blocks in ParaView")
         super()._judge_partitions(leaves, constraints)
 
     def _flip(self, mesh, constraints, output):

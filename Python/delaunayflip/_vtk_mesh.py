@@ -10,7 +10,7 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._options import GOALS, choose
+from ._options import choose
 from ._points import Input, interpolate_in_survey
 from ._report import FIELD_PREFIX, POINT_NUMBERS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
@@ -213,8 +213,6 @@ class MeshInput:
     def open(self, **arguments):
         """Begins a Session, and returns it. Errors name the cell, not the triangle."""
         self._arguments = arguments
-        has_areas = any(len(region) > 3 and region[3] > 0 for region in self._region_seeds)
-        self._refines = has_areas or self._sizes is not None or any(arguments.get(goal) for goal in GOALS)
         try:
             self.session = self.session_type(
                 self.points, self.slots.triangles, regions=self._regions, frozen=self._frozen,
@@ -224,6 +222,7 @@ class MeshInput:
         except InvalidMesh:
             self.slots.polygons.require_points(len(self.points))
             raise
+        self._refines = self.session._refines
         return self.session
 
     def sum_up(self):

@@ -69,7 +69,7 @@ class FinishWheel(unittest.TestCase):
 
     def finish(self):
         component = f"Their library=3=BSD-3-Clause AND MIT={self.folder / 'theirs'}=static library"
-        made = run(sys.executable, FINISH, self.wheel, self.folder, "--platform", "win_amd64", component)
+        made = run(sys.executable, FINISH, self.wheel, self.folder, "win_amd64", component)
         with zipfile.ZipFile(made.strip()) as archive:
             files = {name.replace("delaunayflip-1.2.dist-info/", ""): archive.read(name)
                      for name in archive.namelist()}
