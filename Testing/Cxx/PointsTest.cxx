@@ -249,6 +249,9 @@ TEST(FromPoints, CoastsOnASphere)
   EXPECT_EQ(whole - inside, globe.GetPolygons().size());
   const double* corner = globe->GetOutput()->GetPoint(300);
   EXPECT_NEAR(1.0, std::hypot(corner[0], corner[1], corner[2]), 1e-15);
+  globe->SetSegmentsData(
+    MakeMesh({ { 20, 160, 0 }, { -20, 160, 0 }, { -20, -160, 0 } }, { { 0, 1, 2 } }));
+  ExpectHolds(RunToWarning(globe), "segments: 3 points with a latitude beyond 90 degrees");
 }
 
 /// Points on a wall: what is added is on it, too. Each property makes another mesh.
