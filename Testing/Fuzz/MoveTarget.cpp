@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ByteSource.h"
 #include "FuzzTarget.h"
+#include "GrowTestSupport.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
 
@@ -273,25 +274,10 @@ std::vector<std::pair<std::string, std::int64_t>> ListCounts(const FlipReport& r
   return listed;
 }
 
-/// The triangles, each from its smallest vertex on, in a fixed order.
-std::vector<std::array<std::int32_t, 3>> Sort(const std::vector<std::int32_t>& ids)
-{
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (std::size_t i = 0; i < ids.size(); i += 3)
-  {
-    std::array<std::int32_t, 3> triangle = { ids[i], ids[i + 1], ids[i + 2] };
-    std::rotate(
-      triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-    triangles.push_back(triangle);
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
-}
-
 /// Two triangulations with the same triangles, perhaps in another order.
 void ExpectSame(const Triangulation& expected, const Triangulation& made)
 {
-  EXPECT_EQ(Sort(expected.Triangles), Sort(made.Triangles));
+  EXPECT_EQ(Normalize(expected.Triangles), Normalize(made.Triangles));
   EXPECT_EQ(expected.UsedPoints, made.UsedPoints);
   EXPECT_EQ(expected.Edges, made.Edges);
   EXPECT_EQ(ListCounts(expected.Report), ListCounts(made.Report));

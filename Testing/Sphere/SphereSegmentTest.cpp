@@ -146,16 +146,6 @@ INSTANTIATE_TEST_SUITE_P(Families, SphereSegmentTest, testing::ValuesIn(ListSphe
   [](const auto& each) { return std::string(each.param.Name); });
 
 //------------------------------------------------------------------------------
-std::vector<Point3> PlaceAll(const std::vector<std::array<double, 2>>& degrees)
-{
-  std::vector<Point3> points(degrees.size());
-  for (std::size_t i = 0; i < degrees.size(); ++i)
-  {
-    PlaceOnSphere(degrees[i][0], degrees[i][1], points[i].data());
-  }
-  return points;
-}
-
 const std::vector<Point3>& Octahedron()
 {
   static const std::vector<Point3> points =

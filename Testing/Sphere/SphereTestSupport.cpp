@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereTestSupport.h"
 
+#include "PointTriangulation.h"
 #include "Predicates.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -291,6 +292,16 @@ void Scramble(OwnedMesh<double>& mesh, int flips, std::uint32_t seed)
     enter(t);
     enter(s);
   }
+}
+
+std::vector<Point3> PlaceAll(const std::vector<std::array<double, 2>>& degrees)
+{
+  std::vector<Point3> points(degrees.size());
+  for (std::size_t i = 0; i < degrees.size(); ++i)
+  {
+    PlaceOnSphere(degrees[i][0], degrees[i][1], points[i].data());
+  }
+  return points;
 }
 
 FlipOptions OnSphere(TieRuleKind ties)

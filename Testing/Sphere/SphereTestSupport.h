@@ -5,6 +5,7 @@
 
 #include "FlipTestSupport.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,9 @@ OwnedMesh<double> MakeHull(const std::vector<Point3>& points);
 
 /// Makes a number of random flips that turn no triangle over, seen from the origin.
 void Scramble(OwnedMesh<double>& mesh, int flips, std::uint32_t seed);
+
+/// The places of longitudes and latitudes on the unit sphere.
+std::vector<Point3> PlaceAll(const std::vector<std::array<double, 2>>& degrees);
 
 FlipOptions OnSphere(TieRuleKind ties = TieRuleKind::Canonical);
 

@@ -178,16 +178,6 @@ TEST_P(SphereTest, IsTheHullOfInsertion)
 INSTANTIATE_TEST_SUITE_P(Families, SphereTest, testing::ValuesIn(ListSphereFamilies()),
   [](const auto& each) { return std::string(each.param.Name); });
 
-std::vector<Point3> PlaceAll(const std::vector<std::array<double, 2>>& degrees)
-{
-  std::vector<Point3> points(degrees.size());
-  for (std::size_t i = 0; i < degrees.size(); ++i)
-  {
-    PlaceOnSphere(degrees[i][0], degrees[i][1], points[i].data());
-  }
-  return points;
-}
-
 TEST(SphereTriangulation, HasOnePointWhereLongitudesMeet)
 {
   const std::vector<Point3> points = PlaceAll({ { 0, 90 }, { 77, 90 }, { -90, -90 }, { 0, -90 },
