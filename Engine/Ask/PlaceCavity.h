@@ -126,7 +126,7 @@ private:
     return NotKept;
   }
 
-  const Frame& Seen;
+  const Frame Seen; ///< A copy: through a reference, each access on a GPU would be one more load.
   int NumberOfKept = 0;
   TriangleId Kept[MostKept];
   double KeptCentres[MostKept][2];

@@ -74,8 +74,8 @@ public:
   /// The corner on the other side of the edge opposite a corner, or NoCorner, as behind a segment.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindBeyond(CornerId corner) const
   {
-    const HalfEdgeId side = this->Mesh.GetHalfEdge(corner);
-    return this->Mesh.IsFixed(side) ? NoCorner : this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+    const CornerId across = this->Mesh.FindBeyond(corner); // loaded with the state, not after it
+    return this->Mesh.IsFixed(this->Mesh.GetHalfEdge(corner)) ? NoCorner : across;
   }
 
   /// Whether the place is in the circumcircle of the triangle of a corner.
@@ -97,7 +97,7 @@ public:
 
 private:
   const PlaneMesh& Mesh;
-  const PlanePoint& Unscaled;
+  const PlanePoint Unscaled;
   ScaledPoint Place;
   double Scale;
 };

@@ -87,11 +87,13 @@ struct AskedValues
       this->TakeLinear(asked.Mesh.Edges.Triangles[found.Triangle], sides, result);
       return;
     }
-    const PlaceFrame frame(asked.Mesh, place, found.Triangle);
-    // At vertices, on the hull and on segments there are no natural weights.
-    if (!this->IsNatural || !this->TakeNatural(frame, found.Triangle, result))
+    // At vertices, on the hull and on segments there are no natural weights. Each branch makes its
+    // own frame: one that lives through both takes more registers of a GPU.
+    const bool isDone = this->IsNatural &&
+      this->TakeNatural(PlaceFrame(asked.Mesh, place, found.Triangle), found.Triangle, result);
+    if (!isDone)
     {
-      this->AddLinear(frame, found, result);
+      this->AddLinear(PlaceFrame(asked.Mesh, place, found.Triangle), found, result);
     }
   }
 

@@ -100,7 +100,6 @@ template <typename Frame, typename Visit>
 DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   const Frame& frame, TriangleId triangle, const Visit& visit)
 {
-  PlaceCavity<Frame> cavity(frame);
 #if !DELAUNAYFLIP_ON_DEVICE // which has no fast memory for it
   CavityTour<Frame> tour(frame);
   if (tour.Run(triangle))
@@ -109,6 +108,7 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
     return tour.AreGood();
   }
 #endif
+  PlaceCavity<Frame> cavity(frame);
   WeightCheck check;
   int kept = PlaceCavity<Frame>::NotKept;
   cavity.GetCentre(triangle, kept);
