@@ -189,9 +189,12 @@ void CheckSizes(const double* sizes, std::int64_t points)
       throw InvalidOptions("the size of point " + std::to_string(i) + " is not above 0");
     }
     const bool isLimit = sizes[i] <= std::numeric_limits<double>::max(); // else NaN or infinite
-    Require(!isLimit || (sizes[i] >= SmallestGoal && sizes[i] <= LargestGoal),
-      "the size of point " + std::to_string(i) +
+    const bool isSound = !isLimit || (sizes[i] >= SmallestGoal && sizes[i] <= LargestGoal);
+    if (!isSound) // only then, as a message for every point would take long
+    {
+      throw InvalidOptions("the size of point " + std::to_string(i) +
         " must be from 1e-60 to 1e60, or NaN for no limit");
+    }
   }
 }
 
