@@ -31,11 +31,11 @@ double FindAngle(double x, double y)
     {
       return 0.0;
     }
-    x = (x + length) / length;
+    const double sum = x < 0.0 ? y * y / (length - x) : x + length; // their sum would cancel
+    x = sum / length;
     y /= length;
-    if (x < 1e-15) // half a turn, where the sum cancels
+    if (x == 0.0) // half a turn
     {
-      x = 0.0;
       y = 1.0;
     }
   }

@@ -155,6 +155,28 @@ TEST(SphereRings, EncloseTheirSmallerSide)
   }
 }
 
+/// A corner just north of the equator makes the north smaller by more than what counts as a tie.
+TEST(SphereRings, EncloseTheSmallerOfTwoSidesThatAreNearlyEqual)
+{
+  RingCase drawn;
+  drawn.Points = { { 0.0, 0.0, -1.0 } };
+  drawn.Segments = { 1, 3, 3, 2, 2, 1 }; // westwards: the south is to the left
+  drawn.Rings = { 0, 0, 0 };
+  const double halfRoot = std::sqrt(0.75), height = 1e-9;
+  for (const double y : { 0.0, halfRoot, -halfRoot })
+  {
+    drawn.Points.push_back({ y == 0.0 ? 1.0 : -0.5, y, height });
+  }
+  const SegmentResult kept = drawn.Triangulate();
+  ASSERT_EQ(1, kept.Report.Triangles);
+  EXPECT_EQ(0, std::count(kept.Triangles.begin(), kept.Triangles.end(), 0));
+  for (Point3& p : drawn.Points)
+  {
+    p[2] = -p[2];
+  }
+  EXPECT_EQ(1, drawn.Triangulate().Report.Triangles);
+}
+
 TEST(SphereRings, EncloseTheirLeftSideByOrientation)
 {
   RingCase drawn;
