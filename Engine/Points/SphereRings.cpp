@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace delaunayflip
@@ -345,15 +346,22 @@ std::vector<unsigned char> FindOutside(const SphereMeshView& mesh,
     edges.push_back({ side, rings[edge.Segment], true, false, edge.IsFirst,
       static_cast<std::uint32_t>(edge.Segment) });
   }
+  std::set<std::int32_t> withoutArea(rings.begin(), rings.end());
+  withoutArea.erase(-1); // segments of no ring
   RingSet outline, holes;
   for (const auto& [number, ring] : ListRings(edges, firstHole, kept))
   {
-    if (ring.empty())
+    if (!ring.empty())
     {
-      kept.RingsWithoutArea.push_back(number);
+      withoutArea.erase(number);
     }
     tree.AddRing(ring, number < firstHole ? outline : holes);
   }
+  for (const std::int32_t repeated : kept.RepeatedRings)
+  {
+    withoutArea.erase(repeated);
+  }
+  kept.RingsWithoutArea.assign(withoutArea.begin(), withoutArea.end());
   const std::vector<std::int64_t> ofOutline = tree.SumTurns(outline),
                                   ofHoles = tree.SumTurns(holes);
   const std::int64_t fewest = *std::min_element(ofOutline.begin(), ofOutline.end());

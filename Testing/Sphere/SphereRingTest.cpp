@@ -232,9 +232,10 @@ TEST(SphereRings, WithoutAnAreaOrRepeatedAreLeftOut)
   std::vector<std::array<double, 2>> again = MakeParallel(50.0);
   std::reverse(again.begin(), again.end());
   drawn.Add(again);
+  drawn.Add({ { 70, 10 }, { 70, 10 }, { 70, 10 } }); // no segment of it becomes an edge
   const SegmentResult kept = drawn.Triangulate();
   EXPECT_NEAR(FindCap(50.0), drawn.FindArea(kept), Tolerance);
-  EXPECT_EQ(3, kept.Report.FromPoints.LeftOutRings);
+  EXPECT_EQ(4, kept.Report.FromPoints.LeftOutRings);
   const std::vector<Defect>& defects = kept.Report.Defects;
   const auto find = [&](DefectKind kind)
   {
@@ -242,7 +243,7 @@ TEST(SphereRings, WithoutAnAreaOrRepeatedAreLeftOut)
       defects.begin(), defects.end(), [&](const Defect& one) { return one.Kind == kind; });
   };
   ASSERT_NE(defects.end(), find(DefectKind::RingsWithoutArea));
-  EXPECT_EQ((std::vector<std::int64_t>{ 1, 2 }), find(DefectKind::RingsWithoutArea)->FirstIds);
+  EXPECT_EQ((std::vector<std::int64_t>{ 1, 2, 4 }), find(DefectKind::RingsWithoutArea)->FirstIds);
   ASSERT_NE(defects.end(), find(DefectKind::RingsRepeated));
   EXPECT_EQ((std::vector<std::int64_t>{ 3 }), find(DefectKind::RingsRepeated)->FirstIds);
 }
