@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -182,8 +183,11 @@ void SphereRun::ExplainRingRefused() const
 void SphereRun::FlipAroundSegments()
 {
   const FlipReport before = this->Report;
+  const std::vector<std::int32_t> counts = this->FlipCounts;
   this->Center = Origin;
   this->Flip();
+  std::transform(counts.begin(), counts.end(), this->FlipCounts.begin(), this->FlipCounts.begin(),
+    std::plus<>());
   FlipReport& report = this->Report;
   std::vector<IterationRecord> all = before.Iterations;
   for (IterationRecord row : report.Iterations)

@@ -98,6 +98,29 @@ TEST_P(SphereSegmentTest, KeepsSegmentsAndIsDelaunayElsewhere)
       [](std::int64_t sum, const IterationRecord& row) { return sum + row.Flipped; }));
 }
 
+TEST_P(SphereSegmentTest, CountsAllFlipsOfEachTriangle)
+{
+  PointInput input;
+  input.Points =
+    PlaneArray(this->Points.data()->data(), static_cast<std::int64_t>(this->Points.size()), 3);
+  input.Segments = this->Segments.data();
+  input.NumberOfSegments = static_cast<std::int64_t>(this->Segments.size()) / 2;
+  FlipSession session(input, Projected(this->GetProjection()));
+  session.Advance();
+  const FlipReport& report = session.GetReport();
+  std::vector<std::int32_t> counts(report.Triangles);
+  session.StoreFlipCounts(counts.data());
+  const auto sum = std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+  if (report.FromPoints.LargeTriangles == 0)
+  {
+    EXPECT_EQ(2 * report.TotalFlips, sum);
+  }
+  else // those of triangles that were left out are missing
+  {
+    EXPECT_GE(2 * report.TotalFlips, sum);
+  }
+}
+
 TEST_P(SphereSegmentTest, DependsOnThePlacesAndTheSegmentsAlone)
 {
   const PointOptions options = Projected(this->GetProjection());
