@@ -277,39 +277,44 @@ void PointRun::ListPins(LoadedMesh& mesh)
   const bool isListed = result.Pins.AreListed() || this->Points.GetCaller().NumberOfSegments == 0;
   if (!isListed)
   {
-    const auto& edges = result.WholeEdges.empty() ? result.Edges : result.WholeEdges;
     mesh.ViewOnHost([&](const PointMeshView& view)
-      { result.Pins.List(view, edges, this->Points.GetSegments()); });
+      { result.Pins.List(view, result.GetAllEdges(), this->Points.GetSegments()); });
   }
 }
 
-/// Finds the triangles that are removed, and the regions, after a motion.
+/// Finds the triangles that are removed, and the regions.
+void PointRun::JudgeTriangles(LoadedMesh& mesh)
+{
+  if (MayRemove(this->Points.GetInput(), this->Points.GetOptions()))
+  {
+    this->RemoveTriangles(mesh);
+  }
+  if (this->Points.GetCaller().NumberOfRegions > 0)
+  {
+    this->LabelRegions(mesh);
+  }
+}
+
+/// Does so after a motion.
 /// @returns false if rings have got or lost an area.
 bool PointRun::JudgeAgain(const MotionResult& motion)
 {
   PointResult& result = this->Result;
-  auto& edges = result.WholeEdges.empty() ? result.Edges : result.WholeEdges;
-  result.Pins.Renumber(motion.Edges, edges);
+  result.Pins.Renumber(motion.Edges, result.GetAllEdges());
   result.Flips = 0;
   const std::vector<std::int32_t> leftOut = this->Points.GetLeftOutRings();
-  this->OnBackend([this](LoadedMesh& mesh) { this->Points.PrepareRings(mesh); });
-  if (leftOut != this->Points.GetLeftOutRings())
-  {
-    return false;
-  }
+  bool isSame = false;
   this->OnBackend(
-    [this](LoadedMesh& mesh)
+    [&](LoadedMesh& mesh)
     {
-      if (MayRemove(this->Points.GetInput(), this->Points.GetOptions()))
+      this->Points.PrepareRings(mesh);
+      isSame = leftOut == this->Points.GetLeftOutRings();
+      if (isSame)
       {
-        this->RemoveTriangles(mesh);
-      }
-      if (this->Points.GetCaller().NumberOfRegions > 0)
-      {
-        this->LabelRegions(mesh);
+        this->JudgeTriangles(mesh);
       }
     });
-  return true;
+  return isSame;
 }
 
 /// Makes the mesh of all points on another backend.
@@ -322,14 +327,7 @@ void PointRun::RepeatAll(LoadedMesh& mesh)
     this->InsertUpTo(segments.size(), mesh, {});
     mesh.GetLoop().Converge();
   }
-  if (MayRemove(this->Points.GetInput(), this->Points.GetOptions()))
-  {
-    this->RemoveTriangles(mesh);
-  }
-  if (this->Points.GetCaller().NumberOfRegions > 0)
-  {
-    this->LabelRegions(mesh);
-  }
+  this->JudgeTriangles(mesh);
 }
 
 //------------------------------------------------------------------------------

@@ -23,7 +23,7 @@ struct PointResult
 {
   std::size_t Taken = 0; ///< How many segments are inserted or refused; they are the first ones.
   std::int64_t Inserted = 0; ///< How many of these are not refused.
-  std::int64_t Flips = 0; ///< That inserted segments.
+  std::int64_t Flips = 0; ///< How many flips inserted segments.
   std::vector<SegmentEdge> Edges;
   /// All of them, if triangles may be removed; then Edges are those that are left.
   std::vector<SegmentEdge> WholeEdges;
@@ -42,6 +42,12 @@ struct PointResult
   std::int64_t MoveRounds = 0; ///< PointCounts::MoveRounds.
 
   bool HasRemoved() const { return !this->Kept.Numbers.empty(); }
+
+  /// Those of removed triangles, too.
+  std::vector<SegmentEdge>& GetAllEdges()
+  {
+    return this->WholeEdges.empty() ? this->Edges : this->WholeEdges;
+  }
 };
 
 /// Rings that are left out, or count once, as a defect.

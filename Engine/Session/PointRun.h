@@ -83,6 +83,7 @@ private:
   void RepeatAll(LoadedMesh& mesh);
   bool MaySegmentsStay();
   void ListPins(LoadedMesh& mesh);
+  void JudgeTriangles(LoadedMesh& mesh);
   bool JudgeAgain(const MotionResult& motion);
   bool WantsRefinement() const override;
   void LabelRegions();

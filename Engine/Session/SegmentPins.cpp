@@ -13,10 +13,6 @@ namespace delaunayflip
 void SegmentPins::List(const PointMeshView& mesh, const std::vector<SegmentEdge>& edges,
   const std::vector<Segment>& segments)
 {
-  if (this->IsListed)
-  {
-    return;
-  }
   std::unordered_map<EdgeId, std::uint32_t> pins;
   for (const SegmentEdge& edge : edges)
   {
@@ -73,11 +69,15 @@ bool SegmentPins::AreStraight(const PlaneArray& points) const
 
 void SegmentPins::Renumber(const std::vector<PinnedEdge>& changed, std::vector<SegmentEdge>& edges)
 {
+  if (changed.empty())
+  {
+    return;
+  }
   for (std::size_t i = 0; i < changed.size(); ++i)
   {
     this->Edges[i] = EdgeOf(changed[i].Side);
   }
-  for (std::size_t i = 0; i < edges.size() && !changed.empty(); ++i)
+  for (std::size_t i = 0; i < edges.size(); ++i)
   {
     const PinnedEdge& pinned = changed[this->PinOf[i]];
     SegmentEdge& edge = edges[i];

@@ -17,7 +17,7 @@ namespace delaunayflip
 class SegmentPins
 {
 public:
-  /// Lists the edges, if that is not done.
+  /// Lists the edges. Called once.
   /// @param edges what all segments have become.
   void List(const PointMeshView& mesh, const std::vector<SegmentEdge>& edges,
     const std::vector<Segment>& segments);
