@@ -175,8 +175,8 @@ struct FlipOptions
 };
 
 /// The table of options: entry(name in C, member, whether all ranks that share a mesh must have the
-/// same value, range). Within(low, high, words) is a range, whose words end a message; Any has
-/// none, or InputChecks.cpp knows more.
+/// same value, the values that are allowed). Within and AtLeast end with the words of an error
+/// message. Any: every value is allowed, or InputChecks.cpp checks it elsewhere.
 #define DELAUNAYFLIP_OPTIONS(entry)                                                              \
   entry(geometry, Geometry, true, Any);                                                          \
   entry(criterion, Criterion, true, Any);                                                        \

@@ -64,29 +64,20 @@ void CheckRange(Value value, std::string name, const Range& range)
   Require(number >= range.Low && number <= range.High, "the " + name + " must be " + range.Words);
 }
 
-/// Requires a goal of refinement to be finite and not negative.
-void RequireGoal(double goal, const std::string& name)
-{
-  Require(goal >= 0.0 && goal <= std::numeric_limits<double>::max(),
-    name + " must be finite and 0 or more");
-}
-
-/// Requires a length or area to be 0, or one that can be meant. @param name with a verb.
+/// Requires a length or area to be 0, or one that can be meant.
 void RequireSize(double size, const std::string& name)
 {
   Require(size == 0.0 || (size >= SmallestGoal && size <= LargestGoal),
-    name + " from 1e-60 to 1e60, or 0 for no limit");
+    name + " must be from 1e-60 to 1e60, or 0 for no limit");
 }
 
 void CheckGoals(const FlipOptions& options)
 {
   constexpr double LargestAngle = 33.0;
-  RequireGoal(options.MinimumAngle, "MinimumAngle");
-  RequireGoal(options.MaximumArea, "MaximumArea");
-  RequireGoal(options.MaximumEdge, "MaximumEdge");
-  RequireSize(options.MaximumArea, "MaximumArea must be");
-  RequireSize(options.MaximumEdge, "MaximumEdge must be");
-  Require(options.MinimumAngle <= LargestAngle, "MinimumAngle must be from 0 to 33 degrees");
+  Require(options.MinimumAngle >= 0.0 && options.MinimumAngle <= LargestAngle,
+    "MinimumAngle must be from 0 to 33 degrees");
+  RequireSize(options.MaximumArea, "MaximumArea");
+  RequireSize(options.MaximumEdge, "MaximumEdge");
   Require(options.PointLimit >= 0, "PointLimit must be 0 or more");
 }
 
@@ -114,6 +105,7 @@ void CheckOptions(const FlipOptions& options)
   CheckSphere(options);
   Require(options.Tolerance == -1.0 || (options.Tolerance >= 0.0 && options.Tolerance < 1.0),
     "the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
+  static_assert(MostPieces == 255, "the words of the table say so");
 #define DELAUNAYFLIP_CHECK(name, Member, isForAll, range) CheckRange(options.Member, #name, range)
   DELAUNAYFLIP_OPTIONS(DELAUNAYFLIP_CHECK);
 #undef DELAUNAYFLIP_CHECK
@@ -203,12 +195,10 @@ void CheckRegions(const RegionSeed* regions, std::int64_t count)
   for (std::int64_t i = 0; i < count; ++i)
   {
     const RegionSeed& region = regions[i];
-    const bool isSound = std::isfinite(region.X) && std::isfinite(region.Y) &&
-      region.MaximumArea >= 0.0 && region.MaximumArea <= std::numeric_limits<double>::max();
-    Require(isSound,
-      "region " + std::to_string(i) +
-        " has a coordinate that is NaN or infinite, or an area that is not finite and 0 or more");
-    RequireSize(region.MaximumArea, "the area of region " + std::to_string(i) + " must be");
+    const std::string name = "region " + std::to_string(i);
+    Require(std::isfinite(region.X) && std::isfinite(region.Y),
+      name + " has a coordinate that is NaN or infinite");
+    RequireSize(region.MaximumArea, "the area of " + name);
   }
 }
 

@@ -593,7 +593,10 @@ TEST(MeshRefineTest, SaysWhatCannotBeRefined)
   EXPECT_TRUE(
     has(explain(With(&FlipOptions::Criterion, CriterionKind::OppositeAngles, angle)), "in-circle"));
   EXPECT_TRUE(has(explain(With(&FlipOptions::NumberOfPieces, 2, angle)), "pieces"));
-  EXPECT_TRUE(has(explain(WithAngle(34.0)), "33"));
+  for (const double wrong : { 34.0, -1.0, double(NAN) })
+  {
+    EXPECT_TRUE(has(explain(WithAngle(wrong)), "from 0 to 33"));
+  }
   EXPECT_TRUE(has(explain(WithGoal(&FlipOptions::MaximumArea, -1.0)), "MaximumArea"));
   EXPECT_TRUE(has(explain(WithGoal(&FlipOptions::MaximumArea, NAN)), "MaximumArea"));
   for (const double goal : { 1e-61, 1e61, 1e300 })
@@ -609,7 +612,13 @@ TEST(MeshRefineTest, SaysWhatCannotBeRefined)
   seeded.NumberOfRegionSeeds = 1;
   const auto explainSeed = [&](const FlipOptions& options)
   { return GetMessage<InvalidOptions>([&] { MakeSession(seeded, options).Advance(); }); };
-  EXPECT_TRUE(has(explainSeed(InPlane()), "region 0"));
+  EXPECT_TRUE(has(explainSeed(InPlane()), "region 0 has a coordinate"));
+  for (const double area : { -1.0, double(NAN), double(INFINITY) })
+  {
+    const RegionSeed wrong{ 1.0, 0.0, 1, area };
+    seeded.RegionSeeds = &wrong;
+    EXPECT_TRUE(has(explainSeed(InPlane()), "area of region 0 must be"));
+  }
   const RegionSeed sound{ 1.0, 0.0, 1, 0.0 };
   seeded.RegionSeeds = &sound;
   EXPECT_TRUE(has(

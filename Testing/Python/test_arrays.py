@@ -577,7 +577,7 @@ class RefineMeshes(unittest.TestCase):
         flip = functools.partial(delaunayflip.flip, self.points, self.triangles)
         for keywords, words in (
                 ({"minimum_angle": 34}, "minimum_angle must be from 0 to 33"),
-                ({"maximum_area": -1.0}, "maximum_area must be finite"),
+                ({"maximum_area": -1.0}, "maximum_area must be from 1e-60 to 1e60"),
                 ({"maximum_edge": 1, "geometry": "surface"}, "surface in space"),
                 ({"minimum_angle": 20, "geometry": "planar-xy", "pieces": 2}, "in several pieces"),
                 ({"minimum_angle": 20, "criterion": "opposite-angles"}, "in-circle"),
