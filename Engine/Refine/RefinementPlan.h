@@ -27,7 +27,7 @@ struct RefinementPlan
   /// The region of every triangle, -1 for one that is removed. Empty: all are in region 0. Edges
   /// between removed triangles and others stay.
   std::vector<std::int32_t> Regions;
-  /// The caller's label of each region, if several regions have one; empty: each has its own.
+  /// The caller's label of each region; several may have the same. Empty: each has its own.
   std::vector<std::int32_t> LabelOfRegion;
   std::vector<double> AreaOfRegion; ///< The largest area, or infinity; empty: no limits.
   std::vector<double> Sizes; ///< By point, the longest edge there, or NaN; empty: no limits.

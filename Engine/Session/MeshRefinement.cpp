@@ -90,8 +90,8 @@ void MeshRun::LabelRegions()
   }
 }
 
-/// Numbers the regions from 0: triangles with the same label of the caller and the same seed.
-/// Frozen triangles get -1. There are no numbers without labels, seeds and frozen triangles.
+/// Numbers the regions from 0. Triangles are in one region if they have the same label and the same
+/// seed. Frozen triangles get -1. Without labels, seeds and frozen triangles there are no numbers.
 void MeshRun::NumberRegions(RefinementPlan& plan) const
 {
   using Key = std::pair<std::int32_t, std::int32_t>; // the label, and the number of the seed
@@ -102,9 +102,12 @@ void MeshRun::NumberRegions(RefinementPlan& plan) const
   const bool hasRegions = given.Regions || !this->Regions.empty();
   plan.Regions.resize(hasRegions || given.FrozenTriangles ? this->Mesh.CountTriangles() : 0, 0);
   std::vector<Key> keys;
-  for (std::size_t t = 0; hasRegions && t < plan.Regions.size(); ++t)
+  if (hasRegions)
   {
-    keys.push_back(getKey(t));
+    for (std::size_t t = 0; t < plan.Regions.size(); ++t)
+    {
+      keys.push_back(getKey(t));
+    }
   }
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
@@ -113,6 +116,10 @@ void MeshRun::NumberRegions(RefinementPlan& plan) const
     const double area = seed > 0 ? given.RegionSeeds[seed - 1].MaximumArea : 0.0;
     plan.LabelOfRegion.push_back(label);
     plan.AreaOfRegion.push_back(area > 0.0 ? area : INFINITY);
+  }
+  if (given.NumberOfRegionSeeds == 0)
+  {
+    plan.AreaOfRegion.clear(); // no limits, so that refinement need not look
   }
   for (std::size_t t = 0; t < plan.Regions.size(); ++t)
   {
