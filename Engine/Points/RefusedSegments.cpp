@@ -88,8 +88,9 @@ std::string DescribeRefusal(
       return which + " cannot be inserted: a coordinate of an end is NaN or infinite";
     case RefusalKind::EndInside:
       return which +
-        " cannot be inserted: an end is inside of the convex hull of the others, because it is not "
-        "on the sphere or rounding has put it inside";
+        " cannot be inserted: an end has no triangle, because it is inside of the convex hull of "
+        "the others (it is not on the sphere, or rounding has put it inside) or, on an open "
+        "sphere, only triangles that are left out have it";
     case RefusalKind::NoTriangulation:
       break;
   }
