@@ -13,6 +13,9 @@
 namespace delaunayflip
 {
 
+/// The center of a sphere. Triangles are seen from there.
+constexpr PlanePoint Origin{ 0.0, 0.0, 0.0 };
+
 /// The vector of length 1 in the direction of another one. Gives NaN for the zero vector. Divides
 /// by the largest coordinate first, so that nothing overflows.
 inline Vector3 FindDirection(const Vector3& a)
@@ -60,7 +63,7 @@ struct SphereMesh
   const std::int32_t* Neighbors; ///< By corner, the triangle across the opposite edge, or -1.
   std::int64_t NumberOfTriangles;
 
-  /// Of the corner at a slot of a triangle.
+  /// The index of a corner in Triangles and Neighbors.
   static std::int64_t GetIndex(CornerId corner)
   {
     return 3 * std::int64_t(TriangleOf(corner)) + SlotOf(corner);
@@ -117,12 +120,12 @@ struct SphereMesh
   /// that of the corner's triangle, 0 on it, -1 beyond.
   int FindSide(const PlanePoint& place, CornerId opposite) const
   {
-    return FindOrientation3D(this->GetPointAt(Next(opposite)), this->GetPointAt(Previous(opposite)),
-      place, { 0.0, 0.0, 0.0 });
+    return FindOrientation3D(
+      this->GetPointAt(Next(opposite)), this->GetPointAt(Previous(opposite)), place, Origin);
   }
 
-  /// Whether a triangle can have places: whether it has an area and is counter-clockwise, seen from
-  /// the origin's other side.
+  /// Whether a triangle can have places: it has an area, and it is counter-clockwise when seen from
+  /// outside.
   bool FacesOutside(TriangleId triangle) const
   {
     const CornerId corner = MakeCorner(triangle, 0);

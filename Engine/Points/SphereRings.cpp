@@ -16,7 +16,6 @@ namespace delaunayflip
 
 namespace
 {
-constexpr PlanePoint Origin{ 0.0, 0.0, 0.0 };
 constexpr double SphereArea = 4.0 * Pi;
 
 /// The angle of a vector, from -pi to pi, with the same bits on all systems. Its error is below
@@ -117,8 +116,8 @@ public:
     this->SumAreas();
   }
 
-  /// Makes the number of times that a ring winds around its outside 0.
-  /// @param ring its edges, sorted. @param rule tells what the outside is.
+  /// Adds a ring to a set, so that it winds 0 times around its outside.
+  /// @param ring its edges, sorted.
   void AddRing(const std::vector<RingEdge>& ring, RingSet& set) const
   {
     set.HasArea = set.HasArea || !ring.empty();
@@ -265,7 +264,8 @@ private:
   }
 
   /// How much more often a ring winds around its outside than around the first node. The outside is
-  /// where it winds equally often around the largest area, or to its right if areas are equal.
+  /// the part of the sphere with the largest area among those that the ring winds around equally
+  /// often; of equal ones, the one to its right.
   std::int64_t FindTurnsOutside(const std::vector<RingEdge>& ring) const
   {
     struct Piece

@@ -11,24 +11,11 @@
 namespace delaunayflip
 {
 
-namespace
-{
-constexpr PlanePoint Origin{ 0.0, 0.0, 0.0 };
-
-/// A direction whose largest coordinate is 1 or -1, so that nothing overflows.
-Vector3 ScaleToOne(const PlanePoint& p)
-{
-  const double largest = std::max({ std::fabs(p.U), std::fabs(p.V), std::fabs(p.W) });
-  return { p.U / largest, p.V / largest, p.W / largest };
-}
-}
-
 bool AreOpposite(const PlanePoint& a, const PlanePoint& b, double rounding)
 {
-  const Vector3 first = ScaleToOne(a), second = ScaleToOne(b);
+  const Vector3 first = FindDirection(a), second = FindDirection(b);
   const Vector3 cross = Cross(first, second);
-  const double squares = Dot(first, first) * Dot(second, second);
-  return Dot(first, second) < 0.0 && Dot(cross, cross) <= rounding * rounding * squares;
+  return Dot(first, second) < 0.0 && Dot(cross, cross) <= rounding * rounding;
 }
 
 SphereSegments::SphereSegments(const SpacePoints& points, std::vector<std::int32_t>& triangles)

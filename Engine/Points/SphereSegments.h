@@ -111,13 +111,13 @@ private:
   const SpacePoints& Points;
   std::vector<std::int32_t>& Triangles;
   std::vector<std::int32_t> Twins; ///< By corner: the one opposite to the same edge, or None.
-  std::vector<std::int32_t> SegmentOf; ///< By corner: the first one on the edge opposite to it.
+  std::vector<std::int32_t> SegmentOf; ///< By corner, the first segment on the edge opposite to it.
   std::vector<std::int32_t> CornerOf; ///< By point: a corner, or None.
   std::vector<SphereEdge> Edges;
   std::int32_t Crossed = None;
   std::int64_t Replaced = 0;
 
-  // Of the segment at hand.
+  // What is known of the segment that is inserted.
   std::vector<Stretch> Stretches;
   std::vector<std::int32_t> Channel; ///< Its triangles.
   std::vector<std::int32_t> Left, Right; ///< Vertices of the channel, from one end to the other.

@@ -25,7 +25,6 @@ namespace delaunayflip
 
 namespace
 {
-constexpr PlanePoint Origin{ 0.0, 0.0, 0.0 };
 constexpr const char* Remedy =
   ": segments on a sphere are not split where they cross, so give both a point there";
 }
@@ -179,7 +178,9 @@ void SphereRun::ExplainRingRefused() const
   }
 }
 
-/// Flips until all edges but those of segments are convex. All triangles face away from the origin.
+/// Flips until all edges but those of segments are convex. All triangles face away from the origin,
+/// and all vertices are corners of the convex hull, so that none can be below the triangle of its
+/// neighbours and block a flip.
 void SphereRun::FlipAroundSegments()
 {
   const FlipReport before = this->Report;

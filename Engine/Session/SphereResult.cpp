@@ -19,7 +19,7 @@ void SphereRun::OpenMesh()
   std::size_t kept = 0;
   for (std::size_t t = 0; 3 * t < this->Triangles.size(); ++t)
   {
-    if (FacesOutside(this->Points, &this->Triangles[3 * t], { 0.0, 0.0, 0.0 }))
+    if (FacesOutside(this->Points, &this->Triangles[3 * t], Origin))
     {
       std::copy_n(&this->Triangles[3 * t], 3, &this->Triangles[3 * kept]);
       this->FlipCounts[kept++] = this->FlipCounts[t];

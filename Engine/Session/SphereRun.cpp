@@ -374,7 +374,7 @@ bool SphereRun::ChooseCenter(const std::vector<std::int32_t>& simplex)
     }
     return true;
   };
-  return faceOutside({ 0.0, 0.0, 0.0 }) || faceOutside(FindCenter(this->Points, simplex));
+  return faceOutside(Origin) || faceOutside(FindCenter(this->Points, simplex));
 }
 
 /// Gives points a state in which they are not active. @returns whether there are any.

@@ -99,11 +99,12 @@ private:
   std::vector<PointState> States; ///< By point.
   std::vector<std::int32_t> UsedPoint; ///< By point, the one that is used at its place.
   std::vector<std::int32_t> Triangles, Neighbors, FlipCounts;
-  PlanePoint Center{ 0.0, 0.0, 0.0 }; ///< The place from which triangles are seen.
+  PlanePoint Center = Origin; ///< The place from which triangles are seen.
   double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;
   FlipReport Planar; ///< Sums over the flips in the plane.
-  std::unique_ptr<const SphereAsker> Asker; ///< Of the triangles in the end, once it is needed.
+  /// Answers about the final triangles. Made by the first query.
+  std::unique_ptr<const SphereAsker> Asker;
   std::int64_t Opened = 0; ///< How many triangles OpenMesh has removed.
   bool HasHull = false; ///< Whether there were triangles before rings and seeds removed them.
   std::vector<Segment> Segments; ///< The caller's. Those of a ring run in one direction.
