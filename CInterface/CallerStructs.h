@@ -234,7 +234,10 @@ constexpr struct
   {
     to = ParseDevices(devices ? devices : "");
   }
-  void operator()(const std::vector<int>&, const char*& none) const { none = nullptr; }
+  void operator()(const std::vector<int>&, const char*& devices) const
+  {
+    devices = nullptr; // the defaults name no devices
+  }
 } CopyOption;
 
 /// @param options of the run.

@@ -102,13 +102,14 @@ extern "C"
     DELAUNAYFLIP_CUDA = 1 /**< The memory of a GPU, as CUDA allocates it. */
   } delaunayflip_memory;
 
-  /** Names the part, enclosed by segments or by edges that stay, that a place is in. */
+  /** A place that labels the part of the mesh around it. Parts end at segments and at edges that
+   * never flip. */
   typedef struct
   {
     double x;
     double y;
-    int32_t label; /**< That of all triangles of the region. */
-    double maximum_area; /**< The largest triangle there; 0: as elsewhere. */
+    int32_t label; /**< The label of all triangles of the part. */
+    double maximum_area; /**< The largest area of a triangle there; 0: no limit of its own. */
   } delaunayflip_region;
 
   /** A triangle mesh. Any mesh is accepted: non-manifold, open, of mixed winding, with duplicate,
@@ -137,9 +138,11 @@ extern "C"
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
     const double* sizes; /**< For refinement: the longest edge near each point, linear in between;
                             NaN: no limit near that point. Null: no limit. In the host's memory. */
-    const delaunayflip_region* region_seeds; /**< For delaunayflip_open, in x and y: places in parts
-                                                of the mesh that edges enclose which stay; or null.
-                                                Of several in one part the first one counts. */
+    const delaunayflip_region* region_seeds; /**< Places in x and y that label parts of the mesh,
+                                                and may limit the areas of triangles there; or null.
+                                                Parts end at edges that never flip. If several
+                                                places are in one part, the first one counts. Only
+                                                for delaunayflip_open. */
     int64_t number_of_region_seeds;
   } delaunayflip_mesh;
 
@@ -450,7 +453,7 @@ extern "C"
                             at least a million. [0] */
     const double* sizes; /**< The longest edge near each point, linear in between; NaN: no limit
                             near that point. Null: no limit. */
-    const delaunayflip_region* regions; /**< If several are in one region, the first one counts. */
+    const delaunayflip_region* regions; /**< If several are in one part, the first one counts. */
     int64_t number_of_regions;
     int32_t projection; /**< A delaunayflip_projection. [PLANE] */
   } delaunayflip_points;

@@ -164,12 +164,13 @@ struct BasicTriangleArray
 using TriangleArray = BasicTriangleArray<const std::int32_t, const std::int64_t>;
 using MutableTriangleArray = BasicTriangleArray<std::int32_t, std::int64_t>;
 
-/// Names the part, enclosed by segments or by edges that stay, that a place is in.
+/// A place that labels the part of the mesh around it. Parts end at segments and at edges that
+/// never flip.
 struct RegionSeed
 {
   double X = 0.0, Y = 0.0;
-  std::int32_t Label = 0; ///< That of all triangles of the region.
-  double MaximumArea = 0.0; ///< The largest triangle there; 0: as elsewhere.
+  std::int32_t Label = 0; ///< The label of all triangles of the part.
+  double MaximumArea = 0.0; ///< The largest area of a triangle there; 0: no limit of its own.
 };
 
 /// What the caller knows about the edges of a mesh: which of them are fixed, i.e. never flip.
@@ -197,9 +198,9 @@ struct FixedEdges
   /// Between points it is interpolated linearly. NaN: no limit near that point.
   const double* Sizes = nullptr;
 
-  /// In x and y: places in parts of the mesh that edges enclose which stay. They label these parts
-  /// (FlipSession::StoreRegions), and may limit the areas of triangles there. If several are in one
-  /// part, the first one counts.
+  /// Places in x and y that label parts of the mesh (FlipSession::StoreRegions), and may limit the
+  /// areas of triangles there; or null. Parts end at edges that never flip. If several places are
+  /// in one part, the first one counts.
   const RegionSeed* RegionSeeds = nullptr;
   std::int64_t NumberOfRegionSeeds = 0;
 };

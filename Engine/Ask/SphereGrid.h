@@ -151,7 +151,7 @@ private:
 
   SphereMesh Mesh;
   std::int64_t NumberOfFacing = 0;
-  std::vector<std::int32_t> Neighbors; ///< Of Mesh, if some triangles are cut off.
+  std::vector<std::int32_t> Neighbors; ///< The neighbours in Mesh, if some triangles are cut off.
   PlaceGridFrame Frame;
   std::vector<TriangleId> Cells;
 };

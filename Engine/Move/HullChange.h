@@ -57,8 +57,8 @@ struct HullView
   std::int64_t NumberOfCuts;
   std::uint32_t* TrackOf = nullptr; ///< By vertex, its index in Tracked, or NoSide. May be null.
   TrackedVertex* Tracked = nullptr;
-  std::uint32_t* PinOf =
-    nullptr; ///< By edge, its index in Pinned, or NoSide. Null: none is pinned.
+  /// By edge, its index in Pinned, or NoSide. Null: none is pinned.
+  std::uint32_t* PinOf = nullptr;
   HalfEdgeId* Pinned = nullptr; ///< By pinned edge, its half-edge that was even at first.
 
   /// Whether an edge must stay one, because a segment has become it.
@@ -240,8 +240,7 @@ protected:
     this->Edges.SetCorners(edge, { left, NoCorner });
     this->Edges.Triangles[TriangleOf(left)].HalfEdges[SlotOf(left)] = 2 * edge;
     this->Edges.States[edge] = EdgeState::Fixed;
-    const bool hasTurned = cut == 2 * edge && this->Hull.IsPinned(edge);
-    if (hasTurned)
+    if (cut == 2 * edge && this->Hull.IsPinned(edge))
     {
       this->Hull.Pinned[this->Hull.PinOf[edge]] ^= 1u;
     }
