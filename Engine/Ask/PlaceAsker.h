@@ -61,11 +61,19 @@ public:
     }
     for (std::int64_t first = 0; first < count; first += MostAtATime)
     {
-      if (observer && !observer(static_cast<double>(first) / static_cast<double>(count)))
+      const auto goesOn = [&](std::int64_t done) {
+        return !observer ||
+          observer(static_cast<double>(first + done) / static_cast<double>(count));
+      };
+      const std::int64_t size = std::min(MostAtATime, count - first);
+      const AnswerPlaces answer{ here, values, CutBlock(query, first, size), nullptr };
+      const bool isOnBackend = Backend::IsOnHost || query.OnDevice;
+      const bool isDone = isOnBackend ? AnswerHere(answer, size, goesOn, backend)
+                                      : AnswerCopy(answer, size, goesOn, backend);
+      if (!isDone)
       {
         return AskResult::Stopped;
       }
-      this->AnswerBlock(here, values, query, first, backend);
     }
     std::int32_t hasFailed = 0;
     backend.Download(failed.Get(), 1, &hasFailed);
@@ -126,24 +134,44 @@ public:
   }
 
   /// On the host a thread answers many places one after the other, which saves steps of walks.
-  static void AnswerHere(const AskedMesh& asked, const AskedValues& values, const PlaceBlock& block,
-    std::int64_t count, const Backend& backend)
+  /// @param answer without an order.
+  /// @param goesOn is asked whether to go on, with the number of places that are done.
+  /// @returns whether all are answered.
+  template <typename GoesOn>
+  static bool AnswerHere(
+    AnswerPlaces answer, std::int64_t count, const GoesOn& goesOn, const Backend& backend)
   {
-    const Array<std::uint32_t> sorted = SortPlaces(asked.Grid.Frame, block, count, backend);
-    const AnswerPlaces answer{ asked, values, block, sorted.Data() };
+    if (!goesOn(0))
+    {
+      return false;
+    }
+    const Array<std::uint32_t> sorted =
+      SortPlaces(answer.Asked.Grid.Frame, answer.Block, count, backend);
+    answer.Order = sorted.Data();
     if constexpr (Backend::IsOnHost)
     {
-      backend.ForRange(count, answer);
+      for (std::int64_t first = 0; first < count; first += MostUnobserved)
+      {
+        if (first > 0 && !goesOn(first))
+        {
+          return false;
+        }
+        backend.ForRange(std::min(MostUnobserved, count - first),
+          [&](std::int64_t begin, std::int64_t end) { answer(first + begin, first + end); });
+      }
     }
     else
     {
       backend.ForEach(count, answer);
     }
+    return true;
   }
 
 private:
   /// So many that a GPU is busy, and so few that they need little memory.
   static constexpr std::int64_t MostAtATime = 1 << 20;
+  /// So few that a thread of a CPU has them in about a tenth of a second.
+  static constexpr std::int64_t MostUnobserved = 1 << 16;
 
   /// Values of the host's in the backend's memory.
   template <typename T>
@@ -168,17 +196,14 @@ private:
     Array<T> Copy;
   };
 
-  static void AnswerBlock(const AskedMesh& asked, const AskedValues& values,
-    const PlaceQuery& query, std::int64_t first, const Backend& backend)
+  /// As AnswerHere, for places and results that are in the host's memory.
+  template <typename GoesOn>
+  static bool AnswerCopy(
+    const AnswerPlaces& answer, std::int64_t count, const GoesOn& goesOn, const Backend& backend)
   {
-    const std::int64_t count = std::min(MostAtATime, query.CountPlaces() - first);
-    const PlaceBlock block = CutBlock(query, first, count);
-    if (Backend::IsOnHost || query.OnDevice)
-    {
-      AnswerHere(asked, values, block, count, backend);
-      return;
-    }
-    PlaceBlock here = block;
+    const PlaceBlock& block = answer.Block;
+    AnswerPlaces copy = answer;
+    PlaceBlock& here = copy.Block;
     const std::int64_t numbers = (count - 1) * block.Places.Stride + 2;
     const LocalCopy<float> floats(
       block.Places.Floats, numbers, block.Places.Floats != nullptr, backend);
@@ -192,16 +217,20 @@ private:
       triangles = backend.template MakeArray<std::int32_t>(count);
     }
     Array<double> results;
-    const std::int64_t size = count * query.Components;
+    const std::int64_t size = count * answer.Values.Components;
     if (block.Results)
     {
       results = backend.template MakeArray<double>(size);
     }
     here.Triangles = triangles.Data();
     here.Results = results.Data();
-    AnswerHere(asked, values, here, count, backend);
+    if (!AnswerHere(copy, count, goesOn, backend))
+    {
+      return false;
+    }
     backend.Download(here.Triangles, block.Triangles ? count : 0, block.Triangles);
     backend.Download(here.Results, block.Results ? size : 0, block.Results);
+    return true;
   }
 
   PlaceGrid Grid;

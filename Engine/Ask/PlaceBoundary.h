@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_PLACEBOUNDARY_H
 
 #include "Array.h"
+#include "PlaceFrame.h"
 #include "PlaceGrid.h"
 #include "PlaneMesh.h"
 
@@ -30,6 +31,44 @@ struct NearestOnBoundary
   double ShareOfTo; ///< 0 at Edge.From, 1 at Edge.To.
 };
 
+/// A place, seen from the box of the boundary. The place may be so far away that the distances of
+/// all edges are equal but for rounding, or infinite. So they are compared without what they have
+/// in common, the distance from the box, and without differences of large numbers.
+struct PlaceFromBox
+{
+  double Near[2] = {}; ///< The nearest place in the box, scaled.
+  double Away[2] = {}; ///< From there to the place, scaled, times Weight.
+  double Weight = 1.0; ///< A power of two, so small that Away has no large numbers.
+
+  /// @param scale of the boundary.
+  DELAUNAYFLIP_HOST_DEVICE PlaceFromBox(const PlanePoint& place, const PlaceBox& box, double scale)
+  {
+    constexpr double LeastWeight = 1e-150; // what is farther away sees the same
+    const double u = std::fabs(place.U), v = std::fabs(place.V);
+    const double fitting = InvertPowerOfTwo(u > v ? u : v);
+    const double unit = fitting < scale ? fitting : scale;
+    const double weight = unit / scale;
+    this->Weight = weight > LeastWeight ? weight : LeastWeight;
+    const double coordinates[2] = { place.U, place.V };
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      double near = coordinates[axis] > box.Low[axis] ? coordinates[axis] : box.Low[axis];
+      near = near < box.High[axis] ? near : box.High[axis];
+      this->Near[axis] = near * scale;
+      this->Away[axis] = coordinates[axis] * unit - near * unit;
+    }
+  }
+
+  /// The weighted square of the distance from the place, without that of the place from the box.
+  /// Both terms grow with the distance from the box's nearest place along each axis.
+  /// @param u, v from the box's nearest place to one in the box.
+  DELAUNAYFLIP_HOST_DEVICE double Measure(double u, double v) const
+  {
+    return this->Weight * (u * u + v * v) +
+      2.0 * (std::fabs(u * this->Away[0]) + std::fabs(v * this->Away[1]));
+  }
+};
+
 /// The boundary, for functions of both backends. Edges whose numbers are near each other are mostly
 /// near each other, so groups of them have a box each.
 struct PlaceBoundaryView
@@ -41,14 +80,16 @@ struct PlaceBoundaryView
   const PlaceBox* Boxes; ///< By group.
   std::int64_t NumberOfEdges;
   double Scale; ///< Multiplied by it, coordinates are about 1.
+  PlaceBox Box; ///< Around all edges.
 
   DELAUNAYFLIP_HOST_DEVICE NearestOnBoundary FindNearest(const PlanePoint& place) const
   {
+    const PlaceFromBox from(place, this->Box, this->Scale);
     NearestOnBoundary nearest{ this->Edges[0], 0.0 };
     double least = INFINITY;
     for (std::int64_t first = 0; first < this->NumberOfEdges; first += GroupSize)
     {
-      if (!(this->BoundDistance(place, this->Boxes[first / GroupSize]) < least))
+      if (!(this->Bound(from, this->Boxes[first / GroupSize]) < least))
       {
         continue;
       }
@@ -59,37 +100,36 @@ struct PlaceBoundaryView
       }
       for (std::int64_t i = first; i < end; ++i)
       {
-        this->Offer(place, this->Edges[i], least, nearest);
+        this->Offer(from, this->Edges[i], least, nearest);
       }
     }
     return nearest;
   }
 
 private:
-  /// The square of the scaled distance of a place from a box.
-  DELAUNAYFLIP_HOST_DEVICE double BoundDistance(const PlanePoint& place, const PlaceBox& box) const
+  /// At most the measure of each place in a box.
+  DELAUNAYFLIP_HOST_DEVICE double Bound(const PlaceFromBox& from, const PlaceBox& box) const
   {
-    const double coordinates[2] = { place.U, place.V };
-    double square = 0.0;
+    double beyond[2] = {};
     for (int axis = 0; axis < 2; ++axis)
     {
-      const double below = box.Low[axis] * this->Scale - coordinates[axis] * this->Scale;
-      const double above = coordinates[axis] * this->Scale - box.High[axis] * this->Scale;
-      const double beyond = std::fmax(0.0, std::fmax(below, above));
-      square += beyond * beyond;
+      const double below = box.Low[axis] * this->Scale - from.Near[axis];
+      const double above = from.Near[axis] - box.High[axis] * this->Scale;
+      beyond[axis] = std::fmax(0.0, std::fmax(below, above));
     }
-    return square;
+    return from.Measure(beyond[0], beyond[1]);
   }
 
   /// Takes an edge if it is nearer than the nearest one so far.
-  DELAUNAYFLIP_HOST_DEVICE void Offer(const PlanePoint& place, const BoundaryEdge& edge,
+  DELAUNAYFLIP_HOST_DEVICE void Offer(const PlaceFromBox& from, const BoundaryEdge& edge,
     double& least, NearestOnBoundary& nearest) const
   {
-    const double u = this->GetOffset(edge.From, 0, place.U);
-    const double v = this->GetOffset(edge.From, 1, place.V);
-    const double alongU = this->GetOffset(edge.To, 0, place.U) - u;
-    const double alongV = this->GetOffset(edge.To, 1, place.V) - v;
-    double share = -(u * alongU + v * alongV) / (alongU * alongU + alongV * alongV);
+    const double startU = this->GetScaled(edge.From, 0), startV = this->GetScaled(edge.From, 1);
+    const double u = startU - from.Near[0], v = startV - from.Near[1];
+    const double alongU = this->GetScaled(edge.To, 0) - startU;
+    const double alongV = this->GetScaled(edge.To, 1) - startV;
+    const double away = (from.Away[0] * alongU + from.Away[1] * alongV) / from.Weight;
+    double share = (away - (u * alongU + v * alongV)) / (alongU * alongU + alongV * alongV);
     if (!(share > 0.0)) // or NaN
     {
       share = 0.0;
@@ -98,18 +138,17 @@ private:
     {
       share = 1.0;
     }
-    const double nearU = u + share * alongU, nearV = v + share * alongV;
-    const double square = nearU * nearU + nearV * nearV;
-    if (square < least)
+    const double measure = from.Measure(u + share * alongU, v + share * alongV);
+    if (measure < least)
     {
-      least = square;
+      least = measure;
       nearest = { edge, share };
     }
   }
 
-  DELAUNAYFLIP_HOST_DEVICE double GetOffset(VertexId vertex, int axis, double coordinate) const
+  DELAUNAYFLIP_HOST_DEVICE double GetScaled(VertexId vertex, int axis) const
   {
-    return this->Places.Get(vertex, axis) * this->Scale - coordinate * this->Scale;
+    return this->Places.Get(vertex, axis) * this->Scale;
   }
 };
 
@@ -120,10 +159,12 @@ struct PlaceBoundary
   Array<PlaceBox> Boxes;
   std::int64_t NumberOfEdges = 0;
   double Scale = 1.0;
+  PlaceBox Box;
 
   PlaceBoundaryView View(const PlaneArray& places) const
   {
-    return { places, this->Edges.Data(), this->Boxes.Data(), this->NumberOfEdges, this->Scale };
+    return { places, this->Edges.Data(), this->Boxes.Data(), this->NumberOfEdges, this->Scale,
+      this->Box };
   }
 };
 
@@ -156,6 +197,7 @@ PlaceBoundary BuildPlaceBoundary(const PlaneMesh& mesh, std::int64_t edges,
   PlaceBoundary boundary;
   boundary.NumberOfEdges = all;
   boundary.Scale = frame.GetScale();
+  boundary.Box = frame.Box;
   boundary.Edges = backend.template MakeArray<BoundaryEdge>(all);
   BoundaryEdge* listed = boundary.Edges.Data();
   backend.ForEachNumbered(numbering, edges, count,

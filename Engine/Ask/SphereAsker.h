@@ -92,7 +92,7 @@ public:
   AskResult Answer(
     const PlaceQuery& query, const Backend& backend, const ProgressObserver& observer) const
   {
-    constexpr std::int64_t MostAtATime = 1 << 18;
+    constexpr std::int64_t MostAtATime = 1 << 16; // a thread needs about a tenth of a second
     const std::int64_t count = query.CountPlaces();
     const AskedValues values{ query.Values, nullptr, query.Components,
       query.Method == InterpolationKind::Natural, PlaceBoundaryView() };

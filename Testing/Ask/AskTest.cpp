@@ -482,6 +482,66 @@ TEST(Ask, NearestPlacesOnTheBoundary)
   }
 }
 
+/// Far away the nearest place is the vertex that is the farthest in the direction of the place.
+TEST(Ask, NearestPlacesOfFarPlaces)
+{
+  std::mt19937 random(14);
+  for (const double size : { 1.0, 1e-290, 1e290 })
+  {
+    Drawing drawing;
+    std::vector<double> values;
+    for (int i = 0; i < 300; ++i)
+    {
+      drawing.Points.push_back(
+        { size * (DrawIndex(random, 1025) / 1024.0), size * (DrawIndex(random, 1025) / 1024.0) });
+      values.push_back(i);
+    }
+    const Asked asked(drawing);
+    Places places;
+    std::vector<double> expected;
+    for (int i = 0; i < 1000; ++i)
+    {
+      const double angle = 0.0123 + 2.0 * 3.14159265358979 * DrawIndex(random, 4096) / 4096;
+      const double u = std::cos(angle), v = std::sin(angle);
+      const double distance = std::min(1e307, size * std::pow(10.0, 8 + i * 0.59));
+      places.push_back({ u * distance, v * distance });
+      const auto along = [&](const Place& p) { return u * (p[0] / size) + v * (p[1] / size); };
+      const auto farthest = std::max_element(drawing.Points.begin(), drawing.Points.end(),
+        [&](const Place& a, const Place& b) { return along(a) < along(b); });
+      expected.push_back(static_cast<double>(farthest - drawing.Points.begin()));
+    }
+    for (const auto method : { InterpolationKind::Linear, InterpolationKind::Natural })
+    {
+      EXPECT_EQ(expected, asked.Interpolate(values, places, method, OutsideKind::Nearest)) << size;
+    }
+  }
+}
+
+/// Beside an edge that is straight up the nearest place is at the height of the place.
+TEST(Ask, NearestPlacesBesideAnEdge)
+{
+  Drawing drawing;
+  drawing.Points = { { 0.0, 0.0 }, { 4.0, 0.0 }, { 4.0, 2.0 }, { 4.0, 4.0 }, { 0.0, 4.0 } };
+  const Asked asked(drawing);
+  const std::vector<double> heights = { 0.0, 0.0, 2.0, 4.0, 4.0 };
+  Places places;
+  std::vector<double> expected;
+  for (const double far : { 5.0, 1e6, 1e10, 1e20, 1e36, 1e155, 1e300, 1.7e308 })
+  {
+    for (const double height : { 0.0, 1.0, 2.0, 3.0, 4.0 })
+    {
+      places.push_back({ far, height });
+      places.push_back({ -far, height });
+      expected.insert(expected.end(), 2, height);
+    }
+    places.push_back({ far, -far });
+    places.push_back({ far, far });
+    expected.insert(expected.end(), { 0.0, 4.0 });
+  }
+  EXPECT_EQ(
+    expected, asked.Interpolate(heights, places, InterpolationKind::Linear, OutsideKind::Nearest));
+}
+
 /// Places at both sides of edges: of triangles, of cavities and of segments.
 TEST(Ask, NaturalNeighborsAreContinuous)
 {
@@ -557,6 +617,21 @@ TEST(Ask, AnObserverMayStop)
   EXPECT_FALSE(asked.Session.Ask(query, [](double) { return false; }));
   EXPECT_TRUE(asked.Session.Ask(query, [](double) { return true; }));
   EXPECT_EQ(std::vector<std::int32_t>(10, 0), found);
+
+  found.resize(1000000);
+  query.Raster.Columns = query.Raster.Rows = 1000;
+  query.Raster.Step[0] = query.Raster.Step[1] = 0.5;
+  query.Triangles = found.data();
+  std::vector<double> shares;
+  EXPECT_TRUE(asked.Session.Ask(query,
+    [&](double share)
+    {
+      shares.push_back(share);
+      return true;
+    }));
+  EXPECT_GE(shares.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()) && shares.back() < 1.0);
+  EXPECT_FALSE(asked.Session.Ask(query, [](double share) { return share < 0.1; }));
 }
 
 }
