@@ -468,6 +468,7 @@ void TriangulationRun::TakeHeights(
   options.Backend = this->Asked.Options.Backend;
   options.Device = this->Asked.Options.Device;
   options.NumberOfThreads = this->Asked.Options.NumberOfThreads;
+  options.Projection = this->Asked.Options.Projection;
   const ProgressObserver observer = this->Plan.For(UpdatePlan::Heights);
   FlipSession survey(given, options, observer);
   survey.Advance(-1, {}, observer);
@@ -486,13 +487,16 @@ void TriangulationRun::TakeHeights(
     const auto& [array, component] = numbers[i % width];
     values[i] = array->GetComponent(static_cast<vtkIdType>(i / width), component);
   }
+  const int coordinates = IsOnSphere(this->Asked) ? 3 : 2;
   for (const std::int64_t point : points)
   {
-    places.insert(
-      places.end(), { this->View.Points.Get(point, 0), this->View.Points.Get(point, 1) });
+    for (int k = 0; k < coordinates; ++k)
+    {
+      places.push_back(this->View.Points.Get(point, k));
+    }
   }
   PlaceQuery query;
-  query.Places = { places.data(), static_cast<std::int64_t>(points.size()), 2 };
+  query.Places = { places.data(), static_cast<std::int64_t>(points.size()), coordinates };
   query.Values = values.data();
   query.Components = static_cast<int>(width);
   query.Outside = OutsideKind::Nearest;

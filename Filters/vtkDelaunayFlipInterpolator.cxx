@@ -156,16 +156,32 @@ std::string RemoveOthers(vtkPolyData* source)
   return "point arrays of the source left out, which have no numbers or too few tuples: " + names;
 }
 
+/// Adds z of points to their data. Their places on a sphere do not have it any more.
+/// @param points may be null.
+void AddElevation(vtkPoints* points, const std::string& name, vtkPointData* data)
+{
+  if (!points)
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> heights;
+  heights->SetName(name.c_str());
+  heights->SetNumberOfTuples(points->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    heights->SetValue(i, points->GetData()->GetComponent(i, 2));
+  }
+  AddAttributes(data, data->AddArray(heights), 1 << vtkDataSetAttributes::SCALARS);
+}
+
 /// The arrays that are interpolated: some of a mesh from points, and their z.
 class Columns
 {
 public:
   /// @param arrays how many of the mesh's point arrays, the first ones.
-  /// @param lifted have the mesh's points in their order, with the z to take.
   /// @param elevation the name of the array of z; "": none.
-  Columns(vtkPolyData* mesh, int arrays, vtkPoints* lifted, const std::string& elevation)
+  Columns(vtkPolyData* mesh, int arrays, const std::string& elevation)
     : Mesh(mesh),
-      Lifted(lifted),
       HasElevation(!elevation.empty()),
       Width(static_cast<int>(HasElevation))
   {
@@ -195,7 +211,7 @@ public:
       }
       if (this->HasElevation)
       {
-        *next++ = this->Lifted->GetData()->GetComponent(point, 2);
+        *next++ = this->Mesh->GetPoints()->GetData()->GetComponent(point, 2);
       }
     }
     return values;
@@ -243,7 +259,6 @@ private:
   }
 
   vtkPolyData* Mesh;
-  vtkPoints* Lifted;
   std::vector<vtkDataArray*> Arrays;
   bool HasElevation;
   vtkNew<vtkDoubleArray> Elevation; ///< Has only a name.
@@ -419,9 +434,15 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
     summary.Warnings.push_back({ block.Name, "the source has no points, so there are no values" });
   }
   const auto third = Hold(this->GetInputDataObject(this->SegmentsPort, 0));
-  const auto segments = FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL));
-  const auto points = this->ReadPoints(given);
-  const std::string elevation = this->ChooseArrays(points, block.Name, summary);
+  const auto points = this->ReadPoints(given, block, summary);
+  const auto segments =
+    this->FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL), summary);
+  std::string elevation = this->ChooseArrays(points, block.Name, summary);
+  if (this->HasAngles() && !elevation.empty())
+  {
+    AddElevation(given->GetPoints(), elevation, points->GetPointData());
+    elevation.clear();
+  }
   TriangulationRequest request = this->MakeRequest(given);
   request.Input = points;
   request.Others = segments;
@@ -446,11 +467,9 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
     const auto added = static_cast<vtkIdType>(session->GetAddedPoints().size());
     projection = FindProjection(request, mesh->GetPoints(), mesh->GetNumberOfPoints() - added);
   }
-  const bool isOnSphere = this->IsOnSphere();
-  vtkPoints* const lifted = isOnSphere ? given->GetPoints() : mesh->GetPoints();
-  const Columns columns(mesh, points->GetPointData()->GetNumberOfArrays(), lifted, elevation);
+  const Columns columns(mesh, points->GetPointData()->GetNumberOfArrays(), elevation);
   const PlaceKind ofSphere = this->Degrees ? PlaceKind::Angles : PlaceKind::Directions;
-  const PlaceKind kind = isOnSphere ? ofSphere : PlaceKind::InPlane;
+  const PlaceKind kind = this->IsOnSphere() ? ofSphere : PlaceKind::InPlane;
   const Source source{ session, projection, kind, columns, columns.Gather(),
     static_cast<InterpolationKind>(this->Method), static_cast<OutsideKind>(this->Outside) };
   double begin = TriangulationShare;

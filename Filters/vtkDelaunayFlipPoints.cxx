@@ -52,8 +52,9 @@ vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
 //------------------------------------------------------------------------------
 namespace
 {
-/// The text of a warning about latitudes beyond 90 degrees, or "".
-std::string DescribeLatitudes(vtkPoints* degrees)
+/// Warns of latitudes beyond 90 degrees. @param name what has the points, or "".
+void WarnOfLatitudes(
+  vtkPoints* degrees, const std::string& name, const std::string& where, UpdateSummary& summary)
 {
   constexpr double Rounding = 1e-4; // more than that of pi / 2 in single precision
   vtkIdType count = 0, first = 0;
@@ -65,13 +66,13 @@ std::string DescribeLatitudes(vtkPoints* degrees)
       first = i;
     }
   }
-  if (count == 0)
+  if (count > 0)
   {
-    return "";
+    summary.Warnings.push_back({ where,
+      name + std::to_string(count) + (count == 1 ? " point" : " points") +
+        " with a latitude beyond 90 degrees (first: " + std::to_string(first) +
+        "); x is the longitude and y the latitude" });
   }
-  return std::to_string(count) + (count == 1 ? " point" : " points") +
-    " with a latitude beyond 90 degrees (first: " + std::to_string(first) +
-    "); x is the longitude and y the latitude";
 }
 
 /// The places of longitudes and latitudes on the unit sphere.
@@ -137,12 +138,14 @@ bool vtkDelaunayFlipPoints::IsOnSphere() const
   return this->Projection == PROJECTION_SPHERE || this->Projection == PROJECTION_OPEN_SPHERE;
 }
 
-vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(vtkPointSet* input) const
+vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(
+  vtkPointSet* input, const MeshBlock& block, UpdateSummary& summary) const
 {
   auto points = vtkSmartPointer<vtkPolyData>::New();
   points->SetPoints(input->GetPoints());
-  if (this->Degrees && this->IsOnSphere() && input->GetPoints())
+  if (this->HasAngles() && input->GetPoints())
   {
+    WarnOfLatitudes(input->GetPoints(), "", block.Name, summary);
     points->SetPoints(PlacePoints(input->GetPoints()));
   }
   points->GetPointData()->ShallowCopy(input->GetPointData());
@@ -158,7 +161,7 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(vtkPointSet* inpu
 }
 
 vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(
-  const MeshBlock& block, const std::vector<MeshBlock>& segments)
+  const MeshBlock& block, const std::vector<MeshBlock>& segments, UpdateSummary& summary) const
 {
   const auto found = ListOthers(block, segments, "the segments of a single dataset");
   if (found.size() > 1)
@@ -166,7 +169,20 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(
     throw InvalidOptions("the segments are in several partitions; join them first, by "
                          "vtkAppendPolyData, or Merge Blocks in ParaView");
   }
-  return found.empty() ? nullptr : vtkPolyData::SafeDownCast(found.front().Data);
+  vtkSmartPointer<vtkPolyData> given;
+  if (!found.empty())
+  {
+    given = vtkPolyData::SafeDownCast(found.front().Data);
+  }
+  if (!this->HasAngles() || !given || !given->GetPoints())
+  {
+    return given;
+  }
+  WarnOfLatitudes(given->GetPoints(), "segments: ", block.Name, summary);
+  auto placed = vtkSmartPointer<vtkPolyData>::New();
+  placed->ShallowCopy(given);
+  placed->SetPoints(PlacePoints(given->GetPoints()));
+  return placed;
 }
 
 TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
@@ -252,30 +268,9 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   {
     return;
   }
-  const auto warn = [&](vtkPoints* points, const char* name)
-  {
-    const std::string trouble = DescribeLatitudes(points);
-    if (!trouble.empty())
-    {
-      summary.Warnings.push_back({ block.Name, name + trouble });
-    }
-  };
-  const bool hasAngles = this->Degrees && this->IsOnSphere();
-  if (hasAngles && given->GetPoints())
-  {
-    warn(given->GetPoints(), "");
-  }
-  auto others = FindSegments(block, segments);
-  if (hasAngles && others && others->GetPoints())
-  {
-    warn(others->GetPoints(), "segments: ");
-    const auto placed = vtkSmartPointer<vtkPolyData>::New();
-    placed->ShallowCopy(others);
-    placed->SetPoints(PlacePoints(others->GetPoints()));
-    others = placed;
-  }
   TriangulationRequest request = this->MakeRequest(given);
-  const auto points = this->ReadPoints(given);
+  const auto points = this->ReadPoints(given, block, summary);
+  const auto others = this->FindSegments(block, segments, summary);
   request.Input = points;
   request.IsLive = block.IsLive;
   // Segments that all blocks share make no mesh of their own in an empty one.

@@ -379,12 +379,17 @@ protected:
 
   bool IsOnSphere() const;
 
-  /// The points of an input with their data and, if they are segments, its lines.
-  vtkSmartPointer<vtkPolyData> ReadPoints(vtkPointSet* input) const;
+  /// Whether x and y of points are longitudes and latitudes.
+  bool HasAngles() const { return this->Degrees && this->IsOnSphere(); }
+
+  /// The points of an input for a block with their data and, if they are segments, its lines.
+  vtkSmartPointer<vtkPolyData> ReadPoints(vtkPointSet* input, const delaunayflip::MeshBlock& block,
+    delaunayflip::UpdateSummary& summary) const;
 
   /// The segments for a block; null if there are none. May throw.
-  static vtkSmartPointer<vtkPolyData> FindSegments(
-    const delaunayflip::MeshBlock& block, const std::vector<delaunayflip::MeshBlock>& segments);
+  vtkSmartPointer<vtkPolyData> FindSegments(const delaunayflip::MeshBlock& block,
+    const std::vector<delaunayflip::MeshBlock>& segments,
+    delaunayflip::UpdateSummary& summary) const;
 #endif
 
   int SegmentsPort = 1;

@@ -293,14 +293,17 @@ def _prepare(
     return given, options
 
 
-def interpolate_in_survey(points, values, places, backend):
+def interpolate_in_survey(points, values, places, backend, projection=0):
     """Values at places, linear in the triangulation of points alone; outside of it, those of the nearest
     place on its boundary. Of shape (n, k). None if there are no triangles.
 
     Args:
         backend: Keywords that say where it runs.
+        projection: That of the struct.
     """
-    survey, _ = run_points(points, backend, keeps=True)
+    given = Input(points)
+    given.struct.projection = projection
+    survey, _ = run_points(given, backend, keeps=True)
     if survey.report.triangles == 0:
         return None
     return survey.interpolate(values, places, outside="nearest")
@@ -344,13 +347,13 @@ class Input:
         if self.new_points:
             points = numpy.concatenate([_arrays.to_host(points), *self.new_points])
         self.points = points
-        self.seeds = numpy.empty((0, 2))
+        seeds = numpy.empty((0, 2))
         if hole_seeds is not None:
-            seeds = _arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds"))
-            self.seeds = numpy.ascontiguousarray(seeds[:, :2], dtype=numpy.float64)
+            seeds = _arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds"))[:, :2]
         self.all_segments = numpy.concatenate(self.segments).astype(numpy.int64, order="C")
         self.all_rings = numpy.concatenate(self.rings)
         self._fill_struct(count > 0, ring_rule)
+        self.take_seeds(seeds)
         self.struct.first_added = given
         self.find_flat_points(given, self.all_segments, self.all_rings)
 
@@ -362,8 +365,17 @@ class Input:
         struct.memory, struct.stream = _arrays.find_memory(self.points)
         struct.segments, struct.number_of_segments = address(self.all_segments), len(self.all_segments)
         struct.rings = address(self.all_rings) if has_rings else None
-        struct.hole_seeds, struct.number_of_hole_seeds = address(self.seeds), len(self.seeds)
         struct.ring_rule = choose("ring_rule", ring_rule, RING_RULES)
+
+    def take_seeds(self, seeds):
+        """Takes the places of hole seeds, two or, on a sphere, three coordinates each."""
+        self.seeds = numpy.ascontiguousarray(seeds, dtype=numpy.float64)
+        self.struct.hole_seeds, self.struct.number_of_hole_seeds = address(self.seeds), len(self.seeds)
+
+    def take_projection(self, projection):
+        """Takes that of the struct. On a sphere z is no height."""
+        self.struct.projection = projection
+        self.flat_points = self.flat_points[:0] if projection else self.flat_points
 
     def _add_ring(self, ring, number, points):
         if ring.ndim == 2:
@@ -551,7 +563,8 @@ class Input:
     def _find_used_points(self, handle, report):
         """The used point of each one, also of added ones; None if these are the points
         themselves, so that nothing has to come from a GPU."""
-        if not (report.points_not_finite or report.repeated_points or report.points_too_near):
+        if not (report.points_not_finite or report.repeated_points or report.points_too_near
+                or report.points_inside):
             return None
         count = len(self.points)
         used = numpy.arange(count + report.crossings + report.refinement_points)
@@ -603,7 +616,8 @@ class Input:
         whole[:len(values)] = given = _arrays.to_host(values)
         if len(values) < count:
             points = _arrays.to_host(self.points)
-            found = interpolate_in_survey(points[:first], given, points[first:], self.backend)
+            found = interpolate_in_survey(
+                points[:first], given, points[first:], self.backend, self.struct.projection)
             if found is None:
                 raise ValueError(f"{name} must have {count} rows, with those of the points of lines and rings, "
                                  f"because the {first} given points alone have no triangle; there are {len(values)}")

@@ -219,7 +219,8 @@ def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False
     backend = {name: keywords[name] for name in ("backend", "threads", "device")}
     keywords = {**keywords, **{name: convert(name, keywords[name], bool, None) for name in ("degrees", "open")}}
     given, misplaced = _read(points, keywords["degrees"], **(lines or {}))
-    given.struct.projection = PROJECTIONS.index("open-sphere" if keywords["open"] else "sphere")
+    given.take_projection(PROJECTIONS.index("open-sphere" if keywords["open"] else "sphere"))
+    given.backend = backend
     keywords = {**keywords, "has_lines": given.struct.number_of_segments + given.struct.number_of_hole_seeds > 0}
     result = run_input(given, make_options(**backend), lambda _: (),
                        lambda handle, _: _store(handle, given, keywords), progress, on_iteration, keeps)
@@ -232,10 +233,13 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
     troubles = []
 
     def place(coordinates, name=""):
-        places, trouble = _place_on_sphere(coordinates, degrees)
+        if coordinates.shape[1] == 3:
+            return coordinates
+        angles = coordinates if degrees else numpy.degrees(coordinates)
+        trouble = _describe_latitudes(angles[:, 1])
         if trouble:
             troubles.append(name + trouble)
-        return places
+        return place_on_sphere(angles)
 
     places = place(_arrays.to_host(_arrays.as_plane(points)))
     lines = list_lines(segments)
@@ -245,11 +249,8 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
     if lines:
         segments = [place(line, "segments: ") for line in lines]
     given = Input(places, segments, **rings, ring_rule=ring_rule)
-    given.flat_points = given.flat_points[:0]  # those on the equator
     if hole_seeds is not None:
-        seeds = place(_arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds")), "hole_seeds: ")
-        given.seeds = numpy.ascontiguousarray(seeds, dtype=numpy.float64)
-        given.struct.hole_seeds, given.struct.number_of_hole_seeds = address(given.seeds), len(seeds)
+        given.take_seeds(place(_arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds")), "hole_seeds: "))
     return given, "; ".join(dict.fromkeys(troubles))
 
 
@@ -265,20 +266,22 @@ def _read_directions(given, degrees):
     return places
 
 
-def _place_on_sphere(points, degrees):
-    """x, y and z of points, given as these or as longitudes and latitudes, and the text of a warning, or
-    ""."""
-    if points.shape[1] == 3:
-        return points, ""
-    angles = numpy.ascontiguousarray(points if degrees else numpy.degrees(points), dtype=numpy.float64)
+def place_on_sphere(degrees):
+    """x, y and z of longitudes and latitudes in degrees."""
+    angles = numpy.ascontiguousarray(degrees, dtype=numpy.float64)
     places = numpy.empty((len(angles), 3))
     _library.call("place_on_sphere", address(angles), len(angles), address(places))
-    return places, _describe_latitudes(angles[:, 1])
+    return places
+
+
+def find_misplaced(latitudes):
+    """The ids of latitudes beyond 90 degrees."""
+    return numpy.flatnonzero(abs(latitudes) > 90 + _ROUNDING)
 
 
 def _describe_latitudes(latitudes):
     """The text of a warning about latitudes beyond 90 degrees, or ""."""
-    ids = numpy.flatnonzero(abs(latitudes) > 90 + _ROUNDING)
+    ids = find_misplaced(latitudes)
     if not len(ids):
         return ""
     first = ", ".join(map(str, ids[:3]))

@@ -16,8 +16,9 @@ from ._points import POINT_OPTIONS, run_points
 from ._report import (
     FIELD_PREFIX, GEOMETRIES, ITERATION, MAIN_NUMBERS, POINT_NUMBERS, Totals, describe, to_camel_case)
 from ._rings import RING_RULES
+from ._sphere import PROJECTIONS
 from ._vtk_blocks import choose_leaf, copy_data, find_leaves, iterate, list_blocks, name_leaf
-from ._vtk_mesh import CELL_ARRAYS, HEIGHTS, SETTINGS, Cloud, MeshInput, pass_points, vtk_of
+from ._vtk_mesh import CELL_ARRAYS, HEIGHTS, SETTINGS, Cloud, MeshInput, pass_points, place_points, vtk_of
 from ._vtk_properties import (
     COMMON_OPTIONS, COMMON_PROPERTIES, FLIP_PROPERTIES, POINT_PROPERTIES, PROPERTY_OF, finish)
 
@@ -509,7 +510,7 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
 
     This class has the methods, outputs, warnings and progress of the C++ class
     vtkDelaunayFlipPoints, for a VTK that it was not built for; vtkDelaunayFlipPoints.h is its
-    manual. It leaves out live updates, with a warning, and projections: x and y alone decide.
+    manual. It leaves out live updates, with a warning, transforms and the best-fitting plane.
     """
 
     name = "vtkDelaunayFlipPoints"
@@ -545,9 +546,27 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         pass_points(data, output)
         return ""
 
+    def _find_projection(self):
+        """The number of the projection in the engine."""
+        if self.projection == self.PROJECTION_BEST_FITTING_PLANE:
+            raise _library.InvalidOptions(
+                "Projection: the best-fitting plane needs the filter in C++; this one, in Python, joins "
+                "points in x and y or on a sphere")
+        return PROJECTIONS.index(("plane", "", "sphere", "open-sphere")[self.projection])
+
+    def _take_places(self, data, name=""):
+        """A dataset with points. If these are longitudes and latitudes, a copy with their places."""
+        if data is None or not (self.degrees and self._find_projection()):
+            return data
+        placed, trouble = place_points(data)
+        if trouble:
+            self._warnings.append((self._where, name + trouble))
+        return placed
+
     def _flip(self, data, segments, output):
         if self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()) > 0:
             return self._pass(vtkPolyData(), output, "converged")  # the first one has all
+        data, segments = self._take_places(data), self._take_places(segments, "segments: ")
         if isinstance(self.GetInput(), vtkCompositeDataSet) and data.GetNumberOfPoints() == 0:
             segments = None  # those that all blocks share make no mesh of their own
         count = data.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments is not None else 0)
@@ -567,7 +586,7 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         return is_wanted and segments is None and len(cloud.all_segments) == 0 and not (
             isinstance(self.GetInput(), vtkCompositeDataSet) or self._regions or self.size_array
             or any(options[name] for name in limits) or options["maximum_iterations"] >= 0
-            or options.get("projection", 0))
+            or self.projection)
 
     def _follow(self, cloud, options, progress):
         """The Triangulation of a cloud. If the last cloud was this one before it has moved, the engine
@@ -602,7 +621,7 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
             closed_lines_as_rings=self.closed_lines_as_rings, pass_segments=self.pass_segments and not keeps,
             ring_rule=RING_RULES[self.ring_rule],
-            heights=heights, fills_data=keeps, size_array=self.size_array,
+            heights=heights, fills_data=keeps, size_array=self.size_array, projection=self._find_projection(),
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
         cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")

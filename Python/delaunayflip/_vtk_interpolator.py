@@ -12,7 +12,8 @@ from . import _library
 from ._ask import METHODS, OUTSIDES, Field, Places, read_places
 from ._vtk_blocks import copy_data, find_leaves, list_blocks
 from ._vtk_filter import _drop_results, vtkDelaunayFlipPoints
-from ._vtk_mesh import _add_attributes, _find_attributes, _is_among, _list_arrays, vtk_of
+from ._vtk_mesh import (
+    _add_attributes, _find_attributes, _is_among, _list_arrays, add_elevation, vtk_of)
 from ._vtk_properties import Property, finish
 
 _MASK = "vtkValidPointMask"  # as vtkProbeFilter calls it
@@ -23,7 +24,7 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
 
     This class has the methods, outputs and warnings of the C++ class vtkDelaunayFlipInterpolator, for a
     VTK that it was not built for; vtkDelaunayFlipInterpolator.h is its manual. It triangulates anew in
-    every update, and leaves out projections: x and y alone decide.
+    every update, and leaves out transforms and the best-fitting plane.
     """
 
     name = "vtkDelaunayFlipInterpolator"
@@ -90,7 +91,7 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
             self._totals.change(stop_reason="converged")
             return self._write(places, columns, found, output)
         try:
-            found = self._ask(result, read_dataset(places), columns)
+            found = self._ask(result, self._read_places(places), columns)
         except _library.Stopped:
             return self._pass(places, output, "aborted") or trouble
         return self._write(places, columns, found, output) or trouble
@@ -98,10 +99,15 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
     def _prepare(self, source):
         """Makes the Triangulation of a block, which its partitions share, and its Columns. Without points
         there is no Triangulation; after an abort there is neither. Returns the text of a warning, or ""."""
-        segments, mesh = self._find_segments(), vtkPolyData()
+        given, mesh = source, vtkPolyData()
         if source.GetNumberOfPoints() == 0:
             self._warnings.append((self._where, "the source has no points, so there are no values"))
+        source = self._take_places(given)
+        segments = self._take_places(self._find_segments(), "segments: ")
         elevation = self._choose_arrays(source)
+        if elevation and source is not given:
+            add_elevation(given, elevation, source.GetPointData())
+            elevation = ""
         count = source.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments else 0)
         if count == 0:
             self._prepared = None, Columns(source, source, elevation)
@@ -139,12 +145,21 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
                 self._where, "point arrays of the source left out, which have no numbers or too few tuples: "
                 + ", ".join(names)))
         elevation = self.GetElevationArray()
+        if self._find_projection() and not self.degrees:
+            return ""  # z is one of three coordinates
         if elevation and data.HasArray(elevation):
             self._warnings.append((
                 self._where, f'z of the source left out, because the source has an array "{elevation}"; give '
                 "ElevationArray another name"))
             return ""
         return elevation
+
+    def _read_places(self, places):
+        if not self._find_projection():
+            return read_dataset(places)
+        read = read_dataset(places, may_be_raster=self.degrees)
+        read.members["degrees"] = int(self.degrees)
+        return read
 
     def _ask(self, result, places, columns):
         """The values at places, and their triangles."""
@@ -170,10 +185,10 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         return ""
 
 
-def read_dataset(dataset):
+def read_dataset(dataset, may_be_raster=True):
     """The points of a dataset as Places, after which they come again."""
     count, members = dataset.GetNumberOfPoints(), {}
-    if isinstance(dataset, vtkImageData) and count:
+    if may_be_raster and isinstance(dataset, vtkImageData) and count:
         columns, rows, _ = dataset.GetDimensions()
         extent, origin, step = dataset.GetExtent(), dataset.GetOrigin(), dataset.GetSpacing()
         # Else its coordinates are rounded in another way.

@@ -14,6 +14,7 @@ from ._options import choose
 from ._points import Input, interpolate_in_survey
 from ._report import FIELD_PREFIX, POINT_NUMBERS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
+from ._sphere import find_misplaced, place_on_sphere
 from ._surface import NONE, Constraints, Slots, Surface, join_corners, number_places, number_tuples
 
 #: Keywords of MeshInput.
@@ -150,6 +151,36 @@ def pass_points(data, output):
     output.SetPoints(data.GetPoints())
     output.GetPointData().ShallowCopy(data.GetPointData())
     output.GetFieldData().ShallowCopy(data.GetFieldData())
+
+
+def place_points(data):
+    """A copy of a dataset with points, whose longitudes and latitudes are x and y: with their places on the
+    unit sphere. And the text of a warning, or ""."""
+    made, vtk = data.NewInstance(), vtk_of(data)
+    made.ShallowCopy(data)
+    if data.GetPoints() is None:
+        return made, ""
+    mesh, points = vtk.model.vtkPolyData(), vtk.core.vtkPoints()
+    mesh.SetPoints(data.GetPoints())
+    degrees = vtk.read(mesh).points[:, :2]
+    points.SetData(vtk.support.numpy_to_vtk(place_on_sphere(degrees), deep=True))
+    made.SetPoints(points)
+    ids = find_misplaced(degrees[:, 1])
+    if not len(ids):
+        return made, ""
+    return made, (f"{len(ids)} point{'s' * (len(ids) > 1)} with a latitude beyond 90 degrees (first: {ids[0]}); "
+                  "x is the longitude and y the latitude")
+
+
+def add_elevation(source, name, data):
+    """Adds z of the points of a dataset to point data."""
+    if source.GetPoints() is None:
+        return
+    vtk, mesh = vtk_of(source), vtk_of(source).model.vtkPolyData()
+    mesh.SetPoints(source.GetPoints())
+    array = vtk.support.numpy_to_vtk(vtk.read(mesh).points[:, 2].astype(float), True)
+    array.SetName(name)
+    _add_attributes(data, data.AddArray(array), [data.SCALARS])
 
 
 _load = functools.lru_cache(maxsize=None)(Vtk)
@@ -402,10 +433,10 @@ class Cloud(Input):
 
     def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
                  pass_segments=False, first_hole=-1, heights=None, fills_data=False, size_array="", backend=None,
-                 **rings):
+                 projection=0, **rings):
         """`others`: the second input of the filter, or pairs of point ids. `heights`: SegmentHeights.
         `pass_segments`: whether the mesh gets the edges along segments. `fills_data`: whether added points
-        get data whatever their heights. `size_array`: SizeArray.
+        get data whatever their heights. `size_array`: SizeArray. `projection`: that of the struct.
         `backend`: keywords that say where data are found. `rings`: outline, holes, hole_seeds and
         ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data
@@ -441,6 +472,7 @@ class Cloud(Input):
         own = len(self._pairs[0])
         self.find_flat_points(
             data.GetNumberOfPoints(), self.all_segments[own:], self.all_rings[own:])
+        self.take_projection(projection)
         self._surveyed = []  # (name, ids, values) of each array of added points
         self._read_data = self._as_doubles if fills_data else lambda data: data
         self._choose_heights(heights, fills_data or size_array, backend or {})
@@ -454,6 +486,9 @@ class Cloud(Input):
         added = numpy.arange(count, len(self.points))
         if heights is not None:
             choose("heights", heights, HEIGHTS[1:])
+        if heights == "survey" and self.struct.projection:
+            raise InvalidOptions("SegmentHeights: the heights of the survey are for x and y; with another "
+                                 "projection choose Own")
         lifted = (self.flat_points, added, added[:0])[HEIGHTS.index(heights)]
         if heights is not None:
             self.flat_points = added[:0]  # nobody is told of what was asked for
@@ -468,7 +503,8 @@ class Cloud(Input):
         columns = [self.points[:count, 2:]]
         columns += [self.vtk.view(data.GetArray(name))[:count].reshape(count, -1) for name in names]
         values = numpy.concatenate([column.astype(float) for column in columns], axis=1)
-        found = interpolate_in_survey(self.points[:count], values, self.points[ids], backend)
+        found = interpolate_in_survey(
+            self.points[:count], values, self.points[ids], backend, self.struct.projection)
         if found is None:
             return
         self.points[lifted, 2] = found[numpy.isin(ids, lifted), 0]

@@ -77,6 +77,8 @@ FLIP_PROPERTIES = (
 
 POINT_PROPERTIES = (
     *make_properties(triangulate, POINT_OPTIONS, POINT_RANGES),
+    Property("Projection", 0, 0, 3, ("XY", "BestFittingPlane", "Sphere", "OpenSphere")),
+    Property("Degrees", False),
     Property("LinesAsSegments", False),
     Property("ClosedLinesAsRings", True),
     Property("PassSegments", False),

@@ -23,18 +23,22 @@ import warnings
 import numpy
 import pyvista
 
+from ._arrays import as_plane
 from ._ask import Field, Method, Outside, halve, read_places
 from ._library import InvalidOptions, Stopped
 from ._session import Region, Session, smallest_angles as _angles_of_arrays
-from ._options import Array, Numbers, OnIteration, Progress, check_integer, make_options, show
+from ._options import Array, Numbers, OnIteration, Progress, check_integer, choose, make_options, show
 from ._options import Options as _Options
 from ._points import Heights, run_points
 from ._points import triangulate as _triangulate_arrays
-from ._rings import RingRule, Rings
+from ._rings import RingRule, Rings, list_rings
+from ._sphere import place_on_sphere
 from ._surface import Slots
-from ._vtk_mesh import SETTINGS, Cloud, MeshInput, vtk_of
+from ._vtk_mesh import SETTINGS, Cloud, MeshInput, add_elevation, place_points, vtk_of
 
 _CLOUD_OPTIONS = ("hole_seeds", "ring_rule", "lines_as_segments", "closed_lines_as_rings")
+#: In the order of the numbers in the engine.
+Projection = typing.Literal["xy", "sphere", "open-sphere"]
 _QUALITY = "Smallest angle"
 _COLORS = ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"]  # of AngleColors.json
 _LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": _COLORS, "show_edges": True,
@@ -111,9 +115,9 @@ def triangulate(
     hole_seeds: "typing.Optional[Numbers]" = None, ring_rule: "RingRule" = "evenodd",
     lines_as_segments: bool = False, closed_lines_as_rings: bool = True, pass_segments: bool = False,
     heights: "typing.Optional[Heights]" = None, size: "typing.Union[None, str, Numbers]" = None,
-    **options: typing.Any,
+    projection: "Projection" = "xy", degrees: bool = False, **options: typing.Any,
 ) -> "pyvista.PolyData":
-    """The Delaunay mesh of the points of a dataset in x and y, with their data.
+    """The Delaunay mesh of the points of a dataset in x and y, or on a sphere, with their data.
 
     Args:
         cloud: A dataset with points of its own, such as a PolyData or a PointSet; its cells do not
@@ -135,6 +139,11 @@ def triangulate(
             heights of the cloud also get its data, in arrays of numbers that the segments do not have.
         size: As for delaunayflip.triangulate, or the name of a point array. Points that refinement adds
             get z and data that are linear between the points.
+        projection: "xy"; "sphere": around the origin, as delaunayflip.triangulate_sphere, which tells what
+            segments and rings are there; "open-sphere": as that with open=True. Refinement, regions,
+            sizes and limits of lengths are errors on a sphere.
+        degrees: On a sphere, whether x and y of all points, lines, rings and seeds are longitudes and
+            latitudes in degrees. The mesh has their places on the unit sphere.
         **options: The other keywords of delaunayflip.triangulate, such as minimum_angle, maximum_area,
             regions, alpha, backend and progress.
 
@@ -158,6 +167,7 @@ def triangulate(
     given = _read_cloud(
         cloud, segments, outline, holes, options, heights=heights, hole_seeds=hole_seeds,
         size_array=size_array, ring_rule=ring_rule, lines_as_segments=lines_as_segments,
+        projection=projection, degrees=degrees,
         pass_segments=pass_segments, closed_lines_as_rings=closed_lines_as_rings)
     made = pyvista.PolyData()
     _warn(given.write(_triangulate_arrays(given, **options), made))
@@ -169,9 +179,10 @@ def interpolate(
     segments: "typing.Union[None, pyvista.PolyData, Numbers]" = None, *, method: "Method" = "linear",
     outside: "Outside" = "nan", outline: "typing.Union[None, pyvista.PolyData, Rings]" = None,
     holes: "typing.Union[None, pyvista.PolyData, Rings]" = None, heights: "typing.Optional[Heights]" = None,
-    progress: "typing.Optional[Progress]" = None, **options: typing.Any,
+    progress: "typing.Optional[Progress]" = None, projection: "Projection" = "xy", degrees: bool = False,
+    **options: typing.Any,
 ) -> typing.Any:
-    """The data of points at the points of another dataset, interpolated in x and y.
+    """The data of points at the points of another dataset, interpolated in x and y or on a sphere.
 
     Args:
         cloud: A dataset with points of its own, as for `triangulate`.
@@ -181,11 +192,14 @@ def interpolate(
         method: "linear" in the triangles, or "natural" for natural neighbours.
         outside: "nan", "nearest" or "error", as for delaunayflip.LinearInterpolator.
         progress: Called with the share of the work done, 0 to 1; False stops it.
+        projection, degrees: As for `triangulate`. The points of `onto` are like those of the cloud:
+            longitudes and latitudes, or directions from the origin.
         **options: The other keywords of `triangulate`.
 
     Returns:
         A copy of `onto` with the point arrays of numbers of the cloud, z as "Elevation" if the cloud
-        has no such array, and "vtkValidPointMask": 1 where a place is in a triangle, else 0.
+        has no such array and z is a height, and "vtkValidPointMask": 1 where a place is in a triangle,
+        else 0.
 
     Raises:
         The same exceptions as delaunayflip.triangulate; ValueError for outside="error";
@@ -202,8 +216,8 @@ def interpolate(
     if not hasattr(onto, "GetPointData"):
         raise TypeError(f"onto must be a dataset with points, not {type(onto).__name__}")
     given = _read_cloud(
-        cloud, segments, outline, holes, options, heights=heights, fills_data=True,
-        **{name: options.pop(name) for name in _CLOUD_OPTIONS if name in options})
+        cloud, segments, outline, holes, options, heights=heights, fills_data=True, projection=projection,
+        degrees=degrees, **{name: options.pop(name) for name in _CLOUD_OPTIONS if name in options})
     inspect.signature(_triangulate_arrays).bind(given, **options)  # refuses unknown ones
     result, _ = run_points(given, options, halve(progress, 0.0), keeps=True)
     mesh, made = pyvista.PolyData(), onto.copy(deep=False)
@@ -211,13 +225,16 @@ def interpolate(
     _warn("; ".join(filter(None, (nothing, given.write(result, mesh)))))
     if result.report.stop_reason == "aborted":
         raise Stopped("stopped by progress")
-    arrays = _list_numbers(cloud.GetPointData(), mesh.point_data)
-    arrays.setdefault("Elevation", mesh.points[:, 2])
+    arrays = _list_numbers(given.data.GetPointData(), mesh.point_data)
+    if projection == "xy":
+        arrays.setdefault("Elevation", mesh.points[:, 2])
     columns = [numpy.reshape(array, (len(array), math.prod(array.shape[1:]))).astype(float)
                for array in arrays.values()]
     field = Field(result._answers, numpy.concatenate(columns, axis=1), method=method, outside=outside,
                   fill_value=math.nan)
-    triangles, values = field.find_both(read_places([onto.points]), halve(progress, 0.5))
+    places = read_places([onto.points])
+    places.members["degrees"] = int(degrees and projection != "xy")
+    triangles, values = field.find_both(places, halve(progress, 0.5))
     ends = numpy.cumsum([column.shape[1] for column in columns])
     for (name, array), found in zip(arrays.items(), numpy.split(values, ends, axis=1)):
         kind = numpy.float32 if array.dtype == numpy.float32 else float
@@ -330,16 +347,54 @@ def _require_mesh(name, mesh):
     return mesh
 
 
-def _read_cloud(cloud, segments, outline, holes, options, **settings):
+def _read_cloud(cloud, segments, outline, holes, options, *, projection, degrees, **settings):
     """The points of a dataset with their segments. `options`: they say where heights are found."""
     if not hasattr(cloud, "GetPoints"):
         raise TypeError(f"cloud must be a dataset with points, not {type(cloud).__name__}")
     if isinstance(segments, vtk_of(cloud).model.vtkDataObject):
         _require_mesh("segments", segments)
-    return Cloud(
-        cloud, segments, outline=_list_rings("outline", outline), holes=_list_rings("holes", holes),
+    number = choose("projection", projection, typing.get_args(Projection))
+    degrees = bool(check_integer("degrees", degrees, 0, 1, "True or False"))
+    rings = {"outline": _list_rings("outline", outline), "holes": _list_rings("holes", holes)}
+    seeds = settings.pop("hole_seeds", None)
+    if number == 0:
+        rings["hole_seeds"], seeds = seeds, None
+    elif settings["heights"] == "survey":
+        raise ValueError('heights="survey" is for projection="xy"')
+    else:
+        rings = {name: [ring if ring.ndim == 1 else _place(name, ring, degrees)
+                        for ring in list_rings(name, value)] for name, value in rings.items()}
+    if number and degrees:
+        cloud, segments = _place_meshes(cloud, segments, settings.get("fills_data"))
+    given = Cloud(
+        cloud, segments, **rings, projection=number,
         backend={name: options[name] for name in ("backend", "threads", "device") if name in options},
         **settings)
+    if seeds is not None:
+        given.take_seeds(_place("hole_seeds", as_plane(seeds, "hole_seeds"), degrees))
+    return given
+
+
+def _place(name, coordinates, degrees):
+    """The places of coordinates on a sphere."""
+    if degrees:
+        return place_on_sphere(coordinates[:, :2])
+    if coordinates.shape[1] != 3:
+        raise ValueError(f"{name}: places on a sphere have x, y and z; longitudes and latitudes need degrees=True")
+    return coordinates
+
+
+def _place_meshes(cloud, segments, keeps_heights):
+    """A cloud, and perhaps a mesh of segments, with the places of their longitudes and latitudes. z of the
+    cloud becomes an array, if asked for."""
+    placed, trouble = place_points(cloud)
+    _warn(trouble, 5)
+    if keeps_heights and not placed.GetPointData().HasArray("Elevation"):
+        add_elevation(cloud, "Elevation", placed.GetPointData())
+    if hasattr(segments, "GetPolys"):
+        segments, trouble = place_points(segments)
+        _warn(trouble and "segments: " + trouble, 5)
+    return placed, segments
 
 
 def _list_numbers(given, extended):
@@ -351,9 +406,9 @@ def _list_numbers(given, extended):
             if array.dtype.kind in "fiu" and name not in (*labels, "vtkGhostType")}
 
 
-def _warn(trouble):
+def _warn(trouble, level=3):
     if trouble:
-        warnings.warn(trouble, stacklevel=3)
+        warnings.warn(trouble, stacklevel=level)
 
 
 def _list_rings(name, given):

@@ -92,7 +92,7 @@ class Points(PluginTest):
         self.assertTrue(fetch(points, 1).IsA("vtkTable"))
 
     def test_projection(self):
-        """The plugin in Python has none and says so."""
+        """The plugin in Python does not fit planes and says so. Both have the sphere."""
         wall = self.read(make_data([(0, x, y) for x, y, _ in KITE]))
         points, text = self.apply(wall, Projection="Best-fitting plane")
         if PLUGIN.endswith(".py"):
@@ -100,6 +100,9 @@ class Points(PluginTest):
             points.Projection = "XY"
             points, text = self.apply(self.read(make_data(KITE)))
         self.assertEqual((len(get_triangles(fetch(points))), text), (2, ""))
+        octahedron = [(0, 0, 0), (90, 0, 0), (180, 0, 0), (-90, 0, 0), (7, 90, 0), (0, -90, 0)]
+        points, text = self.apply(self.read(make_data(octahedron)), Projection="Sphere", Degrees=1)
+        self.assertEqual((len(get_triangles(fetch(points))), text), (8, ""))
 
     def test_closed_line(self):
         """ParaView's own sources make rings of this kind only. Off, it is a breakline."""

@@ -189,11 +189,10 @@ class Pair:
         return cxx
 
     def test_interface(self):
-        """All methods and constants of the C++ class, but the types of its enumerators and what is for
-        projections."""
+        """All methods and constants of the C++ class, but the types of its enumerators and transforms."""
         cxx, python = self.kinds
         own = {name for name in set(dir(cxx)) - set(dir(vtkObject))
-               if not re.search("^_|Type$|^SetOutput$|(?i:projection|degrees|transform)", name)}
+               if not re.search("^_|Type$|^SetOutput$|(?i:transform)", name)}
         self.assertEqual(own - set(dir(python)), set())
         self.assertIsNot(cxx, python)
         for name in own:
@@ -213,7 +212,7 @@ class Pair:
 
     def test_defaults_and_limits(self):
         cxx, python = (kind() for kind in self.kinds)
-        for name in set(list_properties(self.kinds[0])) - {"Projection", "Degrees"}:
+        for name in list_properties(self.kinds[0]):
             default = getattr(cxx, "Get" + name)()
             self.assertEqual(default, getattr(python, "Get" + name)(), name)
             for value in () if isinstance(default, (bool, str)) else (-7, 1000):
@@ -243,6 +242,7 @@ class Shown(unittest.TestCase):
             compared.append(item.name)
             if item.choices:
                 words = [word.replace("-", "") for word in choices.strip("{}").split(",")]
+                words = ["bestfittingplane" if word == "plane" else word for word in words]
                 self.assertEqual(words, [choice.lower() for choice in item.choices[:len(words)]])
                 self.assertEqual(default.replace("-", ""), words[item.default])
             else:
@@ -536,6 +536,19 @@ def make_cloud(count=300, kind=numpy.float64, seed=5):
     return cloud
 
 
+def make_globe(kind=numpy.float64):
+    """Such points on a sphere of radius 2, around its center."""
+    cloud = make_cloud(kind=kind)
+    vtk_to_numpy(cloud.GetPoints().GetData())[:] -= 15
+    put_on_sphere(cloud)
+    return cloud
+
+
+def put_on_sphere(mesh):
+    places = vtk_to_numpy(mesh.GetPoints().GetData())
+    places[:] *= 2 / numpy.linalg.norm(places, axis=1, keepdims=True)
+
+
 def make_segments(cloud, kind):
     """Lines and two rings: at places of the cloud, and new ones of which two are the same."""
     known = vtk_to_numpy(cloud.GetPoints().GetData())[:8]
@@ -598,6 +611,19 @@ class SameInterpolator(Pair, unittest.TestCase):
             self.expect_same(self.list_places()[0], lambda flip, heights=heights: (
                 flip.SetSourceData(source), flip.SplitCrossingsOn(), flip.SetSegmentHeights(heights),
                 flip.SetSegmentsData(make_segments(source, float)), flip.SetElevationArray("")))
+
+    def test_sphere(self):
+        source = self.make_source()
+        for degrees, given in ((True, source), (False, make_globe())):
+            for places in self.list_places():
+                for choice in range(2):
+                    told = self.expect_same(places, lambda flip, given=given, degrees=degrees, choice=choice: (
+                        flip.SetSourceData(given), flip.SetMethod(choice), flip.SetOutside(choice),
+                        flip.SetProjection(2 + choice), flip.SetDegrees(degrees)))
+                    self.assertEqual(told["errors"], [])
+                    arrays = [part[0] for part in told["meshes"][0] if isinstance(part, tuple)]
+                    self.assertEqual(
+                        "Elevation" in arrays, degrees or bool(places.GetPointData().HasArray("Elevation")))
 
     def test_partitions(self):
         source, lines = self.make_source(), make_segments(self.make_source(), float)
@@ -693,6 +719,45 @@ class SamePoints(Pair, unittest.TestCase):
 
                     told = self.expect_same(cloud, prepare)
                     self.assertEqual(told["errors"], [])
+
+    def test_sphere(self):
+        """Longitudes and latitudes, and directions, with and without segments."""
+        for kind, degrees in itertools.product((numpy.float32, numpy.float64), (True, False)):
+            cloud = make_cloud(kind=kind) if degrees else make_globe(kind)
+            if degrees:
+                vtk_to_numpy(cloud.GetPoints().GetData())[5, 1] = 91.5
+            segments = make_segments(cloud, kind)
+            if not degrees:
+                put_on_sphere(segments)
+                segments.SetLines(make_cells([(7,), (7, 7)]))  # others cross the rings
+            for lines in (None, segments):
+                for projection in (2, 3):
+                    def prepare(points, lines=lines, projection=projection, degrees=degrees):
+                        points.SetProjection(projection)
+                        points.SetDegrees(degrees)
+                        points.SetPassSegments(True)
+                        points.SetFirstHole(6)
+                        if lines is not None:
+                            points.SetSegmentsData(lines)
+
+                    told = self.expect_same(cloud, prepare)
+                    if degrees and lines is not None and projection == 2:
+                        self.assertIn("points all around its center", told["errors"][0])
+                        continue
+                    self.assertEqual(told["errors"], [])
+                    self.assertEqual("1 point with a latitude beyond 90 degrees" in str(told["warnings"]), degrees)
+            self.expect_same(collect([[cloud, vtkPolyData()]]), prepare)
+
+    def test_what_a_sphere_cannot_have(self):
+        for name, value in (("Alpha", 1), ("MinimumAngle", 20), ("SizeArray", "Own"), ("MaximumIterations", 3),
+                            ("SegmentHeights", 1), ("PointTolerance", 0.1)):
+            told = self.expect_same(make_globe(), lambda points, name=name, value=value: (
+                points.SetProjectionToSphere(), getattr(points, "Set" + name)(value)))
+            self.assertNotEqual(told["errors"], [], name)
+        fitted = Watched(make_globe(), PythonPoints)
+        fitted.filter.SetProjectionToBestFittingPlane()
+        fitted.run()
+        self.assertIn("best-fitting plane needs the filter in C++", fitted.errors[0])
 
     def test_refinement(self):
         for kind in (numpy.float32, numpy.float64):

@@ -422,6 +422,63 @@ class PyVista(unittest.TestCase):
         cloud.delaunay.interpolate(points, progress=shares.append)
         self.assertEqual(shares, sorted(shares))
 
+    def test_sphere(self):
+        """The same triangles as of triangulate_sphere, and the same values as of SphereInterpolator."""
+        draw = numpy.random.default_rng(8)
+        places = draw.normal(size=(300, 3))
+        places /= numpy.linalg.norm(places, axis=1, keepdims=True)
+        degrees = numpy.degrees(numpy.c_[numpy.arctan2(places[:, 1], places[:, 0]), numpy.arcsin(places[:, 2])])
+        ring = [[-20, -30], [30, -40], [40, 20], [0, 40]]
+        cloud = self.pyvista.PolyData(numpy.c_[degrees, numpy.arange(300)])
+        cloud["Warmth"] = 30 - abs(degrees[:, 1])
+        for options in ({}, {"holes": ring}, {"outline": ring}):
+            expected = delaunayflip.triangulate_sphere(degrees, **options)
+            given = dict(options)
+            for name in ("holes", "outline"):
+                if name in options:
+                    given[name] = self.pyvista.PolyData(numpy.c_[ring, [0.0] * 4], faces=[4, 0, 1, 2, 3])
+            for each in (options, given):
+                made = cloud.delaunay.triangulate(projection="sphere", degrees=True, **each)
+                numpy.testing.assert_array_equal(made.points, expected.points)
+                numpy.testing.assert_array_equal(made.regular_faces, expected.triangles)
+        river = self.pyvista.Line((0, 0, 0), (40, 10, 0))
+        lines = delaunayflip.triangulate_sphere(degrees, [numpy.array(river.points[:, :2])])
+        made = cloud.delaunay.triangulate(river, projection="sphere", degrees=True)
+        numpy.testing.assert_array_equal(made.regular_faces, lines.triangles)
+        closed = self.pyvista.MultipleLines(numpy.c_[[*ring, ring[0]], [0.0] * 5])
+        made = cloud.delaunay.triangulate(closed, hole_seeds=[[0, 0]], closed_lines_as_rings=False,
+                                          projection="sphere", degrees=True)
+        numpy.testing.assert_array_equal(
+            made.regular_faces, delaunayflip.triangulate_sphere(degrees, holes=ring).triangles)
+        half = places[places[:, 2] > 0.1]
+        opened = self.pyvista.PolyData(half).delaunay.triangulate(projection="open-sphere")
+        expected = delaunayflip.triangulate_sphere(half, open=True)
+        numpy.testing.assert_array_equal(opened.regular_faces, expected.triangles)
+        image = self.pyvista.ImageData(dimensions=(37, 19, 1), spacing=(10, 10, 1), origin=(-180, -90, 0))
+        directions = self.pyvista.PolyData(draw.normal(size=(50, 3)))
+        for method in ("linear", "natural"):
+            made = cloud.delaunay.interpolate(image, projection="sphere", degrees=True, method=method)
+            values = delaunayflip.SphereInterpolator(degrees, cloud["Warmth"], method=method)
+            numpy.testing.assert_array_equal(made["Warmth"], values(image.points[:, :2]))
+            self.assertAlmostEqual(float(made["Elevation"].max()), 299, delta=40)
+            globe = self.pyvista.PolyData(places)
+            globe["Warmth"] = cloud["Warmth"]
+            made = globe.delaunay.interpolate(directions, projection="sphere", method=method)
+            values = delaunayflip.SphereInterpolator(places, cloud["Warmth"], method=method)
+            numpy.testing.assert_array_equal(made["Warmth"], values(numpy.array(directions.points)))
+            self.assertNotIn("Elevation", made.point_data)
+        with self.assertWarnsRegex(UserWarning, "^segments: 1 point with a latitude beyond 90 degrees") as told:
+            cloud.delaunay.triangulate(self.pyvista.Line((0, 0, 0), (40, 95, 0)), projection="sphere", degrees=True)
+        self.assertEqual(told.filename, __file__)
+        for text, options in (("projection must be one of xy, sphere, open-sphere", {"projection": "plane"}),
+                              ("degrees must be True or False", {"degrees": 2}),
+                              ("heights=", {"heights": "survey", "projection": "sphere"}),
+                              ("holes: places on a sphere have x, y and z",
+                               {"holes": ring, "projection": "sphere"}),
+                              ("alpha has no meaning on a sphere", {"alpha": 2, "projection": "sphere"})):
+            with self.assertRaisesRegex(ValueError, text):
+                cloud.delaunay.triangulate(**options)
+
     def test_callbacks(self):
         """They follow the flips and may stop them; without iterations, VTK 9.7 can read a .vtk."""
         for name in ("progress", "on_iteration"):

@@ -96,34 +96,14 @@ class DelaunayFlip(vtkDelaunayFlip):
         return 0
 
 
-class WithoutProjection:
-    """Refuses a projection."""
-
-    projection = 0
-
-    def SetProjection(self, projection):
-        self.projection = projection
-        self.Modified()
-
-    def SetDegrees(self, _):
-        """Has no effect: only a sphere uses it."""
-
-    def _flip_all(self, *data):
-        if self.projection:
-            raise delaunayflip.InvalidOptions(
-                "Projection: the best-fitting plane and the sphere need the plugin in C++; this one, in "
-                "Python, joins points in x and y")
-        super()._flip_all(*data)
-
-
 @smproxy.filter(name="DelaunayFromPoints", label="Delaunay From Points", support_reload=False)
 @smproperty.xml(_read_properties("DelaunayFromPoints"))
-class DelaunayFromPoints(WithoutProjection, vtkDelaunayFlipPoints):
+class DelaunayFromPoints(vtkDelaunayFlipPoints):
     """vtkDelaunayFlipPoints for ParaView."""
 
 
 @smproxy.filter(
     name="InterpolateFromPoints", label="Interpolate From Points (Delaunay)", support_reload=False)
 @smproperty.xml(_read_properties("InterpolateFromPoints"))
-class InterpolateFromPoints(WithoutProjection, vtkDelaunayFlipInterpolator):
+class InterpolateFromPoints(vtkDelaunayFlipInterpolator):
     """vtkDelaunayFlipInterpolator for ParaView."""
