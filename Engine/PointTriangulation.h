@@ -55,8 +55,8 @@
 /// point that rounding has put inside of the hull is not used. If four points lie in one plane, the
 /// diagonal is the one that flips with TieRuleKind::Canonical choose. PlaceOnSphere makes such
 /// points from longitudes and latitudes. Points cannot be inserted, moved or removed.
-/// Interpolation.h says what queries about places mean there; with segments or hole seeds they are
-/// not supported yet.
+/// Interpolation.h says what queries about places mean there. As in the plane, places in triangles
+/// that rings and seeds have removed are outside.
 ///
 /// Segments run along great circles, the shorter way around; ends on opposite sides of the sphere
 /// are an error. They are taken in their order, and not split where they cross. They need points

@@ -8,8 +8,10 @@
 #include "RunQuery.h"
 #include "SphereFrame.h"
 #include "SphereGrid.h"
+#include "SphereSegments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -17,22 +19,36 @@
 namespace delaunayflip
 {
 
-/// The boundary of triangles on a sphere, for places outside.
+/// The boundary of the triangles on a sphere that a run has kept, for places outside. As in the
+/// plane, edges whose numbers are near each other are mostly near each other.
 class SphereBoundary
 {
 public:
-  explicit SphereBoundary(const SphereMesh& mesh)
-    : Points(mesh.Points)
+  /// @param directions of the points.
+  SphereBoundary(const SphereGrid& grid, const Vector3* directions)
+    : Directions(directions)
   {
-    for (std::int64_t i = 0; i < 3 * mesh.NumberOfTriangles; ++i)
+    const SphereMesh& mesh = grid.GetMesh();
+    for (std::int64_t t = 0; t < mesh.NumberOfTriangles; ++t)
     {
-      const auto triangle = static_cast<TriangleId>(i / 3);
-      if (mesh.Neighbors[i] < 0 && mesh.FacesOutside(triangle))
+      const auto triangle = static_cast<TriangleId>(t);
+      if (grid.GetNumber(triangle) < 0 || !mesh.FacesOutside(triangle))
       {
-        const CornerId corner = MakeCorner(triangle, static_cast<int>(i % 3));
-        this->Edges.push_back({ mesh.GetVertex(SphereMesh::Next(corner)),
-          mesh.GetVertex(SphereMesh::Previous(corner)) });
+        continue;
       }
+      for (int slot = 0; slot < 3; ++slot)
+      {
+        const CornerId corner = MakeCorner(triangle, slot);
+        if (grid.IsOnBoundary(corner))
+        {
+          this->Edges.push_back({ mesh.GetVertex(SphereMesh::Next(corner)),
+            mesh.GetVertex(SphereMesh::Previous(corner)) });
+        }
+      }
+    }
+    for (std::size_t first = 0; first < this->Edges.size(); first += GroupSize)
+    {
+      this->Groups.push_back(this->FindGroup(first));
     }
   }
 
@@ -42,49 +58,112 @@ public:
   {
     NearestOnBoundary nearest{ this->Edges.front(), 0.0 };
     double least = INFINITY;
-    for (const BoundaryEdge& edge : this->Edges)
+    for (std::size_t group = 0; group < this->Groups.size(); ++group)
     {
-      const Vector3 from = FindDirection(this->Points[edge.From]);
-      const Vector3 to = FindDirection(this->Points[edge.To]);
-      const auto offer = [&](double share)
+      const Cap& cap = this->Groups[group];
+      const double distance = Length(cap.Center - place) - cap.Radius;
+      if (distance > 0.0 && distance * distance >= least)
       {
-        const Vector3 near = FindDirection(Vector3{ (1.0 - share) * from.X + share * to.X,
-          (1.0 - share) * from.Y + share * to.Y, (1.0 - share) * from.Z + share * to.Z });
-        const Vector3 offset = near - place;
-        const double square = Dot(offset, offset);
-        if (square < least)
-        {
-          least = square;
-          nearest = { edge, share };
-        }
-      };
-      offer(0.0);
-      offer(1.0);
-      const Vector3 normal = Cross(from, to - from);
-      const double ofFrom = Dot(Cross(place, to), normal);
-      const double ofTo = Dot(Cross(from, place), normal);
-      if (ofFrom > 0.0 && ofTo > 0.0)
+        continue;
+      }
+      const std::size_t end = std::min(this->Edges.size(), (group + 1) * GroupSize);
+      for (std::size_t i = group * GroupSize; i < end; ++i)
       {
-        offer(ofTo / (ofFrom + ofTo));
+        this->Offer(place, this->Edges[i], least, nearest);
       }
     }
     return nearest;
   }
 
 private:
-  const PlanePoint* const Points;
+  static constexpr std::size_t GroupSize = 32;
+
+  /// Has all places on the edges of a group.
+  struct Cap
+  {
+    Vector3 Center;
+    double Radius; ///< A distance in space.
+  };
+
+  Cap FindGroup(std::size_t first) const
+  {
+    const std::size_t end = std::min(this->Edges.size(), first + GroupSize);
+    Vector3 sum{ 0.0, 0.0, 0.0 };
+    for (std::size_t i = first; i < end; ++i)
+    {
+      sum = sum + this->Directions[this->Edges[i].From] + this->Directions[this->Edges[i].To];
+    }
+    constexpr double Rounding = 1e-9, Diameter = 2.0;
+    Cap cap{ FindDirection(sum), 0.0 };
+    for (std::size_t i = first; i < end; ++i)
+    {
+      for (const VertexId vertex : { this->Edges[i].From, this->Edges[i].To })
+      {
+        const Vector3& direction = this->Directions[vertex];
+        // In a half of the sphere, no place on an edge is farther away than both of its ends.
+        const bool isNear = Dot(direction, cap.Center) > 0.0;
+        const double distance = isNear ? Length(direction - cap.Center) : Diameter;
+        cap.Radius = std::max(cap.Radius, distance + Rounding);
+      }
+    }
+    return cap;
+  }
+
+  /// Takes an edge if it is nearer than the nearest one so far.
+  void Offer(
+    const Vector3& place, const BoundaryEdge& edge, double& least, NearestOnBoundary& nearest) const
+  {
+    const Vector3& from = this->Directions[edge.From];
+    const Vector3& to = this->Directions[edge.To];
+    const auto offer = [&](const Vector3& near, double share)
+    {
+      const Vector3 offset = near - place;
+      const double square = Dot(offset, offset);
+      if (square < least)
+      {
+        least = square;
+        nearest = { edge, share };
+      }
+    };
+    offer(from, 0.0);
+    offer(to, 1.0);
+    const Vector3 normal = Cross(from, to - from);
+    const double ofFrom = Dot(Cross(place, to), normal);
+    const double ofTo = Dot(Cross(from, place), normal);
+    if (ofFrom > 0.0 && ofTo > 0.0)
+    {
+      const double share = ofTo / (ofFrom + ofTo);
+      offer(FindDirection(Vector3{ (1.0 - share) * from.X + share * to.X,
+              (1.0 - share) * from.Y + share * to.Y, (1.0 - share) * from.Z + share * to.Z }),
+        share);
+    }
+  }
+
+  const Vector3* const Directions;
   std::vector<BoundaryEdge> Edges;
+  std::vector<Cap> Groups;
 };
 
 /// Answers queries about a triangulation on a sphere.
 class SphereAsker
 {
 public:
-  explicit SphereAsker(const SphereMesh& mesh)
-    : Grid(mesh),
-      Boundary(Grid.GetMesh())
+  /// @param mesh its arrays, and numbers, must live as long. @param points their number.
+  /// @param numbers as for SphereGrid. @param segments edges of the triangles that are kept.
+  SphereAsker(const SphereMesh& mesh, std::int64_t points, const std::vector<std::int32_t>& numbers,
+    const std::vector<SphereEdge>& segments)
+    : Grid(mesh, numbers),
+      Directions(FindDirections(mesh, points)),
+      Boundary(Grid, Directions.data()),
+      Seen{ Grid.GetMesh(), Directions.data() }
   {
+    if (!segments.empty())
+    {
+      this->CutAtSegments(segments);
+    }
   }
+  SphereAsker(const SphereAsker&) = delete;
+  SphereAsker& operator=(const SphereAsker&) = delete;
 
   /// @param query its arrays are in the host's memory.
   /// @param observer is told the share of the places that is done.
@@ -110,6 +189,43 @@ public:
   }
 
 private:
+  static std::vector<Vector3> FindDirections(const SphereMesh& mesh, std::int64_t points)
+  {
+    std::vector<Vector3> directions(points);
+    std::transform(mesh.Points, mesh.Points + points, directions.begin(),
+      [](const PlanePoint& point) { return FindDirection(point); });
+    return directions;
+  }
+
+  /// Copies the neighbours that frames see, without those behind segments.
+  void CutAtSegments(const std::vector<SphereEdge>& segments)
+  {
+    SphereMesh& mesh = this->Seen.Mesh;
+    std::vector<std::array<VertexId, 2>> sides;
+    std::vector<char> areEnds(this->Directions.size());
+    for (const SphereEdge& edge : segments)
+    {
+      const auto from = static_cast<VertexId>(edge.From), to = static_cast<VertexId>(edge.To);
+      sides.push_back({ from, to });
+      sides.push_back({ to, from });
+      areEnds[from] = areEnds[to] = 1;
+    }
+    std::sort(sides.begin(), sides.end());
+    this->Neighbors.assign(mesh.Neighbors, mesh.Neighbors + 3 * mesh.NumberOfTriangles);
+    for (std::int64_t i = 0; i < SizeOf(this->Neighbors); ++i)
+    {
+      const CornerId corner = MakeCorner(static_cast<TriangleId>(i / 3), static_cast<int>(i % 3));
+      const VertexId from = mesh.GetVertex(SphereMesh::Next(corner));
+      const VertexId to = mesh.GetVertex(SphereMesh::Previous(corner));
+      const bool mayBeSegment = areEnds[from] != 0 && areEnds[to] != 0;
+      if (mayBeSegment && std::binary_search(sides.begin(), sides.end(), std::array{ from, to }))
+      {
+        this->Neighbors[i] = -1;
+      }
+    }
+    mesh.Neighbors = this->Neighbors.data();
+  }
+
   static PlanePoint GetPlace(const PlaceQuery& query, std::int64_t i)
   {
     const bool isRaster = query.Raster.CountCells() > 0;
@@ -140,7 +256,7 @@ private:
       const FoundPlace found = this->Grid.Find(place, direction, last);
       if (query.Triangles)
       {
-        query.Triangles[i] = found.IsOutside() ? -1 : static_cast<std::int32_t>(found.Triangle);
+        query.Triangles[i] = found.IsOutside() ? -1 : this->Grid.GetNumber(found.Triangle);
       }
       if (query.Values)
       {
@@ -159,8 +275,8 @@ private:
       return;
     }
     const auto makeFrame = [&](TangentKind tangent)
-    { return SphereFrame(this->Grid.GetMesh(), direction, found.Triangle, tangent); };
-    // At vertices and on the boundary there are no natural weights.
+    { return SphereFrame(this->Seen, direction, found.Triangle, tangent); };
+    // At vertices, on the boundary and on segments there are no natural weights.
     const bool isDone = values.IsNatural && found.FindVertexSlot() < 0 &&
       values.TakeNatural(makeFrame(TangentKind::Stereographic), found.Triangle, result);
     if (!isDone)
@@ -183,7 +299,10 @@ private:
   }
 
   SphereGrid Grid;
+  std::vector<Vector3> Directions; ///< By point.
   SphereBoundary Boundary;
+  DirectedMesh Seen; ///< By frames: across a segment there is no triangle.
+  std::vector<std::int32_t> Neighbors; ///< Of Seen, if there are segments.
 };
 
 }

@@ -25,15 +25,24 @@ enum class TangentKind
   Stereographic
 };
 
+/// A triangulation on a sphere and, by vertex, the directions of its points.
+struct DirectedMesh
+{
+  SphereMesh Mesh;
+  const Vector3* Directions;
+};
+
 /// A triangulation on a sphere as seen from a place, in the plane that touches the sphere there: as
 /// PlaceFrame. Points and the place count by their directions.
 class SphereFrame
 {
 public:
+  /// @param mesh has no triangles behind segments, as seen from the place.
   /// @param place its direction. @param triangle has the place.
   SphereFrame(
-    const SphereMesh& mesh, const Vector3& place, TriangleId triangle, TangentKind tangent)
-    : Mesh(mesh),
+    const DirectedMesh& mesh, const Vector3& place, TriangleId triangle, TangentKind tangent)
+    : Mesh(mesh.Mesh),
+      Directions(mesh.Directions),
       Axis(place),
       Across(place),
       Tangent(tangent)
@@ -52,7 +61,7 @@ public:
   /// The difference from the place is computed first, so that points near it keep their precision.
   ScaledPoint GetPoint(VertexId vertex) const
   {
-    const Vector3 offset = FindDirection(this->Mesh.Points[vertex]) - this->Axis;
+    const Vector3 offset = this->Directions[vertex] - this->Axis;
     double factor = this->Scale;
     if (this->Tangent == TangentKind::Stereographic)
     {
@@ -82,6 +91,7 @@ public:
 
 private:
   const SphereMesh& Mesh;
+  const Vector3* const Directions;
   const Vector3 Axis;
   const AcrossAxis Across;
   const TangentKind Tangent;

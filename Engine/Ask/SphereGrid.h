@@ -35,9 +35,11 @@ inline PlanePoint UnfoldDirection(const Vector3& direction)
 class SphereGrid
 {
 public:
-  /// @param mesh triangles of the convex hull of its points.
-  explicit SphereGrid(const SphereMesh& mesh)
-    : Mesh(mesh)
+  /// @param mesh triangles of the convex hull of its points; with segments, between these points.
+  /// @param numbers by triangle, its number in the output, or -1 if it is removed. Empty: its own.
+  SphereGrid(const SphereMesh& mesh, const std::vector<std::int32_t>& numbers)
+    : Mesh(mesh),
+      Numbers(numbers)
   {
     std::vector<char> areFacing(mesh.NumberOfTriangles);
     for (std::int64_t t = 0; t < mesh.NumberOfTriangles; ++t)
@@ -57,7 +59,21 @@ public:
   /// Across an edge of its boundary there is no triangle.
   const SphereMesh& GetMesh() const { return this->Mesh; }
 
-  /// Finds a place. @param direction of the place; NaN for one that is outside by itself.
+  /// Whether the triangle across the edge opposite a corner is removed, or there is none.
+  bool IsOnBoundary(CornerId corner) const
+  {
+    const CornerId across = this->Mesh.FindBeyond(corner);
+    return across == NoCorner || this->GetNumber(TriangleOf(across)) < 0;
+  }
+
+  /// The number of a triangle in the output, or -1.
+  std::int32_t GetNumber(TriangleId triangle) const
+  {
+    return this->Numbers.empty() ? static_cast<std::int32_t>(triangle) : this->Numbers[triangle];
+  }
+
+  /// Finds a place. It is outside if its triangles are removed.
+  /// @param direction of the place; NaN for one that is outside by itself.
   /// @param last as for PlaceGridView::FindStart.
   FoundPlace Find(const PlanePoint& place, const Vector3& direction, LastPlace& last) const
   {
@@ -68,11 +84,12 @@ public:
     const PlaceGridView view{ this->Frame, this->Cells.data() };
     const FoundPlace found = this->Walk(place, view.FindStart(UnfoldDirection(direction), last));
     last.Triangle = found.Triangle;
-    if (found.OnEdges == 0)
+    const bool mayBeRemoved = !this->Numbers.empty();
+    if (found.IsOutside() || (found.OnEdges == 0 && !mayBeRemoved))
     {
       return found;
     }
-    return ChooseTriangle(this->Mesh, found, nullptr);
+    return ChooseTriangle(this->Mesh, found, mayBeRemoved ? this->Numbers.data() : nullptr);
   }
 
 private:
@@ -150,6 +167,7 @@ private:
   }
 
   SphereMesh Mesh;
+  const std::vector<std::int32_t>& Numbers;
   std::int64_t NumberOfFacing = 0;
   std::vector<std::int32_t> Neighbors; ///< The neighbours in Mesh, if some triangles are cut off.
   PlaceGridFrame Frame;

@@ -18,10 +18,6 @@ bool SphereRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
 {
   constexpr std::int64_t Coordinates = 3;
   CheckQuery(query);
-  if (this->Input.NumberOfSegments + this->Input.NumberOfHoleSeeds > 0)
-  {
-    throw InvalidOptions("places cannot be found on a sphere with segments, outlines or holes yet");
-  }
   const bool hasDirections =
     query.Raster.CountCells() > 0 || query.Degrees || query.Places.Count == 0;
   if (!hasDirections && query.Places.Stride < Coordinates)
@@ -48,8 +44,13 @@ bool SphereRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
   }
   if (!this->Asker)
   {
-    this->Asker = std::make_unique<SphereAsker>(SphereMesh{ this->Points.data(),
-      this->Triangles.data(), this->Neighbors.data(), this->Report.Triangles });
+    const bool isWhole = this->Numbers.empty();
+    const auto& triangles = isWhole ? this->Triangles : this->WholeTriangles;
+    const auto& neighbors = isWhole ? this->Neighbors : this->WholeNeighbors;
+    const SphereMesh mesh{ this->Points.data(), triangles.data(), neighbors.data(),
+      SizeOf(triangles) / 3 };
+    this->Asker =
+      std::make_unique<SphereAsker>(mesh, SizeOf(this->Points), this->Numbers, this->Edges);
   }
   const ThreadBackend threads(this->Options.NumberOfThreads);
   return this->Asker->Answer(query, threads, progress) == AskResult::Complete;

@@ -233,6 +233,13 @@ void SphereRun::RemoveTriangles()
   this->Kept.Outside = std::count(isRemoved.begin(), isRemoved.end(), 1);
   if (this->Kept.Outside > 0)
   {
+    this->WholeTriangles = this->Triangles;
+    this->WholeNeighbors = this->Neighbors;
+    std::int32_t kept = 0;
+    for (const unsigned char isGone : isRemoved)
+    {
+      this->Numbers.push_back(isGone != 0 ? -1 : kept++);
+    }
     this->DropTriangles(isRemoved);
   }
 }

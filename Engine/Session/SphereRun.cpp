@@ -99,6 +99,9 @@ void SphereRun::Reset()
   this->Refused.clear();
   this->Replaced = 0;
   this->Kept = KeptTriangles();
+  this->WholeTriangles.clear();
+  this->WholeNeighbors.clear();
+  this->Numbers.clear();
   this->Report = FlipReport();
   this->Report.Points = this->Input.Points.Count;
   this->Report.GeometryUsed = GeometryKind::Sphere;

@@ -7,7 +7,7 @@ import dataclasses
 import functools
 import math
 import warnings
-from typing import Any, Dict, Optional
+from typing import Any, Dict, Optional, Tuple
 
 import numpy
 
@@ -48,6 +48,7 @@ class SphereTriangulation(Asked):
     segments: Array
     segment_numbers: Array  #: (k,) int64: the segment of each of these edges; of several, the first one.
     _keywords: Dict[str, Any] = dataclasses.field(repr=False)  # Of _triangulate.
+    _made_from: Tuple[Any, Dict[str, Any]] = dataclasses.field(repr=False)  # Its points and lines.
 
     @functools.cached_property
     def voronoi_corners(self) -> Array:
@@ -72,11 +73,11 @@ class SphereTriangulation(Asked):
     def _answers(self):
         if self.report.stop_reason == "aborted":
             raise ValueError("the triangulation was stopped before its end, so it cannot be asked")
-        if self._keywords["has_lines"]:
-            raise ValueError("places cannot be found on a sphere with segments, outlines or holes yet")
-        again, _ = _triangulate(self.points, self._keywords, keeps=True)
+        points, lines = self._made_from
+        again, _ = _triangulate(points, self._keywords, keeps=True, lines=lines)
         if not numpy.array_equal(again.triangles, self.triangles):
-            raise ValueError("the points have been changed since they were triangulated; triangulate them again")
+            raise ValueError("the points or segments have been changed since they were triangulated; "
+                             "triangulate them again")
         return again._answers
 
 
@@ -89,8 +90,7 @@ def triangulate_sphere(
     """The Delaunay triangulation of points on a sphere: the triangles of their convex hull.
 
     It is exact for the points as given, and depends on their places alone: not on their order, the
-    threads or the GPU. n places have 2 n - 4 triangles. With segments, outlines or holes it cannot be
-    asked about places yet.
+    threads or the GPU. n places have 2 n - 4 triangles.
 
     Args:
         points: (n, 2) longitudes and latitudes, which become float64 places on the unit sphere. Multiples
@@ -151,8 +151,8 @@ class SphereInterpolator(Interpolator):
     values per point, the shape of these. It is the same on any number of threads.
 
     A place is outside if no triangle that faces away from the center of the sphere has it: if all points
-    are on less than half of the sphere, everything beyond them. Values at poles and at 180 degrees are
-    like all others.
+    are on less than half of the sphere, everything beyond them; and what outlines and holes remove. Values
+    at poles and at 180 degrees are like all others.
 
     Values and places may be arrays in the memory of a GPU, as for `LinearInterpolator`; they are copied
     to the host and back. Do not change the arrays of points and values as long as you use it. Threads
@@ -160,12 +160,14 @@ class SphereInterpolator(Interpolator):
 
     Args:
         points: As for `triangulate_sphere`.
-        values: (n,) or (n, ...) real numbers: those of each point.
+        values: (n,) or (n, ...) real numbers: those of each point. Values of points that lines and rings add
+            may follow. If they do not, these are linear between the points, without segments.
         method: "linear": by spherical barycentric coordinates, the volumes that the place spans with two
             corners of its triangle and the center, divided by their sum. "natural": Sibson's natural
             neighbours in the plane that touches the sphere at the place; smooth except at the points.
             The points are projected from the place's antipode, which keeps circles as circles, so the
-            neighbours are those on the sphere.
+            neighbours are those on the sphere. Neighbours behind a segment do not count.
+        segments, outline, holes, hole_seeds, ring_rule, open: As for `triangulate_sphere`.
         degrees: Whether longitudes and latitudes, of points, places and rasters, are in degrees, not
             radians.
         fill_value, outside, backend, threads, device: As for `LinearInterpolator`. Questions are answered
@@ -191,16 +193,20 @@ class SphereInterpolator(Interpolator):
     """
 
     def __init__(
-        self, points: Numbers, values: Numbers, method: Method = "linear", *, degrees: bool = True,
-        fill_value: float = math.nan, outside: Outside = "nan", backend: Backend = "auto",
+        self, points: Numbers, values: Numbers, method: Method = "linear", *,
+        segments: Optional[Numbers] = None, outline: Optional[Rings] = None, holes: Optional[Rings] = None,
+        hole_seeds: Optional[Numbers] = None, ring_rule: RingRule = "evenodd", degrees: bool = True,
+        open: bool = False, fill_value: float = math.nan, outside: Outside = "nan", backend: Backend = "auto",
         threads: int = 0, device: int = -1, progress: Optional[Progress] = None,
     ) -> None:
         how = {"method": method, "fill_value": fill_value, "outside": outside}
-        keywords = {"degrees": degrees, "backend": backend, "threads": threads, "device": device}
-        self._made_from = (points, values), {**keywords, **how}
+        keywords = {"degrees": degrees, "open": open, "backend": backend, "threads": threads, "device": device}
+        lines = {"segments": segments, "outline": outline, "holes": holes, "hole_seeds": hole_seeds,
+                 "ring_rule": ring_rule}
+        self._made_from = (points, values), {**keywords, **lines, **how}
         if isinstance(points, tuple) and len(points) == 2:
             points = _arrays.join_columns(*points)
-        self.triangulation, troubles = _triangulate(points, {**keywords, "open": False}, progress, keeps=True)
+        self.triangulation, troubles = _triangulate(points, keywords, progress, keeps=True, lines=lines)
         for text in troubles:
             warnings.warn(text, stacklevel=2)
         require_triangles(self.triangulation.report)
@@ -221,9 +227,9 @@ def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False
     given, misplaced = _read(points, keywords["degrees"], **(lines or {}))
     given.take_projection(PROJECTIONS.index("open-sphere" if keywords["open"] else "sphere"))
     given.backend = backend
-    keywords = {**keywords, "has_lines": given.struct.number_of_segments + given.struct.number_of_hole_seeds > 0}
     result = run_input(given, make_options(**backend), lambda _: (),
-                       lambda handle, _: _store(handle, given, keywords), progress, on_iteration, keeps)
+                       lambda handle, _: _store(handle, given, keywords, (points, lines)), progress, on_iteration,
+                       keeps)
     return result, list(filter(None, (misplaced, "; ".join(given.trouble))))
 
 
@@ -289,7 +295,7 @@ def _describe_latitudes(latitudes):
             "longitudes come first")
 
 
-def _store(handle, given, keywords):
+def _store(handle, given, keywords, made_from):
     """The SphereTriangulation of a session that has ended."""
     report = _report.read(handle)
     triangles = numpy.empty((report.triangles, 3), dtype=numpy.int32)
@@ -306,4 +312,4 @@ def _store(handle, given, keywords):
         report = dataclasses.replace(report, defects=given.describe_defects(handle))
     iterations = _report.read_iterations(handle, report)
     return SphereTriangulation(
-        given.points, triangles, neighbors, iterations, report, used, edges, numbers, keywords)
+        given.points, triangles, neighbors, iterations, report, used, edges, numbers, keywords, made_from)

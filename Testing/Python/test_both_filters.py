@@ -625,6 +625,19 @@ class SameInterpolator(Pair, unittest.TestCase):
                     self.assertEqual(
                         "Elevation" in arrays, degrees or bool(places.GetPointData().HasArray("Elevation")))
 
+    def test_sphere_with_segments(self):
+        for kind in (numpy.float32, numpy.float64):
+            source = self.make_source(kind)
+            lines = make_segments(source, kind)
+            vtk_to_numpy(lines.GetPoints().GetData())[12, 1] = -95
+            for places, choice in itertools.product(self.list_places(), range(2)):
+                told = self.expect_same(places, lambda flip, choice=choice: (
+                    flip.SetSourceData(source), flip.SetSegmentsData(lines), flip.SetFirstHole(6),
+                    flip.SetMethod(choice), flip.SetOutside(choice), flip.SetProjectionToOpenSphere(),
+                    flip.DegreesOn()))
+                self.assertEqual(told["errors"], [])
+                self.assertIn("segments: 1 point with a latitude beyond 90 degrees", told["warnings"][0])
+
     def test_partitions(self):
         source, lines = self.make_source(), make_segments(self.make_source(), float)
         places = [make_cloud(30, seed=4), vtkPolyData(), make_cloud(20, seed=5)]

@@ -467,6 +467,9 @@ class PyVista(unittest.TestCase):
             values = delaunayflip.SphereInterpolator(places, cloud["Warmth"], method=method)
             numpy.testing.assert_array_equal(made["Warmth"], values(numpy.array(directions.points)))
             self.assertNotIn("Elevation", made.point_data)
+        made = cloud.delaunay.interpolate(image, holes=ring, projection="sphere", degrees=True)
+        values = delaunayflip.SphereInterpolator(degrees, cloud["Warmth"], holes=ring)
+        numpy.testing.assert_allclose(made["Warmth"], values(image.points[:, :2]), atol=1e-12)
         with self.assertWarnsRegex(UserWarning, "^segments: 1 point with a latitude beyond 90 degrees") as told:
             cloud.delaunay.triangulate(self.pyvista.Line((0, 0, 0), (40, 95, 0)), projection="sphere", degrees=True)
         self.assertEqual(told.filename, __file__)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of triangulations on a sphere, and of meshes of globes, by NumPy arrays."""
 import functools
+import math
 import pickle
 import unittest
 import warnings
@@ -144,6 +145,30 @@ class Sphere(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "have been changed"):
             pickle.loads(pickle.dumps(globe)).locate(places)
 
+    def test_values_beside_a_coast(self):
+        draw, places = numpy.random.default_rng(5), make_directions(500)
+        values = places[:, 2] + places[:, 0] ** 2
+        land = [[-20, -30], [30, -40], [40, 20], [0, 40]]
+        river = [numpy.array([[100.0, 0], [130, 30]])]
+        asked = numpy.c_[draw.uniform(-180, 180, 400), draw.uniform(-90, 90, 400)]
+        globe = delaunayflip.triangulate_sphere(places, river, holes=land)
+        self.assertEqual(globe.locate([[5, 0], [179, 0]]).tolist()[0], -1)
+        soft = delaunayflip.SphereInterpolator(places, values)
+        for method in ("linear", "natural"):
+            coast = delaunayflip.SphereInterpolator(places, values, method, segments=river, holes=land)
+            numpy.testing.assert_array_equal(coast(asked), globe.interpolate(values, asked, method=method))
+            numpy.testing.assert_array_equal(numpy.isnan(coast(asked)), globe.locate(asked) < 0)
+            numpy.testing.assert_allclose(coast(land), soft(land), atol=1e-12)
+            self.assertTrue(numpy.isfinite(globe.interpolate(values, asked, method=method, outside="nearest")).all())
+            again = pickle.loads(pickle.dumps(coast))
+            numpy.testing.assert_array_equal(again(asked), coast(asked))
+        self.assertTrue(math.isnan(coast([[5, 0]])[0]))
+        numpy.testing.assert_array_equal(pickle.loads(pickle.dumps(globe)).locate(asked), globe.locate(asked))
+        half = places[places[:, 2] > 0]
+        opened = delaunayflip.SphereInterpolator(half, half[:, 2], open=True, segments=[[0, 1]])
+        self.assertEqual(opened.triangulation.report.stop_reason, "converged")
+        self.assertAlmostEqual(opened(half[:1])[0], half[0, 2])
+
     def test_segments(self):
         points = make_directions(200, 9)
         near = numpy.argsort(points @ points[0])[-4:-1]
@@ -160,8 +185,7 @@ class Sphere(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, r"1 segment that crosses an earlier one: .*not split"):
             globe = delaunayflip.triangulate_sphere(points, crossing)
         self.assertEqual(globe.report.refused_segments, 1)
-        with self.assertRaisesRegex(ValueError, "cannot be found"):
-            globe.locate([[0, 0]])
+        self.assertGreaterEqual(globe.locate([[0, 0]])[0], 0)
         with self.assertRaisesRegex(delaunayflip.InvalidMesh, "opposite sides"):
             delaunayflip.triangulate_sphere(points, [[[10, 20], [-170, -20]]])
         half = points[points[:, 2] > 0]

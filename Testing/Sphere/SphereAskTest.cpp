@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 /// @file
 /// What a triangulation on a sphere answers: the triangles of places, and values there.
@@ -53,13 +55,32 @@ PointOptions Projected(ProjectionKind projection = ProjectionKind::Sphere, int t
   return WithThreads(threads, With(&PointOptions::Projection, projection));
 }
 
+/// Segments and rings of a triangulation.
+struct SphereLines
+{
+  std::vector<std::int64_t> Segments;
+  std::vector<std::int32_t> Rings;
+
+  /// Adds segments from each of these points to the next one.
+  void Add(const std::vector<std::int64_t>& ids, std::int32_t ring = -1)
+  {
+    for (std::size_t i = 0; i + 1 < ids.size(); ++i)
+    {
+      this->Segments.insert(this->Segments.end(), { ids[i], ids[i + 1] });
+      this->Rings.push_back(ring);
+    }
+  }
+};
+
 /// A session, what it makes, and answers to queries.
 class AskedSphere
 {
 public:
-  explicit AskedSphere(const std::vector<Point3>& points, const PointOptions& options = Projected())
+  explicit AskedSphere(const std::vector<Point3>& points, const PointOptions& options = Projected(),
+    const SphereLines& lines = SphereLines())
     : Points(points),
-      Session(FlipPoints(MakeInput(points), options)),
+      Lines(lines),
+      Session(FlipPoints(this->MakeInput(), options)),
       Triangles(StoreTriangles(Session))
   {
   }
@@ -120,16 +141,30 @@ public:
     return PlaneArray(places.data()->data(), static_cast<std::int64_t>(places.size()), 3);
   }
 
-  static PointInput MakeInput(const std::vector<Point3>& points)
+  std::vector<std::int32_t> StoreNeighbors() const
   {
-    PointInput input;
-    input.Points = View(points);
-    return input;
+    std::vector<std::int32_t> neighbors(this->Triangles.size());
+    this->Session.StoreNeighbors(neighbors.data());
+    return neighbors;
   }
 
   std::vector<Point3> Points;
+  SphereLines Lines;
   FlipSession Session;
   std::vector<std::int32_t> Triangles;
+
+private:
+  /// All rings are holes.
+  PointInput MakeInput() const
+  {
+    PointInput input;
+    input.Points = View(this->Points);
+    input.Segments = this->Lines.Segments.data();
+    input.NumberOfSegments = static_cast<std::int64_t>(this->Lines.Rings.size());
+    input.Rings = this->Lines.Rings.data();
+    input.FirstHole = 0;
+    return input;
+  }
 };
 
 /// Places of every kind: anywhere, at vertices, on edges, nearly so, and at their antipodes.
@@ -329,15 +364,11 @@ TEST(SphereAsk, InterpolatesInGrids)
   EXPECT_LT(ofNatural, 2e-3);
 }
 
-TEST(SphereAsk, FindsTheNearestPlaceOnTheBoundary)
+/// Compares what is taken outside with all edges of the boundary.
+void ExpectNearestOnBoundary(const AskedSphere& asked)
 {
-  std::vector<Point3> points = MakeRandomPoints<double>(400, 3);
-  points.erase(
-    std::remove_if(points.begin(), points.end(), [](const Point3& p) { return p[2] < 0.5; }),
-    points.end());
-  const AskedSphere asked(points, Projected(ProjectionKind::OpenSphere));
-  std::vector<std::int32_t> neighbors(asked.Triangles.size());
-  asked.Session.StoreNeighbors(neighbors.data());
+  const std::vector<std::int32_t> neighbors = asked.StoreNeighbors();
+  const std::vector<Point3>& points = asked.Points;
   std::vector<double> coordinates;
   for (const Point3& point : points)
   {
@@ -372,6 +403,174 @@ TEST(SphereAsk, FindsTheNearestPlaceOnTheBoundary)
     EXPECT_LT(FindDistance(nearest, places[i]), least + 1e-12);
     EXPECT_NEAR(least, FindDistance(nearest, places[i]), 1e-4);
   }
+}
+
+TEST(SphereAsk, FindsTheNearestPlaceOnTheBoundary)
+{
+  std::vector<Point3> points = MakeRandomPoints<double>(400, 3);
+  points.erase(
+    std::remove_if(points.begin(), points.end(), [](const Point3& p) { return p[2] < 0.5; }),
+    points.end());
+  ExpectNearestOnBoundary(AskedSphere(points, Projected(ProjectionKind::OpenSphere)));
+}
+
+/// A continent with a coast of many edges, which is a hole, a bay that a segment closes, and a
+/// segment far away.
+AskedSphere MakeOcean()
+{
+  constexpr int Corners = 300;
+  std::vector<Point3> points = MakeRandomPoints<double>(800, 17);
+  SphereLines lines;
+  std::vector<std::int64_t> coast;
+  for (int i = 0; i < Corners; ++i)
+  {
+    const double angle = 2.0 * 3.14159265358979 * i / Corners;
+    const double reach = 0.8 + 0.3 * std::cos(3.0 * angle) + 0.02 * (i % 2);
+    coast.push_back(static_cast<std::int64_t>(points.size()));
+    points.push_back(Normalize({ 1.0, reach * std::cos(angle), reach * std::sin(angle) }));
+  }
+  const std::int64_t bay[] = { coast[21], coast[79] };
+  coast.push_back(coast.front());
+  lines.Add(coast, 0);
+  lines.Add({ bay[0], bay[1] });
+  lines.Add({ 0, 1, 2 });
+  return AskedSphere(points, Projected(), lines);
+}
+
+TEST(SphereAsk, FindsPlacesBesideHoles)
+{
+  const AskedSphere asked = MakeOcean();
+  const std::vector<Point3> places = DrawPlaces(asked, 200);
+  const std::vector<std::int32_t> found = asked.Locate(places);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    ASSERT_EQ(asked.FindByHand(places[i]), found[i]) << i;
+  }
+  EXPECT_GT(std::count(found.begin(), found.end(), -1), 20);
+  EXPECT_EQ(-1, asked.Locate({ { 1.0, 0.0, 0.0 } })[0]);
+  EXPECT_GT(asked.Session.GetReport().FromPoints.OutsideTriangles, 300);
+  EXPECT_EQ(0, asked.Session.GetReport().FromPoints.RefusedSegments);
+}
+
+TEST(SphereAsk, FindsTheNearestCoast) { ExpectNearestOnBoundary(MakeOcean()); }
+
+/// A point in a plane.
+struct PlanePair
+{
+  double U, V;
+};
+
+double Cross(const PlanePair& a, const PlanePair& b) { return a.U * b.V - a.V * b.U; }
+
+PlanePair Subtract(const PlanePair& a, const PlanePair& b) { return { a.U - b.U, a.V - b.V }; }
+
+PlanePair FindCircumcentre(const PlanePair& a, const PlanePair& b, const PlanePair& c)
+{
+  const PlanePair u = Subtract(b, a), v = Subtract(c, a);
+  const double uu = u.U * u.U + u.V * u.V, vv = v.U * v.U + v.V * v.V;
+  const double factor = 0.5 / Cross(u, v);
+  return { a.U + factor * (v.V * uu - u.V * vv), a.V + factor * (u.U * vv - v.U * uu) };
+}
+
+/// Natural neighbours by Watson's sum over the triangles that an insertion of the place would
+/// replace without crossing a segment, in the plane that touches the sphere there.
+class WatsonSum
+{
+public:
+  WatsonSum(const AskedSphere& asked, const Point3& place)
+    : Asked(asked),
+      Axis(place),
+      First(Normalize(Add({ 0.3, 0.5, 0.9 }, Scale(-Multiply({ 0.3, 0.5, 0.9 }, place), place))))
+  {
+    const std::vector<std::int64_t> edges = asked.Session.ListSegmentEdges();
+    for (std::size_t i = 0; i < edges.size(); i += 2)
+    {
+      this->Segments.insert({ edges[i], edges[i + 1] });
+      this->Segments.insert({ edges[i + 1], edges[i] });
+    }
+  }
+
+  double Sum(std::int32_t triangle, const std::vector<double>& values)
+  {
+    const std::vector<std::int32_t> neighbors = this->Asked.StoreNeighbors();
+    std::vector<std::int32_t> cavity = { triangle };
+    double sum = 0.0, weights = 0.0;
+    for (std::size_t i = 0; i < cavity.size(); ++i)
+    {
+      const std::int32_t* ids = &this->Asked.Triangles[3 * cavity[i]];
+      const PlanePair corners[3] = { this->Project(ids[0]), this->Project(ids[1]),
+        this->Project(ids[2]) };
+      const PlanePair centre = FindCircumcentre(corners[0], corners[1], corners[2]);
+      for (int k = 0; k < 3; ++k)
+      {
+        const int next = (k + 1) % 3, last = (k + 2) % 3;
+        const PlanePair a = FindCircumcentre({ 0.0, 0.0 }, corners[last], corners[k]);
+        const PlanePair b = FindCircumcentre({ 0.0, 0.0 }, corners[k], corners[next]);
+        const double weight = Cross(Subtract(a, centre), Subtract(b, centre));
+        weights += weight;
+        sum += weight * values[ids[k]];
+        const std::int32_t across = neighbors[3 * cavity[i] + k];
+        const bool isNew = across >= 0 && this->Segments.count({ ids[next], ids[last] }) == 0 &&
+          std::count(cavity.begin(), cavity.end(), across) == 0;
+        if (isNew && this->IsInCircle(across))
+        {
+          cavity.push_back(across);
+        }
+      }
+    }
+    return sum / weights;
+  }
+
+private:
+  PlanePair Project(std::int32_t id) const
+  {
+    const Point3 second = { this->Axis[1] * this->First[2] - this->Axis[2] * this->First[1],
+      this->Axis[2] * this->First[0] - this->Axis[0] * this->First[2],
+      this->Axis[0] * this->First[1] - this->Axis[1] * this->First[0] };
+    const Point3& point = this->Asked.Points[id];
+    const double factor = 2.0 / (1.0 + Multiply(point, this->Axis));
+    return { factor * Multiply(point, this->First), factor * Multiply(point, second) };
+  }
+
+  bool IsInCircle(std::int32_t triangle) const
+  {
+    const std::int32_t* ids = &this->Asked.Triangles[3 * triangle];
+    const PlanePair corner = this->Project(ids[0]);
+    const PlanePair centre = FindCircumcentre(corner, this->Project(ids[1]), this->Project(ids[2]));
+    const PlanePair radius = Subtract(corner, centre);
+    return centre.U * centre.U + centre.V * centre.V < radius.U * radius.U + radius.V * radius.V;
+  }
+
+  const AskedSphere& Asked;
+  const Point3 Axis, First;
+  std::set<std::pair<std::int64_t, std::int64_t>> Segments;
+};
+
+TEST(SphereAsk, StopsAtSegments)
+{
+  const AskedSphere asked = MakeOcean();
+  const std::vector<double> values = ListValues(asked.Points, Smooth);
+  std::vector<Point3> places = MakeRandomPoints<double>(300, 2);
+  std::mt19937 random(4);
+  for (int i = 0; i < 300; ++i) // near the coast
+  {
+    const Point3& point = asked.Points[800 + DrawIndex(random, 300)];
+    places.push_back(Normalize(Add(point, Scale(0.03, places[i]))));
+  }
+  const std::vector<std::int32_t> found = asked.Locate(places);
+  const auto results = asked.Interpolate(values, places, InterpolationKind::Natural);
+  const auto linear = asked.Interpolate(values, places, InterpolationKind::Linear);
+  double most = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    EXPECT_EQ(found[i] < 0, std::isnan(results[i]));
+    if (found[i] >= 0)
+    {
+      EXPECT_NEAR(WatsonSum(asked, places[i]).Sum(found[i], values), results[i], 1e-8) << i;
+      most = std::max(most, std::fabs(linear[i] - results[i]));
+    }
+  }
+  EXPECT_GT(most, 1e-3);
 }
 
 TEST(SphereAsk, TakesLongitudesAndLatitudes)

@@ -208,24 +208,6 @@ TEST(SphereSegments, AreRefusedWhereTheyCrossEarlierOnes)
   ExpectDelaunayOnSphere(points, result);
 }
 
-TEST(SphereSegments, LeaveNoQuestions)
-{
-  const std::int64_t segment[] = { 0, 1 };
-  const double places[] = { 1.0, 0.2, 0.1 };
-  std::int32_t found = 0;
-  PointInput input;
-  input.Points = PlaneArray(Octahedron().data()->data(), 6, 3);
-  PlaceQuery query;
-  query.Places = PlaneArray(places, 1, 3);
-  query.Triangles = &found;
-  FlipSession without = FlipPoints(input, Projected(ProjectionKind::Sphere));
-  EXPECT_TRUE(without.Ask(query));
-  input.Segments = segment;
-  input.NumberOfSegments = 1;
-  FlipSession session = FlipPoints(input, Projected(ProjectionKind::Sphere));
-  EXPECT_THROW(session.Ask(query), InvalidOptions);
-}
-
 TEST(SphereSegments, NeedEndsThatAreNotOpposite)
 {
   const std::vector<Point3> points = PlaceAll(
