@@ -80,7 +80,7 @@ public:
                                : this->RefineOnce(this->RefinedDoubles);
   }
 
-  RefinementResult FetchRefinement() override
+  const RefinementResult& FetchRefinement() override
   {
     return this->Places.Floats ? this->FetchRefinement(this->RefinedFloats)
                                : this->FetchRefinement(this->RefinedDoubles);
@@ -100,6 +100,25 @@ public:
     const VertexId* ids = removed.Data();
     this->Backend.ForEach(static_cast<std::int64_t>(removed.Size()),
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { used[ids[i]] = NoVertex; });
+  }
+
+  /// Adds points to UsedPoint that come last, and are used. Public because device lambdas require
+  /// it.
+  void AppendUsed(std::int64_t added)
+  {
+    const std::int64_t before = this->Report.Points;
+    this->Report.Points += added;
+    if (this->UsedPoint.Size() == 0)
+    {
+      return;
+    }
+    Array<VertexId> longer = this->Backend.template MakeArray<VertexId>(this->Report.Points);
+    const VertexId* from = this->UsedPoint.Data();
+    VertexId* used = longer.Data();
+    this->Backend.ForEach(this->Report.Points,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { used[i] = i < before ? from[i] : static_cast<VertexId>(i); });
+    this->UsedPoint = std::move(longer);
   }
 
   /// Projects the points of the caller's mesh into a plane in which most triangles are
@@ -276,7 +295,7 @@ private:
     GrowingMesh<Real> Grown;
     std::unique_ptr<Refinement<Real, BackendT>> Rounds;
     bool IsComplete = false;
-    RefinementResult Result; ///< Valid if IsComplete.
+    RefinementResult Result; ///< What was fetched last.
   };
 
   template <typename Real>
@@ -331,9 +350,7 @@ private:
       refined.Rounds->FixBlocked(refined.Grown);
     }
     this->Asker = PlaceAsker<BackendT>();
-    std::vector<VertexId> used(added);
-    std::iota(used.begin(), used.end(), static_cast<VertexId>(this->Report.Points));
-    this->AppendUsed(used);
+    this->AppendUsed(added);
     this->CountGrown();
     return added;
   }
@@ -365,10 +382,13 @@ private:
   }
 
   template <typename Real>
-  RefinementResult FetchRefinement(RefinedMesh<Real>& refined)
+  const RefinementResult& FetchRefinement(RefinedMesh<Real>& refined)
   {
-    RefinementResult result =
-      refined.IsComplete ? refined.Result : refined.Rounds->Fetch(refined.Grown);
+    RefinementResult& result = refined.Result;
+    if (!refined.IsComplete)
+    {
+      result = refined.Rounds->Fetch(refined.Grown);
+    }
     const bool isOnAxes = !this->IsFromPoints && !this->Frame.Projection.Tilted;
     if (isOnAxes)
     {
@@ -376,22 +396,6 @@ private:
       result.Axes[1] = this->Frame.GetAxis(1);
     }
     return result;
-  }
-
-  /// Adds to UsedPoint what is used at the places of points that come last.
-  void AppendUsed(const std::vector<VertexId>& added)
-  {
-    const auto before = static_cast<std::int64_t>(this->UsedPoint.Size());
-    const std::int64_t points = this->Report.Points + SizeOf(added);
-    if (before > 0)
-    {
-      std::vector<VertexId> used(this->Report.Points);
-      this->Backend.Download(this->UsedPoint.Data(), this->Report.Points, used.data());
-      used.insert(used.end(), added.begin(), added.end());
-      this->UsedPoint = this->Backend.template MakeArray<VertexId>(points);
-      this->Backend.Upload(used.data(), points, this->UsedPoint.Data());
-    }
-    this->Report.Points = points;
   }
 
   /// Counts what a mesh has after it has grown.

@@ -115,8 +115,8 @@ public:
   /// @returns how many points it has added; their numbers follow those of the mesh's. 0: there is
   /// nothing more to do, or the limit is reached.
   virtual std::int64_t Refine() = 0;
-  /// What the rounds have made so far.
-  virtual RefinementResult FetchRefinement() = 0;
+  /// What the rounds have made so far. Valid until the mesh changes.
+  virtual const RefinementResult& FetchRefinement() = 0;
 
   /// Calls view(mesh) with a mesh from points, in the memory of the host.
   using HostView = std::function<void(const PointMeshView&)>;

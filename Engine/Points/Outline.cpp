@@ -562,7 +562,10 @@ KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
     remover.RemoveLarge(options.Alpha, options.LongestEdge);
   }
   kept.Large = remover.CountRemoved() - kept.Outside;
-  remover.Number(input.FirstAdded, kept);
+  if (kept.Outside + kept.Large > 0)
+  {
+    remover.Number(input.FirstAdded, kept);
+  }
   segments = remover.ListKeptSegments();
   return kept;
 }

@@ -217,7 +217,7 @@ public:
         this->Regions.Data(), grown.Mesh->NumberOfTriangles, result.Regions.data());
     }
     result.Segments.resize(this->NumberOfSegments);
-    const Array<Subsegment> segments = this->NameSegments();
+    const Array<Subsegment> segments = this->NameSegments(grown);
     this->Device.Download(segments.Data(), this->NumberOfSegments, result.Segments.data());
     this->FindUnrefined(grown, result);
     return result;
@@ -546,15 +546,25 @@ public:
     return named;
   }
 
-  Array<Subsegment> NameSegments() const
+  Array<Subsegment> NameSegments(const GrowingMesh<Real>& grown) const
   {
     Array<Subsegment> named = this->Device.template MakeArray<Subsegment>(this->NumberOfSegments);
     Subsegment* to = named.Data();
     const EdgeId* segments = this->Segments.Data();
     const std::uint32_t* origins = this->Origins.Data();
+    const PlaneMesh plane = grown.View();
     this->Device.ForEach(this->NumberOfSegments,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) {
-        to[i] = { segments[i], origins[i] };
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        const HalfEdgeId even = 2 * segments[i];
+        if (plane.Edges.CornerOfHalfEdge[even] != NoCorner)
+        {
+          to[i] = { segments[i], origins[i], plane.GetStart(even), plane.GetEnd(even) };
+        }
+        else
+        {
+          to[i] = { segments[i], origins[i], plane.GetEnd(even + 1), plane.GetStart(even + 1) };
+        }
       });
     return named;
   }

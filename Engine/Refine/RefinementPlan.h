@@ -51,6 +51,7 @@ struct Subsegment
 {
   EdgeId Edge;
   std::uint32_t Origin; ///< The number of the subsegment that there was at first.
+  VertexId Start, End; ///< Where the half-edge with the even number runs from, and to.
 };
 
 /// What refinement has made.

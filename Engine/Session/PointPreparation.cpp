@@ -214,7 +214,7 @@ void PreparedPoints::Append(const PlaneArray& points)
   this->Caller.OnDevice = false;
 }
 
-void PreparedPoints::SetRefined(const std::vector<AddedPoint>& points)
+void PreparedPoints::SetRefined(std::vector<AddedPoint> points)
 {
   const auto before = static_cast<std::ptrdiff_t>(this->Counts.Crossings);
   const bool isSame = SizeOf(this->Added) == before && points.empty();
@@ -222,8 +222,6 @@ void PreparedPoints::SetRefined(const std::vector<AddedPoint>& points)
   {
     return;
   }
-  this->Added.erase(this->Added.begin() + before, this->Added.end());
-  this->Added.insert(this->Added.end(), points.begin(), points.end());
   this->CopyToHost();
   if (this->Caller.Points.Floats)
   {
@@ -233,6 +231,8 @@ void PreparedPoints::SetRefined(const std::vector<AddedPoint>& points)
   {
     this->AppendTo(this->Doubles, points);
   }
+  points.insert(points.begin(), this->Added.begin(), this->Added.begin() + before);
+  this->Added = std::move(points);
 }
 
 /// Makes the points to triangulate those before refinement and these.

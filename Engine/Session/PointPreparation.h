@@ -54,7 +54,7 @@ public:
   void PrepareRings(const LoadedMesh& mesh);
 
   /// Replaces the points of refinement, which come last.
-  void SetRefined(const std::vector<AddedPoint>& points);
+  void SetRefined(std::vector<AddedPoint> points);
   /// How many points there are without them.
   std::int64_t CountBeforeRefinement() const
   {

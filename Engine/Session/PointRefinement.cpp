@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,68 +20,95 @@ namespace delaunayflip
 namespace
 {
 
-/// A piece of an edge, and the vertex at which it begins.
+/// A subsegment on a side of the edge that it is a piece of.
 struct Piece
 {
-  VertexId Start;
-  HalfEdgeId Side;
+  VertexId Start, End;
+  EdgeId Edge;
 
   bool operator<(const Piece& other) const { return this->Start < other.Start; }
 };
 
-/// Appends the subsegments of a segment's edge, in the direction of the segment.
-/// @param edgesOfPieces the edges into which refinement has split that edge.
-void AppendPieces(const PointMeshView& view, const SegmentEdge& before,
-  const std::vector<EdgeId>& edgesOfPieces, std::vector<SegmentEdge>& edges)
+/// The subsegments that refinement has made of the edges of segments.
+class PieceMap
 {
-  std::vector<Piece> pieces; // by start
-  std::vector<VertexId> ends;
-  for (const EdgeId edge : edgesOfPieces)
+public:
+  explicit PieceMap(const std::vector<Subsegment>& subsegments)
+    : Subsegments(subsegments),
+      FirstOfOrigin(subsegments.size() + 1, 0),
+      ByOrigin(subsegments.size())
   {
-    const HalfEdgeId side = 2 * edge + (before.Side & 1u);
-    pieces.push_back({ view.GetStart(side), side });
-    ends.push_back(view.GetEnd(side));
-  }
-  std::sort(pieces.begin(), pieces.end());
-  std::sort(ends.begin(), ends.end());
-  auto piece = std::find_if(pieces.begin(), pieces.end(),
-    [&](const Piece& one) { return !std::binary_search(ends.begin(), ends.end(), one.Start); });
-  const std::size_t begin = edges.size();
-  while (piece != pieces.end())
-  {
-    SegmentEdge edge = before;
-    edge.Side = piece->Side;
-    edges.push_back(edge);
-    const Piece next = { view.GetEnd(piece->Side), 0 };
-    piece = std::lower_bound(pieces.begin(), pieces.end(), next);
-    if (piece != pieces.end() && piece->Start != next.Start)
+    while (this->Before < subsegments.size() && subsegments[this->Before].Origin == this->Before)
     {
-      piece = pieces.end();
+      ++this->Before;
+    }
+    for (const Subsegment& subsegment : subsegments)
+    {
+      ++this->FirstOfOrigin[subsegment.Origin + 1];
+    }
+    std::partial_sum(
+      this->FirstOfOrigin.begin(), this->FirstOfOrigin.end(), this->FirstOfOrigin.begin());
+    std::vector<std::uint32_t> next(this->FirstOfOrigin.begin(), this->FirstOfOrigin.end() - 1);
+    for (std::size_t i = 0; i < subsegments.size(); ++i)
+    {
+      this->ByOrigin[next[subsegments[i].Origin]++] = static_cast<std::uint32_t>(i);
     }
   }
-  if (!before.IsOnLeft)
-  {
-    std::reverse(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.end());
-  }
-}
 
-/// @param origins by edge that there was before, its number.
-std::vector<SegmentEdge> SplitEdges(const PointMeshView& view,
-  const std::vector<SegmentEdge>& before, const std::vector<Subsegment>& subsegments,
-  const std::vector<std::uint32_t>& origins)
-{
-  std::vector<std::vector<EdgeId>> pieces(subsegments.size());
-  for (const Subsegment& subsegment : subsegments)
+  /// The number of an edge that there was before. The edges keep their numbers as those of a piece.
+  std::uint32_t FindOrigin(EdgeId edge) const
   {
-    pieces[subsegment.Origin].push_back(subsegment.Edge);
+    const auto begin = this->Subsegments.begin();
+    const auto found = std::lower_bound(begin, begin + static_cast<std::ptrdiff_t>(this->Before),
+      edge, [](const Subsegment& one, EdgeId other) { return one.Edge < other; });
+    return found->Origin;
   }
-  std::vector<SegmentEdge> edges;
-  for (const SegmentEdge& edge : before)
+
+  /// Appends the pieces of a segment's edge, in the direction of the segment.
+  void AppendPieces(const SegmentEdge& before, std::vector<SegmentEdge>& edges)
   {
-    AppendPieces(view, edge, pieces[origins[EdgeOf(edge.Side)]], edges);
+    const std::uint32_t origin = this->FindOrigin(EdgeOf(before.Side));
+    const HalfEdgeId parity = before.Side & 1u;
+    this->Pieces.clear();
+    this->Ends.clear();
+    for (std::uint32_t i = this->FirstOfOrigin[origin]; i < this->FirstOfOrigin[origin + 1]; ++i)
+    {
+      const Subsegment& one = this->Subsegments[this->ByOrigin[i]];
+      const VertexId ends[2] = { one.Start, one.End };
+      this->Pieces.push_back({ ends[parity], ends[1u - parity], one.Edge });
+      this->Ends.push_back(ends[1u - parity]);
+    }
+    std::sort(this->Pieces.begin(), this->Pieces.end());
+    std::sort(this->Ends.begin(), this->Ends.end());
+    auto piece = std::find_if(this->Pieces.begin(), this->Pieces.end(),
+      [&](const Piece& one)
+      { return !std::binary_search(this->Ends.begin(), this->Ends.end(), one.Start); });
+    const std::size_t begin = edges.size();
+    while (piece != this->Pieces.end())
+    {
+      SegmentEdge edge = before;
+      edge.Side = 2 * piece->Edge + parity;
+      edges.push_back(edge);
+      const Piece next = { piece->End, 0, 0 };
+      piece = std::lower_bound(this->Pieces.begin(), this->Pieces.end(), next);
+      if (piece != this->Pieces.end() && piece->Start != next.Start)
+      {
+        piece = this->Pieces.end();
+      }
+    }
+    if (!before.IsOnLeft)
+    {
+      std::reverse(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.end());
+    }
   }
-  return edges;
-}
+
+private:
+  const std::vector<Subsegment>& Subsegments;
+  std::size_t Before = 0; ///< How many of them there were before; they come first, by edge.
+  std::vector<std::uint32_t> FirstOfOrigin, ByOrigin;
+  std::vector<Piece> Pieces; ///< Those of the edge at hand, by start.
+  std::vector<VertexId> Ends;
+};
 
 }
 
@@ -140,15 +168,15 @@ RefinementPlan PointRun::PlanRefinement(LoadedMesh& mesh)
 void PointRun::TakeRefinement(LoadedMesh& mesh)
 {
   PointResult& result = this->Result;
-  const RefinementResult made = mesh.FetchRefinement();
-  std::vector<std::uint32_t> origins;
-  for (const Subsegment& subsegment : made.Segments)
+  const RefinementResult& made = mesh.FetchRefinement();
+  PieceMap pieces(made.Segments);
+  std::vector<std::uint32_t> originOf; // by edge of EdgesBefore
+  originOf.reserve(result.EdgesBefore.size());
+  for (const SegmentEdge& edge : result.EdgesBefore)
   {
-    origins.resize(
-      std::max<std::size_t>(origins.size(), subsegment.Edge + std::size_t(1)), NoOrigin);
-    origins[subsegment.Edge] = subsegment.Origin;
+    originOf.push_back(pieces.FindOrigin(EdgeOf(edge.Side)));
   }
-  this->AddRefinedPoints(made, origins);
+  this->AddRefinedPoints(made, originOf);
   const std::int64_t unrefined = this->HasEndedRefinement() ? made.Unrefined : 0;
   result.Unrefined = Defect(DefectKind::TrianglesNotRefined, unrefined);
   result.HasReachedLimit = made.HasReachedLimit;
@@ -158,14 +186,15 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   {
     result.Regions = made.Regions;
   }
-  if (result.HasRemoved() || !result.EdgesBefore.empty())
+  result.Edges.clear();
+  result.Edges.reserve(made.Segments.size());
+  for (const SegmentEdge& edge : result.EdgesBefore)
   {
-    mesh.ViewOnHost(
-      [&](const PointMeshView& view)
-      {
-        result.Edges = SplitEdges(view, result.EdgesBefore, made.Segments, origins);
-        this->RenumberKept(view, made.Regions);
-      });
+    pieces.AppendPieces(edge, result.Edges);
+  }
+  if (result.HasRemoved())
+  {
+    mesh.ViewOnHost([&](const PointMeshView& view) { this->RenumberKept(view, made.Regions); });
   }
   for (const TriangleId triangle : made.FirstUnrefined)
   {
@@ -181,31 +210,25 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   }
 }
 
-/// @param regions by triangle, -1 where it is removed; empty if none is.
+/// @param regions by triangle, -1 where it is removed.
 void PointRun::RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions)
 {
-  if (this->Result.HasRemoved())
-  {
-    std::vector<unsigned char> isRemoved;
-    for (const std::int32_t region : regions)
-    {
-      isRemoved.push_back(region < 0 ? 1 : 0);
-    }
-    RenumberTriangles(view, std::move(isRemoved), this->Points.GetInput().FirstAdded,
-      this->Result.Edges, this->Result.Kept);
-  }
+  std::vector<unsigned char> isRemoved(regions.size());
+  std::transform(regions.begin(), regions.end(), isRemoved.begin(),
+    [](std::int32_t region) { return region < 0 ? 1 : 0; });
+  RenumberTriangles(view, std::move(isRemoved), this->Points.GetInput().FirstAdded,
+    this->Result.Edges, this->Result.Kept);
 }
 
-/// @param origins by edge on a segment, the number of the edge before refinement of which it is a
-/// piece.
+/// @param originOf the numbers of Result.EdgesBefore among the subsegments.
 void PointRun::AddRefinedPoints(
-  const RefinementResult& made, const std::vector<std::uint32_t>& origins)
+  const RefinementResult& made, const std::vector<std::uint32_t>& originOf)
 {
   std::vector<std::int64_t> segmentOf(made.Segments.size(), -1); // by number of an edge before
-  for (auto edge = this->Result.EdgesBefore.rbegin(); edge != this->Result.EdgesBefore.rend();
-       ++edge)
+  for (std::size_t i = originOf.size(); i-- > 0;)
   {
-    segmentOf[origins[EdgeOf(edge->Side)]] = this->Points.GetSegments()[edge->Segment].Number;
+    const SegmentEdge& edge = this->Result.EdgesBefore[i];
+    segmentOf[originOf[i]] = this->Points.GetSegments()[edge.Segment].Number;
   }
   std::vector<AddedPoint> points;
   points.reserve(made.Vertices.size());
@@ -228,7 +251,7 @@ void PointRun::AddRefinedPoints(
     }
     points.push_back(point);
   }
-  this->Points.SetRefined(points);
+  this->Points.SetRefined(std::move(points));
 }
 
 //------------------------------------------------------------------------------

@@ -91,7 +91,7 @@ private:
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
   void TakeRefinement(LoadedMesh& mesh) override;
   void RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions);
-  void AddRefinedPoints(const RefinementResult& made, const std::vector<std::uint32_t>& origins);
+  void AddRefinedPoints(const RefinementResult& made, const std::vector<std::uint32_t>& originOf);
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;

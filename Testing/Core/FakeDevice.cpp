@@ -131,7 +131,7 @@ public:
     this->Report.Backend = "CUDA: fake";
     return added;
   }
-  RefinementResult FetchRefinement() override { return this->Engine->FetchRefinement(); }
+  const RefinementResult& FetchRefinement() override { return this->Engine->FetchRefinement(); }
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream&, std::int32_t*) const override
   {
