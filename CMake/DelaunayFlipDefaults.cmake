@@ -11,8 +11,8 @@ set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # Compilers for Arm fuse products and sums unless they are told not to; see Engine/CMakeLists.txt.
-# The instructions that all x86-64 processors have cannot.
-if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+# The instructions that all x86-64 processors have cannot, but an option can allow more of them.
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$" OR CMAKE_CXX_FLAGS MATCHES "-m(arch|cpu|fma|avx)")
   add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>)
 endif()
 
