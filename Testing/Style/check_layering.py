@@ -6,7 +6,8 @@
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
 Engine/CMakeLists.txt gives both, with CUDA/ below the last room, then the other files at the root of
 Engine/. Above the engine: CInterface, Filters, FiltersParallel, Rendering, Command and Plugin see its public headers, the
-latter four the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
+latter four the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL,
+and the operating system only in Engine/System.
 Within the folders of LAYERED, a header and the source of the same name are one topic, and no two topics include each
 other, directly or through others: one of the includes would point upwards.
 """
@@ -18,6 +19,10 @@ import sys
 from check_files import CPP_SUFFIXES, finish, list_files, read
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
+
+# Headers of an operating system.
+SYSTEM = re.compile(r"(sys|mach|linux)/.*|(unistd|dlfcn|pthread|sched|signal|fcntl|malloc|windows|io)\.h",
+                    re.IGNORECASE)
 
 PUBLIC = "the engine's public headers"
 ROOT = "Engine"  # the files at its root, except the public headers
@@ -77,6 +82,8 @@ def violations(layers, path, name, home):
         yield f"{path}: the engine includes {name} of VTK"
     if layer in layers.floors and (name.startswith(("GL/", "EGL/")) or "cuda_gl" in name):
         yield f"{path}: the engine includes {name} of OpenGL"
+    if layer in {*layers.floors, "CInterface"} - {"Engine/System"} and SYSTEM.fullmatch(name):
+        yield f"{path}: {layer} includes {name} of an operating system, not Engine/System"
     target = home.get(header)
     if target is not None and target not in below:
         yield f"{path}: {layer} includes {name} of {target}"

@@ -56,6 +56,7 @@ FAULTS = {
     "layering": [
         ("CUDA/Bad.cu", "#include <vtkPolyData.h>\n", "the engine includes vtkPolyData.h of VTK"),
         ("CUDA/Bad.cu", "#include <cuda_gl_interop.h>\n", "cuda_gl_interop.h of OpenGL"),
+        ("Engine/Flips/Bad.h", "#include <sys/mman.h>\n", "sys/mman.h of an operating system"),
         ("CUDA/Bad.cuh", '#include "CallerMesh.h"\n', "CUDA includes CallerMesh.h of"),
         ("Engine/Flips/Bad.h", '#include "../CUDA/Team.cuh"\n', "includes ../CUDA/Team.cuh of CUDA"),
         ("Engine/Geometry/Bad.h", '#include "EdgeMesh.h"\n', "Geometry includes EdgeMesh.h of"),
