@@ -122,7 +122,8 @@ list_components()
 build()
 {
   local folder=$work/$1 components
-  echo "build-wheels.sh: $1 (${target})"
+  echo "build-wheels.sh: $1 (${target}). The first time the platform's C and C++ libraries are" \
+    "compiled, which takes minutes and prints nothing."
   mkdir -p "$folder"
   export DELAUNAYFLIP_ZIG_TARGET=$target
   local common=(-G Ninja "-DCMAKE_TOOLCHAIN_FILE=$project/CMake/ZigToolchain.cmake"

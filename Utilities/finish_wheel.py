@@ -3,8 +3,9 @@
 """Usage: finish_wheel.py WHEEL FOLDER PLATFORM [COMPONENT...]
 
 Writes a copy of a wheel to FOLDER, with the tag PLATFORM, the licences of what is compiled in, and
-a list of these as an SBOM (CycloneDX, in *.dist-info/sboms). A component is NAME=VERSION=LICENCE=FILE=HOW: an SPDX expression, the file of
-the licence's text, and how it is part of the wheel, e.g.
+a list of these as an SBOM (CycloneDX, in *.dist-info/sboms). A component is
+NAME=VERSION=LICENCE=FILE=HOW: an SPDX expression, the file of the licence's text, and how it is
+part of the wheel, e.g.
 "oneTBB=2021.8.0=Apache-2.0=/tmp/LICENSE.txt=static library".
 """
 import argparse
