@@ -3,12 +3,14 @@
 #include "SphereStart.h"
 
 #include "ExactPredicates.h"
+#include "SmallestAngle.h"
 #include "Strips.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <tuple>
 
 namespace delaunayflip
@@ -175,10 +177,11 @@ std::vector<std::int32_t> FindNeighbors(
   return neighbors;
 }
 
-void JoinPole(std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors,
-  std::int32_t pole)
+void JoinPole(
+  std::vector<std::int32_t>& triangles, std::vector<std::int32_t>& neighbors, std::int32_t pole)
 {
   const std::size_t corners = triangles.size();
+  std::map<std::int32_t, std::int32_t> fromPoint, toPoint; // new triangles by ends of their edges
   for (std::size_t corner = 0; corner < corners; ++corner)
   {
     if (neighbors[corner] < 0)
@@ -186,8 +189,16 @@ void JoinPole(std::vector<std::int32_t>& triangles, const std::vector<std::int32
       const std::size_t first = corner - corner % 3;
       const std::int32_t from = triangles[first + (corner + 1) % 3];
       const std::int32_t to = triangles[first + (corner + 2) % 3];
+      neighbors[corner] = fromPoint[from] = toPoint[to] =
+        static_cast<std::int32_t>(triangles.size() / 3);
       triangles.insert(triangles.end(), { to, from, pole });
+      neighbors.insert(neighbors.end(), { -1, -1, static_cast<std::int32_t>(corner / 3) });
     }
+  }
+  for (std::size_t first = corners; first < triangles.size(); first += 3)
+  {
+    neighbors[first] = toPoint[triangles[first + 1]];
+    neighbors[first + 1] = fromPoint[triangles[first]];
   }
 }
 
@@ -280,6 +291,12 @@ bool FacesOutside(const SpacePoints& points, const std::int32_t* triangle, const
     0;
 }
 
+double MeasureTriangle(const SpacePoints& points, const std::int32_t* triangle)
+{
+  return MeasureSquaredCotangent(ToVector(points[triangle[0]]), ToVector(points[triangle[1]]),
+    ToVector(points[triangle[2]]), CoordinateRange::Mixed);
+}
+
 std::vector<std::int32_t> FindStrays(
   const SpacePoints& points, const std::vector<std::int32_t>& triangles, const PlanePoint& center)
 {
@@ -309,11 +326,10 @@ std::vector<std::int32_t> FindStrays(
   return strays;
 }
 
-std::vector<std::int32_t> FindHidden(
-  const SpacePoints& points, const std::vector<std::int32_t>& triangles, const PlanePoint& center)
+std::vector<std::int32_t> FindHidden(const SpacePoints& points,
+  const std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors,
+  const PlanePoint& center)
 {
-  const std::vector<std::int32_t> neighbors =
-    FindNeighbors(triangles, static_cast<std::int64_t>(points.size()));
   std::vector<std::int32_t> hidden;
   for (std::size_t corner = 0; corner < triangles.size(); ++corner)
   {
@@ -384,12 +400,10 @@ void ForEachQuad(const std::vector<std::int32_t>& triangles,
 }
 }
 
-std::vector<std::int32_t> FindFlat(
-  const SpacePoints& points, const std::vector<std::int32_t>& triangles)
+std::vector<std::int32_t> FindFlat(const SpacePoints& points,
+  const std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors)
 {
   constexpr int Enough = 3;
-  const std::vector<std::int32_t> neighbors =
-    FindNeighbors(triangles, static_cast<std::int64_t>(points.size()));
   // Floating-point arithmetic nearly always finds enough convex edges at every point.
   std::vector<std::int32_t> sharp(points.size());
   const auto count = [&](std::int32_t p, std::int32_t q, int sign)

@@ -51,9 +51,10 @@ private:
 std::vector<std::int32_t> FindNeighbors(
   const std::vector<std::int32_t>& triangles, std::int64_t points);
 
-/// Adds the triangles between a pole and the boundary of a triangulation.
-void JoinPole(std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors,
-  std::int32_t pole);
+/// Adds the triangles between a pole and the boundary of a triangulation, which is one ring.
+/// @param neighbors as FindNeighbors lists them, before and after.
+void JoinPole(
+  std::vector<std::int32_t>& triangles, std::vector<std::int32_t>& neighbors, std::int32_t pole);
 
 /// Finds four points that span a large volume. The first one is the farthest north. The first three
 /// are counter-clockwise, seen from the side opposite to the fourth. They depend on the places
@@ -71,6 +72,9 @@ PlanePoint FindCenter(const SpacePoints& points, const std::vector<std::int32_t>
 bool FacesOutside(
   const SpacePoints& points, const std::int32_t* triangle, const PlanePoint& center);
 
+/// LargestSquaredCotangent (SurfaceAngles.h) of a triangle.
+double MeasureTriangle(const SpacePoints& points, const std::int32_t* triangle);
+
 /// For each triangle that does not face outside, finds one end of its shortest edge: the one
 /// farther north. Lists each point once.
 std::vector<std::int32_t> FindStrays(
@@ -79,8 +83,10 @@ std::vector<std::int32_t> FindStrays(
 /// Finds the ends of edges that are not convex and cannot flip, because a triangle would turn over.
 /// Such an end is inside of the hull: seen from the center it is below the plane of the other three
 /// points of the edge's two triangles. Lists each point once.
-std::vector<std::int32_t> FindHidden(
-  const SpacePoints& points, const std::vector<std::int32_t>& triangles, const PlanePoint& center);
+/// @param neighbors as FindNeighbors lists them.
+std::vector<std::int32_t> FindHidden(const SpacePoints& points,
+  const std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors,
+  const PlanePoint& center);
 
 /// For each triangle without an area, finds the point between the other two. Lists each point once.
 std::vector<std::int32_t> FindBetween(
@@ -89,8 +95,9 @@ std::vector<std::int32_t> FindBetween(
 /// Finds points of a convex hull that are no corners of it, because they lie within a face or an
 /// edge of the hull. Fewer than three convex edges end at such a point. All triangles must have an
 /// area.
-std::vector<std::int32_t> FindFlat(
-  const SpacePoints& points, const std::vector<std::int32_t>& triangles);
+/// @param neighbors as FindNeighbors lists them.
+std::vector<std::int32_t> FindFlat(const SpacePoints& points,
+  const std::vector<std::int32_t>& triangles, const std::vector<std::int32_t>& neighbors);
 
 }
 

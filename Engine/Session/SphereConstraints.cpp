@@ -211,7 +211,7 @@ void SphereRun::RemoveTriangles()
   {
     return;
   }
-  this->Neighbors = FindNeighbors(this->Triangles, SizeOf(this->Points));
+  this->FindNeighborsOnce();
   const SphereMeshView view{ this->Points, this->Triangles, this->Neighbors, this->Edges };
   std::vector<unsigned char> isRemoved(this->Triangles.size() / 3);
   if (this->Input.Rings)
@@ -258,19 +258,17 @@ void SphereRun::DropTriangles(const std::vector<unsigned char>& isRemoved)
     }
     std::array<std::int32_t, 3> ids{};
     std::copy_n(&this->Triangles[3 * t], 3, ids.begin());
-    Vector3 corners[3];
     for (int slot = 0; slot < 3; ++slot)
     {
-      const PlanePoint& p = this->Points[ids[slot]];
-      corners[slot] = { p.U, p.V, p.W };
       sides.push_back({ ids[slot], ids[(slot + 1) % 3] });
     }
-    angles.Add(MeasureSquaredCotangent(corners[0], corners[1], corners[2], CoordinateRange::Mixed));
+    angles.Add(MeasureTriangle(this->Points, ids.data()));
     std::copy_n(ids.begin(), 3, &this->Triangles[3 * kept]);
     this->FlipCounts[kept++] = this->FlipCounts[t];
   }
   this->Triangles.resize(3 * kept);
   this->FlipCounts.resize(kept);
+  this->Neighbors.clear();
   KeepAnglesAfter(angles, this->Report);
   std::sort(sides.begin(), sides.end());
   const auto isLost = [&](const SphereEdge& edge)

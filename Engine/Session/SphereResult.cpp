@@ -28,6 +28,7 @@ void SphereRun::OpenMesh()
   this->Opened = SizeOf(this->Triangles) / 3 - std::int64_t(kept);
   this->Triangles.resize(3 * kept);
   this->FlipCounts.resize(kept);
+  this->Neighbors.clear();
 }
 
 void SphereRun::Complete()
@@ -42,7 +43,7 @@ void SphereRun::Complete()
   report.BuildSeconds += this->Planar.BuildSeconds;
   report.FlipSeconds += this->Planar.FlipSeconds;
   report.FromPoints.LargeTriangles = this->Opened;
-  this->Neighbors = FindNeighbors(this->Triangles, SizeOf(this->Points));
+  this->FindNeighborsOnce();
   report.Triangles = SizeOf(this->Triangles) / 3;
   const auto boundary = std::count(this->Neighbors.begin(), this->Neighbors.end(), -1);
   report.Edges = EdgeCounts();

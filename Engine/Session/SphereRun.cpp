@@ -8,6 +8,7 @@
 #include "InputChecks.h"
 #include "PointPreparation.h"
 #include "SmallestAngle.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <numeric>
@@ -141,17 +142,24 @@ void SphereRun::Run()
   this->CheckOpposite();
   while (this->Start())
   {
-    this->Flip();
+    const bool isConvex = this->TakeStart();
+    if (!isConvex)
+    {
+      this->Flip();
+    }
     std::vector<std::int32_t> hidden;
     if (this->Report.NonDelaunayAfter > 0)
     {
-      hidden = FindHidden(this->Points, this->Triangles, this->Center);
+      hidden = FindHidden(this->Points, this->Triangles, this->FindNeighborsOnce(), this->Center);
     }
     if (this->LeaveOut(hidden, PointState::Inside) || !this->InsertLeftOut())
     {
       continue;
     }
-    if (!this->LeaveOut(FindFlat(this->Points, this->Triangles), PointState::Inside))
+    const bool isSettled = isConvex && !this->HasLeftOut();
+    if (isSettled ||
+      !this->LeaveOut(
+        FindFlat(this->Points, this->Triangles, this->FindNeighborsOnce()), PointState::Inside))
     {
       break;
     }
@@ -232,6 +240,7 @@ bool SphereRun::Start()
   {
     const std::vector<std::int32_t> simplex = FindSimplex(this->Points, this->ListActive());
     this->Triangles.clear();
+    this->Neighbors.clear();
     if (simplex.empty() || ++this->Starts > MostStarts)
     {
       return this->StartFromSimplex();
@@ -323,6 +332,7 @@ bool SphereRun::StartFromSimplex()
   }
   this->LeaveOut(active, PointState::LeftOut);
   this->LeaveOut(simplex, PointState::Used);
+  this->Neighbors.clear();
   const std::int32_t a = simplex[0], b = simplex[1], c = simplex[2], d = simplex[3];
   this->Triangles = { a, b, c, b, a, d, c, b, d, a, c, d };
   this->Center = FindCenter(this->Points, simplex);
@@ -365,17 +375,14 @@ void SphereRun::MarkRepeated()
 /// @returns whether all triangles face outside, seen from there.
 bool SphereRun::ChooseCenter(const std::vector<std::int32_t>& simplex)
 {
-  const auto faceOutside = [this](const PlanePoint& center)
+  const ThreadBackend threads(this->Options.NumberOfThreads);
+  const auto faceOutside = [&](const PlanePoint& center)
   {
     this->Center = center;
-    for (std::size_t first = 0; first < this->Triangles.size(); first += 3)
-    {
-      if (!FacesOutside(this->Points, &this->Triangles[first], center))
-      {
-        return false;
-      }
-    }
-    return true;
+    const auto turned = threads.Sum<std::int64_t>(SizeOf(this->Triangles) / 3,
+      [&](std::int64_t t, std::int64_t& sum)
+      { sum += int(!FacesOutside(this->Points, &this->Triangles[3 * t], center)); });
+    return turned == 0;
   };
   return faceOutside(Origin) || faceOutside(FindCenter(this->Points, simplex));
 }
@@ -388,6 +395,86 @@ bool SphereRun::LeaveOut(const std::vector<std::int32_t>& points, PointState sta
     this->States[i] = state;
   }
   return !points.empty();
+}
+
+/// The neighbors of the triangles.
+const std::vector<std::int32_t>& SphereRun::FindNeighborsOnce()
+{
+  if (this->Neighbors.empty())
+  {
+    this->Neighbors = FindNeighbors(this->Triangles, SizeOf(this->Points));
+  }
+  return this->Neighbors;
+}
+
+namespace
+{
+struct StartSums
+{
+  std::int64_t Uncertain = 0; ///< Edges that a filter does not see to be convex.
+  AngleSums Angles;
+
+  StartSums& operator+=(const StartSums& part)
+  {
+    this->Uncertain += part.Uncertain;
+    this->Angles += part.Angles;
+    return *this;
+  }
+};
+}
+
+/// Takes the start as it is if filters see that all edges are convex. Then no four points tie, and
+/// flips would change nothing. @returns whether they do.
+/// @throws RunAborted if the observer stops it.
+bool SphereRun::TakeStart()
+{
+  const SpacePoints& points = this->Points;
+  const auto& triangles = this->Triangles;
+  const std::vector<std::int32_t>& neighbors = this->FindNeighborsOnce();
+  const ThreadBackend threads(this->Options.NumberOfThreads);
+  const auto judge = [&](std::int64_t t, StartSums& sums)
+  {
+    const std::int32_t* ids = &triangles[3 * t];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::int32_t across = neighbors[3 * t + slot];
+      if (across > t) // each edge once
+      {
+        const std::int32_t p = ids[(slot + 1) % 3], q = ids[(slot + 2) % 3];
+        const std::int32_t* other = &triangles[std::int64_t(3) * across];
+        const std::int32_t beyond = other[0] + other[1] + other[2] - p - q;
+        const int sign =
+          FilteredOrientation3D(points[ids[slot]], points[p], points[q], points[beyond]);
+        sums.Uncertain += int(sign != 1);
+      }
+    }
+    sums.Angles.Add(MeasureTriangle(points, ids));
+  };
+  const std::int64_t count = SizeOf(triangles) / 3;
+  const bool isUsual = std::all_of(triangles.begin(), triangles.end(),
+    [&](std::int32_t id) { return IsInFilterRange3D(points[id]); });
+  StartSums sums;
+  if (isUsual)
+  {
+    sums = threads.Sum<StartSums>(count, judge);
+  }
+  if (!isUsual || sums.Uncertain > 0)
+  {
+    return false;
+  }
+  this->Report = FlipReport();
+  this->Report.Backend = this->Planar.Backend;
+  this->Report.Fallback = this->Planar.Fallback;
+  this->Report.Tolerance = this->Planar.Tolerance;
+  KeepAnglesAfter(sums.Angles, this->Report);
+  this->FlipCounts.assign(count, 0);
+  const ProgressObserver progress = this->TellHalf();
+  const bool isStopped = progress && !progress(1.0);
+  if (isStopped)
+  {
+    throw RunAborted();
+  }
+  return true;
 }
 
 /// Flips until every edge that is not of a segment is convex, or its flip would turn a triangle
@@ -415,6 +502,13 @@ void SphereRun::Flip()
   this->FlipCounts.resize(mesh.Triangles.Count);
   session.StoreFlipCounts(this->FlipCounts.data());
   session.StoreTriangles(MutableTriangleArray(this->Triangles.data(), mesh.Triangles.Count));
+  this->Neighbors.clear();
+}
+
+bool SphereRun::HasLeftOut() const
+{
+  return std::find(this->States.begin(), this->States.end(), PointState::LeftOut) !=
+    this->States.end();
 }
 
 /// Inserts the points that are left out.
@@ -423,19 +517,17 @@ void SphereRun::Flip()
 bool SphereRun::InsertLeftOut()
 {
   this->MarkRepeated();
+  if (!this->HasLeftOut())
+  {
+    return true;
+  }
   HullInserter hull(this->Points, this->Center, this->Triangles);
-  bool isSame = true;
   for (std::size_t i = 0; i < this->States.size(); ++i)
   {
     if (this->States[i] == PointState::LeftOut)
     {
       hull.Insert(static_cast<std::int32_t>(i));
-      isSame = false;
     }
-  }
-  if (isSame)
-  {
-    return true;
   }
   this->Triangles = hull.ListTriangles();
   if (this->LeaveOut(FindBetween(this->Points, this->Triangles), PointState::Inside))

@@ -24,7 +24,8 @@ namespace delaunayflip
 /// sessions: one for the projected points in the plane, and one for the closed mesh on the sphere.
 /// Advance does all the work, whatever the number of iterations.
 ///
-/// After the flips in the plane all decisions are exact, for the points as given. Points where the
+/// After the flips in the plane all decisions are exact, for the points as given. If filters see
+/// that all edges are convex, there is nothing to flip on the sphere. Points where the
 /// projection has folded the mesh over are left out, and inserted at the end. If flips cannot make
 /// an edge convex, one of its ends is inside of the hull; the run then begins again without that
 /// point. It also begins again without points within a face or an edge of the hull, because the
@@ -68,8 +69,11 @@ private:
   bool StartFromSimplex();
   void MarkRepeated();
   bool ChooseCenter(const std::vector<std::int32_t>& simplex);
+  bool TakeStart();
   void Flip();
+  const std::vector<std::int32_t>& FindNeighborsOnce();
   bool LeaveOut(const std::vector<std::int32_t>& points, PointState state);
+  bool HasLeftOut() const;
   bool InsertLeftOut();
   void OpenMesh();
   void CheckSeeds() const;
@@ -98,7 +102,8 @@ private:
   SpacePoints Points;
   std::vector<PointState> States; ///< By point.
   std::vector<std::int32_t> UsedPoint; ///< By point, the one that is used at its place.
-  std::vector<std::int32_t> Triangles, Neighbors, FlipCounts;
+  std::vector<std::int32_t> Triangles, FlipCounts;
+  std::vector<std::int32_t> Neighbors; ///< Of Triangles; empty if they are not known.
   PlanePoint Center = Origin; ///< The place from which triangles are seen.
   double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;
