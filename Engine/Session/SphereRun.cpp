@@ -51,6 +51,38 @@ void RequirePlainPoints(const PointInput& input, const PointOptions& options)
     plain, defaults);
 }
 
+/// What is done to a triangle, for ThreadBackend::Sum, which fetches its points before.
+template <typename Work>
+class WithPoints
+{
+public:
+  WithPoints(
+    const SpacePoints& points, const std::vector<std::int32_t>& triangles, const Work& work)
+    : Points(points),
+      Triangles(triangles),
+      Do(work)
+  {
+  }
+
+  template <typename Result>
+  void operator()(std::int64_t t, Result& sum) const
+  {
+    this->Do(t, sum);
+  }
+  void Prefetch(std::int64_t t) const
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      delaunayflip::Prefetch(&this->Points[this->Triangles[3 * t + slot]]);
+    }
+  }
+
+private:
+  const SpacePoints& Points;
+  const std::vector<std::int32_t>& Triangles;
+  const Work& Do;
+};
+
 /// @throws RunAborted if an observer stops the session, or has stopped its constructor.
 void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
 {
@@ -379,10 +411,10 @@ bool SphereRun::ChooseCenter(const std::vector<std::int32_t>& simplex)
   const auto faceOutside = [&](const PlanePoint& center)
   {
     this->Center = center;
-    const auto turned = threads.Sum<std::int64_t>(SizeOf(this->Triangles) / 3,
-      [&](std::int64_t t, std::int64_t& sum)
-      { sum += int(!FacesOutside(this->Points, &this->Triangles[3 * t], center)); });
-    return turned == 0;
+    const auto judge = [&](std::int64_t t, std::int64_t& sum)
+    { sum += int(!FacesOutside(this->Points, &this->Triangles[3 * t], center)); };
+    const WithPoints work(this->Points, this->Triangles, judge);
+    return threads.Sum<std::int64_t>(SizeOf(this->Triangles) / 3, work) == 0;
   };
   return faceOutside(Origin) || faceOutside(FindCenter(this->Points, simplex));
 }
@@ -451,12 +483,15 @@ bool SphereRun::TakeStart()
     sums.Angles.Add(MeasureTriangle(points, ids));
   };
   const std::int64_t count = SizeOf(triangles) / 3;
-  const bool isUsual = std::all_of(triangles.begin(), triangles.end(),
-    [&](std::int32_t id) { return IsInFilterRange3D(points[id]); });
+  bool isUsual = true;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    isUsual = isUsual && (this->States[i] != PointState::Used || IsInFilterRange3D(points[i]));
+  }
   StartSums sums;
   if (isUsual)
   {
-    sums = threads.Sum<StartSums>(count, judge);
+    sums = threads.Sum<StartSums>(count, WithPoints(points, triangles, judge));
   }
   if (!isUsual || sums.Uncertain > 0)
   {
