@@ -202,7 +202,8 @@ struct StoreChangedStep
     bool hasChanged = false;
     if (t < target.Count)
     {
-      const auto flips = static_cast<std::int32_t>(this->Triangles.Triangles[t].Flips / OneFlip);
+      const auto flips =
+        static_cast<std::int32_t>(this->Triangles.Stored.Triangles[t].Flips / OneFlip);
       hasChanged = this->Written[t] != flips;
       if (hasChanged)
       {
@@ -237,20 +238,18 @@ public:
       return this->StoreHere(
         triangles.Data(), full, triangles, stream, StoreChangedStep{ all, written });
     }
-    return this->StoreHere(
-      triangles.Data(), 3 * triangles.Count, triangles, stream, StoreIdStep{ all });
+    return this->StoreHere(triangles.Data(), 3 * this->LimitToKept(triangles).Count, triangles,
+      stream, StoreIdStep{ all });
   }
 
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) const override
   {
-    return this->StoreHere(
-      counts, this->GetInputReport().Triangles, stream, this->GetFlipCountStep());
+    return this->StoreHere(counts, this->CountStored(), stream, this->GetFlipCountStep());
   }
 
   bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream) const override
   {
-    return this->StoreHere(
-      neighbors, 3 * this->GetInputReport().Triangles, stream, this->GetNeighborStep());
+    return this->StoreHere(neighbors, 3 * this->CountStored(), stream, this->GetNeighborStep());
   }
 
   AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) override

@@ -19,6 +19,7 @@
 #include "SpatialOrder.h"
 #include "StoreSteps.h"
 #include "SurfaceAngles.h"
+#include "TriangleCut.h"
 #include "TriangleOrder.h"
 
 #include <algorithm>
@@ -42,7 +43,8 @@ public:
 
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
-    this->Backend.StoreTriangles(triangles, this->GetStoreStep(), this->IsFromPoints);
+    this->Backend.StoreTriangles(
+      this->LimitToKept(triangles), this->GetStoreStep(), this->IsFromPoints);
   }
 
   void StoreOrderedTriangles(const MutableTriangleArray& triangles) const override
@@ -54,12 +56,12 @@ public:
 
   void StoreFlipCounts(std::int32_t* counts) const override
   {
-    this->Backend.StoreValues(this->Mesh.NumberOfTriangles, counts, this->GetFlipCountStep());
+    this->Backend.StoreValues(this->CountStored(), counts, this->GetFlipCountStep());
   }
 
   void StoreNeighbors(std::int32_t* neighbors) const override
   {
-    this->Backend.StoreValues(3 * this->Mesh.NumberOfTriangles, neighbors, this->GetNeighborStep());
+    this->Backend.StoreValues(3 * this->CountStored(), neighbors, this->GetNeighborStep());
   }
 
   void StoreUsedPoints(std::int64_t* ids) const override
@@ -107,6 +109,25 @@ public:
         { result = PlaceAsker<ThreadBackend>().Answer(view, asked, threads, observer); });
     }
     return result;
+  }
+
+  KeptTriangles CutOff(const PointInput& input, const PointOptions& options,
+    std::vector<SegmentEdge>& segments) override
+  {
+    this->RequireStates();
+    TriangleCut<BackendT> cut(this->ViewHere(), this->Backend);
+    KeptTriangles kept = cut.CutOff(
+      input, options, segments, [this](const HostView& view) { this->ViewOnHost(view); });
+    this->Kept = cut.TakeKept();
+    return kept;
+  }
+
+  void NumberKept(const std::vector<std::int32_t>& regions, std::int64_t firstAdded,
+    std::vector<SegmentEdge>& segments, KeptTriangles& kept) override
+  {
+    TriangleCut<BackendT> cut(this->ViewHere(), this->Backend);
+    cut.NumberKept(regions, firstAdded, segments, kept);
+    this->Kept = cut.TakeKept();
   }
 
   void ViewOnHost(const HostView& use) override
@@ -217,12 +238,31 @@ public:
 
 protected:
   const BackendT& GetBackend() const { return this->Backend; }
-  StoreStep GetStoreStep() const { return { this->Mesh.Triangles.Data(), this->Order.View() }; }
+  StoredTriangles GetStored() const
+  {
+    return { this->Mesh.Triangles.Data(), this->Kept.Triangles.Data(), this->Kept.Numbers.Data() };
+  }
+  /// How many triangles are stored.
+  std::int64_t CountStored() const
+  {
+    return this->Kept.Numbers.Size() > 0 ? static_cast<std::int64_t>(this->Kept.Triangles.Size())
+                                         : this->Mesh.NumberOfTriangles;
+  }
+  /// The part of the caller's array that has room for the triangles that are kept.
+  MutableTriangleArray LimitToKept(MutableTriangleArray triangles) const
+  {
+    if (this->Kept.Numbers.Size() > 0)
+    {
+      triangles.Count = this->CountStored();
+    }
+    return triangles;
+  }
+  StoreStep GetStoreStep() const { return { this->GetStored(), this->Order.View() }; }
   NeighborStep GetNeighborStep() const
   {
-    return { this->Mesh.Triangles.Data(), this->Mesh.CornerOfHalfEdge.Data() };
+    return { this->GetStored(), this->Mesh.CornerOfHalfEdge.Data() };
   }
-  FlipCountStep GetFlipCountStep() const { return { this->Mesh.Triangles.Data() }; }
+  FlipCountStep GetFlipCountStep() const { return { this->GetStored() }; }
 
   explicit BackendMesh(BackendT backend)
     : Backend(std::move(backend))
@@ -278,6 +318,7 @@ protected:
   PlaneFrame Frame;
   Array<VertexId> UsedPoint; ///< What MergePlaces returned.
   PlaceAsker<BackendT> Asker;
+  KeptArrays Kept; ///< What CutOff or NumberKept has left.
   OrientationSample Orientations;
   std::unique_ptr<FlipLoop> Loop;
   FlipReport Report;

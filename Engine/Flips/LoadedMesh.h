@@ -122,6 +122,17 @@ public:
   using HostView = std::function<void(const PointMeshView&)>;
   virtual void ViewOnHost(const HostView& view) = 0;
 
+  /// Finds the triangles of a mesh from points that do not belong to the result. They stay in the
+  /// mesh. From now on, what stores triangles, flip counts or neighbors leaves them out.
+  /// @param segments all of them; receives those of the triangles that are kept.
+  virtual KeptTriangles CutOff(
+    const PointInput& input, const PointOptions& options, std::vector<SegmentEdge>& segments) = 0;
+  /// Numbers the triangles that are kept, and measures them, after refinement.
+  /// @param regions by triangle, -1 for one that is removed. @param segments all that are edges of
+  /// triangles that are kept. @param kept what CutOff returned.
+  virtual void NumberKept(const std::vector<std::int32_t>& regions, std::int64_t firstAdded,
+    std::vector<SegmentEdge>& segments, KeptTriangles& kept) = 0;
+
   /// Triangulates the points of a mesh from points again, by divide and conquer on the host. Then
   /// no edge is bad. FlipLoop::Detect must follow.
   /// @throws RunAborted.

@@ -15,16 +15,40 @@
 namespace delaunayflip
 {
 
+/// The triangles of a mesh that are stored.
+struct StoredTriangles
+{
+  const TriangleRecord* Triangles;
+  const TriangleId* Kept = nullptr; ///< Those that are stored, in their order; null: all.
+  const std::int32_t* Numbers = nullptr; ///< By triangle, its number among them, or -1.
+
+  DELAUNAYFLIP_HOST_DEVICE const TriangleRecord& Get(std::int64_t i) const
+  {
+    return this->Triangles[this->Kept ? std::int64_t(this->Kept[i]) : i];
+  }
+  /// The slot of the triangle that Get(i) returns.
+  DELAUNAYFLIP_HOST_DEVICE std::int64_t GetSlot(std::int64_t i) const
+  {
+    return this->Kept ? i : std::int64_t(this->Triangles[i].InputTriangle);
+  }
+  /// The slot of a triangle, or NoTriangle as a signed number.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindSlot(TriangleId triangle) const
+  {
+    return this->Numbers ? static_cast<std::uint32_t>(this->Numbers[triangle])
+                         : this->Triangles[triangle].InputTriangle;
+  }
+};
+
 /// Sets the ids of a triangle in the caller's slot, if the target includes it.
 struct StoreStep
 {
-  const TriangleRecord* Triangles;
+  StoredTriangles Stored;
   SpatialOrderView Order;
 
   template <typename Target>
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const Target& target) const
   {
-    if (HasTriangle(target, this->Triangles[t].InputTriangle))
+    if (HasTriangle(target, this->Stored.GetSlot(t)))
     {
       for (int slot = 0; slot < 3; ++slot)
       {
@@ -37,39 +61,39 @@ struct StoreStep
   template <typename Target>
   DELAUNAYFLIP_HOST_DEVICE void StoreId(std::int64_t t, int slot, const Target& target) const
   {
-    const TriangleRecord& triangle = this->Triangles[t];
-    target.Set(triangle.InputTriangle, slot, this->Order.GetVertex(triangle.Vertices[slot]));
+    const VertexId vertex = this->Stored.Get(t).Vertices[slot];
+    target.Set(this->Stored.GetSlot(t), slot, this->Order.GetVertex(vertex));
   }
 };
 
 /// Sets the number of the triangle across an edge, -1 where there is none.
 struct NeighborStep
 {
-  const TriangleRecord* Triangles;
+  StoredTriangles Stored;
   const CornerId* CornerOfHalfEdge;
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, const OutputSlice& target) const
   {
-    const TriangleRecord& triangle = this->Triangles[i / 3];
+    const TriangleRecord& triangle = this->Stored.Get(i / 3);
     const int slot = static_cast<int>(i % 3);
     const CornerId across = this->CornerOfHalfEdge[GetAt(triangle.HalfEdges, slot) ^ 1u];
     TriangleId neighbor = NoTriangle;
     if (across != NoCorner)
     {
-      neighbor = this->Triangles[TriangleOf(across)].InputTriangle;
+      neighbor = this->Stored.FindSlot(TriangleOf(across));
     }
-    target.Set(std::int64_t(3) * triangle.InputTriangle + slot, neighbor);
+    target.Set(std::int64_t(3) * this->Stored.GetSlot(i / 3) + slot, neighbor);
   }
 };
 
 /// Sets the number of flips of a triangle in the caller's slot.
 struct FlipCountStep
 {
-  const TriangleRecord* Triangles;
+  StoredTriangles Stored;
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, const OutputSlice& target) const
   {
-    target.Set(this->Triangles[t].InputTriangle, this->Triangles[t].Flips / OneFlip);
+    target.Set(this->Stored.GetSlot(t), this->Stored.Get(t).Flips / OneFlip);
   }
 };
 

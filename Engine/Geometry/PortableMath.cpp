@@ -4,10 +4,8 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace delaunayflip
 {
@@ -15,27 +13,6 @@ namespace delaunayflip
 namespace
 {
 using Wide = boost::multiprecision::cpp_bin_float_quad; // of integers, so the same everywhere
-
-/// sqrt(larger^2 + smaller^2), where neither square overflows or underflows. A step of Newton's
-/// method follows, with the residual from differences that are exact or nearly so: Borges, "An
-/// Improved Algorithm for hypot(a,b)", 2019.
-double FindHypotenuse(double larger, double smaller)
-{
-  const double first = std::sqrt(larger * larger + smaller * smaller);
-  double residual = 0.0;
-  if (first <= 2.0 * smaller)
-  {
-    const double delta = first - smaller;
-    residual = larger * (2.0 * delta - larger) + (delta - 2.0 * (larger - smaller)) * delta;
-  }
-  else
-  {
-    const double delta = first - larger;
-    const double inner = (4.0 * delta - smaller) * smaller + delta * delta;
-    residual = 2.0 * delta * (larger - 2.0 * smaller) + inner;
-  }
-  return first - residual / (2.0 * first);
-}
 
 /// The unevaluated sum of two doubles, the lower one at most half a unit of the higher one.
 struct Pair
@@ -114,26 +91,6 @@ SineAndCosine FindSineAndCosine(double radians)
   const Pair fourth = Of720 + Pair{ square.High * cosineEnd, 0.0 };
   const Pair cosine = one + square * (half + square * (Of24 + square * fourth));
   return { sine.High, cosine.High };
-}
-
-double PlaneLength(double x, double y)
-{
-  constexpr double Largest = 0x1p511, Smallest = 0x1p-459, Step = 0x1p600;
-  const double larger = std::max(std::fabs(x), std::fabs(y));
-  const double smaller = std::min(std::fabs(x), std::fabs(y));
-  if (!(larger <= std::numeric_limits<double>::max()) || smaller <= 0x1p-54 * larger)
-  {
-    return larger + smaller; // also infinity and zero
-  }
-  if (larger > Largest)
-  {
-    return FindHypotenuse(larger / Step, smaller / Step) * Step;
-  }
-  if (smaller < Smallest)
-  {
-    return FindHypotenuse(larger * Step, smaller * Step) / Step;
-  }
-  return FindHypotenuse(larger, smaller);
 }
 
 }

@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Outline.h"
 
-#include "PortableMath.h"
-#include "SmallestAngle.h"
-#include "SurfaceAngles.h"
+#include "ExactPredicates.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -93,67 +89,75 @@ RingMap ListRings(
 
 namespace
 {
-/// Goes from triangle to triangle, and back, and counts how often each ring winds around them.
+/// Goes from component to component, and back, and counts how often each ring winds around them.
+/// What it finds does not depend on the way, since rings are closed.
 class RingWalk
 {
 public:
-  RingWalk(const PointMeshView& mesh, const RingMap& rings, std::int32_t firstHole)
-    : Mesh(mesh),
+  RingWalk(const ComponentMap& map, const RingMap& rings, std::int32_t firstHole)
+    : Components(map),
       FirstHole(firstHole),
-      Last(mesh.NumberOfEdges, None)
+      Last(map.Walls.size(), None)
   {
     for (const auto& [number, edges] : rings)
     {
       this->Rings[number];
       for (const RingEdge& edge : edges)
       {
-        const auto wall = static_cast<std::int64_t>(this->Walls.size());
-        this->Walls.push_back({ number, edge.Turns, this->Last[edge.Edge] });
-        this->Last[edge.Edge] = wall;
+        const auto found = std::lower_bound(map.Walls.begin(), map.Walls.end(), edge.Edge,
+          [](const ComponentWall& one, EdgeId other) { return one.Edge < other; });
+        std::int64_t& last = this->Last[found - map.Walls.begin()];
+        this->Turns.push_back({ number, edge.Turns, last });
+        last = SizeOf(this->Turns) - 1;
       }
     }
   }
 
   bool HasRings() const { return !this->Rings.empty(); }
 
-  /// @returns 1 for every triangle that is inside the holes or not inside the outline, else 0.
-  std::vector<unsigned char> FindOutside(RingRuleKind rule)
+  /// @returns 1 for every component that is inside the holes or not inside the outline, else 0.
+  std::vector<std::uint8_t> FindOutside(RingRuleKind rule)
   {
-    std::vector<unsigned char> fates(this->Mesh.NumberOfTriangles, Unknown);
-    std::vector<HalfEdgeId> path; // the sides through which triangles were entered
-    const auto enter = [&](HalfEdgeId side)
+    std::vector<std::uint8_t> fates(this->Components.Count, Unknown);
+    std::vector<std::size_t> path; // the sides of walls through which components were entered
+    const auto enter = [&](std::size_t side)
     {
-      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[side];
-      const bool isNew = corner != NoCorner && fates[TriangleOf(corner)] == Unknown;
+      const std::uint32_t component = this->GetComponent(side);
+      const bool isNew = component != ComponentWall::NoComponent && fates[component] == Unknown;
       if (isNew)
       {
         this->Cross(side);
         this->LookAround(side);
-        fates[TriangleOf(corner)] = this->Judge(rule);
+        fates[component] = this->Judge(rule);
         path.push_back(side);
       }
       return isNew;
     };
-    for (HalfEdgeId side = 0; path.empty() && side < 2 * this->Mesh.NumberOfEdges; ++side)
+    const std::size_t sides = 2 * this->Components.Walls.size();
+    for (std::size_t side = 0; path.empty() && side < sides; ++side)
     {
-      if (this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u] == NoCorner)
+      if (this->GetComponent(side ^ 1u) == ComponentWall::NoComponent)
       {
         enter(side);
       }
     }
+    const std::vector<std::size_t> firsts = this->CountSides();
+    const std::vector<std::size_t> listed = this->ListSides(firsts);
+    std::vector<std::size_t> next(firsts.begin(), firsts.end() - 1);
     while (!path.empty())
     {
-      const CornerId corner = this->Mesh.Edges.CornerOfHalfEdge[path.back()];
-      const TriangleRecord& triangle = this->Mesh.Edges.Triangles[TriangleOf(corner)];
-      if (std::none_of(std::begin(triangle.HalfEdges), std::end(triangle.HalfEdges),
-            [&](HalfEdgeId side) { return enter(side ^ 1u); }))
+      const std::uint32_t component = this->GetComponent(path.back());
+      std::size_t& own = next[component];
+      if (own < firsts[component + 1])
       {
-        this->Cross(path.back() ^ 1u);
-        path.pop_back();
+        enter(listed[own++] ^ 1u);
+        continue;
       }
+      this->Cross(path.back() ^ 1u);
+      path.pop_back();
     }
     const bool hasOutline = this->HasOutline();
-    for (unsigned char& fate : fates)
+    for (std::uint8_t& fate : fates)
     {
       const bool isOutside = fate == Outside || (fate == InNoRing && this->AnyIsCounterClockwise);
       const bool isRemoved = fate == InHole || (hasOutline && isOutside);
@@ -186,19 +190,19 @@ public:
 private:
   struct Ring
   {
-    std::int64_t Winding = 0; ///< Around the triangle at hand.
+    std::int64_t Winding = 0; ///< Around the component at hand.
     bool HasArea = false;
   };
 
   /// An edge of a ring.
-  struct Wall
+  struct Turn
   {
     std::int32_t Ring;
     std::int64_t Turns; ///< See RingEdge.
-    std::int64_t Before; ///< The one before it at the same edge.
+    std::int64_t Before; ///< The one before it at the same wall.
   };
 
-  enum FateKind : unsigned char
+  enum FateKind : std::uint8_t
   {
     Inside,
     InHole,
@@ -207,16 +211,56 @@ private:
     Unknown
   };
 
-  /// Goes to this side of its edge.
-  void Cross(HalfEdgeId side)
+  /// The component at a side of a wall, 2 i or 2 i + 1 for that with the number i.
+  std::uint32_t GetComponent(std::size_t side) const
+  {
+    return this->Components.Walls[side / 2].Components[side % 2];
+  }
+
+  /// How many sides of walls the components before each one have, and all.
+  std::vector<std::size_t> CountSides() const
+  {
+    std::vector<std::size_t> firsts(this->Components.Count + 1, 0);
+    for (const ComponentWall& wall : this->Components.Walls)
+    {
+      for (const std::uint32_t component : wall.Components)
+      {
+        if (component != ComponentWall::NoComponent)
+        {
+          ++firsts[component + std::size_t(1)];
+        }
+      }
+    }
+    std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+    return firsts;
+  }
+
+  /// The sides of walls by their components. @param firsts what CountSides returns.
+  std::vector<std::size_t> ListSides(const std::vector<std::size_t>& firsts) const
+  {
+    std::vector<std::size_t> listed(firsts.back());
+    std::vector<std::size_t> next(firsts.begin(), firsts.end() - 1);
+    for (std::size_t side = 0; side < 2 * this->Components.Walls.size(); ++side)
+    {
+      const std::uint32_t component = this->GetComponent(side);
+      if (component != ComponentWall::NoComponent)
+      {
+        listed[next[component]++] = side;
+      }
+    }
+    return listed;
+  }
+
+  /// Goes to this side of its wall.
+  void Cross(std::size_t side)
   {
     const std::int64_t direction = side % 2 == 0 ? 1 : -1;
-    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Walls[i].Before)
+    for (std::int64_t i = this->Last[side / 2]; i != None; i = this->Turns[i].Before)
     {
-      const Wall& wall = this->Walls[i];
-      const std::int64_t change = direction * wall.Turns;
-      this->Rings[wall.Ring].Winding += change;
-      if (wall.Ring >= this->FirstHole)
+      const Turn& turn = this->Turns[i];
+      const std::int64_t change = direction * turn.Turns;
+      this->Rings[turn.Ring].Winding += change;
+      if (turn.Ring >= this->FirstHole)
       {
         this->HoleWinding += change;
       }
@@ -227,12 +271,13 @@ private:
     }
   }
 
-  /// Notes what the rings at an edge that was crossed enclose.
-  void LookAround(HalfEdgeId side)
+  /// Notes what the rings at a wall that was crossed enclose. A component around which a ring winds
+  /// is entered from one around which it does not, or from one for which that was noted.
+  void LookAround(std::size_t side)
   {
-    for (std::int64_t i = this->Last[EdgeOf(side)]; i != None; i = this->Walls[i].Before)
+    for (std::int64_t i = this->Last[side / 2]; i != None; i = this->Turns[i].Before)
     {
-      const std::int32_t number = this->Walls[i].Ring;
+      const std::int32_t number = this->Turns[i].Ring;
       Ring& ring = this->Rings[number];
       ring.HasArea |= ring.Winding != 0;
       this->AnyIsCounterClockwise |= ring.Winding > 0 && number < this->FirstHole;
@@ -261,12 +306,12 @@ private:
 
   static constexpr std::int64_t None = -1;
 
-  const PointMeshView& Mesh;
+  const ComponentMap& Components;
   const std::int32_t FirstHole;
   std::map<std::int32_t, Ring> Rings; ///< By their numbers.
-  std::vector<Wall> Walls;
-  std::vector<std::int64_t> Last; ///< By edge: its last wall.
-  /// How often the rings of a set wind around the triangle at hand, all together.
+  std::vector<Turn> Turns;
+  std::vector<std::int64_t> Last; ///< By wall: its last turn.
+  /// How often the rings of a set wind around the component at hand, all together.
   std::int64_t OutlineWinding = 0, HoleWinding = 0;
   bool AnyIsCounterClockwise = false; ///< Whether an outline is.
 };
@@ -314,274 +359,85 @@ std::vector<TriangleId> FindTriangles(const PointMeshView& mesh, std::int64_t co
   return found;
 }
 
-class Remover
+}
+
+std::int64_t CountHolePointsOutside(
+  const PointMeshView& mesh, const PointInput& input, const std::vector<SegmentEdge>& segments)
 {
-public:
-  Remover(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments)
-    : Remover(mesh, segments, std::vector<unsigned char>(mesh.NumberOfTriangles, 0))
+  std::vector<unsigned char> isOfHole(mesh.NumberOfPlaces, 0);
+  for (const SegmentEdge& segment : segments)
   {
+    for (const VertexId place : { mesh.GetStart(segment.Side), mesh.GetEnd(segment.Side) })
+    {
+      const bool isAdded = static_cast<std::int64_t>(mesh.Ids[place]) >= input.FirstAdded;
+      const bool isMark = isAdded && segment.Ring >= input.FirstHole;
+      isOfHole[place] |= isMark ? 1 : 0;
+    }
   }
-  Remover(const PointMeshView& mesh, const std::vector<SegmentEdge>& segments,
-    std::vector<unsigned char> isRemoved)
-    : Mesh(mesh),
-      Segments(segments),
-      IsRemoved(std::move(isRemoved))
+  std::map<VertexId, VertexId> next; // along the hull, from place to place
+  for (HalfEdgeId side = 0; side < 2 * mesh.NumberOfEdges; ++side)
   {
+    if (mesh.Edges.CornerOfHalfEdge[side ^ 1u] == NoCorner)
+    {
+      next[mesh.GetStart(side)] = mesh.GetEnd(side);
+    }
   }
+  std::int64_t count = 0;
+  for (const auto& [start, place] : next)
+  {
+    const auto after = next.find(place);
+    const bool isBend = after != next.end() && isOfHole[place] != 0 &&
+      FindOrientation(mesh.GetPoint(start), mesh.GetPoint(place), mesh.GetPoint(after->second)) !=
+        0;
+    count += isBend ? 1 : 0;
+  }
+  return count;
+}
 
-  /// Also tells which rings are left out.
-  void RemoveOutside(const PointInput& input, RingRuleKind rule, KeptTriangles& kept)
-  {
-    const RingMap rings = ListRings(this->Segments, input.FirstHole, kept);
-    RingWalk walk(this->Mesh, rings, input.FirstHole);
-    if (walk.HasRings())
-    {
-      this->IsRemoved = walk.FindOutside(rule);
-    }
-    kept.RingsWithoutArea = walk.ListRingsWithoutArea();
-    if (walk.HasRings() && !walk.HasOutline())
-    {
-      kept.HolePointsOutside = this->CountHolePointsOutside(input);
-    }
-  }
+std::vector<TriangleId> FindHoleSeeds(const PointMeshView& mesh, const PointInput& input)
+{
+  const double* seeds = input.HoleSeeds;
+  const auto getSeed = [=](std::int64_t i) {
+    return PlanePoint{ seeds[2 * i], seeds[2 * i + 1], 0.0 };
+  };
+  return FindTriangles(
+    mesh, input.NumberOfHoleSeeds, getSeed, 1, [](std::int64_t) { return true; });
+}
 
-  /// Removes what can be reached from the seeds without crossing a segment. @returns how many seeds
-  /// are in no triangle.
-  std::int64_t RemoveHoles(const double* seeds, std::int64_t count)
+//------------------------------------------------------------------------------
+void ComponentJudge::RemoveOutside(RingRuleKind rule, KeptTriangles& kept)
+{
+  const RingMap rings = ListRings(this->Segments, this->Input.FirstHole, kept);
+  RingWalk walk(this->Map, rings, this->Input.FirstHole);
+  if (walk.HasRings())
   {
-    const auto getSeed = [=](std::int64_t i) {
-      return PlanePoint{ seeds[2 * i], seeds[2 * i + 1], 0.0 };
-    };
-    std::vector<TriangleId> stack =
-      FindTriangles(this->Mesh, count, getSeed, 1, [](std::int64_t) { return true; });
-    const std::int64_t outside = std::count(stack.begin(), stack.end(), NoTriangle);
-    stack.erase(std::remove(stack.begin(), stack.end(), NoTriangle), stack.end());
-    while (!stack.empty())
-    {
-      const TriangleId triangle = stack.back();
-      stack.pop_back();
-      this->IsRemoved[triangle] = 1;
-      for (const HalfEdgeId side : this->Mesh.Edges.Triangles[triangle].HalfEdges)
-      {
-        const CornerId across = this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
-        if (!this->Mesh.IsFixed(side) && this->IsRemoved[TriangleOf(across)] == 0)
-        {
-          stack.push_back(TriangleOf(across));
-        }
-      }
-    }
-    return outside;
+    this->IsRemoved = walk.FindOutside(rule);
+    const bool haveOwnPoints = this->Input.FirstAdded < this->Input.Points.Count;
+    this->HolesAlone = !walk.HasOutline() && haveOwnPoints;
   }
+  kept.RingsWithoutArea = walk.ListRingsWithoutArea();
+}
 
-  /// Removes large triangles without segments.
-  void RemoveLarge(double alpha, double longestEdge)
+std::int64_t ComponentJudge::RemoveHoles(const std::vector<std::uint32_t>& components)
+{
+  std::int64_t outside = 0;
+  for (const std::uint32_t component : components)
   {
-    std::vector<unsigned char> isSegment(this->Mesh.NumberOfEdges, 0);
-    for (const SegmentEdge& segment : this->Segments)
+    if (component == ComponentWall::NoComponent)
     {
-      isSegment[EdgeOf(segment.Side)] = 1;
+      ++outside;
+      continue;
     }
-    for (std::int64_t t = 0; t < this->Mesh.NumberOfTriangles; ++t)
-    {
-      const TriangleRecord& triangle = this->Mesh.Edges.Triangles[t];
-      const bool stays = std::any_of(std::begin(triangle.HalfEdges), std::end(triangle.HalfEdges),
-        [&](HalfEdgeId side) { return isSegment[EdgeOf(side)] != 0; });
-      if (!stays && this->IsLarge(triangle, alpha, longestEdge))
-      {
-        this->IsRemoved[t] = 1;
-      }
-    }
+    this->IsRemoved.resize(this->Map.Count, 0);
+    this->IsRemoved[component] = 1;
   }
-
-  std::int64_t CountRemoved() const
-  {
-    return std::count(this->IsRemoved.begin(), this->IsRemoved.end(), 1);
-  }
-
-  /// Numbers what is left in the order of the slots, and measures it.
-  /// @param firstAdded see PointInput.
-  void Number(std::int64_t firstAdded, KeptTriangles& kept) const
-  {
-    const std::int64_t triangles = this->Mesh.NumberOfTriangles;
-    kept.Numbers.assign(triangles, 0);
-    std::vector<unsigned char> isUsed(this->Mesh.NumberOfPlaces, 0);
-    for (std::int64_t t = 0; t < triangles; ++t)
-    {
-      const TriangleRecord& triangle = this->Mesh.Edges.Triangles[t];
-      kept.Numbers[triangle.InputTriangle] = this->IsRemoved[t];
-      if (this->IsRemoved[t] == 0)
-      {
-        const std::array<Vector3, 3> corners = this->GetCorners(triangle);
-        kept.Angles.Add(
-          MeasureSquaredCotangent(corners[0], corners[1], corners[2], this->Mesh.Range));
-        for (const VertexId vertex : triangle.Vertices)
-        {
-          isUsed[vertex] = 1;
-        }
-      }
-    }
-    for (std::int32_t& number : kept.Numbers)
-    {
-      const bool isRemoved = number != 0;
-      number = -1;
-      if (!isRemoved)
-      {
-        number = static_cast<std::int32_t>(kept.Count++);
-      }
-    }
-    for (std::int64_t e = 0; e < this->Mesh.NumberOfEdges; ++e)
-    {
-      const int sides = this->CountKept(static_cast<EdgeId>(e));
-      kept.Edges += sides > 0 ? 1 : 0;
-      kept.Boundary += sides == 1 ? 1 : 0;
-    }
-    for (std::int64_t place = 0; place < this->Mesh.NumberOfPlaces; ++place)
-    {
-      kept.Used += isUsed[place];
-      if (static_cast<std::int64_t>(this->Mesh.Ids[place]) < firstAdded)
-      {
-        kept.UsedGiven += isUsed[place];
-      }
-    }
-    kept.EulerCharacteristic = kept.Used - kept.Edges + kept.Count;
-  }
-
-  /// Drops the segments that are no edges of what is left.
-  std::vector<SegmentEdge> ListKeptSegments() const
-  {
-    std::vector<SegmentEdge> kept;
-    for (SegmentEdge segment : this->Segments)
-    {
-      const int triangles = this->CountKept(EdgeOf(segment.Side));
-      segment.IsOnBoundary = triangles == 1;
-      if (triangles > 0)
-      {
-        kept.push_back(segment);
-      }
-    }
-    return kept;
-  }
-
-private:
-  /// How many corners of the hull belong to holes alone. Without them the hull would be smaller.
-  std::int64_t CountHolePointsOutside(const PointInput& input) const
-  {
-    std::vector<unsigned char> isOfHole(this->Mesh.NumberOfPlaces, 0);
-    for (const SegmentEdge& segment : this->Segments)
-    {
-      for (const VertexId place :
-        { this->Mesh.GetStart(segment.Side), this->Mesh.GetEnd(segment.Side) })
-      {
-        const bool isAdded = static_cast<std::int64_t>(this->Mesh.Ids[place]) >= input.FirstAdded;
-        const bool isMark = isAdded && segment.Ring >= input.FirstHole;
-        isOfHole[place] |= isMark ? 1 : 0;
-      }
-    }
-    std::map<VertexId, VertexId> next; // along the hull, from place to place
-    for (HalfEdgeId side = 0; side < 2 * this->Mesh.NumberOfEdges; ++side)
-    {
-      if (this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u] == NoCorner)
-      {
-        next[this->Mesh.GetStart(side)] = this->Mesh.GetEnd(side);
-      }
-    }
-    std::int64_t count = 0;
-    for (const auto& [start, place] : next)
-    {
-      const auto after = next.find(place);
-      const bool isBend = after != next.end() && isOfHole[place] != 0 &&
-        FindOrientation(this->Mesh.GetPoint(start), this->Mesh.GetPoint(place),
-          this->Mesh.GetPoint(after->second)) != 0;
-      count += isBend ? 1 : 0;
-    }
-    return count;
-  }
-
-  /// How many triangles of an edge are kept.
-  int CountKept(EdgeId edge) const
-  {
-    const CornerId* corners =
-      this->Mesh.Edges.CornerOfHalfEdge + 2 * static_cast<std::size_t>(edge);
-    return static_cast<int>(std::count_if(corners, corners + 2,
-      [this](CornerId corner)
-      { return corner != NoCorner && this->IsRemoved[TriangleOf(corner)] == 0; }));
-  }
-
-  std::array<Vector3, 3> GetCorners(const TriangleRecord& triangle) const
-  {
-    std::array<Vector3, 3> corners;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const PlanePoint place = this->Mesh.GetPoint(triangle.Vertices[slot]);
-      corners[slot] = { place.U, place.V, 0.0 };
-    }
-    return corners;
-  }
-
-  bool IsLarge(const TriangleRecord& triangle, double alpha, double longestEdge) const
-  {
-    const auto [a, b, c] = this->GetCorners(triangle);
-    const double ab = PlaneLength(b.X - a.X, b.Y - a.Y);
-    const double bc = PlaneLength(c.X - b.X, c.Y - b.Y);
-    const double ca = PlaneLength(a.X - c.X, a.Y - c.Y);
-    if (longestEdge > 0.0 && std::max({ ab, bc, ca }) > longestEdge)
-    {
-      return true;
-    }
-    // The circumradius is half of a side over the sine of the opposite angle.
-    const double sine =
-      ((b.X - a.X) / ab) * ((c.Y - a.Y) / ca) - ((b.Y - a.Y) / ab) * ((c.X - a.X) / ca);
-    return alpha > 0.0 && !(0.5 * bc <= alpha * sine);
-  }
-
-  const PointMeshView& Mesh;
-  const std::vector<SegmentEdge>& Segments;
-  std::vector<unsigned char> IsRemoved;
-};
+  return outside;
 }
 
 bool MayRemove(const PointInput& input, const PointOptions& options)
 {
   return input.Rings || input.NumberOfHoleSeeds > 0 || options.Alpha > 0.0 ||
     options.LongestEdge > 0.0;
-}
-
-KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
-  const PointOptions& options, std::vector<SegmentEdge>& segments)
-{
-  KeptTriangles kept;
-  Remover remover(mesh, segments);
-  remover.RemoveOutside(input, options.RingRule, kept);
-  if (input.NumberOfHoleSeeds > 0)
-  {
-    kept.SeedsOutside = remover.RemoveHoles(input.HoleSeeds, input.NumberOfHoleSeeds);
-  }
-  kept.Outside = remover.CountRemoved();
-  if (options.Alpha > 0.0 || options.LongestEdge > 0.0)
-  {
-    remover.RemoveLarge(options.Alpha, options.LongestEdge);
-  }
-  kept.Large = remover.CountRemoved() - kept.Outside;
-  if (kept.Outside + kept.Large > 0)
-  {
-    remover.Number(input.FirstAdded, kept);
-  }
-  segments = remover.ListKeptSegments();
-  return kept;
-}
-
-void RenumberTriangles(const PointMeshView& mesh, std::vector<unsigned char> isRemoved,
-  std::int64_t firstAdded, std::vector<SegmentEdge>& segments, KeptTriangles& kept)
-{
-  kept.Count = 0;
-  kept.Used = 0;
-  kept.UsedGiven = 0;
-  kept.Edges = 0;
-  kept.Boundary = 0;
-  kept.Angles = AngleSums();
-  const Remover remover(mesh, segments, std::move(isRemoved));
-  remover.Number(firstAdded, kept);
-  segments = remover.ListKeptSegments();
 }
 
 std::int64_t SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std::int64_t count,

@@ -78,15 +78,61 @@ RingMap ListRings(
 /// Whether these options can remove triangles.
 bool MayRemove(const PointInput& input, const PointOptions& options);
 
-/// @param segments all of them; of the triangles that are kept in the end.
-KeptTriangles KeepTriangles(const PointMeshView& mesh, const PointInput& input,
-  const PointOptions& options, std::vector<SegmentEdge>& segments);
+/// An edge that stays, between components: triangles that are connected without such edges.
+struct ComponentWall
+{
+  static constexpr std::uint32_t NoComponent = 0xFFFFFFFFu; ///< Where there is no triangle.
 
-/// Numbers the triangles that are kept, and measures them, after a mesh has grown.
-/// @param isRemoved by triangle. @param segments all that are edges of triangles that are kept.
-/// @param kept what was removed before.
-void RenumberTriangles(const PointMeshView& mesh, std::vector<unsigned char> isRemoved,
-  std::int64_t firstAdded, std::vector<SegmentEdge>& segments, KeptTriangles& kept);
+  EdgeId Edge;
+  std::uint32_t Components[2]; ///< Those at its half-edges, first that with the even number.
+};
+
+/// The components of a triangulation.
+struct ComponentMap
+{
+  std::int64_t Count = 0;
+  std::vector<ComponentWall> Walls; ///< By edge.
+};
+
+/// Judges the components of a triangulation by rings and seeds.
+class ComponentJudge
+{
+public:
+  ComponentJudge(
+    const ComponentMap& map, const std::vector<SegmentEdge>& segments, const PointInput& input)
+    : Map(map),
+      Segments(segments),
+      Input(input)
+  {
+  }
+
+  /// Removes what is inside the holes, and what is not inside the outline.
+  /// @param kept receives which rings are left out.
+  void RemoveOutside(RingRuleKind rule, KeptTriangles& kept);
+
+  /// Removes the components of seeds. @returns how many seeds are in no triangle.
+  std::int64_t RemoveHoles(const std::vector<std::uint32_t>& components);
+
+  /// Whether there are holes without an outline, and points of holes may be corners of the hull.
+  bool HasHolesAlone() const { return this->HolesAlone; }
+
+  /// 1 for every component that is removed, else 0. Empty: none is.
+  const std::vector<std::uint8_t>& GetRemoved() const { return this->IsRemoved; }
+
+private:
+  const ComponentMap& Map;
+  const std::vector<SegmentEdge>& Segments;
+  const PointInput& Input;
+  bool HolesAlone = false;
+  std::vector<std::uint8_t> IsRemoved;
+};
+
+/// How many corners of the hull belong to holes alone. Without them the hull would be smaller.
+std::int64_t CountHolePointsOutside(
+  const PointMeshView& mesh, const PointInput& input, const std::vector<SegmentEdge>& segments);
+
+/// The triangles that the hole seeds are in, or NoTriangle.
+std::vector<TriangleId> FindHoleSeeds(const PointMeshView& mesh, const PointInput& input);
 
 /// Spreads the numbers of seeds, from 1, over the regions that they are in. Regions end at fixed
 /// edges and at removed triangles.

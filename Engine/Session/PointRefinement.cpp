@@ -194,7 +194,7 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   }
   if (result.HasRemoved())
   {
-    mesh.ViewOnHost([&](const PointMeshView& view) { this->RenumberKept(view, made.Regions); });
+    mesh.NumberKept(made.Regions, this->Points.GetInput().FirstAdded, result.Edges, result.Kept);
   }
   for (const TriangleId triangle : made.FirstUnrefined)
   {
@@ -208,16 +208,6 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   {
     this->Report.Triangles = result.Kept.Count;
   }
-}
-
-/// @param regions by triangle, -1 where it is removed.
-void PointRun::RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions)
-{
-  std::vector<unsigned char> isRemoved(regions.size());
-  std::transform(regions.begin(), regions.end(), isRemoved.begin(),
-    [](std::int32_t region) { return region < 0 ? 1 : 0; });
-  RenumberTriangles(view, std::move(isRemoved), this->Points.GetInput().FirstAdded,
-    this->Result.Edges, this->Result.Kept);
 }
 
 /// @param originOf the numbers of Result.EdgesBefore among the subsegments.

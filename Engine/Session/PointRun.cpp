@@ -5,7 +5,6 @@
 #include "Array.h"
 #include "CallerMesh.h"
 #include "FlipError.h"
-#include "HostMemory.h"
 #include "InputChecks.h"
 #include "Strips.h"
 
@@ -355,8 +354,7 @@ void PointRun::RemoveTriangles(LoadedMesh& mesh)
   result.Edges = result.WholeEdges;
   result.Loss = Defect();
   KeptTriangles& kept = result.Kept;
-  mesh.ViewOnHost([&](const PointMeshView& view)
-    { kept = KeepTriangles(view, input, this->Points.GetOptions(), this->Result.Edges); });
+  kept = mesh.CutOff(input, this->Points.GetOptions(), result.Edges);
   if (IsLost(input, kept))
   {
     this->Points.CopyToHost();
@@ -422,44 +420,9 @@ void SortTriangles(const MutableTriangleArray& triangles)
 }
 }
 
-/// Stores `width` values for every triangle that is kept. @param store stores those of all.
-template <typename Value, typename Store>
-void PointRun::StoreKept(int width, Value* values, const Store& store)
-{
-  const auto storeKept = [&](LoadedMesh& mesh)
-  {
-    if (!this->Result.HasRemoved())
-    {
-      store(mesh, values);
-      return;
-    }
-    HostMemory memory;
-    const std::vector<std::int32_t>& numbers = this->Result.Kept.Numbers;
-    Array<Value> all(width * numbers.size(), memory);
-    store(mesh, all.Data());
-    for (std::size_t t = 0; t < numbers.size(); ++t)
-    {
-      if (numbers[t] >= 0)
-      {
-        std::copy_n(all.Data() + width * t, width, values + std::int64_t(width) * numbers[t]);
-      }
-    }
-  };
-  this->TryOnBackend(storeKept);
-}
-
 void PointRun::StoreTriangles(const MutableTriangleArray& triangles)
 {
-  const auto store = [](const LoadedMesh& mesh, auto* ids)
-  { mesh.StoreTriangles(MutableTriangleArray(ids, mesh.GetInputReport().Triangles)); };
-  if (triangles.Ids32)
-  {
-    this->StoreKept(3, triangles.Ids32, store);
-  }
-  else
-  {
-    this->StoreKept(3, triangles.Ids64, store);
-  }
+  this->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreTriangles(triangles); });
 }
 
 void PointRun::StoreOrderedTriangles(const MutableTriangleArray& triangles)
@@ -475,50 +438,32 @@ void PointRun::StoreOrderedTriangles(const MutableTriangleArray& triangles)
 
 void PointRun::StoreFlipCounts(std::int32_t* counts)
 {
-  this->StoreKept(
-    1, counts, [](const LoadedMesh& mesh, std::int32_t* all) { mesh.StoreFlipCounts(all); });
+  this->TryOnBackend([=](const LoadedMesh& mesh) { mesh.StoreFlipCounts(counts); });
 }
 
-/// Triangles are named by the numbers that they have among those that are kept.
 void PointRun::StoreNeighbors(std::int32_t* neighbors)
 {
-  const auto store = [this](const LoadedMesh& mesh, std::int32_t* all)
-  {
-    mesh.StoreNeighbors(all);
-    const std::vector<std::int32_t>& numbers = this->Result.Kept.Numbers;
-    for (std::size_t i = 0; i < 3 * numbers.size(); ++i)
-    {
-      if (all[i] >= 0)
-      {
-        all[i] = numbers[all[i]];
-      }
-    }
-  };
-  this->StoreKept(3, neighbors, store);
+  this->TryOnBackend([=](const LoadedMesh& mesh) { mesh.StoreNeighbors(neighbors); });
 }
 
-/// Divide and conquer makes other triangles without flips, so all are written. Where triangles are
-/// removed, the host leaves them out.
+/// Divide and conquer makes other triangles without flips, so all are written.
 bool PointRun::StoreTrianglesOnDevice(
   const MutableTriangleArray& triangles, const DeviceStream& stream, std::int32_t*)
 {
-  return !this->Result.HasRemoved() &&
-    this->TryStoreOnDevice([&](const LoadedMesh& mesh)
-      { return mesh.StoreTrianglesOnDevice(triangles, stream, nullptr); });
+  return this->TryStoreOnDevice([&](const LoadedMesh& mesh)
+    { return mesh.StoreTrianglesOnDevice(triangles, stream, nullptr); });
 }
 
 bool PointRun::StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream)
 {
-  return !this->Result.HasRemoved() &&
-    this->TryStoreOnDevice(
-      [&](const LoadedMesh& mesh) { return mesh.StoreFlipCountsOnDevice(counts, stream); });
+  return this->TryStoreOnDevice(
+    [&](const LoadedMesh& mesh) { return mesh.StoreFlipCountsOnDevice(counts, stream); });
 }
 
 bool PointRun::StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream)
 {
-  return !this->Result.HasRemoved() &&
-    this->TryStoreOnDevice(
-      [&](const LoadedMesh& mesh) { return mesh.StoreNeighborsOnDevice(neighbors, stream); });
+  return this->TryStoreOnDevice(
+    [&](const LoadedMesh& mesh) { return mesh.StoreNeighborsOnDevice(neighbors, stream); });
 }
 
 void PointRun::StoreUsedPoints(std::int64_t* ids)

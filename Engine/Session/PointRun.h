@@ -90,7 +90,6 @@ private:
   void LabelRegions(LoadedMesh& mesh);
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
   void TakeRefinement(LoadedMesh& mesh) override;
-  void RenumberKept(const PointMeshView& view, const std::vector<std::int32_t>& regions);
   void AddRefinedPoints(const RefinementResult& made, const std::vector<std::uint32_t>& originOf);
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
@@ -98,9 +97,6 @@ private:
   void Reset() override;
   void ListDefects() override;
   std::int64_t GetBatch() const override;
-
-  template <typename Value, typename Store>
-  void StoreKept(int width, Value* values, const Store& store);
 
   PreparedPoints Points;
   /// The loaded mesh was made of the first points up to the first of these numbers. Those from one

@@ -504,7 +504,7 @@ void ConstraintInsertion::Store(
   const std::int64_t count = edges.NumberOfTriangles;
   this->Triangles.resize(3 * count);
   backend.StoreTriangles(MutableTriangleArray(this->Triangles.data(), count),
-    StoreStep{ edges.Triangles.Data(), order });
+    StoreStep{ { edges.Triangles.Data() }, order });
   for (std::int64_t t = 0; t < count; ++t)
   {
     const TriangleRecord& triangle = edges.Triangles[t];

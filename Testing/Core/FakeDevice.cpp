@@ -148,6 +148,16 @@ public:
     this->Engine->StoreNeighbors(neighbors);
     return true;
   }
+  KeptTriangles CutOff(const PointInput& input, const PointOptions& options,
+    std::vector<SegmentEdge>& segments) override
+  {
+    return this->Engine->CutOff(input, options, segments);
+  }
+  void NumberKept(const std::vector<std::int32_t>& regions, std::int64_t firstAdded,
+    std::vector<SegmentEdge>& segments, KeptTriangles& kept) override
+  {
+    this->Engine->NumberKept(regions, firstAdded, segments, kept);
+  }
   void ViewOnHost(const HostView& view) override { this->Engine->ViewOnHost(view); }
   void DivideAndConquer(const BuildProgress& progress) override
   {
