@@ -9,6 +9,8 @@ set(target "$ENV{DELAUNAYFLIP_ZIG_TARGET}")
 if(target MATCHES "macos")
   set(CMAKE_SYSTEM_NAME Darwin)
   set(CMAKE_OSX_SYSROOT "")
+  set(CMAKE_INSTALL_NAME_DIR @rpath) # else the library is named by its path in the build
+  set(CMAKE_BUILD_WITH_INSTALL_NAME_DIR ON)
 elseif(target MATCHES "windows")
   set(CMAKE_SYSTEM_NAME Windows)
 else()
