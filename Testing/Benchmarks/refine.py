@@ -8,7 +8,8 @@
 
 A coast is a closed line with bays, of so many segments; points are uniform in a square. In every round
 each program runs once, in random order, so a busy machine slows all of them alike. Printed are the median
-seconds of processor time and of real time, the number of points, and the smallest angle.
+seconds of processor time and of real time, the number of points, and the smallest angle, and beside Triangle
+the ratio of the points, and that of the real times.
 
 threads: N  triangulate(minimum_angle=...)
 cuda        the same on a GPU, from and to arrays of NumPy
@@ -139,11 +140,17 @@ def describe(found):
     return f"{len(points):10,}{measure_angle(numpy.asarray(points), numpy.asarray(triangles)):10.3f}"
 
 
+def count_points(found):
+    return found if isinstance(found, int) else len(found[0])
+
+
 def run(title, points, ring, angle, programs, rounds):
     print(f"\n{title}, {angle:g} degrees")
     if len(points) > len(ring):
         programs = [program for program in programs if program[0] != "gmsh"]
-    print(f"{'':14}{'processor':>10}{'seconds':>10}{'points':>10}{'smallest':>10}")
+    has_triangle = any(name == "triangle" for name, _ in programs)
+    ratios = f"{'points/T':>10}{'seconds/T':>10}" if has_triangle else ""
+    print(f"{'':14}{'processor':>10}{'seconds':>10}{'points':>10}{'smallest':>10}{ratios}")
     times = {name: [] for name, _ in programs}
     results = {}
     for _ in range(rounds):
@@ -151,9 +158,13 @@ def run(title, points, ring, angle, programs, rounds):
             begin = time.process_time(), time.perf_counter()
             results[name] = function(points, ring, angle)
             times[name].append((time.process_time() - begin[0], time.perf_counter() - begin[1]))
-    for name, _ in programs:
-        processor, real = (statistics.median(column) for column in zip(*times[name]))
-        print(f"{name:14}{processor:10.3f}{real:10.3f}{describe(results[name])}", flush=True)
+    medians = {name: [statistics.median(column) for column in zip(*rows)] for name, rows in times.items()}
+    for name, (processor, real) in medians.items():
+        ratios = ""
+        if has_triangle:
+            more = count_points(results[name]) / count_points(results["triangle"])
+            ratios = f"{more:10.3f}{real / medians['triangle'][1]:10.2f}"
+        print(f"{name:14}{processor:10.3f}{real:10.3f}{describe(results[name])}{ratios}", flush=True)
 
 
 def main():
