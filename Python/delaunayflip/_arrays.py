@@ -36,6 +36,9 @@ class _HostArrays:
 
     def join(self, x, y):
         x, y = as_array("x", x), as_array("y", y)
+        for name, values in (("x", x), ("y", y)):
+            if values.dtype.kind not in "fiu":
+                raise TypeError(f"{name} must be real numbers, not {values.dtype}")
         try:
             return numpy.stack(numpy.broadcast_arrays(x, y), axis=-1)
         except ValueError:
@@ -309,9 +312,9 @@ def as_places(places):
     if adapter is _HOST:
         places = as_array("places", places)
     shape = tuple(places.shape)
-    if is_list_of_two and shape == (2, 3):
-        raise ValueError("places may be two of x, y and z, or three of x and y: give the latter as two "
-                         "arguments, x and y, and the former as an array of shape (2, 3)")
+    if is_list_of_two and len(shape) >= 2 and shape[-1] == 3:
+        raise ValueError("places may be those of x, y and z, or two arrays, of x and of y: give the latter as "
+                         f"two arguments, x and y, and the former as an array of shape {shape}")
     if shape in ((0,), (2,)):
         shape = (shape[0] // 2, 2)  # as in SciPy
     if len(shape) < 2 or shape[-1] not in (2, 3):

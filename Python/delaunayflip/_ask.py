@@ -66,7 +66,10 @@ def read_raster(origin, step, shape, like):
         raise ValueError("step must not be 0")
     if not isinstance(shape, (tuple, list)) or len(shape) != 2:
         raise TypeError(f"shape must be (rows, columns), not {show(shape)}")
-    rows, columns = (check_integer("shape", size, 0, 2**40) for size in shape)
+    most = 2**40
+    rows, columns = (check_integer("shape", size, 0, most) for size in shape)
+    if rows * columns > most:
+        raise ValueError(f"shape must have at most 2**40 cells, not {rows} rows of {columns}")
     return Places({"rows": rows, "columns": columns, "origin_x": origin_x, "origin_y": origin_y,
                    "step_x": step_x, "step_y": step_y}, (rows, columns), like)
 
@@ -203,7 +206,7 @@ class Field:
         else:
             triangles, results = self._answers.ask(places, self, wants_triangles, progress)
         if self.outside == "error":
-            _require_inside(_arrays.to_host(triangles) < 0, places.shape)
+            _require_inside(_arrays.to_host(triangles) < 0, places)
         if is_filled:
             _arrays.put(results, triangles, self._fill_value)
         return triangles, results
@@ -294,10 +297,17 @@ class Interpolator:
         return functools.partial(type(self), **keywords), places_and_values
 
 
-def _require_inside(is_outside, shape):
-    count = numpy.count_nonzero(is_outside)
-    if count:
-        first = numpy.unravel_index(numpy.argmax(is_outside), shape)
-        index = ", ".join(map(str, first))
-        raise ValueError(f"{count} of {is_outside.size} places {'is' if count == 1 else 'are'} outside of the "
-                         f"triangulation (first: index {index})")
+def _require_inside(is_outside, places):
+    """Raises ValueError if places are in no triangle, first for those that cannot be in one."""
+    if not is_outside.any():
+        return
+    is_unusable = numpy.zeros_like(is_outside)
+    if "places" in places.members:
+        is_unusable = is_outside & ~numpy.isfinite(_arrays.to_host(places.like)[:, :2]).all(axis=1)
+    which, what = is_outside, "outside of the triangulation"
+    if is_unusable.any():
+        which, what = is_unusable, "NaN or infinite"
+    count = numpy.count_nonzero(which)
+    index = ", ".join(map(str, numpy.unravel_index(numpy.argmax(which), places.shape)))
+    raise ValueError(f"{count} of {which.size} places {'is' if count == 1 else 'are'} {what} "
+                     f"(first: index {index})")

@@ -161,8 +161,10 @@ class Values(unittest.TestCase):
             self.assertAlmostEqual(near[1], POINTS[:, 0].max(), delta=0.03)
             f = kind(POINTS, plane(POINTS), outside="error")
             f(away[:1])
-            with self.assertRaisesRegex(ValueError, r"^2 of 3 places are outside .*\(first: index 1\)"):
+            with self.assertRaisesRegex(ValueError, r"^1 of 3 places is NaN or infinite \(first: index 2\)"):
                 f(away)
+            with self.assertRaisesRegex(ValueError, r"^2 of 3 places are outside .*\(first: index 1\)"):
+                f(away[[0, 1, 1]])
             with self.assertRaisesRegex(ValueError, r"1 of 4 places is .*\(first: index 1, 0\)"):
                 f(numpy.array([[away[0], away[0]], [away[1], away[0]]]))
 
@@ -247,12 +249,16 @@ class Arrays(unittest.TestCase):
             (lambda: f("ab"), TypeError, "places"),
             (lambda: f(numpy.zeros(3), numpy.zeros(2)), ValueError, r"x of shape \(3,\) .* y\[:, None\]"),
             (lambda: f([[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]]), ValueError, "as two arguments, x and y"),
+            (lambda: f(list(numpy.meshgrid([0, 0.5, 1], [0, 1]))), ValueError, "as two arguments, x and y"),
+            (lambda: f(True, 1), TypeError, "x must be real numbers, not bool"),
+            (lambda: f([1, 2], [None, 1]), TypeError, "y must be real numbers, not object"),
             (lambda: f.raster(0, 1, (2, 2)), ValueError, "origin must be two"),
             (lambda: f.raster((0, 0), (1, 0), (2, 2)), ValueError, "step must not be 0"),
             (lambda: f.raster((0, 0), numpy.inf, (2, 2)), ValueError, "step must be"),
             (lambda: f.raster((0, 0), 1, 4), TypeError, "shape must be"),
             (lambda: f.raster((0, 0), 1, (2, -2)), ValueError, "shape must be"),
             (lambda: f.raster((0, 0), 1, (2, 2.5)), TypeError, "shape must be"),
+            (lambda: f.raster((0, 0), 1, (2**40, 2**40)), ValueError, r"at most 2\*\*40 cells"),
             (lambda: KINDS[0](POINTS, plane(POINTS)[1:]), ValueError, "must have 300 rows, .*are 299"),
             (lambda: KINDS[0](POINTS, 7), ValueError, "values must have the shape"),
             (lambda: KINDS[0](POINTS, POINTS[:, :0]), ValueError, "values must have the shape"),
