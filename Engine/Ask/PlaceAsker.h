@@ -37,7 +37,7 @@ public:
     const std::vector<std::int32_t>& numbers = asked.Numbers;
     const LocalCopy<std::int32_t> numbersHere(
       numbers.data(), SizeOf(numbers), !numbers.empty(), backend);
-    const AskedMesh here{ plane, grid, numbersHere.Get() };
+    const AskedMesh here{ plane, grid, numbersHere.Get(), asked.IsConvex };
 
     const PlaceQuery& query = asked.Query;
     const bool wantsValues = query.Values != nullptr;

@@ -39,16 +39,20 @@ struct PlaceFromBox
   double Near[2] = {}; ///< The nearest place in the box, scaled.
   double Away[2] = {}; ///< From there to the place, scaled, times Weight.
   double Weight = 1.0; ///< A power of two, so small that Away has no large numbers.
+  double Inverse = 1.0; ///< 1 / Weight.
+  bool IsInside = false; ///< Whether the place is in the box, so that Away is 0.
 
   /// @param scale of the boundary.
   DELAUNAYFLIP_HOST_DEVICE PlaceFromBox(const PlanePoint& place, const PlaceBox& box, double scale)
   {
-    constexpr double LeastWeight = 1e-150; // what is farther away sees the same
+    constexpr double LeastWeight = 0x1p-500; // what is farther away sees the same
     const double u = std::fabs(place.U), v = std::fabs(place.V);
     const double fitting = InvertPowerOfTwo(u > v ? u : v);
     const double unit = fitting < scale ? fitting : scale;
     const double weight = unit / scale;
     this->Weight = weight > LeastWeight ? weight : LeastWeight;
+    this->Inverse = 1.0 / this->Weight;
+    this->IsInside = box.Has(place);
     const double coordinates[2] = { place.U, place.V };
     for (int axis = 0; axis < 2; ++axis)
     {
@@ -64,6 +68,10 @@ struct PlaceFromBox
   /// @param u, v from the box's nearest place to one in the box.
   DELAUNAYFLIP_HOST_DEVICE double Measure(double u, double v) const
   {
+    if (this->IsInside)
+    {
+      return u * u + v * v;
+    }
     return this->Weight * (u * u + v * v) +
       2.0 * (std::fabs(u * this->Away[0]) + std::fabs(v * this->Away[1]));
   }
@@ -115,7 +123,8 @@ private:
     {
       const double below = box.Low[axis] * this->Scale - from.Near[axis];
       const double above = from.Near[axis] - box.High[axis] * this->Scale;
-      beyond[axis] = std::fmax(0.0, std::fmax(below, above));
+      const double outside = below > above ? below : above;
+      beyond[axis] = outside > 0.0 ? outside : 0.0;
     }
     return from.Measure(beyond[0], beyond[1]);
   }
@@ -128,8 +137,12 @@ private:
     const double u = startU - from.Near[0], v = startV - from.Near[1];
     const double alongU = this->GetScaled(edge.To, 0) - startU;
     const double alongV = this->GetScaled(edge.To, 1) - startV;
-    const double away = (from.Away[0] * alongU + from.Away[1] * alongV) / from.Weight;
-    double share = (away - (u * alongU + v * alongV)) / (alongU * alongU + alongV * alongV);
+    double along = -(u * alongU + v * alongV);
+    if (!from.IsInside)
+    {
+      along += (from.Away[0] * alongU + from.Away[1] * alongV) * from.Inverse;
+    }
+    double share = along / (alongU * alongU + alongV * alongV);
     if (!(share > 0.0)) // or NaN
     {
       share = 0.0;

@@ -106,7 +106,12 @@ struct SeenPoint
   double Square; ///< That of the distance.
 };
 
-/// Twice the area of a triangle, with a relative error of a few roundings even if it is a sliver.
+/// A sliver with less of the square of its size is as good as its longest edge: of a smaller area
+/// FindTwiceArea leaves fewer than nine digits.
+constexpr double MeasurableArea = 1e-22;
+
+/// Twice the area of a triangle. Its error is about 1e-32 of the square of the triangle's size, if
+/// that is more than a few roundings.
 /// @param seenA, seenB as seen from the origin. @param cross of their offsets.
 DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(const ScaledPoint& origin,
   const SeenPoint& seenA, const SeenPoint& seenB, const CrossProduct& cross)

@@ -25,6 +25,7 @@ struct AskedMesh
   PlaneMesh Mesh;
   PlaceGridView Grid;
   const std::int32_t* Numbers; ///< Of its triangles in the output, -1 if removed; null: their own.
+  bool IsConvex; ///< As in RunQuery.
 
   /// Finds a place. It is outside if it is not finite, or if its triangles are removed.
   /// @param last is where the last place was found, and becomes where this one is.
@@ -37,7 +38,7 @@ struct AskedMesh
       return FoundPlace();
     }
     const TriangleId start = this->Grid.FindStart(place, last);
-    const FoundPlace found = WalkToPlace(this->Mesh, place, start, sides);
+    const FoundPlace found = WalkToPlace(this->Mesh, place, start, sides, this->IsConvex);
     last.Triangle = found.Triangle;
     if (found.IsOutside() || (found.OnEdges == 0 && !this->Numbers))
     {

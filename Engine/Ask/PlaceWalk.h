@@ -96,7 +96,6 @@ struct PlaceSides
   /// beyond measure. The signs must be certain without exact arithmetic.
   DELAUNAYFLIP_HOST_DEVICE bool AreWeights() const
   {
-    constexpr double Measurable = 1e-28; // of the square of the triangle's size
     double size = 0.0;
     bool areExact = true;
     for (int slot = 0; slot < 3; ++slot)
@@ -112,7 +111,8 @@ struct PlaceSides
       areExact &= this->Areas[slot] > CrossProduct::Cancelled * this->Magnitudes[slot] &&
         this->Areas[slot] > SmallestCertifiable;
     }
-    return areExact && this->Areas[0] + this->Areas[1] + this->Areas[2] > Measurable * size * size;
+    const double sum = this->Areas[0] + this->Areas[1] + this->Areas[2];
+    return areExact && sum > MeasurableArea * size * size;
   }
 };
 
@@ -210,8 +210,9 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline TriangleId FollowHull(
 
 /// Walks from a triangle to a finite place. If mesh.IsInFilterRange, the place is in it, too.
 /// @param sides become those of the triangle that is found.
-DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE FoundPlace WalkToPlace(
-  const PlaneMesh& mesh, const PlanePoint& place, TriangleId start, PlaceSides& sides)
+/// @param isConvex whether a place beyond one edge of the hull is surely outside.
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE FoundPlace WalkToPlace(const PlaneMesh& mesh,
+  const PlanePoint& place, TriangleId start, PlaceSides& sides, bool isConvex = false)
 {
   constexpr int MostTimesAtHull = 8; // more than one is rare
   FoundPlace found;
@@ -234,6 +235,10 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE FoundPlace WalkToPlace(
     {
       found.Triangle = TriangleOf(across);
       continue;
+    }
+    if (isConvex)
+    {
+      return FoundPlace();
     }
     found.Triangle = FollowHull(mesh, place, MakeCorner(found.Triangle, slot));
     ++timesAtHull;

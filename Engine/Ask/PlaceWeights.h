@@ -68,8 +68,7 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
     areas[slot] = area > 0.0 ? area : 0.0;
     sum += areas[slot];
   }
-  constexpr double Measurable = 1e-28; // of a triangle whose size is about 1
-  if (sum > Measurable)
+  if (sum > MeasurableArea) // the size is about 1
   {
     for (int slot = 0; slot < 3; ++slot)
     {

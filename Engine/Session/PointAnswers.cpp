@@ -54,7 +54,8 @@ AskResult PointRun::Answer(const PlaceQuery& query, const ProgressObserver& prog
   const auto ask = [&](LoadedMesh& mesh)
   {
     const std::int64_t points = this->Points.GetInput().Points.Count;
-    result = mesh.Ask({ query, this->Result.Kept.Numbers, points }, progress);
+    const bool isConvex = !this->WantsRefinement();
+    result = mesh.Ask({ query, this->Result.Kept.Numbers, points, isConvex }, progress);
     isAnswered = true;
   };
   if (this->Report.Triangles > 0)

@@ -482,6 +482,28 @@ TEST(Ask, NearestPlacesOnTheBoundary)
   }
 }
 
+/// The area of this sliver is lost in rounding, but for four digits.
+TEST(Ask, SliversMayHaveNoMeasurableArea)
+{
+  Drawing drawing;
+  drawing.Points = { { 1.2472210230301148e+35, -1.6615349947311447e+35 },
+    { -1.247221023030115e+35, -1.6615349947311447e+35 }, { -34851913.0, 1.1805916207174112e+21 },
+    { 34851913.0, 1.1805916207174112e+21 } };
+  drawing.Segments = { { 1, 0 }, { 0, 3 }, { 1, 2 } };
+  drawing.Rings = { -1, -1, -1 };
+  const Asked asked(drawing);
+  const Place place = { 6.2361051151505739e+34, -8.3076749736556643e+34 };
+  std::vector<double> values;
+  for (const Place& point : asked.Points)
+  {
+    values.push_back(point[0] / 1e35);
+  }
+  for (const auto method : { InterpolationKind::Linear, InterpolationKind::Natural })
+  {
+    EXPECT_NEAR(place[0] / 1e35, asked.Interpolate(values, { place }, method).front(), 1e-9);
+  }
+}
+
 /// Far away the nearest place is the vertex that is the farthest in the direction of the place.
 TEST(Ask, NearestPlacesOfFarPlaces)
 {
