@@ -3,7 +3,8 @@
 #include "HelpPage.h"
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
+#include <cstddef>
 #include <sstream>
 #include <vector>
 
@@ -16,8 +17,15 @@ namespace
 /// Whether an unknown option asks for a smallest angle, in the words of other programs.
 bool AsksForAngle(const std::string& word)
 {
-  static const std::regex angle("--?min(imum)?[-_]?angle(=.*)?", std::regex::icase);
-  return std::regex_match(word, angle);
+  std::string letters;
+  for (const char letter : word.substr(0, word.find('=')))
+  {
+    if (letter != '-' && letter != '_')
+    {
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+  }
+  return word[0] == '-' && (letters == "minangle" || letters == "minimumangle");
 }
 
 }
