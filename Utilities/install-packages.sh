@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: install-packages.sh build|demo|test|docs|proof|paper|paraview
-# Installs the Debian packages for building, the demo, the tests, the documentation's site, the
-# measurements of the tests (coverage, fuzzing), the reproduction of the paper, or the ParaView
-# plugin with its tests. Asks no questions, removes nothing, and changes nothing if all are
-# installed already. ParaView itself is not included, since it cannot be installed beside
-# python3-vtk9; see get-paraview.sh.
+# Usage: install-packages.sh engine|build|demo|test|docs|proof|paper|paraview
+# Installs the Debian packages for building the engine alone, for building everything, the demo, the
+# tests, the documentation's site, the measurements of the tests (coverage, fuzzing), the
+# reproduction of the paper, or the ParaView plugin with its tests. Asks no questions, removes
+# nothing, and changes nothing if all are installed already. ParaView itself is not included, since
+# it cannot be installed beside python3-vtk9; see get-paraview.sh.
 set -euo pipefail
 
 engine=(g++ cmake ninja-build ca-certificates libtbb-dev libboost-dev)
@@ -40,7 +40,7 @@ paraview=("${engine[@]}" xvfb xauth
 
 usage()
 {
-  echo "usage: $0 build|demo|test|docs|proof|paper|paraview" >&2
+  echo "usage: $0 engine|build|demo|test|docs|proof|paper|paraview" >&2
   exit 2
 }
 
@@ -93,6 +93,7 @@ add_libraries_of_paraview()
 }
 
 case "${1:-}" in
+  engine) wanted=("${engine[@]}") ;;
   build) wanted=("${build[@]}") ;;
   demo) wanted=("${build[@]}" "${demo[@]}") ;;
   proof) wanted=("${build[@]}" "${tests[@]}" "${proof[@]}") ;;
