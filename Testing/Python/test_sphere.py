@@ -300,8 +300,10 @@ class SphereValues(unittest.TestCase):
         nearest = make(outside="nearest")(places)
         self.assertTrue(35 <= nearest[1] <= 70)
         self.assertTrue(numpy.isnan(nearest[2]))
-        with self.assertRaisesRegex(ValueError, "2 of 3 places are outside"):
+        with self.assertRaisesRegex(ValueError, "1 of 3 places is NaN or infinite \\(first: index 2"):
             make(outside="error")(places)
+        with self.assertRaisesRegex(ValueError, "1 of 2 places is outside"):
+            make(outside="error")(places[:2])
 
     def test_refusals(self):
         points = make_directions(20)
