@@ -5,6 +5,7 @@
 #include "ExactPredicates.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -316,8 +317,36 @@ private:
   bool AnyIsCounterClockwise = false; ///< Whether an outline is.
 };
 
-/// Finds the triangle that each seed is in. It is the first of several, and NoTriangle if there is
-/// none. @param getSeed returns a seed's place. @param side the orientation of triangles, 1 or -1.
+using Corners = std::array<PlanePoint, 3>;
+
+Corners GetCorners(const PointMeshView& mesh, std::int64_t triangle)
+{
+  Corners corners;
+  for (int slot = 0; slot < 3; ++slot)
+  {
+    corners[slot] = mesh.GetPoint(mesh.Edges.Triangles[triangle].Vertices[slot]);
+  }
+  return corners;
+}
+
+/// Whether the corners of a triangle come before those of another one, both sorted by x and y. This
+/// depends on the places alone, not on the order of triangles or points.
+bool Precede(const Corners& one, const Corners& other)
+{
+  const auto sort = [](const Corners& corners)
+  {
+    std::array<std::pair<double, double>, 3> sorted;
+    std::transform(corners.begin(), corners.end(), sorted.begin(),
+      [](const PlanePoint& corner) { return std::make_pair(corner.U, corner.V); });
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  };
+  return sort(one) < sort(other);
+}
+
+/// Finds the triangle that each seed is in, or NoTriangle if there is none. Of several, which have
+/// the seed on an edge or a corner, it is the one that precedes. @param getSeed returns a seed's
+/// place. @param side the orientation of triangles, 1 or -1.
 /// @param counts whether a triangle may have seeds.
 template <typename GetSeed, typename Counts>
 std::vector<TriangleId> FindTriangles(const PointMeshView& mesh, std::int64_t count,
@@ -334,25 +363,22 @@ std::vector<TriangleId> FindTriangles(const PointMeshView& mesh, std::int64_t co
     {
       continue;
     }
-    PlanePoint corners[3];
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      corners[slot] = mesh.GetPoint(mesh.Edges.Triangles[t].Vertices[slot]);
-    }
+    const Corners corners = GetCorners(mesh, t);
     const auto [left, right] = std::minmax({ corners[0].U, corners[1].U, corners[2].U });
     auto next = std::lower_bound(order.begin(), order.end(), left,
       [&](std::int64_t seed, double x) { return getSeed(seed).U < x; });
     for (; next != order.end() && getSeed(*next).U <= right; ++next)
     {
-      bool isInside = found[*next] == NoTriangle;
+      TriangleId& triangle = found[*next];
+      bool isInside = true;
       for (int slot = 0; slot < 3 && isInside; ++slot)
       {
         const PlanePoint &from = corners[slot], &to = corners[NextSlot(slot)];
         isInside = side * FindOrientation(from, to, getSeed(*next)) >= 0;
       }
-      if (isInside)
+      if (isInside && (triangle == NoTriangle || Precede(corners, GetCorners(mesh, triangle))))
       {
-        found[*next] = static_cast<TriangleId>(t);
+        triangle = static_cast<TriangleId>(t);
       }
     }
   }

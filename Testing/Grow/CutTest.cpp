@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -218,11 +219,12 @@ private:
     }
   }
 
-  /// The first triangle that has a place, or their number.
+  /// The triangle that has a place, or the number of triangles. Of several, it is the one with the
+  /// lowest places of corners.
   std::size_t FindTriangle(const Place& place) const
   {
-    std::size_t t = 0;
-    for (; t < this->IsRemoved.size(); ++t)
+    std::size_t found = this->IsRemoved.size();
+    for (std::size_t t = 0; t < this->IsRemoved.size(); ++t)
     {
       bool isInside = true;
       for (std::size_t k = 0; k < 3 && isInside; ++k)
@@ -233,12 +235,25 @@ private:
           (to[0] - from[0]) * (place[1] - from[1]) - (to[1] - from[1]) * (place[0] - from[0]) >=
           0.0;
       }
-      if (isInside)
+      const bool isLowest =
+        found == this->IsRemoved.size() || this->SortCorners(t) < this->SortCorners(found);
+      if (isInside && isLowest)
       {
-        break;
+        found = t;
       }
     }
-    return t;
+    return found;
+  }
+
+  std::vector<Place> SortCorners(std::size_t triangle) const
+  {
+    std::vector<Place> corners;
+    for (std::size_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+    {
+      corners.push_back(this->Points[this->Whole.Triangles[corner]]);
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
   }
 
   void RemoveLarge()

@@ -167,7 +167,7 @@ TEST(MoveSegments, PointsGo)
   Drawing drawing = DrawWithSegments(random, 500);
   AddCircle(drawing, 0.8, 12);
   Moving moving(drawing);
-  for (int frame = 0; frame < CountFrames(40); ++frame)
+  for (int frame = 0; frame < CountFrames(100); ++frame)
   {
     const auto id = static_cast<std::int64_t>(DrawIndex(random, 500));
     for (FlipSession& session : moving.Sessions)
@@ -182,6 +182,29 @@ TEST(MoveSegments, PointsGo)
     ASSERT_FALSE(HasFailure()) << frame;
   }
   EXPECT_LT(0.5 * moving.Frames, moving.InPlace);
+}
+
+/// Of the two triangles beside a seed on a segment, the same one has it in any order of triangles.
+TEST(MoveSegments, SeedsOnSegments)
+{
+  std::mt19937 random(5);
+  Drawing drawing = ToDrawing(DrawPlaces(random, 60));
+  drawing.AddRing({ { 0.25, 0.25 }, { 0.75, 0.25 }, { 0.75, 0.75 }, { 0.25, 0.75 } });
+  drawing.Rings.assign(drawing.Segments.size(), -1); // breaklines
+  drawing.Seeds = { 0.25, 0.5 };
+  Moving moving(drawing);
+  for (int frame = 0; frame < CountFrames(100); ++frame)
+  {
+    Places next = moving.Now.Points;
+    for (std::size_t i = 0; i < 60; ++i)
+    {
+      next[i][0] += DrawStep(random, 0.005);
+      next[i][1] += DrawStep(random, 0.005);
+    }
+    moving.GoTo(next);
+    ASSERT_FALSE(HasFailure()) << frame;
+  }
+  EXPECT_GT(moving.InPlace, 0);
 }
 
 /// Labels of regions follow.
