@@ -103,7 +103,7 @@ private:
   std::vector<PointState> States; ///< By point.
   std::vector<std::int32_t> UsedPoint; ///< By point, the one that is used at its place.
   std::vector<std::int32_t> Triangles, FlipCounts;
-  std::vector<std::int32_t> Neighbors; ///< Of Triangles; empty if they are not known.
+  std::vector<std::int32_t> Neighbors; ///< Those of Triangles. Empty: not known.
   PlanePoint Center = Origin; ///< The place from which triangles are seen.
   double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;

@@ -30,6 +30,7 @@ class Places:
     members: dict  #: The fields of its struct.
     shape: tuple  #: Of the results, before that of a point's values.
     like: Array  #: An array in the memory of the results.
+    columns: int = 2  #: How many columns of an array say where a place is.
 
 
 def require_triangles(report):
@@ -303,11 +304,12 @@ def _require_inside(is_outside, places):
         return
     is_unusable = numpy.zeros_like(is_outside)
     if "places" in places.members:
-        is_unusable = is_outside & ~numpy.isfinite(_arrays.to_host(places.like)[:, :2]).all(axis=1)
+        coordinates = _arrays.to_host(places.like)[:, :places.columns]
+        is_unusable = is_outside & ~numpy.isfinite(coordinates).all(axis=1)
     which, what = is_outside, "outside of the triangulation"
     if is_unusable.any():
         which, what = is_unusable, "NaN or infinite"
     count = numpy.count_nonzero(which)
     index = ", ".join(map(str, numpy.unravel_index(numpy.argmax(which), places.shape)))
-    raise ValueError(f"{count} of {which.size} places {'is' if count == 1 else 'are'} {what} "
-                     f"(first: index {index})")
+    first = f" (first: index {index})" if index else ""  # a single place has no index
+    raise ValueError(f"{count} of {which.size} places {'is' if count == 1 else 'are'} {what}{first}")

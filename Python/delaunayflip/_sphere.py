@@ -264,6 +264,7 @@ def _read_directions(given, degrees):
     """Places as read_places reads them. Angles become degrees."""
     places = read_places(given)
     if places.members["place_components"] == 3:
+        places.columns = 3
         return places
     if not degrees:
         turned = read_places([places.like * (180.0 / math.pi)])

@@ -167,6 +167,8 @@ class Values(unittest.TestCase):
                 f(away[[0, 1, 1]])
             with self.assertRaisesRegex(ValueError, r"1 of 4 places is .*\(first: index 1, 0\)"):
                 f(numpy.array([[away[0], away[0]], [away[1], away[0]]]))
+            with self.assertRaisesRegex(ValueError, "^1 of 1 places is outside of the triangulation$"):
+                f(*away[1])
 
     def test_values_of_added_points(self):
         """Points of rings and crossings get values from the others."""

@@ -304,6 +304,8 @@ class SphereValues(unittest.TestCase):
             make(outside="error")(places)
         with self.assertRaisesRegex(ValueError, "1 of 2 places is outside"):
             make(outside="error")(places[:2])
+        with self.assertRaisesRegex(ValueError, "1 of 1 places is NaN or infinite"):
+            make(outside="error")([[0.1, 0.2, numpy.nan]])
 
     def test_refusals(self):
         points = make_directions(20)
