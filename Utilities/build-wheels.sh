@@ -122,7 +122,7 @@ list_components()
 build()
 {
   local folder=$work/$1 components
-  echo "build-wheels.sh: $1 (${target}). The first time the platform's C and C++ libraries are" \
+  echo "build-wheels.sh: $1 (${target}). The first time, the C and C++ libraries of the platform are" \
     "compiled, which takes minutes and prints nothing."
   mkdir -p "$folder"
   export DELAUNAYFLIP_ZIG_TARGET=$target

@@ -86,7 +86,7 @@ trap stop_engine EXIT
 if [ -f "$build/CMakeCache.txt" ]; then
   step "Packages: a compiler, VTK and Matplotlib, as far as they are missing"
   "$root/Utilities/install-packages.sh" demo
-  echo "build/ exists and keeps its options"
+  echo "build/ exists and keeps its options; VTK is switched on"
 else
   step "Packages: a compiler and what the engine needs, as far as they are missing"
   "$root/Utilities/install-packages.sh" engine

@@ -299,7 +299,7 @@ class Interpolator:
 
 
 def _require_inside(is_outside, places):
-    """Raises ValueError if places are in no triangle, first for those that cannot be in one."""
+    """Raises ValueError if places are in no triangle. If some are NaN or infinite, it names only those."""
     if not is_outside.any():
         return
     is_unusable = numpy.zeros_like(is_outside)

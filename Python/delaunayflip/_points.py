@@ -375,7 +375,8 @@ class Input:
     def take_projection(self, projection):
         """Takes that of the struct. On a sphere z is no height."""
         self.struct.projection = projection
-        self.flat_points = self.flat_points[:0] if projection else self.flat_points
+        if projection:
+            self.flat_points = self.flat_points[:0]
 
     def _add_ring(self, ring, number, points):
         if ring.ndim == 2:

@@ -161,7 +161,8 @@ class SphereInterpolator(Interpolator):
     Args:
         points: As for `triangulate_sphere`.
         values: (n,) or (n, ...) real numbers: those of each point. Values of points that lines and rings add
-            may follow. If they do not, these are linear between the points, without segments.
+            may follow. Otherwise these points get values that are linear between the given points, as if
+            there were no segments.
         method: "linear": by spherical barycentric coordinates, the volumes that the place spans with two
             corners of its triangle and the center, divided by their sum. "natural": Sibson's natural
             neighbours in the plane that touches the sphere at the place; smooth except at the points.
@@ -227,8 +228,9 @@ def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False
     given, misplaced = _read(points, keywords["degrees"], **(lines or {}))
     given.take_projection(PROJECTIONS.index("open-sphere" if keywords["open"] else "sphere"))
     given.backend = backend
+    own = given.points[:given.struct.first_added]  # a copy where angles were given
     result = run_input(given, make_options(**backend), lambda _: (),
-                       lambda handle, _: _store(handle, given, keywords, (points, lines)), progress, on_iteration,
+                       lambda handle, _: _store(handle, given, keywords, (own, lines)), progress, on_iteration,
                        keeps)
     return result, list(filter(None, (misplaced, "; ".join(given.trouble))))
 

@@ -139,11 +139,12 @@ def triangulate(
             heights of the cloud also get its data, in arrays of numbers that the segments do not have.
         size: As for delaunayflip.triangulate, or the name of a point array. Points that refinement adds
             get z and data that are linear between the points.
-        projection: "xy"; "sphere": around the origin, as delaunayflip.triangulate_sphere, which tells what
-            segments and rings are there; "open-sphere": as that with open=True. Refinement, regions,
+        projection: "xy"; "sphere": on a sphere around the origin, with segments and rings as for
+            delaunayflip.triangulate_sphere; "open-sphere": the same with open=True. Refinement, regions,
             sizes and limits of lengths are errors on a sphere.
         degrees: On a sphere, whether x and y of all points, lines, rings and seeds are longitudes and
-            latitudes in degrees. The mesh has their places on the unit sphere.
+            latitudes in degrees. Only those of the cloud and of meshes of segments are checked for
+            latitudes beyond 90. The mesh has their places on the unit sphere.
         **options: The other keywords of delaunayflip.triangulate, such as minimum_angle, maximum_area,
             regions, alpha, backend and progress.
 

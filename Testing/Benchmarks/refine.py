@@ -8,8 +8,8 @@
 
 A coast is a closed line with bays, of so many segments; points are uniform in a square. In every round
 each program runs once, in random order, so a busy machine slows all of them alike. Printed are the median
-seconds of processor time and of real time, the number of points, and the smallest angle, and beside Triangle
-the ratio of the points, and that of the real times.
+seconds of processor time and of real time, the number of points and the smallest angle; if Triangle is
+installed, also the number of points and the real time divided by Triangle's.
 
 threads: N  triangulate(minimum_angle=...)
 cuda        the same on a GPU, from and to arrays of NumPy

@@ -253,7 +253,7 @@ class LinuxArm(Cross):
              "--python-version", version, "--only-binary=:all:", "numpy"], check=False)
         if fetched.returncode != 0:
             self.skipTest("cannot get NumPy for Arm")
-        # What the tests start, QEMU does not run: so their sys.executable runs QEMU.
+        # QEMU does not emulate programs that the tests start, so sys.executable is a script that runs QEMU.
         launcher = self.folder / "python"
         launcher.write_text(f'#!/bin/sh\nexec qemu-aarch64 -L "{root}" "{python}" "$@"\n', encoding="utf-8")
         launcher.chmod(0o755)

@@ -307,6 +307,15 @@ class SphereValues(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "1 of 1 places is NaN or infinite"):
             make(outside="error")([[0.1, 0.2, numpy.nan]])
 
+    def test_reused_arrays(self):
+        """Angles may change after the call, because the triangulation keeps places of its own."""
+        angles = numpy.random.default_rng(6).uniform((-180, -90), (180, 90), (50, 2))
+        globe = delaunayflip.triangulate_sphere(angles)
+        places = make_directions(20)
+        expected = delaunayflip.triangulate_sphere(angles.copy()).locate(places)
+        angles += [5, 0]
+        self.assertEqual(globe.locate(places).tolist(), expected.tolist())
+
     def test_refusals(self):
         points = make_directions(20)
         with self.assertRaisesRegex(ValueError, "20 rows"):

@@ -6,8 +6,8 @@
 Includes point downwards only. Within the engine: public headers, then its rooms, in the order that
 Engine/CMakeLists.txt gives both, with CUDA/ below the last room, then the other files at the root of
 Engine/. Above the engine: CInterface, Filters, FiltersParallel, Rendering, Command and Plugin see its public headers, the
-latter four the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL,
-and the operating system only in Engine/System.
+latter four the filters; nothing that ships sees Testing or Examples. The engine sees no VTK and no OpenGL.
+It and CInterface see the operating system only in Engine/System.
 Within the folders of LAYERED, a header and the source of the same name are one topic, and no two topics include each
 other, directly or through others: one of the includes would point upwards.
 """
@@ -83,7 +83,7 @@ def violations(layers, path, name, home):
     if layer in layers.floors and (name.startswith(("GL/", "EGL/")) or "cuda_gl" in name):
         yield f"{path}: the engine includes {name} of OpenGL"
     if layer in {*layers.floors, "CInterface"} - {"Engine/System"} and SYSTEM.fullmatch(name):
-        yield f"{path}: {layer} includes {name} of an operating system, not Engine/System"
+        yield f"{path}: {layer} includes {name} of an operating system; only Engine/System may"
     target = home.get(header)
     if target is not None and target not in below:
         yield f"{path}: {layer} includes {name} of {target}"
