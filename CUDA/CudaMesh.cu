@@ -238,7 +238,7 @@ public:
       return this->StoreHere(
         triangles.Data(), full, triangles, stream, StoreChangedStep{ all, written });
     }
-    return this->StoreHere(triangles.Data(), 3 * this->LimitToKept(triangles).Count, triangles,
+    return this->StoreHere(triangles.Data(), 3 * this->LimitToStored(triangles).Count, triangles,
       stream, StoreIdStep{ all });
   }
 

@@ -18,7 +18,8 @@ struct RunQuery
   /// By triangle, its number in the output, or -1 if it is removed. Empty: its own.
   const std::vector<std::int32_t>& Numbers;
   std::int64_t NumberOfPoints; ///< With added ones: the query has values for each.
-  bool IsConvex; ///< Whether refinement has not split edges of the hull at rounded places.
+  /// Whether the hull is surely convex. Refinement may split its edges at places that are rounded.
+  bool IsConvex;
 };
 
 /// What has become of a query.

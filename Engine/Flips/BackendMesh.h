@@ -44,7 +44,7 @@ public:
   void StoreTriangles(const MutableTriangleArray& triangles) const override
   {
     this->Backend.StoreTriangles(
-      this->LimitToKept(triangles), this->GetStoreStep(), this->IsFromPoints);
+      this->LimitToStored(triangles), this->GetStoreStep(), this->IsFromPoints);
   }
 
   void StoreOrderedTriangles(const MutableTriangleArray& triangles) const override
@@ -248,13 +248,10 @@ protected:
     return this->Kept.Numbers.Size() > 0 ? static_cast<std::int64_t>(this->Kept.Triangles.Size())
                                          : this->Mesh.NumberOfTriangles;
   }
-  /// The part of the caller's array that has room for the triangles that are kept.
-  MutableTriangleArray LimitToKept(MutableTriangleArray triangles) const
+  /// The part of the caller's array that has room for the triangles that are stored.
+  MutableTriangleArray LimitToStored(MutableTriangleArray triangles) const
   {
-    if (this->Kept.Numbers.Size() > 0)
-    {
-      triangles.Count = this->CountStored();
-    }
+    triangles.Count = std::min(triangles.Count, this->CountStored());
     return triangles;
   }
   StoreStep GetStoreStep() const { return { this->GetStored(), this->Order.View() }; }

@@ -39,7 +39,8 @@ struct SegmentEdge
   std::uint32_t Segment; ///< The index of its segment.
 };
 
-/// What is left of a triangulation. What counts is known only if triangles are removed.
+/// What is left of a triangulation. The counts and angles of what is kept are known only if
+/// triangles are removed.
 struct KeptTriangles
 {
   /// The new number of every triangle, by its slot in the output, or -1. Empty: all are kept.

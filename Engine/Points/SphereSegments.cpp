@@ -5,7 +5,6 @@
 #include "ExactPredicates.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace delaunayflip
@@ -18,15 +17,14 @@ bool AreOpposite(const PlanePoint& a, const PlanePoint& b, double rounding)
   return Dot(first, second) < 0.0 && Dot(cross, cross) <= rounding * rounding;
 }
 
-SphereSegments::SphereSegments(const SpacePoints& points, std::vector<std::int32_t>& triangles)
+SphereSegments::SphereSegments(const SpacePoints& points,
+  const std::vector<std::int32_t>& neighbors, std::vector<std::int32_t>& triangles)
   : Points(points),
     Triangles(triangles),
     Twins(triangles.size(), None),
     SegmentOf(triangles.size(), None),
     CornerOf(points.size(), None)
 {
-  const std::vector<std::int32_t> neighbors =
-    FindNeighbors(triangles, static_cast<std::int64_t>(points.size()));
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     const auto corner = static_cast<std::int32_t>(i);

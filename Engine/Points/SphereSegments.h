@@ -39,7 +39,9 @@ class SphereSegments
 public:
   /// @param triangles all face away from the origin. They cover the sphere, or a part of it that
   /// every great circle enters at most once.
-  SphereSegments(const SpacePoints& points, std::vector<std::int32_t>& triangles);
+  /// @param neighbors as FindNeighbors lists them; not needed afterwards.
+  SphereSegments(const SpacePoints& points, const std::vector<std::int32_t>& neighbors,
+    std::vector<std::int32_t>& triangles);
 
   /// What has become of a segment.
   enum class OutcomeKind

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -156,8 +155,6 @@ public:
     backend.Fill(this->IsRemoved.Data(), 0, mesh.NumberOfTriangles);
   }
 
-  using HostView = std::function<void(const PointMeshView&)>;
-
   /// Does what LoadedMesh::CutOff does. @param viewOnHost calls a function with a copy of the mesh.
   template <typename ViewOnHost>
   KeptTriangles CutOff(const PointInput& input, const PointOptions& options,
@@ -170,19 +167,18 @@ public:
       ComponentJudge judge(map, segments, input);
       judge.RemoveOutside(options.RingRule, kept);
       const bool hasHolesAlone = judge.HasHolesAlone();
-      const bool needsHost = hasHolesAlone || input.NumberOfHoleSeeds > 0;
       std::vector<TriangleId> seeds;
-      const HostView use = [&](const PointMeshView& view)
+      if (hasHolesAlone || input.NumberOfHoleSeeds > 0)
       {
-        if (hasHolesAlone)
-        {
-          kept.HolePointsOutside = CountHolePointsOutside(view, input, segments);
-        }
-        seeds = FindHoleSeeds(view, input);
-      };
-      if (needsHost)
-      {
-        viewOnHost(use);
+        viewOnHost(
+          [&](const PointMeshView& view)
+          {
+            if (hasHolesAlone)
+            {
+              kept.HolePointsOutside = CountHolePointsOutside(view, input, segments);
+            }
+            seeds = FindHoleSeeds(view, input);
+          });
       }
       kept.SeedsOutside = judge.RemoveHoles(this->FetchComponents(seeds));
       this->RemoveComponents(judge.GetRemoved());

@@ -113,13 +113,12 @@ void MeshRun::NumberRegions(RefinementPlan& plan) const
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   for (const auto& [label, seed] : keys)
   {
-    const double area = seed > 0 ? given.RegionSeeds[seed - 1].MaximumArea : 0.0;
     plan.LabelOfRegion.push_back(label);
-    plan.AreaOfRegion.push_back(area > 0.0 ? area : INFINITY);
-  }
-  if (given.NumberOfRegionSeeds == 0)
-  {
-    plan.AreaOfRegion.clear(); // no limits, so that refinement need not look
+    if (given.NumberOfRegionSeeds > 0) // else there are no limits, and refinement need not look
+    {
+      const double area = seed > 0 ? given.RegionSeeds[seed - 1].MaximumArea : 0.0;
+      plan.AreaOfRegion.push_back(area > 0.0 ? area : INFINITY);
+    }
   }
   for (std::size_t t = 0; t < plan.Regions.size(); ++t)
   {
@@ -137,7 +136,7 @@ void MeshRun::NumberRegions(RefinementPlan& plan) const
 
 void MeshRun::TakeRefinement(LoadedMesh& mesh)
 {
-  const RefinementResult made = mesh.FetchRefinement();
+  const RefinementResult& made = mesh.FetchRefinement();
   this->AddRefinedPoints(made);
   this->Refined.Sources = made.Sources;
   const std::int64_t unrefined = this->HasEndedRefinement() ? made.Unrefined : 0;

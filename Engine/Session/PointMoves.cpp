@@ -295,7 +295,7 @@ void PointRun::JudgeTriangles(LoadedMesh& mesh)
   }
 }
 
-/// Does so after a motion.
+/// Finds the triangles that are removed, and the regions, again after a motion.
 /// @returns false if rings have got or lost an area.
 bool PointRun::JudgeAgain(const MotionResult& motion)
 {

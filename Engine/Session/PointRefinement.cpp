@@ -55,7 +55,8 @@ public:
     }
   }
 
-  /// The number of an edge that there was before. The edges keep their numbers as those of a piece.
+  /// The origin of an edge that there was before refinement. One of its pieces still has the number
+  /// of the edge.
   std::uint32_t FindOrigin(EdgeId edge) const
   {
     const auto begin = this->Subsegments.begin();
@@ -65,9 +66,10 @@ public:
   }
 
   /// Appends the pieces of a segment's edge, in the direction of the segment.
-  void AppendPieces(const SegmentEdge& before, std::vector<SegmentEdge>& edges)
+  /// @param origin what FindOrigin returns for the edge.
+  void AppendPieces(
+    const SegmentEdge& before, std::uint32_t origin, std::vector<SegmentEdge>& edges)
   {
-    const std::uint32_t origin = this->FindOrigin(EdgeOf(before.Side));
     const HalfEdgeId parity = before.Side & 1u;
     this->Pieces.clear();
     this->Ends.clear();
@@ -188,9 +190,9 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   }
   result.Edges.clear();
   result.Edges.reserve(made.Segments.size());
-  for (const SegmentEdge& edge : result.EdgesBefore)
+  for (std::size_t i = 0; i < originOf.size(); ++i)
   {
-    pieces.AppendPieces(edge, result.Edges);
+    pieces.AppendPieces(result.EdgesBefore[i], originOf[i], result.Edges);
   }
   if (result.HasRemoved())
   {

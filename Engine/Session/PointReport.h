@@ -43,7 +43,7 @@ struct PointResult
 
   bool HasRemoved() const { return !this->Kept.Numbers.empty(); }
 
-  /// Those of removed triangles, too.
+  /// The edges that all segments have become, also those of removed triangles.
   std::vector<SegmentEdge>& GetAllEdges()
   {
     return this->WholeEdges.empty() ? this->Edges : this->WholeEdges;

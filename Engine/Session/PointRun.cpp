@@ -342,7 +342,7 @@ void PointRun::CutOff()
   }
 }
 
-/// They stay in the loaded mesh, which knows nothing of this, and are left out of what is stored.
+/// They stay in the loaded mesh, which leaves them out of what it stores.
 void PointRun::RemoveTriangles(LoadedMesh& mesh)
 {
   const PointInput& input = this->Points.GetInput();

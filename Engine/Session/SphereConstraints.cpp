@@ -113,7 +113,7 @@ void SphereRun::InsertSegments()
 {
   this->PrepareSegments();
   const bool isEmpty = this->Triangles.empty();
-  SphereSegments inserted(this->Points, this->Triangles);
+  SphereSegments inserted(this->Points, this->FindNeighborsOnce(), this->Triangles);
   for (const Segment& segment : this->Segments)
   {
     const std::int64_t from = this->FindUsed(segment.From), to = this->FindUsed(segment.To);

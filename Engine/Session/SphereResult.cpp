@@ -28,7 +28,10 @@ void SphereRun::OpenMesh()
   this->Opened = SizeOf(this->Triangles) / 3 - std::int64_t(kept);
   this->Triangles.resize(3 * kept);
   this->FlipCounts.resize(kept);
-  this->Neighbors.clear();
+  if (this->Opened > 0)
+  {
+    this->Neighbors.clear();
+  }
 }
 
 void SphereRun::Complete()

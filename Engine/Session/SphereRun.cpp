@@ -51,7 +51,7 @@ void RequirePlainPoints(const PointInput& input, const PointOptions& options)
     plain, defaults);
 }
 
-/// What is done to a triangle, for ThreadBackend::Sum, which fetches its points before.
+/// Work on triangles for ThreadBackend::Sum, which requests the points of each triangle in advance.
 template <typename Work>
 class WithPoints
 {
@@ -429,7 +429,7 @@ bool SphereRun::LeaveOut(const std::vector<std::int32_t>& points, PointState sta
   return !points.empty();
 }
 
-/// The neighbors of the triangles.
+/// Lists the neighbors of the triangles, unless they are known.
 const std::vector<std::int32_t>& SphereRun::FindNeighborsOnce()
 {
   if (this->Neighbors.empty())
@@ -456,7 +456,7 @@ struct StartSums
 }
 
 /// Takes the start as it is if filters see that all edges are convex. Then no four points tie, and
-/// flips would change nothing. @returns whether they do.
+/// flips would change nothing. @returns whether the start is taken.
 /// @throws RunAborted if the observer stops it.
 bool SphereRun::TakeStart()
 {
