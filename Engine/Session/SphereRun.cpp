@@ -20,6 +20,8 @@ namespace delaunayflip
 
 namespace
 {
+constexpr int MostStarts = 50;
+
 void RequirePlainPoints(const PointInput& input, const PointOptions& options)
 {
   const auto require = [](bool isValid, const std::string& message)
@@ -119,6 +121,7 @@ void SphereRun::Reset()
   this->Current = 0;
   this->Done = 0.0;
   this->Starts = 0;
+  this->FirstSimplex.clear();
   this->Asker.reset();
   this->Triangles.clear();
   this->Neighbors.clear();
@@ -267,10 +270,13 @@ std::vector<std::int32_t> SphereRun::ListActive() const
 /// @returns false if there is no such mesh because all points lie in one plane.
 bool SphereRun::Start()
 {
-  constexpr int MostStarts = 50;
   for (;;)
   {
     const std::vector<std::int32_t> simplex = FindSimplex(this->Points, this->ListActive());
+    if (this->FirstSimplex.empty())
+    {
+      this->FirstSimplex = simplex;
+    }
     this->Triangles.clear();
     this->Neighbors.clear();
     if (simplex.empty() || ++this->Starts > MostStarts)
@@ -349,7 +355,9 @@ void SphereRun::StartInPlane(std::int32_t pole)
 }
 
 /// Makes the four triangles of a simplex of points that are not inside. The other points are
-/// inserted at the end.
+/// inserted at the end. If the points that are not inside span no simplex with a center, because
+/// coordinates differ by too many powers of ten, the first simplex of all points is taken again.
+/// Points at its corners may be inside; they lose their triangles when other points are inserted.
 bool SphereRun::StartFromSimplex()
 {
   for (PointState& state : this->States)
@@ -357,7 +365,11 @@ bool SphereRun::StartFromSimplex()
     state = state == PointState::LeftOut ? PointState::Used : state;
   }
   const std::vector<std::int32_t> active = this->ListActive();
-  const std::vector<std::int32_t> simplex = FindSimplex(this->Points, active);
+  std::vector<std::int32_t> simplex = FindSimplex(this->Points, active);
+  if (simplex.empty() && ++this->Starts <= MostStarts)
+  {
+    simplex = this->FirstSimplex;
+  }
   if (simplex.empty())
   {
     return false;

@@ -107,6 +107,8 @@ private:
   PlanePoint Center = Origin; ///< The place from which triangles are seen.
   double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;
+  /// A simplex of all points. It depends on their places alone.
+  std::vector<std::int32_t> FirstSimplex;
   FlipReport Planar; ///< Sums over the flips in the plane.
   /// Answers about the final triangles. Made by the first query.
   std::unique_ptr<const SphereAsker> Asker;

@@ -303,6 +303,32 @@ TEST(SphereTriangulation, IsExactWherePointsNearlyCoincide)
   EXPECT_EQ(expected, ListPlaces(points, Triangulate(points).Triangles));
 }
 
+/// Once a corner of the first simplex is found to be inside, no four of the other points have a
+/// center that rounds to a place between them.
+TEST(SphereTriangulation, HasTheHullOfCoordinatesOfAllSizes)
+{
+  std::vector<Point3> points = { { -347.94949245452881, 2.3669399902327274e+61,
+                                   3.5146635019276282e+265 },
+    { -1.2891898490383992e-38, 2.3864390909939372e-56, -1.1931978316114272e+77 },
+    { -2.9399501000964817e+87, 8.435986648399403e+232, 2.6461020278909884e-279 },
+    { 1.1118051057488166e-282, -1.5144166314170641e+125, -1.9274880465585523e-182 },
+    { 3.7853452497895675e+122, 9.1025701600251605e+30, 1.3900153543042085e-83 },
+    { 6.3086981583100346e+141, -1.7162754202575546e+280, 5.1567255585939378e+274 },
+    { -5.1564711304621685e-154, -1.1197808504079822e+30, -3.9621001309174549e-129 },
+    { 5.5076701549066542e+111, 2.3919423326476399e+224, 5.3597045345735412e-188 },
+    { -1.8324759713536079e+44, 4.0366915201259145e+108, -9.1843821013387589e+232 },
+    { 4.6683799574419487e-250, -6.2093248006910311e+239, -5.0646157720500536e+144 },
+    { -2.0053419395084992e-39, 1.491581476080207e-27, -7.7807129439017564e-60 },
+    { -4.9401596090851211e+49, -1.4335839237337871e-87, 1.1592432244826032e+170 } };
+  const SphereResult result = Triangulate(points);
+  EXPECT_EQ(8, result.Report.Triangles);
+  EXPECT_EQ(6, result.Report.FromPoints.Inside);
+  EXPECT_EQ(0, CountReflexEdges(points, result));
+  const auto places = ListPlaces(points, result.Triangles);
+  std::reverse(points.begin(), points.end());
+  EXPECT_EQ(places, ListPlaces(points, Triangulate(points).Triangles));
+}
+
 TEST(SphereTriangulation, HasNoTrianglesInOnePlane)
 {
   std::vector<Point3> points;
