@@ -150,7 +150,7 @@ public:
       this->ReadFile(this->Settings.Input, heights.Array.empty() ? Content::Mesh : Content::Places);
     if (!heights.Places.empty())
     {
-      this->Places = this->ReadFile(heights.Places, Content::Places);
+      this->Places = this->ReadFile(heights.Places, Content::Rows);
     }
     if (this->Settings.FromPoints)
     {

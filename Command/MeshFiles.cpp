@@ -345,7 +345,7 @@ FileMesh ReadVectorFile(
   request.Driver = FindVectorFormat(layer.File)->Driver;
   request.Layer = layer.Layer;
   request.AreSegments = content == Content::Segments;
-  request.AreFlat = content == Content::Places;
+  request.AreFlat = content == Content::Places || content == Content::Rows;
   if (!request.AreSegments)
   {
     request.Height = height;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 /// @file
 /// .xyz, .csv and .txt: a row of text for each point, x y [z] and perhaps more, perhaps after a
@@ -28,6 +29,7 @@ struct PointHeader
   bool IsComment = false; ///< Whether a comment names them.
   char Separator = ' '; ///< What separates the names.
   std::string Separators = ";,"; ///< A line of points is split at the first that it has.
+  int EmptyRows = 0; ///< Before the first point, rows of a table with empty cells only.
 };
 
 bool IsNumber(std::string_view word)
@@ -201,6 +203,7 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
     if (!hasNames && !IsBlank(lines) && IsLineOfNames(lines, chosen))
     {
       hasNames = true;
+      header.EmptyRows = 0;
       header.Names = lines.Words;
       header.IsComment = false;
       if (lines.Separator != ' ')
@@ -214,6 +217,7 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
     {
       return header;
     }
+    header.EmptyRows += lines.Words.empty() ? 0 : 1;
   }
   return header;
 }
@@ -227,7 +231,8 @@ public:
       Header(ReadHeader(lines, chosen)),
       HasChoice(!chosen.IsEmpty()),
       AreOfLines(content == Content::Segments),
-      IsFlat(content == Content::Places)
+      IsFlat(content == Content::Places || content == Content::Rows),
+      KeepsRows(content == Content::Rows)
   {
     this->Coordinates->SetNumberOfComponents(3);
     if (lines.Words.empty())
@@ -430,11 +435,13 @@ private:
     this->Coordinates->Allocate(3 * (std::count(rest.begin(), rest.end(), '\n') + 2));
     std::int64_t longer = 0; // lines
     std::string firstLonger;
+    this->KeepRows(this->Header.EmptyRows);
     do
     {
       const Words& words = lines.Words;
       if (IsComment(lines) || IsBlank(lines))
       {
+        this->KeepRows(IsComment(lines) || words.empty() ? 0 : 1);
         continue;
       }
       if (words.size() < fewest)
@@ -460,6 +467,15 @@ private:
       this->Warnings.push_back("left out the columns from number " +
         std::to_string(this->Count + 1) + " on, which " + Counted(longer, lines.Noun) +
         (longer == 1 ? " has (" : " have (the first is ") + lines.Noun + " " + firstLonger + ")");
+    }
+  }
+
+  /// Puts points that are nowhere where rows have empty cells only, if these are wanted.
+  void KeepRows(int rows)
+  {
+    for (int i = 0; i < rows && this->KeepsRows; ++i)
+    {
+      this->Coordinates->InsertNextTuple3(NAN, NAN, 0.0);
     }
   }
 
@@ -556,6 +572,7 @@ private:
   const bool HasChoice; ///< Whether the user chose the columns.
   const bool AreOfLines; ///< Whether a column has the number of the line that a point is on.
   const bool IsFlat; ///< Whether z does not matter.
+  const bool KeepsRows; ///< Whether rows with empty cells only are points, too.
   Places Columns;
   std::size_t LineColumn = 0;
   std::size_t Count = 0; ///< How many columns the first point has.

@@ -242,6 +242,13 @@ class Tables(HeightTest):
         self.assertIn("places          5, 2 outside\n", result.stdout)
         report = self.report("peak.csv", "out.csv", "--from-points", "--heights-at", "places.csv")
         self.assertEqual((report["places"], report["places_outside"], report["triangles"]), (5, 2, 4))
+        # A row without numbers keeps its place in the table; a line without cells is no row.
+        for names in ("", "x,y\n"):
+            self.write("places.csv", f",\n{names},\n2,1\n,\n\n#,\n1,1\n,\n")
+            self.ask("peak.csv", "out.csv", "--heights-at", "places.csv")
+            before = "nan,nan,\n" * (1 if names else 2)
+            self.assertEqual(self.content("out.csv").decode(),
+                             f"x,y,z\n{before}2,1,3.25\nnan,nan,\n1,1,3\nnan,nan,\n")
         for text, told in (("east,north,id\n2,1,7\n", "as x, y\n"), ("east,north,alt,id\n2,1,9,7\n", "as x, y\n")):
             self.write("places.csv", text)
             result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv")
