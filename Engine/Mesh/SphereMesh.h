@@ -18,14 +18,14 @@ constexpr PlanePoint Origin{ 0.0, 0.0, 0.0 };
 
 /// The vector of length 1 in the direction of another one. Gives NaN for the zero vector. Divides
 /// by the largest coordinate first, so that nothing overflows.
-inline Vector3 FindDirection(const Vector3& a)
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 FindDirection(const Vector3& a)
 {
-  const double largest = std::max({ std::fabs(a.X), std::fabs(a.Y), std::fabs(a.Z) });
+  const double largest = std::max(std::max(std::fabs(a.X), std::fabs(a.Y)), std::fabs(a.Z));
   const Vector3 near = { a.X / largest, a.Y / largest, a.Z / largest };
   const double length = Length(near);
   return { near.X / length, near.Y / length, near.Z / length };
 }
-inline Vector3 FindDirection(const PlanePoint& p)
+DELAUNAYFLIP_HOST_DEVICE inline Vector3 FindDirection(const PlanePoint& p)
 {
   return FindDirection(Vector3{ p.U, p.V, p.W });
 }

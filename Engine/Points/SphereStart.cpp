@@ -20,57 +20,15 @@ namespace
 {
 Vector3 ToVector(const PlanePoint& p) { return { p.U, p.V, p.W }; }
 
-Vector3 Scale(double factor, const Vector3& a)
-{
-  return { factor * a.X, factor * a.Y, factor * a.Z };
-}
-
-/// Finds the active point with the largest measure. If several have it, the one farthest north is
-/// taken. If several points are at that place, the first one is.
-template <typename Measure>
-std::int32_t FindLargest(
-  const SpacePoints& points, const std::vector<std::int32_t>& active, const Measure& measure)
-{
-  std::int32_t best = active.front();
-  double most = measure(points[best]);
-  for (const std::int32_t i : active)
-  {
-    const double value = measure(points[i]);
-    const bool isTie = value == most && IsFartherNorth(points[i], points[best]);
-    if (value > most || isTie)
-    {
-      best = i;
-      most = value;
-    }
-  }
-  return best;
-}
-
-constexpr std::int32_t NoPoint = -1;
-
-/// Finds the chosen point farthest north; NoPoint if none is chosen.
-template <typename IsChosen>
-std::int32_t FindNorth(
-  const SpacePoints& points, const std::vector<std::int32_t>& active, const IsChosen& isChosen)
-{
-  std::vector<std::int32_t> chosen;
-  std::copy_if(active.begin(), active.end(), std::back_inserter(chosen), isChosen);
-  if (chosen.empty())
-  {
-    return NoPoint;
-  }
-  return FindLargest(points, chosen, [](const PlanePoint&) { return 0.0; });
-}
-
 /// Whether the rounded center of a simplex is inside of it.
-bool HoldsCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex)
+bool HoldsCenter(const Simplex& simplex)
 {
-  const PlanePoint center = FindCenter(points, simplex);
+  const PlanePoint center = FindCenter(simplex);
   for (int i = 0; i < 4; ++i)
   {
     PlanePoint corners[4];
-    std::transform(
-      simplex.begin(), simplex.end(), corners, [&](std::int32_t id) { return points[id]; });
+    std::transform(simplex.begin(), simplex.end(), corners,
+      [](const NumberedPoint& corner) { return corner.Place; });
     corners[i] = center;
     if (FindOrientation3D(corners[0], corners[1], corners[2], corners[3]) <= 0)
     {
@@ -87,43 +45,10 @@ void SortOnce(std::vector<std::int32_t>& ids)
 }
 }
 
-bool IsSamePlace(const PlanePoint& a, const PlanePoint& b)
-{
-  return a.U == b.U && a.V == b.V && a.W == b.W;
-}
-
-bool AreOnLine(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
-{
-  const auto turn = [](const PlanePoint& p) { return PlanePoint{ p.V, p.W, p.U }; };
-  const PlanePoint d = turn(a), e = turn(b), f = turn(c);
-  return FindOrientation(a, b, c) == 0 && FindOrientation(d, e, f) == 0 &&
-    FindOrientation(turn(d), turn(e), turn(f)) == 0;
-}
-
-bool IsFartherNorth(const PlanePoint& a, const PlanePoint& b)
-{
-  return std::tie(a.W, a.V, a.U) > std::tie(b.W, b.V, b.U);
-}
-
 StereographicProjection::StereographicProjection(const PlanePoint& pole)
   : Pole(FindDirection(pole)),
     Across(Pole)
 {
-}
-
-/// An inversion about the pole takes the sphere to a plane. The difference from the pole is
-/// computed first, so that places near the pole keep their precision.
-void StereographicProjection::Project(const PlanePoint& point, double (&xy)[2]) const
-{
-  const Vector3 offset = FindDirection(point) - this->Pole;
-  const double square = Dot(offset, offset);
-  if (!(square > 0.0))
-  {
-    xy[0] = xy[1] = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
-  xy[0] = Dot(offset, this->Across.Second) / square;
-  xy[1] = Dot(offset, this->Across.First) / square;
 }
 
 std::vector<std::int32_t> FindNeighbors(
@@ -177,110 +102,42 @@ std::vector<std::int32_t> FindNeighbors(
   return neighbors;
 }
 
-void JoinPole(
-  std::vector<std::int32_t>& triangles, std::vector<std::int32_t>& neighbors, std::int32_t pole)
+PoleStar MakePoleStar(const std::vector<BoundarySide>& sides, std::int64_t first, std::int32_t pole)
 {
-  const std::size_t corners = triangles.size();
-  std::map<std::int32_t, std::int32_t> fromPoint, toPoint; // new triangles by ends of their edges
-  for (std::size_t corner = 0; corner < corners; ++corner)
+  std::map<std::int32_t, std::int32_t> fromPoint, toPoint; // triangles by ends of their sides
+  for (const BoundarySide& side : sides)
   {
-    if (neighbors[corner] < 0)
-    {
-      const std::size_t first = corner - corner % 3;
-      const std::int32_t from = triangles[first + (corner + 1) % 3];
-      const std::int32_t to = triangles[first + (corner + 2) % 3];
-      neighbors[corner] = fromPoint[from] = toPoint[to] =
-        static_cast<std::int32_t>(triangles.size() / 3);
-      triangles.insert(triangles.end(), { to, from, pole });
-      neighbors.insert(neighbors.end(), { -1, -1, static_cast<std::int32_t>(corner / 3) });
-    }
+    fromPoint[side.From] = toPoint[side.To] = static_cast<std::int32_t>(first++);
   }
-  for (std::size_t first = corners; first < triangles.size(); first += 3)
+  PoleStar star;
+  for (const BoundarySide& side : sides)
   {
-    neighbors[first] = toPoint[triangles[first + 1]];
-    neighbors[first + 1] = fromPoint[triangles[first]];
+    star.Triangles.insert(star.Triangles.end(), { side.To, side.From, pole });
+    star.Neighbors.insert(
+      star.Neighbors.end(), { toPoint[side.From], fromPoint[side.To], side.Corner / 3 });
   }
+  return star;
 }
 
-std::vector<std::int32_t> FindSimplex(
-  const SpacePoints& points, const std::vector<std::int32_t>& active)
+Simplex OrientSimplex(Simplex corners)
 {
-  if (active.size() < 4)
+  const int side =
+    FindOrientation3D(corners[0].Place, corners[1].Place, corners[2].Place, corners[3].Place);
+  if (side < 0)
   {
-    return {};
+    std::swap(corners[1], corners[2]);
   }
-  const std::int32_t north = FindNorth(points, active, [](std::int32_t) { return true; });
-  const Vector3 a = ToVector(points[north]);
-  // Halves cannot overflow. The measures need not be exact.
-  const auto getOffset = [&](const PlanePoint& p)
-  { return Scale(0.5, ToVector(p)) - Scale(0.5, a); };
-  double largest = 0.0;
-  for (const std::int32_t i : active)
-  {
-    const Vector3 offset = getOffset(points[i]);
-    largest = std::max({ largest, std::fabs(offset.X), std::fabs(offset.Y), std::fabs(offset.Z) });
-  }
-  if (largest == 0.0)
-  {
-    return {};
-  }
-  const auto getPlace = [&](const PlanePoint& p)
-  {
-    const Vector3 offset = getOffset(p);
-    return Vector3{ offset.X / largest, offset.Y / largest, offset.Z / largest };
-  };
-  const std::int32_t far = FindLargest(points, active,
-    [&](const PlanePoint& p)
-    {
-      const Vector3 place = getPlace(p);
-      return Dot(place, place);
-    });
-  const Vector3 axis = getPlace(points[far]);
-  std::int32_t aside = FindLargest(points, active,
-    [&](const PlanePoint& p)
-    {
-      const Vector3 normal = Cross(axis, getPlace(p));
-      return Dot(normal, normal);
-    });
-  const auto isOnAxis = [&](std::int32_t i)
-  { return AreOnLine(points[north], points[far], points[i]); };
-  if (isOnAxis(aside)) // by rounding, or because all points are on it
-  {
-    aside = FindNorth(points, active, [&](std::int32_t i) { return !isOnAxis(i); });
-    if (aside == NoPoint)
-    {
-      return {};
-    }
-  }
-  const Vector3 normal = Cross(axis, getPlace(points[aside]));
-  std::int32_t above = FindLargest(
-    points, active, [&](const PlanePoint& p) { return std::fabs(Dot(normal, getPlace(p))); });
-  const auto findSide = [&](std::int32_t i)
-  { return FindOrientation3D(points[north], points[far], points[aside], points[i]); };
-  if (findSide(above) == 0) // by rounding, or because all points lie in one plane
-  {
-    above = FindNorth(points, active, [&](std::int32_t i) { return findSide(i) != 0; });
-    if (above == NoPoint)
-    {
-      return {};
-    }
-  }
-  std::vector<std::int32_t> simplex = { north, far, aside, above };
-  if (findSide(above) < 0)
-  {
-    std::swap(simplex[1], simplex[2]);
-  }
-  return HoldsCenter(points, simplex) ? simplex : std::vector<std::int32_t>();
+  return side != 0 && HoldsCenter(corners) ? corners : Simplex();
 }
 
-PlanePoint FindCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex)
+PlanePoint FindCenter(const Simplex& simplex)
 {
   PlanePoint center{ 0.0, 0.0, 0.0 };
-  for (const std::int32_t i : simplex)
+  for (const NumberedPoint& corner : simplex)
   {
-    center.U += 0.25 * points[i].U;
-    center.V += 0.25 * points[i].V;
-    center.W += 0.25 * points[i].W;
+    center.U += 0.25 * corner.Place.U;
+    center.V += 0.25 * corner.Place.V;
+    center.W += 0.25 * corner.Place.W;
   }
   return center;
 }
@@ -289,12 +146,6 @@ bool FacesOutside(const SpacePoints& points, const std::int32_t* triangle, const
 {
   return FindOrientation3D(points[triangle[0]], points[triangle[1]], points[triangle[2]], center) >
     0;
-}
-
-double MeasureTriangle(const SpacePoints& points, const std::int32_t* triangle)
-{
-  return MeasureSquaredCotangent(ToVector(points[triangle[0]]), ToVector(points[triangle[1]]),
-    ToVector(points[triangle[2]]), CoordinateRange::Mixed);
 }
 
 std::vector<std::int32_t> FindStrays(

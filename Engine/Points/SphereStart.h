@@ -3,8 +3,11 @@
 #ifndef DELAUNAYFLIP_SPHERESTART_H
 #define DELAUNAYFLIP_SPHERESTART_H
 
+#include "ExactPredicates.h"
+#include "SmallestAngle.h"
 #include "SphereMesh.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -22,14 +25,32 @@ namespace delaunayflip
 /// Points in space; -0.0 is written as 0.0, so that equal places have equal bits.
 using SpacePoints = std::vector<PlanePoint>;
 
-bool IsSamePlace(const PlanePoint& a, const PlanePoint& b);
+DELAUNAYFLIP_HOST_DEVICE inline bool IsSamePlace(const PlanePoint& a, const PlanePoint& b)
+{
+  return a.U == b.U && a.V == b.V && a.W == b.W;
+}
 
-/// Whether three points are in one line, by exact arithmetic.
-bool AreOnLine(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c);
+/// Whether three points are in one line, by exact arithmetic. On a device it may be undecided, and
+/// then it is false.
+DELAUNAYFLIP_HOST_DEVICE inline bool AreOnLine(
+  const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+{
+  const PlanePoint d{ a.V, a.W, a.U }, e{ b.V, b.W, b.U }, f{ c.V, c.W, c.U };
+  const PlanePoint g{ a.W, a.U, a.V }, h{ b.W, b.U, b.V }, i{ c.W, c.U, c.V };
+  return FindOrientation(a, b, c) == 0 && FindOrientation(d, e, f) == 0 &&
+    FindOrientation(g, h, i) == 0;
+}
 
 /// Whether z of `a` is larger; if both are equal, y; and then x. This decides between points that
 /// measure the same, whatever their order.
-bool IsFartherNorth(const PlanePoint& a, const PlanePoint& b);
+DELAUNAYFLIP_HOST_DEVICE inline bool IsFartherNorth(const PlanePoint& a, const PlanePoint& b)
+{
+  if (a.W != b.W)
+  {
+    return a.W > b.W;
+  }
+  return a.V > b.V || (a.V == b.V && a.U > b.U);
+}
 
 /// Projects points from a pole onto a plane, by their directions from the origin. Triangles that
 /// are counter-clockwise from outside are counter-clockwise in the plane.
@@ -39,7 +60,21 @@ public:
   explicit StereographicProjection(const PlanePoint& pole);
 
   /// Gives NaN for the origin, and for points in the direction of the pole.
-  void Project(const PlanePoint& point, double (&xy)[2]) const;
+  ///
+  /// An inversion about the pole takes the sphere to a plane. The difference from the pole is
+  /// computed first, so that places near the pole keep their precision.
+  DELAUNAYFLIP_HOST_DEVICE void Project(const PlanePoint& point, double (&xy)[2]) const
+  {
+    const Vector3 offset = FindDirection(point) - this->Pole;
+    const double square = Dot(offset, offset);
+    if (!(square > 0.0))
+    {
+      xy[0] = xy[1] = NAN;
+      return;
+    }
+    xy[0] = Dot(offset, this->Across.Second) / square;
+    xy[1] = Dot(offset, this->Across.First) / square;
+  }
 
 private:
   Vector3 Pole;
@@ -51,21 +86,40 @@ private:
 std::vector<std::int32_t> FindNeighbors(
   const std::vector<std::int32_t>& triangles, std::int64_t points);
 
-/// Adds the triangles between a pole and the boundary of a triangulation, which is one ring.
-/// @param neighbors as FindNeighbors lists them, before and after.
-void JoinPole(
-  std::vector<std::int32_t>& triangles, std::vector<std::int32_t>& neighbors, std::int32_t pole);
+/// A side of a triangle that has no neighbor.
+struct BoundarySide
+{
+  std::int32_t Corner; ///< The opposite one: 3 * triangle + slot.
+  std::int32_t From, To;
+};
 
-/// Finds four points that span a large volume. The first one is the farthest north. The first three
-/// are counter-clockwise, seen from the side opposite to the fourth. They depend on the places
-/// alone.
-/// @returns nothing if all points lie in one plane, or so nearly that rounding puts the center of
-/// the four points outside.
-std::vector<std::int32_t> FindSimplex(
-  const SpacePoints& points, const std::vector<std::int32_t>& active);
+/// Triangles between a pole and the boundary of a triangulation, which is one ring.
+struct PoleStar
+{
+  std::vector<std::int32_t> Triangles, Neighbors;
+};
+
+/// Makes one triangle for each side, in their order.
+/// @param first the number of the first triangle.
+PoleStar MakePoleStar(
+  const std::vector<BoundarySide>& sides, std::int64_t first, std::int32_t pole);
+
+struct NumberedPoint
+{
+  std::int32_t Id;
+  PlanePoint Place;
+};
+
+/// Four points that are not in one plane, or none. The first three are counter-clockwise, seen from
+/// the side opposite to the fourth.
+using Simplex = std::vector<NumberedPoint>;
+
+/// @returns the simplex of four points; nothing if they lie in one plane, or so nearly that
+/// rounding puts their center outside.
+Simplex OrientSimplex(Simplex corners);
 
 /// The center of a simplex, rounded.
-PlanePoint FindCenter(const SpacePoints& points, const std::vector<std::int32_t>& simplex);
+PlanePoint FindCenter(const Simplex& simplex);
 
 /// Whether the triangle has an area and is counter-clockwise, seen from the side opposite to the
 /// center.
@@ -73,7 +127,13 @@ bool FacesOutside(
   const SpacePoints& points, const std::int32_t* triangle, const PlanePoint& center);
 
 /// LargestSquaredCotangent (SurfaceAngles.h) of a triangle.
-double MeasureTriangle(const SpacePoints& points, const std::int32_t* triangle);
+DELAUNAYFLIP_HOST_DEVICE inline double MeasureTriangle(
+  const PlanePoint* points, const std::int32_t* triangle)
+{
+  const PlanePoint &a = points[triangle[0]], &b = points[triangle[1]], &c = points[triangle[2]];
+  return MeasureSquaredCotangent(
+    { a.U, a.V, a.W }, { b.U, b.V, b.W }, { c.U, c.V, c.W }, CoordinateRange::Mixed);
+}
 
 /// For each triangle that does not face outside, finds one end of its shortest edge: the one
 /// farther north. Lists each point once.

@@ -262,7 +262,7 @@ void SphereRun::DropTriangles(const std::vector<unsigned char>& isRemoved)
     {
       sides.push_back({ ids[slot], ids[(slot + 1) % 3] });
     }
-    angles.Add(MeasureTriangle(this->Points, ids.data()));
+    angles.Add(MeasureTriangle(this->Points.data(), ids.data()));
     std::copy_n(ids.begin(), 3, &this->Triangles[3 * kept]);
     this->FlipCounts[kept++] = this->FlipCounts[t];
   }

@@ -8,6 +8,7 @@
 #include "InputChecks.h"
 #include "PointPreparation.h"
 #include "SmallestAngle.h"
+#include "SpherePasses.h"
 #include "ThreadBackend.h"
 
 #include <algorithm>
@@ -52,38 +53,6 @@ void RequirePlainPoints(const PointInput& input, const PointOptions& options)
     },
     plain, defaults);
 }
-
-/// Work on triangles for ThreadBackend::Sum, which requests the points of each triangle in advance.
-template <typename Work>
-class WithPoints
-{
-public:
-  WithPoints(
-    const SpacePoints& points, const std::vector<std::int32_t>& triangles, const Work& work)
-    : Points(points),
-      Triangles(triangles),
-      Do(work)
-  {
-  }
-
-  template <typename Result>
-  void operator()(std::int64_t t, Result& sum) const
-  {
-    this->Do(t, sum);
-  }
-  void Prefetch(std::int64_t t) const
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      delaunayflip::Prefetch(&this->Points[this->Triangles[3 * t + slot]]);
-    }
-  }
-
-private:
-  const SpacePoints& Points;
-  const std::vector<std::int32_t>& Triangles;
-  const Work& Do;
-};
 
 /// @throws RunAborted if an observer stops the session, or has stopped its constructor.
 void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
@@ -270,9 +239,12 @@ std::vector<std::int32_t> SphereRun::ListActive() const
 /// @returns false if there is no such mesh because all points lie in one plane.
 bool SphereRun::Start()
 {
+  const ThreadBackend threads(this->Options.NumberOfThreads);
   for (;;)
   {
-    const std::vector<std::int32_t> simplex = FindSimplex(this->Points, this->ListActive());
+    const std::vector<std::int32_t> active = this->ListActive();
+    const SpherePoints points{ this->Points.data(), active.data(), SizeOf(active) };
+    const Simplex simplex = FindSimplex(points, threads);
     if (this->FirstSimplex.empty())
     {
       this->FirstSimplex = simplex;
@@ -283,7 +255,7 @@ bool SphereRun::Start()
     {
       return this->StartFromSimplex();
     }
-    this->StartInPlane(simplex.front());
+    this->StartInPlane(points, simplex.front());
     if (this->Triangles.empty())
     {
       return this->StartFromSimplex();
@@ -298,32 +270,23 @@ bool SphereRun::Start()
 
 /// Triangulates the active points, projected from one of them, the pole. Marks points at the places
 /// of others.
-void SphereRun::StartInPlane(std::int32_t pole)
+void SphereRun::StartInPlane(const SpherePoints& points, const NumberedPoint& pole)
 {
-  const StereographicProjection projection(this->Points[pole]);
-  std::vector<std::int32_t> ids;
-  std::vector<double> places;
-  for (const std::int32_t i : this->ListActive())
+  const ThreadBackend threads(this->Options.NumberOfThreads);
+  const std::int64_t count = SizeOf(this->Points);
+  Array<double> places = threads.MakeArray<double>(2 * count);
+  if (points.Count < count)
   {
-    double place[2];
-    projection.Project(this->Points[i], place);
-    if (IsSamePlace(this->Points[i], this->Points[pole]))
-    {
-      this->UsedPoint[i] = pole;
-      this->States[i] = i == pole ? PointState::Used : PointState::Repeated;
-    }
-    else if (!IsFinite(place[0]) || !IsFinite(place[1]))
-    {
-      this->States[i] = PointState::LeftOut;
-    }
-    else
-    {
-      ids.push_back(i);
-      places.insert(places.end(), place, place + 2);
-    }
+    std::fill_n(places.Data(), 2 * count, NAN);
+  }
+  const ProjectionStep project{ points, StereographicProjection(pole.Place), places.Data() };
+  const auto unplaced = threads.Sum<std::int64_t>(points.Count, project);
+  for (std::int64_t i = 0; unplaced > 1 && i < points.Count; ++i)
+  {
+    this->MarkUnplaced(points.GetId(i), pole, places.Data());
   }
   PointInput plane;
-  plane.Points = PlaneArray(places.data(), SizeOf(ids), 2);
+  plane.Points = PlaneArray(places.Data(), count, 2);
   PointOptions options;
   static_cast<FlipOptions&>(options) = this->Options;
   const ProgressObserver progress = this->TellHalf();
@@ -331,27 +294,62 @@ void SphereRun::StartInPlane(std::int32_t pole)
   AdvanceToEnd(session, progress);
   const FlipReport& report = session.GetReport();
   AddReport(this->Planar, report);
-  std::vector<std::int64_t> used(ids.size());
-  session.StoreUsedPoints(used.data());
-  for (std::size_t i = 0; i < ids.size(); ++i)
+  if (report.FromPoints.Repeated > 0)
   {
-    const std::int32_t other = ids[used[i]];
-    if (other != ids[i])
-    {
-      const bool isSame = IsSamePlace(this->Points[ids[i]], this->Points[other]);
-      this->UsedPoint[ids[i]] = isSame ? other : ids[i];
-      this->States[ids[i]] = isSame ? PointState::Repeated : PointState::LeftOut;
-    }
+    std::vector<std::int64_t> used(count);
+    session.StoreUsedPoints(used.data());
+    this->MarkRepeated(used);
   }
   this->Triangles.resize(3 * report.Triangles);
   this->Neighbors.resize(3 * report.Triangles);
   session.StoreTriangles(MutableTriangleArray(this->Triangles.data(), report.Triangles));
   session.StoreNeighbors(this->Neighbors.data());
-  for (std::int32_t& id : this->Triangles)
+  this->JoinPole(pole.Id);
+}
+
+/// Marks a point that the projection cannot place. The pole stays as it is.
+void SphereRun::MarkUnplaced(std::int32_t id, const NumberedPoint& pole, const double* places)
+{
+  const bool isPlaced = IsFinite(places[2 * std::int64_t(id)]);
+  if (id == pole.Id || isPlaced)
   {
-    id = ids[id];
+    return;
   }
-  JoinPole(this->Triangles, this->Neighbors, pole);
+  const bool isSame = IsSamePlace(this->Points[id], pole.Place);
+  this->UsedPoint[id] = isSame ? pole.Id : id;
+  this->States[id] = isSame ? PointState::Repeated : PointState::LeftOut;
+}
+
+/// Marks points that another one represents in the plane.
+/// @param used by point, the one that is used at its place in the plane, or -1.
+void SphereRun::MarkRepeated(const std::vector<std::int64_t>& used)
+{
+  for (std::size_t i = 0; i < used.size(); ++i)
+  {
+    const auto other = static_cast<std::int32_t>(used[i]);
+    if (used[i] >= 0 && other != static_cast<std::int32_t>(i))
+    {
+      const bool isSame = IsSamePlace(this->Points[i], this->Points[other]);
+      this->UsedPoint[i] = isSame ? other : static_cast<std::int32_t>(i);
+      this->States[i] = isSame ? PointState::Repeated : PointState::LeftOut;
+    }
+  }
+}
+
+/// Adds the triangles between a pole and the boundary.
+void SphereRun::JoinPole(std::int32_t pole)
+{
+  const ThreadBackend threads(this->Options.NumberOfThreads);
+  const std::int64_t count = SizeOf(this->Triangles) / 3;
+  const SphereTriangles inPlane{ this->Triangles.data(), this->Neighbors.data(), count };
+  const std::vector<BoundarySide> sides = ListBoundary(inPlane, threads);
+  const PoleStar star = MakePoleStar(sides, count, pole);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    this->Neighbors[sides[i].Corner] = static_cast<std::int32_t>(count + std::int64_t(i));
+  }
+  this->Triangles.insert(this->Triangles.end(), star.Triangles.begin(), star.Triangles.end());
+  this->Neighbors.insert(this->Neighbors.end(), star.Neighbors.begin(), star.Neighbors.end());
 }
 
 /// Makes the four triangles of a simplex of points that are not inside. The other points are
@@ -365,7 +363,8 @@ bool SphereRun::StartFromSimplex()
     state = state == PointState::LeftOut ? PointState::Used : state;
   }
   const std::vector<std::int32_t> active = this->ListActive();
-  std::vector<std::int32_t> simplex = FindSimplex(this->Points, active);
+  const SpherePoints points{ this->Points.data(), active.data(), SizeOf(active) };
+  Simplex simplex = FindSimplex(points, ThreadBackend(this->Options.NumberOfThreads));
   if (simplex.empty() && ++this->Starts <= MostStarts)
   {
     simplex = this->FirstSimplex;
@@ -375,17 +374,20 @@ bool SphereRun::StartFromSimplex()
     return false;
   }
   this->LeaveOut(active, PointState::LeftOut);
-  this->LeaveOut(simplex, PointState::Used);
+  for (const NumberedPoint& corner : simplex)
+  {
+    this->States[corner.Id] = PointState::Used;
+  }
   this->Neighbors.clear();
-  const std::int32_t a = simplex[0], b = simplex[1], c = simplex[2], d = simplex[3];
+  const std::int32_t a = simplex[0].Id, b = simplex[1].Id, c = simplex[2].Id, d = simplex[3].Id;
   this->Triangles = { a, b, c, b, a, d, c, b, d, a, c, d };
-  this->Center = FindCenter(this->Points, simplex);
+  this->Center = FindCenter(simplex);
   return true;
 }
 
 /// Marks points that are left out and are at the place of another such point, or of a corner of the
 /// simplex. The projection has found all other repeated points.
-void SphereRun::MarkRepeated()
+void SphereRun::MarkRepeatedLeftOut()
 {
   const bool isSimplex = SizeOf(this->Triangles) == 12;
   std::vector<std::int32_t> ids;
@@ -417,18 +419,16 @@ void SphereRun::MarkRepeated()
 
 /// Takes the origin as the center if it is inside of the mesh, else a place inside of the simplex.
 /// @returns whether all triangles face outside, seen from there.
-bool SphereRun::ChooseCenter(const std::vector<std::int32_t>& simplex)
+bool SphereRun::ChooseCenter(const Simplex& simplex)
 {
   const ThreadBackend threads(this->Options.NumberOfThreads);
   const auto faceOutside = [&](const PlanePoint& center)
   {
     this->Center = center;
-    const auto judge = [&](std::int64_t t, std::int64_t& sum)
-    { sum += int(!FacesOutside(this->Points, &this->Triangles[3 * t], center)); };
-    const WithPoints work(this->Points, this->Triangles, judge);
-    return threads.Sum<std::int64_t>(SizeOf(this->Triangles) / 3, work) == 0;
+    const FacingStep step{ this->Points.data(), this->Triangles.data(), center };
+    return threads.Sum<FacingSums>(SizeOf(this->Triangles) / 3, step).Turned == 0;
   };
-  return faceOutside(Origin) || faceOutside(FindCenter(this->Points, simplex));
+  return faceOutside(Origin) || faceOutside(FindCenter(simplex));
 }
 
 /// Gives points a state in which they are not active. @returns whether there are any.
@@ -451,61 +451,23 @@ const std::vector<std::int32_t>& SphereRun::FindNeighborsOnce()
   return this->Neighbors;
 }
 
-namespace
-{
-struct StartSums
-{
-  std::int64_t Uncertain = 0; ///< Edges that a filter does not see to be convex.
-  AngleSums Angles;
-
-  StartSums& operator+=(const StartSums& part)
-  {
-    this->Uncertain += part.Uncertain;
-    this->Angles += part.Angles;
-    return *this;
-  }
-};
-}
-
 /// Takes the start as it is if filters see that all edges are convex. Then no four points tie, and
 /// flips would change nothing. @returns whether the start is taken.
 /// @throws RunAborted if the observer stops it.
 bool SphereRun::TakeStart()
 {
-  const SpacePoints& points = this->Points;
-  const auto& triangles = this->Triangles;
-  const std::vector<std::int32_t>& neighbors = this->FindNeighborsOnce();
   const ThreadBackend threads(this->Options.NumberOfThreads);
-  const auto judge = [&](std::int64_t t, StartSums& sums)
+  const std::int64_t count = SizeOf(this->Triangles) / 3;
+  const SphereTriangles triangles{ this->Triangles.data(), this->FindNeighborsOnce().data(),
+    count };
+  const std::vector<std::int32_t> active = this->ListActive();
+  const SpherePoints points{ this->Points.data(), active.data(), SizeOf(active) };
+  if (threads.Sum<std::int64_t>(points.Count, UnusualStep{ points }) > 0)
   {
-    const std::int32_t* ids = &triangles[3 * t];
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const std::int32_t across = neighbors[3 * t + slot];
-      if (across > t) // each edge once
-      {
-        const std::int32_t p = ids[(slot + 1) % 3], q = ids[(slot + 2) % 3];
-        const std::int32_t* other = &triangles[std::int64_t(3) * across];
-        const std::int32_t beyond = other[0] + other[1] + other[2] - p - q;
-        const int sign =
-          FilteredOrientation3D(points[ids[slot]], points[p], points[q], points[beyond]);
-        sums.Uncertain += int(sign != 1);
-      }
-    }
-    sums.Angles.Add(MeasureTriangle(points, ids));
-  };
-  const std::int64_t count = SizeOf(triangles) / 3;
-  bool isUsual = true;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    isUsual = isUsual && (this->States[i] != PointState::Used || IsInFilterRange3D(points[i]));
+    return false;
   }
-  StartSums sums;
-  if (isUsual)
-  {
-    sums = threads.Sum<StartSums>(count, WithPoints(points, triangles, judge));
-  }
-  if (!isUsual || sums.Uncertain > 0)
+  const auto sums = threads.Sum<ConvexitySums>(count, ConvexityStep{ points.Places, triangles });
+  if (sums.Uncertain > 0)
   {
     return false;
   }
@@ -563,7 +525,7 @@ bool SphereRun::HasLeftOut() const
 /// their middle points.
 bool SphereRun::InsertLeftOut()
 {
-  this->MarkRepeated();
+  this->MarkRepeatedLeftOut();
   if (!this->HasLeftOut())
   {
     return true;

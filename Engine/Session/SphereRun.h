@@ -9,6 +9,7 @@
 #include "SegmentCrossings.h"
 #include "SessionRun.h"
 #include "SphereAsker.h"
+#include "SpherePasses.h"
 #include "SphereSegments.h"
 #include "SphereStart.h"
 
@@ -65,10 +66,13 @@ private:
   void Run();
   void ReadPoints();
   bool Start();
-  void StartInPlane(std::int32_t pole);
+  void StartInPlane(const SpherePoints& points, const NumberedPoint& pole);
+  void MarkUnplaced(std::int32_t id, const NumberedPoint& pole, const double* places);
+  void MarkRepeated(const std::vector<std::int64_t>& used);
+  void JoinPole(std::int32_t pole);
   bool StartFromSimplex();
-  void MarkRepeated();
-  bool ChooseCenter(const std::vector<std::int32_t>& simplex);
+  void MarkRepeatedLeftOut();
+  bool ChooseCenter(const Simplex& simplex);
   bool TakeStart();
   void Flip();
   const std::vector<std::int32_t>& FindNeighborsOnce();
@@ -108,7 +112,7 @@ private:
   double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;
   /// A simplex of all points. It depends on their places alone.
-  std::vector<std::int32_t> FirstSimplex;
+  Simplex FirstSimplex;
   FlipReport Planar; ///< Sums over the flips in the plane.
   /// Answers about the final triangles. Made by the first query.
   std::unique_ptr<const SphereAsker> Asker;

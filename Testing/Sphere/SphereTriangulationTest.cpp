@@ -6,7 +6,9 @@
 #include "PointTriangulation.h"
 #include "PortableMath.h"
 #include "References.h"
+#include "SpherePasses.h"
 #include "SphereTestSupport.h"
+#include "ThreadBackend.h"
 
 #include <gtest/gtest.h>
 
@@ -161,8 +163,14 @@ TEST_P(SphereTest, IsTheHullOfInsertion)
   {
     points.push_back({ p[0], p[1], p[2] });
   }
-  const std::vector<std::int32_t> s = FindSimplex(points, all);
-  HullInserter hull(points, FindCenter(points, s),
+  const Simplex simplex =
+    FindSimplex(SpherePoints{ points.data(), nullptr, SizeOf(points) }, ThreadBackend(1));
+  std::vector<std::int32_t> s;
+  for (const NumberedPoint& corner : simplex)
+  {
+    s.push_back(corner.Id);
+  }
+  HullInserter hull(points, FindCenter(simplex),
     { s[0], s[1], s[2], s[1], s[0], s[3], s[2], s[1], s[3], s[0], s[2], s[3] });
   for (const std::int32_t i : all)
   {
