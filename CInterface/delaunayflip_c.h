@@ -259,7 +259,13 @@ extern "C"
     DELAUNAYFLIP_DEFECT_POINT_LIMIT_REACHED = 35,
     DELAUNAYFLIP_DEFECT_POINTS_INSIDE = 36, /**< On a sphere: inside of the convex hull. */
     DELAUNAYFLIP_DEFECT_POINTS_IN_ONE_PLANE = 37, /**< On a sphere: there is no hull. */
-    DELAUNAYFLIP_DEFECT_SEGMENTS_INSIDE = 38 /**< On a sphere: an end is inside of the hull. */
+    DELAUNAYFLIP_DEFECT_SEGMENTS_INSIDE = 38, /**< On a sphere: an end is inside of the hull. */
+    /** In the same part as an earlier one, with another label or area. */
+    DELAUNAYFLIP_DEFECT_REGION_SEEDS_REPEATED = 39,
+    /** keep_boundary or point_limit, where no goal asks for refinement. */
+    DELAUNAYFLIP_DEFECT_OPTIONS_WITHOUT_GOAL = 40,
+    /** maximum_iterations has ended the run before refinement. */
+    DELAUNAYFLIP_DEFECT_TRIANGLES_NOT_JUDGED = 41
   } delaunayflip_defect_kind;
 
   /** A kind of defect: how often it occurs, and where first. */
@@ -268,8 +274,8 @@ extern "C"
     int32_t kind; /**< A delaunayflip_defect_kind. */
     int32_t number_of_ids; /**< Of first_ids; 0 if ids would not help. */
     int64_t count; /**< How many. */
-    /** The first triangles or points; of rings their numbers; of constraints and segments pairs of
-     * points. */
+    /** The first triangles or points; of rings and region seeds their numbers; of constraints and
+     * segments pairs of points. */
     const int64_t* first_ids;
     /** What such a pair crosses: three numbers each, that of the other segment or constraint, or -1
      * for another edge, and its two points. Null if the reason is another one. */
@@ -373,7 +379,8 @@ extern "C"
   {
     int64_t size;
     int32_t (*progress)(double share, void* user); /**< The share of the work done, 0 .. 1. */
-    int32_t (*iteration)(const delaunayflip_iteration* record, void* user); /**< After each one. */
+    /** After each iteration. Rounds of refinement call progress alone. */
+    int32_t (*iteration)(const delaunayflip_iteration* record, void* user);
     void* user;
   } delaunayflip_callbacks;
 
@@ -449,11 +456,12 @@ extern "C"
     double maximum_edge; /**< Points are added until no edge is longer; 0: no limit. [0] */
     int32_t keep_boundary; /**< Not 0: no edge of the boundary is split. Angles there may stay
                               small, or become smaller. [0] */
-    int64_t point_limit; /**< How many points the mesh may have; 0: ten times as many as are given,
-                            at least a million. [0] */
+    int64_t point_limit; /**< How many points may be corners of the mesh; 0: ten times as many as
+                            are given, at least a million. [0] */
     const double* sizes; /**< The longest edge near each point, linear in between; NaN: no limit
                             near that point. Null: no limit. */
-    const delaunayflip_region* regions; /**< If several are in one part, the first one counts. */
+    const delaunayflip_region* regions; /**< If several are in one part, the first one counts,
+                                           and a defect names the others. */
     int64_t number_of_regions;
     int32_t projection; /**< A delaunayflip_projection. [PLANE] */
   } delaunayflip_points;

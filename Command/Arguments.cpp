@@ -204,7 +204,8 @@ std::string ParseRegion(const std::string& text, std::array<double, 4>& region)
   }
   if (!areNumbers || count < 3 || count > region.size() || region[3] < 0.0)
   {
-    return "'" + text + "' is not x,y,label or x,y,label,area, with an integer as label";
+    return "'" + text +
+      "' is not x,y,label or x,y,label,area, with an integer as label and an area of 0 or more";
   }
   return "";
 }

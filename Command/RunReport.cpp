@@ -58,6 +58,8 @@ std::string WithOptions(const std::string& message, const Arguments& given)
     { std::pair("vtkPolyDataNormals with ConsistencyOn", "--orient"),
       std::pair("leave out such duplicates", withoutDuplicates.c_str()),
       std::pair("RegionArray", "--region-array"), std::pair("Tolerance", "--tolerance"),
+      std::pair("the geometry 'planar-xy'", "--geometry planar-xy"),
+      std::pair("use 'planar-xy'", "use --geometry planar-xy"),
       std::pair("SizeArray", "--size-array"), std::pair("SegmentHeights Own", "--heights own"),
       std::pair("merge points that lie at the same place", withMerged.c_str()) })
   {

@@ -111,7 +111,7 @@ constexpr DefectWords AllWords[] = {
     "constraint edges of the second input that the mesh does not have" },
   { Kind::PointsWithoutHeights, DefectIds::Points, "point of segments without heights",
     "points of segments without heights" },
-  { Kind::RegionSeedsOutside, DefectIds::Points, "region seed outside of all triangles",
+  { Kind::RegionSeedsOutside, DefectIds::Seeds, "region seed outside of all triangles",
     "region seeds outside of all triangles" },
   { Kind::TrianglesNotRefined, DefectIds::Triangles,
     "triangle that is not as good as wanted: segments meet there at a small angle or must not be "
@@ -134,6 +134,17 @@ constexpr DefectWords AllWords[] = {
   { Kind::SegmentsInside, DefectIds::PointPairs,
     "segment that ends at a point inside of the convex hull",
     "segments that end at a point inside of the convex hull" },
+  { Kind::RegionSeedsRepeated, DefectIds::Seeds,
+    "region seed in the same part as an earlier one, not used: its label and area differ, so a "
+    "segment between the two may be missing",
+    "region seeds in the same part as earlier ones, not used: their labels and areas differ, so "
+    "segments between them may be missing" },
+  { Kind::OptionsWithoutGoal, DefectIds::Points,
+    "option without effect, because without a goal nothing is refined: ",
+    "options without effect, because without a goal nothing is refined: " },
+  { Kind::TrianglesNotJudged, DefectIds::Triangles,
+    "triangle that refinement has not looked at: MaximumIterations allows no round",
+    "triangles that refinement has not looked at: MaximumIterations allows no round" },
 };
 
 constexpr bool AreInOrder()
@@ -147,8 +158,8 @@ constexpr bool AreInOrder()
   }
   return true;
 }
-static_assert(
-  AreInOrder() && std::size(AllWords) == static_cast<std::size_t>(DefectKind::SegmentsInside) + 1,
+static_assert(AreInOrder() &&
+    std::size(AllWords) == static_cast<std::size_t>(DefectKind::TrianglesNotJudged) + 1,
   "one row per kind");
 
 const DefectWords& GetWords(DefectKind kind) { return AllWords[static_cast<std::size_t>(kind)]; }

@@ -165,10 +165,11 @@ struct FlipOptions
   double MaximumEdge = 0.0;
 
   /// Whether boundary edges are never split. From points the boundary is the hull, or that of the
-  /// triangles that are kept. Some triangles at the boundary may then stay as they are.
+  /// triangles that are kept. Angles at the boundary may then be small, and edges there long.
   bool KeepBoundary = false;
 
-  /// The most points that the mesh may have in the end. Refinement stops before it would add more.
+  /// The most points that the mesh may have in the end. Refinement stops when there are so many.
+  /// From points, those count that are corners of triangles that are kept.
   /// 0 (default): ten times as many as are given, at least a million.
   std::int64_t PointLimit = 0;
   ///@}

@@ -76,7 +76,8 @@ enum class DefectIds
   Triangles, ///< The caller's triangle slots.
   Points,
   PointPairs, ///< Two ids for each: ends of edges, in the caller's order.
-  Rings ///< The caller's numbers.
+  Rings, ///< The caller's numbers.
+  Seeds ///< The numbers of region seeds.
 };
 
 /// What a segment or constraint would cross, although it stays.
@@ -131,7 +132,10 @@ enum class DefectKind
   PointLimitReached, ///< Refinement has reached it.
   PointsInside, ///< On a sphere: points inside of the convex hull.
   PointsInOnePlane, ///< On a sphere: there are fewer than four places, or all are in one plane.
-  SegmentsInside ///< On a sphere: an end is inside of the convex hull.
+  SegmentsInside, ///< On a sphere: an end is inside of the convex hull.
+  RegionSeedsRepeated, ///< In the same part as an earlier one, with another label or area.
+  OptionsWithoutGoal, ///< Options of refinement, where no goal asks for it.
+  TrianglesNotJudged ///< Refinement has not begun, because FlipOptions::MaximumIterations ends it.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.
@@ -326,7 +330,7 @@ void ForEachNumber(const Visit& visit, Reports&... reports)
 /// Called on the calling thread for every iteration; returning false aborts the run. Some
 /// iterations run in batches: the first 12 of large planar meshes, and on a GPU up to 128, but no
 /// more than fit into a tenth of a second. The calls for a batch follow at its end, and an abort
-/// takes effect there.
+/// takes effect there. It is not called for rounds of refinement; a ProgressObserver is.
 using FlipObserver = std::function<bool(const IterationRecord&)>;
 
 /// Called on the calling thread with the share of the work that is done, from 0 to 1, which never

@@ -126,7 +126,8 @@ struct PointInput
   /// is interpolated linearly. NaN: no limit near that point.
   const double* Sizes = nullptr;
 
-  /// If several are in one part, the first one counts.
+  /// If several are in one part, the first one counts. Others with another label or area are
+  /// defects.
   const RegionSeed* Regions = nullptr;
   std::int64_t NumberOfRegions = 0;
 

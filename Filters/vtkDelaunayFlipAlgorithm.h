@@ -136,7 +136,7 @@ public:
 
   ///@{
   /**
-   * The most points that the mesh may have. Refinement stops before it would add more, and a
+   * The most points that the mesh may have. Refinement stops when there are so many, and a
    * warning says so. 0 (default): ten times as many as are given, at least a million.
    */
   vtkSetClampMacro(PointLimit, vtkIdType, 0, VTK_ID_MAX);

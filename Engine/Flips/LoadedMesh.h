@@ -186,9 +186,9 @@ std::vector<std::int64_t> ListInnerFixedEdges(
 /// The regions that the region seeds of a mesh in x and y are in: by triangle of the caller, the
 /// number of the first seed there, from 1, or 0 where there is none. Flips change none of them,
 /// because they cross no edge that stays.
-/// @param seedsOutside receives how many are in no triangle that runs as most do.
+/// @param unused receives those that are not used; Outside are in no triangle that runs as most do.
 std::vector<std::int32_t> FindSeededRegions(
-  const TriangleMesh& mesh, const FlipOptions& options, std::int64_t& seedsOutside);
+  const TriangleMesh& mesh, const FlipOptions& options, UnusedSeeds& unused);
 
 /// @throws RunAborted.
 /// @throws BackendUnavailable if there is no GPU, its memory runs out, its driver fails, or the

@@ -466,15 +466,35 @@ bool MayRemove(const PointInput& input, const PointOptions& options)
     options.LongestEdge > 0.0;
 }
 
-std::int64_t SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std::int64_t count,
+namespace
+{
+/// Counts a seed as a defect, and names it if it is one of the first.
+void AddSeed(std::int64_t number, Defect& defect)
+{
+  ++defect.Count;
+  if (SizeOf(defect.FirstIds) < MostNamedIds)
+  {
+    defect.FirstIds.push_back(number);
+  }
+}
+}
+
+UnusedSeeds SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std::int64_t count,
   int side, std::vector<std::int32_t>& regions)
 {
   const auto getSeed = [&](std::int64_t i) { return PlanePoint{ seeds[i].X, seeds[i].Y, 0.0 }; };
   const std::vector<TriangleId> starts =
     FindTriangles(mesh, count, getSeed, side, [&](std::int64_t t) { return regions[t] >= 0; });
+  UnusedSeeds unused;
   std::vector<TriangleId> stack;
   for (std::size_t i = 0; i < starts.size(); ++i)
   {
+    if (starts[i] == NoTriangle)
+    {
+      AddSeed(static_cast<std::int64_t>(i), unused.Outside);
+      continue;
+    }
+    const std::int32_t before = regions[starts[i]];
     const auto enter = [&](TriangleId triangle)
     {
       if (regions[triangle] == 0)
@@ -483,10 +503,14 @@ std::int64_t SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std
         stack.push_back(triangle);
       }
     };
-    if (starts[i] != NoTriangle)
+    const bool isRepeated = before > 0 &&
+      (seeds[i].Label != seeds[before - 1].Label ||
+        seeds[i].MaximumArea != seeds[before - 1].MaximumArea);
+    if (isRepeated)
     {
-      enter(starts[i]);
+      AddSeed(static_cast<std::int64_t>(i), unused.Repeated);
     }
+    enter(starts[i]);
     while (!stack.empty())
     {
       const TriangleRecord& triangle = mesh.Edges.Triangles[stack.back()];
@@ -500,11 +524,11 @@ std::int64_t SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std
       }
     }
   }
-  return std::count(starts.begin(), starts.end(), NoTriangle);
+  return unused;
 }
 
 std::vector<std::int32_t> FindRegions(const PointMeshView& mesh, const PointInput& input,
-  const KeptTriangles& kept, std::int64_t& seedsOutside)
+  const KeptTriangles& kept, UnusedSeeds& unused)
 {
   std::vector<std::int32_t> regions(mesh.NumberOfTriangles, 0);
   for (std::size_t t = 0; t < kept.Numbers.size(); ++t)
@@ -512,7 +536,7 @@ std::vector<std::int32_t> FindRegions(const PointMeshView& mesh, const PointInpu
     const TriangleId slot = mesh.Edges.Triangles[t].InputTriangle;
     regions[t] = kept.Numbers[slot] < 0 ? -1 : 0;
   }
-  seedsOutside = SpreadSeeds(mesh, input.Regions, input.NumberOfRegions, 1, regions);
+  unused = SpreadSeeds(mesh, input.Regions, input.NumberOfRegions, 1, regions);
   return regions;
 }
 

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_OUTLINE_H
 #define DELAUNAYFLIP_OUTLINE_H
 
+#include "FlipReport.h"
 #include "PlaneMesh.h"
 #include "PointTriangulation.h"
 #include "SurfaceAngles.h"
@@ -135,19 +136,26 @@ std::int64_t CountHolePointsOutside(
 /// The triangles that the hole seeds are in, or NoTriangle.
 std::vector<TriangleId> FindHoleSeeds(const PointMeshView& mesh, const PointInput& input);
 
+/// Seeds of regions that are not used.
+struct UnusedSeeds
+{
+  Defect Outside = Defect(DefectKind::RegionSeedsOutside); ///< In no region.
+  /// In the region of an earlier one, with another label or area.
+  Defect Repeated = Defect(DefectKind::RegionSeedsRepeated);
+};
+
 /// Spreads the numbers of seeds, from 1, over the regions that they are in. Regions end at fixed
 /// edges and at removed triangles.
 /// @param regions by triangle, 0 or, for a removed one, -1; receives the number of the first seed
 /// there. @param side the orientation of the triangles that are not removed, 1 or -1.
-/// @returns how many seeds are in no region.
-std::int64_t SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std::int64_t count,
+UnusedSeeds SpreadSeeds(const PointMeshView& mesh, const RegionSeed* seeds, std::int64_t count,
   int side, std::vector<std::int32_t>& regions);
 
 /// The region of each triangle: the number of the first seed there plus 1, 0 where there is none,
 /// and -1 if it is removed. Regions end at segments and at removed triangles.
-/// @param kept numbers the triangles. @param seedsOutside receives how many are in no region.
+/// @param kept numbers the triangles.
 std::vector<std::int32_t> FindRegions(const PointMeshView& mesh, const PointInput& input,
-  const KeptTriangles& kept, std::int64_t& seedsOutside);
+  const KeptTriangles& kept, UnusedSeeds& unused);
 
 }
 

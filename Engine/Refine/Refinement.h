@@ -43,6 +43,17 @@ struct WinsOnHull
   }
 };
 
+/// Whether a place wins, as 1 or 0.
+struct Wins
+{
+  const RefinementItem* Items;
+
+  DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t i) const
+  {
+    return int(this->Items[i].State == ItemState::Wins);
+  }
+};
+
 /// How many places of a round win.
 struct CountOfWinners
 {
@@ -66,7 +77,7 @@ public:
   Refinement(const GrowingMesh<Real>& grown, const RefinementPlan& plan, const Backend& backend)
     : Device(backend),
       Arrays(grown, plan, backend),
-      MostVertices(plan.MostVertices),
+      MostVertices(grown.Vertices + plan.MostAdded),
       Failed(backend.template MakeArray<std::int32_t>(1))
   {
     const std::int32_t none = 0;
@@ -79,14 +90,14 @@ public:
   /// @throws BeyondDevice.
   std::int64_t InsertSome(GrowingMesh<Real>& grown)
   {
-    for (;;)
+    while (!this->ReachedLimit)
     {
       this->BeginRound(grown);
       const RefinementView view = this->Arrays.View(grown, this->Failed.Data());
       this->ProposeForTriangles(grown, view);
       this->ProposeForSegments(view);
       const std::int64_t added = this->InsertWinners(grown, view);
-      if (added > 0 || this->ReachedLimit)
+      if (added > 0)
       {
         return added;
       }
@@ -98,6 +109,7 @@ public:
         return 0;
       }
     }
+    return 0;
   }
 
   bool HasReachedLimit() const { return this->ReachedLimit; }
@@ -191,16 +203,22 @@ public:
   {
     const RefinementStep step = this->GetStep(view);
     const std::int64_t first = this->NumberOfPlaces;
-    const typename Backend::Numbering places = this->Device.Count(
+    typename Backend::Numbering places = this->Device.Count(
       first, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return step.Decide(i); });
-    const typename Backend::Numbering segments = this->Device.Count(this->NumberOfSegments,
+    typename Backend::Numbering segments = this->Device.Count(this->NumberOfSegments,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return step.Decide(first + i); });
     this->RequireDecided();
+    const std::int64_t room = this->MostVertices - grown.Vertices;
+    if (places.Total + segments.Total > room)
+    {
+      this->ReachedLimit = true;
+      segments = this->KeepFirst(segments, first, this->NumberOfSegments, room);
+      places = this->KeepFirst(places, 0, first, room - segments.Total);
+    }
     const CountOfWinners count{ places.Total, segments.Total, this->NumberOnHull(view) };
     const std::int64_t vertices = count.GetAdded().Vertex;
     this->NumberAdded = 0;
-    this->ReachedLimit = this->ReachedLimit || grown.Vertices + vertices > this->MostVertices;
-    if (vertices == 0 || this->ReachedLimit)
+    if (vertices == 0)
     {
       return 0;
     }
@@ -211,6 +229,24 @@ public:
     this->NumberAdded = vertices;
     this->LooksAtAll = false;
     return vertices;
+  }
+
+  /// Keeps the first winners of a kind, because the limit allows no more.
+  /// @param first its first item. @returns their numbering.
+  typename Backend::Numbering KeepFirst(const typename Backend::Numbering& numbering,
+    std::int64_t first, std::int64_t size, std::int64_t most)
+  {
+    RefinementItem* items = this->Items.Data() + first;
+    const Wins wins{ items };
+    this->Device.ForEachNumbered(numbering, size, wins,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
+      {
+        if (wins(i) != 0 && number >= most)
+        {
+          items[i].State = ItemState::Dropped;
+        }
+      });
+    return this->Device.Count(size, wins);
   }
 
   /// Numbers the winners on segments of the hull. @returns how many there are.

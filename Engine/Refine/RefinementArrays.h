@@ -389,9 +389,10 @@ public:
         }
         const bool isBoundary = isSegment.CountKept(e) == 1;
         marks[number] = marksOfEdges ? marksOfEdges[e] : 0;
-        if (keepsBoundary && isBoundary)
+        const bool staysForNow = (marks[number] & CannotSplit) != 0;
+        if (keepsBoundary && isBoundary && !staysForNow)
         {
-          marks[number] |= CannotSplit;
+          marks[number] |= CannotSplit | KeptBoundary;
         }
         origins[number] = static_cast<std::uint32_t>(number);
         segmentOfEdge[e] = static_cast<std::uint32_t>(number);

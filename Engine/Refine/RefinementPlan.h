@@ -18,7 +18,7 @@ namespace delaunayflip
 struct RefinementPlan
 {
   RefinementGoals Goals;
-  std::int64_t MostVertices = 0; ///< Rounds that would make more are not made.
+  std::int64_t MostAdded = 0; ///< How many vertices may be added.
   bool KeepsBoundary = false; ///< Whether no edge of the boundary is split.
   /// Whether the mesh is the caller's. Then Regions is by the caller's triangle. Triangles that are
   /// not counter-clockwise count as removed, and all their edges stay.

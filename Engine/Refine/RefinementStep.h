@@ -57,12 +57,15 @@ struct RefinementStep
     }
     const bool isBlocked = blocked != NoHalfEdge;
     const bool isHopeless = !IsFinite(item.Place) || item.Found.FindVertexSlot() >= 0;
-    if (isHopeless || (isBlocked && !this->View.CanSplit(blocked)))
+    const bool isStuck = isBlocked && !this->View.CanSplit(blocked);
+    const bool staysOut =
+      isStuck && !(this->View.IsKeptBoundary(blocked) && this->MoveInside(item));
+    if (isHopeless || staysOut)
     {
       this->View.SetShape(item.Source, ShapeKind::Left);
       return;
     }
-    if (isBlocked)
+    if (isBlocked && !isStuck)
     {
       this->View.Request(blocked);
       item.Found.Triangle = item.Source;
@@ -142,6 +145,26 @@ struct RefinementStep
   }
 
 private:
+  /// Moves the place for a triangle to its centroid, if that helps. @returns whether it does.
+  DELAUNAYFLIP_HOST_DEVICE bool MoveInside(RefinementItem& item) const
+  {
+    if (!this->View.CanSplitInside(item.Source))
+    {
+      return false;
+    }
+    const TriangleShape shape(this->View.Mesh, item.Source);
+    item.Place = this->View.Round(shape.FindCentroid());
+    item.SquaredRadius = INFINITY;
+    const PlanePoint corners[3] = { shape.Apex, shape.From, shape.To };
+    for (const PlanePoint& corner : corners)
+    {
+      const double squared = TriangleShape::GetSquaredDistance(item.Place, corner);
+      item.SquaredRadius = squared < item.SquaredRadius ? squared : item.SquaredRadius;
+    }
+    item.Found.Triangle = item.Source;
+    return this->Locate(item) == NoHalfEdge && item.Found.FindVertexSlot() < 0;
+  }
+
   /// Walks to the place.
   /// @returns a side of the subsegment that the place is on or beyond, or NoHalfEdge.
   DELAUNAYFLIP_HOST_DEVICE HalfEdgeId Locate(RefinementItem& item) const

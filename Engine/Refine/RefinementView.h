@@ -24,7 +24,8 @@ enum SegmentMark : std::uint8_t
 {
   SplitRequested = 1, ///< A vertex or a place is in its diametral circle, or a place beyond it.
   CannotSplit = 2, ///< It must not be split, or is too short.
-  FixedMeanwhile = 4 ///< It is fixed for refinement alone, and may flip afterwards.
+  FixedMeanwhile = 4, ///< It is fixed for refinement alone, and may flip afterwards.
+  KeptBoundary = 8 ///< It must not be split only because FlipOptions::KeepBoundary says so.
 };
 
 /// In place of the number of a subsegment: the edge is on none.
@@ -110,6 +111,10 @@ struct RefinementView
       return ShapeKind::Good;
     }
     const TriangleShape shape(this->Mesh, triangle);
+    if (!shape.IsMeasurable())
+    {
+      return ShapeKind::Left;
+    }
     const bool isSharp = shape.IsSharperThan(this->Goals.Cotangent);
     if (this->IsTooLarge(triangle, shape))
     {
@@ -148,21 +153,64 @@ struct RefinementView
 
   DELAUNAYFLIP_HOST_DEVICE bool IsTooLarge(TriangleId triangle, const TriangleShape& shape) const
   {
+    return this->HasTooMuchArea(triangle, shape) || this->IsTooLong(triangle, shape);
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool HasTooMuchArea(
+    TriangleId triangle, const TriangleShape& shape) const
+  {
     double area = this->Goals.Area;
     if (this->AreaOfRegion)
     {
       const double ofRegion = this->AreaOfRegion[this->Regions[triangle]];
       area = ofRegion < area ? ofRegion : area;
     }
-    bool isLarge = shape.GetArea() > area || shape.SquaredLongest > this->Goals.SquaredEdge;
-    if (this->Sizes && !isLarge)
+    return shape.GetArea() > area;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE bool IsTooLong(TriangleId triangle, const TriangleShape& shape) const
+  {
+    return shape.SquaredLongest > this->FindLongestEdge(triangle);
+  }
+
+  /// The square of the longest edge that a triangle may have.
+  DELAUNAYFLIP_HOST_DEVICE double FindLongestEdge(TriangleId triangle) const
+  {
+    double longest = this->Goals.SquaredEdge;
+    if (this->Sizes)
     {
       const VertexId* vertices = this->Mesh.Edges.Triangles[triangle].Vertices;
       const double size =
         (this->Sizes[vertices[0]] + this->Sizes[vertices[1]] + this->Sizes[vertices[2]]) / 3.0;
-      isLarge = shape.SquaredLongest > size * size;
+      longest = size * size < longest ? size * size : longest;
     }
-    return isLarge;
+    return longest;
+  }
+
+  /// Whether a point at the centroid of a triangle helps, where its circumcenter is beyond a
+  /// subsegment that cannot be split. It does if the triangle is too large, or if an edge is too
+  /// long that can get shorter and the triangle is not thin. Then the point is so far from all
+  /// edges of the triangle, and so from all other points, that refinement ends.
+  DELAUNAYFLIP_HOST_DEVICE bool CanSplitInside(TriangleId triangle) const
+  {
+    constexpr double Thin = 0.1; // the height over the longest edge, in lengths of that edge
+    const TriangleShape shape(this->Mesh, triangle);
+    if (this->HasTooMuchArea(triangle, shape))
+    {
+      return true;
+    }
+    const double longest = this->FindLongestEdge(triangle);
+    bool isTooLong = false;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const HalfEdgeId side = this->Mesh.GetHalfEdge(MakeCorner(triangle, slot));
+      const double squared =
+        TriangleShape::GetSquaredDistance(this->Mesh.GetPoint(this->Mesh.GetStart(side)),
+          this->Mesh.GetPoint(this->Mesh.GetEnd(side)));
+      const bool mayChange = !this->Mesh.IsFixed(side) || this->CanSplit(side);
+      isTooLong = isTooLong || (mayChange && squared > longest);
+    }
+    return isTooLong && shape.Cross > Thin * shape.SquaredLongest;
   }
 
   /// Whether a triangle is left as it is because its shortest edge connects two segments that meet
@@ -221,6 +269,13 @@ struct RefinementView
   {
     const std::uint32_t segment = this->SegmentOfEdge[EdgeOf(side)];
     return segment < FixedForNow && (AtomicLoad(&this->Marks[segment]) & CannotSplit) == 0;
+  }
+
+  /// Whether FlipOptions::KeepBoundary alone forbids that a subsegment is split.
+  DELAUNAYFLIP_HOST_DEVICE bool IsKeptBoundary(HalfEdgeId side) const
+  {
+    const std::uint32_t segment = this->SegmentOfEdge[EdgeOf(side)];
+    return segment < FixedForNow && (AtomicLoad(&this->Marks[segment]) & KeptBoundary) != 0;
   }
 
   /// Requests that a subsegment is split.

@@ -90,6 +90,20 @@ struct TriangleShape
     return this->Dot > cotangent * this->Cross;
   }
 
+  /// Whether doubles can hold the squares of the triangle's lengths.
+  DELAUNAYFLIP_HOST_DEVICE bool IsMeasurable() const
+  {
+    constexpr double Least = 0x1p-1000;
+    return this->SquaredLongest >= Least && this->SquaredLongest < INFINITY;
+  }
+
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint FindCentroid() const
+  {
+    constexpr double Third = 1.0 / 3.0;
+    return { this->Apex.U + Third * ((this->From.U - this->Apex.U) + (this->To.U - this->Apex.U)),
+      this->Apex.V + Third * ((this->From.V - this->Apex.V) + (this->To.V - this->Apex.V)), 0.0 };
+  }
+
   DELAUNAYFLIP_HOST_DEVICE double GetArea() const { return 0.5 * this->Cross; }
 
   /// The place that improves the triangle: its circumcenter, or an off-center nearer to the

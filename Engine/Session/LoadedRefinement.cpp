@@ -22,7 +22,7 @@ std::int64_t GetPointLimit(std::int64_t limit, std::int64_t points)
 
 }
 
-RefinementPlan LoadedRun::PlanGoals(std::int64_t points)
+RefinementPlan LoadedRun::PlanGoals(std::int64_t given, std::int64_t used)
 {
   const FlipOptions& options = this->Options;
   RefinementPlan plan;
@@ -35,8 +35,8 @@ RefinementPlan LoadedRun::PlanGoals(std::int64_t points)
   {
     plan.Goals.SquaredEdge = options.MaximumEdge * options.MaximumEdge;
   }
-  this->MostPoints = GetPointLimit(options.PointLimit, points);
-  plan.MostVertices = this->MostPoints;
+  this->MostPoints = GetPointLimit(options.PointLimit, given);
+  plan.MostAdded = std::max<std::int64_t>(0, this->MostPoints - used);
   plan.KeepsBoundary = options.KeepBoundary;
   return plan;
 }
@@ -47,6 +47,33 @@ Defect LoadedRun::DescribeLimit(std::int64_t points) const
   defect.Detail =
     " than " + std::to_string(this->MostPoints) + "; set it higher, or ask for larger triangles";
   return defect;
+}
+
+Defect LoadedRun::FindIdleOptions() const
+{
+  Defect defect(DefectKind::OptionsWithoutGoal);
+  if (this->WantsRefinement())
+  {
+    return defect;
+  }
+  const auto add = [&](bool isGiven, const char* name)
+  {
+    if (isGiven)
+    {
+      ++defect.Count;
+      defect.Detail += (defect.Detail.empty() ? "" : ", ") + std::string(name);
+    }
+  };
+  add(this->Options.KeepBoundary, "KeepBoundary");
+  add(this->Options.PointLimit > 0, "PointLimit");
+  return defect;
+}
+
+Defect LoadedRun::CountUnjudged() const
+{
+  const bool isAtLimit = this->Rounds == 0 && !this->IsRefined && this->IsAtIterationLimit();
+  const bool isCut = isAtLimit && this->WantsRefinement();
+  return Defect(DefectKind::TrianglesNotJudged, isCut ? this->Report.Triangles : 0);
 }
 
 bool LoadedRun::Refine()

@@ -100,8 +100,13 @@ protected:
   bool IsAtIterationLimit() const;
   /// Whether the options ask for refinement.
   virtual bool WantsRefinement() const = 0;
-  /// Makes a plan with the goals of the options. @param points the number of the caller's points.
-  RefinementPlan PlanGoals(std::int64_t points);
+  /// Makes a plan with the goals of the options.
+  /// @param given the number of the caller's points. @param used those that the limit counts.
+  RefinementPlan PlanGoals(std::int64_t given, std::int64_t used);
+  /// Names options of refinement that have no effect because nothing is refined.
+  Defect FindIdleOptions() const;
+  /// Counts the triangles if the limit on iterations allows no round.
+  Defect CountUnjudged() const;
   /// Says that there are so many points, and refinement may add no more.
   Defect DescribeLimit(std::int64_t points) const;
 

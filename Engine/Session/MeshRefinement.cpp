@@ -67,7 +67,7 @@ bool MeshRun::WantsRefinement() const
 RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
 {
   const std::int64_t points = this->Mesh.CountPoints();
-  RefinementPlan plan = this->PlanGoals(points);
+  RefinementPlan plan = this->PlanGoals(points, points);
   plan.IsOfCaller = true;
   plan.HasNonManifold = mesh.GetInputReport().Edges.NonManifold > 0;
   this->NumberRegions(plan);
@@ -86,7 +86,7 @@ void MeshRun::LabelRegions()
   {
     FlipOptions options = this->Insertion.GetOptions(this->Options);
     options.Geometry = this->Report.GeometryUsed;
-    this->Regions = FindSeededRegions(this->Start->CopyToHost(), options, this->RegionSeedsOutside);
+    this->Regions = FindSeededRegions(this->Start->CopyToHost(), options, this->Unused);
   }
 }
 

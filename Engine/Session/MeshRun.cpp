@@ -101,7 +101,7 @@ void MeshRun::Reset()
   this->Insertion = ConstraintInsertion();
   this->Refined = RefinedCallerMesh();
   this->Regions.clear();
-  this->RegionSeedsOutside = 0;
+  this->Unused = UnusedSeeds();
   this->Report.Points = this->Mesh.CountPoints();
   this->Report.Triangles = this->Mesh.CountTriangles();
 }
@@ -111,7 +111,10 @@ void MeshRun::ListDefects()
   FlipReport& report = this->Report;
   report.Defects = this->Loaded->GetInputReport().Defects;
   AddDefects(this->Insertion.GetRefused(), report.Defects);
-  AddDefect(Defect(DefectKind::RegionSeedsOutside, this->RegionSeedsOutside), report.Defects);
+  AddDefect(this->Unused.Outside, report.Defects);
+  AddDefect(this->Unused.Repeated, report.Defects);
+  AddDefect(this->FindIdleOptions(), report.Defects);
+  AddDefect(this->CountUnjudged(), report.Defects);
   AddDefect(this->Refined.Unrefined, report.Defects);
   if (this->Refined.HasReachedLimit)
   {

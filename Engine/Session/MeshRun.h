@@ -62,7 +62,7 @@ private:
   std::optional<CallerMesh> Start; ///< The caller's mesh, with its constraints inserted.
   RefinedCallerMesh Refined;
   std::vector<std::int32_t> Regions; ///< What FindSeededRegions returns, if there are seeds.
-  std::int64_t RegionSeedsOutside = 0;
+  UnusedSeeds Unused;
 };
 
 }

@@ -132,7 +132,7 @@ void PointRun::LabelRegions(LoadedMesh& mesh)
   const PointInput& input = this->Points.GetCaller();
   PointResult& result = this->Result;
   mesh.ViewOnHost([&](const PointMeshView& view)
-    { result.Regions = FindRegions(view, input, result.Kept, result.RegionSeedsOutside); });
+    { result.Regions = FindRegions(view, input, result.Kept, result.Seeds); });
 }
 
 RefinementPlan PointRun::PlanRefinement(LoadedMesh& mesh)
@@ -140,10 +140,12 @@ RefinementPlan PointRun::PlanRefinement(LoadedMesh& mesh)
   const PointInput& input = this->Points.GetCaller();
   const FlipReport& report = mesh.GetInputReport();
   const std::int64_t unused = report.FromPoints.NotFinite + report.FromPoints.Repeated;
-  RefinementPlan plan = this->PlanGoals(report.Points - unused);
+  const std::int64_t given = report.Points - unused;
+  const bool hasRemoved = this->Result.HasRemoved();
+  RefinementPlan plan = this->PlanGoals(given, hasRemoved ? this->Result.Kept.Used : given);
   this->Result.EdgesBefore = this->Result.Edges;
   plan.Regions = this->Result.Regions;
-  if (plan.Regions.empty() && this->Result.HasRemoved())
+  if (plan.Regions.empty() && hasRemoved)
   {
     for (const std::int32_t number : this->Result.Kept.Numbers)
     {

@@ -210,7 +210,7 @@ void AddPointsTo(
          NameRings(DefectKind::RingsRunAgain, kept.RingsRunAgain),
          Defect(DefectKind::HolePointsOutside, kept.HolePointsOutside),
          Defect(DefectKind::PointsWithoutTriangles, pointsWithoutMesh), result.Loss,
-         Defect(DefectKind::RegionSeedsOutside, result.RegionSeedsOutside), result.Unrefined })
+         result.Seeds.Outside, result.Seeds.Repeated, result.Unrefined })
   {
     AddDefect(defect, report.Defects);
   }

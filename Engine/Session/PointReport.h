@@ -34,7 +34,7 @@ struct PointResult
   KeptTriangles Kept;
   Defect Loss; ///< If none of the points that matter is left.
   std::vector<std::int32_t> Regions; ///< What FindRegions returns; empty if it was not called.
-  std::int64_t RegionSeedsOutside = 0;
+  UnusedSeeds Seeds;
   std::vector<SegmentEdge> EdgesBefore; ///< Edges before refinement.
   std::int64_t RefinementRounds = 0;
   Defect Unrefined; ///< Triangles that do not reach the goals.

@@ -382,6 +382,8 @@ void PointRun::ListDefects()
       this->Report.Edges = mesh.GetInputReport().Edges;
       AddPointsTo(this->Report, mesh, this->Points, this->Result);
     });
+  AddDefect(this->FindIdleOptions(), this->Report.Defects);
+  AddDefect(this->CountUnjudged(), this->Report.Defects);
   if (this->Result.HasReachedLimit)
   {
     AddDefect(this->DescribeLimit(this->Report.FromPoints.Used), this->Report.Defects);

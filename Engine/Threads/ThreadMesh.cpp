@@ -201,7 +201,7 @@ std::vector<std::int64_t> ListInnerFixedEdges(
 }
 
 std::vector<std::int32_t> FindSeededRegions(
-  const TriangleMesh& mesh, const FlipOptions& options, std::int64_t& seedsOutside)
+  const TriangleMesh& mesh, const FlipOptions& options, UnusedSeeds& unused)
 {
   HostEdges built(mesh, options, {});
   const SpatialOrderView order = built.Order.View();
@@ -233,7 +233,7 @@ std::vector<std::int32_t> FindSeededRegions(
   {
     region = region == side ? 0 : -1;
   }
-  seedsOutside = SpreadSeeds(view, mesh.RegionSeeds, mesh.NumberOfRegionSeeds, side, regions);
+  unused = SpreadSeeds(view, mesh.RegionSeeds, mesh.NumberOfRegionSeeds, side, regions);
   std::vector<std::int32_t> bySlot(regions.size());
   for (std::size_t t = 0; t < regions.size(); ++t)
   {

@@ -72,7 +72,8 @@ DEFECT_KINDS = (
     "rings without area", "rings repeated", "rings run again", "hole points outside",
     "points without triangles", "nothing left", "polygons too small", "constraints not in mesh",
     "points without heights", "region seeds outside", "triangles not refined", "point limit reached",
-    "points inside", "points in one plane", "segments inside")
+    "points inside", "points in one plane", "segments inside", "region seeds repeated",
+    "options without goal", "triangles not judged")
 
 
 def make_struct(name, members):

@@ -62,8 +62,7 @@ Struct = _library.make_struct("Points", (
 # not reach the goals.
 _WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
               "rings without area", "rings repeated", "rings run again", "hole points outside",
-              "region seeds outside", "points inside", "segments inside", "nothing left",
-              *LEFT_BY_REFINEMENT)
+              "points inside", "segments inside", "nothing left", *LEFT_BY_REFINEMENT)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -223,8 +222,8 @@ def triangulate(
         backend, threads, device: "cuda", "threads", or "auto": a GPU for many points if there is one. 0
             threads: as many as the machine has. Device: CUDA's number of the GPU; -1: the current one.
         maximum_iterations: -1: until done; 0: the triangulation that flips start from. Rounds count, too.
-        progress, on_iteration: Called with the share of the work done, 0 to 1, and after each iteration
-            with a dict of its numbers; returning False aborts.
+        progress, on_iteration: Called with the share of the work done, 0 to 1, also after each round of
+            refinement, and after each iteration of flips with a dict of its numbers; False aborts.
 
     Returns:
         A `Triangulation`. It has no triangles if all places lie on one line, or progress aborts early.

@@ -29,11 +29,12 @@ except ImportError:
     from signal import getsignal as _get_handler, signal as _set_handler
 
 _SIGNALS = tuple(map(int, signal.Signals))
-#: The kinds of defects in which refinement ends.
-LEFT_BY_REFINEMENT = "triangles not refined", "point limit reached"
+#: The kinds of defects that tell what refinement has left, and what it could not use.
+LEFT_BY_REFINEMENT = ("triangles not refined", "point limit reached", "region seeds outside",
+                      "region seeds repeated", "options without goal", "triangles not judged")
 #: x, y, label and perhaps the largest area of a triangle.
 Region = Tuple[float, ...]
-_REFINEMENT = (*GOALS, "keep_boundary", "point_limit")
+_REFINEMENT = (*GOALS, "keep_boundary", "point_limit", "maximum_iterations")
 
 
 @contextlib.contextmanager
@@ -139,7 +140,7 @@ def _with_keywords(names=_REFINEMENT):
 
 def _read_report(handle, names=_REFINEMENT):
     report = _report.read(handle)
-    if report.reached_point_limit:
+    if report.defects:
         report = dataclasses.replace(report, defects=name_keywords(report.defects, names))
     return report
 
@@ -419,7 +420,7 @@ def flip(
         devices: GPUs, connected by NVLink, that share the mesh: [0, 1] or "all"; (): device.
         pieces: 1 to 255, flipped in turn where a GPU is too small for the mesh; 0: the fewest.
         track_quality: Compute the smallest angle after every iteration; not with several pieces.
-        progress: Called with the share of the work done, 0 to 1; returning False aborts.
+        progress: Called with the share of the work done, 0 to 1, also after each round; False aborts.
         on_iteration: Called after each iteration, but not after rounds, with its numbers; False aborts.
 
     Returns:
@@ -454,9 +455,8 @@ def flip(
 
 
 def _warn_of_refinement(handle):
-    """Warns, where `flip` was called, of what refinement has left, and of region seeds that name nothing."""
-    trouble = [text for kind, _, text in _report.list_defects(handle)
-               if kind in ("region seeds outside", *LEFT_BY_REFINEMENT)]
+    """Warns, where `flip` was called, of what refinement has left or could not use."""
+    trouble = [text for kind, _, text in _report.list_defects(handle) if kind in LEFT_BY_REFINEMENT]
     if trouble:
         warnings.warn(name_keywords("; ".join(trouble), _REFINEMENT), stacklevel=3)
 

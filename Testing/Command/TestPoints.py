@@ -580,8 +580,12 @@ class Usage(PointTest):
             longest = max(math.dist(a[:2], b[:2]) for a in corners for b in corners)
             self.assertLessEqual(longest, 3 - min(x for x, _, _ in corners) / 4 + 1e-9)
         mesh, result = self.triangulate("in.vtk", "--maximum-edge", "0.1", "--point-limit", "100")
-        self.assertLessEqual(mesh.GetNumberOfPoints(), 100)
-        self.assertIn("points are there, so refinement has ended: --point-limit allows no more", result.stderr)
+        self.assertEqual(mesh.GetNumberOfPoints(), 100)
+        self.assertIn("100 points are there, so refinement has ended: --point-limit allows no more", result.stderr)
+        for extra in ([], ["--from-points"]):
+            result = self.succeed("in.vtk", "out.vtk", *extra, "--keep-boundary", "--point-limit", "100")
+            self.assertIn("without a goal nothing is refined: --keep-boundary, --point-limit", result.stderr)
+        self.fail_with(2, "in.vtk", "out.vtk", "--from-points", "--region", "1,1,7,-1", naming=["area of 0 or more"])
         mesh, _ = self.triangulate("in.vtk", *goals[:2], "--maximum-edge", "1", "--keep-boundary")
         self.assertEqual(sum(x in (0, 8) or y in (0, 8) for x, y, _ in points_of(mesh)), 4)
         self.fail_with(2, "in.vtk", "out.vtk", "--from-points", "--size-array", "width",
@@ -619,7 +623,7 @@ class Usage(PointTest):
         depths = mesh.GetPointData().GetArray("depth")
         self.assertTrue(all(abs(3 - x / 4 - depths.GetValue(i)) < 1e-5 for i, (x, _, _) in enumerate(points)))
         self.fail_with(2, "in.vtk", "out.vtk", "--geometry", "surface", "--minimum-angle", 20,
-                       naming=["surface in space"])
+                       naming=["surface in space", "choose --geometry planar-xy to"])
         self.fail_with(2, "in.vtk", "out.vtk", "--size-array", "width", naming=["--size-array", '"depth"'])
         result = self.succeed("in.vtk", "out.vtk", "--maximum-edge", "0.1", "--point-limit", "100")
         self.assertIn("so refinement has ended: --point-limit allows no more", result.stderr)

@@ -325,7 +325,9 @@ TEST(MeshRefineTest, LabelsRegionsOfSeeds)
     EXPECT_GE(0.05, largest[4]);
     EXPECT_LT(0.5, largest[-6]);
     EXPECT_EQ(2U, areas.size());
-    EXPECT_NE(std::string::npos, DescribeDefects(refined.Report.Defects).find("region seed"));
+    EXPECT_NE(std::string::npos,
+      DescribeDefects(refined.Report.Defects)
+        .find("region seed outside of all triangles (first: 3)"));
   }
 }
 
@@ -509,7 +511,7 @@ TEST(MeshRefineTest, KeepsBoundaryAndLimits)
   options = WithGoal(&FlipOptions::MaximumArea, 1e-4);
   options.PointLimit = 100;
   const RefinedMesh limited = Refine(mesh, options);
-  EXPECT_GE(100, limited.Report.Points + limited.Report.FromPoints.RefinementPoints);
+  EXPECT_EQ(100, limited.Report.Points + limited.Report.FromPoints.RefinementPoints);
   EXPECT_EQ(1, limited.Report.FromPoints.ReachedPointLimit);
   EXPECT_NE(std::string::npos,
     DescribeDefects(limited.Report.Defects)
@@ -548,6 +550,12 @@ TEST(MeshRefineTest, KeepsTheIterationLimit)
     EXPECT_EQ(StopReasonKind::IterationLimit, refined.Report.StopReason);
     EXPECT_EQ(std::max<std::int64_t>(rounds, 0), refined.Report.FromPoints.RefinementRounds);
     EXPECT_EQ(rounds > 0, refined.Report.FromPoints.UnrefinedTriangles > 0);
+    const std::string words = DescribeDefects(refined.Report.Defects);
+    EXPECT_EQ(rounds <= 0,
+      words.find(
+        "triangles that refinement has not looked at: MaximumIterations allows no round") !=
+        std::string::npos)
+      << words;
   }
 }
 

@@ -362,10 +362,46 @@ TEST(Refine, RegionsHaveLabelsAndAreas)
     EXPECT_NEAR(2.0, area[7], 1e-9);
     EXPECT_NEAR(2.0, area[-3], 1e-9);
     const std::vector<Defect>& defects = refined.Result.Report.Defects;
-    EXPECT_EQ(1,
-      std::count_if(defects.begin(), defects.end(),
-        [](const Defect& one) { return one.Kind == DefectKind::RegionSeedsOutside; }));
+    const auto outside = std::find_if(defects.begin(), defects.end(),
+      [](const Defect& one) { return one.Kind == DefectKind::RegionSeedsOutside; });
+    ASSERT_NE(defects.end(), outside);
+    EXPECT_EQ(1, outside->Count);
+    EXPECT_EQ(std::vector<std::int64_t>{ 2 }, outside->FirstIds);
   }
+}
+
+/// Of several seeds in one part the first counts. The others are named if they differ from it.
+TEST(Refine, SaysWhichSeedsAreNotUsed)
+{
+  const Drawing square = MakeSquare(2.0);
+  const RegionSeed seeds[] = { { 0.5, 1.0, 7, 0.0 }, { 1.5, 1.0, 7, 0.0 }, { 1.0, 0.5, 8, 0.0 },
+    { 1.0, 1.5, 7, 0.01 } };
+  PointInput input = square.View();
+  input.Regions = seeds;
+  input.NumberOfRegions = 2;
+  EXPECT_EQ("", DescribeDefects(Refine(input, PointOptions()).Result.Report.Defects));
+  input.NumberOfRegions = 4;
+  const std::string words = DescribeDefects(Refine(input, PointOptions()).Result.Report.Defects);
+  EXPECT_EQ(0U, words.find("2 region seeds in the same part as earlier ones, not used"));
+  EXPECT_NE(std::string::npos, words.find("(first: 2, 3)"));
+}
+
+TEST(Refine, SaysWhichOptionsHaveNoEffect)
+{
+  const Drawing square = MakeSquare(2.0);
+  const auto describe = [&](const PointOptions& options)
+  { return DescribeDefects(Refine(square.View(), options).Result.Report.Defects); };
+  PointOptions options;
+  options.KeepBoundary = true;
+  options.PointLimit = 1000;
+  EXPECT_EQ("2 options without effect, because without a goal nothing is refined: KeepBoundary, "
+            "PointLimit",
+    describe(options));
+  options.KeepBoundary = false;
+  EXPECT_EQ("1 option without effect, because without a goal nothing is refined: PointLimit",
+    describe(options));
+  options.MaximumArea = 1.0;
+  EXPECT_EQ("", describe(options));
 }
 
 TEST(Refine, TheBoundaryIsKept)
@@ -380,6 +416,28 @@ TEST(Refine, TheBoundaryIsKept)
   EXPECT_LT(100, refined.Result.Report.FromPoints.RefinementPoints);
 }
 
+/// Triangles inside get small, though the boundary is coarse. Triangles at its edges get thin.
+TEST(Refine, ACoarseBoundaryIsKept)
+{
+  const Drawing square = MakeSquare(10.0);
+  PointOptions options;
+  options.KeepBoundary = true;
+  options.MinimumAngle = 20.0;
+  options.MaximumArea = 1.0;
+  const Refined byArea = ExpectRefined(square, options);
+  EXPECT_GE(1.0, byArea.LargestArea);
+  EXPECT_EQ(4U, byArea.Result.Edges.size());
+  EXPECT_GT(1000, byArea.Result.Report.FromPoints.RefinementPoints);
+  EXPECT_LT(50, byArea.Result.Report.FromPoints.RefinementPoints);
+
+  options.MaximumArea = 0.0;
+  options.MaximumEdge = 2.0;
+  const Refined byEdge = ExpectRefined(square, options);
+  EXPECT_LT(20, byEdge.Result.Report.FromPoints.RefinementPoints);
+  EXPECT_GT(1000, byEdge.Result.Report.FromPoints.RefinementPoints);
+  EXPECT_EQ(4U, byEdge.Result.Edges.size());
+}
+
 /// The limit and an observer end with a valid mesh; after the observer, the run goes on.
 TEST(Refine, EndsEarly)
 {
@@ -392,7 +450,8 @@ TEST(Refine, EndsEarly)
   limited.PointLimit = most;
   const Refined few = Refine(coast.View(), limited);
   EXPECT_EQ(1, few.Result.Report.FromPoints.ReachedPointLimit);
-  EXPECT_GE(most, few.Result.Report.FromPoints.Used);
+  EXPECT_EQ(most, few.Result.Report.FromPoints.Used); // not counting points outside of the coast
+  EXPECT_EQ(few.Result.Triangles, Triangulate(coast, WithThreads(3, limited)).Triangles);
   EXPECT_EQ(few.Bad, few.Result.Report.FromPoints.UnrefinedTriangles);
   ExpectConstrainedDelaunay(few.Points, few.Result);
 
@@ -430,6 +489,20 @@ TEST(Refine, SinglePrecision)
   for (const Place& point : refined.Points)
   {
     EXPECT_EQ(point[0], static_cast<double>(static_cast<float>(point[0])));
+  }
+}
+
+/// Squares of such lengths are no doubles. The triangles are counted.
+TEST(Refine, DistancesThatCannotBeSquared)
+{
+  for (const double scale : { 1e-310, 1e160 })
+  {
+    const Drawing square = MakeSquare(scale);
+    PointOptions options;
+    options.MinimumAngle = 25.0;
+    const Triangulation refined = Triangulate(square, options);
+    EXPECT_EQ(2, refined.Report.FromPoints.UnrefinedTriangles) << scale;
+    EXPECT_EQ(6U, refined.Triangles.size()) << scale;
   }
 }
 

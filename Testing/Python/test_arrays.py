@@ -386,9 +386,12 @@ class Refine(unittest.TestCase):
             self.assertLessEqual(areas[is_left].max(), 0.3)
             self.assertGreater(areas[~is_left].max(), 0.3)
             self.assertAlmostEqual(areas[is_left].sum(), 40)
-        with self.assertWarnsRegex(UserWarning, "^1 region seed outside of all triangles$"):
+        with self.assertWarnsRegex(UserWarning, r"^1 region seed outside of all triangles \(first: 0\)$"):
             mesh = delaunayflip.triangulate(self.SQUARE, regions=[(20, 20, 5)])
         self.assertEqual(mesh.regions.tolist(), [0, 0])
+        with self.assertWarnsRegex(UserWarning, r"^1 region seed in the same part .* \(first: 1\)$"):
+            mesh = delaunayflip.triangulate(self.SQUARE, regions=[(2, 2, 5), (3, 2, 6)])
+        self.assertEqual(mesh.regions.tolist(), [5, 5])
         for wrong, error in (((1, 2), ValueError), ((1, 2, 3.5), TypeError), ((1, 2, 2**31), ValueError),
                              ("abc", ValueError), ((1, 2, 3, -1.0), delaunayflip.InvalidOptions),
                              ((numpy.nan, 2, 3), delaunayflip.InvalidOptions)):
@@ -433,7 +436,16 @@ class Refine(unittest.TestCase):
             mesh = delaunayflip.triangulate(thin, maximum_area=0.001, point_limit=50)
         self.assertEqual(mesh.report.reached_point_limit, 1)
         self.assertIn("refinement has ended: point_limit allows no more", mesh.report.defects)
-        self.assertLessEqual(mesh.report.used_points, 50)
+        self.assertEqual(mesh.report.used_points, 50)
+        with self.assertWarnsRegex(UserWarning, "50 points are there.*no more than 50;"):
+            delaunayflip.triangulate(thin + [[99, 99]], outline=[0, 1, 2, 3], maximum_area=0.001, point_limit=50)
+        for keywords, names in (({"keep_boundary": True}, "keep_boundary"), ({"point_limit": 9}, "point_limit"),
+                                ({"keep_boundary": True, "point_limit": 9}, "keep_boundary, point_limit")):
+            with self.assertWarnsRegex(UserWarning, f"without a goal nothing is refined: {names}$"):
+                mesh = delaunayflip.triangulate(thin, **keywords)
+            with self.assertWarnsRegex(UserWarning, f"without a goal nothing is refined: {names}$"):
+                flipped = delaunayflip.flip(mesh.points, mesh.triangles, **keywords)
+            self.assertTrue(flipped.report.defects.endswith(names))
         points = numpy.random.default_rng(1).random((30, 2)) * 10
         wall = [[[8.7, 4.9], [9.3, 2]], [[5.9, 2.6], [1.7, 9.3], [2.1, 8.5]], [[3.1, 2.2], [9.9, 3.2]]]
         for limit in range(60, 400, 20):  # also while subsegments are too short to be split
@@ -521,7 +533,7 @@ class RefineMeshes(unittest.TestCase):
                                   region_seeds=seeds) as session:
             session.advance()
             numpy.testing.assert_array_equal(session.regions, result.regions)
-        with self.assertWarnsRegex(UserWarning, "^1 region seed outside of all triangles$"):
+        with self.assertWarnsRegex(UserWarning, r"^1 region seed outside of all triangles \(first: 0\)$"):
             result = delaunayflip.flip(self.points, self.triangles, geometry="planar-xy",
                                        region_seeds=[(1e3, 1e3, 5)])
         self.assertFalse(result.regions.any())
@@ -586,6 +598,8 @@ class RefineMeshes(unittest.TestCase):
                 ({"size": numpy.zeros(len(self.points))}, "size of point 0")):
             with self.subTest(words), self.assertRaisesRegex(ValueError, words):
                 flip(**keywords)
+        with self.assertWarnsRegex(UserWarning, r"^\d+ triangles that .*: maximum_iterations allows no round"):
+            flip(geometry="planar-xy", minimum_angle=25, maximum_iterations=0)
         limited = flip(geometry="planar-xy", maximum_area=1e-4, point_limit=200).report
         self.assertIn("point_limit allows no more", limited.defects)
 
