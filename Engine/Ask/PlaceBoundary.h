@@ -6,6 +6,7 @@
 #include "Array.h"
 #include "PlaceFrame.h"
 #include "PlaceGrid.h"
+#include "PlaceOffsets.h"
 #include "PlaneMesh.h"
 
 #include <algorithm>
@@ -29,6 +30,16 @@ struct NearestOnBoundary
 {
   BoundaryEdge Edge;
   double ShareOfTo; ///< 0 at Edge.From, 1 at Edge.To.
+
+  /// Whether this is inside of an edge that ends where the other one is. Then this is nearer,
+  /// whatever rounding makes of the two distances.
+  DELAUNAYFLIP_HOST_DEVICE bool IsOnEdgeOfEnd(const NearestOnBoundary& other) const
+  {
+    const bool isInside = this->ShareOfTo > 0.0 && this->ShareOfTo < 1.0;
+    const bool isAtEnd = other.ShareOfTo == 0.0 || other.ShareOfTo == 1.0;
+    const VertexId end = other.ShareOfTo == 0.0 ? other.Edge.From : other.Edge.To;
+    return isInside && isAtEnd && (end == this->Edge.From || end == this->Edge.To);
+  }
 };
 
 /// A place, seen from the box of the boundary. The place may be so far away that the distances of
@@ -38,6 +49,7 @@ struct PlaceFromBox
 {
   double Near[2] = {}; ///< The nearest place in the box, scaled.
   double Away[2] = {}; ///< From there to the place, scaled, times Weight.
+  double AwayRest[2] = {}; ///< What rounding has taken from Away.
   double Weight = 1.0; ///< A power of two, so small that Away has no large numbers.
   double Inverse = 1.0; ///< 1 / Weight.
   bool IsInside = false; ///< Whether the place is in the box, so that Away is 0.
@@ -45,7 +57,7 @@ struct PlaceFromBox
   /// @param scale of the boundary.
   DELAUNAYFLIP_HOST_DEVICE PlaceFromBox(const PlanePoint& place, const PlaceBox& box, double scale)
   {
-    constexpr double LeastWeight = 0x1p-500; // what is farther away sees the same
+    constexpr double LeastWeight = 0x1p-1000; // what is farther away sees the same
     const double u = std::fabs(place.U), v = std::fabs(place.V);
     const double fitting = InvertPowerOfTwo(u > v ? u : v);
     const double unit = fitting < scale ? fitting : scale;
@@ -59,8 +71,26 @@ struct PlaceFromBox
       double near = coordinates[axis] > box.Low[axis] ? coordinates[axis] : box.Low[axis];
       near = near < box.High[axis] ? near : box.High[axis];
       this->Near[axis] = near * scale;
-      this->Away[axis] = coordinates[axis] * unit - near * unit;
+      const double here = near * unit, there = coordinates[axis] * unit;
+      this->Away[axis] = there - here;
+      this->AwayRest[axis] = GetDifferenceError(there, here, this->Away[axis]);
     }
+  }
+
+  /// The product of Away and an edge, divided by Weight. Where the place is far away beside the
+  /// edge, terms cancel, and each of their roundings would be longer than the edge.
+  /// @param edge rounded. @param rest what was lost.
+  DELAUNAYFLIP_HOST_DEVICE double MultiplyAway(
+    const PlaceOffset& edge, const PlaceOffset& rest) const
+  {
+    const double first = this->Away[0] * edge.U, second = this->Away[1] * edge.V;
+    const double sum = first + second;
+    const double ofSum = GetDifferenceError(first, -second, sum);
+    const double ofProducts = GetProductError(this->Away[0], edge.U, first) +
+      GetProductError(this->Away[1], edge.V, second);
+    const double ofFactors = (this->AwayRest[0] * edge.U + this->AwayRest[1] * edge.V) +
+      (this->Away[0] * rest.U + this->Away[1] * rest.V);
+    return (((sum + ofProducts) + ofSum) + ofFactors) * this->Inverse;
   }
 
   /// The weighted square of the distance from the place, without that of the place from the box.
@@ -97,7 +127,7 @@ struct PlaceBoundaryView
     double least = INFINITY;
     for (std::int64_t first = 0; first < this->NumberOfEdges; first += GroupSize)
     {
-      if (!(this->Bound(from, this->Boxes[first / GroupSize]) < least))
+      if (!(this->Bound(from, this->Boxes[first / GroupSize]) <= least))
       {
         continue;
       }
@@ -133,16 +163,17 @@ private:
   DELAUNAYFLIP_HOST_DEVICE void Offer(const PlaceFromBox& from, const BoundaryEdge& edge,
     double& least, NearestOnBoundary& nearest) const
   {
-    const double startU = this->GetScaled(edge.From, 0), startV = this->GetScaled(edge.From, 1);
-    const double u = startU - from.Near[0], v = startV - from.Near[1];
-    const double alongU = this->GetScaled(edge.To, 0) - startU;
-    const double alongV = this->GetScaled(edge.To, 1) - startV;
-    double along = -(u * alongU + v * alongV);
+    const ScaledPoint start = this->GetScaled(edge.From), end = this->GetScaled(edge.To);
+    const PlaceOffset seen = { start.U - from.Near[0], start.V - from.Near[1] };
+    const PlaceOffset along = Subtract(end, start);
+    double share = -(seen.U * along.U + seen.V * along.V);
     if (!from.IsInside)
     {
-      along += (from.Away[0] * alongU + from.Away[1] * alongV) * from.Inverse;
+      const PlaceOffset rest = { GetDifferenceError(end.U, start.U, along.U),
+        GetDifferenceError(end.V, start.V, along.V) };
+      share += from.MultiplyAway(along, rest);
     }
-    double share = along / (alongU * alongU + alongV * alongV);
+    share /= along.U * along.U + along.V * along.V;
     if (!(share > 0.0)) // or NaN
     {
       share = 0.0;
@@ -151,17 +182,20 @@ private:
     {
       share = 1.0;
     }
-    const double measure = from.Measure(u + share * alongU, v + share * alongV);
-    if (measure < least)
+    const double measure = from.Measure(seen.U + share * along.U, seen.V + share * along.V);
+    const NearestOnBoundary offered{ edge, share };
+    const bool isBetter =
+      measure < least ? !nearest.IsOnEdgeOfEnd(offered) : offered.IsOnEdgeOfEnd(nearest);
+    if (isBetter)
     {
       least = measure;
-      nearest = { edge, share };
+      nearest = offered;
     }
   }
 
-  DELAUNAYFLIP_HOST_DEVICE double GetScaled(VertexId vertex, int axis) const
+  DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetScaled(VertexId vertex) const
   {
-    return this->Places.Get(vertex, axis) * this->Scale;
+    return { this->Places.Get(vertex, 0) * this->Scale, this->Places.Get(vertex, 1) * this->Scale };
   }
 };
 

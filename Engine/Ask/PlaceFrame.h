@@ -8,29 +8,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace delaunayflip
 {
-
-/// The power of two by which a number that is not negative comes to be between 1 and 2; the largest
-/// one that is finite for the smallest numbers.
-DELAUNAYFLIP_HOST_DEVICE inline double InvertPowerOfTwo(double number)
-{
-  constexpr int MantissaBits = 52;
-  constexpr std::uint64_t TwiceTheBias = 2046;
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &number, sizeof(bits));
-  std::uint64_t exponent = bits >> MantissaBits;
-  if (exponent >= TwiceTheBias) // its inverse would be too small to be a normal number
-  {
-    exponent = TwiceTheBias - 1;
-  }
-  const std::uint64_t inverse = (TwiceTheBias - exponent) << MantissaBits;
-  double power = 0.0;
-  std::memcpy(&power, &inverse, sizeof(power));
-  return power;
-}
 
 /// The triangulation as seen from a place, for the weights of vertices around it. Coordinates are
 /// scaled by the triangle that has the place. A frame is the parameter of their templates.

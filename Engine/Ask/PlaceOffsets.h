@@ -6,9 +6,11 @@
 #include "HostDevice.h"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 /// @file
-/// Vectors between places, and areas that stay right where products nearly cancel.
+/// Vectors between places, their scale, and areas that stay right where products nearly cancel.
 
 namespace delaunayflip
 {
@@ -23,6 +25,25 @@ struct PlaceOffset
 DELAUNAYFLIP_HOST_DEVICE inline double FindSize(const PlaceOffset& offset)
 {
   return std::fabs(offset.U) + std::fabs(offset.V);
+}
+
+/// The power of two by which a number that is not negative comes to be between 1 and 2; the largest
+/// one that is finite for the smallest numbers.
+DELAUNAYFLIP_HOST_DEVICE inline double InvertPowerOfTwo(double number)
+{
+  constexpr int MantissaBits = 52;
+  constexpr std::uint64_t TwiceTheBias = 2046;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &number, sizeof(bits));
+  std::uint64_t exponent = bits >> MantissaBits;
+  if (exponent >= TwiceTheBias) // its inverse would be too small to be a normal number
+  {
+    exponent = TwiceTheBias - 1;
+  }
+  const std::uint64_t inverse = (TwiceTheBias - exponent) << MantissaBits;
+  double power = 0.0;
+  std::memcpy(&power, &inverse, sizeof(power));
+  return power;
 }
 
 /// A point, scaled so that products of differences neither overflow nor underflow.

@@ -135,7 +135,7 @@ struct AskedValues
       // Sums of large values may overflow. With weights of less than 1 in all they do not.
       scale = 0.25 * InvertPowerOfTwo(std::fabs(sum));
     }
-    return isGood && sum != 0.0;
+    return isGood && std::fabs(sum) > 0.0; // else weights have cancelled, as in slivers
   }
 
   DELAUNAYFLIP_HOST_DEVICE void Fill(double* result, double value) const

@@ -191,8 +191,12 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline TriangleId FollowHull(
   {
     const PlanePoint from = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner)));
     const PlanePoint to = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Previous(corner)));
-    const double u = to.U - from.U, v = to.V - from.V;
-    const double along = (place.U - from.U) * u + (place.V - from.V) * v;
+    // Halves do not overflow, and products of scaled ones neither overflow nor underflow.
+    const PlaceOffset side = { 0.5 * to.U - 0.5 * from.U, 0.5 * to.V - 0.5 * from.V };
+    const double scale = InvertPowerOfTwo(FindSize(side));
+    const double u = side.U * scale, v = side.V * scale;
+    const double along =
+      (0.5 * place.U - 0.5 * from.U) * scale * u + (0.5 * place.V - 0.5 * from.V) * scale * v;
     const int step = int(along > u * u + v * v) - int(along < 0.0);
     if (step == 0 && FindSide(mesh, place, corner) >= 0)
     {
