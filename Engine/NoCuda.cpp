@@ -5,6 +5,7 @@
 #include "CudaSupport.h"
 #include "FlipError.h"
 #include "LoadedMesh.h"
+#include "LoadedSphere.h"
 
 #include <string>
 
@@ -39,6 +40,11 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(const DeviceMesh&, const FlipOptions&, co
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(const PointInput&, const FlipOptions&, const BuildProgress&)
+{
+  RefuseRun();
+}
+
+std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput&, const FlipOptions&)
 {
   RefuseRun();
 }

@@ -37,6 +37,7 @@ bool SphereRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
     host.CopyBack();
     return isComplete;
   }
+  this->Fetch();
   if (!this->IsOver() || this->Triangles.empty())
   {
     FillOutside(query);

@@ -37,7 +37,7 @@ void SphereRun::OpenMesh()
 void SphereRun::Complete()
 {
   FlipReport& report = this->Report;
-  report.Points = SizeOf(this->Points);
+  report.Points = this->Input.Points.Count;
   report.GeometryUsed = GeometryKind::Sphere;
   report.GeometryReason = "points are triangulated on a sphere";
   report.FromPoints = PointCounts();
@@ -46,11 +46,19 @@ void SphereRun::Complete()
   report.BuildSeconds += this->Planar.BuildSeconds;
   report.FlipSeconds += this->Planar.FlipSeconds;
   report.FromPoints.LargeTriangles = this->Opened;
-  this->FindNeighborsOnce();
-  report.Triangles = SizeOf(this->Triangles) / 3;
-  const auto boundary = std::count(this->Neighbors.begin(), this->Neighbors.end(), -1);
+  std::int64_t boundary = 0;
+  if (this->OnDevice)
+  {
+    report.Triangles = this->OnDevice->CountTriangles();
+  }
+  else
+  {
+    this->FindNeighborsOnce();
+    report.Triangles = SizeOf(this->Triangles) / 3;
+    boundary = std::count(this->Neighbors.begin(), this->Neighbors.end(), -1);
+  }
   report.Edges = EdgeCounts();
-  report.Edges.Edges = (SizeOf(this->Triangles) + boundary) / 2;
+  report.Edges.Edges = (3 * report.Triangles + boundary) / 2;
   report.Edges.Boundary = report.Edges.Fixed = boundary;
   KeepAnglesBefore({}, report); // nobody sees the triangles from which flips begin
   this->ListUnused();
@@ -82,6 +90,11 @@ void SphereRun::MarkInside()
 /// Counts the points that have triangles, and counts and names those that are not used.
 void SphereRun::ListUnused()
 {
+  if (this->OnDevice)
+  {
+    this->Report.FromPoints.Used = this->Report.Points;
+    return;
+  }
   std::vector<char> hasTriangle(this->Points.size());
   for (const std::int32_t id : this->Triangles)
   {
@@ -130,6 +143,7 @@ void SphereRun::ListUnused()
 //------------------------------------------------------------------------------
 void SphereRun::StoreTriangles(const MutableTriangleArray& triangles)
 {
+  this->Fetch();
   for (std::int64_t t = 0; t < triangles.Count; ++t)
   {
     for (int slot = 0; slot < 3; ++slot)
@@ -141,11 +155,13 @@ void SphereRun::StoreTriangles(const MutableTriangleArray& triangles)
 
 void SphereRun::StoreFlipCounts(std::int32_t* counts)
 {
+  std::fill_n(counts, this->Report.Triangles, 0); // those on a device have not flipped
   std::copy(this->FlipCounts.begin(), this->FlipCounts.end(), counts);
 }
 
 void SphereRun::StoreNeighbors(std::int32_t* neighbors)
 {
+  this->Fetch();
   std::copy(this->Neighbors.begin(), this->Neighbors.end(), neighbors);
 }
 

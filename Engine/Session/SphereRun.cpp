@@ -53,20 +53,6 @@ void RequirePlainPoints(const PointInput& input, const PointOptions& options)
     },
     plain, defaults);
 }
-
-/// @throws RunAborted if an observer stops the session, or has stopped its constructor.
-void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
-{
-  const auto isAborted = [&] { return session.GetReport().StopReason == StopReasonKind::Aborted; };
-  if (!isAborted())
-  {
-    session.Advance(-1, {}, progress);
-  }
-  if (isAborted())
-  {
-    throw RunAborted();
-  }
-}
 }
 
 SphereRun::SphereRun(
@@ -92,6 +78,7 @@ void SphereRun::Reset()
   this->Starts = 0;
   this->FirstSimplex.clear();
   this->Asker.reset();
+  this->OnDevice.reset();
   this->Triangles.clear();
   this->Neighbors.clear();
   this->FlipCounts.clear();
@@ -141,6 +128,17 @@ catch (...)
 }
 
 void SphereRun::Run()
+{
+  if (this->RunOnDevice())
+  {
+    this->HasHull = true;
+    this->Complete();
+    return;
+  }
+  this->RunOnHost();
+}
+
+void SphereRun::RunOnHost()
 {
   this->ReadPoints();
   this->CheckOpposite();
@@ -265,6 +263,20 @@ bool SphereRun::Start()
       return true;
     }
     this->LeaveOut(FindStrays(this->Points, this->Triangles, this->Center), PointState::LeftOut);
+  }
+}
+
+/// @throws RunAborted if an observer stops the session, or has stopped its constructor.
+void SphereRun::AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
+{
+  const auto isAborted = [&] { return session.GetReport().StopReason == StopReasonKind::Aborted; };
+  if (!isAborted())
+  {
+    session.Advance(-1, {}, progress);
+  }
+  if (isAborted())
+  {
+    throw RunAborted();
   }
 }
 
@@ -471,19 +483,25 @@ bool SphereRun::TakeStart()
   {
     return false;
   }
+  this->FlipCounts.assign(count, 0);
+  this->ReportStart(sums);
+  return true;
+}
+
+/// Reports that there is nothing to flip on the sphere.
+void SphereRun::ReportStart(const ConvexitySums& sums)
+{
   this->Report = FlipReport();
   this->Report.Backend = this->Planar.Backend;
   this->Report.Fallback = this->Planar.Fallback;
   this->Report.Tolerance = this->Planar.Tolerance;
   KeepAnglesAfter(sums.Angles, this->Report);
-  this->FlipCounts.assign(count, 0);
   const ProgressObserver progress = this->TellHalf();
   const bool isStopped = progress && !progress(1.0);
   if (isStopped)
   {
     throw RunAborted();
   }
-  return true;
 }
 
 /// Flips until every edge that is not of a segment is convex, or its flip would turn a triangle

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_SPHERERUN_H
 
 #include "DelaunayFlip.h"
+#include "LoadedSphere.h"
 #include "Outline.h"
 #include "RefusedSegments.h"
 #include "SegmentCrossings.h"
@@ -48,6 +49,9 @@ public:
   void StoreFlipCounts(std::int32_t* counts) override;
   void StoreNeighbors(std::int32_t* neighbors) override;
   void StoreUsedPoints(std::int64_t* ids) override;
+  bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream,
+    std::int32_t* written) override;
+  bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream) override;
   std::vector<std::int64_t> ListSegmentEdges() override;
   std::vector<std::int64_t> ListSegmentsOfEdges() override;
   void StoreRegions(std::int32_t* labels) override;
@@ -64,6 +68,15 @@ private:
   };
 
   void Run();
+  void RunOnHost();
+  bool RunOnDevice();
+  bool MayRunOnDevice() const;
+  bool StartOnDevice(LoadedSphere& device, const FlipOptions& options);
+  void Fetch();
+  template <typename Store>
+  bool StoreFromDevice(const Store& store);
+  static void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress);
+  void ReportStart(const ConvexitySums& sums);
   void ReadPoints();
   bool Start();
   void StartInPlane(const SpherePoints& points, const NumberedPoint& pole);
@@ -103,6 +116,9 @@ private:
 
   const PointInput Input;
   const PointOptions Options;
+  /// If it is there, it has the closed mesh of all points, and the arrays below are empty until
+  /// they are fetched.
+  std::unique_ptr<LoadedSphere> OnDevice;
   SpacePoints Points;
   std::vector<PointState> States; ///< By point.
   std::vector<std::int32_t> UsedPoint; ///< By point, the one that is used at its place.

@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipError.h"
 #include "FlipTestSupport.h"
+#include "PointTriangulation.h"
 #include "TestDevice.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
 
 /// @file
 /// Meshes in device memory: the result is that of the same mesh in the host's memory, bit for bit.
@@ -278,6 +282,113 @@ TEST_F(DeviceMeshTest, RefusesOtherMemoryAndShapes)
   EXPECT_THROW(session.StoreFlipCounts(host.data(), {}), InvalidOptions);
   EXPECT_TRUE(std::vector<std::int32_t>(host.size(), 0) == host);
   ExpectSame(this->Mesh.View(), With(&FlipOptions::Device, 0));
+}
+
+/// Points on a sphere, in device memory and in the host's: the mesh is that of threads, whether it
+/// stays on the device or has ties, repeated points or points inside.
+class DeviceSphereTest : public TestOfADevice
+{
+protected:
+  static std::vector<double> DrawPoints(std::int64_t count)
+  {
+    std::mt19937 random(3);
+    std::vector<double> points(3 * count);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      const double longitude = 360.0 * (random() * 0x1p-32),
+                   latitude = 180.0 * (random() * 0x1p-32);
+      PlaceOnSphere(longitude, latitude - 90.0, points.data() + 3 * i);
+    }
+    return points;
+  }
+
+  static PointInput View(const double* points, std::size_t numbers, bool onDevice)
+  {
+    PointInput input;
+    input.Points = PlaneArray(points, static_cast<std::int64_t>(numbers / 3), 3);
+    input.OnDevice = onDevice;
+    return input;
+  }
+
+  struct Stored
+  {
+    std::vector<std::int32_t> Triangles, Neighbors, FlipCounts;
+    std::vector<std::int64_t> Used;
+
+    bool operator==(const Stored& other) const
+    {
+      return this->Triangles == other.Triangles && this->Neighbors == other.Neighbors &&
+        this->FlipCounts == other.FlipCounts && this->Used == other.Used;
+    }
+  };
+
+  static Stored StoreOnHost(const FlipSession& session, std::size_t points)
+  {
+    const std::int64_t count = session.CountTriangles();
+    Stored stored{ std::vector<std::int32_t>(3 * count), std::vector<std::int32_t>(3 * count),
+      std::vector<std::int32_t>(count), std::vector<std::int64_t>(points) };
+    session.StoreTriangles(MutableTriangleArray(stored.Triangles.data(), count));
+    session.StoreNeighbors(stored.Neighbors.data());
+    session.StoreFlipCounts(stored.FlipCounts.data());
+    session.StoreUsedPoints(stored.Used.data());
+    return stored;
+  }
+
+  static FlipSession Run(const PointInput& input, BackendKind backend)
+  {
+    PointOptions options;
+    options.Projection = ProjectionKind::Sphere;
+    options.Backend = backend;
+    FlipSession session(input, options);
+    session.Advance();
+    return session;
+  }
+
+  static void ExpectSameSphere(const std::vector<double>& points)
+  {
+    const std::size_t count = points.size() / 3;
+    const PointInput onHost = View(points.data(), points.size(), false);
+    const FlipSession threads = Run(onHost, BackendKind::Threads);
+    const Stored expected = StoreOnHost(threads, count);
+    const FlipSession copied = Run(onHost, BackendKind::CUDA);
+    EXPECT_TRUE(expected == StoreOnHost(copied, count));
+    ExpectSameStatistics(threads.GetReport(), copied.GetReport());
+    EXPECT_EQ(0u, copied.GetReport().Backend.rfind("CUDA: ", 0));
+    const DeviceValues<double> values(points);
+    const FlipSession session = Run(View(values.Data(), points.size(), true), BackendKind::Auto);
+    ExpectSameStatistics(threads.GetReport(), session.GetReport());
+    const std::int64_t triangles = session.CountTriangles();
+    const DeviceValues<std::int64_t> ids(std::vector<std::int64_t>(3 * triangles));
+    const DeviceValues<std::int32_t> neighbors(std::vector<std::int32_t>(3 * triangles));
+    session.StoreTriangles(MutableTriangleArray(ids.Data(), triangles), {});
+    session.StoreNeighbors(neighbors.Data(), {});
+    const std::vector<std::int64_t> stored = ids.Get();
+    EXPECT_TRUE(expected.Triangles == std::vector<std::int32_t>(stored.begin(), stored.end()));
+    EXPECT_TRUE(expected.Neighbors == neighbors.Get());
+    EXPECT_TRUE(expected == StoreOnHost(session, count));
+  }
+};
+
+TEST_F(DeviceSphereTest, StaysOnTheDevice)
+{
+  for (const std::int64_t count : { 4, 300, 20000 })
+  {
+    ExpectSameSphere(DrawPoints(count));
+  }
+}
+
+TEST_F(DeviceSphereTest, GoesOnOnTheHost)
+{
+  std::vector<double> points = DrawPoints(300);
+  points.insert(points.end(), { 0.5, 0.0, 0.0 }); // inside
+  ExpectSameSphere(points);
+  points = DrawPoints(300);
+  points.insert(points.end(), points.begin(), points.begin() + 30); // repeated
+  ExpectSameSphere(points);
+  points[7] = NAN;
+  ExpectSameSphere(points);
+  ExpectSameSphere({ 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0.6, 0.8, 0, 0.6,
+    -0.8, 0, -0.6, 0.8, 0, -0.6, -0.8, 0 }); // four and more in one circle
 }
 
 }

@@ -5,7 +5,9 @@
 #include "CudaDevice.h"
 #include "FlipError.h"
 #include "LoadedMesh.h"
+#include "SphereOnBackend.h"
 #include "TestDevice.h"
+#include "ThreadBackend.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -196,6 +198,74 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
 {
   return std::unique_ptr<LoadedMesh>(
     new FakeEngine(LoadOnThreads(points.Points, options, progress)));
+}
+
+namespace
+{
+/// Counts its arrays as device memory.
+class FakeSphere : public SphereOnBackend<ThreadBackend>
+{
+public:
+  using SphereOnBackend::SphereOnBackend;
+  ~FakeSphere() override
+  {
+    for (const void* memory : this->Lent)
+    {
+      Allocations.erase(reinterpret_cast<std::uintptr_t>(memory));
+    }
+  }
+
+  std::unique_ptr<DeviceScope> MakeCurrent() const override
+  {
+    if (CallsToFailure > 0 && --CallsToFailure == 0)
+    {
+      throw BackendUnavailable("as the test wants it");
+    }
+    return nullptr;
+  }
+  PlaneArray Project(const NumberedPoint& pole, std::int64_t& unplaced) override
+  {
+    const PlaneArray places = SphereOnBackend::Project(pole, unplaced);
+    this->Lend(places.Data(), 16 * places.Count);
+    this->Lend(this->GetTriangles(), 24 * places.Count);
+    this->Lend(this->GetNeighbors(), 24 * places.Count);
+    return places;
+  }
+  bool StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream&) override
+  {
+    return this->Store(this->GetTriangles(), triangles);
+  }
+  bool StoreNeighbors(std::int32_t* neighbors, const DeviceStream&) override
+  {
+    return this->Store(
+      this->GetNeighbors(), MutableTriangleArray(neighbors, this->CountTriangles()));
+  }
+
+private:
+  void Lend(const void* memory, std::uintptr_t bytes)
+  {
+    const auto address = reinterpret_cast<std::uintptr_t>(memory);
+    Allocations[address] = address + bytes;
+    this->Lent.push_back(memory);
+  }
+  static bool Store(const std::int32_t* numbers, const MutableTriangleArray& target)
+  {
+    for (std::int64_t i = 0; i < 3 * target.Count; ++i)
+    {
+      StoreNumberStep{ numbers }(i, target);
+    }
+    return true;
+  }
+
+  std::vector<const void*> Lent;
+};
+}
+
+std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput& points, const FlipOptions& options)
+{
+  auto sphere = std::make_unique<FakeSphere>(ThreadBackend(options.NumberOfThreads));
+  sphere->Load(points);
+  return sphere;
 }
 
 bool HasCudaDevice() { return true; }

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CudaBackend.cuh"
+#include "SphereOnBackend.h"
+
+#include <memory>
+
+namespace delaunayflip
+{
+
+namespace
+{
+/// Points on a sphere that also stores into arrays in the memory of its device.
+class CudaSphere : public SphereOnBackend<CudaBackend>
+{
+public:
+  using SphereOnBackend::SphereOnBackend;
+
+  bool StoreTriangles(const MutableTriangleArray& triangles, const DeviceStream& stream) override
+  {
+    return this->StoreHere(triangles.Data(), this->GetTriangles(), triangles, stream);
+  }
+
+  bool StoreNeighbors(std::int32_t* neighbors, const DeviceStream& stream) override
+  {
+    return this->StoreHere(neighbors, this->GetNeighbors(),
+      MutableTriangleArray(neighbors, this->CountTriangles()), stream);
+  }
+
+private:
+  bool StoreHere(const void* memory, const std::int32_t* numbers,
+    const MutableTriangleArray& target, const DeviceStream& stream) const
+  {
+    const CudaBackend& backend = this->GetBackend();
+    const bool isHere = FindDeviceOf(memory) == backend.GetContext().Device;
+    if (isHere)
+    {
+      backend.StoreOnDevice(3 * target.Count, target, stream, StoreNumberStep{ numbers });
+    }
+    return isHere;
+  }
+};
+}
+
+std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput& points, const FlipOptions& options)
+{
+  CudaBackend backend({ options.Device }, options.NumberOfThreads);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+  if (points.OnDevice)
+  {
+    backend.WaitFor(points.Stream);
+  }
+  auto sphere = std::make_unique<CudaSphere>(std::move(backend));
+  sphere->Load(points);
+  return sphere;
+}
+
+}
