@@ -44,7 +44,7 @@ struct WinsOnHull
 };
 
 /// Whether a place wins, as 1 or 0.
-struct Wins
+struct WinsRound
 {
   const RefinementItem* Items;
 
@@ -237,7 +237,7 @@ public:
     std::int64_t first, std::int64_t size, std::int64_t most)
   {
     RefinementItem* items = this->Items.Data() + first;
-    const Wins wins{ items };
+    const WinsRound wins{ items };
     this->Device.ForEachNumbered(numbering, size, wins,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
