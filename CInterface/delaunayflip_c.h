@@ -58,7 +58,7 @@ extern "C"
   /** The interface version of the library that was loaded. */
   int32_t delaunayflip_interface_version(void);
 
-  /** The release of the library, e.g. "0.1.0". */
+  /** The release of the library, e.g. "0.2.0". */
   const char* delaunayflip_version(void);
 
   typedef enum

@@ -178,7 +178,7 @@ def call(name, *arguments):
 
 
 def version() -> str:
-    """The release of the engine, e.g. "0.1.0"."""
+    """The release of the engine, e.g. "0.2.0"."""
     return run("version").decode()
 
 
