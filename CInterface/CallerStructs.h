@@ -127,7 +127,7 @@ inline FixedEdges ToFixedEdges(const delaunayflip_mesh& c, const std::vector<Reg
     c.frozen_triangles, c.sizes, seeds.data(), static_cast<std::int64_t>(seeds.size()) };
 }
 
-/// A view of the caller's integers as `Array`, whose 32-bit ids are Id32 and 64-bit ids Id64.
+/// A view of the caller's integers as `Array`. 32-bit ids have the type Id32, 64-bit ids Id64.
 template <typename Array, typename Id32, typename Id64, typename Void>
 Array ToIds(Void* ids, std::int64_t triangles, std::int32_t type)
 {

@@ -418,8 +418,8 @@ extern "C"
     DELAUNAYFLIP_SPHERE = 1, /**< The convex hull of points around the origin, by x, y and z:
                                 point_components is 3. Segments run along great circles, the shorter
                                 way. There are no regions or sizes. */
-    DELAUNAYFLIP_OPEN_SPHERE = 2 /**< As on a sphere, without triangles whose circumcircle encloses
-                                    half of the sphere or more. */
+    DELAUNAYFLIP_OPEN_SPHERE = 2 /**< Like a sphere, but a triangle is left out if its circumcircle
+                                    encloses half of the sphere or more. */
   } delaunayflip_projection; /**< The surface on which points are triangulated. */
 
   /** Points to triangulate, the segments between them, and how. PointTriangulation.h describes each
@@ -525,8 +525,8 @@ extern "C"
     delaunayflip_session* session, double* xyz, int64_t* ids, double* weights);
 
   /** Writes, for each triangle, its source: the triangle before refinement that contains its
-   * centroid, whose data it gets. One number for each of delaunayflip_count_triangles triangles.
-   * For sessions from triangles. */
+   * centroid. The triangle gets the data of its source. One number for each of
+   * delaunayflip_count_triangles triangles. For sessions from triangles. */
   delaunayflip_status delaunayflip_store_sources(delaunayflip_session* session, int32_t* sources);
 
   /** Writes the label of the region that each triangle is in, and 0 where there is none: one for
@@ -680,7 +680,7 @@ extern "C"
   delaunayflip_status delaunayflip_expect(
     delaunayflip_session* session, void* memory, int64_t bytes);
 
-  /** Fills `report`, whose size must be set (delaunayflip_report_init). */
+  /** Fills `report`. Its size must be set (delaunayflip_report_init). */
   delaunayflip_status delaunayflip_get_report(
     delaunayflip_session* session, delaunayflip_report* report);
 
@@ -766,12 +766,12 @@ extern "C"
 
   void delaunayflip_polygons_init(delaunayflip_polygons* polygons);
 
-  /** Splits polygons over the points of `mesh`, whose other members have no effect, into triangles
-   * that keep their winding. If there are more than three corners, those that repeat the one before
-   * them are dropped first, and the last ones if they repeat the first. A polygon of n corners
-   * gives n - 2 triangles, or none if fewer than three differ. Their point ids, three each, are
-   * written to `triangles` in the order of the polygons. There must be room for as many as there
-   * are with repeated corners. A quad is divided along its first diagonal, unless that runs outside
+  /** Splits polygons over the points of `mesh` into triangles that keep their winding. The other
+   * members of `mesh` have no effect. If there are more than three corners, those that repeat the
+   * one before them are dropped first, and the last ones if they repeat the first. A polygon of n
+   * corners gives n - 2 triangles, or none if fewer than three differ. Their point ids, three each,
+   * are written to `triangles` in the order of the polygons. There must be room for as many as if
+   * no corner were dropped. A quad is divided along its first diagonal, unless that runs outside
    * it. A larger polygon becomes a fan if it is convex, else its ears are clipped. `callbacks` may
    * be null. If `progress` returns 0 the call fails with DELAUNAYFLIP_STOPPED. */
   delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,

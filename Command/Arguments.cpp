@@ -131,7 +131,7 @@ void AddJudgeOptions(CLI::App& app, Arguments& arguments)
     "much as the rounding of its points can explain [-1]");
   AddChoice(app, "--tie-rule", Set(arguments, &vtkDelaunayFlip::SetTieRule),
     { "keep", "canonical" },
-    "Edges whose four points lie on one circle: keep them, or make the result independent of the "
+    "Edges with all four points on one circle: keep them, or make the result independent of the "
     "input's triangles (in-circle in the plane only) [keep]");
 }
 
@@ -162,7 +162,7 @@ void AddStayOptions(CLI::App& app, Arguments& arguments)
     "On surfaces, an edge stays if its flip would move the surface by more than this: a length, or "
     "with a percent sign a share of the bounding box's diagonal (1%). Many flips can add up [inf]");
   AddFile(app, "--constraints", arguments.Constraints,
-    "A file whose lines and polygons are edges that stay. Its point ids are the input's if "
+    "A file with lines and polygons. Their edges stay. Its point ids are the input's if "
     "it has the same points; otherwise points are matched by their coordinates. In the plane, "
     "edges that the input does not have are inserted by flips");
   app.add_flag_callback("--no-insert-constraints",
@@ -255,9 +255,9 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
         return list.empty() || list.find(',') != list.npos ? ChosenColumns(list).FindFault() : "";
       });
   AddFile(app, "--outline", arguments.Outline,
-    "A file whose polygons, and lines that close, are rings: what is not inside them is removed");
+    "A file with rings: polygons, and lines that close. What is not inside them is removed");
   AddFile(app, "--holes", arguments.Holes,
-    "A file whose polygons, and lines that close, are rings: what is inside them is removed");
+    "A file with rings: polygons, and lines that close. What is inside them is removed");
   AddChoice(app, "--ring-rule", Set(arguments, &vtkDelaunayFlipPoints::SetRingRule),
     { "evenodd", "nonzero" },
     "When a place is inside the rings of a file: if a path to infinity crosses them an odd number "
@@ -278,7 +278,7 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "none");
   const auto length = Within(0.0, std::numeric_limits<double>::max(), "a length of 0 or more");
   AddValue(app, "--alpha", Set(arguments, &vtkDelaunayFlipPoints::SetAlpha), "RADIUS", length,
-    "Remove triangles whose circumcircle has a larger radius; 0: none [0]");
+    "Remove a triangle if its circumcircle has a larger radius; 0: none [0]");
   AddValue(app, "--longest-edge", Set(arguments, &vtkDelaunayFlipPoints::SetLongestEdge), "LENGTH",
     length, "Remove triangles that have a longer edge; 0: none [0]");
   AddValue(app, "--point-tolerance", Set(arguments, &vtkDelaunayFlipPoints::SetPointTolerance),
@@ -288,9 +288,9 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   AddChoice(app, "--projection", Set(arguments, &vtkDelaunayFlipPoints::SetProjection),
     { "xy", "plane", "sphere", "open-sphere" },
     "Where points are joined: by x and y, in the plane that fits them best, or on a sphere around "
-    "the origin, by their convex hull. open-sphere: without triangles whose circumcircle encloses "
-    "half of the sphere or more. On a sphere segments run along great circles, and the inside of a "
-    "ring is its smaller side [xy]");
+    "the origin, by their convex hull. open-sphere: a triangle is left out if its circumcircle "
+    "encloses half of the sphere or more. On a sphere segments run along great circles, and the "
+    "inside of a ring is its smaller side [xy]");
   app.add_flag_callback("--degrees", Set(arguments, &vtkDelaunayFlipPoints::DegreesOn),
     "On a sphere, x and y are longitudes and latitudes in degrees, in all files. The points of a "
     "mesh are written as places on the unit sphere");

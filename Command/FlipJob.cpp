@@ -86,7 +86,7 @@ void KeepVTKFromThreads()
   }
 }
 
-/// The diagonal of the box around the points whose coordinates are all finite.
+/// The diagonal of the box around the points that have finite coordinates.
 double DiagonalOf(vtkPolyData* mesh)
 {
   vtkBoundingBox box;

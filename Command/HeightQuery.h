@@ -27,7 +27,7 @@ struct HeightOptions
 {
   double Step = 0.0; ///< The width of a raster's cells; 0: no raster.
   std::string Extent; ///< xmin,ymin,xmax,ymax; empty: that of the points.
-  std::string Places; ///< A file whose points are the places, instead of a raster.
+  std::string Places; ///< A file with points for places, instead of a raster.
   std::string Array; ///< A point array; empty: z.
   std::string Output; ///< The file that is written.
   std::string Crs; ///< That of the raster; empty: that of the input, if its file names one.

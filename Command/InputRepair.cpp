@@ -98,8 +98,8 @@ std::vector<vtkIdType> FindSmallestOrder(std::vector<vtkIdType> corners)
   return smallest;
 }
 
-/// The mesh with strips split into triangles, and with polygons whose corners differ from the one
-/// before them, as far as they have three different ones.
+/// The mesh with strips split into triangles. Polygons with at least three different corners lose
+/// each corner that repeats the one before it.
 FileMesh MakePlain(vtkPolyData* mesh)
 {
   const vtkNew<vtkCellArray> polygons;

@@ -67,7 +67,7 @@ struct FileMesh
 enum class Content
 {
   Mesh, ///< Also points that become one.
-  Places, ///< Points whose x and y alone matter. Nobody is told that they have no z.
+  Places, ///< Points of which only x and y matter. Nobody is told that they have no z.
   Rows, ///< Likewise, each for a row of a table. A row of text with empty cells only is kept.
   Segments ///< Lines and polygons, and in text lines of points with a number of their line.
 };

@@ -105,8 +105,8 @@ struct FlipOptions
 
   /// On surfaces, an edge stays if its flip would move the surface by more than this length, 0 or
   /// more, in the unit of the points. That is the distance between the edge and the one that would
-  /// take its place. It holds for each flip; the moves of many flips can add up. 0 allows only
-  /// flips whose four points lie in one plane. 1e299 or more, such as infinity (default), is no
+  /// take its place. It holds for each flip; the moves of many flips can add up. 0 allows a flip
+  /// only if its four points lie in one plane. 1e299 or more, such as infinity (default), is no
   /// limit. In planar geometry no flip moves the surface, and this has no effect.
   double MaximumDeviation = std::numeric_limits<double>::infinity();
 

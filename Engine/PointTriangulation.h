@@ -92,8 +92,8 @@ enum class ProjectionKind
   /// A sphere around the origin: the triangles are the convex hull of the points, by x, y and z.
   /// Points inside of it are not used.
   Sphere,
-  /// Like Sphere, but triangles whose circumcircle encloses half of the sphere or more are left
-  /// out. So points on less than half of the sphere get an open mesh.
+  /// Like Sphere, but a triangle is left out if its circumcircle encloses half of the sphere or
+  /// more. So points on less than half of the sphere get an open mesh.
   OpenSphere
 };
 

@@ -96,7 +96,7 @@ public:
   /// Whether the points of a request may be those of this run at other places.
   bool MayBeFollowed(const TriangulationRequest& request) const;
 
-  /// Takes over the session of such a run, whose points move to the places of these. Nothing
+  /// Takes over the session of such a run and moves its points to the places of these. Nothing
   /// happens if their coordinates have another precision.
   /// @returns whether there is a session now.
   /// @throws RunAborted; then the other run is what it was. See FlipSession::Move.

@@ -139,7 +139,7 @@ public:
    *
    * SPHERE makes the convex hull of points around the origin, the Delaunay triangulation on a
    * sphere: n places have 2 n - 4 triangles, counter-clockwise from outside. Points inside of the
-   * hull are not used, and a warning counts them. OPEN_SPHERE leaves out triangles whose
+   * hull are not used, and a warning counts them. OPEN_SPHERE leaves out a triangle if its
    * circumcircle encloses half of the sphere or more, so points on a part of the sphere get an open
    * mesh. On a sphere segments run along great circles, the shorter way, and the inside of a ring
    * is the smaller one of its sides; with the ring rule ORIENTATION, in the outline, the one to its

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPDelaunayFlip
- * @brief   vtkDelaunayFlip for one mesh whose pieces are on many ranks
+ * @brief   vtkDelaunayFlip for one mesh with its pieces on many ranks
  *
  * Every process of the controller has a piece of a mesh, and all of them update together. The edges
  * between pieces flip like all others, so that the result is that of one process: in planar
@@ -73,8 +73,8 @@ public:
 
   ///@{
   /**
-   * The controller whose processes have the pieces. Default: the global one. Null: the input of
-   * this process is the whole mesh.
+   * The controller of the processes that have the pieces. Default: the global one. Null: the input
+   * of this process is the whole mesh.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);

@@ -47,7 +47,7 @@ private:
 /// @returns an empty list if x or y has none.
 Places FindKnownColumns(const Words& names);
 
-/// The place of the column whose name is known as that of the number of a line, such as line or
+/// The place of the column with the numbers of lines, which is known by its name, such as line or
 /// ring_id; the number of names if there is none.
 std::size_t FindLineColumn(const Words& names);
 

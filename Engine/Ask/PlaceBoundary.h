@@ -107,8 +107,8 @@ struct PlaceFromBox
   }
 };
 
-/// The boundary, for functions of both backends. Edges whose numbers are near each other are mostly
-/// near each other, so groups of them have a box each.
+/// The boundary, for functions of both backends. Consecutive edges are mostly near each other, so
+/// each group of consecutive edges has a box.
 struct PlaceBoundaryView
 {
   static constexpr std::int64_t GroupSize = 32;

@@ -171,7 +171,7 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE PlaceSides FindSides(
   return sides;
 }
 
-/// The first slot from `begin` on whose bit in `slots` is 1. It comes from a table, as NextSlot.
+/// The first slot from `begin` on that has a 1 in `slots`. It comes from a table, like NextSlot.
 DELAUNAYFLIP_HOST_DEVICE inline int FindFirstSlot(int slots, int begin)
 {
   return static_cast<int>((0xAA105A501210u >> (16 * begin + 2 * slots)) & 3u);

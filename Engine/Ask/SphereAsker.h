@@ -19,8 +19,8 @@
 namespace delaunayflip
 {
 
-/// The boundary of the triangles on a sphere that a run has kept, for places outside. As in the
-/// plane, edges whose numbers are near each other are mostly near each other.
+/// The boundary of the triangles on a sphere that a run has kept, for places outside. Like in the
+/// plane, consecutive edges are mostly near each other.
 class SphereBoundary
 {
 public:

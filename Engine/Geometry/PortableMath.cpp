@@ -52,7 +52,7 @@ Pair operator*(const Pair& a, const Pair& b)
   return AddExactly(product.High, product.Low + (a.High * b.Low + a.Low * b.High));
 }
 
-/// @returns the value of a polynomial, whose first coefficient is that of the highest power.
+/// @returns the value of a polynomial. The first coefficient is that of the highest power.
 template <std::size_t Size>
 double FindPolynomial(const double (&coefficients)[Size], double x)
 {

@@ -9,8 +9,8 @@
 #include <cmath>
 
 /// @file
-/// What decisions take instead of the functions of the C library, whose last bits differ between
-/// systems and between releases. Angles are for the host only.
+/// What decisions take instead of the functions of the C library, since their last bits differ
+/// between systems and between releases. Angles are for the host only.
 
 namespace delaunayflip
 {

@@ -488,7 +488,7 @@ private:
     this->Take(GeometryKind::Planar, reason);
   }
 
-  /// Finds two directions in a tilted plane from its normal, whose component along W is not 0.
+  /// Finds two directions in a tilted plane from its normal, which has a component along W.
   static void FindDirections(const Vector3& normal, PlaneProjection& plane)
   {
     const double xyz[3] = { normal.X, normal.Y, normal.Z };

@@ -74,7 +74,7 @@ struct HullView
     return PlaneMesh::Next(this->Mesh.Edges.CornerOfHalfEdge[2 * edge]);
   }
 
-  /// A corner of a vertex, one of whose corners was `before` until the cuts.
+  /// A corner of a vertex. Until the cuts, `before` was one of its corners.
   DELAUNAYFLIP_HOST_DEVICE CornerId FindCorner(VertexId vertex, CornerId before) const
   {
     TriangleId triangle = TriangleOf(before);

@@ -29,8 +29,8 @@ struct LateVertex
   CornerId Corner; ///< One of its corners or, between rounds, a corner near it.
 };
 
-/// What threads count together. The first three count what is in lists, on whose order no result
-/// depends.
+/// What threads count together. The first three are the lengths of lists. No result depends on the
+/// order of these lists.
 enum class MotionCount : int
 {
   Inverted, ///< Triangles that are not counter-clockwise.
@@ -56,7 +56,7 @@ struct MotionView
   std::uint32_t* VertexMarks; ///< The stamp of the last pass that has handled a vertex.
   std::uint32_t* TriangleMarks;
   TriangleId* Inverted; ///< The list of inverted triangles.
-  LateVertex* Changed; ///< Vertices whose steps have changed since triangles were checked.
+  LateVertex* Changed; ///< Vertices with a new step since triangles were last checked.
   LateVertex* Next; ///< Vertices that the next round moves.
   std::uint32_t* Counts; ///< By MotionCount.
   std::uint32_t MostInverted, MostLate;

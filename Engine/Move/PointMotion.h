@@ -25,7 +25,7 @@
 namespace delaunayflip
 {
 
-/// A mesh whose vertices move.
+/// A mesh with vertices that move.
 template <typename Real>
 struct MovingMesh
 {
@@ -438,7 +438,7 @@ private:
   Array<std::uint8_t> HalvingsOf;
   Array<std::uint32_t> VertexMarks, TriangleMarks, Counts;
   Array<TriangleId> Inverted;
-  Array<LateVertex> Changed; ///< Vertices whose steps have changed since triangles were checked.
+  Array<LateVertex> Changed; ///< Vertices with a new step since triangles were last checked.
   Array<LateVertex> Late; ///< Vertices that this round moves, if it is not the first.
   Array<LateVertex> Next; ///< Vertices that the next round moves.
   std::int64_t NumberOfLate = 0, NumberOfNext = 0;
@@ -447,7 +447,7 @@ private:
   std::uint32_t MostInverted = 0;
   std::uint32_t Stamp = 0;
   bool ChangedHull = false;
-  /// The sizes of the mesh whose boundary is known.
+  /// The sizes that the mesh had when its boundary was found.
   std::int64_t KnownTriangles = -1, KnownEdges = -1, KnownVertices = -1;
 };
 

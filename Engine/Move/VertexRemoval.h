@@ -155,8 +155,8 @@ private:
     this->DropAll(fan.Triangles + all - 2, 2, fan.Spokes + all - 3, 3);
   }
 
-  /// Finds a convex corner of a polygon whose triangle has no other corner inside or on its
-  /// boundary.
+  /// Finds an ear of a polygon: a convex corner with a triangle that has no other corner inside or
+  /// on its boundary.
   /// @returns -1 if there is none.
   DELAUNAYFLIP_HOST_DEVICE int FindEar(const VertexFan& fan, int size) const
   {

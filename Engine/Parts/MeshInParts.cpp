@@ -19,7 +19,7 @@
 #include <numeric>
 
 /// @file
-/// One mesh of this process, whose parts are flipped one after the other.
+/// One mesh of this process. Its parts are flipped one after the other.
 
 namespace delaunayflip
 {
@@ -298,7 +298,7 @@ private:
     RunInThreads(workers, work, turns);
   }
 
-  /// In one of several threads. Rank 0 is the calling thread, whose observer is asked.
+  /// Runs in one of several threads. Rank 0 is the calling thread; it asks the observer.
   void FlipPart(int number, PieceGroup& group)
   {
     SubMesh part = this->GetPart(number);

@@ -19,7 +19,7 @@
 #include <utility>
 
 /// @file
-/// FlipPiece: one mesh whose parts are on many ranks.
+/// FlipPiece: one mesh with its parts on many ranks.
 
 namespace delaunayflip
 {

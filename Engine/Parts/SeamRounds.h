@@ -95,7 +95,7 @@ public:
   {
   }
 
-  /// Adds a triangle whose edges are to be judged.
+  /// Adds a triangle. Its edges will be judged.
   void Add(std::int64_t triangle);
   /// Adds the triangles at the first end of an edge that is gone. Some of their edges could not
   /// flip while the rank had it.

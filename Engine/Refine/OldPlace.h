@@ -79,7 +79,7 @@ private:
     return MakeCorner(this->TriangleOfAdded[vertex - this->FirstAdded], 0);
   }
 
-  /// Turns around a vertex, up to the next segment, to the corner whose angle contains a place.
+  /// Turns around a vertex, up to the next segment, to the corner with the place in its angle.
   DELAUNAYFLIP_HOST_DEVICE CornerId TurnTowards(const PlanePoint& place, CornerId first) const
   {
     const PlanePoint from = this->Old.GetPoint(this->Old.GetVertex(first));

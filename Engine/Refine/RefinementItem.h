@@ -14,7 +14,7 @@
 namespace delaunayflip
 {
 
-/// The first triangles of a cavity: those whose circumcircles have a place inside, and that can be
+/// The first triangles of a cavity: those that have a place inside their circumcircle and can be
 /// reached from there without crossing a subsegment.
 struct Cavity
 {
@@ -66,9 +66,9 @@ struct WalkEnd
   HalfEdgeId Blocked = NoHalfEdge; ///< A side of the subsegment that it would have to cross.
 };
 
-/// Walks from a triangle to a place without crossing a subsegment. Every step goes to a triangle
-/// whose circumcircle is nearer to the place (by its power), because the mesh is constrained
-/// Delaunay; so it ends.
+/// Walks from a triangle to a place without crossing a subsegment. The mesh is constrained
+/// Delaunay, so every step goes to a triangle with a circumcircle nearer to the place (by its
+/// power). Therefore the walk ends.
 DELAUNAYFLIP_HOST_DEVICE inline WalkEnd WalkWithinSegments(
   const PlaneMesh& mesh, const PlanePoint& place, TriangleId start)
 {

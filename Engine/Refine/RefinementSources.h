@@ -10,10 +10,10 @@
 #include <cstdint>
 
 /// @file
-/// Where a round finds bad triangles. These are the triangles whose places the round before did not
-/// insert, if they have not changed, and the triangles around the new vertices, because insertion
-/// changes no others. So the time of a round is proportional to what it changes. The first and the
-/// last round look at all triangles.
+/// Where a round finds bad triangles. It looks around the new vertices, since insertion changes no
+/// other triangles, and again at unchanged triangles for which the last round inserted no vertex.
+/// So the time of a round is proportional to what it changes. The first and the last round look at
+/// all triangles.
 
 namespace delaunayflip
 {

@@ -21,7 +21,7 @@
 namespace delaunayflip
 {
 
-/// A mesh whose arrays become larger.
+/// A mesh with arrays that become larger.
 template <typename Real>
 struct GrowingMesh
 {

@@ -21,8 +21,8 @@ struct RefinementGoals
 {
   double Cotangent = INFINITY; ///< That of the smallest angle.
   /// How far the point for a triangle may be from the middle of its shortest edge, in lengths of
-  /// that edge. Together they make a triangle whose smallest angle is a little above the goal: the
-  /// off-center of Üngör (2004).
+  /// that edge. The point is then the off-center of Üngör (2004): it and the edge make a triangle
+  /// with a smallest angle a little above the goal.
   double OffCenter = INFINITY;
   double Area = INFINITY; ///< That of the largest triangle.
   double SquaredEdge = INFINITY; ///< That of the longest edge.

@@ -60,7 +60,7 @@ bool IsLost(const PointInput& input, const KeptTriangles& kept);
 /// @param points are in the host's memory.
 Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept);
 
-/// Adds what is not about flips to a report whose other counts are those of the loaded mesh.
+/// Adds what is not about flips to a report that has the counts of the loaded mesh already.
 void AddPointsTo(
   FlipReport& report, LoadedMesh& mesh, const PreparedPoints& points, const PointResult& result);
 

@@ -91,7 +91,7 @@ class Answers:
     """A session of points that has ended its run and is kept to be asked. It ends with this object."""
 
     def __init__(self, given, handle, opened):
-        """`given`: the Input, whose arrays the session reads. `opened`: closes the session."""
+        """`given`: the Input; the session reads its arrays. `opened`: closes the session."""
         self.given, self._handle, self._opened = given, handle, opened
         self.is_shared = False  #: Whether an interpolator uses it.
         self._lock, self._asker = threading.Lock(), None

@@ -414,7 +414,7 @@ class Input:
         own = _arrays.to_host(self.points)
         more.points = numpy.concatenate([own, batch.points.reshape(-1, columns).astype(own.dtype)])
         more.struct = type(self.struct).from_buffer_copy(self.struct)
-        more.struct.first_added = len(more.points)  # whose values are needed
+        more.struct.first_added = len(more.points)  # The values of added points are needed.
         more.trouble, more.added = [], _NOTHING_ADDED
         return more, batch
 

@@ -286,7 +286,7 @@ class Session(Handle):
     @property
     def sources(self) -> Array:
         """(m,) int32: for each triangle its source, the triangle before refinement that contains its
-        centroid, whose data it gets."""
+        centroid. The triangle gets the data of its source."""
         count = self._count_triangles()
         with self._open() as handle:
             return self._mesh.read_sources(handle, count)

@@ -113,7 +113,7 @@ def triangulate_sphere(
             the turns of the rings do not add up to 0. "orientation": of the outline, what is to the left of
             the rings, as GeoJSON has it; of the holes, as "nonzero".
         degrees: Whether longitudes and latitudes are in degrees, not radians, in all arguments.
-        open: Leave out triangles whose circumcircle encloses half of the sphere or more, so that points
+        open: Leave out a triangle if its circumcircle encloses half of the sphere or more, so that points
             on less than half of the sphere have an open mesh. Otherwise triangles close the mesh. Segments
             need points on all sides of the center, or this.
         backend, threads, device: As for `triangulate`. Arrays on a GPU are copied to the host.

@@ -70,7 +70,7 @@ def _list_places(tree, elements, place=()):
 
 
 def copy_data(source):
-    """A shallow copy whose leaves are copies, too. Older versions of VTK do not copy leaves."""
+    """A shallow copy with copies of the leaves, too. Older versions of VTK do not copy leaves."""
     made = source.NewInstance()
     if isinstance(source, vtkDataObjectTree) and not source.IsA("vtkUniformGridAMR"):
         made.CopyStructure(source)

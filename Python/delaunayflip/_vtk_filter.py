@@ -611,7 +611,7 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
 
     def _triangulate(
             self, data, segments, output, progress, *, keeps=False, has_heights=True, follows=False):
-        """Returns the Triangulation, whose session is kept or not, and the text of a warning, or "".
+        """Returns the Triangulation, with or without its session, and the text of a warning, or "".
         Without heights nobody has to be told of z."""
         heights = HEIGHTS[self.segment_heights]
         if heights is None and not has_heights:

@@ -154,8 +154,8 @@ def pass_points(data, output):
 
 
 def place_points(data):
-    """A copy of a dataset with points, whose longitudes and latitudes are x and y: with their places on the
-    unit sphere. And the text of a warning, or ""."""
+    """Takes x and y of a dataset's points as longitudes and latitudes. Returns a copy with their places on
+    the unit sphere, and the text of a warning, or ""."""
     made, vtk = data.NewInstance(), vtk_of(data)
     made.ShallowCopy(data)
     if data.GetPoints() is None:
@@ -193,7 +193,7 @@ def vtk_of(data):
 
 
 class _Session(Session):
-    """A Session whose messages name properties, as the engine does."""
+    """A Session. Its messages name properties, as the engine does."""
 
     _keywords = ()
 

@@ -73,7 +73,7 @@ def flip(
 
     Args:
         mesh: Any PolyData; it is not changed.
-        constraints: Lines and polygons whose edges stay, and are inserted where the mesh is planar.
+        constraints: Lines and polygons. Their edges stay, and are inserted where the mesh is planar.
         flip_counts: Add the cell array vtkDelaunayFlipCount.
         quality: Add the cell arrays "Smallest angle before (degrees)" and "... after (degrees)".
         progress, on_iteration: Functions, as for delaunayflip.flip; returning False aborts.
@@ -125,7 +125,7 @@ def triangulate(
         segments: Pairs of point ids, as for delaunayflip.triangulate, or a PolyData. Its lines become
             edges of the mesh. Its polygons, and lines that end where they begin, are rings of the
             outline. Its points are added, with their data, where they are new.
-        outline, holes: As for delaunayflip.triangulate; or a PolyData, whose polygons and lines are
+        outline, holes: As for delaunayflip.triangulate; or a PolyData. Its polygons and lines are
             rings. Each line must end where it begins; `strip()` of a PolyData joins its parts.
         hole_seeds, ring_rule: As for delaunayflip.triangulate.
         lines_as_segments: Whether the lines of `cloud` become edges, too.

@@ -90,7 +90,7 @@ class DelaunayFlip(vtkDelaunayFlip):
     """vtkDelaunayFlip for ParaView."""
 
     def GetNumberOfRounds(self):
-        return 0  # of ranks, whose pieces only the plugin in C++ flips as one mesh
+        return 0  # Only the plugin in C++ flips the pieces of ranks as one mesh.
 
     def GetNumberOfMovedTriangles(self):
         return 0
