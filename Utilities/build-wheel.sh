@@ -8,7 +8,7 @@
 # if /usr/local/cuda has a compiler (CUDA in the environment names another folder, or none if it is
 # empty); it needs no driver unless it is used.
 #
-# Needs root and debootstrap: the library is compiled in Debian 11, whose glibc is 2.31, in
+# Needs root and debootstrap: the library is compiled in Debian 11, which has glibc 2.31, in
 # build-wheel/root/. All versions that decide what is in the wheel are below.
 # CUDAARCHS in the environment chooses the GPUs to build for, e.g. 90; fewer take less time.
 set -euo pipefail

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws films of three seconds of meshes whose points move: the examples growing_stem.py, without and with
+"""Draws films of three seconds of meshes with moving points: the examples growing_stem.py, without and with
 flips, and swimming_particles.py, coloured by density. Needs VTK, matplotlib and Pillow:
 
     python3 Utilities/draw_films.py [FOLDER]

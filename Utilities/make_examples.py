@@ -41,7 +41,7 @@ def grid_triangles(rows, columns, random, closed=False):
 
 
 def ring(random, around=96, across=48):
-    """A torus with bumps, whose points are uneven and in skew rows: (points, triangles)."""
+    """A torus with bumps and with uneven points in skew rows: (points, triangles)."""
     u, v = np.mgrid[:around, :across].reshape(2, -1).astype(float)
     v += 1.5 * u  # three times around at the end, so that the last row meets the first
     u = (u + random.uniform(-0.24, 0.24, u.shape)) * 2 * np.pi / around
@@ -53,7 +53,7 @@ def ring(random, around=96, across=48):
 
 
 def square_ring(random, around=64, across=48):
-    """A ring whose tube has four sides and sharp edges; its points lie in bent rows, with noise."""
+    """A ring of a tube with four sides and sharp edges; its points lie in bent rows, with noise."""
     u, v = np.mgrid[:around, :across].reshape(2, -1).astype(float)
     beside = v % (across // 4) > 0  # not on an edge
     u += 2.5 * np.sin(4 * np.pi * v / across) ** 2 + random.uniform(-0.3, 0.3, u.shape)
@@ -80,7 +80,7 @@ def cylinder(sides=48):
 
 
 def plate(random, side=40):
-    """A square whose columns are waves: (points, triangles, the material of each triangle)."""
+    """A square with columns that are waves: (points, triangles, the material of each triangle)."""
     x, y = np.mgrid[:side, :side].reshape(2, -1) / (side - 1.0)
     inside = (x > 0) & (x < 1) & (y > 0) & (y < 1)
     x += 0.75 * x * (1 - x) * np.sin(2 * np.pi * y)

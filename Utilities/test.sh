@@ -141,7 +141,7 @@ launcher=()
 # run its PTX. A build that demo.sh made may be without CUDA.
 check build -DCMAKE_BUILD_TYPE=Release -DDELAUNAYFLIP_BUILD_TESTING=ON \
   -DDELAUNAYFLIP_ENABLE_CUDA=AUTO -DCMAKE_CUDA_ARCHITECTURES=75 -DDELAUNAYFLIP_LONG_TESTS=$long
-# After build, whose command makes the meshes with which those of the plugin are compared.
+# After build: its command makes the meshes with which those of the plugin are compared.
 check_plugin
 if [ $sanitizers = ON ]; then
   check_under_sanitizers

@@ -24,7 +24,7 @@ namespace
 constexpr int Ranks = 3;
 constexpr int Failing = 1;
 
-/// A group whose own allocations do not fail, as if messages went by another library.
+/// A group with allocations that do not fail, as if messages went by another library.
 class SparedGroup : public OtherGroup
 {
 public:

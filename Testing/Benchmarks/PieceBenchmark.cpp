@@ -322,7 +322,7 @@ OwnedMesh<float> MakeMesh(const Settings& settings)
   {
     throw std::runtime_error("mesh must be random, or grid without surface=1");
   }
-  // An odd number of tiles per side: pieces must not be cut along tiles, whose borders are good.
+  // An odd number of tiles per side: pieces must not be cut along the good borders of tiles.
   constexpr double PointsPerTile = 100000.0;
   const double tiles = static_cast<double>(points) / PointsPerTile;
   const auto side = static_cast<std::int32_t>(std::ceil(std::sqrt(tiles))) | 1;

@@ -423,7 +423,7 @@ std::vector<std::pair<std::string, double>> RunSet(
   return medians;
 }
 
-/// Times a set whose time may grow faster than its size with twice as many points, too.
+/// Times a set also with twice as many points, because its time may grow faster than its size.
 void RunTwice(const PointSet& set, std::int64_t count, const Plan& plan)
 {
   const auto once = RunSet(set, count, plan);

@@ -9,7 +9,7 @@
 
 A MESH is a file that the filter of VTK reads (.ply, .stl, .obj, .vtk, .vtp), a .dfmesh of
 Testing/Gpu/export_meshes.py, which needs no VTK, or lattice:N or torus:N, a sheared plane or a
-torus of about N points whose diagonals are drawn at random (default: both with 100,000 points).
+torus of about N points with diagonals drawn at random (default: both with 100,000 points).
 
 In every round each program runs once, in random order, so a busy machine slows all of them alike.
 Rounds are repeated for --seconds, at least five times. Printed are the median and the quartiles of
@@ -180,7 +180,7 @@ def measure(function, *arguments):
 
 
 def serve(path, cores):
-    """Measures the other programs, whose names come from the standard input."""
+    """Measures the other programs. Their names come from the standard input."""
     os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:cores])
     mesh = numpy.load(path)
     programs = Others(mesh["points"], mesh["triangles"])

@@ -19,7 +19,7 @@ enum
   Skipped = 77
 };
 
-/* A quad whose short diagonal, from point 1 to point 3, is the Delaunay edge. */
+/* A quad. Its short diagonal, from point 1 to point 3, is the Delaunay edge. */
 static const float Points[] = { 0, 0, 2, -1, 4, 0, 2, 1 };
 static const int64_t LongDiagonal[] = { 0, 1, 2, 0, 2, 3 };
 

@@ -12,7 +12,7 @@
  * The C interface as a C program sees it. Testing/Python/test_arrays.py tests more of what it does.
  */
 
-/* A quad whose short diagonal, from point 1 to point 3, is the Delaunay edge. */
+/* A quad. Its short diagonal, from point 1 to point 3, is the Delaunay edge. */
 static const double Points[] = { 0, 0, 0, 2, -1, 0, 4, 0, 0, 2, 1, 0 };
 static const int64_t LongDiagonal[] = { 0, 1, 2, 0, 2, 3 };
 
@@ -195,8 +195,8 @@ static void TestUnsetSizes(void)
   CHECK(delaunayflip_flip(&mesh, NULL, NULL, triangles, NULL) == DELAUNAYFLIP_INVALID_CALL);
 }
 
-/* A program whose header ended after `tie_rule` gets the defaults of what follows, and a report cut
- * where its own ended. */
+/* The header of an old program ended after `tie_rule`. The program gets the defaults of what
+ * follows, and a report cut where its own ended. */
 static void TestOldProgram(void)
 {
   const delaunayflip_mesh mesh = MakeMesh();
@@ -266,7 +266,7 @@ static void TestDeviceMemory(void)
   delaunayflip_close(session);
 }
 
-/* A quad, a line that is no polygon, and an L of six corners, whose fan would leave it. */
+/* A quad, a line that is no polygon, and an L of six corners. A fan of the L would leave it. */
 static void TestPolygons(void)
 {
   static const double points[] = { 0, 0, 0, 2, 0, 0, 2, 1, 0, 1, 1, 0, 1, 2, 0, 0, 2, 0 };

@@ -189,7 +189,7 @@ def bumpy_grid(columns, height, seed=7):
 
 
 def bad_mesh(columns):
-    """A sheared grid, most of whose edges are bad."""
+    """A sheared grid. Most of its edges are bad."""
     mesh = bumpy_grid(columns, 0)
     for i, (x, y, z) in enumerate(points_of(mesh)):
         mesh.GetPoints().SetPoint(i, x + 2.5 * y, y, z)

@@ -110,7 +110,7 @@ class Lost(CommandTest):
 
 class Solids(CommandTest):
     def test_several_solids_are_labels(self):
-        """Two coplanar triangles, whose edge is bad. The words after "end" may be apart."""
+        """Two coplanar triangles with a bad edge. The words after "end" may be apart."""
         facet = ("facet normal 0 0 1\nouter loop\nvertex {}\nvertex {}\nvertex {}\nend loop\n"
                  "end facet\n")
         first = facet.format("0 0 0", "4 0 0", "2 1 0")

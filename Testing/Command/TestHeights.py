@@ -97,7 +97,7 @@ class Rasters(HeightTest):
             self.assertTrue((rows[::-1] == values).all())
 
     def test_by_hand(self):
-        """Cells of a square whose middle is a peak; a place on an edge; the extent, and what is outside."""
+        """Cells of a square with a peak inside; a place on an edge; the extent, and what is outside."""
         self.ask("peak.csv", "out.asc", "--raster", 1, "--extent", "-0.5,-0.5,5.25,4.5")
         header, rows = self.grid("out.asc")
         self.assertEqual(rows.shape, (5, 6))

@@ -39,7 +39,7 @@ class Obj(ArrayTest):
         self.assertIn("warning: a.obj: left out vn (3)\n", self.read("a.obj", SQUARE + NORMALS)[1])
 
     def test_labels_of_faces(self):
-        """Two coplanar triangles of different materials, whose edge is bad."""
+        """Two coplanar triangles of different materials, with a bad edge."""
         text = ("v 0 0 0\nv 4 0 0\nv 2 1 0\nv 2 -1 0\nf 1 2 3\nl 1 2\no a b\nusemtl red # 1\n"
                 "g one two\nf 1 2 3\nusemtl blue\nf 2 1 4\nusemtl red\nl 1 3\n")
         self.write("in.obj", text)

@@ -233,7 +233,7 @@ class Options(CommandTest):
         return [array.GetRange()[0] for array in arrays if array]
 
     def test_feature_angle(self):
-        """A roof of 90 degrees whose ridge is the long diagonal."""
+        """A roof of 90 degrees. Its ridge is the long diagonal."""
         points = [(-2, 0, 0), (0, -1, -1), (2, 0, 0), (0, 1, -1)]
         mesh = make_mesh(points, KITE_CELLS)
         self.assertEqual(self.flips(mesh), 0)
@@ -241,7 +241,7 @@ class Options(CommandTest):
         self.assertEqual(self.flips(mesh, "--feature-angle", "95"), 1)
 
     def test_max_deviation(self):
-        """A quad whose diagonals are 0.25 apart; the bounding box's diagonal is 8.25."""
+        """A quad with diagonals 0.25 apart; the bounding box's diagonal is 8.25."""
         mesh = make_mesh([(-4, 0, 0), (0, -1, 0.25), (4, 0, 0), (0, 1, 0.25)], KITE_CELLS)
         surface = ("--geometry", "surface")
         for bound, flips in (("inf", 1), ("0.25", 1), ("0.249", 0), ("0", 0), ("3.1%", 1), ("3%", 0)):

@@ -169,7 +169,7 @@ class Summary(CommandTest):
     def test_coordinates_with_few_digits(self):
         """A hint names a tolerance where they make edges bad, in text or in what was made from it."""
         def torus(form):
-            """Of trapezoids, whose diagonals are both as good, with coordinates of this form."""
+            """A torus of trapezoids with coordinates of this form. Both diagonals of each are as good."""
             rows, columns = 40, 60
             points, cells = [], []
             for i in range(rows):

@@ -121,7 +121,7 @@ TEST(ConstraintInsertion, GivesCgalsConstrainedDelaunayMesh)
 namespace
 {
 
-/// A mesh whose triangles have their middle at whole coordinates, without the stars of some points.
+/// A mesh of triangles with their middle at whole coordinates, without the stars of some points.
 ConstrainedMesh DrawCaseWithHoles(std::uint32_t seed)
 {
   ConstrainedMesh drawn = DrawCase(60, 30, 30, seed);
@@ -168,7 +168,7 @@ bool IsInDomain(const TriangleMesh& mesh, const std::array<std::int64_t, 3>& tri
   return isIn;
 }
 
-/// CGAL's constrained Delaunay triangles in the domain of a mesh, whose rim constrains, too.
+/// CGAL's constrained Delaunay triangles in the domain of a mesh. Its rim constrains, too.
 std::vector<std::int32_t> MakeReferenceInDomain(const TriangleMesh& mesh, ConstrainedMesh accepted)
 {
   const OppositeMap sides = FindOpposites(mesh.Triangles);

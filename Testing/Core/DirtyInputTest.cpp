@@ -47,8 +47,8 @@ TEST(DirtyInput, EmptyMeshesAreDone)
   }
 }
 
-/// Among them one triangle, ties, and flat triangles whose apex lies on the line of the shared edge
-/// outside of it: no flip can improve that.
+/// Among them are one triangle, ties, and flat triangles with the apex on the line of the shared
+/// edge outside of it: no flip can improve that.
 TEST(DirtyInput, DelaunayMeshesComeBackBitForBit)
 {
   OwnedMesh<double> notANumber = MakeGridMesh(4, 4);
@@ -111,7 +111,7 @@ TEST(DirtyInput, NonFinitePointsStayAndTheRestIsProcessed)
   }
 }
 
-/// A cap whose apex lies exactly on the shared edge: its angle is pi, so the edge is bad.
+/// A cap with its apex exactly on the shared edge: its angle is pi, so the edge is bad.
 TEST(DirtyInput, FlatCapsFlip)
 {
   OwnedMesh<double> mesh = { { 0, 0, 0, 4, 0, 0, 2, 3, 0, 1, 0, 0 }, { 0, 1, 2, 1, 0, 3 } };
@@ -164,8 +164,8 @@ TEST(DirtyInput, TrianglesWithRepeatedIdsStay)
   }
 }
 
-/// They are no polygons at the edges whose ends they name: these are paired as without them, and
-/// may be inserted and made. A constraint between such points is not an edge because of them.
+/// The edges between their points do not have them: these are paired as without them, and may be
+/// inserted and made. A constraint between such points is not an edge because of them.
 TEST(DirtyInput, TrianglesWithRepeatedIdsHaveNoEdges)
 {
   const OwnedMesh<double> clean = MakeRandomBadMeshDouble(1000, 88);
@@ -190,7 +190,7 @@ TEST(DirtyInput, TrianglesWithRepeatedIdsHaveNoEdges)
     EXPECT_EQ(expected.Report.Edges.Boundary, result.Report.Edges.Boundary);
     EXPECT_EQ(0, result.Report.NonDelaunayAfter);
     EXPECT_EQ(0, result.Report.BlockedByEdge);
-    if (geometry != GeometryKind::Surface) // whose result depends on the order of flips
+    if (geometry != GeometryKind::Surface) // There the result depends on the order of flips.
     {
       EXPECT_TRUE(
         std::equal(expected.Triangles.begin(), expected.Triangles.end(), result.Triangles.begin()));

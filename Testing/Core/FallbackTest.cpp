@@ -31,7 +31,7 @@ class FallbackTest : public testing::Test
 protected:
   ~FallbackTest() override { CallsToFailure = 0; }
 
-  /// A session whose backend fails at some call, in steps of two iterations.
+  /// A session with a backend that fails at some call, in steps of two iterations.
   FlipSession RunInSteps(int failingCall, const ProgressObserver& progress = {}) const
   {
     CallsToFailure = failingCall;

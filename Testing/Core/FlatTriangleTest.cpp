@@ -98,7 +98,7 @@ TriangleSet GetFlipped(
   return ToTriangleSet(flipped);
 }
 
-/// Triangulations that a flip leads to, whose triangles turn left or have no area.
+/// Triangulations to which one flip leads, if both new triangles turn left or have no area.
 std::vector<TriangleSet> ListNeighbours(const Judge& judge, const TriangleSet& triangles)
 {
   std::vector<TriangleSet> neighbours;

@@ -144,7 +144,7 @@ std::string GetMessage(const Run& run)
 std::string ExpectInvalidMesh(
   std::int64_t cell, std::int64_t point, const std::function<void()>& run);
 
-/// The count of the first defect whose text contains `word`, or 0. Reports a failure if the defect
+/// The count of the first defect with `word` in its text, or 0. Reports a failure if the defect
 /// lacks its first ids.
 std::int64_t CountDefect(const FlipReport& report, const std::string& word);
 

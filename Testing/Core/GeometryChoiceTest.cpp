@@ -211,7 +211,7 @@ TEST(GeometryChoice, TwoStackedHorizonsArePlanarXY)
   ExpectNoDefects(horizons);
 }
 
-/// A globe in degrees and metres, whose last column of triangles spans the whole map backwards.
+/// A globe in degrees and metres. Its last column of triangles spans the whole map backwards.
 OwnedMesh<double> MakeGlobe(std::int32_t columns, std::int32_t rows)
 {
   OwnedMesh<double> globe =

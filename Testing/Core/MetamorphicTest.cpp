@@ -93,7 +93,7 @@ protected:
     const TriangleMesh after = WithTriangles(mesh.View(), result.Triangles);
     EXPECT_TRUE(result.Report.Converged());
     EXPECT_EQ(CountNonDelaunayEdges(mesh.View(), this->Options), result.Report.NonDelaunayBefore);
-    if (!this->IsSurface()) // whose feature edges may have moved on
+    if (!this->IsSurface()) // On surfaces feature edges may have moved on.
     {
       EXPECT_EQ(0, CountNonDelaunayEdges(after, this->Options));
       EXPECT_EQ(0, result.Report.NonDelaunayAfter);

@@ -74,7 +74,7 @@ PartsResult FlipDivided(const TriangleMesh& mesh, const std::vector<OwnPiece>& p
 {
   const int ranks = static_cast<int>(pieces.size());
   std::vector<PiecesReport> reports(ranks);
-  FlippedPiece old; // whose memory is used again
+  FlippedPiece old; // Its memory is used again.
   old.Triangles.assign(30, 77);
   old.FlipCounts = { 77 };
   old.GoneTriangles = { 77 };

@@ -45,12 +45,12 @@ void ExpectSameOnAllRanks(const std::vector<PiecesReport>& reports);
 /// Reports a failure for everything that does not depend on the order of flips, and differs.
 void ExpectSameCounts(const FlipReport& alone, PiecesReport together);
 
-/// For meshes whose result is unique: expects the triangles and counts of a run on the whole mesh.
+/// For meshes with a unique result: expects the triangles and counts of a run on the whole mesh.
 void ExpectAsAlone(
   const TriangleMesh& mesh, const FlipOptions& options, const PartsResult& together);
 
-/// For meshes whose result depends on the order of flips: expects the counts of a run on the whole
-/// mesh, that nothing is broken, and that no edge is left that may flip.
+/// For meshes with a result that depends on the order of flips: expects the counts of a run on the
+/// whole mesh, that nothing is broken, and that no edge is left that may flip.
 void ExpectGood(const TriangleMesh& mesh, const FlipOptions& options, const PartsResult& together);
 
 /// Expects that a run on the whole result, with the edges fixed that are fixed in the input, finds

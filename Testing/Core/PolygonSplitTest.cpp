@@ -200,7 +200,7 @@ Polygon MakeComb(int size, std::mt19937&)
   return polygon;
 }
 
-/// A corridor of width 1/2 with right angles, whose triangles hold all that is inside of them.
+/// A corridor of width 1/2 with right angles. Its triangles hold all that is inside of them.
 Polygon MakeSquareSpiral(int size, std::mt19937&)
 {
   Polygon outer, inner;

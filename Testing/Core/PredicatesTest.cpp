@@ -165,8 +165,8 @@ TEST(FilterBounds, AreThoseOfTheProofs)
   EXPECT_LE(2.0 * LargestFilteredCoordinate, LargestFilteredDifference);
 }
 
-/// A kite whose angles at a and b are obtuse, so small and so near to the origin that the product
-/// of its lengths is far below the smallest number; beside it a mesh of usual size may lie.
+/// A kite with obtuse angles at a and b, so small and so near to the origin that the product of its
+/// lengths is far below the smallest number; beside it a mesh of usual size may lie.
 TEST(SurfaceRule, JudgesQuadsOfAnySize)
 {
   for (const double size : { 1.0, 0x1p-200, 0x1p-300, 0x1p-600, 0x1p-1060 })

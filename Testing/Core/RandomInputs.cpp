@@ -242,7 +242,7 @@ FourPoints DrawExtremes(std::mt19937& random)
   return points;
 }
 
-/// Axis-aligned rectangles whose sides are not multiples of a convenient power of two.
+/// Axis-aligned rectangles with sides that are no multiples of a convenient power of two.
 FourPoints DrawRectangle(std::mt19937& random)
 {
   const auto draw = [&] { return 0.1 * DrawIndex(random, 300); };

@@ -105,8 +105,8 @@ int RationalOrientation3D(const Point3& a, const Point3& b, const Point3& c, con
 int RationalInCircle(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, bool tilted = false);
 
-/// Counts the interior edges of a mesh that lies exactly in some plane whose fourth point lies
-/// inside the circle of the other three, by a determinant in space, without projection.
+/// For a mesh exactly in some plane, counts the interior edges with the fourth point inside the
+/// circle of the other three, by a determinant in space, without projection.
 std::int64_t CountRationalViolations(const TriangleMesh& mesh);
 
 /// Triangles by the sign of their turn in x and y.

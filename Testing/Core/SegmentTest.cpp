@@ -105,7 +105,7 @@ double Measure(const Places& points, std::int64_t a, std::int64_t b)
   return std::hypot(points[a][0] - points[b][0], points[a][1] - points[b][1]);
 }
 
-/// All edges of whole grids whose places are all used, so that few or many pass through points.
+/// All edges of whole grids. All places are used, so that few or many edges pass through points.
 TEST(Segments, OnSmallGrids)
 {
   std::mt19937 random(1);

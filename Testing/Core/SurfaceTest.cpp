@@ -36,9 +36,9 @@ public:
     }
   }
 
-  /// Counts edges of exactly two consistently wound triangles whose opposite angles sum to more
-  /// than pi by a margin, and whose flip would neither fold the surface over, nor move it too far,
-  /// nor repeat an edge.
+  /// Counts edges that should have flipped. Such an edge has exactly two triangles, consistently
+  /// wound, and their opposite angles sum to more than pi by a margin. Its flip would neither fold
+  /// the surface over, nor move it too far, nor repeat an edge.
   std::int64_t CountMissedFlips() const
   {
     std::int64_t missed = 0;
@@ -163,7 +163,7 @@ TEST(Surface, FlipsThatFoldItOverAreBlocked)
   EXPECT_EQ(1, FlipSurface(opened).Report.TotalFlips);
 }
 
-/// A quad whose diagonals are apart by a quarter of `size`, first as wide angles.
+/// A quad with diagonals that are a quarter of `size` apart, first as wide angles.
 OwnedMesh<double> MakeBentQuad(double size)
 {
   return { { 0, size, size / 4, -4 * size, 0, 0, 4 * size, 0, 0, 0, -size, size / 4 },

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Meshes whose coordinates span so many orders of magnitude that products of lengths overflow in
+/// Meshes with coordinates of so many orders of magnitude that products of lengths overflow in
 /// one part of the mesh and vanish in another.
 #include "FlipTestSupport.h"
 #include "GeometryChoice.h"
@@ -43,7 +43,7 @@ TEST(WideRange, SmallSpheresBesideLargeOnes)
   ExpectRightInAllSizes<float>({ 0x1p120, 1.0, 0x1p-60, 0x1p-100 });
 }
 
-/// A quad in a plane far above, whose coordinates differ in x and y only.
+/// A quad in a plane far above. Its coordinates differ in x and y only.
 TEST(WideRange, OneLargeCoordinateHidesNoBadEdge)
 {
   for (const double height : { 1e100, 1e160, 1e300, 1.7e308 })

@@ -68,7 +68,7 @@ bool HasEdge(vtkPolyData* mesh, vtkIdType a, vtkIdType b);
 void AddNumbers(vtkDataSetAttributes* data, const char* name, vtkIdType count, int first);
 std::vector<int> GetNumbers(vtkDataSetAttributes* data, const char* name);
 
-/// An array whose values are not set.
+/// An array without values so far.
 template <typename ArrayT>
 vtkSmartPointer<ArrayT> MakeArray(const char* name, vtkIdType tuples, int components = 1)
 {

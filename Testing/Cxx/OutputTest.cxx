@@ -71,7 +71,7 @@ void ExpectAngles(vtkPolyData* mesh, const char* when, const std::vector<double>
 const Points Grid = { { 0, 0, 0 }, { 1, 0, 0 }, { 2, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 2, 1, 0 },
   { 0, 2, 0 }, { 1, 2, 0 }, { 2, 2, 0 } };
 
-/// The output of a mesh whose cells are numbered; `numbers` says which ones its cells come from.
+/// The output of a mesh with numbered cells; `numbers` says which ones its cells come from.
 Mesh FlipNumbered(vtkPolyData* mesh, const std::vector<int>& numbers, bool triangulate = true)
 {
   AddNumbers(mesh->GetCellData(), "Number", mesh->GetNumberOfCells(), 0);
@@ -82,7 +82,7 @@ Mesh FlipNumbered(vtkPolyData* mesh, const std::vector<int>& numbers, bool trian
   return output;
 }
 
-/// A random bad mesh whose points are in an array of this type.
+/// A random bad mesh with its points in an array of this type.
 template <typename ArrayT>
 Mesh MakeBadMesh(double scale = 1.0)
 {
@@ -136,7 +136,7 @@ TEST(Output, CellsKeepTheirSlotsAndTheInputIsUntouched)
 
 TEST(Output, NormalsOfChangedTrianglesAreRenewed)
 {
-  // Folded by about 20 degrees along the diagonal 0-2, and a third triangle whose edges cannot
+  // Folded by about 20 degrees along the diagonal 0-2, and a third triangle with edges that cannot
   // flip. The normals are not of unit length, unlike computed ones.
   auto mesh = SetCellNormals(MakeMesh({ { -3, 0, 0 }, { 0, -1, 0.1 }, { 3, 0, 0 }, { 0, 1, 0.1 },
                                         { 10, 0, 0 }, { 11, 0, 0 }, { 10, 1, 0 } },
@@ -236,7 +236,7 @@ TEST(Output, AnglesPerTriangle)
   mixed->TriangulateOff();
   ExpectAngles(mixed.Run(), "after", { NAN, 0, NAN, NAN });
 
-  auto terrain = MakeRhombus(); // whose angles are those of its projection
+  auto terrain = MakeRhombus(); // The angles of terrain are those of its projection.
   terrain->GetPoints()->SetPoint(1, 0, -1, 50);
   filter->SetInputData(terrain);
   filter->SetGeometryToPlanarXY();

@@ -29,7 +29,7 @@ namespace
 
 Mesh MakeLongRun() { return ToPolyData(delaunayflip::MakeWorstCaseMesh(20)); } // 37 iterations
 
-/// A fan of 18 triangles whose points lie on one circle.
+/// A fan of 18 triangles with all points on one circle.
 Mesh MakeCircle(std::mt19937& random)
 {
   constexpr double Turn = 2.0 * 3.14159265358979323846;

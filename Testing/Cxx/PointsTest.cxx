@@ -56,7 +56,7 @@ Points MakeCloud(int count, double size = 10.0)
 
 Mesh ToMesh(const Points& points) { return MakeMesh(points, {}); }
 
-/// A square of 4 x 4 units, whose points 0 to 3 are its corners, counter-clockwise.
+/// A square of 4 x 4 units. Points 0 to 3 are its corners, counter-clockwise.
 const Points Square = { { 0, 0, 1 }, { 4, 0, 2 }, { 4, 4, 3 }, { 0, 4, 4 } };
 
 }

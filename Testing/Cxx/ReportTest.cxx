@@ -32,7 +32,7 @@ void AddText(vtkPolyData* mesh, const std::string& name)
   mesh->GetFieldData()->AddArray(array);
 }
 
-/// 6 triangles, whose iterations make 1, 2, 3, 2 and 1 flips.
+/// 6 triangles. Their iterations make 1, 2, 3, 2 and 1 flips.
 Mesh MakeWorstCase() { return ToPolyData(delaunayflip::MakeWorstCaseMesh(4)); }
 
 }

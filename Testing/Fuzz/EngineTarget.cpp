@@ -31,8 +31,8 @@ namespace delaunayflip
 namespace
 {
 
-/// Bounds on the number of bad edges that a run must leave. They differ by the edges whose angle
-/// sum is within rounding of the tolerance.
+/// Bounds on the number of bad edges that a run must leave. They differ by the edges with an angle
+/// sum within rounding of the tolerance.
 struct RestBounds
 {
   std::int64_t Certain = 0, Possible = 0;

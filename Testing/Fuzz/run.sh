@@ -4,13 +4,14 @@
 #
 # Usage: run.sh [engine|points|moves|spheres|files|ranks|arrays] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
 # Builds a fuzz target and runs cases 0 to N - 1 (default 1000000) of a seed (default 1) on J
-# processes (default: all cores), a thousand per process. The engine (default), and the same from
-# points, also if they move or are on spheres, is built in build-fuzz/ with AddressSanitizer, UndefinedBehaviorSanitizer and the leak
-# check. The command, which gets mutated files, and the filter on several ranks, of which one may
-# have other options, are built in build-fuzz-files/ without them; the library for Python, whose
-# functions get arrays of all layouts (fuzz_arrays.py), in build-fuzz-arrays/. Results are kept in
-# results/ there: after a stop, run the script again to continue. The exit status is 0 only if no
-# case failed. To run one case again and print its mesh, file or arrays:
+# processes (default: all cores), a thousand per process. The programs for the engine (default), for
+# points, moves and spheres are built in build-fuzz/ with AddressSanitizer,
+# UndefinedBehaviorSanitizer and the leak check. The command, which gets mutated files, and the
+# filter on several ranks, of which one may have other options, are built in build-fuzz-files/
+# without them; so is the library for Python in build-fuzz-arrays/, to which fuzz_arrays.py gives
+# arrays of all layouts. Results are kept in results/ there: after a stop, run the script again to
+# continue. The exit status is 0 only if no case failed. To run one case again and print its mesh,
+# file or arrays:
 #
 #   build-fuzz/bin/delaunay-flip-fuzz-engine --seed S --first CASE --cases 1 --print
 #

@@ -47,7 +47,7 @@ double FindMedian(std::vector<double> values)
 }
 
 /// A number of a row in the printed table. Build: from the caller's arrays to the engine's mesh
-/// with its bad edges found. Store: into an array whose memory has been written before. "x CUDA":
+/// with its bad edges found. Store: into an array in memory that was written before. "x CUDA":
 /// the total divided by that of CUDA on the same mesh. "left": bad edges of the result.
 struct Column
 {
@@ -414,7 +414,7 @@ private:
   }
 
 #if defined(DELAUNAYFLIP_HAS_VTK)
-  /// From a vtkPolyData in the host's memory to another one, whose memory is new each time.
+  /// From a vtkPolyData in the host's memory to another one, which has new memory each time.
   void TimeFilter(Json& row, const BenchmarkMesh& mesh) const
   {
     vtkNew<vtkDelaunayFlip> filter;

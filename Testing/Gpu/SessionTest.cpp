@@ -22,7 +22,7 @@ namespace
 
 using Arrays = DeviceArrays<double, std::int32_t>;
 
-/// A stream whose work takes long to begin.
+/// A stream that takes long to begin its work.
 class SlowStream
 {
 public:

@@ -133,7 +133,7 @@ void TimeView(const BenchmarkMesh& mesh, vtkPolyData* data, const Arguments& arg
   }
 }
 
-/// A plane of x and z, whose points can be lifted into a hill. It stands upright, so that it is no
+/// A plane of x and z. Its points can be lifted into a hill. It stands upright, so that it is no
 /// terrain, in which the filter would count the triangles that turn over.
 struct SwellingPlane
 {
@@ -215,7 +215,7 @@ int main(int argc, char* argv[])
   CLI::App app("What a frame of a live view costs");
   app.add_flag("--any", arguments.AllowsOthers, "without CUDA, too");
   app.add_option("--frames", arguments.Frames, "to time");
-  app.add_option("--moving", arguments.Moving, "points of a mesh whose points all move");
+  app.add_option("--moving", arguments.Moving, "points of a mesh in which all points move");
   app.add_option("sizes", arguments.Sizes, "points of the other meshes");
   CLI11_PARSE(app, argc, argv);
   const std::string obstacle = OpenEgl(arguments.AllowsOthers);

@@ -75,7 +75,7 @@ def segments(array):
 
 
 def image_mesh(image):
-    """Points and triangles of an image, whose first array is the height."""
+    """Points and triangles of an image. Its first array is the height."""
     columns, rows, _ = image.GetDimensions()
     (x0, y0, _), (dx, dy, _) = image.GetOrigin(), image.GetSpacing()
     points = numpy.empty((rows, columns, 3))
@@ -131,7 +131,7 @@ def join(parts):
 
 
 def chains(size=470, lattice=182):
-    """A surface whose last iterations flip few edges: six good lattices, and four chains of the
+    """A surface with few flips in its last iterations: six good lattices, and four chains of the
     paper's Fig. 6, two of them upright."""
     parts = []
     random = numpy.random.default_rng(1)

@@ -133,7 +133,7 @@ run_all_tests()
   fi
   unset DELAUNAYFLIP_TEST_BACKEND
   if [ "$filter" = '*' ]; then
-    # Several GPUs whose launches run one after the other.
+    # Several GPUs, with launches that run one after the other.
     CUDA_LAUNCH_BLOCKING=1 run_tests gpus-in-turn DelaunayFlipGpuTests \
       'SharedMeshTest.Plane:SharedMeshTest.Surface*'
     if [ "$has_gpu" = yes ]; then

@@ -14,7 +14,7 @@ namespace
 {
 
 /// The point of the unit circle at `turn` (0 <= turn < 1) turns. The rational parametrization needs
-/// no sine, whose last bit differs between machines.
+/// no sine; the last bit of a sine differs between machines.
 struct CirclePoint
 {
   explicit CirclePoint(double turn)

@@ -51,8 +51,8 @@ OwnedMesh<float> MakeTiledBadMesh(
   std::int64_t points, std::int32_t tilesPerSide, std::uint32_t seed, int threads = 0);
 
 /// The paper's Fig. 6, with 2 * size points and 2 * size - 2 triangles. It takes (size - 1)^2 flips
-/// in 2 * size - 3 iterations. The paper's own case has size 4: 6 triangles, whose iterations make
-/// 1, 2, 3, 2 and 1 flips.
+/// in 2 * size - 3 iterations. The paper's own case has size 4: 6 triangles, and iterations that
+/// make 1, 2, 3, 2 and 1 flips.
 OwnedMesh<double> MakeWorstCaseMesh(std::int32_t size);
 
 /// A lattice of columns x rows unit squares, all divided along the same diagonal: every edge is a

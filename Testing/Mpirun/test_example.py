@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""test_example.py PROGRAM: Examples/Cxx/FlipInParallel.cxx on one rank and on two, whose pieces must
-have the triangles of the one."""
+"""test_example.py PROGRAM: Examples/Cxx/FlipInParallel.cxx on one rank and on two. The pieces of the
+two must have the triangles of the one."""
 import os
 import subprocess
 import sys

@@ -34,7 +34,7 @@ def find_client():
 
 
 class Client(PluginTest):
-    """Each test starts a client, whose script plays a session."""
+    """Each test starts a client with a script that plays a session."""
 
     def play(self, session, **variables):
         """Plays a session in a client, with more variables in its environment. Returns its output."""

@@ -6,7 +6,7 @@ import numpy
 
 
 def sheared_lattice(side):
-    """A lattice whose rows were pushed sideways: many bad edges, all in one plane."""
+    """A lattice with rows pushed sideways: many bad edges, all in one plane."""
     row, column = numpy.divmod(numpy.arange(side * side), side)
     points = numpy.column_stack([column + 5.25 * row, row, 0 * row]).astype(float)
     corner = numpy.arange(side * side).reshape(side, side)[:-1, :-1].ravel()

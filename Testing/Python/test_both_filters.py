@@ -854,7 +854,7 @@ class SamePoints(Pair, unittest.TestCase):
         told = self.expect_same(cloud, lambda points: points.SetSegmentsData(segments))
         self.assertIn('1 point array of the second input with too few tuples left out: "Short"',
                       told["warnings"][0])
-        same = make_cloud()  # none of whose points is added
+        same = make_cloud()  # None of its points is added.
         add_array(same.GetPointData(), "Short", numpy.arange(3))
         told = self.expect_same(cloud, lambda points: points.SetSegmentsData(same))
         self.assertNotIn("too few tuples", told["warnings"][0])

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of triangulations whose points are moved, inserted and removed."""
+"""Tests of triangulations while their points are moved, inserted and removed."""
 import doctest
 import pickle
 import threading

@@ -55,7 +55,7 @@ class Sphere(unittest.TestCase):
                 self.assertTrue((across == ends[:, [end]]).any(axis=1).all())
 
     def test_flips_end_there(self):
-        """Flips of a mesh whose points have moved end with the triangles of a triangulation."""
+        """If points of a mesh have moved, its flips end with the triangles of a triangulation."""
         points = make_directions(500, 2)
         before = points + 0.003 * make_directions(500, 3)
         before /= numpy.linalg.norm(before, axis=1, keepdims=True)
@@ -242,7 +242,7 @@ def find_smooth(points):
 
 class SphereValues(unittest.TestCase):
     def test_locate(self):
-        """A place is in the triangle with three corners on whose sides it is."""
+        """A place is inside of the three sides of its triangle."""
         globe = delaunayflip.triangulate_sphere(make_directions(300))
         places = make_directions(1000, 2)
         corners = globe.points[globe.triangles[globe.locate(places)]]

@@ -83,7 +83,7 @@ def get_angle(points, a, b, c):
 
 
 def count_violations(mesh):
-    """The number of edges whose opposite angles sum to more than pi."""
+    """The number of edges with opposite angles that sum to more than pi."""
     points = vtk_to_numpy(mesh.GetPoints().GetData())
     opposite = {}
     for a, b, c in get_cells(mesh.GetPolys()):

@@ -21,7 +21,7 @@ class SphereFlipTest : public testing::TestWithParam<SphereFamily>
 {
 };
 
-/// Lists the sets whose triangles all face the origin with the same side.
+/// Lists the sets in which all triangles face the origin with the same side.
 std::vector<SphereFamily> ListWholeFamilies()
 {
   std::vector<SphereFamily> families;

@@ -6,7 +6,7 @@
 licences: every source file begins with the two SPDX lines (after a #! line, if any).
 sizes: no file of the repository is over 1 MB.
 words: the libraries never print to standard output and never end the process; the engine calls no
-function whose last bits depend on the system, and has one word for each idea (CONTRIBUTING.md,
+function with last bits that depend on the system, and has one word for each idea (CONTRIBUTING.md,
 Words).
 markdown: lines of text are under 100 columns. Tables, pictures, code and the targets of links may
 be wider.

@@ -38,7 +38,7 @@ ABOVE = {
     "Examples": {PUBLIC, "CInterface", "Filters", "FiltersParallel", "Rendering", "Examples"},
 }
 
-# Folders whose files are in layers of their own.
+# Folders in which the files have layers of their own.
 LAYERED = {"Filters", "FiltersParallel", "Rendering"}
 
 

@@ -226,7 +226,7 @@ def main():
     parser.add_argument("--time-limit", type=float, metavar="SECONDS", default=float("inf"),
                         help="stop after this time; call again for the rest")
     parser.add_argument("--parts", type=re.compile, metavar="PATTERN", default=re.compile(""),
-                        help="run only the parts whose names match this regular expression")
+                        help="run only the parts with names that match this regular expression")
     parser.add_argument("--no-times", action="store_true",
                         help="run every program once, without times, as on a busy machine")
     parser.add_argument("--run-only", action="store_true", help="do not draw; do that later")

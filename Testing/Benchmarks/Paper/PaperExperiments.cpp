@@ -204,7 +204,7 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Faces = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Faces::const_iterator>;
 
-/// A surface whose distances are asked for.
+/// A surface that is asked for its distances.
 struct Surface
 {
   Surface(const std::vector<double>& points, const std::vector<std::int32_t>& ids)
