@@ -391,8 +391,8 @@ def tests(results):
     for row in find(rows, program="ours, in-circle"):
         (turned if row["turned_over_before"] else clean).append(row["bad_left"])
     measured.append(f"Exact in-circle left {sum(clean)} bad edges in {len(clean)} runs, and "
-                    f"{sum(turned)} in {len(turned)} runs on meshes whose triangles rounding had "
-                    "turned over.")
+                    f"{sum(turned)} in {len(turned)} runs on meshes with triangles that rounding "
+                    "had turned over.")
     return measured, table(
         rows, "mesh", "precision", "test=program", "where=backend", "ms, flips=flips_ms",
         "iterations", "stop", "flips", "good called bad=false_bad", "bad called good=missed_bad",
