@@ -339,7 +339,7 @@ std::string AdviseRepair(const FlipReport& report)
   if (report.DuplicateTriangles > 0 && report.ObtuseAtNonManifold > 0)
   {
     text += "hint: " + Count(report.DuplicateTriangles, "triangle") +
-      " with the corners of another one, whose edges are kept; leave out such duplicates, and more "
+      " with the corners of another one: their edges are kept; leave out such duplicates, and more "
       "can flip\n";
   }
   else if (report.ObtuseAtNonManifold > 0 && 10 * edges.NonManifold > inner)

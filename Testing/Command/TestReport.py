@@ -149,7 +149,7 @@ class Summary(CommandTest):
                 ([(0, 1, 2), (3, 2, 0)], None if not is_bad else
                  "1 bad edge kept between triangles that are wound differently; wind all the same way (--orient)"),
                 ([(0, 1, 2), (0, 2, 3), (2, 1, 0), (3, 2, 0)], None if not is_bad else
-                 "2 triangles with the corners of another one, whose edges are kept; leave them out "
+                 "2 triangles with the corners of another one: their edges are kept; leave them out "
                  "(--drop-duplicates), and more can flip"),
             ):
                 path = self.write_mesh(make_mesh(points, triangles), "in.vtk")
@@ -157,7 +157,7 @@ class Summary(CommandTest):
                 self.assertEqual("hint" in text, hint is not None, text)
                 self.assertIn(hint or "", text)
         path = self.write_mesh(make_mesh(tall, [(0, 1, 2), (0, 2, 3), (2, 1, 0, 3)]), "in.vtk")
-        self.assertIn("2 triangles with the corners of another one, whose edges are kept; they are parts of larger "
+        self.assertIn("2 triangles with the corners of another one: their edges are kept; they are parts of larger "
                       "polygons, so run --drop-duplicates on the output, and more can flip",
                       self.succeed(path, "out.vtk", "--drop-duplicates").stdout)
         self.assertIn("flips           1 ", self.succeed("out.vtk", "out.ply", "--drop-duplicates").stdout)
