@@ -23,7 +23,7 @@ public:
   }
 
   /// @param triangle has the place inside.
-  /// @returns whether the cavity is not too large. Otherwise there are no weights.
+  /// @returns false if the cavity is too large. Then there are no weights.
   DELAUNAYFLIP_HOST_DEVICE bool Run(TriangleId triangle)
   {
     if (!this->Seen.IsInFilterRange())
@@ -167,7 +167,7 @@ private:
   }
 
   /// Whether the place is in the circle through an edge and a vertex beyond.
-  /// @param first, second of the edges from and to it.
+  /// @param first, second the cross products of the edges from and to the place.
   DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(const Edge& edge, const CrossProduct& first,
     const CrossProduct& second, const Vertex* apex, CornerId across) const
   {
@@ -201,7 +201,7 @@ private:
     ++this->NumberOfVertices;
   }
 
-  /// Ends the area of the vertex where an edge of the boundary begins, and begins that of its end.
+  /// Ends the area of the vertex where a boundary edge begins, and begins the one where it ends.
   DELAUNAYFLIP_HOST_DEVICE void AddBoundaryEdge(const Edge& edge)
   {
     const AreaCorner& centre = edge.Owner->Centre;
@@ -252,7 +252,7 @@ private:
 
   int NumberOfVertices = 0, NumberOfEdges = 0, NumberOfTriangles = 0, NumberOfWeights = 0;
   Vertex Vertices[MostTriangles + 3];
-  Edge Edges[MostTriangles + 3]; ///< To go across, the next one last.
+  Edge Edges[MostTriangles + 3]; ///< Edges to go across; the next one is last.
   Triangle Triangles[MostTriangles];
   Weight Weights[MostTriangles + 2];
 

@@ -168,12 +168,12 @@ public:
   }
 
 private:
-  /// So many that a GPU is busy, and so few that they need little memory.
+  /// How many places at a time keep a GPU busy and need little memory.
   static constexpr std::int64_t MostAtATime = 1 << 20;
-  /// So few that a thread of a CPU has them in about a tenth of a second.
+  /// How many places a thread of a CPU answers in about a tenth of a second.
   static constexpr std::int64_t MostUnobserved = 1 << 16;
 
-  /// Values of the host's in the backend's memory.
+  /// A copy of the host's values in the backend's memory.
   template <typename T>
   class LocalCopy
   {
@@ -196,7 +196,7 @@ private:
     Array<T> Copy;
   };
 
-  /// As AnswerHere, for places and results that are in the host's memory.
+  /// Like AnswerHere, for places and results that are in the host's memory.
   template <typename GoesOn>
   static bool AnswerCopy(
     const AnswerPlaces& answer, std::int64_t count, const GoesOn& goesOn, const Backend& backend)

@@ -57,7 +57,7 @@ struct PlaceFromBox
   /// @param scale of the boundary.
   DELAUNAYFLIP_HOST_DEVICE PlaceFromBox(const PlanePoint& place, const PlaceBox& box, double scale)
   {
-    constexpr double LeastWeight = 0x1p-1000; // what is farther away sees the same
+    constexpr double LeastWeight = 0x1p-1000; // farther places see the same
     const double u = std::fabs(place.U), v = std::fabs(place.V);
     const double fitting = InvertPowerOfTwo(u > v ? u : v);
     const double unit = fitting < scale ? fitting : scale;
@@ -145,7 +145,7 @@ struct PlaceBoundaryView
   }
 
 private:
-  /// At most the measure of each place in a box.
+  /// A lower bound on the measures of all places in a box.
   DELAUNAYFLIP_HOST_DEVICE double Bound(const PlaceFromBox& from, const PlaceBox& box) const
   {
     double beyond[2] = {};

@@ -15,7 +15,7 @@ namespace delaunayflip
 {
 
 /// The centre of the circle through three points, as a vector from the first one.
-/// @param a, b as seen from it. @param cross of their offsets.
+/// @param a, b the others, as seen from the first. @param cross that of their offsets.
 DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(
   const ScaledPoint& origin, const SeenPoint& a, const SeenPoint& b, const CrossProduct& cross)
 {
@@ -30,8 +30,8 @@ DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(
   return FindCentre(origin, a, b, CrossProduct(a.Offset, b.Offset));
 }
 
-/// The centre of the circumcircle of a triangle, from the place. All must begin with the corner of
-/// slot 0, so that a centre has the same bits wherever it is found.
+/// The centre of the circumcircle of a triangle, from the place. All callers must begin with the
+/// corner of slot 0, so that a centre has the same bits wherever it is found.
 template <typename Frame>
 DELAUNAYFLIP_HOST_DEVICE PlaceOffset FindCentre(
   const Frame& frame, const ScaledPoint& first, const ScaledPoint& second, const ScaledPoint& third)
@@ -42,9 +42,9 @@ DELAUNAYFLIP_HOST_DEVICE PlaceOffset FindCentre(
 }
 
 /// The triangles with a place in their circumcircle that can be reached from the place without
-/// crossing a segment: the ones that an insertion of the place would replace. There is no vertex
-/// inside of them all, so that they form a tree, and their boundary is one ring. A walk along it
-/// comes to each triangle three times, so the centres of the first ones are kept.
+/// crossing a segment: the ones that an insertion of the place would replace. No vertex is inside
+/// of their union. So they form a tree, and their boundary is one ring. A walk along it comes to
+/// each triangle three times, so the centres of the first ones are kept.
 template <typename Frame>
 class PlaceCavity
 {
@@ -66,7 +66,7 @@ public:
   }
 
   /// The centre of the circumcircle of a triangle of the cavity, from the place.
-  /// @param kept its number among those that are kept, or NotKept, which changes if it can be kept.
+  /// @param kept its number among the kept ones, or NotKept; becomes a number if there is room.
   DELAUNAYFLIP_HOST_DEVICE PlaceOffset GetCentre(TriangleId triangle, int& kept)
   {
     if (kept != NotKept)
@@ -165,11 +165,11 @@ public:
     }
   }
 
-  /// Returns a sum with it.
+  /// Returns a sum with this step added.
   DELAUNAYFLIP_HOST_DEVICE double Add(double sum) const { return (sum + this->Value) + this->Rest; }
 
-  /// Returns a sum with the step back.
-  /// @param from where that one starts. @param to where it ends.
+  /// Returns a sum with the step in the other direction added.
+  /// @param from where the other step starts. @param to where it ends.
   DELAUNAYFLIP_HOST_DEVICE double AddBack(
     double sum, const AreaCorner& from, const AreaCorner& to) const
   {
@@ -184,7 +184,7 @@ private:
   double Value, Rest;
 };
 
-/// The area of a polygon by its corners, which are told one after the other, times two.
+/// Twice the area of a polygon. Its corners are told one after the other.
 class PolygonArea
 {
 public:

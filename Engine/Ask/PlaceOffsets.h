@@ -127,8 +127,8 @@ struct SeenPoint
   double Square; ///< That of the distance.
 };
 
-/// A sliver with less of the square of its size is as good as its longest edge: of a smaller area
-/// FindTwiceArea leaves fewer than nine digits.
+/// The least area that is used, in squares of a triangle's size. FindTwiceArea finds fewer than
+/// nine digits of a smaller area. A sliver with such an area is taken for its longest edge.
 constexpr double MeasurableArea = 1e-22;
 
 /// Twice the area of a triangle. Its error is about 1e-32 of the square of the triangle's size, if

@@ -24,8 +24,8 @@ struct AskedMesh
 {
   PlaneMesh Mesh;
   PlaceGridView Grid;
-  const std::int32_t* Numbers; ///< Of its triangles in the output, -1 if removed; null: their own.
-  bool IsConvex; ///< As in RunQuery.
+  const std::int32_t* Numbers; ///< By triangle, that in the output, -1 if removed; null: its own.
+  bool IsConvex; ///< See RunQuery.
 
   /// Finds a place. It is outside if it is not finite, or if its triangles are removed.
   /// @param last is where the last place was found, and becomes where this one is.

@@ -89,7 +89,7 @@ struct PlaceSides
   int OnEdges = 0; ///< Likewise, if it is on the line of that edge.
 
   PlaceOffset Offsets[3]; ///< From the place to the vertices.
-  /// Twice those of the triangles of the place and the edges, and what was subtracted to get them.
+  /// Twice the areas of the triangles from the place to the edges, and what their errors depend on.
   double Areas[3] = {}, Magnitudes[3] = {};
 
   /// Whether each area is positive and has lost few digits only, and the triangle is not a sliver

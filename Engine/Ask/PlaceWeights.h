@@ -10,7 +10,7 @@
 
 /// @file
 /// How much the vertices around a place count for the value there. Weights are told vertex by
-/// vertex. Linear ones add up to 1; natural ones do not, so their sum has to be divided by.
+/// vertex. Linear ones add up to 1; natural ones do not, so they have to be divided by their sum.
 ///
 /// Both methods reproduce linear functions. At a vertex, on an edge of the hull and on a segment
 /// only linear weights are defined; there natural ones approach them.
@@ -111,7 +111,7 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   WeightCheck check;
   int kept = PlaceCavity<Frame>::NotKept;
   cavity.GetCentre(triangle, kept);
-  // An edge of the boundary: always on across the next edge, until nothing is beyond.
+  // Finds an edge of the boundary: goes on across the next edge until nothing is beyond.
   CornerId first = MakeCorner(triangle, 0);
   CornerId within = cavity.FindWithin(first, kept);
   while (within != NoCorner)

@@ -19,8 +19,8 @@
 namespace delaunayflip
 {
 
-/// The boundary of the triangles on a sphere that a run has kept, for places outside. Like in the
-/// plane, consecutive edges are mostly near each other.
+/// The boundary of the triangles on a sphere that a run has kept, for places outside. Consecutive
+/// edges are mostly near each other, as they are in the plane.
 class SphereBoundary
 {
 public:
@@ -78,7 +78,7 @@ public:
 private:
   static constexpr std::size_t GroupSize = 32;
 
-  /// Has all places on the edges of a group.
+  /// A cap of the sphere. It has all places on the edges of a group.
   struct Cap
   {
     Vector3 Center;
@@ -302,7 +302,7 @@ private:
   std::vector<Vector3> Directions; ///< By point.
   SphereBoundary Boundary;
   DirectedMesh Seen; ///< By frames: across a segment there is no triangle.
-  std::vector<std::int32_t> Neighbors; ///< Of Seen, if there are segments.
+  std::vector<std::int32_t> Neighbors; ///< Those of Seen, if there are segments.
 };
 
 }

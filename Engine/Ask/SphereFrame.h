@@ -20,8 +20,8 @@ enum class TangentKind
   Orthographic,
   /// From the place's antipode, which keeps circles as circles. So natural neighbours are the same
   /// as on the sphere, and the cells are those of the plane. A circumcircle of a triangle that can
-  /// have places is smaller than half of the sphere. If it has the place inside, then it has not
-  /// the antipode, and the triangle is finite and counter-clockwise in the plane.
+  /// have places is smaller than half of the sphere. If the place is inside of it, the antipode is
+  /// not, and the triangle is finite and counter-clockwise in the plane.
   Stereographic
 };
 
@@ -32,8 +32,8 @@ struct DirectedMesh
   const Vector3* Directions;
 };
 
-/// A triangulation on a sphere as seen from a place, in the plane that touches the sphere there: as
-/// PlaceFrame. Points and the place count by their directions.
+/// A triangulation on a sphere as seen from a place, in the plane that touches the sphere there. It
+/// has the functions of PlaceFrame. Points and the place count by their directions.
 class SphereFrame
 {
 public:

@@ -135,7 +135,7 @@ private:
     }
   }
 
-  /// As WalkToPlace.
+  /// Does what WalkToPlace does.
   FoundPlace Walk(const PlanePoint& place, TriangleId start) const
   {
     FoundPlace found;

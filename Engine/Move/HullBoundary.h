@@ -158,8 +158,8 @@ public:
     return sizes.HasFailed == 0;
   }
 
-  /// Finds a corner of each vertex to remove, and of each of the last vertices, as many, which may
-  /// take their numbers.
+  /// Finds a corner of each vertex to remove. Finds one of as many last vertices, too, because
+  /// these may take the numbers of removed ones.
   void FindTracked(
     EdgeMesh& mesh, const PlaneMesh& plane, const VertexId* ids, const Array<VertexId>& targets)
   {

@@ -162,8 +162,8 @@ public:
     *this->Result = this->Sizes;
   }
 
-  /// Adds triangles until the boundary is concave at none of these vertices, or at neighbours that
-  /// the new triangles affect.
+  /// Adds triangles until the boundary is concave at none of these vertices, and at none of the
+  /// neighbours that new triangles affect.
   DELAUNAYFLIP_HOST_DEVICE void FillUp(VertexId* pending, std::int64_t count)
   {
     while (count > 0 && this->Sizes.HasFailed == 0)
@@ -287,7 +287,7 @@ protected:
     return true;
   }
 
-  /// Ends that an edge is fixed because it is on the boundary.
+  /// Lets an edge flip that was on the boundary until now, unless it must stay an edge.
   DELAUNAYFLIP_HOST_DEVICE void MakeInner(EdgeId edge) const
   {
     if (!this->Hull.IsPinned(edge))

@@ -27,8 +27,8 @@
 namespace delaunayflip
 {
 
-/// Whether a place wins that is on a segment of the hull, as 1 or 0. Such a place splits one
-/// triangle instead of two.
+/// 1 if a place wins and is on a segment of the hull, else 0. Such a place splits one triangle
+/// instead of two.
 struct WinsOnHull
 {
   TriangleSplitter Splitter;
@@ -43,7 +43,7 @@ struct WinsOnHull
   }
 };
 
-/// Whether a place wins, as 1 or 0.
+/// 1 if a place wins, else 0.
 struct WinsRound
 {
   const RefinementItem* Items;

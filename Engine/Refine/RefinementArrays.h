@@ -20,8 +20,8 @@
 #include <vector>
 
 /// @file
-/// What refinement keeps beside a mesh: by triangle, edge and vertex, and the mesh before it, in
-/// which what belongs to new vertices is interpolated.
+/// What refinement keeps beside a mesh: arrays by triangle, edge and vertex, and the mesh before
+/// refinement, in which the data of new vertices is interpolated.
 
 namespace delaunayflip
 {
@@ -39,7 +39,7 @@ struct GradedTriangle
   }
 };
 
-/// Whether a triangle does not reach the goals, as 1 or 0.
+/// 1 if a triangle does not reach the goals, else 0.
 struct UnrefinedTest
 {
   RefinementView View;
@@ -56,8 +56,8 @@ struct UnrefinedTest
   }
 
 private:
-  /// Whether a triangle of the caller's mesh that is left as it is does not reach the goals. Those
-  /// that are not counter-clockwise are other defects.
+  /// Whether a triangle that refinement leaves as it is in the caller's mesh misses the goals. A
+  /// triangle that is not counter-clockwise is another defect.
   DELAUNAYFLIP_HOST_DEVICE bool IsBadThoughFrozen(TriangleId triangle) const
   {
     const TriangleShape shape(this->View.Mesh, triangle);
@@ -527,7 +527,7 @@ public:
     return named;
   }
 
-  /// The new vertices, with the points in place of the vertices between which they interpolate.
+  /// The new vertices. Each names the points, not the vertices, between which it interpolates.
   Array<RefinedVertex> NameVertices(const GrowingMesh<Real>& grown) const
   {
     const std::int64_t added = grown.Vertices - this->FirstVertex;
@@ -570,7 +570,7 @@ public:
     return named;
   }
 
-  /// Lists the triangles that are left, or that the limit has left.
+  /// Lists the bad triangles that cannot get better, or that the limit has left.
   void FindUnrefined(const GrowingMesh<Real>& grown, RefinementResult& result)
   {
     const RefinementView view = this->View(grown, nullptr);

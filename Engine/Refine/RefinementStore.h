@@ -70,7 +70,7 @@ struct RefinementStore
   std::uint8_t* IsSharp;
   TriangleId* Splits; ///< By vertex of the round, a triangle that it splits.
   RefinedVertex* Added; ///< The vertices that refinement has added.
-  /// By these, the triangle of the old mesh, or NoTriangle for a vertex on a segment.
+  /// By added vertex: its triangle in the old mesh, or NoTriangle if it is on a segment.
   TriangleId* OldTriangleOf;
   PlaneMesh Old; ///< The mesh before refinement.
   PlaceGridView Grid;
@@ -168,8 +168,8 @@ private:
     return vertex;
   }
 
-  /// Finds the triangle that a place was in before refinement. The walk begins at that of the
-  /// newest corner of the triangle that is split.
+  /// Finds the triangle that a place was in before refinement. The walk begins where the newest
+  /// corner of the split triangle was.
   DELAUNAYFLIP_HOST_DEVICE TriangleId FindOldTriangle(const RefinementItem& item) const
   {
     if (this->IsOfCaller)

@@ -188,9 +188,9 @@ struct RefinementView
   }
 
   /// Whether a point at the centroid of a triangle helps, where its circumcenter is beyond a
-  /// subsegment that cannot be split. It does if the triangle is too large, or if an edge is too
-  /// long that can get shorter and the triangle is not thin. Then the point is so far from all
-  /// edges of the triangle, and so from all other points, that refinement ends.
+  /// subsegment that cannot be split. It does if the triangle is too large, or if it is not thin
+  /// and one of its edges is too long but can get shorter. Then the point is so far from all edges
+  /// of the triangle, and so from all other points, that refinement ends.
   DELAUNAYFLIP_HOST_DEVICE bool CanSplitInside(TriangleId triangle) const
   {
     constexpr double Thin = 0.1; // the height over the longest edge, in lengths of that edge

@@ -34,7 +34,7 @@ inline void SetSmallestAngle(double degrees, RefinementGoals& goals)
   if (degrees > 0.0)
   {
     constexpr double RadiansPerDegree = 0.017453292519943295;
-    // Below 1/2, as rounding must not make the angle smaller than the goal. Triangle has the same.
+    // Below 1/2, since rounding must not make the angle smaller than the goal; as in Triangle.
     constexpr double Share = 0.475;
     const double angle = degrees * RadiansPerDegree;
     goals.Cotangent = 1.0 / Tangent(angle);
@@ -48,7 +48,7 @@ struct TriangleShape
   PlanePoint Apex, From, To; ///< Counter-clockwise; the shortest edge runs from From to To.
   int Slot; ///< That of the apex.
   double SquaredShortest, SquaredLongest;
-  double Dot, Cross; ///< Of the two edges at the apex, where the smallest angle is.
+  double Dot, Cross; ///< Products of the two edges at the apex, where the smallest angle is.
 
   DELAUNAYFLIP_HOST_DEVICE TriangleShape(const PlaneMesh& mesh, TriangleId triangle)
   {

@@ -42,7 +42,7 @@ inline void CheckQuery(const PlaceQuery& query)
   }
 }
 
-/// What places have if there is no triangle.
+/// Stores the results of all places for a mesh without triangles.
 inline void FillOutside(const PlaceQuery& query)
 {
   const std::int64_t count = query.CountPlaces();
@@ -56,11 +56,11 @@ inline void FillOutside(const PlaceQuery& query)
   }
 }
 
-/// The arrays of a query that are in the memory of a GPU, in the host's.
+/// Copies in the host's memory of those arrays of a query that are in the memory of a GPU.
 class HostQuery
 {
 public:
-  /// @param points how many have values. @param coordinates how many of a place are read.
+  /// @param points how many have values. @param coordinates how many are read for each place.
   HostQuery(const PlaceQuery& query, std::int64_t points, std::int64_t coordinates = 2)
     : Caller(query),
       Query(query)

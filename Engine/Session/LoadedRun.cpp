@@ -386,7 +386,7 @@ void LoadedRun::RecordIterations(const std::vector<IterationCounts>& batch, doub
 }
 
 /// The smallest angle is known after the first and the last iteration. If a run stops in between,
-/// it takes a pass over the mesh, made only when the report is requested.
+/// all triangles have to be measured, which is done only when the report is requested.
 void LoadedRun::Measure()
 {
   FlipReport& report = this->Report;

@@ -140,7 +140,7 @@ protected:
     return work(*this->Loaded);
   }
 
-  /// Does this for a getter, if a mesh is loaded.
+  /// Does what OnBackend does, for a getter and if a mesh is loaded.
   /// @returns whether work was called and no observer stopped it.
   template <typename Function>
   bool TryOnBackend(const Function& work)
@@ -159,7 +159,7 @@ protected:
     return this->Loaded != nullptr;
   }
 
-  /// Does this for a getter that writes to device memory. @returns whether store(mesh) could.
+  /// Does so for a getter that writes to device memory. @returns whether store(mesh) could.
   template <typename Store>
   bool TryStoreOnDevice(const Store& store)
   {
@@ -187,7 +187,7 @@ protected:
   void RecordFound(const StepCounts& found);
 
   FlipOptions Options;
-  BuildProgress Building; ///< Of the loading, and of what divide and conquer does later.
+  BuildProgress Building; ///< Tells of the loading, and of what divide and conquer does later.
   std::unique_ptr<LoadedMesh> Loaded; ///< None if the build was stopped.
   std::vector<Entry> Journal; ///< What has happened to the loaded mesh.
   RunProgress Progress;
@@ -201,7 +201,7 @@ protected:
   bool AreAnglesKnown = true;
   /// Whether angles are measured when a mesh is loaded, and after the first iteration.
   bool MeasuresStart = true;
-  bool AreKeptEdgesKnown = false; ///< Whether what kept edges hide is known.
+  bool AreKeptEdgesKnown = false; ///< Whether it is known what kept edges hide.
 
 private:
   void FallBack(const BackendUnavailable& error);

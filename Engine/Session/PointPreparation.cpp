@@ -421,7 +421,7 @@ void PreparedPoints::PrepareRings(const LoadedMesh& mesh)
   {
     if (this->Prepared.Rings[i] >= 0)
     {
-      rings[this->Prepared.Rings[i]]; // of some nothing is left, such as of one at a single place
+      rings[this->Prepared.Rings[i]]; // stays empty for a ring at a single place
     }
   }
   for (std::size_t i = 0; i < this->Segments.size(); ++i)
@@ -446,7 +446,7 @@ void PreparedPoints::PrepareRings(const LoadedMesh& mesh)
   }
 }
 
-/// Whether the places of a ring are not on one line. True if one is not finite.
+/// Whether a ring has a place that is not finite, or three places that are not on one line.
 /// @param used by point the one that is used at its place. @param ring indices of its segments.
 bool PreparedPoints::MayHaveArea(
   const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used)

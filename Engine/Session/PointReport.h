@@ -23,9 +23,9 @@ struct PointResult
 {
   std::size_t Taken = 0; ///< How many segments are inserted or refused; they are the first ones.
   std::int64_t Inserted = 0; ///< How many of these are not refused.
-  std::int64_t Flips = 0; ///< How many flips inserted segments.
+  std::int64_t Flips = 0; ///< How many flips the insertion of segments took.
   std::vector<SegmentEdge> Edges;
-  /// All of them, if triangles may be removed; then Edges are those that are left.
+  /// All edges of segments, if triangles may be removed. Then Edges has only those that are left.
   std::vector<SegmentEdge> WholeEdges;
   SegmentPins Pins; ///< Listed once points move.
   std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
@@ -56,7 +56,7 @@ Defect NameRings(DefectKind kind, std::vector<std::int32_t> numbers);
 /// Whether triangles are removed, and none of the points that were given for themselves is left.
 bool IsLost(const PointInput& input, const KeptTriangles& kept);
 
-/// That none of the given points is left, and where they and what was to cut them lie.
+/// Says that none of the given points is left, and where they, segments and hole seeds lie.
 /// @param points are in the host's memory.
 Defect DescribeLoss(const PreparedPoints& points, const KeptTriangles& kept);
 

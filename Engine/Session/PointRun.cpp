@@ -275,8 +275,8 @@ void PointRun::Take(const InsertedSegments& made)
   result.Flips += made.Flips;
 }
 
-/// Finds out why segments are refused, and what those cross that messages name.
-/// @throws InvalidMesh if one is of a ring.
+/// Finds out why segments are refused and, for those that messages name, what they cross.
+/// @throws InvalidMesh if a segment of a ring is refused.
 void PointRun::ExplainRefused(LoadedMesh& mesh)
 {
   std::vector<RefusedSegment>& refused = this->Result.Refused;
@@ -342,7 +342,7 @@ void PointRun::CutOff()
   }
 }
 
-/// They stay in the loaded mesh, which leaves them out of what it stores.
+/// Removed triangles stay in the loaded mesh, but it leaves them out of what it stores.
 void PointRun::RemoveTriangles(LoadedMesh& mesh)
 {
   const PointInput& input = this->Points.GetInput();

@@ -12,8 +12,8 @@
 namespace delaunayflip
 {
 
-/// The progress of a run that its observer is told, and how many iterations to make before it is
-/// told again.
+/// Tells the observer of a run its progress, and says how many iterations to make before the next
+/// call.
 class RunProgress
 {
 public:
@@ -28,7 +28,7 @@ public:
   /// Called when the build is done.
   /// @param badEdges the number of edges that may flip.
   /// @param buildSeconds the time without the test that found them.
-  /// @param rest the share of the progress of what follows the flips.
+  /// @param rest the share of the progress that what follows the flips takes.
   void StartFlips(std::int64_t badEdges, double buildSeconds, double testSeconds, double rest)
   {
     this->BadEdgesBefore = badEdges;
@@ -52,7 +52,7 @@ public:
     return this->Tell(observer, this->ToldBeforeFlips + all * share);
   }
 
-  /// @param share of what follows the flips. @returns the same as Tell.
+  /// @param share how much of what follows the flips is done. @returns the same as Tell.
   bool TellRest(const ProgressObserver& observer, double share)
   {
     return this->Tell(observer, 1.0 - this->Rest * (1.0 - share));

@@ -75,7 +75,7 @@ private:
 
 /// What a FlipSession owns: a list of stages, and how far it is. Only stages change the mesh. The
 /// functions do what those of FlipSession do. Getters are not const, because a GPU may fail while
-/// it is asked: then the same mesh is made again on threads, or an observer forgets it.
+/// it is asked. Then threads make the same mesh again, unless an observer stops them.
 class SessionRun
 {
 public:
@@ -142,7 +142,7 @@ protected:
   virtual std::string ExplainRefusal() const { return "this session was not made from points"; }
   [[noreturn]] void RefuseQuestion() const { throw InvalidOptions(this->ExplainRefusal()); }
 
-  /// For a run that is done at once: tells its end and, once it is there, all iterations.
+  /// For a run that is done at once: tells observers that it has ended, and then all iterations.
   void TellEnd(const FlipObserver& observer, const ProgressObserver& progress) const
   {
     if (progress)

@@ -244,7 +244,7 @@ void SphereRun::RemoveTriangles()
   }
 }
 
-/// Drops triangles, and edges that are of none of those that are left.
+/// Drops triangles, and the edges that no other triangle has.
 void SphereRun::DropTriangles(const std::vector<unsigned char>& isRemoved)
 {
   std::vector<std::array<std::int32_t, 2>> sides; // of triangles that are kept; sorted
@@ -282,7 +282,7 @@ void SphereRun::DropTriangles(const std::vector<unsigned char>& isRemoved)
 }
 
 //------------------------------------------------------------------------------
-/// Counts and names what rings and seeds have removed or could not.
+/// Counts and names what rings and seeds have removed, and those that could not remove anything.
 void SphereRun::ListRemoved()
 {
   FlipReport& report = this->Report;
