@@ -63,8 +63,8 @@ struct ItemRange
   __device__ std::int64_t GetTile() const { return this->First / ThreadsPerBlock + blockIdx.x; }
 };
 
-/// One thread calls work(i) for every i of its stride. The caller makes sure that what different i
-/// write does not conflict.
+/// One thread calls work(i) for every i of its stride. The caller makes sure that calls for
+/// different i do not write to the same place.
 template <typename Work>
 __global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items, Work work)
 {
@@ -170,7 +170,7 @@ struct LocalDeviceMesh
   void DropRegions() { this->Regions = Array<std::int32_t>(); }
 };
 
-/// Number of the first item of every tile of a range, in device memory, and of all items.
+/// The number of the first item of every tile of a range, in device memory, and that of all items.
 struct DeviceNumbering
 {
   Array<std::int64_t> FirstOfTile;
@@ -406,7 +406,7 @@ public:
     return local;
   }
 
-  /// Views the caller's arrays in this device's memory, except points without z, which get one.
+  /// Views the caller's arrays in this device's memory. Points without z are copied, with z = 0.
   LocalMesh Localize(const DeviceMesh& mesh) const
   {
     const DevicePointArray& points = mesh.Points;
@@ -466,8 +466,8 @@ public:
       [=](std::int64_t i, std::uint32_t value) { values[i] = static_cast<std::int32_t>(value); });
   }
 
-  /// Calls store(i, target) for i = 0 .. size - 1, to set values of the caller's in this device's
-  /// memory after all that is in the caller's stream. Waits for it.
+  /// Calls store(i, target) for i = 0 .. size - 1, to set the caller's values in the memory of this
+  /// device, after all that is in the caller's stream. Waits until they are set.
   template <typename Target, typename Store>
   void StoreOnDevice(
     std::int64_t size, const Target& target, const DeviceStream& stream, const Store& store) const

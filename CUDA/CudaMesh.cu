@@ -15,7 +15,7 @@
 namespace delaunayflip
 {
 
-/// Bits that order as the number does.
+/// Bits that have the same order as the numbers.
 __device__ inline std::uint64_t OrderedBits(double number)
 {
   const std::int64_t bits = __double_as_longlong(number);
@@ -27,9 +27,9 @@ __device__ inline std::uint32_t OrderedBits(float number)
   return static_cast<std::uint32_t>(bits ^ ((bits >> 31) | (std::int32_t(1) << 31)));
 }
 
-/// Sorts all points by their strip and as many bits of x as a key has room for. Points that these
-/// do not order are few as a rule, and one thread sorts them. Where they are many, all points are
-/// sorted by y, then by x, before; each sort keeps the order of equal keys.
+/// Sorts all points by their strip and as many bits of x as a key has room for. Usually few points
+/// have an equal key, and one thread sorts them. If there are many, all points are first sorted by
+/// y, then by x; each sort keeps the order of equal keys.
 template <typename Real>
 struct StripSorter<Real, CudaBackend>
 {
@@ -131,8 +131,8 @@ struct StripSorter<Real, CudaBackend>
     sorted.Count = used;
   }
 
-  /// Sorts the points of equal keys that begin at a place, if they do. Keys do not change by that,
-  /// so other threads may read them.
+  /// If points of equal keys begin at a place, sorts these. That changes no key, so other threads
+  /// may read keys meanwhile.
   /// @returns false if the points are too many for one thread.
   template <typename KeyAt>
   __device__ static bool SortEqualKeys(std::int64_t first, std::int64_t count,

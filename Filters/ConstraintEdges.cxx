@@ -105,7 +105,7 @@ void AddAllPaths(vtkPolyData* others, vtkIdType numberOfPoints, const ProgressOb
   AddPaths(polygons, true, check, work, pairs);
 }
 
-/// Keeps the first of equal pairs, with a flag that is set if that of any of them is.
+/// Keeps the first of equal pairs. Its flag is set if the flag of any of them is.
 /// @throws RunAborted.
 void RemoveRepeated(std::vector<PointPair>& pairs, std::vector<unsigned char>& flags,
   const ProgressObserver& progress)

@@ -95,7 +95,7 @@ struct ConstraintEdges
   std::vector<unsigned char> ToInsert; ///< One flag per pair, as in TriangleMesh.
   std::int64_t Unmatched = 0; ///< How many edges of the second input the mesh does not have.
   std::vector<char> AreHere; ///< One flag per edge of the second input: the mesh has both ends.
-  std::string FirstStranger; ///< Where the first edge lies that has an end which is no point.
+  std::string FirstStranger; ///< Where the first edge lies that ends where there is no point.
 };
 
 /// Finds the edges along the lines of the mesh and along the lines and polygons of the others. The

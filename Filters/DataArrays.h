@@ -182,10 +182,10 @@ DELAUNAYFLIP_EXPORT int FindAttributes(vtkDataSetAttributes* data, vtkAbstractAr
 DELAUNAYFLIP_EXPORT void AddAttributes(vtkDataSetAttributes* data, int index, int attributes);
 
 /// Copies the tuples `sources` of all arrays of `own` to the tuples `places` of `data`. An array
-/// that `data` does not have yet is added, with zeros or empty texts for its other tuples, and as
-/// the attributes that it is, except those that `data` has. One that differs from that of the same
-/// name in type or number of components is added under another name. Arrays without a name are
-/// the same if they are alike and in the same order.
+/// that `data` does not have yet is added, with zeros or empty texts for its other tuples. It keeps
+/// being an attribute unless `data` has one of that kind. If `data` has an array of the same name,
+/// but with another type or number of components, it is added under another name. Arrays without a
+/// name are the same if they are alike and in the same order.
 /// @param size how many tuples the arrays of `data` have.
 DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
   vtkIdType size, vtkDataSetAttributes* data);
@@ -210,8 +210,8 @@ vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkI
 DELAUNAYFLIP_EXPORT void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids,
   vtkDataSetAttributes* data, vtkPolyData* output);
 
-/// Does so for points that the engine has added to those of a triangulation. What they have is
-/// interpolated.
+/// Does so for points that the engine has added to those of a triangulation. Their coordinates and
+/// data are interpolated.
 /// @param hasPlaces whether x and y of the mesh are the engine's.
 void AppendAdded(
   const std::vector<AddedPoint>& added, bool hasPlaces, vtkPolyData* mesh, vtkPolyData* output);

@@ -23,8 +23,8 @@ Stamps StampPoints(const FlipRequest& request)
   return stamps;
 }
 
-/// Stamps all but points that decides which edges exist and which are fixed. Attributes matter only
-/// as region labels and ghosts, and verts only by their number.
+/// Stamps everything, except points, that decides which edges exist and which are fixed. Attributes
+/// matter only as region labels and ghosts, and verts only by their number.
 Stamps StampEdges(const FlipRequest& request)
 {
   Stamps stamps;

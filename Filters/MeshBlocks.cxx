@@ -345,9 +345,9 @@ vtkSmartPointer<vtkIntArray> CopyCells(const MeshList& meshes,
   return owners;
 }
 
-/// The points of all partitions. They are the same if they have the same global id or, if a
-/// partition has no global ids, equal coordinates, if at least one of them is at the border of its
-/// partition. Points without cells are not compared.
+/// Joins the points of all partitions. Points with the same global id are one. If a partition has
+/// no global ids, points with equal coordinates are one if at least one of them is at the border of
+/// its partition. Points without cells are not compared.
 /// @param joined receives each once, with its data: those of the first partition that has it.
 /// @returns for each partition the new ids of its points.
 std::vector<vtkSmartPointer<vtkIdList>> AddPoints(
@@ -532,7 +532,7 @@ std::vector<std::int64_t> ReadPointNumbers(vtkPolyData* mesh)
   if (ids && ids->GetNumberOfComponents() == 1 &&
     ids->GetNumberOfTuples() == mesh->GetNumberOfPoints())
   {
-    for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i) // a double has not all bits of an id
+    for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i) // a double has too few bits for an id
     {
       numbers.push_back(ids->GetVariantValue(i).ToTypeInt64());
     }

@@ -79,8 +79,8 @@ struct JoinedMesh
   std::vector<vtkSmartPointer<vtkIdList>> Points; ///< For each partition, its points in the mesh.
   vtkSmartPointer<vtkIntArray> Owners; ///< Its partition for each cell, by which it is divided.
 
-  /// The number of points that coincide with others of their partition and with one of another. It
-  /// is not known which of them are meant.
+  /// The number of points that coincide with another point of their partition and with a point of
+  /// another partition. It is not known which of the two is meant.
   vtkIdType Ambiguous = 0;
 };
 

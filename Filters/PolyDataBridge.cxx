@@ -319,7 +319,7 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
     progress.Add();
   };
   // Numbers as bytes, in a form that is the same for all NaN, for 0 and -0, and for integers of all
-  // sizes, of which a double does not have all bits.
+  // sizes. A double has too few bits for integers of 64 bits.
   auto* numbers = vtkArrayDownCast<vtkDataArray>(array);
   const int type = array->GetDataType(), width = array->GetNumberOfComponents();
   const bool areDoubles = type == VTK_FLOAT || type == VTK_DOUBLE || type == VTK_BIT;
@@ -799,11 +799,11 @@ void RenewNormals(vtkPolyData* output, const FindChange& findChange)
   {
     return;
   }
-  // Not its NewInstance, which cannot be written where values are computed.
+  // NewInstance would make an array that cannot be written if this one computes its values.
   const auto normals =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(shared->GetDataType()));
   normals->DeepCopy(shared);
-  normals->SetName(shared->GetName()); // which one of bits does not copy
+  normals->SetName(shared->GetName()); // an array of bits does not copy it
   std::vector<double> storage;
   const PointArray points = ViewPoints(output, storage);
   const vtkIdType first = output->GetNumberOfVerts() + output->GetNumberOfLines();

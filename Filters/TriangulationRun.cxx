@@ -140,7 +140,7 @@ private:
   std::vector<double> Sizes; ///< Longest edges near points, if they are limited.
   std::vector<RegionSeed> Regions;
   std::vector<double> Storage; ///< Points that cannot be viewed in place, or must not.
-  std::vector<float> FloatStorage; ///< The same.
+  std::vector<float> FloatStorage; ///< As Storage.
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
   PointInput View; ///< Views of these.
 };
@@ -446,9 +446,9 @@ void TriangulationRun::WriteSurveyed(const std::vector<std::pair<vtkDataArray*, 
   }
 }
 
-/// Gives points of the second input the data of the given points, and those of them that are lifted
-/// the heights: interpolated in the triangulation of the given points alone, and outside of it as
-/// at the nearest place on its boundary. Without triangles nothing changes.
+/// Gives points of the second input the data of the given points, and heights to those that are
+/// lifted. Both are interpolated in the triangulation of the given points alone. Outside of it they
+/// are those of the nearest place on its boundary. Without triangles nothing changes.
 void TriangulationRun::TakeHeights(
   const std::vector<std::int64_t>& points, const std::vector<std::int64_t>& lifted)
 {

@@ -304,7 +304,7 @@ void AddFieldData(const FlipReport& report, vtkFieldData* data)
   addText("Backend", report.Backend);
   AddIterationColumns(report, Prefix, data);
 #if defined(DELAUNAYFLIP_PARAVIEW)
-  // Its lists of arrays, such as Color By, leave out what has this key.
+  // ParaView's lists of arrays, such as Color By, leave out arrays with this key.
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetAbstractArray(i);

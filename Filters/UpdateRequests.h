@@ -39,7 +39,7 @@ struct DELAUNAYFLIP_EXPORT FlipRequest : UpdateRequest
   bool WantsAngles = false; ///< The output gets cell arrays of smallest angles.
 };
 
-/// Which heights points get that only segments have.
+/// The heights of points that only segments have.
 enum class HeightsKind
 {
   Auto, ///< Survey for lines, outlines or holes with z = 0 throughout, if other points have others.

@@ -241,8 +241,8 @@ public:
   /**
    * Add a region, for a mesh in x and y: a place in a part of the mesh that kept edges enclose, the
    * label of its triangles (a 32-bit integer), and the largest area of a triangle there (0: as
-   * elsewhere). If there are regions, the output has a cell array "Region" with these
-   * labels, 0 elsewhere. Of several in one part the first counts. Default: none.
+   * elsewhere). If there are regions, the output has a cell array "Region" with these labels, and 0
+   * elsewhere. If several are in one part, the first one counts. Default: none.
    */
   void AddRegion(double x, double y, double label, double maximumArea);
   void RemoveAllRegions();
@@ -419,7 +419,7 @@ public:
 protected:
 #ifndef __VTK_WRAP__
   /**
-   * As in the superclass, for the properties of this class but Devices, which is a text.
+   * Calls visit as the superclass does, for the properties of this class except Devices, a text.
    */
   template <typename Options, typename Visit>
   void ForEachOption(const Visit& visit) const

@@ -117,8 +117,8 @@ public:
   /**
    * A point array of numbers: the longest edge that triangles may have near each point, linear in
    * between. NaN: no limit near that point. Points that only the second input of a triangulation
-   * has, without such an array, get it from the first input, and so they do all arrays that the
-   * second one does not have (see SegmentHeights). "" (default): none.
+   * has, without such an array, get it from the first input, as they get all arrays that the second
+   * one does not have (see SegmentHeights). "" (default): none.
    */
   vtkSetStdStringFromCharMacro(SizeArray);
   vtkGetCharFromStdStringMacro(SizeArray);

@@ -99,8 +99,8 @@ public:
 
   ///@{
   /**
-   * What a place has that is in no triangle. NAN (default), or NEAREST: the value at the nearest
-   * place on the boundary of the triangles, linear along its edges.
+   * The values of a place that is in no triangle. NAN (default), or NEAREST: the value at the
+   * nearest place on the boundary of the triangles, linear along its edges.
    */
   enum OutsideType
   {

@@ -215,8 +215,8 @@ public:
   /**
    * Add a region: a place in a part that segments enclose, the label of its triangles (a 32-bit
    * integer), and the largest area of a triangle there (0: as elsewhere). If there are regions, the
-   * output has a cell array "Region" with these labels, 0 elsewhere. Of several in one part the
-   * first counts.
+   * output has a cell array "Region" with these labels, and 0 elsewhere. If several are in one
+   * part, the first one counts.
    */
   void AddRegion(double x, double y, double label, double maximumArea);
   void RemoveAllRegions();
@@ -253,12 +253,13 @@ public:
 
   ///@{
   /**
-   * Which z points have that only the second input has. SURVEY: that of the first input there,
-   * linear in the triangulation of its points alone, and outside of it that of the nearest place on
-   * its boundary. So have all arrays of numbers that the second input does not have; integers are
-   * rounded. OWN: that of the second input. AUTO (default): SURVEY for its lines, outlines or
-   * holes, each of the three by itself, that have z = 0 throughout, if the first input has other
-   * heights; else OWN. For x and y only: in another projection AUTO is OWN, and SURVEY an error.
+   * The z of points that only the second input has. SURVEY: that of the first input there, linear
+   * in the triangulation of its points alone, and outside of it that of the nearest place on its
+   * boundary. All arrays of numbers that the second input does not have are found in the same way;
+   * integers are rounded. OWN: that of the second input. AUTO (default): SURVEY for its lines,
+   * outlines or holes, each of the three by itself, that have z = 0 throughout, if the first input
+   * has other heights; else OWN. Only for x and y: in another projection AUTO is OWN, and SURVEY is
+   * an error.
    */
   enum SegmentHeightsType
   {
@@ -358,7 +359,7 @@ protected:
 
 #ifndef __VTK_WRAP__
   /**
-   * As in the superclass, for the properties of this class.
+   * Calls visit as the superclass does, for the properties of this class.
    */
   template <typename Options, typename Visit>
   void ForEachOption(const Visit& visit) const

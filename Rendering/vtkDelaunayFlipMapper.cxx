@@ -143,7 +143,7 @@ struct vtkDelaunayFlipMapper::Parts
 
   std::unique_ptr<BufferFiller> Filler; ///< Null: the host fills.
   std::string Obstacle = NoRun; ///< Why the host fills.
-  bool MayUseDevice = true; ///< It has not failed since the host has got a mesh.
+  bool MayUseDevice = true; ///< The device has not failed since the host got a mesh.
   bool IsBehind = true; ///< The buffers hold an earlier mesh.
   bool IsNew = true; ///< They may hold another run's mesh, or what the filler has not written.
   bool ByFlipCount = false; ///< What colours show.
