@@ -272,7 +272,7 @@ extern "C"
   typedef struct
   {
     int32_t kind; /**< A delaunayflip_defect_kind. */
-    int32_t number_of_ids; /**< Of first_ids; 0 if ids would not help. */
+    int32_t number_of_ids; /**< How many first_ids has; 0 if ids would not help. */
     int64_t count; /**< How many. */
     /** The first triangles or points; of rings and region seeds their numbers; of constraints and
      * segments pairs of points. */
@@ -627,7 +627,7 @@ extern "C"
     int64_t number_of_places;
     int32_t place_type; /**< DELAUNAYFLIP_FLOAT32 or DELAUNAYFLIP_FLOAT64. [FLOAT64] */
     int32_t place_components; /**< At least 2. [2] */
-    int64_t columns; /**< Of the raster, along x; if there are cells, they replace the places. */
+    int64_t columns; /**< How many cells the raster has along x; cells replace the places. */
     int64_t rows; /**< Along y. The cells are numbered row by row. */
     double origin_x; /**< The centre of the first cell. */
     double origin_y;

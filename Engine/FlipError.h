@@ -59,7 +59,7 @@ public:
 
   std::int64_t Cell; ///< The id of the triangle or constraint edge.
   std::int64_t Point; ///< The point id that it names.
-  std::int64_t Ring = -1; ///< Of points: the ring that is at fault, if one is.
+  std::int64_t Ring = -1; ///< The ring of points that is at fault; -1: none.
 };
 
 /// More triangles than 32-bit half-edges can number; thrown before anything is allocated.

@@ -40,8 +40,8 @@ enum class GeometryKind
   Auto,
   Planar, ///< In the plane of the points, in any orientation; an error if there is none.
   PlanarXY, ///< By x and y alone, for terrain.
-            /// In space, by opposite-angle sums.
-  Surface,
+  Surface, ///< In space, by opposite-angle sums.
+
   /// On a sphere around the origin, which every triangle must face with the same side. An edge is
   /// good if the far corner of one triangle is not beyond the plane of the other. So the mesh
   /// becomes the convex hull of the points, which is their Delaunay triangulation on the sphere.

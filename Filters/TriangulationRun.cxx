@@ -140,7 +140,7 @@ private:
   std::vector<double> Sizes; ///< Longest edges near points, if they are limited.
   std::vector<RegionSeed> Regions;
   std::vector<double> Storage; ///< Points that cannot be viewed in place, or must not.
-  std::vector<float> FloatStorage; ///< As Storage.
+  std::vector<float> FloatStorage; ///< Likewise, in single precision.
   vtkNew<vtkPoints> Projected; ///< In the plane, if there is a projection.
   PointInput View; ///< Views of these.
 };

@@ -134,8 +134,9 @@ public:
   ///@{
   /**
    * Where the points are joined. XY (default) ignores z. BEST_FITTING_PLANE is that of
-   * vtkPlane::ComputeBestFittingPlane, seen from above. For thick clouds it differs by some degrees
-   * from the plane with the smallest sum of squared distances. A Transform replaces both.
+   * vtkPlane::ComputeBestFittingPlane, seen from above. If points are far from it, it differs by
+   * some degrees from the plane with the smallest sum of squared distances. A Transform replaces
+   * both.
    *
    * SPHERE makes the convex hull of points around the origin, the Delaunay triangulation on a
    * sphere: n places have 2 n - 4 triangles, counter-clockwise from outside. Points inside of the

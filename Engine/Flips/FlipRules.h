@@ -265,7 +265,7 @@ struct SphereRule
 
   const Real* Coordinates; ///< x, y and z of every vertex.
   PlanePoint Center; ///< The place from which triangles are seen.
-  int UniformSide; ///< As in PlanarRule, seen from the center.
+  int UniformSide; ///< See PlanarRule; as seen from the center.
   bool Canonical; ///< Whether ties are decided instead of kept.
   bool FiltersApply; ///< Whether coordinates are in the range of the filters.
 

@@ -22,7 +22,7 @@ class LoadedSphere
 public:
   virtual ~LoadedSphere() = default;
 
-  /// As that of a LoadedMesh.
+  /// See LoadedMesh.
   virtual std::unique_ptr<DeviceScope> MakeCurrent() const = 0;
 
   /// Whether filters may be used for all points.

@@ -344,9 +344,9 @@ bool Precede(const Corners& one, const Corners& other)
   return sort(one) < sort(other);
 }
 
-/// Finds the triangle that each seed is in, or NoTriangle if there is none. Of several, which have
-/// the seed on an edge or a corner, it is the one that precedes. @param getSeed returns a seed's
-/// place. @param side the orientation of triangles, 1 or -1.
+/// Finds the triangle that each seed is in, or NoTriangle if there is none. If several have the
+/// seed, on an edge or a corner, it is the one that precedes the others. @param getSeed returns a
+/// seed's place. @param side the orientation of triangles, 1 or -1.
 /// @param counts whether a triangle may have seeds.
 template <typename GetSeed, typename Counts>
 std::vector<TriangleId> FindTriangles(const PointMeshView& mesh, std::int64_t count,

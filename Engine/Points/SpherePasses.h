@@ -39,7 +39,7 @@ struct SpherePoints
 struct SphereTriangles
 {
   const std::int32_t* Ids;
-  const std::int32_t* Neighbors; ///< As FindNeighbors lists them.
+  const std::int32_t* Neighbors; ///< The list of FindNeighbors.
   std::int64_t Count;
 };
 

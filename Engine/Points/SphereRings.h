@@ -24,7 +24,7 @@ struct SphereMeshView
 {
   const SpacePoints& Points;
   const std::vector<std::int32_t>& Triangles;
-  const std::vector<std::int32_t>& Neighbors; ///< As FindNeighbors lists them.
+  const std::vector<std::int32_t>& Neighbors; ///< The list of FindNeighbors.
   const std::vector<SphereEdge>& Edges;
 };
 

@@ -336,7 +336,7 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatMove)
   }
 }
 
-/// The same with an outline, a hole and a segment: the CPU inserts them at the current places.
+/// This time with an outline, a hole and a segment: the CPU inserts them at the current places.
 TEST_F(FallbackTest, AnyCallMayFailForSegmentsThatMove)
 {
   std::vector<double> xy{ -130, -130, 130, -130, 130, 130, -130, 130 };

@@ -39,7 +39,7 @@ struct Step
 {
   StepKind Kind;
   Places Points; ///< The new places, or those to insert.
-  std::vector<std::int64_t> Ids; ///< Of the points to move or to remove.
+  std::vector<std::int64_t> Ids; ///< Those of the points to move or to remove.
 };
 
 struct MoveCase

@@ -184,7 +184,7 @@ TEST(MoveSegments, PointsGo)
   EXPECT_LT(0.5 * moving.Frames, moving.InPlace);
 }
 
-/// Of the two triangles beside a seed on a segment, the same one has it in any order of triangles.
+/// If a seed is on a segment, the same triangle beside it has the seed in any order of triangles.
 TEST(MoveSegments, SeedsOnSegments)
 {
   std::mt19937 random(5);

@@ -370,7 +370,7 @@ TEST(Refine, RegionsHaveLabelsAndAreas)
   }
 }
 
-/// Of several seeds in one part the first counts. The others are named if they differ from it.
+/// If several seeds are in one part, the first counts. The others are named if they differ from it.
 TEST(Refine, SaysWhichSeedsAreNotUsed)
 {
   const Drawing square = MakeSquare(2.0);

@@ -138,7 +138,7 @@ TEST(SphereRings, EncloseTheirSmallerSide)
       EXPECT_EQ(1, kept.Report.EulerCharacteristic);
       EXPECT_EQ(24, kept.Report.FromPoints.SegmentEdges);
       ExpectDelaunayOnSphere(drawn.Points, kept);
-      // Of equal sides the left one is inside.
+      // If both sides are equal, the left one is inside.
       const bool isNorth = latitude > 0.0 || (latitude == 0.0 && !isReversed);
       double north = 0.0;
       for (const std::int32_t id : kept.Triangles)

@@ -6,8 +6,9 @@
 licences: every source file begins with the two SPDX lines (after a #! line, if any).
 sizes: no file of the repository is over 1 MB.
 words: the libraries never print to standard output and never end the process; the engine calls no
-function with last bits that depend on the system, and has one word for each idea (CONTRIBUTING.md,
-Words).
+function with last bits that depend on the system; the libraries have one word for each idea
+(CONTRIBUTING.md, Words). No comment of C++ begins with Of, As and their like, and no file has words
+that make sentences hard to read.
 markdown: lines of text are under 100 columns. Tables, pictures, code and the targets of links may
 be wider.
 release: the citation and the changelog have the version that CMakeLists.txt has.
@@ -51,8 +52,23 @@ MAY_USE_SYSTEM_MATH = (
     "Engine/Mesh/SmallestAngle.h", "Engine/Session/RunProgress.h")
 COMMENT_OR_STRING = re.compile(
     r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
-TWINS = {"phase": "pass", "cloud": "points"}  # words for what has another name already
-TWIN_FOLDERS = ("CInterface/", "CUDA/", "Engine/")
+# Words for what has another name already, in the libraries.
+TWINS = {
+    re.compile(pattern, re.IGNORECASE): word for pattern, word in (
+        (r"phase", "pass"),
+        (r"\bsteps? [1-6]\b", "pass"),
+        (r"cloud", "points"),
+        (r"violations?\b", "bad edge"),
+        (r"\b(?:left|right)[- ]turns?\b|\bturns? (?:to the )?(?:left|right)\b", "orientation"),
+        (r"\bedges? (?:(?:that )?(?:is|are) )?held\b|\bheld edge", "fixed"),
+        (r"\b(?:detections?|iterations?) (?:rounds?|phases?)\b", "iteration"),
+        (r"\bparts? of (?:a|the|each|every|all) (?:GPU|device)s?\b|\b(?:GPU|device)'?s'? parts?\b",
+         "share"),
+    )}
+# These make sentences that have to be read twice, in any file of words.
+AVOIDED = re.compile(r"\bwho[s]e\b|\bwhat to tell of\b|\bstayed itself\b", re.IGNORECASE)
+OPENING = re.compile(r"(?://[/!]?<?|/\*\*?<?|^ *\*) +((?:And|As|Nor|Of|Or|So that|The same)\b)")
+AVOIDED_IN = LICENSED_SUFFIXES + (".cff", ".md", ".module", ".svg", ".txt", ".xml")
 MARKDOWN_CODE = re.compile(r"^```.*?^```|(?:\A|(?<=\n\n))(?: {4}[^\n]*\n)+", re.DOTALL | re.MULTILINE)
 LINK_TARGET = re.compile(r"\]\([^)]*\)")
 
@@ -125,10 +141,14 @@ def check_words(root):
                 if path.startswith(("CUDA/", "Engine/")) and path not in MAY_USE_SYSTEM_MATH:
                     yield from (f"{where}: {word}: its bits depend on the system; see PortableMath.h"
                                 for word in SYSTEM_MATH.findall(line))
-        if path.startswith(TWIN_FOLDERS):
             for where, line in list_lines(root, path, nothing):
-                yield from (f"{where}: {twin}: say {word}" for twin, word in TWINS.items()
-                            if twin in line.lower())
+                yield from (f"{where}: {match.group().lower()}: say {word}" for twin, word in TWINS.items()
+                            for match in twin.finditer(line))
+    for path in list_files(root, AVOIDED_IN):
+        for where, line in list_lines(root, path, nothing):
+            yield from (f"{where}: {phrase}: make two sentences" for phrase in AVOIDED.findall(line))
+            if path.endswith(CPP_SUFFIXES):
+                yield from (f"{where}: {word}: begin with a subject" for word in OPENING.findall(line))
 
 
 def check_markdown(root):
