@@ -8,6 +8,22 @@
  * joined changes. Every iteration flips, in parallel, an independent set of edges that are not
  * locally Delaunay. The update ends when no such edge is left that may be flipped.
  *
+ *     vtkNew<vtkPoints> points;
+ *     points->InsertNextPoint(0, 0, 0);
+ *     points->InsertNextPoint(2, -1, 0);
+ *     points->InsertNextPoint(4, 0, 0);
+ *     points->InsertNextPoint(2, 1, 0);
+ *     vtkNew<vtkCellArray> triangles;
+ *     triangles->InsertNextCell({ 0, 1, 2 });
+ *     triangles->InsertNextCell({ 0, 2, 3 });
+ *     vtkNew<vtkPolyData> mesh;
+ *     mesh->SetPoints(points);
+ *     mesh->SetPolys(triangles);
+ *     vtkNew<vtkDelaunayFlip> flip;
+ *     flip->SetInputData(mesh);
+ *     flip->Update(); // GetOutput() has two better triangles
+ *     flip->GetTotalFlips(); // 1
+ *
  * Input: any vtkPolyData, also as a block of a composite dataset. Quads, polygons and triangle
  * strips are first split into triangles (see Triangulate). Nothing is assumed about the mesh: it
  * may be open or non-manifold, have mixed winding, and contain duplicate, degenerate or unused

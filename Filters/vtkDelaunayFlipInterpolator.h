@@ -11,6 +11,23 @@
  * projection of the source. On a sphere they are directions from the origin or, with Degrees,
  * longitudes and latitudes; Interpolation.h says what interpolation means there.
  *
+ *     vtkNew<vtkPoints> points;
+ *     points->InsertNextPoint(0, 0, 0);
+ *     points->InsertNextPoint(2, 0, 10);
+ *     points->InsertNextPoint(0, 2, 20);
+ *     points->InsertNextPoint(2, 2, 30);
+ *     vtkNew<vtkPolyData> source;
+ *     source->SetPoints(points);
+ *     vtkNew<vtkImageData> raster; // of 3 x 3 places
+ *     raster->SetDimensions(3, 3, 1);
+ *     vtkNew<vtkDelaunayFlipInterpolator> interpolator;
+ *     interpolator->SetInputData(raster);
+ *     interpolator->SetInputData(1, source);
+ *     interpolator->Update();
+ *     vtkPointData* data = interpolator->GetOutput()->GetPointData();
+ *     vtkDataArray* heights = data->GetArray("Elevation");
+ *     heights->GetTuple1(4); // 15.0
+ *
  * Input port 0: the places, the points of any vtkDataSet. Port 1: the source, any vtkPointSet; its
  * cells do not matter, but see LinesAsSegments. Port 2, optional: the segments, a vtkPolyData, as
  * port 1 of vtkDelaunayFlipPoints.

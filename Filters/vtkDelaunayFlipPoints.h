@@ -10,6 +10,18 @@
  * points, nor on threads or GPUs. Where four or more points lie on one circle, the triangles are
  * those of vtkDelaunayFlip with the canonical tie rule.
  *
+ *     vtkNew<vtkPoints> points;
+ *     points->InsertNextPoint(0, 0, 0);
+ *     points->InsertNextPoint(2, -1, 10);
+ *     points->InsertNextPoint(4, 0, 20);
+ *     points->InsertNextPoint(2, 1, 30);
+ *     vtkNew<vtkPolyData> given;
+ *     given->SetPoints(points);
+ *     vtkNew<vtkDelaunayFlipPoints> triangulate;
+ *     triangulate->SetInputData(given);
+ *     triangulate->Update();
+ *     triangulate->GetOutput()->GetNumberOfPolys(); // 2
+ *
  * Input port 0: any vtkPointSet; its cells do not matter, but see LinesAsSegments. Port 1,
  * optional: the segments, a vtkPolyData. Its lines become edges of the mesh, such as the breaklines
  * of a terrain. So do its polygons, and its lines that end where they begin (ClosedLinesAsRings).

@@ -13,13 +13,14 @@ import sys
 
 EXAMPLE = re.compile(r"^(?:///| \*)(?:     (.*))?$")
 VALUE = re.compile(r'^(\s*)(\S.*); // (-?[\d.]+|true|false|".*")$')
+VTK_CLASS = re.compile(r"\bvtk[A-Z]\w+")
 # They have macros alone.
 WITHOUT_EXAMPLE = {"EngineExport.h", "HostDevice.h"}
 
 
 def read_example(path):
     lines = path.read_text(encoding="utf-8").splitlines()
-    begin = next(i for i, line in enumerate(lines) if "@file" in line)
+    begin = next(i for i, line in enumerate(lines) if "@file" in line or "@class" in line)
     found = []
     for line in lines[begin + 1:]:
         if not line.startswith(("///", " *")) or line == " */":
@@ -34,16 +35,18 @@ def read_example(path):
 
 def main():
     output, headers = sys.argv[1], [pathlib.Path(name) for name in sys.argv[2:]]
-    headers = [header for header in headers if header.name not in WITHOUT_EXAMPLE]
+    examples = {header: read_example(header) for header in headers if header.name not in WITHOUT_EXAMPLE}
     is_c = output.endswith(".c")
-    text = [f'#include "{name}"' for name in (["check.h"] if is_c else
-                                              ["gtest/gtest.h", *(h.name for h in headers)])]
-    text += [] if is_c else ["#include <cmath>", "#include <vector>", "using namespace delaunayflip;"]
-    for header in headers:
+    included = ["check.h"] if is_c else ["gtest/gtest.h", *(header.name for header in examples)]
+    # A class of VTK has a header of its name.
+    included += sorted(f"{name}.h" for name in set(VTK_CLASS.findall(str(list(examples.values())))))
+    text = [f'#include "{name}"' for name in included]
+    text += [] if is_c else ["#include <cmath>", "#include <vector>",
+                             "namespace delaunayflip {} using namespace delaunayflip;"]
+    for header, example in examples.items():
         text.append("int main(void)" if is_c else f"TEST(HeaderExamples, {header.stem})")
         check = "CHECK" if is_c else "EXPECT_TRUE"
-        text += ["{", *(VALUE.sub(rf"\1{check}((\2) == \3);", line)
-                        for line in read_example(header)), "}"]
+        text += ["{", *(VALUE.sub(rf"\1{check}((\2) == \3);", line) for line in example), "}"]
     pathlib.Path(output).write_text("\n".join(text) + "\n", encoding="utf-8")
 
 
