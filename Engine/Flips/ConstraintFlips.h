@@ -128,8 +128,8 @@ struct ConstraintPath
     bool IsForward = false; ///< Whether Side is that of an edge and runs along the path.
   };
 
-  /// Calls see(segment) for the segments of the path from start to end, and before that
-  /// cross(half-edge) for the edges that one crosses. Changes nothing.
+  /// Calls see(segment) for the segments of the path from start to end, and before each of them
+  /// cross(half-edge) for the edges that it crosses. Changes nothing.
   template <typename See, typename Cross>
   DELAUNAYFLIP_HOST_DEVICE PathResult Walk(const See& see, const Cross& cross)
   {
@@ -308,7 +308,7 @@ private:
     }
   }
 
-  /// Takes the edge to `end` if it leads along the constraint, and no other one to a nearer vertex.
+  /// Takes the edge to `end` if it leads along the constraint and none leads to a nearer vertex.
   DELAUNAYFLIP_HOST_DEVICE void AddEdge(
     VertexId at, VertexId end, int side, CornerId opposite, Exits& exits) const
   {
@@ -455,8 +455,8 @@ private:
     return corner == getStart();
   }
 
-  /// Whether both triangles have the same side after the flip, strictly, and before it, at least
-  /// one.
+  /// Whether both triangles have the same strict orientation after the flip, and before it one of
+  /// them has it and the other one not the opposite.
   DELAUNAYFLIP_HOST_DEVICE bool IsConvex(const Quad& quad) const
   {
     int side = 1;

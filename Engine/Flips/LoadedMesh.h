@@ -51,10 +51,10 @@ struct InsertedSegments
 /// The outcome of a motion or a removal of points.
 struct MotionResult
 {
-  bool IsThere = false; ///< False: it did not end, and the mesh is of no use.
+  bool IsThere = false; ///< False: the motion did not end, and the mesh is of no use.
   std::int64_t Rounds = 0;
   std::int64_t Flips = 0;
-  std::vector<PinnedEdge> Edges; ///< The edges that were given. Empty: they are what they were.
+  std::vector<PinnedEdge> Edges; ///< What the given edges are now. Empty: what they were before.
 };
 
 /// @returns whether to go on.
@@ -90,8 +90,8 @@ public:
   virtual AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) = 0;
   virtual bool CanAnswerInPlace(const PlaceQuery&) const { return false; }
 
-  /// Inserts points into a Delaunay triangulation of points, and flips until it is one again. They
-  /// are in the hull, with coordinates in the precision of the others.
+  /// Inserts points into a Delaunay triangulation of points, and flips until it is one again. The
+  /// new points are in the hull, with coordinates in the precision of the others.
   /// @param places x and y. The numbers of these points follow those of the mesh's.
   /// @returns how many flips it took.
   virtual std::int64_t InsertPoints(const std::vector<double>& places) = 0;
@@ -186,7 +186,7 @@ std::vector<std::int64_t> ListInnerFixedEdges(
 /// The regions that the region seeds of a mesh in x and y are in: by triangle of the caller, the
 /// number of the first seed there, from 1, or 0 where there is none. Flips change none of them,
 /// because they cross no edge that stays.
-/// @param unused receives those that are not used; Outside are in no triangle that runs as most do.
+/// @param unused receives unused seeds; Outside: in no triangle with the orientation of most.
 std::vector<std::int32_t> FindSeededRegions(
   const TriangleMesh& mesh, const FlipOptions& options, UnusedSeeds& unused);
 

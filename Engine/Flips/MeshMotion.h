@@ -85,8 +85,8 @@ public:
 
   // The functions below are public because device lambdas require it.
 
-  /// Whether each point that is not used will be at the place of the same used point as now, or not
-  /// finite as now.
+  /// Whether the points that are not used stay so. Each of them must be at the place of the same
+  /// used point as before, or not be finite, as before.
   static bool KeepsUse(
     const PlaneArray& targets, const Array<VertexId>& used, const Backend& backend)
   {
@@ -105,8 +105,8 @@ public:
              }) == 0;
   }
 
-  /// Ends the state Candidate of edges. A loop on a device reads states and does not write them, so
-  /// the next loop would judge these edges again.
+  /// Makes candidates good edges. A loop on a device reads states and does not write them, so the
+  /// next loop would judge these edges again.
   static void ClearCandidates(EdgeMesh& mesh, const Backend& backend)
   {
     if constexpr (!Backend::IsOnHost)

@@ -45,8 +45,8 @@ struct SegmentItem
   }
 };
 
-/// The data that threads prefetch for an item, each kind some items after the one before it,
-/// because it is found there.
+/// The data that threads prefetch for an item. Each kind is found by means of the one before it, so
+/// it is prefetched some items later.
 enum class PrefetchStage
 {
   Item,
@@ -70,7 +70,7 @@ struct SegmentRound
   const std::uint32_t* List = nullptr;
   std::uint32_t Number = 0; ///< The first round has 1.
   std::uint32_t FirstClaim = 0; ///< The first item's claim.
-  std::uint32_t EndClaim = 0; ///< Behind that of the last one. Those of other rounds are not less.
+  std::uint32_t EndClaim = 0; ///< One more than the last item's. Other rounds have no lower claims.
 
   DELAUNAYFLIP_HOST_DEVICE ConstraintPath StartPath(const SegmentItem& item) const
   {
@@ -78,8 +78,8 @@ struct SegmentRound
   }
 
   /// Finds the path of a segment, and claims the triangles that it crosses. A segment that crosses
-  /// a fixed edge is refused: that edge will stay. The later one of two claims sees the other and
-  /// who is beaten.
+  /// a fixed edge is refused: that edge will stay. The later one of two claims on a triangle sees
+  /// the other, and so knows which segment is beaten.
   DELAUNAYFLIP_HOST_DEVICE void Claim(SegmentItem& item, std::uint32_t claim) const
   {
     std::uint32_t edges = 0, crossed = 0;
@@ -171,7 +171,7 @@ struct SegmentRound
     return item.State == SegmentItem::Waiting && AtomicLoad(&item.Beaten) != this->Number;
   }
 
-  /// Makes the path of a winner edges.
+  /// Turns the path of a winner into edges.
   DELAUNAYFLIP_HOST_DEVICE void Flip(SegmentItem& item, std::int64_t& flips) const
   {
     ConstraintPath path = this->StartPath(item);
@@ -182,7 +182,7 @@ struct SegmentRound
     flips += path.Flips;
   }
 
-  /// Fixes these. That is a step of its own, because flips beside an edge make it a candidate.
+  /// Fixes these edges. That is a step of its own: flips beside an edge make it a candidate.
   DELAUNAYFLIP_HOST_DEVICE void Fix(SegmentItem& item) const
   {
     for (std::uint32_t i = 0; i < item.NumberOfEdges; ++i)

@@ -35,7 +35,7 @@ struct GrowthItem
 {
   GrowthState State;
   FoundPlace Place; ///< Where it was found; the next search begins there.
-  VertexId Vertex; ///< It, or the one that it is at.
+  VertexId Vertex; ///< The vertex that the place becomes, or that is there already.
 };
 
 /// A round, item by item. A place claims the triangles that it would split, and the lowest number

@@ -103,8 +103,8 @@ private:
     }
   }
 
-  /// The edge's record becomes that of its half at the end that comes next after the corner
-  /// opposite the edge in the place's triangle.
+  /// The record of the edge becomes that of one half: the half at the vertex that comes next after
+  /// the opposite corner in the place's triangle.
   DELAUNAYFLIP_HOST_DEVICE void SplitEdge(const NewVertex& vertex) const
   {
     const CornerId corner = MakeCorner(vertex.Place.Triangle, vertex.Place.FindEdgeSlot());

@@ -625,7 +625,7 @@ template <typename Backend>
 typename Backend::Numbering PairCorners(
   const EdgeMeshInput& input, EdgeMeshResult& result, const Backend& backend)
 {
-  // Constraints are searched for in it. A guard makes its own table, which needs no words.
+  // Constraints are searched for in this table. A guard makes its own, which needs no words.
   if (input.Input.Caller.NumberOfConstraintEdges > 0)
   {
     return PairByTable(input, result, 1, backend);

@@ -329,8 +329,8 @@ DELAUNAYFLIP_HOST_DEVICE inline void SetRole(
   triangle.HalfEdges[slot] = other == ManyCorners ? NoCorner : other;
 }
 
-/// Has each corner of a triangle without edges get a record of its own, whatever was paired with
-/// it.
+/// If a triangle has no edges, gives each of its corners a record of its own, whatever was paired
+/// with it.
 DELAUNAYFLIP_HOST_DEVICE inline void SeparateIfEdgeless(TriangleRecord& triangle)
 {
   if (!HasEdges(triangle))

@@ -423,7 +423,7 @@ public:
   }
 
   /// How triangles are oriented in x and y, and how steep they are.
-  /// @param up another axis: in the two that follow it, with heights along it.
+  /// @param up the axis of heights. If it is not z, the two axes that follow it replace x and y.
   /// @param atMost about how many triangles are taken, evenly.
   OrientationSums SumOrientations(
     int up = 2, std::int64_t atMost = std::numeric_limits<std::int64_t>::max()) const

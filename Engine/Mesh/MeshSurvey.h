@@ -125,7 +125,7 @@ struct OrientationSample
   {
     return this->GetSide() != 0 && 1000 * this->CountStrays() <= this->Count();
   }
-  /// Whether all with area do, except at most one in 100; at most one in five has none.
+  /// Whether all with an area have one, except at most one in 100, and at most one in five is flat.
   bool AreNearlyUniform() const
   {
     return this->GetSide() != 0 &&

@@ -41,7 +41,7 @@ public:
 };
 
 /// Inserts the constraints, surveys the mesh as a whole, cuts it, and copies its triangles.
-/// @param triangles receives the triangles, as FlipInPieces says. Empty: arrays of the result do.
+/// @param triangles receives the triangles, as FlipInPieces says; if empty, the result has arrays.
 /// @throws as FlipInPieces; RunAborted. Then nothing has been copied.
 std::unique_ptr<MeshInParts> CutIntoParts(const TriangleMesh& mesh, const FlipOptions& options,
   const ProgressObserver& progress, const MutableTriangleArray& triangles = {});

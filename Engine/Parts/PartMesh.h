@@ -210,8 +210,8 @@ public:
   void SetSeam(const PartCorner& corner);
   /// Removes this mark: both triangles of the edge are on this rank.
   void ClearSeam(const PartCorner& corner);
-  /// The triangles that have changed or arrived since the last call, perhaps left by now, and those
-  /// at points that have become shared; at first, all at shared points.
+  /// The triangles that have changed or arrived since the last call, and those at points that have
+  /// become shared. Some may have left by now. The first call returns all at shared points.
   std::vector<std::int64_t> TakeChanged();
   /// The keys of seam edges that have lost their triangle here since the last call. They may
   /// include edges that have a triangle here again.

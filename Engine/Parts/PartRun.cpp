@@ -106,8 +106,8 @@ std::vector<WaitingFlip> FindWaiting(
   return waiting;
 }
 
-/// The edges that may be made, and by the flip of which edge. The first that asked may flip, among
-/// those that can flip now if there are any. All ranks come to the same answers.
+/// The edges that may be made, each with the edge that may flip to make it. That is the first one
+/// that asked, among those that can flip now if there are any. All ranks get the same answers.
 PairMap<PointPair> GrantFlips(
   const PartMesh& mesh, const std::vector<FlipQuestion>& own, PieceGroup& group)
 {

@@ -52,8 +52,8 @@ struct PointSum
   std::uint32_t Sum;
 };
 
-/// Found in GeometryChoice.h instead of the function that does nothing. The total of every point
-/// goes to the rank that owns its key, and 0 to the others.
+/// GeometryChoice.h calls this overload instead of the one that does nothing. The total of every
+/// point goes to the rank that owns its key, and 0 to the others.
 void JoinPointSums(const GroupBackend& backend, std::uint32_t* sums)
 {
   const PointKeys& keys = backend.Keys;
@@ -257,7 +257,7 @@ struct Wedge
   {
     return this->Apex.U == other.Apex.U && this->Apex.V == other.Apex.V;
   }
-  /// Whether the direction to a place lies in the wedge. That to First does, that to Last does not.
+  /// Whether the direction to a place lies in the wedge. First is in the wedge, Last is not.
   bool Covers(const PlanePoint& place) const
   {
     const int afterFirst = FindOrientation(this->Apex, this->First, place);

@@ -52,7 +52,7 @@ struct KeptTriangles
   std::vector<std::int32_t> RingsWithoutArea; ///< Their numbers; they have removed nothing.
   std::vector<std::int32_t> RepeatedRings; ///< Those with the edges of an earlier one; left out.
   std::vector<std::int32_t> RingsRunAgain; ///< Those that run more than once along their loop.
-  std::int64_t HolePointsOutside = 0; ///< Corners of holes to which only their mesh reaches.
+  std::int64_t HolePointsOutside = 0; ///< Corners of holes outside the hull of other points.
   std::int64_t Used = 0; ///< Points of the triangles that are kept.
   std::int64_t UsedGiven = 0; ///< Those of them before PointInput::FirstAdded.
   std::int64_t Edges = 0, Boundary = 0; ///< How many edges the triangles that are kept have.

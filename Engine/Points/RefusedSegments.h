@@ -29,8 +29,8 @@ struct RefusedSegment
   Segment Refused;
   std::uint32_t Index; ///< Among the prepared segments.
   RefusalKind Why = RefusalKind::CrossesEarlier;
-  /// Only of those that a message names. A segment that a segment crosses is the first one by its
-  /// number, so it does not depend on the order in which threads or a GPU have inserted them.
+  /// Known only for segments that a message names. It is the first edge by the number of its
+  /// segment, so it does not depend on the order in which threads or a GPU inserted segments.
   CrossedEdge Crossed = {};
 };
 
