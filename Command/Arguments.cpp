@@ -247,7 +247,7 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   app
     .add_option("--columns", arguments.Columns,
       "Which columns of a .xyz, .csv or .txt are x, y and perhaps z, by name or by number from 1: "
-      "x,y,z or 2,3,4 [those with known names, else the first ones]. Of a .shp and the like: the "
+      "x,y,z or 2,3,4 [those with known names, else the first ones]. For a .shp and the like: the "
       "attribute that is z")
     ->type_name("LIST")
     ->check(

@@ -98,7 +98,7 @@ class Answers:
 
     @contextlib.contextmanager
     def _alone(self):
-        """Other threads wait. An observer would wait for itself."""
+        """The handle, while other threads wait. An observer gets an error: it would wait for itself."""
         if self._asker == threading.get_ident():
             raise RuntimeError("an observer cannot ask the triangulation that it observes")
         with self._lock:

@@ -293,8 +293,8 @@ def _prepare(
 
 
 def interpolate_in_survey(points, values, places, backend, projection=0):
-    """Values at places, linear in the triangulation of points alone; outside of it, those of the nearest
-    place on its boundary. Of shape (n, k). None if there are no triangles.
+    """Values at places, (n, k), linear in the triangulation of points alone; outside of it, those of the
+    nearest place on its boundary. None if there are no triangles.
 
     Args:
         backend: Keywords that say where it runs.
@@ -308,7 +308,7 @@ def interpolate_in_survey(points, values, places, backend, projection=0):
     return survey.interpolate(values, places, outside="nearest")
 
 
-#: Of added points three ids each, -1 where there are only two, and as many weights.
+#: For each added point three ids, -1 where there are only two, and as many weights.
 _NOTHING_ADDED = numpy.empty((0, 3), dtype=numpy.int64), numpy.empty((0, 3))
 
 

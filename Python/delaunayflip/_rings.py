@@ -70,7 +70,7 @@ def _is_ring(name, given):
 
 
 def _require_ids(name, rows):
-    """Three integers each are rings of ids, but those of no ring are equal."""
+    """Raises ValueError if a row of three integers, which is a ring of ids, names an id twice."""
     ids = numpy.sort(_arrays.as_array(name, rows), axis=1)
     if (ids[:, 1:] == ids[:, :-1]).any():
         raise ValueError(f"{name}: rows of three integers are rings of point ids, but some of these rows name "

@@ -47,7 +47,7 @@ class SphereTriangulation(Asked):
     #: (k, 2) int64: the edges that segments have become, in their order and direction, each once.
     segments: Array
     segment_numbers: Array  #: (k,) int64: the segment of each of these edges; of several, the first one.
-    _keywords: Dict[str, Any] = dataclasses.field(repr=False)  # Of _triangulate.
+    _keywords: Dict[str, Any] = dataclasses.field(repr=False)  # Those of _triangulate.
     _made_from: Tuple[Any, Dict[str, Any]] = dataclasses.field(repr=False)  # Its points and lines.
 
     @functools.cached_property
