@@ -342,7 +342,7 @@ void TurnFewer(vtkCellArray* polygons, std::vector<bool>& areTurned)
   }
 }
 
-/// The polygons, of which those that are to be turned over are.
+/// A copy of the polygons, in which those with a flag are turned over.
 vtkSmartPointer<vtkCellArray> TurnOver(vtkCellArray* polygons, const std::vector<bool>& areTurned)
 {
   auto made = vtkSmartPointer<vtkCellArray>::New();

@@ -63,7 +63,7 @@ struct FileMesh
   void AddLabels(vtkDataArray* array);
 };
 
-/// What of a file is read.
+/// What is read of a file.
 enum class Content
 {
   Mesh, ///< Also points that become one.

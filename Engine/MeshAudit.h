@@ -44,10 +44,9 @@ DELAUNAYFLIP_EXPORT std::int64_t CountDuplicateEdgesGained(
 /// Counts bad edges: edges of two consistently wound triangles that violate the criterion, which is
 /// the exact in-circle predicate in planar geometry, and the opposite-angle sum on surfaces and
 /// with CriterionKind::OppositeAngles. On a sphere it is the exact orientation of four points.
-/// Constraint edges, region borders, edges of frozen triangles
-/// and feature edges of `mesh` itself do not count. Ties do not count either, although with
-/// TieRuleKind::Canonical a report counts those that are blocked. GeometryKind::Auto chooses as in
-/// a run.
+/// Constraint edges, region borders, edges of frozen triangles, and feature edges of `mesh` itself
+/// do not count. Ties do not count either, although with TieRuleKind::Canonical a report counts
+/// those that are blocked. GeometryKind::Auto chooses as in a run.
 DELAUNAYFLIP_EXPORT std::int64_t CountNonDelaunayEdges(
   const TriangleMesh& mesh, const FlipOptions& options);
 

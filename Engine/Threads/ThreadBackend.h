@@ -47,8 +47,8 @@ struct ThreadNumbering
 class ThreadBackend
 {
 public:
-  /// @param threads 0: as many as the machine has. What is too many to help, or for the system, is
-  /// reduced.
+  /// @param threads 0: as many as the machine has. A number that is too large to help, or too large
+  /// for the system, is reduced.
   explicit ThreadBackend(int threads);
   ~ThreadBackend();
   ThreadBackend(ThreadBackend&&) noexcept;

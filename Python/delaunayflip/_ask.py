@@ -98,7 +98,7 @@ class Answers:
 
     @contextlib.contextmanager
     def _alone(self):
-        """The handle, while other threads wait. An observer gets an error: it would wait for itself."""
+        """Lets other threads wait. An observer gets an error, since it would wait for itself."""
         if self._asker == threading.get_ident():
             raise RuntimeError("an observer cannot ask the triangulation that it observes")
         with self._lock:
