@@ -36,9 +36,8 @@
  *   headers only add members at the end, so a program compiled with an older header works with a
  *   newer library. Enumerations are passed as int32_t.
  * - Points, triangles, queries and results may be in the memory of a GPU; everything else is in the
- *   host's.
- *   Such arrays are read or written after the work that is already in the caller's stream. When a
- *   function returns, its results are complete.
+ *   host's. Such arrays are read or written after the work that is already in the caller's stream.
+ *   When a function returns, its results are complete.
  * - Arrays belong to the caller. The library neither keeps nor frees them, except that a session
  *   reads the arrays of its mesh as long as it exists.
  * - Different sessions may be used by different threads at the same time; one session by one thread

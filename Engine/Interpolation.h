@@ -9,8 +9,8 @@
 #include <cstdint>
 
 /// @file
-/// What a triangulation of points can be asked: the triangles that places lie in, and values there
-/// from values at the points. FlipSession::Ask answers:
+/// A triangulation of points can be asked in which triangles places lie, and which values are there
+/// if there are values at the points. FlipSession::Ask answers:
 ///
 ///     const double points[] = { 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0 };
 ///     const double heights[] = { 0.0, 10.0, 20.0, 30.0 };
