@@ -187,7 +187,7 @@ class SphereInterpolator(Interpolator):
     Example:
         >>> stations = [[0, 0], [90, 0], [180, 0], [270, 0], [0, 90], [0, -90]]
         >>> f = SphereInterpolator(stations, [0.0, 1.0, 2.0, 1.0, 5.0, -5.0])
-        >>> f([[45, 0], [-180, 0], [123, 90]]).tolist()
+        >>> f([[45, 0], [-180, 0], [123, 90]]).round(9).tolist()
         [0.5, 2.0, 5.0]
         >>> f.raster(origin=(0, 90), step=(90, -90), shape=(2, 4)).tolist()
         [[5.0, 5.0, 5.0, 5.0], [0.0, 1.0, 2.0, 1.0]]

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of triangulations on a sphere, and of meshes of globes, by NumPy arrays."""
+import doctest
 import functools
 import math
 import pickle
@@ -9,6 +10,7 @@ import warnings
 
 import delaunayflip
 import numpy
+from delaunayflip import _points, _sphere
 
 
 def make_directions(count, seed=1):
@@ -33,6 +35,12 @@ def sort_rows(triangles):
 
 
 class Sphere(unittest.TestCase):
+    def test_docstrings(self):
+        for module in (_points, _sphere):
+            result = doctest.testmod(module)
+            self.assertGreater(result.attempted, 3)
+            self.assertEqual(result.failed, 0)
+
     def test_grid(self):
         """Both ends of a row are one place, and so are all points at a pole."""
         grid = make_grid(10)
