@@ -123,7 +123,7 @@ public:
   virtual void ViewOnHost(const HostView& view) = 0;
 
   /// Finds the triangles of a mesh from points that do not belong to the result. They stay in the
-  /// mesh. From now on, what stores triangles, flip counts or neighbors leaves them out.
+  /// mesh. From now on, what stores triangles, flip counts or neighbours leaves them out.
   /// @param segments all of them; receives those of the triangles that are kept.
   virtual KeptTriangles CutOff(
     const PointInput& input, const PointOptions& options, std::vector<SegmentEdge>& segments) = 0;

@@ -34,7 +34,7 @@ public:
   /// device. @param unplaced receives how many of them are NaN; that of the pole is.
   virtual PlaneArray Project(const NumberedPoint& pole, std::int64_t& unplaced) = 0;
 
-  /// The memory for the triangles in the plane and their neighbors.
+  /// The memory for the triangles in the plane and their neighbours.
   virtual std::int32_t* GetTriangles() = 0;
   virtual std::int32_t* GetNeighbors() = 0;
   /// Closes the mesh that these triangles make with triangles to the pole.

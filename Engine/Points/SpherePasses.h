@@ -235,7 +235,7 @@ struct ProjectionStep
   }
 };
 
-/// Lists the sides of triangles that have no neighbor, in their order.
+/// Lists the sides of triangles that have no neighbour, in their order.
 template <typename Backend>
 std::vector<BoundarySide> ListBoundary(const SphereTriangles& triangles, const Backend& backend)
 {

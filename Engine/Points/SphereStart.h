@@ -86,7 +86,7 @@ private:
 std::vector<std::int32_t> FindNeighbors(
   const std::vector<std::int32_t>& triangles, std::int64_t points);
 
-/// A side of a triangle that has no neighbor.
+/// A side of a triangle that has no neighbour.
 struct BoundarySide
 {
   std::int32_t Corner; ///< The opposite one: 3 * triangle + slot.

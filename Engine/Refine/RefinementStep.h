@@ -317,7 +317,7 @@ private:
     }
   }
 
-  /// Calls visit(triangle) for the neighbors of a triangle across edges that are not subsegments.
+  /// Calls visit(triangle) for the neighbours of a triangle across edges that are not subsegments.
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE void ForNeighbors(TriangleId triangle, const Visit& visit) const
   {

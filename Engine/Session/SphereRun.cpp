@@ -453,7 +453,7 @@ bool SphereRun::LeaveOut(const std::vector<std::int32_t>& points, PointState sta
   return !points.empty();
 }
 
-/// Lists the neighbors of the triangles, unless they are known.
+/// Lists the neighbours of the triangles, unless they are known.
 const std::vector<std::int32_t>& SphereRun::FindNeighborsOnce()
 {
   if (this->Neighbors.empty())

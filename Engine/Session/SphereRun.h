@@ -139,7 +139,7 @@ private:
   std::vector<RefusedSegment> Refused;
   std::int64_t Replaced = 0; ///< How many edges segments have replaced.
   KeptTriangles Kept; ///< What rings and seeds have removed.
-  /// The triangles before that, with their neighbors and, by triangle, its number in the output or
+  /// The triangles before that, with their neighbours and, by triangle, its number in the output or
   /// -1. Empty if nothing was removed.
   std::vector<std::int32_t> WholeTriangles, WholeNeighbors, Numbers;
 };
