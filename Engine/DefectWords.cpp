@@ -135,9 +135,9 @@ constexpr DefectWords AllWords[] = {
     "segment that ends at a point inside of the convex hull",
     "segments that end at a point inside of the convex hull" },
   { Kind::RegionSeedsRepeated, DefectIds::Seeds,
-    "region seed in the same part as an earlier one, not used: its label and area differ, so a "
-    "segment between the two may be missing",
-    "region seeds in the same part as earlier ones, not used: their labels and areas differ, so "
+    "region seed in the same part as an earlier one, not used: its label or its area differs, so "
+    "a segment between the two may be missing",
+    "region seeds in the same part as earlier ones, not used: their labels or areas differ, so "
     "segments between them may be missing" },
   { Kind::OptionsWithoutGoal, DefectIds::Points,
     "option without effect, because without a goal nothing is refined: ",

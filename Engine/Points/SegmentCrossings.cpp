@@ -11,6 +11,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -100,6 +103,121 @@ Integer ToInteger(double value, int exponent)
   return magnitude;
 }
 
+/// Segments by the cells of a grid that they pass, so that those near a point are found in little
+/// time.
+class SegmentCells
+{
+public:
+  using Ends = std::array<PlanePoint, 2>;
+
+  /// @param segments their ends, which are finite.
+  explicit SegmentCells(const std::vector<Ends>& segments)
+  {
+    constexpr double Fewest = 64.0, Most = 1024.0;
+    const double wanted = 2.0 * std::sqrt(static_cast<double>(segments.size()));
+    this->Side = static_cast<std::int64_t>(std::clamp(wanted, Fewest, Most));
+    for (const Ends& ends : segments)
+    {
+      for (const PlanePoint& end : ends)
+      {
+        this->Low = { std::min(this->Low.U, end.U), std::min(this->Low.V, end.V), 0.0 };
+        this->High = { std::max(this->High.U, end.U), std::max(this->High.V, end.V), 0.0 };
+      }
+    }
+    std::vector<std::pair<std::int64_t, std::size_t>> passed; // cells and segments
+    for (std::size_t i = 0; i < segments.size(); ++i)
+    {
+      this->ForCells(segments[i], [&](std::int64_t cell) { passed.emplace_back(cell, i); });
+    }
+    std::sort(passed.begin(), passed.end());
+    this->Starts.assign(this->Side * this->Side + 1, 0);
+    for (const auto& [cell, segment] : passed)
+    {
+      ++this->Starts[cell + 1];
+      this->Segments.push_back(segment);
+    }
+    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
+  }
+
+  /// Calls visit(segment) for all segments near a place, and for some others.
+  template <typename Visit>
+  void ForSegmentsNear(const PlanePoint& place, const Visit& visit) const
+  {
+    const PlanePoint scaled = this->Scale(place);
+    const auto side = static_cast<double>(this->Side);
+    const bool isInside =
+      scaled.U > -1.0 && scaled.U < side + 1.0 && scaled.V > -1.0 && scaled.V < side + 1.0;
+    if (isInside)
+    {
+      const std::int64_t cell = this->GetRow(scaled.V) * this->Side + this->GetRow(scaled.U);
+      for (std::int64_t i = this->Starts[cell]; i < this->Starts[cell + 1]; ++i)
+      {
+        visit(this->Segments[i]);
+      }
+    }
+  }
+
+private:
+  /// Calls visit(cell) for the cells that a segment passes, and for those around them.
+  template <typename Visit>
+  void ForCells(const Ends& ends, const Visit& visit) const
+  {
+    PlanePoint a = this->Scale(ends[0]), b = this->Scale(ends[1]);
+    if (b.U < a.U)
+    {
+      std::swap(a, b);
+    }
+    const auto heightAt = [&](double u)
+    {
+      const double share = b.U > a.U ? std::clamp((u - a.U) / (b.U - a.U), 0.0, 1.0) : 0.0;
+      return a.V + share * (b.V - a.V);
+    };
+    const bool isUpright = this->GetRow(a.U) == this->GetRow(b.U);
+    for (std::int64_t column = this->GetRow(a.U - 1.0); column <= this->GetRow(b.U + 1.0); ++column)
+    {
+      const auto left = static_cast<double>(column);
+      const double one = isUpright ? a.V : heightAt(left - 1.0);
+      const double other = isUpright ? b.V : heightAt(left + 2.0);
+      const std::int64_t last = this->GetRow(std::max(one, other) + 1.0);
+      for (std::int64_t row = this->GetRow(std::min(one, other) - 1.0); row <= last; ++row)
+      {
+        visit(row * this->Side + column);
+      }
+    }
+  }
+
+  /// A place in units of cells. Halves do not overflow.
+  PlanePoint Scale(const PlanePoint& place) const
+  {
+    const auto scale = [&](double value, double low, double high)
+    {
+      const double width = 0.5 * high - 0.5 * low;
+      const auto side = static_cast<double>(this->Side);
+      return width > 0.0 ? (0.5 * value - 0.5 * low) / width * side : 0.0;
+    };
+    return { scale(place.U, this->Low.U, this->High.U), scale(place.V, this->Low.V, this->High.V),
+      0.0 };
+  }
+  /// The row or column of a scaled coordinate.
+  std::int64_t GetRow(double scaled) const
+  {
+    return static_cast<std::int64_t>(std::clamp(scaled, 0.0, static_cast<double>(this->Side - 1)));
+  }
+
+  std::int64_t Side; ///< How many rows and columns there are.
+  PlanePoint Low{ INFINITY, INFINITY, 0.0 }, High{ -INFINITY, -INFINITY, 0.0 };
+  std::vector<std::int64_t> Starts; ///< By cell, the first of its segments.
+  std::vector<std::size_t> Segments;
+};
+
+/// Where a segment is split.
+struct Cut
+{
+  std::size_t Segment;
+  Fraction Share; ///< Of its length.
+  std::int64_t Point;
+};
+
 class Splitter
 {
 public:
@@ -124,6 +242,50 @@ public:
       this->Split(pairs, check);
     }
     return std::move(this->Result);
+  }
+
+  /// Splits segments at points within rounding of them, unless segments would cross that did not.
+  std::vector<Segment> RunNear(const std::function<void()>& check)
+  {
+    std::vector<std::size_t> segments;
+    for (std::size_t i = 0; i < this->Result.Segments.size(); ++i)
+    {
+      if (IsFinite(this->GetStart(i)) && IsFinite(this->GetEnd(i)))
+      {
+        segments.push_back(i);
+      }
+    }
+    std::vector<Cut> cuts;
+    std::set<std::size_t> bent; // segments with points beside them
+    std::map<std::pair<double, double>, std::int64_t> pointAt; // the one that is used
+    this->ForPointsNear(segments, check,
+      [&](std::size_t segment, std::int64_t point)
+      {
+        const PlanePoint place = this->At(point);
+        const std::optional<Fraction> share =
+          this->IsWithinRounding(segment, point) ? this->FindShare(segment, point) : std::nullopt;
+        if (share &&
+          pointAt.emplace(std::pair(place.U + 0.0, place.V + 0.0), point).first->second == point)
+        {
+          cuts.push_back({ segment, *share, point });
+          if (FindOrientation(this->GetStart(segment), this->GetEnd(segment), place) != 0)
+          {
+            bent.insert(segment);
+          }
+        }
+      });
+    if (bent.empty())
+    {
+      return std::move(this->Result.Segments);
+    }
+    cuts.erase(std::remove_if(cuts.begin(), cuts.end(),
+                 [&](const Cut& cut) { return bent.count(cut.Segment) == 0; }),
+      cuts.end());
+    std::vector<Segment> before = this->Result.Segments;
+    const std::size_t crossings = this->FindPairs(check).size();
+    this->SplitAt(cuts);
+    const bool isWorse = this->FindPairs(check).size() > crossings;
+    return isWorse ? std::move(before) : std::move(this->Result.Segments);
   }
 
 private:
@@ -299,28 +461,102 @@ private:
     return this->Points.Count + static_cast<std::int64_t>(this->Result.Added.size());
   }
 
-  void Split(const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
-    const std::function<void()>& check)
+  /// Cuts segments at the points that are exactly on them. The parts may bend where crossings are
+  /// rounded, and would pass beside such points.
+  /// @param cuts those at crossings. Other segments stay straight.
+  void AddPointsOnSegments(std::vector<Cut>& cuts, const std::function<void()>& check) const
   {
-    struct Cut
+    std::vector<std::size_t> segments;
+    for (const Cut& cut : cuts)
     {
-      std::size_t Segment;
-      Fraction Share;
-      std::int64_t Point;
-    };
-    std::vector<Crossing> crossings;
-    for (const auto& [earlier, later] : pairs)
-    {
-      check();
-      crossings.push_back(this->FindCrossing(earlier, later));
+      segments.push_back(cut.Segment);
     }
-    const std::vector<std::int64_t> points = this->TakePoints(crossings);
-    std::vector<Cut> cuts;
-    for (std::size_t i = 0; i < crossings.size(); ++i)
+    std::sort(segments.begin(), segments.end());
+    segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+    this->ForPointsNear(segments, check,
+      [&](std::size_t segment, std::int64_t point)
+      {
+        const std::optional<Fraction> share = this->FindShare(segment, point);
+        if (share &&
+          FindOrientation(this->GetStart(segment), this->GetEnd(segment), this->At(point)) == 0)
+        {
+          cuts.push_back({ segment, *share, point });
+        }
+      });
+  }
+
+  /// Calls visit(segment, point) for all points near some segments, and for some others.
+  template <typename Visit>
+  void ForPointsNear(const std::vector<std::size_t>& segments, const std::function<void()>& check,
+    const Visit& visit) const
+  {
+    std::vector<SegmentCells::Ends> ends;
+    for (const std::size_t segment : segments)
     {
-      cuts.push_back({ crossings[i].Earlier, crossings[i].OnEarlier, points[i] });
-      cuts.push_back({ crossings[i].Later, crossings[i].OnLater, points[i] });
+      ends.push_back({ this->GetStart(segment), this->GetEnd(segment) });
     }
+    const SegmentCells cells(ends);
+    for (std::int64_t point = 0; point < this->CountPoints(); ++point)
+    {
+      if (point % (1 << 16) == 0)
+      {
+        check();
+      }
+      const PlanePoint place = this->At(point);
+      if (IsFinite(place))
+      {
+        cells.ForSegmentsNear(place, [&](std::size_t i) { visit(segments[i], point); });
+      }
+    }
+  }
+
+  PlanePoint GetStart(std::size_t segment) const
+  {
+    return this->At(this->Result.Segments[segment].From);
+  }
+  PlanePoint GetEnd(std::size_t segment) const
+  {
+    return this->At(this->Result.Segments[segment].To);
+  }
+
+  /// The share of a segment's longer extent at which a point is, if it is between the ends.
+  std::optional<Fraction> FindShare(std::size_t segment, std::int64_t point) const
+  {
+    const PlanePoint a = this->GetStart(segment), b = this->GetEnd(segment), p = this->At(point);
+    const bool isWide = std::fabs(0.5 * b.U - 0.5 * a.U) >= std::fabs(0.5 * b.V - 0.5 * a.V);
+    const double from = isWide ? a.U : a.V, to = isWide ? b.U : b.V, at = isWide ? p.U : p.V;
+    if (at <= std::min(from, to) || at >= std::max(from, to))
+    {
+      return std::nullopt;
+    }
+    int unit = 1024; // more than any exponent
+    for (const double value : { from, at, to })
+    {
+      unit = value != 0.0 ? std::min(unit, DoubleParts(value).Exponent) : unit;
+    }
+    const Integer start = ToInteger(from, unit);
+    const Integer part = ToInteger(at, unit) - start, whole = ToInteger(to, unit) - start;
+    return whole < 0 ? Fraction{ -part, -whole } : Fraction{ part, whole };
+  }
+
+  /// Whether a point is so near to a segment, between its ends, that a part of the segment may pass
+  /// it on either side by rounding.
+  bool IsWithinRounding(std::size_t segment, std::int64_t point) const
+  {
+    constexpr double Roundings = 4.0;
+    const PlanePoint a = this->GetStart(segment), b = this->GetEnd(segment), p = this->At(point);
+    const double largest =
+      std::max({ std::fabs(a.U), std::fabs(a.V), std::fabs(b.U), std::fabs(b.V) });
+    const double distance = Roundings * largest * (this->Points.Floats ? 0x1p-23 : 0x1p-52);
+    const double u = b.U - a.U, v = b.V - a.V, length = PlaneLength(u, v);
+    const double along = (u * (p.U - a.U) + v * (p.V - a.V)) / length;
+    const double across = (u * (p.V - a.V) - v * (p.U - a.U)) / length;
+    return along > distance && along < length - distance && std::fabs(across) <= distance;
+  }
+
+  /// Splits segments at cuts, which are sorted here.
+  void SplitAt(std::vector<Cut>& cuts)
+  {
     std::sort(cuts.begin(), cuts.end(),
       [](const Cut& a, const Cut& b)
       { return std::tie(a.Segment, a.Share, a.Point) < std::tie(b.Segment, b.Share, b.Point); });
@@ -345,6 +581,26 @@ private:
     this->Result.Segments = std::move(split);
   }
 
+  void Split(const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
+    const std::function<void()>& check)
+  {
+    std::vector<Crossing> crossings;
+    for (const auto& [earlier, later] : pairs)
+    {
+      check();
+      crossings.push_back(this->FindCrossing(earlier, later));
+    }
+    const std::vector<std::int64_t> points = this->TakePoints(crossings);
+    std::vector<Cut> cuts;
+    for (std::size_t i = 0; i < crossings.size(); ++i)
+    {
+      cuts.push_back({ crossings[i].Earlier, crossings[i].OnEarlier, points[i] });
+      cuts.push_back({ crossings[i].Later, crossings[i].OnLater, points[i] });
+    }
+    this->AddPointsOnSegments(cuts, check);
+    this->SplitAt(cuts);
+  }
+
   const PlaneArray& Points;
   SplitSegments Result;
 };
@@ -354,6 +610,12 @@ SplitSegments SplitCrossings(
   const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check)
 {
   return Splitter(points, std::move(segments)).Run(check);
+}
+
+std::vector<Segment> SplitAtNearPoints(
+  const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check)
+{
+  return Splitter(points, std::move(segments)).RunNear(check);
 }
 
 }

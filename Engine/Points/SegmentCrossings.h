@@ -29,11 +29,18 @@ struct SplitSegments
   double LargestShift = 0.0; ///< How far rounding has moved a point at most.
 };
 
-/// Splits segments where they cross each other. New points are rounded, so the parts may cross
-/// again; up to ten rounds split them. It ends early where crossings multiply, as if segments
-/// overlap nearly along a line. Segments that meet at a point, or overlap, do not cross.
+/// Splits segments where they cross each other, and there also at points that are on them. New
+/// points are rounded, so the parts may cross again; up to ten rounds split them. It ends early
+/// where crossings multiply, as if segments overlap nearly along a line. Segments that meet at a
+/// point, or overlap, do not cross.
 /// @param check is called now and then, and may throw.
 SplitSegments SplitCrossings(
+  const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check);
+
+/// Splits segments at points that are beside them within rounding. Refinement needs that: it splits
+/// segments at rounded places, and the parts could pass such points on the other side.
+/// @param check is called now and then, and may throw.
+std::vector<Segment> SplitAtNearPoints(
   const PlaneArray& points, std::vector<Segment> segments, const std::function<void()>& check);
 
 }

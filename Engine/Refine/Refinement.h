@@ -284,13 +284,11 @@ public:
     const RefinementStore<Real>& store, const typename Backend::Numbering& numbering)
   {
     const RefinementItem* items = this->Items.Data();
-    this->Device.ForEachNumbered(
-      numbering, this->NumberOfPlaces,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { return items[i].State == ItemState::Wins ? 1 : 0; },
+    const WinsRound wins{ items };
+    this->Device.ForEachNumbered(numbering, this->NumberOfPlaces, wins,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
-        if (items[i].State == ItemState::Wins)
+        if (wins(i) != 0)
         {
           store.Split(items[i], CountOfWinners{ number, 0, 0 }.GetAdded());
         }
@@ -303,13 +301,11 @@ public:
   {
     const RefinementItem* items = this->Items.Data() + this->NumberOfPlaces;
     const std::int64_t* onHull = this->OnHullBefore.Data();
-    this->Device.ForEachNumbered(
-      numbering, this->NumberOfSegments,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { return items[i].State == ItemState::Wins ? 1 : 0; },
+    const WinsRound wins{ items };
+    this->Device.ForEachNumbered(numbering, this->NumberOfSegments, wins,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
       {
-        if (items[i].State == ItemState::Wins)
+        if (wins(i) != 0)
         {
           store.Split(items[i], CountOfWinners{ inTriangles, number, onHull[i] }.GetAdded());
         }

@@ -96,7 +96,8 @@ struct RefinementStep
 
   /// Makes the place that splits the subsegment of an item, and claims its triangles. The place is
   /// rounded, so it is not exactly on the segment. It must be between the ends, and it must not
-  /// turn triangles over.
+  /// turn triangles over, as it may where a vertex is within rounding of the segment. Then a place
+  /// beside it is taken.
   DELAUNAYFLIP_HOST_DEVICE void ProposeForSegment(std::int64_t i) const
   {
     const PlaneMesh& mesh = this->View.Mesh;
@@ -109,11 +110,12 @@ struct RefinementStep
     item.Found.Triangle = TriangleOf(corner);
     item.Found.OnEdges = 1 << SlotOf(corner);
     item.Place = this->View.FindSplit(segment);
-    item.SquaredRadius = TriangleShape::GetSquaredDistance(
-      item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
     const bool isBetween =
       IsFinite(item.Place) && this->View.IsEncroached(this->View.GetSide(segment), item.Place);
-    if (!isBetween || !this->FitsBoth(item))
+    const bool fits = isBetween && (this->FitsBoth(item) || this->MoveBeside(item));
+    item.SquaredRadius = TriangleShape::GetSquaredDistance(
+      item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
+    if (!fits)
     {
       item.State = ItemState::Dropped;
       this->View.Marks[segment] = CannotSplit;
@@ -281,6 +283,32 @@ private:
     const double sum = squared[0] * (u[1] * v[2] - u[2] * v[1]) +
       squared[1] * (u[2] * v[0] - u[0] * v[2]) + squared[2] * (u[0] * v[1] - u[1] * v[0]);
     return sum > 0.0;
+  }
+
+  /// Moves a place on a segment by a rounding, or by up to an eighth of the segment along it, so
+  /// that it turns no triangle over. @returns whether there is such a place.
+  DELAUNAYFLIP_HOST_DEVICE bool MoveBeside(RefinementItem& item) const
+  {
+    constexpr double Short = 1024.0; // in roundings; such segments bound no good triangles
+    constexpr double Shift = 1.0 / 64.0;
+    constexpr int Directions = 9, Shifts = 17; // 8 forward and 8 back
+    const PlanePoint place = item.Place;
+    const double rounding = this->View.GetRounding(place);
+    const HalfEdgeId side = this->View.GetSide(item.Source);
+    const PlanePoint a = this->View.Mesh.GetPoint(this->View.Mesh.GetStart(side));
+    const PlanePoint b = this->View.Mesh.GetPoint(this->View.Mesh.GetEnd(side));
+    const double squared = TriangleShape::GetSquaredDistance(a, b);
+    const bool isShort = squared < Short * Short * rounding * rounding;
+    bool fits = false;
+    for (int k = 0; k < Shifts * Directions && !isShort && !fits; ++k)
+    {
+      const int shift = k / Directions, u = k % 3 - 1, v = k % Directions / 3 - 1;
+      const double along = Shift * (shift % 2 == 0 ? shift / 2 : -(shift + 1) / 2);
+      item.Place = this->View.Round({ place.U + along * (b.U - a.U) + u * rounding,
+        place.V + along * (b.V - a.V) + v * rounding, 0.0 });
+      fits = this->View.IsEncroached(side, item.Place) && this->FitsBoth(item);
+    }
+    return fits;
   }
 
   /// Whether a place on a segment splits the triangles there into counter-clockwise ones.

@@ -359,6 +359,13 @@ struct RefinementView
     return 0.5 * (low + high);
   }
 
+  /// At least how far coordinates of the same size are from each other.
+  DELAUNAYFLIP_HOST_DEVICE double GetRounding(const PlanePoint& place) const
+  {
+    const double u = std::fabs(place.U), v = std::fabs(place.V);
+    return (u > v ? u : v) * (this->AreFloats ? 0x1p-23 : 0x1p-52);
+  }
+
   /// A place in the precision of the others.
   DELAUNAYFLIP_HOST_DEVICE PlanePoint Round(const PlanePoint& place) const
   {

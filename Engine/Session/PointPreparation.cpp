@@ -135,7 +135,19 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
     this->Counts.LargestShift = split.LargestShift;
     this->CopyPoints();
   }
+  if (this->WantsRefinement() && !this->Segments.empty())
+  {
+    this->Segments =
+      SplitAtNearPoints(this->CopyToHost(), std::move(this->Segments), [&] { Tell(observer); });
+  }
   this->IsPrepared = true;
+}
+
+bool PreparedPoints::WantsRefinement() const
+{
+  const PointInput& input = this->Caller;
+  return HasGoals(this->Options) || input.Sizes != nullptr ||
+    HasAreas(input.Regions, input.NumberOfRegions);
 }
 
 /// Drops what Prepare has made, and keeps what the caller has given.

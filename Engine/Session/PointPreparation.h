@@ -43,7 +43,7 @@ public:
   PreparedPoints(const PointInput& input, const PointOptions& options);
 
   /// Finds points that are too near to others, and splits segments that cross, if that is wanted
-  /// and not done.
+  /// and not done. For refinement it splits segments at points within rounding of them.
   /// @throws BackendUnavailable; RunAborted.
   void Prepare(const ProgressObserver& observer);
 
@@ -81,6 +81,9 @@ public:
   {
     return std::binary_search(this->Removed.begin(), this->Removed.end(), point);
   }
+
+  /// Whether a goal asks for refinement.
+  bool WantsRefinement() const;
 
   const PointInput& GetCaller() const { return this->Caller; }
   const PointOptions& GetOptions() const { return this->Options; }

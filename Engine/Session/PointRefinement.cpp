@@ -114,12 +114,7 @@ private:
 
 }
 
-bool PointRun::WantsRefinement() const
-{
-  const PointInput& input = this->Points.GetCaller();
-  return HasGoals(this->Options) || input.Sizes != nullptr ||
-    HasAreas(input.Regions, input.NumberOfRegions);
-}
+bool PointRun::WantsRefinement() const { return this->Points.WantsRefinement(); }
 
 void PointRun::LabelRegions()
 {

@@ -3,6 +3,7 @@
 #include "ByteSource.h"
 #include "FuzzTarget.h"
 #include "PointTestSupport.h"
+#include "PrintDrawing.h"
 #include "RandomInputs.h"
 
 #include <gtest/gtest.h>
@@ -487,17 +488,7 @@ void RunTarget(const std::uint8_t* bytes, std::size_t size)
 void PrintTarget(const std::uint8_t* bytes, std::size_t size)
 {
   const PointCase drawn = MakePointCase(bytes, size);
-  std::cout.precision(17);
-  for (const auto& point : drawn.Input.Points)
-  {
-    std::cout << "point " << point[0] << ' ' << point[1] << '\n';
-  }
-  for (std::size_t i = 0; i < drawn.Input.Segments.size(); ++i)
-  {
-    const auto& segment = drawn.Input.Segments[i];
-    std::cout << "segment " << segment[0] << ' ' << segment[1] << " of ring "
-              << drawn.Input.Rings[i] << '\n';
-  }
+  PrintDrawing(drawn.Input);
   std::cout << "split " << drawn.Options.SplitCrossings << ", ring rule "
             << static_cast<int>(drawn.Options.RingRule) << ", first hole " << drawn.Input.FirstHole
             << ", alpha " << drawn.Options.Alpha << ", longest edge " << drawn.Options.LongestEdge

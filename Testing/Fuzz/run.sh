@@ -2,10 +2,10 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: run.sh [engine|points|moves|spheres|files|ranks|arrays] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
+# Usage: run.sh [engine|points|refinements|moves|spheres|files|ranks|arrays] [--cases N] [--seed S] [--jobs J] [--libfuzzer SECONDS]
 # Builds a fuzz target and runs cases 0 to N - 1 (default 1000000) of a seed (default 1) on J
 # processes (default: all cores), a thousand per process. The programs for the engine (default), for
-# points, moves and spheres are built in build-fuzz/ with AddressSanitizer,
+# points, refinements, moves and spheres are built in build-fuzz/ with AddressSanitizer,
 # UndefinedBehaviorSanitizer and the leak check. The command, which gets mutated files, and the
 # filter on several ranks, of which one may have other options, are built in build-fuzz-files/
 # without them; so is the library for Python in build-fuzz-arrays/, to which fuzz_arrays.py gives
@@ -27,7 +27,7 @@ fail_usage()
 }
 while [ $# -gt 0 ]; do
   case "$1" in
-    engine | points | moves | spheres | files | ranks | arrays) target=$1 ;;
+    engine | points | refinements | moves | spheres | files | ranks | arrays) target=$1 ;;
     --cases | --seed | --jobs | --libfuzzer)
       [ $# -ge 2 ] || fail_usage
       case "$1" in

@@ -521,6 +521,57 @@ TEST(Refine, DistancesOfVeryDifferentSizes)
   EXPECT_EQ(refined.Points.size(), places.size());
 }
 
+/// Segments pass beside points within rounding, as they are given or because they are split where
+/// they cross others. They become edges through these points; else their parts could pass them on
+/// the other side, and could not be split where triangles would turn over.
+TEST(Refine, PointsWithinRoundingOfSegments)
+{
+  const auto addSegment = [](Drawing& drawing, const Place& from, const Place& to)
+  {
+    const auto first = static_cast<std::int64_t>(drawing.Points.size());
+    drawing.Points.insert(drawing.Points.end(), { from, to });
+    drawing.Segments.push_back({ first, first + 1 });
+    drawing.Rings.push_back(-1);
+  };
+  Drawing square;
+  square.AddRing({ { -10, -10 }, { 10, -10 }, { 10, 10 }, { -10, 10 } });
+  PointOptions options;
+  options.MinimumAngle = 30.0;
+  options.MaximumEdge = 1.5;
+
+  Drawing beside = square;
+  addSegment(beside, { 3, -2 }, { 6, -2 });
+  addSegment(beside, { 6.92, -3.1499999999999995 }, { 2, 3 });
+  ASSERT_NE(0, Turn(beside.Points, 6, 7, 5));
+  const Refined given = ExpectRefined(beside, options);
+  EXPECT_GE(1.5, given.LongestEdge);
+  EXPECT_EQ(0, given.Bad);
+  EXPECT_GT(2000, given.Result.Report.FromPoints.RefinementPoints);
+
+  Drawing crossing = square;
+  addSegment(crossing, { 3, -2 }, { 0, -2 });
+  addSegment(crossing, { 7, -5 }, { -5, 4 });
+  addSegment(crossing, { 5, -4 }, { -2, 6 });
+  addSegment(crossing, { 2, 0 }, { 1.3, -1.9999999999 });
+  ASSERT_EQ(0, Turn(crossing.Points, 6, 7, 4));
+  PointOptions splits;
+  splits.SplitCrossings = true;
+  const Refined before = Refine(crossing.View(), splits);
+  bool isThrough = false;
+  for (std::size_t i = 0; i < before.Result.Edges.size(); ++i)
+  {
+    const auto& [from, to] = before.Result.Edges[i];
+    isThrough = isThrough || (before.SegmentsOfEdges[i] == 5 && (from == 4 || to == 4));
+  }
+  EXPECT_TRUE(isThrough);
+
+  options.MinimumAngle = 0.0;
+  options.SplitCrossings = true;
+  const Refined split = ExpectRefined(crossing, options);
+  EXPECT_GE(1.5, split.LongestEdge);
+  EXPECT_GT(2000, split.Result.Report.FromPoints.RefinementPoints);
+}
+
 /// Random segments that cross, meet and touch, with sharp corners between them.
 TEST(Refine, RandomSegments)
 {
