@@ -214,7 +214,7 @@ private:
 struct Cut
 {
   std::size_t Segment;
-  Fraction Share; ///< Of its length.
+  Fraction Share; ///< Which part of its length is before the cut.
   std::int64_t Point;
 };
 
