@@ -59,7 +59,7 @@ public:
     : Caller(caller),
       Count(static_cast<std::uint32_t>(count)),
       Places(count, caller.Host),
-      Tests{ this->Places.Data() },
+      Tests(this->Places.Data()),
       Sides(6 * count, caller.Host)
   {
   }
@@ -405,7 +405,7 @@ private:
     const Edge last = isLeft ? baseEdge ^ 1 : baseEdge;
     Edge e = follow(last);
     PlaceBeside place = this->Tests.See(base, this->Destination(e));
-    if (this->Tests.FindSide(base, place) >= 0)
+    if (!this->Tests.IsOnRight(base, place))
     {
       return { None, place };
     }

@@ -43,6 +43,11 @@ struct PlaceBeside
 /// Signs by filtered arithmetic, and by exact arithmetic where the filter cannot decide.
 struct PlaceTests
 {
+  explicit PlaceTests(const Place* places)
+    : Places(places)
+  {
+  }
+
   PlanePoint GetPoint(std::uint32_t place) const
   {
     return { this->Places[place].U, this->Places[place].V, 0.0 };
@@ -57,7 +62,7 @@ struct PlaceTests
     {
       return sign;
     }
-    return ExactOrientation(points[0], points[1], points[2]);
+    return this->DecideSide(a, b, c);
   }
 
   Base MakeBase(std::uint32_t from, std::uint32_t to) const
@@ -75,16 +80,15 @@ struct PlaceTests
     return { place, u, v, u * u + v * v, first - second, std::fabs(first) + std::fabs(second) };
   }
 
-  /// 1: the place is to the left of the base; -1: to the right; 0: in line with it.
-  int FindSide(const Base& base, const PlaceBeside& place) const
+  /// Whether the place is to the right of the base. As in IsInCircle, filters decide nearly always,
+  /// so that the branch is predicted.
+  bool IsOnRight(const Base& base, const PlaceBeside& place) const
   {
-    const int sign = CertifiedSign(place.Side, OrientationBound * place.Magnitude);
-    if (sign != UncertainSign && this->FiltersApply)
+    if (std::fabs(place.Side) > GetBound(OrientationBound * place.Magnitude) && this->FiltersApply)
     {
-      return sign;
+      return place.Side < 0.0;
     }
-    return ExactOrientation(
-      this->GetPoint(base.From), this->GetPoint(base.To), this->GetPoint(place.At));
+    return this->DecideSide(base.From, base.To, place.At) < 0;
   }
 
   /// Whether `d` is in the circle through the ends of the base and `c`. The determinant is that of
@@ -95,18 +99,29 @@ struct PlaceTests
     const double value = base.Square * (first - second) - c.Square * d.Side + d.Square * c.Side;
     const double magnitude = base.Square * (std::fabs(first) + std::fabs(second)) +
       c.Square * d.Magnitude + d.Square * c.Magnitude;
-    const int sign = CertifiedSign(value, InCircleBound * magnitude);
-    if (sign != UncertainSign && this->FiltersApply)
+    if (std::fabs(value) > GetBound(InCircleBound * magnitude) && this->FiltersApply)
     {
-      return sign > 0;
+      return value > 0.0;
     }
-    const PlanePoint points[4] = { this->GetPoint(base.To), base.Origin, this->GetPoint(c.At),
-      this->GetPoint(d.At) };
-    return ExactInCircle(points, false) > 0;
+    return this->DecideInCircle(base.From, base.To, c.At, d.At);
   }
 
   const Place* Places;
   std::atomic<bool> FiltersApply{ true };
+
+private:
+  // What is needed seldom is not inlined, so that it takes no registers.
+  DELAUNAYFLIP_NO_INLINE int DecideSide(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
+  {
+    return ExactOrientation(this->GetPoint(a), this->GetPoint(b), this->GetPoint(c));
+  }
+  DELAUNAYFLIP_NO_INLINE bool DecideInCircle(
+    std::uint32_t from, std::uint32_t to, std::uint32_t c, std::uint32_t d) const
+  {
+    const PlanePoint points[4] = { this->GetPoint(to), this->GetPoint(from), this->GetPoint(c),
+      this->GetPoint(d) };
+    return ExactInCircle(points, false) > 0;
+  }
 };
 
 }
