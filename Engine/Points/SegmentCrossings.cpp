@@ -278,17 +278,37 @@ public:
     {
       return std::move(this->Result.Segments);
     }
+    const std::vector<std::pair<std::size_t, std::size_t>> pairs = this->FindPairs(check);
+    for (const std::size_t segment : FindRefused(pairs)) // as a whole
+    {
+      bent.erase(segment);
+    }
     cuts.erase(std::remove_if(cuts.begin(), cuts.end(),
                  [&](const Cut& cut) { return bent.count(cut.Segment) == 0; }),
       cuts.end());
     std::vector<Segment> before = this->Result.Segments;
-    const std::size_t crossings = this->FindPairs(check).size();
     this->SplitAt(cuts);
-    const bool isWorse = this->FindPairs(check).size() > crossings;
+    const bool isWorse = this->FindPairs(check).size() > pairs.size();
     return isWorse ? std::move(before) : std::move(this->Result.Segments);
   }
 
 private:
+  /// The segments that will be left out, because they cross earlier ones that stay.
+  /// @param pairs those that cross, in ascending order.
+  static std::set<std::size_t> FindRefused(
+    const std::vector<std::pair<std::size_t, std::size_t>>& pairs)
+  {
+    std::set<std::size_t> refused;
+    for (const auto& [earlier, later] : pairs)
+    {
+      if (refused.count(earlier) == 0)
+      {
+        refused.insert(later);
+      }
+    }
+    return refused;
+  }
+
   PlanePoint At(std::int64_t id) const
   {
     if (id < this->Points.Count)

@@ -582,7 +582,8 @@ class Input:
         points = numpy.concatenate([points, numpy.zeros((count, points.shape[1]), points.dtype)])
         points[first:, :2] = places
         self.added = ids, weights
-        self.fill_added(points[:, 2:], first)
+        if points.shape[1] > 2:
+            self.fill_added(points[:, 2:], first)
         return points, segments
 
     def fill_added(self, values, first):
