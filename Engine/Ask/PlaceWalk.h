@@ -177,15 +177,27 @@ DELAUNAYFLIP_HOST_DEVICE inline int FindFirstSlot(int slots, int begin)
   return static_cast<int>((0xAA105A501210u >> (16 * begin + 2 * slots)) & 3u);
 }
 
+/// Whether a place that is beyond an edge of the hull is not beyond an edge beside it, and the hull
+/// is concave between the two.
+/// @param corner, other opposite these edges. @param end the end of the other one that is no end of
+/// the first one.
+DELAUNAYFLIP_HOST_DEVICE inline bool IsBehindVertex(
+  const PlaneMesh& mesh, const PlanePoint& place, CornerId corner, CornerId other, VertexId end)
+{
+  return FindSide(mesh, mesh.GetPoint(end), corner) < 0 && FindSide(mesh, place, other) >= 0;
+}
+
 /// Follows the hull from an edge to the one that a place is next to. Points that refinement puts on
 /// the hull are rounded. Where this makes the hull concave, a place beyond one of its edges may be
 /// in a triangle at another edge, on almost the same line.
 /// @param corner opposite an edge of the hull that the place is beyond.
-/// @returns the triangle at the edge that is found; NoTriangle if the place is beyond that, too.
+/// @returns the triangle at the edge that is found, or at an edge beside it if the place may be
+/// there; NoTriangle if the place is beyond these, too.
 DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline TriangleId FollowHull(
   const PlaneMesh& mesh, PlanePoint place, CornerId corner)
 {
   const CornerId first = corner;
+  CornerId before = corner; // opposite the edge that came last
   int direction = 0; // 1 for the next edge, -1 for the one before
   do
   {
@@ -198,15 +210,31 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_NO_INLINE inline TriangleId FollowHull(
     const double along =
       (0.5 * place.U - 0.5 * from.U) * scale * u + (0.5 * place.V - 0.5 * from.V) * scale * v;
     const int step = int(along > u * u + v * v) - int(along < 0.0);
-    if (step == 0 && FindSide(mesh, place, corner) >= 0)
+    const bool isAtVertex = step != 0 && step == -direction; // between this edge and the last
+    const bool isNext = step == 0 || isAtVertex;
+    if (isNext && FindSide(mesh, place, corner) >= 0)
     {
       return TriangleOf(corner);
     }
-    if (step == 0 || step == -direction) // next to the edge, or to a vertex
+    if (isAtVertex && FindSide(mesh, place, before) >= 0)
     {
-      return NoTriangle;
+      return TriangleOf(before);
+    }
+    if (isNext)
+    {
+      const CornerId next = mesh.FindNextOnHull(corner);
+      const CornerId previous = mesh.FindPreviousOnHull(corner);
+      const VertexId end = mesh.GetVertex(PlaneMesh::Previous(next));
+      const VertexId begin = mesh.GetVertex(PlaneMesh::Next(previous));
+      if (IsBehindVertex(mesh, place, corner, next, end))
+      {
+        return TriangleOf(next);
+      }
+      return IsBehindVertex(mesh, place, corner, previous, begin) ? TriangleOf(previous)
+                                                                  : NoTriangle;
     }
     direction = step;
+    before = corner;
     corner = step > 0 ? mesh.FindNextOnHull(corner) : mesh.FindPreviousOnHull(corner);
   } while (corner != first);
   return NoTriangle;

@@ -396,11 +396,9 @@ void ExpectMotion(const PointCase& drawn)
 /// Judges answers to queries alone, without refinement.
 void JudgeAnswers(const PointCase& drawn)
 {
-  PointOptions options = WithThreads(1, drawn.Options);
-  options.MinimumAngle = options.MaximumArea = 0.0;
-  const FlipSession session = FlipPoints(drawn.Input.View(), options);
+  const FlipSession session = FlipPoints(drawn.Input.View(), WithThreads(1, drawn.Options));
   Places points = drawn.Input.Points;
-  for (const AddedPoint& added : session.GetAddedPoints()) // where segments cross
+  for (const AddedPoint& added : session.GetAddedPoints()) // by refinement, or where segments cross
   {
     points.push_back({ added.X, added.Y });
   }
