@@ -30,15 +30,16 @@ public:
   /// Finds four points that span a large volume, or none.
   virtual Simplex FindSimplex() const = 0;
 
-  /// Projects all points from one of them. @returns their places in the plane, in the memory of the
-  /// device. @param unplaced receives how many of them are NaN; that of the pole is.
+  /// Projects all points but one from that one, the pole. @returns their places in the plane, in
+  /// the memory of the device, by PlaneNumbers. @param unplaced receives how many of them are NaN.
   virtual PlaneArray Project(const NumberedPoint& pole, std::int64_t& unplaced) = 0;
 
   /// The memory for the triangles in the plane and their neighbours.
   virtual std::int32_t* GetTriangles() = 0;
   virtual std::int32_t* GetNeighbors() = 0;
-  /// Closes the mesh that these triangles make with triangles to the pole.
-  /// @param inPlane how many there are.
+  /// Closes the mesh that these triangles make with triangles to the pole. Numbers in the plane
+  /// become ids.
+  /// @param inPlane how many triangles there are.
   virtual void JoinPole(std::int64_t inPlane, std::int32_t pole) = 0;
   /// How many triangles the closed mesh has.
   virtual std::int64_t CountTriangles() const = 0;

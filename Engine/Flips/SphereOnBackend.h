@@ -66,11 +66,11 @@ public:
     // There are at most 2 n - 4 triangles. The sum waits until all memory is there for any stream.
     this->Triangles = this->Device.template MakeArray<std::int32_t>(6 * this->Count);
     this->Neighbors = this->Device.template MakeArray<std::int32_t>(6 * this->Count);
-    this->Places = this->Device.template MakeArray<double>(2 * this->Count);
-    const ProjectionStep project{ this->View(), StereographicProjection(pole.Place),
+    this->Places = this->Device.template MakeArray<double>(2 * (this->Count - 1));
+    const ProjectionStep project{ this->View(), StereographicProjection(pole.Place), { pole.Id },
       this->Places.Data() };
     unplaced = this->Device.template Sum<std::int64_t>(this->Count, project);
-    return PlaneArray(this->Places.Data(), this->Count, 2);
+    return PlaneArray(this->Places.Data(), this->Count - 1, 2);
   }
 
   std::int32_t* GetTriangles() override { return this->Triangles.Data(); }
@@ -79,6 +79,10 @@ public:
   void JoinPole(std::int64_t inPlane, std::int32_t pole) override
   {
     this->Places = Array<double>();
+    const PlaneNumbers numbers{ pole };
+    std::int32_t* ids = this->Triangles.Data();
+    this->Device.ForEach(3 * inPlane,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { ids[i] = numbers.GetId(ids[i]); });
     const SphereTriangles triangles{ this->Triangles.Data(), this->Neighbors.Data(), inPlane };
     const std::vector<BoundarySide> sides = ListBoundary(triangles, this->Device);
     const PoleStar star = MakePoleStar(sides, inPlane, pole);

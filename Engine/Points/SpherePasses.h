@@ -216,21 +216,43 @@ Simplex FindSimplex(const SpherePoints& points, const Backend& backend)
 }
 
 //------------------------------------------------------------------------------
-/// Projects points. Those that count have two coordinates each by their ids; sums up how many of
-/// them the projection cannot place.
+/// The numbers of points in the plane: their ids without that of the pole, which has no place
+/// there.
+struct PlaneNumbers
+{
+  std::int32_t Pole;
+
+  DELAUNAYFLIP_HOST_DEVICE std::int32_t GetNumber(std::int32_t id) const
+  {
+    return id - static_cast<std::int32_t>(id > this->Pole);
+  }
+  DELAUNAYFLIP_HOST_DEVICE std::int32_t GetId(std::int32_t number) const
+  {
+    return number + static_cast<std::int32_t>(number >= this->Pole);
+  }
+};
+
+/// Projects the points that count, except the pole. Each has two coordinates by its number in the
+/// plane. Sums up how many of them the projection cannot place.
 struct ProjectionStep
 {
   SpherePoints Points;
   StereographicProjection Projection;
+  PlaneNumbers Numbers;
   double* Places;
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t& unplaced) const
   {
-    const std::int64_t id = this->Points.GetId(i);
+    const std::int32_t id = this->Points.GetId(i);
+    if (id == this->Numbers.Pole)
+    {
+      return;
+    }
     double place[2];
     this->Projection.Project(this->Points.Places[id], place);
-    this->Places[2 * id] = place[0];
-    this->Places[2 * id + 1] = place[1];
+    const std::int64_t number = this->Numbers.GetNumber(id);
+    this->Places[2 * number] = place[0];
+    this->Places[2 * number + 1] = place[1];
     unplaced += int(!IsFinite(place[0]) || !IsFinite(place[1]));
   }
 };

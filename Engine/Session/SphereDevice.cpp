@@ -74,7 +74,7 @@ bool SphereRun::StartOnDevice(LoadedSphere& device, const FlipOptions& options)
   PointInput plane;
   plane.Points = device.Project(pole, unplaced);
   plane.OnDevice = true;
-  if (unplaced > 1)
+  if (unplaced > 0)
   {
     return false;
   }

@@ -285,15 +285,17 @@ void SphereRun::AdvanceToEnd(FlipSession& session, const ProgressObserver& progr
 void SphereRun::StartInPlane(const SpherePoints& points, const NumberedPoint& pole)
 {
   const ThreadBackend threads(this->Options.NumberOfThreads);
-  const std::int64_t count = SizeOf(this->Points);
+  const std::int64_t count = SizeOf(this->Points) - 1;
+  const PlaneNumbers numbers{ pole.Id };
   Array<double> places = threads.MakeArray<double>(2 * count);
-  if (points.Count < count)
+  if (points.Count <= count)
   {
     std::fill_n(places.Data(), 2 * count, NAN);
   }
-  const ProjectionStep project{ points, StereographicProjection(pole.Place), places.Data() };
+  const ProjectionStep project{ points, StereographicProjection(pole.Place), numbers,
+    places.Data() };
   const auto unplaced = threads.Sum<std::int64_t>(points.Count, project);
-  for (std::int64_t i = 0; unplaced > 1 && i < points.Count; ++i)
+  for (std::int64_t i = 0; unplaced > 0 && i < points.Count; ++i)
   {
     this->MarkUnplaced(points.GetId(i), pole, places.Data());
   }
@@ -310,20 +312,22 @@ void SphereRun::StartInPlane(const SpherePoints& points, const NumberedPoint& po
   {
     std::vector<std::int64_t> used(count);
     session.StoreUsedPoints(used.data());
-    this->MarkRepeated(used);
+    this->MarkRepeated(used, numbers);
   }
   this->Triangles.resize(3 * report.Triangles);
   this->Neighbors.resize(3 * report.Triangles);
   session.StoreTriangles(MutableTriangleArray(this->Triangles.data(), report.Triangles));
   session.StoreNeighbors(this->Neighbors.data());
+  std::int32_t* const ids = this->Triangles.data();
+  threads.ForEach(3 * report.Triangles, [=](std::int64_t i) { ids[i] = numbers.GetId(ids[i]); });
   this->JoinPole(pole.Id);
 }
 
-/// Marks a point that the projection cannot place. The pole stays as it is.
+/// Marks a point if it is not the pole and the projection cannot place it.
 void SphereRun::MarkUnplaced(std::int32_t id, const NumberedPoint& pole, const double* places)
 {
-  const bool isPlaced = IsFinite(places[2 * std::int64_t(id)]);
-  if (id == pole.Id || isPlaced)
+  const std::int64_t number = PlaneNumbers{ pole.Id }.GetNumber(id);
+  if (id == pole.Id || IsFinite(places[2 * number]))
   {
     return;
   }
@@ -333,18 +337,20 @@ void SphereRun::MarkUnplaced(std::int32_t id, const NumberedPoint& pole, const d
 }
 
 /// Marks points that another one represents in the plane.
-/// @param used by point, the one that is used at its place in the plane, or -1.
-void SphereRun::MarkRepeated(const std::vector<std::int64_t>& used)
+/// @param used by number in the plane, the number that is used at its place, or -1.
+void SphereRun::MarkRepeated(const std::vector<std::int64_t>& used, const PlaneNumbers& numbers)
 {
   for (std::size_t i = 0; i < used.size(); ++i)
   {
-    const auto other = static_cast<std::int32_t>(used[i]);
-    if (used[i] >= 0 && other != static_cast<std::int32_t>(i))
+    if (used[i] < 0 || used[i] == static_cast<std::int64_t>(i))
     {
-      const bool isSame = IsSamePlace(this->Points[i], this->Points[other]);
-      this->UsedPoint[i] = isSame ? other : static_cast<std::int32_t>(i);
-      this->States[i] = isSame ? PointState::Repeated : PointState::LeftOut;
+      continue;
     }
+    const std::int32_t id = numbers.GetId(static_cast<std::int32_t>(i));
+    const std::int32_t other = numbers.GetId(static_cast<std::int32_t>(used[i]));
+    const bool isSame = IsSamePlace(this->Points[id], this->Points[other]);
+    this->UsedPoint[id] = isSame ? other : id;
+    this->States[id] = isSame ? PointState::Repeated : PointState::LeftOut;
   }
 }
 

@@ -81,7 +81,7 @@ private:
   bool Start();
   void StartInPlane(const SpherePoints& points, const NumberedPoint& pole);
   void MarkUnplaced(std::int32_t id, const NumberedPoint& pole, const double* places);
-  void MarkRepeated(const std::vector<std::int64_t>& used);
+  void MarkRepeated(const std::vector<std::int64_t>& used, const PlaneNumbers& numbers);
   void JoinPole(std::int32_t pole);
   bool StartFromSimplex();
   void MarkRepeatedLeftOut();
