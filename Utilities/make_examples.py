@@ -8,7 +8,8 @@ scan.ply: a bumpy ring, as a laser scanner gives it; edges.ply: a square ring wi
 an elliptic cylinder, as a CAD program writes it. plate.vtk: a plane of two materials, with a cell
 array Material. survey.csv: points of a valley without triangles, with river.vtk, the four lines of a river's bed and banks, area.vtk, the
 outline of the survey, and pond.vtk. stations.csv: longitudes and latitudes on a globe, warmth.csv: with
-temperatures, and land.vtk: the coasts of two continents there. Equal arguments give equal files.
+temperatures, and land.vtk: the coasts of two continents there. fort.14: an ADCIRC grid of a basin that
+crosses 180 degrees, with depths. Equal arguments give equal files.
 """
 import argparse
 import os
@@ -191,6 +192,22 @@ def write_land(folder, corners=90):
     write_lines(folder, "land.vtk", "Two coasts", coasts)
 
 
+def write_basin(folder, random, rows=24, columns=40):
+    """A grid in the format of ADCIRC, in degrees, without boundary conditions."""
+    row, column = np.mgrid[:rows, :columns].reshape(2, -1).astype(float)
+    column += 1.2 * row + random.uniform(-0.2, 0.2, row.shape)
+    longitude, latitude = 160 + 0.8 * column, -12 + row + random.uniform(-0.2, 0.2, row.shape)
+    depth = 4000 - 6 * (latitude + 1) ** 2
+    nodes = np.c_[(longitude + 180) % 360 - 180, latitude, depth].round(4)
+    triangles = grid_triangles(rows, columns, random) + 1
+    lines = ["A basin", f"{len(triangles)} {len(nodes)}"]
+    lines += [f"{i} {x} {y} {z}" for i, (x, y, z) in enumerate(nodes, 1)]
+    lines += [f"{i} 3 {a} {b} {c}" for i, (a, b, c) in enumerate(triangles, 1)]
+    lines += ["0 = number of open boundaries", "0 = number of their nodes"]
+    lines += ["0 = number of land boundaries", "0 = number of their nodes", ""]
+    write(folder, "fort.14", "\n".join(lines))
+
+
 def write_terrain(folder, count):
     mesh = make_terrain(count, seed=4)
     writer = vtkXMLPolyDataWriter()
@@ -237,8 +254,9 @@ def main():
     write_ply(arguments.folder, "edges.ply", *square_ring(random))
     write_stations(arguments.folder, random)
     write_land(arguments.folder)
+    write_basin(arguments.folder, random)
     print("terrain.vtp road.vtk scan.ply edges.ply part.stl plate.vtk survey.csv river.vtk area.vtk pond.vtk "
-          "stations.csv warmth.csv land.vtk")
+          "stations.csv warmth.csv land.vtk fort.14")
 
 
 if __name__ == "__main__":

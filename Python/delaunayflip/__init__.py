@@ -50,7 +50,7 @@ if typing.TYPE_CHECKING:
     from ._points import Triangulation, triangulate
     from ._report import Report
     from ._session import Result, Session, flip, smallest_angles
-    from ._sphere import SphereInterpolator, SphereTriangulation, triangulate_sphere
+    from ._sphere import SphereInterpolator, SphereTriangulation, place_on_sphere, triangulate_sphere
     from ._vtk import vtkDelaunayFlip, vtkDelaunayFlipInterpolator, vtkDelaunayFlipPoints
 
     __version__: str
@@ -59,7 +59,7 @@ __all__ = [
     "BackendUnavailable", "FlipError", "InvalidMesh", "InvalidOptions", "LinearInterpolator",
     "MeshTooLarge", "MovingTriangulation", "NaturalNeighborInterpolator", "Report", "Result", "Session",
     "SphereInterpolator", "SphereTriangulation", "Stopped", "Triangulation", "flip", "griddata", "has_cuda_device",
-    "release_cuda_memory", "smallest_angles", "triangulate", "triangulate_sphere",
+    "place_on_sphere", "release_cuda_memory", "smallest_angles", "triangulate", "triangulate_sphere",
 ]
 if importlib.util.find_spec("vtkmodules"):
     __all__ += ["vtkDelaunayFlip", "vtkDelaunayFlipInterpolator", "vtkDelaunayFlipPoints"]
@@ -70,7 +70,7 @@ _HOMES = {
     "MovingTriangulation": "_moving", "Triangulation": "_points", "triangulate": "_points", "smallest_angles": "_session",
     "LinearInterpolator": "_interpolators", "NaturalNeighborInterpolator": "_interpolators",
     "griddata": "_interpolators", "SphereInterpolator": "_sphere",
-    "SphereTriangulation": "_sphere", "triangulate_sphere": "_sphere",
+    "SphereTriangulation": "_sphere", "place_on_sphere": "_sphere", "triangulate_sphere": "_sphere",
 }
 # The names of _vtk, and what they need beside VTK.
 _NEEDS = {

@@ -534,7 +534,7 @@ class Input:
         _library.call("store_segments_of_edges", handle, address(segments))
         if self.struct.number_of_regions:
             _library.call("store_regions", handle, address(regions))
-        used = self._find_used_points(handle, report)
+        used = self.find_used_points(handle, report)
         points, added = self.points, numpy.empty(0, dtype=numpy.int64)
         if report.defects:
             report = dataclasses.replace(report, defects=self.describe_defects(handle))
@@ -560,7 +560,7 @@ class Input:
             return False  # all points are the caller's, which may be on a GPU
         return int(triangles.min()) >= first_added
 
-    def _find_used_points(self, handle, report):
+    def find_used_points(self, handle, report):
         """The used point of each one, also of added ones; None if these are the points
         themselves, so that nothing has to come from a GPU."""
         if not (report.points_not_finite or report.repeated_points or report.points_too_near

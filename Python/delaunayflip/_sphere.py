@@ -54,7 +54,7 @@ class SphereTriangulation(Asked):
     def voronoi_corners(self) -> Array:
         """(m, 3) float64: the center of the circumcircle of each triangle, on the unit sphere. The
         Voronoi cell of a point has as corners the centers of the triangles around it."""
-        corners = self.points[self.triangles].astype(numpy.float64)
+        corners = _arrays.to_host(self.points)[_arrays.to_host(self.triangles)].astype(numpy.float64)
         normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         with numpy.errstate(invalid="ignore", divide="ignore"):  # triangles without area
             return normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
@@ -75,7 +75,7 @@ class SphereTriangulation(Asked):
             raise ValueError("the triangulation was stopped before its end, so it cannot be asked")
         points, lines = self._made_from
         again, _ = _triangulate(points, self._keywords, keeps=True, lines=lines)
-        if not numpy.array_equal(again.triangles, self.triangles):
+        if not numpy.array_equal(_arrays.to_host(again.triangles), _arrays.to_host(self.triangles)):
             raise ValueError("the points or segments have been changed since they were triangulated; "
                              "triangulate them again")
         return again._answers
@@ -91,6 +91,10 @@ def triangulate_sphere(
 
     It is exact for the points as given, and depends on their places alone: not on their order, the
     threads or the GPU. n places have 2 n - 4 triangles.
+
+    Points may be an array of CuPy, PyTorch or Numba on a GPU. If they are x, y and z, triangles and
+    neighbors are arrays of that library, and without lines, rings and ties the points never leave the
+    GPU. All other arrays are NumPy's; if points are angles, or lines or rings have coordinates, all are.
 
     Args:
         points: (n, 2) longitudes and latitudes, which become float64 places on the unit sphere. Multiples
@@ -116,7 +120,7 @@ def triangulate_sphere(
         open: Leave out a triangle if its circumcircle encloses half of the sphere or more, so that points
             on less than half of the sphere have an open mesh. Otherwise triangles close the mesh. Segments
             need points on all sides of the center, or this.
-        backend, threads, device: As for `triangulate`. Arrays on a GPU are copied to the host.
+        backend, threads, device: As for `triangulate`.
         progress, on_iteration: Called with the share of the work done, 0 to 1, and at the end for each
             iteration with a dict of its numbers; returning False from `progress` aborts.
 
@@ -243,13 +247,15 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
     def place(coordinates, name=""):
         if coordinates.shape[1] == 3:
             return coordinates
-        angles = coordinates if degrees else numpy.degrees(coordinates)
-        trouble = _describe_latitudes(angles[:, 1])
+        trouble = _describe_latitudes(coordinates[:, 1] if degrees else numpy.degrees(coordinates[:, 1]))
         if trouble:
             troubles.append(name + trouble)
-        return place_on_sphere(angles)
+        return place_on_sphere(coordinates, degrees=degrees)
 
-    places = place(_arrays.to_host(_arrays.as_plane(points)))
+    places = _arrays.as_plane(points)
+    if places.shape[1] == 2:
+        places = _arrays.to_host(places)
+    places = place(places)
     lines = list_lines(segments)
     rings = {}
     for name, value in (("outline", outline), ("holes", holes)):
@@ -275,9 +281,26 @@ def _read_directions(given, degrees):
     return places
 
 
-def place_on_sphere(degrees):
-    """x, y and z of longitudes and latitudes in degrees."""
-    angles = numpy.ascontiguousarray(degrees, dtype=numpy.float64)
+def place_on_sphere(lonlat: Numbers, *, degrees: bool = True) -> Array:
+    """Puts longitudes and latitudes on the unit sphere, as `triangulate_sphere` does. So an existing mesh of
+    a globe can be flipped with `geometry="sphere"`.
+
+    Args:
+        lonlat: (n, 2) longitudes and latitudes. Multiples of 90 degrees are exact.
+        degrees: Whether they are in degrees, not radians.
+
+    Returns:
+        (n, 3) float64: x, y and z; NaN where an angle is not finite.
+
+    Example:
+        >>> place_on_sphere([[90, 0], [0, -90]]).tolist()
+        [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]
+    """
+    angles = numpy.ascontiguousarray(_arrays.to_host(lonlat), dtype=numpy.float64)
+    if angles.ndim != 2 or angles.shape[1] != 2:
+        raise ValueError(f"lonlat must have the shape (n, 2), not {angles.shape}")
+    if not degrees:
+        angles = numpy.degrees(angles)
     places = numpy.empty((len(angles), 3))
     _library.call("place_on_sphere", address(angles), len(angles), address(places))
     return places
@@ -301,16 +324,16 @@ def _describe_latitudes(latitudes):
 def _store(handle, given, keywords, made_from):
     """The SphereTriangulation of a session that has ended."""
     report = _report.read(handle)
-    triangles = numpy.empty((report.triangles, 3), dtype=numpy.int32)
-    neighbors = numpy.empty((report.triangles, 3), dtype=numpy.int32)
+    triangles, neighbors = given.make_room(report)
     edges = numpy.empty((report.segment_edges, 2), dtype=numpy.int64)
     numbers = numpy.empty(report.segment_edges, dtype=numpy.int64)
-    used = numpy.arange(len(given.points))
     _arrays.store("triangles", handle, triangles, _library.TYPES["int32"])
     _arrays.store("neighbors", handle, neighbors)
     _library.call("store_segment_edges", handle, address(edges))
     _library.call("store_segments_of_edges", handle, address(numbers))
-    _library.call("store_used_points", handle, address(used))
+    used = given.find_used_points(handle, report)
+    if used is None:
+        used = numpy.arange(len(given.points))
     if report.defects:
         report = dataclasses.replace(report, defects=given.describe_defects(handle))
     iterations = _report.read_iterations(handle, report)

@@ -164,6 +164,33 @@ class Cases:
                     numpy.testing.assert_array_equal(found.used_points, wanted.used_points)
                     numpy.testing.assert_array_equal(found.segments, wanted.segments)
 
+    def test_points_on_a_sphere(self):
+        """They stay on the GPU unless there are lines or ties, as on a cube."""
+        places = numpy.random.default_rng(3).normal(size=(30000, 3))
+        places /= numpy.linalg.norm(places, axis=1, keepdims=True)
+        cube = numpy.stack(numpy.meshgrid([-1.0, 1.0], [-1.0, 1.0], [-1.0, 1.0]), axis=-1).reshape(-1, 3)
+        for points, options in ((places, {}), (places, {"segments": [[0, 1]]}), (cube, {}),
+                                (numpy.r_[places, places[:5]], {})):
+            for real in (numpy.float32, numpy.float64):
+                with self.subTest(points=len(points), options=options, real=real):
+                    given = self.to_device(points.astype(real))
+                    found = delaunayflip.triangulate_sphere(given, **options)
+                    wanted = delaunayflip.triangulate_sphere(
+                        points.astype(real), backend="threads", **options)
+                    for name in ("triangles", "neighbors"):
+                        self.assertIs(type(getattr(found, name)), type(given))
+                        numpy.testing.assert_array_equal(
+                            self.to_host(getattr(found, name)), getattr(wanted, name))
+                    for name in ("used_points", "segments", "voronoi_corners"):
+                        numpy.testing.assert_array_equal(getattr(found, name), getattr(wanted, name))
+                    self.assertEqual(found.report.minimum_angle_after, wanted.report.minimum_angle_after)
+        found = delaunayflip.triangulate_sphere(self.to_device(places))
+        wanted = delaunayflip.triangulate_sphere(places, backend="threads")
+        self.assertTrue(found.report.backend.startswith("CUDA: "))
+        self.assertIs(type(found.points), type(self.to_device(places)))
+        numpy.testing.assert_array_equal(
+            found.interpolate(places[:, 2], [[10.0, 20.0]]), wanted.interpolate(places[:, 2], [[10.0, 20.0]]))
+
     def test_values_between_points(self):
         """The bits are those of the host; results are where the places are, rasters where the values."""
         draw = numpy.random.default_rng(2)
