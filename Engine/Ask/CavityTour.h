@@ -12,19 +12,24 @@ namespace delaunayflip
 
 /// Finds the natural weights of a place in a tour along the boundary of its cavity. They have the
 /// bits of VisitNaturalWeights, but a tour is faster on a host. It sees each triangle, edge and
-/// vertex once, and keeps them.
+/// vertex once, and keeps them. Its arrays are apart, so that a compiler can keep all else in
+/// registers.
 template <typename Frame>
 class CavityTour
 {
 public:
-  DELAUNAYFLIP_HOST_DEVICE explicit CavityTour(const Frame& frame)
-    : Seen(frame)
+  struct Arrays;
+
+  DELAUNAYFLIP_HOST_DEVICE CavityTour(const Frame& frame, Arrays& arrays)
+    : Seen(frame),
+      Kept(arrays),
+      Current(arrays.Triangles)
   {
   }
 
   /// @param triangle has the place inside.
   /// @returns false if the cavity is too large. Then there are no weights.
-  DELAUNAYFLIP_HOST_DEVICE bool Run(TriangleId triangle)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE bool Run(TriangleId triangle)
   {
     if (!this->Seen.IsInFilterRange())
     {
@@ -34,16 +39,16 @@ public:
     while (this->NumberOfEdges > 0)
     {
       --this->NumberOfEdges;
-      const Edge edge = this->Edges[this->NumberOfEdges];
+      Edge edge = this->Kept.Edges[this->NumberOfEdges];
       this->ReturnTo(edge.Owner);
-      if (!this->GoAcross(edge))
+      while (this->GoAcross(edge))
       {
-        this->AddBoundaryEdge(edge);
+        if (this->NumberOfTriangles == MostTriangles)
+        {
+          return false;
+        }
       }
-      if (this->NumberOfTriangles == MostTriangles)
-      {
-        return false;
-      }
+      this->AddBoundaryEdge(edge);
     }
     this->End();
     return true;
@@ -55,7 +60,7 @@ public:
   {
     for (int i = 0; i < this->NumberOfWeights; ++i)
     {
-      visit(this->Weights[i].Vertex, this->Weights[i].Value);
+      visit(this->Kept.Weights[i].Vertex, this->Kept.Weights[i].Value);
     }
   }
 
@@ -94,8 +99,18 @@ private:
     double Value;
   };
 
+public:
+  struct Arrays
+  {
+    Vertex Vertices[MostTriangles + 3];
+    Edge Edges[MostTriangles + 3]; ///< Edges to go across; the next one is last.
+    Triangle Triangles[MostTriangles];
+    Weight Weights[MostTriangles + 2];
+  };
+
+private:
   /// Begins with the triangle that has the place.
-  DELAUNAYFLIP_HOST_DEVICE void Begin(TriangleId triangle)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void Begin(TriangleId triangle)
   {
     const Vertex* ends[3];
     for (int slot = 0; slot < 3; ++slot)
@@ -103,21 +118,22 @@ private:
       ends[slot] = this->See(MakeCorner(triangle, slot));
       ++this->NumberOfVertices;
     }
-    this->Triangles[0].Centre =
+    this->Kept.Triangles[0].Centre =
       FindCentre(this->Seen, ends[0]->Seen.Point, ends[1]->Seen.Point, ends[2]->Seen.Point);
     this->NumberOfTriangles = 1;
     for (const int slot : { 2, 1, 0 })
     {
       const Vertex* from = ends[NextSlot(slot)];
       const Vertex* to = ends[PreviousSlot(slot)];
-      this->Push({ MakeCorner(triangle, slot), from, to, this->Triangles, FindCross(from, to) });
+      this->Push(
+        { MakeCorner(triangle, slot), from, to, this->Kept.Triangles, FindCross(from, to) });
     }
   }
 
   /// Stores the vertex of a corner after the others.
-  DELAUNAYFLIP_HOST_DEVICE const Vertex* See(CornerId corner)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE const Vertex* See(CornerId corner)
   {
-    Vertex* vertex = this->Vertices + this->NumberOfVertices;
+    Vertex* vertex = this->Kept.Vertices + this->NumberOfVertices;
     vertex->Id = this->Seen.GetVertex(corner);
     vertex->Seen = SeenPoint(this->Seen.GetPoint(vertex->Id), this->Seen.GetPlace());
     return vertex;
@@ -128,14 +144,14 @@ private:
     return CrossProduct(from->Seen.Offset, to->Seen.Offset);
   }
 
-  DELAUNAYFLIP_HOST_DEVICE void Push(const Edge& edge)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void Push(const Edge& edge)
   {
-    this->Edges[this->NumberOfEdges] = edge;
+    this->Kept.Edges[this->NumberOfEdges] = edge;
     ++this->NumberOfEdges;
   }
 
   /// Goes back to a triangle that was entered before.
-  DELAUNAYFLIP_HOST_DEVICE void ReturnTo(const Triangle* triangle)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void ReturnTo(const Triangle* triangle)
   {
     while (this->Current != triangle)
     {
@@ -146,8 +162,9 @@ private:
   }
 
   /// Enters the triangle across an edge.
+  /// @param edge becomes the next one of that triangle.
   /// @returns whether there is one in the cavity.
-  DELAUNAYFLIP_HOST_DEVICE bool GoAcross(const Edge& edge)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE bool GoAcross(Edge& edge)
   {
     const CornerId across = this->Seen.FindBeyond(edge.Opposite);
     if (across == NoCorner)
@@ -162,14 +179,15 @@ private:
     }
     this->Enter(edge, apex, SlotOf(across));
     this->Push({ PlaneMesh::Previous(across), apex, edge.To, this->Current, second });
-    this->Push({ PlaneMesh::Next(across), edge.From, apex, this->Current, first });
+    edge = { PlaneMesh::Next(across), edge.From, apex, this->Current, first };
     return true;
   }
 
   /// Whether the place is in the circle through an edge and a vertex beyond.
-  /// @param first, second the cross products of the edges from and to the place.
-  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(const Edge& edge, const CrossProduct& first,
-    const CrossProduct& second, const Vertex* apex, CornerId across) const
+  /// @param first, second the cross products of the edges to and from that vertex.
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE bool IsInCircle(const Edge& edge,
+    const CrossProduct& first, const CrossProduct& second, const Vertex* apex,
+    CornerId across) const
   {
     constexpr double LargestSquare = 1.6e60; // 2^200: no underflow spoils what is certain
     const double a = apex->Seen.Square;
@@ -186,11 +204,12 @@ private:
   }
 
   /// Enters the triangle of an edge and a vertex beyond, which is at a slot.
-  DELAUNAYFLIP_HOST_DEVICE void Enter(const Edge& edge, const Vertex* apex, int slot)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void Enter(
+    const Edge& edge, const Vertex* apex, int slot)
   {
     const Vertex* ring[5] = { edge.To, edge.From, apex, edge.To, edge.From };
     const Vertex** first = ring + 2 - slot; // the vertex of slot 0
-    Triangle* entered = this->Triangles + this->NumberOfTriangles;
+    Triangle* entered = this->Kept.Triangles + this->NumberOfTriangles;
     entered->Centre =
       FindCentre(this->Seen, first[0]->Seen.Point, first[1]->Seen.Point, first[2]->Seen.Point);
     entered->Before = edge.Owner;
@@ -202,7 +221,7 @@ private:
   }
 
   /// Ends the area of the vertex where a boundary edge begins, and begins the one where it ends.
-  DELAUNAYFLIP_HOST_DEVICE void AddBoundaryEdge(const Edge& edge)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void AddBoundaryEdge(const Edge& edge)
   {
     const AreaCorner& centre = edge.Owner->Centre;
     const AreaCorner ofNew =
@@ -226,19 +245,19 @@ private:
 
   /// Ends the area of a vertex.
   /// @param step to the last corner of the area. @param corner that corner.
-  DELAUNAYFLIP_HOST_DEVICE void AddWeight(
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void AddWeight(
     const AreaStep& step, const Vertex* vertex, const AreaCorner& corner)
   {
     const double weight = AreaStep(corner, this->Last).Add(step.Add(this->Twice));
     this->Check.Add(weight, vertex->Seen.Offset);
-    this->Weights[this->NumberOfWeights] = { vertex->Id, weight };
+    this->Kept.Weights[this->NumberOfWeights] = { vertex->Id, weight };
     ++this->NumberOfWeights;
   }
 
   /// Goes once more to the first edge of the boundary.
-  DELAUNAYFLIP_HOST_DEVICE void End()
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE void End()
   {
-    this->ReturnTo(this->Triangles);
+    this->ReturnTo(this->Kept.Triangles);
     while (this->Current != this->OwnerOfFirst) // Triangles begin with those on the way there
     {
       ++this->Current;
@@ -248,15 +267,10 @@ private:
   }
 
   const Frame& Seen;
+  Arrays& Kept;
   WeightCheck Check;
-
   int NumberOfVertices = 0, NumberOfEdges = 0, NumberOfTriangles = 0, NumberOfWeights = 0;
-  Vertex Vertices[MostTriangles + 3];
-  Edge Edges[MostTriangles + 3]; ///< Edges to go across; the next one is last.
-  Triangle Triangles[MostTriangles];
-  Weight Weights[MostTriangles + 2];
-
-  const Triangle* Current = Triangles; ///< The triangle that the tour is in.
+  const Triangle* Current; ///< The triangle that the tour is in.
   double Twice = 0.0; ///< The area of a vertex, so far.
   AreaCorner Last; ///< The first corner of that area.
   bool IsBegun = false; ///< Whether there was an edge of the boundary.

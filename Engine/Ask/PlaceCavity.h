@@ -33,7 +33,7 @@ DELAUNAYFLIP_HOST_DEVICE inline PlaceOffset FindCentre(
 /// The centre of the circumcircle of a triangle, from the place. All callers must begin with the
 /// corner of slot 0, so that a centre has the same bits wherever it is found.
 template <typename Frame>
-DELAUNAYFLIP_HOST_DEVICE PlaceOffset FindCentre(
+DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE PlaceOffset FindCentre(
   const Frame& frame, const ScaledPoint& first, const ScaledPoint& second, const ScaledPoint& third)
 {
   const PlaceOffset centre = FindCentre(first, { second, first }, { third, first });
@@ -151,7 +151,8 @@ class AreaStep
 {
 public:
   AreaStep() = default;
-  DELAUNAYFLIP_HOST_DEVICE AreaStep(const AreaCorner& from, const AreaCorner& to)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE AreaStep(
+    const AreaCorner& from, const AreaCorner& to)
   {
     // Corners may be very far away. The nearer one as the factor loses least.
     const PlaceOffset step = { to.Offset.U - from.Offset.U, to.Offset.V - from.Offset.V };

@@ -100,7 +100,8 @@ DELAUNAYFLIP_HOST_DEVICE bool VisitNaturalWeights(
   const Frame& frame, TriangleId triangle, const Visit& visit)
 {
 #if !DELAUNAYFLIP_ON_DEVICE // which has no fast memory for it
-  CavityTour<Frame> tour(frame);
+  typename CavityTour<Frame>::Arrays arrays;
+  CavityTour<Frame> tour(frame, arrays);
   if (tour.Run(triangle))
   {
     tour.VisitWeights(visit);
