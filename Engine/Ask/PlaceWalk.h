@@ -88,7 +88,7 @@ struct PlaceSides
   int Beyond = 0;
   int OnEdges = 0; ///< Likewise, if it is on the line of that edge.
 
-  PlaceOffset Offsets[3]; ///< From the place to the vertices.
+  PlaceOffset Offsets[3] = {}; ///< From the place to the vertices.
   /// Twice the areas of the triangles from the place to the edges, and what their errors depend on.
   double Areas[3] = {}, Magnitudes[3] = {};
 
