@@ -10,7 +10,7 @@ namespace delaunayflip
 
 namespace
 {
-/// Points on a sphere that also stores into arrays in the memory of its device.
+/// A mesh of points on a sphere, which can also be stored into arrays in the memory of its GPU.
 class CudaSphere : public SphereOnBackend<CudaBackend>
 {
 public:

@@ -5,9 +5,6 @@
 #include "FlipError.h"
 #include "SphereRun.h"
 
-#include <algorithm>
-#include <numeric>
-
 /// @file
 /// The run on a sphere that stays in the memory of a GPU.
 
