@@ -5,6 +5,7 @@
 
 #include "PointTestSupport.h"
 #include "Predicates.h"
+#include "QueryTestSupport.h"
 #include "RandomInputs.h"
 
 #include <gtest/gtest.h>
@@ -41,27 +42,19 @@ public:
 
   std::vector<std::int32_t> Locate(const Places& places) const
   {
-    std::vector<std::int32_t> found(places.size(), -2);
     PlaceQuery query;
     query.Places = View(places);
-    query.Triangles = found.data();
-    EXPECT_TRUE(this->Session.Ask(query));
-    return found;
+    return delaunayflip::Locate(this->Session, query);
   }
 
   std::vector<double> Interpolate(const std::vector<double>& values, const Places& places,
     InterpolationKind method, OutsideKind outside = OutsideKind::NotANumber) const
   {
-    std::vector<double> results(places.size() * values.size() / this->Points.size(), -1e99);
     PlaceQuery query;
     query.Places = View(places);
-    query.Values = values.data();
-    query.Components = static_cast<int>(values.size() / this->Points.size());
     query.Method = method;
     query.Outside = outside;
-    query.Results = results.data();
-    EXPECT_TRUE(this->Session.Ask(query));
-    return results;
+    return delaunayflip::Interpolate(this->Session, query, values, this->Points.size());
   }
 
   /// By exact orientation, of all triangles the first that has the place.

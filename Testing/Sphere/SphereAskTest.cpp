@@ -3,6 +3,7 @@
 #include "FlipError.h"
 #include "PointTriangulation.h"
 #include "Predicates.h"
+#include "QueryTestSupport.h"
 #include "SphereTestSupport.h"
 
 #include <gtest/gtest.h>
@@ -87,12 +88,9 @@ public:
 
   std::vector<std::int32_t> Locate(const std::vector<Point3>& places) const
   {
-    std::vector<std::int32_t> found(places.size(), -2);
     PlaceQuery query;
     query.Places = View(places);
-    query.Triangles = found.data();
-    EXPECT_TRUE(this->Session.Ask(query));
-    return found;
+    return delaunayflip::Locate(this->Session, query);
   }
 
   std::vector<double> Interpolate(const std::vector<double>& values,
@@ -100,15 +98,10 @@ public:
     OutsideKind outside = OutsideKind::NotANumber) const
   {
     PlaceQuery query;
-    query.Components = static_cast<int>(values.size() / this->Points.size());
-    std::vector<double> results(places.size() * query.Components, -1e99);
     query.Places = View(places);
-    query.Values = values.data();
     query.Method = method;
     query.Outside = outside;
-    query.Results = results.data();
-    EXPECT_TRUE(this->Session.Ask(query));
-    return results;
+    return delaunayflip::Interpolate(this->Session, query, values, this->Points.size());
   }
 
   /// By exact orientation, of all triangles the first that has the place.
