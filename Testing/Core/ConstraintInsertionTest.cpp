@@ -492,7 +492,7 @@ ConstrainedMesh MakeDrawing(const Places& points, const std::vector<VertexPair>&
 ConstrainedMesh ReadDrawing(const std::filesystem::path& path)
 {
   std::vector<Row> rows = ReadRows(path);
-  const std::string kind = path.extension();
+  const std::string kind = path.extension().string();
   const bool isPoly = kind == ".poly", isPolygon = kind == ".dat";
   const std::size_t header = isPolygon || kind == ".json" ? 0 : 1; // lines before the points
   std::size_t count = header == 0 ? rows.size() : static_cast<std::size_t>(rows.at(0).at(0));

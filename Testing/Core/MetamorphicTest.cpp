@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
+#include "RandomNumbers.h"
 #include "References.h"
 
 #include <gtest/gtest.h>
@@ -188,7 +189,7 @@ TEST_P(Metamorphic, RenumberedPoints)
   std::mt19937 random(8);
   std::vector<std::int32_t> newIds(this->Input.NumberOfPoints());
   std::iota(newIds.begin(), newIds.end(), 0);
-  std::shuffle(newIds.begin(), newIds.end(), random);
+  Shuffle(newIds.begin(), newIds.end(), random);
   std::vector<std::int32_t> oldIds(newIds.size());
   Mesh changed = this->Input;
   for (std::size_t i = 0; i < newIds.size(); ++i)
@@ -225,7 +226,7 @@ TEST_P(Metamorphic, PermutedTriangles)
   std::mt19937 random(10);
   std::vector<std::int32_t> order(this->Input.NumberOfTriangles());
   std::iota(order.begin(), order.end(), 0);
-  std::shuffle(order.begin(), order.end(), random);
+  Shuffle(order.begin(), order.end(), random);
   Mesh changed = this->Input;
   for (std::size_t i = 0; i < order.size(); ++i)
   {

@@ -4,6 +4,7 @@
 #include "PointSets.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
+#include "RandomNumbers.h"
 #include "ThreadBackend.h"
 
 #include <gtest/gtest.h>
@@ -110,7 +111,7 @@ protected:
     const Places all = MakePlaces(GetParam(), count);
     const std::set<Place> places(all.begin(), all.end());
     Places points(places.begin(), places.end());
-    std::shuffle(points.begin(), points.end(), std::mt19937(4));
+    Shuffle(points.begin(), points.end(), std::mt19937(4));
     return points;
   }
 };
@@ -134,7 +135,7 @@ TEST_P(PointSetsTest, DependOnThePointsAlone)
   EXPECT_EQ(one.Triangles, many.Triangles);
   EXPECT_EQ(one.Report.TotalFlips, many.Report.TotalFlips);
   Places shuffled = points;
-  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
+  Shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
   EXPECT_EQ(ByPlaces(one.Triangles, points), ByPlaces(Triangulate(shuffled).Triangles, shuffled));
 }
 

@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "References.h"
+#include "RandomNumbers.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Gmpq.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#if __has_include(<gmp.h>)
+#include <CGAL/Gmpq.h>
+#else
+#include <boost/multiprecision/cpp_int.hpp>
+#endif
 
 #include <gtest/gtest.h>
 
@@ -175,7 +180,12 @@ Places DrawDistinct(std::mt19937& random, int count, int columns, int rows)
 namespace
 {
 
+#if __has_include(<gmp.h>)
 using Rational = CGAL::Gmpq;
+#else // slower
+using Rational = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend,
+  boost::multiprecision::et_off>;
+#endif
 using RationalVector = std::array<Rational, 3>;
 
 RationalVector Subtract(const Point3& p, const Point3& origin)
@@ -199,7 +209,7 @@ Rational Determinant(const RationalVector& a, const RationalVector& b, const Rat
   return Dot(a, Cross(b, c));
 }
 
-int Sign(const Rational& value) { return static_cast<int>(CGAL::sign(value)); }
+int Sign(const Rational& value) { return (value > 0 ? 1 : 0) - (value < 0 ? 1 : 0); }
 
 /// (x, y, lift) of p relative to d. Both lifts are computed first, then subtracted.
 RationalVector LiftedDifference(const Point3& p, const Point3& d, bool tilted)
@@ -363,7 +373,7 @@ Places DrawLattice(std::size_t count, std::int32_t size, std::mt19937& random)
     points.insert({ x, y });
   }
   Places drawn(points.begin(), points.end());
-  std::shuffle(drawn.begin(), drawn.end(), random);
+  Shuffle(drawn.begin(), drawn.end(), random);
   return drawn;
 }
 

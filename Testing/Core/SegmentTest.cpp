@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
+#include "RandomNumbers.h"
 
 #include <gtest/gtest.h>
 
@@ -159,7 +160,7 @@ TEST(Segments, InAnyOrderOfPoints)
     const Drawing drawing = DrawRandom(random, 40, 12, 8);
     std::vector<std::int64_t> order(drawing.Points.size());
     std::iota(order.begin(), order.end(), 0);
-    std::shuffle(order.begin(), order.end(), random);
+    Shuffle(order.begin(), order.end(), random);
     Drawing shuffled;
     shuffled.Points.resize(order.size());
     for (std::size_t k = 0; k < order.size(); ++k)
@@ -481,7 +482,7 @@ TEST(Outline, SegmentsOfARingMayRunInAnyDirection)
           std::swap(drawing.Segments[k][0], drawing.Segments[k][1]);
         }
       }
-      std::shuffle(drawing.Segments.begin() + 1, drawing.Segments.end(), random);
+      Shuffle(drawing.Segments.begin() + 1, drawing.Segments.end(), random);
       const Triangulation result = Triangulate(drawing, With(&PointOptions::RingRule, rule));
       EXPECT_EQ(152.0, SumArea(drawing.Points, result.Triangles)) << "case " << i;
       EXPECT_EQ(5, result.Report.FromPoints.SegmentEdges);

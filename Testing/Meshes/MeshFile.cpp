@@ -29,7 +29,7 @@ std::vector<std::string> ListMeshFiles(const std::string& folder)
   std::error_code isMissing;
   for (const auto& entry : std::filesystem::directory_iterator(folder, isMissing))
   {
-    if (entry.path().extension() == ".dfmesh")
+    if (entry.path().extension().string() == ".dfmesh")
     {
       paths.push_back(entry.path().string());
     }

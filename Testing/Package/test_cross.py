@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The wheels of Utilities/build-wheels.sh, which makes those that are not in build-wheels/ yet. Their
 libraries run on this machine where something runs them: Wine those of Windows, and QEMU's user mode
-those of Arm, with Debian's libraries for Arm. Nothing here runs those of macOS.
+those of Arm, with Debian's libraries for Arm. The engine's GoogleTests are compiled for these two
+and run, too. Nothing here runs what is for macOS.
 
 FinishWheel tests what the script adds to wheels, and builds nothing.
 """
 import base64
+import concurrent.futures
 import csv
 import hashlib
 import io
@@ -28,6 +30,8 @@ FINISH = f"{ROOT}/Utilities/finish_wheel.py"
 FUNCTIONS = set(re.findall(r"\b(delaunayflip_[a-z_]+)\(", read("CInterface/delaunayflip_c.h")))
 # Of Debian: Python, and what the wheels of NumPy and of this project load.
 ARM_PACKAGES = ("python3-minimal", "libpython3-stdlib", "libstdc++6", "libgfortran5", "zlib1g")
+# With folders of these names in Testing/; Fallback is in Testing/Core.
+ENGINE_TESTS = ("Core", "Fallback", "Ask", "Grow", "Sphere")
 DEMO = """
 import platform, delaunayflip
 result = delaunayflip.flip([[0, 0], [2, -1], [4, 0], [2, 1]], [[0, 1, 2], [0, 2, 3]])
@@ -155,7 +159,8 @@ class Cross(unittest.TestCase):
         """The compiler, and its environment, which is that of build-wheels.sh."""
         zig = next(WORK.glob("tools/lib/python3*/site-packages/ziglang/zig"))
         return zig, {**os.environ, "DELAUNAYFLIP_ZIG": zig, "DELAUNAYFLIP_ZIG_TARGET": cls.target,
-                     "ZIG_GLOBAL_CACHE_DIR": WORK / "cache", "ZIG_LOCAL_CACHE_DIR": WORK / "cache"}
+                     "ZIG_GLOBAL_CACHE_DIR": WORK / "cache", "ZIG_LOCAL_CACHE_DIR": WORK / "cache",
+                     "PATH": f"{WORK}/tools/bin:{os.environ['PATH']}"}
 
     def check_programs(self, launcher, environment=None, suffix=""):
         """The tests of the C interface, built for the platform and linked with the wheel's library."""
@@ -174,6 +179,72 @@ class Cross(unittest.TestCase):
             output = run(*launcher, program, f"{ROOT}/Testing/C/hashes.txt",
                          env={**os.environ, **(environment or {})})
             self.assertRegex(output.replace("\r", ""), re.compile(expected, re.MULTILINE))
+
+    @staticmethod
+    def copy_cgal():
+        """CGAL's headers without the others of /usr/include, which are this machine's."""
+        headers = WORK / "cgal"
+        if not headers.exists():
+            partial = WORK / "cgal.partial"
+            shutil.rmtree(partial, ignore_errors=True)
+            shutil.copytree("/usr/include/CGAL", partial / "CGAL")
+            # Newer Clangs see that CGAL 5.5 names a member there which does not exist.
+            iterator = partial / "CGAL" / "boost" / "graph" / "iterator.h"
+            text = iterator.read_text(encoding="utf-8")
+            iterator.write_text(text.replace("(! (this->base() == nullptr))", "(g != nullptr)"),
+                                encoding="utf-8")
+            partial.rename(headers)
+        return headers
+
+    def build_engine_tests(self, target, suffix=""):
+        """The GoogleTest programs of the engine for the platform."""
+        for path in ("/usr/include/CGAL", "/usr/src/googletest"):
+            if not os.path.exists(path):
+                self.skipTest(f"no {path} here (Debian: libcgal-dev googletest)")
+        environment = {**self.find_zig()[1], "DELAUNAYFLIP_ZIG_TARGET": target}
+        folder = WORK / self.platform
+        common = ("-G", "Ninja", f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/CMake/ZigToolchain.cmake",
+                  "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-Wno-dev")
+        googletest = folder / "gtest"
+        if not googletest.exists():
+            run("cmake", "-S", "/usr/src/googletest", "-B", folder / "gtest-build", *common,
+                "-DBUILD_GMOCK=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
+                f"-DCMAKE_INSTALL_PREFIX={googletest}", env=environment)
+            run("cmake", "--build", folder / "gtest-build", "--target", "install", env=environment)
+        run("cmake", "-S", ROOT, "-B", folder / "tests", *common, "-DDELAUNAYFLIP_BUILD_VTK=OFF",
+            "-DDELAUNAYFLIP_ENABLE_CUDA=OFF", "-DDELAUNAYFLIP_BUILD_TESTING=ON",
+            f"-DTBB_DIR={folder}/tbb/lib/cmake/TBB", f"-DGTest_DIR={googletest}/lib/cmake/GTest",
+            "-DBoost_NO_BOOST_CMAKE=ON", f"-DBoost_INCLUDE_DIR={WORK}/boost",
+            f"-DCGAL_DIR={ROOT}/Testing/Package/cross",
+            f"-DDELAUNAYFLIP_CGAL_HEADERS={self.copy_cgal()}", f"-DPython3_EXECUTABLE={sys.executable}",
+            "-DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST", env=environment)
+        run("cmake", "--build", folder / "tests", "--target",
+            *[f"DelaunayFlip{name}Tests" for name in ENGINE_TESTS], env=environment)
+        return [folder / "tests" / "bin" / f"DelaunayFlip{name}Tests{suffix}" for name in ENGINE_TESTS]
+
+    def check_engine_tests(self, launcher, programs, environment=None):
+        """Each program in parts, as many as this machine has cores at a time."""
+        parts = 16
+
+        def run_part(program, part):
+            done = subprocess.run(
+                [*map(str, launcher), program, "--gtest_brief=1"], check=False, text=True,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                env={**os.environ, **(environment or {}), "GTEST_TOTAL_SHARDS": str(parts),
+                     "GTEST_SHARD_INDEX": str(part)})
+            passed = re.search(r"\[  PASSED  \] (\d+) test", done.stdout)
+            if done.returncode != 0 or not passed:
+                failures.append(f"{program.name}, part {part}: {done.returncode}\n{done.stdout[-3000:]}")
+            return int(passed.group(1)) if passed else 0
+
+        failures = []
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            counts = [pool.submit(run_part, program, part)
+                      for program in programs for part in range(parts)]
+        passed = sum(count.result() for count in counts)
+        print(f"{passed} tests of the engine passed on {self.platform}", file=sys.stderr)
+        self.assertEqual([], failures)
+        self.assertGreater(passed, 800)
 
 
 class WindowsX86(Cross):
@@ -195,6 +266,13 @@ class WindowsX86(Cross):
         need("wine")
         self.check_programs(["wine"], suffix=".exe", environment={
             "WINEPREFIX": str(self.folder / "wine"), "WINEDEBUG": "-all"})
+
+    def test_engine_under_wine(self):
+        wine = {"WINEPREFIX": str(self.folder / "wine-engine"), "WINEDEBUG": "-all"}
+        need("wine", "wineboot")
+        programs = self.build_engine_tests(self.target, ".exe")
+        run("wineboot", "--init", env={**os.environ, **wine})
+        self.check_engine_tests(["wine"], programs, wine)
 
 
 class LinuxArm(Cross):
@@ -241,6 +319,11 @@ class LinuxArm(Cross):
 
     def test_same_meshes_under_qemu(self):
         self.check_programs(["qemu-aarch64", "-L", self.get_root()])
+
+    def test_engine_under_qemu(self):
+        root = self.get_root()  # of Debian 12, so glibc may be newer than the wheel's
+        programs = self.build_engine_tests("aarch64-linux-gnu.2.36")
+        self.check_engine_tests(["qemu-aarch64", "-L", root], programs)
 
     def test_python_under_qemu(self):
         root = self.get_root()

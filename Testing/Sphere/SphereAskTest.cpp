@@ -525,13 +525,18 @@ private:
     return { factor * Multiply(point, this->First), factor * Multiply(point, second) };
   }
 
+  /// Beside a long segment, the circumcircle of a triangle may have the place's antipode inside. In
+  /// the plane the triangle is then clockwise, and what is outside of the circle is inside of it on
+  /// the sphere.
   bool IsInCircle(std::int32_t triangle) const
   {
     const std::int32_t* ids = &this->Asked.Triangles[3 * triangle];
-    const PlanePair corner = this->Project(ids[0]);
-    const PlanePair centre = FindCircumcentre(corner, this->Project(ids[1]), this->Project(ids[2]));
-    const PlanePair radius = Subtract(corner, centre);
-    return centre.U * centre.U + centre.V * centre.V < radius.U * radius.U + radius.V * radius.V;
+    const PlanePair a = this->Project(ids[0]), b = this->Project(ids[1]), c = this->Project(ids[2]);
+    const PlanePair centre = FindCircumcentre(a, b, c);
+    const PlanePair radius = Subtract(a, centre);
+    const bool isInside =
+      centre.U * centre.U + centre.V * centre.V < radius.U * radius.U + radius.V * radius.V;
+    return isInside == (Cross(Subtract(b, a), Subtract(c, a)) > 0.0);
   }
 
   const AskedSphere& Asked;

@@ -3,6 +3,7 @@
 #include "FilteredPredicates.h"
 #include "FlipError.h"
 #include "PointTriangulation.h"
+#include "RandomNumbers.h"
 #include "SphereSegmentAudit.h"
 #include "SphereTestSupport.h"
 
@@ -262,7 +263,7 @@ TEST(SphereRings, DoNotDependOnTheOrderOfPointsOrOnThreads)
     order[i] = static_cast<std::int64_t>(i);
   }
   std::mt19937 random(3);
-  std::shuffle(order.begin(), order.end(), random);
+  Shuffle(order.begin(), order.end(), random);
   for (std::size_t i = 0; i < order.size(); ++i)
   {
     shuffled.Points[order[i]] = drawn.Points[i];

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipError.h"
 #include "PointTriangulation.h"
+#include "RandomNumbers.h"
 #include "SphereSegmentAudit.h"
 #include "SphereTestSupport.h"
 
@@ -128,7 +129,7 @@ TEST_P(SphereSegmentTest, DependsOnThePlacesAndTheSegmentsAlone)
   std::vector<std::int64_t> order(this->Points.size());
   std::iota(order.begin(), order.end(), 0);
   std::mt19937 random(5);
-  std::shuffle(order.begin(), order.end(), random);
+  Shuffle(order.begin(), order.end(), random);
   std::vector<Point3> points(this->Points.size());
   for (std::size_t i = 0; i < order.size(); ++i)
   {

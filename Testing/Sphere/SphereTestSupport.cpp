@@ -4,6 +4,7 @@
 
 #include "PointTriangulation.h"
 #include "Predicates.h"
+#include "RandomNumbers.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -121,12 +122,11 @@ std::vector<Point3> MakeIcosahedral()
 std::vector<Point3> MakeCluster()
 {
   std::mt19937 random(7);
-  std::normal_distribution<double> normal;
   std::vector<Point3> points = MakeRandomPoints<double>(40, 3);
   for (int i = 0; i < 300; ++i)
   {
-    points.push_back(
-      Normalize({ 1.0 + 1e-3 * normal(random), 1e-3 * normal(random), 1e-3 * normal(random) }));
+    points.push_back(Normalize(
+      { 1.0 + 1e-3 * DrawNormal(random), 1e-3 * DrawNormal(random), 1e-3 * DrawNormal(random) }));
   }
   return points;
 }
@@ -135,11 +135,10 @@ std::vector<Point3> MakeCluster()
 std::vector<Point3> MakeCap()
 {
   std::mt19937 random(8);
-  std::normal_distribution<double> normal;
   std::vector<Point3> points;
   for (int i = 0; i < 300; ++i)
   {
-    points.push_back(Normalize({ 1.0, 0.1 * normal(random), 0.1 * normal(random) }));
+    points.push_back(Normalize({ 1.0, 0.1 * DrawNormal(random), 0.1 * DrawNormal(random) }));
   }
   return points;
 }
@@ -210,11 +209,10 @@ template <typename Real>
 std::vector<Point3> MakeRandomPoints(std::int64_t count, std::uint32_t seed)
 {
   std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
   std::vector<Point3> points(count);
   for (Point3& p : points)
   {
-    p = Normalize({ normal(random), normal(random), normal(random) });
+    p = Normalize({ DrawNormal(random), DrawNormal(random), DrawNormal(random) });
     p = { Real(p[0]), Real(p[1]), Real(p[2]) };
   }
   return points;

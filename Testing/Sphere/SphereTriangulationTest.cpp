@@ -5,6 +5,7 @@
 #include "MeshAudit.h"
 #include "PointTriangulation.h"
 #include "PortableMath.h"
+#include "RandomNumbers.h"
 #include "References.h"
 #include "SpherePasses.h"
 #include "SphereTestSupport.h"
@@ -123,7 +124,7 @@ TEST_P(SphereTest, DependsOnThePlacesAlone)
   std::mt19937 random(5);
   for (int i = 0; i < 3; ++i)
   {
-    std::shuffle(this->Points.begin(), this->Points.end(), random);
+    Shuffle(this->Points.begin(), this->Points.end(), random);
     EXPECT_EQ(expected, ListPlaces(this->Points, Triangulate(this->Points).Triangles));
   }
 }
@@ -307,7 +308,7 @@ TEST(SphereTriangulation, IsExactWherePointsNearlyCoincide)
   EXPECT_EQ(0, CountReflexEdges(points, result));
   EXPECT_EQ(MakeHull(points).Triangles.size(), result.Triangles.size());
   const auto expected = ListPlaces(points, result.Triangles);
-  std::shuffle(points.begin(), points.end(), random);
+  Shuffle(points.begin(), points.end(), random);
   EXPECT_EQ(expected, ListPlaces(points, Triangulate(points).Triangles));
 }
 
