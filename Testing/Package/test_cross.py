@@ -55,6 +55,32 @@ def need(*programs):
     return programs[0]
 
 
+def get_arm_root(folder):
+    """A folder with Debian's Python for Arm. @param folder: for temporary files."""
+    need("apt-get", "dpkg-deb", "qemu-aarch64")
+    root = WORK / "arm-root"
+    if root.exists():
+        return root
+    apt = folder / "apt"
+    for name in ("lists/partial", "archives/partial"):
+        (apt / name).mkdir(parents=True)
+    (apt / "status").touch()
+    options = ["-q", "-o", "APT::Architecture=arm64", "-o", "APT::Architectures=arm64",
+               "-o", f"Dir::State={apt}", "-o", f"Dir::State::status={apt}/status",
+               "-o", f"Dir::Cache={apt}", "-o", "APT::Sandbox::User="]
+    try:
+        run("apt-get", *options, "update")
+        run("apt-get", *options, "install", "--download-only", "--yes",
+            "--no-install-recommends", *ARM_PACKAGES)
+    except AssertionError as error:
+        raise unittest.SkipTest(f"cannot get Debian's packages for Arm: {error}") from error
+    partial = folder / "arm-root"
+    for package in (apt / "archives").glob("*.deb"):
+        run("dpkg-deb", "--extract", package, partial)
+    shutil.move(partial, root)
+    return root
+
+
 class FinishWheel(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -180,72 +206,6 @@ class Cross(unittest.TestCase):
                          env={**os.environ, **(environment or {})})
             self.assertRegex(output.replace("\r", ""), re.compile(expected, re.MULTILINE))
 
-    @staticmethod
-    def copy_cgal():
-        """CGAL's headers without the others of /usr/include, which are this machine's."""
-        headers = WORK / "cgal"
-        if not headers.exists():
-            partial = WORK / "cgal.partial"
-            shutil.rmtree(partial, ignore_errors=True)
-            shutil.copytree("/usr/include/CGAL", partial / "CGAL")
-            # Newer Clangs see that CGAL 5.5 names a member there which does not exist.
-            iterator = partial / "CGAL" / "boost" / "graph" / "iterator.h"
-            text = iterator.read_text(encoding="utf-8")
-            iterator.write_text(text.replace("(! (this->base() == nullptr))", "(g != nullptr)"),
-                                encoding="utf-8")
-            partial.rename(headers)
-        return headers
-
-    def build_engine_tests(self, target, suffix=""):
-        """The GoogleTest programs of the engine for the platform."""
-        for path in ("/usr/include/CGAL", "/usr/src/googletest"):
-            if not os.path.exists(path):
-                self.skipTest(f"no {path} here (Debian: libcgal-dev googletest)")
-        environment = {**self.find_zig()[1], "DELAUNAYFLIP_ZIG_TARGET": target}
-        folder = WORK / self.platform
-        common = ("-G", "Ninja", f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/CMake/ZigToolchain.cmake",
-                  "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-Wno-dev")
-        googletest = folder / "gtest"
-        if not googletest.exists():
-            run("cmake", "-S", "/usr/src/googletest", "-B", folder / "gtest-build", *common,
-                "-DBUILD_GMOCK=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
-                f"-DCMAKE_INSTALL_PREFIX={googletest}", env=environment)
-            run("cmake", "--build", folder / "gtest-build", "--target", "install", env=environment)
-        run("cmake", "-S", ROOT, "-B", folder / "tests", *common, "-DDELAUNAYFLIP_BUILD_VTK=OFF",
-            "-DDELAUNAYFLIP_ENABLE_CUDA=OFF", "-DDELAUNAYFLIP_BUILD_TESTING=ON",
-            f"-DTBB_DIR={folder}/tbb/lib/cmake/TBB", f"-DGTest_DIR={googletest}/lib/cmake/GTest",
-            "-DBoost_NO_BOOST_CMAKE=ON", f"-DBoost_INCLUDE_DIR={WORK}/boost",
-            f"-DCGAL_DIR={ROOT}/Testing/Package/cross",
-            f"-DDELAUNAYFLIP_CGAL_HEADERS={self.copy_cgal()}", f"-DPython3_EXECUTABLE={sys.executable}",
-            "-DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST", env=environment)
-        run("cmake", "--build", folder / "tests", "--target",
-            *[f"DelaunayFlip{name}Tests" for name in ENGINE_TESTS], env=environment)
-        return [folder / "tests" / "bin" / f"DelaunayFlip{name}Tests{suffix}" for name in ENGINE_TESTS]
-
-    def check_engine_tests(self, launcher, programs, environment=None):
-        """Each program in parts, as many as this machine has cores at a time."""
-        parts = 16
-
-        def run_part(program, part):
-            done = subprocess.run(
-                [*map(str, launcher), program, "--gtest_brief=1"], check=False, text=True,
-                stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                env={**os.environ, **(environment or {}), "GTEST_TOTAL_SHARDS": str(parts),
-                     "GTEST_SHARD_INDEX": str(part)})
-            passed = re.search(r"\[  PASSED  \] (\d+) test", done.stdout)
-            if done.returncode != 0 or not passed:
-                failures.append(f"{program.name}, part {part}: {done.returncode}\n{done.stdout[-3000:]}")
-            return int(passed.group(1)) if passed else 0
-
-        failures = []
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            counts = [pool.submit(run_part, program, part)
-                      for program in programs for part in range(parts)]
-        passed = sum(count.result() for count in counts)
-        print(f"{passed} tests of the engine passed on {self.platform}", file=sys.stderr)
-        self.assertEqual([], failures)
-        self.assertGreater(passed, 800)
-
 
 class WindowsX86(Cross):
     platform, tag, library = "windows-x86_64", "win_amd64", "delaunayflip-1.dll"
@@ -267,43 +227,10 @@ class WindowsX86(Cross):
         self.check_programs(["wine"], suffix=".exe", environment={
             "WINEPREFIX": str(self.folder / "wine"), "WINEDEBUG": "-all"})
 
-    def test_engine_under_wine(self):
-        wine = {"WINEPREFIX": str(self.folder / "wine-engine"), "WINEDEBUG": "-all"}
-        need("wine", "wineboot")
-        programs = self.build_engine_tests(self.target, ".exe")
-        run("wineboot", "--init", env={**os.environ, **wine})
-        self.check_engine_tests(["wine"], programs, wine)
-
 
 class LinuxArm(Cross):
     platform, tag, library = "linux-aarch64", "manylinux_2_28_aarch64", "libdelaunayflip.so.1"
     target = "aarch64-linux-gnu.2.28"
-
-    @classmethod
-    def get_root(cls):
-        """A folder with Debian's Python for Arm."""
-        need("apt-get", "dpkg-deb", "qemu-aarch64")
-        root = WORK / "arm-root"
-        if root.exists():
-            return root
-        apt = cls.folder / "apt"
-        for name in ("lists/partial", "archives/partial"):
-            (apt / name).mkdir(parents=True)
-        (apt / "status").touch()
-        options = ["-q", "-o", "APT::Architecture=arm64", "-o", "APT::Architectures=arm64",
-                   "-o", f"Dir::State={apt}", "-o", f"Dir::State::status={apt}/status",
-                   "-o", f"Dir::Cache={apt}", "-o", "APT::Sandbox::User="]
-        try:
-            run("apt-get", *options, "update")
-            run("apt-get", *options, "install", "--download-only", "--yes",
-                "--no-install-recommends", *ARM_PACKAGES)
-        except AssertionError as error:
-            raise unittest.SkipTest(f"cannot get Debian's packages for Arm: {error}") from error
-        partial = cls.folder / "arm-root"
-        for package in (apt / "archives").glob("*.deb"):
-            run("dpkg-deb", "--extract", package, partial)
-        shutil.move(partial, root)
-        return root
 
     def test_wheel(self):
         self.check_files()
@@ -318,15 +245,10 @@ class LinuxArm(Cross):
             self.assertRegex(name, r"^(lib(c|m|dl|pthread|rt)\.so|ld-linux-aarch64\.so)\.[0-9]$")
 
     def test_same_meshes_under_qemu(self):
-        self.check_programs(["qemu-aarch64", "-L", self.get_root()])
-
-    def test_engine_under_qemu(self):
-        root = self.get_root()  # of Debian 12, so glibc may be newer than the wheel's
-        programs = self.build_engine_tests("aarch64-linux-gnu.2.36")
-        self.check_engine_tests(["qemu-aarch64", "-L", root], programs)
+        self.check_programs(["qemu-aarch64", "-L", get_arm_root(self.folder)])
 
     def test_python_under_qemu(self):
-        root = self.get_root()
+        root = get_arm_root(self.folder)
         python = next((root / "usr" / "bin").glob("python3.[0-9]*"))
         version = python.name.replace("python", "")
         numpy = self.folder / "numpy"
@@ -380,6 +302,97 @@ class MacosArm(Macos):
 class MacosX86(Macos):
     platform, tag, library = "macos-x86_64", "macosx_13_0_x86_64", "libdelaunayflip.1.dylib"
     machine = "x86_64"
+
+
+class Engine(Cross):
+    """The GoogleTests of the engine, with the oneTBB of the wheel."""
+
+    @staticmethod
+    def copy_cgal():
+        """CGAL's headers without the others of /usr/include, which are this machine's."""
+        headers = WORK / "cgal"
+        if not headers.exists():
+            partial = WORK / "cgal.partial"
+            shutil.rmtree(partial, ignore_errors=True)
+            shutil.copytree("/usr/include/CGAL", partial / "CGAL")
+            # Newer Clangs see that CGAL 5.5 names a member there which does not exist.
+            iterator = partial / "CGAL" / "boost" / "graph" / "iterator.h"
+            text = iterator.read_text(encoding="utf-8")
+            iterator.write_text(text.replace("(! (this->base() == nullptr))", "(g != nullptr)"),
+                                encoding="utf-8")
+            partial.rename(headers)
+        return headers
+
+    def build(self, suffix=""):
+        """The GoogleTest programs of the engine for the platform."""
+        for path in ("/usr/include/CGAL", "/usr/src/googletest"):
+            if not os.path.exists(path):
+                self.skipTest(f"no {path} here (Debian: libcgal-dev googletest)")
+        environment = self.find_zig()[1]
+        folder = WORK / self.platform
+        common = ("-G", "Ninja", f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/CMake/ZigToolchain.cmake",
+                  "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG", "-Wno-dev")
+        googletest = folder / "gtest"
+        if not googletest.exists():
+            run("cmake", "-S", "/usr/src/googletest", "-B", folder / "gtest-build", *common,
+                "-DBUILD_GMOCK=OFF", "-DCMAKE_INSTALL_LIBDIR=lib",
+                f"-DCMAKE_INSTALL_PREFIX={googletest}", env=environment)
+            run("cmake", "--build", folder / "gtest-build", "--target", "install", env=environment)
+        run("cmake", "-S", ROOT, "-B", folder / "tests", *common, "-DDELAUNAYFLIP_BUILD_VTK=OFF",
+            "-DDELAUNAYFLIP_ENABLE_CUDA=OFF", "-DDELAUNAYFLIP_BUILD_TESTING=ON",
+            f"-DTBB_DIR={folder}/tbb/lib/cmake/TBB", f"-DGTest_DIR={googletest}/lib/cmake/GTest",
+            "-DBoost_NO_BOOST_CMAKE=ON", f"-DBoost_INCLUDE_DIR={WORK}/boost",
+            f"-DCGAL_DIR={ROOT}/Testing/Package/cross",
+            f"-DDELAUNAYFLIP_CGAL_HEADERS={self.copy_cgal()}", f"-DPython3_EXECUTABLE={sys.executable}",
+            "-DCMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE=PRE_TEST", env=environment)
+        run("cmake", "--build", folder / "tests", "--target",
+            *[f"DelaunayFlip{name}Tests" for name in ENGINE_TESTS], env=environment)
+        return [folder / "tests" / "bin" / f"DelaunayFlip{name}Tests{suffix}" for name in ENGINE_TESTS]
+
+    def check(self, launcher, programs, environment=None):
+        """Each program in parts, as many as this machine has cores at a time."""
+        parts = 16
+
+        def run_part(program, part):
+            done = subprocess.run(
+                [*map(str, launcher), program, "--gtest_brief=1"], check=False, text=True,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                env={**os.environ, **(environment or {}), "GTEST_TOTAL_SHARDS": str(parts),
+                     "GTEST_SHARD_INDEX": str(part)})
+            passed = re.search(r"\[  PASSED  \] (\d+) test", done.stdout)
+            if done.returncode != 0 or not passed:
+                failures.append(f"{program.name}, part {part}: {done.returncode}\n{done.stdout[-3000:]}")
+            return int(passed.group(1)) if passed else 0
+
+        failures = []
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            counts = [pool.submit(run_part, program, part)
+                      for program in programs for part in range(parts)]
+        passed = sum(count.result() for count in counts)
+        print(f"{passed} tests of the engine passed on {self.platform}", file=sys.stderr)
+        self.assertEqual([], failures)
+        self.assertGreater(passed, 800)
+
+
+class WindowsX86Engine(Engine):
+    platform, tag, library = WindowsX86.platform, WindowsX86.tag, WindowsX86.library
+    target = WindowsX86.target
+
+    def test_under_wine(self):
+        wine = {"WINEPREFIX": str(self.folder / "wine"), "WINEDEBUG": "-all"}
+        need("wine", "wineboot")
+        programs = self.build(".exe")
+        run("wineboot", "--init", env={**os.environ, **wine})
+        self.check(["wine"], programs, wine)
+
+
+class LinuxArmEngine(Engine):
+    platform, tag, library = LinuxArm.platform, LinuxArm.tag, LinuxArm.library
+    target = "aarch64-linux-gnu.2.36"  # as in get_arm_root; CGAL wants a newer one than the wheel
+
+    def test_under_qemu(self):
+        root = get_arm_root(self.folder)
+        self.check(["qemu-aarch64", "-L", root], self.build())
 
 
 if __name__ == "__main__":
