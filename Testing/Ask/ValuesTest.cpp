@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AskTestSupport.h"
 #include "PointSets.h"
-#include "RandomNumbers.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -64,10 +63,11 @@ Places DrawPlacesInBox(const Places& points, std::mt19937& random, std::int64_t 
     low = { std::min(low[0], point[0]), std::min(low[1], point[1]) };
     high = { std::max(high[0], point[0]), std::max(high[1], point[1]) };
   }
+  std::uniform_real_distribution<double> share(-0.01, 1.01);
   Places places;
   for (std::int64_t i = 0; i < count; ++i)
   {
-    const double u = DrawReal(random, -0.01, 1.01), v = DrawReal(random, -0.01, 1.01);
+    const double u = share(random), v = share(random);
     places.push_back({ low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1]) });
   }
   return places;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FlipTestSupport.h"
 #include "MeshAudit.h"
-#include "RandomNumbers.h"
 #include "References.h"
 
 #include <gtest/gtest.h>
@@ -189,7 +188,7 @@ TEST_P(Metamorphic, RenumberedPoints)
   std::mt19937 random(8);
   std::vector<std::int32_t> newIds(this->Input.NumberOfPoints());
   std::iota(newIds.begin(), newIds.end(), 0);
-  Shuffle(newIds.begin(), newIds.end(), random);
+  std::shuffle(newIds.begin(), newIds.end(), random);
   std::vector<std::int32_t> oldIds(newIds.size());
   Mesh changed = this->Input;
   for (std::size_t i = 0; i < newIds.size(); ++i)
@@ -226,7 +225,7 @@ TEST_P(Metamorphic, PermutedTriangles)
   std::mt19937 random(10);
   std::vector<std::int32_t> order(this->Input.NumberOfTriangles());
   std::iota(order.begin(), order.end(), 0);
-  Shuffle(order.begin(), order.end(), random);
+  std::shuffle(order.begin(), order.end(), random);
   Mesh changed = this->Input;
   for (std::size_t i = 0; i < order.size(); ++i)
   {

@@ -4,7 +4,6 @@
 #include "PointSets.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
-#include "RandomNumbers.h"
 #include "ThreadBackend.h"
 
 #include <gtest/gtest.h>
@@ -111,7 +110,7 @@ protected:
     const Places all = MakePlaces(GetParam(), count);
     const std::set<Place> places(all.begin(), all.end());
     Places points(places.begin(), places.end());
-    Shuffle(points.begin(), points.end(), std::mt19937(4));
+    std::shuffle(points.begin(), points.end(), std::mt19937(4));
     return points;
   }
 };
@@ -135,7 +134,7 @@ TEST_P(PointSetsTest, DependOnThePointsAlone)
   EXPECT_EQ(one.Triangles, many.Triangles);
   EXPECT_EQ(one.Report.TotalFlips, many.Report.TotalFlips);
   Places shuffled = points;
-  Shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
+  std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(5));
   EXPECT_EQ(ByPlaces(one.Triangles, points), ByPlaces(Triangulate(shuffled).Triangles, shuffled));
 }
 

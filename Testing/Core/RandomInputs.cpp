@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RandomInputs.h"
-#include "RandomNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,7 +165,7 @@ FourPoints DrawGridAboutOrigin(std::mt19937& random)
     const double r = radius * (i < 2 ? 1.0 : 1.1);
     points[i] = { r * std::cos(angle), r * std::sin(angle), r * std::cos(3.0 * angle) };
   }
-  Shuffle(points.begin(), points.end(), random);
+  std::shuffle(points.begin(), points.end(), random);
   return points;
 }
 
@@ -179,7 +178,7 @@ FourPoints DrawTrapezoidOf(std::mt19937& random, const Draw& draw)
   const Point3 high = { draw(), draw(), draw() };
   FourPoints points = { { low, { -low[0], low[1], low[2] }, high,
     { -high[0], high[1], high[2] } } };
-  Shuffle(points.begin(), points.end(), random);
+  std::shuffle(points.begin(), points.end(), random);
   return points;
 }
 

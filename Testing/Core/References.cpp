@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "References.h"
-#include "RandomNumbers.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -373,7 +372,7 @@ Places DrawLattice(std::size_t count, std::int32_t size, std::mt19937& random)
     points.insert({ x, y });
   }
   Places drawn(points.begin(), points.end());
-  Shuffle(drawn.begin(), drawn.end(), random);
+  std::shuffle(drawn.begin(), drawn.end(), random);
   return drawn;
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
-#include "RandomNumbers.h"
 
 #include <gtest/gtest.h>
 
@@ -160,7 +159,7 @@ TEST(Segments, InAnyOrderOfPoints)
     const Drawing drawing = DrawRandom(random, 40, 12, 8);
     std::vector<std::int64_t> order(drawing.Points.size());
     std::iota(order.begin(), order.end(), 0);
-    Shuffle(order.begin(), order.end(), random);
+    std::shuffle(order.begin(), order.end(), random);
     Drawing shuffled;
     shuffled.Points.resize(order.size());
     for (std::size_t k = 0; k < order.size(); ++k)
@@ -482,7 +481,7 @@ TEST(Outline, SegmentsOfARingMayRunInAnyDirection)
           std::swap(drawing.Segments[k][0], drawing.Segments[k][1]);
         }
       }
-      Shuffle(drawing.Segments.begin() + 1, drawing.Segments.end(), random);
+      std::shuffle(drawing.Segments.begin() + 1, drawing.Segments.end(), random);
       const Triangulation result = Triangulate(drawing, With(&PointOptions::RingRule, rule));
       EXPECT_EQ(152.0, SumArea(drawing.Points, result.Triangles)) << "case " << i;
       EXPECT_EQ(5, result.Report.FromPoints.SegmentEdges);

@@ -3,7 +3,6 @@
 #include "PointSets.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
-#include "RandomNumbers.h"
 
 #include <gtest/gtest.h>
 
@@ -173,8 +172,9 @@ Drawing MakeCoast(int corners)
   std::vector<double> radii(corners, 1.0);
   for (int wave = 1; wave < 40; ++wave)
   {
-    const double height = DrawReal(random, -0.3, 0.3) * std::pow(wave, -1.3);
-    const double phase = DrawReal(random, 0.0, 6.28);
+    const double height =
+      std::uniform_real_distribution<>(-0.3, 0.3)(random) * std::pow(wave, -1.3);
+    const double phase = std::uniform_real_distribution<>(0.0, 6.28)(random);
     for (int i = 0; i < corners; ++i)
     {
       radii[i] += height * std::cos(wave * (i * 2 * M_PI / corners) + phase);
@@ -266,8 +266,8 @@ TEST(Refine, FansOfSegmentsEnd)
   double angle = 0.0;
   for (std::int64_t i = 1; i < 20; ++i)
   {
-    angle += DrawReal(random, 0.02, 0.6);
-    const double length = DrawReal(random, 1.0, 3.0);
+    angle += std::uniform_real_distribution<>(0.02, 0.6)(random);
+    const double length = std::uniform_real_distribution<>(1.0, 3.0)(random);
     fan.Points.push_back({ length * std::cos(angle), length * std::sin(angle) });
     fan.Segments.push_back({ 0, i });
     fan.Rings.push_back(-1);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointSets.h"
-#include "RandomNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -202,7 +201,7 @@ std::vector<Place> MakePlaces(const PointSet& set, std::int64_t count)
   {
     places.push_back(set.Make(random, static_cast<double>(i), static_cast<double>(count)));
   }
-  Shuffle(places.begin(), places.end(), random);
+  std::shuffle(places.begin(), places.end(), random);
   return places;
 }
 
