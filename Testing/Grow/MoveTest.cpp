@@ -498,7 +498,7 @@ std::int64_t MeasureMemory()
   return resident;
 }
 
-/// Emulated by QEMU, whose memory for translated code counts, too.
+/// Emulated by QEMU. Its memory for translated code counts, too.
 bool IsEmulated()
 {
   std::ifstream file("/proc/self/comm");

@@ -99,7 +99,7 @@ class Engine(Consumer):
 
     def test_engine(self):
         self.write("CMakeLists.txt", HEAD + f"""
-find_package(DelaunayFlip 0.1 REQUIRED COMPONENTS Engine)
+find_package(DelaunayFlip {VERSION} REQUIRED COMPONENTS Engine)
 add_executable(consumer "{EXAMPLE}")
 target_link_libraries(consumer PRIVATE DelaunayFlip::Engine)
 if(TARGET DelaunayFlip::Filters)
