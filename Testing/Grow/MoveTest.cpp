@@ -498,7 +498,7 @@ std::int64_t MeasureMemory()
   return resident;
 }
 
-/// Emulated by QEMU. Its memory for translated code counts, too.
+/// Whether QEMU runs this program. Then the memory for translated code counts, too.
 bool IsEmulated()
 {
   std::ifstream file("/proc/self/comm");
