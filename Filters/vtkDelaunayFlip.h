@@ -58,6 +58,10 @@
  * (FeatureAngle), constraint edges, borders between regions (RegionArray) and the edges of ghost
  * cells (vtkGhostType: duplicate, refined or hidden).
  *
+ * An update does not depend on earlier ones. Where the points of a mesh move from update to update,
+ * or from one time step to the next, each update begins with the triangles of the input. Only with
+ * LiveUpdate it continues from the flipped triangles.
+ *
  * Comparison with vtkDelaunay2D: that filter builds a new triangulation from points, as
  * vtkDelaunayFlipPoints does. This one improves an existing mesh, planar in any orientation or a
  * surface in space, and keeps its holes, borders and constraints. In the plane it is exact: by

@@ -158,8 +158,10 @@ public:
    * values in place, mark their array or its owner as modified, not only the dataset. If only the
    * points of a mesh were moved, under the same cells, the next update continues from the flipped
    * triangles, with the edges that were fixed at the beginning (a warm start); its statistics start
-   * again. Composite input, and a piece of several, is flipped at once, with a warning. So is any
-   * input in ParaView's pvbatch, without a warning.
+   * again. In the plane with the canonical tie rule its triangles are those of an update without
+   * LiveUpdate if no edge is left blocked, but they may be in other cells. Composite input, and a
+   * piece of several, is flipped at once, with a warning. So is any input in ParaView's pvbatch,
+   * without a warning.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// vtkDelaunayFlipPoints with points that move between updates.
+/// Points that move between updates, of vtkDelaunayFlipPoints and of meshes.
 
 #include "FilterTestSupport.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDelaunayFlipPoints.h"
 #include "vtkFloatArray.h"
@@ -116,12 +117,14 @@ double Update(PointsFilter& filter, const std::function<void(PointsFilter&)>& se
   return GetTotal(actual, "MoveRounds");
 }
 
-/// Points for three time steps.
+/// Points or a mesh for three time steps. Each time they are other objects.
 class MovingSource : public vtkPolyDataAlgorithm
 {
 public:
   static MovingSource* New() { VTK_STANDARD_NEW_BODY(MovingSource); }
   vtkTypeMacro(MovingSource, vtkPolyDataAlgorithm);
+
+  std::function<Mesh()> Make = [] { return MakeCloud(); };
 
 protected:
   MovingSource() { this->SetNumberOfInputPorts(0); }
@@ -145,12 +148,61 @@ protected:
     {
       time = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP());
     }
-    const Mesh cloud = MakeCloud();
-    Shake(cloud, 0.003 * time);
-    vtkPolyData::GetData(output)->ShallowCopy(cloud);
+    const Mesh made = this->Make();
+    Shake(made, 0.003 * time);
+    vtkPolyData::GetData(output)->ShallowCopy(made);
     return 1;
   }
 };
+
+/// A mesh with numbered cells.
+Mesh NumberCells(const Mesh& mesh)
+{
+  AddNumbers(mesh->GetCellData(), "n", mesh->GetNumberOfCells(), 0);
+  return mesh;
+}
+
+using SetOptions = std::function<void(vtkDelaunayFlip*)>;
+
+/// That the output of a filter is that of a new one, with all that is told, but for seconds.
+void ExpectOutputOfANewFilter(WatchedFilter& filter, const SetOptions& set)
+{
+  vtkPolyData* actual = filter->GetOutput();
+  WatchedFilter fresh(filter->GetInput());
+  set(fresh.Get());
+  vtkPolyData* expected = fresh.Run(); // some triangles turn over, which is a warning
+  EXPECT_EQ(expected->GetPoints(), actual->GetPoints());
+  ExpectSame(
+    expected->GetPolys()->GetConnectivityArray(), actual->GetPolys()->GetConnectivityArray());
+  EXPECT_EQ(GetNumbers(expected->GetCellData(), "n"), GetNumbers(actual->GetCellData(), "n"));
+  vtkFieldData* fields = expected->GetFieldData();
+  for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
+  {
+    const std::string name = fields->GetArrayName(i);
+    if (name != "DelaunayFlip:Seconds")
+    {
+      ExpectSame(
+        fields->GetAbstractArray(i), actual->GetFieldData()->GetAbstractArray(name.c_str()));
+    }
+  }
+}
+
+/// Two kinds of meshes, with the options for each.
+struct MovingMesh
+{
+  std::function<Mesh()> Make;
+  SetOptions Set;
+};
+
+std::vector<MovingMesh> ListMovingMeshes()
+{
+  const auto plane = [] { return NumberCells(MakeBadPlane()); };
+  const auto surface = [] { return NumberCells(MakeBadSphere()); };
+  const SetOptions none = [](vtkDelaunayFlip*) {};
+  const SetOptions canonical = [](vtkDelaunayFlip* each) { each->SetTieRuleToCanonical(); };
+  const SetOptions sharp = [](vtkDelaunayFlip* each) { each->SetFeatureAngle(12.0); };
+  return { { plane, none }, { plane, canonical }, { surface, none }, { surface, sharp } };
+}
 
 }
 
@@ -356,4 +408,49 @@ TEST(MovingPoints, InLiveUpdates)
     EXPECT_TRUE(filter->GetConverged());
     EXPECT_FALSE(filter->GetNeedsUpdate());
   }
+}
+
+/// Whatever the updates before have left.
+TEST(MovingMeshes, GiveTheOutputOfANewFilter)
+{
+  for (const MovingMesh& moving : ListMovingMeshes())
+  {
+    const Mesh mesh = moving.Make();
+    WatchedFilter filter(mesh);
+    moving.Set(filter.Get());
+    vtkNew<MovingSource> source;
+    source->Make = moving.Make;
+    WatchedFilter inTime;
+    inTime->SetInputConnection(source->GetOutputPort());
+    moving.Set(inTime.Get());
+    for (const double time : { 0.0, 2.0, 1.0, 0.0 })
+    {
+      filter.Run();
+      ExpectOutputOfANewFilter(filter, moving.Set);
+      EXPECT_GT(filter->GetTotalFlips(), 0);
+      Shake(mesh, 0.003);
+      inTime->UpdateTimeStep(time);
+      ExpectOutputOfANewFilter(inTime, moving.Set);
+    }
+  }
+}
+
+/// In the plane the triangles are those of a new filter, too, but in other cells.
+TEST(MovingMeshes, GetTheSameTrianglesInLiveUpdates)
+{
+  const Mesh mesh = NumberCells(MakeBadPlane());
+  LiveFilter filter(mesh);
+  WatchedFilter atOnce(mesh);
+  filter->SetTieRuleToCanonical();
+  atOnce->SetTieRuleToCanonical();
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter.GetPolygons(), GetCells(atOnce.Run()->GetPolys()));
+  for (int frame = 0; frame < 4; ++frame)
+  {
+    Shear(mesh, 0.02);
+    filter.RunToTheEnd();
+    EXPECT_EQ(GetTriangles(filter->GetOutput()), GetTriangles(atOnce.Run()));
+    EXPECT_LT(3 * filter->GetTotalFlips(), atOnce->GetTotalFlips());
+  }
+  EXPECT_NE(filter.GetPolygons(), atOnce.GetPolygons());
 }
