@@ -104,6 +104,10 @@ public:
 
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
+  const FlipSession* GetSession() const override
+  {
+    return this->Asked.IsRefined() ? nullptr : this->Session.get();
+  }
 
   /// Whether the request is for the same triangles.
   bool Fits(const TriangulationRequest& request) const;

@@ -57,6 +57,8 @@ struct TriangulationRequest : UpdateRequest
   /// follows them to their places, and the run goes on with it.
   bool ContinueOrStart(std::unique_ptr<UpdateRun>& run) const override;
 
+  bool IsRefined() const;
+
   /// Whether the points alone decide about the triangles. Only then KeepsRun is allowed.
   bool IsPlain() const;
 

@@ -221,15 +221,20 @@ TriangulationRequest vtkDelaunayFlipPoints::MakeRequest(vtkPointSet* input)
   return request;
 }
 
+bool TriangulationRequest::IsRefined() const
+{
+  const PointOptions& options = this->Options;
+  return options.MinimumAngle + options.MaximumArea + options.MaximumEdge > 0.0 ||
+    !this->SizeArray.empty() || !this->Regions.empty();
+}
+
 bool TriangulationRequest::IsPlain() const
 {
   const PointOptions& options = this->Options;
   const bool hasSegments = this->Others || this->Input->GetNumberOfLines() > 0;
-  const bool isRefined = options.MinimumAngle + options.MaximumArea + options.MaximumEdge > 0.0 ||
-    !this->SizeArray.empty() || !this->Regions.empty();
   const bool leavesOut =
     options.PointTolerance > 0.0 || options.Alpha > 0.0 || options.LongestEdge > 0.0;
-  return !hasSegments && !isRefined && !leavesOut && options.MaximumIterations < 0 &&
+  return !hasSegments && !this->IsRefined() && !leavesOut && options.MaximumIterations < 0 &&
     options.Projection == ProjectionKind::Plane;
 }
 

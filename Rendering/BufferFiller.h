@@ -7,7 +7,7 @@
 
 #include <memory>
 
-class vtkDelaunayFlip;
+class vtkDelaunayFlipAlgorithm;
 
 namespace delaunayflip
 {
@@ -44,11 +44,12 @@ public:
 /// Makes a filler of a buffer of the current context, by OpenGL's name of it, for sessions of a
 /// filter. The buffer's memory must stay as it is as long as the filler exists.
 /// @throws std::exception that says why it cannot fill it.
-using FillerMaker = std::unique_ptr<BufferFiller> (*)(vtkDelaunayFlip* filter, unsigned int buffer);
+using FillerMaker = std::unique_ptr<BufferFiller> (*)(
+  vtkDelaunayFlipAlgorithm* filter, unsigned int buffer);
 
 /// Makes a filler that uses CUDA, for sessions on the GPU that draws.
 VTKDELAUNAYFLIPRENDERING_EXPORT std::unique_ptr<BufferFiller> MakeCudaFiller(
-  vtkDelaunayFlip* filter, unsigned int buffer);
+  vtkDelaunayFlipAlgorithm* filter, unsigned int buffer);
 
 /// Mappers use this where they need not fill from the host. It is MakeCudaFiller, or what a test
 /// has put in its place.

@@ -4,7 +4,7 @@
 
 #include "DelaunayFlip.h"
 
-#include "vtkDelaunayFlip.h"
+#include "vtkDelaunayFlipAlgorithm.h"
 
 #ifdef DELAUNAYFLIP_HAS_CUDA
 #include <cuda_runtime_api.h>
@@ -144,7 +144,7 @@ private:
 FillerMaker DeviceFillerMaker = &MakeCudaFiller;
 
 #ifdef DELAUNAYFLIP_HAS_CUDA
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, unsigned int buffer)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlipAlgorithm* filter, unsigned int buffer)
 {
   if (!IsOnGpu(filter->GetBackendUsed()))
   {
@@ -167,7 +167,7 @@ std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip* filter, unsigned i
   return std::make_unique<CudaFiller>(device, buffer);
 }
 #else
-std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlip*, unsigned int)
+std::unique_ptr<BufferFiller> MakeCudaFiller(vtkDelaunayFlipAlgorithm*, unsigned int)
 {
   throw std::runtime_error("this build has no CUDA backend");
 }

@@ -13,9 +13,11 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipMapper.h"
+#include "vtkDelaunayFlipPoints.h"
 #include "vtkExecutive.h"
 #include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
@@ -111,6 +113,13 @@ bool WriteFrame(vtkRenderWindow* window, const std::string& fileName)
   return file.good();
 }
 
+/// The points that a filter triangulates. Null if its input is a mesh.
+vtkPointSet* FindPoints(vtkDelaunayFlipAlgorithm* filter)
+{
+  const bool makesTriangles = vtkDelaunayFlipPoints::SafeDownCast(filter) != nullptr;
+  return makesTriangles ? vtkPointSet::SafeDownCast(filter->GetInputDataObject(0, 0)) : nullptr;
+}
+
 /// Sets a flag until the end of a scope, also if an observer ends it by an exception.
 auto Raise(bool& flag)
 {
@@ -153,7 +162,7 @@ vtkDelaunayFlipLiveView::vtkDelaunayFlipLiveView()
 
 vtkDelaunayFlipLiveView::~vtkDelaunayFlipLiveView() { this->Detach(); }
 
-void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlip* filter)
+void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlipAlgorithm* filter)
 {
   if (this->Filter != filter)
   {
@@ -163,7 +172,7 @@ void vtkDelaunayFlipLiveView::SetFilter(vtkDelaunayFlip* filter)
   }
 }
 
-vtkDelaunayFlip* vtkDelaunayFlipLiveView::GetFilter() const { return this->Filter; }
+vtkDelaunayFlipAlgorithm* vtkDelaunayFlipLiveView::GetFilter() const { return this->Filter; }
 
 void vtkDelaunayFlipLiveView::SetInteractor(vtkRenderWindowInteractor* interactor)
 {
@@ -200,14 +209,17 @@ void vtkDelaunayFlipLiveView::Start()
     return;
   }
   const vtkSmartPointer<vtkDelaunayFlipLiveView> self(this); // An observer may drop it.
-  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+  const vtkSmartPointer<vtkDelaunayFlipAlgorithm> filter = this->Filter;
   auto busy = Raise(this->IsBusy);
   this->Detach();
   this->Attach();
   vtkAlgorithmOutput* source = filter->GetInputConnection(0, 0);
   source->GetProducer()->Update(source->GetIndex());
   filter->SetLiveUpdate(!vtkCompositeDataSet::SafeDownCast(filter->GetInputDataObject(0, 0)));
-  filter->GenerateFlipCountOn();
+  if (auto* flip = vtkDelaunayFlip::SafeDownCast(filter))
+  {
+    flip->GenerateFlipCountOn();
+  }
   filter->Restart();
   busy.reset();
   if (!this->Window)
@@ -216,7 +228,14 @@ void vtkDelaunayFlipLiveView::Start()
   }
   this->HasFailed = false;
   this->Mapper->SetFilter(nullptr);
-  this->ShowMesh(filter->GetInputDataObject(0, 0));
+  if (FindPoints(filter))
+  {
+    this->ShowMesh(vtkNew<vtkPolyData>()); // whatever cells these points have
+  }
+  else
+  {
+    this->ShowMesh(filter->GetInputDataObject(0, 0));
+  }
   this->LookAtMesh();
   this->ShowFrame(0);
 }
@@ -325,7 +344,7 @@ void vtkDelaunayFlipLiveView::Restart()
 /// update that is caused only by a change of the input or of an option is a step too.
 bool vtkDelaunayFlipLiveView::TakeStep()
 {
-  const vtkSmartPointer<vtkDelaunayFlip> filter = this->Filter;
+  const vtkSmartPointer<vtkDelaunayFlipAlgorithm> filter = this->Filter;
   const vtkMTimeType before = filter->GetOutputDataObject(0)->GetUpdateTime();
   auto busy = Raise(this->IsBusy);
   this->Mapper->SetZeroCopy(this->ZeroCopy);
@@ -489,14 +508,19 @@ bool vtkDelaunayFlipLiveView::OnKey(vtkObject*, unsigned long event, void*)
 //------------------------------------------------------------------------------
 // What is drawn: a mesh, its colour scale, and texts.
 
-/// Looks along the axis in which the mesh is flat, else along z.
+/// Looks along the axis in which the mesh, or the points of one, are flat, else along z.
 void vtkDelaunayFlipLiveView::LookAtMesh()
 {
-  if (this->Renderer->IsActiveCameraCreated() || this->Mapper->GetNumberOfTriangles() == 0)
+  vtkBoundingBox box(this->Mapper->GetBounds());
+  if (vtkPointSet* points = FindPoints(this->Filter))
+  {
+    box.SetBounds(points->GetBounds());
+  }
+  const bool isUsable = box.IsValid() && std::isfinite(box.GetDiagonalLength());
+  if (this->Renderer->IsActiveCameraCreated() || !isUsable)
   {
     return;
   }
-  const vtkBoundingBox box(this->Mapper->GetBounds());
   int axis = 2;
   for (const int flat : { 0, 1, 2 })
   {
@@ -511,7 +535,15 @@ void vtkDelaunayFlipLiveView::LookAtMesh()
   vtkCamera* camera = this->Renderer->GetActiveCamera();
   camera->SetPosition(positions[axis]);
   camera->SetViewUp(ups[axis]);
-  this->Renderer->ResetCamera();
+  double bounds[6];
+  this->Renderer->ComputeVisiblePropBounds(bounds);
+  const vtkBoundingBox others(bounds);
+  if (others.IsValid())
+  {
+    box.AddBox(others);
+  }
+  box.GetBounds(bounds);
+  this->Renderer->ResetCamera(bounds);
 }
 
 /// Shows a mesh, or all blocks of a composite one.
@@ -604,8 +636,16 @@ std::string vtkDelaunayFlipLiveView::DescribeStatus(bool isRunning)
   else if (this->FrameNumber == 0)
   {
     const std::string state = isRunning ? "running" : "paused";
-    text = "input, " + state + "\n" + Count(this->Mapper->GetNumberOfTriangles(), "triangle") +
-      DescribeAngle(this->Mapper->GetSmallestAngle());
+    text = "input, " + state + "\n";
+    if (vtkPointSet* points = FindPoints(this->Filter))
+    {
+      text += Count(points->GetNumberOfPoints(), "point");
+    }
+    else
+    {
+      text += Count(this->Mapper->GetNumberOfTriangles(), "triangle") +
+        DescribeAngle(this->Mapper->GetSmallestAngle());
+    }
   }
   else
   {
@@ -636,12 +676,16 @@ std::string vtkDelaunayFlipLiveView::DescribeStep(bool isRunning) const
   {
     state = this->Filter->GetStopReasonAsString();
   }
+  const FlipReport& report = this->Filter->GetReport();
   std::string mesh = "all blocks in one step";
-  if (vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)))
+  if (report.FromPoints.MoveRounds > 0)
+  {
+    mesh = "moved in " + Count(report.FromPoints.MoveRounds, "round");
+  }
+  else if (vtkPolyData::SafeDownCast(this->Filter->GetOutputDataObject(0)))
   {
     mesh = "iteration " + Count(this->Filter->GetNumberOfIterations());
   }
-  const FlipReport& report = this->Filter->GetReport();
   const std::string angle =
     report.Triangles > 0 ? DescribeAngle(report.MinimumAngleAfter) : std::string();
   return mesh + ", " + state + "\n" + Count(this->Filter->GetTotalFlips(), "flip") + ", " +

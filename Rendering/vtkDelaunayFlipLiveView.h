@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDelaunayFlipLiveView
- * @brief   watch vtkDelaunayFlip at work in a window
+ * @brief   watch vtkDelaunayFlip or vtkDelaunayFlipPoints at work in a window
  *
- * vtkDelaunayFlipLiveView drives a vtkDelaunayFlip from the timer of an interactor. It draws the
+ * vtkDelaunayFlipLiveView drives a filter from the timer of an interactor. It draws the
  * input, then the mesh after every step of IterationsPerUpdate iterations, until no edge is left to
  * flip. It shows statistics: the iteration, the flips so far, the bad edges left, the smallest
  * angle, and whether the run continues.
@@ -26,7 +26,10 @@
  * mesh along the axis in which it has no extent. Colours, edges and texts that are chosen appear in
  * the next frame or with Render().
  *
- * The filter: Start() restarts it and turns on LiveUpdate and GenerateFlipCount, which stay on. Do
+ * The filter: Start() restarts it and turns on LiveUpdate and, if it has that, GenerateFlipCount;
+ * both stay on. The input of a vtkDelaunayFlipPoints has no triangles, so the first frame shows
+ * how many points there are. If points move, Step() shows them where they are; with its KeepSession
+ * on, the triangulation follows them. Do
  * not update the filter elsewhere in the meantime: an update between two steps, for example by
  * another view, is a step that is not shown. Composite input cannot be flipped live; LiveUpdate is
  * turned off for it, and its first step is the last. A change of the input, also after the end, is
@@ -52,7 +55,7 @@
  * any order.
  *
  * @sa
- * vtkDelaunayFlip vtkDelaunayFlipMapper
+ * vtkDelaunayFlip vtkDelaunayFlipPoints vtkDelaunayFlipMapper
  */
 #ifndef vtkDelaunayFlipLiveView_h
 #define vtkDelaunayFlipLiveView_h
@@ -68,7 +71,7 @@
 
 class vtkActor;
 class vtkDataObject;
-class vtkDelaunayFlip;
+class vtkDelaunayFlipAlgorithm;
 class vtkDelaunayFlipMapper;
 class vtkRenderer;
 class vtkRenderWindow;
@@ -85,11 +88,11 @@ public:
 
   ///@{
   /**
-   * The filter to watch; required. Setting another one ends the run; Start() or Run() begins with
-   * it.
+   * The filter to watch, a vtkDelaunayFlip or a vtkDelaunayFlipPoints; required. Setting another
+   * one ends the run; Start() or Run() begins with it.
    */
-  void SetFilter(vtkDelaunayFlip* filter);
-  vtkDelaunayFlip* GetFilter() const;
+  void SetFilter(vtkDelaunayFlipAlgorithm* filter);
+  vtkDelaunayFlipAlgorithm* GetFilter() const;
   ///@}
 
   ///@{
@@ -139,9 +142,10 @@ public:
   /**
    * Which texts are drawn:
    * - ShowStatistics (default on): three lines in the upper left corner: the iteration and whether
-   *   the run continues; the flips so far and the bad edges left, or the number of triangles of the
-   *   input; the smallest angle in degrees, in space or, after a step with PLANAR_XY, in the
-   *   projection. A failure is always shown, instead of them.
+   *   the run continues, or how many rounds points have taken to other places; the flips so far and
+   *   the bad edges left, or the number of triangles or points of the input; the smallest angle in
+   * degrees, in space or, after a step with PLANAR_XY, in the projection. A failure is always
+   * shown, instead of them.
    * - ShowDrawing (default off): GetDrawing(), as their last line.
    * - ShowKeys (default on): what the keys do, at the bottom; never in an off-screen window.
    */
@@ -267,7 +271,7 @@ private:
   void ShowOrHideEdges();
   bool OnKey(vtkObject* caller, unsigned long event, void* data);
 
-  vtkSmartPointer<vtkDelaunayFlip> Filter;
+  vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   vtkWeakPointer<vtkRenderWindow> Window; ///< Null before Start().
   vtkWeakPointer<vtkRenderer> Renderer;

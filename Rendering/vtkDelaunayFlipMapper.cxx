@@ -15,7 +15,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkColorTransferFunction.h"
-#include "vtkDelaunayFlip.h"
+#include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
@@ -127,7 +127,7 @@ struct ShaderBuffer
 /// The mesh as it is on the host, and what OpenGL has of it.
 struct vtkDelaunayFlipMapper::Parts
 {
-  vtkSmartPointer<vtkDelaunayFlip> Filter;
+  vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
   std::pair<vtkPolyData*, vtkMTimeType> Input; ///< The input and its time, only to be compared.
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< The input's faces.
   vtkNew<vtkTypeInt32Array> Ids; ///< The corners of the triangles that the host has last had.
@@ -395,7 +395,7 @@ vtkDelaunayFlipMapper::vtkDelaunayFlipMapper()
 
 vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper() { this->Own->Release(this->Own->Window); }
 
-void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
+void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlipAlgorithm* filter)
 {
   this->Own->Filter = filter;
   this->Own->IsNew = true;
@@ -403,7 +403,7 @@ void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlip* filter)
   this->Modified();
 }
 
-vtkDelaunayFlip* vtkDelaunayFlipMapper::GetFilter() const { return this->Own->Filter; }
+vtkDelaunayFlipAlgorithm* vtkDelaunayFlipMapper::GetFilter() const { return this->Own->Filter; }
 
 bool vtkDelaunayFlipMapper::CanDraw(vtkPolyData* mesh)
 {

@@ -11,11 +11,11 @@
  *     mapper->SetInputConnection(flip->GetOutputPort());
  *     actor->SetMapper(mapper);
  *
- * With SetFilter() it draws the live run of a vtkDelaunayFlip: the points of the input with the
- * triangles that the run has now. The steps of the run need not be put out. If the filter works on
- * a GPU by CUDA and OpenGL draws on the same one, CUDA writes them into the buffer. Otherwise they
- * are written from the memory of the host. Both give the same picture. vtkDelaunayFlipLiveView
- * draws with this mapper.
+ * With SetFilter() it draws the live run of a vtkDelaunayFlip or vtkDelaunayFlipPoints: the points
+ * of the input with the triangles that the run has now. The steps of the run need not be put out.
+ * If the filter works on a GPU by CUDA and OpenGL draws on the same one, CUDA writes them into the
+ * buffer. Otherwise they are written from the memory of the host. Both give the same picture.
+ * vtkDelaunayFlipLiveView draws with this mapper.
  *
  * It uses these of the actor's property: ambient and diffuse coefficient, lighting, edge
  * visibility, edge colour and line width, and the colour if ColorBy is SOLID. Edges fade where
@@ -41,7 +41,7 @@
 #include <memory> // For std::unique_ptr
 #include <string> // For std::string
 
-class vtkDelaunayFlip;
+class vtkDelaunayFlipAlgorithm;
 class vtkMatrix4x4;
 class vtkOpenGLRenderWindow;
 class vtkProperty;
@@ -77,8 +77,8 @@ public:
    * input must be the output of the filter's last update, or a copy of it. If the run has no
    * session, or the output has other cells than triangles, the input is drawn.
    */
-  void SetFilter(vtkDelaunayFlip* filter);
-  vtkDelaunayFlip* GetFilter() const;
+  void SetFilter(vtkDelaunayFlipAlgorithm* filter);
+  vtkDelaunayFlipAlgorithm* GetFilter() const;
   ///@}
 
   ///@{

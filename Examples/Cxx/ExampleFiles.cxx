@@ -205,7 +205,7 @@ int ExampleFiles::WriteFrames(vtkDelaunayFlipLiveView* view, vtkRenderWindow* wi
   while (view->Step())
   {
   }
-  vtkDelaunayFlip* flip = view->GetFilter();
+  vtkDelaunayFlipAlgorithm* flip = view->GetFilter();
   if (!view->GetConverged())
   {
     const bool isWrong = flip->GetFailure() == vtkDelaunayFlip::FAILURE_OPTIONS;

@@ -7,6 +7,7 @@
 #include "TestWindow.h"
 
 #include "vtkCamera.h"
+#include "vtkDelaunayFlipPoints.h"
 #include "vtkGenericRenderWindowInteractor.h"
 #include "vtkImageData.h"
 #include "vtkPNGReader.h"
@@ -178,6 +179,38 @@ TEST(LiveView, MovedPointsContinueAfterTheEnd)
   view.StepToTheEnd();
   EXPECT_GT(view->GetFrameNumber(), steps);
   EXPECT_EQ(CountViolations(view.Filter->GetOutput()), 0);
+}
+
+/// The first frame has no triangles, but looks at the place of the others.
+TEST(LiveView, ShowsHowPointsGetTriangles)
+{
+  auto mesh = MakeBadPlane();
+  vtkNew<vtkDelaunayFlipPoints> points;
+  points->SetInputData(mesh);
+  WatchedView view;
+  view->SetFilter(points);
+  view->Start();
+  EXPECT_EQ(view.GetStatus(), "input, running\n400 points");
+  EXPECT_EQ(view.GetMapper()->GetNumberOfTriangles(), 0);
+  view->Step();
+  EXPECT_EQ(view.GetStatus().find("iteration 1, running"), 0u);
+  view.StepToTheEnd();
+  EXPECT_TRUE(view->GetConverged());
+  EXPECT_EQ(view->GetFrameNumber(), points->GetNumberOfIterations());
+  EXPECT_TRUE(view.Errors.empty());
+
+  vtkNew<vtkDelaunayFlipPoints> atOnce;
+  atOnce->SetInputData(mesh);
+  atOnce->Update();
+  EXPECT_EQ(GetTriangles(points->GetOutput()), GetTriangles(atOnce->GetOutput()));
+  WatchedView still(atOnce->GetOutput());
+  for (WatchedView* each : { &view, &still })
+  {
+    (*each)->ShowStatisticsOff();
+    (*each)->Render();
+  }
+  still->Start();
+  EXPECT_EQ(Compare(still.GetPicture(), view.GetPicture()), 0.0);
 }
 
 TEST(LiveView, CompositeInputTakesOneStep)

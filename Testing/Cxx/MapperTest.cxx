@@ -15,6 +15,7 @@
 #include "vtkCellData.h"
 #include "vtkCellPicker.h"
 #include "vtkColorTransferFunction.h"
+#include "vtkDelaunayFlipPoints.h"
 #include "vtkDoubleArray.h"
 #include "vtkHardwareSelector.h"
 #include "vtkIdTypeArray.h"
@@ -484,6 +485,38 @@ TEST(ZeroCopy, MovedPointsAreDrawnInTheSameBuffers)
     EXPECT_EQ(filler.Fillers, 1);
     EXPECT_EQ(views.Sharing->GetFrameNumber(), 4);
   }
+}
+
+TEST(ZeroCopy, PointsThatMoveAreDrawnInTheSameBuffers)
+{
+  const TestFiller& filler = TestFiller::Install();
+  auto mesh = MakeBadPlane();
+  ViewPair views(mesh);
+  vtkNew<vtkDelaunayFlipPoints> copying, sharing;
+  for (vtkDelaunayFlipPoints* each : { copying.Get(), sharing.Get() })
+  {
+    SetTestBackend(each);
+    each->SetInputData(mesh);
+    each->SetKeepSessionToOn();
+  }
+  views.Copying->SetFilter(copying);
+  views.Sharing->SetFilter(sharing);
+  while (views.Step())
+  {
+    EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
+  }
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    Shear(mesh, 0.003);
+    EXPECT_FALSE(views.Step()); // which the triangulation makes at once
+    EXPECT_EQ(views.Sharing.GetStatus().find("moved in "), 0u);
+    EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
+    std::vector<std::int32_t> ids(3 * sharing->GetReport().Triangles);
+    sharing->GetSession()->StoreTriangles(
+      MutableTriangleArray(ids.data(), sharing->GetReport().Triangles));
+    EXPECT_EQ(filler.GetTriangles(), ids);
+  }
+  EXPECT_EQ(filler.Fillers, 1);
 }
 
 TEST(ZeroCopy, AnotherMeshOfTheSameSizeTakesTheSameBuffers)

@@ -85,7 +85,8 @@ private:
   std::unique_ptr<BufferFiller> Own;
 };
 
-std::unique_ptr<BufferFiller> MakeWatchedFiller(vtkDelaunayFlip* filter, unsigned int buffer)
+std::unique_ptr<BufferFiller> MakeWatchedFiller(
+  vtkDelaunayFlipAlgorithm* filter, unsigned int buffer)
 {
   if (!Plan.Obstacle.empty())
   {

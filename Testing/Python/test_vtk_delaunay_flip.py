@@ -419,6 +419,8 @@ view = delaunayflip.vtkDelaunayFlipLiveView()
 assert view is not delaunayflip.vtkDelaunayFlipLiveView()
 view.SetFilter(delaunayflip.vtkDelaunayFlip())
 assert view.GetFilter().GetClassName() == "vtkDelaunayFlip"
+view.SetFilter(delaunayflip.vtkDelaunayFlipPoints())
+assert view.GetFilter().GetClassName() == "vtkDelaunayFlipPoints"
 assert view.GetColorBy() == view.COLOR_BY_SMALLEST_ANGLE
 """)
 
