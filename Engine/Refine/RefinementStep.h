@@ -110,15 +110,16 @@ struct RefinementStep
     item.Found.Triangle = TriangleOf(corner);
     item.Found.OnEdges = 1 << SlotOf(corner);
     item.Place = this->View.FindSplit(segment);
+    const bool isShort = this->IsShort(item);
     const bool isBetween =
       IsFinite(item.Place) && this->View.IsEncroached(this->View.GetSide(segment), item.Place);
-    const bool fits = isBetween && (this->FitsBoth(item) || this->MoveBeside(item));
+    const bool fits = isBetween && (this->FitsBoth(item) || (!isShort && this->MoveBeside(item)));
     item.SquaredRadius = TriangleShape::GetSquaredDistance(
       item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
     if (!fits)
     {
       item.State = ItemState::Dropped;
-      this->View.Marks[segment] = CannotSplit;
+      this->View.Marks[segment] = isShort ? CannotSplit : DoesNotFit;
       return;
     }
     this->Claim(i);
@@ -285,11 +286,22 @@ private:
     return sum > 0.0;
   }
 
+  /// Whether a subsegment has only a few roundings. Such a one bounds no good triangles.
+  DELAUNAYFLIP_HOST_DEVICE bool IsShort(const RefinementItem& item) const
+  {
+    constexpr double Short = 1024.0; // in roundings
+    const double least = Short * this->View.GetRounding(item.Place);
+    const HalfEdgeId side = this->View.GetSide(item.Source);
+    const double squared =
+      TriangleShape::GetSquaredDistance(this->View.Mesh.GetPoint(this->View.Mesh.GetStart(side)),
+        this->View.Mesh.GetPoint(this->View.Mesh.GetEnd(side)));
+    return squared < least * least;
+  }
+
   /// Moves a place on a segment by a rounding, or by up to an eighth of the segment along it, so
   /// that it turns no triangle over. @returns whether there is such a place.
   DELAUNAYFLIP_HOST_DEVICE bool MoveBeside(RefinementItem& item) const
   {
-    constexpr double Short = 1024.0; // in roundings; such segments bound no good triangles
     constexpr double Shift = 1.0 / 64.0;
     constexpr int Directions = 9, Shifts = 17; // 8 forward and 8 back
     const PlanePoint place = item.Place;
@@ -297,10 +309,8 @@ private:
     const HalfEdgeId side = this->View.GetSide(item.Source);
     const PlanePoint a = this->View.Mesh.GetPoint(this->View.Mesh.GetStart(side));
     const PlanePoint b = this->View.Mesh.GetPoint(this->View.Mesh.GetEnd(side));
-    const double squared = TriangleShape::GetSquaredDistance(a, b);
-    const bool isShort = squared < Short * Short * rounding * rounding;
     bool fits = false;
-    for (int k = 0; k < Shifts * Directions && !isShort && !fits; ++k)
+    for (int k = 0; k < Shifts * Directions && !fits; ++k)
     {
       const int shift = k / Directions, u = k % 3 - 1, v = k % Directions / 3 - 1;
       const double along = Shift * (shift % 2 == 0 ? shift / 2 : -(shift + 1) / 2);

@@ -23,9 +23,12 @@ namespace delaunayflip
 enum SegmentMark : std::uint8_t
 {
   SplitRequested = 1, ///< A vertex or a place is in its diametral circle, or a place beyond it.
-  CannotSplit = 2, ///< It must not be split, or is too short.
+  CannotSplit = 2, ///< It must not be split.
   FixedMeanwhile = 4, ///< It is fixed for refinement alone, and may flip afterwards.
-  KeptBoundary = 8 ///< It must not be split only because FlipOptions::KeepBoundary says so.
+  KeptBoundary = 8, ///< It must not be split only because FlipOptions::KeepBoundary says so.
+  /// Where it was to be split, rounding would have turned a triangle over. So it is split only if a
+  /// new triangle requests that.
+  DoesNotFit = 16
 };
 
 /// In place of the number of a subsegment: the edge is on none.
@@ -268,7 +271,13 @@ struct RefinementView
   DELAUNAYFLIP_HOST_DEVICE bool CanSplit(HalfEdgeId side) const
   {
     const std::uint32_t segment = this->SegmentOfEdge[EdgeOf(side)];
-    return segment < FixedForNow && (AtomicLoad(&this->Marks[segment]) & CannotSplit) == 0;
+    if (segment >= FixedForNow)
+    {
+      return false;
+    }
+    const int marks = AtomicLoad(&this->Marks[segment]);
+    const bool fits = (marks & DoesNotFit) == 0 || (marks & SplitRequested) != 0;
+    return fits && (marks & CannotSplit) == 0;
   }
 
   /// Whether FlipOptions::KeepBoundary alone forbids that a subsegment is split.
@@ -293,7 +302,7 @@ struct RefinementView
   /// Whether a subsegment is to be split.
   DELAUNAYFLIP_HOST_DEVICE bool HasToSplit(std::int64_t segment) const
   {
-    return this->Marks[segment] == SplitRequested;
+    return (this->Marks[segment] & ~DoesNotFit) == SplitRequested;
   }
 
   /// Finds where a subsegment is split: in the middle or, if its segment ends at a sharp corner, at
