@@ -108,6 +108,7 @@ public:
   {
     return this->Asked.IsRefined() ? nullptr : this->Session.get();
   }
+  bool HasFollowed() const override { return this->IsFollowing; }
 
   /// Whether the request is for the same triangles.
   bool Fits(const TriangulationRequest& request) const;
@@ -139,6 +140,7 @@ private:
   vtkSmartPointer<vtkPolyData> Points; ///< The input with the points of the segments.
   SegmentList Segments;
   std::vector<std::int64_t> FlatPoints; ///< See SegmentList::FindFlatPoints.
+  bool IsFollowing = false; ///< See HasFollowed.
   bool AreLifted = false; ///< They have got heights.
   bool HasSurveyed = false; ///< Added points have got data of the given ones.
   std::vector<double> Sizes; ///< Longest edges near points, if they are limited.
@@ -248,11 +250,14 @@ bool TriangulationRun::Follow(TriangulationRun& last)
   }
   PointMove move;
   move.Points = places;
+  const std::int64_t triangles = last.Session->GetReport().Triangles;
   if (!last.Session->Move(move, this->GetProgress()))
   {
     throw RunAborted();
   }
   this->Session = std::move(last.Session);
+  const FlipReport& report = this->Session->GetReport();
+  this->IsFollowing = report.FromPoints.MoveRounds > 0 && report.Triangles == triangles;
   return true;
 }
 

@@ -42,10 +42,13 @@ bool AdvanceFor(FlipSession& session, double seconds, const FlipObserver& observ
   return isRunning;
 }
 
-/// A new run always makes a step and puts the mesh out, unless it was stopped while it began.
-RunKeeper::UpdateKind FindKind(RunKeeper::UpdateKind asked, bool isSame, StopReasonKind reason)
+/// A new run makes a step and puts the mesh out, unless it was stopped while it began. One that has
+/// followed points need not put it out.
+RunKeeper::UpdateKind FindKind(
+  RunKeeper::UpdateKind asked, bool isSame, bool hasFollowed, StopReasonKind reason)
 {
-  if (isSame)
+  const bool goesOn = isSame || (hasFollowed && asked == RunKeeper::UpdateKind::Step);
+  if (goesOn)
   {
     return asked;
   }
@@ -101,7 +104,7 @@ void RunKeeper::Update(const UpdateRequest& request, FlipReport& report, vtkPoly
     }
     const bool isSame = request.ContinueOrStart(run);
     report = run->GetReport();
-    const UpdateKind kind = FindKind(asked, isSame, report.StopReason);
+    const UpdateKind kind = FindKind(asked, isSame, run->HasFollowed(), report.StopReason);
     if (kind != UpdateKind::Store)
     {
       isRunning = run->Advance(request, report);

@@ -76,6 +76,9 @@ public:
   /// session may add points.
   virtual const FlipSession* GetSession() const { return this->Session.get(); }
 
+  /// Whether this is the last run, with as many triangles, after points have moved.
+  virtual bool HasFollowed() const { return false; }
+
   std::string Warning; ///< The text of the last warning.
 
 protected:
@@ -100,7 +103,9 @@ protected:
 ///     any   Step          any           makes a step of a kept run and puts nothing out
 ///     kept  Store         any           puts the mesh out after such a step
 ///
-/// A change of the input or of an option begins another run, whatever the state.
+/// A change of the input or of an option begins another run, whatever the state. Its first step
+/// puts the mesh out, unless only a step is asked for and the run has followed points that have
+/// moved.
 class RunKeeper
 {
 public:

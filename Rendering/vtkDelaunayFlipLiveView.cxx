@@ -18,6 +18,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
 #include "vtkPointSet.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
@@ -352,11 +353,19 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   const bool works = filter->AdvanceSession();
   const int state = filter->GetStopReason();
   const bool hasFailed = !works || state == vtkDelaunayFlip::STOP_REASON_FAILED;
-  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before;
+  vtkPoints* moved = nullptr;
+  vtkPointSet* points = FindPoints(filter); // null also if an observer has taken them away
+  if (points && filter->GetMeshIsWithheld() && filter->GetReport().FromPoints.MoveRounds > 0)
+  {
+    moved = points->GetPoints();
+  }
+  const bool isDrawn = moved && moved->GetMTime() == this->MovedTime;
+  const bool isNew = filter->GetOutputDataObject(0)->GetUpdateTime() != before && !isDrawn;
   const bool isUnderWay = isNew && works && state == vtkDelaunayFlip::STOP_REASON_RUNNING;
   const bool isAborted = isNew && works && state == vtkDelaunayFlip::STOP_REASON_ABORTED;
   const bool goesOn = isUnderWay || isAborted;
-  if (!hasFailed && !(goesOn && this->Mapper->DrawsRun()))
+  const bool mayWithhold = goesOn || moved;
+  if (!hasFailed && !(mayWithhold && this->Mapper->DrawsRun()))
   {
     filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
   }
@@ -377,6 +386,11 @@ bool vtkDelaunayFlipLiveView::TakeStep()
     {
       this->ShowMesh(filter->GetOutputDataObject(0));
       this->Mapper->SetFilter(filter->GetSession() ? filter.Get() : nullptr);
+    }
+    else if (moved)
+    {
+      this->Mapper->SetMovedPoints(moved);
+      this->MovedTime = moved->GetMTime();
     }
     this->Mapper->EndStep();
     this->ShowFrame(this->FrameNumber + 1);

@@ -48,8 +48,9 @@
  * Observers may call any method. While the filter or its source executes or the window is drawn,
  * Step(), Run(), Start() and Restart() do nothing.
  *
- * Between the steps of a run the filter's output stays as it was, until the end of the run. A
- * program that reads it earlier calls Update() of the filter first, which makes no step.
+ * Between the steps of a run the filter's output stays as it was, until the end of the run, and
+ * where a triangulation follows points, until the next update. A program that reads it earlier
+ * calls Update() of the filter first, which makes no step.
  *
  * The view keeps the filter alive, but not the interactor and the window, which may be deleted in
  * any order.
@@ -281,6 +282,7 @@ private:
   vtkNew<vtkTextActor> Status;
   vtkNew<vtkTextActor> Keys;
   int FrameNumber = -1;
+  vtkMTimeType MovedTime = 0; ///< That of the points that a triangulation has followed last.
   int TimerId = 0; ///< The timer that makes the next step; 0: none. Others still fire: ignored.
   std::vector<unsigned long> Observers; ///< Tags of the observers of the interactor.
   bool HasFailed = false; ///< The filter, or its source, in the last step.

@@ -182,6 +182,11 @@ struct vtkDelaunayFlipMapper::Parts
       this->Faces = split->GetOutput();
     }
     this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
+    this->MeasureBox();
+  }
+
+  void MeasureBox()
+  {
     vtkPoints* points = this->Faces->GetPoints();
     std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
     for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
@@ -478,6 +483,20 @@ void vtkDelaunayFlipMapper::BeginStep()
   {
     this->Own->Abandon(error);
   }
+}
+
+void vtkDelaunayFlipMapper::SetMovedPoints(vtkPoints* points)
+{
+  this->ReadInput();
+  if (points->GetNumberOfPoints() != this->Own->Faces->GetNumberOfPoints())
+  {
+    return;
+  }
+  this->Own->Faces->SetPoints(points);
+  this->Own->MeasureBox();
+  this->Own->IsNew = true; // a motion changes triangles otherwise than by flips, too
+  this->EndStep();
+  this->Modified();
 }
 
 void vtkDelaunayFlipMapper::EndStep() { this->Own->IsBehind = true; }

@@ -44,6 +44,7 @@
 class vtkDelaunayFlipAlgorithm;
 class vtkMatrix4x4;
 class vtkOpenGLRenderWindow;
+class vtkPoints;
 class vtkProperty;
 class vtkShaderProgram;
 
@@ -107,6 +108,12 @@ public:
   void BeginStep();
   void EndStep();
   ///@}
+
+  /**
+   * Draws these points instead of those of the input, with the triangles of the filter's run, until
+   * the input changes. Nothing happens if there are more or fewer.
+   */
+  void SetMovedPoints(vtkPoints* points);
 
   /**
    * The smallest angle in space, in degrees, of the triangles that the host has last had: those of

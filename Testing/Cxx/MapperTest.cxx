@@ -515,8 +515,29 @@ TEST(ZeroCopy, PointsThatMoveAreDrawnInTheSameBuffers)
     sharing->GetSession()->StoreTriangles(
       MutableTriangleArray(ids.data(), sharing->GetReport().Triangles));
     EXPECT_EQ(filler.GetTriangles(), ids);
+    EXPECT_TRUE(sharing->GetMeshIsWithheld());
+    const int number = views.Sharing->GetFrameNumber();
+    EXPECT_FALSE(views.Sharing->Step()); // nothing has moved
+    EXPECT_EQ(views.Sharing->GetFrameNumber(), number);
   }
   EXPECT_EQ(filler.Fillers, 1);
+
+  // The picture is that of a new triangulation.
+  vtkNew<vtkDelaunayFlipPoints> atOnce;
+  atOnce->SetInputData(mesh);
+  atOnce->Update();
+  WatchedView still(atOnce->GetOutput());
+  still->Start();
+  still->GetRenderer()->GetActiveCamera()->DeepCopy(
+    views.Sharing->GetRenderer()->GetActiveCamera());
+  for (WatchedView* each : { &still, &views.Sharing })
+  {
+    (*each)->ShowStatisticsOff();
+    (*each)->Render();
+  }
+  EXPECT_EQ(Compare(still.GetPicture(), views.Sharing.GetPicture()), 0.0);
+  sharing->Update();
+  EXPECT_EQ(GetTriangles(sharing->GetOutput()), GetTriangles(atOnce->GetOutput()));
 }
 
 TEST(ZeroCopy, AnotherMeshOfTheSameSizeTakesTheSameBuffers)

@@ -4,6 +4,8 @@
 
 #include "FilterTestSupport.h"
 
+#include "DelaunayFlip.h"
+
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -408,6 +410,63 @@ TEST(MovingPoints, InLiveUpdates)
     EXPECT_TRUE(filter->GetConverged());
     EXPECT_FALSE(filter->GetNeedsUpdate());
   }
+}
+
+/// What has followed points stays in the session until an update asks for it, unless the hull has
+/// changed, and so the number of triangles.
+TEST(MovingPoints, AreWithheldBySteps)
+{
+  auto cloud = MakeCloud();
+  PointsFilter filter(cloud), atOnce(cloud);
+  for (PointsFilter* each : { &filter, &atOnce })
+  {
+    (*each)->SetKeepSessionToOn();
+  }
+  filter->LiveUpdateOn();
+  RunToTheEnd(filter);
+  const Cells first = filter.GetPolygons();
+  const auto shakeInside = [&](double size)
+  {
+    int i = 0;
+    MovePoints(cloud,
+      [&](double* x)
+      {
+        const bool isInside = std::hypot(x[0] - 5.0, x[1] - 5.0) < 4.0;
+        x[isInside ? 0 : 2] += size * std::sin(12.3 * i++);
+      });
+  };
+  const auto step = [&](double size, bool isWithheld)
+  {
+    shakeInside(size);
+    EXPECT_TRUE(filter->AdvanceSession());
+    EXPECT_EQ(filter->GetMeshIsWithheld(), isWithheld);
+    EXPECT_EQ(filter->GetReport().FromPoints.MoveRounds > 0, isWithheld);
+  };
+  step(0.002, true);
+  step(0.002, true);
+  EXPECT_EQ(filter.GetPolygons(), first); // as it was
+  filter.Run();
+  EXPECT_FALSE(filter->GetMeshIsWithheld());
+  EXPECT_GT(GetTotal(filter->GetOutput(), "MoveRounds"), 0.0);
+  atOnce.Run();
+  EXPECT_EQ(filter.GetPolygons(), atOnce.GetPolygons());
+  EXPECT_NE(filter.GetPolygons(), first);
+  step(0.002, true);
+  shakeInside(0.002); // before the mesh has been put out
+  filter.Run();
+  atOnce.Run();
+  EXPECT_EQ(filter.GetPolygons(), atOnce.GetPolygons());
+  step(0.002, true);
+  const double right = cloud->GetBounds()[1]; // of a point of the hull, which others leave
+  MovePoints(cloud, [right](double* x) { x[0] += x[0] == right ? 5.0 : 0.0; });
+  filter->AdvanceSession();
+  EXPECT_FALSE(filter->GetMeshIsWithheld());
+  EXPECT_GT(filter->GetReport().FromPoints.MoveRounds, 0);
+  atOnce.Run();
+  EXPECT_EQ(filter.GetPolygons(), atOnce.GetPolygons());
+  step(3.0, false); // from points
+  atOnce.Run();
+  EXPECT_EQ(filter.GetPolygons(), atOnce.GetPolygons());
 }
 
 /// Whatever the updates before have left.
