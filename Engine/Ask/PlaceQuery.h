@@ -90,40 +90,51 @@ struct AskedValues
     }
     // At vertices, on the hull and on segments there are no natural weights. Each branch makes its
     // own frame: one that lives through both takes more registers of a GPU.
-    const bool isDone = this->IsNatural &&
-      this->TakeNatural(PlaceFrame(asked.Mesh, place, found.Triangle), found.Triangle, result);
-    if (!isDone)
+    double linearShare = 1.0;
+    if (this->IsNatural)
     {
-      this->AddLinear(PlaceFrame(asked.Mesh, place, found.Triangle), found, result);
+      linearShare =
+        this->TakeNatural(PlaceFrame(asked.Mesh, place, found.Triangle), found.Triangle, result);
+    }
+    if (linearShare > 0.0)
+    {
+      this->AddLinear(PlaceFrame(asked.Mesh, place, found.Triangle), found, linearShare, result);
     }
   }
 
   /// Interpolates linearly at a place that is in a triangle.
+  /// @param share what this counts. If it is less than 1, it is added to the result.
   template <typename Frame>
   DELAUNAYFLIP_HOST_DEVICE void AddLinear(
-    const Frame& frame, const FoundPlace& found, double* result) const
+    const Frame& frame, const FoundPlace& found, double share, double* result) const
   {
-    this->Fill(result, 0.0);
-    VisitLinearWeights(
-      frame, found, [&](VertexId vertex, double weight) { this->Add(vertex, weight, result); });
+    if (share == 1.0)
+    {
+      this->Fill(result, 0.0);
+    }
+    VisitLinearWeights(frame, found,
+      [&](VertexId vertex, double weight) { this->Add(vertex, share * weight, result); });
   }
 
-  /// Interpolates by natural neighbours. @returns whether rounding has left anything.
+  /// Interpolates by natural neighbours.
+  /// @returns the share of linear interpolation that has to be added.
   template <typename Frame>
-  DELAUNAYFLIP_HOST_DEVICE bool TakeNatural(
+  DELAUNAYFLIP_HOST_DEVICE double TakeNatural(
     const Frame& frame, TriangleId triangle, double* result) const
   {
     double scale = 1.0;
-    double sum = 0.0;
+    double sum = 0.0, size = 0.0;
     bool isGood = true, isFinite = false;
     for (int trial = 0; trial < 2 && isGood && !isFinite; ++trial)
     {
       sum = 0.0;
+      size = 0.0;
       this->Fill(result, 0.0);
       isGood = VisitNaturalWeights(frame, triangle,
         [&](VertexId vertex, double weight)
         {
           sum += weight * scale;
+          size += std::fabs(weight * scale);
           this->Add(vertex, weight * scale, result);
         });
       isFinite = true;
@@ -135,7 +146,12 @@ struct AskedValues
       // Sums of large values may overflow. With weights of less than 1 in all they do not.
       scale = 0.25 * InvertPowerOfTwo(std::fabs(sum));
     }
-    return isGood && std::fabs(sum) > 0.0; // else weights have cancelled, as in slivers
+    const bool areLeft = isGood && std::fabs(sum) > 0.0;
+    if (!areLeft) // weights have cancelled, as in slivers
+    {
+      return 1.0;
+    }
+    return this->LeaveToLinear(size / std::fabs(sum) - 1.0, result);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void Fill(double* result, double value) const
@@ -159,6 +175,32 @@ struct AskedValues
   }
 
 private:
+  /// Where triangles are not Delaunay, weights may have different signs, and values leave the range
+  /// of the neighbours' values. This happens beside segments, and where points of a globe are not
+  /// on a sphere. The more the weights cancel, the less natural ones count. So values leave that
+  /// range by at most 1/64 of it, and stay continuous.
+  /// @param cancelled twice the sum of the weights with the other sign than the sum of all, divided
+  /// by that sum.
+  /// @returns the share of linear interpolation.
+  DELAUNAYFLIP_HOST_DEVICE double LeaveToLinear(double cancelled, double* result) const
+  {
+    constexpr double Steepness = 8.0, Rounding = 1e-6;
+    const double share = Steepness * cancelled - Rounding;
+    if (share <= 0.0)
+    {
+      return 0.0;
+    }
+    if (share >= 1.0)
+    {
+      return 1.0;
+    }
+    for (int i = 0; i < this->Components; ++i)
+    {
+      result[i] *= 1.0 - share;
+    }
+    return share;
+  }
+
   DELAUNAYFLIP_HOST_DEVICE void Add(VertexId vertex, double weight, double* result) const
   {
     const double* value = this->At(vertex);

@@ -277,11 +277,15 @@ private:
     const auto makeFrame = [&](TangentKind tangent)
     { return SphereFrame(this->Seen, direction, found.Triangle, tangent); };
     // At vertices, on the boundary and on segments there are no natural weights.
-    const bool isDone = values.IsNatural && found.FindVertexSlot() < 0 &&
-      values.TakeNatural(makeFrame(TangentKind::Stereographic), found.Triangle, result);
-    if (!isDone)
+    double linearShare = 1.0;
+    if (values.IsNatural && found.FindVertexSlot() < 0)
     {
-      values.AddLinear(makeFrame(TangentKind::Orthographic), found, result);
+      linearShare =
+        values.TakeNatural(makeFrame(TangentKind::Stereographic), found.Triangle, result);
+    }
+    if (linearShare > 0.0)
+    {
+      values.AddLinear(makeFrame(TangentKind::Orthographic), found, linearShare, result);
     }
   }
 

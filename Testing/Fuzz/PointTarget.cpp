@@ -216,6 +216,19 @@ std::int32_t FindTriangle(
   return -1;
 }
 
+/// -1 for places that are not finite.
+std::vector<std::int32_t> FindTriangles(
+  const Places& points, const std::vector<std::int32_t>& triangles, const Places& places)
+{
+  std::vector<std::int32_t> found;
+  for (const Place& place : places)
+  {
+    const bool isFinite = std::isfinite(place[0]) && std::isfinite(place[1]);
+    found.push_back(isFinite ? FindTriangle(points, triangles, place) : -1);
+  }
+  return found;
+}
+
 /// Places are found in their triangles, and coordinates, as values, are interpolated right there.
 void ExpectRightAnswers(
   const FlipSession& session, const Places& points, const std::vector<std::int32_t>& triangles)
@@ -241,12 +254,7 @@ void ExpectRightAnswers(
         { (1.0 - share) * from[0] + share * to[0], (1.0 - share) * from[1] + share * to[1] });
     }
   }
-  std::vector<std::int32_t> expected;
-  for (const Place& place : places)
-  {
-    const bool isFinite = std::isfinite(place[0]) && std::isfinite(place[1]);
-    expected.push_back(isFinite ? FindTriangle(points, triangles, place) : -1);
-  }
+  const std::vector<std::int32_t> expected = FindTriangles(points, triangles, places);
   double size = 0.0;
   for (const Place& point : points)
   {
@@ -258,20 +266,22 @@ void ExpectRightAnswers(
   // Sums of values near the largest numbers may overflow, and the smallest have few digits.
   size = std::max(size, 1e-300);
   const double scale = std::scalbn(1.0, -std::clamp(std::ilogb(size), -1000, 1000));
-  Places values = points;
-  for (Place& value : values)
+  // The last value is 0 or 1.
+  std::vector<std::array<double, 3>> values;
+  for (const Place& point : points)
   {
-    value = { value[0] * scale, value[1] * scale };
+    values.push_back(
+      { point[0] * scale, point[1] * scale, static_cast<double>(values.size() % 2) });
   }
   for (const InterpolationKind method : { InterpolationKind::Linear, InterpolationKind::Natural })
   {
     std::vector<std::int32_t> found(places.size());
-    Places results(places.size());
+    std::vector<std::array<double, 3>> results(places.size());
     PlaceQuery query;
     query.Places = View(places);
     query.Triangles = found.data();
     query.Values = values.front().data();
-    query.Components = 2;
+    query.Components = 3;
     query.Method = method;
     query.Results = results.front().data();
     EXPECT_TRUE(session.Ask(query));
@@ -287,6 +297,12 @@ void ExpectRightAnswers(
           EXPECT_NEAR(places[i][axis] * scale, results[i][axis], 1e-8 * size * scale)
             << places[i][0] << ' ' << places[i][1] << ": " << results[i][axis];
         }
+      }
+      if (expected[i] >= 0)
+      {
+        // Natural weights may be a little negative beside segments.
+        constexpr double Beyond = 1.0 / 64.0 + 1e-9;
+        EXPECT_NEAR(0.5, results[i][2], 0.5 + Beyond) << places[i][0] << ' ' << places[i][1];
       }
     }
   }

@@ -5,6 +5,7 @@
 #include "FlipTestSupport.h"
 #include "FuzzTarget.h"
 #include "PointTriangulation.h"
+#include "QueryTestSupport.h"
 #include "RandomInputs.h"
 #include "References.h"
 #include "SphereSegmentAudit.h"
@@ -14,7 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iostream>
+#include <numeric>
 
 /// @file
 /// Triangulations of points on a sphere, as a target for fuzzers, judged by rational numbers.
@@ -188,24 +191,26 @@ std::vector<Point3> ListSomePlaces(const std::vector<Point3>& points)
 
 struct SphereResult : SegmentResult
 {
-  std::vector<std::int32_t> Found; ///< The triangles of some places; without segments.
+  std::vector<std::int32_t> Found; ///< The triangles of some places.
+  std::vector<double> Linear, Natural; ///< Values there; that of a point is its number.
 };
 
 SphereResult Triangulate(const SphereCase& drawn, int threads, ProjectionKind projection)
 {
   const PointOptions options = WithThreads(threads, With(&PointOptions::Projection, projection));
-  SphereResult result{ TriangulateOnSphere(drawn.View(), options), {} };
-  if (drawn.Segments.empty())
-  {
-    const std::vector<Point3> places = ListSomePlaces(drawn.Points);
-    result.Found.resize(places.size());
-    PlaceQuery query;
-    query.Places = PlaneArray(places.data()->data(), static_cast<std::int64_t>(places.size()), 3);
-    query.Triangles = result.Found.data();
-    FlipSession session(drawn.View(), options);
-    session.Advance();
-    session.Ask(query);
-  }
+  SphereResult result{ TriangulateOnSphere(drawn.View(), options), {}, {}, {} };
+  FlipSession session(drawn.View(), options);
+  session.Advance();
+  const std::vector<Point3> places = ListSomePlaces(drawn.Points);
+  std::vector<double> values(drawn.Points.size());
+  std::iota(values.begin(), values.end(), 0.0);
+  PlaceQuery query;
+  query.Places = PlaneArray(places.data()->data(), static_cast<std::int64_t>(places.size()), 3);
+  result.Found = Locate(session, query);
+  query.Method = InterpolationKind::Linear;
+  result.Linear = Interpolate(session, query, values, values.size());
+  query.Method = InterpolationKind::Natural;
+  result.Natural = Interpolate(session, query, values, values.size());
   return result;
 }
 
@@ -259,6 +264,30 @@ void ExpectPlaces(const std::vector<Point3>& points, const SphereResult& result)
   }
 }
 
+/// A linear value is a mean of those of the triangle's corners. A natural one leaves the range of
+/// all values by at most 1/64 of it: weights may be negative beside segments, and where points are
+/// not on a sphere. Outside there is none.
+void ExpectMeans(std::size_t numberOfPoints, const SphereResult& result)
+{
+  constexpr double Tolerance = 1e-9;
+  const double most = static_cast<double>(numberOfPoints) - 1.0;
+  for (std::size_t i = 0; i < result.Found.size(); ++i)
+  {
+    if (result.Found[i] < 0)
+    {
+      EXPECT_TRUE(std::isnan(result.Linear[i]));
+      EXPECT_TRUE(std::isnan(result.Natural[i]));
+      continue;
+    }
+    const auto corners = result.Triangles.begin() + 3 * std::ptrdiff_t(result.Found[i]);
+    const auto [least, greatest] = std::minmax_element(corners, corners + 3);
+    EXPECT_LE(*least - Tolerance, result.Linear[i]);
+    EXPECT_GE(*greatest + Tolerance, result.Linear[i]);
+    EXPECT_LE(-most / 64.0 - Tolerance, result.Natural[i]);
+    EXPECT_GE(most + most / 64.0 + Tolerance, result.Natural[i]);
+  }
+}
+
 /// All points lie in one plane but for rounding, or there are fewer than four places.
 void ExpectFlat(const std::vector<Point3>& points)
 {
@@ -280,6 +309,13 @@ void ExpectFlat(const std::vector<Point3>& points)
     };
     EXPECT_LT(std::fabs(Dot(offset(0), Cross(offset(1), offset(2)))), LargestVolume);
   }
+}
+
+/// The values are the same, also where they are not numbers.
+void ExpectSameBits(const std::vector<double>& expected, const std::vector<double>& values)
+{
+  ASSERT_EQ(expected.size(), values.size());
+  EXPECT_EQ(0, std::memcmp(expected.data(), values.data(), sizeof(double) * values.size()));
 }
 
 SphereCase Reverse(const SphereCase& drawn)
@@ -306,6 +342,8 @@ SphereResult ExpectSame(const SphereCase& drawn, ProjectionKind projection)
   EXPECT_EQ(result.Used, other.Used);
   EXPECT_EQ(result.Edges, other.Edges);
   EXPECT_EQ(result.Found, other.Found);
+  ExpectSameBits(result.Linear, other.Linear);
+  ExpectSameBits(result.Natural, other.Natural);
   ExpectSameStatistics(result.Report, other.Report);
   const SphereCase reversed = Reverse(drawn);
   EXPECT_EQ(ListTrianglePlaces(drawn.Points, result.Triangles),
@@ -325,6 +363,7 @@ void JudgeSphereCase(const SphereCase& drawn)
   {
     ExpectHull(drawn.Points, hull);
     ExpectPlaces(drawn.Points, hull);
+    ExpectMeans(drawn.Points.size(), hull);
   }
   else if (!drawn.AreAnywhere)
   {
@@ -335,6 +374,8 @@ void JudgeSphereCase(const SphereCase& drawn)
     const SphereResult result = ExpectSame(drawn, ProjectionKind::OpenSphere);
     ExpectDelaunayOnSphere(drawn.Points, result);
     ExpectSegmentsOnSphere(drawn.Points, drawn.Segments, result);
+    ExpectPlaces(drawn.Points, result);
+    ExpectMeans(drawn.Points.size(), result);
     EXPECT_EQ(0, result.Report.NonDelaunayAfter);
     EXPECT_EQ(
       hull.Report.Triangles, result.Report.Triangles + result.Report.FromPoints.LargeTriangles);

@@ -322,6 +322,28 @@ TEST(SphereAsk, HasTheNaturalNeighborsOfTheTangentPlane)
   }
 }
 
+/// The triangles of points that are not on a sphere are not Delaunay as seen from a place, so
+/// natural weights may be negative. Values may leave the range of all by 1/64 of it.
+TEST(SphereAsk, StaysInRangeOfPointsThatAreNotOnASphere)
+{
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> draw(0.0, 1.0);
+  std::vector<Point3> points;
+  std::vector<double> values;
+  for (int i = 0; i < 100; ++i)
+  {
+    points.push_back({ draw(random), draw(random), draw(random) });
+    values.push_back(i % 2);
+  }
+  const AskedSphere asked(points, Projected(ProjectionKind::OpenSphere));
+  const std::vector<Point3> places = MakeRandomPoints<double>(20000, 6);
+  for (const double value : asked.Interpolate(values, places, InterpolationKind::Natural))
+  {
+    const bool isInRange = value >= -1.0 / 64.0 && value <= 1.0 + 1.0 / 64.0;
+    ASSERT_TRUE(isInRange || std::isnan(value)) << value;
+  }
+}
+
 /// On an edge, and where all longitudes meet, there are many triangles around a place.
 TEST(SphereAsk, InterpolatesInGrids)
 {
