@@ -10,7 +10,8 @@ The places are the centres of a square raster of about so many cells, row by row
 ("random"). A row has the median seconds from points to an interpolator, the median of a million places
 per second for each question, and how many times as many as ours on the first number of threads. Each row
 is printed as soon as it is measured, ours first. With --processor-time, seconds are those of all threads of
-this process, for a machine with other work.
+this process, for a machine with other work. If one of the numbers of threads is 1, the speed-ups of the
+others are printed at the end, beside that of pure arithmetic: as many processes each add numbers.
 
 threads: N  LinearInterpolator and NaturalNeighborInterpolator; rasters by raster()
 cuda        the same on a GPU, from and to arrays of NumPy
@@ -27,6 +28,8 @@ is not installed is named and left out.
 import argparse
 import functools
 import importlib
+import multiprocessing
+import os
 import statistics
 import time
 
@@ -201,6 +204,31 @@ def run(program, rounds):
     return found
 
 
+def add_numbers(count):
+    return sum(range(count))
+
+
+def measure_arithmetic(count, rounds):
+    """The speed-up of as many processes over one."""
+    seconds = {}
+    for processes in (1, count):
+        with multiprocessing.Pool(processes) as pool:
+            run = functools.partial(pool.map, add_numbers, [20_000_000] * processes, 1)
+            pool.map(add_numbers, [1000] * processes, 1)  # starts the processes
+            seconds[processes] = statistics.median(measure(run) for _ in range(rounds))
+    return count * seconds[1] / seconds[count]
+
+
+def print_speed_ups(found, rounds):
+    """`found` is what `run` returns, by number of threads."""
+    for count in sorted(set(found) - {1}):
+        line = f"{f'speed-up of {count} threads':28}{'':10}"
+        for question in QUESTIONS:
+            ratio = statistics.median(found[count][question]) / statistics.median(found[1][question])
+            line += f"{ratio:24.3g}"
+        print(f"{line}   arithmetic: {measure_arithmetic(count, rounds):.3g}", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--points", type=lambda text: int(float(text)), default=1_000_000)
@@ -217,11 +245,14 @@ def main():
     print(f"{arguments.points:,} points, {data.side ** 2:,} places, {arguments.rounds} rounds; threads: 0 "
           "takes all")
     print(f"{'':28}{'seconds':>10}" + "".join(f"{question:>24}" for question in QUESTIONS), flush=True)
-    first = None
+    first, of_threads = None, {}
     for name, make in programs:
         program = make()
         found = run(program, arguments.rounds)
         first = first or found
+        if name.startswith("threads: "):
+            count = int(name.removeprefix("threads: "))
+            of_threads[count or len(os.sched_getaffinity(0))] = found
         line = f"{name + program.note:28}{statistics.median(found['build']):10.3f}"
         for question, rates in list(found.items())[1:]:
             rate = statistics.median(rates) if rates else 0.0
@@ -229,6 +260,8 @@ def main():
             text = f"{rate / 1e6:.3g} M/s ({ratio:.3g} x)" if rates else "-"
             line += f"{text:>24}"
         print(line, flush=True)
+    if 1 in of_threads and not arguments.processor_time:
+        print_speed_ups(of_threads, arguments.rounds)
     for name in absent:
         print(f"left out: {name}")
 

@@ -6,11 +6,20 @@
     PYTHONPATH=build/lib/python3/dist-packages python3 Testing/Benchmarks/sphere.py \\
       [--points 200000] [--kinds uniform,fibonacci,grid] [--threads 1] [--rounds 3]
 
-A row has the median seconds from an array of x, y and z to triangles, the ratio to our time, the number of
-triangles, and how many of Qhull's triangles are not among ours. Where four points tie, the two may choose
-different triangles. Qhull is SciPy's ConvexHull; without SciPy its rows are left out.
+A row has the median seconds from an array of x, y and z to triangles, the ratio to our time on threads, the
+number of triangles, and how many of them are not among those of our threads.
+
+threads: N  from and to arrays of NumPy
+cuda        the same on a GPU
+cuda, cupy  the same with arrays of CuPy that stay on the GPU
+qhull       SciPy's ConvexHull. Where four points tie, it may choose different triangles. It is left out above
+            1,000,000 points, where it takes minutes
+
+A GPU is warmed up by one triangulation that is not timed. What is not installed is named and left out.
 """
 import argparse
+import functools
+import importlib
 import statistics
 import time
 import warnings
@@ -43,6 +52,9 @@ def make_grid(count):
 KINDS = {"uniform": make_uniform, "fibonacci": make_fibonacci, "grid": make_grid}
 
 
+MOST_OF_QHULL = 1_000_000  # points
+
+
 def measure(function, rounds):
     """The median of the seconds, and the result."""
     seconds = []
@@ -54,38 +66,76 @@ def measure(function, rounds):
 
 
 def number_triangles(triangles):
-    """A number for each triangle, which does not depend on its first corner and its winding."""
-    ids = numpy.sort(triangles.astype(object if triangles.max(initial=0) >= 2**21 else numpy.int64), axis=1)
-    return ids @ numpy.array([1 << 42, 1 << 21, 1])
+    """A hash of each triangle, which does not depend on its first corner and its winding."""
+    ids = numpy.sort(triangles, axis=1).astype(numpy.uint64)
+    factors = numpy.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], numpy.uint64)
+    return ids @ factors
+
+
+def find(name):
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        print(f"left out: {name} (not installed)")
+        return None
+
+
+def triangulate(points, **options):
+    """An array of the ids of triangles."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return delaunayflip.triangulate_sphere(points, **options).triangles
+
+
+def list_programs(threads):
+    """Triples of a name, a function that copies points to where the program has them, and one that makes
+    triangles of them; ours on threads first."""
+    programs = [(f"threads: {threads}", numpy.asarray,
+                 functools.partial(triangulate, threads=threads, backend="threads"))]
+    if not delaunayflip.has_cuda_device():
+        print("left out: cuda (no GPU)")
+    else:
+        on_gpu = functools.partial(triangulate, backend="cuda")
+        programs.append(("cuda", numpy.asarray, on_gpu))
+        cupy = find("cupy")
+        if cupy:
+            def triangulate_there(points):
+                triangles = on_gpu(points)
+                cupy.cuda.runtime.deviceSynchronize()
+                return triangles
+            programs.append(("cuda, cupy", cupy.asarray, triangulate_there))
+    spatial = find("scipy.spatial")
+    if spatial:
+        programs.append(("qhull", numpy.asarray, lambda points: spatial.ConvexHull(points).simplices))
+    return programs
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--points", type=int, default=200_000)
+    parser.add_argument("--points", type=lambda text: int(float(text)), default=200_000)
     parser.add_argument("--kinds", default=",".join(KINDS))
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--rounds", type=int, default=3)
     arguments = parser.parse_args()
-    try:
-        from scipy.spatial import ConvexHull
-    except ImportError:
-        ConvexHull = None
-        print("no SciPy: without Qhull")
+    programs = list_programs(arguments.threads)
     print(f"{'points':>20} {'program':>12} {'seconds':>9} {'times':>7} {'triangles':>10} {'not ours':>9}")
     for kind in arguments.kinds.split(","):
         points = KINDS[kind](arguments.points)
         name = f"{kind} {len(points)}"
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            own, globe = measure(
-                lambda: delaunayflip.triangulate_sphere(points, threads=arguments.threads, backend="threads"),
-                arguments.rounds)
-        print(f"{name:>20} {f'threads: {arguments.threads}':>12} {own:9.3f} {1:7.1f} {len(globe.triangles):10}",
-              flush=True)
-        if ConvexHull:
-            seconds, hull = measure(lambda: ConvexHull(points), arguments.rounds)
-            missing = len(numpy.setdiff1d(number_triangles(hull.simplices), number_triangles(globe.triangles)))
-            print(f"{name:>20} {'qhull':>12} {seconds:9.3f} {seconds / own:7.1f} {len(hull.simplices):10} "
+        own = ours = None
+        for program, copy, run in programs:
+            if program == "qhull" and len(points) > MOST_OF_QHULL:
+                continue
+            there = copy(points)
+            if "cuda" in program:
+                run(there)
+            seconds, triangles = measure(lambda: run(there), arguments.rounds)
+            triangles = triangles.get() if hasattr(triangles, "get") else triangles
+            numbers = number_triangles(triangles)
+            if ours is None:
+                own, ours = seconds, numbers
+            missing = len(numpy.setdiff1d(numbers, ours))
+            print(f"{name:>20} {program:>12} {seconds:9.4f} {seconds / own:7.2f} {len(triangles):10} "
                   f"{missing:9}", flush=True)
 
 
