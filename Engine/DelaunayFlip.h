@@ -202,9 +202,9 @@ public:
   bool Move(const PointMove& move, const ProgressObserver& progress = {});
 
   /// Removes points. The others keep their numbers. A removed point is no longer used, as if it
-  /// were not finite, and later moves do not bring it back. Up to 256 points at a time are removed
-  /// in place where Move would keep the mesh, unless one is on a segment or an end of one.
-  /// Otherwise the triangulation is made anew. For sessions from points.
+  /// were not finite, and later moves do not bring it back. Up to one in 16 of the points at a time
+  /// are removed in place where Move would keep the mesh, unless one is on a segment or an end of
+  /// one. Otherwise the triangulation is made anew. For sessions from points.
   /// @param ids of points. Ids of points that were removed before have no effect.
   /// @returns false if `progress` has asked to stop. Then no point is removed.
   /// @throws the same as Move.

@@ -277,8 +277,8 @@ private:
       return this->Settle(coordinates.Data(), hasOtherEdges);
     };
     this->Asker = PlaceAsker<BackendT>();
-    const MotionResult result = this->Motion.Remove(
-      mesh, this->Order.VertexOfRank.Data(), removed, segments, this->Backend, settle);
+    const MotionResult result = this->Motion.Remove(mesh, this->Order.VertexOfRank.Data(),
+      { removed, this->Report.Points }, segments, this->Backend, settle);
     if (result.IsThere)
     {
       this->ForgetUsed(removed);

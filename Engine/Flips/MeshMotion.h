@@ -63,11 +63,10 @@ public:
 
   /// Removes points.
   /// @param ids the mesh's own, which change.
-  /// @param removed the ids of these points, ascending, in the memory of the backend.
   /// @param segments as for Move; none ends at one of these points.
   /// @param settle as for Move.
   template <typename Real, typename Settle>
-  MotionResult Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed,
+  MotionResult Remove(const MovingMesh<Real>& mesh, VertexId* ids, const RemovedPoints& removed,
     const std::vector<EdgeId>& segments, const Backend& backend, const Settle& settle)
   {
     MotionResult result;

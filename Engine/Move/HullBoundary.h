@@ -5,12 +5,11 @@
 
 #include "Array.h"
 #include "Atomics.h"
-#include "BinarySearch.h"
 #include "EdgeMesh.h"
 #include "HullChange.h"
+#include "HullRemoval.h"
 #include "MeshRoom.h"
 #include "PlaneMesh.h"
-#include "VertexRemoval.h"
 
 #include <cstdint>
 #include <vector>
@@ -117,16 +116,11 @@ public:
     return fetched;
   }
 
-  /// Removes points.
-  /// @param ids the point of each vertex.
-  /// @param targets the ids to remove, ascending, in the memory of the backend.
-  /// @returns whether all were vertices, and could be removed one by one.
-  template <typename Real>
-  bool Remove(EdgeMesh& mesh, const PlaneMesh& plane, Real* coordinates, VertexId* ids,
-    const Array<VertexId>& targets)
+  /// Removes vertices on the boundary, one after the other. Their numbers become free.
+  /// @param vertices in the memory of the backend.
+  /// @returns whether this was possible.
+  bool Remove(EdgeMesh& mesh, const PlaneMesh& plane, const VertexId* vertices, std::int64_t count)
   {
-    const auto count = static_cast<std::int64_t>(targets.Size());
-    this->FindTracked(mesh, plane, ids, targets);
     Reserve(this->Pending, 0, 2 * (this->Count + MostCuts), this->Device);
     Reserve(this->Sides, this->Count, this->Count + MostCuts, this->Device);
     HullSizes sizes{ mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count,
@@ -134,79 +128,18 @@ public:
     Reserve(this->Sizes, 0, 1, this->Device);
     this->Device.Upload(&sizes, 1, this->Sizes.Data());
     HullView hull = this->View(plane);
-    hull.TrackOf = this->TrackOf.Data();
-    hull.Tracked = this->Tracked.Data();
+    hull.Cuts = nullptr; // nobody asks for them
     HullSizes* result = this->Sizes.Data();
     VertexId* pending = this->Pending.Data();
-    const std::int64_t vertices = plane.Places.Count;
     this->Device.ForEach(1,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
-      {
-        bool areVertices = true;
-        for (std::int64_t i = 0; i < count; ++i)
-        {
-          areVertices = areVertices && hull.Tracked[i].Corner != NoCorner;
-        }
-        result->HasFailed = areVertices ? 0 : 1;
-        VertexRemover<Real>(hull, result, coordinates, ids, vertices).Remove(count, pending);
-      });
+      { HullRemover(hull, result).Remove(vertices, count, pending); });
     this->Device.Download(result, 1, &sizes);
     mesh.NumberOfTriangles = sizes.Triangles;
     mesh.NumberOfEdges = sizes.Edges;
     this->Count = sizes.Sides;
     this->NumberOfCuts = 0;
     return sizes.HasFailed == 0;
-  }
-
-  /// Finds a corner of each vertex to remove. Finds one of as many last vertices, too, because
-  /// these may take the numbers of removed ones.
-  void FindTracked(
-    EdgeMesh& mesh, const PlaneMesh& plane, const VertexId* ids, const Array<VertexId>& targets)
-  {
-    const auto count = static_cast<std::int64_t>(targets.Size());
-    const std::int64_t vertices = plane.Places.Count;
-    Reserve(this->TrackOf, 0, vertices, this->Device);
-    Reserve(this->Tracked, 0, 2 * count, this->Device);
-    std::uint32_t* trackOf = this->TrackOf.Data();
-    TrackedVertex* tracked = this->Tracked.Data();
-    const VertexId* wanted = targets.Data();
-    this->Device.ForEach(2 * count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) {
-        tracked[i] = { NoVertex, NoCorner };
-      });
-    this->Device.ForEach(vertices,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t v)
-      {
-        const std::int64_t place =
-          FindEnd(std::int64_t(0), count, [=](std::int64_t i) { return wanted[i] < ids[v]; });
-        std::int64_t track = NoSide;
-        if (place < count && wanted[place] == ids[v])
-        {
-          track = place;
-        }
-        else if (v >= vertices - count)
-        {
-          track = v - (vertices - count) + count;
-        }
-        trackOf[v] = static_cast<std::uint32_t>(track);
-        if (track != NoSide)
-        {
-          tracked[track].Vertex = static_cast<VertexId>(v);
-        }
-      });
-    const TriangleRecord* triangles = mesh.Triangles.Data();
-    this->Device.ForEach(mesh.NumberOfTriangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
-      {
-        for (int slot = 0; slot < 3; ++slot)
-        {
-          const std::uint32_t track = trackOf[triangles[t].Vertices[slot]];
-          if (track != NoSide)
-          {
-            AtomicMin(&tracked[track].Corner, MakeCorner(static_cast<TriangleId>(t), slot));
-          }
-        }
-      });
   }
 
   /// Finds the boundary of a mesh.
@@ -357,8 +290,6 @@ private:
   Array<CutTriangle> Cuts;
   std::int64_t NumberOfCuts = 0; ///< Those of the last change.
   Array<VertexId> Pending;
-  Array<std::uint32_t> TrackOf;
-  Array<TrackedVertex> Tracked;
   Array<HullSizes> Sizes;
   std::vector<EdgeId> PinnedEdges; ///< The numbers of pinned edges. Empty: there are none.
   Array<std::uint32_t> PinOf;

@@ -31,13 +31,6 @@ struct CutTriangle
   TriangleId Number, Last;
 };
 
-/// A vertex with one of its corners, which is kept up to date while triangles change.
-struct TrackedVertex
-{
-  VertexId Vertex;
-  CornerId Corner;
-};
-
 /// The sizes of a mesh while one thread changes it.
 struct HullSizes
 {
@@ -53,10 +46,8 @@ struct HullView
   PlaneMesh Mesh;
   BoundarySide* Sides;
   std::uint32_t* SideOfVertex; ///< By vertex, the side that begins there, or NoSide.
-  CutTriangle* Cuts; ///< The triangles that were cut off last, in their order.
+  CutTriangle* Cuts; ///< The triangles that were cut off last, in their order. Null: not listed.
   std::int64_t NumberOfCuts;
-  std::uint32_t* TrackOf = nullptr; ///< By vertex, its index in Tracked, or NoSide. May be null.
-  TrackedVertex* Tracked = nullptr;
   /// By edge, its index in Pinned, or NoSide. Null: none is pinned.
   std::uint32_t* PinOf = nullptr;
   HalfEdgeId* Pinned = nullptr; ///< By pinned edge, its half-edge that was even at first.
@@ -65,6 +56,18 @@ struct HullView
   DELAUNAYFLIP_HOST_DEVICE bool IsPinned(EdgeId edge) const
   {
     return this->PinOf && this->PinOf[edge] != NoSide;
+  }
+
+  /// Tells that an edge, perhaps a pinned one, gets another number.
+  DELAUNAYFLIP_HOST_DEVICE void MovePin(EdgeId from, EdgeId to) const
+  {
+    if (this->IsPinned(from))
+    {
+      const std::uint32_t pin = this->PinOf[from];
+      this->PinOf[from] = NoSide;
+      this->PinOf[to] = pin;
+      this->Pinned[pin] = 2 * to + (this->Pinned[pin] & 1u);
+    }
   }
 
   /// A corner of a vertex that is on the boundary.
@@ -180,20 +183,6 @@ public:
   }
 
 protected:
-  /// Updates the corners of tracked vertices in a triangle that has changed.
-  DELAUNAYFLIP_HOST_DEVICE void Track(TriangleId triangle) const
-  {
-    for (int slot = 0; slot < 3 && this->Hull.TrackOf; ++slot)
-    {
-      const std::uint32_t track =
-        this->Hull.TrackOf[this->Edges.Triangles[triangle].Vertices[slot]];
-      if (track != NoSide)
-      {
-        this->Hull.Tracked[track].Corner = MakeCorner(triangle, slot);
-      }
-    }
-  }
-
   /// Cuts off the triangle at the side that begins at `start`, if it must be cut.
   /// @returns whether it was.
   DELAUNAYFLIP_HOST_DEVICE bool CutAt(VertexId start, VertexId& opposite)
@@ -315,7 +304,7 @@ protected:
   DELAUNAYFLIP_HOST_DEVICE void DropTriangle(TriangleId number)
   {
     const auto last = static_cast<TriangleId>(--this->Sizes.Triangles);
-    if (!this->Hull.TrackOf)
+    if (this->Hull.Cuts)
     {
       this->Hull.Cuts[this->Sizes.Cuts++] = { number, last };
     }
@@ -330,7 +319,6 @@ protected:
     {
       this->Edges.CornerOfHalfEdge[triangle.HalfEdges[slot]] = MakeCorner(number, slot);
     }
-    this->Track(number);
   }
 
   DELAUNAYFLIP_HOST_DEVICE void DropEdge(EdgeId number)
@@ -351,20 +339,9 @@ protected:
         this->Hull.Sides[this->Hull.SideOfVertex[this->Hull.Mesh.GetStart(2 * number)]].Edge =
           number;
       }
-      this->MovePin(last, number);
+      this->Hull.MovePin(last, number);
     }
     this->Edges.States[last] = EdgeState::Fixed; // like all states behind the last edge
-  }
-
-  DELAUNAYFLIP_HOST_DEVICE void MovePin(EdgeId from, EdgeId to) const
-  {
-    if (this->Hull.IsPinned(from))
-    {
-      const std::uint32_t pin = this->Hull.PinOf[from];
-      this->Hull.PinOf[from] = NoSide;
-      this->Hull.PinOf[to] = pin;
-      this->Hull.Pinned[pin] = 2 * to + (this->Hull.Pinned[pin] & 1u);
-    }
   }
 
   HullView Hull;

@@ -10,6 +10,7 @@
 #include "MotionView.h"
 #include "PlaceWalk.h"
 #include "PlaneMesh.h"
+#include "VertexRemoval.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -85,21 +86,22 @@ public:
 
   /// Removes points. Edges that have to be judged become candidates.
   /// @param ids the mesh's own, which change.
-  /// @param removed the ids of these points, ascending, in the memory of the backend.
+  /// @param removed which points, and how many there are in all.
   /// @param segments as for Begin.
   /// @returns false if all points have to be triangulated anew.
   /// @throws BeyondDevice.
-  bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const Array<VertexId>& removed,
+  bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const RemovedPoints& removed,
     const std::vector<EdgeId>& segments)
   {
     Reserve(this->Counts, 0, NumberOfCounts, this->Device);
     this->ClearCounts();
     this->RequireHull(mesh);
     this->Hull.Pin(segments, mesh.Vertices);
-    const bool isDone =
-      this->Hull.Remove(mesh.Edges, this->ViewPlane(mesh), mesh.Coordinates, ids, removed);
+    VertexRemoval<Real, Backend> removal(
+      mesh.Edges, this->ViewPlane(mesh), this->Hull, this->Device);
+    const bool isDone = removal.Remove(mesh.Coordinates, ids, removed);
     MovingMesh<Real> left = mesh;
-    left.Vertices -= static_cast<std::int64_t>(removed.Size());
+    left.Vertices -= static_cast<std::int64_t>(removed.Ids.Size());
     if (isDone)
     {
       this->Hull.CountTurns(this->ViewPlane(left), this->GetHullCounts());

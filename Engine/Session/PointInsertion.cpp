@@ -77,10 +77,18 @@ bool PointRun::IsPlain() const
   return isFree && this->IsDelaunay();
 }
 
-/// Whether all points are in triangles.
+/// Whether so many points are inserted or removed in less time than all are triangulated anew: up
+/// to about a tenth of all, on one thread and on several.
+bool PointRun::AreFew(std::int64_t points) const
+{
+  constexpr std::int64_t Share = 16, Always = 64;
+  return points <= this->Points.GetCaller().Points.Count / Share + Always;
+}
+
+/// Whether the points are few, and all of them are in triangles.
 bool PointRun::CanInsertInPlace(const PlaneArray& points)
 {
-  if (!this->IsPlain())
+  if (!this->AreFew(points.Count) || !this->IsPlain())
   {
     return false;
   }

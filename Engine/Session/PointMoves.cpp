@@ -238,17 +238,15 @@ bool PointRun::MoveInPlace()
     });
 }
 
-/// Removes the points that were not removed before. If there are many, triangulating anew takes
-/// less time, because a single thread removes points, also on a GPU.
+/// Removes the points that were not removed before.
 /// @returns false if the points have to be triangulated anew.
 bool PointRun::RemoveInPlace(const std::vector<std::int64_t>& before)
 {
-  constexpr std::size_t Most = 256;
   const std::vector<std::int64_t>& now = this->Points.GetRemoved();
   std::vector<VertexId> ids;
   std::set_difference(
     now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(ids));
-  return ids.size() <= Most &&
+  return this->AreFew(SizeOf(ids)) &&
     this->ChangeInPlace(
       [&](LoadedMesh& mesh)
       {

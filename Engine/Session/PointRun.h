@@ -70,6 +70,7 @@ private:
   void RemoveTriangles(LoadedMesh& mesh);
   bool IsPlain() const;
   bool IsDelaunay() const;
+  bool AreFew(std::int64_t points) const;
   bool CanInsertInPlace(const PlaneArray& points);
   void InsertInPlace(const PlaneArray& points);
   void InsertBatch(LoadedMesh& mesh, std::size_t batch) const;

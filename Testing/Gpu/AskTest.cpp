@@ -222,61 +222,81 @@ TEST_F(AskTest, PointsThatComeLaterAreInsertedAlike) { ExpectInsertionAgrees(200
 
 /// Points are moved and removed in place on both backends, with the same bits. The boundary
 /// changes, too.
-TEST_F(AskTest, PointsMoveAndGoAlike)
+/// Moves and removes points on threads and on a GPU.
+void ExpectLifeAgrees(std::size_t count)
 {
   std::mt19937 random(7);
-  for (const std::size_t count : { 3000, 100000 })
+  Places points;
+  while (points.size() < count)
   {
-    Places points;
-    while (points.size() < count)
+    points.push_back({ static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20),
+      static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20) });
+  }
+  std::vector<FlipSession> sessions;
+  for (const BackendKind backend : { BackendKind::Threads, BackendKind::CUDA })
+  {
+    PointOptions options;
+    static_cast<FlipOptions&>(options) = OnBackend(backend);
+    sessions.emplace_back(
+      PointInput{ PlaneArray(points.front().data(), SizeOf(points), 2) }, options);
+    sessions.back().Advance();
+  }
+  const auto expectSame = [&]
+  {
+    const FlipReport& expected = sessions[0].GetReport();
+    const FlipReport& actual = sessions[1].GetReport();
+    EXPECT_EQ(expected.FromPoints.MoveRounds, actual.FromPoints.MoveRounds);
+    EXPECT_EQ(expected.TotalFlips, actual.TotalFlips);
+    EXPECT_EQ(expected.MinimumAngleAfter, actual.MinimumAngleAfter);
+    EXPECT_TRUE(IsOnGpu(actual)) << actual.Backend;
+    EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
+    EXPECT_EQ(StoreOrderedTriangles(sessions[0]), StoreOrderedTriangles(sessions[1]));
+  };
+  Places moved = points;
+  for (const double share : { 0.01, 0.03, 0.05, 1.0, 0.01 })
+  {
+    for (double *end = moved.back().data() + 2, *x = moved.front().data(); x < end; ++x)
     {
-      points.push_back({ static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20),
-        static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20) });
+      const double way = static_cast<double>(DrawIndex(random, 2001)) / 1000.0 - 1.0;
+      *x += share * way / std::sqrt(static_cast<double>(count));
     }
-    std::vector<FlipSession> sessions;
-    for (const BackendKind backend : { BackendKind::Threads, BackendKind::CUDA })
+    for (FlipSession& session : sessions)
     {
-      PointOptions options;
-      static_cast<FlipOptions&>(options) = OnBackend(backend);
-      sessions.emplace_back(
-        PointInput{ PlaneArray(points.front().data(), SizeOf(points), 2) }, options);
-      sessions.back().Advance();
+      EXPECT_TRUE(session.Move({ PlaneArray(moved.front().data(), SizeOf(moved), 2) }));
     }
-    Places moved = points;
-    for (const double share : { 0.01, 0.03, 0.05, 1.0, 0.01 })
-    {
-      for (double *end = moved.back().data() + 2, *x = moved.front().data(); x < end; ++x)
-      {
-        const double way = static_cast<double>(DrawIndex(random, 2001)) / 1000.0 - 1.0;
-        *x += share * way / std::sqrt(static_cast<double>(count));
-      }
-      for (FlipSession& session : sessions)
-      {
-        EXPECT_TRUE(session.Move({ PlaneArray(moved.front().data(), SizeOf(moved), 2) }));
-      }
-      const FlipReport& expected = sessions[0].GetReport();
-      const FlipReport& actual = sessions[1].GetReport();
-      EXPECT_EQ(share<0.5, expected.FromPoints.MoveRounds> 0);
-      EXPECT_EQ(expected.FromPoints.MoveRounds, actual.FromPoints.MoveRounds);
-      EXPECT_EQ(expected.TotalFlips, actual.TotalFlips);
-      EXPECT_EQ(expected.MinimumAngleAfter, actual.MinimumAngleAfter);
-      EXPECT_TRUE(IsOnGpu(actual)) << actual.Backend;
-      EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
-      EXPECT_EQ(StoreOrderedTriangles(sessions[0]), StoreOrderedTriangles(sessions[1]));
-    }
-    std::vector<std::int64_t> ids;
-    for (int i = 0; i < 100; ++i)
-    {
-      ids.push_back(static_cast<std::int64_t>(DrawIndex(random, count)));
-    }
+    const bool isInPlace = sessions[0].GetReport().FromPoints.MoveRounds > 0;
+    EXPECT_TRUE(isInPlace == (share < 0.5) || count < 1000); // small ones move in place more often
+    expectSame();
+  }
+  const auto remove = [&](const std::vector<std::int64_t>& ids)
+  {
     for (FlipSession& session : sessions)
     {
       EXPECT_TRUE(session.Remove(ids.data(), SizeOf(ids)));
     }
-    EXPECT_EQ(
-      sessions[0].GetReport().FromPoints.MoveRounds, sessions[1].GetReport().FromPoints.MoveRounds);
-    EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
+    EXPECT_LT(0, sessions[0].GetReport().FromPoints.MoveRounds);
+    expectSame();
+  };
+  std::vector<std::int64_t> scattered, clustered;
+  for (std::size_t i = 0; i < count / 20; ++i)
+  {
+    scattered.push_back(static_cast<std::int64_t>(DrawIndex(random, count)));
   }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (std::hypot(moved[i][0] - 0.5, moved[i][1] - 0.5) < 0.12)
+    {
+      clustered.push_back(static_cast<std::int64_t>(i));
+    }
+  }
+  remove(scattered);
+  remove(clustered);
+}
+
+TEST_F(AskTest, PointsMoveAndGoAlike)
+{
+  ExpectLifeAgrees(3000);
+  ExpectLifeAgrees(100000);
 }
 
 TEST_F(AskTest, WithSegmentsAndRemovedTriangles)
@@ -307,6 +327,8 @@ class SmallAskTest : public GpuTest
 TEST_F(SmallAskTest, EveryKindOfQuery) { ExpectAgreement(60, 300); }
 
 TEST_F(SmallAskTest, PointsThatComeLater) { ExpectInsertionAgrees(100); }
+
+TEST_F(SmallAskTest, PointsThatMoveAndGo) { ExpectLifeAgrees(300); }
 
 }
 }

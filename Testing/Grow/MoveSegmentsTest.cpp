@@ -184,6 +184,40 @@ TEST(MoveSegments, PointsGo)
   EXPECT_LT(0.5 * moving.Frames, moving.InPlace);
 }
 
+/// Many points that end no segment are removed in place at once, also next to segments.
+TEST(MoveSegments, ManyPointsGo)
+{
+  std::mt19937 random(25);
+  Drawing drawing = DrawWithSegments(random, 3000);
+  AddCircle(drawing, 0.8, 12);
+  std::vector<bool> isEnd(drawing.Points.size());
+  for (const auto& segment : drawing.Segments)
+  {
+    isEnd[segment[0]] = isEnd[segment[1]] = true;
+  }
+  Moving moving(drawing);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    std::vector<std::int64_t> ids;
+    for (std::size_t i = 0; i < 3000 && ids.size() < 200; ++i)
+    {
+      if (!isEnd[i] && std::isfinite(moving.Now.Points[i][0]))
+      {
+        ids.push_back(static_cast<std::int64_t>(i));
+        moving.Now.Points[i] = { NAN, NAN };
+      }
+    }
+    EXPECT_LT(100, ids.size());
+    for (FlipSession& session : moving.Sessions)
+    {
+      EXPECT_TRUE(session.Remove(ids.data(), static_cast<std::int64_t>(ids.size())));
+    }
+    moving.Expect();
+    ASSERT_FALSE(HasFailure()) << frame;
+    EXPECT_EQ(moving.Frames, moving.InPlace);
+  }
+}
+
 /// If a seed is on a segment, the same triangle beside it has the seed in any order of triangles.
 TEST(MoveSegments, SeedsOnSegments)
 {

@@ -394,6 +394,47 @@ TEST(Move, PointsGoInPlace)
   EXPECT_LT(0.7 * all, inPlace);
 }
 
+/// Many points are removed in place: here and there, next to each other, and from a lattice.
+TEST(Move, ManyPointsGoInPlace)
+{
+  std::mt19937 random(14);
+  Places lattice;
+  for (int i = 0; i < 8100; ++i)
+  {
+    lattice.push_back({ static_cast<double>(i % 90), static_cast<double>(i / 90) });
+  }
+  for (const Places& points : { DrawPlaces(random, 8000), lattice })
+  {
+    Moving moving(ToDrawing(points));
+    const double size = std::max(points[89][0], 1.0);
+    const auto remove = [&](const auto& isRemoved)
+    {
+      std::vector<std::int64_t> ids;
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        Place& place = moving.Now.Points[i];
+        if (std::isfinite(place[0]) && isRemoved(place[0] / size - 0.5, place[1] / size - 0.5))
+        {
+          ids.push_back(static_cast<std::int64_t>(i));
+          place = { NAN, NAN };
+        }
+      }
+      EXPECT_LT(100, ids.size());
+      for (FlipSession& session : moving.Sessions)
+      {
+        EXPECT_TRUE(session.Remove(ids.data(), static_cast<std::int64_t>(ids.size())));
+      }
+      moving.Expect();
+    };
+    remove([&](double, double) { return DrawIndex(random, 20) == 0; });
+    remove([&](double x, double y) { return x * x + y * y < 0.018; });
+    remove([&](double x, double y) { return std::fabs(x - 0.2) < 0.02 && std::fabs(y) < 0.49; });
+    EXPECT_EQ(3, moving.InPlace);
+    remove([&](double x, double y) { return x < -0.48 && std::fabs(y) < 0.4; }); // a side
+    ASSERT_FALSE(HasFailure());
+  }
+}
+
 /// After a stop, and after an error, all points are where they were.
 TEST(Move, AnObserverMayStop)
 {
