@@ -43,6 +43,17 @@ def make_cloud(count=300):
     return make_data([(generator.random(), generator.random(), 0) for _ in range(count)])
 
 
+def make_particles(step):
+    """The cloud after so many steps of up to a hundredth of the distance between particles."""
+    cloud = make_cloud()
+    generator = random.Random(step)
+    for point in range(cloud.GetNumberOfPoints()):
+        x, y, z = cloud.GetPoint(point)
+        shift = [0.0006 * generator.uniform(-step, step) for _ in range(2)]
+        cloud.GetPoints().SetPoint(point, x + shift[0], y + shift[1], z)
+    return cloud
+
+
 class Points(PluginTest):
 
     def apply(self, source, **properties):
@@ -103,6 +114,28 @@ class Points(PluginTest):
         octahedron = [(0, 0, 0), (90, 0, 0), (180, 0, 0), (-90, 0, 0), (7, 90, 0), (0, -90, 0)]
         points, text = self.apply(self.read(make_data(octahedron)), Projection="Sphere", Degrees=1)
         self.assertEqual((len(get_triangles(fetch(points))), text), (8, ""))
+
+    def test_animation(self):
+        """Particles of a time series, forwards and back. Each frame is that of a new filter."""
+        files = [self.save(make_particles(step), f"particles{step}.vtp") for step in range(4)]
+        points, text = self.apply(simple.XMLPolyDataReader(FileName=files))
+        view = simple.CreateRenderView()
+        simple.Show(points, view)
+        scene = simple.GetAnimationScene()
+        scene.UpdateAnimationUsingDataTimeSteps()
+        are_followed = []
+        with Messages() as messages:
+            for step in (0, 1, 2, 3, 1, 0):
+                scene.AnimationTime = scene.TimeKeeper.TimestepValues[step]
+                simple.Render(view)
+                frame = fetch(points)
+                alone = simple.XMLPolyDataReader(FileName=files[step:step + 1])
+                fresh, _ = self.apply(alone, KeepSession="On")  # which sorts the triangles, too
+                self.assertEqual(get_triangles(frame), get_triangles(fetch(fresh)))
+                rounds = frame.GetFieldData().GetArray("DelaunayFlip:MoveRounds").GetTuple1(0)
+                are_followed.append(rounds > 0)
+        self.assertEqual(text + messages.text, "")
+        self.assertEqual(are_followed, 6 * [True])
 
     def test_closed_line(self):
         """ParaView's own sources make rings of this kind only. Off, it is a breakline."""
