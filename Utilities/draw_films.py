@@ -2,13 +2,16 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws films of three seconds of meshes with moving points: the examples growing_stem.py, without and with
-flips, and swimming_particles.py, coloured by density. Needs VTK, matplotlib and Pillow:
+flips, swimming_particles.py, coloured by density, and ErodingTerrain.cxx. Needs VTK, matplotlib and Pillow,
+and for the terrain the program in build/bin and a display (xvfb-run makes one):
 
     python3 Utilities/draw_films.py [FOLDER]
 """
 import os
 import pathlib
+import subprocess
 import sys
+import tempfile
 
 import matplotlib
 import numpy
@@ -18,7 +21,8 @@ matplotlib.use("Agg")
 from matplotlib import pyplot
 from matplotlib.colors import LogNorm
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "Examples" / "Python"))
+PROJECT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(PROJECT / "Examples" / "Python"))
 import delaunayflip
 import growing_stem
 import swimming_particles
@@ -81,11 +85,20 @@ def film_particles(path):
     write_film(frames, path, 32)
 
 
+def film_terrain(path):
+    with tempfile.TemporaryDirectory() as folder:
+        program = [PROJECT / "build" / "bin" / "ErodingTerrain", "--points", "2500", "--strokes", str(FRAMES)]
+        subprocess.run([*program, "--frames", f"{folder}/"], check=True)
+        names = sorted(pathlib.Path(folder).iterdir())[2:]  # without the input and the first flips
+        write_film([Image.open(name).convert("RGB") for name in names], path, 160)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     folder.mkdir(parents=True, exist_ok=True)
     film_stem(folder / "film_stem.gif")
     film_particles(folder / "film_particles.gif")
+    film_terrain(folder / "film_terrain.gif")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-/// Usage: ErodingTerrain [--points N] [--strokes N] [--window]
+/// Usage: ErodingTerrain [--points N] [--strokes N] [--window | --frames PREFIX]
 ///
 /// A brush digs a river into terrain, and the surface is kept Delaunay: every stroke lowers points
 /// and continues from the triangles of the stroke before. Prints the number of flips. With --window
 /// it draws the strokes; then the key l lowers the terrain under the mouse, u lifts it, and q
-/// closes the window.
+/// closes the window. With --frames it opens no window and writes every stroke as a picture:
+/// PREFIX0000.png and so on.
 #include "MovingSurface.h"
 
 #include <vtkCallbackCommand.h>
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 namespace
 {
@@ -68,13 +70,15 @@ int main(int argc, char* argv[])
 {
   int points = 20000, strokes = 120;
   bool hasWindow = false;
+  std::string prefix;
   CLI::App app("Digs a river into terrain and keeps the surface Delaunay.\n"
                "Exit status: 0 done, 2 wrong usage, 3 the filter failed.");
   app.add_option("--points", points, "the number of points, about")
     ->check(CLI::Range(4, 100000000));
   app.add_option("--strokes", strokes, "the number of strokes of the brush")
     ->check(CLI::PositiveNumber);
-  app.add_flag("--window", hasWindow, "draw, and wait for the keys l, u and q");
+  auto* window = app.add_flag("--window", hasWindow, "draw, and wait for the keys l, u and q");
+  app.add_option("--frames", prefix, "how the names of the pictures begin")->excludes(window);
   const int status = ReadArguments(app, argc, argv);
   if (status >= 0)
   {
@@ -84,6 +88,10 @@ int main(int argc, char* argv[])
   if (hasWindow)
   {
     surface.OpenWindow("Eroding terrain: l lowers, u lifts, q closes");
+  }
+  else if (!prefix.empty())
+  {
+    surface.WriteFrames(prefix);
   }
   surface.Show();
   for (int stroke = 0; stroke < strokes; ++stroke)

@@ -58,6 +58,19 @@ void MovingSurface::OpenWindow(const char* title)
   this->HasWindow = true;
 }
 
+void MovingSurface::WriteFrames(const std::string& prefix)
+{
+  this->Window->OffScreenRenderingOn();
+  this->Window->SetMultiSamples(0);
+  this->OpenWindow("");
+  this->Window->SetSize(480, 330);
+  vtkCamera* const camera = this->Renderer->GetActiveCamera();
+  camera->SetFocalPoint(0.5, 0.45, -0.1); // which leaves a place for the colour scale
+  camera->Zoom(1.25);
+  this->View->ShowStatisticsOff();
+  this->View->SetFramePrefix(prefix.c_str());
+}
+
 void MovingSurface::Show()
 {
   if (this->HasWindow)

@@ -12,6 +12,7 @@
 #include <vtkRenderer.h>
 
 #include <functional>
+#include <string>
 
 namespace CLI
 {
@@ -27,6 +28,9 @@ public:
   MovingSurface(int points, const std::function<double(double, double)>& height);
 
   void OpenWindow(const char* title);
+
+  /// Opens no window, but writes what it would show as PREFIX0000.png, PREFIX0001.png and so on.
+  void WriteFrames(const std::string& prefix);
 
   /// Flips until no edge is bad, and draws if there is a window.
   void Show();

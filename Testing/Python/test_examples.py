@@ -102,6 +102,18 @@ class Picture(Example):
                       self.run_example(3, "/no/such/folder"))
 
 
+class Strokes(Example):
+    """The example with a brush. Its first two frames are the input and the mesh of that."""
+
+    def test_frames(self):
+        self.run_example(0, "--points", "2000", "--strokes", "3", "--frames", self.prefix)
+        frames = sorted(os.listdir(self.folder))
+        self.assertEqual(frames, [f"frame{i:04d}.png" for i in range(5)])
+        for before, after in zip(frames, frames[1:]):
+            self.assertGreater(difference(self.path(before), self.path(after)), 0.0, after)
+        self.run_example(2, "--window", "--frames", self.prefix)
+
+
 class Viewer(Example):
     """The live viewers."""
 
