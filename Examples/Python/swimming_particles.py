@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """Particles swim in changing eddies within a square. After each step their triangulation gives the
-density around each particle: the inverse of a third of the area of its triangles. It needs NumPy, not VTK.
+density around each particle: the inverse of a third of the area of its triangles. At the end these
+densities are interpolated to a raster by natural neighbors. It needs NumPy, not VTK.
 
     swimming_particles.py [PARTICLES] [STEPS]
 """
@@ -28,6 +29,14 @@ def find_densities(places, triangles):
     return 1 / cells
 
 
+def fill_raster(places, densities, side):
+    """The densities at the centers of a raster in the square, by natural neighbors; NaN outside of the hull."""
+    centers = (numpy.arange(side) + 0.5) / side
+    raster = numpy.stack(numpy.meshgrid(centers, centers), axis=-1)
+    field = delaunayflip.NaturalNeighborInterpolator(places, densities)
+    return field(raster.reshape(-1, 2)).reshape(side, side)
+
+
 def swim(count, steps):
     """Yields the places, the triangles, the densities and the report after each step."""
     particles = numpy.random.default_rng(1).random((count, 2))
@@ -42,10 +51,11 @@ def swim(count, steps):
 def main():
     count, steps = (int(number) for number in (*sys.argv[1:3], 5000, 20)[:2])
     in_place = 0
-    for _, _, densities, report in swim(count, steps):
+    for places, _, densities, report in swim(count, steps):
         in_place += report.move_rounds > 0
+    raster = fill_raster(places, densities, 100)
     print(f"{steps} steps of {count} particles, {in_place} in place; the median density is",
-          f"{numpy.median(densities):.0f}")
+          f"{numpy.median(densities):.0f}, and on a raster {numpy.nanmedian(raster):.0f}")
 
 
 if __name__ == "__main__":
