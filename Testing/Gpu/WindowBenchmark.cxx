@@ -13,6 +13,7 @@
 
 #include "vtkDelaunayFlip.h"
 #include "vtkDelaunayFlipLiveView.h"
+#include "vtkDelaunayFlipPoints.h"
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkPoints.h"
@@ -191,6 +192,52 @@ void TimeMovingPoints(std::int64_t points, const Arguments& arguments)
   }
 }
 
+/// Does so with particles. Each moves by up to a hundredth of their distance, and
+/// vtkDelaunayFlipPoints keeps their triangulation. The drawing alone is measured, too.
+void TimeMovingParticles(std::int64_t points, const Arguments& arguments)
+{
+  const BenchmarkMesh mesh = MakeRandomMesh(points);
+  const double length = 0.01 / std::sqrt(static_cast<double>(points));
+  for (const std::string what : { "no copies", "copies" })
+  {
+    const vtkSmartPointer<vtkPolyData> particles = ToPolyData(mesh);
+    vtkNew<vtkDelaunayFlipPoints> filter;
+    filter->SetInputData(particles);
+    filter->SetBackend(
+      arguments.AllowsOthers ? vtkDelaunayFlip::BACKEND_AUTO : vtkDelaunayFlip::BACKEND_CUDA);
+    filter->SetKeepSessionToOn();
+    filter->SetIterationsPerUpdate(1000000); // the first frame to its end
+    Scene scene(particles, !arguments.AllowsOthers);
+    scene.View->SetFilter(filter);
+    scene.View->SetZeroCopy(what == "no copies");
+    scene.View->SetEdgeVisibility(vtkDelaunayFlipLiveView::EDGE_VISIBILITY_OFF);
+    scene.View->Step();
+    int frame = 0;
+    Measure(mesh, "moving particles, " + what, 3 * arguments.Frames,
+      [&]()
+      {
+        ++frame;
+        for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+        {
+          double x[3];
+          particles->GetPoint(i, x);
+          x[0] += length * std::sin(0.1 * frame + static_cast<double>(i));
+          x[1] += length * std::cos(0.1 * frame + static_cast<double>(i));
+          particles->GetPoints()->SetPoint(i, x);
+        }
+        particles->GetPoints()->Modified();
+        scene.View->Step();
+        return filter->GetNonDelaunayAfter() == 0;
+      });
+    Measure(mesh, "moving particles, drawing alone", arguments.Frames,
+      [&]()
+      {
+        scene.Window->Render();
+        return true;
+      });
+  }
+}
+
 void TimeSize(std::int64_t points, const Arguments& arguments)
 {
   const BenchmarkMesh mesh = MakeRandomMesh(points);
@@ -231,6 +278,7 @@ int main(int argc, char* argv[])
   if (arguments.Moving > 0)
   {
     TimeMovingPoints(arguments.Moving, arguments);
+    TimeMovingParticles(arguments.Moving, arguments);
   }
   return 0;
 }
