@@ -126,7 +126,6 @@ public:
       Reserve(this->Sizes, before.Vertex, before.Vertex + added.Vertex, backend);
     }
     const std::int64_t vertices = before.Vertex - this->FirstVertex;
-    Reserve(this->AddedVertices, vertices, vertices + added.Vertex, backend);
     Reserve(this->OldTriangleOf, vertices, vertices + added.Vertex, backend);
     Reserve(this->Shapes, before.Triangle, before.Triangle + added.Triangle, backend);
     Reserve(this->Regions, before.Triangle, before.Triangle + added.Triangle, backend);
@@ -142,8 +141,7 @@ public:
       this->Regions.Data(), this->Sizes.Data(), this->Claims.Data(), this->Segments.Data(),
       this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
       this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Splits.Data(),
-      this->AddedVertices.Data(), this->OldTriangleOf.Data(), old, this->Grid.View(),
-      this->IsOfCaller };
+      this->OldTriangleOf.Data(), old, this->Grid.View(), this->IsOfCaller };
   }
 
   /// The mesh before refinement.
@@ -204,8 +202,16 @@ public:
     RefinementResult result;
     const std::int64_t added = grown.Vertices - this->FirstVertex;
     result.Vertices.resize(added);
-    const Array<RefinedVertex> vertices = this->NameVertices(grown);
-    this->Device.Download(vertices.Data(), added, result.Vertices.data());
+    if constexpr (Backend::IsOnHost)
+    {
+      this->NameVertices(grown, result.Vertices.data());
+    }
+    else
+    {
+      Array<RefinedVertex> vertices = this->Device.template MakeArray<RefinedVertex>(added);
+      this->NameVertices(grown, vertices.Data());
+      this->Device.Download(vertices.Data(), added, result.Vertices.data());
+    }
     if (this->IsOfCaller)
     {
       this->FetchOfCaller(grown, result);
@@ -527,24 +533,26 @@ public:
     return named;
   }
 
-  /// The new vertices. Each names the points, not the vertices, between which it interpolates.
-  Array<RefinedVertex> NameVertices(const GrowingMesh<Real>& grown) const
+  /// Writes the new vertices. Each names the points, not the vertices, between which it
+  /// interpolates.
+  void NameVertices(const GrowingMesh<Real>& grown, RefinedVertex* to)
   {
-    const std::int64_t added = grown.Vertices - this->FirstVertex;
-    Array<RefinedVertex> named = this->Device.template MakeArray<RefinedVertex>(added);
-    RefinedVertex* to = named.Data();
-    const RefinedVertex* from = this->AddedVertices.Data();
+    const VertexInterpolation interpolation{ this->ViewOld(grown, nullptr), this->Ends.Data() };
+    const PlaneMesh plane = grown.View();
+    const std::int64_t first = this->FirstVertex;
+    const std::uint32_t* origins = this->OriginOfVertex.Data();
+    const TriangleId* triangles = this->OldTriangleOf.Data();
     const VertexId* ids = grown.Ids->Data();
-    this->Device.ForEach(added,
+    this->Device.ForEach(grown.Vertices - first,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
-        to[i] = from[i];
+        const auto vertex = static_cast<VertexId>(first + i);
+        to[i] = interpolation.Find(plane.GetPoint(vertex), origins[vertex], triangles[i]);
         for (VertexId& point : to[i].Points)
         {
           point = ids[point];
         }
       });
-    return named;
   }
 
   Array<Subsegment> NameSegments(const GrowingMesh<Real>& grown) const
@@ -619,7 +627,6 @@ private:
   Array<std::uint8_t> IsSharp;
   Array<std::uint64_t> Claims; ///< See RefinementStep.
   Array<TriangleId> Splits;
-  Array<RefinedVertex> AddedVertices;
   Array<TriangleId> OldTriangleOf; ///< See RefinementStore.
   Array<CornerId> StartOfVertex; ///< See OldPlaceFinder.
   Array<std::uint8_t> MarksOfEdges; ///< In a mesh of the caller: the first marks of subsegments.

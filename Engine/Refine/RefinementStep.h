@@ -138,10 +138,10 @@ struct RefinementStep
     const int count = item.IsOnSegment ? 0 : this->Cavities[i].Count;
     for (int k = 0; k < count && wins; ++k)
     {
-      const TriangleId triangle = TriangleOf(this->Cavities[i].Corners[k]);
-      wins = this->MayInsert(item, triangle);
+      const CornerId reached = this->Cavities[i].Corners[k];
+      wins = this->MayInsert(item, TriangleOf(reached));
       this->ForNeighbors(
-        triangle, [&](TriangleId other) { wins = wins && this->MayInsert(item, other); });
+        reached, [&](TriangleId other) { wins = wins && this->MayInsert(item, other); });
     }
     AtomicStore(&item.State, wins ? ItemState::Wins : ItemState::Dropped);
     return int(wins);
@@ -355,14 +355,17 @@ private:
     }
   }
 
-  /// Calls visit(triangle) for the neighbours of a triangle across edges that are not subsegments.
+  /// Calls visit(triangle) for the neighbours of a triangle of a cavity across edges that are not
+  /// subsegments, except for the triangle from which it was reached.
   template <typename Visit>
-  DELAUNAYFLIP_HOST_DEVICE void ForNeighbors(TriangleId triangle, const Visit& visit) const
+  DELAUNAYFLIP_HOST_DEVICE void ForNeighbors(CornerId reached, const Visit& visit) const
   {
     const PlaneMesh& mesh = this->View.Mesh;
-    for (const HalfEdgeId side : mesh.Edges.Triangles[triangle].HalfEdges)
+    const TriangleRecord& triangle = mesh.Edges.Triangles[TriangleOf(reached)];
+    for (int slot = 0; slot < 3; ++slot)
     {
-      if (!mesh.IsFixed(side))
+      const HalfEdgeId side = triangle.HalfEdges[slot];
+      if (slot != SlotOf(reached) && !mesh.IsFixed(side))
       {
         visit(TriangleOf(mesh.Edges.CornerOfHalfEdge[side ^ 1u]));
       }

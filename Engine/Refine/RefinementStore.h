@@ -48,6 +48,49 @@ struct RefinementNumbers
   std::int64_t Vertex, Triangle, Edge, Subsegment;
 };
 
+/// Finds between which points of the mesh before refinement a new vertex is interpolated.
+struct VertexInterpolation
+{
+  PlaneMesh Old;
+  const VertexId* Ends; ///< See RefinementView.
+
+  /// Interpolates linearly along the segment that the vertex splits, or else in the triangle that
+  /// it was in before refinement.
+  DELAUNAYFLIP_HOST_DEVICE RefinedVertex Find(
+    const PlanePoint& place, std::uint32_t origin, TriangleId triangle) const
+  {
+    RefinedVertex vertex{ place.U, place.V, origin, { 0, 0, 0 }, { 1.0, 0.0, 0.0 } };
+    if (origin != NoOrigin)
+    {
+      const VertexId* ends = this->Ends + 2 * std::size_t(origin);
+      const PlanePoint from = this->Old.GetPoint(ends[0]), to = this->Old.GetPoint(ends[1]);
+      const double length = std::sqrt(TriangleShape::GetSquaredDistance(from, to));
+      vertex.Weights[1] = std::sqrt(TriangleShape::GetSquaredDistance(from, place)) / length;
+      vertex.Weights[0] = 1.0 - vertex.Weights[1];
+      vertex.Points[0] = ends[0];
+      vertex.Points[1] = ends[1];
+      vertex.Points[2] = ends[0];
+      return vertex;
+    }
+    double sum = 0.0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const VertexId* vertices = this->Old.Edges.Triangles[triangle].Vertices;
+      const PlanePoint a = this->Old.GetPoint(vertices[NextSlot(slot)]);
+      const PlanePoint b = this->Old.GetPoint(vertices[PreviousSlot(slot)]);
+      const double area = (a.U - place.U) * (b.V - place.V) - (a.V - place.V) * (b.U - place.U);
+      vertex.Points[slot] = vertices[slot];
+      vertex.Weights[slot] = area > 0.0 ? area : 0.0;
+      sum += vertex.Weights[slot];
+    }
+    for (double& weight : vertex.Weights)
+    {
+      weight = sum > 0.0 ? weight / sum : 1.0 / 3.0;
+    }
+    return vertex;
+  }
+};
+
 /// Inserts the places of items, and stores the data of new vertices, triangles and edges.
 template <typename Real>
 struct RefinementStore
@@ -69,7 +112,6 @@ struct RefinementStore
   const VertexId* Ends;
   std::uint8_t* IsSharp;
   TriangleId* Splits; ///< By vertex of the round, a triangle that it splits.
-  RefinedVertex* Added; ///< The vertices that refinement has added.
   /// By added vertex: its triangle in the old mesh, or NoTriangle if it is on a segment.
   TriangleId* OldTriangleOf;
   PlaneMesh Old; ///< The mesh before refinement.
@@ -110,13 +152,13 @@ struct RefinementStore
     }
     this->OriginOfVertex[vertex] = origin;
     this->Splits[own.Vertex] = item.Found.Triangle;
-    RefinedVertex& added = this->Added[vertex - this->FirstVertex];
     TriangleId& oldTriangle = this->OldTriangleOf[vertex - this->FirstVertex];
     oldTriangle = origin == NoOrigin ? this->FindOldTriangle(item) : NoTriangle;
-    added = this->Interpolate(item, origin, oldTriangle);
     if (this->Sizes)
     {
-      this->Sizes[vertex] = this->InterpolateSize(added);
+      const VertexInterpolation interpolation{ this->Old, this->Ends };
+      this->Sizes[vertex] =
+        this->InterpolateSize(interpolation.Find(item.Place, origin, oldTriangle));
     }
     this->Splitter.Split({ vertex, item.Found, triangle, edge });
   }
@@ -129,43 +171,6 @@ private:
     this->Claims[to] = RefinementKey::None;
     this->Shapes[from] = static_cast<std::uint32_t>(ShapeKind::Unknown);
     this->Shapes[to] = static_cast<std::uint32_t>(ShapeKind::Unknown);
-  }
-
-  /// Interpolates linearly along the segment that the vertex splits, or else in the triangle that
-  /// it was in before refinement.
-  DELAUNAYFLIP_HOST_DEVICE RefinedVertex Interpolate(
-    const RefinementItem& item, std::uint32_t origin, TriangleId triangle) const
-  {
-    RefinedVertex vertex{ item.Place.U, item.Place.V, origin, { 0, 0, 0 }, { 1.0, 0.0, 0.0 } };
-    if (origin != NoOrigin)
-    {
-      const VertexId* ends = this->Ends + 2 * std::size_t(origin);
-      const PlanePoint from = this->Old.GetPoint(ends[0]), to = this->Old.GetPoint(ends[1]);
-      const double length = std::sqrt(TriangleShape::GetSquaredDistance(from, to));
-      vertex.Weights[1] = std::sqrt(TriangleShape::GetSquaredDistance(from, item.Place)) / length;
-      vertex.Weights[0] = 1.0 - vertex.Weights[1];
-      vertex.Points[0] = ends[0];
-      vertex.Points[1] = ends[1];
-      vertex.Points[2] = ends[0];
-      return vertex;
-    }
-    double sum = 0.0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const VertexId* vertices = this->Old.Edges.Triangles[triangle].Vertices;
-      const PlanePoint a = this->Old.GetPoint(vertices[NextSlot(slot)]);
-      const PlanePoint b = this->Old.GetPoint(vertices[PreviousSlot(slot)]);
-      const double area =
-        (a.U - item.Place.U) * (b.V - item.Place.V) - (a.V - item.Place.V) * (b.U - item.Place.U);
-      vertex.Points[slot] = vertices[slot];
-      vertex.Weights[slot] = area > 0.0 ? area : 0.0;
-      sum += vertex.Weights[slot];
-    }
-    for (double& weight : vertex.Weights)
-    {
-      weight = sum > 0.0 ? weight / sum : 1.0 / 3.0;
-    }
-    return vertex;
   }
 
   /// Finds the triangle that a place was in before refinement. The walk begins where the newest

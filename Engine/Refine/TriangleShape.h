@@ -55,20 +55,14 @@ struct TriangleShape
     const TriangleRecord& record = mesh.Edges.Triangles[triangle];
     const PlanePoint corners[3] = { mesh.GetPoint(record.Vertices[0]),
       mesh.GetPoint(record.Vertices[1]), mesh.GetPoint(record.Vertices[2]) };
-    this->Slot = 0;
-    this->SquaredShortest = INFINITY;
-    this->SquaredLongest = 0.0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const double squared =
-        GetSquaredDistance(corners[NextSlot(slot)], corners[PreviousSlot(slot)]);
-      if (squared < this->SquaredShortest)
-      {
-        this->SquaredShortest = squared;
-        this->Slot = slot;
-      }
-      this->SquaredLongest = squared > this->SquaredLongest ? squared : this->SquaredLongest;
-    }
+    const double squared[3] = { GetSquaredDistance(corners[1], corners[2]),
+      GetSquaredDistance(corners[2], corners[0]), GetSquaredDistance(corners[0], corners[1]) };
+    // Which edge is the shortest cannot be predicted, so this has no branches.
+    const int shorter = squared[1] < squared[0] ? 1 : 0;
+    this->Slot = squared[2] < squared[shorter] ? 2 : shorter;
+    this->SquaredShortest = squared[this->Slot];
+    const double longer = squared[1 - shorter];
+    this->SquaredLongest = squared[2] > longer ? squared[2] : longer;
     this->Apex = corners[this->Slot];
     this->From = corners[NextSlot(this->Slot)];
     this->To = corners[PreviousSlot(this->Slot)];
