@@ -233,6 +233,7 @@ class Session(Handle):
         super().__init__()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
                                   insert_constraints, triangle_numbers, size, region_seeds)
+        _require_xyz(self._mesh, options.get("geometry"))
         self._refines = self._mesh.has_goals or any(has_goal(options, goal) for goal in GOALS)
         with _with_keywords(self._keywords):
             call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
@@ -437,6 +438,7 @@ def flip(
     """
     mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints, None, size,
                         region_seeds)
+    _require_xyz(mesh, geometry)
     wanted = make_options(
         flip, geometry=geometry, criterion=criterion, tie_rule=tie_rule, tolerance=tolerance,
         feature_angle=feature_angle, maximum_deviation=maximum_deviation, maximum_iterations=maximum_iterations,
@@ -452,6 +454,13 @@ def flip(
         result = _store(mesh, handle, room)
         _warn_of_refinement(handle)
     return result
+
+
+def _require_xyz(mesh, geometry):
+    """Refuses longitudes and latitudes, which would be taken for x and y."""
+    if geometry == "sphere" and mesh.points.shape[1] == 2:
+        raise ValueError('geometry="sphere" needs x, y and z; place_on_sphere makes them of longitudes and '
+                         "latitudes")
 
 
 def _warn_of_refinement(handle):

@@ -60,14 +60,25 @@ class SphereTriangulation(Asked):
             return normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
 
     def _read_places(self, given):
-        return _read_directions(given, self._keywords["degrees"])
+        places = _read_directions(given, self._keywords["degrees"])
+        if "degrees" in places.members:
+            self._warn_of_latitudes(_arrays.to_host(places.like)[:, 1], "place")
+        return places
 
     def _read_raster(self, origin, step, shape, like):
         factor = 1.0 if self._keywords["degrees"] else 180.0 / math.pi
         places = read_raster(origin, step, shape, like)
         for name in ("origin_x", "origin_y", "step_x", "step_y"):
             places.members[name] *= factor
+        rows = numpy.arange(places.members["rows"])
+        self._warn_of_latitudes(places.members["origin_y"] + rows * places.members["step_y"], "row")
         return places
+
+    @staticmethod
+    def _warn_of_latitudes(latitudes, kind):
+        trouble = _describe_latitudes(latitudes, kind)
+        if trouble:
+            warnings.warn(trouble, stacklevel=4)  # in the line that asks
 
     @functools.cached_property
     def _answers(self):
@@ -174,7 +185,7 @@ class SphereInterpolator(Interpolator):
             neighbours are those on the sphere. Neighbours behind a segment do not count.
         segments, outline, holes, hole_seeds, ring_rule, open: As for `triangulate_sphere`.
         degrees: Whether longitudes and latitudes, of points, places and rasters, are in degrees, not
-            radians.
+            radians. A warning counts places, or rows of a raster, with latitudes beyond 90 degrees.
         fill_value, outside, backend, threads, device: As for `LinearInterpolator`. Questions are answered
             on threads of the CPU, whatever the backend.
         progress: Called with the share of the triangulation done, 0 to 1; False stops it.
@@ -247,7 +258,7 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
     def place(coordinates, name=""):
         if coordinates.shape[1] == 3:
             return coordinates
-        trouble = _describe_latitudes(coordinates[:, 1] if degrees else numpy.degrees(coordinates[:, 1]))
+        trouble = _describe_latitudes(_to_degrees(coordinates[:, 1], degrees), "point")
         if trouble:
             troubles.append(name + trouble)
         return place_on_sphere(coordinates, degrees=degrees)
@@ -296,14 +307,19 @@ def place_on_sphere(lonlat: Numbers, *, degrees: bool = True) -> Array:
         >>> place_on_sphere([[90, 0], [0, -90]]).tolist()
         [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]
     """
-    angles = numpy.ascontiguousarray(_arrays.to_host(lonlat), dtype=numpy.float64)
+    angles = _to_degrees(numpy.asarray(_arrays.to_host(lonlat)), degrees)
     if angles.ndim != 2 or angles.shape[1] != 2:
         raise ValueError(f"lonlat must have the shape (n, 2), not {angles.shape}")
-    if not degrees:
-        angles = numpy.degrees(angles)
+    angles = numpy.ascontiguousarray(angles, dtype=numpy.float64)
     places = numpy.empty((len(angles), 3))
     _library.call("place_on_sphere", address(angles), len(angles), address(places))
     return places
+
+
+def _to_degrees(angles, degrees):
+    """Angles in degrees. Radians become degrees in their own precision: half a turn in single precision is
+    180 degrees, and not a little more."""
+    return angles if degrees else numpy.degrees(angles)
 
 
 def find_misplaced(latitudes):
@@ -311,13 +327,13 @@ def find_misplaced(latitudes):
     return numpy.flatnonzero(abs(latitudes) > 90 + _ROUNDING)
 
 
-def _describe_latitudes(latitudes):
-    """The text of a warning about latitudes beyond 90 degrees, or ""."""
+def _describe_latitudes(latitudes, kind):
+    """The text of a warning about latitudes beyond 90 degrees, or "". `kind`: what has them."""
     ids = find_misplaced(latitudes)
     if not len(ids):
         return ""
     first = ", ".join(map(str, ids[:3]))
-    return (f"{len(ids):,} point{'s' * (len(ids) > 1)} with a latitude beyond 90 degrees (first: {first}); "
+    return (f"{len(ids):,} {kind}{'s' * (len(ids) > 1)} with a latitude beyond 90 degrees (first: {first}); "
             "longitudes come first")
 
 

@@ -112,6 +112,15 @@ class Sphere(unittest.TestCase):
             delaunayflip.triangulate_sphere(numpy.radians(grid).astype(numpy.float32), degrees=False)
             delaunayflip.triangulate_sphere(numpy.concatenate([grid + [360, 0], [[0, numpy.nan]]]))
 
+    def test_radians_in_single_precision(self):
+        grid = make_grid(10)
+        radians = numpy.radians(grid).astype(numpy.float32)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            globe = delaunayflip.triangulate_sphere(radians, degrees=False)
+        exact = delaunayflip.triangulate_sphere(grid)
+        self.assertEqual(globe.report.used_points, exact.report.used_points)
+
     def test_points_inside(self):
         points = make_directions(100, 7)
         points[[3, 8]] *= 0.5
@@ -240,6 +249,9 @@ class Sphere(unittest.TestCase):
         for words, options in (("several pieces", {"pieces": 2}), ("in-circle", {"criterion": "opposite-angles"})):
             with self.assertRaisesRegex(delaunayflip.InvalidOptions, words):
                 delaunayflip.flip(points, triangles, geometry="sphere", **options)
+        for flip in (delaunayflip.flip, delaunayflip.Session):
+            with self.assertRaisesRegex(ValueError, "needs x, y and z; place_on_sphere makes them"):
+                flip([[0, 0], [10, 0], [10, 10]], [[0, 1, 2]], geometry="sphere")
         with self.assertRaises(ValueError):
             delaunayflip.triangulate_sphere(numpy.zeros((3, 4)))
 
@@ -297,6 +309,22 @@ class SphereValues(unittest.TestCase):
         numpy.testing.assert_allclose(f(numpy.radians(places)), degrees, atol=1e-9)
         first = f.raster(numpy.radians([10, 20]), numpy.radians([1, 2]), (1, 1))[0, 0]
         numpy.testing.assert_allclose(first, f(numpy.radians([[10, 20]]))[0], atol=1e-9)
+
+    def test_latitudes_of_places(self):
+        f = delaunayflip.SphereInterpolator(make_grid(30), numpy.arange(91.0))
+        text = "with a latitude beyond 90 degrees"
+        with self.assertWarnsRegex(UserWarning, rf"2 places {text} \(first: 0, 2\); longitudes come first") as seen:
+            f([[52, 113], [13, 52], [0, 100]])
+        self.assertEqual(seen.filename, __file__)
+        with self.assertWarnsRegex(UserWarning, f"1 place {text}"):
+            f.triangulation.locate([0.5], [100.0])
+        with self.assertWarnsRegex(UserWarning, rf"4 rows {text} \(first: 0, 1, 9\)") as seen:
+            f.raster((0, -130), (10, 26), (11, 3))
+        self.assertEqual(seen.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            f.raster((-180, 90), (10, -10), (19, 37))
+            f([[0, 1, 100]])
 
     def test_outside(self):
         points = numpy.random.default_rng(5).uniform((-10, 35), (30, 70), (200, 2))
