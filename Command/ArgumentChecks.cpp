@@ -3,10 +3,13 @@
 #include "ArgumentChecks.h"
 
 #include "CommandError.h"
+#include "HeightQuery.h"
 #include "InputFile.h"
 #include "OutputFiles.h"
 #include "PointColumns.h"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -41,6 +44,18 @@ void CheckProjection(const Arguments& arguments)
   if (arguments.Heights.Step > 0.0 && isSphere && !arguments.Points->GetDegrees())
   {
     FailOnUsage("--raster on a sphere needs --degrees: its cells are in longitude and latitude");
+  }
+  std::array<double, 4> extent{};
+  if (isSphere && !arguments.Heights.Extent.empty())
+  {
+    ParseExtent(arguments.Heights.Extent, extent);
+  }
+  const double furthest = std::max(-extent[1], extent[3]) - 0.5 * arguments.Heights.Step;
+  constexpr double Pole = 90.0, Rounding = 1e-4;
+  if (furthest > Pole + Rounding)
+  {
+    FailOnUsage("--extent " + arguments.Heights.Extent +
+      ": cells have latitudes beyond 90 degrees; the second and the fourth number are latitudes");
   }
 }
 

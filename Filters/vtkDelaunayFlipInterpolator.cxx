@@ -418,6 +418,7 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
     if (auto* dataset = vtkDataSet::SafeDownCast(leaf.Result))
     {
       datasets.push_back(dataset);
+      this->CheckPlaces(dataset, block.Name, summary);
     }
     else
     {
@@ -482,6 +483,18 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
       this->Report->StopReason = StopReasonKind::Aborted;
     }
     begin = end;
+  }
+}
+
+/// Warns of points that are at no longitude and latitude.
+void vtkDelaunayFlipInterpolator::CheckPlaces(
+  vtkDataSet* places, const std::string& where, UpdateSummary& summary) const
+{
+  auto* set = vtkPointSet::SafeDownCast(places);
+  const bool hasAngles = this->IsOnSphere() && this->Degrees && set && set->GetPoints();
+  if (hasAngles)
+  {
+    WarnOfLatitudes(set->GetPoints(), "", where, summary);
   }
 }
 

@@ -162,6 +162,8 @@ protected:
   std::string ElevationArray = "Elevation";
 
 private:
+  void CheckPlaces(
+    vtkDataSet* places, const std::string& where, delaunayflip::UpdateSummary& summary) const;
   std::string ChooseArrays(
     vtkPolyData* points, const std::string& where, delaunayflip::UpdateSummary& summary) const;
 

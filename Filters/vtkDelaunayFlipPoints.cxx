@@ -50,10 +50,7 @@ vtkMTimeType vtkDelaunayFlipPoints::GetMTime()
 }
 
 //------------------------------------------------------------------------------
-namespace
-{
-/// Warns of latitudes beyond 90 degrees. @param name what has the points, or "".
-void WarnOfLatitudes(
+void vtkDelaunayFlipPoints::WarnOfLatitudes(
   vtkPoints* degrees, const std::string& name, const std::string& where, UpdateSummary& summary)
 {
   constexpr double Rounding = 1e-4; // more than that of pi / 2 in single precision
@@ -75,6 +72,8 @@ void WarnOfLatitudes(
   }
 }
 
+namespace
+{
 /// The places of longitudes and latitudes on the unit sphere.
 vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees)
 {

@@ -384,6 +384,13 @@ protected:
     visit("RingRule", this->RingRule, &Options::RingRule);
   }
 
+  /**
+   * Warns of latitudes beyond 90 degrees.
+   * @param name what has the points, or "".
+   */
+  static void WarnOfLatitudes(vtkPoints* degrees, const std::string& name, const std::string& where,
+    delaunayflip::UpdateSummary& summary);
+
   void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& segments,
     delaunayflip::UpdateSummary& summary) override;

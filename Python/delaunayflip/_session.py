@@ -233,7 +233,7 @@ class Session(Handle):
         super().__init__()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
                                   insert_constraints, triangle_numbers, size, region_seeds)
-        _require_xyz(self._mesh, options.get("geometry"))
+        _require_xyz(points, options.get("geometry"))
         self._refines = self._mesh.has_goals or any(has_goal(options, goal) for goal in GOALS)
         with _with_keywords(self._keywords):
             call("open", self._mesh.struct, make_options(**options), ctypes.byref(self._handle), progress)
@@ -374,12 +374,12 @@ class Result:
 
 
 def flip(
-    points: Numbers, triangles: Numbers, *, geometry: Geometry = "auto",
-    criterion: Criterion = "in-circle", tie_rule: TieRule = "keep", tolerance: float = -1.0,
-    feature_angle: float = 30.0, maximum_deviation: float = float("inf"),
-    constraints: Optional[Numbers] = None, insert_constraints: Union[bool, Numbers] = True,
-    regions: Optional[Numbers] = None, frozen: Optional[Numbers] = None,
-    minimum_angle: float = 0.0, maximum_area: float = 0.0, maximum_edge: float = 0.0, size: Optional[Numbers] = None, region_seeds: Sequence[Region] = (),
+    points: Numbers, triangles: Numbers, *, geometry: Geometry = "auto", criterion: Criterion = "in-circle",
+    tie_rule: TieRule = "keep", tolerance: float = -1.0, feature_angle: float = 30.0,
+    maximum_deviation: float = float("inf"), constraints: Optional[Numbers] = None,
+    insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
+    frozen: Optional[Numbers] = None, minimum_angle: float = 0.0, maximum_area: float = 0.0,
+    maximum_edge: float = 0.0, size: Optional[Numbers] = None, region_seeds: Sequence[Region] = (),
     keep_boundary: bool = False, point_limit: int = 0, maximum_iterations: int = -1, backend: Backend = "auto",
     threads: int = 0, device: int = -1, devices: Devices = (), pieces: int = 0, track_quality: bool = False,
     progress: Optional[Progress] = None, on_iteration: Optional[OnIteration] = None,
@@ -436,9 +436,8 @@ def flip(
         >>> result.report.total_flips, sorted(sorted(ids) for ids in result.triangles.tolist())
         (1, [[0, 1, 3], [1, 2, 3]])
     """
-    mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints, None, size,
-                        region_seeds)
-    _require_xyz(mesh, geometry)
+    mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints, None, size, region_seeds)
+    _require_xyz(points, geometry)
     wanted = make_options(
         flip, geometry=geometry, criterion=criterion, tie_rule=tie_rule, tolerance=tolerance,
         feature_angle=feature_angle, maximum_deviation=maximum_deviation, maximum_iterations=maximum_iterations,
@@ -456,9 +455,9 @@ def flip(
     return result
 
 
-def _require_xyz(mesh, geometry):
+def _require_xyz(points, geometry):
     """Refuses longitudes and latitudes, which would be taken for x and y."""
-    if geometry == "sphere" and mesh.points.shape[1] == 2:
+    if geometry == "sphere" and _arrays.as_plane(points).shape[1] == 2:
         raise ValueError('geometry="sphere" needs x, y and z; place_on_sphere makes them of longitudes and '
                          "latitudes")
 

@@ -13,7 +13,7 @@ from ._ask import METHODS, OUTSIDES, Field, Places, read_places
 from ._vtk_blocks import copy_data, find_leaves, list_blocks
 from ._vtk_filter import _drop_results, vtkDelaunayFlipPoints
 from ._vtk_mesh import (
-    _add_attributes, _find_attributes, _is_among, _list_arrays, add_elevation, vtk_of)
+    _add_attributes, _find_attributes, _is_among, _list_arrays, add_elevation, describe_latitudes, vtk_of)
 from ._vtk_properties import Property, finish
 
 _MASK = "vtkValidPointMask"  # as vtkProbeFilter calls it
@@ -159,6 +159,10 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
             return read_dataset(places)
         read = read_dataset(places, may_be_raster=self.degrees)
         read.members["degrees"] = int(self.degrees)
+        has_angles = self.degrees and isinstance(places, vtkPointSet) and len(read.like)
+        trouble = describe_latitudes(read.like[:, 1]) if has_angles else ""
+        if trouble:
+            self._warnings.append((self._where, trouble))
         return read
 
     def _ask(self, result, places, columns):

@@ -165,11 +165,16 @@ def place_points(data):
     degrees = vtk.read(mesh).points[:, :2]
     points.SetData(vtk.support.numpy_to_vtk(place_on_sphere(degrees), deep=True))
     made.SetPoints(points)
-    ids = find_misplaced(degrees[:, 1])
+    return made, describe_latitudes(degrees[:, 1])
+
+
+def describe_latitudes(latitudes):
+    """The text of a warning about latitudes beyond 90 degrees, or ""."""
+    ids = find_misplaced(latitudes)
     if not len(ids):
-        return made, ""
-    return made, (f"{len(ids)} point{'s' * (len(ids) > 1)} with a latitude beyond 90 degrees (first: {ids[0]}); "
-                  "x is the longitude and y the latitude")
+        return ""
+    return (f"{len(ids)} point{'s' * (len(ids) > 1)} with a latitude beyond 90 degrees (first: {ids[0]}); "
+            "x is the longitude and y the latitude")
 
 
 def add_elevation(source, name, data):

@@ -134,6 +134,15 @@ class Rasters(HeightTest):
         self.fail_with(2, "globe.csv", "map.asc", "--from-points", "--projection", "sphere", "--raster", 1,
                        naming=["--raster on a sphere needs --degrees"])
 
+    def test_latitudes_beyond_the_poles(self):
+        self.write("globe.csv", "lon,lat,z\n0,0,1\n90,0,2\n180,0,3\n-90,0,4\n0,90,5\n0,-90,6\n")
+        self.write("places.csv", "lon,lat\n52.5,113.4\n13.4,52.5\n")
+        sphere = ["--projection", "sphere", "--degrees"]
+        result = self.ask("globe.csv", "out.csv", *sphere, "--heights-at", "places.csv")
+        self.assertIn("1 point with a latitude beyond 90 degrees (first: 0)", result.stderr)
+        self.fail_with(2, "globe.csv", "map.asc", "--from-points", *sphere, "--raster", 5,
+                       "--extent", "0,-100,360,100", naming=["--extent", "latitudes beyond 90 degrees"])
+
     def test_points_without_heights(self):
         self.write("flat.csv", "x,y\n0,0\n4,0\n0,4\n")
         result = self.ask("flat.csv", "o.asc", "--raster", "1")
