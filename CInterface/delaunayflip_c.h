@@ -543,9 +543,10 @@ extern "C"
 
   /** Inserts more points into the triangulation, numbered after the others of the caller; those at
    * crossings come after them. The triangles are then those of all points, perhaps in another order
-   * than if all had been given at once. If there are no segments, regions or goals, no options
-   * remove points or triangles, and all new points are in the hull, only the triangles around them
-   * change. Otherwise the triangulation is made anew. For sessions from points, after
+   * than if all had been given at once. Up to one in 16 of the points at a time are inserted in
+   * place where a motion would keep the mesh, if all are in triangles that are kept, and none is on
+   * a segment: only the triangles around them change. Otherwise the triangulation is made anew. For
+   * sessions from points, after
    * delaunayflip_advance. Many points at a time, such as 10,000, take less time than one by one.
    * This inserts one point:
    *

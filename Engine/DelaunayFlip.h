@@ -170,9 +170,10 @@ public:
   void StoreSources(std::int32_t* sources) const;
 
   /// Inserts more points into the triangulation, numbered after the others. The triangles are then
-  /// those of all points, perhaps in another order than if all had been given at once. If there are
-  /// no segments, regions or goals, no options remove points or triangles, and all new points are
-  /// in the hull, only the triangles around them change. Otherwise the triangulation is made anew.
+  /// those of all points, perhaps in another order than if all had been given at once. Up to one in
+  /// 16 of the points at a time are inserted in place where Move would keep the mesh, if all are in
+  /// triangles that are kept, and none is on a segment: only the triangles around them change.
+  /// Otherwise the triangulation is made anew.
   /// For sessions from points.
   /// @param points in the host's memory; they are copied, in the precision of the others.
   /// @param progress is told the share that is done if all is made anew.

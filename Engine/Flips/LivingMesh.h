@@ -8,9 +8,7 @@
 #include "PointGrowth.h"
 #include "Refinement.h"
 
-#include <iterator>
 #include <memory>
-#include <numeric>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -24,11 +22,11 @@ template <typename BackendT>
 class LivingMesh : public BackendMesh<BackendT>
 {
 public:
-  std::int64_t InsertPoints(const std::vector<double>& places) override
+  std::int64_t InsertPoints(const std::vector<double>& places, bool keepsFixed) override
   {
     this->RequireStates();
-    return this->Places.Floats ? this->InsertPoints(places, this->Points.Floats)
-                               : this->InsertPoints(places, this->Points.Doubles);
+    return this->Places.Floats ? this->InsertHere(places, keepsFixed, this->Points.Floats)
+                               : this->InsertHere(places, keepsFixed, this->Points.Doubles);
   }
 
   MotionResult RemovePoints(
@@ -121,6 +119,44 @@ public:
     this->UsedPoint = std::move(longer);
   }
 
+  /// Brings the report and UsedPoint up to date after an insertion. Public because device lambdas
+  /// require it.
+  void CountInserted(const GrowthItem* items, std::int64_t count)
+  {
+    const auto countState = [&](GrowthState state)
+    {
+      return this->Backend.template Sum<std::int64_t>(count,
+        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+        { sum += items[i].State == state ? 1 : 0; });
+    };
+    const std::int64_t repeated = countState(GrowthState::Repeated);
+    const std::int64_t outside = countState(GrowthState::Outside);
+    const std::int64_t before = this->Report.Points;
+    this->Report.Points += count;
+    this->Report.FromPoints.Repeated += repeated;
+    this->Report.FromPoints.NotFinite += outside;
+    this->CountGrown();
+    const bool areAllUsed = this->UsedPoint.Size() == 0;
+    if (areAllUsed && repeated + outside == 0)
+    {
+      return;
+    }
+    Array<VertexId> longer = this->Backend.template MakeArray<VertexId>(this->Report.Points);
+    const VertexId* from = this->UsedPoint.Data();
+    const VertexId* ids = this->Order.VertexOfRank.Data();
+    VertexId* used = longer.Data();
+    this->Backend.ForEach(before,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      { used[i] = areAllUsed ? static_cast<VertexId>(i) : from[i]; });
+    this->Backend.ForEach(count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        const VertexId vertex = items[i].Vertex;
+        used[before + i] = vertex == NoVertex ? NoVertex : ids[vertex];
+      });
+    this->UsedPoint = std::move(longer);
+  }
+
   /// Projects the points of the caller's mesh into a plane in which most triangles are
   /// counter-clockwise. This and the next two functions are public because device lambdas require
   /// it.
@@ -177,7 +213,8 @@ protected:
 
 private:
   template <typename Real>
-  std::int64_t InsertPoints(const std::vector<double>& places, Array<Real>& coordinates)
+  std::int64_t InsertHere(
+    const std::vector<double>& places, bool keepsFixed, Array<Real>& coordinates)
   {
     const std::int64_t count = SizeOf(places) / 2;
     Array<double> placesHere = this->Backend.template MakeArray<double>(2 * count);
@@ -192,13 +229,17 @@ private:
       return StoreVertex<Real>{ coordinates.Data(), this->Order.VertexOfRank.Data(),
         placesHere.Data(), this->Report.Points };
     };
-    PointGrowth<BackendT> growth(placesHere.Data(), count, this->Backend);
+    PointGrowth<BackendT> growth(placesHere.Data(), count, keepsFixed, this->Backend);
     std::int64_t flips = 0;
     for (;;)
     {
       plane = { this->Mesh.View(), this->Places, true };
       const std::int64_t added =
         growth.InsertSome(this->Mesh, plane, this->Points.Count, grid, grow);
+      if (growth.CountRefused() > 0)
+      {
+        return -1;
+      }
       if (added == 0)
       {
         break;
@@ -208,7 +249,7 @@ private:
       this->template MakeLoopOfGrown<Real>(coordinates.Data());
       flips += this->Loop->Converge();
     }
-    this->CountInserted(growth, count);
+    this->CountInserted(growth.GetItems(), count);
     return flips;
   }
 
@@ -412,35 +453,6 @@ private:
     report.Edges.Boundary = hullEdges;
     report.Edges.Fixed = hullEdges;
     report.EulerCharacteristic = this->Points.Count - report.Edges.Edges + report.Triangles;
-  }
-
-  /// Brings the report and UsedPoint up to date.
-  void CountInserted(const PointGrowth<BackendT>& growth, std::int64_t count)
-  {
-    std::vector<GrowthItem> items(count);
-    this->Backend.Download(growth.GetItems(), count, items.data());
-    FlipReport& report = this->Report;
-    const std::int64_t before = report.Points;
-    std::vector<VertexId> used(this->UsedPoint.Size());
-    this->Backend.Download(
-      this->UsedPoint.Data(), static_cast<std::int64_t>(used.size()), used.data());
-    if (used.empty())
-    {
-      used.resize(before);
-      std::iota(used.begin(), used.end(), VertexId(0));
-    }
-    std::vector<VertexId> ids(this->Points.Count);
-    this->Backend.Download(this->Order.VertexOfRank.Data(), this->Points.Count, ids.data());
-    for (const GrowthItem& item : items)
-    {
-      report.FromPoints.Repeated += item.State == GrowthState::Repeated ? 1 : 0;
-      report.FromPoints.NotFinite += item.State == GrowthState::Outside ? 1 : 0;
-      used.push_back(item.Vertex == NoVertex ? NoVertex : ids[item.Vertex]);
-    }
-    this->UsedPoint = this->Backend.template MakeArray<VertexId>(SizeOf(used));
-    this->Backend.Upload(used.data(), SizeOf(used), this->UsedPoint.Data());
-    report.Points = before + count;
-    this->CountGrown();
   }
 
   MeshMotion<BackendT> Motion;

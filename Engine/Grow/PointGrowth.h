@@ -27,7 +27,8 @@ enum class GrowthState : std::uint32_t
   Wins, ///< Is inserted in this round.
   Inserted, ///< Is a vertex.
   Repeated, ///< Is at a vertex that was there.
-  Outside ///< Is outside of all triangles, or not finite.
+  Outside, ///< Is outside of all triangles, or not finite.
+  Refused ///< Is on a fixed edge that must not be split.
 };
 
 /// A place to insert.
@@ -46,6 +47,7 @@ struct GrowthRound
   const double* Places; ///< x and y of all items.
   GrowthItem* Items;
   std::uint32_t* Claims; ///< By triangle.
+  bool KeepsFixed; ///< Whether fixed edges must not be split.
 
   DELAUNAYFLIP_HOST_DEVICE void FindAndClaim(std::int64_t i, const PlaceGridView& grid) const
   {
@@ -74,6 +76,11 @@ struct GrowthRound
       item.Vertex = this->Mesh.GetVertex(MakeCorner(item.Place.Triangle, vertex));
       return;
     }
+    if (this->KeepsFixed && this->IsOnFixed(item.Place))
+    {
+      item.State = GrowthState::Refused;
+      return;
+    }
     this->ForTriangles(item.Place,
       [&](TriangleId triangle)
       { AtomicMin(&this->Claims[triangle], static_cast<std::uint32_t>(i)); });
@@ -97,6 +104,13 @@ struct GrowthRound
   }
 
 private:
+  DELAUNAYFLIP_HOST_DEVICE bool IsOnFixed(const FoundPlace& place) const
+  {
+    const int slot = place.FindEdgeSlot();
+    return slot >= 0 &&
+      this->Mesh.IsFixed(this->Mesh.GetHalfEdge(MakeCorner(place.Triangle, slot)));
+  }
+
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE void ForTriangles(const FoundPlace& place, const Visit& visit) const
   {
@@ -158,10 +172,12 @@ class PointGrowth
 {
 public:
   /// @param places x and y, in the memory of the backend.
-  PointGrowth(const double* places, std::int64_t count, const Backend& backend)
+  /// @param keepsFixed whether fixed edges must not be split.
+  PointGrowth(const double* places, std::int64_t count, bool keepsFixed, const Backend& backend)
     : Device(backend),
       Places(places),
       Count(count),
+      KeepsFixed(keepsFixed),
       Items(backend.template MakeArray<GrowthItem>(count)),
       First(backend.template MakeArray<std::int64_t>(3 * count))
   {
@@ -201,6 +217,16 @@ public:
 
   // The functions below are public because device lambdas require it.
 
+  /// How many places are on fixed edges that must not be split. This is known after the first call
+  /// of InsertSome.
+  std::int64_t CountRefused() const
+  {
+    const GrowthItem* items = this->Items.Data();
+    return this->Device.template Sum<std::int64_t>(this->KeepsFixed ? this->Count : 0,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
+      { sum += items[i].State == GrowthState::Refused ? 1 : 0; });
+  }
+
   void Start()
   {
     GrowthItem* items = this->Items.Data();
@@ -220,7 +246,7 @@ public:
     Array<std::int32_t> failed = this->Device.template MakeArray<std::int32_t>(1);
     this->Device.Upload(&none, 1, failed.Data());
     plane.Failed = failed.Data();
-    const GrowthRound round{ plane, this->Places, this->Items.Data(), claims };
+    const GrowthRound round{ plane, this->Places, this->Items.Data(), claims, this->KeepsFixed };
     this->Device.ForEach(
       this->Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { round.FindAndClaim(i, grid); });
     this->Device.ForEach(
@@ -276,6 +302,7 @@ private:
   const Backend& Device;
   const double* Places;
   std::int64_t Count;
+  bool KeepsFixed;
   Array<GrowthItem> Items;
   Array<std::int64_t> First; ///< The numbers of vertices, triangles and edges that winners add.
   Array<std::uint32_t> Claims;

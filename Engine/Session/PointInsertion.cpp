@@ -46,15 +46,14 @@ bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress
     throw InvalidOptions("points have no sizes here, so they cannot be inserted where others have: "
                          "triangulate all points with their sizes");
   }
-  if (this->CanInsertInPlace(points))
-  {
-    this->Points.Append(points);
-    this->InsertInPlace(points);
-    return this->Report.StopReason != StopReasonKind::Aborted;
-  }
+  const bool mayStay = this->CanInsertInPlace(points);
   this->Points.Append(points);
-  this->Reset();
-  this->Advance(-1, {}, progress);
+  const bool isThere = mayStay && this->InsertInPlace(points.Count);
+  if (!isThere)
+  {
+    this->Reset();
+    this->Advance(-1, {}, progress);
+  }
   return this->Report.StopReason != StopReasonKind::Aborted;
 }
 
@@ -67,16 +66,6 @@ bool PointRun::IsDelaunay() const
   return isOfCaller && this->Loaded && this->IsOver() && this->Found.Bad == 0;
 }
 
-/// Whether there are, in addition, no segments or regions, and no option has removed triangles.
-bool PointRun::IsPlain() const
-{
-  const PointOptions& options = this->Points.GetOptions();
-  const PointInput& caller = this->Points.GetCaller();
-  const bool isFree = caller.NumberOfSegments + caller.NumberOfHoleSeeds == 0 &&
-    caller.NumberOfRegions == 0 && options.Alpha == 0.0 && options.LongestEdge == 0.0;
-  return isFree && this->IsDelaunay();
-}
-
 /// Whether so many points are inserted or removed in less time than all are triangulated anew: up
 /// to about a tenth of all, on one thread and on several.
 bool PointRun::AreFew(std::int64_t points) const
@@ -85,10 +74,10 @@ bool PointRun::AreFew(std::int64_t points) const
   return points <= this->Points.GetCaller().Points.Count / Share + Always;
 }
 
-/// Whether the points are few, and all of them are in triangles.
+/// Whether the points are few, and all of them are in triangles that are kept.
 bool PointRun::CanInsertInPlace(const PlaneArray& points)
 {
-  if (!this->AreFew(points.Count) || !this->IsPlain())
+  if (!this->AreFew(points.Count) || !this->IsDelaunay() || !this->MaySegmentsStay())
   {
     return false;
   }
@@ -102,21 +91,30 @@ bool PointRun::CanInsertInPlace(const PlaneArray& points)
     triangles.begin(), triangles.end(), [](std::int32_t triangle) { return triangle >= 0; });
 }
 
-void PointRun::InsertInPlace(const PlaneArray& points)
+/// Inserts the last points.
+/// @returns false if all points have to be triangulated anew.
+bool PointRun::InsertInPlace(std::int64_t count)
 {
+  const std::int64_t all = this->Points.GetCaller().Points.Count;
   if (this->BatchEnds.empty())
   {
-    this->BatchEnds.push_back(this->Points.GetCaller().Points.Count - points.Count);
+    this->BatchEnds.push_back(all - count);
   }
   const std::size_t batch = this->BatchEnds.size() - 1;
-  this->BatchEnds.push_back(this->Points.GetCaller().Points.Count);
-  const auto insert = [&](LoadedMesh& mesh) { this->InsertBatch(mesh, batch); };
-  const bool isThere = this->TryOnBackend(insert);
-  if (!isThere)
+  this->BatchEnds.push_back(all);
+  this->Points.Prepare(this->Observer);
+  bool isInserted = false;
+  const bool isLoaded =
+    this->TryOnBackend([&](LoadedMesh& mesh) { isInserted = this->InsertBatch(mesh, batch); });
+  if (!isLoaded)
   {
-    return;
+    return true; // an observer has stopped it
   }
   this->Journal.push_back({ this->Stages.size() - 1, static_cast<std::int64_t>(batch) });
+  if (!isInserted || !this->JudgeAgain(MotionResult()))
+  {
+    return false;
+  }
   const FlipReport& made = this->Loaded->GetInputReport();
   this->Report.Triangles = made.Triangles;
   this->Report.EulerCharacteristic = made.EulerCharacteristic;
@@ -124,9 +122,11 @@ void PointRun::InsertInPlace(const PlaneArray& points)
   this->AreKeptEdgesKnown = false;
   this->RecordFound(this->Loaded->GetLoop().GetFound());
   this->ListDefects();
+  return true;
 }
 
-void PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
+/// @returns false if a point is on a segment. Then the mesh is of no use.
+bool PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
 {
   const PlaneArray& all = this->Points.GetInput().Points;
   std::vector<double> places;
@@ -135,7 +135,7 @@ void PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
     places.push_back(all.Get(i, 0));
     places.push_back(all.Get(i, 1));
   }
-  mesh.InsertPoints(places);
+  return mesh.InsertPoints(places, this->Points.GetCaller().NumberOfSegments > 0) >= 0;
 }
 
 }

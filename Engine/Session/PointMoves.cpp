@@ -7,8 +7,10 @@
 #include "FlipError.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -99,12 +101,16 @@ bool PointRun::Remove(const std::int64_t* ids, std::int64_t count, const Progres
   removed.insert(removed.end(), ids, ids + count);
   std::sort(removed.begin(), removed.end());
   removed.erase(std::unique(removed.begin(), removed.end()), removed.end());
-  this->Points.CopyPlaces(this->Places);
-  for (const std::int64_t id : removed)
-  {
-    SetPlace(this->Places, id, NAN, NAN);
-  }
-  return this->GoToPlaces(std::move(removed), progress);
+  const std::vector<std::int64_t>& before = this->Points.GetRemoved();
+  std::vector<VertexId> added;
+  std::set_difference(
+    removed.begin(), removed.end(), before.begin(), before.end(), std::back_inserter(added));
+  this->Points.TakeOver();
+  const std::array<double, 2> nowhere = { NAN, NAN };
+  const auto places = this->Points.SetPlaces(added, { added.size(), nowhere });
+  const auto goBack = [&] { this->Points.SetPlaces(added, places); };
+  return this->Follow(
+    std::move(removed), [&] { return this->RemoveInPlace(added); }, goBack, progress);
 }
 
 bool PointRun::Compact(const ProgressObserver& progress)
@@ -181,21 +187,31 @@ void PointRun::ReadPlaces(const PointMove& move)
 /// Moves all points to this->Places. @param removed the ids of all removed points.
 bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress)
 {
-  std::vector<std::int64_t> removedBefore = this->Points.GetRemoved();
   const bool keepsNumbers = this->Places.Points.Count == this->Points.GetCaller().Points.Count;
-  const bool keepsPoints = removed == removedBefore;
   this->Points.Exchange(this->Places);
+  return this->Follow(
+    std::move(removed), [&] { return keepsNumbers && this->MoveInPlace(); },
+    [&] { this->Points.Exchange(this->Places); }, progress);
+}
+
+/// Makes the triangulation that of points that have other places.
+/// @param removed the ids of all removed points.
+/// @param change tries to change the mesh in place, and returns whether it could.
+/// @param goBack lets the points be where they were.
+bool PointRun::Follow(std::vector<std::int64_t> removed, const std::function<bool()>& change,
+  const std::function<void()>& goBack, const ProgressObserver& progress)
+{
+  std::vector<std::int64_t> removedBefore = this->Points.GetRemoved();
   this->Points.SetRemoved(std::move(removed));
-  const auto goBack = [&]
+  const auto reset = [&]
   {
-    this->Points.Exchange(this->Places);
+    goBack();
     this->Points.SetRemoved(std::move(removedBefore));
     this->Reset();
   };
   try
   {
-    const bool mayStay = keepsNumbers && this->IsDelaunay() && this->MaySegmentsStay();
-    if (mayStay && (keepsPoints ? this->MoveInPlace() : this->RemoveInPlace(removedBefore)))
+    if (this->IsDelaunay() && this->MaySegmentsStay() && change())
     {
       return true;
     }
@@ -204,13 +220,13 @@ bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObser
   }
   catch (...)
   {
-    goBack();
+    reset();
     throw;
   }
   const bool isThere = this->Report.StopReason != StopReasonKind::Aborted;
   if (!isThere)
   {
-    goBack();
+    reset();
     this->Advance(-1, {}, {});
   }
   return isThere;
@@ -238,14 +254,10 @@ bool PointRun::MoveInPlace()
     });
 }
 
-/// Removes the points that were not removed before.
+/// Removes points. @param ids ascending.
 /// @returns false if the points have to be triangulated anew.
-bool PointRun::RemoveInPlace(const std::vector<std::int64_t>& before)
+bool PointRun::RemoveInPlace(const std::vector<VertexId>& ids)
 {
-  const std::vector<std::int64_t>& now = this->Points.GetRemoved();
-  std::vector<VertexId> ids;
-  std::set_difference(
-    now.begin(), now.end(), before.begin(), before.end(), std::back_inserter(ids));
   return this->AreFew(SizeOf(ids)) &&
     this->ChangeInPlace(
       [&](LoadedMesh& mesh)
@@ -299,7 +311,6 @@ bool PointRun::JudgeAgain(const MotionResult& motion)
 {
   PointResult& result = this->Result;
   result.Pins.Renumber(motion.Edges, result.GetAllEdges());
-  result.Flips = 0;
   const std::vector<std::int32_t> leftOut = this->Points.GetLeftOutRings();
   bool isSame = false;
   this->OnBackend(
@@ -372,6 +383,7 @@ void PointRun::RecordMotion(const MotionResult& motion)
   report.NonDelaunayBefore = 0;
   report.BuildSeconds = 0.0;
   this->Result.MoveRounds = motion.Rounds;
+  this->Result.Flips = 0;
   this->AreAnglesKnown = false;
   this->AreKeptEdgesKnown = false;
   this->RecordFound(this->Loaded->GetLoop().GetFound());

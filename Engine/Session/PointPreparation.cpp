@@ -195,26 +195,81 @@ void PreparedPoints::CopyPlaces(PointPlaces& places)
   places.OnDevice = false;
 }
 
-void PreparedPoints::Append(const PlaneArray& points)
+void PreparedPoints::TakeOver()
 {
   this->Unprepare();
   const PlaneArray before = this->CopyToHost();
-  const auto append = [&](auto& coordinates)
+  const auto copy = [&](auto& coordinates)
   {
-    std::decay_t<decltype(coordinates)> all;
-    all.reserve(2 * (before.Count + points.Count));
-    for (const PlaneArray& some : { before, points })
+    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
+    const void* const own = coordinates.data();
+    if (before.Count > 0 && own == before.Data())
     {
-      for (std::int64_t i = 0; i < 2 * some.Count; ++i)
-      {
-        using Real = typename std::decay_t<decltype(coordinates)>::value_type;
-        all.push_back(static_cast<Real>(some.Get(i / 2, static_cast<int>(i % 2))));
-      }
+      return;
+    }
+    std::vector<Real> all;
+    all.reserve(2 * before.Count);
+    for (std::int64_t i = 0; i < 2 * before.Count; ++i)
+    {
+      all.push_back(static_cast<Real>(before.Get(i / 2, static_cast<int>(i % 2))));
     }
     coordinates = std::move(all);
-    this->Prepared.Points = PlaneArray(coordinates.data(), before.Count + points.Count, 2);
+    this->Caller.Points = PlaneArray(coordinates.data(), before.Count, 2);
   };
   if (before.Floats)
+  {
+    copy(this->CallerFloats);
+  }
+  else
+  {
+    copy(this->CallerDoubles);
+  }
+  this->Caller.OnDevice = false;
+  this->Prepared = this->Caller;
+}
+
+std::vector<std::array<double, 2>> PreparedPoints::SetPlaces(
+  const std::vector<VertexId>& points, const std::vector<std::array<double, 2>>& places)
+{
+  std::vector<std::array<double, 2>> before;
+  const auto set = [&](auto& coordinates)
+  {
+    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      auto* const place = &coordinates[std::size_t(2) * points[i]];
+      before.push_back({ place[0], place[1] });
+      place[0] = static_cast<Real>(places[i][0]);
+      place[1] = static_cast<Real>(places[i][1]);
+    }
+  };
+  if (this->Caller.Points.Floats)
+  {
+    set(this->CallerFloats);
+  }
+  else
+  {
+    set(this->CallerDoubles);
+  }
+  this->Unprepare();
+  return before;
+}
+
+void PreparedPoints::Append(const PlaneArray& points)
+{
+  this->TakeOver();
+  const std::int64_t all = this->Caller.Points.Count + points.Count;
+  const auto append = [&](auto& coordinates)
+  {
+    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
+    coordinates.resize(2 * this->Caller.Points.Count); // there may be room for more
+    for (std::int64_t i = 0; i < 2 * points.Count; ++i)
+    {
+      coordinates.push_back(static_cast<Real>(points.Get(i / 2, static_cast<int>(i % 2))));
+    }
+    this->Caller.Points = PlaneArray(coordinates.data(), all, 2);
+  };
+  if (this->Caller.Points.Floats)
   {
     append(this->CallerFloats);
   }
@@ -222,8 +277,7 @@ void PreparedPoints::Append(const PlaneArray& points)
   {
     append(this->CallerDoubles);
   }
-  this->Caller.Points = this->Prepared.Points;
-  this->Caller.OnDevice = false;
+  this->Prepared = this->Caller;
 }
 
 void PreparedPoints::SetRefined(std::vector<AddedPoint> points)

@@ -3,11 +3,13 @@
 #ifndef DELAUNAYFLIP_POINTPREPARATION_H
 #define DELAUNAYFLIP_POINTPREPARATION_H
 
+#include "EdgeMesh.h"
 #include "FlipReport.h"
 #include "PointTriangulation.h"
 #include "SegmentCrossings.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -73,6 +75,13 @@ public:
   void Exchange(PointPlaces& places);
   /// Copies the current places to the host's memory. Exchange must follow.
   void CopyPlaces(PointPlaces& places);
+
+  /// Copies the places of the caller's points, unless this has a copy of them, which can change.
+  void TakeOver();
+  /// Sets the places of some points, after TakeOver. Prepare must follow, as for Append.
+  /// @returns the places before.
+  std::vector<std::array<double, 2>> SetPlaces(
+    const std::vector<VertexId>& points, const std::vector<std::array<double, 2>>& places);
 
   /// The points that are removed, ascending. Their places are NaN.
   const std::vector<std::int64_t>& GetRemoved() const { return this->Removed; }

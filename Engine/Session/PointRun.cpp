@@ -69,6 +69,7 @@ void PointRun::ListStages()
       return;
     }
     this->InsertBatch(mesh, static_cast<std::size_t>(batch));
+    this->JudgeTriangles(mesh);
   };
   this->Stages.push_back(
     { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), insertPoints });

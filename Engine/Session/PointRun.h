@@ -8,6 +8,7 @@
 #include "PointReport.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -68,16 +69,17 @@ private:
   void ExplainRefused(LoadedMesh& mesh);
   void CutOff();
   void RemoveTriangles(LoadedMesh& mesh);
-  bool IsPlain() const;
   bool IsDelaunay() const;
   bool AreFew(std::int64_t points) const;
   bool CanInsertInPlace(const PlaneArray& points);
-  void InsertInPlace(const PlaneArray& points);
-  void InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
+  bool InsertInPlace(std::int64_t count);
+  bool InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
   void ReadPlaces(const PointMove& move);
   bool GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress);
+  bool Follow(std::vector<std::int64_t> removed, const std::function<bool()>& change,
+    const std::function<void()>& goBack, const ProgressObserver& progress);
   bool MoveInPlace();
-  bool RemoveInPlace(const std::vector<std::int64_t>& before);
+  bool RemoveInPlace(const std::vector<VertexId>& ids);
   template <typename Change>
   bool ChangeInPlace(const Change& change);
   void RecordMotion(const MotionResult& motion);

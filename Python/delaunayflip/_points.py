@@ -109,9 +109,9 @@ class Triangulation(Asked):
         interpolators.
 
         The engine's triangulation goes over to the new one, and grows. So insert many points at a time,
-        such as 10,000, and go on with the new one: ``mesh = mesh.insert(points)``. If there are no
-        segments, nothing was removed, and all new points are in the hull, only the triangles around
-        them are made anew, otherwise all.
+        such as 10,000, and go on with the new one: ``mesh = mesh.insert(points)``. If they are at most
+        one in 16 of those that are there, all are in triangles, and none is on a segment, only the
+        triangles around them are made anew, otherwise all.
 
         Args:
             points: (k, 2) or (k, 3), as many columns as the others. They are numbered after all others

@@ -103,9 +103,9 @@ public:
   {
     return this->Engine->Ask(asked, observer);
   }
-  std::int64_t InsertPoints(const std::vector<double>& places) override
+  std::int64_t InsertPoints(const std::vector<double>& places, bool keepsFixed) override
   {
-    const std::int64_t flips = this->Engine->InsertPoints(places);
+    const std::int64_t flips = this->Engine->InsertPoints(places, keepsFixed);
     this->Report = this->Engine->GetInputReport();
     this->Report.Backend = "CUDA: fake";
     return flips;

@@ -104,7 +104,8 @@ Step DrawStep(ByteSource& source, const Places& points)
     return step;
   }
   step.Points.clear();
-  for (std::uint32_t left = 1 + source.Draw(3); left > 0; --left)
+  const bool areMany = kind == 10 && source.Once(2);
+  for (std::uint32_t left = areMany ? 1 + count / 2 : 1 + source.Draw(3); left > 0; --left)
   {
     step.Ids.push_back(source.Draw(count));
   }

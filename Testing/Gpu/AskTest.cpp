@@ -180,19 +180,20 @@ class AskTest : public GpuTest
 
 TEST_F(AskTest, TheGpuGivesTheCpusAnswers) { ExpectAgreement(3000, 50000); }
 
-/// Inserts the second half of points, in batches, on both backends.
+/// Inserts the last fifth of points, in batches, on both backends.
 void ExpectInsertionAgrees(const Places& points)
 {
-  const auto half = static_cast<std::int64_t>(points.size()) / 2;
+  const auto all = SizeOf(points);
+  const std::int64_t start = all - all / 5, batch = all / 25 + 1;
   const auto run = [&](BackendKind backend)
   {
     PointOptions options;
     static_cast<FlipOptions&>(options) = OnBackend(backend);
-    FlipSession session(PointInput{ PlaneArray(points.front().data(), half, 2) }, options);
+    FlipSession session(PointInput{ PlaneArray(points.front().data(), start, 2) }, options);
     session.Advance();
-    for (std::int64_t first = half; first < 2 * half; first += half / 3 + 1)
+    for (std::int64_t first = start; first < all; first += batch)
     {
-      const std::int64_t count = std::min(half / 3 + 1, 2 * half - first);
+      const std::int64_t count = std::min(batch, all - first);
       EXPECT_TRUE(session.Insert(PlaneArray(points[first].data(), count, 2)));
     }
     return session;
@@ -291,7 +292,57 @@ void ExpectLifeAgrees(std::size_t count)
   }
   remove(scattered);
   remove(clustered);
+  Places back;
+  for (std::size_t i = 0; i < clustered.size(); i += 2)
+  {
+    back.push_back(moved[clustered[i]]);
+  }
+  for (FlipSession& session : sessions)
+  {
+    EXPECT_TRUE(session.Insert(View(back)));
+  }
+  expectSame();
 }
+
+/// Points come between segments, where triangles are removed.
+void ExpectInsertionBetweenSegmentsAgrees(int count)
+{
+  std::mt19937 random(8);
+  const auto draw = [&] { return static_cast<double>(DrawIndex(random, 1 << 20)) / (1 << 20); };
+  Drawing drawing;
+  for (int i = 0; i < count; ++i)
+  {
+    drawing.Points.push_back({ draw(), draw() });
+  }
+  drawing.AddRing({ { 0.05, 0.05 }, { 0.95, 0.1 }, { 0.9, 0.9 }, { 0.1, 0.95 } });
+  drawing.FirstHole = 1;
+  drawing.AddRing({ { 0.4, 0.4 }, { 0.6, 0.4 }, { 0.5, 0.7 } });
+  std::vector<FlipSession> sessions;
+  for (const BackendKind backend : { BackendKind::Threads, BackendKind::CUDA })
+  {
+    PointOptions options;
+    static_cast<FlipOptions&>(options) = OnBackend(backend);
+    sessions.emplace_back(drawing.View(), options);
+    sessions.back().Advance();
+  }
+  for (int batch = 0; batch < 3; ++batch)
+  {
+    Places more;
+    for (int i = 0; i < count / 20; ++i)
+    {
+      more.push_back({ 0.2 + 0.15 * draw(), 0.2 + 0.5 * draw() });
+    }
+    for (FlipSession& session : sessions)
+    {
+      EXPECT_TRUE(session.Insert(View(more)));
+    }
+    EXPECT_TRUE(IsOnGpu(sessions[1].GetReport()));
+    EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
+    EXPECT_EQ(sessions[0].ListSegmentEdges(), sessions[1].ListSegmentEdges());
+  }
+}
+
+TEST_F(AskTest, PointsComeBetweenSegmentsAlike) { ExpectInsertionBetweenSegmentsAgrees(50000); }
 
 TEST_F(AskTest, PointsMoveAndGoAlike)
 {
@@ -329,6 +380,8 @@ TEST_F(SmallAskTest, EveryKindOfQuery) { ExpectAgreement(60, 300); }
 TEST_F(SmallAskTest, PointsThatComeLater) { ExpectInsertionAgrees(100); }
 
 TEST_F(SmallAskTest, PointsThatMoveAndGo) { ExpectLifeAgrees(300); }
+
+TEST_F(SmallAskTest, PointsBetweenSegments) { ExpectInsertionBetweenSegmentsAgrees(300); }
 
 }
 }

@@ -39,7 +39,7 @@ public:
       {
         some.insert(some.end(), { points[k][0], points[k][1] });
       }
-      this->Flips += this->Mesh->InsertPoints(some);
+      this->Flips += this->Mesh->InsertPoints(some, false);
       this->Mesh->Audit();
       EXPECT_EQ(0, this->Mesh->GetLoop().GetFound().Bad);
     }
@@ -177,10 +177,10 @@ TEST(Grow, SessionsTakeMorePoints)
       options.Alpha = alpha;
       FlipSession session(drawing.View(), options);
       session.Advance();
-      for (int batch = 0; batch < 6; ++batch)
+      for (int batch = 0; batch < 12; ++batch)
       {
         Places more;
-        for (int i = 0; i < 200; ++i)
+        for (int i = 0; i < (batch == 5 ? 400 : 60); ++i)
         {
           more.push_back(DrawPlace(random, batch % 2 == 0 ? 1000 : 10));
         }
@@ -213,7 +213,10 @@ TEST(Grow, ASessionOfFloatsRoundsMorePoints)
   {
     more.push_back(DrawIndex(random, 1 << 28) / double(1 << 28));
   }
-  EXPECT_TRUE(session.Insert(PlaneArray(more.data(), 1000, 2)));
+  for (std::size_t first = 0; first < more.size(); first += 100)
+  {
+    EXPECT_TRUE(session.Insert(PlaneArray(more.data() + first, 50, 2)));
+  }
   std::vector<float> all = coordinates;
   all.insert(all.end(), more.begin(), more.end());
   const Triangulation expected = Triangulate(PointInput{ PlaneArray(all.data(), 1004, 2) });

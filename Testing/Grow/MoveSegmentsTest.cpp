@@ -204,7 +204,6 @@ TEST(MoveSegments, ManyPointsGo)
       if (!isEnd[i] && std::isfinite(moving.Now.Points[i][0]))
       {
         ids.push_back(static_cast<std::int64_t>(i));
-        moving.Now.Points[i] = { NAN, NAN };
       }
     }
     EXPECT_LT(100, ids.size());
@@ -212,9 +211,58 @@ TEST(MoveSegments, ManyPointsGo)
     {
       EXPECT_TRUE(session.Remove(ids.data(), static_cast<std::int64_t>(ids.size())));
     }
+    for (const std::int64_t id : ids)
+    {
+      moving.Now.Points[id] = { NAN, NAN };
+    }
     moving.Expect();
     ASSERT_FALSE(HasFailure()) << frame;
     EXPECT_EQ(moving.Frames, moving.InPlace);
+  }
+}
+
+/// Points are inserted between segments in place, and on segments by beginning anew. Holes and
+/// large triangles are removed again.
+TEST(MoveSegments, PointsCome)
+{
+  std::mt19937 random(26);
+  for (const double alpha : { 0.0, 0.04 })
+  {
+    Drawing drawing = ToDrawing(DrawPlaces(random, 1000));
+    AddCircle(drawing, 0.45, 60);
+    drawing.FirstHole = 1;
+    AddCircle(drawing, 0.0625, 4);
+    PointOptions options;
+    options.Alpha = alpha;
+    Moving moving(drawing, options);
+    for (int frame = 0; frame < 8; ++frame)
+    {
+      Places more = DrawPlaces(random, 40);
+      for (Place& place : more)
+      {
+        place = { 0.6 + 0.15 * place[0], 0.3 + 0.2 * place[1] };
+      }
+      const bool isOnSegment = frame == 0;
+      if (isOnSegment) // the middle of a side of the hole
+      {
+        more.push_back({ 0.5 + 0.03125, 0.5 + 0.03125 });
+      }
+      const std::int64_t flips = moving.Sessions[0].GetReport().TotalFlips;
+      for (FlipSession& session : moving.Sessions)
+      {
+        EXPECT_TRUE(session.Insert(View(more)));
+      }
+      moving.Now.Points.insert(moving.Now.Points.end(), more.begin(), more.end());
+      moving.Expect();
+      ASSERT_FALSE(HasFailure()) << frame;
+      if (alpha == 0.0)
+      {
+        EXPECT_NE(isOnSegment, flips == moving.Sessions[0].GetReport().TotalFlips) << frame;
+      }
+      Shake(random, 1e-5, moving.Now.Points);
+      moving.GoTo(moving.Now.Points);
+      ASSERT_FALSE(HasFailure()) << frame;
+    }
   }
 }
 

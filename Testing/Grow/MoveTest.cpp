@@ -412,17 +412,20 @@ TEST(Move, ManyPointsGoInPlace)
       std::vector<std::int64_t> ids;
       for (std::size_t i = 0; i < points.size(); ++i)
       {
-        Place& place = moving.Now.Points[i];
+        const Place& place = moving.Now.Points[i];
         if (std::isfinite(place[0]) && isRemoved(place[0] / size - 0.5, place[1] / size - 0.5))
         {
           ids.push_back(static_cast<std::int64_t>(i));
-          place = { NAN, NAN };
         }
       }
       EXPECT_LT(100, ids.size());
       for (FlipSession& session : moving.Sessions)
       {
         EXPECT_TRUE(session.Remove(ids.data(), static_cast<std::int64_t>(ids.size())));
+      }
+      for (const std::int64_t id : ids)
+      {
+        moving.Now.Points[id] = { NAN, NAN };
       }
       moving.Expect();
     };
