@@ -457,7 +457,8 @@ def flip(
 
 def _require_xyz(points, geometry):
     """Refuses longitudes and latitudes, which would be taken for x and y."""
-    if geometry == "sphere" and _arrays.as_plane(points).shape[1] == 2:
+    is_sphere = isinstance(geometry, str) and geometry == "sphere"
+    if is_sphere and _arrays.as_plane(points).shape[1] == 2:
         raise ValueError('geometry="sphere" needs x, y and z; place_on_sphere makes them of longitudes and '
                          "latitudes")
 
