@@ -66,8 +66,8 @@ bool PointRun::IsDelaunay() const
   return isOfCaller && this->Loaded && this->IsOver() && this->Found.Bad == 0;
 }
 
-/// Whether so many points are inserted or removed in less time than all are triangulated anew: up
-/// to about a tenth of all, on one thread and on several.
+/// Whether so many points are inserted or removed in less time than all are triangulated anew. On
+/// one thread that is so up to about a tenth of all.
 bool PointRun::AreFew(std::int64_t points) const
 {
   constexpr std::int64_t Share = 16, Always = 64;
