@@ -6,6 +6,7 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"
+#include "GdalModule.h"
 #include "HeightQuery.h"
 #include "InputRepair.h"
 #include "MeshFiles.h"
@@ -333,6 +334,11 @@ private:
       this->InputCrs = file.Crs;
     }
     this->Bar.Clear();
+    const std::string difference = this->FilesCrs.Compare(file.Crs, path);
+    if (!difference.empty())
+    {
+      this->Warn(difference);
+    }
     // The others say that they have nothing.
     const bool mayBeEmpty =
       format == MeshFormat::VTK || format == MeshFormat::VTP || format == MeshFormat::PLY;
@@ -560,6 +566,7 @@ private:
   vtkSmartPointer<vtkPolyData> Places; ///< Where heights are wanted; or null.
   std::unique_ptr<HeightQuery> Heights; ///< Null: a mesh is wanted.
   std::string InputCrs; ///< That the input's file names.
+  SharedCrs FilesCrs;
   vtkIdType OutlineRings = 0; ///< How many of the rings come first.
   vtkDelaunayFlipAlgorithm* const Filter;
   const vtkNew<vtkPolyData> Output;

@@ -25,4 +25,25 @@ const GdalModule& LoadGdal()
   return *reinterpret_cast<const GdalModule* (*)()>(symbol)();
 }
 
+std::string SharedCrs::Compare(const std::string& crs, const std::string& path)
+{
+  if (crs.empty())
+  {
+    return "";
+  }
+  if (this->Crs.empty())
+  {
+    this->Crs = crs;
+    this->File = path;
+    return "";
+  }
+  const std::string names = LoadGdal().DescribeDifference(crs, this->Crs);
+  if (names.empty())
+  {
+    return "";
+  }
+  return path + ": its coordinate reference system is not that of " + this->File + " (" + names +
+    "); the coordinates are taken as they are";
+}
+
 }

@@ -44,6 +44,10 @@ public:
   /// @param crs such as EPSG:25832, or any other text that GDAL knows
   virtual std::string DescribeCrs(const std::string& crs) const = 0;
 
+  /// The names of two coordinate reference systems if their x and y differ; else "".
+  virtual std::string DescribeDifference(
+    const std::string& one, const std::string& other) const = 0;
+
   /// A GeoTIFF of doubles.
   /// @param crs may be empty
   virtual std::unique_ptr<RasterFile> MakeGeoTiff(
@@ -52,6 +56,18 @@ public:
 
 /// @throws std::runtime_error that says what to install.
 const GdalModule& LoadGdal();
+
+/// The coordinate reference system that all files should have: that of the first one that names it.
+class SharedCrs
+{
+public:
+  /// @param crs FileMesh::Crs of a file.
+  /// @returns the text of a warning about a file in another system, or "".
+  std::string Compare(const std::string& crs, const std::string& path);
+
+private:
+  std::string Crs, File;
+};
 
 }
 

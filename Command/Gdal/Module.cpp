@@ -107,6 +107,23 @@ public:
     return WriteCrs(FindCrs(crs), "WKT1_ESRI");
   }
 
+  std::string DescribeDifference(const std::string& one, const std::string& other) const override
+  {
+    const GdalMessages messages;
+    OGRSpatialReference systems[] = { FindCrs(one), FindCrs(other) };
+    for (OGRSpatialReference& system : systems)
+    {
+      system.DemoteTo2D(nullptr);
+    }
+    const char* const options[] = { "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+      "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr };
+    if (systems[0].IsSame(&systems[1], options) != 0)
+    {
+      return "";
+    }
+    return std::string(systems[0].GetName()) + " and " + systems[1].GetName();
+  }
+
   std::unique_ptr<RasterFile> MakeGeoTiff(
     const std::string& path, const RasterGrid& grid, const std::string& crs) const override
   {

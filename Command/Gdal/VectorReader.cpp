@@ -14,6 +14,7 @@
 #include <vtkPoints.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -188,8 +189,15 @@ public:
   FileMesh Finish()
   {
     FileMesh file;
-    file.Crs = this->Crs;
     file.Mesh->SetPoints(this->Points);
+    file.Crs = this->Crs;
+    if (this->HasAngles && !this->MayBeAngles())
+    {
+      file.Crs.clear(); // GDAL takes every GeoJSON for one in degrees
+      file.Notes.push_back(
+        "its coordinates are no longitudes and latitudes, although its coordinate "
+        "reference system says so");
+    }
     file.Mesh->SetLines(this->Lines);
     file.Mesh->SetPolys(this->Rings);
     if (this->Empty > 0)
@@ -224,6 +232,16 @@ public:
   }
 
 private:
+  bool MayBeAngles() const
+  {
+    constexpr double MostDegrees = 360.0;
+    double bounds[6];
+    this->Points->GetBounds(bounds);
+    return std::all_of(
+             bounds, bounds + 4, [](double x) { return !(std::fabs(x) > MostDegrees); }) ||
+      this->Points->GetNumberOfPoints() == 0;
+  }
+
   /// Finds the attributes of a layer. Those of several layers are not joined.
   void BeginLayer(OGRLayer& layer)
   {
@@ -236,6 +254,7 @@ private:
     if (const OGRSpatialReference* const crs = layer.GetSpatialRef())
     {
       this->Crs = WriteCrs(*crs, "WKT2_2019");
+      this->HasAngles = crs->IsGeographic() != 0;
     }
     for (int i = 0; i < fields.GetFieldCount(); ++i)
     {
@@ -350,6 +369,7 @@ private:
   std::int64_t Empty = 0;
   std::int64_t Labels = 0; ///< How many labels a drawing has.
   std::string Crs;
+  bool HasAngles = false; ///< Whether that is of longitudes and latitudes.
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Lines, Rings;
 };

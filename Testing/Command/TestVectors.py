@@ -21,15 +21,17 @@ SQUARE = [[0.5, 0.5], [3.5, 0.5], [3.5, 3.5], [0.5, 3.5], [0.5, 0.5]]
 HOLE = [[1.5, 1.5], [1.5, 2.5], [2.5, 2.5], [2.5, 1.5], [1.5, 1.5]]
 
 
-def geojson(*features):
-    """A file of pairs of a type of geometry and coordinates, and perhaps attributes."""
+def geojson(*features, crs=None):
+    """A file of pairs of a type of geometry and coordinates, and perhaps attributes. Without `crs`, GDAL
+    takes them for longitudes and latitudes."""
     made = []
     for kind, coordinates, *attributes in features:
         key = "geometries" if kind == "GeometryCollection" else "coordinates"
         geometry = kind and {"type": kind, key: coordinates}
         made.append({"type": "Feature", "geometry": geometry,
                      "properties": attributes[0] if attributes else {}})
-    return json.dumps({"type": "FeatureCollection", "features": made})
+    named = {"crs": {"type": "name", "properties": {"name": crs}}} if crs else {}
+    return json.dumps({"type": "FeatureCollection", "features": made, **named})
 
 
 def dxf(*entities, labels=""):
@@ -186,6 +188,23 @@ class Vectors(VectorTest):
         self.assertEqual(len(points_of(mesh)), 4)
         self.fail_with(2, "two.gpkg:survey", "out.vtk", "--from-points", "--report", "two.gpkg",
                        naming=["two.gpkg", "two purposes"])
+
+    def test_coordinate_reference_systems(self):
+        """Files with different ones are told of, but not a .geojson of metres that names none."""
+        places = [(500000 + x, 5500000 + y, z) for x, y, z in PLACES]
+        self.write("survey.geojson", geojson(*(("Point", place) for place in places), crs="EPSG:25832"))
+        inner = [(500001, 5500001), (500002, 5500002)]
+        for name, ends, crs in (("angles", [(9, 49.6), (9.1, 49.7)], None), ("metres", inner, None),
+                                ("same", inner, "urn:ogc:def:crs:EPSG::25832")):
+            self.write(f"{name}.geojson", geojson(("LineString", ends), crs=crs))
+        _, result = self.triangulate("survey.geojson", "--constraints", "angles.geojson")
+        self.assertIn("angles.geojson: its coordinate reference system is not that of survey.geojson "
+                      "(WGS 84 and ETRS89 / UTM zone 32N)", result.stderr)
+        _, result = self.triangulate("survey.geojson", "--constraints", "metres.geojson")
+        self.assertNotIn("is not that of", result.stderr)
+        self.assertIn("metres.geojson: its coordinates are no longitudes and latitudes", result.stderr)
+        _, result = self.triangulate("survey.geojson", "--constraints", "same.geojson")
+        self.assertNotIn("coordinate", result.stderr)
 
     def test_bad_files(self):
         """GDAL's messages are in the error, and nowhere else."""
