@@ -543,7 +543,7 @@ extern "C"
 
   /** Inserts more points into the triangulation, numbered after the others of the caller; those at
    * crossings come after them. The triangles are then those of all points, perhaps in another order
-   * than if all had been given at once. Up to one in 16 of the points at a time are inserted in
+   * than if all had been given at once. Up to one in 32 of the points at a time are inserted in
    * place where a motion would keep the mesh, if all are in triangles that are kept, and none is on
    * a segment: only the triangles around them change. Otherwise the triangulation is made anew. For
    * sessions from points, after

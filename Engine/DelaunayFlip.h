@@ -171,7 +171,7 @@ public:
 
   /// Inserts more points into the triangulation, numbered after the others. The triangles are then
   /// those of all points, perhaps in another order than if all had been given at once. Up to one in
-  /// 16 of the points at a time are inserted in place where Move would keep the mesh, if all are in
+  /// 32 of the points at a time are inserted in place where Move would keep the mesh, if all are in
   /// triangles that are kept, and none is on a segment: only the triangles around them change.
   /// Otherwise the triangulation is made anew.
   /// For sessions from points.
@@ -203,7 +203,7 @@ public:
   bool Move(const PointMove& move, const ProgressObserver& progress = {});
 
   /// Removes points. The others keep their numbers. A removed point is no longer used, as if it
-  /// were not finite, and later moves do not bring it back. Up to one in 16 of the points at a time
+  /// were not finite, and later moves do not bring it back. Up to one in 32 of the points at a time
   /// are removed in place where Move would keep the mesh, unless one is on a segment or an end of
   /// one. Otherwise the triangulation is made anew. For sessions from points.
   /// @param ids of points. Ids of points that were removed before have no effect.

@@ -66,11 +66,11 @@ bool PointRun::IsDelaunay() const
   return isOfCaller && this->Loaded && this->IsOver() && this->Found.Bad == 0;
 }
 
-/// Whether so many points are inserted or removed in less time than all are triangulated anew. On
-/// one thread that is so up to about a tenth of all.
+/// Whether so many points are inserted or removed in less time than all are triangulated anew. That
+/// is so up to about a tenth of all on one thread, and a thirtieth on a GPU.
 bool PointRun::AreFew(std::int64_t points) const
 {
-  constexpr std::int64_t Share = 16, Always = 64;
+  constexpr std::int64_t Share = 32, Always = 64;
   return points <= this->Points.GetCaller().Points.Count / Share + Always;
 }
 

@@ -110,7 +110,7 @@ class Triangulation(Asked):
 
         The engine's triangulation goes over to the new one, and grows. So insert many points at a time,
         such as 10,000, and go on with the new one: ``mesh = mesh.insert(points)``. If they are at most
-        one in 16 of those that are there, all are in triangles, and none is on a segment, only the
+        one in 32 of those that are there, all are in triangles, and none is on a segment, only the
         triangles around them are made anew, otherwise all.
 
         Args:

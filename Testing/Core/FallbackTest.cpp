@@ -261,7 +261,7 @@ TEST_F(FallbackTest, AnyCallMayFailForRefinementOfMeshes)
 TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
 {
   std::vector<double> xy;
-  for (int i = 0; i < 13000; ++i)
+  for (int i = 0; i < 12600; ++i)
   {
     const double radius = std::sqrt(i % 12000); // the later ones are inside
     xy.insert(xy.end(), { std::cos(2.4 * i) * radius, std::sin(2.4 * i) * radius });
@@ -272,9 +272,9 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
     FlipSession session(
       PointInput{ PlaneArray(xy.data(), 12000, 2) }, PointOptions{ OnBackend(backend) });
     session.Advance();
-    for (const std::int64_t first : { 12000, 12500 })
+    for (const std::int64_t first : { 12000, 12300 })
     {
-      EXPECT_TRUE(session.Insert(PlaneArray(xy.data() + 2 * first, 500, 2)));
+      EXPECT_TRUE(session.Insert(PlaneArray(xy.data() + 2 * first, 300, 2)));
     }
     return session;
   };

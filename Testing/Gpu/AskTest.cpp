@@ -184,7 +184,9 @@ TEST_F(AskTest, TheGpuGivesTheCpusAnswers) { ExpectAgreement(3000, 50000); }
 void ExpectInsertionAgrees(const Places& points)
 {
   const auto all = SizeOf(points);
-  const std::int64_t start = all - all / 5, batch = all / 25 + 1;
+  const std::int64_t start = all - all / 5;
+  const std::int64_t batch =
+    std::min<std::int64_t>(all / 25 + 1, 500); // so few are inserted in place
   const auto run = [&](BackendKind backend)
   {
     PointOptions options;
@@ -223,7 +225,6 @@ TEST_F(AskTest, PointsThatComeLaterAreInsertedAlike) { ExpectInsertionAgrees(200
 
 /// Points are moved and removed in place on both backends, with the same bits. The boundary
 /// changes, too.
-/// Moves and removes points on threads and on a GPU.
 void ExpectLifeAgrees(std::size_t count)
 {
   std::mt19937 random(7);
@@ -279,13 +280,13 @@ void ExpectLifeAgrees(std::size_t count)
     expectSame();
   };
   std::vector<std::int64_t> scattered, clustered;
-  for (std::size_t i = 0; i < count / 20; ++i)
+  for (std::size_t i = 0; i < count / 40; ++i)
   {
     scattered.push_back(static_cast<std::int64_t>(DrawIndex(random, count)));
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (std::hypot(moved[i][0] - 0.5, moved[i][1] - 0.5) < 0.12)
+    if (std::hypot(moved[i][0] - 0.5, moved[i][1] - 0.5) < 0.09)
     {
       clustered.push_back(static_cast<std::int64_t>(i));
     }
@@ -328,7 +329,7 @@ void ExpectInsertionBetweenSegmentsAgrees(int count)
   for (int batch = 0; batch < 3; ++batch)
   {
     Places more;
-    for (int i = 0; i < count / 20; ++i)
+    for (int i = 0; i < count / 40; ++i)
     {
       more.push_back({ 0.2 + 0.15 * draw(), 0.2 + 0.5 * draw() });
     }

@@ -199,7 +199,7 @@ TEST(MoveSegments, ManyPointsGo)
   for (int frame = 0; frame < 3; ++frame)
   {
     std::vector<std::int64_t> ids;
-    for (std::size_t i = 0; i < 3000 && ids.size() < 200; ++i)
+    for (std::size_t i = 0; i < 3000 && ids.size() < 150; ++i)
     {
       if (!isEnd[i] && std::isfinite(moving.Now.Points[i][0]))
       {

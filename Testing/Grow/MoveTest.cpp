@@ -429,9 +429,9 @@ TEST(Move, ManyPointsGoInPlace)
       }
       moving.Expect();
     };
-    remove([&](double, double) { return DrawIndex(random, 20) == 0; });
-    remove([&](double x, double y) { return x * x + y * y < 0.018; });
-    remove([&](double x, double y) { return std::fabs(x - 0.2) < 0.02 && std::fabs(y) < 0.49; });
+    remove([&](double, double) { return DrawIndex(random, 40) == 0; });
+    remove([&](double x, double y) { return x * x + y * y < 0.01; });
+    remove([&](double x, double y) { return std::fabs(x - 0.2) < 0.013 && std::fabs(y) < 0.49; });
     EXPECT_EQ(3, moving.InPlace);
     remove([&](double x, double y) { return x < -0.48 && std::fabs(y) < 0.4; }); // a side
     ASSERT_FALSE(HasFailure());
