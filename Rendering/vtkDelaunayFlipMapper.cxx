@@ -19,6 +19,7 @@
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -492,7 +493,10 @@ void vtkDelaunayFlipMapper::SetMovedPoints(vtkPoints* points)
   {
     return;
   }
-  this->Own->Faces->SetPoints(points);
+  const vtkNew<vtkPoints> copy; // the caller may move on before this is drawn
+  copy->SetDataType(points->GetDataType());
+  copy->DeepCopy(points);
+  this->Own->Faces->SetPoints(copy);
   this->Own->MeasureBox();
   this->Own->IsNew = true; // a motion changes triangles otherwise than by flips, too
   this->EndStep();

@@ -47,12 +47,20 @@ bool PointRun::Insert(const PlaneArray& points, const ProgressObserver& progress
                          "triangulate all points with their sizes");
   }
   const bool mayStay = this->CanInsertInPlace(points);
-  this->Points.Append(points);
-  const bool isThere = mayStay && this->InsertInPlace(points.Count);
-  if (!isThere)
+  try
   {
-    this->Reset();
-    this->Advance(-1, {}, progress);
+    this->Points.Append(points);
+    const bool isThere = mayStay && this->InsertInPlace(points.Count);
+    if (!isThere)
+    {
+      this->Reset();
+      this->Advance(-1, {}, progress);
+    }
+  }
+  catch (...)
+  {
+    this->Reset(); // some points may be in the mesh, and others not
+    throw;
   }
   return this->Report.StopReason != StopReasonKind::Aborted;
 }
@@ -74,10 +82,12 @@ bool PointRun::AreFew(std::int64_t points) const
   return points <= this->Points.GetCaller().Points.Count / Share + Always;
 }
 
-/// Whether the points are few, and all of them are in triangles that are kept.
+/// Whether no limit may end the flips, the points are few, and all of them are in triangles that
+/// are kept.
 bool PointRun::CanInsertInPlace(const PlaneArray& points)
 {
-  if (!this->AreFew(points.Count) || !this->IsDelaunay() || !this->MaySegmentsStay())
+  const bool mayEnd = this->Points.GetOptions().MaximumIterations < 0;
+  if (!mayEnd || !this->AreFew(points.Count) || !this->IsDelaunay() || !this->MaySegmentsStay())
   {
     return false;
   }

@@ -105,9 +105,18 @@ bool PointRun::Remove(const std::int64_t* ids, std::int64_t count, const Progres
   std::vector<VertexId> added;
   std::set_difference(
     removed.begin(), removed.end(), before.begin(), before.end(), std::back_inserter(added));
-  this->Points.TakeOver();
   const std::array<double, 2> nowhere = { NAN, NAN };
-  const auto places = this->Points.SetPlaces(added, { added.size(), nowhere });
+  std::vector<std::array<double, 2>> places(added.size(), nowhere);
+  try
+  {
+    this->Points.TakeOver();
+    places = this->Points.SetPlaces(added, places);
+  }
+  catch (...)
+  {
+    this->Reset(); // the points may no longer be prepared
+    throw;
+  }
   const auto goBack = [&] { this->Points.SetPlaces(added, places); };
   return this->Follow(
     std::move(removed), [&] { return this->RemoveInPlace(added); }, goBack, progress);

@@ -232,6 +232,7 @@ std::vector<std::array<double, 2>> PreparedPoints::SetPlaces(
   const std::vector<VertexId>& points, const std::vector<std::array<double, 2>>& places)
 {
   std::vector<std::array<double, 2>> before;
+  before.reserve(points.size()); // may throw, what follows not
   const auto set = [&](auto& coordinates)
   {
     using Real = typename std::decay_t<decltype(coordinates)>::value_type;
@@ -263,6 +264,12 @@ void PreparedPoints::Append(const PlaneArray& points)
   {
     using Real = typename std::decay_t<decltype(coordinates)>::value_type;
     coordinates.resize(2 * this->Caller.Points.Count); // there may be room for more
+    const std::size_t size = 2 * static_cast<std::size_t>(all);
+    if (coordinates.capacity() < size)
+    {
+      coordinates.reserve(
+        std::max(size, 2 * coordinates.capacity())); // may throw, what follows not
+    }
     for (std::int64_t i = 0; i < 2 * points.Count; ++i)
     {
       coordinates.push_back(static_cast<Real>(points.Get(i / 2, static_cast<int>(i % 2))));

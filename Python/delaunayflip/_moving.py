@@ -249,8 +249,9 @@ class MovingTriangulation(Handle):
             self._stored = {}
             try:
                 yield handle
-            except _library.InvalidMesh:  # all points are where they were, but the mesh has to be made again
-                _library.call("advance", handle, -1, None, None)
+            except Exception:  # all points are where they were, but the mesh may have to be made again
+                with contextlib.suppress(Exception):
+                    _library.call("advance", handle, -1, None, None)
                 raise
             self._warn(handle, 5)
 

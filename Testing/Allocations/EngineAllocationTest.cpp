@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <functional>
 #include <new>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -128,6 +129,60 @@ void ExpectFailuresInPiecesReported(const OwnedMesh<double>& mesh, FlipOptions o
   EXPECT_TRUE(output == expected);
 }
 
+}
+
+/// After an insertion or removal that has failed, a session goes on with all points or without the
+/// new ones.
+TEST(EngineAllocations, OfChangesOfPointsFailOnce)
+{
+  constexpr std::int64_t Before = 2000, After = 2050;
+  std::mt19937 random(1);
+  std::vector<double> xy = { 0, 0, 1e10, 0, 0, 1e10, 1e10, 1e10 }; // around all others
+  while (xy.size() < 2 * After)
+  {
+    xy.push_back(1.0 + random());
+  }
+  const auto triangulate = [&](std::int64_t count)
+  {
+    PointOptions options;
+    options.Backend = BackendKind::Threads;
+    options.NumberOfThreads = 1;
+    FlipSession session(PointInput{ PlaneArray(xy.data(), count, 2) }, options);
+    session.Advance();
+    return session;
+  };
+  const auto store = [](FlipSession& session)
+  {
+    Ids ids(3 * session.CountTriangles());
+    session.StoreTriangles(MutableTriangleArray(ids.data(), session.CountTriangles()));
+    return ids;
+  };
+  FlipSession more = triangulate(After), fewer = triangulate(Before);
+  const Ids ofAll = store(more), ofFirst = store(fewer);
+  const PlaneArray added(xy.data() + 2 * Before, After - Before, 2);
+  const std::vector<std::int64_t> ids = { 3, 5, 1000, 1001 };
+  FlipSession session = triangulate(Before);
+  const std::int64_t insertions = FailEach([&] { session.Insert(added); },
+    [&]
+    {
+      session.Advance();
+      const Ids made = store(session);
+      EXPECT_TRUE(made == ofAll || made == ofFirst);
+      EXPECT_TRUE(session.Remove(ids.data(), 4));
+      session = triangulate(Before);
+    },
+    [] { return false; });
+  EXPECT_LT(10, insertions);
+  const std::int64_t removals = FailEach([&] { session.Remove(ids.data(), 4); },
+    [&]
+    {
+      session.Advance();
+      EXPECT_EQ(After, session.GetReport().Points);
+      session = triangulate(Before);
+      session.Insert(added);
+    },
+    [] { return false; });
+  EXPECT_LT(10, removals);
 }
 
 TEST(EngineAllocations, OfAWholeRunFailOnce)
