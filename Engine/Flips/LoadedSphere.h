@@ -44,9 +44,9 @@ public:
   /// How many triangles the closed mesh has.
   virtual std::int64_t CountTriangles() const = 0;
 
-  /// Whether all triangles surely face outside, seen from a center.
-  virtual bool FaceOutside(const PlanePoint& center) const = 0;
-  virtual ConvexitySums TestEdges() const = 0;
+  /// Tests all triangles and edges.
+  /// @param center triangles should face away from it.
+  virtual StartSums TestStart(const PlanePoint& center) const = 0;
 
   /// Copies to the host.
   virtual void Fetch(

@@ -101,19 +101,12 @@ public:
 
   std::int64_t CountTriangles() const override { return this->NumberOfTriangles; }
 
-  bool FaceOutside(const PlanePoint& center) const override
-  {
-    const FacingStep step{ this->Points.Data(), this->Triangles.Data(), center };
-    const auto sums = this->Device.template Sum<FacingSums>(this->NumberOfTriangles, step);
-    return sums.Turned + sums.Uncertain == 0;
-  }
-
-  ConvexitySums TestEdges() const override
+  StartSums TestStart(const PlanePoint& center) const override
   {
     const SphereTriangles triangles{ this->Triangles.Data(), this->Neighbors.Data(),
       this->NumberOfTriangles };
-    return this->Device.template Sum<ConvexitySums>(
-      this->NumberOfTriangles, ConvexityStep{ this->Points.Data(), triangles });
+    return this->Device.template Sum<StartSums>(
+      this->NumberOfTriangles, StartStep{ this->Points.Data(), triangles, center });
   }
 
   void Fetch(PlanePoint* points, std::int32_t* triangles, std::int32_t* neighbors) const override

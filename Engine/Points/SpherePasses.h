@@ -285,43 +285,6 @@ std::vector<BoundarySide> ListBoundary(const SphereTriangles& triangles, const B
 }
 
 //------------------------------------------------------------------------------
-struct FacingSums
-{
-  std::int64_t Turned = 0; ///< Triangles that do not face outside.
-  std::int64_t Uncertain = 0; ///< Triangles that a device cannot decide.
-
-  DELAUNAYFLIP_HOST_DEVICE FacingSums& operator+=(const FacingSums& part)
-  {
-    this->Turned += part.Turned;
-    this->Uncertain += part.Uncertain;
-    return *this;
-  }
-};
-
-/// Tests whether triangles face outside.
-struct FacingStep
-{
-  const PlanePoint* Points;
-  const std::int32_t* Triangles;
-  PlanePoint Center;
-
-  DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
-  {
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      delaunayflip::Prefetch(&this->Points[this->Triangles[3 * t + slot]]);
-    }
-  }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, FacingSums& sums) const
-  {
-    const std::int32_t* ids = this->Triangles + 3 * t;
-    const int sign = FindOrientation3D(
-      this->Points[ids[0]], this->Points[ids[1]], this->Points[ids[2]], this->Center);
-    sums.Turned += int(sign <= 0);
-    sums.Uncertain += int(sign == UncertainSign);
-  }
-};
-
 /// Points for which filters may not be used, because they are not finite or too large.
 struct UnusualStep
 {
@@ -333,43 +296,85 @@ struct UnusualStep
   }
 };
 
-struct ConvexitySums
+/// What StartStep finds.
+struct StartSums
 {
+  std::int64_t Turned = 0; ///< Triangles that a filter does not see to face outside.
   std::int64_t Uncertain = 0; ///< Edges that a filter does not see to be convex.
   AngleSums Angles;
 
-  DELAUNAYFLIP_HOST_DEVICE ConvexitySums& operator+=(const ConvexitySums& part)
+  DELAUNAYFLIP_HOST_DEVICE StartSums& operator+=(const StartSums& part)
   {
+    this->Turned += part.Turned;
     this->Uncertain += part.Uncertain;
     this->Angles += part.Angles;
     return *this;
   }
 };
 
-/// Tests by a filter whether edges are convex, and measures triangles.
-struct ConvexityStep
+/// The plane of a triangle, for tests by a filter.
+struct FilteredPlane
+{
+  PlanePoint From;
+  Vector3 Normal; ///< The cross product of two edges.
+  Vector3 Largest; ///< By axis, the larger coordinate of both edges.
+
+  DELAUNAYFLIP_HOST_DEVICE FilteredPlane(
+    const PlanePoint& a, const PlanePoint& b, const PlanePoint& c)
+    : From(a)
+  {
+    const Vector3 ab = { b.U - a.U, b.V - a.V, b.W - a.W };
+    const Vector3 ac = { c.U - a.U, c.V - a.V, c.W - a.W };
+    this->Normal = Cross(ab, ac);
+    this->Largest = { std::max(std::fabs(ab.X), std::fabs(ac.X)),
+      std::max(std::fabs(ab.Y), std::fabs(ac.Y)), std::max(std::fabs(ab.Z), std::fabs(ac.Z)) };
+  }
+
+  /// Whether a point is surely on the side from which the triangle is clockwise. All four must be
+  /// in the range of IsInFilterRange3D.
+  ///
+  /// The determinant is a sum of six products of three differences, one along each axis. Rounding
+  /// changes each of them by a factor of at most (1 + 2^-53)^8.
+  DELAUNAYFLIP_HOST_DEVICE bool IsInside(const PlanePoint& point) const
+  {
+    constexpr double Bound = 0x1p-47; // more than 6 * 8 * 2^-53
+    const Vector3 offset = { this->From.U - point.U, this->From.V - point.V,
+      this->From.W - point.W };
+    const double product = std::max(this->Largest.X, std::fabs(offset.X)) *
+      std::max(this->Largest.Y, std::fabs(offset.Y)) *
+      std::max(this->Largest.Z, std::fabs(offset.Z));
+    return Dot(this->Normal, offset) > Bound * product;
+  }
+};
+
+/// Tests by a filter whether triangles face outside and edges are convex, and measures triangles.
+struct StartStep
 {
   const PlanePoint* Points;
   SphereTriangles Triangles;
+  PlanePoint Center;
 
   DELAUNAYFLIP_HOST_DEVICE void Prefetch(std::int64_t t) const
   {
-    FacingStep{ this->Points, this->Triangles.Ids, {} }.Prefetch(t);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      delaunayflip::Prefetch(&this->Points[this->Triangles.Ids[3 * t + slot]]);
+    }
   }
-  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, ConvexitySums& sums) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t t, StartSums& sums) const
   {
     const std::int32_t* ids = this->Triangles.Ids + 3 * t;
+    const FilteredPlane plane(this->Points[ids[0]], this->Points[ids[1]], this->Points[ids[2]]);
+    sums.Turned += int(!plane.IsInside(this->Center));
     for (int slot = 0; slot < 3; ++slot)
     {
       const std::int32_t across = this->Triangles.Neighbors[3 * t + slot];
-      if (across > t) // each edge once
+      if (across >= 0 && across < t) // each edge once, when both triangles are in the cache
       {
-        const std::int32_t p = ids[(slot + 1) % 3], q = ids[(slot + 2) % 3];
         const std::int32_t* other = this->Triangles.Ids + std::int64_t(3) * across;
-        const std::int32_t beyond = other[0] + other[1] + other[2] - p - q;
-        const int sign = FilteredOrientation3D(
-          this->Points[ids[slot]], this->Points[p], this->Points[q], this->Points[beyond]);
-        sums.Uncertain += int(sign != 1);
+        const std::int32_t ends = ids[(slot + 1) % 3] + ids[(slot + 2) % 3];
+        const std::int32_t beyond = other[0] + other[1] + other[2] - ends;
+        sums.Uncertain += int(!plane.IsInside(this->Points[beyond]));
       }
     }
     sums.Angles.Add(MeasureTriangle(this->Points, ids));

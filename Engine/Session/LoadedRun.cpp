@@ -400,8 +400,11 @@ void LoadedRun::Measure()
   {
     return;
   }
-  KeepAnglesAfter(
-    this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().MeasureAngles(); }), report);
+  if (this->MeasuresAngles)
+  {
+    KeepAnglesAfter(
+      this->OnBackend([](LoadedMesh& mesh) { return mesh.GetLoop().MeasureAngles(); }), report);
+  }
   this->AreAnglesKnown = true;
   this->ListDefects();
   if (report.StopReason != StopReasonKind::Running && !report.Iterations.empty())

@@ -32,6 +32,8 @@ public:
     std::int64_t iterations, const FlipObserver& observer, const ProgressObserver& progress) final;
   void Expect(const ResultMemory& memory) final { this->Expected.push_back(memory); }
   const FlipReport& GetReport() final;
+  /// From now on angles are not measured. The report says that there are none.
+  void LeaveAnglesOut() { this->MeasuresAngles = false; }
 
   /// An entry of the journal: how much of a stage was done to the loaded mesh.
   struct Entry
@@ -201,6 +203,7 @@ protected:
   bool AreAnglesKnown = true;
   /// Whether angles are measured when a mesh is loaded, and after the first iteration.
   bool MeasuresStart = true;
+  bool MeasuresAngles = true; ///< Whether they are measured at the end.
   bool AreKeptEdgesKnown = false; ///< Whether it is known what kept edges hide.
 
 private:

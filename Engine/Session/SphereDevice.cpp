@@ -89,12 +89,12 @@ bool SphereRun::StartOnDevice(LoadedSphere& device, const FlipOptions& options)
   session.StoreTriangles(MutableTriangleArray(device.GetTriangles(), report.Triangles), {});
   session.StoreNeighbors(device.GetNeighbors(), {});
   device.JoinPole(report.Triangles, pole.Id);
-  if (!device.FaceOutside(Origin) && !device.FaceOutside(FindCenter(simplex)))
+  StartSums sums = device.TestStart(Origin);
+  if (sums.Turned > 0)
   {
-    return false;
+    sums = device.TestStart(FindCenter(simplex));
   }
-  const ConvexitySums sums = device.TestEdges();
-  if (sums.Uncertain > 0)
+  if (sums.Turned + sums.Uncertain > 0)
   {
     return false;
   }

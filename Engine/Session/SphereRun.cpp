@@ -7,6 +7,7 @@
 #include "HullInserter.h"
 #include "InputChecks.h"
 #include "PointPreparation.h"
+#include "PointRun.h"
 #include "SmallestAngle.h"
 #include "SpherePasses.h"
 #include "ThreadBackend.h"
@@ -266,20 +267,6 @@ bool SphereRun::Start()
   }
 }
 
-/// @throws RunAborted if an observer stops the session, or has stopped its constructor.
-void SphereRun::AdvanceToEnd(FlipSession& session, const ProgressObserver& progress)
-{
-  const auto isAborted = [&] { return session.GetReport().StopReason == StopReasonKind::Aborted; };
-  if (!isAborted())
-  {
-    session.Advance(-1, {}, progress);
-  }
-  if (isAborted())
-  {
-    throw RunAborted();
-  }
-}
-
 /// Triangulates the active points, projected from one of them, the pole. Marks points at the places
 /// of others.
 void SphereRun::StartInPlane(const SpherePoints& points, const NumberedPoint& pole)
@@ -304,20 +291,24 @@ void SphereRun::StartInPlane(const SpherePoints& points, const NumberedPoint& po
   PointOptions options;
   static_cast<FlipOptions&>(options) = this->Options;
   const ProgressObserver progress = this->TellHalf();
-  FlipSession session(plane, options, progress);
-  AdvanceToEnd(session, progress);
-  const FlipReport& report = session.GetReport();
+  PointRun run(plane, options, progress);
+  run.LeaveAnglesOut();
+  AdvanceToEnd(run, progress);
+  const FlipReport& report = run.GetReport();
   AddReport(this->Planar, report);
   if (report.FromPoints.Repeated > 0)
   {
     std::vector<std::int64_t> used(count);
-    session.StoreUsedPoints(used.data());
+    run.StoreUsedPoints(used.data());
     this->MarkRepeated(used, numbers);
   }
-  this->Triangles.resize(3 * report.Triangles);
-  this->Neighbors.resize(3 * report.Triangles);
-  session.StoreTriangles(MutableTriangleArray(this->Triangles.data(), report.Triangles));
-  session.StoreNeighbors(this->Neighbors.data());
+  for (std::vector<std::int32_t>* list : { &this->Triangles, &this->Neighbors })
+  {
+    list->reserve(6 * count); // with those that the pole adds
+    list->resize(3 * report.Triangles);
+  }
+  run.StoreTriangles(MutableTriangleArray(this->Triangles.data(), report.Triangles));
+  run.StoreNeighbors(this->Neighbors.data());
   std::int32_t* const ids = this->Triangles.data();
   threads.ForEach(3 * report.Triangles, [=](std::int64_t i) { ids[i] = numbers.GetId(ids[i]); });
   this->JoinPole(pole.Id);
@@ -400,6 +391,7 @@ bool SphereRun::StartFromSimplex()
   const std::int32_t a = simplex[0].Id, b = simplex[1].Id, c = simplex[2].Id, d = simplex[3].Id;
   this->Triangles = { a, b, c, b, a, d, c, b, d, a, c, d };
   this->Center = FindCenter(simplex);
+  this->TestStart();
   return true;
 }
 
@@ -443,10 +435,31 @@ bool SphereRun::ChooseCenter(const Simplex& simplex)
   const auto faceOutside = [&](const PlanePoint& center)
   {
     this->Center = center;
-    const FacingStep step{ this->Points.data(), this->Triangles.data(), center };
-    return threads.Sum<FacingSums>(SizeOf(this->Triangles) / 3, step).Turned == 0;
+    this->TestStart();
+    const auto countTurned = [&](std::int64_t t, std::int64_t& sum)
+    { sum += int(!FacesOutside(this->Points, &this->Triangles[3 * t], center)); };
+    return this->Tested.Turned == 0 ||
+      threads.Sum<std::int64_t>(SizeOf(this->Triangles) / 3, countTurned) == 0;
   };
   return faceOutside(Origin) || faceOutside(FindCenter(simplex));
+}
+
+/// Tests triangles and edges by filters. If these may not be used, nothing is certain.
+void SphereRun::TestStart()
+{
+  const ThreadBackend threads(this->Options.NumberOfThreads);
+  const std::int64_t count = SizeOf(this->Triangles) / 3;
+  const std::vector<std::int32_t> active = this->ListActive();
+  const SpherePoints points{ this->Points.data(), active.data(), SizeOf(active) };
+  this->Tested = StartSums();
+  this->Tested.Turned = this->Tested.Uncertain = count;
+  if (threads.Sum<std::int64_t>(points.Count, UnusualStep{ points }) == 0)
+  {
+    const SphereTriangles triangles{ this->Triangles.data(), this->FindNeighborsOnce().data(),
+      count };
+    this->Tested =
+      threads.Sum<StartSums>(count, StartStep{ points.Places, triangles, this->Center });
+  }
 }
 
 /// Gives points a state in which they are not active. @returns whether there are any.
@@ -474,28 +487,17 @@ const std::vector<std::int32_t>& SphereRun::FindNeighborsOnce()
 /// @throws RunAborted if the observer stops it.
 bool SphereRun::TakeStart()
 {
-  const ThreadBackend threads(this->Options.NumberOfThreads);
-  const std::int64_t count = SizeOf(this->Triangles) / 3;
-  const SphereTriangles triangles{ this->Triangles.data(), this->FindNeighborsOnce().data(),
-    count };
-  const std::vector<std::int32_t> active = this->ListActive();
-  const SpherePoints points{ this->Points.data(), active.data(), SizeOf(active) };
-  if (threads.Sum<std::int64_t>(points.Count, UnusualStep{ points }) > 0)
+  if (this->Tested.Uncertain > 0)
   {
     return false;
   }
-  const auto sums = threads.Sum<ConvexitySums>(count, ConvexityStep{ points.Places, triangles });
-  if (sums.Uncertain > 0)
-  {
-    return false;
-  }
-  this->FlipCounts.assign(count, 0);
-  this->ReportStart(sums);
+  this->FlipCounts.assign(SizeOf(this->Triangles) / 3, 0);
+  this->ReportStart(this->Tested);
   return true;
 }
 
 /// Reports that there is nothing to flip on the sphere.
-void SphereRun::ReportStart(const ConvexitySums& sums)
+void SphereRun::ReportStart(const StartSums& sums)
 {
   this->Report = FlipReport();
   this->Report.Backend = this->Planar.Backend;

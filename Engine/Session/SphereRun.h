@@ -58,6 +58,22 @@ public:
   bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
 private:
+  /// @throws RunAborted if an observer stops the session, or has stopped its constructor.
+  template <typename Session>
+  static void AdvanceToEnd(Session& session, const ProgressObserver& progress)
+  {
+    const auto isAborted = [&]
+    { return session.GetReport().StopReason == StopReasonKind::Aborted; };
+    if (!isAborted())
+    {
+      session.Advance(-1, {}, progress);
+    }
+    if (isAborted())
+    {
+      throw RunAborted();
+    }
+  }
+
   enum class PointState : char
   {
     Used,
@@ -75,8 +91,7 @@ private:
   void Fetch();
   template <typename Store>
   bool StoreFromDevice(const Store& store);
-  static void AdvanceToEnd(FlipSession& session, const ProgressObserver& progress);
-  void ReportStart(const ConvexitySums& sums);
+  void ReportStart(const StartSums& sums);
   void ReadPoints();
   bool Start();
   void StartInPlane(const SpherePoints& points, const NumberedPoint& pole);
@@ -86,6 +101,7 @@ private:
   bool StartFromSimplex();
   void MarkRepeatedLeftOut();
   bool ChooseCenter(const Simplex& simplex);
+  void TestStart();
   bool TakeStart();
   void Flip();
   const std::vector<std::int32_t>& FindNeighborsOnce();
@@ -125,6 +141,7 @@ private:
   std::vector<std::int32_t> Triangles, FlipCounts;
   std::vector<std::int32_t> Neighbors; ///< Those of Triangles. Empty: not known.
   PlanePoint Center = Origin; ///< The place from which triangles are seen.
+  StartSums Tested; ///< What the last test of the start has found.
   double Done = 0.0; ///< The share of the work that is done.
   int Starts = 0;
   /// A simplex of all points. It depends on their places alone.

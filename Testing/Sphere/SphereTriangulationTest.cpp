@@ -354,6 +354,50 @@ TEST(SphereTriangulation, HasNoTrianglesInOnePlane)
     4, Triangulate({ { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 1 } }).Report.Triangles);
 }
 
+/// A random number in -1 to 1, times a random power of two.
+double DrawCoordinate(std::mt19937& random, int lowest, int highest)
+{
+  const double exponent = DrawReal(random, lowest, highest + 1);
+  return std::ldexp(DrawReal(random, -1.0, 1.0), static_cast<int>(exponent));
+}
+
+TEST(SphereTriangulation, FilterOfPlanesNeverErrs)
+{
+  std::mt19937 random(11);
+  int certain = 0, wrong = 0;
+  constexpr int Cases = 20000;
+  for (int i = 0; i < Cases; ++i)
+  {
+    // The fourth point is in the plane of the others, except for rounding, and a little beside it.
+    const int most = i % 2 == 0 ? 0 : 200;
+    const auto draw = [&] { return DrawCoordinate(random, -most, most); };
+    PlanePoint p[4];
+    for (PlanePoint& point : p)
+    {
+      point = { draw(), draw(), draw() };
+    }
+    const double s = DrawReal(random, -1.0, 1.0), t = DrawReal(random, -1.0, 1.0);
+    const double aside = i % 3 == 0 ? 0.0 : DrawCoordinate(random, -60, 0);
+    const auto place = [&](double PlanePoint::*axis)
+    {
+      const double inPlane =
+        p[0].*axis + s * (p[1].*axis - p[0].*axis) + t * (p[2].*axis - p[0].*axis);
+      p[3].*axis = inPlane + aside * (p[3].*axis);
+    };
+    place(&PlanePoint::U);
+    place(&PlanePoint::V);
+    place(&PlanePoint::W);
+    const int sign = FindOrientation3D(p[0], p[1], p[2], p[3]);
+    const bool isInside = FilteredPlane(p[0], p[1], p[2]).IsInside(p[3]);
+    const bool isOutside = FilteredPlane(p[0], p[2], p[1]).IsInside(p[3]);
+    wrong += int(isInside && sign <= 0) + int(isOutside && sign >= 0);
+    certain += int(isInside || isOutside);
+  }
+  EXPECT_EQ(0, wrong);
+  EXPECT_LT(Cases / 4, certain);
+  EXPECT_GT(Cases, certain + Cases / 4);
+}
+
 TEST(SphereTriangulation, MayBeStopped)
 {
   const std::vector<Point3> points = MakeRandomPoints<double>(20000, 7);
