@@ -3,9 +3,11 @@
 #include "InputChecks.h"
 #include "SmallestAngle.h"
 #include "SphereRun.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 /// @file
 /// What a run on a sphere reports and stores.
@@ -13,9 +15,51 @@
 namespace delaunayflip
 {
 
+/// Makes the triangle of three places, which is an open mesh. Nothing is made if there are more or
+/// fewer, or if they are on a great circle.
+void SphereRun::MakeOneTriangle()
+{
+  for (const std::int32_t id : this->ListActive())
+  {
+    this->States[id] = PointState::LeftOut;
+  }
+  this->MarkRepeatedLeftOut();
+  std::vector<std::int32_t> places;
+  for (std::size_t i = 0; i < this->States.size(); ++i)
+  {
+    if (this->States[i] == PointState::LeftOut)
+    {
+      this->States[i] = PointState::Used;
+      places.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  if (places.size() != 3)
+  {
+    return;
+  }
+  const int side = FindOrientation3D(
+    this->Points[places[0]], this->Points[places[1]], this->Points[places[2]], Origin);
+  if (side < 0)
+  {
+    std::swap(places[1], places[2]);
+  }
+  if (side != 0)
+  {
+    this->Triangles = places;
+    this->FlipCounts.assign(1, 0);
+    StartSums sums;
+    sums.Angles.Add(MeasureTriangle(this->Points.data(), places.data()));
+    this->ReportStart(sums);
+  }
+}
+
 /// Removes the triangles that do not face away from the origin.
 void SphereRun::OpenMesh()
 {
+  if (this->Triangles.empty())
+  {
+    this->MakeOneTriangle();
+  }
   std::size_t kept = 0;
   for (std::size_t t = 0; 3 * t < this->Triangles.size(); ++t)
   {
@@ -43,6 +87,11 @@ void SphereRun::Complete()
   report.FromPoints = PointCounts();
   report.Defects.clear();
   report.StopReason = StopReasonKind::Converged;
+  if (report.Backend.empty()) // no other session was needed
+  {
+    report.Backend = ThreadBackend(this->Options.NumberOfThreads).GetName();
+    report.Tolerance = "none";
+  }
   report.BuildSeconds += this->Planar.BuildSeconds;
   report.FlipSeconds += this->Planar.FlipSeconds;
   report.FromPoints.LargeTriangles = this->Opened;

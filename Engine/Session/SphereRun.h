@@ -108,6 +108,7 @@ private:
   bool LeaveOut(const std::vector<std::int32_t>& points, PointState state);
   bool HasLeftOut() const;
   bool InsertLeftOut();
+  void MakeOneTriangle();
   void OpenMesh();
   void CheckSeeds() const;
   void CheckOpposite() const;

@@ -398,6 +398,27 @@ TEST(SphereTriangulation, FilterOfPlanesNeverErrs)
   EXPECT_GT(Cases, certain + Cases / 4);
 }
 
+TEST(SphereTriangulation, ThreePlacesMakeOneOpenTriangle)
+{
+  const std::vector<Point3> points = PlaceAll({ { 0, 0 }, { 0, 80 }, { 70, 0 }, { 0, 0 } });
+  const SphereResult result = Triangulate(points, Projected(ProjectionKind::OpenSphere));
+  ASSERT_EQ(1, result.Report.Triangles);
+  EXPECT_EQ((std::vector<std::int32_t>{ -1, -1, -1 }), result.Neighbors);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 0 }), result.Used);
+  const std::set<std::array<Point3, 3>> expected = ListPlaces(points, { 0, 2, 1 });
+  EXPECT_EQ(expected, ListPlaces(points, result.Triangles));
+  EXPECT_EQ(3, result.Report.FromPoints.Used);
+  EXPECT_EQ(1, result.Report.FromPoints.Repeated);
+  EXPECT_EQ(3, result.Report.Edges.Boundary);
+  EXPECT_EQ(1, result.Report.EulerCharacteristic);
+  EXPECT_GT(result.Report.MinimumAngleAfter, 50.0);
+  EXPECT_FALSE(result.Report.Backend.empty());
+  EXPECT_EQ(0, Triangulate(points).Report.Triangles);
+  // A great circle encloses half of the sphere.
+  const std::vector<Point3> onEquator = PlaceAll({ { 0, 0 }, { 90, 0 }, { 180, 0 } });
+  EXPECT_EQ(0, Triangulate(onEquator, Projected(ProjectionKind::OpenSphere)).Report.Triangles);
+}
+
 TEST(SphereTriangulation, MayBeStopped)
 {
   const std::vector<Point3> points = MakeRandomPoints<double>(20000, 7);
