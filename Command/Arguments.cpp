@@ -259,9 +259,11 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
   AddFile(app, "--holes", arguments.Holes,
     "A file with rings: polygons, and lines that close. What is inside them is removed");
   AddChoice(app, "--ring-rule", Set(arguments, &vtkDelaunayFlipPoints::SetRingRule),
-    { "evenodd", "nonzero" },
+    { "evenodd", "nonzero", "orientation" },
     "When a place is inside the rings of a file: if a path to infinity crosses them an odd number "
-    "of times, or if their turns around the place do not add up to 0 [evenodd]");
+    "of times, or if their turns around the place do not add up to 0. orientation: as nonzero, but "
+    "counter-clockwise rings of --outline enclose what is kept, and clockwise ones cut holes "
+    "[evenodd]");
   AddChoice(app, "--heights", Set(arguments, &vtkDelaunayFlipPoints::SetSegmentHeights),
     { "auto", "survey", "own" },
     "Which heights points have that INPUT does not have: those of INPUT there, interpolated in its "

@@ -116,6 +116,8 @@ void PrintWarning(const std::string& message) { PrintLine("warning: " + message)
 
 void PrintNote(const std::string& message) { PrintLine("note: " + message); }
 
+void PrintHint(const std::string& message) { PrintLine("hint: " + message); }
+
 void CollectVTKMessages()
 {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);

@@ -22,6 +22,7 @@ std::string WithoutControls(const std::string& text);
 void PrintError(const std::string& message);
 void PrintWarning(const std::string& message);
 void PrintNote(const std::string& message);
+void PrintHint(const std::string& message);
 
 /// From now on, collects VTK's messages in this process instead of printing them.
 void CollectVTKMessages();

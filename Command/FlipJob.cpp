@@ -149,6 +149,12 @@ public:
     const HeightOptions& heights = this->Settings.Heights;
     this->Input =
       this->ReadFile(this->Settings.Input, heights.Array.empty() ? Content::Mesh : Content::Places);
+    if (this->InputHasAngles && !this->Settings.Points->GetDegrees() && !this->Settings.Quiet)
+    {
+      PrintHint(this->Settings.Input +
+        ": its points have longitudes and latitudes; --projection sphere --degrees joins them on a "
+        "globe");
+    }
     if (!heights.Places.empty())
     {
       this->Places = this->ReadFile(heights.Places, Content::Rows);
@@ -156,6 +162,7 @@ public:
     if (this->Settings.FromPoints)
     {
       this->ReadSegments();
+      this->CompareCrs(heights.Crs, "--crs");
     }
     else if (!this->Settings.Constraints.empty())
     {
@@ -332,13 +339,10 @@ private:
     if (isInput)
     {
       this->InputCrs = file.Crs;
+      this->InputHasAngles = file.HasAngles;
     }
     this->Bar.Clear();
-    const std::string difference = this->FilesCrs.Compare(file.Crs, path);
-    if (!difference.empty())
-    {
-      this->Warn(difference);
-    }
+    this->CompareCrs(file.Crs, path);
     // The others say that they have nothing.
     const bool mayBeEmpty =
       format == MeshFormat::VTK || format == MeshFormat::VTP || format == MeshFormat::PLY;
@@ -347,6 +351,17 @@ private:
       throw CommandError(ExitCode::BadFile, path + ": is empty: it contains no points");
     }
     return this->Take(file, path);
+  }
+
+  /// Warns of a coordinate reference system that is not that of the files before.
+  /// @param where a file, or the option that names it.
+  void CompareCrs(const std::string& crs, const std::string& where)
+  {
+    const std::string difference = this->FilesCrs.Compare(crs, where);
+    if (!difference.empty())
+    {
+      this->Warn(difference);
+    }
   }
 
   /// The mesh, after its warnings have been told.
@@ -566,6 +581,7 @@ private:
   vtkSmartPointer<vtkPolyData> Places; ///< Where heights are wanted; or null.
   std::unique_ptr<HeightQuery> Heights; ///< Null: a mesh is wanted.
   std::string InputCrs; ///< That the input's file names.
+  bool InputHasAngles = false; ///< It calls x and y longitudes and latitudes.
   SharedCrs FilesCrs;
   vtkIdType OutlineRings = 0; ///< How many of the rings come first.
   vtkDelaunayFlipAlgorithm* const Filter;

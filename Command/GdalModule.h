@@ -61,8 +61,9 @@ const GdalModule& LoadGdal();
 class SharedCrs
 {
 public:
-  /// @param crs FileMesh::Crs of a file.
-  /// @returns the text of a warning about a file in another system, or "".
+  /// @param crs FileMesh::Crs of a file, or a name that GDAL knows; may be empty.
+  /// @param path the file, or the option that has the name.
+  /// @returns the text of a warning about another system, or "".
   std::string Compare(const std::string& crs, const std::string& path);
 
 private:

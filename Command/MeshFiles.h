@@ -57,6 +57,7 @@ struct FileMesh
   std::vector<std::string> Notes; ///< What may be good to know, like warnings.
   std::vector<std::string> Labels; ///< The integer arrays of cells with more than one value.
 
+  bool HasAngles = false; ///< Whether the file calls x and y longitudes and latitudes.
   std::string Crs; ///< That of the coordinates, as GDAL describes it; empty: the file names none.
 
   /// Adds the name of an array of cells to the labels, if it has more than one value.

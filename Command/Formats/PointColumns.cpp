@@ -24,6 +24,8 @@ struct ColumnFamily
   Names X, Y, Z;
 };
 
+const ColumnFamily Angles = { { "lon", "long", "longitude", "lng" }, { "lat", "latitude" }, {} };
+
 /// Those that come first are taken first.
 const ColumnFamily Families[] = {
   { { "x" }, { "y" }, { "z" } },
@@ -33,7 +35,7 @@ const ColumnFamily Families[] = {
     { "zcoord", "zcoordinate", "coordz", "pointz", "posz", "zpos" } },
   { { "easting", "eastings", "east", "utmeasting", "utme", "utmx", "rechtswert" },
     { "northing", "northings", "north", "utmnorthing", "utmn", "utmy", "hochwert" }, {} },
-  { { "lon", "long", "longitude", "lng" }, { "lat", "latitude" }, {} },
+  Angles,
   { { "e" }, { "n" }, { "z", "u" } },
 };
 
@@ -185,6 +187,11 @@ Places FindKnownColumns(const Words& names)
     }
   }
   return {};
+}
+
+bool AreAngles(std::string_view x, std::string_view y)
+{
+  return FindOneOf(Angles.X, { Simplified(x) }) == 0 && FindOneOf(Angles.Y, { Simplified(y) }) == 0;
 }
 
 std::string Quoted(const Words& names)

@@ -47,6 +47,9 @@ private:
 /// @returns an empty list if x or y has none.
 Places FindKnownColumns(const Words& names);
 
+/// Whether these are names of longitudes and latitudes, such as lon and lat.
+bool AreAngles(std::string_view x, std::string_view y);
+
 /// The place of the column with the numbers of lines, which is known by its name, such as line or
 /// ring_id; the number of names if there is none.
 std::size_t FindLineColumn(const Words& names);

@@ -252,6 +252,7 @@ public:
   std::vector<std::int64_t> LineNumbers; ///< Per point, if they are of lines.
   std::vector<std::string> Warnings;
   std::vector<std::string> Notes;
+  bool HasAngles = false; ///< Whether x and y are called longitudes and latitudes.
 
 private:
   /// Compares the line of names with the first point. A comment may be anything.
@@ -373,6 +374,7 @@ private:
         others.push_back(names[i]);
       }
     }
+    this->HasAngles = AreAngles(taken[0], taken[1]);
     const bool isPlain = std::all_of(
       taken.begin(), taken.end(), [](std::string_view name) { return name.size() == 1; });
     if (!names.empty() && !this->HasChoice && !isPlain)
@@ -593,6 +595,7 @@ FileMesh ReadPoints(const InputFile& file, const std::string& columns, Content c
   const PointTable table(lines, ChosenColumns(columns), content);
   result.Warnings = table.Warnings;
   result.Notes = table.Notes;
+  result.HasAngles = table.HasAngles;
   result.Mesh->SetPoints(vtkNew<vtkPoints>());
   result.Mesh->GetPoints()->SetData(table.Coordinates);
   return result;

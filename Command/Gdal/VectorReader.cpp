@@ -191,7 +191,8 @@ public:
     FileMesh file;
     file.Mesh->SetPoints(this->Points);
     file.Crs = this->Crs;
-    if (this->HasAngles && !this->MayBeAngles())
+    file.HasAngles = this->HasAngles && this->MayBeAngles();
+    if (this->HasAngles && !file.HasAngles)
     {
       file.Crs.clear(); // GDAL takes every GeoJSON for one in degrees
       file.Notes.push_back(

@@ -305,6 +305,10 @@ class Results(PointTest):
         self.assertEqual(len(triangles_of(mesh)), 2 * (12 * 5 + 2) - 4)
         self.assertRegex(result.stdout, "points +62 used, 29 repeated")
         self.assertTrue(all(math.isclose(math.hypot(*point), 1) for point in points_of(mesh)))
+        self.assertNotIn("hint", result.stderr)
+        for options, count in (([], 1), (["--quiet"], 0), (["--columns", "lat,lon"], 0)):
+            _, result = self.triangulate("in.csv", *options)
+            self.assertEqual(result.stderr.count("hint: in.csv: its points have longitudes"), count)
         self.write("in.csv", text_of([row for row in rows if row[1] > 0], ",", "lon,lat"))
         mesh, _ = self.triangulate("in.csv", "--projection", "open-sphere", "--degrees")
         self.assertEqual(len(triangles_of(mesh)), 2 * 12 + 12)
@@ -379,6 +383,8 @@ class Segments(PointTest):
         hole = self.rings("hole.vtk", [(1.5, 1.5, 0), (1.5, 2.5, 0), (2.5, 2.5, 0), (2.5, 1.5, 0)])
         nested = self.rings("nested.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)],
                             [(1, 1, 0), (3, 1, 0), (3, 3, 0), (1, 3, 0)])
+        turned = self.rings("turned.vtk", [(0.5, 0.5, 0), (3.5, 0.5, 0), (3.5, 3.5, 0), (0.5, 3.5, 0)],
+                            [(1, 3, 0), (3, 3, 0), (3, 1, 0), (1, 1, 0)])
         for options, area in (
             (["--outline", outline], 9), (["--holes", hole], 15), (["--outline", hole], 1),
             (["--outline", outline, "--holes", hole], 8),
@@ -386,6 +392,11 @@ class Segments(PointTest):
             (["--holes", nested], 11), (["--holes", nested, "--ring-rule", "nonzero"], 7),
             (["--outline", nested, "--holes", hole, "--ring-rule", "nonzero"], 8),
             (["--outline", outline, "--constraints", hole], 9),
+            (["--outline", turned, "--ring-rule", "nonzero"], 5),
+            (["--outline", turned, "--ring-rule", "orientation"], 5),
+            (["--outline", hole, "--ring-rule", "nonzero"], 1),
+            (["--outline", hole, "--ring-rule", "orientation"], 15),
+            (["--holes", hole, "--ring-rule", "orientation"], 15),
         ):
             mesh, result = self.triangulate("in.xyz", *options)
             self.assertEqual(area_of(mesh), area, options)

@@ -17,6 +17,8 @@ from TestPoints import PLACES, PointTest, area_of, edges_of, grid, text_of
 FLAT_GEOBUF = (  # PLACES, by GDAL
     "eNpLS09iTktPYsxhYGBQYIAACQYZBg4GHgYWBlaoiACDCAMbUJyBgZGRgcEGSIsAMQ8Qw1SAAAsDLiDgAKOB2hkKgDgEbC"
     "oMsDFwAXWzwcW4wGazAF3BBXYPxGxGuPoP9iCSCYtNlJnL4IBqLszdlJrLgcNcAQfKzBVwwB4OlJorgm4uLBwcAJ4lDVI=")
+HINT = ("hint: points.geojson: its points have longitudes and latitudes; --projection sphere --degrees joins "
+        "them on a globe\n")
 SQUARE = [[0.5, 0.5], [3.5, 0.5], [3.5, 3.5], [0.5, 3.5], [0.5, 0.5]]
 HOLE = [[1.5, 1.5], [1.5, 2.5], [2.5, 2.5], [2.5, 1.5], [1.5, 1.5]]
 
@@ -116,7 +118,7 @@ class Vectors(VectorTest):
             mesh, result = self.triangulate("points." + name)
             self.assertEqual(points_of(mesh), PLACES, name)
             self.assertEqual(len(triangles_of(mesh)), 4)
-            self.assertEqual(result.stderr, "", name)
+            self.assertEqual(result.stderr, HINT if name == "geojson" else "", name)
 
     def test_attributes(self):
         """Numbers are point data; of a flat file one may be the height."""
@@ -135,7 +137,7 @@ class Vectors(VectorTest):
         self.assertEqual(numbers, [0, 1, 2, 4])
         mesh, result = self.triangulate("in.geojson", "--columns", "elev")
         self.assertEqual([z for _, _, z in points_of(mesh)], [0.5, 1, 1.5, 2, 2.5])
-        self.assertEqual(result.stderr, "")
+        self.assertEqual(result.stderr, HINT.replace("points", "in", 1))
         for code, choice, words in ((3, "name", ["no numeric attribute 'name'", "'n', 'elev'"]),
                                     (3, "n", ["feature 3 has no value of 'n'"]),
                                     (2, "x,y,elev", ["--columns takes one attribute"])):
@@ -147,7 +149,7 @@ class Vectors(VectorTest):
         for options in (["bare.geojson", "out.csv", "--heights-at", "in.geojson"],
                         ["in.geojson", "out.vti", "--raster", 1, "--raster-array", "elev"]):
             result = self.succeed(*options, "--from-points")  # z does not matter
-            self.assertEqual(result.stderr, "")
+            self.assertEqual(result.stderr, HINT.replace("points.geojson", options[0]))
 
     def test_lines_and_rings(self):
         """Breaklines, and areas of several polygons with holes, as survey data come."""
@@ -205,6 +207,12 @@ class Vectors(VectorTest):
         self.assertIn("metres.geojson: its coordinates are no longitudes and latitudes", result.stderr)
         _, result = self.triangulate("survey.geojson", "--constraints", "same.geojson")
         self.assertNotIn("coordinate", result.stderr)
+        for name, differs in (("EPSG:25832", False), ("EPSG:25833", True)):
+            result = self.succeed("survey.geojson", "out.tif", "--from-points", "--raster", 1, "--crs", name)
+            told = ("warning: --crs: its coordinate reference system is not that of survey.geojson "
+                    "(ETRS89 / UTM zone 33N and ETRS89 / UTM zone 32N)")
+            self.assertEqual(told in result.stderr, differs, result.stderr)
+            self.assertEqual("warning" in result.stderr, differs, result.stderr)
 
     def test_bad_files(self):
         """GDAL's messages are in the error, and nowhere else."""
