@@ -25,6 +25,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <string>
@@ -34,8 +35,6 @@ using namespace delaunayflip;
 
 static_assert(
   static_cast<int>(InterpolationKind::Natural) == vtkDelaunayFlipInterpolator::METHOD_NATURAL, "");
-static_assert(
-  static_cast<int>(OutsideKind::Nearest) == vtkDelaunayFlipInterpolator::OUTSIDE_NEAREST, "");
 
 namespace
 {
@@ -266,6 +265,46 @@ private:
 };
 
 //------------------------------------------------------------------------------
+/// Counts places that are in no triangle, or only those that are not finite, if there are any.
+/// @param triangles those of the places, which come again until there are all.
+/// @throws InvalidMesh if there are any.
+void RequireInside(const Places& places, PlaceKind kind, const std::vector<std::int32_t>& triangles)
+{
+  const PlaneArray& given = places.Query.Places;
+  const auto isFinite = [&given, kind](std::int64_t place)
+  {
+    if (place >= given.Count) // it is the cell of a raster
+    {
+      return true;
+    }
+    const bool isOnMap = std::isfinite(given.Get(place, 0)) && std::isfinite(given.Get(place, 1));
+    return isOnMap && (kind != PlaceKind::Directions || std::isfinite(given.Get(place, 2)));
+  };
+  std::vector<vtkIdType> outside, unusable;
+  for (vtkIdType i = 0; i < places.Count; ++i)
+  {
+    const auto place = static_cast<std::int64_t>(i % triangles.size());
+    if (triangles[place] < 0)
+    {
+      outside.push_back(i);
+    }
+    if (triangles[place] < 0 && !isFinite(place))
+    {
+      unusable.push_back(i);
+    }
+  }
+  if (outside.empty())
+  {
+    return;
+  }
+  const std::vector<vtkIdType>& told = unusable.empty() ? outside : unusable;
+  const char* const what = unusable.empty() ? "outside of the triangulation" : "NaN or infinite";
+  throw InvalidMesh(std::to_string(told.size()) + " of " + std::to_string(places.Count) +
+      " places " + (told.size() == 1 ? "is " : "are ") + what +
+      " (first: " + std::to_string(told.front()) + ")",
+    -1, -1);
+}
+
 /// What is asked about every dataset of places.
 struct Source
 {
@@ -275,7 +314,7 @@ struct Source
   const Columns& Arrays;
   std::vector<double> Values;
   InterpolationKind Method;
-  OutsideKind Outside;
+  int Outside; ///< A vtkDelaunayFlipInterpolator::OutsideType.
 
   /// Adds the arrays to a dataset, but none if the observer stops it.
   /// @returns whether it did not.
@@ -293,10 +332,17 @@ struct Source
       query.Results = results.data();
     }
     query.Method = this->Method;
-    query.Outside = this->Outside;
+    if (this->Outside == vtkDelaunayFlipInterpolator::OUTSIDE_NEAREST)
+    {
+      query.Outside = OutsideKind::Nearest;
+    }
     if (this->Session && !this->Session->Ask(query, observer))
     {
       return false;
+    }
+    if (this->Outside == vtkDelaunayFlipInterpolator::OUTSIDE_ERROR)
+    {
+      RequireInside(places, this->Kind, triangles);
     }
     vtkPointData* output = dataset->GetPointData();
     this->Arrays.Scatter(results, places.Count, output);
@@ -472,7 +518,7 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   const PlaceKind ofSphere = this->Degrees ? PlaceKind::Angles : PlaceKind::Directions;
   const PlaceKind kind = this->IsOnSphere() ? ofSphere : PlaceKind::InPlane;
   const Source source{ session, projection, kind, columns, columns.Gather(),
-    static_cast<InterpolationKind>(this->Method), static_cast<OutsideKind>(this->Outside) };
+    static_cast<InterpolationKind>(this->Method), this->Outside };
   double begin = TriangulationShare;
   for (vtkDataSet* dataset : datasets)
   {

@@ -117,17 +117,20 @@ public:
   ///@{
   /**
    * The values of a place that is in no triangle. NAN (default), or NEAREST: the value at the
-   * nearest place on the boundary of the triangles, linear along its edges.
+   * nearest place on the boundary of the triangles, linear along its edges. ERROR: the update
+   * fails, and the error counts such places.
    */
   enum OutsideType
   {
     OUTSIDE_NAN = 0,
-    OUTSIDE_NEAREST = 1
+    OUTSIDE_NEAREST = 1,
+    OUTSIDE_ERROR = 2
   };
-  vtkSetClampMacro(Outside, int, OUTSIDE_NAN, OUTSIDE_NEAREST);
+  vtkSetClampMacro(Outside, int, OUTSIDE_NAN, OUTSIDE_ERROR);
   vtkGetMacro(Outside, int);
   void SetOutsideToNan() { this->SetOutside(OUTSIDE_NAN); }
   void SetOutsideToNearest() { this->SetOutside(OUTSIDE_NEAREST); }
+  void SetOutsideToError() { this->SetOutside(OUTSIDE_ERROR); }
   ///@}
 
   ///@{

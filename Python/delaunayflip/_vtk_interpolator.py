@@ -9,7 +9,7 @@ from vtkmodules.vtkCommonDataModel import (
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 
 from . import _library
-from ._ask import METHODS, OUTSIDES, Field, Places, read_places
+from ._ask import METHODS, Field, Places, read_places
 from ._vtk_blocks import copy_data, find_leaves, list_blocks
 from ._vtk_filter import _drop_results, vtkDelaunayFlipPoints
 from ._vtk_mesh import (
@@ -86,15 +86,34 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         if self._prepared is None:
             return self._pass(places, output, "aborted") or trouble
         result, columns = self._prepared
+        given, count = self._read_places(places), places.GetNumberOfPoints()
         if result is None:
             found = numpy.full((1, columns.width), math.nan), numpy.full(1, -1)
+            self._require_inside(found[1], given, count)
             self._totals.change(stop_reason="converged")
             return self._write(places, columns, found, output)
         try:
-            found = self._ask(result, self._read_places(places), columns)
+            found = self._ask(result, given, columns)
         except _library.Stopped:
             return self._pass(places, output, "aborted") or trouble
+        self._require_inside(found[1], given, count)
         return self._write(places, columns, found, output) or trouble
+
+    def _require_inside(self, triangles, given, count):
+        """Fails if that is wanted and places are in no triangle. If some of these are not finite, it tells of
+        them alone. `triangles`: those of the places, which come again until there are `count`."""
+        if self.outside != self.OUTSIDE_ERROR or not count:
+            return
+        is_told, what = numpy.resize(triangles < 0, count), "outside of the triangulation"
+        if len(given.like):  # the cells of a raster are finite
+            axes = 3 if self._find_projection() and not self.degrees else 2
+            is_unusable = is_told & ~numpy.isfinite(given.like[:, :axes]).all(axis=1)
+            if is_unusable.any():
+                is_told, what = is_unusable, "NaN or infinite"
+        told = numpy.flatnonzero(is_told)
+        if len(told):
+            raise _library.InvalidMesh(
+                f"{len(told)} of {count} places {'is' if len(told) == 1 else 'are'} {what} (first: {told[0]})")
 
     def _prepare(self, source):
         """Makes the Triangulation of a block, which its partitions share, and its Columns. Without points
@@ -169,8 +188,8 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         """The values at places, and their triangles."""
         answers = result._answers
         field = columns.width and Field(
-            answers, columns.gather(), method=METHODS[self.method], outside=OUTSIDES[self.outside],
-            fill_value=math.nan)
+            answers, columns.gather(), method=METHODS[self.method], fill_value=math.nan,
+            outside="nearest" if self.outside == self.OUTSIDE_NEAREST else "nan")
         before, length = self._block
         self._block = before + 0.5 * length, 0.5 * length
         triangles, values = answers.ask(places, field, True, self._observe_part(1.0))
@@ -250,6 +269,6 @@ class Columns:
 
 finish(vtkDelaunayFlipInterpolator, (
     Property("Method", 0, 0, 1, ("Linear", "Natural")),
-    Property("Outside", 0, 0, 1, ("Nan", "Nearest")),
+    Property("Outside", 0, 0, 2, ("Nan", "Nearest", "Error")),
     Property("ElevationArray", "Elevation"),
 ), {})

@@ -462,6 +462,17 @@ TEST(Interpolator, WrongInputs)
   unfinished->Update();
   EXPECT_EQ(unfinished->GetOutput()->GetNumberOfPoints(), 21 * 17 * 2);
   const auto places = MakePlaces();
+  const auto mixed = MakeMesh({ { 1, 1, 9 }, { 5, 6, 9 } }, {});
+  Interpolator strict(mixed);
+  strict->SetSourceData(MakeSource());
+  strict->SetOutsideToError();
+  EXPECT_EQ(Update(strict)->GetArray("vtkValidPointMask")->GetRange()[0], 1.0);
+  MovePoints(mixed, [](double* x) { x[0] *= 3.0; });
+  strict->Update();
+  EXPECT_EQ(strict->GetFailure(), vtkDelaunayFlip::FAILURE_MESH);
+  ExpectHolds(
+    strict->GetErrorMessage(), "1 of 2 places is outside of the triangulation (first: 1)");
+  EXPECT_EQ(strict->GetOutput()->GetNumberOfPoints(), 0);
   Interpolator composite(places);
   composite->SetSourceData(MakeBlocks({ MakeSource() }));
   composite->Update();

@@ -120,7 +120,7 @@ class InterpolatorProxy(Proxy):
     vtk_class = "vtkDelaunayFlipInterpolator"
     bases = "vtkDelaunayFlipPoints", "vtkDelaunayFlipAlgorithm"
     ports, is_live = ["Values", "Iterations"], False
-    choices = {"Method": ["Linear", "Natural"], "Outside": ["NaN", "Nearest"]}
+    choices = {"Method": ["Linear", "Natural"], "Outside": ["NaN", "Nearest", "Error"]}
 
 
 class PluginPath(unittest.TestCase):

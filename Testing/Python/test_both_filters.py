@@ -599,6 +599,8 @@ class SameInterpolator(Pair, unittest.TestCase):
                 for choice in range(2):
                     told = self.expect_same(places, lambda flip, source=source, choice=choice: (
                         flip.SetSourceData(source), flip.SetMethod(choice), flip.SetOutside(choice)))
+                    self.expect_same(places, lambda flip, source=source, choice=choice: (
+                        flip.SetSourceData(source), flip.SetProjection(2 * choice), flip.SetOutsideToError()))
                     self.assertEqual(told["errors"], [])
                     arrays = [part[0] for part in told["meshes"][0] if isinstance(part, tuple)]
                     self.assertIn("vtkValidPointMask", arrays)
@@ -658,6 +660,12 @@ class SameInterpolator(Pair, unittest.TestCase):
         told = self.expect_same(image, lambda flip: (
             flip.SetSourceData(source), flip.SetMethodToNatural(), flip.SetMaximumIterations(0)))
         self.assertIn("natural neighbors", told["errors"][0])
+        told = self.expect_same(image, lambda flip: (flip.SetSourceData(source), flip.SetOutsideToError()))
+        self.assertRegex(told["errors"][0], r"\d+ of \d+ places are outside of the triangulation \(first: 0\)$")
+        nowhere = make_cloud(30, seed=4)
+        vtk_to_numpy(nowhere.GetPoints().GetData())[7, 1] = numpy.nan
+        told = self.expect_same(nowhere, lambda flip: (flip.SetSourceData(source), flip.SetOutsideToError()))
+        self.assertRegex(told["errors"][0], r"1 of 30 places is NaN or infinite \(first: 7\)$")
         blocks = vtkMultiBlockDataSet()
         for i, data in enumerate((image, vtkTable(), make_cloud(20), image)):
             blocks.SetBlock(i, data)
