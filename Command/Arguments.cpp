@@ -268,7 +268,7 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     { "auto", "survey", "own" },
     "Which heights points have that INPUT does not have: those of INPUT there, interpolated in its "
     "triangulation, or those of their file. auto: survey for lines or rings with z = 0 throughout, "
-    "if INPUT has other heights; else own [auto]");
+    "if INPUT has other heights, and where z is not finite; else own [auto]");
   app.add_flag_callback("--split-crossings",
     Set(arguments, &vtkDelaunayFlipPoints::SplitCrossingsOn),
     "Add a point where segments cross. Otherwise a segment that crosses an earlier one is left "
@@ -295,7 +295,8 @@ void AddPointOptions(CLI::App& app, Arguments& arguments)
     "inside of a ring is its smaller side [xy]");
   app.add_flag_callback("--degrees", Set(arguments, &vtkDelaunayFlipPoints::DegreesOn),
     "On a sphere, x and y are longitudes and latitudes in degrees, in all files. The points of a "
-    "mesh are written as places on the unit sphere");
+    "mesh are written as places on the unit sphere, and their z, if it is not 0 throughout, as the "
+    "point array Height");
 }
 
 /// Options that add points, to a mesh or to what is made from points.

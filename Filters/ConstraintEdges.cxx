@@ -372,7 +372,7 @@ SegmentList::SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPol
   const ProgressObserver& progress)
   : Given(given),
     Points(points),
-    FillsData(source.FillsData)
+    TurnsDataToDoubles(source.TurnsToDoubles)
 {
   const vtkIdType count = given->GetNumberOfPoints();
   this->FirstNumber = source.Others ? source.Others->GetNumberOfCells() : 0;
@@ -402,16 +402,16 @@ SegmentList::SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPol
   this->AddCells(segments->GetPolys(), check, ids, CellKind::Ring);
 }
 
-std::vector<std::int64_t> SegmentList::FindFlatPoints(std::int64_t firstHole) const
+PointsWithoutHeights SegmentList::FindPointsWithoutHeights(std::int64_t firstHole) const
 {
-  std::vector<std::int64_t> flat;
+  PointsWithoutHeights found;
   std::vector<double> storage;
   const PointArray points = ViewPoints(this->Points, storage);
   const vtkIdType given = this->Given->GetNumberOfPoints();
   const HeightRange heights(points, given);
-  if (points.Count == given || heights.IsEmpty() || heights.IsZero())
+  if (points.Count == given || heights.IsEmpty())
   {
-    return flat;
+    return found;
   }
   enum
   {
@@ -429,22 +429,35 @@ std::vector<std::int64_t> SegmentList::FindFlatPoints(std::int64_t firstHole) co
     }
     return firstHole >= 0 && ring >= firstHole ? OfHoles : OfOutlines;
   };
+  const auto isFinite = [&points](std::int64_t point)
+  { return std::isfinite(points.Get(point, 2)); };
   bool isFlat[Kinds] = { true, true, true };
   for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
   {
-    isFlat[getKind(end)] &= points.Get(this->Ends[end], 2) == 0.0;
+    const std::int64_t point = this->Ends[end];
+    isFlat[getKind(end)] &= points.Get(point, 2) == 0.0 || !isFinite(point);
   }
   std::vector<bool> isListed(points.Count, false);
   for (std::size_t end = this->FirstOther; end < this->Ends.size(); ++end)
   {
     const std::int64_t point = this->Ends[end];
-    if (point >= given && isFlat[getKind(end)] && !isListed[point])
+    const bool isFlatHere = isFlat[getKind(end)] && !heights.IsZero();
+    if (point < given || isListed[point])
     {
+      continue;
+    }
+    if (!isFinite(point))
+    {
+      found.NotFinite.push_back(point);
       isListed[point] = true;
-      flat.push_back(point);
+    }
+    else if (isFlatHere)
+    {
+      found.AtZero.push_back(point);
+      isListed[point] = true;
     }
   }
-  return flat;
+  return found;
 }
 
 void SegmentList::AddCells(
@@ -531,7 +544,7 @@ std::vector<vtkIdType> SegmentList::AddPoints(const PointArray& own, const Point
   {
     vtkPointData* data = segments->GetPointData();
     const auto theirs = TakeWholeArrays(data, others.Count);
-    if (this->FillsData)
+    if (this->TurnsDataToDoubles)
     {
       TurnToDoubles(theirs);
     }

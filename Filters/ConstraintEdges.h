@@ -130,12 +130,28 @@ struct HeightRange
   bool IsZero() const { return this->Low == 0.0 && this->High == 0.0; }
 };
 
+/// Points that segments add.
+struct PointsWithoutHeights
+{
+  /// Those of lines, outlines or holes, each of the three by itself, that have z = 0 wherever it is
+  /// finite. Empty if the given points have z = 0, too.
+  std::vector<std::int64_t> AtZero;
+  std::vector<std::int64_t> NotFinite; ///< Those with a z that is NaN or infinite.
+
+  std::vector<std::int64_t> List() const
+  {
+    std::vector<std::int64_t> all = this->AtZero;
+    all.insert(all.end(), this->NotFinite.begin(), this->NotFinite.end());
+    return all;
+  }
+};
+
 /// Where the segments of a triangulation come from; see TriangulationRequest.
 struct SegmentSource
 {
   vtkPolyData* Others = nullptr; ///< The second input; null if there is none.
   bool ClosedLinesAsRings = true;
-  bool FillsData = false;
+  bool TurnsToDoubles = false; ///< See TriangulationRequest.
 };
 
 /// The segments of both inputs of a triangulation, as pairs of point ids. New points of the second
@@ -147,9 +163,8 @@ public:
   SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPolyData* points,
     const ProgressObserver& progress);
 
-  /// Finds the added points without heights, if the given points have other heights than 0. Lines,
-  /// outlines and holes are looked at separately; each has no heights if z = 0 throughout.
-  std::vector<std::int64_t> FindFlatPoints(std::int64_t firstHole) const;
+  /// Finds the added points without heights, if the given points have heights.
+  PointsWithoutHeights FindPointsWithoutHeights(std::int64_t firstHole) const;
 
   /// Stores the edges that segments have become, as lines, and the ids of their cells.
   void StoreEdges(const FlipSession& session, vtkPolyData* output) const;
@@ -182,7 +197,7 @@ private:
 
   vtkPolyData* Given;
   vtkPolyData* Points;
-  bool FillsData;
+  bool TurnsDataToDoubles;
   vtkIdType FirstNumber = 0; ///< What is added to cell ids.
   std::size_t FirstOther = 0; ///< The index in Ends at which those of the second input begin.
 };

@@ -17,7 +17,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <set>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -35,7 +34,8 @@ bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& 
   const auto tie = [](const TriangulationRequest& r)
   {
     return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
-      r.PassesSegments, r.FirstHole, r.Heights, r.SizeArray, r.Regions, r.Options, r.KeepsRun);
+      r.PassesSegments, r.FirstHole, r.Heights, r.WantsHeights, r.SizeArray, r.Regions, r.Options,
+      r.KeepsRun);
   };
   return tie(a) == tie(b);
 }
@@ -75,7 +75,7 @@ Stamps StampArrays(const TriangulationRequest& request)
 vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtkPolyData* points)
 {
   auto copy = CopyShallow(points);
-  if (request.FillsData)
+  if (request.TurnsToDoubles)
   {
     TurnToDoubles(copy->GetPointData());
   }
@@ -129,7 +129,7 @@ private:
   void TakeHeights(
     const std::vector<std::int64_t>& points, const std::vector<std::int64_t>& lifted);
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
-  Defect DescribeFlatPoints() const;
+  Defect DescribePointsWithoutHeights() const;
   PlaneArray Project();
   void StoreRegions(vtkPolyData* output) const;
 
@@ -139,7 +139,7 @@ private:
   vtkSmartPointer<vtkPolyData> Given; ///< The input.
   vtkSmartPointer<vtkPolyData> Points; ///< The input with the points of the segments.
   SegmentList Segments;
-  std::vector<std::int64_t> FlatPoints; ///< See SegmentList::FindFlatPoints.
+  PointsWithoutHeights WithoutHeights; ///< Those that a warning counts.
   bool IsFollowing = false; ///< See HasFollowed.
   bool AreLifted = false; ///< They have got heights.
   bool HasSurveyed = false; ///< Added points have got data of the given ones.
@@ -161,20 +161,15 @@ bool IsProjected(const TriangulationRequest& request)
   return request.Transform || request.FitsPlane || IsOnSphere(request);
 }
 
-/// Whether points of the second input get point data of the first one, whatever their heights.
-bool FillsData(const TriangulationRequest& request)
-{
-  return request.FillsData || !request.SizeArray.empty();
-}
-
-/// Whether points of the second input may get other heights: an estimate, before these are known.
+/// Whether points of the second input may get heights or data of the first one: an estimate, before
+/// these points are known.
 bool MayTakeHeights(const TriangulationRequest& request)
 {
   vtkPolyData* others = request.Others;
-  const bool fillsData = FillsData(request);
-  if (!others || fillsData || request.Heights != HeightsKind::Auto || IsProjected(request))
+  const bool hasData = request.Input->GetPointData()->GetNumberOfArrays() > 0;
+  if (!others || hasData || request.Heights != HeightsKind::Auto || IsProjected(request))
   {
-    return others && (fillsData || request.Heights == HeightsKind::Survey);
+    return others && (hasData || request.Heights == HeightsKind::Survey);
   }
   double bounds[6];
   others->GetBounds(bounds);
@@ -190,13 +185,13 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
     StampedArrays(StampArrays(request)),
     Given(request.IsLive ? CopyPoints(request.Input) : CopyShallow(request.Input)),
     Points(CopyForRun(request, Given)),
-    Segments({ request.Others, request.ClosedLinesAsRings, request.FillsData }, Given, Points,
+    Segments({ request.Others, request.ClosedLinesAsRings, request.TurnsToDoubles }, Given, Points,
       this->Plan.For(UpdatePlan::Constraints)),
-    FlatPoints(Segments.FindFlatPoints(request.FirstHole))
+    WithoutHeights(Segments.FindPointsWithoutHeights(request.FirstHole))
 {
   if (IsOnSphere(request))
   {
-    this->FlatPoints.clear(); // those on the equator
+    this->WithoutHeights = {}; // those on the equator
   }
   this->View.Points = this->Project();
   this->ChooseHeights();
@@ -294,7 +289,7 @@ FlipReport TriangulationRun::GetReport() const
 {
   FlipReport report = this->Session->GetReport();
   report.Points += static_cast<std::int64_t>(this->Session->GetAddedPoints().size());
-  AddDefect(this->DescribeFlatPoints(), report.Defects);
+  AddDefect(this->DescribePointsWithoutHeights(), report.Defects);
   const auto malformed = ListMalformedArrays(this->Given, !this->AddsPoints(), true);
   report.Defects.insert(report.Defects.end(), malformed.begin(), malformed.end());
   AddDefect(this->Segments.ShortArrays, report.Defects);
@@ -307,36 +302,72 @@ bool TriangulationRun::AddsPoints() const
     !this->Session->GetAddedPoints().empty();
 }
 
-/// Counts the flat points that are corners of triangles.
-Defect TriangulationRun::DescribeFlatPoints() const
+/// What a warning says of points without heights.
+struct HeightWords
+{
+  const char* What;
+  const char* Kept; ///< What SegmentHeights Own does.
+  const char* Fate; ///< What they do to the mesh.
+};
+
+/// @param areAtZero whether some have z = 0.
+/// @param areNotFinite whether some have a z that is not finite.
+HeightWords ChooseWords(bool areAtZero, bool areNotFinite)
+{
+  if (!areNotFinite)
+  {
+    return { "z = 0 throughout", "keeps z = 0", "the mesh goes to z = 0 there; if it should not" };
+  }
+  if (!areAtZero)
+  {
+    return { "z is not finite", "keeps their z", "the mesh has no heights there; if it should" };
+  }
+  return { "z = 0 throughout, or not finite", "keeps their z",
+    "the mesh goes to z = 0 there, or has no heights; if it should not" };
+}
+
+/// Counts the points without heights that are corners of triangles.
+Defect TriangulationRun::DescribePointsWithoutHeights() const
 {
   const std::int64_t triangles = this->Session->GetReport().Triangles;
-  if (this->FlatPoints.empty() || triangles == 0)
+  if (this->WithoutHeights.List().empty() || triangles == 0)
   {
     return {};
   }
   std::vector<std::int64_t> corners(3 * triangles);
   this->Session->StoreTriangles(MutableTriangleArray(corners.data(), triangles));
-  std::set<std::int64_t> found(this->FlatPoints.begin(), this->FlatPoints.end());
-  const auto total = static_cast<std::int64_t>(found.size());
+  std::vector<bool> isCorner(this->Points->GetNumberOfPoints(), false);
   for (const std::int64_t corner : corners)
   {
-    found.erase(corner);
+    if (corner < static_cast<std::int64_t>(isCorner.size())) // else refinement has added it
+    {
+      isCorner[corner] = true;
+    }
   }
-  const std::int64_t count = total - static_cast<std::int64_t>(found.size());
-  const std::string fate = this->AreLifted
-    ? "they have got the heights of the given points there; SegmentHeights Own keeps z = 0"
-    : "the mesh goes to z = 0 there; if it should not, give them heights, for example those of the "
-      "nearest points";
+  const auto count = [&isCorner](const std::vector<std::int64_t>& points)
+  {
+    return std::count_if(
+      points.begin(), points.end(), [&isCorner](std::int64_t point) { return isCorner[point]; });
+  };
+  const std::int64_t atZero = count(this->WithoutHeights.AtZero);
+  const std::int64_t notFinite = count(this->WithoutHeights.NotFinite);
+  const HeightWords words = ChooseWords(atZero > 0, notFinite > 0);
+  std::string fate = words.Fate;
+  fate += ", give them heights, for example those of the nearest points";
+  if (this->AreLifted)
+  {
+    fate = "they have got the heights of the given points there; SegmentHeights Own ";
+    fate += words.Kept;
+  }
   std::vector<double> storage;
   const PointArray points = ViewPoints(this->Given, storage);
   const HeightRange heights(points, points.Count);
   constexpr int Digits = 6;
-  Defect flat(DefectKind::PointsWithoutHeights, count);
-  flat.Detail =
-    " (z = 0 throughout; the given points have z = " + FormatNumber(heights.Low, Digits) + " to " +
+  Defect defect(DefectKind::PointsWithoutHeights, atZero + notFinite);
+  defect.Detail = " (" + std::string(words.What) +
+    "; the given points have z = " + FormatNumber(heights.Low, Digits) + " to " +
     FormatNumber(heights.High, Digits) + "): " + fate;
-  return flat;
+  return defect;
 }
 
 //------------------------------------------------------------------------------
@@ -359,13 +390,17 @@ void TriangulationRun::ChooseHeights()
   }
   else if (heights == HeightsKind::Auto && !isProjected)
   {
-    lifted = this->FlatPoints;
+    lifted = this->WithoutHeights.List();
   }
-  if (heights != HeightsKind::Auto)
+  if (heights == HeightsKind::Survey || !this->Asked.WantsHeights)
   {
-    this->FlatPoints.clear(); // nobody is told of what was asked for
+    this->WithoutHeights = {};
   }
-  this->TakeHeights(FillsData(this->Asked) ? added : lifted, lifted);
+  else if (heights == HeightsKind::Own)
+  {
+    this->WithoutHeights.AtZero.clear(); // nobody is told of what was asked for
+  }
+  this->TakeHeights(added, lifted);
 }
 
 /// Finds the longest edges near points. Near those that have no number there is no limit.

@@ -71,8 +71,9 @@ struct TriangulationRequest : UpdateRequest
   bool PassesSegments = false; ///< The output has the edges along segments, as lines.
   vtkIdType FirstHole = -1;
   HeightsKind Heights = HeightsKind::Auto; ///< In a projection Auto is Own.
-  /// Points that only the second input has get point data of the first one, whatever their heights.
-  bool FillsData = false;
+  bool WantsHeights = true; ///< Else nobody has to be told of points without heights.
+  /// Point data become doubles, so that those which points of the second input get are not rounded.
+  bool TurnsToDoubles = false;
   std::string SizeArray; ///< A point array of longest edges; "": none.
   std::vector<std::array<double, 4>> Regions; ///< x, y, label and largest area of each.
   PointOptions Options;

@@ -155,24 +155,6 @@ std::string RemoveOthers(vtkPolyData* source)
   return "point arrays of the source left out, which have no numbers or too few tuples: " + names;
 }
 
-/// Adds z of points to their data. Their places on a sphere do not have it any more.
-/// @param points may be null.
-void AddElevation(vtkPoints* points, const std::string& name, vtkPointData* data)
-{
-  if (!points)
-  {
-    return;
-  }
-  vtkNew<vtkDoubleArray> heights;
-  heights->SetName(name.c_str());
-  heights->SetNumberOfTuples(points->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-  {
-    heights->SetValue(i, points->GetData()->GetComponent(i, 2));
-  }
-  AddAttributes(data, data->AddArray(heights), 1 << vtkDataSetAttributes::SCALARS);
-}
-
 /// The arrays that are interpolated: some of a mesh from points, and their z.
 class Columns
 {
@@ -482,22 +464,23 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   }
   const auto third = Hold(this->GetInputDataObject(this->SegmentsPort, 0));
   const auto points = this->ReadPoints(given, block, summary);
-  const auto segments =
-    this->FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL), summary);
   std::string elevation = this->ChooseArrays(points, block.Name, summary);
+  const auto segments =
+    this->FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL), elevation, summary);
   if (this->HasAngles() && !elevation.empty())
   {
-    AddElevation(given->GetPoints(), elevation, points->GetPointData());
+    KeepHeights(given->GetPoints(), elevation, true, points->GetPointData());
     elevation.clear();
   }
   TriangulationRequest request = this->MakeRequest(given);
   request.Input = points;
   request.Others = segments;
   request.PassesSegments = false; // an array of numbers of segments is nothing to interpolate
-  request.FillsData = true; // zeros of points of segments would be seen
-  if (elevation.empty() && request.Heights == HeightsKind::Auto)
+  request.TurnsToDoubles = true;
+  request.WantsHeights = !elevation.empty();
+  if (!request.WantsHeights && request.Heights == HeightsKind::Auto)
   {
-    request.Heights = HeightsKind::Own; // nobody has to be told of z
+    request.Heights = HeightsKind::Own;
   }
   request.IsLive = true; // keeps the run
   request.IterationsPerUpdate = -1;

@@ -41,8 +41,8 @@
  * - "Elevation": z of the source's points (see ElevationArray). On a sphere only with Degrees.
  * - "vtkValidPointMask", char: 1 where a place is in a triangle or on its edge, else 0.
  *
- * Points that only the segments have get the data of the source there, as by SegmentHeights, but
- * keep those in arrays that the segments have, too.
+ * Points that only the segments have get the data of the source there, and z as by SegmentHeights,
+ * but keep those in arrays that the segments have, too.
  *
  * An array is the active scalars, vectors and so on if it is in the source, unless the first input
  * has others. Elevation is the active scalars if there are none. A place outside of all triangles

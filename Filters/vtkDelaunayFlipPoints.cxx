@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayFlipPoints.h"
 
+#include "DataArrays.h"
 #include "DelaunayFlip.h"
 #include "FlipError.h"
 #include "MeshBlocks.h"
@@ -9,6 +10,7 @@
 #include "UpdateRequests.h"
 
 #include "vtkAbstractTransform.h"
+#include "vtkDoubleArray.h"
 #include "vtkInformation.h"
 #include "vtkMath.h"
 #include "vtkNew.h"
@@ -72,8 +74,39 @@ void vtkDelaunayFlipPoints::WarnOfLatitudes(
   }
 }
 
+bool vtkDelaunayFlipPoints::KeepHeights(
+  vtkPoints* degrees, const std::string& name, bool always, vtkPointData* data)
+{
+  if (!degrees)
+  {
+    return true;
+  }
+  vtkNew<vtkDoubleArray> heights;
+  heights->SetName(name.c_str());
+  heights->SetNumberOfTuples(degrees->GetNumberOfPoints());
+  bool isWanted = always;
+  for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
+  {
+    const double height = degrees->GetData()->GetComponent(i, 2);
+    heights->SetValue(i, height);
+    isWanted = isWanted || (std::isfinite(height) && height != 0.0);
+  }
+  if (isWanted && data->HasArray(name.c_str()))
+  {
+    return false;
+  }
+  if (isWanted)
+  {
+    AddAttributes(data, data->AddArray(heights), 1 << vtkDataSetAttributes::SCALARS);
+  }
+  return true;
+}
+
 namespace
 {
+/// What the array of heights of longitudes and latitudes is called.
+constexpr char HeightArray[] = "Height";
+
 /// The places of longitudes and latitudes on the unit sphere.
 vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees)
 {
@@ -159,8 +192,8 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(
   return points;
 }
 
-vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(
-  const MeshBlock& block, const std::vector<MeshBlock>& segments, UpdateSummary& summary) const
+vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(const MeshBlock& block,
+  const std::vector<MeshBlock>& segments, const std::string& heights, UpdateSummary& summary) const
 {
   const auto found = ListOthers(block, segments, "the segments of a single dataset");
   if (found.size() > 1)
@@ -181,6 +214,11 @@ vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::FindSegments(
   auto placed = vtkSmartPointer<vtkPolyData>::New();
   placed->ShallowCopy(given);
   placed->SetPoints(PlacePoints(given->GetPoints()));
+  if (!heights.empty())
+  {
+    const bool areOwn = this->SegmentHeights == SEGMENT_HEIGHTS_OWN;
+    KeepHeights(given->GetPoints(), heights, areOwn, placed->GetPointData());
+  }
   return placed;
 }
 
@@ -274,7 +312,14 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   }
   TriangulationRequest request = this->MakeRequest(given);
   const auto points = this->ReadPoints(given, block, summary);
-  const auto others = this->FindSegments(block, segments, summary);
+  std::string heights = HeightArray;
+  if (this->HasAngles() && !KeepHeights(given->GetPoints(), heights, false, points->GetPointData()))
+  {
+    summary.Warnings.push_back(
+      { block.Name, "z left out, because the points have an array \"" + heights + "\"" });
+    heights.clear();
+  }
+  const auto others = this->FindSegments(block, segments, heights, summary);
   request.Input = points;
   request.IsLive = block.IsLive;
   // Segments that all blocks share make no mesh of their own in an empty one.

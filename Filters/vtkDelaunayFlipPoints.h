@@ -35,9 +35,10 @@
  * Output port 0: a vtkPolyData with all points of the input, in their order and with their point
  * data, and triangles, which are counter-clockwise in the plane. Without added points it shares
  * the vtkPoints object of the input, but not in live updates. Added points come last. First are
- * those of the second input with their z and point data; an array that only one input has is 0 or
- * empty for the points of the other. Then come those where segments cross, and those of refinement
- * (MinimumAngle, MaximumArea, MaximumEdge, SizeArray, AddRegion). Global point ids become
+ * those of the second input with their z and point data. An array of numbers that only the first
+ * input has is interpolated for them, as by SegmentHeights SURVEY; other arrays that only one input
+ * has are 0 or empty for the points of the other. Then come those where segments cross, and those
+ * of refinement (MinimumAngle, MaximumArea, MaximumEdge, SizeArray, AddRegion). Global ids become
  * pedigree ids if points are added, since they are no longer unique. With PassSegments the output
  * also has the edges of the segments, as lines. Port 1: the table of iterations, as of
  * vtkDelaunayFlip.
@@ -69,7 +70,8 @@
  *
  * The heights of added points are those of the second input. But if its lines, outlines or holes
  * have z = 0 throughout, and the points of the first input do not, the added points get heights of
- * these, with a warning that counts them (see SegmentHeights).
+ * these, with a warning that counts them (see SegmentHeights). So do those with a z that is NaN or
+ * infinite.
  *
  * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
  * nothing is removed.
@@ -118,6 +120,7 @@
 #include <vector>
 
 class vtkAbstractTransform;
+class vtkPointData;
 class vtkPointSet;
 
 namespace delaunayflip
@@ -176,7 +179,8 @@ public:
   ///@{
   /**
    * On a sphere, whether x and y are longitudes and latitudes in degrees. Then the points of the
-   * output are the places on the unit sphere, in double precision, and z of the input is lost. All
+   * output are the places on the unit sphere, in double precision. Their z, if it is not 0
+   * throughout, is in the point array "Height", unless the input has such an array already. All
    * longitudes of a pole are one place. Default off.
    */
   vtkSetMacro(Degrees, bool);
@@ -268,11 +272,13 @@ public:
   /**
    * The z of points that only the second input has. SURVEY: that of the first input there, linear
    * in the triangulation of its points alone, and outside of it that of the nearest place on its
-   * boundary. All arrays of numbers that the second input does not have are found in the same way;
-   * integers are rounded. OWN: that of the second input. AUTO (default): SURVEY for its lines,
-   * outlines or holes, each of the three by itself, that have z = 0 throughout, if the first input
-   * has other heights; else OWN. Only for x and y: in another projection AUTO is OWN, and SURVEY is
-   * an error.
+   * boundary. Whatever the choice, all arrays of numbers that the second input does not have are
+   * found in this way; integers are rounded. OWN: that of the second input. AUTO (default): SURVEY
+   * for points with a z that is not finite, and for its lines, outlines or holes, each of the three
+   * by itself, that have z = 0 throughout, if the first input has other heights; else OWN. Only for
+   * x and y: in another projection AUTO is OWN, and SURVEY is an error. With Degrees the array
+   * "Height" has z of the second input with OWN, or if it is not 0 throughout; else it is
+   * interpolated.
    */
   enum SegmentHeightsType
   {
@@ -391,6 +397,15 @@ protected:
   static void WarnOfLatitudes(vtkPoints* degrees, const std::string& name, const std::string& where,
     delaunayflip::UpdateSummary& summary);
 
+  /**
+   * Adds z of points to their data. Their places on a sphere do not have it.
+   * @param name the array.
+   * @param always whether also if z = 0 throughout.
+   * @returns false if there is such an array already, and z would have been added.
+   */
+  static bool KeepHeights(
+    vtkPoints* degrees, const std::string& name, bool always, vtkPointData* data);
+
   void FlipLeaves(delaunayflip::MeshBlock& block,
     const std::vector<delaunayflip::MeshBlock>& segments,
     delaunayflip::UpdateSummary& summary) override;
@@ -408,8 +423,9 @@ protected:
     delaunayflip::UpdateSummary& summary) const;
 
   /// The segments for a block; null if there are none. May throw.
+  /// @param heights the array that gets z of longitudes and latitudes; "": none.
   vtkSmartPointer<vtkPolyData> FindSegments(const delaunayflip::MeshBlock& block,
-    const std::vector<delaunayflip::MeshBlock>& segments,
+    const std::vector<delaunayflip::MeshBlock>& segments, const std::string& heights,
     delaunayflip::UpdateSummary& summary) const;
 #endif
 

@@ -11,7 +11,7 @@ from typing import Optional
 from . import _arrays
 from ._ask import METHODS, Field, Interpolator, Method, Outside, halve, require_triangles
 from ._options import Array, Backend, Numbers, Progress, choose, show_options
-from ._points import POINT_OPTIONS, PointOptions, run_points, triangulate
+from ._points import POINT_OPTIONS, UNSEEN, PointOptions, run_points, triangulate
 from ._rings import RingRule, Rings
 
 if typing.TYPE_CHECKING:
@@ -94,7 +94,7 @@ class LinearInterpolator(Interpolator):
         is_soft = choose("breaklines", breaklines, typing.get_args(Breaklines)) == 1
         is_soft &= any(given is not None for given in (segments, outline, holes))
         first = halve(progress, 0.0) if is_soft else progress
-        self.triangulation, trouble = _keep(points, {**keywords, "heights": "own"}, first)
+        self.triangulation, trouble = _keep(points, {**keywords, "heights": UNSEEN}, first)
         if trouble:
             warnings.warn(trouble, stacklevel=2)
         self._answers, soft = self.triangulation._answers, None

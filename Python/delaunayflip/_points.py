@@ -25,6 +25,7 @@ from ._rings import RING_RULES, RingRule, Rings, list_lines, list_rings
 from ._session import LEFT_BY_REFINEMENT, Region, run
 
 Heights = typing.Literal["survey", "own"]
+UNSEEN = "unseen"  #: Heights where z does not matter: as "own", but nobody is told of points without.
 Length = typing.Annotated[float, (0.0, math.inf)]
 Angle = typing.Annotated[float, (0.0, 33.0)]
 Count = typing.Annotated[int, (0, 2**63 - 1)]
@@ -217,8 +218,8 @@ def triangulate(
         heights: z of points that lines and rings add. "survey": that of the points there, linear in
             their triangulation without segments, and beyond its hull that of the nearest place on it.
             "own": that of the lines and rings, 0 for those of two columns. None: "survey" for those
-            without heights (two columns, or all lines, the outline or the holes have z = 0 throughout)
-            if other points have heights, with a warning that counts them; "own" for the others.
+            without heights (two columns, z that is not finite, or all lines, the outline or the holes have
+            z = 0 throughout) if other points have heights, with a warning that counts them; else "own".
         backend, threads, device: "cuda", "threads", or "auto": a GPU for many points if there is one. 0
             threads: as many as the machine has. Device: CUDA's number of the GPU; -1: the current one.
         maximum_iterations: -1: until done; 0: the triangulation that flips start from. Rounds count, too.
@@ -308,6 +309,14 @@ def interpolate_in_survey(points, values, places, backend, projection=0):
     return survey.interpolate(values, places, outside="nearest")
 
 
+#: What a message says of points without heights: why, what "own" keeps, and what becomes of the mesh; by
+#: whether some have z = 0 and some a z that is not finite.
+_HEIGHT_WORDS = {
+    (True, False): ("z = 0 throughout", "z = 0", "the mesh goes to z = 0 there; if it should not"),
+    (False, True): ("z is not finite", "their z", "the mesh has no heights there; if it should"),
+    (True, True): ("z = 0 throughout, or not finite", "their z",
+                   "the mesh goes to z = 0 there, or has no heights; if it should not"),
+}
 #: For each added point three ids, -1 where there are only two, and as many weights.
 _NOTHING_ADDED = numpy.empty((0, 3), dtype=numpy.int64), numpy.empty((0, 3))
 
@@ -317,9 +326,7 @@ class Input:
 
     triangle_order = "triangles"  #: Or "ordered_triangles", as the engine calls what it stores.
     are_properties = False  #: Whether the caller knows options by the names of VTK's properties.
-    #: What a message says of segments without heights.
-    flat_fate = ("the mesh goes to z = 0 there; if it should not, give them heights, for example those of "
-                 "the nearest points")
+    are_lifted = False  #: Whether points without heights have got some.
 
     def __init__(self, points, segments=None, *, ring_numbers=None, outline=None, holes=None,
                  hole_seeds=None, ring_rule="evenodd"):
@@ -375,7 +382,7 @@ class Input:
         """Takes that of the struct. On a sphere z is no height."""
         self.struct.projection = projection
         if projection:
-            self.flat_points = self.flat_points[:0]
+            self._tell_of_heights(UNSEEN)
 
     def _add_ring(self, ring, number, points):
         if ring.ndim == 2:
@@ -445,29 +452,58 @@ class Input:
         return self.describe_defects(handle), self.trouble
 
     def find_flat_points(self, given, segments, rings):
-        """Finds the points behind the `given` ones that rings without z have, or that lines, outlines
-        or holes have, each of the three by itself, if z = 0 throughout; where other heights are given."""
-        self.flat_points = numpy.empty(0, dtype=numpy.int64)
+        """Finds the points behind the `given` ones without heights, where other heights are given: those
+        that rings of two columns have, or that lines, outlines or holes have, each of the three by itself,
+        if z = 0 wherever it is finite; and those with a z that is not finite."""
+        self.flat_points = self.nan_points = numpy.empty(0, dtype=numpy.int64)
         if len(self.points) == given or self.points.shape[1] < 3:
             return
+        if segments.min(initial=0) < 0 or segments.max(initial=0) >= len(self.points):
+            return  # the engine refuses them
         heights = self.points[:, 2]
-        self.heights = heights[:given][numpy.isfinite(heights[:given])]
+        is_finite = numpy.isfinite(heights)
+        self.heights = heights[:given][is_finite[:given]]
+        if len(self.heights) == 0:
+            return
+        ids = numpy.unique(segments)
+        self.nan_points = ids[(ids >= given) & ~is_finite[ids]].astype(numpy.int64)
         if self.heights.any():
             kinds = numpy.where(rings < 0, -1, rings >= self.struct.first_hole)
-            flat = [kind for kind in (-1, 0, 1) if not heights[segments[kinds == kind]].any()]
+            known = numpy.where(is_finite, heights, 0)
+            flat = [kind for kind in (-1, 0, 1) if not known[segments[kinds == kind]].any()]
             ends = segments[numpy.isin(kinds, flat)].ravel()
             ids = numpy.unique(numpy.concatenate([ends, *self.flat_rings]))
-            self.flat_points = ids[ids >= given].astype(numpy.int64)
+            self.flat_points = ids[(ids >= given) & is_finite[ids]].astype(numpy.int64)
+
+    def choose_lifted(self, heights, added):
+        """The ids of the points that get heights of the others, ascending. Only those are told of that are
+        without heights and not because it was asked for.
+
+        Args:
+            heights: As for `triangulate`, or UNSEEN.
+            added: The ids of all that may get some.
+        """
+        if heights not in (None, UNSEEN):
+            choose("heights", heights, typing.get_args(Heights))
+        lifted = added[:0]
+        if heights is None:
+            lifted = numpy.union1d(self.flat_points, self.nan_points)
+        elif heights == "survey":
+            lifted = added
+        self._tell_of_heights(heights)
+        return lifted
+
+    def _tell_of_heights(self, heights):
+        """Forgets points without heights of which nobody has to be told."""
+        if heights is not None:
+            self.flat_points = self.flat_points[:0]
+        if heights in ("survey", UNSEEN):
+            self.nan_points = self.nan_points[:0]
 
     def take_heights(self, heights):
         """Gives points of rings the heights of the caller's points. `heights`: as for `triangulate`."""
-        if heights is not None:
-            choose("heights", heights, typing.get_args(Heights))
-        first, lifted = self.struct.first_added, self.flat_points
-        if heights == "own":
-            self.flat_points = lifted = lifted[:0]
-        if heights == "survey":
-            lifted = numpy.arange(first, len(self.points))
+        first = self.struct.first_added
+        lifted = self.choose_lifted(heights, numpy.arange(first, len(self.points)))
         if len(lifted) == 0 or self.points.shape[1] < 3:
             return
         survey = self.points[:first]
@@ -475,9 +511,7 @@ class Input:
         if found is None:
             return
         self.points[lifted, 2] = found[:, 0]
-        self.flat_fate = 'they have got the heights of the given points there; heights="own" keeps z = 0'
-        if heights == "survey":
-            self.flat_points = lifted[:0]  # nobody is told of what was asked for
+        self.are_lifted = True
 
     def take_sizes(self, sizes):
         """Takes the longest edges near points; None: no limit."""
@@ -496,16 +530,22 @@ class Input:
         self.struct.regions, self.struct.number_of_regions = address(self.regions), len(self.regions)
 
     def _report_flat_points(self, report, triangles):
-        """Adds those of them that are corners of triangles to the defects."""
-        count = 0
-        if len(self.flat_points):
-            count = numpy.count_nonzero(numpy.isin(self.flat_points, triangles))
+        """Adds the points without heights that are corners of triangles to the defects."""
+        at_zero, not_finite = (
+            len(ids) and numpy.count_nonzero(numpy.isin(ids, triangles))
+            for ids in (self.flat_points, self.nan_points))
+        count = at_zero + not_finite
         if count == 0:
             return report
         low, high = float(self.heights.min()), float(self.heights.max())
+        what, kept, fate = _HEIGHT_WORDS[at_zero > 0, not_finite > 0]
+        fate += ", give them heights, for example those of the nearest points"
+        if self.are_lifted:
+            own = "SegmentHeights Own" if self.are_properties else 'heights="own"'
+            fate = f"they have got the heights of the given points there; {own} keeps {kept}"
         self.trouble.append(
-            f"{count} {'point' if count == 1 else 'points'} of segments without heights (z = 0 "
-            f"throughout; the given points have z = {low:g} to {high:g}): {self.flat_fate}")
+            f"{count} {'point' if count == 1 else 'points'} of segments without heights ({what}; the given "
+            f"points have z = {low:g} to {high:g}): {fate}")
         defects = "; ".join(filter(None, (report.defects, self.trouble[-1])))
         return dataclasses.replace(report, defects=defects)
 

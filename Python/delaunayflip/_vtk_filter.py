@@ -12,13 +12,15 @@ from vtkmodules.vtkCommonExecutionModel import (
 
 from . import _library
 from ._options import CHOICES, GOALS, OPTION_KINDS
-from ._points import POINT_OPTIONS, run_points
+from ._points import POINT_OPTIONS, UNSEEN, run_points
 from ._report import (
     FIELD_PREFIX, GEOMETRIES, ITERATION, MAIN_NUMBERS, POINT_NUMBERS, Totals, describe, to_camel_case)
 from ._rings import RING_RULES
 from ._sphere import PROJECTIONS
 from ._vtk_blocks import choose_leaf, copy_data, find_leaves, iterate, list_blocks, name_leaf
-from ._vtk_mesh import CELL_ARRAYS, HEIGHTS, SETTINGS, Cloud, MeshInput, pass_points, place_points, vtk_of
+from ._vtk_mesh import (
+    CELL_ARRAYS, HEIGHT_ARRAY, HEIGHTS, SETTINGS, Cloud, MeshInput, keep_heights, pass_points, place_points,
+    vtk_of)
 from ._vtk_properties import (
     COMMON_OPTIONS, COMMON_PROPERTIES, FLIP_PROPERTIES, POINT_PROPERTIES, PROPERTY_OF, finish)
 
@@ -563,10 +565,24 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
             self._warnings.append((self._where, name + trouble))
         return placed
 
+    def _take_segments(self, segments, heights):
+        """Segments, also with their places. z is kept there in the array `heights`; "": nowhere."""
+        placed = self._take_places(segments, "segments: ")
+        if heights and placed is not segments:
+            are_own = self.segment_heights == self.SEGMENT_HEIGHTS_OWN
+            keep_heights(segments, heights, placed.GetPointData(), are_own)
+        return placed
+
     def _flip(self, data, segments, output):
         if self.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.UPDATE_PIECE_NUMBER()) > 0:
             return self._pass(vtkPolyData(), output, "converged")  # the first one has all
-        data, segments = self._take_places(data), self._take_places(segments, "segments: ")
+        given, heights = data, HEIGHT_ARRAY
+        data = self._take_places(given)
+        trouble = "" if data is given else keep_heights(given, heights, data.GetPointData())
+        if trouble:
+            self._warnings.append((self._where, trouble))
+            heights = ""
+        segments = self._take_segments(segments, heights)
         if isinstance(self.GetInput(), vtkCompositeDataSet) and data.GetNumberOfPoints() == 0:
             segments = None  # those that all blocks share make no mesh of their own
         count = data.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments is not None else 0)
@@ -614,17 +630,16 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         """Returns the Triangulation, with or without its session, and the text of a warning, or "".
         Without heights nobody has to be told of z."""
         heights = HEIGHTS[self.segment_heights]
-        if heights is None and not has_heights:
-            heights = "own"
+        if heights != "survey" and not has_heights:
+            heights = UNSEEN
         options = self._get_options("backend", *POINT_OPTIONS)
         cloud = Cloud(
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
             closed_lines_as_rings=self.closed_lines_as_rings, pass_segments=self.pass_segments and not keeps,
             ring_rule=RING_RULES[self.ring_rule],
-            heights=heights, fills_data=keeps, size_array=self.size_array, projection=self._find_projection(),
+            heights=heights, as_doubles=keeps, size_array=self.size_array, projection=self._find_projection(),
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
-        cloud.flat_fate = cloud.flat_fate.replace('heights="own"', "SegmentHeights Own")
         if follows and self._is_followed(cloud, segments, options):
             result = self._follow(cloud, options, progress)
         else:

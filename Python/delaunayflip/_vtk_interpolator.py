@@ -13,7 +13,7 @@ from ._ask import METHODS, Field, Places, read_places
 from ._vtk_blocks import copy_data, find_leaves, list_blocks
 from ._vtk_filter import _drop_results, vtkDelaunayFlipPoints
 from ._vtk_mesh import (
-    _add_attributes, _find_attributes, _is_among, _list_arrays, add_elevation, describe_latitudes, vtk_of)
+    _add_attributes, _find_attributes, _is_among, _list_arrays, describe_latitudes, keep_heights, vtk_of)
 from ._vtk_properties import Property, finish
 
 _MASK = "vtkValidPointMask"  # as vtkProbeFilter calls it
@@ -122,10 +122,10 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         if source.GetNumberOfPoints() == 0:
             self._warnings.append((self._where, "the source has no points, so there are no values"))
         source = self._take_places(given)
-        segments = self._take_places(self._find_segments(), "segments: ")
         elevation = self._choose_arrays(source)
+        segments = self._take_segments(self._find_segments(), elevation)
         if elevation and source is not given:
-            add_elevation(given, elevation, source.GetPointData())
+            keep_heights(given, elevation, source.GetPointData(), True)
             elevation = ""
         count = source.GetNumberOfPoints() + (segments.GetNumberOfPoints() if segments else 0)
         if count == 0:

@@ -10,7 +10,6 @@ import numpy
 
 from . import _arrays, _library
 from ._library import InvalidMesh, InvalidOptions
-from ._options import choose
 from ._points import Input, interpolate_in_survey
 from ._report import FIELD_PREFIX, POINT_NUMBERS, Totals, describe_trouble, join
 from ._session import Session, smallest_angles
@@ -24,6 +23,7 @@ SETTINGS = ("triangulate", "lines_as_constraints", "insert_lines", "insert_const
 CELL_ARRAYS = (
     "vtkDelaunayFlipCount", "Smallest angle before (degrees)", "Smallest angle after (degrees)")
 HEIGHTS = None, "survey", "own"  #: SegmentHeights
+HEIGHT_ARRAY = "Height"  #: That of z of longitudes, latitudes and heights.
 _GHOSTS = "vtkGhostType"
 _GHOST = 1 | 8 | 32  # vtkDataSetAttributes.DUPLICATECELL, REFINEDCELL and HIDDENCELL
 
@@ -177,15 +177,22 @@ def describe_latitudes(latitudes):
             "x is the longitude and y the latitude")
 
 
-def add_elevation(source, name, data):
-    """Adds z of the points of a dataset to point data."""
-    if source.GetPoints() is None:
-        return
-    vtk, mesh = vtk_of(source), vtk_of(source).model.vtkPolyData()
-    mesh.SetPoints(source.GetPoints())
-    array = vtk.support.numpy_to_vtk(vtk.read(mesh).points[:, 2].astype(float), True)
+def keep_heights(given, name, data, always=False):
+    """Adds z of the points of a dataset to point data, as an array. If z = 0 throughout, only if `always`.
+    Returns the text of a warning if there is such an array already, or ""."""
+    if given.GetPoints() is None:
+        return ""
+    vtk, mesh = vtk_of(given), vtk_of(given).model.vtkPolyData()
+    mesh.SetPoints(given.GetPoints())
+    heights = vtk.read(mesh).points[:, 2].astype(float)
+    if not (always or numpy.nan_to_num(heights, posinf=0, neginf=0).any()):
+        return ""
+    if data.HasArray(name):
+        return f'z left out, because the points have an array "{name}"'
+    array = vtk.support.numpy_to_vtk(heights, True)
     array.SetName(name)
     _add_attributes(data, data.AddArray(array), [data.SCALARS])
+    return ""
 
 
 _load = functools.lru_cache(maxsize=None)(Vtk)
@@ -437,11 +444,11 @@ class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
     def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
-                 pass_segments=False, first_hole=-1, heights=None, fills_data=False, size_array="", backend=None,
+                 pass_segments=False, first_hole=-1, heights=None, as_doubles=False, size_array="", backend=None,
                  projection=0, **rings):
         """`others`: the second input of the filter, or pairs of point ids. `heights`: SegmentHeights.
-        `pass_segments`: whether the mesh gets the edges along segments. `fills_data`: whether added points
-        get data whatever their heights. `size_array`: SizeArray. `projection`: that of the struct.
+        `pass_segments`: whether the mesh gets the edges along segments. `as_doubles`: whether data become
+        doubles, so that those of added points are not rounded. `size_array`: SizeArray. `projection`: that of the struct.
         `backend`: keywords that say where data are found. `rings`: outline, holes, hole_seeds and
         ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data
@@ -479,44 +486,38 @@ class Cloud(Input):
             data.GetNumberOfPoints(), self.all_segments[own:], self.all_rings[own:])
         self.take_projection(projection)
         self._surveyed = []  # (name, ids, values) of each array of added points
-        self._read_data = self._as_doubles if fills_data else lambda data: data
-        self._choose_heights(heights, fills_data or size_array, backend or {})
+        self._read_data = self._as_doubles if as_doubles else lambda data: data
+        self._choose_heights(heights, backend or {})
         if size_array:
             self._read_sizes(size_array)
 
-    def _choose_heights(self, heights, fills_data, backend):
+    def _choose_heights(self, heights, backend):
         """Gives added points the heights that are asked for, and data in arrays that the segments do not
         have, interpolated between the points of the dataset."""
         count, data = self.data.GetNumberOfPoints(), self.data.GetPointData()
         added = numpy.arange(count, len(self.points))
-        if heights is not None:
-            choose("heights", heights, HEIGHTS[1:])
         if heights == "survey" and self.struct.projection:
             raise InvalidOptions("SegmentHeights: the heights of the survey are for x and y; with another "
                                  "projection choose Own")
-        lifted = (self.flat_points, added, added[:0])[HEIGHTS.index(heights)]
-        if heights is not None:
-            self.flat_points = added[:0]  # nobody is told of what was asked for
-        ids = added if fills_data else lifted
+        lifted = self.choose_lifted(heights, added)
         theirs = self._others.GetPointData() if hasattr(self._others, "GetPointData") else None
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
         names = [array.GetName() for array in _list_arrays(data)
                  if array.GetName() and array.IsNumeric() and array.GetNumberOfTuples() >= count
                  and not _is_among(array, labels) and not (theirs and theirs.HasArray(array.GetName()))]
-        if count == 0 or len(ids) == 0 or not (len(lifted) or names):
+        if count == 0 or len(added) == 0 or not (len(lifted) or names):
             return
         columns = [self.points[:count, 2:]]
         columns += [self.vtk.view(data.GetArray(name))[:count].reshape(count, -1) for name in names]
         values = numpy.concatenate([column.astype(float) for column in columns], axis=1)
         found = interpolate_in_survey(
-            self.points[:count], values, self.points[ids], backend, self.struct.projection)
+            self.points[:count], values, self.points[added], backend, self.struct.projection)
         if found is None:
             return
-        self.points[lifted, 2] = found[numpy.isin(ids, lifted), 0]
+        self.points[lifted, 2] = found[lifted - count, 0]
         ends = numpy.cumsum([column.shape[1] for column in columns])
-        self._surveyed = list(zip(names, itertools.repeat(ids), numpy.split(found, ends, axis=1)[1:]))
-        if len(lifted):
-            self.flat_fate = 'they have got the heights of the given points there; heights="own" keeps z = 0'
+        self._surveyed = list(zip(names, itertools.repeat(added), numpy.split(found, ends, axis=1)[1:]))
+        self.are_lifted = len(lifted) > 0
 
     def _read_sizes(self, name):
         """Finds the longest edges near points. Near those that have no number there is no limit."""

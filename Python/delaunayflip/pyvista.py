@@ -34,11 +34,12 @@ from ._points import triangulate as _triangulate_arrays
 from ._rings import RingRule, Rings, list_rings
 from ._sphere import place_on_sphere
 from ._surface import Slots
-from ._vtk_mesh import SETTINGS, Cloud, MeshInput, add_elevation, place_points, vtk_of
+from ._vtk_mesh import HEIGHT_ARRAY, SETTINGS, Cloud, MeshInput, keep_heights, place_points, vtk_of
 
 _CLOUD_OPTIONS = ("hole_seeds", "ring_rule", "lines_as_segments", "closed_lines_as_rings")
 #: In the order of the numbers in the engine.
 Projection = typing.Literal["xy", "sphere", "open-sphere"]
+_ELEVATION = "Elevation"  # The array of z of what is interpolated.
 _QUALITY = "Smallest angle"
 _COLORS = ["#b2182b", "#ef8a62", "#fddbc7", "#d1e5f0", "#67a9cf", "#2166ac"]  # of AngleColors.json
 _LOOK = {"scalars": _QUALITY, "clim": (0.0, 60.0), "cmap": _COLORS, "show_edges": True,
@@ -135,8 +136,9 @@ def triangulate(
             (or its row) along which each line runs, -1 for triangles; that of points has the cell on
             which refinement has put each point, else -1. Cells of `cloud` are numbered after those of
             `segments`; rings of outline and holes follow.
-        heights: As for delaunayflip.triangulate, for the points of segments and rings. Points that get
-            heights of the cloud also get its data, in arrays of numbers that the segments do not have.
+        heights: As for delaunayflip.triangulate, for the points of segments and rings. Whatever their
+            heights, they get the data of the cloud there, in arrays of numbers that the segments do not
+            have.
         size: As for delaunayflip.triangulate, or the name of a point array. Points that refinement adds
             get z and data that are linear between the points.
         projection: "xy"; "sphere": on a sphere around the origin, with segments and rings as for
@@ -144,7 +146,8 @@ def triangulate(
             sizes and limits of lengths are errors on a sphere.
         degrees: On a sphere, whether x and y of all points, lines, rings and seeds are longitudes and
             latitudes in degrees. Only those of the cloud and of meshes of segments are checked for
-            latitudes beyond 90. The mesh has their places on the unit sphere.
+            latitudes beyond 90. The mesh has their places on the unit sphere, and z, if it is not 0
+            throughout, as the point array "Height".
         **options: The other keywords of delaunayflip.triangulate, such as minimum_angle, maximum_area,
             regions, alpha, backend and progress.
 
@@ -217,7 +220,7 @@ def interpolate(
     if not hasattr(onto, "GetPointData"):
         raise TypeError(f"onto must be a dataset with points, not {type(onto).__name__}")
     given = _read_cloud(
-        cloud, segments, outline, holes, options, heights=heights, fills_data=True, projection=projection,
+        cloud, segments, outline, holes, options, heights=heights, as_doubles=True, projection=projection,
         degrees=degrees, **{name: options.pop(name) for name in _CLOUD_OPTIONS if name in options})
     inspect.signature(_triangulate_arrays).bind(given, **options)  # refuses unknown ones
     result, _ = run_points(given, options, halve(progress, 0.0), keeps=True)
@@ -228,7 +231,7 @@ def interpolate(
         raise Stopped("stopped by progress")
     arrays = _list_numbers(given.data.GetPointData(), mesh.point_data)
     if projection == "xy":
-        arrays.setdefault("Elevation", mesh.points[:, 2])
+        arrays.setdefault(_ELEVATION, mesh.points[:, 2])
     columns = [numpy.reshape(array, (len(array), math.prod(array.shape[1:]))).astype(float)
                for array in arrays.values()]
     field = Field(result._answers, numpy.concatenate(columns, axis=1), method=method, outside=outside,
@@ -366,7 +369,8 @@ def _read_cloud(cloud, segments, outline, holes, options, *, projection, degrees
         rings = {name: [ring if ring.ndim == 1 else _place(name, ring, degrees)
                         for ring in list_rings(name, value)] for name, value in rings.items()}
     if number and degrees:
-        cloud, segments = _place_meshes(cloud, segments, settings.get("fills_data"))
+        name = _ELEVATION if settings.get("as_doubles") else HEIGHT_ARRAY
+        cloud, segments = _place_meshes(cloud, segments, name, settings["heights"] == "own")
     given = Cloud(
         cloud, segments, **rings, projection=number,
         backend={name: options[name] for name in ("backend", "threads", "device") if name in options},
@@ -385,16 +389,20 @@ def _place(name, coordinates, degrees):
     return coordinates
 
 
-def _place_meshes(cloud, segments, keeps_heights):
-    """A cloud, and perhaps a mesh of segments, with the places of their longitudes and latitudes. z of the
-    cloud becomes an array, if asked for."""
+def _place_meshes(cloud, segments, name, are_own):
+    """A cloud, and perhaps a mesh of segments, with the places of their longitudes and latitudes. z becomes
+    an array of this name; that of segments, if it is 0 throughout, only if `are_own`."""
     placed, trouble = place_points(cloud)
     _warn(trouble, 5)
-    if keeps_heights and not placed.GetPointData().HasArray("Elevation"):
-        add_elevation(cloud, "Elevation", placed.GetPointData())
+    taken = keep_heights(cloud, name, placed.GetPointData(), always=name == _ELEVATION)
+    if name == HEIGHT_ARRAY:
+        _warn(taken, 5)
     if hasattr(segments, "GetPolys"):
-        segments, trouble = place_points(segments)
+        given = segments
+        segments, trouble = place_points(given)
         _warn(trouble and "segments: " + trouble, 5)
+        if not taken:
+            keep_heights(given, name, segments.GetPointData(), always=are_own)
     return placed, segments
 
 

@@ -386,7 +386,7 @@ TEST(FromPoints, PointsOfSegmentsAreAdded)
   EXPECT_TRUE(HasEdge(output, 4, 2));
   vtkPointData* data = output->GetPointData();
   EXPECT_EQ(GetNumbers(data, "both"), (std::vector<int>{ 1, 2, 3, 4, 100 }));
-  EXPECT_EQ(GetNumbers(data, "mine"), (std::vector<int>{ 11, 12, 13, 14, 0 }));
+  EXPECT_EQ(GetNumbers(data, "mine"), (std::vector<int>{ 11, 12, 13, 14, 13 }));
   EXPECT_EQ(GetNumbers(data, "kind"), (std::vector<int>{ 21, 22, 23, 24, 0 }));
   EXPECT_EQ(GetNumbers(data, "theirs"), (std::vector<int>{ 0, 0, 0, 0, 200 }));
   EXPECT_EQ(data->GetAbstractArray("names")->GetVariantValue(4).ToString(), "new");
@@ -598,15 +598,15 @@ TEST(FromPoints, HeightsOfSegments)
   struct Case
   {
     int Choice;
-    double OfOutline, OfHole, RealOfHole;
+    double OfOutline, OfHole;
     const char* Warning;
   };
   const std::vector<Case> cases = {
-    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_AUTO, 4.0, 7.0, 0.0,
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_AUTO, 4.0, 7.0,
       "4 points of segments without heights (z = 0 throughout; the given points have z = -15 to "
       "15): they have got the heights of the given points there; SegmentHeights Own keeps z = 0" },
-    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_SURVEY, 4.0, 2.0, 3.0, nullptr },
-    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_OWN, 0.0, 7.0, 0.0, nullptr },
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_SURVEY, 4.0, 2.0, nullptr },
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_OWN, 0.0, 7.0, nullptr },
   };
   for (const Case& each : cases)
   {
@@ -626,10 +626,9 @@ TEST(FromPoints, HeightsOfSegments)
     EXPECT_NEAR(output->GetPoint(count)[2], each.OfOutline, 1e-12);
     EXPECT_NEAR(output->GetPoint(count + 4)[2], each.OfHole, 1e-12);
     vtkPointData* data = output->GetPointData();
-    const bool isLifted = each.OfOutline != 0.0;
-    EXPECT_NEAR(data->GetArray("reals")->GetComponent(count + 2, 1), isLifted ? 10.0 : 0.0, 1e-12);
-    EXPECT_NEAR(data->GetArray("reals")->GetComponent(count + 4, 0), each.RealOfHole, 1e-12);
-    EXPECT_NEAR(data->GetArray("integers")->GetTuple1(count), isLifted ? 100.0 : 0.0, 1.0);
+    EXPECT_NEAR(data->GetArray("reals")->GetComponent(count + 2, 1), 10.0, 1e-12);
+    EXPECT_NEAR(data->GetArray("reals")->GetComponent(count + 4, 0), 3.0, 1e-12);
+    EXPECT_NEAR(data->GetArray("integers")->GetTuple1(count), 100.0, 1.0);
     EXPECT_EQ(data->GetArray("both")->GetTuple1(count), 70.0);
     EXPECT_EQ(data->GetArray("ids")->GetTuple1(count), 0.0);
     EXPECT_EQ(rings->GetPoint(0)[2], 0.0);
@@ -644,6 +643,100 @@ TEST(FromPoints, HeightsOfSegments)
   PointsFilter line(ToMesh({ { 0, 0, 1 }, { 1, 1, 2 }, { 2, 2, 3 } }));
   line->SetSegmentsData(MakeLines({ { 3, 3, 0 }, { 0, 5, 0 } }, { { 0, 1 } }));
   ExpectHolds(RunToWarning(line), "the mesh goes to z = 0 there");
+}
+
+/// A point of a line with a z that is not finite has no height.
+TEST(FromPoints, LinesWithHolesInTheirHeights)
+{
+  Points corners = MakeCloud(400);
+  for (auto& point : corners)
+  {
+    point[2] = 5.0;
+  }
+  const auto count = static_cast<vtkIdType>(corners.size());
+  const double inf = std::numeric_limits<double>::infinity();
+  const auto lines =
+    MakeLines({ { 2, 2, 7 }, { 3, 2, NAN }, { 4, 2, 9 }, { 5, 2, -inf } }, { { 0, 1, 2, 3 } });
+  const std::vector<std::pair<int, const char*>> cases = {
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_AUTO,
+      "2 points of segments without heights (z is not finite; the given points have z = 5 to 5): "
+      "they have got the heights of the given points there; SegmentHeights Own keeps their z" },
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_SURVEY, nullptr },
+    { vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_OWN,
+      "2 points of segments without heights (z is not finite; the given points have z = 5 to 5): "
+      "the mesh has no heights there; if it should, give them heights" },
+  };
+  for (const auto& [choice, warning] : cases)
+  {
+    PointsFilter filter(ToMesh(corners));
+    filter->SetSegmentsData(lines);
+    filter->SetSegmentHeights(choice);
+    Mesh output = filter->GetOutput();
+    if (warning)
+    {
+      ExpectHolds(RunToWarning(filter), warning);
+    }
+    else
+    {
+      output = RunCleanly(filter);
+    }
+    const bool isOwn = choice == vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_OWN;
+    for (const vtkIdType unknown : { count + 1, count + 3 })
+    {
+      const bool isSurveyed = std::fabs(output->GetPoint(unknown)[2] - 5.0) < 1e-12;
+      EXPECT_NE(isSurveyed, isOwn);
+    }
+    const bool isSurvey = choice == vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_SURVEY;
+    EXPECT_NEAR(output->GetPoint(count)[2], isSurvey ? 5.0 : 7.0, 1e-12);
+  }
+}
+
+/// On a globe, z of stations and of lines is in an array, which can be interpolated.
+TEST(FromPoints, HeightsOfStations)
+{
+  Points stations;
+  for (int i = 0; i < 200; ++i)
+  {
+    stations.push_back({ std::fmod(137.5 * i, 360.0) - 180.0, 0.89 * i - 89.0, 100.0 });
+  }
+  const auto run = [&stations](vtkPolyData* lines, int choice)
+  {
+    PointsFilter filter(ToMesh(stations));
+    filter->SetSegmentsData(lines);
+    filter->SetSegmentHeights(choice);
+    filter->SetProjectionToSphere();
+    filter->DegreesOn();
+    return RunCleanly(filter);
+  };
+  const int automatic = vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_AUTO;
+  for (const double height : { 0.0, 30.0 })
+  {
+    const auto lines = MakeLines({ { 11, 12, height }, { 14, 13, height } }, { { 0, 1 } });
+    for (const int choice : { automatic, int(vtkDelaunayFlipPoints::SEGMENT_HEIGHTS_OWN) })
+    {
+      const Mesh output = run(lines, choice);
+      vtkDataArray* heights = output->GetPointData()->GetArray("Height");
+      ASSERT_NE(heights, nullptr);
+      EXPECT_EQ(heights->GetNumberOfTuples(), 202);
+      EXPECT_EQ(heights->GetTuple1(7), 100.0);
+      const bool isSurveyed = height == 0.0 && choice == automatic;
+      EXPECT_NEAR(heights->GetTuple1(201), isSurveyed ? 100.0 : height, 1e-9);
+    }
+  }
+  for (auto& station : stations)
+  {
+    station[2] = 0.0;
+  }
+  const auto line = MakeLines({ { 11, 12, 0 }, { 14, 13, 0 } }, { { 0, 1 } });
+  EXPECT_EQ(run(line, automatic)->GetPointData()->GetArray("Height"), nullptr);
+  stations[0][2] = 1.0;
+  const auto named = ToMesh(stations);
+  AddNumbers(named->GetPointData(), "Height", 200, 0);
+  PointsFilter taken(named);
+  taken->SetProjectionToSphere();
+  taken->DegreesOn();
+  ExpectHolds(RunToWarning(taken), "z left out, because the points have an array \"Height\"");
+  EXPECT_EQ(taken->GetOutput()->GetPointData()->GetArray("Height")->GetTuple1(9), 9.0);
 }
 
 TEST(FromPoints, RingsWithoutAreaAreLeftOut)

@@ -186,6 +186,27 @@ class Triangulate(unittest.TestCase):
             self.assertEqual(text in result.report.defects, count > 0)
             self.assertEqual("they have got the heights" in result.report.defects, count > 0)
 
+    def test_heights_that_are_not_finite(self):
+        points = numpy.random.default_rng(5).random((100, 3)) + [0, 0, 7]
+        line = numpy.array([[.2, .2, 9], [.4, .5, numpy.nan], [.6, .5, 9.], [.8, .6, numpy.inf]])
+        for heights, flat, fate in (
+            (None, [], "they have got the heights of the given points there; heights=\"own\" keeps their z"),
+            ("survey", [], ""), ("own", [], "the mesh has no heights there; if it should, give them heights"),
+            (None, [[.1, .8], [.5, .9]], "heights=\"own\" keeps their z"),
+        ):
+            lines = [line, flat] if flat else [line]
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                result = delaunayflip.triangulate(points, lines, heights=heights)
+                delaunayflip.LinearInterpolator(points, points[:, 2], segments=lines)
+            why = "z = 0 throughout, or not finite" if flat else "z is not finite"
+            text = f"{2 + len(flat)} points of segments without heights ({why}; the given points have z = 7"
+            self.assertEqual([str(one.message)[:len(text)] for one in told], [text] * bool(fate))
+            self.assertIn(fate, result.report.defects)
+            kept = result.points[100:104, 2]
+            self.assertEqual(numpy.isfinite(kept).all(), heights != "own")
+            self.assertEqual(kept[0] == 9, heights != "survey")
+
     def test_lines(self):
         """Lines by coordinates are segments between new points, and their points come before rings."""
         points = numpy.random.default_rng(6).random((200, 3)) + [0, 0, 4]

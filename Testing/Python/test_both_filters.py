@@ -768,6 +768,16 @@ class SamePoints(Pair, unittest.TestCase):
                     self.assertEqual(told["errors"], [])
                     self.assertEqual("1 point with a latitude beyond 90 degrees" in str(told["warnings"]), degrees)
             self.expect_same(collect([[cloud, vtkPolyData()]]), prepare)
+            for z in (0, 7) if degrees else ():
+                vtk_to_numpy(segments.GetPoints().GetData())[:, 2] = z
+                for heights in (0, 2):
+                    told = self.expect_same(cloud, lambda points, heights=heights: (
+                        prepare(points), points.SetSegmentHeights(heights)))
+                    self.assertIn("Height", str(told["meshes"]))
+            if degrees:
+                add_array(cloud.GetPointData(), "Height", numpy.arange(cloud.GetNumberOfPoints()))
+                told = self.expect_same(cloud, prepare)
+                self.assertIn('z left out, because the points have an array "Height"', told["warnings"][0])
 
     def test_what_a_sphere_cannot_have(self):
         for name, value in (("Alpha", 1), ("MinimumAngle", 20), ("SizeArray", "Own"), ("MaximumIterations", 3),
@@ -902,6 +912,14 @@ class SamePoints(Pair, unittest.TestCase):
         for kind in (numpy.float32, numpy.float64):
             cloud.GetPoints().SetData(numpy_to_vtk(
                 vtk_to_numpy(cloud.GetPoints().GetData()).astype(kind), deep=True))
+            for z in (0, numpy.nan):
+                segments = make((8, 9, z))
+                segments.GetPoints().SetPoint(0, 3.5, 3.5, numpy.nan)
+                for heights in range(3):
+                    told = self.expect_same(cloud, lambda points, heights=heights: (
+                        prepare(points), points.SetSegmentHeights(heights)))
+                    counts = re.findall(r"(\d+) points? of segments without", str(told["warnings"]))
+                    self.assertEqual(counts, (["4"], [], ["1" if z == 0 else "4"])[heights])
             for heights, count in (((9, 9, 9), 0), ((0, 9, 9), 2), ((9, 0, 9), 3), ((0, 9, 0), 5)):
                 segments = make(heights)
                 told = self.expect_same(cloud, prepare)
