@@ -26,7 +26,7 @@ namespace
 }
 
 /// Checks that longitudes and latitudes are given for a sphere, and that places fit the projection.
-void CheckProjection(const Arguments& arguments)
+void CheckProjection(Arguments& arguments)
 {
   const int projection = arguments.Points->GetProjection();
   const bool isSphere = projection == vtkDelaunayFlipPoints::PROJECTION_SPHERE ||
@@ -35,26 +35,29 @@ void CheckProjection(const Arguments& arguments)
   {
     FailOnUsage("--degrees needs --projection sphere or open-sphere");
   }
+  HeightOptions& heights = arguments.Heights;
   const bool isPlane = projection == vtkDelaunayFlipPoints::PROJECTION_BEST_FITTING_PLANE;
-  if (arguments.Heights.AreWanted() && isPlane)
+  if (heights.AreWanted() && isPlane)
   {
     FailOnUsage("--raster and --heights-at take places in x and y, so they do not go with "
                 "--projection plane");
   }
-  if (arguments.Heights.Step > 0.0 && isSphere && !arguments.Points->GetDegrees())
+  heights.AreDirections = isSphere && !arguments.Points->GetDegrees();
+  if (heights.AreWanted() && heights.AreDirections && heights.Array.empty())
   {
-    FailOnUsage("--raster on a sphere needs --degrees: its cells are in longitude and latitude");
+    FailOnUsage("--raster and --heights-at on a sphere need --degrees, or --raster-array: without "
+                "--degrees z is one of three coordinates, and no height");
   }
   std::array<double, 4> extent{};
-  if (isSphere && !arguments.Heights.Extent.empty())
+  if (isSphere && !heights.Extent.empty())
   {
-    ParseExtent(arguments.Heights.Extent, extent);
+    ParseExtent(heights.Extent, extent);
   }
-  const double furthest = std::max(-extent[1], extent[3]) - 0.5 * arguments.Heights.Step;
+  const double furthest = std::max(-extent[1], extent[3]) - 0.5 * heights.Step;
   constexpr double Pole = 90.0, Rounding = 1e-4;
   if (furthest > Pole + Rounding)
   {
-    FailOnUsage("--extent " + arguments.Heights.Extent +
+    FailOnUsage("--extent " + heights.Extent +
       ": cells have latitudes beyond 90 degrees; the second and the fourth number are latitudes");
   }
 }

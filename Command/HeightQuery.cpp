@@ -7,6 +7,7 @@
 #include "InputFile.h"
 #include "MeshFiles.h"
 #include "OutputFiles.h"
+#include "PointTriangulation.h"
 #include "RasterFile.h"
 
 #include <vtkBoundingBox.h>
@@ -15,6 +16,7 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -83,14 +85,14 @@ std::int64_t CountCells(double length, double step)
 
 RasterGrid MakeGrid(const HeightOptions& options, vtkPolyData* points)
 {
-  std::array<double, 4> extent{};
-  if (options.Extent.empty())
-  {
-    extent = FindExtent(points, options.Step);
-  }
-  else
+  std::array<double, 4> extent = { -180.0, -90.0, 180.0, 90.0 };
+  if (!options.Extent.empty())
   {
     ParseExtent(options.Extent, extent);
+  }
+  else if (!options.AreDirections)
+  {
+    extent = FindExtent(points, options.Step);
   }
   RasterGrid grid;
   grid.Step = options.Step;
@@ -129,6 +131,7 @@ public:
   RasterQuery(const HeightOptions& options, const RasterGrid& grid)
     : HeightQuery(options, "raster", Grouped(grid.Columns) + " x " + Grouped(grid.Rows) + " cells"),
       Grid(grid),
+      HasDirections(options.AreDirections),
       Name({ "", ExtensionOf(options.Output), options.Crs, this->Array })
   {
     constexpr std::int64_t cells = 1 << 22; // of a block
@@ -156,6 +159,10 @@ public:
     block->SetOrigin(this->Grid.X, north, 0.0);
     block->SetSpacing(this->Grid.Step, -this->Grid.Step, 1.0);
     this->Taken += rows;
+    if (this->HasDirections)
+    {
+      return MakeDirections(block);
+    }
     return block;
   }
 
@@ -179,20 +186,40 @@ protected:
   }
 
 private:
+  /// The directions of longitudes and latitudes.
+  static vtkSmartPointer<vtkDataSet> MakeDirections(vtkImageData* degrees)
+  {
+    const vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(degrees->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
+    {
+      std::array<double, 3> angles, place;
+      degrees->GetPoint(i, angles.data());
+      PlaceOnSphere(angles[0], angles[1], place.data());
+      points->SetPoint(i, place.data());
+    }
+    auto directions = vtkSmartPointer<vtkPolyData>::New();
+    directions->SetPoints(points);
+    return directions;
+  }
+
   RasterGrid Grid;
+  bool HasDirections; ///< The filter gets these instead of longitudes and latitudes.
   RasterName Name;
   std::int64_t RowsOfBlock;
   std::int64_t Taken = 0; ///< Rows.
   std::unique_ptr<RasterFile> File;
 };
 
-/// The points of a file, as rows of text: x, y and the value, which is empty outside.
+/// The points of a file, as rows of text: x, y, perhaps z, and the value, which is empty outside.
 class PlaceTable : public HeightQuery
 {
 public:
   PlaceTable(const HeightOptions& options, vtkPolyData* places)
     : HeightQuery(options, "places", Grouped(places->GetNumberOfPoints())),
-      Places(places)
+      Places(places),
+      Axes(options.AreDirections ? 3 : 2)
   {
   }
 
@@ -206,7 +233,7 @@ public:
   void Open(const std::string& path) override
   {
     this->File.open(path, std::ios::binary);
-    this->File << "x,y," << this->Array << '\n';
+    this->File << (this->Axes == 3 ? "x,y,z," : "x,y,") << this->Array << '\n';
   }
 
   void Finish() override
@@ -224,7 +251,10 @@ protected:
     for (vtkIdType i = 0; i < block->GetNumberOfPoints(); ++i)
     {
       const double* const place = block->GetPoint(i);
-      this->File << TextOf(place[0]) << ',' << TextOf(place[1]) << ',';
+      for (int axis = 0; axis < this->Axes; ++axis)
+      {
+        this->File << TextOf(place[axis]) << ',';
+      }
       if (!std::isnan(values[i]))
       {
         this->File << TextOf(values[i]);
@@ -235,6 +265,7 @@ protected:
 
 private:
   vtkSmartPointer<vtkPolyData> Places;
+  int Axes; ///< How many coordinates of a place are written.
   bool IsTaken = false;
   std::ofstream File;
 };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 /// @file
 /// .xyz, .csv and .txt: a row of text for each point, x y [z] and perhaps more, perhaps after a
@@ -508,6 +509,11 @@ private:
     if (column < words.size())
     {
       word = words[column];
+    }
+    const bool isUnknownHeight = this->AreOfLines && axis == 2 && word.empty();
+    if (isUnknownHeight)
+    {
+      return std::numeric_limits<double>::quiet_NaN();
     }
     const bool hasPoint = word.find('.') != word.npos;
     std::string text;

@@ -131,8 +131,29 @@ class Rasters(HeightTest):
         heights = [float(line.split(",")[2]) for line in self.content("out.csv").decode().splitlines()[1:]]
         self.assertEqual(heights[0], heights[1])
         self.assertEqual(heights[2], 10)
-        self.fail_with(2, "globe.csv", "map.asc", "--from-points", "--projection", "sphere", "--raster", 1,
-                       naming=["--raster on a sphere needs --degrees"])
+        for asked in (["map.asc", "--raster", 1], ["out.csv", "--heights-at", "places.csv"]):
+            self.fail_with(2, "globe.csv", *asked, "--from-points", "--projection", "sphere",
+                           naming=["need --degrees, or --raster-array", "z is one of three coordinates"])
+
+    def test_mesh_of_a_globe(self):
+        """It has the heights of its stations as an array, which goes on maps and to directions."""
+        draw = numpy.random.default_rng(4)
+        rows = [(x, math.degrees(math.asin(z)), 100 + x) for x, z in zip(draw.uniform(-180, 180, 300),
+                                                                         draw.uniform(-1, 1, 300))]
+        self.write("stations.csv", text_of(rows, ",", "lon,lat,height"))
+        sphere = ["--projection", "sphere"]
+        self.ask("stations.csv", "globe.vtp", *sphere, "--degrees")
+        self.ask("stations.csv", "one.asc", *sphere, "--degrees", "--raster", 10, "--extent=-180,-90,180,90")
+        self.ask("globe.vtp", "two.asc", *sphere, "--raster", 10, "--raster-array", "Height")
+        (header, one), (same, two) = self.grid("one.asc"), self.grid("two.asc")
+        self.assertEqual(header, same)
+        self.assertEqual(one.shape, (18, 36))
+        self.assertLess(abs(one - two).max(), 1e-6)
+        self.write("places.csv", "x,y,z\n0,0,2\n1,-1,0\n")
+        self.ask("globe.vtp", "out.csv", *sphere, "--heights-at", "places.csv", "--raster-array", "Height")
+        lines = self.content("out.csv").decode().splitlines()
+        self.assertEqual(lines[0], "x,y,z,Height")
+        self.assertEqual([line.rpartition(",")[0] for line in lines[1:]], ["0,0,2", "1,-1,0"])
 
     def test_latitudes_beyond_the_poles(self):
         self.write("globe.csv", "lon,lat,z\n0,0,1\n90,0,2\n180,0,3\n-90,0,4\n0,90,5\n0,-90,6\n")

@@ -273,6 +273,13 @@ class TextLines(PointTest):
         self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "rings.csv",
                        naming=["rings.csv: line 1 (the first is line 0) does not end where it begins"])
 
+    def test_empty_heights(self):
+        self.write("in.xyz", text_of([(x, y, 4) for x, y, _ in grid(5)]))
+        self.write("lines.csv", "x,y,z,line\n0.5,0.5,9,7\n2.5,1.5,,7\n3.5,1.25,nan,7\n3.5,3.5,8,7\n")
+        mesh, result = self.triangulate("in.xyz", "--constraints", "lines.csv")
+        self.assertEqual([round(z, 9) for _, _, z in points_of(mesh)[25:]], [9, 4, 4, 8])
+        self.assertIn("2 points of segments without heights (z is not finite;", result.stderr)
+
     def test_rows_that_are_no_lines(self):
         for text, words in (
             (text_of(PLACES, ","), ["line with the number 1 has one point", "consecutive rows"]),
