@@ -393,6 +393,13 @@ std::string DescribeRefinement(const PointCounts& counts)
   return "refinement: " + refinement + '\n';
 }
 
+/// A line, or nothing: what the reason for the geometry says beside that there are points.
+std::string AdviseGeometry(const FlipReport& flip)
+{
+  const std::size_t end = flip.GeometryReason.find("; ");
+  return end == std::string::npos ? "" : "hint: " + flip.GeometryReason.substr(end + 2) + '\n';
+}
+
 /// The lines that only a mesh from points has.
 std::string DescribePoints(const FlipReport& flip)
 {
@@ -438,7 +445,7 @@ std::string DescribeMesh(const FlipReport& report)
     "\n";
   if (IsFromPoints(report))
   {
-    return mesh + DescribePoints(report) + kept;
+    return mesh + DescribePoints(report) + kept + AdviseGeometry(report);
   }
   return mesh + DescribeRefinement(report.FromPoints) + kept + Advise(report) +
     AdviseRepair(report) + "geometry: " + ToString(report.GeometryUsed) +

@@ -13,6 +13,7 @@
 #include "HostDevice.h"
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
+#include "SphereSurvey.h"
 #include "SurfaceAngles.h"
 #include "TriangleMesh.h"
 #include "WideAngles.h"
@@ -363,6 +364,10 @@ public:
     else if (!this->TakePlane(requested))
     {
       this->TakeSpace();
+      if (this->IsGlobe())
+      {
+        this->Survey.GeometryReason += "; if it is a globe, use sphere";
+      }
     }
   }
 
@@ -381,6 +386,31 @@ public:
         {
           const Vector3 position = scale(LoadPoint(points, i));
           farthest += { i, measure(position), position };
+        }
+      });
+  }
+
+  /// Whether the used points are on a sphere around the origin. A sample tells that most are not.
+  bool IsGlobe() const
+  {
+    constexpr std::int64_t Sample = 1000;
+    const std::int64_t points = this->Input.Local.Points.Count;
+    return this->SurveyGlobe(std::max<std::int64_t>(1, points / Sample)).IsGlobe() &&
+      this->SurveyGlobe(1).IsGlobe();
+  }
+
+  /// @param stride every how many points one is taken.
+  GlobeSurvey SurveyGlobe(std::int64_t stride) const
+  {
+    const PointArray points = this->Input.Local.Points;
+    const PointUse* uses = this->Survey.Uses.Data();
+    const PlaneScale scale = this->Triangles.Scale;
+    return this->Backend.template Sum<GlobeSurvey>((points.Count + stride - 1) / stride,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, GlobeSurvey & survey)
+      {
+        if (uses[i * stride] == PointUse::Used)
+        {
+          survey.Include(scale(LoadPoint(points, i * stride)));
         }
       });
   }

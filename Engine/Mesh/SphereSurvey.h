@@ -10,15 +10,62 @@
 #include "HostDevice.h"
 #include "MeshSurvey.h"
 #include "SpatialOrder.h"
+#include "SurfaceAngles.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 /// @file
-/// Properties of a mesh on a sphere before the first flip, from exact orientations.
+/// Properties of a mesh on a sphere before the first flip, and whether points are on one.
 
 namespace delaunayflip
 {
+
+/// Whether points are those of a globe, which decides whether users are told of the sphere.
+struct GlobeSurvey
+{
+  std::int64_t Points = 0;
+  double Nearest = INFINITY, Farthest = -INFINITY; ///< From the origin.
+  BoundingBox Box;
+
+  DELAUNAYFLIP_HOST_DEVICE void Include(const Vector3& point)
+  {
+    const double distance = Length(point);
+    ++this->Points;
+    this->Nearest = std::min(this->Nearest, distance);
+    this->Farthest = std::max(this->Farthest, distance);
+    this->Box.Include(0, point.X, point.X);
+    this->Box.Include(1, point.Y, point.Y);
+    this->Box.Include(2, point.Z, point.Z);
+  }
+  DELAUNAYFLIP_HOST_DEVICE GlobeSurvey& operator+=(const GlobeSurvey& part)
+  {
+    this->Points += part.Points;
+    this->Nearest = std::min(this->Nearest, part.Nearest);
+    this->Farthest = std::max(this->Farthest, part.Farthest);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Box.Include(axis, part.Box.Lower[axis], part.Box.Upper[axis]);
+    }
+    return *this;
+  }
+
+  /// Whether there are enough points, all on one sphere, and on so much of it that they are far
+  /// from one plane. Coordinates may be rounded to six digits.
+  bool IsGlobe() const
+  {
+    constexpr std::int64_t Fewest = 50; // fewer are corners of a box or a prism
+    constexpr double Rounding = 1e-4, SmallestPart = 0.02, Thinnest = 1e-3;
+    const double x = this->Box.Upper[0] - this->Box.Lower[0];
+    const double y = this->Box.Upper[1] - this->Box.Lower[1];
+    const double z = this->Box.Upper[2] - this->Box.Lower[2];
+    const double diagonal = Length({ x, y, z });
+    return this->Points >= Fewest && this->Farthest - this->Nearest <= Rounding * diagonal &&
+      diagonal >= SmallestPart * this->Farthest && std::min({ x, y, z }) >= Thinnest * diagonal;
+  }
+};
 
 struct SphereSums
 {

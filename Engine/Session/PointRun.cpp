@@ -6,6 +6,7 @@
 #include "CallerMesh.h"
 #include "FlipError.h"
 #include "InputChecks.h"
+#include "SphereSurvey.h"
 #include "Strips.h"
 
 #include <algorithm>
@@ -16,6 +17,31 @@
 
 namespace delaunayflip
 {
+
+namespace
+{
+/// Whether the points have z, too, and are on a sphere around the origin. A sample tells that most
+/// are not. The last point is left out, because its z need not be there.
+bool IsGlobe(const PointInput& input)
+{
+  constexpr std::int64_t Sample = 1000;
+  const PlaneArray& points = input.Points;
+  if (points.Stride < 3 || input.OnDevice)
+  {
+    return false;
+  }
+  const auto survey = [&](std::int64_t stride)
+  {
+    GlobeSurvey sum;
+    for (std::int64_t i = 0; i + 1 < points.Count; i += stride)
+    {
+      sum.Include({ points.Get(i, 0), points.Get(i, 1), points.Get(i, 2) });
+    }
+    return sum;
+  };
+  return survey(std::max<std::int64_t>(1, points.Count / Sample)).IsGlobe() && survey(1).IsGlobe();
+}
+}
 
 void PointRun::ListStages()
 {
@@ -107,6 +133,11 @@ void PointRun::Triangulate()
 {
   const PointInput& input = this->Points.GetInput();
   this->Load(input.OnDevice, 2 * input.Points.Count);
+  if (IsGlobe(this->Points.GetCaller()))
+  {
+    this->Report.GeometryReason +=
+      "; all are on a sphere around the origin: if it is a globe, use the projection sphere";
+  }
 }
 
 std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)

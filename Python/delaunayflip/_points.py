@@ -63,7 +63,8 @@ Struct = _library.make_struct("Points", (
 # not reach the goals.
 _WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
               "rings without area", "rings repeated", "rings run again", "hole points outside",
-              "points inside", "segments inside", "nothing left", *LEFT_BY_REFINEMENT)
+              "points inside", "points in one plane", "segments inside", "nothing left",
+              *LEFT_BY_REFINEMENT)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

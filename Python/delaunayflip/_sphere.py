@@ -129,14 +129,15 @@ def triangulate_sphere(
             the rings, as GeoJSON has it; of the holes, as "nonzero".
         degrees: Whether longitudes and latitudes are in degrees, not radians, in all arguments.
         open: Leave out a triangle if its circumcircle encloses half of the sphere or more, so that points
-            on less than half of the sphere have an open mesh. Otherwise triangles close the mesh. Segments
-            need points on all sides of the center, or this.
+            on less than half of the sphere have an open mesh; three places have one triangle. Otherwise
+            triangles close the mesh. Segments need points on all sides of the center, or this.
         backend, threads, device: As for `triangulate`.
         progress, on_iteration: Called with the share of the work done, 0 to 1, and at the end for each
             iteration with a dict of its numbers; returning False from `progress` aborts.
 
     Returns:
-        A `SphereTriangulation`. It has no triangles if all places lie in one plane, or progress aborts.
+        A `SphereTriangulation`. It has no triangles if all places lie in one plane, which is warned of, or
+        if progress aborts.
 
     Raises:
         InvalidMesh: A segment names a point that does not exist, or has ends on opposite sides; or a ring
@@ -223,9 +224,9 @@ class SphereInterpolator(Interpolator):
         if isinstance(points, tuple) and len(points) == 2:
             points = _arrays.join_columns(*points)
         self.triangulation, troubles = _triangulate(points, keywords, progress, keeps=True, lines=lines)
+        require_triangles(self.triangulation.report)
         for text in troubles:
             warnings.warn(text, stacklevel=2)
-        require_triangles(self.triangulation.report)
         self._answers = self.triangulation._answers
         self._field = Field(self._answers, values, **how)
 

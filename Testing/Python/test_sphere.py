@@ -132,14 +132,38 @@ class Sphere(unittest.TestCase):
         self.assertEqual(globe.report.points_not_finite, 1)
 
     def test_no_triangles(self):
-        for points in (numpy.empty((0, 2)), [[0, 0], [90, 0], [0, 90]],
-                       numpy.c_[numpy.arange(0, 360, 45), numpy.zeros(8)]):
-            with warnings.catch_warnings():
-                warnings.simplefilter("error")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(delaunayflip.triangulate_sphere(numpy.empty((0, 2))).triangles.shape, (0, 3))
+        for points in ([[0, 0], [90, 0], [0, 90]], numpy.c_[numpy.arange(0, 360, 45), numpy.zeros(8)]):
+            with self.assertWarnsRegex(UserWarning, "^[38] points without a triangle: .* in one plane"):
                 globe = delaunayflip.triangulate_sphere(points)
             self.assertEqual(globe.triangles.shape, (0, 3))
             self.assertEqual(globe.voronoi_corners.shape, (0, 3))
         self.assertIn("one plane", globe.report.defects)
+
+    def test_three_places(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            part = delaunayflip.triangulate_sphere([[0, 0], [90, 0], [0, 90], [0, 90]], open=True)
+        self.assertEqual(part.triangles.shape, (1, 3))
+        self.assertEqual(part.neighbors.tolist(), [[-1, -1, -1]])
+        self.assertEqual(part.locate([[45, 30], [-135, -30]]).tolist(), [0, -1])
+        values = [1.0, 2.0, 3.0, 9.0]
+        self.assertAlmostEqual(part.interpolate(values, [[45, 0]])[0], 1.5)
+
+    def test_hints(self):
+        points = make_directions(100, 9)
+        mesh = delaunayflip.triangulate_sphere(points)
+        hint = "if it is a globe, use sphere$"
+        self.assertRegex(delaunayflip.flip(7 * points, mesh.triangles).report.geometry_reason, hint)
+        for changed in (points + [2, 0, 0], points * [1, 1, 0.99]):
+            reason = delaunayflip.flip(changed, mesh.triangles).report.geometry_reason
+            self.assertNotRegex(reason, "globe")
+        hint = "use the projection sphere$"
+        self.assertRegex(delaunayflip.triangulate(points).report.geometry_reason, hint)
+        for changed in (points[:, :2], points + [2, 0, 0], points * [1, 1, 0]):
+            self.assertNotRegex(delaunayflip.triangulate(changed).report.geometry_reason, "globe")
 
     def test_callbacks(self):
         shares, rows = [], []
