@@ -3,7 +3,10 @@
 #include "CudaBackend.cuh"
 #include "SphereOnBackend.h"
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -40,6 +43,31 @@ private:
     return isHere;
   }
 };
+
+class CudaAsker : public SphereAskerOnBackend<CudaBackend>
+{
+public:
+  using SphereAskerOnBackend::SphereAskerOnBackend;
+
+  bool CanAnswerInPlace(const PlaceQuery& query) const override
+  {
+    const void* const arrays[] = { query.Places.Data(), query.Triangles, query.Values,
+      query.Results };
+    const int device = this->GetBackend().GetContext().Device;
+    return std::all_of(std::begin(arrays), std::end(arrays),
+      [=](const void* array) { return !array || FindDeviceOf(array) == device; });
+  }
+
+  AskResult Answer(const PlaceQuery& query, const ProgressObserver& observer) override
+  {
+    const std::unique_ptr<DeviceScope> current = this->GetBackend().MakeCurrent();
+    if (query.OnDevice)
+    {
+      this->GetBackend().WaitFor(query.Stream);
+    }
+    return SphereAskerOnBackend::Answer(query, observer);
+  }
+};
 }
 
 std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput& points, const FlipOptions& options)
@@ -53,6 +81,14 @@ std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput& points, const F
   auto sphere = std::make_unique<CudaSphere>(std::move(backend));
   sphere->Load(points);
   return sphere;
+}
+
+std::unique_ptr<SphereDeviceAsker> LoadAskerOnCuda(
+  const AskedSphere& asked, std::int64_t points, const FlipOptions& options)
+{
+  CudaBackend backend({ options.Device }, options.NumberOfThreads);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+  return std::make_unique<CudaAsker>(asked, points, std::move(backend));
 }
 
 }

@@ -80,7 +80,7 @@ struct PlaceRaster
 /// the volumes that the place and two vertices span with the origin, divided by their sum. Natural
 /// neighbours are Sibson's in the plane that touches the sphere at the place, into which the points
 /// are projected from the place's antipode. That keeps circles as circles, so the neighbours are
-/// those on the sphere. Threads of the CPU answer, also if a GPU has made the triangulation.
+/// those on the sphere. A GPU answers if it is the backend, unless few places come from the host.
 struct PlaceQuery
 {
   PlaneArray Places; ///< In any order. Neighbouring ones one after the other are faster.

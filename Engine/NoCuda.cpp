@@ -49,6 +49,12 @@ std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput&, const FlipOpti
   RefuseRun();
 }
 
+std::unique_ptr<SphereDeviceAsker> LoadAskerOnCuda(
+  const AskedSphere&, std::int64_t, const FlipOptions&)
+{
+  RefuseRun();
+}
+
 int FindDeviceOf(const void*) { RefuseArrays(); }
 
 void CopyMemory(const void*, std::int64_t, void*, const DeviceStream&) { RefuseArrays(); }

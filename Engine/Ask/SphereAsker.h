@@ -4,10 +4,10 @@
 #define DELAUNAYFLIP_SPHEREASKER_H
 
 #include "PlaceQuery.h"
-#include "PointTriangulation.h"
 #include "RunQuery.h"
 #include "SphereFrame.h"
 #include "SphereGrid.h"
+#include "SphereQuery.h"
 #include "SphereSegments.h"
 
 #include <algorithm>
@@ -48,44 +48,19 @@ public:
     }
     for (std::size_t first = 0; first < this->Edges.size(); first += GroupSize)
     {
-      this->Groups.push_back(this->FindGroup(first));
+      this->Caps.push_back(this->FindCap(first));
     }
   }
 
-  bool IsEmpty() const { return this->Edges.empty(); }
-
-  NearestOnBoundary FindNearest(const Vector3& place) const
+  SphereBoundaryView View() const
   {
-    NearestOnBoundary nearest{ this->Edges.front(), 0.0 };
-    double least = INFINITY;
-    for (std::size_t group = 0; group < this->Groups.size(); ++group)
-    {
-      const Cap& cap = this->Groups[group];
-      const double distance = Length(cap.Center - place) - cap.Radius;
-      if (distance > 0.0 && distance * distance >= least)
-      {
-        continue;
-      }
-      const std::size_t end = std::min(this->Edges.size(), (group + 1) * GroupSize);
-      for (std::size_t i = group * GroupSize; i < end; ++i)
-      {
-        this->Offer(place, this->Edges[i], least, nearest);
-      }
-    }
-    return nearest;
+    return { this->Directions, this->Edges.data(), SizeOf(this->Edges), this->Caps.data() };
   }
 
 private:
-  static constexpr std::size_t GroupSize = 32;
+  static constexpr std::size_t GroupSize = SphereBoundaryView::GroupSize;
 
-  /// A cap of the sphere. It has all places on the edges of a group.
-  struct Cap
-  {
-    Vector3 Center;
-    double Radius; ///< A distance in space.
-  };
-
-  Cap FindGroup(std::size_t first) const
+  BoundaryCap FindCap(std::size_t first) const
   {
     const std::size_t end = std::min(this->Edges.size(), first + GroupSize);
     Vector3 sum{ 0.0, 0.0, 0.0 };
@@ -94,7 +69,7 @@ private:
       sum = sum + this->Directions[this->Edges[i].From] + this->Directions[this->Edges[i].To];
     }
     constexpr double Rounding = 1e-9, Diameter = 2.0;
-    Cap cap{ FindDirection(sum), 0.0 };
+    BoundaryCap cap{ FindDirection(sum), 0.0 };
     for (std::size_t i = first; i < end; ++i)
     {
       for (const VertexId vertex : { this->Edges[i].From, this->Edges[i].To })
@@ -109,42 +84,13 @@ private:
     return cap;
   }
 
-  /// Takes an edge if it is nearer than the nearest one so far.
-  void Offer(
-    const Vector3& place, const BoundaryEdge& edge, double& least, NearestOnBoundary& nearest) const
-  {
-    const Vector3& from = this->Directions[edge.From];
-    const Vector3& to = this->Directions[edge.To];
-    const auto offer = [&](const Vector3& near, double share)
-    {
-      const Vector3 offset = near - place;
-      const double square = Dot(offset, offset);
-      if (square < least)
-      {
-        least = square;
-        nearest = { edge, share };
-      }
-    };
-    offer(from, 0.0);
-    offer(to, 1.0);
-    const Vector3 normal = Cross(from, to - from);
-    const double ofFrom = Dot(Cross(place, to), normal);
-    const double ofTo = Dot(Cross(from, place), normal);
-    if (ofFrom > 0.0 && ofTo > 0.0)
-    {
-      const double share = ofTo / (ofFrom + ofTo);
-      offer(FindDirection(Vector3{ (1.0 - share) * from.X + share * to.X,
-              (1.0 - share) * from.Y + share * to.Y, (1.0 - share) * from.Z + share * to.Z }),
-        share);
-    }
-  }
-
   const Vector3* const Directions;
   std::vector<BoundaryEdge> Edges;
-  std::vector<Cap> Groups;
+  std::vector<BoundaryCap> Caps;
 };
 
-/// Answers queries about a triangulation on a sphere.
+/// Answers queries about a triangulation on a sphere, on the host. A device gets a copy of what is
+/// asked (SphereDeviceAsker.h).
 class SphereAsker
 {
 public:
@@ -165,6 +111,12 @@ public:
   SphereAsker(const SphereAsker&) = delete;
   SphereAsker& operator=(const SphereAsker&) = delete;
 
+  AskedSphere View() const
+  {
+    return { this->Grid.GetMesh(), this->Seen, this->Grid.GetNumbers(), this->Grid.GetCells(),
+      this->Grid.HasPlaces(), this->Boundary.View(), nullptr };
+  }
+
   /// @param query its arrays are in the host's memory.
   /// @param observer is told the share of the places that is done.
   template <typename Backend>
@@ -173,17 +125,14 @@ public:
   {
     constexpr std::int64_t MostAtATime = 1 << 16; // a thread needs about a tenth of a second
     const std::int64_t count = query.CountPlaces();
-    const AskedValues values{ query.Values, nullptr, query.Components,
-      query.Method == InterpolationKind::Natural, PlaceBoundaryView() };
     for (std::int64_t first = 0; first < count; first += MostAtATime)
     {
       if (observer && !observer(static_cast<double>(first) / static_cast<double>(count)))
       {
         return AskResult::Stopped;
       }
-      backend.ForRange(std::min(MostAtATime, count - first),
-        [&](std::int64_t begin, std::int64_t end)
-        { this->AnswerRange(query, values, first + begin, first + end); });
+      const std::int64_t size = std::min(MostAtATime, count - first);
+      backend.ForRange(size, CutAnswer(this->View(), query, first, size));
     }
     return AskResult::Complete;
   }
@@ -224,82 +173,6 @@ private:
       }
     }
     mesh.Neighbors = this->Neighbors.data();
-  }
-
-  static PlanePoint GetPlace(const PlaceQuery& query, std::int64_t i)
-  {
-    const bool isRaster = query.Raster.CountCells() > 0;
-    if (!isRaster && !query.Degrees)
-    {
-      return { query.Places.Get(i, 0), query.Places.Get(i, 1), query.Places.Get(i, 2) };
-    }
-    double xyz[3];
-    if (isRaster)
-    {
-      PlaceOnSphere(query.Raster.Get(i, 0), query.Raster.Get(i, 1), xyz);
-    }
-    else
-    {
-      PlaceOnSphere(query.Places.Get(i, 0), query.Places.Get(i, 1), xyz);
-    }
-    return { xyz[0], xyz[1], xyz[2] };
-  }
-
-  void AnswerRange(
-    const PlaceQuery& query, const AskedValues& values, std::int64_t begin, std::int64_t end) const
-  {
-    LastPlace last;
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      const PlanePoint place = GetPlace(query, i);
-      const Vector3 direction = FindDirection(place);
-      const FoundPlace found = this->Grid.Find(place, direction, last);
-      if (query.Triangles)
-      {
-        query.Triangles[i] = found.IsOutside() ? -1 : this->Grid.GetNumber(found.Triangle);
-      }
-      if (query.Values)
-      {
-        double* const result = query.Results + i * query.Components;
-        this->Interpolate(values, query.Outside, direction, found, result);
-      }
-    }
-  }
-
-  void Interpolate(const AskedValues& values, OutsideKind outside, const Vector3& direction,
-    const FoundPlace& found, double* result) const
-  {
-    if (found.IsOutside())
-    {
-      this->FillOutside(values, outside, direction, result);
-      return;
-    }
-    const auto makeFrame = [&](TangentKind tangent)
-    { return SphereFrame(this->Seen, direction, found.Triangle, tangent); };
-    // At vertices, on the boundary and on segments there are no natural weights.
-    double linearShare = 1.0;
-    if (values.IsNatural && found.FindVertexSlot() < 0)
-    {
-      linearShare =
-        values.TakeNatural(makeFrame(TangentKind::Stereographic), found.Triangle, result);
-    }
-    if (linearShare > 0.0)
-    {
-      values.AddLinear(makeFrame(TangentKind::Orthographic), found, linearShare, result);
-    }
-  }
-
-  void FillOutside(
-    const AskedValues& values, OutsideKind outside, const Vector3& direction, double* result) const
-  {
-    if (outside == OutsideKind::NotANumber || this->Boundary.IsEmpty() ||
-      !IsFinite(Dot(direction, direction)))
-    {
-      values.Fill(result, NAN);
-      return;
-    }
-    const NearestOnBoundary nearest = this->Boundary.FindNearest(direction);
-    values.TakeAlong(nearest.Edge, nearest.ShareOfTo, result);
   }
 
   SphereGrid Grid;

@@ -6,6 +6,7 @@
 #include "PlaceFrame.h"
 #include "SphereMesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace delaunayflip
@@ -39,7 +40,7 @@ class SphereFrame
 public:
   /// @param mesh has no triangles behind segments, as seen from the place.
   /// @param place its direction. @param triangle has the place.
-  SphereFrame(
+  DELAUNAYFLIP_HOST_DEVICE SphereFrame(
     const DirectedMesh& mesh, const Vector3& place, TriangleId triangle, TangentKind tangent)
     : Mesh(mesh.Mesh),
       Directions(mesh.Directions),
@@ -51,15 +52,15 @@ public:
     for (int slot = 0; slot < 3; ++slot)
     {
       const ScaledPoint point = this->GetPoint(this->GetVertex(MakeCorner(triangle, slot)));
-      largest = std::max({ largest, std::fabs(point.U), std::fabs(point.V) });
+      largest = std::max(largest, std::max(std::fabs(point.U), std::fabs(point.V)));
     }
     this->Scale = InvertPowerOfTwo(largest);
   }
 
-  ScaledPoint GetPlace() const { return { 0.0, 0.0 }; }
+  DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetPlace() const { return { 0.0, 0.0 }; }
 
   /// The difference from the place is computed first, so that points near it keep their precision.
-  ScaledPoint GetPoint(VertexId vertex) const
+  DELAUNAYFLIP_HOST_DEVICE ScaledPoint GetPoint(VertexId vertex) const
   {
     const Vector3 offset = this->Directions[vertex] - this->Axis;
     double factor = this->Scale;
@@ -70,12 +71,18 @@ public:
     return { factor * Dot(offset, this->Across.First), factor * Dot(offset, this->Across.Second) };
   }
 
-  VertexId GetVertex(CornerId corner) const { return this->Mesh.GetVertex(corner); }
-  CornerId FindBeyond(CornerId corner) const { return this->Mesh.FindBeyond(corner); }
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(CornerId corner) const
+  {
+    return this->Mesh.GetVertex(corner);
+  }
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindBeyond(CornerId corner) const
+  {
+    return this->Mesh.FindBeyond(corner);
+  }
 
   /// Whether the place is in the circumcircle of the triangle of a corner, up to rounding. That is
   /// the same for all corners of the triangle, so the triangles with such circles have a boundary.
-  bool IsInCircle(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(CornerId corner) const
   {
     PlanePoint points[3];
     for (int slot = 0; slot < 3; ++slot)
@@ -87,7 +94,7 @@ public:
     return InCircleDeterminant(points[0], points[1], points[2], { 0.0, 0.0, 0.0 }).Value > 0.0;
   }
 
-  bool IsInFilterRange() const { return true; }
+  DELAUNAYFLIP_HOST_DEVICE bool IsInFilterRange() const { return true; }
 
 private:
   const SphereMesh& Mesh;

@@ -4,31 +4,17 @@
 #define DELAUNAYFLIP_SPHEREGRID_H
 
 #include "PlaceGrid.h"
-#include "PlaceWalk.h"
 #include "SphereMesh.h"
+#include "SphereQuery.h"
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 /// @file
-/// Finds the triangle of a place on a sphere: a start from a grid, and a walk.
+/// Where walks to places on a sphere begin.
 
 namespace delaunayflip
 {
-
-/// Where a direction is on the square of an unfolded octahedron. Nearby directions are nearby
-/// there, except across four edges.
-inline PlanePoint UnfoldDirection(const Vector3& direction)
-{
-  const double sum = std::fabs(direction.X) + std::fabs(direction.Y) + std::fabs(direction.Z);
-  const double u = direction.X / sum, v = direction.Y / sum;
-  if (!(direction.Z < 0.0))
-  {
-    return { u, v, 0.0 };
-  }
-  return { std::copysign(1.0 - std::fabs(v), u), std::copysign(1.0 - std::fabs(u), v), 0.0 };
-}
 
 /// A triangulation on a sphere without the triangles that cannot have places, and where walks in it
 /// begin. Together the triangles are convex, or they are the whole sphere.
@@ -72,24 +58,11 @@ public:
     return this->Numbers.empty() ? static_cast<std::int32_t>(triangle) : this->Numbers[triangle];
   }
 
-  /// Finds a place. It is outside if its triangles are removed.
-  /// @param direction of the place; NaN for one that is outside by itself.
-  /// @param last as for PlaceGridView::FindStart.
-  FoundPlace Find(const PlanePoint& place, const Vector3& direction, LastPlace& last) const
+  bool HasPlaces() const { return this->NumberOfFacing > 0; }
+  PlaceGridView GetCells() const { return { this->Frame, this->Cells.data() }; }
+  const std::int32_t* GetNumbers() const
   {
-    if (this->NumberOfFacing == 0 || !IsFinite(Dot(direction, direction)))
-    {
-      return FoundPlace();
-    }
-    const PlaceGridView view{ this->Frame, this->Cells.data() };
-    const FoundPlace found = this->Walk(place, view.FindStart(UnfoldDirection(direction), last));
-    last.Triangle = found.Triangle;
-    const bool mayBeRemoved = !this->Numbers.empty();
-    if (found.IsOutside() || (found.OnEdges == 0 && !mayBeRemoved))
-    {
-      return found;
-    }
-    return ChooseTriangle(this->Mesh, found, mayBeRemoved ? this->Numbers.data() : nullptr);
+    return this->Numbers.empty() ? nullptr : this->Numbers.data();
   }
 
 private:
@@ -132,37 +105,6 @@ private:
       {
         coarse[cell] = FindLowestOfFour(fine, level, cell);
       }
-    }
-  }
-
-  /// Does what WalkToPlace does.
-  FoundPlace Walk(const PlanePoint& place, TriangleId start) const
-  {
-    FoundPlace found;
-    found.Triangle = start;
-    std::uint32_t random = start;
-    for (;;)
-    {
-      int beyond = 0;
-      found.OnEdges = 0;
-      for (int slot = 0; slot < 3; ++slot)
-      {
-        const int side = this->Mesh.FindSide(place, MakeCorner(found.Triangle, slot));
-        beyond |= int(side < 0) << slot;
-        found.OnEdges |= int(side == 0) << slot;
-      }
-      if (beyond == 0)
-      {
-        return found;
-      }
-      random = random * 1664525u + 1013904223u; // Numerical Recipes' generator
-      const int slot = FindFirstSlot(beyond, static_cast<int>((random >> 16) % 3));
-      const CornerId across = this->Mesh.FindBeyond(MakeCorner(found.Triangle, slot));
-      if (across == NoCorner)
-      {
-        return FoundPlace();
-      }
-      found.Triangle = TriangleOf(across);
     }
   }
 

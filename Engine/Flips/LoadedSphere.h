@@ -6,6 +6,7 @@
 #include "FlipOptions.h"
 #include "LoadedMesh.h"
 #include "PointTriangulation.h"
+#include "SphereDeviceAsker.h"
 #include "SpherePasses.h"
 #include "TriangleMesh.h"
 
@@ -62,6 +63,12 @@ public:
 /// @throws BackendUnavailable as LoadOnCuda.
 std::unique_ptr<LoadedSphere> LoadSphereOnCuda(
   const PointInput& points, const FlipOptions& options);
+
+/// Copies what is asked to a GPU.
+/// @param asked in the host's memory. @param points their number.
+/// @throws BackendUnavailable as LoadOnCuda.
+std::unique_ptr<SphereDeviceAsker> LoadAskerOnCuda(
+  const AskedSphere& asked, std::int64_t points, const FlipOptions& options);
 
 }
 

@@ -5,6 +5,7 @@
 
 #include "EdgeMesh.h"
 #include "ExactPredicates.h"
+#include "SineAndCosine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,12 +31,50 @@ DELAUNAYFLIP_HOST_DEVICE inline Vector3 FindDirection(const PlanePoint& p)
   return FindDirection(Vector3{ p.U, p.V, p.W });
 }
 
+/// Finds the sine and the cosine of an angle in degrees. They are exact at multiples of 90, because
+/// the angle is first reduced by such multiples, without rounding: fmod and floor are exact.
+DELAUNAYFLIP_HOST_DEVICE inline void TurnByDegrees(double degrees, double& sine, double& cosine)
+{
+  constexpr double RadiansPerDegree = 3.14159265358979323846 / 180.0;
+  const double turned = std::fmod(degrees, 360.0);
+  const double quarters = std::floor(turned / 90.0 + 0.5);
+  double first = 0.0, second = 0.0;
+  FindSineAndCosine((turned - 90.0 * quarters) * RadiansPerDegree, first, second);
+  switch (static_cast<int>(quarters) & 3)
+  {
+    case 0:
+      sine = first;
+      cosine = second;
+      break;
+    case 1:
+      sine = second;
+      cosine = -first;
+      break;
+    case 2:
+      sine = -first;
+      cosine = -second;
+      break;
+    default:
+      sine = -second;
+      cosine = first;
+  }
+}
+
+/// PlaceOnSphere (PointTriangulation.h), on both backends.
+DELAUNAYFLIP_HOST_DEVICE inline PlanePoint FindPlaceOnSphere(double longitude, double latitude)
+{
+  double sine = 0.0, cosine = 0.0, ofEast = 0.0, toPole = 0.0;
+  TurnByDegrees(longitude, sine, cosine);
+  TurnByDegrees(latitude, toPole, ofEast);
+  return { ofEast * cosine + 0.0, ofEast * sine + 0.0, toPole + 0.0 }; // never -0.0
+}
+
 /// Two vectors of length 1 across an axis. Together with it they are right-handed, so triangles
 /// that are counter-clockwise from the end of the axis are so in the coordinates along both.
 struct AcrossAxis
 {
   /// @param axis of length 1.
-  explicit AcrossAxis(const Vector3& axis)
+  DELAUNAYFLIP_HOST_DEVICE explicit AcrossAxis(const Vector3& axis)
   {
     const double x = std::fabs(axis.X), y = std::fabs(axis.Y), z = std::fabs(axis.Z);
     Vector3 across = { 0.0, 0.0, 1.0 }; // along the coordinate axis that is farthest away
@@ -64,30 +103,30 @@ struct SphereMesh
   std::int64_t NumberOfTriangles;
 
   /// The index of a corner in Triangles and Neighbors.
-  static std::int64_t GetIndex(CornerId corner)
+  DELAUNAYFLIP_HOST_DEVICE static std::int64_t GetIndex(CornerId corner)
   {
     return 3 * std::int64_t(TriangleOf(corner)) + SlotOf(corner);
   }
-  static CornerId Next(CornerId corner)
+  DELAUNAYFLIP_HOST_DEVICE static CornerId Next(CornerId corner)
   {
     return MakeCorner(TriangleOf(corner), NextSlot(SlotOf(corner)));
   }
-  static CornerId Previous(CornerId corner)
+  DELAUNAYFLIP_HOST_DEVICE static CornerId Previous(CornerId corner)
   {
     return MakeCorner(TriangleOf(corner), PreviousSlot(SlotOf(corner)));
   }
 
-  VertexId GetVertex(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE VertexId GetVertex(CornerId corner) const
   {
     return static_cast<VertexId>(this->Triangles[GetIndex(corner)]);
   }
-  const PlanePoint& GetPointAt(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE const PlanePoint& GetPointAt(CornerId corner) const
   {
     return this->Points[this->GetVertex(corner)];
   }
 
   /// The corner on the other side of the edge opposite a corner, or NoCorner.
-  CornerId FindBeyond(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindBeyond(CornerId corner) const
   {
     const std::int32_t across = this->Neighbors[GetIndex(corner)];
     if (across < 0)
@@ -104,24 +143,25 @@ struct SphereMesh
     return beyond;
   }
   /// The next corner of the same vertex, counter-clockwise; or NoCorner.
-  CornerId FindNextAround(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindNextAround(CornerId corner) const
   {
     const CornerId beyond = this->FindBeyond(Next(corner));
     return beyond == NoCorner ? NoCorner : Next(beyond);
   }
   /// The corner before it, or NoCorner.
-  CornerId FindPreviousAround(CornerId corner) const
+  DELAUNAYFLIP_HOST_DEVICE CornerId FindPreviousAround(CornerId corner) const
   {
     const CornerId beyond = this->FindBeyond(Previous(corner));
     return beyond == NoCorner ? NoCorner : Previous(beyond);
   }
 
   /// On which side of the great circle of the edge opposite a corner a place is, exactly: 1 for
-  /// that of the corner's triangle, 0 on it, -1 beyond.
-  int FindSide(const PlanePoint& place, CornerId opposite) const
+  /// that of the corner's triangle, 0 on it, -1 beyond. A device may return UncertainSign.
+  DELAUNAYFLIP_HOST_DEVICE int FindSide(const PlanePoint& place, CornerId opposite) const
   {
+    const PlanePoint origin{ 0.0, 0.0, 0.0 }; // a device has no constants of the host
     return FindOrientation3D(
-      this->GetPointAt(Next(opposite)), this->GetPointAt(Previous(opposite)), place, Origin);
+      this->GetPointAt(Next(opposite)), this->GetPointAt(Previous(opposite)), place, origin);
   }
 
   /// Whether a triangle can have places: it has an area, and it is counter-clockwise when seen from

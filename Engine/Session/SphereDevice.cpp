@@ -11,18 +11,36 @@
 namespace delaunayflip
 {
 
+/// Whether a GPU is to do what it can.
+bool SphereRun::PrefersDevice() const
+{
+  if (this->Options.Backend != BackendKind::Auto)
+  {
+    return this->Options.Backend == BackendKind::CUDA;
+  }
+  const bool isLarge = 2 * this->Input.Points.Count >= SmallestMeshForCuda;
+  return this->Input.OnDevice || (isLarge && HasCudaDevice());
+}
+
+/// The options, with the GPU that has the points.
+FlipOptions SphereRun::ChooseDevice() const
+{
+  FlipOptions options = this->Options;
+  if (this->Input.OnDevice)
+  {
+    const PlaneArray& points = this->Input.Points;
+    options.Device = JoinDevice(options.Device, points.Data(), points.Count, "the points are");
+  }
+  return options;
+}
+
 /// Whether a GPU is to make the mesh, and there is nothing that only the host does.
 bool SphereRun::MayRunOnDevice() const
 {
   const PointInput& input = this->Input;
   const bool isPlain = input.NumberOfSegments + input.NumberOfHoleSeeds == 0 && !input.Rings &&
     this->Options.Projection == ProjectionKind::Sphere && input.Points.Count > 3;
-  if (!isPlain || this->Options.Backend != BackendKind::Auto)
-  {
-    return isPlain && this->Options.Backend == BackendKind::CUDA;
-  }
-  const bool isLarge = 2 * input.Points.Count >= SmallestMeshForCuda;
-  return input.OnDevice || (isLarge && HasCudaDevice());
+  return isPlain && this->PrefersDevice();
 }
 
 /// Makes the mesh on a GPU, if all points are used and filters see that all edges are convex.
@@ -33,12 +51,7 @@ bool SphereRun::RunOnDevice()
   {
     return false;
   }
-  FlipOptions options = this->Options;
-  if (this->Input.OnDevice)
-  {
-    const PlaneArray& points = this->Input.Points;
-    options.Device = JoinDevice(options.Device, points.Data(), points.Count, "the points are");
-  }
+  const FlipOptions options = this->ChooseDevice();
   try
   {
     std::unique_ptr<LoadedSphere> device = LoadSphereOnCuda(this->Input, options);

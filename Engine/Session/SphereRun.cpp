@@ -78,6 +78,7 @@ void SphereRun::Reset()
   this->Done = 0.0;
   this->Starts = 0;
   this->FirstSimplex.clear();
+  this->DeviceAsker.reset();
   this->Asker.reset();
   this->OnDevice.reset();
   this->Triangles.clear();

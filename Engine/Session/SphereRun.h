@@ -86,9 +86,14 @@ private:
   void Run();
   void RunOnHost();
   bool RunOnDevice();
+  bool PrefersDevice() const;
+  FlipOptions ChooseDevice() const;
   bool MayRunOnDevice() const;
   bool StartOnDevice(LoadedSphere& device, const FlipOptions& options);
   void Fetch();
+  void RequireAsker();
+  AskResult AskDevice(const PlaceQuery& query, const ProgressObserver& progress);
+  AskResult AskHost(const PlaceQuery& query, const ProgressObserver& progress) const;
   template <typename Store>
   bool StoreFromDevice(const Store& store);
   void ReportStart(const StartSums& sums);
@@ -150,6 +155,7 @@ private:
   FlipReport Planar; ///< Sums over the flips in the plane.
   /// Answers about the final triangles. Made by the first query.
   std::unique_ptr<const SphereAsker> Asker;
+  std::unique_ptr<SphereDeviceAsker> DeviceAsker; ///< A copy on a GPU, if that answers.
   std::int64_t Opened = 0; ///< How many triangles OpenMesh has removed.
   bool HasHull = false; ///< Whether there were triangles before rings and seeds removed them.
   std::vector<Segment> Segments; ///< The caller's. Those of a ring run in one direction.

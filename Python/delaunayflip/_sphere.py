@@ -170,8 +170,7 @@ class SphereInterpolator(Interpolator):
     are on less than half of the sphere, everything beyond them; and what outlines and holes remove. Values
     at poles and at 180 degrees are like all others.
 
-    Values and places may be arrays in the memory of a GPU, as for `LinearInterpolator`; they are copied
-    to the host and back. Do not change the arrays of points and values as long as you use it. Threads
+    Values and places may be arrays in the memory of a GPU, as for `LinearInterpolator`. Do not change the arrays of points and values as long as you use it. Threads
     may share an interpolator; they take turns.
 
     Args:
@@ -187,8 +186,8 @@ class SphereInterpolator(Interpolator):
         segments, outline, holes, hole_seeds, ring_rule, open: As for `triangulate_sphere`.
         degrees: Whether longitudes and latitudes, of points, places and rasters, are in degrees, not
             radians. A warning counts places, or rows of a raster, with latitudes beyond 90 degrees.
-        fill_value, outside, backend, threads, device: As for `LinearInterpolator`. Questions are answered
-            on threads of the CPU, whatever the backend.
+        fill_value, outside, backend, threads, device: As for `LinearInterpolator`. A GPU answers if it is the
+            backend, but threads answer fewer than 20,000 places of the host at a time.
         progress: Called with the share of the triangulation done, 0 to 1; False stops it.
 
     Attributes:

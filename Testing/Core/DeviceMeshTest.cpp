@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
 #include "FlipError.h"
 #include "FlipTestSupport.h"
 #include "PointTriangulation.h"
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -302,6 +304,20 @@ protected:
     return points;
   }
 
+  /// Longitudes and latitudes at equal distances, without the poles: many ties.
+  static std::vector<double> MakeGrid(int columns, int rows)
+  {
+    std::vector<double> points;
+    for (int i = 0; i < columns * rows; ++i)
+    {
+      double xyz[3];
+      PlaceOnSphere(
+        360.0 * (i % columns) / columns, 180.0 * (i / columns + 0.5) / rows - 90.0, xyz);
+      points.insert(points.end(), xyz, xyz + 3);
+    }
+    return points;
+  }
+
   static PointInput View(const double* points, std::size_t numbers, bool onDevice)
   {
     PointInput input;
@@ -389,6 +405,163 @@ TEST_F(DeviceSphereTest, GoesOnOnTheHost)
   ExpectSameSphere(points);
   ExpectSameSphere({ 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0.6, 0.8, 0, 0.6,
     -0.8, 0, -0.6, 0.8, 0, -0.6, -0.8, 0 }); // four and more in one circle
+}
+
+/// Questions about a triangulation on a sphere, with places in the memory of the host and of the
+/// device: the answers are those of threads, to the last bit.
+class DeviceSphereAnswers : public DeviceSphereTest
+{
+protected:
+  struct Answers
+  {
+    std::vector<std::int32_t> Triangles;
+    std::vector<double> Results;
+
+    bool operator==(const Answers& other) const
+    {
+      const auto isSame = [](double a, double b) { return a == b || (a != a && b != b); };
+      return this->Triangles == other.Triangles &&
+        std::equal(this->Results.begin(), this->Results.end(), other.Results.begin(),
+          other.Results.end(), isSame);
+    }
+  };
+
+  static constexpr int Components = 2;
+
+  /// All kinds of places: any, corners of triangles, middles of edges, and some that are nowhere.
+  static std::vector<double> ListPlaces(
+    const std::vector<double>& points, const std::vector<std::int32_t>& triangles)
+  {
+    std::vector<double> places = DrawPoints(SmallestMeshForCuda);
+    places.insert(places.end(), points.begin(), points.end());
+    for (std::size_t i = 0; i + 1 < triangles.size(); i += 3)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        places.push_back(points[3 * triangles[i] + axis] + points[3 * triangles[i + 1] + axis]);
+      }
+    }
+    places.insert(places.end(), { 0.0, 0.0, 0.0, NAN, 1.0, 0.0, 0.0, 0.0, -1e300 });
+    return places;
+  }
+
+  /// @param query its places are in the host's memory.
+  static Answers Ask(const FlipSession& session, PlaceQuery query, std::size_t points)
+  {
+    const std::int64_t count = query.CountPlaces();
+    Answers answers{ std::vector<std::int32_t>(count), std::vector<double>(Components * count) };
+    const std::vector<double> values = ListValues(points);
+    query.Triangles = answers.Triangles.data();
+    query.Values = values.data();
+    query.Components = Components;
+    query.Results = answers.Results.data();
+    EXPECT_TRUE(session.Ask(query));
+    return answers;
+  }
+
+  static Answers AskInPlace(const FlipSession& session, PlaceQuery query,
+    const std::vector<double>& places, std::size_t points)
+  {
+    const std::int64_t count = query.CountPlaces();
+    const DeviceValues<double> there(places), values(ListValues(points));
+    const DeviceValues<std::int32_t> triangles{ std::vector<std::int32_t>(count) };
+    const DeviceValues<double> results{ std::vector<double>(Components * count) };
+    query.Places.Doubles = there.Data();
+    query.Triangles = triangles.Data();
+    query.Values = values.Data();
+    query.Components = Components;
+    query.Results = results.Data();
+    query.OnDevice = true;
+    EXPECT_TRUE(session.Ask(query));
+    return { triangles.Get(), results.Get() };
+  }
+
+  static std::vector<double> ListValues(std::size_t points)
+  {
+    std::mt19937 random(5);
+    std::vector<double> values(Components * points);
+    for (double& value : values)
+    {
+      value = random() * 0x1p-32;
+    }
+    return values;
+  }
+
+  static void ExpectSameAnswers(const PointInput& input, ProjectionKind projection)
+  {
+    PointOptions options;
+    options.Projection = projection;
+    options.Backend = BackendKind::Threads;
+    FlipSession threads(input, options);
+    threads.Advance();
+    options.Backend = BackendKind::CUDA;
+    FlipSession device(input, options);
+    device.Advance();
+    const auto count = static_cast<std::size_t>(input.Points.Count);
+    const std::vector<double> points(input.Points.Doubles, input.Points.Doubles + 3 * count);
+    const std::vector<double> places = ListPlaces(points, StoreOnHost(threads, count).Triangles);
+    const std::vector<float> angles(places.begin(), places.end());
+    for (const auto method : { InterpolationKind::Linear, InterpolationKind::Natural })
+    {
+      PlaceQuery query;
+      query.Method = method;
+      query.Outside = OutsideKind::Nearest;
+      query.Places = PlaneArray(places.data(), static_cast<std::int64_t>(places.size() / 3), 3);
+      const Answers expected = Ask(threads, query, count);
+      EXPECT_TRUE(expected == Ask(device, query, count));
+      EXPECT_TRUE(expected == AskInPlace(device, query, places, count));
+      query.Outside = OutsideKind::NotANumber;
+      query.Degrees = true;
+      query.Places = PlaneArray(angles.data(), static_cast<std::int64_t>(angles.size() / 2), 2);
+      EXPECT_TRUE(Ask(threads, query, count) == Ask(device, query, count));
+      query.Places = {};
+      query.Raster.Origin[0] = -180.0;
+      query.Raster.Origin[1] = 90.0;
+      query.Raster.Step[0] = 1.5;
+      query.Raster.Step[1] = -1.25;
+      query.Raster.Columns = 241;
+      query.Raster.Rows = 145;
+      EXPECT_TRUE(Ask(threads, query, count) == Ask(device, query, count));
+    }
+  }
+};
+
+TEST_F(DeviceSphereAnswers, AreThoseOfThreads)
+{
+  const std::vector<double> points = DrawPoints(2000);
+  const PointInput input = View(points.data(), points.size(), false);
+  ExpectSameAnswers(input, ProjectionKind::Sphere);
+  const std::vector<double> grid = MakeGrid(30, 15);
+  ExpectSameAnswers(View(grid.data(), grid.size(), false), ProjectionKind::Sphere);
+}
+
+TEST_F(DeviceSphereAnswers, AreThoseOfThreadsWhereTrianglesAreMissing)
+{
+  std::vector<double> north = DrawPoints(500);
+  for (std::size_t i = 2; i < north.size(); i += 3)
+  {
+    north[i] = std::fabs(north[i]);
+  }
+  ExpectSameAnswers(View(north.data(), north.size(), false), ProjectionKind::OpenSphere);
+  ExpectSameAnswers(View(north.data(), north.size(), false), ProjectionKind::Sphere);
+  std::vector<double> points = DrawPoints(500);
+  // The corners of a hole, and the ends of a segment.
+  const double corners[][2] = { { 0, -30 }, { 50, -30 }, { 70, 30 }, { 10, 30 }, { 180, -40 },
+    { 190, 50 } };
+  for (const auto& corner : corners)
+  {
+    double xyz[3];
+    PlaceOnSphere(corner[0], corner[1], xyz);
+    points.insert(points.end(), xyz, xyz + 3);
+  }
+  const std::int64_t segments[] = { 500, 501, 501, 502, 502, 503, 503, 500, 504, 505 };
+  const std::int32_t rings[] = { 0, 0, 0, 0, -1 };
+  PointInput input = View(points.data(), points.size(), false);
+  input.Segments = segments;
+  input.NumberOfSegments = 5;
+  input.Rings = rings;
+  input.FirstHole = 0;
+  ExpectSameAnswers(input, ProjectionKind::Sphere);
 }
 
 }

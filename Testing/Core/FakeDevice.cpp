@@ -20,6 +20,7 @@ namespace delaunayflip
 
 int CallsToFailure = 0;
 std::int64_t CopiedBytes = 0;
+std::int64_t AnswersOnDevice = 0;
 
 namespace
 {
@@ -266,6 +267,32 @@ std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput& points, const F
   auto sphere = std::make_unique<FakeSphere>(ThreadBackend(options.NumberOfThreads));
   sphere->Load(points);
   return sphere;
+}
+
+namespace
+{
+class FakeAsker : public SphereAskerOnBackend<ThreadBackend>
+{
+public:
+  using SphereAskerOnBackend::SphereAskerOnBackend;
+
+  bool CanAnswerInPlace(const PlaceQuery&) const override { return true; }
+  AskResult Answer(const PlaceQuery& query, const ProgressObserver& observer) override
+  {
+    if (CallsToFailure > 0 && --CallsToFailure == 0)
+    {
+      throw BackendUnavailable("as the test wants it");
+    }
+    AnswersOnDevice += query.CountPlaces();
+    return SphereAskerOnBackend::Answer(query, observer);
+  }
+};
+}
+
+std::unique_ptr<SphereDeviceAsker> LoadAskerOnCuda(
+  const AskedSphere& asked, std::int64_t points, const FlipOptions& options)
+{
+  return std::make_unique<FakeAsker>(asked, points, ThreadBackend(options.NumberOfThreads));
 }
 
 bool HasCudaDevice() { return true; }

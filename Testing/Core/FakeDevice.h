@@ -18,6 +18,9 @@ extern int CallsToFailure;
 /// Bytes that have been copied between the host's memory and the device's.
 extern std::int64_t CopiedBytes;
 
+/// Places on spheres for which the device was asked.
+extern std::int64_t AnswersOnDevice;
+
 }
 
 #endif

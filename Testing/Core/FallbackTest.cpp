@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "CudaDevice.h"
 #include "FakeDevice.h"
 #include "FlipTestSupport.h"
 #include "MeshDivision.h"
 #include "PieceFlip.h"
 #include "PointRun.h"
+#include "RandomNumbers.h"
 #include "TestDevice.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -554,6 +557,44 @@ TEST_F(FallbackTest, NothingPassesThroughTheHost)
   session.StoreFlipCounts(device.FlipCounts.Data(), {});
   EXPECT_EQ(1, session.GetReport().UnmatchedConstraints);
   EXPECT_EQ(copied, CopiedBytes);
+}
+
+TEST_F(FallbackTest, TheHostAnswersOnASphereWhereADeviceFails)
+{
+  std::mt19937 random(7);
+  std::vector<double> points;
+  for (int i = 0; i < 500; ++i)
+  {
+    double xyz[3];
+    PlaceOnSphere(DrawReal(random, -180.0, 180.0), DrawReal(random, -90.0, 90.0), xyz);
+    points.insert(points.end(), xyz, xyz + 3);
+  }
+  PointInput input;
+  input.Points = PlaneArray(points.data(), 500, 3);
+  PointOptions options;
+  options.Projection = ProjectionKind::Sphere;
+  options.Backend = BackendKind::CUDA;
+  FlipSession session(input, options);
+  session.Advance();
+  std::vector<std::int32_t> first(SmallestMeshForCuda), second(SmallestMeshForCuda);
+  PlaceQuery query;
+  query.Raster.Step[0] = 360.0 / SmallestMeshForCuda;
+  query.Raster.Columns = SmallestMeshForCuda;
+  query.Raster.Rows = 1;
+  query.Triangles = first.data();
+  AnswersOnDevice = 0;
+  EXPECT_TRUE(session.Ask(query));
+  EXPECT_EQ(SmallestMeshForCuda, AnswersOnDevice);
+  EXPECT_LE(0, *std::min_element(first.begin(), first.end()));
+  CallsToFailure = 1;
+  query.Triangles = second.data();
+  EXPECT_TRUE(session.Ask(query));
+  EXPECT_EQ(0, CallsToFailure);
+  EXPECT_EQ(SmallestMeshForCuda, AnswersOnDevice);
+  EXPECT_EQ(first, second);
+  query.Raster.Columns = 100; // too few for a copy to the device
+  EXPECT_TRUE(session.Ask(query));
+  EXPECT_EQ(SmallestMeshForCuda, AnswersOnDevice);
 }
 
 TEST_F(FallbackTest, AForcedGpuFails)
