@@ -34,8 +34,8 @@ bool HaveSameOptions(const TriangulationRequest& a, const TriangulationRequest& 
   const auto tie = [](const TriangulationRequest& r)
   {
     return std::tie(r.TransformTime, r.FitsPlane, r.LinesAsSegments, r.ClosedLinesAsRings,
-      r.PassesSegments, r.FirstHole, r.Heights, r.WantsHeights, r.SizeArray, r.Regions, r.Options,
-      r.KeepsRun);
+      r.PassesSegments, r.FirstHole, r.Heights, r.WantsHeights, r.HeightArray, r.SizeArray,
+      r.Regions, r.Options, r.KeepsRun);
   };
   return tie(a) == tie(b);
 }
@@ -82,6 +82,14 @@ vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtk
   return copy;
 }
 
+/// Components of an array that are interpolated between the given points.
+struct SurveyedArray
+{
+  vtkDataArray* Array;
+  int First, Count;
+  bool OnlyUnknown; ///< Whether numbers that are finite stay.
+};
+
 //------------------------------------------------------------------------------
 /// Triangulates points.
 class TriangulationRun : public UpdateRun
@@ -122,10 +130,9 @@ private:
   void ChooseHeights();
   void ReadSizes();
   void ReadRegions();
-  std::vector<std::pair<vtkDataArray*, int>> ListSurveyed() const;
-  void WriteSurveyed(const std::vector<std::pair<vtkDataArray*, int>>& numbers,
-    const std::vector<std::int64_t>& points, const std::vector<double>& values,
-    const std::vector<std::int64_t>& lifted);
+  std::vector<SurveyedArray> ListSurveyed() const;
+  void AskSurvey(
+    FlipSession& survey, const SurveyedArray& surveyed, const std::vector<std::int64_t>& points);
   void TakeHeights(
     const std::vector<std::int64_t>& points, const std::vector<std::int64_t>& lifted);
   vtkSmartPointer<vtkCellArray> MakeRoom() const;
@@ -436,58 +443,27 @@ void TriangulationRun::ReadRegions()
   this->View.NumberOfRegions = static_cast<std::int64_t>(this->Regions.size());
 }
 
-/// The numbers that points of the second input get from the given ones: pairs of an array of the
-/// points and a component. z is the first one.
-std::vector<std::pair<vtkDataArray*, int>> TriangulationRun::ListSurveyed() const
+/// The point data that points of the second input get from the given ones.
+std::vector<SurveyedArray> TriangulationRun::ListSurveyed() const
 {
-  vtkDataArray* xyz = this->Points->GetPoints()->GetData();
-  std::vector<std::pair<vtkDataArray*, int>> numbers = { { xyz, 2 } };
+  std::vector<SurveyedArray> surveyed;
   vtkPointData* data = this->Points->GetPointData();
   const vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
     data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i); // null if it has no numbers
-    if (!array || !array->GetName() ||
-      std::count(std::begin(labels), std::end(labels), array) > 0 ||
-      this->Asked.Others->GetPointData()->HasArray(array->GetName()))
+    if (!array || !array->GetName() || std::count(std::begin(labels), std::end(labels), array) > 0)
     {
       continue;
     }
-    for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+    const bool isOfBoth = this->Asked.Others->GetPointData()->HasArray(array->GetName()) != 0;
+    if (!isOfBoth || this->Asked.HeightArray == array->GetName())
     {
-      numbers.push_back({ array, k });
+      surveyed.push_back({ array, 0, array->GetNumberOfComponents(), isOfBoth });
     }
   }
-  return numbers;
-}
-
-/// Writes numbers of points; z, which is the first of them, only of those that are lifted.
-/// @param values those of a point one after the other.
-void TriangulationRun::WriteSurveyed(const std::vector<std::pair<vtkDataArray*, int>>& numbers,
-  const std::vector<std::int64_t>& points, const std::vector<double>& values,
-  const std::vector<std::int64_t>& lifted)
-{
-  std::vector<bool> areLifted(this->Points->GetNumberOfPoints(), false);
-  for (const std::int64_t point : lifted)
-  {
-    areLifted[point] = true;
-  }
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    const auto& [array, component] = numbers[i % numbers.size()];
-    const std::int64_t point = points[i / numbers.size()];
-    const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
-    const bool isWanted = i % numbers.size() > 0 || areLifted[point];
-    if (isReal && isWanted)
-    {
-      array->SetComponent(point, component, values[i]);
-    }
-    else if (isWanted && std::isfinite(values[i]))
-    {
-      array->SetComponent(point, component, std::round(values[i]));
-    }
-  }
+  return surveyed;
 }
 
 /// Gives points of the second input the data of the given points, and heights to those that are
@@ -503,8 +479,8 @@ void TriangulationRun::TakeHeights(
   {
     return;
   }
-  const auto numbers = this->ListSurveyed();
-  if (lifted.empty() && numbers.size() == 1)
+  const std::vector<SurveyedArray> arrays = this->ListSurveyed();
+  if (lifted.empty() && arrays.empty())
   {
     return;
   }
@@ -524,12 +500,30 @@ void TriangulationRun::TakeHeights(
   {
     return;
   }
-  const std::size_t width = numbers.size();
-  std::vector<double> values(given.Points.Count * width), places, results(points.size() * width);
+  for (const SurveyedArray& array : arrays)
+  {
+    this->AskSurvey(survey, array, points);
+  }
+  if (!lifted.empty())
+  {
+    this->AskSurvey(survey, { this->Points->GetPoints()->GetData(), 2, 1, false }, lifted);
+    this->Points->GetPoints()->Modified();
+  }
+  this->AreLifted = !lifted.empty();
+  this->HasSurveyed = true;
+}
+
+/// Writes numbers of points that are interpolated between those of the given points.
+void TriangulationRun::AskSurvey(
+  FlipSession& survey, const SurveyedArray& surveyed, const std::vector<std::int64_t>& points)
+{
+  vtkDataArray* const array = surveyed.Array;
+  const auto width = static_cast<std::size_t>(surveyed.Count);
+  std::vector<double> values(this->Given->GetNumberOfPoints() * width), places;
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    const auto& [array, component] = numbers[i % width];
-    values[i] = array->GetComponent(static_cast<vtkIdType>(i / width), component);
+    values[i] = array->GetComponent(
+      static_cast<vtkIdType>(i / width), surveyed.First + static_cast<int>(i % width));
   }
   const int coordinates = IsOnSphere(this->Asked) ? 3 : 2;
   for (const std::int64_t point : points)
@@ -539,17 +533,30 @@ void TriangulationRun::TakeHeights(
       places.push_back(this->View.Points.Get(point, k));
     }
   }
+  std::vector<double> results(points.size() * width);
   PlaceQuery query;
   query.Places = { places.data(), static_cast<std::int64_t>(points.size()), coordinates };
   query.Values = values.data();
-  query.Components = static_cast<int>(width);
+  query.Components = surveyed.Count;
   query.Outside = OutsideKind::Nearest;
   query.Results = results.data();
   survey.Ask(query);
-  this->WriteSurveyed(numbers, points, results, lifted);
-  this->Points->GetPoints()->Modified();
-  this->AreLifted = !lifted.empty();
-  this->HasSurveyed = true;
+  const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+  for (std::size_t i = 0; i < results.size(); ++i)
+  {
+    const std::int64_t point = points[i / width];
+    const int component = surveyed.First + static_cast<int>(i % width);
+    const bool isKept =
+      surveyed.OnlyUnknown && std::isfinite(array->GetComponent(point, component));
+    if (isReal && !isKept)
+    {
+      array->SetComponent(point, component, results[i]);
+    }
+    else if (!isKept && std::isfinite(results[i]))
+    {
+      array->SetComponent(point, component, std::round(results[i]));
+    }
+  }
 }
 
 //------------------------------------------------------------------------------

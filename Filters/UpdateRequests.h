@@ -74,6 +74,9 @@ struct TriangulationRequest : UpdateRequest
   bool WantsHeights = true; ///< Else nobody has to be told of points without heights.
   /// Point data become doubles, so that those which points of the second input get are not rounded.
   bool TurnsToDoubles = false;
+  /// A point array of heights. Those of points of the second input that are not finite are
+  /// replaced by those of the first one there; "": none.
+  std::string HeightArray;
   std::string SizeArray; ///< A point array of longest edges; "": none.
   std::vector<std::array<double, 4>> Regions; ///< x, y, label and largest area of each.
   PointOptions Options;

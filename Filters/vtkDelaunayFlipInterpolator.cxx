@@ -467,12 +467,13 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   std::string elevation = this->ChooseArrays(points, block.Name, summary);
   const auto segments =
     this->FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL), elevation, summary);
+  TriangulationRequest request = this->MakeRequest(given);
   if (this->HasAngles() && !elevation.empty())
   {
     KeepHeights(given->GetPoints(), elevation, true, points->GetPointData());
+    request.HeightArray = this->SegmentHeights == SEGMENT_HEIGHTS_AUTO ? elevation : "";
     elevation.clear();
   }
-  TriangulationRequest request = this->MakeRequest(given);
   request.Input = points;
   request.Others = segments;
   request.PassesSegments = false; // an array of numbers of segments is nothing to interpolate

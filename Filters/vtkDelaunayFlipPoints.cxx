@@ -328,6 +328,10 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   {
     request.Others = others;
   }
+  if (this->SegmentHeights == SEGMENT_HEIGHTS_AUTO && this->HasAngles())
+  {
+    request.HeightArray = heights;
+  }
   request.KeepsRun = block.Place.empty() && request.IsPlain() && this->WantsToKeep();
   this->Runs->Update(request, *this->Report, output);
   output->SetVerts(nullptr);

@@ -589,7 +589,8 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         if count == 0 or self._is_abort_requested():
             return self._pass(data, output, "aborted" if count else "converged")
         try:
-            return self._triangulate(data, segments, output, self._observe_part(1.0), follows=True)[1]
+            return self._triangulate(data, segments, output, self._observe_part(1.0), height_array=heights,
+                                     follows=True)[1]
         except _library.Stopped:
             return self._pass(data, output, "aborted")
 
@@ -626,10 +627,13 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         return result
 
     def _triangulate(
-            self, data, segments, output, progress, *, keeps=False, has_heights=True, follows=False):
+            self, data, segments, output, progress, *, keeps=False, has_heights=True, height_array="",
+            follows=False):
         """Returns the Triangulation, with or without its session, and the text of a warning, or "".
         Without heights nobody has to be told of z."""
         heights = HEIGHTS[self.segment_heights]
+        if heights is not None:
+            height_array = ""
         if heights != "survey" and not has_heights:
             heights = UNSEEN
         options = self._get_options("backend", *POINT_OPTIONS)
@@ -637,7 +641,8 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
             closed_lines_as_rings=self.closed_lines_as_rings, pass_segments=self.pass_segments and not keeps,
             ring_rule=RING_RULES[self.ring_rule],
-            heights=heights, as_doubles=keeps, size_array=self.size_array, projection=self._find_projection(),
+            heights=heights, height_array=height_array, as_doubles=keeps, size_array=self.size_array,
+            projection=self._find_projection(),
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
         if follows and self._is_followed(cloud, segments, options):

@@ -122,7 +122,7 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         if source.GetNumberOfPoints() == 0:
             self._warnings.append((self._where, "the source has no points, so there are no values"))
         source = self._take_places(given)
-        elevation = self._choose_arrays(source)
+        elevation = height_array = self._choose_arrays(source)
         segments = self._take_segments(self._find_segments(), elevation)
         if elevation and source is not given:
             keep_heights(given, elevation, source.GetPointData(), True)
@@ -134,7 +134,8 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         if self._is_abort_requested():
             return ""
         result, trouble = self._triangulate(
-            source, segments, mesh, self._observe_part(0.5), keeps=True, has_heights=bool(elevation))
+            source, segments, mesh, self._observe_part(0.5), keeps=True, has_heights=bool(elevation),
+            height_array=height_array)
         if result.report.stop_reason != "aborted":
             self._prepared = result, Columns(source, mesh, elevation)
         return trouble

@@ -444,13 +444,14 @@ class Cloud(Input):
     """The points of a dataset, and those of its segments, for `triangulate`; and the way back."""
 
     def __init__(self, data, others=None, *, lines_as_segments=False, closed_lines_as_rings=True,
-                 pass_segments=False, first_hole=-1, heights=None, as_doubles=False, size_array="", backend=None,
-                 projection=0, **rings):
+                 pass_segments=False, first_hole=-1, heights=None, height_array="", as_doubles=False,
+                 size_array="", backend=None, projection=0, **rings):
         """`others`: the second input of the filter, or pairs of point ids. `heights`: SegmentHeights.
+        `height_array`: where those of segments are not finite, they become those of the points there.
         `pass_segments`: whether the mesh gets the edges along segments. `as_doubles`: whether data become
-        doubles, so that those of added points are not rounded. `size_array`: SizeArray. `projection`: that of the struct.
-        `backend`: keywords that say where data are found. `rings`: outline, holes, hole_seeds and
-        ring_rule, as for triangulate."""
+        doubles, so that those of added points are not rounded. `size_array`: SizeArray. `projection`: that
+        of the struct. `backend`: keywords that say where data are found. `rings`: outline, holes,
+        hole_seeds and ring_rule, as for triangulate."""
         self.vtk, self.data = vtk_of(data), data
         mesh = self.vtk.model.vtkPolyData()
         mesh.SetPoints(data.GetPoints())
@@ -487,11 +488,11 @@ class Cloud(Input):
         self.take_projection(projection)
         self._surveyed = []  # (name, ids, values) of each array of added points
         self._read_data = self._as_doubles if as_doubles else lambda data: data
-        self._choose_heights(heights, backend or {})
+        self._choose_heights(heights, height_array, backend or {})
         if size_array:
             self._read_sizes(size_array)
 
-    def _choose_heights(self, heights, backend):
+    def _choose_heights(self, heights, height_array, backend):
         """Gives added points the heights that are asked for, and data in arrays that the segments do not
         have, interpolated between the points of the dataset."""
         count, data = self.data.GetNumberOfPoints(), self.data.GetPointData()
@@ -504,7 +505,8 @@ class Cloud(Input):
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(_GHOSTS)
         names = [array.GetName() for array in _list_arrays(data)
                  if array.GetName() and array.IsNumeric() and array.GetNumberOfTuples() >= count
-                 and not _is_among(array, labels) and not (theirs and theirs.HasArray(array.GetName()))]
+                 and not _is_among(array, labels)
+                 and (array.GetName() == height_array or not (theirs and theirs.HasArray(array.GetName())))]
         if count == 0 or len(added) == 0 or not (len(lifted) or names):
             return
         columns = [self.points[:count, 2:]]
@@ -644,6 +646,7 @@ class Cloud(Input):
         data.Initialize()
         own = self._read_data(self.data.GetPointData())
         self.vtk.add_tuples(own, count, range(count), 0, size, data)
+        theirs = None
         if len(self._sources):
             theirs = self._read_data(self._others.GetPointData())
             self.vtk.add_tuples(
@@ -652,7 +655,10 @@ class Cloud(Input):
             numbers = self.vtk.view(data.GetArray(name))
             if numbers.dtype.kind != "f":
                 values = numpy.nan_to_num(numpy.trunc(values + numpy.copysign(0.5, values)))
-            numbers.reshape(size, -1)[ids] = values
+            rows = numbers.reshape(size, -1)
+            is_known = numpy.isfinite(rows[ids])
+            is_known[len(self._sources) if theirs and theirs.HasArray(name) else 0:] = False
+            rows[ids] = numpy.where(is_known, rows[ids], values)
         self.vtk.interpolate_tuples(data, len(self.points), *self.added)
         _demote_global_ids(data)
 

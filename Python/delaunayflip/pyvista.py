@@ -371,6 +371,8 @@ def _read_cloud(cloud, segments, outline, holes, options, *, projection, degrees
     if number and degrees:
         name = _ELEVATION if settings.get("as_doubles") else HEIGHT_ARRAY
         cloud, segments = _place_meshes(cloud, segments, name, settings["heights"] == "own")
+        if settings["heights"] is None:
+            settings["height_array"] = name
     given = Cloud(
         cloud, segments, **rings, projection=number,
         backend={name: options[name] for name in ("backend", "threads", "device") if name in options},

@@ -723,6 +723,9 @@ TEST(FromPoints, HeightsOfStations)
       EXPECT_NEAR(heights->GetTuple1(201), isSurveyed ? 100.0 : height, 1e-9);
     }
   }
+  const Mesh unknown = run(MakeLines({ { 11, 12, 30 }, { 14, 13, NAN } }, { { 0, 1 } }), automatic);
+  EXPECT_EQ(unknown->GetPointData()->GetArray("Height")->GetTuple1(200), 30.0);
+  EXPECT_NEAR(unknown->GetPointData()->GetArray("Height")->GetTuple1(201), 100.0, 1e-9);
   for (auto& station : stations)
   {
     station[2] = 0.0;

@@ -613,6 +613,12 @@ class SameInterpolator(Pair, unittest.TestCase):
             self.expect_same(self.list_places()[0], lambda flip, heights=heights: (
                 flip.SetSourceData(source), flip.SplitCrossingsOn(), flip.SetSegmentHeights(heights),
                 flip.SetSegmentsData(make_segments(source, float)), flip.SetElevationArray("")))
+        lines = make_segments(source, float)
+        vtk_to_numpy(lines.GetPoints().GetData())[::2, 2] = numpy.nan
+        for heights in (0, 2):
+            self.expect_same(self.list_places()[0], lambda flip, heights=heights: (
+                flip.SetSourceData(source), flip.SetSegmentsData(lines), flip.SetSegmentHeights(heights),
+                flip.SetProjectionToOpenSphere(), flip.DegreesOn()))
 
     def test_sphere(self):
         source = self.make_source()
@@ -768,8 +774,8 @@ class SamePoints(Pair, unittest.TestCase):
                     self.assertEqual(told["errors"], [])
                     self.assertEqual("1 point with a latitude beyond 90 degrees" in str(told["warnings"]), degrees)
             self.expect_same(collect([[cloud, vtkPolyData()]]), prepare)
-            for z in (0, 7) if degrees else ():
-                vtk_to_numpy(segments.GetPoints().GetData())[:, 2] = z
+            for step, z in ((1, 0), (2, 7), (2, numpy.nan)) if degrees else ():
+                vtk_to_numpy(segments.GetPoints().GetData())[::step, 2] = z
                 for heights in (0, 2):
                     told = self.expect_same(cloud, lambda points, heights=heights: (
                         prepare(points), points.SetSegmentHeights(heights)))
