@@ -407,6 +407,9 @@ class Lifetime(unittest.TestCase):
         numpy.testing.assert_array_equal(found, [expected, expected])
 
     def test_progress(self):
+        # A shell starts what it runs in the background with this signal ignored.
+        self.addCleanup(signal.signal, signal.SIGINT,
+                        signal.signal(signal.SIGINT, signal.default_int_handler))
         values, shares = plane(POINTS), []
         f = delaunayflip.LinearInterpolator(POINTS, values, outline=SQUARE, breaklines="soft",
                                             progress=shares.append)
