@@ -106,7 +106,9 @@ public:
     {
       this->Hull.CountTurns(this->ViewPlane(left), this->GetHullCounts());
     }
-    const bool isConvex = isDone && this->FetchCounts().IsConvex();
+    // Throws if a device could not decide, which may be why the removal has failed.
+    const CountsOnHost counts = this->FetchCounts();
+    const bool isConvex = isDone && counts.IsConvex();
     if (isConvex)
     {
       this->End(left);

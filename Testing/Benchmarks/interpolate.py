@@ -36,6 +36,7 @@ import time
 import numpy
 
 import delaunayflip
+from compare import add_numbers
 
 QUESTIONS = ("linear raster", "linear random", "natural raster", "natural random")
 MOST_OF_MATPLOTLIB = 100_000  # points
@@ -202,10 +203,6 @@ def run(program, rounds):
             if asked:
                 found[question].append(asked[1] / measure(asked[0]))
     return found
-
-
-def add_numbers(count):
-    return sum(range(count))
 
 
 def measure_arithmetic(count, rounds):
