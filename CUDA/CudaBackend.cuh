@@ -5,12 +5,13 @@
 
 #include "Array.h"
 #include "CudaContext.h"
+#include "CudaKernels.cuh"
 #include "DeviceMesh.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
 #include "FlipError.h"
+#include "StagedCopies.h"
 #include "ThreadBackend.h"
-#include "ThreadGroup.h"
 #include "TriangleMesh.h"
 
 #include <cub/cub.cuh>
@@ -27,124 +28,6 @@
 
 namespace delaunayflip
 {
-
-/// The order in which the parts of an array are copied. One GPU after the other copies a part of
-/// its share of a slice, so that all of them copy at the same time.
-/// @returns the part that is copied as number i, or -1 if there is none.
-inline std::int64_t FindPart(
-  std::int64_t i, std::int64_t parts, std::int64_t partsPerSlice, std::int64_t devices)
-{
-  const std::int64_t share = (partsPerSlice + devices - 1) / devices;
-  const std::int64_t slice = i / (share * devices);
-  const std::int64_t inSlice = i % (share * devices);
-  const std::int64_t place = inSlice % devices * share + inSlice / devices;
-  const std::int64_t part = slice * partsPerSlice + place;
-  return place < partsPerSlice && part < parts ? part : -1;
-}
-
-constexpr int ThreadsPerBlock = 256;
-
-/// The items [First, Last) of a launch. First is a multiple of ThreadsPerBlock.
-struct ItemRange
-{
-  std::int64_t First, Last;
-
-  /// How many blocks are enough for them.
-  __host__ __device__ std::int64_t CountTiles() const
-  {
-    return (this->Last - this->First + ThreadsPerBlock - 1) / ThreadsPerBlock;
-  }
-  /// The item of this thread where a block handles a tile of ThreadsPerBlock.
-  __device__ std::int64_t GetFirst() const
-  {
-    return this->First + std::int64_t(blockIdx.x) * ThreadsPerBlock + threadIdx.x;
-  }
-  /// The tile of this block among all items.
-  __device__ std::int64_t GetTile() const { return this->First / ThreadsPerBlock + blockIdx.x; }
-};
-
-/// One thread calls work(i) for every i of its stride. The caller makes sure that calls for
-/// different i do not write to the same place.
-template <typename Work>
-__global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items, Work work)
-{
-  const std::int64_t stride = std::int64_t(gridDim.x) * ThreadsPerBlock;
-  for (std::int64_t i = items.GetFirst(); i < items.Last; i += stride)
-  {
-    work(i);
-  }
-}
-
-constexpr int ThreadsOfGroup = 512;
-
-template <typename Work>
-__global__ void __launch_bounds__(ThreadsOfGroup) GroupKernel(Work work)
-{
-  work(ThreadGroup{ threadIdx.x, ThreadsOfGroup });
-}
-
-/// Does the work of ForEachKernel and sums up: every block writes its partial sum.
-template <typename Result, typename Work>
-__global__ void __launch_bounds__(ThreadsPerBlock)
-  SumKernel(ItemRange items, Work work, Result* partials)
-{
-  using Reduce = cub::BlockReduce<Result, ThreadsPerBlock>;
-  __shared__ typename Reduce::TempStorage storage;
-  Result sum{};
-  const std::int64_t stride = std::int64_t(gridDim.x) * ThreadsPerBlock;
-  for (std::int64_t i = items.GetFirst(); i < items.Last; i += stride)
-  {
-    work(i, sum);
-  }
-  const auto plus = [](Result a, const Result& b) { return a += b; };
-  const Result total = Reduce(storage).Reduce(sum, plus);
-  if (threadIdx.x == 0)
-  {
-    partials[blockIdx.x] = total;
-  }
-}
-
-/// Adds up partial sums. Not a lambda, so that there is one kernel for each type of sum.
-template <typename Result>
-struct AddPartial
-{
-  __device__ void operator()(std::int64_t i, Result& sum) const { sum += this->Partials[i]; }
-
-  const Result* Partials;
-};
-
-/// One block counts one tile, one item per thread, because counting may wait for memory.
-template <typename CountOf>
-__global__ void __launch_bounds__(ThreadsPerBlock)
-  CountKernel(ItemRange items, CountOf count, std::int64_t* countOfTile)
-{
-  using Reduce = cub::BlockReduce<int, ThreadsPerBlock>;
-  __shared__ typename Reduce::TempStorage storage;
-  const std::int64_t i = items.GetFirst();
-  const int own = i < items.Last ? static_cast<int>(count(i)) : 0;
-  const int total = Reduce(storage).Sum(own);
-  if (threadIdx.x == 0)
-  {
-    countOfTile[items.GetTile()] = total;
-  }
-}
-
-/// One block visits one tile, counting on from the tile's first number.
-template <typename CountOf, typename Visit>
-__global__ void __launch_bounds__(ThreadsPerBlock) ForEachNumberedKernel(
-  ItemRange items, CountOf count, Visit visit, const std::int64_t* firstOfTile)
-{
-  using Scan = cub::BlockScan<int, ThreadsPerBlock>;
-  __shared__ typename Scan::TempStorage storage;
-  const std::int64_t i = items.GetFirst();
-  const int own = i < items.Last ? static_cast<int>(count(i)) : 0;
-  int before = 0;
-  Scan(storage).ExclusiveSum(own, before);
-  if (i < items.Last)
-  {
-    visit(i, firstOfTile[items.GetTile()] + before);
-  }
-}
 
 /// The caller's mesh in the device's memory.
 struct LocalDeviceMesh
@@ -363,7 +246,7 @@ public:
   template <typename T>
   void Upload(const T* host, std::int64_t size, T* values) const
   {
-    this->Send(size, values, [host](std::int64_t i) { return host[i]; });
+    this->GetCopies().Send(size, values, [host](std::int64_t i) { return host[i]; });
   }
 
   void Synchronize() const
@@ -386,7 +269,7 @@ public:
     const TriangleArray& triangles = mesh.Triangles;
     LocalMesh local = this->BringLabels(mesh, points.Count, triangles.Count);
     local.Triangles = this->MakeArray<std::int32_t>(3 * triangles.Count);
-    this->Send(3 * triangles.Count, local.Triangles.Data(),
+    this->GetCopies().Send(3 * triangles.Count, local.Triangles.Data(),
       [&](std::int64_t i)
       {
         // An id that does not fit is invalid, and stays invalid.
@@ -442,7 +325,7 @@ public:
     };
     const auto download = [&](auto* ids)
     {
-      this->DownloadSlices(3 * triangles.Count, areInOrder, fill,
+      this->GetCopies().DownloadSlices(3 * triangles.Count, areInOrder, fill,
         [ids](std::int64_t i, std::uint32_t id)
         { ids[i] = static_cast<std::remove_pointer_t<decltype(ids)>>(id); });
     };
@@ -459,7 +342,7 @@ public:
   template <typename Store>
   void StoreValues(std::int64_t size, std::int32_t* values, const Store& store) const
   {
-    this->DownloadSlices(
+    this->GetCopies().DownloadSlices(
       size, false,
       [&](const OutputSlice& slice)
       { this->ForEach(size, [=] __device__(std::int64_t i) { store(i, slice); }); },
@@ -613,110 +496,7 @@ private:
     return local;
   }
 
-  // Copies between arrays on the host and device memory go through page-locked buffers: threads
-  // convert one buffer while others are being copied. This is several times as fast as the driver's
-  // copies from pageable memory.
-
-  /// Sends get(i) for i = 0 .. size - 1. When it returns, get is no longer needed.
-  template <typename T, typename Get>
-  void Send(std::int64_t size, T* device, const Get& get) const
-  {
-    constexpr std::int64_t Step = CudaContext::StagingBytes / sizeof(T);
-    const std::int64_t parts = (size + Step - 1) / Step;
-    const std::int64_t devices = this->CountDevices();
-    const std::int64_t copies = (parts + devices - 1) / devices * devices;
-    this->Context->Fork();
-    for (std::int64_t copy = 0; copy < copies; ++copy)
-    {
-      const std::int64_t begin = FindPart(copy, parts, parts, devices) * Step;
-      if (begin >= 0)
-      {
-        const StagingBuffer& buffer = this->Context->GetBuffer(copy);
-        const std::int64_t count = std::min(Step, size - begin);
-        auto* values = static_cast<T*>(buffer.Memory.Get());
-        WaitForCopy(buffer);
-        this->Threads.ForEach(count, [&](std::int64_t i) { values[i] = get(begin + i); });
-        StartCopy(buffer, device + begin, values, count * sizeof(T), cudaMemcpyHostToDevice);
-      }
-    }
-    this->Context->Join();
-  }
-
-  /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
-  /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one
-  /// slice, while the host still converts the slice before it.
-  /// @param areInOrder whether a slice takes only its own triangles, so that there can be many.
-  template <typename Fill, typename Put>
-  void DownloadSlices(std::int64_t size, bool areInOrder, const Fill& fill, const Put& put) const
-  {
-    using Value = std::uint32_t;
-    constexpr std::int64_t LargestStep = CudaContext::StagingBytes / sizeof(Value);
-    constexpr std::int64_t SmallestStep = LargestStep / 16;
-    std::int64_t steps = 4; // about
-    std::int64_t mostSlices = 8;
-    if (areInOrder)
-    {
-      steps = 16;
-      mostSlices = std::numeric_limits<std::int64_t>::max();
-    }
-    const std::int64_t step = std::clamp(size / steps + 1, SmallestStep, LargestStep);
-    const std::int64_t parts = (size + step - 1) / step;
-    const std::int64_t partsPerSlice = std::max<std::int64_t>(1, (parts - 1) / mostSlices + 1);
-    const std::int64_t sliceSize = partsPerSlice * step;
-    Array<Value> values = this->MakeArray<Value>(std::min(size, sliceSize));
-    const std::int64_t ahead = this->Context->CountBuffers() - 1; // copied while one is converted
-    const std::int64_t devices = this->CountDevices();
-    const std::int64_t copiesPerSlice = (partsPerSlice + devices - 1) / devices * devices;
-    const std::int64_t copies = (parts + partsPerSlice - 1) / partsPerSlice * copiesPerSlice;
-    for (std::int64_t i = 0; i < copies + ahead; ++i)
-    {
-      std::int64_t fetched = -1, drained = -1;
-      if (i < copies)
-      {
-        fetched = FindPart(i, parts, partsPerSlice, devices);
-      }
-      if (i >= ahead)
-      {
-        drained = FindPart(i - ahead, parts, partsPerSlice, devices);
-      }
-      if (i < copies && i % copiesPerSlice == 0)
-      {
-        const std::int64_t first = i / copiesPerSlice * sliceSize;
-        this->Context->Join();
-        fill(OutputSlice{ values.Data(), first, std::min(size, first + sliceSize) });
-        this->Context->Fork();
-      }
-      if (fetched >= 0)
-      {
-        const StagingBuffer& buffer = this->Context->GetBuffer(i);
-        const std::int64_t begin = fetched * step;
-        StartCopy(buffer, buffer.Memory, values.Data() + begin % sliceSize,
-          std::min(step, size - begin) * sizeof(Value), cudaMemcpyDeviceToHost);
-      }
-      if (drained >= 0)
-      {
-        const StagingBuffer& buffer = this->Context->GetBuffer(i - ahead);
-        const auto* staged = static_cast<const Value*>(buffer.Memory.Get());
-        const std::int64_t begin = drained * step;
-        WaitForCopy(buffer);
-        this->Threads.ForEach(
-          std::min(step, size - begin), [&](std::int64_t i) { put(begin + i, staged[i]); });
-      }
-    }
-    this->Context->Join();
-  }
-
-  static void StartCopy(
-    const StagingBuffer& buffer, void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind)
-  {
-    CallCuda("copy between host and GPU", cudaMemcpyAsync, to, from, bytes, kind, buffer.Stream);
-    CallCuda("record an event", cudaEventRecord, buffer.Done, buffer.Stream);
-  }
-
-  static void WaitForCopy(const StagingBuffer& buffer)
-  {
-    CallCuda("wait for a copy", cudaEventSynchronize, buffer.Done);
-  }
+  StagedCopies GetCopies() const { return { *this->Context, this->Threads }; }
 
   static std::vector<int> ResolveDevices(std::vector<int> devices)
   {
