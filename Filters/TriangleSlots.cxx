@@ -5,6 +5,7 @@
 #include "DataArrays.h"
 #include "FlipError.h"
 #include "PolygonSplit.h"
+#include "UpdateReport.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkSMPTools.h"

@@ -54,6 +54,14 @@ struct WinsRound
   }
 };
 
+struct FindCavity
+{
+  RefinementStep Step;
+
+  void Prefetch(std::int64_t i) const { this->Step.PrefetchCavity(i); }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i) const { this->Step.FindCavity(i); }
+};
+
 /// How many places of a round win.
 struct CountOfWinners
 {
@@ -155,8 +163,7 @@ public:
     sources.Counts = this->Counts.Data();
     this->Device.ForEach(
       sources.NumberOfItems, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sources.Keep(i); });
-    const typename Backend::Numbering numbering = this->Device.Count(
-      size, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return sources.Count(i); });
+    const typename Backend::Numbering numbering = this->Device.Count(size, JudgeSource{ sources });
     this->NumberOfPlaces = numbering.Total;
     Reserve(this->Items, 0, numbering.Total, this->Device);
     Reserve(this->Cavities, 0, numbering.Total, this->Device);
@@ -164,10 +171,8 @@ public:
     this->Device.ForEachNumbered(
       numbering, size,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return static_cast<int>(sources.Counts[i]); },
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
-      { sources.Propose(i, number, step); });
-    this->Device.ForEach(
-      numbering.Total, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { step.FindCavity(i); });
+      ProposePlaces{ sources, step });
+    this->Device.ForEach(numbering.Total, FindCavity{ step });
   }
 
   /// Makes an item for every subsegment that has to be split, after those for triangles.

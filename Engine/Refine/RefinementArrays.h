@@ -201,16 +201,17 @@ public:
   {
     RefinementResult result;
     const std::int64_t added = grown.Vertices - this->FirstVertex;
-    result.Vertices.resize(added);
+    result.Vertices =
+      Array<RefinedVertex>(static_cast<std::size_t>(added), this->Device.GetHostMemory());
     if constexpr (Backend::IsOnHost)
     {
-      this->NameVertices(grown, result.Vertices.data());
+      this->NameVertices(grown, result.Vertices.Data());
     }
     else
     {
       Array<RefinedVertex> vertices = this->Device.template MakeArray<RefinedVertex>(added);
       this->NameVertices(grown, vertices.Data());
-      this->Device.Download(vertices.Data(), added, result.Vertices.data());
+      this->Device.Download(vertices.Data(), added, result.Vertices.Data());
     }
     if (this->IsOfCaller)
     {

@@ -3,6 +3,7 @@
 #ifndef DELAUNAYFLIP_REFINEMENTPLAN_H
 #define DELAUNAYFLIP_REFINEMENTPLAN_H
 
+#include "Array.h"
 #include "EdgeMesh.h"
 #include "TriangleShape.h"
 
@@ -57,7 +58,7 @@ struct Subsegment
 /// What refinement has made.
 struct RefinementResult
 {
-  std::vector<RefinedVertex> Vertices;
+  Array<RefinedVertex> Vertices; ///< In the memory of the host.
   std::vector<Subsegment> Segments; ///< First those that there were at first.
   std::vector<std::int32_t> Regions; ///< See RefinementPlan.
   std::vector<VertexId> Ends; ///< The ends of the original segments, two points each.

@@ -88,7 +88,33 @@ struct RefinementSources
       });
   }
 
+  /// Prefetches what Count or Propose will read of this source, and of earlier ones.
+  void Prefetch(std::int64_t source) const
+  {
+    this->View.PrefetchTriangle(this->GetStart(source));
+    if (source >= RefinementView::Third)
+    {
+      this->View.PrefetchCorners(this->GetStart(source - RefinementView::Second));
+      this->View.PrefetchNeighbors(this->GetStart(source - RefinementView::Third));
+    }
+  }
+
 private:
+  /// The triangle at which the search for a place, or for the triangles of a vertex, begins.
+  TriangleId GetStart(std::int64_t source) const
+  {
+    if (source < this->NumberOfItems)
+    {
+      return this->Items[source].Found.Triangle;
+    }
+    const std::int64_t number = source - this->NumberOfItems;
+    if (number < this->NumberOfVertices)
+    {
+      return this->Splits[number];
+    }
+    return static_cast<TriangleId>(number - this->NumberOfVertices);
+  }
+
   /// Calls visit(triangle) for the triangles of a source that is not an item.
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE void ForTriangles(std::int64_t source, const Visit& visit) const
@@ -154,6 +180,34 @@ private:
       return NoCorner; // the last round looks at all triangles
     }
     return MakeCorner(end.Found.Triangle, found);
+  }
+};
+
+/// Judges the triangles of a source, and counts the bad ones.
+struct JudgeSource
+{
+  RefinementSources Sources;
+
+  void Prefetch(std::int64_t i) const
+  {
+    if (i >= this->Sources.NumberOfItems)
+    {
+      this->Sources.Prefetch(i);
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t i) const { return this->Sources.Count(i); }
+};
+
+/// Proposes places for the bad triangles of a source.
+struct ProposePlaces
+{
+  RefinementSources Sources;
+  RefinementStep Step;
+
+  void Prefetch(std::int64_t i) const { this->Sources.Prefetch(i); }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t number) const
+  {
+    this->Sources.Propose(i, number, this->Step);
   }
 };
 

@@ -147,6 +147,28 @@ struct RefinementStep
     return int(wins);
   }
 
+  /// Prefetches what FindCavity will read for this item, and for earlier ones, see RefinementView.
+  void PrefetchCavity(std::int64_t i) const
+  {
+    const TriangleId triangle = this->Items[i].Found.Triangle;
+    this->View.PrefetchTriangle(triangle);
+    Prefetch(&this->Claims[triangle]);
+    if (i < RefinementView::Third)
+    {
+      return;
+    }
+    const RefinementItem& second = this->Items[i - RefinementView::Second];
+    if (this->Claims[second.Found.Triangle] == second.Key)
+    {
+      this->View.PrefetchCorners(second.Found.Triangle);
+    }
+    const RefinementItem& third = this->Items[i - RefinementView::Third];
+    if (this->Claims[third.Found.Triangle] == third.Key)
+    {
+      this->View.PrefetchNeighbors(third.Found.Triangle);
+    }
+  }
+
 private:
   /// Moves the place for a triangle to its centroid, if that helps. @returns whether it does.
   DELAUNAYFLIP_HOST_DEVICE bool MoveInside(RefinementItem& item) const

@@ -250,6 +250,36 @@ struct RefinementView
     return false;
   }
 
+  // Threads prefetch the data around a triangle in three stages. Each is found by means of the one
+  // before it, so it is prefetched some items later.
+  static constexpr std::int64_t Second = 12, Third = 22;
+
+  void PrefetchTriangle(TriangleId triangle) const
+  {
+    Prefetch(&this->Mesh.Edges.Triangles[triangle]);
+    Prefetch(&this->Shapes[triangle]);
+  }
+  void PrefetchCorners(TriangleId triangle) const
+  {
+    const TriangleRecord& record = this->Mesh.Edges.Triangles[triangle];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Mesh.PrefetchPoint(record.Vertices[slot]);
+      Prefetch(&this->Mesh.Edges.CornerOfHalfEdge[record.HalfEdges[slot] ^ 1u]);
+    }
+  }
+  void PrefetchNeighbors(TriangleId triangle) const
+  {
+    for (const HalfEdgeId side : this->Mesh.Edges.Triangles[triangle].HalfEdges)
+    {
+      const CornerId across = this->Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+      if (across != NoCorner)
+      {
+        this->PrefetchTriangle(TriangleOf(across));
+      }
+    }
+  }
+
   //------------------------------------------------------------------------------
   // Subsegments.
 

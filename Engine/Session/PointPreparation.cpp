@@ -309,15 +309,23 @@ void PreparedPoints::SetRefined(std::vector<AddedPoint> points)
 }
 
 /// Makes the points to triangulate those before refinement and these.
+/// @tparam Real the type of the caller's coordinates, and so of these.
 template <typename Real>
 void PreparedPoints::AppendTo(std::vector<Real>& coordinates, const std::vector<AddedPoint>& points)
 {
   const std::int64_t before = this->CountBeforeRefinement();
   std::vector<Real> all;
   all.reserve(2 * (before + SizeOf(points)));
-  for (std::int64_t i = 0; i < 2 * before; ++i)
+  const PlaneArray& given = this->Prepared.Points;
+  const auto* values = static_cast<const Real*>(given.Data());
+  if (given.Stride == 2)
   {
-    all.push_back(static_cast<Real>(this->Prepared.Points.Get(i / 2, static_cast<int>(i % 2))));
+    all.assign(values, values + 2 * before);
+  }
+  for (std::int64_t i = SizeOf(all) / 2; i < before; ++i)
+  {
+    all.push_back(values[given.Stride * i]);
+    all.push_back(values[given.Stride * i + 1]);
   }
   for (const AddedPoint& point : points)
   {

@@ -220,9 +220,10 @@ void PointRun::AddRefinedPoints(
     segmentOf[originOf[i]] = this->Points.GetSegments()[edge.Segment].Number;
   }
   std::vector<AddedPoint> points;
-  points.reserve(made.Vertices.size());
-  for (const RefinedVertex& vertex : made.Vertices)
+  points.reserve(made.Vertices.Size());
+  for (std::size_t i = 0; i < made.Vertices.Size(); ++i)
   {
+    const RefinedVertex& vertex = made.Vertices[i];
     AddedPoint point;
     point.X = vertex.U;
     point.Y = vertex.V;
