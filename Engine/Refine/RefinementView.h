@@ -125,9 +125,19 @@ struct RefinementView
     }
     if (isSharp)
     {
-      return this->IsAcrossSharpCorner(triangle, shape) ? ShapeKind::Left : ShapeKind::Bad;
+      const bool isLeft = this->IsTiny(shape) || this->IsAcrossSharpCorner(triangle, shape);
+      return isLeft ? ShapeKind::Left : ShapeKind::Bad;
     }
     return ShapeKind::Good;
+  }
+
+  /// Whether the shortest edge of a triangle has only a few roundings. Places near it are rounded so
+  /// much that angles there need not get better, and refinement might not end.
+  DELAUNAYFLIP_HOST_DEVICE bool IsTiny(const TriangleShape& shape) const
+  {
+    constexpr double Few = 32.0;
+    const double least = Few * this->GetRounding(shape.From);
+    return shape.SquaredShortest < least * least;
   }
 
   /// Judges a triangle if it has changed, and requests that its subsegments are split if the

@@ -572,6 +572,26 @@ TEST(Refine, PointsWithinRoundingOfSegments)
   EXPECT_GT(2000, split.Result.Report.FromPoints.RefinementPoints);
 }
 
+/// A corner is one rounding beyond another segment, so triangles there cannot get good angles,
+/// however many points are added.
+TEST(Refine, CornersWithinRoundingOfCrossingsEnd)
+{
+  Drawing drawing;
+  drawing.AddRing({ { -10, -10 }, { 10, -10 }, { 10, 10 }, { -10, 10 } });
+  drawing.Points.insert(drawing.Points.end(),
+    { { 9.6, -9.6 }, { 9.6, 9.6 }, { 3.5596747752497691, 2.5862551100868818 },
+      { std::nextafter(9.6, 10.0), 0.0 }, { 3.3978713763747788, -2.4686980596283883 } });
+  drawing.Segments.insert(drawing.Segments.end(), { { 4, 5 }, { 6, 7 }, { 7, 8 } });
+  drawing.Rings.insert(drawing.Rings.end(), 3, -1);
+  PointOptions options;
+  options.MinimumAngle = 30.0;
+  options.SplitCrossings = true;
+  options.PointLimit = 5000;
+  const Refined refined = ExpectRefined(drawing, options);
+  EXPECT_GT(1000, refined.Result.Report.FromPoints.RefinementPoints);
+  EXPECT_GT(20, refined.Result.Report.FromPoints.UnrefinedTriangles);
+}
+
 /// Random segments that cross, meet and touch, with sharp corners between them.
 TEST(Refine, RandomSegments)
 {
