@@ -365,7 +365,8 @@ private:
 void ExpectGoals(const RefinementCase& drawn, const Outcome& before, const Outcome& after)
 {
   constexpr double Rounding = 1e-7;
-  constexpr double TooShort = 1e-12; // angles at such edges have no good digits
+  constexpr double TooShort =
+    3e-12; // 1024 roundings of the coordinates; see RefinementStep::IsShort
   const SharpCorners corners(before, after);
   const PointOptions& options = drawn.Options;
   std::map<std::int32_t, double> areas; // by label; each seed has its own
