@@ -115,9 +115,9 @@ constexpr DefectWords AllWords[] = {
     "region seeds outside of all triangles" },
   { Kind::TrianglesNotRefined, DefectIds::Triangles,
     "triangle that is not as good as wanted: segments meet there at a small angle or must not be "
-    "split, or refinement ended before",
+    "split, points are within rounding of a line, or refinement ended before",
     "triangles that are not as good as wanted: segments meet there at a small angle or must not be "
-    "split, or refinement ended before" },
+    "split, points are within rounding of a line, or refinement ended before" },
   { Kind::PointLimitReached, DefectIds::Points,
     "point is there, so refinement has ended: PointLimit allows no more",
     "points are there, so refinement has ended: PointLimit allows no more" },

@@ -112,7 +112,7 @@ struct RefinementStep
     item.Place = this->View.FindSplit(segment);
     const bool isShort = this->IsShort(item);
     const bool isBetween =
-      IsFinite(item.Place) && this->View.IsEncroached(this->View.GetSide(segment), item.Place);
+      IsFinite(item.Place) && this->View.IsInCircle(this->View.GetSide(segment), item.Place);
     const bool fits = isBetween && (this->FitsBoth(item) || (!isShort && this->MoveBeside(item)));
     item.SquaredRadius = TriangleShape::GetSquaredDistance(
       item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
@@ -271,8 +271,7 @@ private:
         }
         if (mesh.IsFixed(side))
         {
-          const bool isNear =
-            this->View.IsEncroached(side, item.Place) && this->View.CanSplit(side);
+          const bool isNear = this->View.IsInCircle(side, item.Place) && this->View.CanSplit(side);
           if (isNear)
           {
             this->View.Request(side);
@@ -338,7 +337,7 @@ private:
       const double along = Shift * (shift % 2 == 0 ? shift / 2 : -(shift + 1) / 2);
       item.Place = this->View.Round({ place.U + along * (b.U - a.U) + u * rounding,
         place.V + along * (b.V - a.V) + v * rounding, 0.0 });
-      fits = this->View.IsEncroached(side, item.Place) && this->FitsBoth(item);
+      fits = this->View.IsInCircle(side, item.Place) && this->FitsBoth(item);
     }
     return fits;
   }

@@ -125,19 +125,18 @@ struct RefinementView
     }
     if (isSharp)
     {
-      const bool isLeft = this->IsTiny(shape) || this->IsAcrossSharpCorner(triangle, shape);
+      const bool isLeft = this->IsFlat(shape) || this->IsAcrossSharpCorner(triangle, shape);
       return isLeft ? ShapeKind::Left : ShapeKind::Bad;
     }
     return ShapeKind::Good;
   }
 
-  /// Whether the shortest edge of a triangle has only a few roundings. Places near it are rounded so
-  /// much that angles there need not get better, and refinement might not end.
-  DELAUNAYFLIP_HOST_DEVICE bool IsTiny(const TriangleShape& shape) const
+  /// Whether the height of a triangle is only a few roundings. Places near it are rounded so much
+  /// that angles there need not get better, and refinement might not end.
+  DELAUNAYFLIP_HOST_DEVICE bool IsFlat(const TriangleShape& shape) const
   {
-    constexpr double Few = 32.0;
-    const double least = Few * this->GetRounding(shape.From);
-    return shape.SquaredShortest < least * least;
+    const double least = this->GetLeastHeight(shape.From);
+    return shape.Cross * shape.Cross < least * least * shape.SquaredLongest;
   }
 
   /// Judges a triangle if it has changed, and requests that its subsegments are split if the
@@ -294,11 +293,27 @@ struct RefinementView
   // Subsegments.
 
   /// Whether a place is inside the diametral circle of an edge.
-  DELAUNAYFLIP_HOST_DEVICE bool IsEncroached(HalfEdgeId side, const PlanePoint& place) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(HalfEdgeId side, const PlanePoint& place) const
   {
     const PlanePoint a = this->Mesh.GetPoint(this->Mesh.GetStart(side));
     const PlanePoint b = this->Mesh.GetPoint(this->Mesh.GetEnd(side));
     return (a.U - place.U) * (b.U - place.U) + (a.V - place.V) * (b.V - place.V) < 0.0;
+  }
+
+  /// Whether a vertex encroaches upon an edge: it is inside the diametral circle, but not within a
+  /// few roundings of the edge. Two segments so near to each other would split each other until
+  /// their pieces are as short.
+  DELAUNAYFLIP_HOST_DEVICE bool IsEncroached(HalfEdgeId side, const PlanePoint& place) const
+  {
+    if (!this->IsInCircle(side, place))
+    {
+      return false;
+    }
+    const PlanePoint a = this->Mesh.GetPoint(this->Mesh.GetStart(side));
+    const PlanePoint b = this->Mesh.GetPoint(this->Mesh.GetEnd(side));
+    const double cross = (a.U - place.U) * (b.V - place.V) - (a.V - place.V) * (b.U - place.U);
+    const double least = this->GetLeastHeight(place);
+    return cross * cross >= least * least * TriangleShape::GetSquaredDistance(a, b);
   }
 
   /// Returns a half-edge of a subsegment that has a triangle.
@@ -413,6 +428,14 @@ struct RefinementView
   {
     const double u = std::fabs(place.U), v = std::fabs(place.V);
     return (u > v ? u : v) * (this->AreFloats ? 0x1p-23 : 0x1p-52);
+  }
+
+  /// The height of triangles below which they are left as they are. Points in single precision may
+  /// be only a few roundings from each other, such as those of a scan with large coordinates.
+  DELAUNAYFLIP_HOST_DEVICE double GetLeastHeight(const PlanePoint& place) const
+  {
+    constexpr double OfFloats = 4.0, OfDoubles = 32.0; // in roundings
+    return (this->AreFloats ? OfFloats : OfDoubles) * this->GetRounding(place);
   }
 
   /// A place in the precision of the others.

@@ -592,6 +592,34 @@ TEST(Refine, CornersWithinRoundingOfCrossingsEnd)
   EXPECT_GT(20, refined.Result.Report.FromPoints.UnrefinedTriangles);
 }
 
+/// Points that divide a slanted edge of an outline are within rounding of the hull. Segments there
+/// must not split those of the hull, and the other way round, until they are as short.
+TEST(Refine, PointsAlongTheHullEnd)
+{
+  for (const bool hasSegments : { true, false })
+  {
+    Places corners = { { 0.0, 10.0 } };
+    for (int i = 0; i <= 20; ++i)
+    {
+      corners.push_back({ 0.7 * i, 0.1 * i });
+    }
+    Drawing drawing;
+    drawing.Points = corners;
+    const auto count = static_cast<std::int64_t>(corners.size());
+    for (std::int64_t i = 0; i < count && hasSegments; ++i)
+    {
+      drawing.Segments.push_back({ i, (i + 1) % count });
+      drawing.Rings.push_back(-1);
+    }
+    PointOptions options;
+    options.MinimumAngle = 25.0;
+    options.PointLimit = 5000;
+    const Refined refined = ExpectRefined(drawing, options);
+    EXPECT_GT(100, refined.Result.Report.FromPoints.RefinementPoints);
+    EXPECT_GT(50, refined.Result.Report.FromPoints.UnrefinedTriangles);
+  }
+}
+
 /// Random segments that cross, meet and touch, with sharp corners between them.
 TEST(Refine, RandomSegments)
 {
