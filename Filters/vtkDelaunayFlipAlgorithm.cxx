@@ -27,8 +27,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace delaunayflip;
 using Asked = vtkStreamingDemandDrivenPipeline;
@@ -289,6 +292,43 @@ const char* vtkDelaunayFlipAlgorithm::GetBackendUsed() const
 const FlipReport& vtkDelaunayFlipAlgorithm::GetReport() const { return *this->Report; }
 
 //------------------------------------------------------------------------------
+/// The outputs change whenever one of the inputs does. VTK passes on the times of the first alone.
+int vtkDelaunayFlipAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  std::set<double> times;
+  double range[2] = { std::numeric_limits<double>::infinity(),
+    -std::numeric_limits<double>::infinity() };
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformation* info = inputVector[port]->GetInformationObject(0);
+    if (info && info->Has(Asked::TIME_STEPS()))
+    {
+      const double* steps = info->Get(Asked::TIME_STEPS());
+      times.insert(steps, steps + info->Length(Asked::TIME_STEPS()));
+    }
+    if (info && info->Has(Asked::TIME_RANGE()))
+    {
+      range[0] = std::min(range[0], info->Get(Asked::TIME_RANGE())[0]);
+      range[1] = std::max(range[1], info->Get(Asked::TIME_RANGE())[1]);
+    }
+  }
+  const std::vector<double> steps(times.begin(), times.end());
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkInformation* info = outputVector->GetInformationObject(port);
+    if (!steps.empty())
+    {
+      info->Set(Asked::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
+    }
+    if (range[0] <= range[1])
+    {
+      info->Set(Asked::TIME_RANGE(), range, 2);
+    }
+  }
+  return 1;
+}
+
 /// Points are wanted whole, and a piece of a mesh may need any of the second input. But an
 /// algorithm upstream of both inputs cannot make a piece for one and all for the other.
 int vtkDelaunayFlipAlgorithm::RequestUpdateExtent(

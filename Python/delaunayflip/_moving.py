@@ -98,7 +98,8 @@ class MovingTriangulation(Handle):
         try:
             yield
         except _library.InvalidMesh as error:
-            error.args = (self._first.explain(str(error), error.ring), *error.args[1:])
+            text = self._first.explain(str(error), error.ring).replace(_ADVICE, "")
+            error.args = (text, *error.args[1:])
             raise
 
     def _describe(self, handle):

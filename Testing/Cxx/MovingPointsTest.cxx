@@ -9,6 +9,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDelaunayFlipInterpolator.h"
 #include "vtkDelaunayFlipPoints.h"
 #include "vtkFloatArray.h"
 #include "vtkInformation.h"
@@ -26,6 +27,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace
 {
@@ -359,6 +361,39 @@ TEST(MovingPoints, GoOnAfterAnAbort)
     filter->Modified();
     EXPECT_EQ(Update(filter) > 0.0, size < 1.0);
   }
+}
+
+/// The first input has no time steps, but the other one has.
+TEST(MovingPoints, OtherInputsHaveTimes)
+{
+  vtkNew<MovingSource> source;
+  source->Make = []
+  {
+    Mesh cloud = MakeCloud();
+    AddNumbers(cloud->GetPointData(), "n", cloud->GetNumberOfPoints(), 0);
+    return cloud;
+  };
+  const Mesh places = MakeCloud(50);
+  vtkNew<vtkDelaunayFlipInterpolator> interpolator;
+  interpolator->SetInputData(places);
+  interpolator->SetSourceConnection(source->GetOutputPort());
+  std::vector<double> values;
+  for (const double time : { 0.0, 2.0, 0.0 })
+  {
+    interpolator->UpdateTimeStep(time);
+    auto* output = vtkPolyData::SafeDownCast(interpolator->GetOutputDataObject(0));
+    ASSERT_NE(output, nullptr);
+    values.push_back(output->GetPointData()->GetArray("n")->GetTuple1(7));
+  }
+  EXPECT_NE(values[1], values[0]);
+  EXPECT_EQ(values[2], values[0]);
+
+  PointsFilter filter(MakeCloud(30));
+  filter->SetInputConnection(1, source->GetOutputPort());
+  filter->UpdateTimeStep(0.0);
+  const double before = filter->GetOutput()->GetBounds()[0];
+  filter->UpdateTimeStep(2.0);
+  EXPECT_NE(filter->GetOutput()->GetBounds()[0], before);
 }
 
 TEST(MovingPoints, KeepTheSessionWhereThereIsTime)
