@@ -170,8 +170,8 @@ class SphereInterpolator(Interpolator):
     are on less than half of the sphere, everything beyond them; and what outlines and holes remove. Values
     at poles and at 180 degrees are like all others.
 
-    Values and places may be arrays in the memory of a GPU, as for `LinearInterpolator`. Do not change the arrays of points and values as long as you use it. Threads
-    may share an interpolator; they take turns.
+    Values and places may be arrays in the memory of a GPU, as for `LinearInterpolator`. Do not change the
+    arrays of points and values as long as you use it. Threads may share an interpolator; they take turns.
 
     Args:
         points: As for `triangulate_sphere`.
