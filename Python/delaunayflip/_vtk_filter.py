@@ -152,6 +152,22 @@ class Filter(VTKPythonAlgorithmBase):
             outInfo.GetInformationObject(1).Set(vtkDataObject.DATA_OBJECT(), vtkTable())
         return 1
 
+    def RequestInformation(self, request, inInfo, outInfo):
+        """The outputs change whenever one of the inputs does. VTK passes on the times of the first alone."""
+        asked = vtkStreamingDemandDrivenPipeline
+        given = [info for info in (vector.GetInformationObject(0) for vector in inInfo) if info is not None]
+        times = sorted({info.Get(asked.TIME_STEPS(), i) for info in given
+                        for i in range(info.Length(asked.TIME_STEPS()))})
+        ranges = [info.Get(asked.TIME_RANGE()) for info in given if info.Has(asked.TIME_RANGE())]
+        for port in range(self.GetNumberOfOutputPorts()):
+            info = outInfo.GetInformationObject(port)
+            if times:
+                info.Set(asked.TIME_STEPS(), times, len(times))
+            if ranges:
+                first, last = zip(*ranges)
+                info.Set(asked.TIME_RANGE(), (min(first), max(last)), 2)
+        return 1
+
     def RequestUpdateExtent(self, request, inInfo, outInfo):
         """Points are wanted whole, and a piece of a mesh may need any of the second input. But an
         algorithm upstream of both inputs cannot make a piece for one and all for the other."""

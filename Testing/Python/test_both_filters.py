@@ -24,10 +24,12 @@ from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator as Python
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import VTK_DOUBLE_MAX, vtkIdList, vtkObject, vtkPoints
 from vtkmodules.vtkCommonDataModel import (
     vtkImageData, vtkMultiBlockDataSet, vtkPartitionedDataSet,
     vtkPartitionedDataSetCollection, vtkPolyData, vtkRectilinearGrid, vtkTable)
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkFiltersCore import vtkAppendPolyData
 
 from test_vtk_delaunay_flip import (
@@ -176,6 +178,31 @@ def run(kind, data, prepare=lambda flip: None):
                     for name in ANSWERS if hasattr(kind, name)}}
 
 
+class MovingSource(VTKPythonAlgorithmBase):
+    """Points with data and triangles, which move by their time. It has time steps if there are any."""
+
+    def __init__(self, times):
+        super().__init__(nInputPorts=0, outputType="vtkPolyData")
+        self._times = times
+
+    def RequestInformation(self, request, inInfo, outInfo):
+        info, asked = outInfo.GetInformationObject(0), vtkStreamingDemandDrivenPipeline
+        if self._times:
+            info.Set(asked.TIME_STEPS(), self._times, len(self._times))
+            info.Set(asked.TIME_RANGE(), (self._times[0], self._times[-1]), 2)
+        return 1
+
+    def RequestData(self, request, inInfo, outInfo):
+        info, asked = outInfo.GetInformationObject(0), vtkStreamingDemandDrivenPipeline.UPDATE_TIME_STEP()
+        mesh = make_bad_mesh()
+        if self._times and info.Has(asked):
+            vtk_to_numpy(mesh.GetPoints().GetData())[:, 0] += 0.01 * info.Get(asked)
+        mesh.SetLines(make_cells([(0, 1), (1, 2)]))
+        add_array(mesh.GetPointData(), "x", vtk_to_numpy(mesh.GetPoints().GetData())[:, 0])
+        vtkPolyData.GetData(outInfo, 0).ShallowCopy(mesh)
+        return 1
+
+
 class Pair:
     """A class in C++ and that in Python."""
 
@@ -199,6 +226,31 @@ class Pair:
             value = getattr(cxx, name)
             if isinstance(value, int):
                 self.assertEqual(getattr(python, name), value, name)
+
+    def test_times(self):
+        """The outputs have the times of all inputs, and change with each of them."""
+        steps, span = (getattr(vtkStreamingDemandDrivenPipeline, name)() for name in ("TIME_STEPS", "TIME_RANGE"))
+        for given in (((0.0, 1.0), ()), ((), (0.0, 2.0)), ((0.0, 1.0), (-1.0, 1.0, 3.0)), ((), ())):
+            expected, told = sorted({*given[0], *given[1]}), []
+            for kind in self.kinds:
+                filter_, told_here = kind(), []
+                sources = [MovingSource(times) for times in given]
+                for port, source in enumerate(sources):
+                    filter_.SetInputConnection(port, source.GetOutputPort())
+                filter_.UpdateInformation()
+                for port in range(2):
+                    info = filter_.GetOutputInformation(port)
+                    self.assertEqual([info.Get(steps, i) for i in range(info.Length(steps))], expected)
+                    self.assertEqual(
+                        list(info.Get(span)) if info.Has(span) else [], expected[:1] + expected[-1:])
+                for time in expected:
+                    filter_.UpdateTimeStep(time)
+                    output = filter_.GetOutputDataObject(0)
+                    told_here.append((output.GetBounds(), read_mesh(output)))
+                for i in range(1, len(told_here)):
+                    self.assertNotEqual(told_here[i - 1], told_here[i])
+                told.append(told_here)
+            self.assertEqual(*told)
 
     def test_names_of_numbers(self):
         """Field data has names of the report, in upper camel case."""
