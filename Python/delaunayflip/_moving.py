@@ -41,7 +41,8 @@ class MovingTriangulation(Handle):
     are first read after a change. An array that was read before does not change.
 
     It does one thing at a time: during a call, observers and other threads that use it get RuntimeError.
-    It is a context manager; leaving it frees the engine's memory.
+    It is a context manager; leaving it frees the engine's memory. Warnings come when a change is
+    complete. So if they are turned into errors, the change stays nevertheless.
 
     Args:
         points: (n, 2) or (n, 3) float32 or float64; z is ignored. They are copied, except on a GPU, where
@@ -129,8 +130,8 @@ class MovingTriangulation(Handle):
             points: The new places, (n, 2) or (n, 3), or as many as ids. They are copied, in the precision
                 of the first points. On a GPU they must have that precision and stay unchanged until the
                 next `move`; if points were removed, call `compact` before.
-            ids: (k,) integers, with points in the host's memory. If an id is given twice, its last place
-                counts.
+            ids: (k,) integers, with points in the host's memory, or a mask of all points, (n,) booleans. If
+                an id is given twice, its last place counts.
             progress: Called first, and while points are triangulated anew; returning False stops it.
 
         Raises:
@@ -151,8 +152,8 @@ class MovingTriangulation(Handle):
         number = None if ids is None else address(ids)
         with self._change() as handle, observe(progress) as callbacks:
             _library.call("move_points", handle, given.struct, number, callbacks)
-        if ids is None:
-            self._given = given  # keeps arrays on a GPU
+            if ids is None:
+                self._given = given  # keeps arrays on a GPU
 
     def insert(self, points: Numbers, *, progress: Optional[Progress] = None) -> Array:
         """Inserts points, (k, 2) or (k, 3). Returns their ids, (k,) int64, which follow the others.
@@ -181,6 +182,9 @@ class MovingTriangulation(Handle):
     def remove(self, ids: Numbers, *, progress: Optional[Progress] = None) -> None:
         """Removes points. The others keep their ids. A removed point is no longer used, and later moves do
         not bring it back. It counts among all points until `compact`.
+
+        Args:
+            ids: (k,) integers, or a mask of all points, (n,) booleans.
 
         Raises:
             As for `move`.
@@ -237,11 +241,23 @@ class MovingTriangulation(Handle):
                 report = dataclasses.replace(report, defects=self._describe(handle)[0])
             return report
 
-    @staticmethod
-    def _read_ids(ids):
-        ids = numpy.asarray(_arrays.to_host(ids))
-        if ids.ndim != 1 or (ids.dtype.kind not in "iu" and ids.size):
-            raise ValueError(f"ids must be integers of shape (k,), not {ids.dtype} of shape {ids.shape}")
+    def _read_ids(self, ids):
+        """The ids of points as the engine takes them, (k,) int64."""
+        ids = _arrays.as_array("ids", _arrays.to_host(ids))
+        if ids.dtype.kind == "b" and ids.size:
+            if ids.shape != (len(self),):
+                raise ValueError(f"a mask of all points must have the shape ({len(self)},), not {ids.shape}")
+            ids = numpy.flatnonzero(ids)
+        are_integers = ids.dtype.kind in "iu" or all(isinstance(id_, int) for id_ in ids.flat)
+        if ids.ndim != 1 or not are_integers:
+            raise ValueError(
+                f"ids must be integers of shape (k,), or booleans of shape ({len(self)},), not {ids.dtype} of "
+                f"shape {ids.shape}")
+        if ids.dtype.kind in "uO":  # some may not fit int64
+            wrong = ids[(ids < 0) | (ids >= len(self))]
+            if wrong.size:
+                raise _library.InvalidOptions(
+                    f"point {wrong[0]} does not exist; there are {len(self):,} points")
         return numpy.ascontiguousarray(ids, dtype=numpy.int64)
 
     @contextlib.contextmanager

@@ -157,7 +157,8 @@ class Handle:
         self._handle, self._lock = ctypes.c_void_p(), threading.Lock()
 
     def __enter__(self: _Self) -> _Self:
-        return self
+        with self._open():
+            return self
 
     def __exit__(self, *_: Any) -> None:
         self.close()

@@ -936,6 +936,9 @@ class Session(unittest.TestCase):
         for use in (session.advance, lambda: session.triangles, lambda: session.report):
             with self.assertRaisesRegex(ValueError, "closed"):
                 use()
+        with self.assertRaisesRegex(ValueError, "the session is closed"):
+            with session:
+                self.fail("nothing can be done with it")
 
     def test_it_does_one_thing_at_a_time(self):
         points, triangles = sheared_lattice(60)

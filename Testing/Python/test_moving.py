@@ -173,8 +173,16 @@ class Moving(unittest.TestCase):
                             ([[0.0, 0.0]], [0.5])):
             with self.assertRaises(ValueError):
                 mesh.move(points, ids)
-        with self.assertRaisesRegex(InvalidOptions, "point 2000 does not exist; there are 2,000 points"):
-            mesh.remove([2000])
+        for wrong in (2000, -1, 2**63 - 1, 2**64 - 1, 2**70, -2**70):
+            for ids in ([wrong], numpy.array([wrong]), numpy.array([3, wrong], dtype=object)):
+                told = f"point {wrong} does not exist; there are 2,000 points"
+                with self.assertRaisesRegex(InvalidOptions, told):
+                    mesh.remove(ids)
+                with self.assertRaisesRegex(InvalidOptions, told):
+                    mesh.move(self.points[:len(ids)], ids)
+        for mask in ([True, False], numpy.ones((2000, 1), dtype=bool)):
+            with self.assertRaisesRegex(ValueError, r"a mask of all points must have the shape \(2000,\), not"):
+                mesh.remove(mask)
         with self.assertRaises(TypeError):
             pickle.dumps(mesh)
         self.expect(mesh, self.points)
@@ -182,6 +190,44 @@ class Moving(unittest.TestCase):
         mesh.close()
         with self.assertRaisesRegex(ValueError, "closed"):
             mesh.move(self.points)
+        with self.assertRaisesRegex(ValueError, "the triangulation is closed"):
+            with mesh:
+                self.fail("nothing can be done with it")
+
+    def test_masks(self):
+        """Booleans choose points, as in NumPy."""
+        points = self.points
+        with MovingTriangulation(points) as mesh:
+            left = points[:, 0] < 0.25
+            points[left] += 1e-4
+            mesh.move(points[left], left)
+            self.expect(mesh, points)
+            mesh.remove(left)
+            points[left] = numpy.nan
+            self.expect(mesh, points)
+            mesh.remove(numpy.zeros(2000, dtype=bool))
+            self.expect(mesh, points)
+            mesh.remove(numpy.ones(2000, dtype=bool))
+            self.assertEqual(len(mesh.triangles), 0)
+
+    def test_warnings_that_are_errors(self):
+        """The change is complete before it is told of."""
+        points = numpy.array([[0.0, 0.0], [4.0, 0.0], [0.0, 1.0], [4.0, 1.0], [2.0, 2.0], [2.0, -1.0]])
+        segments = [[0, 1], [2, 3]]
+        with MovingTriangulation(points, segments) as mesh, warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for points[2, 1], is_told in ((-0.5, True), (-0.25, False), (1.0, False), (-0.5, True)):
+                if is_told:
+                    with self.assertRaisesRegex(UserWarning, "crosses segment 0"):
+                        mesh.move(points)
+                else:
+                    mesh.move(points)
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    expected = triangulate(points, segments)
+                self.assertEqual(list_triangles(mesh), list_triangles(expected))
+                self.assertEqual(mesh.segments.tolist(), expected.segments.tolist())
+                self.assertEqual(mesh._given.points.tolist(), points.tolist())
 
     def test_one_thing_at_a_time(self):
         with MovingTriangulation(self.points) as mesh:
