@@ -127,10 +127,7 @@ constexpr DefectWords AllWords[] = {
     "points inside of the convex hull of the others, not used: they are not on the sphere, or "
     "rounding has put them inside" },
   { Kind::PointsInOnePlane, DefectIds::Points,
-    "point without a triangle: there are fewer than four places, or all are in one plane, "
-    "except for rounding",
-    "points without a triangle: there are fewer than four places, or all are in one plane, "
-    "except for rounding" },
+    "point without a triangle: ", "points without a triangle: " },
   { Kind::SegmentsInside, DefectIds::PointPairs,
     "segment that ends at a point inside of the convex hull",
     "segments that end at a point inside of the convex hull" },

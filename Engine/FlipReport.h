@@ -131,7 +131,7 @@ enum class DefectKind
   TrianglesNotRefined, ///< Triangles that do not reach the goals of refinement.
   PointLimitReached, ///< Refinement has reached it.
   PointsInside, ///< On a sphere: points inside of the convex hull.
-  PointsInOnePlane, ///< On a sphere: there are fewer than four places, or all are in one plane.
+  PointsInOnePlane, ///< On a sphere: no points have triangles; Detail says why.
   SegmentsInside, ///< On a sphere: an end is inside of the convex hull.
   RegionSeedsRepeated, ///< In the same part as an earlier one, with another label or area.
   OptionsWithoutGoal, ///< Options of refinement, where no goal asks for it.

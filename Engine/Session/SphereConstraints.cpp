@@ -244,10 +244,9 @@ void SphereRun::RemoveTriangles()
   }
 }
 
-/// Drops triangles, and the edges that no other triangle has.
+/// Drops triangles, and edges of segments that no other triangle has.
 void SphereRun::DropTriangles(const std::vector<unsigned char>& isRemoved)
 {
-  std::vector<std::array<std::int32_t, 2>> sides; // of triangles that are kept; sorted
   std::size_t kept = 0;
   AngleSums angles;
   for (std::size_t t = 0; t < isRemoved.size(); ++t)
@@ -256,20 +255,30 @@ void SphereRun::DropTriangles(const std::vector<unsigned char>& isRemoved)
     {
       continue;
     }
-    std::array<std::int32_t, 3> ids{};
-    std::copy_n(&this->Triangles[3 * t], 3, ids.begin());
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      sides.push_back({ ids[slot], ids[(slot + 1) % 3] });
-    }
-    angles.Add(MeasureTriangle(this->Points.data(), ids.data()));
-    std::copy_n(ids.begin(), 3, &this->Triangles[3 * kept]);
+    std::copy_n(&this->Triangles[3 * t], 3, &this->Triangles[3 * kept]);
+    angles.Add(MeasureTriangle(this->Points.data(), &this->Triangles[3 * kept]));
     this->FlipCounts[kept++] = this->FlipCounts[t];
   }
   this->Triangles.resize(3 * kept);
   this->FlipCounts.resize(kept);
   this->Neighbors.clear();
   KeepAnglesAfter(angles, this->Report);
+  this->DropLostEdges();
+}
+
+/// Drops the edges that no triangle has any more.
+void SphereRun::DropLostEdges()
+{
+  if (this->Edges.empty())
+  {
+    return;
+  }
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (std::size_t corner = 0; corner < this->Triangles.size(); ++corner)
+  {
+    const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+    sides.push_back({ this->Triangles[corner], this->Triangles[next] });
+  }
   std::sort(sides.begin(), sides.end());
   const auto isLost = [&](const SphereEdge& edge)
   {

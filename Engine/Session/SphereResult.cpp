@@ -15,67 +15,66 @@
 namespace delaunayflip
 {
 
-/// Makes the triangle of three places, which is an open mesh. Nothing is made if there are more or
-/// fewer, or if they are on a great circle.
-void SphereRun::MakeOneTriangle()
-{
-  for (const std::int32_t id : this->ListActive())
-  {
-    this->States[id] = PointState::LeftOut;
-  }
-  this->MarkRepeatedLeftOut();
-  std::vector<std::int32_t> places;
-  for (std::size_t i = 0; i < this->States.size(); ++i)
-  {
-    if (this->States[i] == PointState::LeftOut)
-    {
-      this->States[i] = PointState::Used;
-      places.push_back(static_cast<std::int32_t>(i));
-    }
-  }
-  if (places.size() != 3)
-  {
-    return;
-  }
-  const int side = FindOrientation3D(
-    this->Points[places[0]], this->Points[places[1]], this->Points[places[2]], Origin);
-  if (side < 0)
-  {
-    std::swap(places[1], places[2]);
-  }
-  if (side != 0)
-  {
-    this->Triangles = places;
-    this->FlipCounts.assign(1, 0);
-    StartSums sums;
-    sums.Angles.Add(MeasureTriangle(this->Points.data(), places.data()));
-    this->ReportStart(sums);
-  }
-}
-
 /// Removes the triangles that do not face away from the origin.
 void SphereRun::OpenMesh()
 {
   if (this->Triangles.empty())
   {
-    this->MakeOneTriangle();
+    this->TriangulateOnePlane();
   }
-  std::size_t kept = 0;
-  for (std::size_t t = 0; 3 * t < this->Triangles.size(); ++t)
+  std::vector<unsigned char> isRemoved(this->Triangles.size() / 3);
+  for (std::size_t t = 0; t < isRemoved.size(); ++t)
   {
-    if (FacesOutside(this->Points, &this->Triangles[3 * t], Origin))
-    {
-      std::copy_n(&this->Triangles[3 * t], 3, &this->Triangles[3 * kept]);
-      this->FlipCounts[kept++] = this->FlipCounts[t];
-    }
+    isRemoved[t] = int(!FacesOutside(this->Points, &this->Triangles[3 * t], Origin));
   }
-  this->Opened = SizeOf(this->Triangles) / 3 - std::int64_t(kept);
-  this->Triangles.resize(3 * kept);
-  this->FlipCounts.resize(kept);
+  this->Opened = std::count(isRemoved.begin(), isRemoved.end(), 1);
   if (this->Opened > 0)
   {
-    this->Neighbors.clear();
+    this->DropTriangles(isRemoved);
   }
+}
+
+/// Triangulates points that all lie in one plane. They have a convex hull together with one more
+/// point, beyond the origin and opposite to their middle. The triangles of that point are dropped.
+/// Nothing is made if the plane passes through the origin, or if all points are in one line.
+void SphereRun::TriangulateOnePlane()
+{
+  this->LeaveOut(this->ListActive(), PointState::LeftOut);
+  this->MarkRepeatedLeftOut();
+  std::replace(this->States.begin(), this->States.end(), PointState::LeftOut, PointState::Used);
+  std::vector<PlanePoint> places;
+  for (const std::int32_t id : this->ListActive())
+  {
+    places.push_back(this->Points[id]);
+  }
+  std::sort(places.begin(), places.end(), IsFartherNorth); // for sums that depend on places alone
+  PlanePoint opposite{ 0.0, 0.0, 0.0 };
+  const auto count = static_cast<double>(places.size());
+  for (const PlanePoint& place : places)
+  {
+    opposite.U -= place.U / count;
+    opposite.V -= place.V / count;
+    opposite.W -= place.W / count;
+  }
+  const auto added = static_cast<std::int32_t>(this->Points.size());
+  this->Points.push_back(opposite);
+  this->States.push_back(PointState::Used);
+  this->UsedPoint.push_back(added);
+  this->Starts = 0;
+  this->FirstSimplex.clear();
+  this->MakeHull();
+  std::vector<unsigned char> isRemoved(this->Triangles.size() / 3);
+  for (std::size_t corner = 0; corner < this->Triangles.size(); ++corner)
+  {
+    if (this->Triangles[corner] == added)
+    {
+      isRemoved[corner / 3] = 1;
+    }
+  }
+  this->DropTriangles(isRemoved);
+  this->Points.pop_back();
+  this->States.pop_back();
+  this->UsedPoint.pop_back();
 }
 
 void SphereRun::Complete()
@@ -183,6 +182,9 @@ void SphereRun::ListUnused()
   counts.Inside = inside.Count;
   Defect inPlane(DefectKind::PointsInOnePlane);
   inPlane.Count = this->HasHull ? 0 : report.Points;
+  inPlane.Detail = this->Options.Projection == ProjectionKind::OpenSphere
+    ? "there are fewer than three places, or all are on one great circle, except for rounding"
+    : "there are fewer than four places, or all are in one plane, except for rounding";
   for (const Defect& defect : { notFinite, repeated, inside, inPlane })
   {
     AddDefect(defect, report.Defects);
@@ -239,6 +241,11 @@ std::int64_t SphereRun::FindUsed(std::int64_t point) const
 void SphereRun::StoreRegions(std::int32_t* labels)
 {
   std::fill_n(labels, this->Report.Triangles, 0);
+}
+
+std::string SphereRun::ExplainRefusal() const
+{
+  return "points of a triangulation on a sphere cannot be inserted, moved or removed";
 }
 
 }

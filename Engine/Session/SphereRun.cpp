@@ -144,6 +144,28 @@ void SphereRun::RunOnHost()
 {
   this->ReadPoints();
   this->CheckOpposite();
+  this->MakeHull();
+  if (this->Options.Projection == ProjectionKind::OpenSphere)
+  {
+    this->OpenMesh();
+  }
+  if (this->Input.NumberOfSegments + this->Input.NumberOfHoleSeeds > 0)
+  {
+    this->RequireFacesOutside();
+    this->InsertSegments();
+  }
+  this->MarkInside();
+  if (this->Input.Rings || this->Input.NumberOfHoleSeeds > 0)
+  {
+    this->RemoveTriangles();
+  }
+  this->Complete();
+}
+
+/// Makes the convex hull of the active points. Marks those that are inside. If all are in one
+/// plane, there are no triangles.
+void SphereRun::MakeHull()
+{
   while (this->Start())
   {
     const bool isConvex = this->TakeStart();
@@ -168,21 +190,6 @@ void SphereRun::RunOnHost()
       break;
     }
   }
-  if (this->Options.Projection == ProjectionKind::OpenSphere)
-  {
-    this->OpenMesh();
-  }
-  if (this->Input.NumberOfSegments + this->Input.NumberOfHoleSeeds > 0)
-  {
-    this->RequireFacesOutside();
-    this->InsertSegments();
-  }
-  this->MarkInside();
-  if (this->Input.Rings || this->Input.NumberOfHoleSeeds > 0)
-  {
-    this->RemoveTriangles();
-  }
-  this->Complete();
 }
 
 void SphereRun::ReadPoints()
@@ -585,12 +592,6 @@ ProgressObserver SphereRun::TellHalf()
     return {};
   }
   return [this, begin, half](double share) { return this->Observer(begin + half * share); };
-}
-
-//------------------------------------------------------------------------------
-std::string SphereRun::ExplainRefusal() const
-{
-  return "points of a triangulation on a sphere cannot be inserted, moved or removed";
 }
 
 }

@@ -98,6 +98,7 @@ private:
   bool StoreFromDevice(const Store& store);
   void ReportStart(const StartSums& sums);
   void ReadPoints();
+  void MakeHull();
   bool Start();
   void StartInPlane(const SpherePoints& points, const NumberedPoint& pole);
   void MarkUnplaced(std::int32_t id, const NumberedPoint& pole, const double* places);
@@ -113,8 +114,8 @@ private:
   bool LeaveOut(const std::vector<std::int32_t>& points, PointState state);
   bool HasLeftOut() const;
   bool InsertLeftOut();
-  void MakeOneTriangle();
   void OpenMesh();
+  void TriangulateOnePlane();
   void CheckSeeds() const;
   void CheckOpposite() const;
   void PrepareSegments();
@@ -126,6 +127,7 @@ private:
   void MarkInside();
   void RemoveTriangles();
   void DropTriangles(const std::vector<unsigned char>& isRemoved);
+  void DropLostEdges();
   void Complete();
   void CountSegments();
   void ListRemoved();

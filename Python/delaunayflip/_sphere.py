@@ -129,7 +129,7 @@ def triangulate_sphere(
             the rings, as GeoJSON has it; of the holes, as "nonzero".
         degrees: Whether longitudes and latitudes are in degrees, not radians, in all arguments.
         open: Leave out a triangle if its circumcircle encloses half of the sphere or more, so that points
-            on less than half of the sphere have an open mesh; three places have one triangle. Otherwise
+            on less than half of the sphere, or on one parallel, have an open mesh. Otherwise
             triangles close the mesh. Segments need points on all sides of the center, or this.
         backend, threads, device: As for `triangulate`.
         progress, on_iteration: Called with the share of the work done, 0 to 1, and at the end for each

@@ -152,6 +152,16 @@ class Sphere(unittest.TestCase):
         values = [1.0, 2.0, 3.0, 9.0]
         self.assertAlmostEqual(part.interpolate(values, [[45, 0]])[0], 1.5)
 
+    def test_one_parallel(self):
+        parallel = [[30 * i, 60] for i in range(12)]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            part = delaunayflip.triangulate_sphere(parallel, open=True)
+        self.assertEqual(part.triangles.shape, (10, 3))
+        self.assertGreaterEqual(part.locate([[0, 75]])[0], 0)
+        with self.assertWarnsRegex(UserWarning, "all are on one great circle"):
+            delaunayflip.triangulate_sphere([[30 * i, 0] for i in range(12)], open=True)
+
     def test_hints(self):
         points = make_directions(100, 9)
         mesh = delaunayflip.triangulate_sphere(points)

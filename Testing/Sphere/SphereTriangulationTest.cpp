@@ -253,6 +253,30 @@ TEST(SphereTriangulation, FindsLengthsOfAllSizes)
   EXPECT_EQ(0.0, PlaneLength(0.0, -0.0));
 }
 
+/// The smallest angle of triangles in degrees.
+double FindSmallestAngle(
+  const std::vector<Point3>& points, const std::vector<std::int32_t>& triangles)
+{
+  double smallest = 180.0;
+  for (std::size_t corner = 0; corner < triangles.size(); ++corner)
+  {
+    const std::size_t first = corner - corner % 3;
+    const Point3& at = points[triangles[corner]];
+    const Point3& next = points[triangles[first + (corner + 1) % 3]];
+    const Point3& last = points[triangles[first + (corner + 2) % 3]];
+    double dot = 0.0, square = 0.0, otherSquare = 0.0;
+    for (int i = 0; i < 3; ++i)
+    {
+      dot += (next[i] - at[i]) * (last[i] - at[i]);
+      square += (next[i] - at[i]) * (next[i] - at[i]);
+      otherSquare += (last[i] - at[i]) * (last[i] - at[i]);
+    }
+    const double cosine = std::clamp(dot / std::sqrt(square * otherSquare), -1.0, 1.0);
+    smallest = std::min(smallest, std::acos(cosine) * 180.0 / Pi);
+  }
+  return smallest;
+}
+
 TEST(SphereTriangulation, OpensPartsOfASphere)
 {
   for (const SphereFamily& family : ListSphereFamilies())
@@ -267,6 +291,8 @@ TEST(SphereTriangulation, OpensPartsOfASphere)
       closed.Report.Triangles, open.Report.Triangles + open.Report.FromPoints.LargeTriangles)
       << family.Name;
     EXPECT_EQ(closed.Report.FromPoints.Used, open.Report.FromPoints.Used) << family.Name;
+    EXPECT_NEAR(FindSmallestAngle(points, open.Triangles), open.Report.MinimumAngleAfter, 1e-4)
+      << family.Name;
   }
 }
 
@@ -417,6 +443,41 @@ TEST(SphereTriangulation, ThreePlacesMakeOneOpenTriangle)
   // A great circle encloses half of the sphere.
   const std::vector<Point3> onEquator = PlaceAll({ { 0, 0 }, { 90, 0 }, { 180, 0 } });
   EXPECT_EQ(0, Triangulate(onEquator, Projected(ProjectionKind::OpenSphere)).Report.Triangles);
+}
+
+/// Points on one parallel lie in one plane exactly: z is the same for all.
+TEST(SphereTriangulation, OneParallelMakesAnOpenPolygon)
+{
+  for (const double latitude : { 60.0, -10.0, 1e-9 })
+  {
+    std::vector<std::array<double, 2>> places;
+    for (int i = 0; i < 24; ++i)
+    {
+      places.push_back({ 15.0 * i, latitude });
+    }
+    places.push_back(places[3]);
+    std::vector<Point3> points = PlaceAll(places);
+    const SphereResult result = Triangulate(points, Projected(ProjectionKind::OpenSphere));
+    ASSERT_EQ(22, result.Report.Triangles) << latitude;
+    EXPECT_EQ(24, result.Report.FromPoints.Used);
+    EXPECT_EQ(1, result.Report.FromPoints.Repeated);
+    EXPECT_EQ(24, result.Report.Edges.Boundary);
+    EXPECT_EQ(1, result.Report.EulerCharacteristic);
+    EXPECT_EQ(1u, result.Report.Defects.size()); // the repeated point
+    EXPECT_EQ(3, result.Used[24]);
+    EXPECT_EQ(0, CountReflexEdges(points, result));
+    EXPECT_NEAR(FindSmallestAngle(points, result.Triangles), result.Report.MinimumAngleAfter, 1e-6);
+    const auto expected = ListPlaces(points, result.Triangles);
+    std::reverse(points.begin(), points.end());
+    const SphereResult again = Triangulate(points, Projected(ProjectionKind::OpenSphere));
+    EXPECT_EQ(expected, ListPlaces(points, again.Triangles));
+  }
+  const std::vector<Point3> line(30, PlaceAll({ { 10.0, 20.0 } })[0]);
+  const SphereResult none = Triangulate(line, Projected(ProjectionKind::OpenSphere));
+  EXPECT_EQ(0, none.Report.Triangles);
+  ASSERT_EQ(2u, none.Report.Defects.size());
+  EXPECT_EQ(DefectKind::PointsInOnePlane, none.Report.Defects[1].Kind);
+  EXPECT_NE(std::string::npos, none.Report.Defects[1].Detail.find("fewer than three places"));
 }
 
 TEST(SphereTriangulation, MayBeStopped)
