@@ -105,7 +105,7 @@ public:
   bool MayBeFollowed(const TriangulationRequest& request) const;
 
   /// Takes over the session of such a run and moves its points to the places of these. Nothing
-  /// happens if their coordinates have another precision.
+  /// happens if their coordinates have another precision, or if segments have other ends.
   /// @returns whether there is a session now.
   /// @throws RunAborted; then the other run is what it was. See FlipSession::Move.
   bool Follow(TriangulationRun& last);
@@ -245,7 +245,9 @@ bool TriangulationRun::MayBeFollowed(const TriangulationRequest& request) const
 bool TriangulationRun::Follow(TriangulationRun& last)
 {
   const PlaneArray& places = this->View.Points;
-  const bool isSame = (places.Floats == nullptr) == (last.View.Points.Floats == nullptr);
+  const bool isSameType = (places.Floats == nullptr) == (last.View.Points.Floats == nullptr);
+  const bool isSame = isSameType && places.Count == last.View.Points.Count &&
+    this->Segments.Ends == last.Segments.Ends && this->Segments.Rings == last.Segments.Rings;
   if (!isSame)
   {
     return false;
@@ -258,8 +260,14 @@ bool TriangulationRun::Follow(TriangulationRun& last)
     throw RunAborted();
   }
   this->Session = std::move(last.Session);
+  this->Segments.Ends.swap(last.Segments.Ends); // which the session has views of
+  this->Segments.Rings.swap(last.Segments.Rings);
+  this->View.Segments = this->Segments.Ends.data();
+  this->View.Rings = this->Segments.Rings.data();
   const FlipReport& report = this->Session->GetReport();
-  this->IsFollowing = report.FromPoints.MoveRounds > 0 && report.Triangles == triangles;
+  this->IsFollowing = report.FromPoints.MoveRounds > 0 && report.Triangles == triangles &&
+    this->Points->GetNumberOfPoints() == this->Given->GetNumberOfPoints() &&
+    this->Segments.Ends.empty();
   return true;
 }
 

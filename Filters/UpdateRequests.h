@@ -53,13 +53,14 @@ struct TriangulationRequest : UpdateRequest
 {
   bool HasWork() const override;
 
-  /// If the last run was kept, and the points of this request are as many, their triangulation
-  /// follows them to their places, and the run goes on with it.
+  /// If the last run was kept, and the points of this request are as many, with segments between
+  /// the same ones, their triangulation follows them to their places, and the run goes on with it.
   bool ContinueOrStart(std::unique_ptr<UpdateRun>& run) const override;
 
   bool IsRefined() const;
 
-  /// Whether the points alone decide about the triangles. Only then KeepsRun is allowed.
+  /// Whether the points and the segments between them alone decide about the triangles. Only then
+  /// KeepsRun is allowed.
   bool IsPlain() const;
 
   vtkMTimeType InputTime = 0; ///< When the dataset with the points was modified.

@@ -269,9 +269,10 @@ bool TriangulationRequest::IsPlain() const
 {
   const PointOptions& options = this->Options;
   const bool hasSegments = this->Others || this->Input->GetNumberOfLines() > 0;
+  const bool addsPoints = this->IsRefined() || (options.SplitCrossings && hasSegments);
   const bool leavesOut =
     options.PointTolerance > 0.0 || options.Alpha > 0.0 || options.LongestEdge > 0.0;
-  return !hasSegments && !this->IsRefined() && !leavesOut && options.MaximumIterations < 0 &&
+  return !addsPoints && !leavesOut && options.MaximumIterations < 0 &&
     options.Projection == ProjectionKind::Plane;
 }
 

@@ -331,19 +331,21 @@ public:
   /**
    * Whether the triangulation is kept for the next update. If only points have moved then, it
    * follows them: the points walk to their places and edges flip, which takes a fraction of the
-   * time if they move by up to about a tenth of their distances. Point data and the number of
-   * iterations do not matter. The output is that of a new filter, with the same triangles in the
-   * same order, except for the iterations and flips; MoveRounds in the field data is not 0. If many
-   * triangles would turn over, or points meet or part at one place, the points are triangulated
-   * anew, and MoveRounds is 0.
+   * time if they move by up to about a tenth of their distances. Segments move with their points:
+   * they must be between the same ones. Point data and the number of iterations do not matter. The
+   * output is that of a new filter, with the same triangles in the same order, except for the
+   * iterations and flips; MoveRounds in the field data is not 0. If many triangles would turn over,
+   * if points meet or part at one place or go through a segment, or while segments cross, the
+   * points are triangulated anew, and MoveRounds is 0.
    *
-   * AUTO (default) keeps it if the input has several time steps. ON suits points that a program
-   * moves. OFF frees the memory with the next update. The engine keeps about 150 bytes a point, on
-   * the host or on a GPU, as long as the filter lives. Triangles are then sorted by their point
-   * ids, lowest first, which takes up to a fifth of the time of a new triangulation.
+   * AUTO (default) keeps it if the first input has several time steps. ON suits points that a
+   * program moves. OFF frees the memory with the next update. The engine keeps about 150 bytes a
+   * point, on the host or on a GPU, as long as the filter lives. Triangles are then sorted by their
+   * point ids, lowest first, which takes up to a fifth of the time of a new triangulation.
    *
-   * It has no effect, and nothing is kept or sorted, with segments, regions, refinement, a sphere,
-   * Alpha, LongestEdge, PointTolerance, MaximumIterations or composite input.
+   * It has no effect, and nothing is kept or sorted, with regions, refinement, a sphere, Alpha,
+   * LongestEdge, PointTolerance, MaximumIterations, composite input, or SplitCrossings if there are
+   * segments.
    */
   enum KeepSessionType
   {

@@ -153,13 +153,19 @@ class Answers:
 
     def move_to(self, given, keywords, progress):
         """The Triangulation of another Input, after the points have moved there. It has as many points,
-        in the same precision.
+        in the same precision, and the same segments.
 
         Raises:
             Stopped: The observer has returned False, and all points are where they were.
+            InvalidMesh: A ring crosses a segment.
         """
-        with self._alone(), observe(progress) as callbacks:
-            _library.call("move_points", self._handle, given.struct, None, callbacks)
+        try:
+            with self._alone(), observe(progress) as callbacks:
+                _library.call("move_points", self._handle, given.struct, None, callbacks)
+        except _library.InvalidMesh as error:
+            error.args = (given.explain(str(error), error.ring), *error.args[1:])
+            raise
+        given.share_segments(self.given)
         self.given = given
         return self.store((given, keywords, ()))
 

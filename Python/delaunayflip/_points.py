@@ -555,6 +555,11 @@ class Input:
         self.points = self.points.copy()
         self.struct.points = address(self.points)
 
+    def share_segments(self, other):
+        """Takes the arrays of another Input with the same segments, of which a session has views."""
+        self.all_segments, self.all_rings = other.all_segments, other.all_rings
+        self.struct.segments, self.struct.rings = other.struct.segments, other.struct.rings
+
     def make_room(self, report):
         """Arrays for the triangles that a report counts and for their neighbors."""
         shape = (report.triangles, 3)

@@ -610,14 +610,16 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         except _library.Stopped:
             return self._pass(data, output, "aborted")
 
-    def _is_followed(self, cloud, segments, options):
-        """Whether the points alone decide about the triangles, and later ones may be these, moved."""
+    def _is_followed(self, cloud, options):
+        """Whether the points and the segments between them alone decide about the triangles, and later points
+        may be these, moved."""
         times, info = vtkStreamingDemandDrivenPipeline.TIME_STEPS(), self.GetInputInformation(0, 0)
         has_times = info is not None and info.Has(times) and info.Length(times) > 1
         is_wanted = (has_times, True, False)[self.keep_session]
         limits = ("alpha", "longest_edge", "point_tolerance", *GOALS)
-        return is_wanted and segments is None and len(cloud.all_segments) == 0 and not (
-            isinstance(self.GetInput(), vtkCompositeDataSet) or self._regions or self.size_array
+        adds_points = options["split_crossings"] and len(cloud.all_segments) > 0
+        return is_wanted and not (
+            adds_points or isinstance(self.GetInput(), vtkCompositeDataSet) or self._regions or self.size_array
             or any(options[name] for name in limits) or options["maximum_iterations"] >= 0
             or self.projection)
 
@@ -625,7 +627,8 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         """The Triangulation of a cloud. If the last cloud was this one before it has moved, the engine
         keeps its mesh."""
         cloud.triangle_order = "ordered_triangles"
-        asked = (*options.items(), len(cloud.points), str(cloud.points.dtype))
+        asked = (*options.items(), len(cloud.points), str(cloud.points.dtype), self.first_hole, self.ring_rule,
+                 cloud.all_segments.tobytes(), cloud.all_rings.tobytes())
         last, self._last = self._last, None
         answers = last[1] if last is not None and last[0] == asked else None
         if answers is None:
@@ -661,7 +664,7 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
             projection=self._find_projection(),
             backend={name: options[name] for name in ("backend", "threads", "device")})
         cloud.are_properties = True
-        if follows and self._is_followed(cloud, segments, options):
+        if follows and self._is_followed(cloud, options):
             result = self._follow(cloud, options, progress)
         else:
             self._last = None

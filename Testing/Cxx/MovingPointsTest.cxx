@@ -84,7 +84,8 @@ void ExpectSame(vtkAbstractArray* expected, vtkAbstractArray* actual)
 bool TellsTheWay(const std::string& name)
 {
   static const std::set<std::string> names = { "Iteration", "Tested", "NonDelaunay", "Flipped",
-    "Excluded", "Blocked", "MinimumAngle", "Seconds", "TotalFlips", "MoveRounds" };
+    "Excluded", "Blocked", "MinimumAngle", "Seconds", "TotalFlips", "ConstraintFlips",
+    "MoveRounds" };
   const std::string prefix = "DelaunayFlip:";
   return name.rfind(prefix, 0) == 0 && names.count(name.substr(prefix.size())) > 0;
 }
@@ -103,12 +104,15 @@ double Update(PointsFilter& filter, const std::function<void(PointsFilter&)>& se
   }
   vtkPolyData* expected = fresh.Run();
   EXPECT_EQ(fresh.GetWarnings().size(), filter.GetWarnings().size() - warnings);
-  EXPECT_EQ(expected->GetPoints(), actual->GetPoints());
+  const bool arePassed = fresh->GetNumberOfInputConnections(1) == 0;
+  EXPECT_EQ(expected->GetPoints() == actual->GetPoints(), arePassed);
+  ExpectSame(expected->GetPoints()->GetData(), actual->GetPoints()->GetData());
   EXPECT_EQ(GetTotal(expected, "MoveRounds"), 0.0);
   ExpectSame(
     expected->GetPolys()->GetConnectivityArray(), actual->GetPolys()->GetConnectivityArray());
   ExpectSame(expected->GetPolys()->GetOffsetsArray(), actual->GetPolys()->GetOffsetsArray());
-  EXPECT_EQ(expected->GetPointData()->GetArray("n"), actual->GetPointData()->GetArray("n"));
+  EXPECT_EQ(GetCells(expected->GetLines()), GetCells(actual->GetLines()));
+  ExpectSame(expected->GetPointData()->GetArray("n"), actual->GetPointData()->GetArray("n"));
   vtkFieldData* fields = expected->GetFieldData();
   for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
   {
@@ -254,6 +258,113 @@ TEST(MovingPoints, GiveTheOutputOfANewFilter)
   AddNumbers(cloud->GetPointData(), "n", Count, 8);
   Update(filter);
   EXPECT_TRUE(filter.GetErrors().empty());
+}
+
+/// An outline, a hole and a line, which all move with the points.
+TEST(MovingPoints, TakeSegmentsAlong)
+{
+  auto cloud = MakeCloud();
+  const auto segments =
+    MakeMesh({ { 1, 1, 0 }, { 9, 1, 0 }, { 9, 9, 0 }, { 1, 9, 0 }, { 4, 4, 0 }, { 6, 4, 0 },
+               { 6, 6, 0 }, { 4, 6, 0 }, { 2, 2, 0 }, { 8, 3, 0 } },
+      { { 0, 1, 2, 3 }, { 4, 5, 6, 7 } });
+  segments->SetLines(MakeLines({ { 8, 9 } })->GetLines());
+  const auto set = [&segments](PointsFilter& each)
+  {
+    each->SetSegmentsData(segments);
+    each->SetFirstHole(2); // the line is cell 0
+    each->PassSegmentsOn();
+  };
+  PointsFilter filter(cloud);
+  filter->SetKeepSessionToOn();
+  set(filter);
+  EXPECT_EQ(Update(filter, set), 0.0);
+  EXPECT_GT(GetTotal(filter->GetOutput(), "OutsideTriangles"), 0.0);
+  const auto move = [&](double step)
+  {
+    Shake(cloud, 0.1 * step);
+    MovePoints(segments, [step](double* x) { x[0] += step * (0.5 + 0.01 * x[1]); });
+  };
+  for (const double step : { 3e-5, 3e-5, 5e-5 })
+  {
+    move(step);
+    EXPECT_GT(Update(filter, set), 0.0) << step;
+  }
+  move(0.3); // through points
+  EXPECT_EQ(Update(filter, set), 0.0);
+  move(3e-5);
+  EXPECT_GT(Update(filter, set), 0.0);
+  EXPECT_TRUE(filter.GetErrors().empty());
+}
+
+TEST(MovingPoints, StartAgainWithOtherSegments)
+{
+  auto cloud = MakeCloud();
+  const Points ends = { { 2, 2, 0 }, { 8, 3, 0 }, { 2, 5, 0 }, { 8, 6, 0 } };
+  auto segments = MakeLines(ends, { { 0, 1 }, { 2, 3 } });
+  const auto keep = [&segments](PointsFilter& each) { each->SetSegmentsData(segments); };
+  PointsFilter filter(cloud);
+  filter->SetKeepSessionToOn();
+  keep(filter);
+  Update(filter, keep);
+  const auto expect = [&](bool isFollowed, const std::function<void(PointsFilter&)>& set)
+  {
+    Shake(cloud, 1e-5);
+    set(filter);
+    EXPECT_EQ(Update(filter, set) > 0.0, isFollowed);
+  };
+  expect(true, keep);
+  segments = MakeLines(ends, { { 0, 1 }, { 3, 2 } });
+  expect(false, keep);
+  expect(true, keep);
+  segments = MakeLines(ends, { { 2, 3 }, { 1, 0 } }); // the numbers of points are others
+  expect(false, keep);
+  expect(true, keep);
+
+  const auto split = [&segments](PointsFilter& each)
+  {
+    each->SetSegmentsData(segments);
+    each->SplitCrossingsOn();
+  };
+  filter->SplitCrossingsOn();
+  Shake(cloud, 1e-5);
+  EXPECT_EQ(GetTotal(filter.Run(), "MoveRounds"), 0.0);
+  Shake(cloud, 1e-5);
+  EXPECT_EQ(Update(filter, split), 0.0);
+  filter->SplitCrossingsOff();
+
+  // While segments cross, points are triangulated anew.
+  segments = MakeLines(ends, { { 0, 1 }, { 2, 3 } });
+  expect(false, keep);
+  const auto place = [&segments](vtkIdType point, double x, double y)
+  {
+    segments->GetPoints()->SetPoint(point, x, y, 0.0);
+    segments->GetPoints()->Modified();
+  };
+  place(3, 8.0, 2.5);
+  expect(false, keep);
+  EXPECT_EQ(filter->GetNumberOfRefusedSegments(), 1);
+  expect(false, keep);
+  place(3, 8.0, 6.0);
+  expect(false, keep);
+  EXPECT_EQ(filter->GetNumberOfRefusedSegments(), 0);
+  expect(true, keep);
+
+  // A ring that a segment crosses is an error.
+  segments->SetPolys(MakeMesh({}, { { 0, 1, 3, 2 } })->GetPolys());
+  segments->GetPoints()->InsertNextPoint(4.0, 4.0, 0.0);
+  segments->GetPoints()->InsertNextPoint(6.0, 4.0, 0.0);
+  segments->SetLines(MakeLines({ { 4, 5 } })->GetLines());
+  expect(false, keep);
+  expect(true, keep);
+  EXPECT_TRUE(filter.GetErrors().empty());
+  place(5, 9.0, 4.0);
+  filter.Run();
+  EXPECT_EQ(filter.GetErrors().size(), 1u);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPolys(), 0);
+  place(5, 6.0, 4.0);
+  expect(false, keep);
+  expect(true, keep);
 }
 
 TEST(MovingPoints, ThatMeetOrLeaveOrGetMore)
@@ -444,6 +555,32 @@ TEST(MovingPoints, InLiveUpdates)
     EXPECT_GT(GetTotal(filter->GetOutput(), "MoveRounds"), 0.0);
     EXPECT_TRUE(filter->GetConverged());
     EXPECT_FALSE(filter->GetNeedsUpdate());
+  }
+}
+
+/// Points of segments are behind those that a view draws, so the mesh is put out.
+TEST(MovingPoints, PutMeshesWithSegmentsOut)
+{
+  auto cloud = MakeCloud();
+  const auto segments = MakeLines({ { 2, 2, 0 }, { 8, 3, 0 } }, { { 0, 1 } });
+  PointsFilter filter(cloud), atOnce(cloud);
+  for (PointsFilter* each : { &filter, &atOnce })
+  {
+    (*each)->SetKeepSessionToOn();
+    (*each)->SetSegmentsData(segments);
+  }
+  filter->LiveUpdateOn();
+  RunToTheEnd(filter);
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    Shake(cloud, 1e-5);
+    EXPECT_TRUE(filter->AdvanceSession());
+    EXPECT_GT(filter->GetReport().FromPoints.MoveRounds, 0);
+    EXPECT_FALSE(filter->GetMeshIsWithheld());
+    atOnce.Run();
+    EXPECT_EQ(filter.GetPolygons(), atOnce.GetPolygons());
+    ExpectSame(
+      atOnce->GetOutput()->GetPoints()->GetData(), filter->GetOutput()->GetPoints()->GetData());
   }
 }
 

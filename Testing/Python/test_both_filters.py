@@ -782,6 +782,64 @@ class SamePoints(Pair, unittest.TestCase):
                 each.filter.SetAlpha(0.1)
             self.assertEqual(*(read_mesh(each.run()) for each in told))
 
+    def test_segments_that_move(self):
+        """Lines, an outline and a hole move with the points, and the triangulation is kept."""
+        draw = numpy.random.default_rng(3)
+        cloud = make_mesh(draw.random((900, 3)), [])
+        places = vtk_to_numpy(cloud.GetPoints().GetData())
+        corners = numpy.array([[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]])
+        lines = make_mesh(numpy.c_[numpy.concatenate([
+            corners, 0.4 + 0.2 * corners, [[0.2, 0.2], [0.8, 0.25], [0.2, 0.7], [0.8, 0.75]]]), numpy.zeros(12)],
+            [(0, 1, 2, 3), (4, 5, 6, 7)])
+        lines.SetLines(make_cells([(8, 9), (10, 11)]))
+        ends = vtk_to_numpy(lines.GetPoints().GetData())
+
+        def prepare(points):
+            points.SetKeepSessionToOn()
+            points.SetSegmentsData(lines)
+            points.SetFirstHole(3)
+            points.PassSegmentsOn()
+
+        told = [Watched(cloud, kind) for kind in self.kinds]
+        for each in told:
+            prepare(each.filter)
+
+        def expect(is_followed):
+            cloud.GetPoints().Modified()
+            lines.GetPoints().Modified()
+            lines.Modified()
+            cxx, python = (read_mesh(each.run()) for each in told)
+            self.assertEqual(cxx, python)
+            fresh = run(PythonPoints, cloud, prepare)["meshes"][0]
+            self.assertEqual(cxx[1:4], fresh[1:4])
+            rounds = dict((field[0], field[3]) for field in python[5:] if isinstance(field, tuple))
+            self.assertEqual(rounds["DelaunayFlip:MoveRounds"][0] != "0", is_followed)
+
+        expect(False)
+        for step, is_followed in ((1e-5, True), (1e-5, True), (0.05, False), (1e-5, True)):
+            places[:] += step * draw.normal(size=places.shape)
+            ends[:] += step
+            expect(is_followed)
+        for each in told:
+            each.filter.SetFirstHole(-1)  # the second ring is one of the outline
+        with unittest.mock.patch.object(PythonPoints, "SetFirstHole", lambda *_: None):
+            expect(False)
+            places[:] += 1e-6
+            expect(True)
+        ends[9], before = (0.8, 0.8, 0), ends[9].copy()  # crosses the other line, which is refused
+        with unittest.mock.patch.object(PythonPoints, "SetFirstHole", lambda *_: None):
+            expect(False)
+            ends[9] = before
+            expect(False)
+            expect(True)
+        self.assertEqual(get_text(told[0].warnings), get_text(told[1].warnings))
+        ends[9] = (0.8, 0.95, 0)  # crosses the outline
+        lines.GetPoints().Modified()
+        for each in told:
+            each.run()
+        self.assertEqual(*(get_text(each.errors) for each in told))
+        self.assertEqual(len(told[0].errors), 1)
+
     def test_segments(self):
         for own in (numpy.float32, numpy.float64):
             for other in (numpy.float32, numpy.float64):
