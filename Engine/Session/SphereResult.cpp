@@ -35,8 +35,10 @@ void SphereRun::OpenMesh()
 }
 
 /// Triangulates points that all lie in one plane. They have a convex hull together with one more
-/// point, beyond the origin and opposite to their middle. The triangles of that point are dropped.
-/// Nothing is made if the plane passes through the origin, or if all points are in one line.
+/// point, just beyond the origin and opposite to their middle. The triangles of that point are
+/// dropped. Nothing is made if the plane passes through the origin, or if all points are in one
+/// line. From so near the origin no triangle is hidden that faces away from it, also if the points
+/// are in one plane except for rounding.
 void SphereRun::TriangulateOnePlane()
 {
   this->LeaveOut(this->ListActive(), PointState::LeftOut);
@@ -49,12 +51,13 @@ void SphereRun::TriangulateOnePlane()
   }
   std::sort(places.begin(), places.end(), IsFartherNorth); // for sums that depend on places alone
   PlanePoint opposite{ 0.0, 0.0, 0.0 };
-  const auto count = static_cast<double>(places.size());
+  constexpr double Near = 0x1p-60;
+  const double share = Near / static_cast<double>(places.size());
   for (const PlanePoint& place : places)
   {
-    opposite.U -= place.U / count;
-    opposite.V -= place.V / count;
-    opposite.W -= place.W / count;
+    opposite.U -= share * place.U;
+    opposite.V -= share * place.V;
+    opposite.W -= share * place.W;
   }
   const auto added = static_cast<std::int32_t>(this->Points.size());
   this->Points.push_back(opposite);

@@ -86,7 +86,16 @@ int FindSphereSide(const Point3& a, const Point3& b, const Point3& p)
     sum += a[axis] * minor;
     magnitude += std::fabs(a[axis]) * (std::fabs(b[next] * p[last]) + std::fabs(b[last] * p[next]));
   }
-  const bool isCertain = magnitude > 1e-200 && std::fabs(sum) > 1e-14 * magnitude;
+  // A product of two coordinates may underflow, and then be multiplied by a large one.
+  double largest = 1.0;
+  for (const Point3* point : { &a, &b, &p })
+  {
+    for (const double coordinate : *point)
+    {
+      largest = std::max(largest, std::fabs(coordinate));
+    }
+  }
+  const bool isCertain = magnitude > 1e-200 * largest && std::fabs(sum) > 1e-14 * magnitude;
   if (isCertain) // nearly always, and without rational numbers
   {
     return sum > 0.0 ? 1 : -1;
