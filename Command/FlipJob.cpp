@@ -6,23 +6,21 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"
-#include "GdalModule.h"
 #include "HeightQuery.h"
-#include "InputRepair.h"
+#include "JobInput.h"
+#include "JobMessages.h"
 #include "MeshFiles.h"
 #include "OutputFiles.h"
 #include "RasterFile.h"
 #include "RoundedDigits.h"
 #include "RunReport.h"
-#include "SegmentLines.h"
 
-#include <vtkAppendPolyData.h>
 #include <vtkBoundingBox.h>
 #include <vtkCommand.h>
 #include <vtkDelaunayFlip.h>
 #include <vtkDelaunayFlipPoints.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 
@@ -138,6 +136,7 @@ public:
     : Settings(arguments),
       Files(files),
       Bar(!arguments.Quiet),
+      Messages(arguments.Quiet),
       Filter(ChooseFilter(arguments))
   {
     CollectVTKMessages();
@@ -146,47 +145,8 @@ public:
   void Read()
   {
     const auto start = Clock::now();
-    const HeightOptions& heights = this->Settings.Heights;
-    this->Input =
-      this->ReadFile(this->Settings.Input, heights.Array.empty() ? Content::Mesh : Content::Places);
-    if (this->InputHasAngles && !this->Settings.Points->GetDegrees() && !this->Settings.Quiet)
-    {
-      PrintHint(this->Settings.Input +
-        ": its points have longitudes and latitudes; --projection sphere --degrees joins them on a "
-        "globe");
-    }
-    if (!heights.Places.empty())
-    {
-      this->Places = this->ReadFile(heights.Places, Content::Rows);
-    }
-    if (this->Settings.FromPoints)
-    {
-      this->ReadSegments();
-      this->CompareCrs(heights.Crs, "--crs");
-    }
-    else if (!this->Settings.Constraints.empty())
-    {
-      const std::string& path = this->Settings.Constraints;
-      this->Segments = MakeSegments(this->ReadFile(path, Content::Segments), path, true);
-    }
-    this->Repair(this->Settings.MergePoints, MergeEqualPoints);
-    this->Repair(this->Settings.DropDuplicates, DropDuplicates);
-    this->Repair(this->Settings.Orient, Orient);
+    this->Input = ReadInput(this->Settings, this->Bar, this->Messages);
     this->Run.ReadSeconds = SecondsSince(start);
-    const bool hasTriangles =
-      this->Input->GetNumberOfPolys() + this->Input->GetNumberOfStrips() > 0;
-    if (this->Input->GetNumberOfPoints() == 0)
-    {
-      this->Note(this->Settings.Input + ": is empty: it contains no points");
-    }
-    else if (hasTriangles && this->Settings.FromPoints)
-    {
-      this->Note(this->Settings.Input + ": its triangles are not used, only its points");
-    }
-    else if (!hasTriangles && !this->Settings.FromPoints)
-    {
-      this->Note(this->Settings.Input + ": contains no triangles; --from-points makes them");
-    }
   }
 
   void Flip()
@@ -194,12 +154,12 @@ public:
     if (this->Settings.DeviationIsPercent)
     {
       this->Settings.Flip->SetMaximumDeviation(
-        this->Settings.Flip->GetMaximumDeviation() * DiagonalOf(this->Input) / 100.0);
+        this->Settings.Flip->GetMaximumDeviation() * DiagonalOf(this->Input.Mesh) / 100.0);
     }
     auto* const points = dynamic_cast<vtkDelaunayFlipPoints*>(this->Filter);
-    if (points && this->Segments)
+    if (points && this->Input.Segments)
     {
-      points->SetFirstHole(this->Segments->GetNumberOfLines() + this->OutlineRings);
+      points->SetFirstHole(this->Input.Segments->GetNumberOfLines() + this->Input.OutlineRings);
       points->ClosedLinesAsRingsOff(); // those that are rings have become polygons
     }
     this->Bar.Begin(Phase::Flipping, "finding edges");
@@ -210,14 +170,14 @@ public:
     }
     else
     {
-      this->Filter->SetInputData(0, this->Input);
-      this->Filter->SetInputData(1, this->Segments);
+      this->Filter->SetInputData(0, this->Input.Mesh);
+      this->Filter->SetInputData(1, this->Input.Segments);
     }
     this->Filter->Update();
     this->Bar.Clear();
     for (const std::string& warning : TakeVTKWarnings())
     {
-      this->Warn(this->NameRings(WithOptions(warning, this->Settings)));
+      this->Messages.Warn(this->NameRings(WithOptions(warning, this->Settings)));
     }
     this->ThrowErrors();
     this->TakeReport();
@@ -241,6 +201,7 @@ public:
 
   void Tell()
   {
+    this->Run.Warnings = this->Messages.GetWarnings();
     this->Files.Statistics.Write(MakeCsv(this->Run.Flip));
     this->Files.Report.Write(MakeJson(this->Run));
     if (!this->Settings.Quiet)
@@ -262,13 +223,13 @@ private:
     HeightOptions options = this->Settings.Heights;
     if (options.Crs.empty())
     {
-      options.Crs = this->InputCrs;
+      options.Crs = this->Input.Crs;
     }
     options.Output = this->Settings.Output;
-    this->Heights = HeightQuery::Make(options, this->Input, this->Places);
-    this->Heights->Begin(
-      this->Settings.Interpolator, SelectArray(this->Input, options.Array, this->Settings.Input));
-    this->Filter->SetInputData(2, this->Segments);
+    this->Heights = HeightQuery::Make(options, this->Input.Mesh, this->Input.Places);
+    this->Heights->Begin(this->Settings.Interpolator,
+      SelectArray(this->Input.Mesh, options.Array, this->Settings.Input));
+    this->Filter->SetInputData(2, this->Input.Segments);
   }
 
   void WriteHeights()
@@ -282,7 +243,7 @@ private:
     const bool isAscii = ExtensionOf(this->Settings.Output) == ".asc";
     for (const std::string& warning : this->Heights->ListWarnings(isAscii))
     {
-      this->Warn(this->Settings.Output + ": " + warning);
+      this->Messages.Warn(this->Settings.Output + ": " + warning);
     }
     if (isAscii)
     {
@@ -297,8 +258,9 @@ private:
     std::error_code ignored;
     if (this->Settings.Heights.Crs.empty() && std::filesystem::exists(file, ignored))
     {
-      this->Warn(file.string() + " is that of an earlier file, and programs will take it for " +
-        this->Settings.Output + ", too; remove it, or give --crs");
+      this->Messages.Warn(file.string() +
+        " is that of an earlier file, and programs will take it for " + this->Settings.Output +
+        ", too; remove it, or give --crs");
     }
   }
 
@@ -310,11 +272,11 @@ private:
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Seconds");
     mesh->GetFieldData()->RemoveArray("DelaunayFlip:Backend");
     WriteMesh(mesh, this->Files.Mesh.GetTemporary(), this->Settings.OutputFormat);
-    mesh->SetFieldData(this->Input->GetFieldData()); // what flips add is in reports
+    mesh->SetFieldData(this->Input.Mesh->GetFieldData()); // what flips add is in reports
     const std::string losses = DescribeLosses(mesh, this->Settings.OutputFormat);
     if (!losses.empty())
     {
-      this->Note(this->Settings.Output + ": this file format cannot store: " + losses);
+      this->Messages.Note(this->Settings.Output + ": this file format cannot store: " + losses);
     }
   }
 
@@ -330,136 +292,16 @@ private:
     this->Bar.Show(this->Filter->GetProgress(), text);
   }
 
-  vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, Content content = Content::Mesh)
-  {
-    this->Bar.Begin(Phase::Reading, "reading " + path);
-    const MeshFormat format = FormatOf(path);
-    const bool isInput = path == this->Settings.Input && content != Content::Segments;
-    const FileMesh file = ReadMesh(path, format, isInput ? this->Settings.Columns : "", content);
-    if (isInput)
-    {
-      this->InputCrs = file.Crs;
-      this->InputHasAngles = file.HasAngles;
-    }
-    this->Bar.Clear();
-    this->CompareCrs(file.Crs, path);
-    // The others say that they have nothing.
-    const bool mayBeEmpty =
-      format == MeshFormat::VTK || format == MeshFormat::VTP || format == MeshFormat::PLY;
-    if (file.Mesh->GetNumberOfPoints() == 0 && !mayBeEmpty)
-    {
-      throw CommandError(ExitCode::BadFile, path + ": is empty: it contains no points");
-    }
-    return this->Take(file, path);
-  }
-
-  /// Warns of a coordinate reference system that is not that of the files before.
-  /// @param where a file, or the option that names it.
-  void CompareCrs(const std::string& crs, const std::string& where)
-  {
-    const std::string difference = this->FilesCrs.Compare(crs, where);
-    if (!difference.empty())
-    {
-      this->Warn(difference);
-    }
-  }
-
-  /// The mesh, after its warnings have been told.
-  vtkSmartPointer<vtkPolyData> Take(const FileMesh& file, const std::string& path)
-  {
-    for (const std::string& warning : file.Warnings)
-    {
-      this->Warn(path + ": " + warning);
-    }
-    for (const std::string& note : file.Notes)
-    {
-      this->Note(path + ": " + note);
-    }
-    const char* const regions = this->Settings.Flip->GetRegionArray();
-    const bool hasRegions = regions != nullptr && *regions != '\0';
-    if (!file.Labels.empty() && !hasRegions && path == this->Settings.Input &&
-      !this->Settings.FromPoints)
-    {
-      this->Note(path + ": its faces have labels (" + JoinWords(file.Labels) +
-        "); --region-array " + file.Labels.front() + " keeps the edges between them");
-    }
-    return file.Mesh;
-  }
-
-  void Repair(bool isWanted, RepairedMesh (*repair)(vtkPolyData*))
-  {
-    if (isWanted)
-    {
-      const RepairedMesh repaired = repair(this->Input);
-      this->Input = this->Take(repaired.Result, this->Settings.Input);
-      this->Note(this->Settings.Input + ": " + repaired.Note);
-    }
-  }
-
-  /// Reads breaklines and rings, which become one mesh.
-  void ReadSegments()
-  {
-    const vtkNew<vtkAppendPolyData> all;
-    int mostArrays = 0;
-    const Arguments& files = this->Settings;
-    for (const std::string* file : { &files.Constraints, &files.Outline, &files.Holes })
-    {
-      const std::string& path = *file;
-      if (path.empty())
-      {
-        continue;
-      }
-      const vtkSmartPointer<vtkPolyData> mesh = this->ReadFile(path, Content::Segments);
-      TakeExactPlaces(mesh, this->Input);
-      if (mesh->GetPoints()->GetDataType() == VTK_DOUBLE &&
-        this->Input->GetPoints()->GetDataType() == VTK_FLOAT)
-      {
-        this->Note(path + ": its coordinates are rounded to floats, as those of the points are");
-      }
-      const auto segments = MakeSegments(mesh, path, file == &files.Constraints);
-      if (file == &files.Outline)
-      {
-        this->OutlineRings = segments->GetNumberOfPolys();
-      }
-      all->AddInputData(segments);
-      mostArrays = std::max(mostArrays, mesh->GetPointData()->GetNumberOfArrays());
-    }
-    if (all->GetNumberOfInputConnections(0) > 0)
-    {
-      all->Update();
-      this->Segments = all->GetOutput();
-      if (this->Segments->GetPointData()->GetNumberOfArrays() < mostArrays)
-      {
-        this->Warn("of the point data of breaklines, outline and holes, only arrays that all of "
-                   "these files have are kept");
-      }
-    }
-  }
-
-  void Warn(const std::string& warning)
-  {
-    PrintWarning(warning);
-    this->Run.Warnings.push_back(warning);
-  }
-
-  void Note(const std::string& note) const
-  {
-    if (!this->Settings.Quiet)
-    {
-      PrintNote(note);
-    }
-  }
-
   /// The file of a ring, and its name there.
   /// @param number its cell id.
   std::pair<std::string, std::string> FindRing(vtkIdType number) const
   {
-    const vtkIdType ring = number - this->Segments->GetNumberOfLines();
-    if (ring < this->OutlineRings)
+    const vtkIdType ring = number - this->Input.Segments->GetNumberOfLines();
+    if (ring < this->Input.OutlineRings)
     {
       return { this->Settings.Outline, "ring " + std::to_string(ring) };
     }
-    return { this->Settings.Holes, "ring " + std::to_string(ring - this->OutlineRings) };
+    return { this->Settings.Holes, "ring " + std::to_string(ring - this->Input.OutlineRings) };
   }
 
   /// A warning of the filter that names rings by their files.
@@ -515,19 +357,12 @@ private:
     this->Run.IsFromPoints = this->Settings.FromPoints;
     FlipReport& report = this->Run.Flip;
     report = this->Filter->GetReport();
-    this->Run.Summary = WithOptions(this->Filter->GetSummary(), this->Settings);
-    this->TellGoal();
-    this->Output->ShallowCopy(this->Input);
+    this->Output->ShallowCopy(this->Input.Mesh);
     if (!this->Heights)
     {
       this->Output->ShallowCopy(this->Filter->GetOutput());
     }
-    const bool mayRound = report.GeometryUsed == GeometryKind::Surface &&
-      report.Tolerance == "automatic" && report.NonDelaunayBefore > 0;
-    if (mayRound)
-    {
-      this->AdviseTolerance();
-    }
+    this->Run.Summary = WithOptions(Summarize(report, this->MakeNotes()), this->Settings);
     if (report.Triangles == 0)
     {
       report.Points = this->Output->GetNumberOfPoints();
@@ -537,53 +372,48 @@ private:
     }
   }
 
-  /// Puts the smallest angle that was asked for beside that of the mesh.
-  void TellGoal()
+  /// What the command knows and the filter does not.
+  SummaryNotes MakeNotes()
   {
-    constexpr int Digits = 6;
-    const double goal = this->Settings.Points->GetMinimumAngle();
-    const std::size_t line = this->Run.Summary.find("smallest angle: ");
-    if (goal > 0.0 && line != std::string::npos)
+    SummaryNotes notes;
+    notes.WantedAngle = this->Settings.Points->GetMinimumAngle();
+    const FlipReport& report = this->Run.Flip;
+    const bool mayRound = report.GeometryUsed == GeometryKind::Surface &&
+      report.Tolerance == "automatic" && report.NonDelaunayBefore > 0;
+    if (mayRound)
     {
-      const std::string text = " (asked for: " + FormatNumber(goal, Digits) + ")";
-      this->Run.Summary.insert(this->Run.Summary.find('\n', line), text);
+      notes.Hint = this->AdviseTolerance();
     }
+    return notes;
   }
 
   /// Advises one if the coordinates are rounded, and it leaves alone many of the bad edges.
-  void AdviseTolerance()
+  std::string AdviseTolerance()
   {
-    const RoundedCoordinates rounded = FindRounding(this->Input);
-    if (rounded.Tolerance > 0.0)
+    const RoundedCoordinates rounded = FindRounding(this->Input.Mesh);
+    if (rounded.Tolerance <= 0.0)
     {
-      vtkDelaunayFlip* const filter = this->Settings.Flip;
-      filter->RemoveAllObservers();
-      filter->SetTolerance(rounded.Tolerance);
-      filter->SetMaximumIterations(0);
-      filter->Update();
-      TakeVTKWarnings();
-      constexpr std::int64_t Many = 10; // a tenth
-      const std::int64_t bad = this->Run.Flip.NonDelaunayBefore;
-      const std::int64_t left = filter->GetReport().NonDelaunayBefore;
-      if (TakeVTKErrors().empty() && Many * (bad - left) >= bad)
-      {
-        const std::size_t place = this->Run.Summary.find("geometry: ");
-        this->Run.Summary.insert(place, DescribeRounding(rounded));
-      }
+      return "";
     }
+    vtkDelaunayFlip* const filter = this->Settings.Flip;
+    filter->RemoveAllObservers();
+    filter->SetTolerance(rounded.Tolerance);
+    filter->SetMaximumIterations(0);
+    filter->Update();
+    TakeVTKWarnings();
+    constexpr std::int64_t Many = 10; // a tenth
+    const std::int64_t bad = this->Run.Flip.NonDelaunayBefore;
+    const std::int64_t left = filter->GetReport().NonDelaunayBefore;
+    const bool leavesMany = TakeVTKErrors().empty() && Many * (bad - left) >= bad;
+    return leavesMany ? DescribeRounding(rounded) : "";
   }
 
   const Arguments& Settings;
   OutputFiles& Files;
   ProgressBar Bar;
-  vtkSmartPointer<vtkPolyData> Input;
-  vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
-  vtkSmartPointer<vtkPolyData> Places; ///< Where heights are wanted; or null.
+  JobMessages Messages;
+  JobInput Input;
   std::unique_ptr<HeightQuery> Heights; ///< Null: a mesh is wanted.
-  std::string InputCrs; ///< That the input's file names.
-  bool InputHasAngles = false; ///< It calls x and y longitudes and latitudes.
-  SharedCrs FilesCrs;
-  vtkIdType OutlineRings = 0; ///< How many of the rings come first.
   vtkDelaunayFlipAlgorithm* const Filter;
   const vtkNew<vtkPolyData> Output;
   RunReport Run;

@@ -432,7 +432,7 @@ std::string DescribePoints(const FlipReport& flip)
 }
 
 /// What the mesh is, and which edges stay.
-std::string DescribeMesh(const FlipReport& report)
+std::string DescribeMesh(const FlipReport& report, const std::string& hint)
 {
   const EdgeCounts& edges = report.Edges;
   const std::string& reason = report.GeometryReason;
@@ -448,13 +448,13 @@ std::string DescribeMesh(const FlipReport& report)
     return mesh + DescribePoints(report) + kept + AdviseGeometry(report);
   }
   return mesh + DescribeRefinement(report.FromPoints) + kept + Advise(report) +
-    AdviseRepair(report) + "geometry: " + ToString(report.GeometryUsed) +
+    AdviseRepair(report) + hint + "geometry: " + ToString(report.GeometryUsed) +
     (reason.empty() ? "" : ": ") + reason + "\n" + DescribeConstraints(report);
 }
 
 /// What has become of it. Nobody has seen the triangles that a run from points begins with, so
 /// their numbers are left out.
-std::string DescribeResult(const FlipReport& report)
+std::string DescribeResult(const FlipReport& report, double wantedAngle)
 {
   const bool hasBefore = !IsFromPoints(report);
   const auto compare = [hasBefore](const std::string& before, const std::string& after)
@@ -470,9 +470,12 @@ std::string DescribeResult(const FlipReport& report)
         { "blocked: would deviate", report.BlockedByDeviation } });
     text = "bad edges: " + text + "\n";
   }
+  constexpr int Digits = 6;
+  const std::string wanted =
+    wantedAngle > 0.0 ? " (asked for: " + FormatNumber(wantedAngle, Digits) + ")" : "";
   return text + "smallest angle: " +
-    compare(Degrees(report.MinimumAngleBefore), Degrees(report.MinimumAngleAfter)) +
-    " degrees\nsmall angles: " +
+    compare(Degrees(report.MinimumAngleBefore), Degrees(report.MinimumAngleAfter)) + " degrees" +
+    wanted + "\nsmall angles: " +
     countBelow(report.TrianglesBelow10Before, report.TrianglesBelow10After,
       " triangles below 10 degrees, ") +
     countBelow(report.TrianglesBelow20Before, report.TrianglesBelow20After, " below 20, ") +
@@ -484,7 +487,7 @@ std::string DescribeResult(const FlipReport& report)
 
 }
 
-std::string Summarize(const FlipReport& report)
+std::string Summarize(const FlipReport& report, const SummaryNotes& notes)
 {
   if (report.Triangles == 0)
   {
@@ -493,9 +496,9 @@ std::string Summarize(const FlipReport& report)
   // What has become better comes first. From points nothing has.
   if (IsFromPoints(report))
   {
-    return DescribeMesh(report) + DescribeResult(report);
+    return DescribeMesh(report, notes.Hint) + DescribeResult(report, notes.WantedAngle);
   }
-  return DescribeResult(report) + DescribeMesh(report);
+  return DescribeResult(report, notes.WantedAngle) + DescribeMesh(report, notes.Hint);
 }
 
 }

@@ -364,8 +364,16 @@ DELAUNAYFLIP_EXPORT std::string DescribeDefects(const std::vector<Defect>& defec
 /// @param kind SegmentsCross or ConstraintsCross.
 std::string DescribeCrossed(const CrossedEdge& crossed, DefectKind kind);
 
+/// What a caller adds to the text about a run.
+struct SummaryNotes
+{
+  double WantedAngle = 0.0; ///< The smallest angle that was asked for, in degrees; 0: none.
+  std::string Hint; ///< One line, which stands before the geometry, with its end; mostly empty.
+};
+
 /// What was done, in lines of a title, ": " and a text; "" without triangles.
-DELAUNAYFLIP_EXPORT std::string Summarize(const FlipReport& report);
+DELAUNAYFLIP_EXPORT std::string Summarize(
+  const FlipReport& report, const SummaryNotes& notes = SummaryNotes());
 
 /// E.g. "1,234,567 points"; the number alone without a noun.
 DELAUNAYFLIP_EXPORT std::string Count(std::int64_t number, const std::string& singular = "");
