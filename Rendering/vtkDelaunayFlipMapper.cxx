@@ -5,6 +5,8 @@
 #include "BufferFiller.h"
 #include "DataArrays.h"
 #include "DelaunayFlip.h"
+#include "MapperBuffers.h"
+#include "MapperColors.h"
 #include "MapperShaders.h"
 #include "MeshAudit.h"
 #include "OpenGLFunctions.h"
@@ -14,7 +16,6 @@
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkColorTransferFunction.h"
 #include "vtkDelaunayFlipAlgorithm.h"
 #include "vtkIntArray.h"
 #include "vtkLookupTable.h"
@@ -31,14 +32,12 @@
 #include "vtkRenderer.h"
 #include "vtkSMPTools.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
 #include "vtkTriangleFilter.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -49,79 +48,7 @@ namespace
 {
 
 constexpr int MostPlanes = 6; ///< VTK's own mapper has as many.
-constexpr int Bands = 12; ///< How many colours there are.
 constexpr const char* NoRun = "there is no live run of one mesh of triangles";
-
-/// Fills the table with twelve bands between a few colours: for flip counts up to the largest or,
-/// if that is negative, for angles.
-void FillTable(vtkLookupTable* table, double largestCount)
-{
-  // From nearly white to dark violet, or from red for slivers to blue for equilateral triangles.
-  double countColors[] = { 0.96, 0.95, 0.98, 0.80, 0.81, 0.91, 0.62, 0.60, 0.80, 0.46, 0.32, 0.66,
-    0.25, 0.0, 0.49 };
-  double angleColors[] = { 0.70, 0.09, 0.17, 0.94, 0.54, 0.38, 0.99, 0.86, 0.78, 0.82, 0.90, 0.94,
-    0.40, 0.66, 0.81, 0.13, 0.40, 0.67 };
-  vtkNew<vtkColorTransferFunction> colors; // by the number of a band
-  double largest = 60.0; // degrees
-  if (largestCount < 0.0)
-  {
-    colors->BuildFunctionFromTable(0, Bands - 1, 6, angleColors);
-  }
-  else
-  {
-    colors->BuildFunctionFromTable(0, Bands - 1, 5, countColors);
-    // It is rounded up to a multiple of four for whole labels at its quarters.
-    largest = 4.0 * std::ceil(std::max(largestCount, 12.0) / 4.0);
-  }
-  table->SetNumberOfTableValues(Bands);
-  for (int i = 0; i < Bands; ++i)
-  {
-    const double* rgb = colors->GetColor(i);
-    table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
-  }
-  table->SetRange(0.0, largest);
-}
-
-/// A texture that tells when it is released. Its window does that before it goes.
-class WatchedTexture : public vtkTextureObject
-{
-public:
-  static WatchedTexture* New() { VTK_STANDARD_NEW_BODY(WatchedTexture); }
-  vtkTypeMacro(WatchedTexture, vtkTextureObject);
-  void ReleaseGraphicsResources(vtkWindow* window) override
-  {
-    this->Superclass::ReleaseGraphicsResources(window);
-    this->OnRelease(window);
-  }
-  std::function<void(vtkWindow*)> OnRelease = [](vtkWindow*) {};
-};
-
-/// Values of four bytes, which the shader reads as a texture.
-struct ShaderBuffer
-{
-  vtkNew<vtkOpenGLBufferObject> Values;
-  vtkNew<WatchedTexture> Texture;
-
-  void MakeReadable(vtkOpenGLRenderWindow* window, std::int64_t count, unsigned int format)
-  {
-    this->Texture->SetContext(window);
-    this->Texture->SetInternalFormat(format);
-    this->Texture->CreateTextureBuffer(
-      static_cast<unsigned int>(count), 1, VTK_FLOAT, this->Values);
-  }
-
-  void Activate(vtkShaderProgram* program, const char* name)
-  {
-    this->Texture->Activate();
-    program->SetUniformi(name, this->Texture->GetTextureUnit());
-  }
-
-  void Release(vtkWindow* window)
-  {
-    this->Texture->ReleaseGraphicsResources(window);
-    this->Values->ReleaseGraphicsResources();
-  }
-};
 
 }
 
