@@ -18,9 +18,9 @@ from ._report import (
 from ._rings import RING_RULES
 from ._sphere import PROJECTIONS
 from ._vtk_blocks import choose_leaf, copy_data, find_leaves, iterate, list_blocks, name_leaf
-from ._vtk_mesh import (
-    CELL_ARRAYS, HEIGHT_ARRAY, HEIGHTS, SETTINGS, Cloud, MeshInput, keep_heights, pass_points, place_points,
-    vtk_of)
+from ._vtk_data import HEIGHT_ARRAY, keep_heights, pass_points, place_points, vtk_of
+from ._vtk_mesh import CELL_ARRAYS, SETTINGS, MeshInput
+from ._vtk_points import HEIGHTS, PointsInput
 from ._vtk_properties import (
     COMMON_OPTIONS, COMMON_PROPERTIES, FLIP_PROPERTIES, POINT_PROPERTIES, PROPERTY_OF, finish)
 
@@ -656,7 +656,7 @@ class vtkDelaunayFlipPoints(_Regions, Filter):
         if heights != "survey" and not has_heights:
             heights = UNSEEN
         options = self._get_options("backend", *POINT_OPTIONS)
-        cloud = Cloud(
+        cloud = PointsInput(
             data, segments, lines_as_segments=self.lines_as_segments, first_hole=self.first_hole,
             closed_lines_as_rings=self.closed_lines_as_rings, pass_segments=self.pass_segments and not keeps,
             ring_rule=RING_RULES[self.ring_rule],

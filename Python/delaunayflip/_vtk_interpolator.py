@@ -11,9 +11,9 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from . import _library
 from ._ask import METHODS, Field, Places, read_places
 from ._vtk_blocks import copy_data, find_leaves, list_blocks
+from ._vtk_data import (
+    add_attributes, describe_latitudes, find_attributes, is_among, keep_heights, list_arrays, vtk_of)
 from ._vtk_filter import _drop_results, vtkDelaunayFlipPoints
-from ._vtk_mesh import (
-    _add_attributes, _find_attributes, _is_among, _list_arrays, describe_latitudes, keep_heights, vtk_of)
 from ._vtk_properties import Property, finish
 
 _MASK = "vtkValidPointMask"  # as vtkProbeFilter calls it
@@ -152,9 +152,9 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         """Removes what is not interpolated from the source. Returns the name of the array of z."""
         data = source.GetPointData()
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray("vtkGhostType")
-        names, arrays = [], _list_arrays(data)
+        names, arrays = [], list_arrays(data)
         for number, array in reversed(list(enumerate(arrays))):
-            is_label = _is_among(array, labels)
+            is_label = is_among(array, labels)
             is_usable = array.IsNumeric() and array.GetNumberOfTuples() >= source.GetNumberOfPoints()
             if not is_label and not is_usable:
                 names.insert(0, f'"{array.GetName() or ""}"')
@@ -234,7 +234,7 @@ class Columns:
 
     def __init__(self, source, mesh, elevation):
         self._mesh, self._elevation, self._vtk = mesh, elevation, vtk_of(source)
-        self._arrays = _list_arrays(mesh.GetPointData())[:source.GetPointData().GetNumberOfArrays()]
+        self._arrays = list_arrays(mesh.GetPointData())[:source.GetPointData().GetNumberOfArrays()]
         self._widths = [array.GetNumberOfComponents() for array in self._arrays]
         self.width = sum(self._widths) + bool(elevation)
 
@@ -259,13 +259,13 @@ class Columns:
             array.CopyComponentNames(like)
             array.CopyInformation(like.GetInformation())
             array.SetLookupTable(like.GetLookupTable())
-            attributes = _find_attributes(self._mesh.GetPointData(), like)
-            _add_attributes(output, output.AddArray(array), attributes)
+            attributes = find_attributes(self._mesh.GetPointData(), like)
+            add_attributes(output, output.AddArray(array), attributes)
             first += width
         if self._elevation:
             array = self._vtk.support.numpy_to_vtk(values[:, first].copy(), True)
             array.SetName(self._elevation)
-            _add_attributes(output, output.AddArray(array), [output.SCALARS])
+            add_attributes(output, output.AddArray(array), [output.SCALARS])
 
 
 finish(vtkDelaunayFlipInterpolator, (

@@ -34,9 +34,11 @@ from ._points import triangulate as _triangulate_arrays
 from ._rings import RingRule, Rings, list_rings
 from ._sphere import place_on_sphere
 from ._surface import Slots
-from ._vtk_mesh import HEIGHT_ARRAY, SETTINGS, Cloud, MeshInput, keep_heights, place_points, vtk_of
+from ._vtk_data import HEIGHT_ARRAY, keep_heights, place_points, vtk_of
+from ._vtk_mesh import SETTINGS, MeshInput
+from ._vtk_points import PointsInput
 
-_CLOUD_OPTIONS = ("hole_seeds", "ring_rule", "lines_as_segments", "closed_lines_as_rings")
+_POINTS_OPTIONS = ("hole_seeds", "ring_rule", "lines_as_segments", "closed_lines_as_rings")
 #: In the order of the numbers in the engine.
 Projection = typing.Literal["xy", "sphere", "open-sphere"]
 _ELEVATION = "Elevation"  # The array of z of what is interpolated.
@@ -221,7 +223,7 @@ def interpolate(
         raise TypeError(f"onto must be a dataset with points, not {type(onto).__name__}")
     given = _read_cloud(
         cloud, segments, outline, holes, options, heights=heights, as_doubles=True, projection=projection,
-        degrees=degrees, **{name: options.pop(name) for name in _CLOUD_OPTIONS if name in options})
+        degrees=degrees, **{name: options.pop(name) for name in _POINTS_OPTIONS if name in options})
     inspect.signature(_triangulate_arrays).bind(given, **options)  # refuses unknown ones
     result, _ = run_points(given, options, halve(progress, 0.0), keeps=True)
     mesh, made = pyvista.PolyData(), onto.copy(deep=False)
@@ -373,7 +375,7 @@ def _read_cloud(cloud, segments, outline, holes, options, *, projection, degrees
         cloud, segments = _place_meshes(cloud, segments, name, settings["heights"] == "own")
         if settings["heights"] is None:
             settings["height_array"] = name
-    given = Cloud(
+    given = PointsInput(
         cloud, segments, **rings, projection=number,
         backend={name: options[name] for name in ("backend", "threads", "device") if name in options},
         **settings)
