@@ -5,6 +5,8 @@ In the plane the answers are exact: the Delaunay triangulation is unique except 
 points. On surfaces, with feature edges off, the number of flips depends on their order, except where
 one iteration makes all of them."""
 
+import itertools
+import math
 import os
 import sys
 from typing import NamedTuple
@@ -92,6 +94,68 @@ class Planar(RealDataTest):
                 self.assertEqual(old.tobytes(), new.tobytes())
             old, new = (memoryview(m.GetPoints().GetData()) for m in (before, after))
             self.assertEqual(old.tobytes(), new.tobytes())
+
+
+def corner(at, one, other):
+    """The angle at a place between two others, in degrees."""
+    (a, b), (c, d) = ((place[0] - at[0], place[1] - at[1]) for place in (one, other))
+    return math.degrees(math.atan2(abs(a * d - b * c), a * c + b * d))
+
+
+def area(a, b, c):
+    return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def boundary_of(triangles):
+    """By side without a triangle on the other: (from, to)."""
+    sides = {(t[i], t[(i + 1) % 3]) for t in triangles for i in range(3)}
+    return [(a, b) for a, b in sides if (b, a) not in sides]
+
+
+class Ocean:
+    def __init__(self, mesh):
+        self.triangles = triangles_of(mesh)
+        self.places = [mesh.GetPoint(i)[:2] for i in range(mesh.GetNumberOfPoints())]
+        self.area = math.fsum(area(*(self.places[i] for i in t)) for t in self.triangles)
+        self.boundary = boundary_of(self.triangles)
+        self.shore = math.fsum(math.dist(self.places[a], self.places[b]) for a, b in self.boundary)
+
+    def list_sharp_corners(self):
+        """The places at which edges of the boundary meet at less than 60 degrees."""
+        neighbors = {}
+        for a, b in self.boundary:
+            neighbors.setdefault(a, []).append(b)
+            neighbors.setdefault(b, []).append(a)
+        return {self.places[i] for i, ends in neighbors.items()
+                for one, other in itertools.combinations(ends, 2)
+                if corner(self.places[i], self.places[one], self.places[other]) < 60}
+
+    def list_poor(self, goal):
+        """The places of triangles that have a smaller angle."""
+        corners = ([self.places[i] for i in t] for t in self.triangles)
+        return [(a, b, c) for a, b, c in corners
+                if min(corner(a, b, c), corner(b, c, a), corner(c, a, b)) < goal - 1e-7]
+
+
+class Refinement(RealDataTest):
+    def test_an_ocean(self):
+        """All triangles reach the goal, but for some at sharp corners of the coast."""
+        given = Ocean(self.read_mesh(os.path.join(FOLDER, ALASKA)))
+        sharp = given.list_sharp_corners()
+        for goal in (25, 30):
+            with self.subTest(goal):
+                report = self.report(
+                    os.path.join(FOLDER, ALASKA), "out.vtk", *XY, "--minimum-angle", str(goal))
+                refined = Ocean(self.read_mesh("out.vtk"))
+                poor = refined.list_poor(goal)
+                self.assertEqual(report["unrefined_triangles"], len(poor))
+                self.assertLess(len(poor), 20)
+                self.assertTrue(all(sharp.intersection(places) for places in poor))
+                self.assertLess(report["points"], 1.5 * len(given.places))
+                self.assertAlmostEqual(refined.area / given.area, 1.0, delta=1e-13)
+                self.assertAlmostEqual(refined.shore / given.shore, 1.0, delta=1e-13)
+                again = self.report("out.vtk", "again.vtk", *XY)
+                self.assertEqual(again["non_delaunay_before"], 0)
 
 
 # The known answers treat coordinates as exact.
