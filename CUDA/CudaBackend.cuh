@@ -156,14 +156,28 @@ public:
   {
     const std::int64_t tiles = ItemRange{ 0, size }.CountTiles();
     Numbering numbering;
+    if (size == 0)
+    {
+      return numbering;
+    }
     numbering.FirstOfTile = this->MakeArray<std::int64_t>(tiles + 1);
     std::int64_t* firsts = numbering.FirstOfTile.Data();
-    this->Fill(firsts, 0, tiles + 1);
     this->LaunchShared(size,
       [&](cudaStream_t stream, const ItemRange& items, int) {
         CountKernel<<<GridOf(items.CountTiles()), ThreadsPerBlock, 0, stream>>>(
           items, count, firsts);
       });
+    if (tiles <= FewTiles)
+    {
+      auto* total = static_cast<std::int64_t*>(this->Context->GetResult());
+      Launch(this->GetStream(),
+        [&](cudaStream_t stream)
+        { NumberTilesKernel<<<1, ThreadsOfGroup, 0, stream>>>(tiles, firsts, total); });
+      this->Synchronize();
+      numbering.Total = *total;
+      return numbering;
+    }
+    this->Fill(firsts + tiles, 0, 1);
     this->RunCub(
       [&](void* temporary, std::size_t& bytes)
       {
@@ -230,7 +244,14 @@ public:
   template <typename T>
   void Download(const T* values, std::int64_t size, T* host) const
   {
+    constexpr std::size_t Staged = std::size_t(1) << 20; // from here on buffers are faster
     const std::size_t bytes = static_cast<std::size_t>(size) * sizeof(T);
+    if (bytes >= Staged)
+    {
+      this->GetCopies().Receive(
+        size, values, [host](std::int64_t i, const T& value) { host[i] = value; });
+      return;
+    }
     const bool isSmall = bytes <= CudaContext::ResultBytes;
     void* const to = isSmall ? this->Context->GetResult() : static_cast<void*>(host);
     CallCuda("copy from the GPU", cudaMemcpyAsync, to, values, bytes, cudaMemcpyDeviceToHost,
@@ -240,6 +261,13 @@ public:
     {
       std::memcpy(static_cast<void*>(host), to, bytes);
     }
+  }
+
+  /// Calls put(i, value) on CPU threads for i = 0 .. size - 1.
+  template <typename T, typename Put>
+  void Receive(const T* values, std::int64_t size, const Put& put) const
+  {
+    this->GetCopies().Receive(size, values, put);
   }
 
   /// Waits until `host` has been read.
@@ -465,6 +493,9 @@ public:
   }
 
 private:
+  /// So many tiles are numbered by one block.
+  static constexpr std::int64_t FewTiles = 8192;
+
   /// Copies the host's values to `local`, and returns where they are there.
   template <typename T>
   const T* Bring(const T* host, std::int64_t size, Array<T>& local) const

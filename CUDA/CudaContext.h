@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -144,6 +145,8 @@ public:
   std::string Name; ///< E.g. "NVIDIA H200" or "2 x NVIDIA H200".
   int Multiprocessors = 0;
   std::size_t CacheBytes = 0; ///< The size of the second-level cache.
+  /// By kernel, how many of its blocks can run at the same time on every GPU, once that is known.
+  std::map<const void*, int> ResidentBlocks;
   CudaStream Stream;
   CudaEvent StreamDone; ///< What is in the stream so far.
   CudaEvent CallerDone; ///< What was in a stream of the caller's.

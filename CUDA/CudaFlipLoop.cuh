@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -341,10 +342,17 @@ private:
   }
 
   /// The number of blocks that can run at the same time, as their barriers need, on every GPU. Also
-  /// loads the kernel there: that must not happen while blocks wait for those of another GPU.
+  /// loads the kernel there: that must not happen while blocks wait for those of another GPU. The
+  /// number is kept, because refinement makes a loop in every round.
   template <typename Kernel>
   int CountResidentBlocks(Kernel kernel) const
   {
+    std::map<const void*, int>& known = this->Backend.GetContext().ResidentBlocks;
+    const auto found = known.find(reinterpret_cast<const void*>(kernel));
+    if (found != known.end())
+    {
+      return found->second;
+    }
     int fewest = std::numeric_limits<int>::max();
     for (const int device : this->Backend.GetContext().Devices)
     {
@@ -361,6 +369,7 @@ private:
         cudaDevAttrMultiProcessorCount, device);
       fewest = std::min(fewest, perMultiprocessor * multiprocessors);
     }
+    known.emplace(reinterpret_cast<const void*>(kernel), fewest);
     return fewest;
   }
 

@@ -68,6 +68,39 @@ public:
     this->Context.Join();
   }
 
+  /// Calls put(i, value) on the host for i = 0 .. size - 1, with the values of a device array.
+  template <typename T, typename Put>
+  void Receive(std::int64_t size, const T* device, const Put& put) const
+  {
+    constexpr std::int64_t LargestStep = CudaContext::StagingBytes / sizeof(T);
+    constexpr std::int64_t SmallestStep = LargestStep / 16;
+    constexpr std::int64_t WantedParts = 8;
+    const std::int64_t step = std::clamp(size / WantedParts + 1, SmallestStep, LargestStep);
+    const std::int64_t parts = (size + step - 1) / step;
+    const std::int64_t ahead = this->Context.CountBuffers() - 1; // copied while one is converted
+    this->Context.Fork();
+    for (std::int64_t i = 0; i < parts + ahead; ++i)
+    {
+      if (i < parts)
+      {
+        const StagingBuffer& buffer = this->Context.GetBuffer(i);
+        const std::int64_t count = std::min(step, size - i * step);
+        StartCopy(
+          buffer, buffer.Memory, device + i * step, count * sizeof(T), cudaMemcpyDeviceToHost);
+      }
+      if (i >= ahead)
+      {
+        const std::int64_t begin = (i - ahead) * step;
+        const StagingBuffer& buffer = this->Context.GetBuffer(i - ahead);
+        const auto* staged = static_cast<const T*>(buffer.Memory.Get());
+        WaitForCopy(buffer);
+        this->Threads.ForEach(
+          std::min(step, size - begin), [&](std::int64_t k) { put(begin + k, staged[k]); });
+      }
+    }
+    this->Context.Join();
+  }
+
   /// Calls put(i, value) on the host for i = 0 .. size - 1. The values are copied in slices, to
   /// save memory: fill(slice) launches a kernel over all triangles that sets the values of one
   /// slice, while the host still converts the slice before it.

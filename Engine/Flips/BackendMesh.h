@@ -300,7 +300,7 @@ protected:
     this->MakeLoop(
       PlanarRule<Real, 2>{ coordinates, side, this->Frame.IsCanonical, this->FiltersApply },
       std::move(guard));
-    this->Loop->Restart();
+    this->Loop->LeaveChunks();
   }
 
   BackendT Backend;

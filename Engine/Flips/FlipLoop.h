@@ -78,6 +78,9 @@ public:
   /// the state Candidate. Detect must follow.
   void Restart();
 
+  /// Makes no more iterations within chunks. For a new loop of a mesh that has grown.
+  void LeaveChunks() { this->ChunkIterationsLeft = 0; }
+
   /// Writes the states of all edges, as the last detection has found them, where the loop does not
   /// write them anyway: on a device. Needs a loop without chunks.
   virtual void PutStates() {}
