@@ -95,8 +95,8 @@ public:
    * triangle has a larger area than MaximumArea, and no edge is longer than MaximumEdge; 0
    * (default): no limit. All three are measured in the plane, with PLANAR_XY in x and y. Segments,
    * the boundary and all edges that stay are split, but never crossed. Triangles that cannot get
-   * better, because such edges meet at a small angle or must not be split, are left, and a warning
-   * counts them.
+   * better are left, and a warning counts them: such edges meet there at a small angle or must not
+   * be split, or the height is only a few roundings of the coordinates.
    *
    * From points, the new points get z and point data that are linear between the others; in a
    * projection x, y and z are. A mesh in the plane or of terrain is refined once no edge is bad: z

@@ -111,8 +111,8 @@ struct RefinementStep
     item.Found.OnEdges = 1 << SlotOf(corner);
     item.Place = this->View.FindSplit(segment);
     const bool isShort = this->IsShort(item);
-    const bool isBetween =
-      IsFinite(item.Place) && this->View.IsInCircle(this->View.GetSide(segment), item.Place);
+    const bool isBetween = IsFinite(item.Place) &&
+      this->View.IsInDiametralCircle(this->View.GetSide(segment), item.Place);
     const bool fits = isBetween && (this->FitsBoth(item) || (!isShort && this->MoveBeside(item)));
     item.SquaredRadius = TriangleShape::GetSquaredDistance(
       item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
@@ -271,7 +271,8 @@ private:
         }
         if (mesh.IsFixed(side))
         {
-          const bool isNear = this->View.IsInCircle(side, item.Place) && this->View.CanSplit(side);
+          const bool isNear =
+            this->View.IsInDiametralCircle(side, item.Place) && this->View.CanSplit(side);
           if (isNear)
           {
             this->View.Request(side);
@@ -280,7 +281,7 @@ private:
           continue;
         }
         const CornerId across = mesh.Edges.CornerOfHalfEdge[side ^ 1u];
-        if (this->IsInCircle(TriangleOf(across), item.Place))
+        if (this->IsInCircumcircle(TriangleOf(across), item.Place))
         {
           cavity.Add(across);
         }
@@ -291,7 +292,7 @@ private:
 
   /// Whether a place is in the circumcircle of a triangle. Floating-point arithmetic suffices,
   /// because the answer does not affect whether the mesh is valid.
-  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(TriangleId triangle, const PlanePoint& place) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsInCircumcircle(TriangleId triangle, const PlanePoint& place) const
   {
     const PlaneMesh& mesh = this->View.Mesh;
     double u[3], v[3], squared[3];
@@ -337,7 +338,7 @@ private:
       const double along = Shift * (shift % 2 == 0 ? shift / 2 : -(shift + 1) / 2);
       item.Place = this->View.Round({ place.U + along * (b.U - a.U) + u * rounding,
         place.V + along * (b.V - a.V) + v * rounding, 0.0 });
-      fits = this->View.IsInCircle(side, item.Place) && this->FitsBoth(item);
+      fits = this->View.IsInDiametralCircle(side, item.Place) && this->FitsBoth(item);
     }
     return fits;
   }

@@ -293,7 +293,7 @@ struct RefinementView
   // Subsegments.
 
   /// Whether a place is inside the diametral circle of an edge.
-  DELAUNAYFLIP_HOST_DEVICE bool IsInCircle(HalfEdgeId side, const PlanePoint& place) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsInDiametralCircle(HalfEdgeId side, const PlanePoint& place) const
   {
     const PlanePoint a = this->Mesh.GetPoint(this->Mesh.GetStart(side));
     const PlanePoint b = this->Mesh.GetPoint(this->Mesh.GetEnd(side));
@@ -305,7 +305,7 @@ struct RefinementView
   /// their pieces are as short.
   DELAUNAYFLIP_HOST_DEVICE bool IsEncroached(HalfEdgeId side, const PlanePoint& place) const
   {
-    if (!this->IsInCircle(side, place))
+    if (!this->IsInDiametralCircle(side, place))
     {
       return false;
     }
