@@ -200,15 +200,6 @@ delaunayflip_status TryWithPoints(
     });
 }
 
-/// Writes the points between which an added point lies, and their weights.
-void StoreWeights(const AddedPoint& point, std::int64_t* ids, double* weights)
-{
-  const std::int64_t of[] = { point.From, point.To, point.Third };
-  const double shares[] = { 1.0 - point.Share - point.ThirdShare, point.Share, point.ThirdShare };
-  std::copy_n(of, 3, ids);
-  std::copy_n(shares, 3, weights);
-}
-
 /// To the host's memory; with a stream to that of a GPU. Likewise below.
 template <typename... Stream>
 delaunayflip_status StoreTriangles(
@@ -407,18 +398,12 @@ extern "C"
       { return report.FromPoints.Crossings + report.FromPoints.RefinementPoints; },
       [=]()
       {
-        std::int64_t i = 0;
-        for (const AddedPoint& point : session->Session.GetAddedPoints())
-        {
-          xy[2 * i] = point.X;
-          xy[2 * i + 1] = point.Y;
-          StoreWeights(point, ids + 3 * i, weights + 3 * i);
-          if (segments)
-          {
-            segments[i] = point.Segment;
-          }
-          ++i;
-        }
+        AddedPointArrays arrays;
+        arrays.Places = xy;
+        arrays.Ids = ids;
+        arrays.Weights = weights;
+        arrays.Segments = segments;
+        session->Session.StoreAddedPoints(arrays);
       });
   }
 
@@ -429,15 +414,14 @@ extern "C"
       [=]()
       {
         Require(!session->IsFromPoints, "this session was made from points");
-        const std::vector<AddedPoint>& points = session->Session.GetAddedPoints();
-        Require((xyz && ids && weights) || points.empty(), "an array is null");
-        for (std::size_t i = 0; i < points.size(); ++i)
-        {
-          const AddedPoint& point = points[i];
-          const double coordinates[] = { point.X, point.Y, point.Z };
-          std::copy_n(coordinates, 3, xyz + 3 * i);
-          StoreWeights(point, ids + 3 * i, weights + 3 * i);
-        }
+        const std::int64_t added = session->Session.GetReport().FromPoints.RefinementPoints;
+        Require((xyz && ids && weights) || added == 0, "an array is null");
+        AddedPointArrays arrays;
+        arrays.Places = xyz;
+        arrays.Components = 3;
+        arrays.Ids = ids;
+        arrays.Weights = weights;
+        session->Session.StoreAddedPoints(arrays);
       });
   }
 

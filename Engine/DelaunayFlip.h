@@ -152,6 +152,9 @@ public:
   /// those of refinement, which are numbered behind all others.
   const std::vector<AddedPoint>& GetAddedPoints() const;
 
+  /// Writes them to arrays with room for all. This is faster, since it takes several threads.
+  void StoreAddedPoints(const AddedPointArrays& arrays) const;
+
   /// Returns the edges that segments have become, as pairs of point ids, in the order and direction
   /// of the segments, each once. Empty until they are inserted. For sessions from points.
   std::vector<std::int64_t> ListSegmentEdges() const;

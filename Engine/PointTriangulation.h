@@ -47,8 +47,8 @@
 /// none is larger than MaximumArea, MaximumEdge, PointInput::Sizes and the regions allow. It adds
 /// many points at a time: off-centers of triangles (Üngör 2004), and points that split segments
 /// and the edges of the boundary if others come too near (Ruppert 1995). Triangles that cannot get
-/// better, because segments meet at a small angle or must not be split, are left and counted.
-/// Regions are the parts that segments enclose.
+/// better are left and counted: segments meet there at a small angle or must not be split, or their
+/// height is only a few roundings of the coordinates. Regions are the parts that segments enclose.
 ///
 /// **On a sphere** (PointOptions::Projection) triangles are those of the convex hull: n places have
 /// 2 n - 4 of them, counter-clockwise from outside. Signs are exact for the points as given, so a
@@ -213,6 +213,46 @@ struct AddedPoint
   /// triangles.
   std::int64_t Segment = -1;
   double Z = 0.0; ///< Used in a session from triangles only.
+};
+
+/// Arrays of the members of added points. Null: those are not wanted.
+struct AddedPointArrays
+{
+  double* Places = nullptr; ///< X, Y and, if Components is 3, Z.
+  int Components = 2;
+  std::int64_t* Ids = nullptr; ///< From, To and Third.
+  double* Weights = nullptr; ///< Three, for these ids.
+  std::int64_t* Segments = nullptr;
+
+  /// Writes a point to place i.
+  void Set(std::int64_t i, const AddedPoint& point) const
+  {
+    if (this->Places)
+    {
+      this->Places[this->Components * i] = point.X;
+      this->Places[this->Components * i + 1] = point.Y;
+      if (this->Components > 2)
+      {
+        this->Places[this->Components * i + 2] = point.Z;
+      }
+    }
+    if (this->Ids)
+    {
+      this->Ids[3 * i] = point.From;
+      this->Ids[3 * i + 1] = point.To;
+      this->Ids[3 * i + 2] = point.Third;
+    }
+    if (this->Weights)
+    {
+      this->Weights[3 * i] = 1.0 - point.Share - point.ThirdShare;
+      this->Weights[3 * i + 1] = point.Share;
+      this->Weights[3 * i + 2] = point.ThirdShare;
+    }
+    if (this->Segments)
+    {
+      this->Segments[i] = point.Segment;
+    }
+  }
 };
 
 /// New places of points, for FlipSession::Move.

@@ -84,6 +84,18 @@ public:
                                : this->FetchRefinement(this->RefinedDoubles);
   }
 
+  void VisitRefined(const RefinedVertexVisitor& visit) override
+  {
+    if (this->RefinedFloats.Rounds)
+    {
+      this->RefinedFloats.Rounds->VisitVertices(this->RefinedFloats.Grown, visit);
+    }
+    if (this->RefinedDoubles.Rounds)
+    {
+      this->RefinedDoubles.Rounds->VisitVertices(this->RefinedDoubles.Grown, visit);
+    }
+  }
+
   /// Writes to UsedPoint which points are no longer used. Public because device lambdas require it.
   void ForgetUsed(const Array<VertexId>& removed)
   {

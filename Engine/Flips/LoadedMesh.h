@@ -118,6 +118,8 @@ public:
   virtual std::int64_t Refine() = 0;
   /// What the rounds have made so far. Valid until the mesh changes.
   virtual const RefinementResult& FetchRefinement() = 0;
+  /// Tells a visitor of the points that the rounds have added so far.
+  virtual void VisitRefined(const RefinedVertexVisitor& visit) = 0;
 
   /// Calls view(mesh) with a mesh from points, in the memory of the host.
   using HostView = std::function<void(const PointMeshView&)>;

@@ -122,9 +122,14 @@ public:
 
   bool HasReachedLimit() const { return this->ReachedLimit; }
 
-  /// These two are described in RefinementArrays.
+  /// These three are described in RefinementArrays.
   void FixBlocked(const GrowingMesh<Real>& grown) { this->Arrays.FixBlocked(grown); }
   std::int64_t FreeEdges(const GrowingMesh<Real>& grown) { return this->Arrays.FreeEdges(grown); }
+
+  void VisitVertices(const GrowingMesh<Real>& grown, const RefinedVertexVisitor& visit)
+  {
+    this->Arrays.VisitVertices(grown, visit);
+  }
 
   RefinementResult Fetch(GrowingMesh<Real>& grown)
   {

@@ -141,7 +141,8 @@ public:
       this->Regions.Data(), this->Sizes.Data(), this->Claims.Data(), this->Segments.Data(),
       this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
       this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Splits.Data(),
-      this->OldTriangleOf.Data(), old, this->Grid.View(), this->IsOfCaller };
+      this->OldTriangleOf.Data(), old, static_cast<std::int64_t>(this->OldTriangles.Size()),
+      this->Grid.View(), this->IsOfCaller };
   }
 
   /// The mesh before refinement.
@@ -197,25 +198,35 @@ public:
     this->NumberOfSegments += subsegments;
   }
 
-  RefinementResult Fetch(const GrowingMesh<Real>& grown)
+  /// Tells a visitor of the vertices that were added.
+  void VisitVertices(const GrowingMesh<Real>& grown, const RefinedVertexVisitor& visit)
   {
-    RefinementResult result;
     const std::int64_t added = grown.Vertices - this->FirstVertex;
-    result.Vertices =
-      Array<RefinedVertex>(static_cast<std::size_t>(added), this->Device.GetHostMemory());
+    const VertexNaming naming = this->GetNaming(grown);
     if constexpr (Backend::IsOnHost)
     {
-      this->NameVertices(grown, result.Vertices.Data());
+      this->Device.ForEach(added, [&](std::int64_t i) { visit(i, naming.Name(i)); });
     }
     else
     {
       Array<RefinedVertex> vertices = this->Device.template MakeArray<RefinedVertex>(added);
-      this->NameVertices(grown, vertices.Data());
-      this->Device.Download(vertices.Data(), added, result.Vertices.Data());
+      RefinedVertex* to = vertices.Data();
+      this->Device.ForEach(
+        added, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { to[i] = naming.Name(i); });
+      this->Device.Receive(to, added, visit);
     }
+  }
+
+  RefinementResult Fetch(const GrowingMesh<Real>& grown)
+  {
+    RefinementResult result;
+    result.Added = grown.Vertices - this->FirstVertex;
     if (this->IsOfCaller)
     {
       this->FetchOfCaller(grown, result);
+      result.Vertices.resize(result.Added);
+      this->VisitVertices(
+        grown, [&](std::int64_t i, const RefinedVertex& vertex) { result.Vertices[i] = vertex; });
     }
     else if (this->HasRegions)
     {
@@ -534,26 +545,10 @@ public:
     return named;
   }
 
-  /// Writes the new vertices. Each names the points, not the vertices, between which it
-  /// interpolates.
-  void NameVertices(const GrowingMesh<Real>& grown, RefinedVertex* to)
+  VertexNaming GetNaming(const GrowingMesh<Real>& grown)
   {
-    const VertexInterpolation interpolation{ this->ViewOld(grown, nullptr), this->Ends.Data() };
-    const PlaneMesh plane = grown.View();
-    const std::int64_t first = this->FirstVertex;
-    const std::uint32_t* origins = this->OriginOfVertex.Data();
-    const TriangleId* triangles = this->OldTriangleOf.Data();
-    const VertexId* ids = grown.Ids->Data();
-    this->Device.ForEach(grown.Vertices - first,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      {
-        const auto vertex = static_cast<VertexId>(first + i);
-        to[i] = interpolation.Find(plane.GetPoint(vertex), origins[vertex], triangles[i]);
-        for (VertexId& point : to[i].Points)
-        {
-          point = ids[point];
-        }
-      });
+    return { { this->ViewOld(grown, nullptr), this->Ends.Data() }, grown.View(), this->FirstVertex,
+      this->OriginOfVertex.Data(), this->OldTriangleOf.Data(), grown.Ids->Data() };
   }
 
   Array<Subsegment> NameSegments(const GrowingMesh<Real>& grown) const

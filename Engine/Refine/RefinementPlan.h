@@ -8,6 +8,7 @@
 #include "TriangleShape.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 /// @file
@@ -47,6 +48,9 @@ struct RefinedVertex
   double Weights[3];
 };
 
+/// Is told of each added vertex with its number, on several threads.
+using RefinedVertexVisitor = std::function<void(std::int64_t, const RefinedVertex&)>;
+
 /// A subsegment.
 struct Subsegment
 {
@@ -58,7 +62,8 @@ struct Subsegment
 /// What refinement has made.
 struct RefinementResult
 {
-  Array<RefinedVertex> Vertices; ///< In the memory of the host.
+  std::int64_t Added = 0; ///< How many vertices were added.
+  std::vector<RefinedVertex> Vertices; ///< These, in a mesh of the caller alone.
   std::vector<Subsegment> Segments; ///< First those that there were at first.
   std::vector<std::int32_t> Regions; ///< See RefinementPlan.
   std::vector<VertexId> Ends; ///< The ends of the original segments, two points each.

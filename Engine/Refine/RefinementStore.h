@@ -91,6 +91,30 @@ struct VertexInterpolation
   }
 };
 
+/// Describes the vertices that refinement has added. Each names the points, not the vertices,
+/// between which it is interpolated.
+struct VertexNaming
+{
+  VertexInterpolation Interpolation;
+  PlaneMesh Mesh; ///< After refinement.
+  std::int64_t FirstVertex; ///< The first one that was added.
+  const std::uint32_t* Origins; ///< By vertex.
+  const TriangleId* OldTriangles; ///< By added vertex, see RefinementStore::OldTriangleOf.
+  const VertexId* Ids; ///< By vertex.
+
+  DELAUNAYFLIP_HOST_DEVICE RefinedVertex Name(std::int64_t i) const
+  {
+    const auto vertex = static_cast<VertexId>(this->FirstVertex + i);
+    RefinedVertex named = this->Interpolation.Find(
+      this->Mesh.GetPoint(vertex), this->Origins[vertex], this->OldTriangles[i]);
+    for (VertexId& point : named.Points)
+    {
+      point = this->Ids[point];
+    }
+    return named;
+  }
+};
+
 /// Inserts the places of items, and stores the data of new vertices, triangles and edges.
 template <typename Real>
 struct RefinementStore
@@ -115,6 +139,7 @@ struct RefinementStore
   /// By added vertex: its triangle in the old mesh, or NoTriangle if it is on a segment.
   TriangleId* OldTriangleOf;
   PlaneMesh Old; ///< The mesh before refinement.
+  std::int64_t OldTriangles; ///< How many it has.
   PlaceGridView Grid;
   bool IsOfCaller; ///< Whether the mesh is the caller's. Then RefinementItem::Old is known.
 
@@ -187,6 +212,10 @@ private:
       const std::int64_t number = std::int64_t(vertex) - this->FirstVertex;
       newest = number > newest ? number : newest;
     }
+    if (newest < 0 && this->IsInOld(item.Found))
+    {
+      return item.Found.Triangle;
+    }
     TriangleId start = newest >= 0 ? this->OldTriangleOf[newest] : NoTriangle;
     if (start == NoTriangle)
     {
@@ -196,6 +225,18 @@ private:
     old.IsInFilterRange = old.IsInFilterRange && IsInFilterRange(item.Place);
     const FoundPlace found = WalkToPlace(old, item.Place, start);
     return found.IsOutside() ? start : found.Triangle; // outside by rounding
+  }
+
+  /// Whether a place is inside of a triangle that has not changed since before refinement.
+  DELAUNAYFLIP_HOST_DEVICE bool IsInOld(const FoundPlace& found) const
+  {
+    if (found.OnEdges != 0 || found.Triangle >= this->OldTriangles)
+    {
+      return false;
+    }
+    const VertexId* now = this->Splitter.GetMesh().Triangles[found.Triangle].Vertices;
+    const VertexId* before = this->Old.Edges.Triangles[found.Triangle].Vertices;
+    return now[0] == before[0] && now[1] == before[1] && now[2] == before[2];
   }
 
   DELAUNAYFLIP_HOST_DEVICE double InterpolateSize(const RefinedVertex& vertex) const

@@ -164,6 +164,11 @@ const std::vector<AddedPoint>& FlipSession::GetAddedPoints() const
   return this->Run->GetAddedPoints();
 }
 
+void FlipSession::StoreAddedPoints(const AddedPointArrays& arrays) const
+{
+  this->Run->StoreAddedPoints(arrays);
+}
+
 void FlipSession::StoreSources(std::int32_t* sources) const { this->Run->StoreSources(sources); }
 
 std::vector<std::int64_t> FlipSession::ListSegmentEdges() const

@@ -193,10 +193,9 @@ void MeshRun::AddRefinedPoints(const RefinementResult& made)
   const PointArray& points = this->Mesh.CopyToHost().Points;
   std::vector<AddedPoint>& added = this->Refined.Points;
   added.clear();
-  added.reserve(made.Vertices.Size());
-  for (std::size_t i = 0; i < made.Vertices.Size(); ++i)
+  added.reserve(made.Vertices.size());
+  for (const RefinedVertex& vertex : made.Vertices)
   {
-    const RefinedVertex& vertex = made.Vertices[i];
     double xyz[3];
     FindPosition(points, vertex, made.Axes, xyz);
     AddedPoint point;

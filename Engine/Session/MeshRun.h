@@ -35,7 +35,7 @@ public:
   bool StoreTrianglesOnDevice(const MutableTriangleArray& triangles, const DeviceStream& stream,
     std::int32_t* written) override;
   bool StoreFlipCountsOnDevice(std::int32_t* counts, const DeviceStream& stream) override;
-  const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Refined.Points; }
+  const std::vector<AddedPoint>& GetAddedPoints() override { return this->Refined.Points; }
   void StoreSources(std::int32_t* sources) override;
   void StoreRegions(std::int32_t* labels) override;
 

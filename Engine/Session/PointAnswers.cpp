@@ -39,7 +39,7 @@ bool PointRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
   }
   if (result == AskResult::Undecided)
   {
-    const HostQuery host(query, this->Points.GetInput().Points.Count);
+    const HostQuery host(query, this->Points.CountAll());
     result = this->Answer(host.Get(), progress);
     host.CopyBack();
   }
@@ -53,7 +53,7 @@ AskResult PointRun::Answer(const PlaceQuery& query, const ProgressObserver& prog
   bool isAnswered = false;
   const auto ask = [&](LoadedMesh& mesh)
   {
-    const std::int64_t points = this->Points.GetInput().Points.Count;
+    const std::int64_t points = this->Points.CountAll();
     const bool isConvex = !this->WantsRefinement();
     result = mesh.Ask({ query, this->Result.Kept.Numbers, points, isConvex }, progress);
     isAnswered = true;

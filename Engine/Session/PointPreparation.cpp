@@ -156,6 +156,7 @@ void PreparedPoints::Unprepare()
   this->Prepared = this->Caller;
   this->NearPoint.clear();
   this->Added.clear();
+  this->SetRefined(0, {});
   this->Counts = PointCounts();
   this->IsPrepared = false;
 }
@@ -287,53 +288,30 @@ void PreparedPoints::Append(const PlaneArray& points)
   this->Prepared = this->Caller;
 }
 
-void PreparedPoints::SetRefined(std::vector<AddedPoint> points)
+void PreparedPoints::SetRefined(std::int64_t count, std::vector<std::int64_t> segmentOf)
 {
-  const auto before = static_cast<std::ptrdiff_t>(this->Counts.Crossings);
-  const bool isSame = SizeOf(this->Added) == before && points.empty();
-  if (isSame)
+  this->Refined = count;
+  this->SegmentOfOrigin = std::move(segmentOf);
+}
+
+AddedPoint PreparedPoints::Describe(const RefinedVertex& vertex) const
+{
+  AddedPoint point;
+  point.X = vertex.U;
+  point.Y = vertex.V;
+  point.From = vertex.Points[0];
+  point.To = vertex.Points[1];
+  point.Share = vertex.Weights[1];
+  if (vertex.Origin == NoOrigin)
   {
-    return;
-  }
-  this->CopyToHost();
-  if (this->Caller.Points.Floats)
-  {
-    this->AppendTo(this->Floats, points);
+    point.Third = vertex.Points[2];
+    point.ThirdShare = vertex.Weights[2];
   }
   else
   {
-    this->AppendTo(this->Doubles, points);
+    point.Segment = this->SegmentOfOrigin[vertex.Origin];
   }
-  points.insert(points.begin(), this->Added.begin(), this->Added.begin() + before);
-  this->Added = std::move(points);
-}
-
-/// Makes the points to triangulate those before refinement and these.
-/// @tparam Real the type of the caller's coordinates, and so of these.
-template <typename Real>
-void PreparedPoints::AppendTo(std::vector<Real>& coordinates, const std::vector<AddedPoint>& points)
-{
-  const std::int64_t before = this->CountBeforeRefinement();
-  std::vector<Real> all;
-  all.reserve(2 * (before + SizeOf(points)));
-  const PlaneArray& given = this->Prepared.Points;
-  const auto* values = static_cast<const Real*>(given.Data());
-  if (given.Stride == 2)
-  {
-    all.assign(values, values + 2 * before);
-  }
-  for (std::int64_t i = SizeOf(all) / 2; i < before; ++i)
-  {
-    all.push_back(values[given.Stride * i]);
-    all.push_back(values[given.Stride * i + 1]);
-  }
-  for (const AddedPoint& point : points)
-  {
-    all.push_back(static_cast<Real>(point.X));
-    all.push_back(static_cast<Real>(point.Y));
-  }
-  coordinates = std::move(all);
-  this->Prepared.Points = PlaneArray(coordinates.data(), before + SizeOf(points), 2);
+  return point;
 }
 
 std::vector<double> PreparedPoints::ListSizes() const
@@ -557,12 +535,12 @@ bool PreparedPoints::MayHaveArea(
 //------------------------------------------------------------------------------
 void PreparedPoints::StoreUsedPoints(const LoadedMesh& mesh, std::int64_t* ids) const
 {
-  if (this->Prepared.Points.Count == this->Caller.Points.Count && this->NearPoint.empty())
+  if (this->CountAll() == this->Caller.Points.Count && this->NearPoint.empty())
   {
     mesh.StoreUsedPoints(ids);
     return;
   }
-  std::vector<std::int64_t> used(this->Prepared.Points.Count);
+  std::vector<std::int64_t> used(this->CountAll());
   mesh.StoreUsedPoints(used.data());
   for (std::int64_t i = 0; i < this->Caller.Points.Count; ++i)
   {

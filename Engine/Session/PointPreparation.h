@@ -6,6 +6,7 @@
 #include "EdgeMesh.h"
 #include "FlipReport.h"
 #include "PointTriangulation.h"
+#include "RefinementPlan.h"
 #include "SegmentCrossings.h"
 
 #include <algorithm>
@@ -55,8 +56,13 @@ public:
   /// @throws InvalidMesh if one of the others is not closed.
   void PrepareRings(const LoadedMesh& mesh);
 
-  /// Replaces the points of refinement, which come last.
-  void SetRefined(std::vector<AddedPoint> points);
+  /// Replaces the points of refinement, which come last. The mesh has them.
+  /// @param segmentOf by RefinedVertex::Origin, the number of the caller's segment, or -1.
+  void SetRefined(std::int64_t count, std::vector<std::int64_t> segmentOf);
+  std::int64_t CountRefined() const { return this->Refined; }
+  /// How many points the mesh is made of: those of GetInput() and those of refinement.
+  std::int64_t CountAll() const { return this->Prepared.Points.Count + this->Refined; }
+  AddedPoint Describe(const RefinedVertex& vertex) const;
   /// How many points there are without them.
   std::int64_t CountBeforeRefinement() const
   {
@@ -103,6 +109,7 @@ public:
   PlaneArray CopyToHost();
 
   const std::vector<Segment>& GetSegments() const { return this->Segments; }
+  /// Those at crossings.
   const std::vector<AddedPoint>& GetAdded() const { return this->Added; }
   /// The numbers of the rings that PrepareRings has left out.
   const std::vector<std::int32_t>& GetLeftOutRings() const { return this->LeftOutRings; }
@@ -125,8 +132,6 @@ private:
   void CopyPoints();
   template <typename Real>
   void CopyCoordinates(std::vector<Real>& copy);
-  template <typename Real>
-  void AppendTo(std::vector<Real>& coordinates, const std::vector<AddedPoint>& points);
   bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
 
   PointInput Caller;
@@ -138,6 +143,8 @@ private:
   std::vector<double> Doubles;
   std::vector<std::int64_t> NearPoint; ///< By point, what GetNear returns; empty: not looked for.
   std::vector<AddedPoint> Added;
+  std::int64_t Refined = 0; ///< How many points refinement has added.
+  std::vector<std::int64_t> SegmentOfOrigin; ///< What SetRefined was given.
   std::vector<Segment> Segments;
   std::vector<std::int32_t> LeftOutRings;
   PointCounts Counts;

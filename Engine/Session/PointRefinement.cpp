@@ -175,7 +175,7 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   {
     originOf.push_back(pieces.FindOrigin(EdgeOf(edge.Side)));
   }
-  this->AddRefinedPoints(made, originOf);
+  this->CountRefinedPoints(made, originOf);
   const std::int64_t unrefined = this->HasEndedRefinement() ? made.Unrefined : 0;
   result.Unrefined = Defect(DefectKind::TrianglesNotRefined, unrefined);
   result.HasReachedLimit = made.HasReachedLimit;
@@ -210,7 +210,7 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
 }
 
 /// @param originOf the numbers of Result.EdgesBefore among the subsegments.
-void PointRun::AddRefinedPoints(
+void PointRun::CountRefinedPoints(
   const RefinementResult& made, const std::vector<std::uint32_t>& originOf)
 {
   std::vector<std::int64_t> segmentOf(made.Segments.size(), -1); // by number of an edge before
@@ -219,29 +219,48 @@ void PointRun::AddRefinedPoints(
     const SegmentEdge& edge = this->Result.EdgesBefore[i];
     segmentOf[originOf[i]] = this->Points.GetSegments()[edge.Segment].Number;
   }
-  std::vector<AddedPoint> points;
-  points.reserve(made.Vertices.Size());
-  for (std::size_t i = 0; i < made.Vertices.Size(); ++i)
+  this->Points.SetRefined(made.Added, std::move(segmentOf));
+  this->Added.clear();
+}
+
+/// Visits the points at crossings, and then those of refinement, on several threads.
+void PointRun::VisitAdded(const std::function<void(std::int64_t, const AddedPoint&)>& visit)
+{
+  const std::vector<AddedPoint>& crossings = this->Points.GetAdded();
+  for (std::int64_t i = 0; i < SizeOf(crossings); ++i)
   {
-    const RefinedVertex& vertex = made.Vertices[i];
-    AddedPoint point;
-    point.X = vertex.U;
-    point.Y = vertex.V;
-    point.From = vertex.Points[0];
-    point.To = vertex.Points[1];
-    point.Share = vertex.Weights[1];
-    if (vertex.Origin == NoOrigin)
-    {
-      point.Third = vertex.Points[2];
-      point.ThirdShare = vertex.Weights[2];
-    }
-    else
-    {
-      point.Segment = segmentOf[vertex.Origin];
-    }
-    points.push_back(point);
+    visit(i, crossings[i]);
   }
-  this->Points.SetRefined(std::move(points));
+  const std::int64_t refined = this->Points.CountRefined();
+  const auto visitRefined = [&](std::int64_t i, const RefinedVertex& vertex)
+  {
+    if (i < refined) // else an exception has ended a round after these
+    {
+      visit(SizeOf(crossings) + i, this->Points.Describe(vertex));
+    }
+  };
+  if (refined > 0)
+  {
+    this->TryOnBackend([&](LoadedMesh& mesh) { mesh.VisitRefined(visitRefined); });
+  }
+}
+
+void PointRun::StoreAddedPoints(const AddedPointArrays& arrays)
+{
+  this->VisitAdded([&](std::int64_t i, const AddedPoint& point) { arrays.Set(i, point); });
+}
+
+/// Points of refinement are listed only if they are asked for, because the list is long.
+const std::vector<AddedPoint>& PointRun::GetAddedPoints()
+{
+  const std::int64_t refined = this->Points.CountRefined();
+  if (refined > 0 && this->Added.empty())
+  {
+    std::vector<AddedPoint> added(SizeOf(this->Points.GetAdded()) + refined);
+    this->VisitAdded([&](std::int64_t i, const AddedPoint& point) { added[i] = point; });
+    this->Added = std::move(added);
+  }
+  return this->Points.CountRefined() > 0 ? this->Added : this->Points.GetAdded();
 }
 
 //------------------------------------------------------------------------------

@@ -56,8 +56,7 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
   const PointCounts& prepared = points.GetCounts();
   const std::int64_t notFinite = counts.NotFinite - prepared.TooNear;
   const std::int64_t repeated = counts.Repeated;
-  const std::int64_t places =
-    points.GetInput().Points.Count - notFinite - repeated - prepared.TooNear;
+  const std::int64_t places = points.CountAll() - notFinite - repeated - prepared.TooNear;
   counts = prepared;
   counts.Removed = SizeOf(points.GetRemoved());
   counts.NotFinite = notFinite - counts.Removed;
@@ -70,7 +69,7 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
     inside += static_cast<std::int64_t>(edge.IsFirst && !edge.IsOnBoundary);
   }
   counts.RefusedSegments = SizeOf(result.Refused);
-  counts.RefinementPoints = SizeOf(points.GetAdded()) - prepared.Crossings;
+  counts.RefinementPoints = points.CountRefined();
   counts.RefinementRounds = result.RefinementRounds;
   counts.UnrefinedTriangles = result.Unrefined.Count;
   counts.ReachedPointLimit = result.HasReachedLimit ? 1 : 0;
@@ -106,7 +105,7 @@ void AddUnusedPoints(FlipReport& report, const LoadedMesh& mesh, const PreparedP
   std::vector<std::int64_t> used;
   if (counts.NotFinite + counts.Repeated > 0)
   {
-    used.resize(points.GetInput().Points.Count);
+    used.resize(points.CountAll());
     mesh.StoreUsedPoints(used.data());
   }
   const auto add = [&](DefectKind kind, std::int64_t count, const auto& isListed)

@@ -398,7 +398,8 @@ void PointRun::Reset()
 {
   LoadedRun::Reset();
   this->Result = PointResult();
-  this->Points.SetRefined({});
+  this->Points.SetRefined(0, {});
+  this->Added.clear();
   this->BatchEnds.clear();
   this->AreFlipsSlow = false;
   this->Report.Points = this->Points.GetCaller().Points.Count;

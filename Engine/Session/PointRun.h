@@ -32,10 +32,11 @@ public:
   void StoreNeighbors(std::int32_t* neighbors) override;
   bool StoreNeighborsOnDevice(std::int32_t* neighbors, const DeviceStream& stream) override;
   void StoreUsedPoints(std::int64_t* ids) override;
-  const std::vector<AddedPoint>& GetAddedPoints() const override { return this->Points.GetAdded(); }
   std::vector<std::int64_t> ListSegmentEdges() override;
 
   /// See FlipSession. (PointRefinement.cpp)
+  const std::vector<AddedPoint>& GetAddedPoints() override;
+  void StoreAddedPoints(const AddedPointArrays& arrays) override;
   std::vector<std::int64_t> ListSegmentsOfEdges() override;
   void StoreRegions(std::int32_t* labels) override;
 
@@ -93,7 +94,8 @@ private:
   void LabelRegions(LoadedMesh& mesh);
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
   void TakeRefinement(LoadedMesh& mesh) override;
-  void AddRefinedPoints(const RefinementResult& made, const std::vector<std::uint32_t>& originOf);
+  void CountRefinedPoints(const RefinementResult& made, const std::vector<std::uint32_t>& originOf);
+  void VisitAdded(const std::function<void(std::int64_t, const AddedPoint&)>& visit);
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& progress);
 
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
@@ -107,6 +109,7 @@ private:
   std::vector<std::int64_t> BatchEnds;
   PointPlaces Places; ///< The next places, or the last ones. Kept so that moves reuse the memory.
   PointResult Result; ///< What was done to the loaded mesh beside flips.
+  std::vector<AddedPoint> Added; ///< What GetAddedPoints returns if there are points of refinement.
   bool AreFlipsSlow = false; ///< Whether divide and conquer takes over.
 };
 

@@ -92,10 +92,18 @@ public:
   virtual void StoreFlipCounts(std::int32_t* counts) = 0;
 
   /// See FlipSession.
-  virtual const std::vector<AddedPoint>& GetAddedPoints() const
+  virtual const std::vector<AddedPoint>& GetAddedPoints()
   {
     static const std::vector<AddedPoint> none;
     return none;
+  }
+  virtual void StoreAddedPoints(const AddedPointArrays& arrays)
+  {
+    const std::vector<AddedPoint>& points = this->GetAddedPoints();
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      arrays.Set(static_cast<std::int64_t>(i), points[i]);
+    }
   }
   /// Only sessions from triangles have them.
   virtual void StoreSources(std::int32_t*)

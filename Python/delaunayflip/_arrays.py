@@ -31,6 +31,9 @@ class _HostArrays:
     def to_host(self, array):
         return array
 
+    def copy_to_host(self, array, target):
+        target[...] = array
+
     def can_be_written(self, array):
         return array.flags.carray
 
@@ -96,6 +99,9 @@ class _CupyArrays(_DeviceArrays):
     def to_host(self, array):
         return array.get()
 
+    def copy_to_host(self, array, target):
+        array.get(out=target)
+
 
 class _TorchArrays(_DeviceArrays):
     def as_contiguous(self, array):
@@ -120,6 +126,9 @@ class _TorchArrays(_DeviceArrays):
 
     def to_host(self, array):
         return array.detach().cpu().numpy()
+
+    def copy_to_host(self, array, target):
+        importlib.import_module("torch").from_numpy(target).copy_(array.detach())
 
 
 class _NumbaArrays(_DeviceArrays):
@@ -147,6 +156,9 @@ class _NumbaArrays(_DeviceArrays):
 
     def to_host(self, array):
         return array.copy_to_host()
+
+    def copy_to_host(self, array, target):
+        array.copy_to_host(target)
 
 
 _HOST = _HostArrays()
@@ -204,6 +216,12 @@ def to_host(array):
     """The array, or None, in the host's memory: a copy if it is on a GPU."""
     adapter, array = _adapt(array)
     return adapter.to_host(array)
+
+
+def copy_to_host(array, target):
+    """Copies an array to a contiguous one of NumPy, of the same shape and type."""
+    adapter, array = _adapt(array)
+    adapter.copy_to_host(array, target)
 
 
 def make_empty(like, shape, dtype):

@@ -619,16 +619,20 @@ class Input:
 
     def _append_added(self, handle, count):
         """The points, with those that were made behind them, and the segments of these."""
-        points = _arrays.to_host(self.points)
-        first = len(points)
-        places, weights = numpy.empty((count, 2)), numpy.empty((count, 3))
+        first, columns = self.points.shape
+        points = numpy.empty((first + count, columns), dtype=_arrays.type_of(self.points))
+        _arrays.copy_to_host(self.points, points[:first])
+        places, weights = points[first:], numpy.empty((count, 3))
+        is_in_place = columns == 2 and points.dtype == numpy.float64
+        if not is_in_place:
+            places = numpy.empty((count, 2))
         ids, segments = numpy.empty((count, 3), dtype=numpy.int64), numpy.empty(count, dtype=numpy.int64)
         _library.call("store_added_weights", handle, address(places), address(ids), address(weights),
                       address(segments))
-        points = numpy.concatenate([points, numpy.zeros((count, points.shape[1]), points.dtype)])
-        points[first:, :2] = places
+        if not is_in_place:
+            points[first:, :2] = places
         self.added = ids, weights
-        if points.shape[1] > 2:
+        if columns > 2:
             self.fill_added(points[:, 2:], first)
         return points, segments
 

@@ -135,6 +135,10 @@ public:
     return added;
   }
   const RefinementResult& FetchRefinement() override { return this->Engine->FetchRefinement(); }
+  void VisitRefined(const RefinedVertexVisitor& visit) override
+  {
+    this->Engine->VisitRefined(visit);
+  }
   bool StoreTrianglesOnDevice(
     const MutableTriangleArray& triangles, const DeviceStream&, std::int32_t*) const override
   {

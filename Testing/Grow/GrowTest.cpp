@@ -240,5 +240,67 @@ TEST(Grow, AnObserverMayStop)
   EXPECT_EQ(Normalize(Triangulate(points).Triangles), Normalize(StoreTriangles(session)));
 }
 
+/// Expects in arrays what GetAddedPoints returns.
+void ExpectSameInArrays(const FlipSession& session, int components)
+{
+  const PointCounts& counts = session.GetReport().FromPoints;
+  const std::int64_t size = counts.Crossings + counts.RefinementPoints;
+  std::vector<double> places(components * size), weights(3 * size);
+  std::vector<std::int64_t> ids(3 * size), segments(size);
+  AddedPointArrays arrays;
+  arrays.Places = places.data();
+  arrays.Components = components;
+  arrays.Ids = ids.data();
+  arrays.Weights = weights.data();
+  arrays.Segments = segments.data();
+  session.StoreAddedPoints(arrays); // before the list is made
+  const std::vector<AddedPoint>& points = session.GetAddedPoints();
+  ASSERT_EQ(size, static_cast<std::int64_t>(points.size()));
+  for (std::int64_t i = 0; i < size; ++i)
+  {
+    const AddedPoint& point = points[i];
+    const double* place = &places[components * i];
+    EXPECT_EQ(point.X, place[0]);
+    EXPECT_EQ(point.Y, place[1]);
+    EXPECT_EQ(components > 2 ? point.Z : place[1], place[components - 1]);
+    EXPECT_EQ((std::array<std::int64_t, 3>{ point.From, point.To, point.Third }),
+      (std::array<std::int64_t, 3>{ ids[3 * i], ids[3 * i + 1], ids[3 * i + 2] }));
+    EXPECT_EQ(1.0 - point.Share - point.ThirdShare, weights[3 * i]);
+    EXPECT_EQ(point.Share, weights[3 * i + 1]);
+    EXPECT_EQ(point.ThirdShare, weights[3 * i + 2]);
+    EXPECT_EQ(point.Segment, segments[i]);
+  }
+  session.StoreAddedPoints({}); // null: nothing is wanted
+}
+
+TEST(AddedPoints, HaveTheSameMembersInArrays)
+{
+  Drawing cross;
+  cross.Points = { { 0, 0 }, { 7, 5 }, { 7, 0 }, { 0, 5 }, { 3, 4 } };
+  cross.Segments = { { 0, 1 }, { 2, 3 } };
+  PointOptions options;
+  options.SplitCrossings = true;
+  options.MinimumAngle = 30.0;
+  const FlipSession session = FlipPoints(cross.View(), options);
+  EXPECT_EQ(1, session.GetReport().FromPoints.Crossings);
+  EXPECT_LT(0, session.GetReport().FromPoints.RefinementPoints);
+  ExpectSameInArrays(session, 2);
+  EXPECT_EQ(session.GetAddedPoints().size() + cross.Points.size(),
+    static_cast<std::size_t>(session.GetReport().FromPoints.Used));
+
+  const std::vector<double> points = { 0, 0, 1, 9, 0, 2, 9, 1, 3, 0, 1, 4 };
+  const std::vector<std::int32_t> triangles = { 0, 1, 2, 0, 2, 3 };
+  TriangleMesh mesh;
+  mesh.Points = PointArray(points.data(), 4);
+  mesh.Triangles = TriangleArray(triangles.data(), 2);
+  FlipOptions goals;
+  goals.Geometry = GeometryKind::PlanarXY;
+  goals.MinimumAngle = 30.0;
+  FlipSession strip(mesh, goals);
+  strip.Advance();
+  EXPECT_LT(0, strip.GetReport().FromPoints.RefinementPoints);
+  ExpectSameInArrays(strip, 3);
+}
+
 }
 }
