@@ -75,7 +75,7 @@ class Pictures(unittest.TestCase):
             named = re.search(r'\["(#\w+)"(?:, "#\w+"){5}\]', read(path)).group(0)
             self.assertEqual(colors, [[round(int(color[i:i + 2], 16) / 255, 2) for i in (0, 2, 4)]
                                       for color in re.findall(r"#(\w{6})", named)])
-        table = re.search(r"angleColors\[\] = \{([^}]*)\}", read("Rendering/vtkDelaunayFlipMapper.cxx"))
+        table = re.search(r"angleColors\[\] = \{([^}]*)\}", read("Rendering/MapperColors.h"))
         self.assertEqual(sum(colors, []), [float(part) for part in table.group(1).split(",")])
 
 
