@@ -132,7 +132,7 @@ void AddJudgeOptions(CLI::App& app, Arguments& arguments)
   AddChoice(app, "--tie-rule", Set(arguments, &vtkDelaunayFlip::SetTieRule),
     { "keep", "canonical" },
     "Edges with all four points on one circle: keep them, or make the result independent of the "
-    "input's triangles (in-circle in the plane only) [keep]");
+    "input's triangles (not on surfaces in space) [keep]");
 }
 
 void AddStayOptions(CLI::App& app, Arguments& arguments)

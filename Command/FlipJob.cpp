@@ -226,6 +226,7 @@ private:
       options.Crs = this->Input.Crs;
     }
     options.Output = this->Settings.Output;
+    options.PlacesAreAngles = this->Input.PlacesAreAngles;
     this->Heights = HeightQuery::Make(options, this->Input.Mesh, this->Input.Places);
     this->Heights->Begin(this->Settings.Interpolator,
       SelectArray(this->Input.Mesh, options.Array, this->Settings.Input));

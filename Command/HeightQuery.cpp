@@ -124,6 +124,24 @@ void RequireMemory(const RasterGrid& grid, double needed)
   }
 }
 
+/// The directions of longitudes and latitudes.
+vtkSmartPointer<vtkPolyData> MakeDirections(vtkDataSet* degrees)
+{
+  const vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(degrees->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
+  {
+    std::array<double, 3> angles, place;
+    degrees->GetPoint(i, angles.data());
+    PlaceOnSphere(angles[0], angles[1], place.data());
+    points->SetPoint(i, place.data());
+  }
+  auto directions = vtkSmartPointer<vtkPolyData>::New();
+  directions->SetPoints(points);
+  return directions;
+}
+
 /// A raster in blocks of rows from the north.
 class RasterQuery : public HeightQuery
 {
@@ -186,24 +204,6 @@ protected:
   }
 
 private:
-  /// The directions of longitudes and latitudes.
-  static vtkSmartPointer<vtkDataSet> MakeDirections(vtkImageData* degrees)
-  {
-    const vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(degrees->GetNumberOfPoints());
-    for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
-    {
-      std::array<double, 3> angles, place;
-      degrees->GetPoint(i, angles.data());
-      PlaceOnSphere(angles[0], angles[1], place.data());
-      points->SetPoint(i, place.data());
-    }
-    auto directions = vtkSmartPointer<vtkPolyData>::New();
-    directions->SetPoints(points);
-    return directions;
-  }
-
   RasterGrid Grid;
   bool HasDirections; ///< The filter gets these instead of longitudes and latitudes.
   RasterName Name;
@@ -219,13 +219,18 @@ public:
   PlaceTable(const HeightOptions& options, vtkPolyData* places)
     : HeightQuery(options, "places", Grouped(places->GetNumberOfPoints())),
       Places(places),
-      Axes(options.AreDirections ? 3 : 2)
+      Asked(places),
+      Axes(options.AreDirections && !options.PlacesAreAngles ? 3 : 2)
   {
+    if (options.AreDirections && options.PlacesAreAngles)
+    {
+      this->Asked = MakeDirections(places);
+    }
   }
 
   vtkSmartPointer<vtkDataSet> NextBlock() override
   {
-    return std::exchange(this->IsTaken, true) ? nullptr : this->Places;
+    return std::exchange(this->IsTaken, true) ? nullptr : this->Asked;
   }
 
   double GetShare() const override { return 1.0; }
@@ -250,7 +255,7 @@ protected:
   {
     for (vtkIdType i = 0; i < block->GetNumberOfPoints(); ++i)
     {
-      const double* const place = block->GetPoint(i);
+      const double* const place = this->Places->GetPoint(i);
       for (int axis = 0; axis < this->Axes; ++axis)
       {
         this->File << TextOf(place[axis]) << ',';
@@ -264,7 +269,8 @@ protected:
   }
 
 private:
-  vtkSmartPointer<vtkPolyData> Places;
+  vtkSmartPointer<vtkPolyData> Places; ///< Those of the file.
+  vtkSmartPointer<vtkPolyData> Asked; ///< These, or their directions.
   int Axes; ///< How many coordinates of a place are written.
   bool IsTaken = false;
   std::ofstream File;

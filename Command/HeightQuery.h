@@ -31,7 +31,8 @@ struct HeightOptions
   std::string Array; ///< A point array; empty: z.
   std::string Output; ///< The file that is written.
   std::string Crs; ///< That of the raster; empty: that of the input, if its file names one.
-  bool AreDirections = false; ///< Points, and places of a file, are x, y and z on a sphere.
+  bool AreDirections = false; ///< Points are x, y and z on a sphere.
+  bool PlacesAreAngles = false; ///< Places are longitudes and latitudes, though points are not.
 
   bool AreWanted() const { return this->Step > 0.0 || !this->Places.empty(); }
 };

@@ -52,6 +52,7 @@ public:
     if (!heights.Places.empty())
     {
       this->Input.Places = this->ReadFile(heights.Places, Content::Rows);
+      this->FindKindOfPlaces();
     }
     if (this->Settings.FromPoints)
     {
@@ -85,6 +86,25 @@ public:
   }
 
 private:
+  /// Places for a mesh of x, y and z on a sphere may be longitudes and latitudes, as the cells of a
+  /// raster are: then their columns are called so, or there is no third one.
+  void FindKindOfPlaces()
+  {
+    if (!this->Settings.Heights.AreDirections)
+    {
+      return;
+    }
+    double bounds[6];
+    this->Input.Places->GetBounds(bounds);
+    const bool areFlat = bounds[4] == 0.0 && bounds[5] == 0.0;
+    this->Input.PlacesAreAngles = this->PlacesHaveAngles || areFlat;
+    if (this->Input.PlacesAreAngles)
+    {
+      this->Messages.Note(
+        this->Settings.Heights.Places + ": its x and y are longitudes and latitudes in degrees");
+    }
+  }
+
   vtkSmartPointer<vtkPolyData> ReadFile(const std::string& path, Content content = Content::Mesh)
   {
     this->Bar.Begin(Phase::Reading, "reading " + path);
@@ -95,6 +115,10 @@ private:
     {
       this->Input.Crs = file.Crs;
       this->HasAngles = file.HasAngles;
+    }
+    if (content == Content::Rows)
+    {
+      this->PlacesHaveAngles = file.HasAngles;
     }
     this->Bar.Clear();
     this->CompareCrs(file.Crs, path);
@@ -198,6 +222,7 @@ private:
   JobMessages& Messages;
   JobInput Input;
   bool HasAngles = false; ///< The input's file calls x and y longitudes and latitudes.
+  bool PlacesHaveAngles = false; ///< That of the places does so.
   SharedCrs FilesCrs;
 };
 

@@ -23,6 +23,7 @@ struct JobInput
   vtkSmartPointer<vtkPolyData> Mesh;
   vtkSmartPointer<vtkPolyData> Segments; ///< Those of constraints and rings; or null.
   vtkSmartPointer<vtkPolyData> Places; ///< Where heights are wanted; or null.
+  bool PlacesAreAngles = false; ///< They are longitudes and latitudes, but the points are not.
   std::string Crs; ///< The coordinate reference system that the mesh's file names.
   vtkIdType OutlineRings = 0; ///< How many of the rings come first.
 };

@@ -55,6 +55,8 @@ class SphereTriangulation(Asked):
         """(m, 3) float64: the center of the circumcircle of each triangle, on the unit sphere. The
         Voronoi cell of a point has as corners the centers of the triangles around it."""
         corners = _arrays.to_host(self.points)[_arrays.to_host(self.triangles)].astype(numpy.float64)
+        if len(corners):  # products must neither overflow nor vanish
+            corners = numpy.ldexp(corners, -int(numpy.frexp(abs(corners).max())[1]))
         normals = numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         with numpy.errstate(invalid="ignore", divide="ignore"):  # triangles without area
             return normals / numpy.linalg.norm(normals, axis=1, keepdims=True)
@@ -117,7 +119,8 @@ def triangulate_sphere(
         segments: (k, 2) point ids: edges that the triangulation must have. They run along great circles,
             the shorter way around; ends on opposite sides of the sphere are an error. One that passes
             through points is split there; one that crosses an earlier one is left out, with a warning. Or a
-            list of lines, each an array of coordinates, of either kind, which become points.
+            list of lines, each an array of coordinates, of either kind, which become points. Longitudes
+            and latitudes beside points in x, y and z are put at their median distance from the origin.
         outline: A ring, or a list of rings: only what is inside them is kept. A ring is a list of point ids,
             or of coordinates of either kind, which become points. It may end with its first point.
         holes: A ring, or a list of rings, of the same kinds: what is inside them is removed.
@@ -126,18 +129,18 @@ def triangulate_sphere(
         ring_rule: What is inside a ring, and a set of rings. "evenodd": the smaller of the two sides of a
             ring, whatever its direction; what is inside an odd number of rings. "nonzero": the same; where
             the turns of the rings do not add up to 0. "orientation": of the outline, what is to the left of
-            the rings, as GeoJSON has it; of the holes, as "nonzero".
+            any of the rings, as GeoJSON has it; of the holes, as "nonzero".
         degrees: Whether longitudes and latitudes are in degrees, not radians, in all arguments.
         open: Leave out a triangle if its circumcircle encloses half of the sphere or more, so that points
-            on less than half of the sphere, or on one parallel, have an open mesh. Otherwise
-            triangles close the mesh. Segments need points on all sides of the center, or this.
+            on less than half of the sphere, or on one parallel, have an open mesh. Otherwise triangles
+            close the mesh. Segments need points on all sides of the center, or this.
         backend, threads, device: As for `triangulate`.
         progress, on_iteration: Called with the share of the work done, 0 to 1, and at the end for each
             iteration with a dict of its numbers; returning False from `progress` aborts.
 
     Returns:
-        A `SphereTriangulation`. It has no triangles if all places lie in one plane, which is warned of, or
-        if progress aborts.
+        A `SphereTriangulation`. It has no triangles if all places lie in one plane, except for rounding,
+        which is warned of, or if progress aborts.
 
     Raises:
         InvalidMesh: A segment names a point that does not exist, or has ends on opposite sides; or a ring
@@ -247,7 +250,7 @@ def _triangulate(points, keywords, progress=None, on_iteration=None, keeps=False
     result = run_input(given, make_options(**backend), lambda _: (),
                        lambda handle, _: _store(handle, given, keywords, (own, lines)), progress, on_iteration,
                        keeps)
-    return result, list(filter(None, (misplaced, "; ".join(given.trouble))))
+    return result, list(filter(None, (misplaced, "; ".join(given.trouble), _describe_distances(result))))
 
 
 def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=None, ring_rule="evenodd"):
@@ -255,18 +258,22 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
     seeds are converted as those of points."""
     troubles = []
 
+    @functools.lru_cache(maxsize=None)
+    def find_radius():  # of the sphere of the points; lines in longitudes and latitudes lie on it, too
+        return 1.0 if has_angles else _find_distances(own)[1]
+
     def place(coordinates, name=""):
         if coordinates.shape[1] == 3:
             return coordinates
         trouble = _describe_latitudes(_to_degrees(coordinates[:, 1], degrees), "point")
         if trouble:
             troubles.append(name + trouble)
-        return place_on_sphere(coordinates, degrees=degrees)
+        directions, radius = place_on_sphere(coordinates, degrees=degrees), find_radius()
+        return directions if abs(radius - 1.0) < 1e-6 else radius * directions
 
-    places = _arrays.as_plane(points)
-    if places.shape[1] == 2:
-        places = _arrays.to_host(places)
-    places = place(places)
+    own = _arrays.as_plane(points)
+    has_angles = own.shape[1] == 2
+    places = place(_arrays.to_host(own) if has_angles else own)
     lines = list_lines(segments)
     rings = {}
     for name, value in (("outline", outline), ("holes", holes)):
@@ -277,6 +284,30 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
     if hole_seeds is not None:
         given.take_seeds(place(_arrays.to_host(_arrays.as_plane(hole_seeds, "hole_seeds")), "hole_seeds: "))
     return given, "; ".join(dict.fromkeys(troubles))
+
+
+def _find_distances(points):
+    """The smallest, the median and the largest distance of points from the origin."""
+    points = _arrays.to_host(points).astype(numpy.float64)
+    points = points[numpy.isfinite(points).all(axis=1)]
+    scale = abs(points).max(initial=0.0)
+    if scale == 0.0:
+        return 1.0, 1.0, 1.0
+    lengths = numpy.linalg.norm(points / scale, axis=1)
+    return scale * lengths.min(), scale * float(numpy.median(lengths)), scale * lengths.max()
+
+
+def _describe_distances(result):
+    """A hint if points in x, y and z are not on a sphere around the origin, or ""."""
+    report = result.report
+    is_usual = len(result.triangles) > 0 and report.points_inside == 0
+    if is_usual or report.stop_reason == "aborted":
+        return ""
+    least, _, most = _find_distances(result.points)
+    if most <= 1.0001 * least:
+        return ""
+    return (f"the points are {least:.3g} to {most:.3g} from the origin, so they are not on a sphere around it; "
+            "longitudes and latitudes are two columns, without heights")
 
 
 def _read_directions(given, degrees):

@@ -361,6 +361,8 @@ def _read_cloud(cloud, segments, outline, holes, options, *, projection, degrees
         _require_mesh("segments", segments)
     number = choose("projection", projection, typing.get_args(Projection))
     degrees = bool(check_integer("degrees", degrees, 0, 1, "True or False"))
+    if degrees and number == 0:
+        raise ValueError('degrees=True needs projection="sphere" or "open-sphere"')
     rings = {"outline": _list_rings("outline", outline), "holes": _list_rings("holes", holes)}
     seeds = settings.pop("hole_seeds", None)
     if number == 0:

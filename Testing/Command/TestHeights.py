@@ -154,6 +154,16 @@ class Rasters(HeightTest):
         lines = self.content("out.csv").decode().splitlines()
         self.assertEqual(lines[0], "x,y,z,Height")
         self.assertEqual([line.rpartition(",")[0] for line in lines[1:]], ["0,0,2", "1,-1,0"])
+        for names in ("lon,lat", "x,y"):
+            self.write("angles.csv", names + "\n77,90\n-45,0\n")
+            result = self.ask("globe.vtp", "angles_out.csv", *sphere, "--heights-at", "angles.csv",
+                              "--raster-array", "Height")
+            self.assertIn("its x and y are longitudes and latitudes", result.stderr)
+            found = self.content("angles_out.csv").decode().splitlines()
+            self.assertEqual([line.rpartition(",")[0] for line in found], ["x,y", "77,90", "-45,0"])
+            for one, other in zip(found[1:], lines[1:]):
+                heights = [float(line.rpartition(",")[2]) for line in (one, other)]
+                self.assertAlmostEqual(*heights, places=6)
 
     def test_latitudes_beyond_the_poles(self):
         self.write("globe.csv", "lon,lat,z\n0,0,1\n90,0,2\n180,0,3\n-90,0,4\n0,90,5\n0,-90,6\n")

@@ -246,7 +246,7 @@ class Arrays(unittest.TestCase):
     def test_what_is_refused(self):
         f = delaunayflip.LinearInterpolator(POINTS, plane(POINTS))
         for call, error, text in (
-            (lambda: f(PLACES[:, :1]), ValueError, r"places must have the shape \(\.\.\., 2\), not"),
+            (lambda: f(PLACES[:, :1]), ValueError, r"places must have the shape \(\.\.\., 2\) or \(\.\.\., 3\), not"),
             (lambda: f(1, 2, 3), TypeError, "there are 3"),
             (lambda: f("ab"), TypeError, "places"),
             (lambda: f(numpy.zeros(3), numpy.zeros(2)), ValueError, r"x of shape \(3,\) .* y\[:, None\]"),

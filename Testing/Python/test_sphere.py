@@ -162,6 +162,31 @@ class Sphere(unittest.TestCase):
         with self.assertWarnsRegex(UserWarning, "all are on one great circle"):
             delaunayflip.triangulate_sphere([[30 * i, 0] for i in range(12)], open=True)
 
+    def test_lines_lie_on_the_sphere_of_the_points(self):
+        points, land = make_directions(2000, 5), [[0, 0], [10, 0], [10, 10]]
+        for radius in (6371.0, 0.1, 1.0):
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                part = delaunayflip.triangulate_sphere(radius * points, [[[20, 0], [30, 5]]], holes=[land])
+            self.assertGreater(len(part.segments), 0)
+            self.assertTrue(numpy.allclose(numpy.linalg.norm(part.points, axis=1), radius))
+
+    def test_heights_are_no_third_column(self):
+        lonlat = numpy.random.default_rng(2).uniform((-180, -80), (180, 80), (200, 2))
+        with self.assertWarnsRegex(UserWarning, "not on a sphere around it; longitudes and latitudes are two"):
+            delaunayflip.triangulate_sphere(numpy.c_[lonlat, numpy.full(200, 500.0)])
+
+    def test_one_place(self):
+        globe = delaunayflip.triangulate_sphere([[0, 0], [90, 0], [180, 0], [270, 0], [0, 90], [0, -90]])
+        self.assertEqual(globe.locate([1, 1, 1]).tolist(), globe.locate([[1, 1, 1]]).tolist())
+
+    def test_voronoi_corners_of_any_size(self):
+        points = make_directions(50, 3)
+        corners = delaunayflip.triangulate_sphere(points).voronoi_corners
+        for factor in (2.0**500, 2.0**-500):
+            scaled = delaunayflip.triangulate_sphere(factor * points).voronoi_corners
+            self.assertTrue(numpy.array_equal(corners, scaled))
+
     def test_hints(self):
         points = make_directions(100, 9)
         mesh = delaunayflip.triangulate_sphere(points)
