@@ -20,12 +20,13 @@ string(REGEX MATCH "^[a-z0-9_]+" CMAKE_SYSTEM_PROCESSOR "${target}")
 
 set(CMAKE_C_COMPILER "$ENV{DELAUNAYFLIP_ZIG}" cc -target ${target})
 set(CMAKE_CXX_COMPILER "$ENV{DELAUNAYFLIP_ZIG}" c++ -target ${target})
-# CMake runs these without arguments of ours.
+# CMake runs these without arguments of ours. They find the compiler beside them, also in a folder that
+# was moved.
 foreach(tool ar ranlib)
   string(TOUPPER ${tool} variable)
   set(program "$ENV{DELAUNAYFLIP_ZIG}-${tool}")
   if(NOT EXISTS "${program}")
-    file(WRITE "${program}" "#!/bin/sh\nexec \"$ENV{DELAUNAYFLIP_ZIG}\" ${tool} \"$@\"\n")
+    file(WRITE "${program}" "#!/bin/sh\nexec \"\${0%-*}\" ${tool} \"$@\"\n")
     file(CHMOD "${program}" PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
   endif()
   set(CMAKE_${variable} "${program}")
