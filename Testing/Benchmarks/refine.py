@@ -13,6 +13,7 @@ installed, also the number of points and the real time divided by Triangle's.
 
 threads: N  triangulate(minimum_angle=...)
 cuda        the same on a GPU, from and to arrays of NumPy
+cupy        the same on a GPU, from points and to triangles of CuPy; points are returned on the host
 triangle    Triangle by its Python package, with the switches p and q
 pythoncdt   CDT's refinement
 gmsh        Gmsh's Delaunay algorithm, on coasts alone. It has no smallest angle: sizes grow with the distance
@@ -65,6 +66,10 @@ def measure_angle(points, triangles):
 def refine_ours(points, ring, angle, **options):
     found = delaunayflip.triangulate(points, outline=[ring.tolist()], minimum_angle=angle, **options)
     return found.points, found.triangles
+
+
+def refine_cupy(points, ring, angle):
+    return refine_ours(importlib.import_module("cupy").asarray(points), ring, angle)
 
 
 def refine_triangle(points, ring, angle):
@@ -124,7 +129,10 @@ def list_programs(threads):
         programs.append(("cuda", lambda *case: refine_ours(*case, backend="cuda")))
     else:
         absent.append("cuda (no GPU)")
-    for name, function in (("triangle", refine_triangle), ("pythoncdt", refine_cdt), ("gmsh", refine_gmsh)):
+    others = [("triangle", refine_triangle), ("pythoncdt", refine_cdt), ("gmsh", refine_gmsh)]
+    if not absent:
+        others.insert(0, ("cupy", refine_cupy))
+    for name, function in others:
         try:
             importlib.import_module(name)
             programs.append((name, function))
@@ -137,6 +145,8 @@ def describe(found):
     if isinstance(found, int):
         return f"{found:10,}{'-':>10}"
     points, triangles = found
+    if hasattr(triangles, "get"):
+        triangles = triangles.get()  # an array of CuPy
     return f"{len(points):10,}{measure_angle(numpy.asarray(points), numpy.asarray(triangles)):10.3f}"
 
 
