@@ -564,10 +564,23 @@ private:
   bool IsWithinRounding(std::size_t segment, std::int64_t point) const
   {
     constexpr double Roundings = 4.0;
+    const Segment& ends = this->Result.Segments[segment];
+    if (point == ends.From || point == ends.To)
+    {
+      return false;
+    }
     const PlanePoint a = this->GetStart(segment), b = this->GetEnd(segment), p = this->At(point);
     const double largest =
       std::max({ std::fabs(a.U), std::fabs(a.V), std::fabs(b.U), std::fabs(b.V) });
     const double distance = Roundings * largest * (this->Points.Floats ? 0x1p-23 : 0x1p-52);
+    // Most points are farther away, and comparisons are faster than a square root.
+    const double room = 2.0 * distance;
+    const bool isAway = p.U < std::min(a.U, b.U) - room || p.U > std::max(a.U, b.U) + room ||
+      p.V < std::min(a.V, b.V) - room || p.V > std::max(a.V, b.V) + room;
+    if (isAway)
+    {
+      return false;
+    }
     const double u = b.U - a.U, v = b.V - a.V, length = PlaneLength(u, v);
     const double along = (u * (p.U - a.U) + v * (p.V - a.V)) / length;
     const double across = (u * (p.V - a.V) - v * (p.U - a.U)) / length;
