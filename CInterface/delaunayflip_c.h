@@ -568,8 +568,13 @@ extern "C"
    * now, perhaps in another order; there may be more or fewer than before. If there are no goals,
    * point_tolerance is 0, no two points meet at one place or part, and none goes through a segment,
    * the mesh follows the points by flips, unless many triangles would turn over. Segments, outlines
-   * and holes move with their points. Otherwise the triangulation is made anew. For sessions from
-   * points, after delaunayflip_advance.
+   * and holes move with their points. Otherwise the triangulation is made anew. Call it after
+   * delaunayflip_advance.
+   * The mesh of a session from triangles stays as it is, and delaunayflip_advance goes on with it;
+   * edges that were fixed stay. That is for the CPU, and for x, y and z of all points in the host's
+   * memory. It fails with DELAUNAYFLIP_INVALID_OPTIONS, and nothing changes, on a GPU, after
+   * refinement, with region seeds, if points are not finite, or if automatic geometry would be
+   * another one.
    * A frame of moving points:
    *
    *     delaunayflip_points places;

@@ -195,14 +195,20 @@ public:
   /// PointCounts::MoveRounds is then 0.
   ///
   /// If a GPU fails later, the CPU triangulates the points where they are, and the triangles may be
-  /// in another order. For sessions from points.
+  /// in another order.
+  ///
+  /// The mesh of a session from triangles stays as it is, and Advance goes on with it. Edges that
+  /// were fixed stay, and the report begins anew. That is for the CPU, and for all points at once,
+  /// in the host's memory, with Stride 3: x, y and z.
   /// @param move coordinates in the host's memory are copied, in the precision of the points. Those
   /// in the memory of a GPU must have that precision, and stay unchanged until the next move.
   /// @param progress is asked before points move, and while they are triangulated anew.
   /// @returns false if `progress` has asked to stop. Then all points are where they were.
-  /// @throws InvalidOptions if the session is not one from points, or if the number of places or an
-  /// id does not fit it; also what the constructor and Advance throw. After an exception all points
-  /// are where they were, and the next Advance begins anew.
+  /// @throws InvalidOptions if the number of places or an id does not fit the session, or points
+  /// are on a sphere. A session from triangles must also not be on a GPU, refined or in several
+  /// pieces, nor have region seeds or points that are not finite, and GeometryKind::Auto must not
+  /// choose another geometry now; else nothing changes. Also throws what the constructor and
+  /// Advance throw. Then all points are where they were, and the next Advance begins anew.
   bool Move(const PointMove& move, const ProgressObserver& progress = {});
 
   /// Removes points. The others keep their numbers. A removed point is no longer used, as if it

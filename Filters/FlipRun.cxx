@@ -98,6 +98,11 @@ public:
   /// Goes on with an input that has only other attributes.
   void Renew(const FlipRequest& request);
 
+  /// Goes on with the triangles as they are now, and an input with points at other places.
+  /// @returns false, and changes nothing, if another session has to begin there.
+  /// @throws RunAborted.
+  bool Follow(const FlipRequest& request, const UpdatePlan& plan);
+
   /// The triangles as they are now, for a warm start.
   /// @throws RunAborted.
   RunStart GetEnd(const ProgressObserver& progress) const;
@@ -123,6 +128,16 @@ private:
   vtkSmartPointer<vtkPolyData> Origin; ///< With points that no later update moves.
   PolyDataBridge Bridge; ///< To the origin. The session has views of its arrays.
   RunStart Begin; ///< The session has views of its arrays, too.
+
+  /// The points at which the session was opened, once it has followed others. They decide which
+  /// edges are fixed.
+  struct FirstPoints
+  {
+    vtkSmartPointer<vtkPolyData> Mesh;
+    std::vector<double> Coordinates;
+    PointArray Points;
+  };
+  FirstPoints First;
 };
 
 FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
@@ -158,10 +173,55 @@ void FlipRun::Renew(const FlipRequest& request)
   this->Asked = request;
 }
 
+bool FlipRun::Follow(const FlipRequest& request, const UpdatePlan& plan)
+{
+  const auto origin = CopyPoints(request.Input);
+  std::vector<double> coordinates;
+  const PointArray points = ViewPoints(origin, coordinates);
+  TriangleMesh mesh = this->Bridge.GetMesh();
+  const PointArray before = mesh.Points;
+  mesh.Points = points;
+  const GeometryKind geometry = this->Session->GetReport().GeometryUsed;
+  const bool isSameType = (points.Floats == nullptr) == (before.Floats == nullptr);
+  if (!isSameType || FindGeometry(mesh, request.Options) != geometry)
+  {
+    return false;
+  }
+  constexpr std::int64_t Components = 3;
+  PointMove move;
+  move.Points = points.Floats ? PlaneArray(points.Floats, points.Count, Components)
+                              : PlaneArray(points.Doubles, points.Count, Components);
+  try
+  {
+    if (!this->Session->Move(move, plan.For(UpdatePlan::Session)))
+    {
+      throw RunAborted();
+    }
+  }
+  catch (const InvalidOptions&)
+  {
+    return false;
+  }
+  this->Bridge.MovePoints(origin, points, coordinates);
+  if (!this->First.Mesh)
+  {
+    this->First = { this->Origin, std::move(coordinates), before };
+  }
+  this->Origin = origin;
+  this->Points = StampPoints(request);
+  this->Plan = plan;
+  this->Renew(request);
+  return true;
+}
+
 //------------------------------------------------------------------------------
 RunStart FlipRun::GetEnd(const ProgressObserver& progress) const
 {
-  const TriangleMesh mesh = this->Bridge.GetMesh();
+  TriangleMesh mesh = this->Bridge.GetMesh();
+  if (this->First.Mesh)
+  {
+    mesh.Points = this->First.Points;
+  }
   RunStart start;
   start.Report = this->GetReport();
   start.Triangles.resize(3 * mesh.Triangles.Count);
@@ -313,6 +373,10 @@ bool FlipRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) const
     return true;
   }
   const bool isWarm = change == InputChange::Points && !this->Settings.Refines;
+  if (isWarm && last->Follow(*this, MakePlan(*this, false)))
+  {
+    return false;
+  }
   UpdatePlan plan = MakePlan(*this, isWarm);
   RunStart start;
   if (isWarm)

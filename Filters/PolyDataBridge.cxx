@@ -141,6 +141,14 @@ void PolyDataBridge::LabelRegions(const std::string& name, const ProgressObserve
   }
 }
 
+void PolyDataBridge::MovePoints(
+  vtkPolyData* mesh, const PointArray& points, std::vector<double>& coordinates)
+{
+  this->Mesh = mesh;
+  this->Points = points;
+  this->Coordinates.swap(coordinates);
+}
+
 TriangleMesh PolyDataBridge::GetMesh() const
 {
   TriangleMesh mesh;

@@ -60,6 +60,12 @@ public:
   /// @throws InvalidMesh, which names the cell, when a triangle names a point that does not exist.
   void RequireValidIds() const;
 
+  /// Views points at other places, of a mesh that has all else in common with the one that this
+  /// bridge reads, and must outlive the bridge.
+  /// @param coordinates the memory of the points if they are not those of the mesh; receives the
+  /// memory of the points before.
+  void MovePoints(vtkPolyData* mesh, const PointArray& points, std::vector<double>& coordinates);
+
   /// GetMesh() may hold more edges that are unmatched.
   const ConstraintEdges& GetConstraints() const { return this->Constraints; }
 

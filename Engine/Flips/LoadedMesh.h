@@ -109,6 +109,13 @@ public:
   /// Whether an array is in the memory of the backend's device.
   virtual bool HasMemory(const void*) const { return false; }
 
+  /// Moves the points of a mesh of triangles, which stay as they are. All edges that are not fixed
+  /// become candidates, and flips are counted anew. FlipLoop::Detect must follow.
+  /// @param moved the mesh that was loaded, with its points at other places.
+  /// @returns false, and changes nothing, if the mesh has to be loaded anew: on a device, if points
+  /// are not finite, or if another geometry suits it now.
+  virtual bool MoveMesh(const TriangleMesh&, const FlipOptions&) { return false; }
+
   /// Begins to refine a Delaunay triangulation of points, in which segments are fixed edges, unless
   /// it has begun.
   virtual void StartRefinement(const RefinementPlan& plan) = 0;

@@ -45,7 +45,6 @@ public:
     const bool isPlanar =
       survey.Geometry == GeometryKind::Planar || survey.Geometry == GeometryKind::PlanarXY;
     CheckRefinement(options, mesh, survey.Geometry, isPlanar && survey.Projection.IsInXY());
-    this->Range = survey.Range;
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);
     progress.Reach(survey.Geometry, BuildStep::Ordered);
@@ -79,10 +78,6 @@ public:
     this->Order.RankOfVertex = Array<VertexId>();
     this->Mesh = std::move(built.Edges);
     built.Table = EdgeTable(); // frees its memory
-    this->Orientations = survey.Orientations;
-    this->FiltersApply = survey.FiltersApply && !survey.Projection.Tilted;
-    this->Frame = { survey.Projection };
-    this->Frame.IsCanonical = options.TieRule == TieRuleKind::Canonical;
     FlipReport& report = this->Report;
     report.Points = mesh.Points.Count;
     report.Triangles = mesh.Triangles.Count;
@@ -92,18 +87,10 @@ public:
     report.EulerCharacteristic =
       survey.UsedPoints - built.Counts.Edges + mesh.Triangles.Count - survey.RepeatedIds.Count;
     report.GeometryUsed = survey.Geometry;
-    report.GeometryReason = survey.GeometryReason;
-    report.Tolerance = DescribeTolerance(options, survey.Geometry);
     report.Backend = this->Backend.GetName();
-    const std::vector<Defect> made = this->ChooseLoop(survey, options, mesh);
-    const bool mayHide = built.Counts.NonManifold > 0;
-    report.ObtuseAtNonManifold = mayHide ? this->CountHidden().ObtuseCorners : 0;
-    std::vector<Defect> defects{ survey.NonFinitePoints, survey.RepeatedIds,
-      survey.NearlyHeightField, built.DuplicateTriangles,
-      Defect(DefectKind::ConstraintsNotEdges, built.MissingConstraints) };
-    defects.insert(defects.end(), made.begin(), made.end());
-    std::copy_if(defects.begin(), defects.end(), std::back_inserter(report.Defects),
-      [](const Defect& defect) { return defect.Count > 0; });
+    this->TakeSurvey(survey, options, mesh,
+      { built.DuplicateTriangles,
+        Defect(DefectKind::ConstraintsNotEdges, built.MissingConstraints) });
   }
 
   /// Triangulates points in the plane instead.
@@ -121,6 +108,15 @@ public:
     {
       this->Triangulate<double>(points, isLocal, points.Doubles, options, progress);
     }
+  }
+
+  bool MoveMesh(const TriangleMesh& moved, const FlipOptions& options) override
+  {
+    if constexpr (BackendT::IsOnHost)
+    {
+      return this->MoveHere(moved, options);
+    }
+    return false;
   }
 
   void DivideAndConquer(const BuildProgress& progress) override
@@ -232,6 +228,74 @@ private:
     this->MakeLoop(PlanarRule<Real, 2>{ coordinates, 1, true, this->FiltersApply });
     KeepAnglesBefore({}, report); // the caller has never seen these triangles
     KeepAnglesAfter({}, report); // measured when they are asked for
+  }
+
+  /// Takes over what is known of the places of the points, and makes the loop for these.
+  /// @param defects what else was found, to report.
+  void TakeSurvey(const MeshSurvey& survey, const FlipOptions& options, const TriangleMesh& mesh,
+    const std::vector<Defect>& defects)
+  {
+    this->Range = survey.Range;
+    this->Orientations = survey.Orientations;
+    this->FiltersApply = survey.FiltersApply && !survey.Projection.Tilted;
+    this->Frame = { survey.Projection };
+    this->Frame.IsCanonical = options.TieRule == TieRuleKind::Canonical;
+    FlipReport& report = this->Report;
+    report.GeometryReason = survey.GeometryReason;
+    report.Tolerance = DescribeTolerance(options, survey.Geometry);
+    const std::vector<Defect> made = this->ChooseLoop(survey, options, mesh);
+    const bool mayHide = report.Edges.NonManifold > 0;
+    report.ObtuseAtNonManifold = mayHide ? this->CountHidden().ObtuseCorners : 0;
+    std::vector<Defect> all{ survey.NonFinitePoints, survey.RepeatedIds, survey.NearlyHeightField };
+    all.insert(all.end(), defects.begin(), defects.end());
+    all.insert(all.end(), made.begin(), made.end());
+    report.Defects.clear();
+    std::copy_if(all.begin(), all.end(), std::back_inserter(report.Defects),
+      [](const Defect& defect) { return defect.Count > 0; });
+  }
+
+  /// Does what MoveMesh does, on the host.
+  bool MoveHere(const TriangleMesh& moved, const FlipOptions& options)
+  {
+    const std::int64_t count = this->Mesh.NumberOfTriangles;
+    Array<std::int32_t> ids = this->Backend.template MakeArray<std::int32_t>(3 * count);
+    this->StoreTriangles(MutableTriangleArray(ids.Data(), count));
+    TriangleMesh mesh = moved;
+    mesh.Triangles = TriangleArray(const_cast<const std::int32_t*>(ids.Data()), count);
+    MeshSurvey survey = BuildMeshSurvey({ mesh, mesh }, options.Geometry, this->Backend);
+    // Which triangles have edges depends on which points are finite.
+    std::vector<Defect> defects = this->Report.Defects;
+    const bool wereFinite = std::none_of(defects.begin(), defects.end(),
+      [](const Defect& defect) { return defect.Kind == DefectKind::PointsNotFinite; });
+    const bool follows = wereFinite && survey.NonFinitePoints.Count == 0 &&
+      survey.Geometry == this->Report.GeometryUsed;
+    if (!follows)
+    {
+      return false;
+    }
+    defects.erase(std::remove_if(defects.begin(), defects.end(),
+                    [](const Defect& defect)
+                    {
+                      return defect.Kind != DefectKind::DuplicateTriangles &&
+                        defect.Kind != DefectKind::ConstraintsNotEdges;
+                    }),
+      defects.end());
+    this->Points = PackPoints(mesh.Points, this->Order.View(),
+      PlanPacking(survey, options.Criterion, mesh.Points.Floats != nullptr), this->Backend);
+    TriangleRecord* triangles = this->Mesh.Triangles.Data();
+    this->Backend.ForEach(count, [=](std::int64_t t) { triangles[t].Flips %= OneFlip; });
+    EdgeState* states = this->Mesh.States.Data();
+    this->Backend.ForEach(this->Mesh.NumberOfEdges,
+      [=](std::int64_t edge)
+      {
+        if (states[edge] != EdgeState::Fixed)
+        {
+          states[edge] = EdgeState::Candidate;
+        }
+      });
+    this->TakeSurvey(survey, options, mesh, defects);
+    this->Loop->Restart();
+    return true;
   }
 
   /// Makes the loop that suits the mesh, and measures the smallest angle.

@@ -3,11 +3,15 @@
 #include "MeshRun.h"
 
 #include "Array.h"
+#include "FlipError.h"
 #include "HostMemory.h"
 #include "InputChecks.h"
 #include "SubMesh.h"
 
 #include <algorithm>
+#include <string>
+#include <type_traits>
+#include <utility>
 
 namespace delaunayflip
 {
@@ -99,6 +103,7 @@ void MeshRun::Reset()
   LoadedRun::Reset();
   this->Start.reset();
   this->Insertion = ConstraintInsertion();
+  this->HasMoved = false;
   this->Refined = RefinedCallerMesh();
   this->Regions.clear();
   this->Unused = UnusedSeeds();
@@ -150,6 +155,109 @@ void MeshRun::Measure()
 }
 
 //------------------------------------------------------------------------------
+namespace
+{
+MovedPoints CopyPoints(const PlaneArray& places, bool asFloats)
+{
+  MovedPoints copy;
+  const auto fill = [&](auto& coordinates)
+  {
+    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
+    coordinates.resize(places.Stride * places.Count);
+    for (std::size_t i = 0; i < coordinates.size(); ++i)
+    {
+      coordinates[i] = static_cast<Real>(places.GetNumber(static_cast<std::int64_t>(i)));
+    }
+  };
+  if (asFloats)
+  {
+    fill(copy.Floats);
+  }
+  else
+  {
+    fill(copy.Doubles);
+  }
+  return copy;
+}
+}
+
+bool MeshRun::Move(const PointMove& move, const ProgressObserver& progress)
+{
+  const PlaneArray& places = move.Points;
+  constexpr std::int64_t Components = 3;
+  const bool areAll = !move.Ids && !move.OnDevice && places.Stride == Components &&
+    places.Count == this->Mesh.CountPoints();
+  if (!areAll)
+  {
+    throw InvalidOptions(
+      "a mesh is moved by places in the host's memory, x, y and z, for each of its " +
+      Count(this->Mesh.CountPoints(), "point"));
+  }
+  if (progress && !progress(0.0))
+  {
+    return false;
+  }
+  const TemporaryValue<ProgressObserver> told(this->Observer, {}); // what follows cannot be stopped
+  try
+  {
+    this->GoOnAt(CopyPoints(places, this->Mesh.CopyToHost().Points.Floats != nullptr));
+    return true;
+  }
+  catch (const InvalidOptions&) // nothing has changed
+  {
+    throw;
+  }
+  catch (...)
+  {
+    this->Reset();
+    throw;
+  }
+}
+
+/// Goes on with the triangles that flips have made, and points at other places.
+/// @throws InvalidOptions if the mesh has to be loaded anew.
+void MeshRun::GoOnAt(MovedPoints points)
+{
+  const StopWatch watch;
+  const bool mayFollow = this->Loaded && !this->Start->GetOnDevice() && !this->WantsRefinement() &&
+    this->Mesh.GetFixedEdges().NumberOfRegionSeeds == 0;
+  TriangleMesh moved, start;
+  bool follows = false;
+  if (mayFollow)
+  {
+    moved = this->Mesh.CopyToHost();
+    start = this->Start->CopyToHost();
+    moved.Points = points.View();
+    start.Points = points.View();
+    follows = this->OnBackend([&](LoadedMesh& mesh)
+      { return mesh.MoveMesh(start, this->Insertion.GetOptions(this->Options)); });
+  }
+  if (!follows)
+  {
+    throw InvalidOptions("the mesh cannot follow its points: it is on a GPU or refined, has region "
+                         "seeds or points that are not finite, or another geometry suits it now; "
+                         "begin another session");
+  }
+  this->Mesh = CallerMesh(moved);
+  this->Start = CallerMesh(start);
+  this->Moved = std::move(points);
+  this->HasMoved = true;
+  this->Journal.clear();
+  this->Progress = RunProgress();
+  const std::string fallback = this->Report.Fallback;
+  const std::string backend = this->Report.Backend;
+  this->Report = this->Loaded->GetInputReport();
+  this->Report.Fallback = fallback;
+  this->Report.Backend = backend;
+  this->Insertion.AddTo(this->Report);
+  this->Report.BuildSeconds = watch.GetSeconds();
+  this->AreKeptEdgesKnown = false;
+  constexpr std::size_t Test = 3; // in ListStages: that of all edges
+  this->Current = Test;
+  this->RunStages(Test + 1);
+}
+
+//------------------------------------------------------------------------------
 /// If the caller stores to the input's own array, nothing is written there before the whole result
 /// is known.
 void MeshRun::StoreTriangles(const MutableTriangleArray& triangles)
@@ -187,7 +295,10 @@ void MeshRun::StoreFlipCounts(std::int32_t* counts)
 {
   if (this->TryOnBackend([&](const LoadedMesh& mesh) { mesh.StoreFlipCounts(counts); }))
   {
-    this->Insertion.AddFlipCounts(counts);
+    if (!this->HasMoved)
+    {
+      this->Insertion.AddFlipCounts(counts);
+    }
     return;
   }
   std::fill_n(counts, this->CountTriangles(), 0);

@@ -7,6 +7,8 @@
 #include "ConstraintInsertion.h"
 #include "LoadedRun.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -20,6 +22,21 @@ struct RefinedCallerMesh
   std::vector<TriangleId> Sources; ///< By triangle, its source. Empty before the first round.
   Defect Unrefined; ///< Triangles that do not reach the goals.
   bool HasReachedLimit = false;
+};
+
+/// Places to which the points of a mesh have moved, in one precision or the other.
+struct MovedPoints
+{
+  std::vector<float> Floats;
+  std::vector<double> Doubles;
+
+  PointArray View() const
+  {
+    constexpr std::size_t Components = 3;
+    return this->Floats.empty()
+      ? PointArray(this->Doubles.data(), std::int64_t(this->Doubles.size() / Components))
+      : PointArray(this->Floats.data(), std::int64_t(this->Floats.size() / Components));
+  }
 };
 
 /// The run of a mesh in one piece. Its stages are listed in ListStages.
@@ -38,9 +55,11 @@ public:
   const std::vector<AddedPoint>& GetAddedPoints() override { return this->Refined.Points; }
   void StoreSources(std::int32_t* sources) override;
   void StoreRegions(std::int32_t* labels) override;
+  bool Move(const PointMove& move, const ProgressObserver& progress) override;
 
 private:
   void ListStages();
+  void GoOnAt(MovedPoints points);
   void InsertConstraints();
   void LoadMesh();
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
@@ -60,6 +79,8 @@ private:
   CallerMesh Mesh;
   ConstraintInsertion Insertion; ///< Owns the arrays of Start if it has inserted constraints.
   std::optional<CallerMesh> Start; ///< The caller's mesh, with its constraints inserted.
+  MovedPoints Moved; ///< Has the caller's points after a move.
+  bool HasMoved = false; ///< Since then, so that flips are counted anew.
   RefinedCallerMesh Refined;
   std::vector<std::int32_t> Regions; ///< What FindSeededRegions returns, if there are seeds.
   UnusedSeeds Unused;

@@ -259,6 +259,41 @@ class Session(Handle):
             call("advance", handle, iterations, ctypes.byref(running), progress, on_iteration)
         return bool(running.value)
 
+    def move(self, points: Numbers, *, progress: Optional[Progress] = None) -> None:
+        """Moves all points. The triangles are at first those that flips have made, and `advance` goes on
+        with them, which takes few flips if the points have moved a little. Edges that have stayed so far
+        stay, also if they are no longer sharp. The report, iterations and flips are counted anew.
+
+        It is for the CPU: with a GPU choose ``backend="threads"``.
+
+        Args:
+            points: (n, 3) or (n, 2), as many as there are. They are copied, in the precision of the first.
+            progress: Called first; if it returns False, all points stay where they are.
+
+        Raises:
+            delaunayflip.Stopped: progress has returned False.
+            InvalidOptions: The mesh is on a GPU, is refined, or has seeds of regions; points are not finite;
+                or geometry="auto" would choose another geometry now. Nothing has changed; begin another
+                session.
+            MemoryError, TypeError, ValueError.
+
+        Example:
+            >>> import numpy
+            >>> points = numpy.array([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], dtype=float)
+            >>> with Session(points, [[0, 1, 2], [0, 2, 3]], backend="threads") as session:
+            ...     running = session.advance()
+            ...     points[1], points[3] = [2, -3, 0], [2, 3, 0]
+            ...     session.move(points)
+            ...     running = session.advance()
+            ...     print(session.report.total_flips, "flip")
+            1 flip
+        """
+        from ._points import Input  # which needs this file
+        places = _arrays.as_points(_arrays.to_host(points)).astype(_arrays.type_of(self._mesh.points))
+        with self._open() as handle, observe(progress) as callbacks:
+            _library.call("move_points", handle, Input(places).struct, None, callbacks)
+            self._mesh.points = places
+
     @property
     def report(self) -> Report:
         """The `Report` on the run so far."""

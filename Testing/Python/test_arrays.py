@@ -931,6 +931,36 @@ class Session(unittest.TestCase):
         numpy.testing.assert_array_equal(stepped, whole.triangles)
         numpy.testing.assert_array_equal(target, whole.triangles)
 
+    def test_points_that_move(self):
+        """A session goes on with its triangles, and those are Delaunay again."""
+        points, triangles = sheared_lattice(30)
+        draw = numpy.random.default_rng(5)
+        for dtype in (numpy.float32, numpy.float64):
+            places = numpy.asarray(points, dtype=dtype)
+            with delaunayflip.Session(places, triangles, geometry="planar-xy", tie_rule="canonical",
+                                      backend="threads") as session:
+                session.advance()
+                for _ in range(3):
+                    places = (places + draw.normal(0, 1e-3, places.shape)).astype(dtype)
+                    given = places.astype(numpy.float64)
+                    session.move(given)
+                    given[:] = 0  # it has a copy
+                    self.assertEqual(session.report.total_flips, 0)
+                    session.advance()
+                    self.assertTrue(session.report.converged)
+                    numpy.testing.assert_array_equal(session.points, places)
+                    expected = delaunayflip.flip(places, session.triangles, geometry="planar-xy",
+                                                 tie_rule="canonical", backend="threads")
+                    self.assertEqual(expected.report.total_flips, 0)
+                for wrong in (places[1:], places[:, :2][:-1]):
+                    with self.assertRaisesRegex(delaunayflip.InvalidOptions, "for each of its"):
+                        session.move(wrong)
+                with self.assertRaises(delaunayflip.Stopped):
+                    session.move(places, progress=lambda share: False)
+                with self.assertRaisesRegex(delaunayflip.InvalidOptions, "cannot follow its points"):
+                    session.move(places * numpy.nan)
+                self.assertTrue(session.report.converged)
+
     def test_closed(self):
         session = delaunayflip.Session(POINTS, TRIANGLES)
         session.close()
