@@ -74,7 +74,8 @@
  * infinite.
  *
  * An aborted update gives the triangles so far; segments that are not inserted yet are missing, and
- * nothing is removed.
+ * nothing is removed. If the triangulation was kept for it (see KeepSession), there are no
+ * triangles; it stays as it was, and the next update follows the points again.
  *
  * What the properties of vtkDelaunay2D become:
  *

@@ -244,11 +244,14 @@ class MovingTriangulation(Handle):
     def _read_ids(self, ids):
         """The ids of points as the engine takes them, (k,) int64."""
         ids = _arrays.as_array("ids", _arrays.to_host(ids))
+        if ids.dtype == object and ids.size and all(isinstance(id_, (bool, numpy.bool_)) for id_ in ids.flat):
+            ids = ids.astype(bool)
         if ids.dtype.kind == "b" and ids.size:
             if ids.shape != (len(self),):
                 raise ValueError(f"a mask of all points must have the shape ({len(self)},), not {ids.shape}")
             ids = numpy.flatnonzero(ids)
-        are_integers = ids.dtype.kind in "iu" or all(isinstance(id_, int) for id_ in ids.flat)
+        are_integers = ids.dtype.kind in "iu" or all(
+            isinstance(id_, int) and not isinstance(id_, bool) for id_ in ids.flat)
         if ids.ndim != 1 or not are_integers:
             raise ValueError(
                 f"ids must be integers of shape (k,), or booleans of shape ({len(self)},), not {ids.dtype} of "

@@ -183,6 +183,8 @@ class Moving(unittest.TestCase):
         for mask in ([True, False], numpy.ones((2000, 1), dtype=bool)):
             with self.assertRaisesRegex(ValueError, r"a mask of all points must have the shape \(2000,\), not"):
                 mesh.remove(mask)
+        with self.assertRaisesRegex(ValueError, "ids must be integers"):
+            mesh.remove(numpy.array([True, 2], dtype=object))
         with self.assertRaises(TypeError):
             pickle.dumps(mesh)
         self.expect(mesh, self.points)
@@ -202,7 +204,7 @@ class Moving(unittest.TestCase):
             points[left] += 1e-4
             mesh.move(points[left], left)
             self.expect(mesh, points)
-            mesh.remove(left)
+            mesh.remove(left.astype(object))
             points[left] = numpy.nan
             self.expect(mesh, points)
             mesh.remove(numpy.zeros(2000, dtype=bool))
