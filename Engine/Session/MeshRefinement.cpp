@@ -3,6 +3,7 @@
 #include "MeshRun.h"
 
 #include "InputChecks.h"
+#include "PointPreparation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -198,18 +199,10 @@ void MeshRun::AddRefinedPoints(const RefinementResult& made)
   {
     double xyz[3];
     FindPosition(points, vertex, made.Axes, xyz);
-    AddedPoint point;
+    AddedPoint point = ToAddedPoint(vertex);
     point.X = xyz[0];
     point.Y = xyz[1];
     point.Z = xyz[2];
-    point.From = vertex.Points[0];
-    point.To = vertex.Points[1];
-    point.Share = vertex.Weights[1];
-    if (vertex.Origin == NoOrigin)
-    {
-      point.Third = vertex.Points[2];
-      point.ThirdShare = vertex.Weights[2];
-    }
     added.push_back(point);
   }
 }

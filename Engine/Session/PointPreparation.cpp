@@ -294,7 +294,7 @@ void PreparedPoints::SetRefined(std::int64_t count, std::vector<std::int64_t> se
   this->SegmentOfOrigin = std::move(segmentOf);
 }
 
-AddedPoint PreparedPoints::Describe(const RefinedVertex& vertex) const
+AddedPoint ToAddedPoint(const RefinedVertex& vertex)
 {
   AddedPoint point;
   point.X = vertex.U;
@@ -307,7 +307,13 @@ AddedPoint PreparedPoints::Describe(const RefinedVertex& vertex) const
     point.Third = vertex.Points[2];
     point.ThirdShare = vertex.Weights[2];
   }
-  else
+  return point;
+}
+
+AddedPoint PreparedPoints::Describe(const RefinedVertex& vertex) const
+{
+  AddedPoint point = ToAddedPoint(vertex);
+  if (vertex.Origin != NoOrigin)
   {
     point.Segment = this->SegmentOfOrigin[vertex.Origin];
   }

@@ -37,6 +37,9 @@ void CheckSegments(const PointInput& input, int seedNumbers);
 /// The number of a segment's ring; -1: none.
 std::int32_t GetRing(const PointInput& input, std::int64_t segment);
 
+/// The place of a vertex in x and y, and the points between which it lies, with their shares.
+AddedPoint ToAddedPoint(const RefinedVertex& vertex);
+
 /// The caller's points and segments as they are triangulated: without points that are too near to
 /// others, with points where segments cross, and with rings that run in one direction.
 class PreparedPoints

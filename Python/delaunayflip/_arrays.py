@@ -335,8 +335,6 @@ def as_places(places):
                          f"two arguments, x and y, and the former as an array of shape {shape}")
     if shape in ((0,), (2,)):
         shape = (shape[0] // 2, 2)  # as in SciPy
-    elif shape == (3,):
-        shape = (1, 3)
     if len(shape) < 2 or shape[-1] not in (2, 3):
         raise _shape_error("places", places, "(..., 2) or (..., 3)")
     return as_plane(places.reshape((math.prod(shape[:-1]), shape[-1])), "places"), shape[:-1]

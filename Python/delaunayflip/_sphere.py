@@ -311,7 +311,9 @@ def _describe_distances(result):
 
 
 def _read_directions(given, degrees):
-    """Places as read_places reads them. Angles become degrees."""
+    """Places as read_places reads them; one of x, y and z needs no second axis. Angles become degrees."""
+    if len(given) == 1 and not isinstance(given[0], tuple) and numpy.shape(given[0]) == (3,):
+        given = [[given[0]] if isinstance(given[0], list) else given[0][None]]
     places = read_places(given)
     if places.members["place_components"] == 3:
         places.columns = 3

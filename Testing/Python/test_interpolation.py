@@ -246,6 +246,7 @@ class Arrays(unittest.TestCase):
     def test_what_is_refused(self):
         f = delaunayflip.LinearInterpolator(POINTS, plane(POINTS))
         for call, error, text in (
+            (lambda: f([1.0, 2.0, 3.0]), ValueError, "places must have the shape"),
             (lambda: f(PLACES[:, :1]), ValueError, r"places must have the shape \(\.\.\., 2\) or \(\.\.\., 3\), not"),
             (lambda: f(1, 2, 3), TypeError, "there are 3"),
             (lambda: f("ab"), TypeError, "places"),

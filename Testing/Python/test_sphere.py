@@ -178,7 +178,9 @@ class Sphere(unittest.TestCase):
 
     def test_one_place(self):
         globe = delaunayflip.triangulate_sphere([[0, 0], [90, 0], [180, 0], [270, 0], [0, 90], [0, -90]])
-        self.assertEqual(globe.locate([1, 1, 1]).tolist(), globe.locate([[1, 1, 1]]).tolist())
+        expected = globe.locate([[1, 1, 1]]).tolist()
+        for place in ([1, 1, 1], numpy.array([1.0, 1.0, 1.0])):
+            self.assertEqual(globe.locate(place).tolist(), expected)
 
     def test_voronoi_corners_of_any_size(self):
         points = make_directions(50, 3)
