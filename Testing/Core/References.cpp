@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace delaunayflip
@@ -181,9 +182,54 @@ namespace
 
 #if __has_include(<gmp.h>)
 using Rational = CGAL::Gmpq;
-#else // slower
-using Rational = boost::multiprecision::number<boost::multiprecision::cpp_rational_backend,
-  boost::multiprecision::et_off>;
+#else
+/// A number with a denominator that is a power of two, as all sums and products of doubles have; so
+/// no common divisor has to be found.
+class Rational
+{
+public:
+  Rational(double value)
+  {
+    const double fraction = std::frexp(value, &this->Exponent);
+    this->Mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+    this->Exponent -= 53;
+  }
+
+  Rational operator+(const Rational& other) const
+  {
+    Rational result = *this;
+    return result += other;
+  }
+
+  Rational operator-(const Rational& other) const { return *this + other * Rational(-1); }
+
+  Rational operator*(const Rational& other) const
+  {
+    Rational result = *this;
+    result.Mantissa *= other.Mantissa;
+    result.Exponent += other.Exponent;
+    return result;
+  }
+
+  Rational& operator+=(const Rational& other)
+  {
+    const int exponent = std::min(this->Exponent, other.Exponent);
+    this->Mantissa <<= this->Exponent - exponent;
+    this->Mantissa += Integer(other.Mantissa << (other.Exponent - exponent));
+    this->Exponent = exponent;
+    return *this;
+  }
+
+  bool operator<(const Rational& other) const { return (*this - other).Mantissa < 0; }
+  bool operator>(const Rational& other) const { return other < *this; }
+
+private:
+  using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+    boost::multiprecision::et_off>;
+
+  Integer Mantissa;
+  int Exponent = 0;
+};
 #endif
 using RationalVector = std::array<Rational, 3>;
 
