@@ -53,7 +53,8 @@ if _is_built_for_this_vtk():
     from .vtkDelaunayFlipFilters import (
         vtkDelaunayFlip, vtkDelaunayFlipInterpolator, vtkDelaunayFlipPoints)
 else:
-    from ._vtk_filter import vtkDelaunayFlip, vtkDelaunayFlipPoints
+    from ._vtk_filter import vtkDelaunayFlip
     from ._vtk_interpolator import vtkDelaunayFlipInterpolator
+    from ._vtk_point_filter import vtkDelaunayFlipPoints
 
 __all__ = ["vtkDelaunayFlip", "vtkDelaunayFlipInterpolator", "vtkDelaunayFlipPoints"]

@@ -13,7 +13,8 @@ from ._ask import METHODS, Field, Places, read_places
 from ._vtk_blocks import copy_data, find_leaves, list_blocks
 from ._vtk_data import (
     add_attributes, describe_latitudes, find_attributes, is_among, keep_heights, list_arrays, vtk_of)
-from ._vtk_filter import _drop_results, vtkDelaunayFlipPoints
+from ._vtk_filter import _drop_results
+from ._vtk_point_filter import vtkDelaunayFlipPoints
 from ._vtk_properties import Property, finish
 
 _MASK = "vtkValidPointMask"  # as vtkProbeFilter calls it

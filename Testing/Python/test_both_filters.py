@@ -17,10 +17,9 @@ from delaunayflip import (
     vtkDelaunayFlip as CxxFilter, vtkDelaunayFlipInterpolator as CxxInterpolator,
     vtkDelaunayFlipPoints as CxxPoints)
 from delaunayflip import _vtk_filter
-from delaunayflip._vtk_filter import (
-    _ANSWERS, _COMMON_ANSWERS, vtkDelaunayFlip as PythonFilter,
-    vtkDelaunayFlipPoints as PythonPoints)
+from delaunayflip._vtk_filter import _ANSWERS, _COMMON_ANSWERS, vtkDelaunayFlip as PythonFilter
 from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator as PythonInterpolator
+from delaunayflip._vtk_point_filter import vtkDelaunayFlipPoints as PythonPoints
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy

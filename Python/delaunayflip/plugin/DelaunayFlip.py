@@ -32,8 +32,9 @@ from paraview.modules.vtkRemotingViews import vtkSMTransferFunctionPresets
 from paraview.util.vtkAlgorithm import smproperty, smproxy
 
 import delaunayflip
-from delaunayflip._vtk_filter import vtkDelaunayFlip, vtkDelaunayFlipPoints
+from delaunayflip._vtk_filter import vtkDelaunayFlip
 from delaunayflip._vtk_interpolator import vtkDelaunayFlipInterpolator
+from delaunayflip._vtk_point_filter import vtkDelaunayFlipPoints
 
 paraview_plugin_name = "DelaunayFlipPython"
 paraview_plugin_version = delaunayflip.__version__
