@@ -222,7 +222,7 @@ public:
       Asked(places),
       Axes(options.AreDirections && !options.PlacesAreAngles ? 3 : 2)
   {
-    if (options.AreDirections && options.PlacesAreAngles)
+    if (options.PlacesAreAngles)
     {
       this->Asked = MakeDirections(places);
     }

@@ -197,7 +197,7 @@ private:
 
   vtkPolyData* Given;
   vtkPolyData* Points;
-  bool TurnsDataToDoubles;
+  bool TurnsToDoubles;
   vtkIdType FirstNumber = 0; ///< What is added to cell ids.
   std::size_t FirstOther = 0; ///< The index in Ends at which those of the second input begin.
 };
