@@ -42,7 +42,8 @@ void CheckProjection(Arguments& arguments)
     FailOnUsage("--raster and --heights-at take places in x and y, so they do not go with "
                 "--projection plane");
   }
-  heights.AreDirections = isSphere && !arguments.Points->GetDegrees();
+  heights.AreAngles = isSphere && arguments.Points->GetDegrees();
+  heights.AreDirections = isSphere && !heights.AreAngles;
   if (heights.AreWanted() && heights.AreDirections && heights.Array.empty())
   {
     FailOnUsage("--raster and --heights-at on a sphere need --degrees, or --raster-array: without "

@@ -46,10 +46,36 @@ std::string Grouped(std::int64_t number)
   return text;
 }
 
+/// If longitudes are on both sides of 180 degrees, and far from 0, those in the west get one more
+/// turn. Elsewhere points of the whole globe would begin at any of them.
+/// @param west the least of them. @param east the greatest.
+void JoinAcross180(std::vector<double> longitudes, double& west, double& east)
+{
+  constexpr double Turn = 360.0, Far = 90.0;
+  if (east - west > Turn)
+  {
+    return;
+  }
+  std::sort(longitudes.begin(), longitudes.end());
+  double widest = std::max(Far, Turn - (east - west)); // the gap behind the last one
+  for (std::size_t i = 1; i < longitudes.size(); ++i)
+  {
+    const double gap = longitudes[i] - longitudes[i - 1];
+    if (gap > widest)
+    {
+      widest = gap;
+      west = longitudes[i];
+      east = longitudes[i - 1] + Turn;
+    }
+  }
+}
+
 /// The box of the points that are finite in x and y, widened to whole multiples of the step.
-std::array<double, 4> FindExtent(vtkPolyData* points, double step)
+/// @param areAngles whether x is a longitude.
+std::array<double, 4> FindExtent(vtkPolyData* points, bool areAngles, double step)
 {
   vtkBoundingBox box;
+  std::vector<double> longitudes;
   for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
   {
     std::array<double, 3> point;
@@ -57,16 +83,21 @@ std::array<double, 4> FindExtent(vtkPolyData* points, double step)
     if (std::isfinite(point[0]) && std::isfinite(point[1]))
     {
       box.AddPoint(point[0], point[1], 0.0);
+      longitudes.push_back(point[0]);
     }
   }
   if (!box.IsValid())
   {
     throw CommandError(ExitCode::BadFile, "--raster: no point is finite, so the extent is unknown");
   }
+  double west = box.GetBound(0), east = box.GetBound(1);
+  if (areAngles)
+  {
+    JoinAcross180(std::move(longitudes), west, east);
+  }
   const auto below = [step](double value) { return std::floor(value / step) * step; };
   const auto above = [step](double value) { return std::ceil(value / step) * step; };
-  return { below(box.GetBound(0)), below(box.GetBound(2)), above(box.GetBound(1)),
-    above(box.GetBound(3)) };
+  return { below(west), below(box.GetBound(2)), above(east), above(box.GetBound(3)) };
 }
 
 /// How many cells cover a length. One more than whole steps by rounding alone does not count.
@@ -92,7 +123,7 @@ RasterGrid MakeGrid(const HeightOptions& options, vtkPolyData* points)
   }
   else if (!options.AreDirections)
   {
-    extent = FindExtent(points, options.Step);
+    extent = FindExtent(points, options.AreAngles, options.Step);
   }
   RasterGrid grid;
   grid.Step = options.Step;

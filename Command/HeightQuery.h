@@ -31,6 +31,7 @@ struct HeightOptions
   std::string Array; ///< A point array; empty: z.
   std::string Output; ///< The file that is written.
   std::string Crs; ///< That of the raster; empty: that of the input, if its file names one.
+  bool AreAngles = false; ///< Points are longitudes and latitudes.
   bool AreDirections = false; ///< Points are x, y and z on a sphere.
   bool PlacesAreAngles = false; ///< Places are longitudes and latitudes, though points are not.
 

@@ -72,8 +72,10 @@ constexpr DefectWords AllWords[] = {
     "constraint edges that ranks cannot insert because triangles overlap or have no area: insert "
     "constraints before the mesh is divided" },
   { Kind::ConstraintsOnSurface, DefectIds::PointPairs,
-    "constraint edge that is not an edge of the mesh and cannot be inserted on a surface",
-    "constraint edges that are not edges of the mesh and cannot be inserted on a surface" },
+    "constraint edge that is not an edge of the mesh and cannot be inserted on a surface or a "
+    "sphere",
+    "constraint edges that are not edges of the mesh and cannot be inserted on a surface or a "
+    "sphere" },
   { Kind::PointsRepeated, DefectIds::Points, "duplicate point skipped",
     "duplicate points skipped" },
   { Kind::PointsTooNear, DefectIds::Points,

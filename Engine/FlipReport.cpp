@@ -425,8 +425,13 @@ std::string DescribePoints(const FlipReport& flip)
   text += DescribeRefinement(counts);
   if (counts.OutsideTriangles + counts.LargeTriangles > 0)
   {
+    std::string large = "too large";
+    if (flip.GeometryUsed == GeometryKind::Sphere)
+    {
+      large = "around half of the sphere or more";
+    }
     text += "removed: " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
-      Count(counts.LargeTriangles) + " too large\n";
+      Count(counts.LargeTriangles) + " " + large + "\n";
   }
   return text;
 }

@@ -173,6 +173,11 @@ bool vtkDelaunayFlipPoints::IsOnSphere() const
 vtkSmartPointer<vtkPolyData> vtkDelaunayFlipPoints::ReadPoints(
   vtkPointSet* input, const MeshBlock& block, UpdateSummary& summary) const
 {
+  if (this->Degrees && !this->IsOnSphere())
+  {
+    summary.Warnings.push_back(
+      { block.Name, "Degrees has no effect, because the projection is not a sphere" });
+  }
   auto points = vtkSmartPointer<vtkPolyData>::New();
   points->SetPoints(input->GetPoints());
   if (this->HasAngles() && input->GetPoints())

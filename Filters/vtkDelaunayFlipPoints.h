@@ -182,7 +182,8 @@ public:
    * On a sphere, whether x and y are longitudes and latitudes in degrees. Then the points of the
    * output are the places on the unit sphere, in double precision. Their z, if it is not 0
    * throughout, is in the point array "Height", unless the input has such an array already. All
-   * longitudes of a pole are one place. Default off.
+   * longitudes of a pole are one place. In another projection it has no effect, and there is a
+   * warning. Default off.
    */
   vtkSetMacro(Degrees, bool);
   vtkGetMacro(Degrees, bool);

@@ -75,7 +75,7 @@ class Report:
     crossings: int = 0  #: Points added where segments cross.
     largest_shift: float = 0.0  #: How far rounding has moved one of these at most.
     outside_triangles: int = 0  #: Removed outside the outline and in holes.
-    large_triangles: int = 0  #: Removed by alpha and longest_edge.
+    large_triangles: int = 0  #: Removed by alpha, longest_edge and open spheres.
     keeps_sliver: int = 0  #: 1 if features or constraints keep one of the ten worst slivers.
     blocked_by_deviation: int = 0  #: Bad edges left: the bound on deviation blocks them.
     duplicate_triangles: int = 0  #: Triangles with the three points of an earlier one.

@@ -487,7 +487,7 @@ def flip(
 
     with _with_keywords(), run("open", mesh.struct, wanted, make_room, progress, on_iteration) as (handle, room):
         result = _store(mesh, handle, room)
-        _warn_of_refinement(handle)
+        _warn(handle, mesh.points, result, geometry)
     return result
 
 
@@ -499,11 +499,27 @@ def _require_xyz(points, geometry):
                          "latitudes")
 
 
-def _warn_of_refinement(handle):
-    """Warns, where `flip` was called, of what refinement has left or could not use."""
-    trouble = [text for kind, _, text in _report.list_defects(handle) if kind in LEFT_BY_REFINEMENT]
-    if trouble:
-        warnings.warn(name_keywords("; ".join(trouble), _REFINEMENT), stacklevel=3)
+def _warn(handle, points, result, geometry):
+    """Warns, where `flip` was called, of what refinement has left or could not use, and of points that are
+    not on a sphere, but have to be."""
+    left = [text for kind, _, text in _report.list_defects(handle) if kind in LEFT_BY_REFINEMENT]
+    trouble = [name_keywords("; ".join(left), _REFINEMENT)]
+    if geometry == "sphere":
+        trouble.append(_describe_distances(points, result.triangles))
+    for text in filter(None, trouble):
+        warnings.warn(text, stacklevel=3)
+
+
+def _describe_distances(points, triangles):
+    """The text of a warning if the points of these triangles are on no sphere around the origin, or "". The
+    Earth's ellipsoid counts as one."""
+    from ._sphere import describe_distances  # which needs this file
+    most = 1.01  # times the smallest distance; on the ellipsoid it is 1.0034
+    if not describe_distances(points, most):
+        return ""
+    used = numpy.unique(_arrays.to_host(triangles))
+    trouble = describe_distances(_arrays.to_host(points)[used], most)
+    return trouble and trouble + ', as geometry="sphere" needs'
 
 
 def _store(mesh, handle, room):

@@ -42,7 +42,8 @@ class SphereTriangulation(Asked):
     iterations: Array  #: A row per iteration, structured; see Session.iterations.
     report: Report
     #: (n,) int64: the point that is used at the place of each point; -1: it is not finite, or inside of
-    #: the convex hull of the others.
+    #: the convex hull of the others, or there are no triangles because all are in one plane. After an
+    #: abort, each point itself.
     used_points: Array
     #: (k, 2) int64: the edges that segments have become, in their order and direction, each once.
     segments: Array
@@ -260,7 +261,7 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
 
     @functools.lru_cache(maxsize=None)
     def find_radius():  # of the sphere of the points; lines in longitudes and latitudes lie on it, too
-        return 1.0 if has_angles else _find_distances(own)[1]
+        return 1.0 if has_angles else find_distances(own)[1]
 
     def place(coordinates, name=""):
         if coordinates.shape[1] == 3:
@@ -286,7 +287,7 @@ def _read(points, degrees, segments=None, outline=None, holes=None, hole_seeds=N
     return given, "; ".join(dict.fromkeys(troubles))
 
 
-def _find_distances(points):
+def find_distances(points):
     """The smallest, the median and the largest distance of points from the origin."""
     points = _arrays.to_host(points).astype(numpy.float64)
     points = points[numpy.isfinite(points).all(axis=1)]
@@ -303,11 +304,17 @@ def _describe_distances(result):
     is_usual = len(result.triangles) > 0 and report.points_inside == 0
     if is_usual or report.stop_reason == "aborted":
         return ""
-    least, _, most = _find_distances(result.points)
-    if most <= 1.0001 * least:
+    trouble = describe_distances(result.points, 1.0001)
+    return trouble and trouble + "; longitudes and latitudes are two columns, without heights"
+
+
+def describe_distances(points, ratio):
+    """The text of a warning if the largest distance of points from the origin is more than `ratio` times the
+    smallest, or ""."""
+    least, _, most = find_distances(points)
+    if most <= ratio * least:
         return ""
-    return (f"the points are {least:.3g} to {most:.3g} from the origin, so they are not on a sphere around it; "
-            "longitudes and latitudes are two columns, without heights")
+    return f"the points are {least:.3g} to {most:.3g} from the origin, so they are not on a sphere around it"
 
 
 def _read_directions(given, degrees):
@@ -383,6 +390,8 @@ def _store(handle, given, keywords, made_from):
     used = given.find_used_points(handle, report)
     if used is None:
         used = numpy.arange(len(given.points))
+        if len(triangles) == 0:
+            _library.call("store_used_points", handle, address(used))
     if report.defects:
         report = dataclasses.replace(report, defects=given.describe_defects(handle))
     iterations = _report.read_iterations(handle, report)

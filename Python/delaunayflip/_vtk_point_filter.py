@@ -67,7 +67,12 @@ class vtkDelaunayFlipPoints(Regions, Filter):
 
     def _take_places(self, data, name=""):
         """A dataset with points. If these are longitudes and latitudes, a copy with their places."""
-        if data is None or not (self.degrees and self._find_projection()):
+        if data is None or not self.degrees:
+            return data
+        if not self._find_projection():
+            if not name:
+                self._warnings.append(
+                    (self._where, "Degrees has no effect, because the projection is not a sphere"))
             return data
         placed, trouble = place_points(data)
         if trouble:

@@ -135,6 +135,20 @@ class Rasters(HeightTest):
             self.fail_with(2, "globe.csv", *asked, "--from-points", "--projection", "sphere",
                            naming=["need --degrees, or --raster-array", "z is one of three coordinates"])
 
+    def test_extent_across_180_degrees(self):
+        """Points around Fiji get a raster of Fiji, and not one around the Earth."""
+        sphere = ["--projection", "open-sphere", "--degrees", "--raster", 5]
+        rows = [(x if x <= 180 else x - 360, y, y) for y in range(-20, -9, 5) for x in range(170, 191, 5)]
+        self.write("fiji.csv", text_of(rows, ",", "lon,lat,z"))
+        result = self.ask("fiji.csv", "map.asc", *sphere)
+        self.assertIn("raster          4 x 2 cells, 0 outside\n", result.stdout)
+        self.assertEqual(self.grid("map.asc")[0]["xllcenter"], 172.5)
+        for west, east in ((-180, 90), (-90, 200), (-200, 190)):
+            self.write("wide.csv", text_of([(x, y, 1) for x in range(west, east + 1, 10) for y in (0, 5)], ",",
+                                           "lon,lat,z"))
+            self.ask("wide.csv", "map.asc", *sphere)
+            self.assertEqual(self.grid("map.asc")[0]["xllcenter"], west + 2.5)
+
     def test_mesh_of_a_globe(self):
         """It has the heights of its stations as an array, which goes on maps and to directions."""
         draw = numpy.random.default_rng(4)

@@ -326,6 +326,11 @@ class Results(PointTest):
             self.fail_with(2, "in.csv", "out.vtk", "--from-points", "--degrees", *projection,
                            naming=["--degrees needs --projection sphere"])
 
+    def test_triangles_of_an_open_sphere(self):
+        self.write("in.csv", "lon,lat\n" + "".join(f"{x},{y}\n" for x in range(4) for y in range(4)))
+        _, result = self.triangulate("in.csv", "--projection", "open-sphere", "--degrees")
+        self.assertRegex(result.stdout, r"removed +0 triangles outside, \d+ around half of the sphere or more\n")
+
     def test_large_triangles(self):
         self.write("in.xyz", text_of(grid(4) + [(20, 1, 0)]))
         mesh, _ = self.triangulate("in.xyz")

@@ -894,6 +894,14 @@ class SamePoints(Pair, unittest.TestCase):
                 told = self.expect_same(cloud, prepare)
                 self.assertIn('z left out, because the points have an array "Height"', told["warnings"][0])
 
+    def test_degrees_without_a_sphere(self):
+        cloud = make_cloud()
+        plain = self.expect_same(cloud, lambda _: None)
+        told = self.expect_same(cloud, lambda points: points.DegreesOn())
+        self.assertEqual(told["meshes"], plain["meshes"])
+        self.assertIn("Degrees has no effect", str(told["warnings"]))
+        self.assertNotIn("Degrees", str(plain["warnings"]))
+
     def test_what_a_sphere_cannot_have(self):
         for name, value in (("Alpha", 1), ("MinimumAngle", 20), ("SizeArray", "Own"), ("MaximumIterations", 3),
                             ("SegmentHeights", 1), ("PointTolerance", 0.1)):

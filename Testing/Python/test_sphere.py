@@ -75,6 +75,19 @@ class Sphere(unittest.TestCase):
         globe = delaunayflip.triangulate_sphere(points)
         self.assertEqual(sort_rows(flipped.triangles), sort_rows(globe.triangles))
 
+    def test_flips_of_points_that_are_on_no_sphere(self):
+        points = make_directions(100, 9)
+        triangles = delaunayflip.triangulate_sphere(points).triangles
+        ellipsoid = points * [1.0, 1.0, 1 - 1 / 298.257]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            delaunayflip.flip(ellipsoid, triangles, geometry="sphere")
+            delaunayflip.flip(numpy.append(points, [[0, 0, 9]], axis=0), triangles, geometry="sphere")
+        points[7] *= 1.5
+        with self.assertWarnsRegex(UserWarning, 'the points are 1 to 1.5 from the origin, .* geometry="sphere"') as told:
+            delaunayflip.flip(points, triangles, geometry="sphere")
+        self.assertEqual(told.filename, __file__)
+
     def test_degrees_and_radians(self):
         degrees = numpy.random.default_rng(4).uniform((-180, -90), (180, 90), (100, 2))
         first = delaunayflip.triangulate_sphere(degrees)
@@ -140,6 +153,7 @@ class Sphere(unittest.TestCase):
                 globe = delaunayflip.triangulate_sphere(points)
             self.assertEqual(globe.triangles.shape, (0, 3))
             self.assertEqual(globe.voronoi_corners.shape, (0, 3))
+            self.assertEqual(globe.used_points.tolist(), len(points) * [-1])
         self.assertIn("one plane", globe.report.defects)
 
     def test_three_places(self):
