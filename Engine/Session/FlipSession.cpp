@@ -19,40 +19,6 @@ namespace delaunayflip
 
 namespace
 {
-std::unique_ptr<SessionRun> MakeRun(const TriangleMesh& mesh, const FlipOptions& options,
-  const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
-{
-  CheckOptions(options);
-  if (CountPieces(options, mesh.Triangles.Count) > 1)
-  {
-    RefuseRefinement(options, mesh, "a mesh in several pieces");
-    return std::make_unique<PiecesRun>(mesh, options, progress);
-  }
-  return std::make_unique<MeshRun>(CallerMesh(mesh), options, progress, expected);
-}
-
-std::unique_ptr<SessionRun> MakeRun(
-  const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-{
-  const CallerMesh caller(mesh);
-  if (options.NumberOfPieces > 1)
-  {
-    throw InvalidOptions("a mesh in the memory of a GPU cannot be flipped in several pieces");
-  }
-  CheckOptions(options);
-  return std::make_unique<MeshRun>(caller, options, progress);
-}
-
-std::unique_ptr<SessionRun> MakeRun(
-  const PointInput& points, const PointOptions& options, const ProgressObserver& progress)
-{
-  if (options.Projection == ProjectionKind::Plane)
-  {
-    return std::make_unique<PointRun>(points, options, progress);
-  }
-  return std::make_unique<SphereRun>(points, options, progress);
-}
-
 /// An array in the memory of a device, ordered by a stream.
 template <typename Value>
 struct DeviceArray
@@ -82,20 +48,38 @@ void StoreOnDevice(
 
 FlipSession::FlipSession(const TriangleMesh& mesh, const FlipOptions& options,
   const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
-  : Run(MakeRun(mesh, options, progress, expected))
 {
+  CheckOptions(options);
+  if (CountPieces(options, mesh.Triangles.Count) > 1)
+  {
+    RefuseRefinement(options, mesh, "a mesh in several pieces");
+    this->Run = std::make_unique<PiecesRun>(mesh, options, progress);
+    return;
+  }
+  this->Run = std::make_unique<MeshRun>(CallerMesh(mesh), options, progress, expected);
 }
 
 FlipSession::FlipSession(
   const DeviceMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
-  : Run(MakeRun(mesh, options, progress))
 {
+  const CallerMesh caller(mesh);
+  if (options.NumberOfPieces > 1)
+  {
+    throw InvalidOptions("a mesh in the memory of a GPU cannot be flipped in several pieces");
+  }
+  CheckOptions(options);
+  this->Run = std::make_unique<MeshRun>(caller, options, progress);
 }
 
 FlipSession::FlipSession(
   const PointInput& points, const PointOptions& options, const ProgressObserver& progress)
-  : Run(MakeRun(points, options, progress))
 {
+  if (options.Projection != ProjectionKind::Plane)
+  {
+    this->Run = std::make_unique<SphereRun>(points, options, progress);
+    return;
+  }
+  this->Run = std::make_unique<PointRun>(points, options, progress);
 }
 
 FlipSession::~FlipSession() = default;

@@ -110,13 +110,6 @@ catch (...)
   throw;
 }
 
-bool LoadedRun::RunStage(const Stage& stage)
-{
-  const TemporaryValue<bool> forgets(this->MayForget, stage.Stop == OnStop::Forgets);
-  const bool stopsHere = this->WasStopped && stage.Stop == OnStop::KeepsMesh;
-  return !stopsHere && stage.Work();
-}
-
 //------------------------------------------------------------------------------
 void LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
 {
@@ -128,6 +121,7 @@ void LoadedRun::Load(bool isOnDevice, std::int64_t triangles)
   this->OnCuda = wantsCuda;
   if (wantsCuda)
   {
+    this->TouchExpected();
     try
     {
       this->Loaded = this->LoadOn(BackendKind::CUDA);
@@ -389,6 +383,11 @@ void LoadedRun::RecordIterations(const std::vector<IterationCounts>& batch, doub
 /// all triangles have to be measured, which is done only when the report is requested.
 void LoadedRun::Measure()
 {
+  if (!this->AreKeptEdgesKnown)
+  {
+    this->MeasureKeptEdges();
+    this->AreKeptEdgesKnown = true;
+  }
   FlipReport& report = this->Report;
   if (report.BlockedByDeviation < 0)
   {

@@ -59,9 +59,8 @@ protected:
   /// run from points.
   virtual void ListDefects() = 0;
 
-  /// Measures what the report has beside the counts of iterations. Reads the mesh, and only if the
-  /// mesh has changed since the last call.
-  virtual void Measure();
+  /// Finds what fixed edges keep or hide, if the run reports it.
+  virtual void MeasureKeptEdges() {}
 
   /// Plans refinement before its first round.
   virtual RefinementPlan PlanRefinement(LoadedMesh&) { return {}; }
@@ -115,11 +114,12 @@ protected:
   /// Measures the mesh at the end of a run.
   void MeasureEnd();
 
+  /// Measures what the report has beside the counts of iterations. Reads the mesh, and only if the
+  /// mesh has changed since the last call.
+  void Measure();
+
   //------------------------------------------------------------------------------
   // What stages and getters consist of.
-
-  /// Does a stage, unless an observer has stopped the run before it.
-  bool RunStage(const Stage& stage) final;
 
   /// Begins anew, and does all stages before the first flip. An observer may stop this.
   /// @returns whether it was not stopped.
@@ -194,10 +194,8 @@ protected:
   std::vector<Entry> Journal; ///< What has happened to the loaded mesh.
   RunProgress Progress;
   StepCounts Found; ///< The counts of the last detection.
-  bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
   std::int64_t Rounds = 0; ///< How often refinement has added points.
   std::int64_t MostPoints = 0; ///< FlipOptions::PointLimit, or its default.
-  bool MayForget = false; ///< Whether an observer may stop the stage under way and lose the run.
 
   // What is known of the mesh as it is; Measure finds out the rest.
   bool AreAnglesKnown = true;

@@ -18,13 +18,18 @@ namespace delaunayflip
 
 void MeshRun::ListStages()
 {
+  const auto load = [this]
+  {
+    this->Load(this->Start->GetOnDevice() != nullptr, this->Mesh.CountTriangles());
+    this->Insertion.AddTo(this->Report);
+  };
   const auto flips = [this](LoadedMesh& loaded, std::int64_t iterations)
   { this->RepeatFlips(loaded, iterations); };
   const auto test = [this](LoadedMesh& loaded, std::int64_t) { this->RepeatTest(loaded); };
   this->Stages = {
     { "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
       Whole([this] { this->InsertConstraints(); }), {} },
-    { "load", OnStop::Forgets, 0.0, Whole([this] { this->LoadMesh(); }), {} },
+    { "load", OnStop::Forgets, 0.0, Whole(load), {} },
     { "label regions", OnStop::Forgets, 0.0, Whole([this] { this->LabelRegions(); }), {} },
     { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
     { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
@@ -76,12 +81,6 @@ void MeshRun::InsertConstraints()
     BuildProgress([tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
 }
 
-void MeshRun::LoadMesh()
-{
-  this->Load(this->Start->GetOnDevice() != nullptr, this->Mesh.CountTriangles());
-  this->Insertion.AddTo(this->Report);
-}
-
 std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
 {
   const FlipOptions options = this->Insertion.GetOptions(this->Options);
@@ -89,7 +88,6 @@ std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
   {
     return LoadOnThreads(this->Start->CopyToHost(), options, this->Building);
   }
-  this->TouchExpected();
   const DeviceMesh* device = this->Start->GetOnDevice();
   if (device)
   {
@@ -133,25 +131,20 @@ void MeshRun::ListDefects()
   }
 }
 
-/// Finds what fixed edges keep or hide, but not while edges flip.
-void MeshRun::Measure()
+/// While edges flip, nothing is measured.
+void MeshRun::MeasureKeptEdges()
 {
-  if (!this->AreKeptEdgesKnown)
+  FlipReport& report = this->Report;
+  const EdgeCounts& edges = report.Edges;
+  const bool isRunning = report.StopReason == StopReasonKind::Running;
+  report.KeepsSliver = !isRunning && edges.Feature + edges.Constraint > 0 &&
+    this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
+  report.HiddenByWinding = 0;
+  if (!isRunning && edges.WronglyWound > 0)
   {
-    FlipReport& report = this->Report;
-    const EdgeCounts& edges = report.Edges;
-    const bool isRunning = report.StopReason == StopReasonKind::Running;
-    report.KeepsSliver = !isRunning && edges.Feature + edges.Constraint > 0 &&
-      this->OnBackend([](LoadedMesh& mesh) { return mesh.KeepsSliver(); });
-    report.HiddenByWinding = 0;
-    if (!isRunning && edges.WronglyWound > 0)
-    {
-      const auto count = [](LoadedMesh& mesh) { return mesh.CountHidden(); };
-      report.HiddenByWinding = this->OnBackend(count).WronglyWound;
-    }
-    this->AreKeptEdgesKnown = true;
+    const auto count = [](LoadedMesh& mesh) { return mesh.CountHidden(); };
+    report.HiddenByWinding = this->OnBackend(count).WronglyWound;
   }
-  LoadedRun::Measure();
 }
 
 //------------------------------------------------------------------------------

@@ -61,11 +61,10 @@ private:
   void ListStages();
   void GoOnAt(MovedPoints points);
   void InsertConstraints();
-  void LoadMesh();
   std::unique_ptr<LoadedMesh> LoadOn(BackendKind backend) override;
   void Reset() override;
   void ListDefects() override;
-  void Measure() override;
+  void MeasureKeptEdges() override;
 
   // (MeshRefinement.cpp)
   bool WantsRefinement() const override;

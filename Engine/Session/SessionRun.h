@@ -163,19 +163,23 @@ protected:
     }
   }
 
-  /// Does the stages from the current one on, up to the one with this number.
+  /// Does the stages from the current one on, up to the one with this number. Once an observer has
+  /// stopped the run, none begins that could be stopped later.
   /// @returns whether all are complete.
   bool RunStages(std::size_t end)
   {
-    while (this->Current < end && this->RunStage(this->Stages[this->Current]))
+    for (; this->Current < end; ++this->Current)
     {
-      ++this->Current;
+      const Stage& stage = this->Stages[this->Current];
+      const TemporaryValue<bool> forgets(this->MayForget, stage.Stop == OnStop::Forgets);
+      const bool stopsHere = this->WasStopped && stage.Stop == OnStop::KeepsMesh;
+      if (stopsHere || !stage.Work())
+      {
+        return false;
+      }
     }
-    return this->Current >= end;
+    return true;
   }
-
-  /// @returns whether the stage is complete.
-  virtual bool RunStage(const Stage& stage) { return stage.Work(); }
 
   bool IsOver() const { return this->Current == this->Stages.size(); }
 
@@ -194,6 +198,8 @@ protected:
   std::vector<Stage> Stages;
   std::size_t Current = 0; ///< The number of the stage that comes next or is not complete.
   ProgressObserver Observer; ///< The one of the call under way, else the constructor's.
+  bool WasStopped = false; ///< Whether an observer of the call under way has asked to stop.
+  bool MayForget = false; ///< Whether an observer may stop the stage under way and lose the run.
 };
 
 }
