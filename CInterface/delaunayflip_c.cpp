@@ -1,26 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#if defined(__GNUC__) // what this header declares is exported, and nothing else
-#pragma GCC visibility push(default)
-#endif
-#include "delaunayflip_c.h"
-#if defined(__GNUC__)
-#pragma GCC visibility pop
-#endif
+#include "SessionCalls.h"
 
-#include "CallerStructs.h"
 #include "CudaDevice.h"
-#include "DelaunayFlip.h"
-#include "FlipError.h"
 #include "PolygonSplit.h"
 #include "TriangleAngles.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
-#include <new>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -39,80 +27,6 @@ struct LastError
 };
 
 thread_local LastError TheLastError;
-
-delaunayflip_status Fail(delaunayflip_status status, const char* message, std::int64_t cell = -1,
-  std::int64_t point = -1, std::int64_t ring = -1)
-{
-  std::snprintf(TheLastError.Message, sizeof(TheLastError.Message), "%s", message);
-  TheLastError.Cell = cell;
-  TheLastError.Point = point;
-  TheLastError.Ring = ring;
-  return status;
-}
-
-delaunayflip_status StatusOf(const std::exception& error)
-{
-  if (dynamic_cast<const InvalidCall*>(&error))
-  {
-    return DELAUNAYFLIP_INVALID_CALL;
-  }
-  if (dynamic_cast<const InvalidOptions*>(&error))
-  {
-    return DELAUNAYFLIP_INVALID_OPTIONS;
-  }
-  if (dynamic_cast<const MeshTooLarge*>(&error))
-  {
-    return DELAUNAYFLIP_MESH_TOO_LARGE;
-  }
-  if (dynamic_cast<const BackendUnavailable*>(&error))
-  {
-    return DELAUNAYFLIP_BACKEND_UNAVAILABLE;
-  }
-  return DELAUNAYFLIP_FAILED;
-}
-
-/// Does the work. No exception may leave a C function: its message becomes the last error.
-template <typename Work>
-delaunayflip_status Try(const Work& work)
-{
-  try
-  {
-    work();
-    return DELAUNAYFLIP_OK;
-  }
-  catch (const InvalidMesh& error)
-  {
-    return Fail(DELAUNAYFLIP_INVALID_MESH, error.what(), error.Cell, error.Point, error.Ring);
-  }
-  catch (const RunAborted&)
-  {
-    return Fail(DELAUNAYFLIP_STOPPED, "stopped by a callback");
-  }
-  catch (const std::bad_alloc&)
-  {
-    return Fail(DELAUNAYFLIP_OUT_OF_MEMORY, "not enough memory");
-  }
-  catch (const std::exception& error)
-  {
-    return Fail(StatusOf(error), error.what());
-  }
-  catch (...)
-  {
-    return Fail(DELAUNAYFLIP_FAILED, "an exception of an unknown type");
-  }
-}
-
-/// Does work with a session, which must not be null.
-template <typename Work>
-delaunayflip_status TryWith(const delaunayflip_session* session, const Work& work)
-{
-  return Try(
-    [&]()
-    {
-      Require(session, "session is null");
-      work();
-    });
-}
 
 /// The triangles of all polygons; also their numbers, if there is room for them.
 std::vector<std::int64_t> Split(
@@ -168,62 +82,40 @@ std::vector<std::int64_t> Split(
 
 }
 
-struct delaunayflip_session
+namespace delaunayflip
 {
-  std::int64_t CountTriangles() const
+
+delaunayflip_status Fail(delaunayflip_status status, const char* message, std::int64_t cell,
+  std::int64_t point, std::int64_t ring)
+{
+  std::snprintf(TheLastError.Message, sizeof(TheLastError.Message), "%s", message);
+  TheLastError.Cell = cell;
+  TheLastError.Point = point;
+  TheLastError.Ring = ring;
+  return status;
+}
+
+delaunayflip_status StatusOf(const std::exception& error)
+{
+  if (dynamic_cast<const InvalidCall*>(&error))
   {
-    return this->MakesTriangles ? this->Session.GetReport().Triangles : this->NumberOfTriangles;
+    return DELAUNAYFLIP_INVALID_CALL;
   }
-
-  FlipSession Session;
-  bool IsFromPoints = false;
-  bool MakesTriangles = false; ///< Whether their number may change: from points, or by refinement.
-  std::int64_t NumberOfTriangles = 0;
-  const std::int64_t* TriangleNumbers = nullptr; ///< The caller's, or null.
-  KeptReport Report;
-  std::vector<RegionSeed> Regions; ///< The session reads them.
-};
-
-namespace
-{
-/// Does work with a session from points, which writes `count(report)` values.
-template <typename Count, typename Work>
-delaunayflip_status TryWithPoints(
-  const delaunayflip_session* session, const void* target, const Count& count, const Work& work)
-{
-  return TryWith(session,
-    [&]()
-    {
-      Require(session->IsFromPoints, "this session was not made from points");
-      Require(target || std::invoke(count, session->Session.GetReport()) == 0, "an array is null");
-      work();
-    });
+  if (dynamic_cast<const InvalidOptions*>(&error))
+  {
+    return DELAUNAYFLIP_INVALID_OPTIONS;
+  }
+  if (dynamic_cast<const MeshTooLarge*>(&error))
+  {
+    return DELAUNAYFLIP_MESH_TOO_LARGE;
+  }
+  if (dynamic_cast<const BackendUnavailable*>(&error))
+  {
+    return DELAUNAYFLIP_BACKEND_UNAVAILABLE;
+  }
+  return DELAUNAYFLIP_FAILED;
 }
 
-/// To the host's memory; with a stream to that of a GPU. Likewise below.
-template <typename... Stream>
-delaunayflip_status StoreTriangles(
-  delaunayflip_session* session, void* triangles, std::int32_t type, Stream... stream)
-{
-  return TryWith(session,
-    [=]()
-    {
-      session->Session.StoreTriangles(
-        ToOutput(triangles, session->CountTriangles(), type), DeviceStream{ stream }...);
-    });
-}
-
-template <typename... Stream>
-delaunayflip_status StoreFlipCounts(
-  delaunayflip_session* session, std::int32_t* counts, Stream... stream)
-{
-  return TryWith(session,
-    [=]()
-    {
-      Require(counts || session->CountTriangles() == 0, "counts is null");
-      session->Session.StoreFlipCounts(counts, DeviceStream{ stream }...);
-    });
-}
 }
 
 extern "C"
@@ -332,48 +224,6 @@ extern "C"
       });
   }
 
-  delaunayflip_status delaunayflip_store_neighbors(
-    delaunayflip_session* session, std::int32_t* neighbors)
-  {
-    return TryWithPoints(session, neighbors, &FlipReport::Triangles,
-      [=]() { session->Session.StoreNeighbors(neighbors); });
-  }
-
-  delaunayflip_status delaunayflip_store_neighbors_on_device(
-    delaunayflip_session* session, std::int32_t* neighbors, void* stream)
-  {
-    return TryWithPoints(session, neighbors, &FlipReport::Triangles,
-      [=]() { session->Session.StoreNeighbors(neighbors, DeviceStream{ stream }); });
-  }
-
-  delaunayflip_status delaunayflip_store_used_points(
-    delaunayflip_session* session, std::int64_t* ids)
-  {
-    return TryWithPoints(
-      session, ids, &FlipReport::Points, [=]() { session->Session.StoreUsedPoints(ids); });
-  }
-
-  delaunayflip_status delaunayflip_store_added_points(
-    delaunayflip_session* session, double* xy, std::int64_t* ends, double* shares)
-  {
-    return TryWithPoints(
-      session, xy && ends ? shares : nullptr,
-      [](const FlipReport& report) { return report.FromPoints.Crossings; },
-      [=]()
-      {
-        const std::int64_t crossings = session->Session.GetReport().FromPoints.Crossings;
-        for (std::int64_t i = 0; i < crossings; ++i)
-        {
-          const AddedPoint& point = session->Session.GetAddedPoints()[i];
-          xy[2 * i] = point.X;
-          xy[2 * i + 1] = point.Y;
-          ends[2 * i] = point.From;
-          ends[2 * i + 1] = point.To;
-          shares[i] = point.Share;
-        }
-      });
-  }
-
   delaunayflip_status delaunayflip_place_on_sphere(
     const double* degrees, std::int64_t number_of_places, double* xyz)
   {
@@ -386,88 +236,6 @@ extern "C"
         {
           PlaceOnSphere(degrees[2 * i], degrees[2 * i + 1], xyz + 3 * i);
         }
-      });
-  }
-
-  delaunayflip_status delaunayflip_store_added_weights(delaunayflip_session* session, double* xy,
-    std::int64_t* ids, double* weights, std::int64_t* segments)
-  {
-    return TryWithPoints(
-      session, xy && ids ? weights : nullptr,
-      [](const FlipReport& report)
-      { return report.FromPoints.Crossings + report.FromPoints.RefinementPoints; },
-      [=]()
-      {
-        AddedPointArrays arrays;
-        arrays.Places = xy;
-        arrays.Ids = ids;
-        arrays.Weights = weights;
-        arrays.Segments = segments;
-        session->Session.StoreAddedPoints(arrays);
-      });
-  }
-
-  delaunayflip_status delaunayflip_store_refined_points(
-    delaunayflip_session* session, double* xyz, std::int64_t* ids, double* weights)
-  {
-    return TryWith(session,
-      [=]()
-      {
-        Require(!session->IsFromPoints, "this session was made from points");
-        const std::int64_t added = session->Session.GetReport().FromPoints.RefinementPoints;
-        Require((xyz && ids && weights) || added == 0, "an array is null");
-        AddedPointArrays arrays;
-        arrays.Places = xyz;
-        arrays.Components = 3;
-        arrays.Ids = ids;
-        arrays.Weights = weights;
-        session->Session.StoreAddedPoints(arrays);
-      });
-  }
-
-  delaunayflip_status delaunayflip_store_sources(
-    delaunayflip_session* session, std::int32_t* sources)
-  {
-    return TryWith(session,
-      [=]()
-      {
-        Require(sources || session->CountTriangles() == 0, "sources is null");
-        session->Session.StoreSources(sources);
-      });
-  }
-
-  delaunayflip_status delaunayflip_store_regions(
-    delaunayflip_session* session, std::int32_t* labels)
-  {
-    return TryWith(session,
-      [=]()
-      {
-        Require(labels || session->CountTriangles() == 0, "labels is null");
-        session->Session.StoreRegions(labels);
-      });
-  }
-
-  delaunayflip_status delaunayflip_store_segments_of_edges(
-    delaunayflip_session* session, std::int64_t* numbers)
-  {
-    return TryWithPoints(
-      session, numbers, [](const FlipReport& report) { return report.FromPoints.SegmentEdges; },
-      [=]()
-      {
-        const std::vector<std::int64_t> all = session->Session.ListSegmentsOfEdges();
-        std::copy(all.begin(), all.end(), numbers);
-      });
-  }
-
-  delaunayflip_status delaunayflip_store_segment_edges(
-    delaunayflip_session* session, std::int64_t* pairs)
-  {
-    return TryWithPoints(
-      session, pairs, [](const FlipReport& report) { return report.FromPoints.SegmentEdges; },
-      [=]()
-      {
-        const std::vector<std::int64_t> all = session->Session.ListSegmentEdges();
-        std::copy(all.begin(), all.end(), pairs);
       });
   }
 
@@ -623,41 +391,6 @@ extern "C"
             std::min(sizeof(defect), static_cast<std::size_t>(defect_size)));
         }
       });
-  }
-
-  delaunayflip_status delaunayflip_store_triangles(
-    delaunayflip_session* session, void* triangles, std::int32_t id_type)
-  {
-    return StoreTriangles(session, triangles, id_type);
-  }
-
-  delaunayflip_status delaunayflip_store_ordered_triangles(
-    delaunayflip_session* session, void* triangles, std::int32_t id_type)
-  {
-    return TryWith(session,
-      [=]()
-      {
-        session->Session.StoreOrderedTriangles(
-          ToOutput(triangles, session->CountTriangles(), id_type));
-      });
-  }
-
-  delaunayflip_status delaunayflip_store_flip_counts(
-    delaunayflip_session* session, std::int32_t* counts)
-  {
-    return StoreFlipCounts(session, counts);
-  }
-
-  delaunayflip_status delaunayflip_store_triangles_on_device(
-    delaunayflip_session* session, void* triangles, std::int32_t id_type, void* stream)
-  {
-    return StoreTriangles(session, triangles, id_type, stream);
-  }
-
-  delaunayflip_status delaunayflip_store_flip_counts_on_device(
-    delaunayflip_session* session, std::int32_t* counts, void* stream)
-  {
-    return StoreFlipCounts(session, counts, stream);
   }
 
   void delaunayflip_close(delaunayflip_session* session) { delete session; }
