@@ -161,6 +161,16 @@ public:
     {
       points->SetFirstHole(this->Input.Segments->GetNumberOfLines() + this->Input.OutlineRings);
       points->ClosedLinesAsRingsOff(); // those that are rings have become polygons
+      points->SetDefectHandler(
+        [this](const Defect& defect)
+        {
+          const bool isOfRings = defect.Ids == DefectIds::Rings;
+          if (isOfRings)
+          {
+            this->RingDefects.push_back(defect);
+          }
+          return isOfRings;
+        });
     }
     this->Bar.Begin(Phase::Flipping, "finding edges");
     this->Filter->AddObserver(vtkCommand::ProgressEvent, this, &FlipJob::ShowProgress);
@@ -177,8 +187,9 @@ public:
     this->Bar.Clear();
     for (const std::string& warning : TakeVTKWarnings())
     {
-      this->Messages.Warn(this->NameRings(WithOptions(warning, this->Settings)));
+      this->Messages.Warn(WithOptions(warning, this->Settings));
     }
+    this->WarnOfRings();
     this->ThrowErrors();
     this->TakeReport();
   }
@@ -305,26 +316,25 @@ private:
     return { this->Settings.Holes, "ring " + std::to_string(ring - this->Input.OutlineRings) };
   }
 
-  /// A warning of the filter that names rings by their files.
-  std::string NameRings(std::string warning) const
+  /// Warns of rings, with their files.
+  void WarnOfRings()
   {
-    for (Defect defect : this->Filter->GetReport().Defects)
+    std::vector<std::string> texts;
+    for (Defect defect : std::exchange(this->RingDefects, {}))
     {
-      const std::string given = DescribeDefects({ defect });
-      const std::size_t place = warning.find(given);
-      if (defect.Ids == DefectIds::Rings && place != std::string::npos)
+      std::vector<std::string> names;
+      for (const std::int64_t number : std::exchange(defect.FirstIds, {}))
       {
-        std::vector<std::string> names;
-        for (const std::int64_t number : std::exchange(defect.FirstIds, {}))
-        {
-          const auto [path, ring] = this->FindRing(number);
-          names.push_back(ring + " of " + path);
-        }
-        warning.replace(
-          place, given.size(), DescribeDefects({ defect }) + " (first: " + JoinWords(names) + ")");
+        const auto [path, ring] = this->FindRing(number);
+        names.push_back(ring + " of " + path);
       }
+      texts.push_back(WithOptions(DescribeDefects({ defect }), this->Settings) +
+        " (first: " + JoinWords(names) + ")");
     }
-    return warning;
+    if (!texts.empty())
+    {
+      this->Messages.Warn(JoinWords(texts, "; "));
+    }
   }
 
   void ThrowErrors()
@@ -417,6 +427,7 @@ private:
   std::unique_ptr<HeightQuery> Heights; ///< Null: a mesh is wanted.
   vtkDelaunayFlipAlgorithm* const Filter;
   const vtkNew<vtkPolyData> Output;
+  std::vector<Defect> RingDefects; ///< Those that the filter leaves to WarnOfRings.
   RunReport Run;
 };
 

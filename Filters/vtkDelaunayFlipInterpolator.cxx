@@ -490,6 +490,7 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   request.Progress = MakePart(progress, 0.0, TriangulationShare);
   vtkNew<vtkPolyData> mesh;
   this->Runs->Update(request, *this->Report, mesh);
+  this->HandleDefects();
 
   const FlipSession* session = this->Runs->GetSession();
   vtkSmartPointer<vtkAbstractTransform> projection;

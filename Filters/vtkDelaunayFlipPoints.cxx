@@ -281,6 +281,15 @@ bool TriangulationRequest::IsPlain() const
     options.Projection == ProjectionKind::Plane;
 }
 
+void vtkDelaunayFlipPoints::HandleDefects()
+{
+  if (this->Handler)
+  {
+    std::vector<Defect>& defects = this->Report->Defects;
+    defects.erase(std::remove_if(defects.begin(), defects.end(), this->Handler), defects.end());
+  }
+}
+
 /// Whether later updates may have the same points at other places.
 bool vtkDelaunayFlipPoints::WantsToKeep()
 {
@@ -340,6 +349,7 @@ void vtkDelaunayFlipPoints::FlipLeaves(
   }
   request.KeepsRun = block.Place.empty() && request.IsPlain() && this->WantsToKeep();
   this->Runs->Update(request, *this->Report, output);
+  this->HandleDefects();
   output->SetVerts(nullptr);
   const bool areLinesGiven = output->GetLines() == points->GetLines(); // after an abort
   if (areLinesGiven)

@@ -117,7 +117,9 @@
 #include "vtkSmartPointer.h" // For the points that are read
 
 #include <array> // For the regions
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkAbstractTransform;
@@ -126,6 +128,7 @@ class vtkPointSet;
 
 namespace delaunayflip
 {
+struct Defect;
 struct TriangulationRequest;
 }
 
@@ -376,6 +379,19 @@ public:
    */
   vtkMTimeType GetMTime() override;
 
+#ifndef __VTK_WRAP__
+  /**
+   * Is called with each defect that an update has found. If it returns true, the program tells of
+   * the defect in its own words, and neither a warning nor the report does. Default: none.
+   */
+  using DefectHandler = std::function<bool(const delaunayflip::Defect&)>;
+  void SetDefectHandler(DefectHandler handler)
+  {
+    this->Handler = std::move(handler);
+    this->Modified();
+  }
+#endif
+
 protected:
   vtkDelaunayFlipPoints();
   ~vtkDelaunayFlipPoints() override;
@@ -417,6 +433,9 @@ protected:
   /// Asks for the triangles of a dataset. The meshes of the request are not set yet.
   delaunayflip::TriangulationRequest MakeRequest(vtkPointSet* input);
 
+  /// Takes the defects that the handler tells of out of the report of the mesh.
+  void HandleDefects();
+
   bool IsOnSphere() const;
 
   /// Whether x and y of points are longitudes and latitudes.
@@ -452,6 +471,8 @@ protected:
 
 private:
   bool WantsToKeep();
+
+  DefectHandler Handler;
 
   vtkDelaunayFlipPoints(const vtkDelaunayFlipPoints&) = delete;
   void operator=(const vtkDelaunayFlipPoints&) = delete;

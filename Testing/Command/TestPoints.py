@@ -475,6 +475,9 @@ class Segments(PointTest):
             self.assertEqual(area_of(mesh), 4)
             self.assertIn("counted once (first: ring 0 of ring.vtk)", result.stderr)
             self.assertIn("left out (first: ring 1 of ring.vtk)", result.stderr)
+        for name in ("Alpha.vtk", "Küste.vtk"):  # Alpha is the name of a property, too
+            _, result = self.triangulate("in.xyz", "--holes", self.rings(name, 2 * ring))
+            self.assertIn(f"(first: ring 0 of {name})", result.stderr)
 
     def test_rings_without_area(self):
         """They are left out, and one warning counts them, with the names of the first ones."""
