@@ -27,7 +27,7 @@ struct delaunayflip_session
 {
   std::int64_t CountTriangles() const
   {
-    return this->MakesTriangles ? this->Session.GetReport().Triangles : this->NumberOfTriangles;
+    return this->MakesTriangles ? this->Session.CountTriangles() : this->NumberOfTriangles;
   }
 
   delaunayflip::FlipSession Session;

@@ -129,6 +129,10 @@ public:
   Result Sum(std::int64_t size, const Work& work) const
   {
     static_assert(sizeof(Result) <= CudaContext::ResultBytes);
+    if (size == 0)
+    {
+      return Result{};
+    }
     const int most = this->GetBlocks({ 0, size });
     Array<Result> partials = this->MakeArrayOnFirst<Result>(most * this->CountDevices());
     int blocks = 0;

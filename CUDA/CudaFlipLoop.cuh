@@ -213,11 +213,9 @@ public:
       Backend(backend),
       Bits(mesh, Rule::MayBlock, backend)
   {
-    this->Chunks = backend.MakeArray<DeviceChunk>(this->NumberOfChunks);
     this->DeviceResults = backend.MakeArray<Results>(1);
     this->PlanGrid();
     this->PlanTeams();
-    this->CutIntoChunks();
   }
 
   std::int64_t CountBlockedByDeviation() const override
@@ -236,9 +234,15 @@ public:
   // Public because device lambdas require it.
 
   /// Chunk c has the edges that have their smallest corner in it at first. Edges are numbered in
-  /// that order.
+  /// that order, and the first iterations are within chunks or none is.
   void CutIntoChunks()
   {
+    if (this->AreChunksCut)
+    {
+      return;
+    }
+    this->AreChunksCut = true;
+    this->Chunks = this->Backend.template MakeArray<DeviceChunk>(this->NumberOfChunks);
     DeviceChunk* chunks = this->Chunks.Data();
     const CornerId* words = this->Mesh.CornerOfHalfEdge.Data();
     const std::int64_t edges = this->Mesh.NumberOfEdges;
@@ -293,6 +297,7 @@ protected:
 
   std::vector<IterationCounts> IterateChunks(const AdvancePlan& plan) override
   {
+    this->CutIntoChunks();
     this->Bits.DeferEdgesBetweenChunks(this->Mesh, this->ChunkBits);
     std::vector<IterationCounts> iterations;
     while (static_cast<std::int64_t>(iterations.size()) < plan.Iterations)
@@ -571,6 +576,7 @@ private:
   int Splits = 0; ///< 2^Splits warps share a unit of the worklist.
   DeviceEdgeBits Bits;
   Array<DeviceChunk> Chunks;
+  bool AreChunksCut = false;
   Array<TeamState> TeamStates;
   Array<Results> DeviceResults;
 };

@@ -201,10 +201,10 @@ public:
     for (int kind = 0; kind < 3; ++kind)
     {
       added[kind] = this->Number(CountAdded{ splitter, this->Items.Data(), kind });
-    }
-    if (added[0] == 0)
-    {
-      return 0;
+      if (added[kind] == 0)
+      {
+        return 0;
+      }
     }
     const std::int64_t triangles = mesh.NumberOfTriangles, edges = mesh.NumberOfEdges;
     ReserveMesh(mesh, triangles + added[1], edges + added[2], this->Device);
@@ -242,9 +242,8 @@ public:
     std::uint32_t* claims = this->Claims.Data();
     this->Device.ForEach(mesh.NumberOfTriangles,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { claims[t] = ~std::uint32_t(0); });
-    const std::int32_t none = 0;
     Array<std::int32_t> failed = this->Device.template MakeArray<std::int32_t>(1);
-    this->Device.Upload(&none, 1, failed.Data());
+    this->Device.Fill(failed.Data(), 0, 1);
     plane.Failed = failed.Data();
     const GrowthRound round{ plane, this->Places, this->Items.Data(), claims, this->KeepsFixed };
     this->Device.ForEach(

@@ -258,9 +258,15 @@ struct HalveInGroup
   MotionView<Real> Motion;
   std::uint32_t Stamp; ///< The stamp of the first pass.
   std::uint32_t MostPasses;
+  bool WaitsForCuts; ///< Whether nothing is done while triangles have to be cut off.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& group) const
   {
+    const std::uint32_t* counts = this->Motion.Counts + static_cast<int>(MotionCount::Hull);
+    if (this->WaitsForCuts && AtomicLoad(counts + static_cast<int>(HullCount::Cuts)) > 0)
+    {
+      return;
+    }
     for (std::uint32_t pass = 0; pass < this->MostPasses; ++pass)
     {
       const std::uint32_t inverted = AtomicLoad(this->Motion.Get(MotionCount::Inverted));

@@ -125,14 +125,13 @@ public:
   {
     const bool all = ++this->Rounds == 1;
     this->ClearCounts();
+    this->AreTurnsCounted = false;
     CountsOnHost counts = all ? this->StartAll(mesh) : this->StartLate(mesh);
     const bool isUsual = counts.Get(MotionCount::Unusual) == 0;
     if (!isUsual || this->Hull.HasFailed() || !this->Halve(mesh, counts))
     {
       return false;
     }
-    this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
-    counts = this->FetchCounts();
     if (counts.Get(HullCount::Concave) > 0)
     {
       this->ChangedHull |= this->Hull.FillUp(mesh.Edges, this->ViewPlane(mesh));
@@ -217,6 +216,14 @@ public:
         const VertexId vertex = late[i].Vertex;
         TriangleId start = TriangleOf(late[i].Corner);
         start = start < triangles ? start : 0;
+        for (int near = 0; near < 3; ++near) // most often flips have left it there
+        {
+          if (motion.Mesh.GetVertex(MakeCorner(start, near)) == vertex)
+          {
+            late[i].Corner = MakeCorner(start, near);
+            return;
+          }
+        }
         const FoundPlace found = WalkToPlace(motion.Mesh, motion.Mesh.GetPoint(vertex), start);
         const int slot = found.IsOutside() ? -1 : found.FindVertexSlot();
         late[i].Corner = MakeCorner(start, 0);
@@ -233,6 +240,7 @@ public:
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(late[i].Vertex); });
     this->Hull.CountCuts(this->ViewPlane(mesh), this->GetHullCounts());
     this->CheckStars(motion, late, count);
+    this->HalveSoon(mesh, count);
     this->ChangedHull = false;
     CountsOnHost counts = this->FetchCounts();
     if (counts.Get(HullCount::Cuts) > 0)
@@ -241,6 +249,7 @@ public:
       this->FindCornersAgain(mesh);
       this->ClearCounts();
       this->CheckStars(this->View(mesh), late, count);
+      this->HalveSoon(mesh, count);
       counts = this->FetchCounts();
     }
     return counts;
@@ -265,10 +274,30 @@ public:
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.CheckStar(corners[i], stamp); });
   }
 
-  /// Halves the steps of vertices until no triangle is inverted.
+  /// Halves the steps of few vertices before the host knows whether this is needed, and whether
+  /// triangles are cut off first.
+  void HalveSoon(const MovingMesh<Real>& mesh, std::int64_t late)
+  {
+    if (late <= MostToHalveSoon)
+    {
+      this->HalveAndCountTurns(mesh, MostPasses + 1, true);
+    }
+  }
+
+  /// Halves the steps of vertices by one group of threads.
+  void HalveAndCountTurns(const MovingMesh<Real>& mesh, std::uint32_t passes, bool waitsForCuts)
+  {
+    this->Device.RunGroup(
+      HalveInGroup<Real>{ this->View(mesh), this->Stamp + 1, passes, waitsForCuts });
+    this->Stamp += passes;
+    this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
+    this->AreTurnsCounted = true;
+  }
+
+  /// Halves the steps of vertices until no triangle is inverted, and counts turns of the boundary.
   /// @param counts what has been counted so far.
   /// @returns false if too many triangles are inverted, or too many passes are needed.
-  bool Halve(const MovingMesh<Real>& mesh, CountsOnHost counts)
+  bool Halve(const MovingMesh<Real>& mesh, CountsOnHost& counts)
   {
     const MotionView<Real> motion = this->View(mesh);
     for (;; counts = this->FetchCounts())
@@ -283,13 +312,16 @@ public:
       }
       if (inverted == 0)
       {
+        if (!this->AreTurnsCounted)
+        {
+          this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
+          counts = this->FetchCounts();
+        }
         return true;
       }
       if (inverted <= MostForGroup)
       {
-        const std::uint32_t left = MostPasses + 1 - passes;
-        this->Device.RunGroup(HalveInGroup<Real>{ motion, this->Stamp + 1, left });
-        this->Stamp += left;
+        this->HalveAndCountTurns(mesh, MostPasses + 1 - passes, false);
       }
       else
       {
@@ -359,6 +391,8 @@ private:
   /// So few inverted triangles are handled by one group of threads, which need not wait for the
   /// host between passes.
   static constexpr std::uint32_t MostForGroup = Backend::IsOnHost ? 64 : 2048;
+  /// The steps of so few vertices are halved before the host asks for counts.
+  static constexpr std::int64_t MostToHalveSoon = Backend::IsOnHost ? 8 : 256;
   static constexpr std::int64_t Fewest = 64;
   /// If more than one triangle in 64 is inverted, triangulating anew takes less time.
   static constexpr std::int64_t MostShare = 64;
@@ -451,6 +485,7 @@ private:
   std::uint32_t MostInverted = 0;
   std::uint32_t Stamp = 0;
   bool ChangedHull = false;
+  bool AreTurnsCounted = false; ///< In this round.
   /// The sizes that the mesh had when its boundary was found.
   std::int64_t KnownTriangles = -1, KnownEdges = -1, KnownVertices = -1;
 };
