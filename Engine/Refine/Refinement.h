@@ -62,6 +62,55 @@ struct FindCavity
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i) const { this->Step.FindCavity(i); }
 };
 
+/// Decides whether a place for a triangle wins. @returns 1 if it does, else 0.
+struct DecidePlace
+{
+  RefinementStep Step;
+
+  void Prefetch(std::int64_t i) const { this->Step.PrefetchDecision(i); }
+  DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t i) const { return this->Step.Decide(i); }
+};
+
+/// Inserts a place for a triangle if it wins.
+template <typename Real>
+struct SplitPlace
+{
+  RefinementStore<Real> Store;
+  const RefinementItem* Items;
+
+  void Prefetch(std::int64_t i) const
+  {
+    constexpr std::int64_t Second = RefinementView::Second, Third = RefinementView::Third,
+                           Fourth = RefinementView::Fourth;
+    if (i >= Fourth)
+    {
+      this->PrefetchStage(i, [this](TriangleId t) { this->Store.PrefetchTriangle(t); });
+      this->PrefetchStage(i - Second, [this](TriangleId t) { this->Store.PrefetchEdges(t); });
+      this->PrefetchStage(i - Third, [this](TriangleId t) { this->Store.PrefetchOldTriangle(t); });
+      this->PrefetchStage(i - Fourth, [this](TriangleId t) { this->Store.PrefetchOldPoints(t); });
+    }
+  }
+  DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t number) const
+  {
+    const RefinementItem& item = this->Items[i];
+    if (item.State == ItemState::Wins)
+    {
+      const RefinementNumbers before{ number, 2 * number, 3 * number, 0 };
+      this->Store.Split(item, before);
+    }
+  }
+
+private:
+  template <typename Stage>
+  void PrefetchStage(std::int64_t i, const Stage& stage) const
+  {
+    if (this->Items[i].State == ItemState::Wins)
+    {
+      stage(this->Items[i].Found.Triangle);
+    }
+  }
+};
+
 /// How many places of a round win.
 struct CountOfWinners
 {
@@ -213,8 +262,7 @@ public:
   {
     const RefinementStep step = this->GetStep(view);
     const std::int64_t first = this->NumberOfPlaces;
-    typename Backend::Numbering places = this->Device.Count(
-      first, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return step.Decide(i); });
+    typename Backend::Numbering places = this->Device.Count(first, DecidePlace{ step });
     typename Backend::Numbering segments = this->Device.Count(this->NumberOfSegments,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { return step.Decide(first + i); });
     this->RequireDecided();
@@ -295,14 +343,8 @@ public:
   {
     const RefinementItem* items = this->Items.Data();
     const WinsRound wins{ items };
-    this->Device.ForEachNumbered(numbering, this->NumberOfPlaces, wins,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
-      {
-        if (wins(i) != 0)
-        {
-          store.Split(items[i], CountOfWinners{ number, 0, 0 }.GetAdded());
-        }
-      });
+    this->Device.ForEachNumbered(
+      numbering, this->NumberOfPlaces, wins, SplitPlace<Real>{ store, items });
   }
 
   /// @param inTriangles the number of winners in triangles, which precede those on segments.

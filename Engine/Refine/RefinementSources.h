@@ -88,18 +88,6 @@ struct RefinementSources
       });
   }
 
-  /// Prefetches what Count or Propose will read of this source, and of earlier ones.
-  void Prefetch(std::int64_t source) const
-  {
-    this->View.PrefetchTriangle(this->GetStart(source));
-    if (source >= RefinementView::Third)
-    {
-      this->View.PrefetchCorners(this->GetStart(source - RefinementView::Second));
-      this->View.PrefetchNeighbors(this->GetStart(source - RefinementView::Third));
-    }
-  }
-
-private:
   /// The triangle at which the search for a place, or for the triangles of a vertex, begins.
   TriangleId GetStart(std::int64_t source) const
   {
@@ -113,6 +101,32 @@ private:
       return this->Splits[number];
     }
     return static_cast<TriangleId>(number - this->NumberOfVertices);
+  }
+
+  /// Prefetches what Count or Propose will read of this source, and of earlier ones.
+  void Prefetch(std::int64_t source) const
+  {
+    this->View.PrefetchTriangle(this->GetStart(source));
+    if (source >= RefinementView::Fifth)
+    {
+      this->View.PrefetchCorners(this->GetStart(source - RefinementView::Second));
+      this->View.PrefetchNeighbors(this->GetStart(source - RefinementView::Third));
+      const std::int64_t fourth = source - RefinementView::Fourth;
+      const std::int64_t fifth = source - RefinementView::Fifth;
+      if (this->IsAroundVertex(fourth) && this->IsAroundVertex(fifth))
+      {
+        this->View.PrefetchBeyond(this->GetStart(fourth));
+        this->View.PrefetchSecondNeighbors(this->GetStart(fifth));
+      }
+    }
+  }
+
+private:
+  /// Whether a source is a new vertex.
+  bool IsAroundVertex(std::int64_t source) const
+  {
+    const std::int64_t number = source - this->NumberOfItems;
+    return number >= 0 && number < this->NumberOfVertices;
   }
 
   /// Calls visit(triangle) for the triangles of a source that is not an item.
@@ -204,7 +218,11 @@ struct ProposePlaces
   RefinementSources Sources;
   RefinementStep Step;
 
-  void Prefetch(std::int64_t i) const { this->Sources.Prefetch(i); }
+  void Prefetch(std::int64_t i) const
+  {
+    this->Sources.Prefetch(i);
+    delaunayflip::Prefetch(&this->Step.Claims[this->Sources.GetStart(i)]);
+  }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t number) const
   {
     this->Sources.Propose(i, number, this->Step);

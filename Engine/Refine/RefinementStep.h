@@ -153,23 +153,87 @@ struct RefinementStep
     const TriangleId triangle = this->Items[i].Found.Triangle;
     this->View.PrefetchTriangle(triangle);
     Prefetch(&this->Claims[triangle]);
-    if (i < RefinementView::Third)
+    if (i < RefinementView::Fifth)
     {
       return;
     }
     const RefinementItem& second = this->Items[i - RefinementView::Second];
-    if (this->Claims[second.Found.Triangle] == second.Key)
+    if (this->HoldsFirst(second))
     {
       this->View.PrefetchCorners(second.Found.Triangle);
     }
     const RefinementItem& third = this->Items[i - RefinementView::Third];
-    if (this->Claims[third.Found.Triangle] == third.Key)
+    if (this->HoldsFirst(third))
     {
       this->View.PrefetchNeighbors(third.Found.Triangle);
     }
+    const RefinementItem& fourth = this->Items[i - RefinementView::Fourth];
+    if (this->HoldsFirst(fourth))
+    {
+      this->View.PrefetchBeyond(fourth.Found.Triangle);
+    }
+    const RefinementItem& fifth = this->Items[i - RefinementView::Fifth];
+    if (this->HoldsFirst(fifth))
+    {
+      this->View.PrefetchSecondNeighbors(fifth.Found.Triangle);
+    }
+  }
+
+  /// Likewise for Decide: the triangles of the cavity, their edges, and the claims beyond.
+  void PrefetchDecision(std::int64_t i) const
+  {
+    if (i < RefinementView::Third)
+    {
+      return;
+    }
+    this->ForCavity(i,
+      [this](TriangleId triangle)
+      {
+        Prefetch(&this->View.Mesh.Edges.Triangles[triangle]);
+        Prefetch(&this->Claims[triangle]);
+      });
+    this->ForCavity(i - RefinementView::Second,
+      [this](TriangleId triangle)
+      {
+        for (const HalfEdgeId side : this->View.Mesh.Edges.Triangles[triangle].HalfEdges)
+        {
+          this->View.PrefetchEdge(side);
+        }
+      });
+    this->ForCavity(i - RefinementView::Third,
+      [this](TriangleId triangle)
+      {
+        for (const HalfEdgeId side : this->View.Mesh.Edges.Triangles[triangle].HalfEdges)
+        {
+          const CornerId across = this->View.Mesh.Edges.CornerOfHalfEdge[side ^ 1u];
+          if (across != NoCorner)
+          {
+            Prefetch(&this->Claims[TriangleOf(across)]);
+          }
+        }
+      });
   }
 
 private:
+  /// Whether a place for a triangle has won the triangle that it is in.
+  bool HoldsFirst(const RefinementItem& item) const
+  {
+    return this->Claims[item.Found.Triangle] == item.Key;
+  }
+
+  /// Calls visit(triangle) for the cavity of a place for a triangle, if it has been found.
+  template <typename Visit>
+  void ForCavity(std::int64_t i, const Visit& visit) const
+  {
+    const RefinementItem& item = this->Items[i];
+    const bool isWaiting = AtomicLoad(&item.State) == ItemState::Waiting;
+    const int count = isWaiting ? this->Cavities[i].Count : 0;
+    for (int k = 0; k < count; ++k)
+    {
+      visit(TriangleOf(this->Cavities[i].Corners[k]));
+    }
+  }
+
   /// Moves the place for a triangle to its centroid, if that helps. @returns whether it does.
   DELAUNAYFLIP_HOST_DEVICE bool MoveInside(RefinementItem& item) const
   {

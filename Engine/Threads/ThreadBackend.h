@@ -381,13 +381,18 @@ private:
   {
   }
 
-  /// Calls call(i) for i = begin .. end - 1; before that work.Prefetch(i), if that exists.
+  /// Calls call(i) for i = begin .. end - 1; before that, for most of them, work.Prefetch(i), if
+  /// that exists. It may also prefetch for the PrefetchDistance items before i.
   template <typename Work, typename Call>
   static void Loop(std::int64_t begin, std::int64_t end, const Work& work, const Call& call)
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
-      Request(work, std::min(i + PrefetchDistance, end - 1), 0);
+      // Not beyond the range: other threads may change what belongs to its items.
+      if (i + PrefetchDistance < end)
+      {
+        Request(work, i + PrefetchDistance, 0);
+      }
       call(i);
     }
   }

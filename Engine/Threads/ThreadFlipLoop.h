@@ -33,8 +33,7 @@ public:
       Range(range),
       Guard(std::move(guard)),
       Backend(backend),
-      Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive()),
-      Grades(mesh.NumberOfTriangles)
+      Worklist(mesh.States.Data(), 0, mesh.NumberOfEdges, Rule::MayBlock || this->Guard.IsActive())
   {
     this->CutIntoChunks();
   }
@@ -48,6 +47,7 @@ public:
   /// only triangles that flips have changed are measured again.
   AngleSums MeasureAngles() const override
   {
+    this->Grades.resize(this->Mesh.NumberOfTriangles);
     GradeSurvey survey{ this->Angles(), this->Grades.data(), true };
     survey.MeasuresAll =
       this->Measured.Angles.Largest == -INFINITY || survey.IsChanged(this->Measured.Worst);
