@@ -24,6 +24,8 @@ namespace delaunayflip
 namespace
 {
 
+constexpr double TooShort = 3e-12; // 1024 roundings of the coordinates; see RefinementStep::IsShort
+
 /// Up to this angle in degrees, refinement ends long before the limit. Above, it may never end
 /// where segments meet at small angles. Two nested rings that are 0.03 apart need 20,000 points for
 /// 30 degrees, and there may be four.
@@ -299,7 +301,8 @@ void ExpectSameSums(const std::map<Key, double>& before, const std::map<Key, dou
   }
 }
 
-/// Finds segments that meet at a small angle.
+/// Finds segments that meet at a small angle. Ends that are too near each other count as one: a
+/// segment may pass within a rounding of a corner, and then it meets the segments there.
 class SharpCorners
 {
 public:
@@ -309,10 +312,14 @@ public:
   {
     for (std::size_t i = 0; i < before.Mesh.Edges.size(); ++i)
     {
+      const std::int64_t ends[2] = { this->FindCorner(before.Mesh.Edges[i][0]),
+        this->FindCorner(before.Mesh.Edges[i][1]) };
       for (const int end : { 0, 1 })
       {
-        const auto& edge = before.Mesh.Edges[i];
-        this->EdgesAt[edge[end]].push_back({ before.SegmentsOfEdges[i], edge[1 - end] });
+        if (ends[0] != ends[1])
+        {
+          this->EdgesAt[ends[end]].push_back({ before.SegmentsOfEdges[i], ends[1 - end] });
+        }
       }
     }
     for (std::size_t i = 0; i < after.Mesh.Edges.size(); ++i)
@@ -349,6 +356,17 @@ private:
     std::int64_t Segment, Other;
   };
 
+  /// The first point that is too near to a point, which may be itself.
+  std::int64_t FindCorner(std::int64_t point) const
+  {
+    std::int64_t corner = 0;
+    while (corner < point && this->Before.GetLength(corner, point) >= TooShort)
+    {
+      ++corner;
+    }
+    return corner;
+  }
+
   bool IsAt(std::int64_t vertex, std::int64_t segment) const
   {
     const auto found = this->SegmentsAt.find(vertex);
@@ -365,8 +383,6 @@ private:
 void ExpectGoals(const RefinementCase& drawn, const Outcome& before, const Outcome& after)
 {
   constexpr double Rounding = 1e-7;
-  constexpr double TooShort =
-    3e-12; // 1024 roundings of the coordinates; see RefinementStep::IsShort
   const SharpCorners corners(before, after);
   const PointOptions& options = drawn.Options;
   std::map<std::int32_t, double> areas; // by label; each seed has its own
