@@ -78,6 +78,7 @@ public:
 
   PointTriangles Solve()
   {
+    std::atomic<bool> filtersApply{ true };
     this->ForTasks(this->Count,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
@@ -87,10 +88,11 @@ public:
           this->Places[i] = { u, v, static_cast<std::uint32_t>(i) };
           if (!IsInFilterRange({ u, v, 0.0 }))
           {
-            this->Tests.FiltersApply = false;
+            filtersApply = false;
           }
         }
       });
+    this->Tests.FiltersApply = filtersApply;
     return this->Collect(this->Solve(0, this->Count, false));
   }
 
@@ -476,17 +478,15 @@ private:
     Array<bool> isLeading(sides, this->Caller.Host);
     const Edge outside = whole.Ends[0][0].Leaving ^ 1u;
     const auto isUsed = [&](Edge e) { return this->Origin(e & ~Edge(1)) != None; };
-    // Whether a side is the first one of its triangle.
+    // Whether a side is the first one of its triangle. This has no branches, because they would be
+    // mispredicted half of the time.
     const auto leads = [&](Edge e)
     {
-      const Edge second = this->NextLeft(e);
-      if (second < e)
-      {
-        return false;
-      }
-      const Edge third = this->NextLeft(second);
-      return e < third && this->NextLeft(third) == e && e != outside && second != outside &&
-        third != outside;
+      const Edge second = this->NextLeft(e), third = this->NextLeft(second);
+      const int isFirst = int(e < second) & int(e < third);
+      const int isTriangle = int(this->NextLeft(third) == e);
+      const int isInside = int(e != outside) & int(second != outside) & int(third != outside);
+      return (isFirst & isTriangle & isInside) != 0;
     };
     std::vector<std::int64_t> usedOf(sides / TaskSize + 1, 0), firstOf(sides / TaskSize + 2, 0);
     this->ForTasks(sides,

@@ -6,7 +6,6 @@
 #include "ExactPredicates.h"
 #include "FilteredPredicates.h"
 
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 
@@ -107,7 +106,7 @@ struct PlaceTests
   }
 
   const Place* Places;
-  std::atomic<bool> FiltersApply{ true };
+  bool FiltersApply = true;
 
 private:
   // What is needed seldom is not inlined, so that it takes no registers.
