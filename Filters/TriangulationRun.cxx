@@ -254,7 +254,6 @@ bool TriangulationRun::Follow(TriangulationRun& last)
   }
   PointMove move;
   move.Points = places;
-  const std::int64_t triangles = last.Session->GetReport().Triangles;
   if (!last.Session->Move(move, this->GetProgress()))
   {
     throw RunAborted();
@@ -265,7 +264,7 @@ bool TriangulationRun::Follow(TriangulationRun& last)
   this->View.Segments = this->Segments.Ends.data();
   this->View.Rings = this->Segments.Rings.data();
   const FlipReport& report = this->Session->GetReport();
-  this->IsFollowing = report.FromPoints.MoveRounds > 0 && report.Triangles == triangles &&
+  this->IsFollowing = report.FromPoints.MoveRounds > 0 && report.Triangles > 0 &&
     this->Points->GetNumberOfPoints() == this->Given->GetNumberOfPoints() &&
     this->Segments.Ends.empty();
   return true;

@@ -76,7 +76,7 @@ public:
   /// session may add points.
   virtual const FlipSession* GetSession() const { return this->Session.get(); }
 
-  /// Whether this is the last run, with as many triangles, after points have moved.
+  /// Whether this is the last run after points have moved. There may be more or fewer triangles.
   virtual bool HasFollowed() const { return false; }
 
   std::string Warning; ///< The text of the last warning.

@@ -298,8 +298,9 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   const bool isUnderWay = isNew && works && state == vtkDelaunayFlip::STOP_REASON_RUNNING;
   const bool isAborted = isNew && works && state == vtkDelaunayFlip::STOP_REASON_ABORTED;
   const bool goesOn = isUnderWay || isAborted;
-  const bool mayWithhold = goesOn || moved;
-  if (!hasFailed && !(mayWithhold && this->Mapper->DrawsRun()))
+  const bool isDrawnByItself =
+    moved ? this->Mapper->CanFollow(moved) : goesOn && this->Mapper->DrawsRun();
+  if (!hasFailed && !isDrawnByItself)
   {
     filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
   }

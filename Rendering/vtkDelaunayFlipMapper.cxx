@@ -58,13 +58,16 @@ struct vtkDelaunayFlipMapper::Parts
   vtkSmartPointer<vtkDelaunayFlipAlgorithm> Filter;
   std::pair<vtkPolyData*, vtkMTimeType> Input; ///< The input and its time, only to be compared.
   vtkSmartPointer<vtkPolyData> Faces = vtkSmartPointer<vtkPolyData>::New(); ///< The input's faces.
+  bool IsFollowing = false; ///< The session has triangles of moved points, in place of the faces.
   vtkNew<vtkTypeInt32Array> Ids; ///< The corners of the triangles that the host has last had.
+  std::vector<unsigned char> AreUsed; ///< By point: whether the input's triangles use it.
   vtkBoundingBox Box; ///< Holds the points that triangles use; not valid if nothing can be drawn.
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window; ///< That of the buffers.
   ShaderBuffer Places, Corners, Counts;
   vtkNew<vtkOpenGLVertexArrayObject> Array;
-  std::int64_t Count = 0, PointCount = 0; ///< The sizes of the buffers; 0: there are none.
+  std::int64_t Count = 0, PointCount = 0; ///< What the buffers hold; 0: there are none.
+  std::int64_t Capacity = 0; ///< How many triangles the buffers have room for.
   vtkMTimeType PointsTime = 0; ///< The time of the points in the buffer.
   double Center[3] = { 0.0, 0.0, 0.0 };
   double Unit = 1.0; ///< The unit of places in the shader.
@@ -80,15 +83,21 @@ struct vtkDelaunayFlipMapper::Parts
   double TableKind = -1.0; ///< What the table was filled for: a largest count, or -1 for angles.
   bool HasWarned = false;
 
-  /// The session that has the triangles of the faces, or null.
+  /// The session that has the triangles of the faces or of their moved points, or null.
   const FlipSession* FindSession() const
   {
     const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
-    if (session && session->GetReport().Triangles != this->Faces->GetNumberOfPolys())
+    if (!session || this->IsFollowing)
     {
-      return nullptr;
+      return session;
     }
-    return session;
+    const bool isOfFaces = session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
+    return isOfFaces ? session : nullptr;
+  }
+
+  std::int64_t CountTriangles(const FlipSession* session) const
+  {
+    return session ? session->GetReport().Triangles : this->Ids->GetNumberOfValues() / 3;
   }
 
   /// The faces are a copy of the mesh, which shares arrays, if its polygons are triangles, as in
@@ -110,27 +119,29 @@ struct vtkDelaunayFlipMapper::Parts
       this->Faces = split->GetOutput();
     }
     this->Ids->DeepCopy(this->Faces->GetPolys()->GetConnectivityArray());
+    this->IsFollowing = false;
+    this->AreUsed.assign(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()), 0);
+    for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
+    {
+      this->AreUsed[this->Ids->GetValue(i)] = 1;
+    }
     this->MeasureBox();
   }
 
   void MeasureBox()
   {
     vtkPoints* points = this->Faces->GetPoints();
-    std::vector<unsigned char> areUsed(static_cast<std::size_t>(this->Faces->GetNumberOfPoints()));
-    for (vtkIdType i = 0; i < this->Ids->GetNumberOfValues(); ++i)
-    {
-      areUsed[this->Ids->GetValue(i)] = 1;
-    }
     this->Box.Reset();
     if (this->Ids->GetNumberOfValues() == 0)
     {
       return;
     }
     double bounds[6];
-    vtkBoundingBox::ComputeBounds(points, areUsed.data(), bounds);
+    vtkBoundingBox::ComputeBounds(points, this->AreUsed.data(), bounds);
     const auto isFinite = [](double x) { return std::isfinite(x); };
     if (!std::all_of(std::begin(bounds), std::end(bounds), isFinite))
     {
+      std::vector<unsigned char> areUsed = this->AreUsed;
       for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
       {
         double x[3];
@@ -145,26 +156,30 @@ struct vtkDelaunayFlipMapper::Parts
     this->Box.SetBounds(bounds);
   }
 
-  /// Keeps those that there are, if they have the right sizes.
-  void MakeBuffers(vtkOpenGLRenderWindow* window)
+  /// Keeps those that there are, if they have the right sizes. Followed points change the number of
+  /// triangles whenever their hull changes, so there is room for a few more.
+  void MakeBuffers(vtkOpenGLRenderWindow* window, std::int64_t count)
   {
-    const std::int64_t count = this->Faces->GetNumberOfPolys();
+    constexpr std::int64_t PartOfRoom = 64, LeastRoom = 64;
     const std::int64_t points = this->Faces->GetNumberOfPoints();
-    if (this->Window == window && count == this->Count && points == this->PointCount)
+    const bool hasRoom = this->IsFollowing ? count <= this->Capacity : count == this->Count;
+    if (this->Count > 0 && this->Window == window && hasRoom && points == this->PointCount)
     {
+      this->Count = count;
       return;
     }
     this->Release(this->Window);
     window->MakeCurrent();
     this->Window = window;
     this->Count = count;
+    this->Capacity = this->IsFollowing ? count + count / PartOfRoom + LeastRoom : count;
     this->PointCount = points;
     this->UploadPoints();
     this->UploadTriangles(nullptr);
     this->UploadFlipCounts(nullptr);
     this->Places.MakeReadable(window, 3 * points, GL_R32F);
-    this->Corners.MakeReadable(window, 3 * count, GL_R32I);
-    this->Counts.MakeReadable(window, count, GL_R32I);
+    this->Corners.MakeReadable(window, 3 * this->Capacity, GL_R32I);
+    this->Counts.MakeReadable(window, this->Capacity, GL_R32I);
     this->Counts.Texture->OnRelease = [this](vtkWindow* current) { this->Release(current); };
   }
 
@@ -273,15 +288,20 @@ struct vtkDelaunayFlipMapper::Parts
   {
     if (session)
     {
+      this->Ids->SetNumberOfValues(3 * this->Count);
       session->StoreTriangles(MutableTriangleArray(this->Ids->GetPointer(0), this->Count));
     }
+    if (this->Ids->GetSize() < 3 * this->Capacity)
+    {
+      this->Ids->Resize(3 * this->Capacity);
+    }
     this->Corners.Values->Upload(this->Ids->GetPointer(0),
-      static_cast<std::size_t>(3 * this->Count), Buffer::ElementArrayBuffer);
+      static_cast<std::size_t>(3 * this->Capacity), Buffer::ElementArrayBuffer);
   }
 
   void UploadFlipCounts(const FlipSession* session)
   {
-    std::vector<std::int32_t> counts(static_cast<std::size_t>(this->Count));
+    std::vector<std::int32_t> counts(static_cast<std::size_t>(this->Capacity));
     auto* given =
       vtkIntArray::SafeDownCast(this->Faces->GetCellData()->GetArray("vtkDelaunayFlipCount"));
     if (session)
@@ -291,7 +311,9 @@ struct vtkDelaunayFlipMapper::Parts
     else if (given && given->GetNumberOfValues() >= this->Faces->GetNumberOfCells())
     {
       const vtkIdType first = this->Faces->GetNumberOfVerts() + this->Faces->GetNumberOfLines();
-      std::copy_n(given->GetPointer(first), counts.size(), counts.begin());
+      const std::int64_t size =
+        std::min<std::int64_t>(counts.size(), this->Faces->GetNumberOfPolys());
+      std::copy_n(given->GetPointer(first), size, counts.begin());
     }
     this->Counts.Values->Upload(counts, Buffer::TextureBuffer);
     this->LargestCount =
@@ -363,10 +385,19 @@ bool vtkDelaunayFlipMapper::DrawsRun()
   return this->Own->FindSession() != nullptr;
 }
 
+bool vtkDelaunayFlipMapper::CanFollow(vtkPoints* points)
+{
+  this->ReadInput();
+  const Parts& own = *this->Own;
+  const FlipSession* session = own.Filter ? own.Filter->GetSession() : nullptr;
+  return session && session->GetReport().Triangles > 0 &&
+    points->GetNumberOfPoints() == own.Faces->GetNumberOfPoints();
+}
+
 vtkIdType vtkDelaunayFlipMapper::GetNumberOfTriangles()
 {
   this->ReadInput();
-  return this->Own->Faces->GetNumberOfPolys();
+  return this->Own->CountTriangles(this->Own->FindSession());
 }
 
 double vtkDelaunayFlipMapper::GetSmallestAngle()
@@ -378,7 +409,7 @@ double vtkDelaunayFlipMapper::GetSmallestAngle()
   {
     mesh.Points = ViewPoints(this->Own->Faces, storage);
     mesh.Triangles =
-      TriangleArray(this->Own->Ids->GetPointer(0), this->Own->Faces->GetNumberOfPolys());
+      TriangleArray(this->Own->Ids->GetPointer(0), this->Own->Ids->GetNumberOfValues() / 3);
   }
   return MinimumAngle(mesh, GeometryKind::Surface);
 }
@@ -415,8 +446,7 @@ void vtkDelaunayFlipMapper::BeginStep()
 
 void vtkDelaunayFlipMapper::SetMovedPoints(vtkPoints* points)
 {
-  this->ReadInput();
-  if (points->GetNumberOfPoints() != this->Own->Faces->GetNumberOfPoints())
+  if (!this->CanFollow(points))
   {
     return;
   }
@@ -424,6 +454,7 @@ void vtkDelaunayFlipMapper::SetMovedPoints(vtkPoints* points)
   copy->SetDataType(points->GetDataType());
   copy->DeepCopy(points);
   this->Own->Faces->SetPoints(copy);
+  this->Own->IsFollowing = true;
   this->Own->MeasureBox();
   this->Own->IsNew = true; // a motion changes triangles otherwise than by flips, too
   this->EndStep();
@@ -463,9 +494,11 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
   {
     return false;
   }
-  own.MakeBuffers(window);
-  own.UploadPoints();
   const FlipSession* session = own.FindSession();
+  // If the filter has failed, the mesh in the buffers stays.
+  const bool staysAsItIs = !session && own.IsFollowing && own.Window == window && own.Count > 0;
+  own.MakeBuffers(window, staysAsItIs ? own.Count : own.CountTriangles(session));
+  own.UploadPoints();
   const bool byFlipCount = this->ColorBy == COLOR_BY_FLIP_COUNT;
   if (own.ByFlipCount != byFlipCount && (!own.Filter || session))
   {

@@ -100,6 +100,9 @@ public:
   /// Whether the filter's run is drawn, so that steps need not be put out.
   bool DrawsRun();
 
+  /// Whether SetMovedPoints() takes these points, so that they need not be put out.
+  bool CanFollow(vtkPoints* points);
+
   ///@{
   /**
    * Call these before and after each step of the filter's run that is not put out. BeginStep() may
@@ -111,7 +114,8 @@ public:
 
   /**
    * Draws these points instead of those of the input, with the triangles of the filter's run, until
-   * the input changes. Nothing happens if there are more or fewer.
+   * the input changes. There may be more or fewer triangles than the input has. Nothing happens if
+   * there are more or fewer points, or if the run has no triangles.
    */
   void SetMovedPoints(vtkPoints* points);
 
@@ -121,7 +125,7 @@ public:
    */
   double GetSmallestAngle();
 
-  /// The number of triangles of the input.
+  /// The number of triangles of the input or, once its points have moved, of the filter's run.
   vtkIdType GetNumberOfTriangles();
 
   /// How a run is drawn: "drawn without copies", or "drawn from copies: " and the reason.

@@ -35,6 +35,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 using delaunayflip::MutableTriangleArray;
 
@@ -487,57 +488,104 @@ TEST(ZeroCopy, MovedPointsAreDrawnInTheSameBuffers)
   }
 }
 
+/// Two views of the same points, each with a triangulation that follows them.
+struct FollowingPair
+{
+  vtkNew<vtkDelaunayFlipPoints> Copying, Sharing;
+  ViewPair Views;
+
+  explicit FollowingPair(const Mesh& mesh)
+    : Views(mesh)
+  {
+    for (vtkDelaunayFlipPoints* each : { this->Copying.Get(), this->Sharing.Get() })
+    {
+      SetTestBackend(each);
+      each->SetInputData(mesh);
+      each->SetKeepSessionToOn();
+    }
+    this->Views.Copying->SetFilter(this->Copying);
+    this->Views.Sharing->SetFilter(this->Sharing);
+    while (this->Views.Step())
+    {
+      EXPECT_EQ(this->Views.Sharing->GetDrawing(), WithoutCopies);
+    }
+  }
+
+  /// A frame after the points have moved: the triangulation is made at once, and not put out.
+  void ExpectFollowed(const TestFiller& filler)
+  {
+    EXPECT_FALSE(this->Views.Step());
+    EXPECT_EQ(this->Views.Sharing.GetStatus().find("moved in "), 0u);
+    EXPECT_EQ(this->Views.Sharing->GetDrawing(), WithoutCopies);
+    const std::int64_t triangles = this->Sharing->GetReport().Triangles;
+    EXPECT_EQ(this->Views.Sharing.GetMapper()->GetNumberOfTriangles(), triangles);
+    std::vector<std::int32_t> ids(3 * triangles);
+    this->Sharing->GetSession()->StoreTriangles(MutableTriangleArray(ids.data(), triangles));
+    EXPECT_EQ(filler.GetTriangles(), ids);
+    EXPECT_TRUE(this->Sharing->GetMeshIsWithheld());
+  }
+
+  /// The picture is that of a new triangulation.
+  void ExpectPictureOf(const Mesh& mesh)
+  {
+    vtkNew<vtkDelaunayFlipPoints> atOnce;
+    atOnce->SetInputData(mesh);
+    atOnce->Update();
+    WatchedView still(atOnce->GetOutput());
+    still->Start();
+    still->GetRenderer()->GetActiveCamera()->DeepCopy(
+      this->Views.Sharing->GetRenderer()->GetActiveCamera());
+    for (WatchedView* each : { &still, &this->Views.Sharing, &this->Views.Copying })
+    {
+      (*each)->ShowStatisticsOff();
+      (*each)->Render();
+    }
+    EXPECT_EQ(Compare(still.GetPicture(), this->Views.Sharing.GetPicture()), 0.0);
+    EXPECT_EQ(this->Views.Copying.GetPicture(), this->Views.Sharing.GetPicture());
+    this->Sharing->Update();
+    EXPECT_EQ(GetTriangles(this->Sharing->GetOutput()), GetTriangles(atOnce->GetOutput()));
+  }
+};
+
 TEST(ZeroCopy, PointsThatMoveAreDrawnInTheSameBuffers)
 {
   const TestFiller& filler = TestFiller::Install();
   auto mesh = MakeBadPlane();
-  ViewPair views(mesh);
-  vtkNew<vtkDelaunayFlipPoints> copying, sharing;
-  for (vtkDelaunayFlipPoints* each : { copying.Get(), sharing.Get() })
-  {
-    SetTestBackend(each);
-    each->SetInputData(mesh);
-    each->SetKeepSessionToOn();
-  }
-  views.Copying->SetFilter(copying);
-  views.Sharing->SetFilter(sharing);
-  while (views.Step())
-  {
-    EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
-  }
+  FollowingPair pair(mesh);
   for (int frame = 0; frame < 3; ++frame)
   {
     Shear(mesh, 0.003);
-    EXPECT_FALSE(views.Step()); // which the triangulation makes at once
-    EXPECT_EQ(views.Sharing.GetStatus().find("moved in "), 0u);
-    EXPECT_EQ(views.Sharing->GetDrawing(), WithoutCopies);
-    std::vector<std::int32_t> ids(3 * sharing->GetReport().Triangles);
-    sharing->GetSession()->StoreTriangles(
-      MutableTriangleArray(ids.data(), sharing->GetReport().Triangles));
-    EXPECT_EQ(filler.GetTriangles(), ids);
-    EXPECT_TRUE(sharing->GetMeshIsWithheld());
-    const int number = views.Sharing->GetFrameNumber();
-    EXPECT_FALSE(views.Sharing->Step()); // nothing has moved
-    EXPECT_EQ(views.Sharing->GetFrameNumber(), number);
+    pair.ExpectFollowed(filler);
+    const int number = pair.Views.Sharing->GetFrameNumber();
+    EXPECT_FALSE(pair.Views.Sharing->Step()); // nothing has moved
+    EXPECT_EQ(pair.Views.Sharing->GetFrameNumber(), number);
   }
   EXPECT_EQ(filler.Fillers, 1);
+  pair.ExpectPictureOf(mesh);
+}
 
-  // The picture is that of a new triangulation.
-  vtkNew<vtkDelaunayFlipPoints> atOnce;
-  atOnce->SetInputData(mesh);
-  atOnce->Update();
-  WatchedView still(atOnce->GetOutput());
-  still->Start();
-  still->GetRenderer()->GetActiveCamera()->DeepCopy(
-    views.Sharing->GetRenderer()->GetActiveCamera());
-  for (WatchedView* each : { &still, &views.Sharing })
+TEST(ZeroCopy, PointsThatChangeTheirHullAreDrawnInTheSameBuffers)
+{
+  const TestFiller& filler = TestFiller::Install();
+  auto mesh = ToPolyData(delaunayflip::MakeRandomBadMeshDouble(700, 3));
+  FollowingPair pair(mesh);
+  std::set<std::int64_t> numbers{ pair.Sharing->GetReport().Triangles };
+  for (int frame = 0; frame < 30; ++frame)
   {
-    (*each)->ShowStatisticsOff();
-    (*each)->Render();
+    double phase = 0.0; // by point: each drifts in a direction of its own
+    MovePoints(mesh,
+      [&](double* x)
+      {
+        x[0] += 0.0003 * std::sin(phase);
+        x[1] += 0.0003 * std::cos(phase);
+        phase += 1.0;
+      });
+    pair.ExpectFollowed(filler);
+    numbers.insert(pair.Sharing->GetReport().Triangles);
   }
-  EXPECT_EQ(Compare(still.GetPicture(), views.Sharing.GetPicture()), 0.0);
-  sharing->Update();
-  EXPECT_EQ(GetTriangles(sharing->GetOutput()), GetTriangles(atOnce->GetOutput()));
+  EXPECT_GT(numbers.size(), 3u);
+  EXPECT_LE(filler.Fillers, 2); // the second one has room for more triangles
+  pair.ExpectPictureOf(mesh);
 }
 
 TEST(ZeroCopy, AnotherMeshOfTheSameSizeTakesTheSameBuffers)

@@ -197,7 +197,7 @@ struct SwimmingParticles
 {
   vtkSmartPointer<vtkPolyData> Mesh;
   vtkNew<vtkDoubleArray> Coordinates;
-  std::vector<double> Sines, Cosines; ///< Of the phase of each.
+  std::vector<double> Sines, Cosines; ///< By particle, for its phase.
   double Length; ///< How far they go in a frame.
 
   SwimmingParticles(const BenchmarkMesh& mesh, double length)
