@@ -298,9 +298,12 @@ bool vtkDelaunayFlipLiveView::TakeStep()
   const bool isUnderWay = isNew && works && state == vtkDelaunayFlip::STOP_REASON_RUNNING;
   const bool isAborted = isNew && works && state == vtkDelaunayFlip::STOP_REASON_ABORTED;
   const bool goesOn = isUnderWay || isAborted;
-  const bool isDrawnByItself =
-    moved ? this->Mapper->CanFollow(moved) : goesOn && this->Mapper->DrawsRun();
-  if (!hasFailed && !isDrawnByItself)
+  bool isDrawnFromRun = goesOn && this->Mapper->DrawsRun();
+  if (moved)
+  {
+    isDrawnFromRun = this->Mapper->CanFollow(moved);
+  }
+  if (!hasFailed && !isDrawnFromRun)
   {
     filter->GetExecutive()->Update(0); // puts the mesh out, if the step has not
   }

@@ -87,16 +87,26 @@ struct vtkDelaunayFlipMapper::Parts
   const FlipSession* FindSession() const
   {
     const FlipSession* session = this->Filter ? this->Filter->GetSession() : nullptr;
-    if (!session || this->IsFollowing)
+    if (!session)
     {
-      return session;
+      return nullptr;
     }
-    const bool isOfFaces = session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
+    const bool isOfFaces = this->IsFollowing
+      ? session->GetReport().Points == this->Faces->GetNumberOfPoints()
+      : session->GetReport().Triangles == this->Faces->GetNumberOfPolys();
     return isOfFaces ? session : nullptr;
   }
 
-  std::int64_t CountTriangles(const FlipSession* session) const
+  /// How many triangles are drawn. While the mapper follows moved points, the filter may be updated
+  /// by others, and its session has other triangles then. The buffers keep theirs until the next
+  /// step.
+  std::int64_t CountTriangles() const
   {
+    if (this->IsFollowing && !this->IsBehind)
+    {
+      return this->Count;
+    }
+    const FlipSession* session = this->FindSession();
     return session ? session->GetReport().Triangles : this->Ids->GetNumberOfValues() / 3;
   }
 
@@ -158,12 +168,17 @@ struct vtkDelaunayFlipMapper::Parts
 
   /// Keeps those that there are, if they have the right sizes. Followed points change the number of
   /// triangles whenever their hull changes, so there is room for a few more.
-  void MakeBuffers(vtkOpenGLRenderWindow* window, std::int64_t count)
+  void MakeBuffers(vtkOpenGLRenderWindow* window)
   {
     constexpr std::int64_t PartOfRoom = 64, LeastRoom = 64;
+    if (this->Window != window)
+    {
+      this->Release(this->Window);
+    }
+    const std::int64_t count = this->CountTriangles();
     const std::int64_t points = this->Faces->GetNumberOfPoints();
-    const bool hasRoom = this->IsFollowing ? count <= this->Capacity : count == this->Count;
-    if (this->Count > 0 && this->Window == window && hasRoom && points == this->PointCount)
+    const bool hasRoom = this->IsFollowing ? count <= this->Capacity : count == this->Capacity;
+    if (this->Count > 0 && hasRoom && points == this->PointCount)
     {
       this->Count = count;
       return;
@@ -397,7 +412,7 @@ bool vtkDelaunayFlipMapper::CanFollow(vtkPoints* points)
 vtkIdType vtkDelaunayFlipMapper::GetNumberOfTriangles()
 {
   this->ReadInput();
-  return this->Own->CountTriangles(this->Own->FindSession());
+  return this->Own->CountTriangles();
 }
 
 double vtkDelaunayFlipMapper::GetSmallestAngle()
@@ -495,16 +510,14 @@ bool vtkDelaunayFlipMapper::Prepare(vtkOpenGLRenderWindow* window)
     return false;
   }
   const FlipSession* session = own.FindSession();
-  // If the filter has failed, the mesh in the buffers stays.
-  const bool staysAsItIs = !session && own.IsFollowing && own.Window == window && own.Count > 0;
-  own.MakeBuffers(window, staysAsItIs ? own.Count : own.CountTriangles(session));
-  own.UploadPoints();
   const bool byFlipCount = this->ColorBy == COLOR_BY_FLIP_COUNT;
   if (own.ByFlipCount != byFlipCount && (!own.Filter || session))
   {
     own.ByFlipCount = byFlipCount;
     own.IsBehind = true;
   }
+  own.MakeBuffers(window);
+  own.UploadPoints();
   try
   {
     own.Fill(session, this->ZeroCopy);

@@ -569,8 +569,7 @@ TEST(ZeroCopy, PointsThatChangeTheirHullAreDrawnInTheSameBuffers)
   const TestFiller& filler = TestFiller::Install();
   auto mesh = ToPolyData(delaunayflip::MakeRandomBadMeshDouble(700, 3));
   FollowingPair pair(mesh);
-  std::set<std::int64_t> numbers{ pair.Sharing->GetReport().Triangles };
-  for (int frame = 0; frame < 30; ++frame)
+  const auto drift = [&mesh]
   {
     double phase = 0.0; // by point: each drifts in a direction of its own
     MovePoints(mesh,
@@ -580,12 +579,30 @@ TEST(ZeroCopy, PointsThatChangeTheirHullAreDrawnInTheSameBuffers)
         x[1] += 0.0003 * std::cos(phase);
         phase += 1.0;
       });
+  };
+  std::set<std::int64_t> numbers{ pair.Sharing->GetReport().Triangles };
+  for (int frame = 0; frame < 30; ++frame)
+  {
+    drift();
     pair.ExpectFollowed(filler);
     numbers.insert(pair.Sharing->GetReport().Triangles);
   }
   EXPECT_GT(numbers.size(), 3u);
   EXPECT_LE(filler.Fillers, 2); // the second one has room for more triangles
   pair.ExpectPictureOf(mesh);
+
+  // If somebody else updates the filter, the last frame stays until the next step.
+  const std::int64_t drawn = pair.Sharing->GetReport().Triangles;
+  const Bytes before = pair.Views.Sharing.GetPicture();
+  for (int frame = 0; frame < 30 && pair.Sharing->GetReport().Triangles == drawn; ++frame)
+  {
+    drift();
+    pair.Sharing->Update();
+  }
+  ASSERT_NE(pair.Sharing->GetReport().Triangles, drawn);
+  pair.Views.Sharing->Render();
+  EXPECT_EQ(pair.Views.Sharing.GetMapper()->GetNumberOfTriangles(), drawn);
+  EXPECT_EQ(pair.Views.Sharing.GetPicture(), before);
 }
 
 TEST(ZeroCopy, AnotherMeshOfTheSameSizeTakesTheSameBuffers)
