@@ -27,7 +27,20 @@ delaunayflip_status TryWithPoints(
     });
 }
 
-/// To the host's memory; with a stream to that of a GPU. Likewise below.
+/// Does work with a session, which writes a value for each triangle to target.
+template <typename Work>
+delaunayflip_status TryPerTriangle(
+  delaunayflip_session* session, const void* target, const char* isNull, const Work& work)
+{
+  return TryWith(session,
+    [&]()
+    {
+      Require(target || session->CountTriangles() == 0, isNull);
+      work();
+    });
+}
+
+/// Writes to the host's memory, or with a stream to that of a GPU.
 template <typename... Stream>
 delaunayflip_status StoreTriangles(
   delaunayflip_session* session, void* triangles, std::int32_t type, Stream... stream)
@@ -40,16 +53,13 @@ delaunayflip_status StoreTriangles(
     });
 }
 
+/// Writes to the host's memory, or with a stream to that of a GPU.
 template <typename... Stream>
 delaunayflip_status StoreFlipCounts(
   delaunayflip_session* session, std::int32_t* counts, Stream... stream)
 {
-  return TryWith(session,
-    [=]()
-    {
-      Require(counts || session->CountTriangles() == 0, "counts is null");
-      session->Session.StoreFlipCounts(counts, DeviceStream{ stream }...);
-    });
+  return TryPerTriangle(session, counts, "counts is null",
+    [=]() { session->Session.StoreFlipCounts(counts, DeviceStream{ stream }...); });
 }
 
 }
@@ -138,23 +148,15 @@ extern "C"
   delaunayflip_status delaunayflip_store_sources(
     delaunayflip_session* session, std::int32_t* sources)
   {
-    return TryWith(session,
-      [=]()
-      {
-        Require(sources || session->CountTriangles() == 0, "sources is null");
-        session->Session.StoreSources(sources);
-      });
+    return TryPerTriangle(
+      session, sources, "sources is null", [=]() { session->Session.StoreSources(sources); });
   }
 
   delaunayflip_status delaunayflip_store_regions(
     delaunayflip_session* session, std::int32_t* labels)
   {
-    return TryWith(session,
-      [=]()
-      {
-        Require(labels || session->CountTriangles() == 0, "labels is null");
-        session->Session.StoreRegions(labels);
-      });
+    return TryPerTriangle(
+      session, labels, "labels is null", [=]() { session->Session.StoreRegions(labels); });
   }
 
   delaunayflip_status delaunayflip_store_segments_of_edges(

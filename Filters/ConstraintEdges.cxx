@@ -372,7 +372,7 @@ SegmentList::SegmentList(const SegmentSource& source, vtkPolyData* given, vtkPol
   const ProgressObserver& progress)
   : Given(given),
     Points(points),
-    TurnsToDoubles(source.TurnsToDoubles)
+    ConvertsToDoubles(source.ConvertsToDoubles)
 {
   const vtkIdType count = given->GetNumberOfPoints();
   this->FirstNumber = source.Others ? source.Others->GetNumberOfCells() : 0;
@@ -544,7 +544,7 @@ std::vector<vtkIdType> SegmentList::AddPoints(const PointArray& own, const Point
   {
     vtkPointData* data = segments->GetPointData();
     const auto theirs = TakeWholeArrays(data, others.Count);
-    if (this->TurnsToDoubles)
+    if (this->ConvertsToDoubles)
     {
       TurnToDoubles(theirs);
     }

@@ -151,7 +151,7 @@ struct SegmentSource
 {
   vtkPolyData* Others = nullptr; ///< The second input; null if there is none.
   bool ClosedLinesAsRings = true;
-  bool TurnsToDoubles = false; ///< See TriangulationRequest.
+  bool ConvertsToDoubles = false; ///< See TriangulationRequest.
 };
 
 /// The segments of both inputs of a triangulation, as pairs of point ids. New points of the second
@@ -197,7 +197,7 @@ private:
 
   vtkPolyData* Given;
   vtkPolyData* Points;
-  bool TurnsToDoubles;
+  bool ConvertsToDoubles;
   vtkIdType FirstNumber = 0; ///< What is added to cell ids.
   std::size_t FirstOther = 0; ///< The index in Ends at which those of the second input begin.
 };

@@ -75,7 +75,7 @@ Stamps StampArrays(const TriangulationRequest& request)
 vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtkPolyData* points)
 {
   auto copy = CopyShallow(points);
-  if (request.TurnsToDoubles)
+  if (request.ConvertsToDoubles)
   {
     TurnToDoubles(copy->GetPointData());
   }
@@ -192,8 +192,8 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
     StampedArrays(StampArrays(request)),
     Given(request.IsLive ? CopyPoints(request.Input) : CopyShallow(request.Input)),
     Points(CopyForRun(request, Given)),
-    Segments({ request.Others, request.ClosedLinesAsRings, request.TurnsToDoubles }, Given, Points,
-      this->Plan.For(UpdatePlan::Constraints)),
+    Segments({ request.Others, request.ClosedLinesAsRings, request.ConvertsToDoubles }, Given,
+      Points, this->Plan.For(UpdatePlan::Constraints)),
     WithoutHeights(Segments.FindPointsWithoutHeights(request.FirstHole))
 {
   if (IsOnSphere(request))

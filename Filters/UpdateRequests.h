@@ -74,7 +74,7 @@ struct TriangulationRequest : UpdateRequest
   HeightsKind Heights = HeightsKind::Auto; ///< In a projection Auto is Own.
   bool WantsHeights = true; ///< Else nobody has to be told of points without heights.
   /// Point data become doubles, so that those which points of the second input get are not rounded.
-  bool TurnsToDoubles = false;
+  bool ConvertsToDoubles = false;
   /// A point array of heights. Those of points of the second input that are not finite are
   /// replaced by those of the first one there; "": none.
   std::string HeightArray;

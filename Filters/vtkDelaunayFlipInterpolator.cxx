@@ -477,7 +477,7 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   request.Input = points;
   request.Others = segments;
   request.PassesSegments = false; // an array of numbers of segments is nothing to interpolate
-  request.TurnsToDoubles = true;
+  request.ConvertsToDoubles = true;
   request.WantsHeights = !elevation.empty();
   if (!request.WantsHeights && request.Heights == HeightsKind::Auto)
   {

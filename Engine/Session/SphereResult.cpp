@@ -221,13 +221,13 @@ void SphereRun::StoreNeighbors(std::int32_t* neighbors)
 
 void SphereRun::StoreUsedPoints(std::int64_t* ids)
 {
-  std::iota(ids, ids + this->Input.Points.Count, std::int64_t(0));
   const bool isWithoutHull = this->IsOver() && !this->HasHull;
   if (isWithoutHull)
   {
     std::fill_n(ids, this->Input.Points.Count, std::int64_t(-1));
     return;
   }
+  std::iota(ids, ids + this->Input.Points.Count, std::int64_t(0));
   for (std::size_t i = 0; i < this->States.size(); ++i)
   {
     ids[i] = this->FindUsed(static_cast<std::int64_t>(i));
