@@ -485,10 +485,10 @@ extern "C"
   delaunayflip_status delaunayflip_store_neighbors(
     delaunayflip_session* session, int32_t* neighbors);
 
-  /** Writes number_of_points integers, for each point the id of the point that is used at its
-   * place, or -1 if it is not finite; its own id after an abort before there were triangles. On a
-   * sphere also -1 inside of the convex hull, or if there are no triangles. For sessions from
-   * points. */
+  /** Writes number_of_points integers: for each point the id of the point that is used at its
+   * place, or -1 if it is not finite. On a sphere it is also -1 for a point inside of the convex
+   * hull, and for all points if there are no triangles. After an abort before there were triangles
+   * each point has its own id. For sessions from points. */
   delaunayflip_status delaunayflip_store_used_points(delaunayflip_session* session, int64_t* ids);
 
   /** Writes the points that were made where segments cross, as many as the report's crossings, but

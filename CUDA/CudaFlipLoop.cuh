@@ -233,8 +233,9 @@ public:
 
   // Public because device lambdas require it.
 
-  /// Chunk c has the edges that have their smallest corner in it at first. Edges are numbered in
-  /// that order, and the first iterations are within chunks or none is.
+  /// A chunk has the edges that have their smallest corner among its points. Edges are numbered in
+  /// the order of chunks. This holds until an edge flips, and only the first iterations are made
+  /// within chunks.
   void CutIntoChunks()
   {
     if (this->AreChunksCut)

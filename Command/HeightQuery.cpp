@@ -46,9 +46,10 @@ std::string Grouped(std::int64_t number)
   return text;
 }
 
-/// If longitudes are on both sides of 180 degrees, and far from 0, those in the west get one more
-/// turn. Elsewhere points of the whole globe would begin at any of them.
-/// @param west the least of them. @param east the greatest.
+/// If longitudes are on both sides of 180 degrees and none is near 0, 360 degrees are added to
+/// those in the west. Points around the whole globe keep theirs: any gap between them could be the
+/// border.
+/// @param west the least longitude. @param east the greatest one.
 void JoinAcross180(std::vector<double> longitudes, double& west, double& east)
 {
   constexpr double Turn = 360.0, Far = 90.0;

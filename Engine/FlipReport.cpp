@@ -428,7 +428,7 @@ std::string DescribePoints(const FlipReport& flip)
     std::string large = "too large";
     if (flip.GeometryUsed == GeometryKind::Sphere)
     {
-      large = "around half of the sphere or more";
+      large = "with a circumcircle that encloses half of the sphere or more";
     }
     text += "removed: " + Count(counts.OutsideTriangles, "triangle") + " outside, " +
       Count(counts.LargeTriangles) + " " + large + "\n";

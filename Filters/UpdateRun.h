@@ -76,7 +76,8 @@ public:
   /// session may add points.
   virtual const FlipSession* GetSession() const { return this->Session.get(); }
 
-  /// Whether this is the last run after points have moved. There may be more or fewer triangles.
+  /// Whether this run has moved the points of the one before it. There may be more or fewer
+  /// triangles than before.
   virtual bool HasFollowed() const { return false; }
 
   std::string Warning; ///< The text of the last warning.

@@ -325,12 +325,12 @@ public:
   /**
    * For C++ callers that draw a live run from the memory of a GPU, where the mesh is already.
    *
-   * AdvanceSession() makes the next step of a live run, as Advance() and an update do, but leaves
-   * output port 0 as it was if the run is that of the last update, or if the triangulation of a
-   * vtkDelaunayFlipPoints has followed its points (see KeepSession there; there may be more or
-   * fewer triangles then). Then GetMeshIsWithheld() is true, and the next update, by whatever is
-   * connected to the port, puts the mesh out and makes no step. Port 1 and all results are those of
-   * the step. AdvanceSession() returns false if the executive failed.
+   * AdvanceSession() makes the next step of a live run, as Advance() and an update do. But it
+   * leaves output port 0 as it was in two cases: if it continues the run of the last update, and if
+   * a vtkDelaunayFlipPoints has followed its points (see KeepSession there). In the second case
+   * there may be more or fewer triangles than before. In both, GetMeshIsWithheld() is true, and the
+   * next update, by whatever is connected to the port, puts the mesh out and makes no step. Port 1
+   * and all results are those of the step. AdvanceSession() returns false if the executive failed.
    *
    * GetSession() returns the session of the last update, or null if LiveUpdate is off or the update
    * failed. It is valid until the next update. Its triangles are the polygons of the output, in

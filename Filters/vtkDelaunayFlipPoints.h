@@ -381,8 +381,8 @@ public:
 
 #ifndef __VTK_WRAP__
   /**
-   * Is called with each defect that an update has found. If it returns true, the program tells of
-   * the defect in its own words, and neither a warning nor the report does. Default: none.
+   * A function of the program that each update calls with every defect that it has found. If it
+   * returns true, neither a warning nor the report has the defect. Default: none.
    */
   using DefectHandler = std::function<bool(const delaunayflip::Defect&)>;
   void SetDefectHandler(DefectHandler handler)

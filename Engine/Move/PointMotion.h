@@ -274,8 +274,8 @@ public:
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.CheckStar(corners[i], stamp); });
   }
 
-  /// Halves the steps of few vertices before the host knows whether this is needed, and whether
-  /// triangles are cut off first.
+  /// Halves the steps of few vertices before the host knows whether a triangle is inverted. If
+  /// triangles have to be cut off first, the device does nothing.
   void HalveSoon(const MovingMesh<Real>& mesh, std::int64_t late)
   {
     if (late <= MostToHalveSoon)
@@ -284,7 +284,7 @@ public:
     }
   }
 
-  /// Halves the steps of vertices by one group of threads.
+  /// Halves the steps of vertices by one group of threads, without the host in between.
   void HalveAndCountTurns(const MovingMesh<Real>& mesh, std::uint32_t passes, bool waitsForCuts)
   {
     this->Device.RunGroup(
@@ -391,7 +391,7 @@ private:
   /// So few inverted triangles are handled by one group of threads, which need not wait for the
   /// host between passes.
   static constexpr std::uint32_t MostForGroup = Backend::IsOnHost ? 64 : 2048;
-  /// The steps of so few vertices are halved before the host asks for counts.
+  /// The steps of up to this many vertices are halved before the host asks for counts.
   static constexpr std::int64_t MostToHalveSoon = Backend::IsOnHost ? 8 : 256;
   static constexpr std::int64_t Fewest = 64;
   /// If more than one triangle in 64 is inverted, triangulating anew takes less time.
@@ -485,7 +485,7 @@ private:
   std::uint32_t MostInverted = 0;
   std::uint32_t Stamp = 0;
   bool ChangedHull = false;
-  bool AreTurnsCounted = false; ///< In this round.
+  bool AreTurnsCounted = false; ///< Whether this round has counted the turns of the boundary.
   /// The sizes that the mesh had when its boundary was found.
   std::int64_t KnownTriangles = -1, KnownEdges = -1, KnownVertices = -1;
 };

@@ -176,8 +176,8 @@ std::vector<double> SampleAxis(
 template <typename Backend>
 StripBounds ChooseStrips(const PlaneArray& points, const Backend& backend)
 {
-  // With half as many samples strips differ more, and there are 6 % more flips. With twice as many,
-  // sorting them takes a tenth of the time of 1,000 points.
+  // With half as many samples per strip, up to 7 % more edges of 200,000 points flip. With twice as
+  // many, and at least 2,048, sorting them took a tenth of the time of 1,000 points.
   constexpr std::int64_t SmallestSample = 1 << 9;
   constexpr std::int64_t SamplesPerStrip = 16;
   const std::vector<double> xs = SampleAxis(points, 0, SmallestSample, backend);

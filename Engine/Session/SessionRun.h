@@ -163,8 +163,8 @@ protected:
     }
   }
 
-  /// Does the stages from the current one on, up to the one with this number. Once an observer has
-  /// stopped the run, none begins that could be stopped later.
+  /// Does the stages before this one that are not complete. Once an observer has stopped the run,
+  /// no stage begins that could be stopped, too.
   /// @returns whether all are complete.
   bool RunStages(std::size_t end)
   {

@@ -381,14 +381,14 @@ private:
   {
   }
 
-  /// Calls call(i) for i = begin .. end - 1; before that, for most of them, work.Prefetch(i), if
-  /// that exists. It may also prefetch for the PrefetchDistance items before i.
+  /// Calls call(i) for i = begin .. end - 1. If work.Prefetch exists, work.Prefetch(i) is called
+  /// PrefetchDistance items earlier, except for the first ones.
   template <typename Work, typename Call>
   static void Loop(std::int64_t begin, std::int64_t end, const Work& work, const Call& call)
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
-      // Not beyond the range: other threads may change what belongs to its items.
+      // Nothing is prefetched beyond end, because other threads may change those items.
       if (i + PrefetchDistance < end)
       {
         Request(work, i + PrefetchDistance, 0);

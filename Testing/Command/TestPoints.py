@@ -329,7 +329,7 @@ class Results(PointTest):
     def test_triangles_of_an_open_sphere(self):
         self.write("in.csv", "lon,lat\n" + "".join(f"{x},{y}\n" for x in range(4) for y in range(4)))
         _, result = self.triangulate("in.csv", "--projection", "open-sphere", "--degrees")
-        self.assertRegex(result.stdout, r"removed +0 triangles outside, \d+ around half of the sphere or more\n")
+        self.assertRegex(result.stdout, r"removed +0 triangles outside, \d+ with a circumcircle that encloses half of the sphere or more\n")
 
     def test_large_triangles(self):
         self.write("in.xyz", text_of(grid(4) + [(20, 1, 0)]))

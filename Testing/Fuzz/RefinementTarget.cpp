@@ -301,8 +301,8 @@ void ExpectSameSums(const std::map<Key, double>& before, const std::map<Key, dou
   }
 }
 
-/// Finds segments that meet at a small angle. Ends that are too near each other count as one: a
-/// segment may pass within a rounding of a corner, and then it meets the segments there.
+/// Finds segments that meet at a small angle. Ends that are too near each other count as one,
+/// because a segment may pass within a rounding of a corner. Then it meets the segments there.
 class SharpCorners
 {
 public:
@@ -356,7 +356,7 @@ private:
     std::int64_t Segment, Other;
   };
 
-  /// The first point that is too near to a point, which may be itself.
+  /// The first point that is too near to this one, or this one.
   std::int64_t FindCorner(std::int64_t point) const
   {
     std::int64_t corner = 0;

@@ -227,7 +227,7 @@ struct SwimmingParticles
   }
 };
 
-/// Times frames of particles. Each moves by up to a hundredth of their distance, and
+/// Times frames of particles. Each moves by up to a hundredth of their mean distance, and
 /// vtkDelaunayFlipPoints keeps their triangulation. The drawing alone and the swimming alone, which
 /// is the caller's, are measured, too.
 void TimeMovingParticles(std::int64_t points, const Arguments& arguments)

@@ -31,7 +31,7 @@ FINISH = f"{ROOT}/Utilities/finish_wheel.py"
 FUNCTIONS = set(re.findall(r"\b(delaunayflip_[a-z_]+)\(", read("CInterface/delaunayflip_c.h")))
 # Of Debian: Python, and what the wheels of NumPy and of this project load.
 ARM_PACKAGES = ("python3-minimal", "libpython3-stdlib", "libstdc++6", "libgfortran5", "zlib1g")
-PARTS = 32  # of each program of the engine's tests
+PARTS = 32  # how many parts the tests of a program are run in
 DEMO = """
 import platform, delaunayflip
 result = delaunayflip.flip([[0, 0], [2, -1], [4, 0], [2, 1]], [[0, 1, 2], [0, 2, 3]])
