@@ -127,6 +127,26 @@ DELAUNAYFLIP_HOST_DEVICE inline T AtomicMin(T* address, T value)
 #endif
 }
 
+/// @returns what was there before.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t AtomicMax(std::uint32_t* address, std::uint32_t value)
+{
+#if DELAUNAYFLIP_ON_DEVICE
+  return atomicMax_system(address, value);
+#else
+  std::uint32_t seen = AtomicLoad(address);
+  while (value > seen)
+  {
+    const std::uint32_t before = AtomicCompareExchange(address, seen, value);
+    if (before == seen)
+    {
+      break;
+    }
+    seen = before;
+  }
+  return seen;
+#endif
+}
+
 }
 
 #endif

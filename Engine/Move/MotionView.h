@@ -22,6 +22,9 @@ enum Halvings : std::uint8_t
   AtTarget = 255 ///< The vertex was at its target before the round.
 };
 
+/// More than any number of halvings of a step; see MotionView::VertexMarks.
+constexpr std::uint32_t StampUnit = 32;
+
 /// A vertex that is not at its target yet.
 struct LateVertex
 {
@@ -53,7 +56,9 @@ struct MotionView
   PlaneArray Targets; ///< By point.
   const VertexId* Ids; ///< By vertex, its point.
   std::uint8_t* HalvingsOf; ///< By vertex.
-  std::uint32_t* VertexMarks; ///< The stamp of the last pass that has handled a vertex.
+  /// By vertex, StampUnit times the stamp of the last pass that has asked it for a smaller step,
+  /// plus the halvings that were asked for.
+  std::uint32_t* VertexMarks;
   std::uint32_t* TriangleMarks;
   TriangleId* Inverted; ///< The list of inverted triangles.
   LateVertex* Changed; ///< Vertices with a new step since triangles were last checked.
@@ -176,30 +181,54 @@ struct MotionView
       });
   }
 
-  /// Halves the steps of the vertices of a listed triangle, once under each stamp.
-  DELAUNAYFLIP_HOST_DEVICE void HalveSteps(std::int64_t inverted, std::uint32_t stamp) const
+  /// Asks the vertices of a listed triangle for equal shares of their steps, half as large as the
+  /// smallest of them. With unequal shares a thin triangle may be inverted on the way, though it is
+  /// not if all three go at the same pace. A vertex of several triangles takes the smallest share.
+  DELAUNAYFLIP_HOST_DEVICE void AskForHalvings(std::int64_t inverted, std::uint32_t stamp) const
   {
     const TriangleId triangle = this->Inverted[inverted];
+    const VertexId* vertices = this->Mesh.Edges.Triangles[triangle].Vertices;
+    std::uint32_t most = 0;
     for (int slot = 0; slot < 3; ++slot)
     {
-      const VertexId vertex = this->Mesh.Edges.Triangles[triangle].Vertices[slot];
-      const bool isMine = this->HalvingsOf[vertex] < NoStep &&
-        AtomicExchange(&this->VertexMarks[vertex], stamp) != stamp;
-      if (!isMine)
+      const std::uint32_t own = this->HalvingsOf[vertices[slot]];
+      if (own != AtTarget && own > most)
+      {
+        most = own;
+      }
+    }
+    const std::uint32_t wanted = most < NoStep ? most + 1 : std::uint32_t(NoStep);
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const VertexId vertex = vertices[slot];
+      if (this->HalvingsOf[vertex] >= NoStep)
       {
         continue;
       }
-      const LateVertex late{ vertex, MakeCorner(triangle, slot) };
-      this->HalvingsOf[vertex] = static_cast<std::uint8_t>(this->HalvingsOf[vertex] + 1);
-      this->Step(vertex);
-      this->Changed[this->Increment(MotionCount::Changed)] = late;
-      if (this->HalvingsOf[vertex] == 1 && !this->IsAtTarget(vertex))
+      const std::uint32_t before =
+        AtomicMax(&this->VertexMarks[vertex], stamp * StampUnit + wanted);
+      if (before / StampUnit != stamp)
       {
-        const std::uint32_t place = this->Increment(MotionCount::Late);
-        if (place < this->MostLate)
-        {
-          this->Next[place] = late;
-        }
+        this->Changed[this->Increment(MotionCount::Changed)] = { vertex,
+          MakeCorner(triangle, slot) };
+      }
+    }
+  }
+
+  /// Moves a listed vertex as far as the triangles have asked for.
+  DELAUNAYFLIP_HOST_DEVICE void TakeHalvings(std::int64_t changed) const
+  {
+    const LateVertex late = this->Changed[changed];
+    const VertexId vertex = late.Vertex;
+    const bool isFirst = this->HalvingsOf[vertex] == WholeStep;
+    this->HalvingsOf[vertex] = static_cast<std::uint8_t>(this->VertexMarks[vertex] % StampUnit);
+    this->Step(vertex);
+    if (isFirst && !this->IsAtTarget(vertex))
+    {
+      const std::uint32_t place = this->Increment(MotionCount::Late);
+      if (place < this->MostLate)
+      {
+        this->Next[place] = late;
       }
     }
   }
@@ -277,10 +306,14 @@ struct HalveInGroup
       }
       for (std::uint32_t i = group.Rank; i < inverted; i += group.Size)
       {
-        this->Motion.HalveSteps(i, this->Stamp + pass);
+        this->Motion.AskForHalvings(i, this->Stamp + pass);
       }
       group.Sync();
       const std::uint32_t changed = AtomicLoad(this->Motion.Get(MotionCount::Changed));
+      for (std::uint32_t i = group.Rank; i < changed; i += group.Size)
+      {
+        this->Motion.TakeHalvings(i);
+      }
       group.Sync();
       if (group.Rank == 0)
       {

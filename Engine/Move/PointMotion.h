@@ -335,8 +335,10 @@ public:
   {
     const std::uint32_t stamp = this->Stamp + 1;
     this->Device.ForEach(
-      inverted, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.HalveSteps(i, stamp); });
+      inverted, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.AskForHalvings(i, stamp); });
     const std::int64_t changed = this->FetchCounts().Get(MotionCount::Changed);
+    this->Device.ForEach(
+      changed, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.TakeHalvings(i); });
     this->Device.ForEach(1,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
       {
@@ -428,7 +430,7 @@ private:
     Reserve(this->Counts, 0, NumberOfCounts, device);
     // A triangulation has fewer than two triangles per vertex, whatever its boundary.
     const std::int64_t triangles = 2 * mesh.Vertices;
-    constexpr std::uint32_t LastStamp = 1u << 31;
+    constexpr std::uint32_t LastStamp = (1u << 31) / StampUnit;
     const bool isNew = static_cast<std::int64_t>(this->VertexMarks.Size()) < mesh.Vertices ||
       static_cast<std::int64_t>(this->TriangleMarks.Size()) < triangles;
     if (isNew || this->Stamp > LastStamp)

@@ -492,6 +492,26 @@ TEST(Move, Floats)
   }
 }
 
+/// The point near the middle goes through the boundary. Meanwhile the triangle of the first three
+/// points, which is thin, must not be inverted: it is not if all three go at the same pace. At
+/// unequal paces each round was half as long as the one before, for ever.
+TEST(Move, GoesThroughTheBoundaryBesideAThinTriangle)
+{
+  Places points{ { 0.993, 0.016 }, { 0.998, 0.609 }, { 0.997838783, 0.59 }, { 0.9923, 0.307 },
+    { 0.0, 0.0 }, { 0.0, 1.0 }, { 0.98, 1.0 }, { 0.98, 0.0 }, { 0.5, 0.5 } };
+  FlipSession session(PointInput{ View(points) }, PointOptions());
+  session.Advance();
+  const double xs[4] = { 0.997, 0.987, 0.982, 0.9925 };
+  for (int i = 0; i < 4; ++i)
+  {
+    points[i][0] = xs[i];
+  }
+  EXPECT_TRUE(session.Move({ View(points) }));
+  EXPECT_EQ(2, session.GetReport().FromPoints.MoveRounds);
+  const Triangulation expected = Triangulate(PointInput{ View(points) });
+  EXPECT_EQ(Normalize(expected.Triangles), Normalize(StoreTriangles(session)));
+}
+
 /// Places in the mesh are found after points have moved, and more points can be inserted.
 TEST(Move, AsksAndGrows)
 {
