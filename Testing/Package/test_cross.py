@@ -81,6 +81,20 @@ def get_arm_root(folder):
     return root
 
 
+def start_wine(case):
+    """What runs programs for Windows, and its environment. @param case: the class of the tests, whose
+    folder gets one for Wine."""
+    need("wine", "wineboot", "wineserver")
+    folder = case.folder / "wine"
+    wine = {"WINEPREFIX": str(folder), "WINEDEBUG": "-all"}
+    if not folder.exists():
+        # Its server outlives the programs, and would write to the folder while that is removed.
+        case.addClassCleanup(subprocess.run, ["wineserver", "--kill"], check=False,
+                             env={**os.environ, **wine})
+        run("wineboot", "--init", env={**os.environ, **wine})
+    return ["wine"], wine
+
+
 class FinishWheel(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -226,9 +240,8 @@ class WindowsX86(Cross):
             self.assertRegex(name, r"^(KERNEL32|ntdll|ADVAPI32|api-ms-win-crt-[a-z]+-l1-1-0)\.dll$")
 
     def test_same_meshes_under_wine(self):
-        need("wine")
-        self.check_programs(["wine"], suffix=".exe", environment={
-            "WINEPREFIX": str(self.folder / "wine"), "WINEDEBUG": "-all"})
+        launcher, environment = start_wine(type(self))
+        self.check_programs(launcher, environment, suffix=".exe")
 
 
 class LinuxArm(Cross):
@@ -413,11 +426,7 @@ class WindowsX86Engine(Engine):
     target, suffix = WindowsX86.target, ".exe"
 
     def launch(self):
-        need("wine", "wineboot")
-        wine = {"WINEPREFIX": str(self.folder / "wine"), "WINEDEBUG": "-all"}
-        if not (self.folder / "wine").exists():
-            run("wineboot", "--init", env={**os.environ, **wine})
-        return ["wine"], wine
+        return start_wine(type(self))
 
 
 class LinuxArmEngine(Engine):
