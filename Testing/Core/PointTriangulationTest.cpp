@@ -144,14 +144,20 @@ INSTANTIATE_TEST_SUITE_P(Sets, PointSetsTest, testing::ValuesIn(ListPointSets())
 TEST_P(PointSetsTest, OnlySomeTakeFlips)
 {
   static const std::set<std::string> divided = { "ring", "ellipse", "parabola", "hyperbola",
-    "spiral", "scan_lines", "survey_lines", "wide", "circle", "two_circles", "line_and_point",
-    "two_rows" };
+    "spiral", "scan_lines", "survey_lines", "profiles", "wide", "circle", "two_circles",
+    "line_and_point", "two_rows" };
+  // Of 2,000 points the strips depend on which ones are sampled, and so on their order, which is
+  // another one in other standard libraries.
+  static const std::set<std::string> dependOnOrder = { "clusters", "power", "profiles" };
+  const std::string name = GetParam().Name;
   for (const std::int64_t count : { 2000, 20000 })
   {
-    const FlipReport report = Triangulate(Draw(count)).Report;
-    const std::string name = GetParam().Name;
-    const bool isDivided = divided.count(name) > 0 || (name == "profiles" && count > 2000);
-    EXPECT_EQ(isDivided, report.TotalFlips == 0) << count << ": " << report.TotalFlips;
+    if (count > 2000 || dependOnOrder.count(name) == 0)
+    {
+      const FlipReport report = Triangulate(Draw(count)).Report;
+      EXPECT_EQ(divided.count(name) > 0, report.TotalFlips == 0)
+        << count << ": " << report.TotalFlips;
+    }
   }
 }
 
