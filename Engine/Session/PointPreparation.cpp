@@ -111,8 +111,9 @@ void PreparedPoints::Prepare(const ProgressObserver& observer)
     return;
   }
   const PointInput& input = this->Caller;
+  this->Unprepare(); // what a call that was stopped has left
   this->Segments.clear();
-  if (this->Options.PointTolerance > 0.0 && this->NearPoint.empty())
+  if (this->Options.PointTolerance > 0.0)
   {
     this->CopyToHost();
     this->FindNearPoints(observer);
