@@ -30,13 +30,7 @@ bool PointRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
   {
     return true;
   }
-  AskResult result = AskResult::Undecided;
-  const bool isInPlace = query.OnDevice && this->Report.Triangles > 0 && this->Loaded &&
-    this->Loaded->CanAnswerInPlace(query);
-  if (!query.OnDevice || isInPlace)
-  {
-    result = this->Answer(query, progress);
-  }
+  AskResult result = this->Answer(query, progress);
   if (result == AskResult::Undecided)
   {
     const HostQuery host(query, this->Points.CountAll());
@@ -46,25 +40,30 @@ bool PointRun::Ask(const PlaceQuery& query, const ProgressObserver& progress)
   return result == AskResult::Complete;
 }
 
-/// @param query its arrays are where the mesh is, or in the host's memory.
+/// Asks the mesh where it is. That may change meanwhile, if a GPU fails.
+/// @returns Undecided only for a query on a device: if its arrays are not where the mesh is, or the
+/// device leaves the answer to the host.
 AskResult PointRun::Answer(const PlaceQuery& query, const ProgressObserver& progress)
 {
-  AskResult result = AskResult::Complete;
-  bool isAnswered = false;
+  AskResult result = AskResult::Undecided;
   const auto ask = [&](LoadedMesh& mesh)
   {
+    if (query.OnDevice && !mesh.CanAnswerInPlace(query))
+    {
+      return;
+    }
     const std::int64_t points = this->Points.CountAll();
     const bool isConvex = !this->WantsRefinement();
     result = mesh.Ask({ query, this->Result.Kept.Numbers, points, isConvex }, progress);
-    isAnswered = true;
   };
   if (this->Report.Triangles > 0)
   {
     this->TryOnBackend(ask);
   }
-  if (!isAnswered)
+  if (result == AskResult::Undecided && !query.OnDevice)
   {
     FillOutside(query);
+    return AskResult::Complete;
   }
   return result;
 }

@@ -24,6 +24,9 @@ std::int64_t AnswersOnDevice = 0;
 
 namespace
 {
+/// Whether there is no array, or one in an allocation of the device.
+bool HasOrLacks(const void* array) { return !array || FindDeviceOf(array) >= 0; }
+
 /// The begin and the end of each allocation.
 std::map<std::uintptr_t, std::uintptr_t> Allocations;
 
@@ -100,6 +103,11 @@ public:
     this->Engine->StoreNeighbors(neighbors);
   }
   void StoreUsedPoints(std::int64_t* ids) const override { this->Engine->StoreUsedPoints(ids); }
+  bool CanAnswerInPlace(const PlaceQuery& query) const override
+  {
+    return HasOrLacks(query.Places.Data()) && HasOrLacks(query.Triangles) &&
+      HasOrLacks(query.Values) && HasOrLacks(query.Results);
+  }
   AskResult Ask(const RunQuery& asked, const ProgressObserver& observer) override
   {
     return this->Engine->Ask(asked, observer);

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FakeDevice.h"
+#include "FlipTestSupport.h"
+#include "Interpolation.h"
+#include "TestDevice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// What a session promises its caller where a GPU fails or an observer stops a run on it.
+
+namespace delaunayflip
+{
+namespace
+{
+
+class LostDeviceTest : public testing::Test
+{
+protected:
+  /// So many that BackendKind::Auto takes a GPU.
+  static constexpr std::int64_t Many = 11000;
+
+  ~LostDeviceTest() override { CallsToFailure = 0; }
+
+  static std::vector<double> MakeSpiral()
+  {
+    std::vector<double> xy;
+    for (int i = 0; i < Many; ++i)
+    {
+      xy.insert(xy.end(), { std::cos(2.4 * i) * std::sqrt(i), std::sin(2.4 * i) * std::sqrt(i) });
+    }
+    return xy;
+  }
+};
+
+/// Threads cannot read the memory of a device.
+TEST_F(LostDeviceTest, TheHostAnswersFromCopies)
+{
+  const std::vector<double> xy = MakeSpiral();
+  const DeviceValues<double> places(xy);
+  const DeviceValues<std::int32_t> triangles(std::vector<std::int32_t>(Many, 77));
+  PlaceQuery query;
+  query.Places = PlaneArray(places.Data(), Many, 2);
+  query.Triangles = triangles.Data();
+  query.OnDevice = true;
+  for (const bool isStopped : { false, true })
+  {
+    CallsToFailure = 1000000;
+    FlipSession session(PointInput{ PlaneArray(xy.data(), Many, 2) },
+      PointOptions{ OnBackend(BackendKind::Auto) },
+      [&](double) { return !isStopped || CallsToFailure > 0; });
+    session.Advance();
+    const auto countCopied = [&]
+    {
+      const std::int64_t before = CopiedBytes;
+      EXPECT_TRUE(session.Ask(query));
+      return CopiedBytes - before;
+    };
+    EXPECT_EQ(0, countCopied());
+    const std::vector<std::int32_t> expected = triangles.Get();
+    EXPECT_LE(0, *std::min_element(expected.begin(), expected.end()));
+    triangles.Set(std::vector<std::int32_t>(Many, 77));
+    CallsToFailure = 1;
+    EXPECT_EQ(Many * 20, countCopied()) << "of the places, and of the numbers of triangles";
+    EXPECT_EQ(0, CallsToFailure);
+    const std::vector<std::int32_t> outside(Many, -1);
+    EXPECT_TRUE((isStopped ? outside : expected) == triangles.Get());
+  }
+}
+
+}
+}
