@@ -253,6 +253,7 @@ void LoadedRun::Replay()
 
 void LoadedRun::Reset()
 {
+  this->Touching.clear(); // waits: after the call under way the caller may free the memory
   this->Loaded.reset();
   this->Journal.clear();
   this->Rounds = 0;

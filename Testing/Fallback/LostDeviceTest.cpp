@@ -74,5 +74,23 @@ TEST_F(LostDeviceTest, TheHostAnswersFromCopies)
   }
 }
 
+/// The caller may free the memory as soon as Advance has returned.
+TEST_F(LostDeviceTest, NoPageIsTouchedAfterAStop)
+{
+  constexpr std::int64_t Page = 4096, Pages = 1000, Bytes = Page * Pages + 1, Often = 10000;
+  const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(1000, 35);
+  std::vector<char> memory(Bytes), last(Bytes, 'x');
+  const ProgressObserver stop = [](double) { return false; };
+  FlipSession session(mesh.View(), OnBackend(BackendKind::CUDA), stop);
+  for (std::int64_t i = 0; i < Often; ++i)
+  {
+    session.Expect(memory.data(), Bytes);
+  }
+  session.Expect(last.data(), Bytes);
+  EXPECT_FALSE(session.Advance(-1, {}, stop));
+  EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
+  EXPECT_EQ(Pages + 1, std::count(last.begin(), last.end(), 0));
+}
+
 }
 }
