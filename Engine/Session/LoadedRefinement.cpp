@@ -90,9 +90,9 @@ bool LoadedRun::Refine()
   {
     const auto refine = [this](LoadedMesh& mesh) { return this->RefineOnce(mesh); };
     this->IsRefined = this->OnBackend(refine) == 0;
+    this->RecordChange(this->IsRefined ? 0 : 1); // also the beginning, if no point is added
     if (!this->IsRefined)
     {
-      this->RecordChange(1);
       const auto rounds = static_cast<double>(this->Rounds);
       this->WasStopped = !this->Progress.TellRest(this->Observer, rounds / (rounds + Usual));
     }

@@ -74,6 +74,43 @@ TEST_F(LostDeviceTest, TheHostAnswersFromCopies)
   }
 }
 
+/// Refinement that has begun is part of what the CPU repeats, also if it adds no point, because all
+/// triangles are good or there may be no more points.
+TEST_F(LostDeviceTest, RefinementMayAddNothing)
+{
+  const std::vector<double> xy = MakeSpiral();
+  for (const double area : { 1e9, 1e-3 })
+  {
+    const auto run = [&](BackendKind backend, int call)
+    {
+      CallsToFailure = call;
+      PointOptions options{ OnBackend(backend) };
+      options.MaximumArea = area;
+      options.KeepBoundary = true;
+      options.PointLimit = Many;
+      FlipSession session(PointInput{ PlaneArray(xy.data(), Many, 2) }, options);
+      session.Advance();
+      const PointCounts& counts = session.GetReport().FromPoints;
+      EXPECT_EQ(0, counts.RefinementPoints);
+      EXPECT_EQ(area<1.0, counts.UnrefinedTriangles> 0);
+      EXPECT_EQ(area<1.0, counts.ReachedPointLimit> 0);
+      return session;
+    };
+    const FlipSession expected = run(BackendKind::Threads, 0);
+    for (int call = 1;; ++call)
+    {
+      const FlipSession session = run(BackendKind::Auto, call);
+      ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
+      ExpectSameStatistics(expected.GetReport(), session.GetReport());
+      if (CallsToFailure > 0)
+      {
+        EXPECT_LT(8, call);
+        break;
+      }
+    }
+  }
+}
+
 /// The caller may free the memory as soon as Advance has returned.
 TEST_F(LostDeviceTest, NoPageIsTouchedAfterAStop)
 {
