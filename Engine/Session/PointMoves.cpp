@@ -107,19 +107,21 @@ bool PointRun::Remove(const std::int64_t* ids, std::int64_t count, const Progres
     removed.begin(), removed.end(), before.begin(), before.end(), std::back_inserter(added));
   const std::array<double, 2> nowhere = { NAN, NAN };
   std::vector<std::array<double, 2>> places(added.size(), nowhere);
+  // Made now, because a function may take memory, and from the exchange on nothing may throw but
+  // what Follow catches.
+  const std::function<bool()> change = [&] { return this->RemoveInPlace(added); };
+  const std::function<void()> exchange = [&] { this->Points.ExchangeSome(added, places); };
   try
   {
     this->Points.TakeOver();
-    places = this->Points.SetPlaces(added, places);
   }
   catch (...)
   {
     this->Reset(); // the points may no longer be prepared
     throw;
   }
-  const auto goBack = [&] { this->Points.SetPlaces(added, places); };
-  return this->Follow(
-    std::move(removed), [&] { return this->RemoveInPlace(added); }, goBack, progress);
+  exchange();
+  return this->Follow(std::move(removed), change, exchange, progress);
 }
 
 bool PointRun::Compact(const ProgressObserver& progress)
@@ -197,10 +199,10 @@ void PointRun::ReadPlaces(const PointMove& move)
 bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress)
 {
   const bool keepsNumbers = this->Places.Points.Count == this->Points.GetCaller().Points.Count;
-  this->Points.Exchange(this->Places);
-  return this->Follow(
-    std::move(removed), [&] { return keepsNumbers && this->MoveInPlace(); },
-    [&] { this->Points.Exchange(this->Places); }, progress);
+  const std::function<bool()> change = [&] { return keepsNumbers && this->MoveInPlace(); };
+  const std::function<void()> exchange = [&] { this->Points.Exchange(this->Places); };
+  exchange();
+  return this->Follow(std::move(removed), change, exchange, progress);
 }
 
 /// Makes the triangulation that of points that have other places.
@@ -210,8 +212,7 @@ bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObser
 bool PointRun::Follow(std::vector<std::int64_t> removed, const std::function<bool()>& change,
   const std::function<void()>& goBack, const ProgressObserver& progress)
 {
-  std::vector<std::int64_t> removedBefore = this->Points.GetRemoved();
-  this->Points.SetRemoved(std::move(removed));
+  std::vector<std::int64_t> removedBefore = this->Points.SetRemoved(std::move(removed));
   const auto reset = [&]
   {
     goBack();

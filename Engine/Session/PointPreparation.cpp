@@ -172,10 +172,11 @@ void PreparedPoints::Exchange(PointPlaces& places)
   this->Unprepare();
 }
 
-void PreparedPoints::CopyPlaces(PointPlaces& places)
+void PreparedPoints::CopyPlaces(PointPlaces& places) const
 {
-  this->Unprepare();
-  const PlaneArray from = this->CopyToHost();
+  std::vector<float> floats;
+  std::vector<double> doubles;
+  const PlaneArray from = this->CopyCaller(floats, doubles);
   const auto copy = [&](auto& coordinates)
   {
     using Real = typename std::decay_t<decltype(coordinates)>::value_type;
@@ -230,32 +231,30 @@ void PreparedPoints::TakeOver()
   this->Prepared = this->Caller;
 }
 
-std::vector<std::array<double, 2>> PreparedPoints::SetPlaces(
-  const std::vector<VertexId>& points, const std::vector<std::array<double, 2>>& places)
+void PreparedPoints::ExchangeSome(
+  const std::vector<VertexId>& points, std::vector<std::array<double, 2>>& places)
 {
-  std::vector<std::array<double, 2>> before;
-  before.reserve(points.size()); // may throw, what follows not
-  const auto set = [&](auto& coordinates)
+  const auto exchange = [&](auto& coordinates)
   {
     using Real = typename std::decay_t<decltype(coordinates)>::value_type;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       auto* const place = &coordinates[std::size_t(2) * points[i]];
-      before.push_back({ place[0], place[1] });
+      const std::array<double, 2> before = { place[0], place[1] };
       place[0] = static_cast<Real>(places[i][0]);
       place[1] = static_cast<Real>(places[i][1]);
+      places[i] = before;
     }
   };
   if (this->Caller.Points.Floats)
   {
-    set(this->CallerFloats);
+    exchange(this->CallerFloats);
   }
   else
   {
-    set(this->CallerDoubles);
+    exchange(this->CallerDoubles);
   }
   this->Unprepare();
-  return before;
 }
 
 void PreparedPoints::Append(const PlaneArray& points)
@@ -337,30 +336,35 @@ PlaneArray PreparedPoints::CopyToHost()
 {
   if (this->Prepared.OnDevice)
   {
-    const PlaneArray& points = this->Caller.Points;
-    std::int64_t numbers = 0;
-    if (points.Count > 0)
-    {
-      numbers = (points.Count - 1) * points.Stride + 2;
-    }
-    const auto copy = [&](const auto* values, auto& copied)
-    {
-      copied.resize(numbers);
-      CopyMemory(values, numbers * static_cast<std::int64_t>(sizeof(*values)), copied.data(),
-        this->Caller.Stream);
-      return PlaneArray(copied.data(), points.Count, points.Stride);
-    };
-    if (points.Floats)
-    {
-      this->Prepared.Points = copy(points.Floats, this->Floats);
-    }
-    else
-    {
-      this->Prepared.Points = copy(points.Doubles, this->Doubles);
-    }
+    this->Prepared.Points = this->CopyCaller(this->Floats, this->Doubles);
     this->Prepared.OnDevice = false;
   }
   return this->Prepared.Points;
+}
+
+/// The caller's points in the host's memory. @param floats, doubles one of them receives a copy of
+/// points that are on a GPU.
+PlaneArray PreparedPoints::CopyCaller(
+  std::vector<float>& floats, std::vector<double>& doubles) const
+{
+  const PlaneArray& points = this->Caller.Points;
+  if (!this->Caller.OnDevice)
+  {
+    return points;
+  }
+  std::int64_t numbers = 0;
+  if (points.Count > 0)
+  {
+    numbers = (points.Count - 1) * points.Stride + 2;
+  }
+  const auto copy = [&](const auto* values, auto& copied)
+  {
+    copied.resize(numbers);
+    CopyMemory(values, numbers * static_cast<std::int64_t>(sizeof(*values)), copied.data(),
+      this->Caller.Stream);
+    return PlaneArray(copied.data(), points.Count, points.Stride);
+  };
+  return points.Floats ? copy(points.Floats, floats) : copy(points.Doubles, doubles);
 }
 
 /// Finds for every point the one that is used instead of it: the first with a lower id that is used

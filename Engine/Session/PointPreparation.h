@@ -82,19 +82,23 @@ public:
   /// Moves the points of the caller to other places. Prepare must follow, as for Append.
   /// @param places the new places, in the precision of the points; receives the old ones.
   void Exchange(PointPlaces& places);
-  /// Copies the current places to the host's memory. Exchange must follow.
-  void CopyPlaces(PointPlaces& places);
+  /// Copies the current places of the caller's points to the host's memory.
+  void CopyPlaces(PointPlaces& places) const;
 
   /// Copies the places of the caller's points, unless this has a copy of them, which can change.
   void TakeOver();
-  /// Sets the places of some points, after TakeOver. Prepare must follow, as for Append.
-  /// @returns the places before.
-  std::vector<std::array<double, 2>> SetPlaces(
-    const std::vector<VertexId>& points, const std::vector<std::array<double, 2>>& places);
+  /// Moves some points to other places, after TakeOver. Prepare must follow, as for Append. Does
+  /// not throw. @param places the new ones; receives the old ones.
+  void ExchangeSome(
+    const std::vector<VertexId>& points, std::vector<std::array<double, 2>>& places);
 
   /// The points that are removed, ascending. Their places are NaN.
   const std::vector<std::int64_t>& GetRemoved() const { return this->Removed; }
-  void SetRemoved(std::vector<std::int64_t> ids) { this->Removed = std::move(ids); }
+  /// @returns those that were removed before.
+  std::vector<std::int64_t> SetRemoved(std::vector<std::int64_t> ids)
+  {
+    return std::exchange(this->Removed, std::move(ids));
+  }
   bool IsRemoved(std::int64_t point) const
   {
     return std::binary_search(this->Removed.begin(), this->Removed.end(), point);
@@ -133,6 +137,7 @@ private:
   void Unprepare();
   void FindNearPoints(const ProgressObserver& observer);
   void CopyPoints();
+  PlaneArray CopyCaller(std::vector<float>& floats, std::vector<double>& doubles) const;
   template <typename Real>
   void CopyCoordinates(std::vector<Real>& copy);
   bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);

@@ -17,6 +17,7 @@
 #include <functional>
 #include <new>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -173,16 +174,70 @@ TEST(EngineAllocations, OfChangesOfPointsFailOnce)
     },
     [] { return false; });
   EXPECT_LT(10, insertions);
-  const std::int64_t removals = FailEach([&] { session.Remove(ids.data(), 4); },
+  FlipSession whole = triangulate(After);
+  const std::int64_t removals = FailEach([&] { whole.Remove(ids.data(), 4); },
     [&]
     {
-      session.Advance();
-      EXPECT_EQ(After, session.GetReport().Points);
-      session = triangulate(Before);
-      session.Insert(added);
+      whole.Advance();
+      EXPECT_TRUE(store(whole) == ofAll);
+      whole.Compact(); // reads the places of all points
+      EXPECT_EQ(After, whole.GetReport().FromPoints.Used);
+      whole = triangulate(After);
     },
     [] { return false; });
   EXPECT_LT(10, removals);
+}
+
+/// After a move that has failed, points are where they were.
+TEST(EngineAllocations, OfMovesFailOnce)
+{
+  std::mt19937 random(1);
+  std::vector<double> xy = { 0, 0, 1e10, 1e10, 0, 1e10, 1e10, 0, 5, 1, 5.5, 1 };
+  while (xy.size() < 400)
+  {
+    xy.push_back(10.0 + random());
+  }
+  const std::vector<std::int64_t> segments = { 0, 1, 2, 3 };
+  PointInput input{ PlaneArray(xy.data(), 200, 2) };
+  PointOptions options;
+  options.Backend = BackendKind::Threads;
+  options.NumberOfThreads = 1;
+  const auto look = [](FlipSession& session)
+  {
+    session.Advance();
+    Ids ids(3 * session.CountTriangles());
+    session.StoreTriangles(MutableTriangleArray(ids.data(), session.CountTriangles()));
+    std::vector<std::int64_t> used(200);
+    session.StoreUsedPoints(used.data());
+    return std::tuple(ids, used, session.GetAddedPoints().size());
+  };
+  const auto failEach = [&](const std::function<void(FlipSession&)>& change)
+  {
+    FlipSession session(input, options), other(input, options);
+    const auto before = look(session);
+    look(other);
+    change(other);
+    const auto after = look(other);
+    const std::int64_t count =
+      FailEach([&] { change(session); }, [&] { EXPECT_TRUE(look(session) == before); },
+        [&]
+        {
+          const bool isRight = look(session) == after;
+          session = FlipSession(input, options);
+          look(session);
+          return isRight;
+        });
+    EXPECT_LT(10, count);
+  };
+  const std::vector<std::int64_t> ids = { 7, 9 };
+  const std::vector<double> places = { 12, 13, 1e9, 1e9 };
+  const PointMove move{ PlaneArray(places.data(), 2, 2), ids.data() };
+  options.PointTolerance = 1.0;
+  failEach([](FlipSession& session) { session.Compact(); });
+  input.Segments = segments.data();
+  input.NumberOfSegments = 2;
+  options.SplitCrossings = true;
+  failEach([&](FlipSession& session) { session.Move(move); });
 }
 
 TEST(EngineAllocations, OfAWholeRunFailOnce)
