@@ -117,6 +117,7 @@ bool SphereRun::StartOnDevice(LoadedSphere& device, const FlipOptions& options)
 
 /// Copies the mesh to the host, unless it is there. If the GPU fails, the host makes it again.
 void SphereRun::Fetch()
+try
 {
   if (!this->OnDevice || !this->Triangles.empty())
   {
@@ -135,8 +136,14 @@ void SphereRun::Fetch()
   {
     this->OnDevice.reset();
     this->Neighbors.clear();
+    this->Planar = FlipReport();
     this->RunOnHost();
   }
+}
+catch (...)
+{
+  this->Reset(); // forgets what is half done
+  throw;
 }
 
 /// Stores by a call of the device. @returns whether it has. If the GPU fails, the host stores.

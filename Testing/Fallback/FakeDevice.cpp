@@ -19,11 +19,31 @@ namespace delaunayflip
 {
 
 int CallsToFailure = 0;
+bool IsDeviceLost = false;
 std::int64_t CopiedBytes = 0;
 std::int64_t AnswersOnDevice = 0;
 
 namespace
 {
+/// @throws BackendUnavailable if the device is lost.
+void RequireDevice()
+{
+  if (IsDeviceLost)
+  {
+    throw BackendUnavailable("as the test wants it");
+  }
+}
+
+/// Counts a call. @throws BackendUnavailable if it is to fail.
+void CallDevice()
+{
+  RequireDevice();
+  if (CallsToFailure > 0 && --CallsToFailure == 0)
+  {
+    throw BackendUnavailable("as the test wants it");
+  }
+}
+
 /// Whether there is no array, or one in an allocation of the device.
 bool HasOrLacks(const void* array) { return !array || FindDeviceOf(array) >= 0; }
 
@@ -78,10 +98,7 @@ public:
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override
   {
-    if (CallsToFailure > 0 && --CallsToFailure == 0)
-    {
-      throw BackendUnavailable("as the test wants it");
-    }
+    CallDevice();
     return nullptr;
   }
   FlipLoop& GetLoop() override { return this->Engine->GetLoop(); }
@@ -197,6 +214,7 @@ private:
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
+  RequireDevice();
   return std::unique_ptr<LoadedMesh>(new FakeEngine(LoadOnThreads(mesh, options, progress)));
 }
 
@@ -209,6 +227,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const PointInput& points, const FlipOptions& options, const BuildProgress& progress)
 {
+  RequireDevice();
   return std::unique_ptr<LoadedMesh>(
     new FakeEngine(LoadOnThreads(points.Points, options, progress)));
 }
@@ -230,10 +249,7 @@ public:
 
   std::unique_ptr<DeviceScope> MakeCurrent() const override
   {
-    if (CallsToFailure > 0 && --CallsToFailure == 0)
-    {
-      throw BackendUnavailable("as the test wants it");
-    }
+    CallDevice();
     return nullptr;
   }
   PlaneArray Project(const NumberedPoint& pole, std::int64_t& unplaced) override
@@ -276,6 +292,7 @@ private:
 
 std::unique_ptr<LoadedSphere> LoadSphereOnCuda(const PointInput& points, const FlipOptions& options)
 {
+  RequireDevice();
   auto sphere = std::make_unique<FakeSphere>(ThreadBackend(options.NumberOfThreads));
   sphere->Load(points);
   return sphere;
@@ -291,10 +308,7 @@ public:
   bool CanAnswerInPlace(const PlaceQuery&) const override { return true; }
   AskResult Answer(const PlaceQuery& query, const ProgressObserver& observer) override
   {
-    if (CallsToFailure > 0 && --CallsToFailure == 0)
-    {
-      throw BackendUnavailable("as the test wants it");
-    }
+    CallDevice();
     AnswersOnDevice += query.CountPlaces();
     return SphereAskerOnBackend::Answer(query, observer);
   }

@@ -15,6 +15,9 @@ namespace delaunayflip
 /// Calls of the backend until the one that fails with "as the test wants it"; 0: none does.
 extern int CallsToFailure;
 
+/// Whether all calls fail so.
+extern bool IsDeviceLost;
+
 /// Bytes that have been copied between the host's memory and the device's.
 extern std::int64_t CopiedBytes;
 

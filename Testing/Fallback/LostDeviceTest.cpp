@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FakeDevice.h"
+#include "FlipError.h"
 #include "FlipTestSupport.h"
 #include "Interpolation.h"
+#include "RandomNumbers.h"
 #include "TestDevice.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
+#include <string>
 #include <vector>
 
 /// @file
@@ -26,7 +30,11 @@ protected:
   /// So many that BackendKind::Auto takes a GPU.
   static constexpr std::int64_t Many = 11000;
 
-  ~LostDeviceTest() override { CallsToFailure = 0; }
+  ~LostDeviceTest() override
+  {
+    CallsToFailure = 0;
+    IsDeviceLost = false;
+  }
 
   static std::vector<double> MakeSpiral()
   {
@@ -36,6 +44,28 @@ protected:
       xy.insert(xy.end(), { std::cos(2.4 * i) * std::sqrt(i), std::sin(2.4 * i) * std::sqrt(i) });
     }
     return xy;
+  }
+
+  /// Points on a sphere.
+  static std::vector<double> DrawSphere()
+  {
+    std::mt19937 random(7);
+    std::vector<double> points(3 * Many);
+    for (std::int64_t i = 0; i < Many; ++i)
+    {
+      PlaceOnSphere(
+        DrawReal(random, -180.0, 180.0), DrawReal(random, -90.0, 90.0), points.data() + 3 * i);
+    }
+    return points;
+  }
+
+  static FlipSession OpenSphere(const std::vector<double>& points, BackendKind backend)
+  {
+    PointInput input;
+    input.Points = PlaneArray(points.data(), Many, 3);
+    PointOptions options{ OnBackend(backend) };
+    options.Projection = ProjectionKind::Sphere;
+    return FlipSession(input, options);
   }
 };
 
@@ -127,6 +157,42 @@ TEST_F(LostDeviceTest, NoPageIsTouchedAfterAStop)
   EXPECT_FALSE(session.Advance(-1, {}, stop));
   EXPECT_EQ(StopReasonKind::Aborted, session.GetReport().StopReason);
   EXPECT_EQ(Pages + 1, std::count(last.begin(), last.end(), 0));
+}
+
+TEST_F(LostDeviceTest, ASphereIsMadeAgainOnTheHost)
+{
+  const std::vector<double> points = DrawSphere();
+  FlipSession expected = OpenSphere(points, BackendKind::Threads);
+  expected.Advance();
+  FlipSession session = OpenSphere(points, BackendKind::Auto);
+  session.Advance();
+  EXPECT_EQ("CUDA: fake", session.GetReport().Backend);
+  IsDeviceLost = true;
+  EXPECT_TRUE(StoreTriangles(expected) == StoreTriangles(session));
+  ExpectSameStatistics(expected.GetReport(), session.GetReport());
+  EXPECT_EQ(std::string::npos, session.GetReport().Backend.find("CUDA"));
+  EXPECT_EQ("as the test wants it", session.GetReport().Fallback);
+}
+
+/// If nothing may replace the GPU, the session begins anew.
+TEST_F(LostDeviceTest, ASphereIsForgotten)
+{
+  const std::vector<double> points = DrawSphere();
+  FlipSession session = OpenSphere(points, BackendKind::CUDA);
+  session.Advance();
+  const std::int64_t count = session.CountTriangles();
+  std::vector<std::int32_t> ids(3 * count);
+  const MutableTriangleArray triangles(ids.data(), count);
+  IsDeviceLost = true;
+  EXPECT_THROW(session.StoreTriangles(triangles), BackendUnavailable);
+  EXPECT_EQ(0, session.CountTriangles());
+  IsDeviceLost = false;
+  session.Advance();
+  EXPECT_EQ(count, session.CountTriangles());
+  session.StoreTriangles(triangles);
+  FlipSession expected = OpenSphere(points, BackendKind::Threads);
+  expected.Advance();
+  EXPECT_TRUE(StoreTriangles(expected) == ids);
 }
 
 }
