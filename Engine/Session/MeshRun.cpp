@@ -212,7 +212,7 @@ bool MeshRun::Move(const PointMove& move, const ProgressObserver& progress)
 void MeshRun::GoOnAt(MovedPoints points)
 {
   const StopWatch watch;
-  const bool mayFollow = this->Loaded && !this->Start->GetOnDevice() && !this->WantsRefinement() &&
+  const bool mayFollow = this->Loaded && !this->Mesh.GetOnDevice() && !this->WantsRefinement() &&
     this->Mesh.GetFixedEdges().NumberOfRegionSeeds == 0;
   TriangleMesh moved, start;
   bool follows = false;

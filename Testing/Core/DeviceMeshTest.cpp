@@ -162,6 +162,27 @@ TEST_F(DeviceMeshTest, ThreadsGetACopy)
   ExpectSame(floats.View(), OnBackend(BackendKind::Threads), 2, device);
 }
 
+/// Whether or not threads flip, and constraints were inserted on the host.
+TEST_F(DeviceMeshTest, DoesNotFollowItsPoints)
+{
+  const Arrays device(this->Mesh.View(), 3);
+  const std::int64_t ends[] = { 100, 200 };
+  const unsigned char flag = 1;
+  for (const std::int64_t constraints : { 0, 1 })
+  {
+    DeviceMesh mesh = device.View();
+    mesh.ConstraintEdges = ends;
+    mesh.NumberOfConstraintEdges = constraints;
+    mesh.ConstraintsToInsert = &flag;
+    FlipSession session(mesh, OnBackend(BackendKind::Threads));
+    session.Advance();
+    EXPECT_EQ(constraints, session.GetReport().InsertedConstraints);
+    PointMove move;
+    move.Points = PlaneArray(this->Mesh.Points.data(), this->Mesh.View().Points.Count, 3);
+    EXPECT_THROW(session.Move(move), InvalidOptions);
+  }
+}
+
 TEST_F(DeviceMeshTest, TheResultMayReplaceTheInput)
 {
   const Arrays device(this->Mesh.View(), 3);
