@@ -231,10 +231,6 @@ void MeshRun::GoOnAt(MovedPoints points)
                          "seeds or points that are not finite, or another geometry suits it now; "
                          "begin another session");
   }
-  this->Mesh = CallerMesh(moved);
-  this->Start = CallerMesh(start);
-  this->Moved = std::move(points);
-  this->HasMoved = true;
   this->Journal.clear();
   this->Progress = RunProgress();
   const std::string fallback = this->Report.Fallback;
@@ -248,6 +244,12 @@ void MeshRun::GoOnAt(MovedPoints points)
   constexpr std::size_t Test = 3; // in ListStages: that of all edges
   this->Current = Test;
   this->RunStages(Test + 1);
+  // Last, so that points are where they were after an exception. Threads have the mesh now, so
+  // there is no fallback that loads it again.
+  this->Mesh = CallerMesh(moved);
+  this->Start = CallerMesh(start);
+  this->Moved = std::move(points);
+  this->HasMoved = true;
 }
 
 //------------------------------------------------------------------------------

@@ -240,6 +240,33 @@ TEST(EngineAllocations, OfMovesFailOnce)
   failEach([&](FlipSession& session) { session.Move(move); });
 }
 
+TEST(EngineAllocations, OfMovesOfMeshesFailOnce)
+{
+  OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
+  std::vector<double> points = mesh.Points;
+  for (std::size_t i = 0; i < points.size(); i += 3)
+  {
+    points[i] += 0.7 * points[i + 1];
+  }
+  PointMove move;
+  move.Points = PlaneArray(points.data(), mesh.View().Points.Count, 3);
+  const auto store = [&](FlipSession& session)
+  {
+    session.Advance();
+    Ids ids(mesh.Triangles.size());
+    session.StoreTriangles(MutableTriangleArray(ids.data(), mesh.NumberOfTriangles()));
+    return ids;
+  };
+  FlipOptions options = MakeOptions(1);
+  options.Backend = BackendKind::Threads;
+  FlipSession session(mesh.View(), options);
+  const Ids before = store(session);
+  const std::int64_t count = FailEach([&] { session.Move(move); },
+    [&] { EXPECT_TRUE(store(session) == before); }, [] { return false; });
+  EXPECT_LT(10, count);
+  EXPECT_FALSE(store(session) == before);
+}
+
 TEST(EngineAllocations, OfAWholeRunFailOnce)
 {
   const OwnedMesh<double> mesh = MakeRandomBadMeshDouble(500, 1);
