@@ -94,7 +94,7 @@ bool LoadedRun::Refine()
     if (!this->IsRefined)
     {
       const auto rounds = static_cast<double>(this->Rounds);
-      this->WasStopped = !this->Progress.TellRest(this->Observer, rounds / (rounds + Usual));
+      this->WasStopped = !this->TellStage(rounds / (rounds + Usual));
     }
   }
   if (this->Rounds > 0 || this->IsRefined)

@@ -156,12 +156,8 @@ void LoadedRun::TestAllEdges()
   report.NonDelaunayBefore = report.NonDelaunayAfter;
   report.FlipSeconds = watch.GetSeconds();
   this->Building.Reach(report.GeometryUsed, BuildStep::Tested);
-  double shareOfLater = 0.0;
-  for (std::size_t later = this->Current + 1; later < this->Stages.size(); ++later)
-  {
-    shareOfLater += this->Stages[later].Share;
-  }
-  this->Progress.StartFlips(this->Found.Bad, report.BuildSeconds, report.FlipSeconds, shareOfLater);
+  this->Progress.StartFlips(
+    this->Found.Bad, report.BuildSeconds, report.FlipSeconds, this->SumLaterShares());
   this->ListDefects();
 }
 
@@ -344,6 +340,22 @@ void LoadedRun::TellIterations(std::int64_t first, bool hasMore)
       this->Observer, this->Report, this->Found.Bad, this->GetIterationLimit());
   }
   this->WasStopped = !continues;
+}
+
+double LoadedRun::SumLaterShares() const
+{
+  double sum = 0.0;
+  for (std::size_t later = this->Current + 1; later < this->Stages.size(); ++later)
+  {
+    sum += this->Stages[later].Share;
+  }
+  return sum;
+}
+
+bool LoadedRun::TellStage(double share)
+{
+  const double left = (1.0 - share) * this->Stages[this->Current].Share + this->SumLaterShares();
+  return this->Progress.Tell(this->Observer, 1.0 - left);
 }
 
 void LoadedRun::RecordFound(const StepCounts& found)

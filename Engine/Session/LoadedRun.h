@@ -187,6 +187,11 @@ protected:
   /// Tells observers of the iterations from one on, and records whether they stop the run.
   void TellIterations(std::int64_t first, bool hasMore);
   void RecordFound(const StepCounts& found);
+  /// The share of the progress that the stages after the current one take.
+  double SumLaterShares() const;
+  /// Tells the observer that a share of the current stage, which follows flips, is done.
+  /// @returns false if it asks to stop.
+  bool TellStage(double share);
 
   FlipOptions Options;
   BuildProgress Building; ///< Tells of the loading, and of what divide and conquer does later.

@@ -236,7 +236,7 @@ bool PointRun::InsertSegments()
   const std::size_t before = this->Result.Taken;
   const auto tell = [this](double share)
   {
-    this->WasStopped = !this->Progress.TellRest(this->Observer, share);
+    this->WasStopped = !this->TellStage(share);
     return !this->WasStopped;
   };
   if (before < all)

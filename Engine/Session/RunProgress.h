@@ -52,12 +52,6 @@ public:
     return this->Tell(observer, this->ToldBeforeFlips + all * share);
   }
 
-  /// @param share how much of what follows the flips is done. @returns the same as Tell.
-  bool TellRest(const ProgressObserver& observer, double share)
-  {
-    return this->Tell(observer, 1.0 - this->Rest * (1.0 - share));
-  }
-
   /// How many iterations, at least one, observers can wait for.
   std::int64_t GetBatch() const
   {

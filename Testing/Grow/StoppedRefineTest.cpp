@@ -95,5 +95,23 @@ TEST_F(StoppedRefine, BeginsAnewAfterAStoppedInsertion)
   }
 }
 
+/// The progress is 1 at the end, and not before.
+TEST_F(StoppedRefine, ProgressGoesOnInAllStages)
+{
+  std::vector<double> told;
+  const ProgressObserver tell = [&](double share)
+  {
+    told.push_back(share);
+    return true;
+  };
+  FlipSession session(this->View(All), this->Options, tell);
+  session.Advance(-1, {}, tell);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(1.0, told.back());
+  EXPECT_EQ(1, std::count(told.begin(), told.end(), 1.0));
+  const auto isOfRefinement = [](double share) { return share > 0.5 && share < 1.0; };
+  EXPECT_LT(3, std::count_if(told.begin(), told.end(), isOfRefinement));
+}
+
 }
 }
