@@ -716,10 +716,11 @@ extern "C"
   delaunayflip_status delaunayflip_store_triangles(
     delaunayflip_session* session, void* triangles, int32_t id_type);
 
-  /** Does the same in an order that depends on the triangles alone, for sessions from points. Each
-   * triangle begins with its lowest id, and they are sorted by their first and then by their second
-   * id. So points that have moved to some places give the same integers as points that were
-   * triangulated there. The other functions use the numbers of delaunayflip_store_triangles. */
+  /** Does the same in an order that depends on the triangles alone, for sessions from points in the
+   * plane. Each triangle begins with its lowest id, and they are sorted by their first and then by
+   * their second id. So points that have moved to some places give the same integers as points that
+   * were triangulated there. The other functions use the numbers of delaunayflip_store_triangles.
+   */
   delaunayflip_status delaunayflip_store_ordered_triangles(
     delaunayflip_session* session, void* triangles, int32_t id_type);
 

@@ -136,7 +136,8 @@ public:
   /// Writes the triangles in an order that depends on them alone. Each begins with its lowest id,
   /// and they are sorted by their first and then by their second id. So points that have moved to
   /// some places give the same numbers as points that were triangulated there. Only StoreTriangles
-  /// has the numbers of triangles that the other functions use. For sessions from points.
+  /// has the numbers of triangles that the other functions use. For sessions from points in the
+  /// plane.
   void StoreOrderedTriangles(const MutableTriangleArray& triangles) const;
 
   /// Writes three numbers for every triangle: the triangles across its edges. Number k is opposite

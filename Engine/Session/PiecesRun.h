@@ -7,6 +7,7 @@
 #include "SessionRun.h"
 
 #include <memory>
+#include <string>
 
 namespace delaunayflip
 {
@@ -35,6 +36,11 @@ private:
   void Cut();
   void Begin();
   void Reset() override;
+  std::string ExplainRefusal() const override
+  {
+    return "a mesh in several pieces cannot move and has no regions, and this session was not made "
+           "from points";
+  }
 
   TriangleMesh Mesh;
   FlipOptions Options;

@@ -254,7 +254,9 @@ void SphereRun::StoreRegions(std::int32_t* labels)
 
 std::string SphereRun::ExplainRefusal() const
 {
-  return "points of a triangulation on a sphere cannot be inserted, moved or removed";
+  return "points of a triangulation on a sphere cannot be inserted, moved, removed or numbered "
+         "anew, "
+         "and its triangles cannot be stored in order";
 }
 
 }

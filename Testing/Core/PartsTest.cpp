@@ -440,6 +440,16 @@ TEST(NumberOfPieces, IsFrom1To255)
   FlipHere(mesh.View(), 255, {});
 }
 
+/// Other sessions from triangles have regions, and move.
+TEST(NumberOfPieces, IsNamedByRefusals)
+{
+  const Mesh mesh = MakeRandomBadMeshDouble(20, 57);
+  FlipSession session(mesh.View(), MakeCanonical(2));
+  const std::string why = GetMessage<InvalidOptions>([&] { session.StoreRegions(nullptr); });
+  EXPECT_NE(std::string::npos, why.find("several pieces")) << why;
+  EXPECT_EQ(why, GetMessage<InvalidOptions>([&] { session.Move({}); }));
+}
+
 TEST(NumberOfPieces, IsTheSmallestThatIsPossibleByDefault)
 {
   constexpr std::int64_t most = 715827882;

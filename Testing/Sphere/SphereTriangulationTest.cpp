@@ -508,6 +508,9 @@ TEST(SphereTriangulation, RefusesWhatItCannotDoYet)
   input.Points = PlaneArray(points.data()->data(), 20, 3);
   FlipSession session = FlipPoints(input, Projected());
   EXPECT_THROW(session.Insert(input.Points), InvalidOptions);
+  const std::string why =
+    GetMessage<InvalidOptions>([&] { session.StoreOrderedTriangles(MutableTriangleArray()); });
+  EXPECT_NE(std::string::npos, why.find("stored in order")) << why;
   EXPECT_THROW(
     FlipSession(input, With(&PointOptions::MinimumAngle, 20.0, Projected())), InvalidOptions);
   const double sizes[20] = {};
