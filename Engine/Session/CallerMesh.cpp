@@ -74,8 +74,7 @@ int RequireOnDevice(const void* memory, std::int64_t size, const char* what)
   if (size > 0 && device < 0)
   {
     throw InvalidOptions(std::string(what) +
-      " not in the memory of a GPU; arrays in the host's "
-      "memory are flipped on a GPU by the functions for these");
+      " not in the memory of a GPU; for arrays in the host's memory use the functions for these");
   }
   return device;
 }

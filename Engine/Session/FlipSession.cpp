@@ -213,7 +213,7 @@ void CheckOptionsAndBackend(const FlipOptions& options)
   CheckTieRule(options, options.Geometry);
   if (options.Backend == BackendKind::CUDA)
   {
-    LoadOnCuda(TriangleMesh(), options, {}); // says why the GPU cannot be used
+    LoadOnCuda(TriangleMesh(), options, {}); // throws if the GPU cannot be used
   }
 }
 
@@ -230,7 +230,7 @@ FlipReport RunToEnd(FlipSession session, const FlipObserver& observer,
   {
     session.Advance(-1, observer, progress);
   }
-  FlipReport report = session.GetReport(); // before anything is written: it takes memory
+  FlipReport report = session.GetReport(); // now, because it may run out of memory
   store(session);
   if (session.GetReport().Fallback != report.Fallback) // a GPU may fail while its result is fetched
   {

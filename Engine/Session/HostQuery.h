@@ -85,10 +85,8 @@ public:
   /// Copies the results to the caller's arrays.
   void CopyBack() const
   {
-    CopyMemory(this->Triangles.data(), SizeOf(this->Triangles) * 4, this->Caller.Triangles,
-      this->Caller.Stream);
-    CopyMemory(
-      this->Results.data(), SizeOf(this->Results) * 8, this->Caller.Results, this->Caller.Stream);
+    this->Store(this->Triangles, this->Caller.Triangles);
+    this->Store(this->Results, this->Caller.Results);
   }
 
 private:
@@ -104,6 +102,13 @@ private:
         values, size * static_cast<std::int64_t>(sizeof(Value)), copy.data(), this->Caller.Stream);
       fetched = copy.data();
     }
+  }
+
+  template <typename Value>
+  void Store(const std::vector<Value>& values, Value* target) const
+  {
+    constexpr auto Bytes = static_cast<std::int64_t>(sizeof(Value));
+    CopyMemory(values.data(), SizeOf(values) * Bytes, target, this->Caller.Stream);
   }
 
   const PlaceQuery& Caller;

@@ -187,10 +187,11 @@ bool LoadedRun::Flip(const std::function<bool()>& givesUp)
 
 void LoadedRun::RepeatFlips(LoadedMesh& mesh, std::int64_t iterations)
 {
+  const AdvancePlan one{ 1, false, false }; // one iteration, and nothing is measured
   for (std::int64_t done = 0; done < iterations;)
   {
-    done += SizeOf(mesh.GetLoop().Advance({ 1, false, false }));
-    this->Building.Tell(0.0);
+    done += SizeOf(mesh.GetLoop().Advance(one));
+    this->Building.Tell(0.0); // asks whether to stop; progress never goes back
   }
 }
 
@@ -322,7 +323,7 @@ void LoadedRun::RunBatch()
   this->RecordFound(this->Loaded->GetLoop().GetFound());
   this->RecordIterations(batch, watch.GetSeconds());
 #if !defined(NDEBUG)
-  // Now that the iterations are in the journal: the CPU repeats those where the GPU fails here.
+  // After the journal has the iterations, because the CPU repeats them if the GPU fails here.
   this->OnBackend([](const LoadedMesh& mesh) { mesh.Audit(); });
 #endif
 }

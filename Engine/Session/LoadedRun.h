@@ -39,7 +39,7 @@ public:
   struct Entry
   {
     std::size_t Stage; ///< The number of the stage.
-    std::int64_t Count; ///< Iterations or segments, for Stage::Repeat.
+    std::int64_t Count; ///< For Stage::Repeat.
   };
   /// For tests.
   const std::vector<Entry>& GetJournal() const { return this->Journal; }
@@ -161,7 +161,8 @@ protected:
     return this->Loaded != nullptr;
   }
 
-  /// Does so for a getter that writes to device memory. @returns whether store(mesh) could.
+  /// Calls store(mesh), which writes to device memory, by TryOnBackend. @returns what it returns,
+  /// or false if it was not called.
   template <typename Store>
   bool TryStoreOnDevice(const Store& store)
   {

@@ -219,7 +219,7 @@ void MeshRun::StoreSources(std::int32_t* sources)
 
 void MeshRun::StoreRegions(std::int32_t* labels)
 {
-  this->StoreSources(labels);
+  this->StoreSources(labels); // each is replaced by its label
   const RegionSeed* seeds = this->Mesh.GetFixedEdges().RegionSeeds;
   for (std::int64_t t = 0; t < this->CountTriangles(); ++t)
   {

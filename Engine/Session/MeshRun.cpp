@@ -16,6 +16,11 @@
 namespace delaunayflip
 {
 
+namespace
+{
+constexpr const char* TestAllEdgesStage = "test all edges";
+}
+
 void MeshRun::ListStages()
 {
   const auto load = [this]
@@ -31,7 +36,7 @@ void MeshRun::ListStages()
       Whole([this] { this->InsertConstraints(); }), {} },
     { "load", OnStop::Forgets, 0.0, Whole(load), {} },
     { "label regions", OnStop::Forgets, 0.0, Whole([this] { this->LabelRegions(); }), {} },
-    { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
+    { TestAllEdgesStage, OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
     { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
   };
   if (this->WantsRefinement())
@@ -241,9 +246,10 @@ void MeshRun::GoOnAt(MovedPoints points)
   this->Insertion.AddTo(this->Report);
   this->Report.BuildSeconds = watch.GetSeconds();
   this->AreKeptEdgesKnown = false;
-  constexpr std::size_t Test = 3; // in ListStages: that of all edges
-  this->Current = Test;
-  this->RunStages(Test + 1);
+  const auto test = std::find_if(this->Stages.begin(), this->Stages.end(),
+    [](const Stage& stage) { return std::string(stage.Name) == TestAllEdgesStage; });
+  this->Current = test - this->Stages.begin();
+  this->RunStages(this->Current + 1);
   // Last, so that points are where they were after an exception. Threads have the mesh now, so
   // there is no fallback that loads it again.
   this->Mesh = CallerMesh(moved);

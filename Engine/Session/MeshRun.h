@@ -79,7 +79,8 @@ private:
   ConstraintInsertion Insertion; ///< Owns the arrays of Start if it has inserted constraints.
   std::optional<CallerMesh> Start; ///< The caller's mesh, with its constraints inserted.
   MovedPoints Moved; ///< Has the caller's points after a move.
-  bool HasMoved = false; ///< Since then, so that flips are counted anew.
+  /// Whether points have moved. Since then flips are counted anew, without those of Insertion.
+  bool HasMoved = false;
   RefinedCallerMesh Refined;
   std::vector<std::int32_t> Regions; ///< What FindSeededRegions returns, if there are seeds.
   UnusedSeeds Unused;

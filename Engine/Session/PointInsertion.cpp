@@ -86,8 +86,8 @@ bool PointRun::AreFew(std::int64_t points) const
 /// are kept.
 bool PointRun::CanInsertInPlace(const PlaneArray& points)
 {
-  const bool mayEnd = this->Points.GetOptions().MaximumIterations < 0;
-  if (!mayEnd || !this->AreFew(points.Count) || !this->IsDelaunay() || !this->MaySegmentsStay())
+  const bool hasNoLimit = this->Points.GetOptions().MaximumIterations < 0;
+  if (!hasNoLimit || !this->AreFew(points.Count) || !this->IsDelaunay() || !this->MaySegmentsStay())
   {
     return false;
   }

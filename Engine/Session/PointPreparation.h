@@ -66,14 +66,12 @@ public:
   /// How many points the mesh is made of: those of GetInput() and those of refinement.
   std::int64_t CountAll() const { return this->Prepared.Points.Count + this->Refined; }
   AddedPoint Describe(const RefinedVertex& vertex) const;
-  /// How many points there are without them.
-  std::int64_t CountBeforeRefinement() const
-  {
-    return this->Caller.Points.Count + this->Counts.Crossings;
-  }
 
   /// PointInput::Sizes for all points before refinement.
   std::vector<double> ListSizes() const;
+
+  // What follows changes the caller's points, except for CopyPlaces, and drops what Prepare has
+  // made.
 
   /// Adds points behind those of the caller, in their precision. Prepare must follow, unless there
   /// are no segments and no tolerance. From now on this has a copy of all points.
@@ -85,7 +83,7 @@ public:
   /// Copies the current places of the caller's points to the host's memory.
   void CopyPlaces(PointPlaces& places) const;
 
-  /// Copies the places of the caller's points, unless this has a copy of them, which can change.
+  /// Makes a copy of the caller's points that ExchangeSome can change, unless there is one.
   void TakeOver();
   /// Moves some points to other places, after TakeOver. Prepare must follow, as for Append. Does
   /// not throw. @param places the new ones; receives the old ones.

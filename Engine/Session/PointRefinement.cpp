@@ -38,6 +38,7 @@ public:
       FirstOfOrigin(subsegments.size() + 1, 0),
       ByOrigin(subsegments.size())
   {
+    // Those before refinement come first, ordered by edge, and each is its own origin.
     while (this->Before < subsegments.size() && subsegments[this->Before].Origin == this->Before)
     {
       ++this->Before;
@@ -55,8 +56,8 @@ public:
     }
   }
 
-  /// The origin of an edge that there was before refinement. One of its pieces still has the number
-  /// of the edge.
+  /// The origin of an edge that was a subsegment before refinement. The first subsegments are
+  /// these, and keep their edges.
   std::uint32_t FindOrigin(EdgeId edge) const
   {
     const auto begin = this->Subsegments.begin();
@@ -70,7 +71,7 @@ public:
   void AppendPieces(
     const SegmentEdge& before, std::uint32_t origin, std::vector<SegmentEdge>& edges)
   {
-    const HalfEdgeId parity = before.Side & 1u;
+    const HalfEdgeId parity = before.Side & 1u; // 1: pieces run against their edges
     this->Pieces.clear();
     this->Ends.clear();
     for (std::uint32_t i = this->FirstOfOrigin[origin]; i < this->FirstOfOrigin[origin + 1]; ++i)
@@ -82,6 +83,7 @@ public:
     }
     std::sort(this->Pieces.begin(), this->Pieces.end());
     std::sort(this->Ends.begin(), this->Ends.end());
+    // The first piece starts where no other one ends; each next one starts where the last one ends.
     auto piece = std::find_if(this->Pieces.begin(), this->Pieces.end(),
       [&](const Piece& one)
       { return !std::binary_search(this->Ends.begin(), this->Ends.end(), one.Start); });
@@ -106,7 +108,7 @@ public:
 
 private:
   const std::vector<Subsegment>& Subsegments;
-  std::size_t Before = 0; ///< How many of them there were before; they come first, by edge.
+  std::size_t Before = 0; ///< How many there were before refinement.
   std::vector<std::uint32_t> FirstOfOrigin, ByOrigin;
   std::vector<Piece> Pieces; ///< Those of the edge at hand, by start.
   std::vector<VertexId> Ends;
@@ -180,8 +182,7 @@ void PointRun::TakeRefinement(LoadedMesh& mesh)
   result.Unrefined = Defect(DefectKind::TrianglesNotRefined, unrefined);
   result.HasReachedLimit = made.HasReachedLimit;
   result.RefinementRounds = this->Rounds;
-  const auto countRegions = static_cast<std::int64_t>(result.Regions.size());
-  if (countRegions > 0)
+  if (!result.Regions.empty())
   {
     result.Regions = made.Regions;
   }

@@ -54,12 +54,13 @@ void AddCounts(FlipReport& report, const PreparedPoints& points, const PointResu
 {
   PointCounts& counts = report.FromPoints;
   const PointCounts& prepared = points.GetCounts();
-  const std::int64_t notFinite = counts.NotFinite - prepared.TooNear;
+  // The loaded mesh counts points that are removed or too near as not finite.
+  const std::int64_t notFiniteOrRemoved = counts.NotFinite - prepared.TooNear;
   const std::int64_t repeated = counts.Repeated;
-  const std::int64_t places = points.CountAll() - notFinite - repeated - prepared.TooNear;
+  const std::int64_t places = points.CountAll() - notFiniteOrRemoved - repeated - prepared.TooNear;
   counts = prepared;
   counts.Removed = SizeOf(points.GetRemoved());
-  counts.NotFinite = notFinite - counts.Removed;
+  counts.NotFinite = notFiniteOrRemoved - counts.Removed;
   counts.Repeated = repeated;
   counts.MoveRounds = result.MoveRounds;
   std::int64_t inside = 0; // of these edges

@@ -28,11 +28,12 @@ struct PointResult
   /// All edges of segments, if triangles may be removed. Then Edges has only those that are left.
   std::vector<SegmentEdge> WholeEdges;
   SegmentPins Pins; ///< Listed once points move.
-  std::vector<bool> Seen; ///< By edge, up to the largest number, whether it is one of these.
+  /// By number of an edge, whether it is in Edges or WholeEdges. Later edges are not.
+  std::vector<bool> Seen;
   /// By index. If pieces of a given segment are refused, only the first of them.
   std::vector<RefusedSegment> Refused;
   KeptTriangles Kept;
-  Defect Loss; ///< If none of the points that matter is left.
+  Defect Loss; ///< If no point before PointInput::FirstAdded is left.
   std::vector<std::int32_t> Regions; ///< What FindRegions returns; empty if it was not called.
   UnusedSeeds Seeds;
   std::vector<SegmentEdge> EdgesBefore; ///< Edges before refinement.
@@ -50,10 +51,11 @@ struct PointResult
   }
 };
 
-/// Rings that are left out, or count once, as a defect.
+/// A defect of rings, with their count and the first numbers.
 Defect NameRings(DefectKind kind, std::vector<std::int32_t> numbers);
 
-/// Whether triangles are removed, and none of the points that were given for themselves is left.
+/// Whether triangles are removed, and no point before PointInput::FirstAdded is left, or without
+/// such points no triangle.
 bool IsLost(const PointInput& input, const KeptTriangles& kept);
 
 /// Says that none of the given points is left, and where they, segments and hole seeds lie.

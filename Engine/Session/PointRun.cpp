@@ -20,8 +20,9 @@ namespace delaunayflip
 
 namespace
 {
-/// Whether the points have z, too, and are on a sphere around the origin. A sample tells that most
-/// are not. The last point is left out, because its z need not be there.
+/// Whether the points also have z, and are on a sphere around the origin. For most inputs a sample
+/// of the points is enough to see that they are not. The last point is left out: an array with a
+/// stride of 3 may end after its y.
 bool IsGlobe(const PointInput& input)
 {
   constexpr std::int64_t Sample = 1000;
@@ -142,12 +143,15 @@ void PointRun::Triangulate()
 
 std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)
 {
+  // A fallback loads the mesh again. The report still tells how the last move was made.
   PointResult result;
   result.MoveRounds = this->Result.MoveRounds;
   this->Result = result;
   PointInput input = this->Points.GetInput();
-  input.Points.Count =
-    this->BatchEnds.empty() ? this->Points.CountBeforeRefinement() : this->BatchEnds.front();
+  if (!this->BatchEnds.empty())
+  {
+    input.Points.Count = this->BatchEnds.front();
+  }
   if (backend == BackendKind::CUDA)
   {
     return LoadOnCuda(input, this->Options, this->Building);
@@ -158,8 +162,8 @@ std::unique_ptr<LoadedMesh> PointRun::LoadOn(BackendKind backend)
 }
 
 //------------------------------------------------------------------------------
-/// Flips are slow once they have taken as long as divide and conquer would: their chains go on for
-/// as long as the points lie along curves.
+/// Flips are slow if they have taken as long as divide and conquer would. So it is for points along
+/// curves, where each flip makes the next edge bad.
 bool PointRun::GivesUpFlips()
 {
   // Measured on one thread: divide and conquer takes as long as about 8 flips per point, an
@@ -218,7 +222,8 @@ void PointRun::DivideAndConquer(LoadedMesh& mesh)
   mesh.GetLoop().Detect();
 }
 
-/// The observer may stop the iterations within chunks, and then all is lost, so they are one batch.
+/// The iterations within chunks are one batch: if they are stopped in between, the mesh is not
+/// valid, and the run is forgotten.
 std::int64_t PointRun::GetBatch() const
 {
   const std::int64_t batch = this->Progress.GetBatch();
@@ -248,7 +253,8 @@ bool PointRun::InsertSegments()
   return this->Result.Taken == all;
 }
 
-/// Inserts the segments that are not taken yet, up to one of them, until an observer stops it.
+/// Inserts segments from the first one that is not taken to the one before number `end`, unless an
+/// observer stops it.
 /// @param observer is told the share of all segments that is inserted.
 /// @throws InvalidMesh if a ring with an area is not closed or a segment of it is refused.
 void PointRun::InsertUpTo(std::size_t end, LoadedMesh& mesh, const ProgressObserver& observer)

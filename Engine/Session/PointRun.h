@@ -53,8 +53,8 @@ public:
   bool Ask(const PlaceQuery& query, const ProgressObserver& progress) override;
 
 private:
-  /// In the journal, in place of the number of a batch: the Delaunay triangulation of all points,
-  /// at their current places.
+  /// Stands for the number of a batch in the journal: all points were triangulated, at their
+  /// current places.
   static constexpr std::int64_t AllPoints = -1;
 
   void ListStages();
@@ -104,8 +104,9 @@ private:
   std::int64_t GetBatch() const override;
 
   PreparedPoints Points;
-  /// The loaded mesh was made of the first points up to the first of these numbers. Those from one
-  /// number to the next were inserted together. Empty: it was made of all.
+  /// Where batches of inserted points end. The mesh was loaded with the points before the first of
+  /// these numbers; batch i is the points from number i to number i + 1. Empty: it was loaded with
+  /// all points.
   std::vector<std::int64_t> BatchEnds;
   PointPlaces Places; ///< The next places, or the last ones. Kept so that moves reuse the memory.
   PointResult Result; ///< What was done to the loaded mesh beside flips.

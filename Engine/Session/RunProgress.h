@@ -63,9 +63,10 @@ public:
   void RecordTime(double secondsPerIteration) { this->SecondsPerIteration = secondsPerIteration; }
 
 private:
+  /// How long observers wait at least.
+  static constexpr double LeastSecondsBetweenCalls = 0.1;
   /// The more iterations in chunks run together, the faster they are. So observers of large meshes
   /// wait longer: for this share of the time that the build took.
-  static constexpr double LeastSecondsBetweenCalls = 0.1;
   static constexpr double BuildsBetweenCalls = 0.5;
 
   /// The first iterations that span the mesh take up to this many times as long as the test of all

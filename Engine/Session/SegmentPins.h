@@ -31,8 +31,9 @@ public:
 
   /// Whether there are points on segments between their ends.
   bool HasBetween() const { return !this->Between.empty(); }
-  /// Whether the points that were on segments between their ends are on them at these places, too.
-  /// @param points in the host's memory. No two of them have come to the same place.
+  /// Whether the points that were between the ends of segments are still on the lines through
+  /// these.
+  /// @param points in the host's memory, at different places.
   bool AreStraight(const PlaneArray& points) const;
 
   /// Gives the edges other numbers.

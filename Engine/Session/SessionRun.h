@@ -39,7 +39,8 @@ struct Stage
   /// iterations of the caller are spent, or an observer has stopped the run.
   std::function<bool()> Work;
   /// Changes a mesh that is loaded again as Work has changed the first one. Empty if Work does not
-  /// change the mesh. @param count how much of the stage was done: iterations or segments.
+  /// change the mesh. @param count how much of the stage was done: iterations, segments or rounds.
+  /// The last stage of points gets the number of a batch of points, or PointRun::AllPoints.
   std::function<void(LoadedMesh&, std::int64_t count)> Repeat;
 };
 
@@ -120,22 +121,19 @@ public:
   }
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
 
-  // Only sessions from points have these.
-  virtual void StoreOrderedTriangles(const MutableTriangleArray&) { RefuseQuestion(); }
-  virtual void StoreNeighbors(std::int32_t*) { RefuseQuestion(); }
+  // Not every session has these.
+  virtual void StoreOrderedTriangles(const MutableTriangleArray&) { Refuse(); }
+  virtual void StoreNeighbors(std::int32_t*) { Refuse(); }
   virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) { return false; }
-  virtual void StoreUsedPoints(std::int64_t*) { RefuseQuestion(); }
-  virtual std::vector<std::int64_t> ListSegmentEdges() { RefuseQuestion(); }
-  virtual std::vector<std::int64_t> ListSegmentsOfEdges() { RefuseQuestion(); }
-  virtual void StoreRegions(std::int32_t*) { RefuseQuestion(); }
-  virtual bool Insert(const PlaneArray&, const ProgressObserver&) { RefuseQuestion(); }
-  virtual bool Move(const PointMove&, const ProgressObserver&) { RefuseQuestion(); }
-  virtual bool Remove(const std::int64_t*, std::int64_t, const ProgressObserver&)
-  {
-    RefuseQuestion();
-  }
-  virtual bool Compact(const ProgressObserver&) { RefuseQuestion(); }
-  virtual bool Ask(const PlaceQuery&, const ProgressObserver&) { RefuseQuestion(); }
+  virtual void StoreUsedPoints(std::int64_t*) { Refuse(); }
+  virtual std::vector<std::int64_t> ListSegmentEdges() { Refuse(); }
+  virtual std::vector<std::int64_t> ListSegmentsOfEdges() { Refuse(); }
+  virtual void StoreRegions(std::int32_t*) { Refuse(); }
+  virtual bool Insert(const PlaneArray&, const ProgressObserver&) { Refuse(); }
+  virtual bool Move(const PointMove&, const ProgressObserver&) { Refuse(); }
+  virtual bool Remove(const std::int64_t*, std::int64_t, const ProgressObserver&) { Refuse(); }
+  virtual bool Compact(const ProgressObserver&) { Refuse(); }
+  virtual bool Ask(const PlaceQuery&, const ProgressObserver&) { Refuse(); }
 
   /// How many triangles the Store functions write.
   std::int64_t CountTriangles() const { return this->Report.Triangles; }
@@ -146,9 +144,9 @@ public:
 protected:
   SessionRun() = default;
 
-  /// Says why the functions of sessions from points are refused.
+  /// Says why functions that a session does not have are refused.
   virtual std::string ExplainRefusal() const { return "this session was not made from points"; }
-  [[noreturn]] void RefuseQuestion() const { throw InvalidOptions(this->ExplainRefusal()); }
+  [[noreturn]] void Refuse() const { throw InvalidOptions(this->ExplainRefusal()); }
 
   /// For a run that is done at once: tells observers that it has ended, and then all iterations.
   void TellEnd(const FlipObserver& observer, const ProgressObserver& progress) const
@@ -164,7 +162,8 @@ protected:
   }
 
   /// Does the stages before this one that are not complete. Once an observer has stopped the run,
-  /// no stage begins that could be stopped, too.
+  /// no stage begins that keeps the mesh when it is stopped. Others do begin: without them the mesh
+  /// does not fit the report.
   /// @returns whether all are complete.
   bool RunStages(std::size_t end)
   {

@@ -66,7 +66,7 @@ void SphereRun::RequireAsker()
     std::make_unique<SphereAsker>(mesh, SizeOf(this->Points), this->Numbers, this->Edges);
 }
 
-/// Lets a GPU answer, if one is to do what it can. A few places of the host are not worth copies.
+/// Lets a GPU answer if one is used. Few places in the host's memory are not worth the copies.
 /// @returns Undecided if the host has to answer.
 AskResult SphereRun::AskDevice(const PlaceQuery& query, const ProgressObserver& progress)
 {

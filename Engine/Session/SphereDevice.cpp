@@ -11,7 +11,7 @@
 namespace delaunayflip
 {
 
-/// Whether a GPU is to do what it can.
+/// Whether to use a GPU for what it can do.
 bool SphereRun::PrefersDevice() const
 {
   if (this->Options.Backend != BackendKind::Auto)
@@ -44,7 +44,7 @@ bool SphereRun::MayRunOnDevice() const
 }
 
 /// Makes the mesh on a GPU, if all points are used and filters see that all edges are convex.
-/// @returns false otherwise, and also if the GPU fails: then the host decides what follows.
+/// @returns false otherwise, and also if the GPU fails: then the host has to make the mesh.
 bool SphereRun::RunOnDevice()
 {
   if (!this->MayRunOnDevice())

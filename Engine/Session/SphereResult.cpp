@@ -37,8 +37,8 @@ void SphereRun::OpenMesh()
 /// Triangulates points that all lie in one plane. They have a convex hull together with one more
 /// point, just beyond the origin and opposite to their middle. The triangles of that point are
 /// dropped. Nothing is made if the plane passes through the origin, or if all points are in one
-/// line. From so near the origin no triangle is hidden that faces away from it, also if the points
-/// are in one plane except for rounding.
+/// line. The added point is so near to the origin that it hides no triangle that faces away from
+/// the origin, even if rounding has moved points out of the plane.
 void SphereRun::TriangulateOnePlane()
 {
   this->LeaveOut(this->ListActive(), PointState::LeftOut);

@@ -407,7 +407,8 @@ bool SphereRun::StartFromSimplex()
 /// simplex. The projection has found all other repeated points.
 void SphereRun::MarkRepeatedLeftOut()
 {
-  const bool isSimplex = SizeOf(this->Triangles) == 12;
+  constexpr std::int64_t IdsOfSimplex = 4 * 3;
+  const bool isSimplex = SizeOf(this->Triangles) == IdsOfSimplex;
   std::vector<std::int32_t> ids;
   for (std::size_t i = 0; i < this->States.size(); ++i)
   {
@@ -530,7 +531,8 @@ void SphereRun::Flip()
   mesh.Center[0] = this->Center.U;
   mesh.Center[1] = this->Center.V;
   mesh.Center[2] = this->Center.W;
-  mesh.Whole.StarsAreSimple = true; // every triangle faces outside, and great circles enter once
+  // Every triangle faces outside, so that around a vertex no direction is covered twice.
+  mesh.Whole.StarsAreSimple = true;
   const std::vector<std::int64_t> kept = this->ListSegmentEdges();
   mesh.ConstraintEdges = kept.data();
   mesh.NumberOfConstraintEdges = SizeOf(kept) / 2;

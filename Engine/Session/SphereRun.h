@@ -150,7 +150,8 @@ private:
   std::vector<std::int32_t> Neighbors; ///< Those of Triangles. Empty: not known.
   PlanePoint Center = Origin; ///< The place from which triangles are seen.
   StartSums Tested; ///< What the last test of the start has found.
-  double Done = 0.0; ///< The share of the work that is done.
+  /// The share of the progress that was given to stretches of the work, with the one under way.
+  double Done = 0.0;
   int Starts = 0;
   /// A simplex of all points. It depends on their places alone.
   Simplex FirstSimplex;
