@@ -60,11 +60,7 @@ template <typename Real>
 void CopyInto(const PlaneArray& from, std::vector<Real>& coordinates, PointPlaces& places)
 {
   coordinates.resize(2 * from.Count);
-  for (std::int64_t i = 0; i < from.Count; ++i)
-  {
-    coordinates[2 * i] = static_cast<Real>(from.Get(i, 0));
-    coordinates[2 * i + 1] = static_cast<Real>(from.Get(i, 1));
-  }
+  CopyCoordinates(from, coordinates.data());
   places.Points = PlaneArray(coordinates.data(), from.Count, 2);
 }
 

@@ -179,12 +179,8 @@ void PreparedPoints::CopyPlaces(PointPlaces& places) const
   const PlaneArray from = this->CopyCaller(floats, doubles);
   const auto copy = [&](auto& coordinates)
   {
-    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
     coordinates.resize(2 * from.Count);
-    for (std::int64_t i = 0; i < 2 * from.Count; ++i)
-    {
-      coordinates[i] = static_cast<Real>(from.Get(i / 2, static_cast<int>(i % 2)));
-    }
+    CopyCoordinates(from, coordinates.data());
     places.Points = PlaneArray(coordinates.data(), from.Count, 2);
   };
   if (from.Floats)
@@ -210,12 +206,8 @@ void PreparedPoints::TakeOver()
     {
       return;
     }
-    std::vector<Real> all;
-    all.reserve(2 * before.Count);
-    for (std::int64_t i = 0; i < 2 * before.Count; ++i)
-    {
-      all.push_back(static_cast<Real>(before.Get(i / 2, static_cast<int>(i % 2))));
-    }
+    std::vector<Real> all(2 * before.Count);
+    CopyCoordinates(before, all.data());
     coordinates = std::move(all);
     this->Caller.Points = PlaneArray(coordinates.data(), before.Count, 2);
   };
@@ -263,7 +255,6 @@ void PreparedPoints::Append(const PlaneArray& points)
   const std::int64_t all = this->Caller.Points.Count + points.Count;
   const auto append = [&](auto& coordinates)
   {
-    using Real = typename std::decay_t<decltype(coordinates)>::value_type;
     coordinates.resize(2 * this->Caller.Points.Count); // there may be room for more
     const std::size_t size = 2 * static_cast<std::size_t>(all);
     if (coordinates.capacity() < size)
@@ -271,10 +262,8 @@ void PreparedPoints::Append(const PlaneArray& points)
       coordinates.reserve(
         std::max(size, 2 * coordinates.capacity())); // may throw, what follows not
     }
-    for (std::int64_t i = 0; i < 2 * points.Count; ++i)
-    {
-      coordinates.push_back(static_cast<Real>(points.Get(i / 2, static_cast<int>(i % 2))));
-    }
+    coordinates.resize(size);
+    CopyCoordinates(points, coordinates.data() + 2 * this->Caller.Points.Count);
     this->Caller.Points = PlaneArray(coordinates.data(), all, 2);
   };
   if (this->Caller.Points.Floats)
@@ -447,17 +436,17 @@ void PreparedPoints::CopyPoints()
   }
   if (this->Caller.Points.Floats)
   {
-    this->CopyCoordinates(this->Floats);
+    this->CopyUsed(this->Floats);
   }
   else
   {
-    this->CopyCoordinates(this->Doubles);
+    this->CopyUsed(this->Doubles);
   }
 }
 
 /// Points that are too near become NaN, so that they are not used.
 template <typename Real>
-void PreparedPoints::CopyCoordinates(std::vector<Real>& copy)
+void PreparedPoints::CopyUsed(std::vector<Real>& copy)
 {
   const PlaneArray points = this->Prepared.Points;
   const auto added = SizeOf(this->Added);

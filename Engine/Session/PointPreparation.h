@@ -30,6 +30,17 @@ struct PointPlaces
   std::vector<double> Doubles;
 };
 
+/// Copies x and y of all points. @param xy has room for them.
+template <typename Real>
+void CopyCoordinates(const PlaneArray& points, Real* xy)
+{
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    xy[2 * i] = static_cast<Real>(points.Get(i, 0));
+    xy[2 * i + 1] = static_cast<Real>(points.Get(i, 1));
+  }
+}
+
 /// Requires segments to name points that there are, and hole seeds to be finite.
 /// @param seedNumbers how many numbers a hole seed has. @throws InvalidMesh, InvalidOptions.
 void CheckSegments(const PointInput& input, int seedNumbers);
@@ -70,8 +81,10 @@ public:
   /// PointInput::Sizes for all points before refinement.
   std::vector<double> ListSizes() const;
 
-  // What follows changes the caller's points, except for CopyPlaces, and drops what Prepare has
-  // made.
+  /// Copies the current places of the caller's points to the host's memory.
+  void CopyPlaces(PointPlaces& places) const;
+
+  // These change the caller's points, and drop what Prepare has made.
 
   /// Adds points behind those of the caller, in their precision. Prepare must follow, unless there
   /// are no segments and no tolerance. From now on this has a copy of all points.
@@ -80,8 +93,6 @@ public:
   /// Moves the points of the caller to other places. Prepare must follow, as for Append.
   /// @param places the new places, in the precision of the points; receives the old ones.
   void Exchange(PointPlaces& places);
-  /// Copies the current places of the caller's points to the host's memory.
-  void CopyPlaces(PointPlaces& places) const;
 
   /// Makes a copy of the caller's points that ExchangeSome can change, unless there is one.
   void TakeOver();
@@ -137,7 +148,7 @@ private:
   void CopyPoints();
   PlaneArray CopyCaller(std::vector<float>& floats, std::vector<double>& doubles) const;
   template <typename Real>
-  void CopyCoordinates(std::vector<Real>& copy);
+  void CopyUsed(std::vector<Real>& copy);
   bool MayHaveArea(const std::vector<std::size_t>& ring, const std::vector<std::int64_t>& used);
 
   PointInput Caller;
