@@ -306,35 +306,15 @@ private:
   }
 };
 
-/// Calls make(backend), with the first device as the current one.
-template <typename Make>
-std::unique_ptr<LoadedMesh> Load(
-  const std::vector<int>& devices, const FlipOptions& options, const Make& make)
-{
-  try
-  {
-    CudaBackend backend(devices, options.NumberOfThreads);
-    const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-    return make(std::move(backend));
-  }
-  catch (const BeyondDevice& error)
-  {
-    throw BackendUnavailable(error.what());
-  }
-}
-
 /// @param view the caller's arrays, wherever they are.
 template <typename Mesh>
-std::unique_ptr<LoadedMesh> Load(const Mesh& mesh, const TriangleMesh& view,
+std::unique_ptr<LoadedMesh> LoadMesh(const Mesh& mesh, const TriangleMesh& view,
   const std::vector<int>& devices, const FlipOptions& options, const BuildProgress& progress)
 {
-  return Load(devices, options,
-    [&](CudaBackend&& backend)
-    {
-      LocalDeviceMesh local = backend.Localize(mesh);
-      return std::make_unique<CudaMesh>(
-        view, std::move(local), options, std::move(backend), progress);
-    });
+  CudaBackend backend(devices, options.NumberOfThreads);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+  LocalDeviceMesh local = backend.Localize(mesh);
+  return std::make_unique<CudaMesh>(view, std::move(local), options, std::move(backend), progress);
 }
 }
 
@@ -348,7 +328,7 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
     devices = options.Devices;
     devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
   }
-  return Load(mesh, mesh, devices, options, progress);
+  return LoadMesh(mesh, mesh, devices, options, progress);
 }
 
 /// A mesh that is on a GPU stays there.
@@ -359,22 +339,20 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
   static_cast<FixedEdges&>(view) = mesh;
   static_cast<CoordinateArray&>(view.Points) = mesh.Points;
   view.Triangles = mesh.Triangles;
-  return Load(mesh, view, { options.Device }, options, progress);
+  return LoadMesh(mesh, view, { options.Device }, options, progress);
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const PointInput& points, const FlipOptions& options, const BuildProgress& progress)
 {
-  return Load({ options.Device }, options,
-    [&](CudaBackend&& backend)
-    {
-      if (points.OnDevice)
-      {
-        backend.WaitFor(points.Stream);
-      }
-      return std::make_unique<CudaMesh>(
-        points.Points, points.OnDevice, options, std::move(backend), progress);
-    });
+  CudaBackend backend({ options.Device }, options.NumberOfThreads);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+  if (points.OnDevice)
+  {
+    backend.WaitFor(points.Stream);
+  }
+  return std::make_unique<CudaMesh>(
+    points.Points, points.OnDevice, options, std::move(backend), progress);
 }
 
 }
