@@ -280,15 +280,10 @@ protected:
     {
       most = 1;
     }
-    std::int64_t freshSlots = 0;
-    if (this->Guard.IsActive())
-    {
-      freshSlots = std::max<std::int64_t>(0, this->Guard.GetFreshSlotsLeft());
-    }
     const IterationPlan iterationPlan{ static_cast<int>(most), this->Found.Bad,
-      static_cast<long long>(freshSlots) };
+      this->Guard.GetFreshSlotsLeft() };
     std::vector<IterationCounts> iterations =
-      this->ReadIterations(this->LaunchOnMesh(this->GetIterateKernel(), iterationPlan), freshSlots);
+      this->TakeIterations(this->LaunchOnMesh(this->GetIterateKernel(), iterationPlan));
     if (measure)
     {
       iterations.back().SquaredCotangent = this->MeasureAngles().Largest;
@@ -509,7 +504,8 @@ private:
     return *results;
   }
 
-  std::vector<IterationCounts> ReadIterations(const Results& results, std::int64_t freshSlots)
+  /// Takes over the counts of a launch, and maintains the guard.
+  std::vector<IterationCounts> TakeIterations(const Results& results)
   {
     std::vector<IterationCounts> iterations;
     StepCounts flips;
@@ -522,15 +518,11 @@ private:
       flips.FreedSlots += GetSum(iteration, IterationSum::FreedSlots);
       flips.LostInserts += GetSum(iteration, IterationSum::LostInserts);
     }
-    if (this->Guard.IsActive())
+    if (this->Guard.IsActive() && this->Guard.Maintain(flips, this->Mesh, this->Backend))
     {
-      this->Guard.Maintain(flips, this->Mesh, this->Backend);
-      if (flips.FreshSlots - flips.FreedSlots > freshSlots || flips.LostInserts > 0)
-      {
-        const std::int64_t tested = this->Found.Tested;
-        this->Detect(); // again, now that the table holds all edges
-        this->Found.Tested = tested;
-      }
+      const std::int64_t tested = this->Found.Tested;
+      this->Detect(); // again, now that the table holds all edges
+      this->Found.Tested = tested;
     }
     return iterations;
   }

@@ -422,15 +422,17 @@ public:
   }
 
   /// Takes flips into account: rebuilds the table from the mesh if too many slots are in use or a
-  /// new edge found none.
+  /// new edge found none. @returns whether it did.
   template <typename Backend>
-  void Maintain(const StepCounts& flips, EdgeMesh& mesh, const Backend& backend)
+  bool Maintain(const StepCounts& flips, EdgeMesh& mesh, const Backend& backend)
   {
     this->UsedSlots += flips.FreshSlots - flips.FreedSlots;
-    if (flips.LostInserts > 0 || this->GetFreshSlotsLeft() < 0)
+    const bool isFull = flips.LostInserts > 0 || this->GetFreshSlotsLeft() < 0;
+    if (isFull)
     {
       this->Rebuild(mesh, backend);
     }
+    return isFull;
   }
 
   /// Makes the table of the mesh's edges; no claims. Public because device lambdas ask for it.
