@@ -71,7 +71,10 @@ public:
       this->Words[kind] = backend.MakeArray<std::uint32_t>(this->NumberOfWords);
       *kinds[kind] = this->Words[kind].Data();
     }
-    this->Bits.BlockedByShape = this->Words[own - 1].Data();
+    if (!mayBlock)
+    {
+      this->Bits.BlockedByShape = this->Bits.BlockedByEdge;
+    }
     this->TakeStates(mesh, true);
   }
 
@@ -80,8 +83,8 @@ public:
 
   // Public because device lambdas require it.
 
-  /// Takes over the states that are Fixed or Candidate, and at first all. Bits after the last edge
-  /// are fixed.
+  /// Takes over the states that are Fixed or Candidate. Other edges keep theirs, or, if isFirst,
+  /// have none. Bits after the last edge are fixed.
   void TakeStates(const EdgeMesh& mesh, bool isFirst)
   {
     const EdgeBits bits = this->Bits;
@@ -238,11 +241,10 @@ public:
   /// within chunks.
   void CutIntoChunks()
   {
-    if (this->AreChunksCut)
+    if (this->Chunks.Size() > 0)
     {
       return;
     }
-    this->AreChunksCut = true;
     this->Chunks = this->Backend.template MakeArray<DeviceChunk>(this->NumberOfChunks);
     DeviceChunk* chunks = this->Chunks.Data();
     const CornerId* words = this->Mesh.CornerOfHalfEdge.Data();
@@ -569,7 +571,6 @@ private:
   int Splits = 0; ///< 2^Splits warps share a unit of the worklist.
   DeviceEdgeBits Bits;
   Array<DeviceChunk> Chunks;
-  bool AreChunksCut = false;
   Array<TeamState> TeamStates;
   Array<Results> DeviceResults;
 };

@@ -411,7 +411,9 @@ private:
   bool IsWarned = false; ///< Whether a thread has warned in the last detection.
   long long Bad; ///< The number of bad edges that the last detection has found.
   long long MostToList; ///< Detections make lists of at most so many bad edges.
-  long long FreshSlots = 0; ///< How many slots of the guard's table have come into use.
+  /// How many slots of the guard's table have come into use, without iterations that end with a
+  /// list: their flips are few.
+  long long FreshSlots = 0;
   bool HasRoom = true; ///< False if the guard's table must be rebuilt.
   /// Whether this thread has just made an edge that found no room in the guard's table.
   bool HasLost = false;
