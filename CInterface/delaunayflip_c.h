@@ -343,7 +343,7 @@ extern "C"
     int64_t crossings; /**< Points added where segments cross. */
     double largest_shift; /**< How far rounding has moved one of these at most. */
     int64_t outside_triangles; /**< Removed outside rings and around hole seeds. */
-    int64_t large_triangles; /**< Removed by alpha and longest_edge. */
+    int64_t large_triangles; /**< Removed by alpha and longest_edge, and from open spheres. */
     int64_t keeps_sliver; /**< 1 if feature edges or constraints keep one of the ten triangles with
                                the smallest angles, with one below 5 degrees; else 0. */
     int64_t blocked_by_deviation; /**< Bad edges left: the bound on deviation blocks them. */

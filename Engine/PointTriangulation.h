@@ -278,7 +278,7 @@ struct PointCounts
   std::int64_t Crossings = 0; ///< Points added where segments cross.
   double LargestShift = 0.0; ///< How far rounding has moved one of them at most.
   std::int64_t OutsideTriangles = 0; ///< Removed outside rings and around hole seeds.
-  std::int64_t LargeTriangles = 0; ///< Removed by Alpha, LongestEdge and open spheres.
+  std::int64_t LargeTriangles = 0; ///< Removed by Alpha and LongestEdge, and from open spheres.
   std::int64_t LeftOutRings = 0; ///< They have no area, or the edges of an earlier one.
   std::int64_t RefinementPoints = 0; ///< Points added by refinement.
   std::int64_t RefinementRounds = 0; ///< How often it has added points.
