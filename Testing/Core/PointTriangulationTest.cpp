@@ -146,7 +146,7 @@ TEST_P(PointSetsTest, OnlySomeTakeFlips)
   static const std::set<std::string> divided = { "ring", "ellipse", "parabola", "hyperbola",
     "spiral", "scan_lines", "survey_lines", "profiles", "wide", "circle", "two_circles",
     "line_and_point", "two_rows" };
-  // Of 2,000 points the strips depend on which ones are sampled, and so on their order, which is
+  // The strips of 2,000 points depend on which ones are sampled, and so on their order. It is
   // another one in other standard libraries.
   static const std::set<std::string> dependOnOrder = { "clusters", "power", "profiles" };
   const std::string name = GetParam().Name;

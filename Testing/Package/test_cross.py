@@ -82,8 +82,8 @@ def get_arm_root(folder):
 
 
 def start_wine(case):
-    """What runs programs for Windows, and its environment. @param case: the class of the tests, whose
-    folder gets one for Wine."""
+    """What runs programs for Windows, and its environment. @param case: the class of the tests. Its folder
+    gets one for Wine."""
     need("wine", "wineboot", "wineserver")
     folder = case.folder / "wine"
     wine = {"WINEPREFIX": str(folder), "WINEDEBUG": "-all"}
