@@ -19,9 +19,9 @@
 
 /// @file
 /// Moves the vertices of a Delaunay triangulation in rounds. In a round all vertices that are not
-/// at their targets make a step there. The steps of a triangle's vertices are halved until the
-/// triangle is counter-clockwise. After each round edges flip. So the place of a vertex depends on
-/// the mesh and the targets alone.
+/// at their targets make a step there. As long as a triangle is not counter-clockwise, its vertices
+/// take equal and smaller shares of their steps. After each round edges flip. So the place of a
+/// vertex depends on the mesh and the targets alone.
 
 namespace delaunayflip
 {

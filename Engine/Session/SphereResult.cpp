@@ -254,9 +254,9 @@ void SphereRun::StoreRegions(std::int32_t* labels)
 
 std::string SphereRun::ExplainRefusal() const
 {
-  return "points of a triangulation on a sphere cannot be inserted, moved, removed or numbered "
-         "anew, "
-         "and its triangles cannot be stored in order";
+  return "on a sphere, points cannot be inserted, moved, removed or compacted, and triangles "
+         "cannot "
+         "be stored in order";
 }
 
 }

@@ -211,17 +211,12 @@ TEST_F(FallbackTest, AnyCallMayFailForRefinement)
     return session;
   };
   const FlipSession expected = run(BackendKind::Threads, 0);
-  for (int call = 1;; ++call)
-  {
-    const FlipSession session = run(BackendKind::Auto, call);
-    ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
-    ExpectSameStatistics(expected.GetReport(), session.GetReport());
-    if (CallsToFailure > 0)
+  ForEachFailingCall(15, run,
+    [&](const FlipSession& session)
     {
-      EXPECT_LT(15, call);
-      break;
-    }
-  }
+      ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session));
+      ExpectSameStatistics(expected.GetReport(), session.GetReport());
+    });
 }
 
 /// A GPU also fails while it refines a mesh with triangles that are not counter-clockwise.
@@ -246,18 +241,13 @@ TEST_F(FallbackTest, AnyCallMayFailForRefinementOfMeshes)
     return sources;
   };
   const FlipSession expected = run(BackendKind::Threads, 0);
-  for (int call = 1;; ++call)
-  {
-    const FlipSession session = run(BackendKind::Auto, call);
-    ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
-    ASSERT_TRUE(listSources(expected) == listSources(session)) << call;
-    ExpectSameStatistics(expected.GetReport(), session.GetReport());
-    if (CallsToFailure > 0)
+  ForEachFailingCall(8, run,
+    [&](const FlipSession& session)
     {
-      EXPECT_LT(8, call);
-      break;
-    }
-  }
+      ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session));
+      ASSERT_TRUE(listSources(expected) == listSources(session));
+      ExpectSameStatistics(expected.GetReport(), session.GetReport());
+    });
 }
 
 /// Points are inserted again, in the same batches, where a GPU fails at any time.
@@ -282,18 +272,16 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatComeLater)
     return session;
   };
   const FlipSession expected = run(BackendKind::Threads, 0);
-  for (int call = 1;; ++call)
-  {
-    const FlipSession session = run(BackendKind::Auto, call);
-    ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session)) << call;
-    ExpectSameStatistics(expected.GetReport(), session.GetReport());
-    if (CallsToFailure > 0)
+  ForEachFailingCall(10, run,
+    [&](const FlipSession& session)
     {
-      EXPECT_LT(10, call);
-      break;
-    }
-    EXPECT_EQ("as the test wants it", session.GetReport().Fallback);
-  }
+      ASSERT_TRUE(StoreTriangles(expected) == StoreTriangles(session));
+      ExpectSameStatistics(expected.GetReport(), session.GetReport());
+      if (CallsToFailure == 0)
+      {
+        EXPECT_EQ("as the test wants it", session.GetReport().Fallback);
+      }
+    });
 }
 
 /// If a GPU fails after points have moved, the triangles are those of the CPU.
@@ -326,17 +314,12 @@ TEST_F(FallbackTest, AnyCallMayFailForPointsThatMove)
     return session;
   };
   const auto expected = StoreOrderedTriangles(run(BackendKind::Threads, 0));
-  for (int call = 1;; ++call)
-  {
-    const FlipSession session = run(BackendKind::Auto, call);
-    ASSERT_TRUE(expected == StoreOrderedTriangles(session)) << call;
-    EXPECT_TRUE(session.GetReport().Converged());
-    if (CallsToFailure > 0)
+  ForEachFailingCall(10, run,
+    [&](const FlipSession& session)
     {
-      EXPECT_LT(10, call);
-      break;
-    }
-  }
+      ASSERT_TRUE(expected == StoreOrderedTriangles(session));
+      EXPECT_TRUE(session.GetReport().Converged());
+    });
 }
 
 /// This time with an outline, a hole and a segment: the CPU inserts them at the current places.
@@ -375,18 +358,13 @@ TEST_F(FallbackTest, AnyCallMayFailForSegmentsThatMove)
   };
   const FlipSession whole = run(BackendKind::Threads, 0);
   EXPECT_LT(0, whole.GetReport().FromPoints.OutsideTriangles);
-  for (int call = 1;; ++call)
-  {
-    const FlipSession session = run(BackendKind::Auto, call);
-    ASSERT_TRUE(StoreOrderedTriangles(whole) == StoreOrderedTriangles(session)) << call;
-    EXPECT_EQ(whole.ListSegmentEdges(), session.ListSegmentEdges()) << call;
-    EXPECT_TRUE(session.GetReport().Converged());
-    if (CallsToFailure > 0)
+  ForEachFailingCall(10, run,
+    [&](const FlipSession& session)
     {
-      EXPECT_LT(10, call);
-      break;
-    }
-  }
+      ASSERT_TRUE(StoreOrderedTriangles(whole) == StoreOrderedTriangles(session));
+      EXPECT_EQ(whole.ListSegmentEdges(), session.ListSegmentEdges());
+      EXPECT_TRUE(session.GetReport().Converged());
+    });
 }
 
 /// The names of the stages in the journal of a finished run, and how much of each was done.

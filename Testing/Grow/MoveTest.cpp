@@ -492,9 +492,9 @@ TEST(Move, Floats)
   }
 }
 
-/// The point near the middle goes through the boundary. Meanwhile the triangle of the first three
-/// points, which is thin, must not be inverted: it is not if all three go at the same pace. At
-/// unequal paces each round was half as long as the one before, for ever.
+/// The fourth point goes through the boundary. The first three have a thin triangle, which is not
+/// inverted if they go at the same pace. At unequal paces each round made steps that were half as
+/// long as those of the one before.
 TEST(Move, GoesThroughTheBoundaryBesideAThinTriangle)
 {
   Places points{ { 0.993, 0.016 }, { 0.998, 0.609 }, { 0.997838783, 0.59 }, { 0.9923, 0.307 },
