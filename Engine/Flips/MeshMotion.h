@@ -5,6 +5,7 @@
 
 #include "Array.h"
 #include "EdgeMesh.h"
+#include "LateRounds.h"
 #include "LoadedMesh.h"
 #include "PointMotion.h"
 
@@ -43,10 +44,13 @@ public:
     bool hasOtherEdges = false;
     do
     {
-      if (!motion.MakeRound(mesh))
+      const bool goesOn = motion.AreFewLate() ? motion.template MakeLateRounds<LateRounds>(mesh)
+                                              : motion.MakeRound(mesh);
+      if (!goesOn)
       {
         return result;
       }
+      result.Flips += motion.CountLateFlips();
       hasOtherEdges = hasOtherEdges || motion.HasChangedHull();
       result.Flips += settle(motion.HasChangedHull());
       ClearCandidates(mesh.Edges, backend);

@@ -55,6 +55,30 @@ public:
   /// Makes the boundary convex.
   bool FillUp(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, false); }
 
+  /// Makes room for any number of changes by LateRounds. A change makes as many sides less as
+  /// triangles more, or the other way round. @returns the sizes before the changes.
+  HullSizes BeginChanges(EdgeMesh& mesh)
+  {
+    const std::int64_t triangles = mesh.NumberOfTriangles + this->Count;
+    const std::int64_t sides = this->Count + MostCuts;
+    ReserveMesh(mesh, triangles, mesh.NumberOfEdges + this->Count, this->Device);
+    Reserve(this->Sides, this->Count, sides, this->Device);
+    Reserve(this->Cuts, 0, sides, this->Device);
+    Reserve(this->Pending, 0, 2 * sides, this->Device);
+    return { mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count, sides, 0, 0 };
+  }
+  VertexId* GetPending() { return this->Pending.Data(); }
+
+  /// Takes over the sizes after these changes.
+  void EndChanges(const HullSizes& sizes, EdgeMesh& mesh)
+  {
+    mesh.NumberOfTriangles = sizes.Triangles;
+    mesh.NumberOfEdges = sizes.Edges;
+    this->Count = sizes.Sides;
+    this->NumberOfCuts = 0;
+    this->Failed = false;
+  }
+
   /// Whether there was no room for what has to be cut off; then points do not move in place.
   bool HasFailed() const { return this->Failed; }
 

@@ -5,6 +5,7 @@
 
 #include "Atomics.h"
 #include "HullBoundary.h"
+#include "PlaceWalk.h"
 #include "PlaneMesh.h"
 #include "ThreadGroup.h"
 
@@ -163,6 +164,32 @@ struct MotionView
       {
         visit(corner);
       }
+    }
+  }
+
+  /// Finds a corner of a late vertex, near the one that it had before edges flipped.
+  DELAUNAYFLIP_HOST_DEVICE void FindCorner(LateVertex& late, TriangleId triangles) const
+  {
+    TriangleId start = TriangleOf(late.Corner);
+    start = start < triangles ? start : 0;
+    for (int near = 0; near < 3; ++near) // most often flips have left it there
+    {
+      if (this->Mesh.GetVertex(MakeCorner(start, near)) == late.Vertex)
+      {
+        late.Corner = MakeCorner(start, near);
+        return;
+      }
+    }
+    const FoundPlace found = WalkToPlace(this->Mesh, this->Mesh.GetPoint(late.Vertex), start);
+    const int slot = found.IsOutside() ? -1 : found.FindVertexSlot();
+    late.Corner = MakeCorner(start, 0);
+    if (slot >= 0)
+    {
+      late.Corner = MakeCorner(found.Triangle, slot);
+    }
+    else // a device could not decide, which ends the motion later
+    {
+      *this->Mesh.Failed = 1;
     }
   }
 

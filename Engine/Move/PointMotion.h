@@ -6,9 +6,9 @@
 #include "Array.h"
 #include "FlipError.h"
 #include "HullBoundary.h"
+#include "LateCounts.h"
 #include "MeshRoom.h"
 #include "MotionView.h"
-#include "PlaceWalk.h"
 #include "PlaneMesh.h"
 #include "VertexRemoval.h"
 
@@ -124,6 +124,7 @@ public:
   bool MakeRound(const MovingMesh<Real>& mesh)
   {
     const bool all = ++this->Rounds == 1;
+    this->LateFlips = 0;
     this->ClearCounts();
     this->AreTurnsCounted = false;
     CountsOnHost counts = all ? this->StartAll(mesh) : this->StartLate(mesh);
@@ -147,6 +148,52 @@ public:
     this->KeepLate(mesh);
     return this->Rounds < MostRounds && this->CountLate() <= this->Allowance;
   }
+
+  /// Whether so few vertices are late that MakeLateRounds moves them.
+  bool AreFewLate() const
+  {
+    return this->Rounds > 0 && this->NumberOfLate > 0 && this->NumberOfLate <= LateLimits::Late;
+  }
+
+  /// Makes rounds with their flips, by one group of threads, until all vertices are at their
+  /// targets or it takes too much of one group. Edges that are left to be judged are candidates.
+  /// @tparam LateRounds that of LateRounds.h, which knows how edges flip.
+  /// @returns false like MakeRound. @throws BeyondDevice.
+  template <template <typename> class LateRounds>
+  bool MakeLateRounds(const MovingMesh<Real>& mesh)
+  {
+    const Backend& device = this->Device;
+    Reserve(this->LateCount, 0, 1, device);
+    Reserve(this->ChangedTriangles, 0, LateLimits::Triangles, device);
+    Reserve(this->PendingSides, 0, LateLimits::Pending, device);
+    for (Array<EdgeId>& edges : this->JudgedEdges)
+    {
+      Reserve(edges, 0, LateLimits::Edges, device);
+    }
+    LateCounts counts{};
+    counts.Late = static_cast<std::uint32_t>(this->NumberOfLate);
+    const EdgeState* states = mesh.Edges.States.Data();
+    counts.Sizes = this->Hull.BeginChanges(mesh.Edges);
+    const bool haveStatesMoved = mesh.Edges.States.Data() != states; // loops know their address
+    device.Upload(&counts, 1, this->LateCount.Data());
+    const PlaneMesh plane = this->ViewPlane(mesh);
+    device.RunGroup(LateRounds<Real>{ this->View(mesh), this->Hull.View(plane), this->Late.Data(),
+      this->LateCount.Data(), this->Hull.GetPending(), this->PendingSides.Data(),
+      this->ChangedTriangles.Data(), { this->JudgedEdges[0].Data(), this->JudgedEdges[1].Data() },
+      this->Stamp });
+    device.Download(this->LateCount.Data(), 1, &counts);
+    this->FetchCounts(); // throws if a device could not decide
+    this->Hull.EndChanges(counts.Sizes, mesh.Edges);
+    this->Stamp = counts.Stamp;
+    this->Rounds += counts.Rounds;
+    this->LateFlips = counts.Flips;
+    this->NumberOfLate = counts.Late;
+    this->ChangedHull = haveStatesMoved || counts.HasChangedHull != 0;
+    return counts.End != LateEnd::Failed && this->Rounds < MostRounds;
+  }
+
+  /// How many edges MakeLateRounds has flipped, if it made the last rounds.
+  std::int64_t CountLateFlips() const { return this->LateFlips; }
 
   /// Whether the mesh has more or fewer edges after the last round.
   bool HasChangedHull() const { return this->ChangedHull; }
@@ -211,31 +258,7 @@ public:
     const std::int64_t count = this->NumberOfLate;
     const auto triangles = static_cast<TriangleId>(mesh.Edges.NumberOfTriangles);
     this->Device.ForEach(count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      {
-        const VertexId vertex = late[i].Vertex;
-        TriangleId start = TriangleOf(late[i].Corner);
-        start = start < triangles ? start : 0;
-        for (int near = 0; near < 3; ++near) // most often flips have left it there
-        {
-          if (motion.Mesh.GetVertex(MakeCorner(start, near)) == vertex)
-          {
-            late[i].Corner = MakeCorner(start, near);
-            return;
-          }
-        }
-        const FoundPlace found = WalkToPlace(motion.Mesh, motion.Mesh.GetPoint(vertex), start);
-        const int slot = found.IsOutside() ? -1 : found.FindVertexSlot();
-        late[i].Corner = MakeCorner(start, 0);
-        if (slot >= 0)
-        {
-          late[i].Corner = MakeCorner(found.Triangle, slot);
-        }
-        else // a device could not decide, which ends the motion later
-        {
-          *motion.Mesh.Failed = 1;
-        }
-      });
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.FindCorner(late[i], triangles); });
     this->Device.ForEach(
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(late[i].Vertex); });
     this->Hull.CountCuts(this->ViewPlane(mesh), this->GetHullCounts());
@@ -481,7 +504,11 @@ private:
   Array<LateVertex> Changed; ///< Vertices with a new step since triangles were last checked.
   Array<LateVertex> Late; ///< Vertices that this round moves, if it is not the first.
   Array<LateVertex> Next; ///< Vertices that the next round moves.
-  std::int64_t NumberOfLate = 0, NumberOfNext = 0;
+  Array<LateCounts> LateCount; ///< One.
+  Array<TriangleId> ChangedTriangles;
+  Array<std::uint32_t> PendingSides;
+  Array<EdgeId> JudgedEdges[2];
+  std::int64_t NumberOfLate = 0, NumberOfNext = 0, LateFlips = 0;
   std::int64_t Rounds = 0;
   std::int64_t Allowance = 0;
   std::uint32_t MostInverted = 0;
