@@ -89,16 +89,23 @@ std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
   return iterations;
 }
 
-std::int64_t FlipLoop::Converge()
+std::int64_t FlipLoop::Converge(std::int64_t most)
 {
   constexpr AdvancePlan Plan{ 64, false, false };
-  std::int64_t flips = 0;
+  constexpr std::int64_t FlipsPerIteration = 256;
+  std::int64_t flips = 0, cost = 0;
   this->Detect();
   while (this->Found.Bad > 0)
   {
     for (const IterationCounts& iteration : this->Advance(Plan))
     {
       flips += iteration.Flipped;
+      cost += iteration.Flipped + FlipsPerIteration;
+    }
+    // All backends make the same iterations, though in other batches, and so all or none give up.
+    if (cost > most)
+    {
+      return GaveUp;
     }
   }
   return flips;

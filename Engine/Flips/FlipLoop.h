@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 /// @file
@@ -95,8 +96,12 @@ public:
   /// edges, and detects again. @returns the iterations.
   std::vector<IterationCounts> Advance(const AdvancePlan& plan);
 
-  /// Detects, and runs iterations until no edge is bad. @returns the flips.
-  std::int64_t Converge();
+  static constexpr std::int64_t GaveUp = -1;
+
+  /// Detects, and runs iterations until no edge is bad.
+  /// @param most gives up after more flips than this. An iteration counts as some hundred flips.
+  /// @returns the flips, or GaveUp.
+  std::int64_t Converge(std::int64_t most = std::numeric_limits<std::int64_t>::max());
 
   /// How many of the edges that the last detection has found blocked by shape have
   /// EdgeState::BlockedByDeviation.

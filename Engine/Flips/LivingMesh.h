@@ -8,6 +8,7 @@
 #include "PointGrowth.h"
 #include "Refinement.h"
 
+#include <limits>
 #include <memory>
 #include <tuple>
 #include <type_traits>
@@ -291,18 +292,22 @@ private:
   {
     const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
       this->Order.VertexOfRank.Data() };
+    // Points along curves may need many flips each. Then triangulating them anew takes less time.
+    constexpr std::int64_t Fewest = 10000;
+    const std::int64_t most = this->Points.Count + Fewest;
     const auto settle = [&](bool hasOtherEdges)
-    { return this->Settle(coordinates.Data(), hasOtherEdges); };
+    { return this->Settle(coordinates.Data(), hasOtherEdges, most); };
     const MotionResult result =
       this->Motion.Move(mesh, targets, this->UsedPoint, segments, this->Backend, settle);
     this->CountGrown();
     return result;
   }
 
-  /// Flips until the mesh is Delaunay, after points were moved or removed. @returns the number of
-  /// flips.
+  /// Flips until the mesh is Delaunay, after points were moved or removed.
+  /// @returns FlipLoop::Converge(most).
   template <typename Real>
-  std::int64_t Settle(const Real* coordinates, bool hasOtherEdges)
+  std::int64_t Settle(const Real* coordinates, bool hasOtherEdges,
+    std::int64_t most = std::numeric_limits<std::int64_t>::max())
   {
     if (hasOtherEdges)
     {
@@ -312,7 +317,7 @@ private:
     {
       this->Loop->Restart();
     }
-    return this->Loop->Converge();
+    return this->Loop->Converge(most);
   }
 
   template <typename Real>

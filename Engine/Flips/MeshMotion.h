@@ -5,6 +5,7 @@
 
 #include "Array.h"
 #include "EdgeMesh.h"
+#include "FlipLoop.h"
 #include "LateRounds.h"
 #include "LoadedMesh.h"
 #include "PointMotion.h"
@@ -27,8 +28,8 @@ public:
   /// @param targets by point, in the memory of the backend.
   /// @param used by point, what MergePlaces returned.
   /// @param segments the edges that segments have become.
-  /// @param settle flips until the mesh is Delaunay, and returns the number of flips. Its argument
-  /// says whether edges were added or dropped.
+  /// @param settle flips until the mesh is Delaunay, and returns the number of flips or
+  /// FlipLoop::GaveUp. Its argument says whether edges were added or dropped.
   template <typename Real, typename Settle>
   MotionResult Move(const MovingMesh<Real>& mesh, const PlaneArray& targets,
     const Array<VertexId>& used, const std::vector<EdgeId>& segments, const Backend& backend,
@@ -52,7 +53,12 @@ public:
       }
       result.Flips += motion.CountLateFlips();
       hasOtherEdges = hasOtherEdges || motion.HasChangedHull();
-      result.Flips += settle(motion.HasChangedHull());
+      const std::int64_t flips = settle(motion.HasChangedHull());
+      if (flips == FlipLoop::GaveUp)
+      {
+        return result;
+      }
+      result.Flips += flips;
       ClearCandidates(mesh.Edges, backend);
     } while (motion.CountLate() > 0);
     motion.End(mesh);

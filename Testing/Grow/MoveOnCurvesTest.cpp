@@ -27,6 +27,30 @@ Places MakeRing(int count, const Radius& radius)
   return ring;
 }
 
+/// The next triangles of a circle that waves have nothing in common with the last ones.
+TEST(MoveOnCurves, BeginsAnewIfThatTakesFewerFlips)
+{
+  const auto makeWave = [](int frame)
+  {
+    const auto radius = [=](double angle) { return 1.0 + 0.01 * std::sin(7.0 * angle + frame); };
+    return MakeRing(20000, radius);
+  };
+  Moving moving(ToDrawing(makeWave(0)));
+  Places shifted = moving.Now.Points;
+  for (Place& point : shifted)
+  {
+    point[0] += 1.0 / 64.0;
+  }
+  moving.GoTo(shifted);
+  EXPECT_EQ(1, moving.InPlace);
+  for (int frame = 1; frame < 4; ++frame)
+  {
+    moving.GoTo(makeWave(frame));
+    EXPECT_EQ(0, moving.Sessions.front().GetReport().FromPoints.MoveRounds);
+    ASSERT_FALSE(HasFailure()) << frame;
+  }
+}
+
 /// A point comes between a ring and its circle, but not in the first round, because another point
 /// passes it. Then all circumcircles in the ring contain it, and one edge after the other flips:
 /// more iterations than one group of threads makes in a round.
