@@ -568,9 +568,9 @@ extern "C"
   /** Moves points. The triangles are then those of a triangulation of the points where they are
    * now, perhaps in another order; there may be more or fewer than before. If there are no goals,
    * point_tolerance is 0, no two points meet at one place or part, and none goes through a segment,
-   * the mesh follows the points by flips, unless many triangles would turn over. Segments, outlines
-   * and holes move with their points. Otherwise the triangulation is made anew. Call it after
-   * delaunayflip_advance.
+   * the mesh follows the points by flips, unless many triangles would turn over, or flips take
+   * longer than a triangulation, as along curves. Segments, outlines and holes move with their
+   * points. Otherwise the triangulation is made anew. Call it after delaunayflip_advance.
    * The mesh of a session from triangles stays as it is, and delaunayflip_advance goes on with it;
    * edges that were fixed stay. That is for the CPU, and for x, y and z of all points in the host's
    * memory. It fails with DELAUNAYFLIP_INVALID_OPTIONS, and nothing changes, on a GPU, after

@@ -274,13 +274,14 @@ public:
     return FindDeviceOf(array) == this->GetBackend().GetContext().Device;
   }
 
-  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments) override
+  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments,
+    const BuildProgress& progress) override
   {
     if (targets.OnDevice)
     {
       this->GetBackend().WaitFor(targets.Stream);
     }
-    return MeshOnBackend::MovePoints(targets, segments);
+    return MeshOnBackend::MovePoints(targets, segments, progress);
   }
 
 private:

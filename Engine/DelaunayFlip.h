@@ -190,10 +190,10 @@ public:
   /// now, perhaps in another order. If there are no goals, PointTolerance is 0, and no two points
   /// meet at one place or part, the mesh follows the points in rounds. A round moves the points as
   /// far as the triangles allow, and flips. Segments move with their points, and triangles that
-  /// outlines, holes and options remove are found anew. If many triangles would turn over, a point
-  /// goes through a segment, onto it or off it, a segment is refused because it crosses another one
-  /// or may be split there, and in all other cases, the points are triangulated anew.
-  /// PointCounts::MoveRounds is then 0.
+  /// outlines, holes and options remove are found anew. If many triangles would turn over, flips
+  /// take longer than a triangulation, as along curves, a point goes through a segment, onto it or
+  /// off it, a segment is refused because it crosses another one or may be split there, and in all
+  /// other cases, the points are triangulated anew. PointCounts::MoveRounds is then 0.
   ///
   /// If a GPU fails later, the CPU triangulates the points where they are, and the triangles may be
   /// in another order.
@@ -203,7 +203,8 @@ public:
   /// in the host's memory, with Stride 3: x, y and z.
   /// @param move coordinates in the host's memory are copied, in the precision of the points. Those
   /// in the memory of a GPU must have that precision, and stay unchanged until the next move.
-  /// @param progress is asked before points move, and while they are triangulated anew.
+  /// @param progress is asked before points move, between rounds and during long flips, and while
+  /// they are triangulated anew.
   /// @returns false if `progress` has asked to stop. Then all points are where they were.
   /// @throws InvalidOptions if the number of places or an id does not fit the session, or points
   /// are on a sphere. A session from triangles must also not be on a GPU, refined or in several

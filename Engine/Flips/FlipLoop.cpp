@@ -89,11 +89,12 @@ std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
   return iterations;
 }
 
-std::int64_t FlipLoop::Converge(std::int64_t most)
+std::int64_t FlipLoop::Converge(const ConvergeLimit& limit)
 {
   constexpr AdvancePlan Plan{ 64, false, false };
   constexpr std::int64_t FlipsPerIteration = 256;
-  std::int64_t flips = 0, cost = 0;
+  constexpr std::int64_t FlipsToTell = std::int64_t(1) << 14; // a few milliseconds on one thread
+  std::int64_t flips = 0, cost = 0, nextToTell = FlipsToTell;
   this->Detect();
   while (this->Found.Bad > 0)
   {
@@ -103,9 +104,14 @@ std::int64_t FlipLoop::Converge(std::int64_t most)
       cost += iteration.Flipped + FlipsPerIteration;
     }
     // All backends make the same iterations, though in other batches, and so all or none give up.
-    if (cost > most)
+    if (cost > limit.Flips)
     {
       return GaveUp;
+    }
+    if (limit.Tell && cost >= nextToTell)
+    {
+      nextToTell = cost + FlipsToTell;
+      limit.Tell(static_cast<double>(cost) / static_cast<double>(limit.Flips));
     }
   }
   return flips;

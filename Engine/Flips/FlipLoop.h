@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -43,6 +44,16 @@ struct AdvancePlan
   std::int64_t Iterations; ///< The most iterations, at least 1.
   bool MeasureFirst; ///< Compute SquaredCotangent after the first of them.
   bool MeasureAll; ///< Compute it after every iteration.
+};
+
+/// When FlipLoop::Converge gives up, and whom it tells how near to that it is.
+struct ConvergeLimit
+{
+  /// The most flips. An iteration counts as some hundred flips.
+  std::int64_t Flips = std::numeric_limits<std::int64_t>::max();
+  /// Told the share of Flips that has been made, unless there are few in all. It may throw; then
+  /// the mesh is valid.
+  std::function<void(double)> Tell;
 };
 
 /// The loop, on top of what a backend provides. Between calls the mesh is valid.
@@ -98,10 +109,8 @@ public:
 
   static constexpr std::int64_t GaveUp = -1;
 
-  /// Detects, and runs iterations until no edge is bad.
-  /// @param most gives up after more flips than this. An iteration counts as some hundred flips.
-  /// @returns the flips, or GaveUp.
-  std::int64_t Converge(std::int64_t most = std::numeric_limits<std::int64_t>::max());
+  /// Detects, and runs iterations until no edge is bad. @returns the flips, or GaveUp.
+  std::int64_t Converge(const ConvergeLimit& limit = {});
 
   /// How many of the edges that the last detection has found blocked by shape have
   /// EdgeState::BlockedByDeviation.

@@ -8,7 +8,6 @@
 #include "PointGrowth.h"
 #include "Refinement.h"
 
-#include <limits>
 #include <memory>
 #include <tuple>
 #include <type_traits>
@@ -44,16 +43,21 @@ public:
                                : this->RemoveHere(ids, segments, this->Points.Doubles);
   }
 
-  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments) override
+  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments,
+    const BuildProgress& progress) override
   {
     if (this->Range != CoordinateRange::Usual || this->Mesh.NumberOfTriangles == 0)
     {
       return MotionResult();
     }
     const bool isLocal = BackendT::IsOnHost || targets.OnDevice;
-    return targets.Points.Floats
-      ? this->MoveTo(targets.Points, targets.Points.Floats, isLocal, segments)
-      : this->MoveTo(targets.Points, targets.Points.Doubles, isLocal, segments);
+    const PlaneArray places = targets.Points.Floats
+      ? this->CopyHere(targets.Points, targets.Points.Floats, isLocal)
+      : this->CopyHere(targets.Points, targets.Points.Doubles, isLocal);
+    this->RequireStates();
+    this->Asker = PlaceAsker<BackendT>();
+    return this->Places.Floats ? this->MoveHere(places, segments, this->Points.Floats, progress)
+                               : this->MoveHere(places, segments, this->Points.Doubles, progress);
   }
 
   void StartRefinement(const RefinementPlan& plan) override
@@ -266,12 +270,11 @@ private:
     return flips;
   }
 
-  /// @param values the coordinates of the targets, in the caller's type.
+  /// Targets in the memory of the backend, copied unless they are there.
+  /// @param values their coordinates, in the caller's type.
   template <typename Value>
-  MotionResult MoveTo(
-    PlaneArray targets, const Value* values, bool isLocal, const std::vector<EdgeId>& segments)
+  PlaneArray CopyHere(PlaneArray targets, const Value* values, bool isLocal)
   {
-    this->RequireStates();
     if (!isLocal)
     {
       // The array is kept, so that later motions need no new memory.
@@ -281,22 +284,30 @@ private:
       this->Backend.Upload(values, numbers, copy.Data());
       targets = PlaneArray(copy.Data(), targets.Count, targets.Stride);
     }
-    this->Asker = PlaceAsker<BackendT>();
-    return this->Places.Floats ? this->MoveHere(targets, segments, this->Points.Floats)
-                               : this->MoveHere(targets, segments, this->Points.Doubles);
+    return targets;
   }
 
   template <typename Real>
-  MotionResult MoveHere(
-    const PlaneArray& targets, const std::vector<EdgeId>& segments, Array<Real>& coordinates)
+  MotionResult MoveHere(const PlaneArray& targets, const std::vector<EdgeId>& segments,
+    Array<Real>& coordinates, const BuildProgress& progress)
   {
     const MovingMesh<Real> mesh{ this->Mesh, coordinates.Data(), this->Points.Count,
       this->Order.VertexOfRank.Data() };
     // Points along curves may need many flips each. Then triangulating them anew takes less time.
     constexpr std::int64_t Fewest = 10000;
-    const std::int64_t most = this->Points.Count + Fewest;
+    double left = 1.0; // share of the progress; nobody knows how many rounds there are
+    const ConvergeLimit limit{ this->Points.Count + Fewest,
+      [&](double share) { progress.Tell(1.0 - left * (1.0 - 0.5 * share)); } };
     const auto settle = [&](bool hasOtherEdges)
-    { return this->Settle(coordinates.Data(), hasOtherEdges, most); };
+    {
+      if (left < 1.0)
+      {
+        progress.Tell(1.0 - left);
+      }
+      const std::int64_t flips = this->Settle(coordinates.Data(), hasOtherEdges, limit);
+      left *= 0.5;
+      return flips;
+    };
     const MotionResult result =
       this->Motion.Move(mesh, targets, this->UsedPoint, segments, this->Backend, settle);
     this->CountGrown();
@@ -304,10 +315,9 @@ private:
   }
 
   /// Flips until the mesh is Delaunay, after points were moved or removed.
-  /// @returns FlipLoop::Converge(most).
+  /// @returns FlipLoop::Converge(limit).
   template <typename Real>
-  std::int64_t Settle(const Real* coordinates, bool hasOtherEdges,
-    std::int64_t most = std::numeric_limits<std::int64_t>::max())
+  std::int64_t Settle(const Real* coordinates, bool hasOtherEdges, const ConvergeLimit& limit = {})
   {
     if (hasOtherEdges)
     {
@@ -317,7 +327,7 @@ private:
     {
       this->Loop->Restart();
     }
-    return this->Loop->Converge(most);
+    return this->Loop->Converge(limit);
   }
 
   template <typename Real>

@@ -100,8 +100,9 @@ public:
   /// Moves the points of a Delaunay triangulation of points, and flips until it is Delaunay again.
   /// @param targets the places of all points, on a device only if HasMemory is true of them.
   /// @param segments the edges that segments have become, each once. They stay edges.
-  virtual MotionResult MovePoints(
-    const PointInput& targets, const std::vector<EdgeId>& segments) = 0;
+  /// @throws RunAborted. Then the mesh is of no use.
+  virtual MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments,
+    const BuildProgress& progress) = 0;
   /// Removes points from such a triangulation.
   /// @param ids of points, ascending; none is an end of one of the segments.
   virtual MotionResult RemovePoints(

@@ -105,7 +105,7 @@ bool PointRun::Remove(const std::int64_t* ids, std::int64_t count, const Progres
   std::vector<std::array<double, 2>> places(added.size(), nowhere);
   // Made now, because a function may take memory, and from the exchange on nothing may throw but
   // what Follow catches.
-  const std::function<bool()> change = [&] { return this->RemoveInPlace(added); };
+  const InPlaceChange change = [&](const BuildProgress&) { return this->RemoveInPlace(added); };
   const std::function<void()> exchange = [&] { this->Points.ExchangeSome(added, places); };
   try
   {
@@ -195,7 +195,8 @@ void PointRun::ReadPlaces(const PointMove& move)
 bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress)
 {
   const bool keepsNumbers = this->Places.Points.Count == this->Points.GetCaller().Points.Count;
-  const std::function<bool()> change = [&] { return keepsNumbers && this->MoveInPlace(); };
+  const InPlaceChange change = [&](const BuildProgress& told)
+  { return keepsNumbers && this->MoveInPlace(told); };
   const std::function<void()> exchange = [&] { this->Points.Exchange(this->Places); };
   exchange();
   return this->Follow(std::move(removed), change, exchange, progress);
@@ -205,7 +206,7 @@ bool PointRun::GoToPlaces(std::vector<std::int64_t> removed, const ProgressObser
 /// @param removed the ids of all removed points.
 /// @param change tries to change the mesh in place, and returns whether it could.
 /// @param goBack lets the points be where they were.
-bool PointRun::Follow(std::vector<std::int64_t> removed, const std::function<bool()>& change,
+bool PointRun::Follow(std::vector<std::int64_t> removed, const InPlaceChange& change,
   const std::function<void()>& goBack, const ProgressObserver& progress)
 {
   std::vector<std::int64_t> removedBefore = this->Points.SetRemoved(std::move(removed));
@@ -217,12 +218,28 @@ bool PointRun::Follow(std::vector<std::int64_t> removed, const std::function<boo
   };
   try
   {
-    if (this->IsDelaunay() && this->MaySegmentsStay() && change())
+    double share = 0.0; // of the progress that was told
+    const auto tell = [&](double next)
     {
-      return true;
+      share = next;
+      return !progress || progress(next);
+    };
+    bool isStopped = false;
+    if (this->IsDelaunay() && this->MaySegmentsStay())
+    {
+      if (change(BuildProgress(tell)))
+      {
+        return true;
+      }
+      isStopped = this->Report.StopReason == StopReasonKind::Aborted;
     }
-    this->Reset();
-    this->Advance(-1, {}, progress);
+    if (!isStopped)
+    {
+      this->Reset();
+      const auto tellRest = [&, begin = share](double part)
+      { return tell(begin + (1.0 - begin) * part); };
+      this->Advance(-1, {}, progress ? ProgressObserver(tellRest) : ProgressObserver());
+    }
   }
   catch (...)
   {
@@ -238,8 +255,8 @@ bool PointRun::Follow(std::vector<std::int64_t> removed, const std::function<boo
   return isThere;
 }
 
-/// @returns false if the points have to be triangulated anew.
-bool PointRun::MoveInPlace()
+/// @returns false if the points have to be triangulated anew, or an observer has stopped it.
+bool PointRun::MoveInPlace(const BuildProgress& progress)
 {
   return this->ChangeInPlace(
     [&](LoadedMesh& mesh)
@@ -256,7 +273,7 @@ bool PointRun::MoveInPlace()
         targets.Points = this->Points.CopyToHost();
         targets.OnDevice = false;
       }
-      return mesh.MovePoints(targets, pins.GetEdges());
+      return mesh.MovePoints(targets, pins.GetEdges(), progress);
     });
 }
 

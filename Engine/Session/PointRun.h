@@ -77,9 +77,10 @@ private:
   bool InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
   void ReadPlaces(const PointMove& move);
   bool GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress);
-  bool Follow(std::vector<std::int64_t> removed, const std::function<bool()>& change,
+  using InPlaceChange = std::function<bool(const BuildProgress&)>;
+  bool Follow(std::vector<std::int64_t> removed, const InPlaceChange& change,
     const std::function<void()>& goBack, const ProgressObserver& progress);
-  bool MoveInPlace();
+  bool MoveInPlace(const BuildProgress& progress);
   bool RemoveInPlace(const std::vector<VertexId>& ids);
   template <typename Change>
   bool ChangeInPlace(const Change& change);

@@ -132,7 +132,8 @@ class MovingTriangulation(Handle):
                 next `move`; if points were removed, call `compact` before.
             ids: (k,) integers, with points in the host's memory, or a mask of all points, (n,) booleans. If
                 an id is given twice, its last place counts.
-            progress: Called first, and while points are triangulated anew; returning False stops it.
+            progress: Called first, during long flips, and while points are triangulated anew; returning
+                False stops it.
 
         Raises:
             delaunayflip.Stopped: progress has returned False. All points are where they were.

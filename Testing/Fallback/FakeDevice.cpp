@@ -136,9 +136,10 @@ public:
     this->Report.Backend = "CUDA: fake";
     return flips;
   }
-  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments) override
+  MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments,
+    const BuildProgress& progress) override
   {
-    const MotionResult result = this->Engine->MovePoints(targets, segments);
+    const MotionResult result = this->Engine->MovePoints(targets, segments, progress);
     this->Report = this->Engine->GetInputReport();
     this->Report.Backend = "CUDA: fake";
     return result;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MoveTestSupport.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -27,15 +28,16 @@ Places MakeRing(int count, const Radius& radius)
   return ring;
 }
 
-/// The next triangles of a circle that waves have nothing in common with the last ones.
+/// A circle that waves.
+Places MakeWave(int frame)
+{
+  return MakeRing(20000, [=](double angle) { return 1.0 + 0.01 * std::sin(7.0 * angle + frame); });
+}
+
+/// Its next triangles have nothing in common with the last ones.
 TEST(MoveOnCurves, BeginsAnewIfThatTakesFewerFlips)
 {
-  const auto makeWave = [](int frame)
-  {
-    const auto radius = [=](double angle) { return 1.0 + 0.01 * std::sin(7.0 * angle + frame); };
-    return MakeRing(20000, radius);
-  };
-  Moving moving(ToDrawing(makeWave(0)));
+  Moving moving(ToDrawing(MakeWave(0)));
   Places shifted = moving.Now.Points;
   for (Place& point : shifted)
   {
@@ -45,7 +47,7 @@ TEST(MoveOnCurves, BeginsAnewIfThatTakesFewerFlips)
   EXPECT_EQ(1, moving.InPlace);
   for (int frame = 1; frame < 4; ++frame)
   {
-    moving.GoTo(makeWave(frame));
+    moving.GoTo(MakeWave(frame));
     EXPECT_EQ(0, moving.Sessions.front().GetReport().FromPoints.MoveRounds);
     ASSERT_FALSE(HasFailure()) << frame;
   }
@@ -101,6 +103,52 @@ TEST(MoveOnCurves, MovesAPointWithVeryManyTriangles)
     const Triangulation expected = Triangulate(PointInput{ View(points) });
     EXPECT_TRUE(Normalize(expected.Triangles) == Normalize(StoreTriangles(session)));
   }
+}
+
+/// Moves the points of a session. @returns what an observer is told that stops it at one call.
+std::vector<double> StopAt(std::size_t call, const Places& places, FlipSession& session)
+{
+  std::vector<double> shares;
+  const auto observe = [&](double share)
+  {
+    shares.push_back(share);
+    return shares.size() != call;
+  };
+  const bool isThere = session.Move({ View(places) }, observe);
+  EXPECT_EQ(shares.size() < call, isThere);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  return shares;
+}
+
+/// An observer stops a motion during its flips, and between its rounds. All points are then where
+/// they were.
+TEST(MoveOnCurves, AnObserverMayStopFlips)
+{
+  const Places wave = MakeWave(0);
+  FlipSession waving(PointInput{ View(wave) }, PointOptions());
+  waving.Advance();
+  const Triples before = Normalize(StoreTriangles(waving));
+  const std::vector<double> shares = StopAt(2, MakeWave(1), waving);
+  EXPECT_LT(0.2, shares[1]); // the rest, if all is made anew, begins with about 0.02
+  EXPECT_GT(0.5, shares[1]);
+  EXPECT_TRUE(before == Normalize(StoreTriangles(waving)));
+  EXPECT_TRUE(waving.GetReport().Converged());
+  EXPECT_EQ(1.0, StopAt(1000, MakeWave(1), waving).back());
+  const Places next = MakeWave(1);
+  const Triangulation expected = Triangulate(PointInput{ View(next) });
+  EXPECT_TRUE(Normalize(expected.Triangles) == Normalize(StoreTriangles(waving)));
+
+  std::mt19937 random(32);
+  const Places points = DrawPlaces(random, 3000);
+  FlipSession session(PointInput{ View(points) }, PointOptions());
+  session.Advance();
+  const Triples first = Normalize(StoreTriangles(session));
+  Places shaken = points;
+  Shake(random, 0.02 * FindSpacing(points), shaken);
+  EXPECT_EQ((std::vector<double>{ 0.0, 0.5 }), StopAt(2, shaken, session));
+  EXPECT_TRUE(first == Normalize(StoreTriangles(session)));
+  StopAt(1000, shaken, session);
+  EXPECT_LT(1, session.GetReport().FromPoints.MoveRounds);
 }
 
 }

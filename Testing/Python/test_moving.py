@@ -140,6 +140,29 @@ class Moving(unittest.TestCase):
         with self.assertRaises(Stopped):
             MovingTriangulation(self.points, progress=lambda share: False)
 
+    def test_stops_flips(self):
+        """An exception, such as Ctrl-C raises, stops the flips along a curve. The points are where they were."""
+        turns = numpy.arange(20000) * numpy.pi / 10000
+
+        def make_wave(frame):
+            radius = 1.0 + 0.01 * numpy.sin(7.0 * turns + frame)
+            return numpy.stack([radius * numpy.cos(turns), radius * numpy.sin(turns)], axis=1)
+
+        def interrupt(share):
+            shares.append(share)
+            if share > 0.0:
+                raise KeyboardInterrupt
+
+        shares = []
+        with MovingTriangulation(make_wave(0)) as mesh:
+            with self.assertRaises(KeyboardInterrupt):
+                mesh.move(make_wave(1), progress=interrupt)
+            self.expect(mesh, make_wave(0))
+            self.assertEqual(len(shares), 2)
+            self.assertGreater(shares[1], 0.2)  # during flips, before all is made anew
+            mesh.move(make_wave(1))
+            self.expect(mesh, make_wave(1))
+
     def test_insertion_stops(self):
         """If an insertion is stopped or its observer fails, the new points count as removed."""
         for share in (0.0, 0.5):
