@@ -79,6 +79,37 @@ public:
     }
   }
 
+  /// Splits an edge by a vertex that is not on it but inside of the place's triangle. The halves of
+  /// the edge run to that vertex. A new triangle fills the gap between them and the triangle on the
+  /// other side, which keeps its shape.
+  DELAUNAYFLIP_HOST_DEVICE void SplitBeside(const NewVertex& vertex) const
+  {
+    const CornerId corner = MakeCorner(vertex.Place.Triangle, vertex.Place.FindEdgeSlot());
+    const TriangleRecord old = this->Mesh.Triangles[TriangleOf(corner)];
+    const HalfEdgeId near = old.HalfEdges[SlotOf(corner)];
+    const CornerId across = this->Mesh.CornerOfHalfEdge[near ^ 1u];
+    const EdgeId other = vertex.FirstEdge; // the other half of the edge
+    const EdgeId outer = vertex.FirstEdge + 2; // between the new triangle and the one across
+    const TriangleId filling = vertex.FirstTriangle + 1;
+    const std::uint32_t side = near & 1u;
+    this->Mesh.States[other] = this->Mesh.States[EdgeOf(near)];
+    this->Mesh.States[outer] = EdgeState::Candidate;
+    this->SplitHalf(
+      corner, vertex, { near, 2 * other + side, vertex.FirstEdge + 1 }, vertex.FirstTriangle);
+    TriangleRecord filled = old;
+    filled.InputTriangle = filling;
+    filled.Flips = 0;
+    filled.Vertices[0] = vertex.Vertex;
+    filled.Vertices[1] = old.Vertices[NextSlot(SlotOf(corner))];
+    filled.Vertices[2] = old.Vertices[PreviousSlot(SlotOf(corner))];
+    filled.HalfEdges[0] = this->JoinSide(outer, side, filling, 0);
+    filled.HalfEdges[1] = this->JoinSide(other, side ^ 1u, filling, 1);
+    filled.HalfEdges[2] = this->Join(near ^ 1u, filling, 2);
+    this->Mesh.Triangles[filling] = filled;
+    this->Mesh.Triangles[TriangleOf(across)].HalfEdges[SlotOf(across)] =
+      this->JoinSide(outer, side ^ 1u, TriangleOf(across), SlotOf(across));
+  }
+
 private:
   /// Triangle i of three has the new vertex in place of the old triangle's vertex i.
   DELAUNAYFLIP_HOST_DEVICE void SplitTriangle(const NewVertex& vertex) const

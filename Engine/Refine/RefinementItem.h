@@ -56,6 +56,9 @@ struct RefinementItem
   std::uint32_t Rank; ///< The rank in the key.
   ItemState State;
   bool IsOnSegment;
+  /// Whether a place on a segment is inside of the triangle there, and a removed triangle fills the
+  /// gap between it and the segment.
+  bool CutsSliver;
   TriangleId Old; ///< In a mesh of the caller: its triangle before refinement.
 };
 

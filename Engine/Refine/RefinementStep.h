@@ -36,6 +36,7 @@ struct RefinementStep
     const TriangleShape shape(this->View.Mesh, triangle);
     RefinementItem& item = this->Items[i];
     item.IsOnSegment = false;
+    item.CutsSliver = false;
     item.Source = triangle;
     item.Flips = this->View.GetFlips(triangle);
     item.Rank = FindRank(shape, shape.IsSharperThan(this->View.Goals.Cotangent));
@@ -97,7 +98,7 @@ struct RefinementStep
   /// Makes the place that splits the subsegment of an item, and claims its triangles. The place is
   /// rounded, so it is not exactly on the segment. It must be between the ends, and it must not
   /// turn triangles over, as it may where a vertex is within rounding of the segment. Then a place
-  /// beside it is taken.
+  /// beside it is taken, or else one that cuts a sliver off.
   DELAUNAYFLIP_HOST_DEVICE void ProposeForSegment(std::int64_t i) const
   {
     const PlaneMesh& mesh = this->View.Mesh;
@@ -106,6 +107,7 @@ struct RefinementStep
     RefinementItem& item = this->Items[i];
     item.State = ItemState::Waiting;
     item.IsOnSegment = true;
+    item.CutsSliver = false;
     item.Rank = 0; // lower than the rank of any triangle
     item.Found.Triangle = TriangleOf(corner);
     item.Found.OnEdges = 1 << SlotOf(corner);
@@ -113,7 +115,8 @@ struct RefinementStep
     const bool isShort = this->IsShort(item);
     const bool isBetween = IsFinite(item.Place) &&
       this->View.IsInDiametralCircle(this->View.GetSide(segment), item.Place);
-    const bool fits = isBetween && (this->FitsBoth(item) || (!isShort && this->MoveBeside(item)));
+    const bool fits = isBetween &&
+      (this->FitsBoth(item) || (!isShort && (this->MoveBeside(item) || this->CutSliverOff(item))));
     item.SquaredRadius = TriangleShape::GetSquaredDistance(
       item.Place, mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(corner))));
     if (!fits)
@@ -384,9 +387,38 @@ private:
     return squared < least * least;
   }
 
-  /// Moves a place on a segment by a rounding, or by up to an eighth of the segment along it, so
-  /// that it turns no triangle over. @returns whether there is such a place.
+  /// Moves a place on a segment so that it turns no triangle over.
+  /// @returns whether there is such a place.
   DELAUNAYFLIP_HOST_DEVICE bool MoveBeside(RefinementItem& item) const
+  {
+    return this->MoveUntil(item, [&] { return this->FitsBoth(item); });
+  }
+
+  /// Moves a place on a segment into the kept triangle there, if the triangle on the other side is
+  /// removed. That one may be a sliver: where a corner of an outline is a rounding inside of the
+  /// hull, there may be no number between the two. Then the domain loses a sliver instead.
+  /// @returns whether there is such a place.
+  DELAUNAYFLIP_HOST_DEVICE bool CutSliverOff(RefinementItem& item) const
+  {
+    const PlaneMesh& mesh = this->View.Mesh;
+    const CornerPair corners = mesh.Edges.GetCorners(this->View.Segments[item.Source]);
+    const bool hasTwo = corners.A != NoCorner && corners.B != NoCorner;
+    if (!hasTwo ||
+      this->View.IsKept(TriangleOf(corners.A)) == this->View.IsKept(TriangleOf(corners.B)))
+    {
+      return false;
+    }
+    const CornerId kept = this->View.IsKept(TriangleOf(corners.A)) ? corners.A : corners.B;
+    item.Found.Triangle = TriangleOf(kept);
+    item.Found.OnEdges = 1 << SlotOf(kept);
+    item.CutsSliver = this->MoveUntil(item, [&] { return this->IsInside(item.Place, kept); });
+    return item.CutsSliver;
+  }
+
+  /// Moves a place on a segment by a rounding, or by up to an eighth of the segment along it, until
+  /// it fits. @returns whether it does in the end.
+  template <typename Fitting>
+  DELAUNAYFLIP_HOST_DEVICE bool MoveUntil(RefinementItem& item, const Fitting& fitting) const
   {
     constexpr double Shift = 1.0 / 64.0;
     constexpr int Directions = 9, Shifts = 17; // 8 forward and 8 back
@@ -402,7 +434,11 @@ private:
       const double along = Shift * (shift % 2 == 0 ? shift / 2 : -(shift + 1) / 2);
       item.Place = this->View.Round({ place.U + along * (b.U - a.U) + u * rounding,
         place.V + along * (b.V - a.V) + v * rounding, 0.0 });
-      fits = this->View.IsInDiametralCircle(side, item.Place) && this->FitsBoth(item);
+      fits = this->View.IsInDiametralCircle(side, item.Place) && fitting();
+    }
+    if (!fits)
+    {
+      item.Place = place;
     }
     return fits;
   }
@@ -424,6 +460,15 @@ private:
     const PlanePoint to = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Previous(opposite)));
     return mesh.RequireSign(FindOrientation(from, place, apex)) > 0 &&
       mesh.RequireSign(FindOrientation(place, to, apex)) > 0;
+  }
+
+  /// Whether a place is inside of the triangle of a corner.
+  DELAUNAYFLIP_HOST_DEVICE bool IsInside(const PlanePoint& place, CornerId opposite) const
+  {
+    const PlaneMesh& mesh = this->View.Mesh;
+    const PlanePoint from = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Next(opposite)));
+    const PlanePoint to = mesh.GetPoint(mesh.GetVertex(PlaneMesh::Previous(opposite)));
+    return mesh.RequireSign(FindOrientation(from, to, place)) > 0 && this->Fits(place, opposite);
   }
 
   /// Calls visit(triangle) for the triangles that a place splits.

@@ -185,7 +185,15 @@ struct RefinementStore
       this->Sizes[vertex] =
         this->InterpolateSize(interpolation.Find(item.Place, origin, oldTriangle));
     }
-    this->Splitter.Split({ vertex, item.Found, triangle, edge });
+    const NewVertex added{ vertex, item.Found, triangle, edge };
+    if (item.CutsSliver)
+    {
+      this->Splitter.SplitBeside(added);
+    }
+    else
+    {
+      this->Splitter.Split(added);
+    }
   }
 
   // Threads prefetch what Split will read, for a place in a triangle, in four stages; see

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ByteSource.h"
+#include "DividedSquare.h"
 #include "FuzzTarget.h"
 #include "PointTestSupport.h"
 #include "PrintDrawing.h"
@@ -104,11 +105,21 @@ private:
     this->Made.Input.Rings.push_back(-1);
   }
 
-  /// A square, or a star with sharp corners.
+  /// A square, a square with points on its sides, or a star with sharp corners.
   void AddOutline()
   {
     Places corners = { { -10, -10 }, { 10, -10 }, { 10, 10 }, { -10, 10 } };
-    if (this->Source.Once(2))
+    if (this->Source.Once(6))
+    {
+      const double angle = 0.01 * this->Source.Draw(157);
+      corners = MakeDividedSquare(angle, 2 + static_cast<int>(this->Source.Draw(4)));
+      const double width = 20.0;
+      for (Place& corner : corners)
+      {
+        corner = { width * corner[0], width * corner[1] - 0.5 * width };
+      }
+    }
+    else if (this->Source.Once(2))
     {
       const std::uint32_t count = 3 + this->Source.Draw(12);
       corners.clear();

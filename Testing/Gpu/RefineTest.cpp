@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DividedSquare.h"
 #include "GpuTestSupport.h"
 #include "PointSets.h"
 #include "PointTestSupport.h"
@@ -119,6 +120,20 @@ TEST_F(RefineTest, SegmentsRegionsAndSizes)
   options.KeepBoundary = true;
   options.MaximumEdge = 0.2;
   ExpectSameRefinement(input, options);
+}
+
+TEST_F(RefineTest, OutlinesWithinRoundingOfTheHull)
+{
+  PointOptions options;
+  options.MinimumAngle = 25.0;
+  options.MaximumEdge = 0.01;
+  for (const double angle : { 0.013, 0.4, 0.7, 1.1 })
+  {
+    SCOPED_TRACE(angle);
+    Drawing square;
+    square.AddRing(MakeDividedSquare(angle, 3));
+    ExpectSameRefinement(square.View(), options);
+  }
 }
 
 TEST_F(RefineTest, SmallAndSinglePrecision)

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DividedSquare.h"
 #include "PointSets.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
@@ -617,6 +618,40 @@ TEST(Refine, PointsAlongTheHullEnd)
     const Refined refined = ExpectRefined(drawing, options);
     EXPECT_GT(100, refined.Result.Report.FromPoints.RefinementPoints);
     EXPECT_GT(50, refined.Result.Report.FromPoints.UnrefinedTriangles);
+  }
+}
+
+/// Points that divide a slanted side of an outline may be a rounding inside of it. Between the
+/// sides of the outline and the hull there are no places then, but all triangles get better.
+TEST(Refine, OutlinesWithinRoundingOfTheHull)
+{
+  PointOptions options;
+  options.MinimumAngle = 25.0;
+  options.MaximumEdge = 0.05;
+  for (int i = 0; i < 20 / Reduction; ++i)
+  {
+    SCOPED_TRACE(i);
+    const Places ring = MakeDividedSquare(0.013 + 0.076 * i, 2 + i % 4);
+    Drawing square;
+    square.AddRing(ring);
+    const Refined refined = ExpectRefined(square, options);
+    ExpectCovered(square, refined);
+    EXPECT_EQ(0, refined.Result.Report.FromPoints.UnrefinedTriangles);
+    EXPECT_EQ(0, refined.Bad);
+    EXPECT_GE(options.MaximumEdge, refined.LongestEdge);
+    EXPECT_NEAR(1.0, refined.Area, 1e-12);
+
+    std::vector<float> xy;
+    for (const Place& corner : ring)
+    {
+      xy.insert(xy.end(), { float(corner[0]), float(corner[1]) });
+    }
+    PointInput input = square.View();
+    input.Points = PlaneArray(xy.data(), static_cast<std::int64_t>(ring.size()), 2);
+    const Refined ofFloats = Refine(input, options);
+    ExpectConstrainedDelaunay(ofFloats.Points, ofFloats.Result);
+    EXPECT_EQ(0, ofFloats.Bad);
+    EXPECT_NEAR(1.0, ofFloats.Area, 1e-5);
   }
 }
 
