@@ -101,7 +101,7 @@ public:
     return { plane, this->Goals, std::is_same<Real, float>::value, this->Smallest,
       this->Shapes.Data(), this->Regions.Data(), this->AreaOfRegion.Data(), this->Sizes.Data(),
       this->Segments.Data(), this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
-      this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data() };
+      this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Features.Data() };
   }
 
   std::int64_t CountSegments() const { return this->NumberOfSegments; }
@@ -125,6 +125,10 @@ public:
     {
       Reserve(this->Sizes, before.Vertex, before.Vertex + added.Vertex, backend);
     }
+    if (this->Features.Size() > 0)
+    {
+      Reserve(this->Features, before.Vertex, before.Vertex + added.Vertex, backend);
+    }
     const std::int64_t vertices = before.Vertex - this->FirstVertex;
     Reserve(this->OldTriangleOf, vertices, vertices + added.Vertex, backend);
     Reserve(this->Shapes, before.Triangle, before.Triangle + added.Triangle, backend);
@@ -138,8 +142,8 @@ public:
     const PlaneMesh old = this->ViewOld(grown, failed);
     return { TriangleSplitter(grown.Mesh->View()), before, grown.Coordinates->Data(),
       grown.Ids->Data(), this->FirstId, this->FirstVertex, this->Shapes.Data(),
-      this->Regions.Data(), this->Sizes.Data(), this->Claims.Data(), this->Segments.Data(),
-      this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
+      this->Regions.Data(), this->Sizes.Data(), this->Features.Data(), this->Claims.Data(),
+      this->Segments.Data(), this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
       this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Splits.Data(),
       this->OldTriangleOf.Data(), old, static_cast<std::int64_t>(this->OldTriangles.Size()),
       this->Grid.View(), this->IsOfCaller };
@@ -435,6 +439,10 @@ public:
       this->ListStarts(grown);
     }
     this->MarkSharpCorners(grown);
+    if (this->Goals.MayNotEnd)
+    {
+      this->FindFeatures(grown);
+    }
     const auto points = static_cast<std::int64_t>(plan.Sizes.size());
     if (points > 0)
     {
@@ -447,6 +455,26 @@ public:
       this->Device.ForEach(
         vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sizes[i] = from[ids[i]]; });
     }
+  }
+
+  /// Finds the least feature at each vertex: the length of an edge, or the height of a triangle.
+  void FindFeatures(const GrowingMesh<Real>& grown)
+  {
+    this->Features = this->Device.template MakeArray<double>(grown.Vertices);
+    double* features = this->Features.Data();
+    const PlaneMesh plane = grown.View();
+    this->Device.ForEach(
+      grown.Vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { features[i] = INFINITY; });
+    this->Device.ForEach(grown.Mesh->NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+      {
+        const TriangleShape shape(plane, static_cast<TriangleId>(t));
+        const double height = shape.Cross * shape.Cross / shape.SquaredLongest;
+        for (const VertexId vertex : plane.Edges.Triangles[t].Vertices)
+        {
+          AtomicMin(reinterpret_cast<std::uint64_t*>(&features[vertex]), ToSortableBits(height));
+        }
+      });
   }
 
   void MarkSharpCorners(const GrowingMesh<Real>& grown)
@@ -621,6 +649,7 @@ private:
   Array<std::uint32_t> Origins, SegmentOfEdge, OriginOfVertex;
   Array<VertexId> Ends;
   Array<std::uint8_t> IsSharp;
+  Array<double> Features;
   Array<std::uint64_t> Claims; ///< See RefinementStep.
   Array<TriangleId> Splits;
   Array<TriangleId> OldTriangleOf; ///< See RefinementStore.

@@ -127,6 +127,7 @@ struct RefinementStore
   std::uint32_t* Shapes;
   std::int32_t* Regions;
   double* Sizes;
+  double* Features; ///< See RefinementView.
   std::uint64_t* Claims;
   EdgeId* Segments;
   std::uint8_t* Marks;
@@ -184,6 +185,10 @@ struct RefinementStore
       const VertexInterpolation interpolation{ this->Old, this->Ends };
       this->Sizes[vertex] =
         this->InterpolateSize(interpolation.Find(item.Place, origin, oldTriangle));
+    }
+    if (this->Features)
+    {
+      this->Features[vertex] = this->FindFeature(item.Found.Triangle);
     }
     const NewVertex added{ vertex, item.Found, triangle, edge };
     if (item.CutsSliver)
@@ -302,6 +307,18 @@ private:
     const VertexId* now = this->Splitter.GetMesh().Triangles[found.Triangle].Vertices;
     const VertexId* before = this->Old.Edges.Triangles[found.Triangle].Vertices;
     return now[0] == before[0] && now[1] == before[1] && now[2] == before[2];
+  }
+
+  /// The least feature at the vertices of a triangle before it is split.
+  DELAUNAYFLIP_HOST_DEVICE double FindFeature(TriangleId triangle) const
+  {
+    double least = INFINITY;
+    for (const VertexId vertex : this->Splitter.GetMesh().Triangles[triangle].Vertices)
+    {
+      const double feature = this->Features[vertex];
+      least = feature < least ? feature : least;
+    }
+    return least;
   }
 
   DELAUNAYFLIP_HOST_DEVICE double InterpolateSize(const RefinedVertex& vertex) const

@@ -73,6 +73,8 @@ struct RefinementView
   const std::uint32_t* OriginOfVertex; ///< By vertex: the segment that it has split, or NoOrigin.
   const VertexId* Ends; ///< By segment, two.
   const std::uint8_t* IsSharp; ///< By vertex: CornerMark, or 0.
+  /// By vertex: the square of the least feature there. Null: see RefinementGoals::MayNotEnd.
+  const double* Features;
 
   DELAUNAYFLIP_HOST_DEVICE bool IsKept(TriangleId triangle) const
   {
@@ -125,7 +127,8 @@ struct RefinementView
     }
     if (isSharp)
     {
-      const bool isLeft = this->IsFlat(shape) || this->IsAcrossSharpCorner(triangle, shape);
+      const bool isLeft = this->IsFlat(shape) || this->IsAcrossSharpCorner(triangle, shape) ||
+        this->IsBelowFeatures(triangle, shape);
       return isLeft ? ShapeKind::Left : ShapeKind::Bad;
     }
     return ShapeKind::Good;
@@ -257,6 +260,29 @@ struct RefinementView
       }
     }
     return false;
+  }
+
+  /// Whether a triangle is left as it is because it is far smaller than the features of the input
+  /// there. Where the angle of a corner is hardly more than a multiple of the goal, triangles that
+  /// fill it may not be found, and refinement would go on towards the corner.
+  DELAUNAYFLIP_HOST_DEVICE bool IsBelowFeatures(
+    TriangleId triangle, const TriangleShape& shape) const
+  {
+    constexpr double Share = 0x1p-12; // the square of 1/64
+    return this->Features && shape.SquaredLongest < Share * this->FindFeature(triangle);
+  }
+
+  /// The square of the least feature at the vertices of a triangle.
+  DELAUNAYFLIP_HOST_DEVICE double FindFeature(TriangleId triangle) const
+  {
+    const VertexId* vertices = this->Mesh.Edges.Triangles[triangle].Vertices;
+    double least = INFINITY;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const double feature = this->Features[vertices[slot]];
+      least = feature < least ? feature : least;
+    }
+    return least;
   }
 
   // Threads prefetch the data around a triangle in five stages. Each is found by means of the one

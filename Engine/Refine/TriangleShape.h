@@ -26,6 +26,8 @@ struct RefinementGoals
   double OffCenter = INFINITY;
   double Area = INFINITY; ///< That of the largest triangle.
   double SquaredEdge = INFINITY; ///< That of the longest edge.
+  /// Whether the angle is so large that triangles may become ever smaller towards a corner.
+  bool MayNotEnd = false;
 };
 
 /// The goals for an angle in degrees; 0: none.
@@ -39,6 +41,8 @@ inline void SetSmallestAngle(double degrees, RefinementGoals& goals)
     const double angle = degrees * RadiansPerDegree;
     goals.Cotangent = 1.0 / Tangent(angle);
     goals.OffCenter = Share / Tangent(0.5 * angle);
+    constexpr double LargestSafe = 30.0;
+    goals.MayNotEnd = degrees > LargestSafe;
   }
 }
 
@@ -115,6 +119,14 @@ struct TriangleShape
     return { this->From.U + 0.5 * u - distance * v, this->From.V + 0.5 * v + distance * u, 0.0 };
   }
 };
+
+/// The bits of a number that is not negative, which are ordered like these numbers.
+DELAUNAYFLIP_HOST_DEVICE inline std::uint64_t ToSortableBits(double number)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &number, sizeof(bits));
+  return bits;
+}
 
 /// Numbers items in an order that looks random. UnshuffleItem is the inverse.
 DELAUNAYFLIP_HOST_DEVICE inline std::uint32_t ShuffleItem(std::int64_t item)

@@ -655,6 +655,31 @@ TEST(Refine, OutlinesWithinRoundingOfTheHull)
   }
 }
 
+/// The angle at one corner is a little more than three times the goal, and that at another a little
+/// more than twice. Triangles that fill these corners are not found.
+TEST(Refine, CornersHardlyLargerThanTheGoalEnd)
+{
+  Drawing drawing;
+  drawing.AddRing({ { 0, 0 }, { 1.2, 0 }, { 1.4, 1.2 }, { -0.2, 0.8 } });
+  for (const double angle : { 31.0, 32.0, 33.0 })
+  {
+    SCOPED_TRACE(angle);
+    PointOptions options;
+    options.MinimumAngle = angle;
+    const Refined refined = ExpectRefined(drawing, options);
+    double shortest = INFINITY;
+    for (std::size_t i = 0; i < refined.Result.Triangles.size(); ++i)
+    {
+      const std::size_t next = i - i % 3 + (i + 1) % 3;
+      shortest = std::min(
+        shortest, refined.GetLength(refined.Result.Triangles[i], refined.Result.Triangles[next]));
+    }
+    EXPECT_GT(200, refined.Result.Report.Triangles);
+    EXPECT_LT(1e-3, shortest);
+    EXPECT_EQ(1, refined.Result.Report.FromPoints.UnrefinedTriangles);
+  }
+}
+
 /// Random segments that cross, meet and touch, with sharp corners between them.
 TEST(Refine, RandomSegments)
 {
