@@ -53,6 +53,10 @@ public:
       }
       result.Flips += motion.CountLateFlips();
       hasOtherEdges = hasOtherEdges || motion.HasChangedHull();
+      if (motion.IsDelaunay())
+      {
+        continue; // with all vertices at their targets
+      }
       const std::int64_t flips = settle(motion.HasChangedHull());
       if (flips == FlipLoop::GaveUp)
       {

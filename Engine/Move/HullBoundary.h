@@ -20,7 +20,6 @@ namespace delaunayflip
 /// What threads count at the boundary of a mesh.
 enum class HullCount : int
 {
-  Cuts, ///< Sides of triangles that CutOff would cut off.
   Concave, ///< Vertices where FillUp would add a triangle.
   TurnsBack, ///< Vertices where the next side runs back on the line of the one before.
   Reversals, ///< Sides that run up after one that runs down, or the other way round.
@@ -39,8 +38,7 @@ public:
 
   HullView View(const PlaneMesh& mesh)
   {
-    HullView hull{ mesh, this->Sides.Data(), this->SideOfVertex.Data(), this->Cuts.Data(),
-      this->NumberOfCuts };
+    HullView hull{ mesh, this->Sides.Data(), this->SideOfVertex.Data(), this->Cuts.Data(), 0 };
     if (!this->PinnedEdges.empty())
     {
       hull.PinOf = this->PinOf.Data();
@@ -49,13 +47,7 @@ public:
     return hull;
   }
 
-  /// Cuts off triangles at the boundary that are not counter-clockwise at the current places.
-  /// @returns whether it has changed the mesh.
-  bool CutOff(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, true); }
-  /// Makes the boundary convex.
-  bool FillUp(EdgeMesh& mesh, const PlaneMesh& plane) { return this->Change(mesh, plane, false); }
-
-  /// Makes room for any number of changes by LateRounds. A change makes as many sides less as
+  /// Makes room for any number of changes by GroupBoundary. A change makes as many sides less as
   /// triangles more, or the other way round. @returns the sizes before the changes.
   HullSizes BeginChanges(EdgeMesh& mesh)
   {
@@ -75,12 +67,7 @@ public:
     mesh.NumberOfTriangles = sizes.Triangles;
     mesh.NumberOfEdges = sizes.Edges;
     this->Count = sizes.Sides;
-    this->NumberOfCuts = 0;
-    this->Failed = false;
   }
-
-  /// Whether there was no room for what has to be cut off; then points do not move in place.
-  bool HasFailed() const { return this->Failed; }
 
   // The functions below are public because device lambdas require it.
 
@@ -162,14 +149,12 @@ public:
     mesh.NumberOfTriangles = sizes.Triangles;
     mesh.NumberOfEdges = sizes.Edges;
     this->Count = sizes.Sides;
-    this->NumberOfCuts = 0;
     return sizes.HasFailed == 0;
   }
 
   /// Finds the boundary of a mesh.
   void Build(const EdgeMesh& mesh, const PlaneMesh& plane)
   {
-    this->Failed = false;
     const CornerId* corners = mesh.CornerOfHalfEdge.Data();
     const auto isOnBoundary = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
     { return corners[2 * edge + 1] == NoCorner ? 1 : 0; };
@@ -204,17 +189,7 @@ public:
       });
   }
 
-  /// Adds to HullCount::Cuts.
-  void CountCuts(const PlaneMesh& plane, std::uint32_t* counts)
-  {
-    const HullView hull = this->View(plane);
-    const BoundarySide* sides = this->Sides.Data();
-    this->Device.ForEach(this->Count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { Add(hull.MustCut(sides[i]), HullCount::Cuts, counts); });
-  }
-
-  /// Adds to the other counts.
+  /// Adds to the counts.
   void CountTurns(const PlaneMesh& plane, std::uint32_t* counts)
   {
     const HullView hull = this->View(plane);
@@ -239,72 +214,6 @@ public:
     }
   }
 
-  /// Lists the vertices where the boundary must change. @returns how many there are.
-  std::int64_t ListPending(const HullView& hull, bool cuts)
-  {
-    const BoundarySide* sides = this->Sides.Data();
-    const auto mustChange = [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-    {
-      const bool must = cuts ? hull.MustCut(sides[i]) : hull.FindTurn(sides[i]) < 0;
-      return must ? 1 : 0;
-    };
-    const typename Backend::Numbering numbering = this->Device.Count(this->Count, mustChange);
-    if (numbering.Total > 0)
-    {
-      Reserve(this->Pending, 0, 2 * (this->Count + MostCuts), this->Device);
-      VertexId* pending = this->Pending.Data();
-      this->Device.ForEachNumbered(numbering, this->Count, mustChange,
-        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number)
-        {
-          if (mustChange(i) != 0)
-          {
-            pending[number] = hull.GetStart(sides[i]);
-          }
-        });
-    }
-    return numbering.Total;
-  }
-
-  bool Change(EdgeMesh& mesh, PlaneMesh plane, bool cuts)
-  {
-    const std::int64_t pendingCount = this->ListPending(this->View(plane), cuts);
-    if (pendingCount == 0)
-    {
-      return false;
-    }
-    const std::int64_t added = cuts ? 0 : this->Count;
-    ReserveMesh(mesh, mesh.NumberOfTriangles + added, mesh.NumberOfEdges + added, this->Device);
-    Reserve(this->Sides, this->Count, this->Count + MostCuts, this->Device);
-    plane.Edges = mesh.View();
-    HullSizes sizes{ mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count,
-      this->Count + MostCuts, 0, 0 };
-    Reserve(this->Sizes, 0, 1, this->Device);
-    this->Device.Upload(&sizes, 1, this->Sizes.Data());
-    const HullView hull = this->View(plane);
-    HullSizes* result = this->Sizes.Data();
-    VertexId* pending = this->Pending.Data();
-    this->Device.ForEach(1,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
-      {
-        HullEditor editor(hull, result);
-        if (cuts)
-        {
-          editor.CutOff(pending, pendingCount);
-        }
-        else
-        {
-          editor.FillUp(pending, pendingCount);
-        }
-      });
-    this->Device.Download(result, 1, &sizes);
-    mesh.NumberOfTriangles = sizes.Triangles;
-    mesh.NumberOfEdges = sizes.Edges;
-    this->Count = sizes.Sides;
-    this->NumberOfCuts = sizes.Cuts;
-    this->Failed = sizes.HasFailed != 0;
-    return true;
-  }
-
 private:
   static constexpr std::int64_t MostCuts = 4096; ///< The most in one round.
 
@@ -312,14 +221,12 @@ private:
   Array<BoundarySide> Sides;
   Array<std::uint32_t> SideOfVertex;
   Array<CutTriangle> Cuts;
-  std::int64_t NumberOfCuts = 0; ///< Those of the last change.
   Array<VertexId> Pending;
   Array<HullSizes> Sizes;
   std::vector<EdgeId> PinnedEdges; ///< The numbers of pinned edges. Empty: there are none.
   Array<std::uint32_t> PinOf;
   Array<HalfEdgeId> Pinned;
   std::int64_t Count = 0; ///< The number of sides.
-  bool Failed = false;
 };
 
 }

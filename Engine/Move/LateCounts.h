@@ -43,10 +43,19 @@ struct LateCounts
   std::uint32_t FirstNew; ///< The first triangle that the last FillUp has added.
   LateEnd End;
   std::uint32_t Stamp; ///< The last stamp that was used.
-  std::uint32_t Listed; ///< The length of LateRounds::Triangles or, at the boundary, of Pending.
+  std::uint32_t CutsPending, FillsPending; ///< Vertices where GroupBoundary changes the boundary.
+  std::uint32_t Listed; ///< The length of LateRounds::Triangles.
   std::uint32_t Edges[2]; ///< The lengths of LateRounds::Edges.
   std::uint32_t Bad;
   HullSizes Sizes;
+
+  /// Begins the counts of another round.
+  DELAUNAYFLIP_HOST_DEVICE void BeginRound()
+  {
+    this->CutsPending = this->FillsPending = this->Listed = this->Bad = 0;
+    this->Edges[0] = this->Edges[1] = 0;
+    this->Sizes.Cuts = 0;
+  }
 };
 
 }

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_MOTIONVIEW_H
 
 #include "Atomics.h"
+#include "GroupWork.h"
 #include "HullBoundary.h"
 #include "PlaceWalk.h"
 #include "PlaneMesh.h"
@@ -99,21 +100,26 @@ struct MotionView
     }
   }
 
+  /// Where a vertex is after a step that has been halved so often.
+  DELAUNAYFLIP_HOST_DEVICE Real FindPlace(VertexId vertex, int axis, std::uint32_t halvings) const
+  {
+    const double before = this->Before[std::int64_t(2) * vertex + axis];
+    if (halvings >= NoStep)
+    {
+      return static_cast<Real>(before);
+    }
+    const double share = 1.0 / static_cast<double>(std::uint32_t(1) << halvings);
+    const double step = static_cast<double>(this->GetTarget(vertex, axis)) - before;
+    return static_cast<Real>(before + step * share);
+  }
+
   /// Moves a vertex as far as its halvings say.
   DELAUNAYFLIP_HOST_DEVICE void Step(VertexId vertex) const
   {
-    const std::uint8_t halvings = this->HalvingsOf[vertex];
-    const double share = 1.0 / static_cast<double>(std::uint32_t(1) << halvings);
     for (int axis = 0; axis < 2; ++axis)
     {
-      const std::int64_t i = std::int64_t(2) * vertex + axis;
-      const double before = this->Before[i];
-      double place = before;
-      if (halvings < NoStep)
-      {
-        place += (static_cast<double>(this->GetTarget(vertex, axis)) - before) * share;
-      }
-      this->Now[i] = static_cast<Real>(place);
+      this->Now[std::int64_t(2) * vertex + axis] =
+        this->FindPlace(vertex, axis, this->HalvingsOf[vertex]);
     }
   }
 
@@ -131,6 +137,18 @@ struct MotionView
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t Increment(MotionCount count) const
   {
     return AtomicAdd(this->Get(count), 1u);
+  }
+
+  /// Sets all counts to 0, except that a device could not decide. One thread may call it.
+  DELAUNAYFLIP_HOST_DEVICE void ClearCounts() const
+  {
+    for (int i = 0; i < static_cast<int>(MotionCount::End); ++i)
+    {
+      if (i != static_cast<int>(MotionCount::Undecided))
+      {
+        AtomicStore(&this->Counts[i], 0u);
+      }
+    }
   }
 
   DELAUNAYFLIP_HOST_DEVICE bool IsInverted(TriangleId triangle) const
@@ -208,27 +226,19 @@ struct MotionView
       });
   }
 
-  /// Asks the vertices of a listed triangle for equal shares of their steps, half as large as the
-  /// smallest of them. With unequal shares a thin triangle may be inverted on the way, though it is
-  /// not if all three go at the same pace. A vertex of several triangles takes the smallest share.
+  /// Asks the vertices of a listed triangle for equal shares of their steps, the largest with which
+  /// it is counter-clockwise. With unequal shares a thin triangle may be inverted on the way, though
+  /// it is not if all three go at the same pace. A vertex of several triangles takes the smallest
+  /// share.
   DELAUNAYFLIP_HOST_DEVICE void AskForHalvings(std::int64_t inverted, std::uint32_t stamp) const
   {
     const TriangleId triangle = this->Inverted[inverted];
     const VertexId* vertices = this->Mesh.Edges.Triangles[triangle].Vertices;
-    std::uint32_t most = 0;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const std::uint32_t own = this->HalvingsOf[vertices[slot]];
-      if (own != AtTarget && own > most)
-      {
-        most = own;
-      }
-    }
-    const std::uint32_t wanted = most < NoStep ? most + 1 : std::uint32_t(NoStep);
+    const std::uint32_t wanted = this->FindHalvings(vertices);
     for (int slot = 0; slot < 3; ++slot)
     {
       const VertexId vertex = vertices[slot];
-      if (this->HalvingsOf[vertex] >= NoStep)
+      if (this->HalvingsOf[vertex] >= NoStep || this->HalvingsOf[vertex] == wanted)
       {
         continue;
       }
@@ -240,6 +250,45 @@ struct MotionView
           MakeCorner(triangle, slot) };
       }
     }
+  }
+
+  /// How often the steps of an inverted triangle's vertices are to be halved: as often as one of
+  /// them has been, or more often, until the triangle is counter-clockwise.
+  DELAUNAYFLIP_HOST_DEVICE std::uint32_t FindHalvings(const VertexId* vertices) const
+  {
+    std::uint32_t halvings = 1;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const std::uint32_t own = this->HalvingsOf[vertices[slot]];
+      if (own < NoStep && own > halvings)
+      {
+        halvings = own;
+      }
+    }
+    while (halvings < NoStep && this->StaysInverted(vertices, halvings))
+    {
+      ++halvings;
+    }
+    return halvings;
+  }
+
+  /// Whether a triangle is not counter-clockwise if the steps of its vertices, except of those that
+  /// stay where they are, are halved so often.
+  DELAUNAYFLIP_HOST_DEVICE bool StaysInverted(
+    const VertexId* vertices, std::uint32_t halvings) const
+  {
+    PlanePoint places[3];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const VertexId vertex = vertices[slot];
+      places[slot] = this->Mesh.GetPoint(vertex);
+      if (this->HalvingsOf[vertex] < NoStep)
+      {
+        places[slot] = { static_cast<double>(this->FindPlace(vertex, 0, halvings)),
+          static_cast<double>(this->FindPlace(vertex, 1, halvings)), 0.0 };
+      }
+    }
+    return this->Mesh.RequireSign(FindOrientation(places[0], places[1], places[2])) <= 0;
   }
 
   /// Moves a listed vertex as far as the triangles have asked for.
@@ -314,46 +363,32 @@ struct HalveInGroup
   MotionView<Real> Motion;
   std::uint32_t Stamp; ///< The stamp of the first pass.
   std::uint32_t MostPasses;
-  bool WaitsForCuts; ///< Whether nothing is done while triangles have to be cut off.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& group) const
   {
-    const std::uint32_t* counts = this->Motion.Counts + static_cast<int>(MotionCount::Hull);
-    if (this->WaitsForCuts && AtomicLoad(counts + static_cast<int>(HullCount::Cuts)) > 0)
-    {
-      return;
-    }
     for (std::uint32_t pass = 0; pass < this->MostPasses; ++pass)
     {
       const std::uint32_t inverted = AtomicLoad(this->Motion.Get(MotionCount::Inverted));
-      group.Sync();
       if (inverted == 0 || inverted > this->Motion.MostInverted)
       {
         return;
       }
-      for (std::uint32_t i = group.Rank; i < inverted; i += group.Size)
-      {
-        this->Motion.AskForHalvings(i, this->Stamp + pass);
-      }
-      group.Sync();
+      ForEachInGroup(group, inverted,
+        [&](std::uint32_t i) { this->Motion.AskForHalvings(i, this->Stamp + pass); });
       const std::uint32_t changed = AtomicLoad(this->Motion.Get(MotionCount::Changed));
-      for (std::uint32_t i = group.Rank; i < changed; i += group.Size)
-      {
-        this->Motion.TakeHalvings(i);
-      }
-      group.Sync();
       if (group.Rank == 0)
       {
-        AtomicStore(this->Motion.Get(MotionCount::Inverted), 0u);
-        AtomicStore(this->Motion.Get(MotionCount::Changed), 0u);
+        AtomicStore(this->Motion.Get(MotionCount::Inverted), 0u); // all have read it
         this->Motion.Increment(MotionCount::Passes);
       }
-      group.Sync();
-      for (std::uint32_t i = group.Rank; i < changed; i += group.Size)
+      ForEachInGroup(group, changed, [&](std::uint32_t i) { this->Motion.TakeHalvings(i); });
+      if (group.Rank == 0)
       {
-        this->Motion.CheckStar(this->Motion.Changed[i], this->Stamp + pass);
+        AtomicStore(this->Motion.Get(MotionCount::Changed), 0u);
       }
-      group.Sync();
+      ForEachInGroup(group, changed,
+        [&](std::uint32_t i)
+        { this->Motion.CheckStar(this->Motion.Changed[i], this->Stamp + pass); });
     }
   }
 };

@@ -5,11 +5,13 @@
 
 #include "Array.h"
 #include "FlipError.h"
+#include "GroupBoundary.h"
 #include "HullBoundary.h"
 #include "LateCounts.h"
 #include "MeshRoom.h"
 #include "MotionView.h"
 #include "PlaneMesh.h"
+#include "RoundParts.h"
 #include "VertexRemoval.h"
 
 #include <algorithm>
@@ -43,10 +45,11 @@ class PointMotion
 public:
   static constexpr int NumberOfCounts = static_cast<int>(MotionCount::End);
 
-  /// A copy of the counts.
-  struct CountsOnHost
+  /// What threads count together.
+  struct SharedCounts
   {
-    std::uint32_t Values[NumberOfCounts];
+    std::uint32_t Values[NumberOfCounts]; ///< By MotionCount.
+    LateCounts Late;
 
     std::uint32_t Get(MotionCount count) const { return this->Values[static_cast<int>(count)]; }
     std::uint32_t Get(HullCount count) const
@@ -93,7 +96,7 @@ public:
   bool Remove(const MovingMesh<Real>& mesh, VertexId* ids, const RemovedPoints& removed,
     const std::vector<EdgeId>& segments)
   {
-    Reserve(this->Counts, 0, NumberOfCounts, this->Device);
+    Reserve(this->Counts, 0, 1, this->Device);
     this->ClearCounts();
     this->RequireHull(mesh);
     this->Hull.Pin(segments, mesh.Vertices);
@@ -107,7 +110,7 @@ public:
       this->Hull.CountTurns(this->ViewPlane(left), this->GetHullCounts());
     }
     // Throws if a device could not decide, which may be why the removal has failed.
-    const CountsOnHost counts = this->FetchCounts();
+    const SharedCounts counts = this->FetchCounts();
     const bool isConvex = isDone && counts.IsConvex();
     if (isConvex)
     {
@@ -125,25 +128,27 @@ public:
   {
     const bool all = ++this->Rounds == 1;
     this->LateFlips = 0;
+    this->IsSettled = false;
     this->ClearCounts();
-    this->AreTurnsCounted = false;
-    CountsOnHost counts = all ? this->StartAll(mesh) : this->StartLate(mesh);
-    const bool isUsual = counts.Get(MotionCount::Unusual) == 0;
-    if (!isUsual || this->Hull.HasFailed() || !this->Halve(mesh, counts))
+    const EdgeState* states = mesh.Edges.States.Data();
+    this->BeginChanges(mesh);
+    if (all)
+    {
+      this->StartAll(mesh);
+    }
+    else
+    {
+      this->StartLate(mesh);
+    }
+    const SharedCounts counts = this->Halve(mesh);
+    this->Hull.EndChanges(counts.Late.Sizes, mesh.Edges);
+    if (counts.Late.End != LateEnd::Done)
     {
       return false;
     }
-    if (counts.Get(HullCount::Concave) > 0)
-    {
-      this->ChangedHull |= this->Hull.FillUp(mesh.Edges, this->ViewPlane(mesh));
-      this->ClearCounts();
-      this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
-      counts = this->FetchCounts();
-    }
-    if (this->Hull.HasFailed() || !counts.IsConvex())
-    {
-      return false;
-    }
+    const bool haveStatesMoved = mesh.Edges.States.Data() != states; // loops know their address
+    this->ChangedHull = haveStatesMoved || counts.Late.HasChangedHull != 0;
+    this->NumberOfNext = counts.Get(MotionCount::Late);
     this->ChooseCandidates(mesh, all);
     this->KeepLate(mesh);
     return this->Rounds < MostRounds && this->CountLate() <= this->Allowance;
@@ -163,30 +168,23 @@ public:
   bool MakeLateRounds(const MovingMesh<Real>& mesh)
   {
     const Backend& device = this->Device;
-    Reserve(this->LateCount, 0, 1, device);
     Reserve(this->ChangedTriangles, 0, LateLimits::Triangles, device);
-    Reserve(this->PendingSides, 0, LateLimits::Pending, device);
     for (Array<EdgeId>& edges : this->JudgedEdges)
     {
       Reserve(edges, 0, LateLimits::Edges, device);
     }
-    LateCounts counts{};
-    counts.Late = static_cast<std::uint32_t>(this->NumberOfLate);
     const EdgeState* states = mesh.Edges.States.Data();
-    counts.Sizes = this->Hull.BeginChanges(mesh.Edges);
+    this->BeginChanges(mesh);
     const bool haveStatesMoved = mesh.Edges.States.Data() != states; // loops know their address
-    device.Upload(&counts, 1, this->LateCount.Data());
-    const PlaneMesh plane = this->ViewPlane(mesh);
-    device.RunGroup(LateRounds<Real>{ this->View(mesh), this->Hull.View(plane), this->Late.Data(),
-      this->LateCount.Data(), this->Hull.GetPending(), this->PendingSides.Data(),
-      this->ChangedTriangles.Data(), { this->JudgedEdges[0].Data(), this->JudgedEdges[1].Data() },
-      this->Stamp });
-    device.Download(this->LateCount.Data(), 1, &counts);
-    this->FetchCounts(); // throws if a device could not decide
+    device.RunGroup(LateRounds<Real>{ this->View(mesh), this->ViewBoundary(mesh), this->Late.Data(),
+      this->GetLateCounts(), this->ChangedTriangles.Data(),
+      { this->JudgedEdges[0].Data(), this->JudgedEdges[1].Data() }, this->Stamp });
+    const LateCounts counts = this->FetchCounts().Late;
     this->Hull.EndChanges(counts.Sizes, mesh.Edges);
     this->Stamp = counts.Stamp;
     this->Rounds += counts.Rounds;
     this->LateFlips = counts.Flips;
+    this->IsSettled = counts.End == LateEnd::Done;
     this->NumberOfLate = counts.Late;
     this->ChangedHull = haveStatesMoved || counts.HasChangedHull != 0;
     return counts.End != LateEnd::Failed && this->Rounds < MostRounds;
@@ -194,6 +192,10 @@ public:
 
   /// How many edges MakeLateRounds has flipped, if it made the last rounds.
   std::int64_t CountLateFlips() const { return this->LateFlips; }
+
+  /// Whether MakeLateRounds has made the last rounds, and no loop has to flip or to learn of other
+  /// edges.
+  bool IsDelaunay() const { return this->IsSettled && !this->ChangedHull; }
 
   /// Whether the mesh has more or fewer edges after the last round.
   bool HasChangedHull() const { return this->ChangedHull; }
@@ -227,33 +229,35 @@ public:
     this->KnownTriangles = -1; // until a change ends well
   }
 
+  /// Makes room for changes of the boundary, and sets what LateCounts begin with.
+  void BeginChanges(const MovingMesh<Real>& mesh)
+  {
+    Reserve(this->PendingSides, 0, LateLimits::Pending, this->Device);
+    LateCounts counts{};
+    counts.Late = static_cast<std::uint32_t>(this->NumberOfLate);
+    counts.End = LateEnd::GoesOn;
+    counts.Sizes = this->Hull.BeginChanges(mesh.Edges);
+    LateCounts* to = this->GetLateCounts();
+    this->Device.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *to = counts; });
+  }
+
   /// Moves all vertices to their targets, cuts off triangles at the boundary that are inverted
   /// then, and lists the others that are, unless coordinates are unusual.
-  CountsOnHost StartAll(const MovingMesh<Real>& mesh)
+  void StartAll(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
     this->Device.ForEach(mesh.Vertices,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(static_cast<VertexId>(i)); });
-    this->ChangedHull = false;
-    const CountsOnHost counts = this->FetchCounts();
-    if (counts.Get(MotionCount::Unusual) > 0)
-    {
-      return counts;
-    }
-    this->Hull.CountCuts(this->ViewPlane(mesh), this->GetHullCounts());
-    if (this->FetchCounts().Get(HullCount::Cuts) > 0)
-    {
-      this->ChangedHull = this->Hull.CutOff(mesh.Edges, this->ViewPlane(mesh));
-    }
-    this->Device.ForEach(mesh.Edges.NumberOfTriangles, FindInverted<Real>{ this->View(mesh) });
-    return this->FetchCounts();
+    this->Device.RunGroup(CutInGroup<Real>{ motion, this->ViewBoundary(mesh) });
+    this->Device.ForEach(
+      mesh.Edges.NumberOfTriangles, FindLeftInverted<Real>{ { motion }, this->GetLateCounts() });
   }
 
-  /// Moves the late vertices to their targets. Most often no triangle at the boundary has to be cut
-  /// off, so the inverted triangles are listed before this is known.
-  CountsOnHost StartLate(const MovingMesh<Real>& mesh)
+  /// Likewise for the late vertices.
+  void StartLate(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
+    const GroupBoundary boundary = this->ViewBoundary(mesh);
     LateVertex* late = this->Late.Data();
     const std::int64_t count = this->NumberOfLate;
     const auto triangles = static_cast<TriangleId>(mesh.Edges.NumberOfTriangles);
@@ -261,115 +265,72 @@ public:
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.FindCorner(late[i], triangles); });
     this->Device.ForEach(
       count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(late[i].Vertex); });
-    this->Hull.CountCuts(this->ViewPlane(mesh), this->GetHullCounts());
-    this->CheckStars(motion, late, count);
-    this->HalveSoon(mesh, count);
-    this->ChangedHull = false;
-    CountsOnHost counts = this->FetchCounts();
-    if (counts.Get(HullCount::Cuts) > 0)
-    {
-      this->ChangedHull = this->Hull.CutOff(mesh.Edges, this->ViewPlane(mesh));
-      this->FindCornersAgain(mesh);
-      this->ClearCounts();
-      this->CheckStars(this->View(mesh), late, count);
-      this->HalveSoon(mesh, count);
-      counts = this->FetchCounts();
-    }
-    return counts;
-  }
-
-  /// Finds the corners of late vertices again after triangles were cut off and others have taken
-  /// their numbers.
-  void FindCornersAgain(const MovingMesh<Real>& mesh)
-  {
-    const HullView hull = this->Hull.View(this->ViewPlane(mesh));
-    LateVertex* late = this->Late.Data();
-    this->Device.ForEach(this->NumberOfLate,
+    this->Device.RunGroup(CutInGroup<Real>{ motion, boundary });
+    // Triangles have taken the numbers of those that were cut off.
+    this->Device.ForEach(count,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
-      { late[i].Corner = hull.FindCorner(late[i].Vertex, late[i].Corner); });
-  }
-
-  /// Lists the inverted triangles around vertices, each once.
-  void CheckStars(const MotionView<Real>& motion, const LateVertex* corners, std::int64_t count)
-  {
+      { late[i].Corner = boundary.FindCorner(late[i].Vertex, late[i].Corner); });
     const std::uint32_t stamp = ++this->Stamp;
     this->Device.ForEach(
-      count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.CheckStar(corners[i], stamp); });
+      count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.CheckStar(late[i], stamp); });
   }
 
-  /// Halves the steps of few vertices before the host knows whether a triangle is inverted. If
-  /// triangles have to be cut off first, the device does nothing.
-  void HalveSoon(const MovingMesh<Real>& mesh, std::int64_t late)
-  {
-    if (late <= MostToHalveSoon)
-    {
-      this->HalveAndCountTurns(mesh, MostPasses + 1, true);
-    }
-  }
-
-  /// Halves the steps of vertices by one group of threads, without the host in between.
-  void HalveAndCountTurns(const MovingMesh<Real>& mesh, std::uint32_t passes, bool waitsForCuts)
-  {
-    this->Device.RunGroup(
-      HalveInGroup<Real>{ this->View(mesh), this->Stamp + 1, passes, waitsForCuts });
-    this->Stamp += passes;
-    this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
-    this->AreTurnsCounted = true;
-  }
-
-  /// Halves the steps of vertices until no triangle is inverted, and counts turns of the boundary.
-  /// @param counts what has been counted so far.
-  /// @returns false if too many triangles are inverted, or too many passes are needed.
-  bool Halve(const MovingMesh<Real>& mesh, CountsOnHost& counts)
+  /// Halves the steps of vertices until no triangle is inverted, and makes the boundary convex.
+  /// @returns what was counted. LateCounts::End is Done if this was possible.
+  SharedCounts Halve(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
-    for (;; counts = this->FetchCounts())
+    std::uint32_t passes = 0;
+    for (;;)
     {
+      this->Device.RunGroup(HalveAndFill<Real>{
+        motion, this->ViewBoundary(mesh), this->Stamp + 1, MostPasses - passes, MostForGroup });
+      this->Stamp += MostPasses;
+      const SharedCounts counts = this->FetchCounts();
       const std::uint32_t inverted = counts.Get(MotionCount::Inverted);
-      const std::uint32_t passes = counts.Get(MotionCount::Passes);
-      this->NumberOfNext = counts.Get(MotionCount::Late);
-      if (inverted > this->MostInverted || this->NumberOfNext > motion.MostLate ||
-        passes > MostPasses)
+      passes = counts.Get(MotionCount::Passes);
+      const bool isTooMuch = inverted > this->MostInverted || passes >= MostPasses ||
+        counts.Get(MotionCount::Late) > motion.MostLate;
+      if (counts.Late.End != LateEnd::GoesOn || isTooMuch)
       {
-        return false;
+        return counts;
       }
-      if (inverted == 0)
-      {
-        if (!this->AreTurnsCounted)
-        {
-          this->Hull.CountTurns(this->ViewPlane(mesh), this->GetHullCounts());
-          counts = this->FetchCounts();
-        }
-        return true;
-      }
-      if (inverted <= MostForGroup)
-      {
-        this->HalveAndCountTurns(mesh, MostPasses + 1 - passes, false);
-      }
-      else
-      {
-        this->HalvePass(motion, inverted);
-      }
+      this->HalvePass(motion, inverted);
     }
   }
 
   /// Halves the steps of the vertices of listed triangles, and lists those that are inverted then.
   void HalvePass(const MotionView<Real>& motion, std::int64_t inverted)
   {
-    const std::uint32_t stamp = this->Stamp + 1;
+    const std::uint32_t stamp = ++this->Stamp;
     this->Device.ForEach(
       inverted, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.AskForHalvings(i, stamp); });
-    const std::int64_t changed = this->FetchCounts().Get(MotionCount::Changed);
-    this->Device.ForEach(
-      changed, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.TakeHalvings(i); });
+    const std::int64_t most = 3 * inverted; // triangles change at most so many vertices
+    this->Device.ForEach(most,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (i < *motion.Get(MotionCount::Changed))
+        {
+          motion.TakeHalvings(i);
+        }
+      });
     this->Device.ForEach(1,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t)
       {
         *motion.Get(MotionCount::Inverted) = 0;
-        *motion.Get(MotionCount::Changed) = 0;
         motion.Increment(MotionCount::Passes);
       });
-    this->CheckStars(motion, this->Changed.Data(), changed);
+    const LateVertex* changed = this->Changed.Data();
+    this->Device.ForEach(most,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (i < *motion.Get(MotionCount::Changed))
+        {
+          motion.CheckStar(changed[i], stamp);
+        }
+      });
+    this->Device.ForEach(
+      1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *motion.Get(MotionCount::Changed) = 0; });
   }
 
   /// Makes edges candidates if a vertex of their two triangles has moved.
@@ -416,8 +377,6 @@ private:
   /// So few inverted triangles are handled by one group of threads, which need not wait for the
   /// host between passes.
   static constexpr std::uint32_t MostForGroup = Backend::IsOnHost ? 64 : 2048;
-  /// The steps of up to this many vertices are halved before the host asks for counts.
-  static constexpr std::int64_t MostToHalveSoon = Backend::IsOnHost ? 8 : 256;
   static constexpr std::int64_t Fewest = 64;
   /// If more than one triangle in 64 is inverted, triangulating anew takes less time.
   static constexpr std::int64_t MostShare = 64;
@@ -427,8 +386,8 @@ private:
   PlaneMesh ViewPlane(const MovingMesh<Real>& mesh)
   {
     PlaneMesh plane{ mesh.Edges.View(), PlaneArray(mesh.Coordinates, mesh.Vertices, 2), true };
-    plane.Failed = reinterpret_cast<std::int32_t*>(
-      this->Counts.Data() + static_cast<int>(MotionCount::Undecided));
+    plane.Failed =
+      reinterpret_cast<std::int32_t*>(this->GetCounts() + static_cast<int>(MotionCount::Undecided));
     return plane;
   }
 
@@ -436,7 +395,7 @@ private:
   {
     return { this->ViewPlane(mesh), mesh.Coordinates, this->Before.Data(), this->Targets, mesh.Ids,
       this->HalvingsOf.Data(), this->VertexMarks.Data(), this->TriangleMarks.Data(),
-      this->Inverted.Data(), this->Changed.Data(), this->Next.Data(), this->Counts.Data(),
+      this->Inverted.Data(), this->Changed.Data(), this->Next.Data(), this->GetCounts(),
       this->MostInverted, 4 * this->MostInverted };
   }
 
@@ -450,7 +409,7 @@ private:
     Reserve(this->Changed, 0, 3 * std::int64_t(this->MostInverted), device);
     Reserve(this->Late, 0, 4 * std::int64_t(this->MostInverted), device);
     Reserve(this->Next, 0, 4 * std::int64_t(this->MostInverted), device);
-    Reserve(this->Counts, 0, NumberOfCounts, device);
+    Reserve(this->Counts, 0, 1, device);
     // A triangulation has fewer than two triangles per vertex, whatever its boundary.
     const std::int64_t triangles = 2 * mesh.Vertices;
     constexpr std::uint32_t LastStamp = (1u << 31) / StampUnit;
@@ -475,13 +434,23 @@ public:
   }
 
 private:
-  void ClearCounts() { this->Device.Fill(this->Counts.Data(), 0, NumberOfCounts); }
+  std::uint32_t* GetCounts() { return this->Counts.Data()->Values; }
+  LateCounts* GetLateCounts() { return &this->Counts.Data()->Late; }
+  std::uint32_t* GetHullCounts() { return this->GetCounts() + static_cast<int>(MotionCount::Hull); }
+
+  GroupBoundary ViewBoundary(const MovingMesh<Real>& mesh)
+  {
+    return { this->Hull.View(this->ViewPlane(mesh)), this->GetLateCounts(), this->GetHullCounts(),
+      this->Hull.GetPending(), this->PendingSides.Data() };
+  }
+
+  void ClearCounts() { this->Device.Fill(this->GetCounts(), 0, NumberOfCounts); }
 
   /// Waits for what is counted. @throws BeyondDevice if a device could not decide.
-  CountsOnHost FetchCounts() const
+  SharedCounts FetchCounts() const
   {
-    CountsOnHost counts;
-    this->Device.Download(this->Counts.Data(), NumberOfCounts, counts.Values);
+    SharedCounts counts;
+    this->Device.Download(this->Counts.Data(), 1, &counts);
     if (counts.Get(MotionCount::Undecided) != 0)
     {
       throw BeyondDevice();
@@ -489,22 +458,17 @@ private:
     return counts;
   }
 
-  std::uint32_t* GetHullCounts()
-  {
-    return this->Counts.Data() + static_cast<int>(MotionCount::Hull);
-  }
-
   const Backend& Device;
   HullBoundary<Backend> Hull;
   PlaneArray Targets;
   Array<Real> Before;
   Array<std::uint8_t> HalvingsOf;
-  Array<std::uint32_t> VertexMarks, TriangleMarks, Counts;
+  Array<std::uint32_t> VertexMarks, TriangleMarks;
+  Array<SharedCounts> Counts; ///< One.
   Array<TriangleId> Inverted;
   Array<LateVertex> Changed; ///< Vertices with a new step since triangles were last checked.
   Array<LateVertex> Late; ///< Vertices that this round moves, if it is not the first.
   Array<LateVertex> Next; ///< Vertices that the next round moves.
-  Array<LateCounts> LateCount; ///< One.
   Array<TriangleId> ChangedTriangles;
   Array<std::uint32_t> PendingSides;
   Array<EdgeId> JudgedEdges[2];
@@ -514,7 +478,7 @@ private:
   std::uint32_t MostInverted = 0;
   std::uint32_t Stamp = 0;
   bool ChangedHull = false;
-  bool AreTurnsCounted = false; ///< Whether this round has counted the turns of the boundary.
+  bool IsSettled = false; ///< Whether MakeLateRounds has left a Delaunay triangulation.
   /// The sizes that the mesh had when its boundary was found.
   std::int64_t KnownTriangles = -1, KnownEdges = -1, KnownVertices = -1;
 };
