@@ -342,9 +342,10 @@ public:
     }
   }
 
-  /// Whether an edge connects segments that meet at less than 60 degrees.
+  /// Whether an edge connects segments that meet at less than 60 degrees, or just that.
   bool AreConnected(std::int64_t from, std::int64_t to) const
   {
+    constexpr double Sharp = 60.0 + 1e-7;
     for (const auto& [corner, edges] : this->EdgesAt)
     {
       for (const SegmentEnd& a : edges)
@@ -352,7 +353,7 @@ public:
         for (const SegmentEnd& b : edges)
         {
           const bool areConnected = &a != &b && this->IsAt(from, a.Segment) &&
-            this->IsAt(to, b.Segment) && this->Before.GetAngle(corner, a.Other, b.Other) < 60.0;
+            this->IsAt(to, b.Segment) && this->Before.GetAngle(corner, a.Other, b.Other) < Sharp;
           if (areConnected)
           {
             return true;
