@@ -264,7 +264,8 @@ extern "C"
     /** keep_boundary or point_limit, where no goal asks for refinement. */
     DELAUNAYFLIP_DEFECT_OPTIONS_WITHOUT_GOAL = 40,
     /** maximum_iterations has ended the run before refinement. */
-    DELAUNAYFLIP_DEFECT_TRIANGLES_NOT_JUDGED = 41
+    DELAUNAYFLIP_DEFECT_TRIANGLES_NOT_JUDGED = 41,
+    DELAUNAYFLIP_DEFECT_SEGMENTS_REMOVED = 42 /**< An end was removed. */
   } delaunayflip_defect_kind;
 
   /** A kind of defect: how often it occurs, and where first. */
@@ -339,7 +340,7 @@ extern "C"
     int64_t repeated_points; /**< Points at the place of one with a lower id. */
     int64_t points_too_near; /**< Points within the tolerance of one with a lower id. */
     int64_t segment_edges; /**< Edges that segments have become, each once; not removed ones. */
-    int64_t refused_segments; /**< They cross earlier ones, or an end is not finite. */
+    int64_t refused_segments; /**< They cross earlier ones, or an end is not finite or removed. */
     int64_t crossings; /**< Points added where segments cross. */
     double largest_shift; /**< How far rounding has moved one of these at most. */
     int64_t outside_triangles; /**< Removed outside rings and around hole seeds. */

@@ -144,6 +144,8 @@ constexpr DefectWords AllWords[] = {
   { Kind::TrianglesNotJudged, DefectIds::Triangles,
     "triangle that refinement has not looked at: MaximumIterations allows no round",
     "triangles that refinement has not looked at: MaximumIterations allows no round" },
+  { Kind::SegmentsRemoved, DefectIds::PointPairs, "segment that ends at a removed point",
+    "segments that end at a removed point" },
 };
 
 constexpr bool AreInOrder()
@@ -157,8 +159,8 @@ constexpr bool AreInOrder()
   }
   return true;
 }
-static_assert(AreInOrder() &&
-    std::size(AllWords) == static_cast<std::size_t>(DefectKind::TrianglesNotJudged) + 1,
+static_assert(
+  AreInOrder() && std::size(AllWords) == static_cast<std::size_t>(DefectKind::SegmentsRemoved) + 1,
   "one row per kind");
 
 const DefectWords& GetWords(DefectKind kind) { return AllWords[static_cast<std::size_t>(kind)]; }

@@ -135,7 +135,8 @@ enum class DefectKind
   SegmentsInside, ///< On a sphere: an end is inside of the convex hull.
   RegionSeedsRepeated, ///< In the same part as an earlier one, with another label or area.
   OptionsWithoutGoal, ///< Options of refinement, where no goal asks for it.
-  TrianglesNotJudged ///< Refinement has not begun, because FlipOptions::MaximumIterations ends it.
+  TrianglesNotJudged, ///< Refinement has not begun, because FlipOptions::MaximumIterations ends it.
+  SegmentsRemoved ///< An end was removed.
 };
 
 /// A kind of defect in the input: how often it occurs, and where first.

@@ -274,7 +274,8 @@ struct PointCounts
   std::int64_t Repeated = 0; ///< Points at the place of one with a lower id.
   std::int64_t TooNear = 0; ///< Points within the tolerance of one elsewhere with a lower id.
   std::int64_t SegmentEdges = 0; ///< Edges that segments have become, each once; not removed ones.
-  std::int64_t RefusedSegments = 0; ///< They cross earlier ones, or an end is not finite.
+  /// They cross earlier ones, or an end is not finite or removed.
+  std::int64_t RefusedSegments = 0;
   std::int64_t Crossings = 0; ///< Points added where segments cross.
   double LargestShift = 0.0; ///< How far rounding has moved one of them at most.
   std::int64_t OutsideTriangles = 0; ///< Removed outside rings and around hole seeds.

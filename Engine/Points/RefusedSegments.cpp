@@ -48,9 +48,9 @@ void AddDefects(const std::vector<RefusedSegment>& refused, const std::int64_t* 
   const char* remedy, std::vector<Defect>& defects)
 {
   constexpr DefectKind reasons[] = { DefectKind::SegmentsCross, DefectKind::SegmentsNotFinite,
-    DefectKind::SegmentsWithoutTriangles, DefectKind::SegmentsInside };
+    DefectKind::SegmentsWithoutTriangles, DefectKind::SegmentsInside, DefectKind::SegmentsRemoved };
   for (const RefusalKind why : { RefusalKind::CrossesEarlier, RefusalKind::NotFinite,
-         RefusalKind::NoTriangulation, RefusalKind::EndInside })
+         RefusalKind::Removed, RefusalKind::NoTriangulation, RefusalKind::EndInside })
   {
     Defect defect(reasons[static_cast<int>(why)]);
     for (const RefusedSegment& one : refused)
@@ -86,6 +86,8 @@ std::string DescribeRefusal(
       return which + " " + DescribeCrossed(ofRing.Crossed, DefectKind::SegmentsCross) + remedy;
     case RefusalKind::NotFinite:
       return which + " cannot be inserted: a coordinate of an end is NaN or infinite";
+    case RefusalKind::Removed:
+      return which + " cannot be inserted: an end was removed";
     case RefusalKind::EndInside:
       return which +
         " cannot be inserted: an end has no triangle, because it is inside of the convex hull of "

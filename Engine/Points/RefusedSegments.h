@@ -21,7 +21,8 @@ enum class RefusalKind : char
   CrossesEarlier, ///< It crosses a segment that was inserted before it.
   NotFinite, ///< A coordinate of an end is NaN or infinite.
   NoTriangulation, ///< There are fewer than three places, or all are on one line.
-  EndInside ///< On a sphere: an end is inside of the convex hull, so it has no triangle.
+  EndInside, ///< On a sphere: an end is inside of the convex hull, so it has no triangle.
+  Removed ///< An end was removed.
 };
 
 struct RefusedSegment

@@ -300,7 +300,8 @@ bool PointRun::MaySegmentsStay()
   this->Points.Prepare(this->Observer);
   const PointResult& result = this->Result;
   const bool haveCrossed = std::any_of(result.Refused.begin(), result.Refused.end(),
-    [](const RefusedSegment& refused) { return refused.Why != RefusalKind::NotFinite; });
+    [](const RefusedSegment& refused)
+    { return refused.Why != RefusalKind::NotFinite && refused.Why != RefusalKind::Removed; });
   return !haveCrossed;
 }
 

@@ -337,6 +337,10 @@ void PointRun::ExplainRefused(LoadedMesh& mesh)
     {
       one.Why = RefusalKind::NotFinite;
     }
+    if (this->Points.IsRemoved(one.Refused.From) || this->Points.IsRemoved(one.Refused.To))
+    {
+      one.Why = RefusalKind::Removed;
+    }
     const bool isFirstOfRing = ofRing == nullptr && one.Refused.Ring >= 0;
     if (isFirstOfRing)
     {

@@ -73,7 +73,7 @@ DEFECT_KINDS = (
     "points without triangles", "nothing left", "polygons too small", "constraints not in mesh",
     "points without heights", "region seeds outside", "triangles not refined", "point limit reached",
     "points inside", "points in one plane", "segments inside", "region seeds repeated",
-    "options without goal", "triangles not judged")
+    "options without goal", "triangles not judged", "segments removed")
 
 
 def make_struct(name, members):

@@ -61,8 +61,8 @@ Struct = _library.make_struct("Points", (
 
 # Kinds of defects that cause a warning: something that was given is not used as it is, or triangles do
 # not reach the goals.
-_WARNED_OF = ("segments cross", "segments not finite", "segments without triangles", "hole seeds outside",
-              "rings without area", "rings repeated", "rings run again", "hole points outside",
+_WARNED_OF = ("segments cross", "segments not finite", "segments removed", "segments without triangles",
+              "hole seeds outside", "rings without area", "rings repeated", "rings run again", "hole points outside",
               "points inside", "points in one plane", "segments inside", "nothing left",
               *LEFT_BY_REFINEMENT)
 

@@ -71,7 +71,7 @@ class Report:
     repeated_points: int = 0  #: Points at the place of one with a lower id.
     points_too_near: int = 0  #: Points within the tolerance of one with a lower id.
     segment_edges: int = 0  #: Edges of the mesh that segments have become.
-    refused_segments: int = 0  #: They cross earlier ones, or an end is not finite.
+    refused_segments: int = 0  #: They cross earlier ones, or an end is not finite or removed.
     crossings: int = 0  #: Points added where segments cross.
     largest_shift: float = 0.0  #: How far rounding has moved one of these at most.
     outside_triangles: int = 0  #: Removed outside the outline and in holes.

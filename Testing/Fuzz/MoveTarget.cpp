@@ -263,15 +263,21 @@ std::vector<std::pair<std::string, std::int64_t>> ListCounts(const FlipReport& r
     { "refused", counts.RefusedSegments }, { "outside", counts.OutsideTriangles },
     { "large", counts.LargeTriangles }, { "left out", counts.LeftOutRings },
     { "stop", static_cast<std::int64_t>(report.StopReason) } };
+  std::int64_t withoutEnd = 0; // segments at points that are not finite or removed
   for (const Defect& defect : report.Defects)
   {
-    if (defect.Kind != DefectKind::PointsNotFinite) // removed points are none of these
+    if (defect.Kind == DefectKind::SegmentsNotFinite || defect.Kind == DefectKind::SegmentsRemoved)
+    {
+      withoutEnd += defect.Count;
+    }
+    else if (defect.Kind != DefectKind::PointsNotFinite) // removed points are none of these
     {
       listed.emplace_back(
         "defect " + std::to_string(static_cast<int>(defect.Kind)) + ": " + defect.Detail,
         defect.Count);
     }
   }
+  listed.emplace_back("without end", withoutEnd);
   return listed;
 }
 

@@ -184,6 +184,38 @@ TEST(MoveSegments, PointsGo)
   EXPECT_LT(0.5 * moving.Frames, moving.InPlace);
 }
 
+/// A removed point is not called one that is not finite.
+TEST(MoveSegments, EndsGo)
+{
+  Drawing drawing;
+  drawing.Points = { { 0.3, 0.4 }, { 0.5, 0.6 }, { 0.6, 0.4 } };
+  drawing.Segments = { { 0, 1 }, { 1, 2 } };
+  drawing.Rings = { -1, -1 };
+  drawing.AddRing({ { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 }, { 0.0, 1.0 } });
+  FlipSession session(drawing.View(), PointOptions());
+  session.Advance();
+  const std::int64_t end = 0, corner = 3;
+  EXPECT_TRUE(session.Remove(&end, 1));
+  const std::string defects = DescribeDefects(session.GetReport().Defects);
+  EXPECT_NE(std::string::npos, defects.find("1 segment that ends at a removed point (first: 0-1)"))
+    << defects;
+  EXPECT_EQ(std::string::npos, defects.find("finite")) << defects;
+  EXPECT_EQ(1, session.GetReport().FromPoints.RefusedSegments);
+  const Triples before = Normalize(StoreTriangles(session));
+  try
+  {
+    session.Remove(&corner, 1);
+    ADD_FAILURE() << "the ring is not closed";
+  }
+  catch (const InvalidMesh& error)
+  {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("an end was removed"))
+      << error.what();
+  }
+  session.Advance();
+  EXPECT_EQ(before, Normalize(StoreTriangles(session)));
+}
+
 /// Many points that end no segment are removed in place at once, also next to segments.
 TEST(MoveSegments, ManyPointsGo)
 {
