@@ -368,8 +368,8 @@ extern "C"
                                     not get better. */
     int64_t reached_point_limit; /**< 1 if point_limit has ended refinement. */
     int64_t removed_points; /**< Points that delaunayflip_remove_points has removed. */
-    int64_t move_rounds; /**< The number of rounds of the last move or removal; 0 if there was none,
-                            or if it triangulated the points anew. */
+    int64_t move_rounds; /**< The number of rounds of the last move, removal or insertion; 0 if
+                            there was none, or if it triangulated the points anew. */
     int64_t points_inside; /**< On a sphere: points inside of the convex hull, not used. */
   } delaunayflip_report;
 

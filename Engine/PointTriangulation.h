@@ -287,8 +287,8 @@ struct PointCounts
   std::int64_t UnrefinedTriangles = 0;
   std::int64_t ReachedPointLimit = 0; ///< 1 if FlipOptions::PointLimit has ended refinement.
   std::int64_t Removed = 0; ///< Points that FlipSession::Remove has removed.
-  /// The number of rounds of the last move or removal; 0 if there was none, or if it triangulated
-  /// the points anew.
+  /// The number of rounds of the last move, removal or insertion; 0 if there was none, or if it
+  /// triangulated the points anew.
   std::int64_t MoveRounds = 0;
   std::int64_t Inside = 0; ///< On a sphere: points inside of the convex hull, which are not used.
 };

@@ -8,6 +8,7 @@
 #include "PointGrowth.h"
 #include "Refinement.h"
 
+#include <algorithm>
 #include <memory>
 #include <tuple>
 #include <type_traits>
@@ -22,7 +23,7 @@ template <typename BackendT>
 class LivingMesh : public BackendMesh<BackendT>
 {
 public:
-  std::int64_t InsertPoints(const std::vector<double>& places, bool keepsFixed) override
+  MotionResult InsertPoints(const std::vector<double>& places, bool keepsFixed) override
   {
     this->RequireStates();
     return this->Places.Floats ? this->InsertHere(places, keepsFixed, this->Points.Floats)
@@ -230,7 +231,7 @@ protected:
 
 private:
   template <typename Real>
-  std::int64_t InsertHere(
+  MotionResult InsertHere(
     const std::vector<double>& places, bool keepsFixed, Array<Real>& coordinates)
   {
     const std::int64_t count = SizeOf(places) / 2;
@@ -247,7 +248,7 @@ private:
         placesHere.Data(), this->Report.Points };
     };
     PointGrowth<BackendT> growth(placesHere.Data(), count, keepsFixed, this->Backend);
-    std::int64_t flips = 0;
+    MotionResult result;
     for (;;)
     {
       plane = { this->Mesh.View(), this->Places, true };
@@ -255,7 +256,7 @@ private:
         growth.InsertSome(this->Mesh, plane, this->Points.Count, grid, grow);
       if (growth.CountRefused() > 0)
       {
-        return -1;
+        return result;
       }
       if (added == 0)
       {
@@ -264,10 +265,13 @@ private:
       this->Points.Count += added;
       this->Places = PlaneArray(coordinates.Data(), this->Points.Count, 2);
       this->template MakeLoopOfGrown<Real>(coordinates.Data());
-      flips += this->Loop->Converge();
+      ++result.Rounds;
+      result.Flips += this->Loop->Converge();
     }
     this->CountInserted(growth.GetItems(), count);
-    return flips;
+    result.Rounds = std::max<std::int64_t>(1, result.Rounds); // there may be points at all places
+    result.IsThere = true;
+    return result;
   }
 
   /// Targets in the memory of the backend, copied unless they are there.

@@ -48,10 +48,10 @@ struct InsertedSegments
   std::int64_t Flips = 0;
 };
 
-/// The outcome of a motion or a removal of points.
+/// The outcome of a motion, a removal or an insertion of points.
 struct MotionResult
 {
-  bool IsThere = false; ///< False: the motion did not end, and the mesh is of no use.
+  bool IsThere = false; ///< False: it did not end, and the mesh is of no use.
   std::int64_t Rounds = 0;
   std::int64_t Flips = 0;
   std::vector<PinnedEdge> Edges; ///< What the given edges are now. Empty: what they were before.
@@ -93,9 +93,9 @@ public:
   /// Inserts points into a Delaunay triangulation of points, and flips until it is one again. The
   /// new points are in the hull, with coordinates in the precision of the others.
   /// @param places x and y. The numbers of these points follow those of the mesh's.
-  /// @param keepsFixed whether no point may be on a fixed edge, because segments are some of these.
-  /// @returns how many flips it took. -1: a point is on a fixed edge, and the mesh is of no use.
-  virtual std::int64_t InsertPoints(const std::vector<double>& places, bool keepsFixed) = 0;
+  /// @param keepsFixed whether it ends if a point is on a fixed edge, because segments are some of
+  /// these.
+  virtual MotionResult InsertPoints(const std::vector<double>& places, bool keepsFixed) = 0;
 
   /// Moves the points of a Delaunay triangulation of points, and flips until it is Delaunay again.
   /// @param targets the places of all points, on a device only if HasMemory is true of them.

@@ -112,31 +112,27 @@ bool PointRun::InsertInPlace(std::int64_t count)
   }
   const std::size_t batch = this->BatchEnds.size() - 1;
   this->BatchEnds.push_back(all);
+  const StopWatch watch;
   this->Points.Prepare(this->Observer);
-  bool isInserted = false;
+  MotionResult inserted;
   const bool isLoaded =
-    this->TryOnBackend([&](LoadedMesh& mesh) { isInserted = this->InsertBatch(mesh, batch); });
+    this->TryOnBackend([&](LoadedMesh& mesh) { inserted = this->InsertBatch(mesh, batch); });
   if (!isLoaded)
   {
     return true; // an observer has stopped it
   }
   this->Journal.push_back({ this->Stages.size() - 1, static_cast<std::int64_t>(batch) });
-  if (!isInserted || !this->JudgeAgain(MotionResult()))
+  if (!inserted.IsThere || !this->JudgeAgain(inserted))
   {
     return false;
   }
-  const FlipReport& made = this->Loaded->GetInputReport();
-  this->Report.Triangles = made.Triangles;
-  this->Report.EulerCharacteristic = made.EulerCharacteristic;
-  this->AreAnglesKnown = false;
-  this->AreKeptEdgesKnown = false;
-  this->RecordFound(this->Loaded->GetLoop().GetFound());
-  this->ListDefects();
+  this->RecordMotion(inserted);
+  this->Report.FlipSeconds = watch.GetSeconds();
   return true;
 }
 
-/// @returns false if a point is on a segment. Then the mesh is of no use.
-bool PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
+/// @returns what LoadedMesh::InsertPoints does.
+MotionResult PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
 {
   const PlaneArray& all = this->Points.GetInput().Points;
   std::vector<double> places;
@@ -145,7 +141,7 @@ bool PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
     places.push_back(all.Get(i, 0));
     places.push_back(all.Get(i, 1));
   }
-  return mesh.InsertPoints(places, this->Points.GetCaller().NumberOfSegments > 0) >= 0;
+  return mesh.InsertPoints(places, this->Points.GetCaller().NumberOfSegments > 0);
 }
 
 }

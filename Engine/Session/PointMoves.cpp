@@ -393,7 +393,7 @@ bool PointRun::ChangeInPlace(const Change& change)
   return true;
 }
 
-/// Makes the report that of the motion alone.
+/// Makes the report that of a motion, a removal or an insertion alone.
 void PointRun::RecordMotion(const MotionResult& motion)
 {
   FlipReport& report = this->Report;

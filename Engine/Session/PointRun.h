@@ -74,7 +74,7 @@ private:
   bool AreFew(std::int64_t points) const;
   bool CanInsertInPlace(const PlaneArray& points);
   bool InsertInPlace(std::int64_t count);
-  bool InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
+  MotionResult InsertBatch(LoadedMesh& mesh, std::size_t batch) const;
   void ReadPlaces(const PointMove& move);
   bool GoToPlaces(std::vector<std::int64_t> removed, const ProgressObserver& progress);
   using InPlaceChange = std::function<bool(const BuildProgress&)>;

@@ -95,7 +95,7 @@ class Report:
     unrefined_triangles: int = 0  #: With an angle too small, or too large: they could not get better.
     reached_point_limit: int = 0  #: 1 if point_limit has ended refinement.
     removed_points: int = 0  #: Points that were removed from a triangulation of moving points.
-    #: The number of rounds of the last move or removal; 0: there was none, or it was made anew.
+    #: The number of rounds of the last move, removal or insertion; 0: there was none, or all was made anew.
     move_rounds: int = 0
     points_inside: int = 0  #: On a sphere: points inside of the convex hull, which are not used.
 

@@ -129,12 +129,12 @@ public:
   {
     return this->Engine->Ask(asked, observer);
   }
-  std::int64_t InsertPoints(const std::vector<double>& places, bool keepsFixed) override
+  MotionResult InsertPoints(const std::vector<double>& places, bool keepsFixed) override
   {
-    const std::int64_t flips = this->Engine->InsertPoints(places, keepsFixed);
+    const MotionResult result = this->Engine->InsertPoints(places, keepsFixed);
     this->Report = this->Engine->GetInputReport();
     this->Report.Backend = "CUDA: fake";
-    return flips;
+    return result;
   }
   MotionResult MovePoints(const PointInput& targets, const std::vector<EdgeId>& segments,
     const BuildProgress& progress) override

@@ -39,7 +39,7 @@ public:
       {
         some.insert(some.end(), { points[k][0], points[k][1] });
       }
-      this->Flips += this->Mesh->InsertPoints(some, false);
+      this->Flips += this->Mesh->InsertPoints(some, false).Flips;
       this->Mesh->Audit();
       EXPECT_EQ(0, this->Mesh->GetLoop().GetFound().Bad);
     }
@@ -198,6 +198,34 @@ TEST(Grow, SessionsTakeMorePoints)
       }
     }
   }
+}
+
+/// The report is that of the last insertion, in place or anew.
+TEST(Grow, AnInsertionHasItsOwnReport)
+{
+  std::mt19937 random(8);
+  Places points = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 1.0, 1.0 }, { 0.0, 1.0 } };
+  for (int i = 0; i < 2000; ++i)
+  {
+    points.push_back(DrawPlace(random, 1 << 20));
+  }
+  FlipSession session(PointInput{ View(points) }, PointOptions());
+  session.Advance();
+  const std::int64_t all = session.GetReport().TotalFlips;
+  EXPECT_FALSE(session.GetReport().Iterations.empty());
+  const Places inside = { { 0.3, 0.6 }, { 0.7, 0.6 }, points[5] }, outside = { { 2.0, 2.0 } };
+  EXPECT_TRUE(session.Insert(View(inside)));
+  EXPECT_EQ(1, session.GetReport().FromPoints.MoveRounds);
+  EXPECT_LT(0, session.GetReport().TotalFlips);
+  EXPECT_GT(40, session.GetReport().TotalFlips);
+  EXPECT_TRUE(session.GetReport().Iterations.empty());
+  const Places again = { points[6] };
+  EXPECT_TRUE(session.Insert(View(again)));
+  EXPECT_EQ(1, session.GetReport().FromPoints.MoveRounds);
+  EXPECT_EQ(0, session.GetReport().TotalFlips);
+  EXPECT_TRUE(session.Insert(View(outside)));
+  EXPECT_EQ(0, session.GetReport().FromPoints.MoveRounds);
+  EXPECT_LT(all / 2, session.GetReport().TotalFlips);
 }
 
 TEST(Grow, ASessionOfFloatsRoundsMorePoints)

@@ -70,6 +70,13 @@ class Moving(unittest.TestCase):
             self.expect(mesh, left)
             mesh.compact()
             self.assertEqual((len(mesh), mesh.report.removed_points), (2008, 0))
+            self.assertGreater(mesh.report.total_flips, 1000)
+            mesh.remove(mesh.insert([[0.4, 0.6]]))
+            self.assertGreater(mesh.report.move_rounds, 0)
+            mesh.insert([[0.6, 0.4]])
+            self.assertLess(mesh.report.total_flips, 50)  # those of this point alone
+            mesh.remove([2008, 2009])
+            mesh.compact()
             self.expect(mesh, left[numpy.isfinite(left[:, 0])])
 
     def test_segments(self):
@@ -111,6 +118,16 @@ class Moving(unittest.TestCase):
                 self.assertEqual(len(mesh.segments), 1 if crosses else 2)
         self.assertEqual(len(told), 3)  # two are of `triangulate`
         self.assertEqual({warning.filename for warning in told}, {__file__})
+
+    def test_ends_that_are_removed(self):
+        """Segments at a removed point are called so, in a warning and in the error of a ring."""
+        points = numpy.array([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.0, 1.0], [3.0, 1.5]])
+        with MovingTriangulation(points, [[4, 5]], outline=[0, 1, 2, 3]) as mesh:
+            with self.assertWarnsRegex(UserWarning, "ends at a removed point"):
+                mesh.remove([5])
+            self.assertNotIn("finite", mesh.report.defects)
+            with self.assertRaisesRegex(InvalidMesh, "ring 0 of outline.* an end was removed"):
+                mesh.remove([0])
 
     def test_rings_that_cross(self):
         """A ring that crosses a segment is an error that names it, and all points stay where they were."""
