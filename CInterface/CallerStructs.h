@@ -75,14 +75,27 @@ Struct MakeEmpty()
   return values;
 }
 
+/// Writes the values to a caller's struct of `size` bytes, which may have fewer members or more.
+template <typename Struct>
+void Initialize(Struct* target, std::int64_t size, const Struct& values)
+{
+  if (size >= static_cast<std::int64_t>(sizeof(values.size)))
+  {
+    const auto bytes = static_cast<std::size_t>(size);
+    std::memset(static_cast<void*>(target), 0, bytes);
+    std::memcpy(target, &values, std::min(sizeof(values), bytes));
+    std::memcpy(target, &size, sizeof(size));
+  }
+}
+
 /// Completes the caller's struct: a program compiled with an older header has fewer members; the
 /// others keep their defaults.
 template <typename Struct>
-Struct Complete(const Struct* given, void (*initialize)(Struct*))
+Struct Complete(const Struct* given, void (*initialize)(Struct*, std::int64_t))
 {
   RequireSize(given);
   Struct complete;
-  initialize(&complete);
+  initialize(&complete, sizeof(complete));
   std::memcpy(&complete, given, std::min(sizeof(Struct), static_cast<std::size_t>(given->size)));
   complete.size = sizeof(Struct);
   return complete;
@@ -156,7 +169,7 @@ inline bool IsOnDevice(std::int32_t memory)
 inline TriangleMesh ToMesh(
   const delaunayflip_mesh* given, const std::vector<RegionSeed>& seeds = {})
 {
-  const delaunayflip_mesh c = Complete(given, delaunayflip_mesh_init);
+  const delaunayflip_mesh c = Complete(given, delaunayflip_mesh_init_sized);
   Require(!IsOnDevice(c.memory), "this function needs a mesh in the host's memory");
   Require(c.point_components == 3, "point_components must be 3 for points in the host's memory");
   return { ToFixedEdges(c, seeds), ToPoints<PointArray>(c), ToTriangles(c), {}, {} };
@@ -253,7 +266,7 @@ inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptio
 /// Views of the arrays of a query, and its numbers.
 inline PlaceQuery ToQuery(const delaunayflip_query* given)
 {
-  const delaunayflip_query c = Complete(given, delaunayflip_query_init);
+  const delaunayflip_query c = Complete(given, delaunayflip_query_init_sized);
   const InterpolationKind method = ToEnumeration(c.method, InterpolationKind::Natural, "method");
   const OutsideKind outside = ToEnumeration(c.outside, OutsideKind::Nearest, "outside");
   PlaceQuery query;
@@ -308,7 +321,7 @@ inline FlipOptions ToOptions(const delaunayflip_options* given)
   {
     return {};
   }
-  const delaunayflip_options c = Complete(given, delaunayflip_options_init);
+  const delaunayflip_options c = Complete(given, delaunayflip_options_init_sized);
   ToEnumeration(c.geometry, GeometryKind::Sphere, "geometry");
   ToEnumeration(c.criterion, CriterionKind::OppositeAngles, "criterion");
   ToEnumeration(c.tie_rule, TieRuleKind::Canonical, "tie_rule");
@@ -327,7 +340,8 @@ inline delaunayflip_iteration ToC(const IterationRecord& record)
 /// None if `given` is null.
 inline delaunayflip_callbacks ToCallbacks(const delaunayflip_callbacks* given)
 {
-  return given ? Complete(given, delaunayflip_callbacks_init) : MakeEmpty<delaunayflip_callbacks>();
+  return given ? Complete(given, delaunayflip_callbacks_init_sized)
+               : MakeEmpty<delaunayflip_callbacks>();
 }
 
 /// An observer that calls the caller's function, if there is one.
@@ -379,7 +393,7 @@ using NumberInC = std::conditional_t<std::is_floating_point<Number>::value, doub
 /// A report with the numbers of a C struct, for Summarize.
 inline FlipReport ToReport(const delaunayflip_report* given)
 {
-  const delaunayflip_report c = Complete(given, delaunayflip_report_init);
+  const delaunayflip_report c = Complete(given, delaunayflip_report_init_sized);
   FlipReport report;
   ForEachPlace(reinterpret_cast<const char*>(&c), report,
     [](const char* place, auto& number)
@@ -430,7 +444,7 @@ public:
       }
     }
     delaunayflip_report c;
-    delaunayflip_report_init(&c);
+    delaunayflip_report_init_sized(&c, sizeof(c));
     ForEachPlace(reinterpret_cast<char*>(&c), report,
       [](char* place, const auto& number)
       {

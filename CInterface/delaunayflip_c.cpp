@@ -133,53 +133,63 @@ extern "C"
 
   std::int64_t delaunayflip_error_ring(void) { return TheLastError.Ring; }
 
-  void delaunayflip_mesh_init(delaunayflip_mesh* mesh)
+  void delaunayflip_mesh_init_sized(delaunayflip_mesh* mesh, std::int64_t size)
   {
-    *mesh = MakeEmpty<delaunayflip_mesh>();
-    mesh->point_type = DELAUNAYFLIP_FLOAT64;
-    mesh->id_type = DELAUNAYFLIP_INT64;
-    mesh->point_components = 3;
+    auto values = MakeEmpty<delaunayflip_mesh>();
+    values.point_type = DELAUNAYFLIP_FLOAT64;
+    values.id_type = DELAUNAYFLIP_INT64;
+    values.point_components = 3;
+    Initialize(mesh, size, values);
   }
 
-  void delaunayflip_points_init(delaunayflip_points* points)
+  void delaunayflip_points_init_sized(delaunayflip_points* points, std::int64_t size)
   {
-    *points = MakeEmpty<delaunayflip_points>();
-    points->point_type = DELAUNAYFLIP_FLOAT64;
-    points->point_components = 2;
-    points->first_hole = PointInput().FirstHole;
-    points->first_added = PointInput().FirstAdded;
+    auto values = MakeEmpty<delaunayflip_points>();
+    values.point_type = DELAUNAYFLIP_FLOAT64;
+    values.point_components = 2;
+    values.first_hole = PointInput().FirstHole;
+    values.first_added = PointInput().FirstAdded;
     const PointOptions defaults;
     PairPointOptions(
-      *points, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
+      values, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
+    Initialize(points, size, values);
   }
 
-  void delaunayflip_query_init(delaunayflip_query* query)
+  void delaunayflip_query_init_sized(delaunayflip_query* query, std::int64_t size)
   {
-    *query = MakeEmpty<delaunayflip_query>();
-    query->place_type = DELAUNAYFLIP_FLOAT64;
-    query->place_components = 2;
-    query->step_x = query->step_y = 1.0;
-    query->value_components = 1;
+    auto values = MakeEmpty<delaunayflip_query>();
+    values.place_type = DELAUNAYFLIP_FLOAT64;
+    values.place_components = 2;
+    values.step_x = values.step_y = 1.0;
+    values.value_components = 1;
+    Initialize(query, size, values);
   }
 
-  void delaunayflip_options_init(delaunayflip_options* options)
+  void delaunayflip_options_init_sized(delaunayflip_options* options, std::int64_t size)
   {
     const FlipOptions defaults;
-    *options = MakeEmpty<delaunayflip_options>();
+    auto values = MakeEmpty<delaunayflip_options>();
     PairOptions(
-      *options, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
+      values, defaults, [](auto& wanted, const auto& option) { CopyOption(option, wanted); });
+    Initialize(options, size, values);
   }
 
-  void delaunayflip_report_init(delaunayflip_report* report)
+  void delaunayflip_report_init_sized(delaunayflip_report* report, std::int64_t size)
   {
-    *report = MakeEmpty<delaunayflip_report>();
-    report->geometry_reason = report->backend = report->fallback = "";
-    report->tolerance = report->defects = "";
+    auto values = MakeEmpty<delaunayflip_report>();
+    values.geometry_reason = values.backend = values.fallback = "";
+    values.tolerance = values.defects = "";
+    Initialize(report, size, values);
   }
 
-  void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks)
+  void delaunayflip_callbacks_init_sized(delaunayflip_callbacks* callbacks, std::int64_t size)
   {
-    *callbacks = MakeEmpty<delaunayflip_callbacks>();
+    Initialize(callbacks, size, MakeEmpty<delaunayflip_callbacks>());
+  }
+
+  void delaunayflip_polygons_init_sized(delaunayflip_polygons* polygons, std::int64_t size)
+  {
+    Initialize(polygons, size, MakeEmpty<delaunayflip_polygons>());
   }
 
   delaunayflip_status delaunayflip_open(const delaunayflip_mesh* mesh,
@@ -190,7 +200,7 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init);
+        const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init_sized);
         const FlipOptions wanted = ToOptions(options);
         std::vector<RegionSeed> seeds =
           ToRegions(c.region_seeds, c.number_of_region_seeds, "region_seeds");
@@ -215,7 +225,7 @@ extern "C"
       [=]()
       {
         Require(session, "session is null");
-        const delaunayflip_points c = Complete(points, delaunayflip_points_init);
+        const delaunayflip_points c = Complete(points, delaunayflip_points_init_sized);
         std::vector<RegionSeed> regions = ToRegions(c.regions, c.number_of_regions, "regions");
         FlipSession opened(
           ToPointInput(c, regions), ToPointOptions(c, ToOptions(options)), ToProgress(callbacks));
@@ -245,7 +255,7 @@ extern "C"
     return TryWith(session,
       [=]()
       {
-        const delaunayflip_points c = Complete(points, delaunayflip_points_init);
+        const delaunayflip_points c = Complete(points, delaunayflip_points_init_sized);
         Require(!IsOnDevice(c.memory), "points to insert must be in the host's memory");
         RequireNotStopped(session->Session.Insert(ToPlane(c), ToProgress(callbacks)));
       });
@@ -258,7 +268,7 @@ extern "C"
     return TryWith(session,
       [=]()
       {
-        const delaunayflip_points c = Complete(places, delaunayflip_points_init);
+        const delaunayflip_points c = Complete(places, delaunayflip_points_init_sized);
         Require(!ids || !IsOnDevice(c.memory), "with ids, the places must be in the host's memory");
         const PointMove move{ ToPlane(c), ids, IsOnDevice(c.memory), { c.stream } };
         RequireNotStopped(session->Session.Move(move, ToProgress(callbacks)));
@@ -402,7 +412,7 @@ extern "C"
     return Try(
       [=]()
       {
-        const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init);
+        const delaunayflip_mesh c = Complete(mesh, delaunayflip_mesh_init_sized);
         if (report)
         {
           RequireSize(report);
@@ -455,11 +465,6 @@ extern "C"
       });
   }
 
-  void delaunayflip_polygons_init(delaunayflip_polygons* polygons)
-  {
-    *polygons = MakeEmpty<delaunayflip_polygons>();
-  }
-
   delaunayflip_status delaunayflip_split_polygons(const delaunayflip_mesh* mesh,
     const delaunayflip_polygons* polygons, const delaunayflip_callbacks* callbacks,
     std::int64_t* triangles)
@@ -468,8 +473,8 @@ extern "C"
       [=]()
       {
         const TriangleMesh view = ToMesh(mesh);
-        const std::vector<std::int64_t> ids =
-          Split(view.Points, Complete(polygons, delaunayflip_polygons_init), ToProgress(callbacks));
+        const std::vector<std::int64_t> ids = Split(
+          view.Points, Complete(polygons, delaunayflip_polygons_init_sized), ToProgress(callbacks));
         Require(triangles || ids.empty(), "triangles is null");
         std::copy(ids.begin(), ids.end(), triangles);
       });

@@ -32,9 +32,10 @@
  * - Every function that can fail returns a delaunayflip_status. After a failure,
  *   delaunayflip_error_message() says what was wrong, where, and what to do. A failing call writes
  *   none of its outputs.
- * - A struct begins with its size in bytes. Call its `_init` function before you set members. Newer
- *   headers only add members at the end, so a program compiled with an older header works with a
- *   newer library. Enumerations are passed as int32_t.
+ * - A struct begins with its size in bytes. Call its `_init` function before you set members; from
+ *   other languages than C and C++ its `_init_sized` function, with the size of the struct there.
+ *   Newer headers only add members at the end, so a program compiled with an older header works
+ *   with a newer library, from 0.2.0 on. Enumerations are passed as int32_t.
  * - Points, triangles, queries and results may be in the memory of a GPU; everything else is in the
  *   host's. Such arrays are read or written after the work that is already in the caller's stream.
  *   When a function returns, its results are complete.
@@ -384,11 +385,12 @@ extern "C"
     void* user;
   } delaunayflip_callbacks;
 
-  /** Fill a struct with its size and the defaults; all other members with 0. */
-  void delaunayflip_mesh_init(delaunayflip_mesh* mesh);
-  void delaunayflip_options_init(delaunayflip_options* options);
-  void delaunayflip_report_init(delaunayflip_report* report);
-  void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks);
+  /** Fill a struct of `size` bytes, at least 8, with its size and the defaults; all other members
+   * with 0. A program may have a shorter or a longer struct than the library. */
+  void delaunayflip_mesh_init_sized(delaunayflip_mesh* mesh, int64_t size);
+  void delaunayflip_options_init_sized(delaunayflip_options* options, int64_t size);
+  void delaunayflip_report_init_sized(delaunayflip_report* report, int64_t size);
+  void delaunayflip_callbacks_init_sized(delaunayflip_callbacks* callbacks, int64_t size);
 
   /** A mesh that is being flipped. */
   typedef struct delaunayflip_session delaunayflip_session;
@@ -464,9 +466,10 @@ extern "C"
                                            and a defect names the others. */
     int64_t number_of_regions;
     int32_t projection; /**< A delaunayflip_projection. [PLANE] */
+    int32_t reserved; /**< 0. */
   } delaunayflip_points;
 
-  void delaunayflip_points_init(delaunayflip_points* points);
+  void delaunayflip_points_init_sized(delaunayflip_points* points, int64_t size);
 
   /** Triangulates points in x and y: a session that begins with a valid triangulation of all
    * places, which delaunayflip_advance makes Delaunay; then it inserts the segments and removes
@@ -651,9 +654,10 @@ extern "C"
     int32_t memory; /**< A delaunayflip_memory: where all four arrays are. [HOST] */
     void* stream; /**< With DELAUNAYFLIP_CUDA: a cudaStream_t; null is the default stream. */
     int32_t degrees; /**< Boolean: places on a sphere are longitudes and latitudes in degrees. */
+    int32_t reserved; /**< 0. */
   } delaunayflip_query;
 
-  void delaunayflip_query_init(delaunayflip_query* query);
+  void delaunayflip_query_init_sized(delaunayflip_query* query, int64_t size);
 
   /** Answers in which triangles places are, and what values they have between those of the points.
    * For sessions from points, after delaunayflip_advance. With heights for the points, one each,
@@ -772,7 +776,7 @@ extern "C"
     int64_t* triangle_counts;
   } delaunayflip_polygons;
 
-  void delaunayflip_polygons_init(delaunayflip_polygons* polygons);
+  void delaunayflip_polygons_init_sized(delaunayflip_polygons* polygons, int64_t size);
 
   /** Splits polygons over the points of `mesh` into triangles that keep their winding. The other
    * members of `mesh` have no effect. If there are more than three corners, those that repeat the
@@ -791,6 +795,40 @@ extern "C"
 
   /** Frees the memory that the CUDA backend keeps between runs. */
   void delaunayflip_release_cuda_memory(void);
+
+  /* The library has functions of these names, too, for programs compiled with the header of 0.2.0,
+   * where they were not inline. They fill the structs of that release. */
+#ifndef DELAUNAYFLIP_BUILDS_C_LIBRARY
+  /** Fill a struct of this header with its size and the defaults; all other members with 0. */
+  static inline void delaunayflip_mesh_init(delaunayflip_mesh* mesh)
+  {
+    delaunayflip_mesh_init_sized(mesh, sizeof(*mesh));
+  }
+  static inline void delaunayflip_options_init(delaunayflip_options* options)
+  {
+    delaunayflip_options_init_sized(options, sizeof(*options));
+  }
+  static inline void delaunayflip_report_init(delaunayflip_report* report)
+  {
+    delaunayflip_report_init_sized(report, sizeof(*report));
+  }
+  static inline void delaunayflip_callbacks_init(delaunayflip_callbacks* callbacks)
+  {
+    delaunayflip_callbacks_init_sized(callbacks, sizeof(*callbacks));
+  }
+  static inline void delaunayflip_points_init(delaunayflip_points* points)
+  {
+    delaunayflip_points_init_sized(points, sizeof(*points));
+  }
+  static inline void delaunayflip_query_init(delaunayflip_query* query)
+  {
+    delaunayflip_query_init_sized(query, sizeof(*query));
+  }
+  static inline void delaunayflip_polygons_init(delaunayflip_polygons* polygons)
+  {
+    delaunayflip_polygons_init_sized(polygons, sizeof(*polygons));
+  }
+#endif
 
 #ifdef __cplusplus
 }

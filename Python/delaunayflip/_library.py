@@ -98,7 +98,7 @@ Query = make_struct("Query", (
     (c_int32, "place_type place_components"), (c_int64, "columns rows"),
     (c_double, "origin_x origin_y step_x step_y"), (c_void_p, "triangles values results"),
     (c_int32, "value_components method outside memory"), (c_void_p, "stream"),
-    (c_int32, "degrees")))
+    (c_int32, "degrees reserved")))
 
 Iteration = make_struct("Iteration", (
     (c_int64, "iteration tested non_delaunay flipped excluded blocked"),
@@ -157,7 +157,7 @@ _EXCEPTIONS = {2: InvalidOptions, 3: MeshTooLarge, 4: BackendUnavailable, 5: Mem
 @functools.lru_cache(maxsize=None)
 def _make_default(kind):
     struct = kind()
-    run(f"{kind.__name__.lower()}_init", struct)
+    run(f"{kind.__name__.lower()}_init_sized", struct, ctypes.sizeof(kind))
     return struct
 
 

@@ -57,7 +57,7 @@ Struct = _library.make_struct("Points", (
     (c_void_p, "stream"), (c_int32, "first_hole"), (c_int64, "first_added"),
     (c_double, "minimum_angle maximum_area maximum_edge"), (c_int32, "keep_boundary"),
     (c_int64, "point_limit"), (c_void_p, "sizes regions"), (c_int64, "number_of_regions"),
-    (c_int32, "projection")))
+    (c_int32, "projection reserved")))
 
 # Kinds of defects that cause a warning: something that was given is not used as it is, or triangles do
 # not reach the goals.

@@ -1099,6 +1099,8 @@ class Header(unittest.TestCase):
                 wanted = ctypes.c_void_p if kind.endswith("*") else None
                 if name != "Callbacks":
                     self.assertIs(field[1], self.TYPES.get(kind, wanted), f"{name}.{member}")
+            last = getattr(struct, struct._fields_[-1][0])  # the next member must be beyond the size
+            self.assertEqual(last.offset + last.size, ctypes.sizeof(struct), name)
 
     def test_defaults(self):
         for function in (delaunayflip.flip, delaunayflip.triangulate):
