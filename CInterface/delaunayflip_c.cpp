@@ -28,23 +28,28 @@ struct LastError
 
 thread_local LastError TheLastError;
 
-/// The triangles of all polygons; also their numbers, if there is room for them.
-std::vector<std::int64_t> Split(
+/// The triangles of all polygons, and how many each has.
+struct SplitPolygons
+{
+  std::vector<std::int64_t> Triangles;
+  std::vector<std::int64_t> Counts; ///< None if the caller has no room for them.
+};
+
+SplitPolygons Split(
   const PointArray& points, const delaunayflip_polygons& polygons, const ProgressObserver& progress)
 {
   Require(polygons.number_of_polygons >= 0, "number_of_polygons is negative");
   Require(polygons.offsets || polygons.number_of_polygons == 0, "offsets is null");
-  Require(polygons.corners || polygons.number_of_polygons == 0 ||
-      polygons.offsets[0] == polygons.offsets[polygons.number_of_polygons],
-    "corners is null");
   constexpr std::int64_t PolygonsBetweenCalls = 4096;
-  std::vector<std::int64_t> triangles;
+  SplitPolygons split;
+  std::vector<std::int64_t>& triangles = split.Triangles;
   const auto all = static_cast<double>(polygons.number_of_polygons);
   for (std::int64_t i = 0; i < polygons.number_of_polygons; ++i)
   {
     const std::int64_t begin = polygons.offsets[i];
     const std::int64_t end = polygons.offsets[i + 1];
     Require(begin >= 0 && begin <= end, "offsets decrease, or are negative");
+    Require(polygons.corners || begin == end, "corners is null");
     for (std::int64_t corner = begin; corner < end; ++corner)
     {
       const std::int64_t id = polygons.corners[corner];
@@ -67,7 +72,7 @@ std::vector<std::int64_t> Split(
     const std::int64_t made = static_cast<std::int64_t>(triangles.size() / 3) - before;
     if (polygons.triangle_counts)
     {
-      polygons.triangle_counts[i] = made;
+      split.Counts.push_back(made);
     }
     else if (end - begin > 3 && made < end - begin - 2)
     {
@@ -77,7 +82,7 @@ std::vector<std::int64_t> Split(
         i, -1);
     }
   }
-  return triangles;
+  return split;
 }
 
 }
@@ -473,10 +478,11 @@ extern "C"
       [=]()
       {
         const TriangleMesh view = ToMesh(mesh);
-        const std::vector<std::int64_t> ids = Split(
-          view.Points, Complete(polygons, delaunayflip_polygons_init_sized), ToProgress(callbacks));
-        Require(triangles || ids.empty(), "triangles is null");
-        std::copy(ids.begin(), ids.end(), triangles);
+        const auto c = Complete(polygons, delaunayflip_polygons_init_sized);
+        const SplitPolygons split = Split(view.Points, c, ToProgress(callbacks));
+        Require(triangles || split.Triangles.empty(), "triangles is null");
+        std::copy(split.Triangles.begin(), split.Triangles.end(), triangles);
+        std::copy(split.Counts.begin(), split.Counts.end(), c.triangle_counts);
       });
   }
 

@@ -273,6 +273,7 @@ static void TestPolygons(void)
   static const int64_t corners[] = { 0, 1, 2, 3, 0, 1, 4, 5, 0, 1, 2, 3 };
   static const int64_t offsets[] = { 0, 4, 6, 12 };
   static const int64_t expected[] = { 0, 1, 2, 0, 2, 3 };
+  static const int64_t decreasing[] = { 0, 3, 0, 0 };
   static const int64_t repeated[] = { 0, 1, 2, 2, 0, 1, 4, 4, 4, 5, 5, 4 };
   int64_t triangles[18], counts[3];
   delaunayflip_mesh mesh;
@@ -314,6 +315,11 @@ static void TestPolygons(void)
   CHECK(
     delaunayflip_split_polygons(&mesh, &polygons, NULL, triangles) == DELAUNAYFLIP_INVALID_MESH);
   CHECK(delaunayflip_error_cell() == 2 && delaunayflip_error_point() == 5);
+  CHECK(counts[0] == 1); /* A call that fails writes nothing. */
+  polygons.corners = NULL;
+  polygons.offsets = decreasing;
+  CHECK(
+    delaunayflip_split_polygons(&mesh, &polygons, NULL, triangles) == DELAUNAYFLIP_INVALID_CALL);
 }
 
 /* The quad without its triangles, then with the long diagonal as a segment. */
