@@ -152,7 +152,10 @@ def has_goal(options, name):
 
 def refuse_goals(options, name):
     """Raises InvalidOptions if there are goals of refinement, which this module does not support."""
+    from ._arrays import as_regions  # which needs this file
     given = [goal for goal in (*GOALS, "size") if has_goal(options, goal)]
+    if as_regions("region_seeds", options.get("region_seeds", ()))["maximum_area"].any():
+        given.append("an area in region_seeds")
     if given:
         raise InvalidOptions(f"{given[0]}: delaunayflip.{name} keeps the points; use delaunayflip.flip to "
                              "refine a mesh")

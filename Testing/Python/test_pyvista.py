@@ -165,6 +165,16 @@ class Trimesh(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "trimesh.Trimesh, not Scene"):
             flip(trimesh.Scene())
 
+    def test_goals_are_refused(self):
+        trimesh = load("trimesh")
+        from delaunayflip.trimesh import flip
+        given = trimesh.Trimesh(KITE, LONG, process=False)
+        self.assertEqual(len(flip(given, region_seeds=[(2, 0, 1), (2, 0, 1, 0.0)]).faces), 2)
+        for options, text in (({"maximum_edge": 1}, "maximum_edge: "), ({"size": [1] * 4}, "size: "),
+                              ({"region_seeds": [(2, 0, 1, 0.05)]}, "an area in region_seeds: ")):
+            with self.assertRaisesRegex(delaunayflip.InvalidOptions, text + "delaunayflip.trimesh keeps"):
+                flip(given, **options)
+
 
 class Laspy(unittest.TestCase):
 
