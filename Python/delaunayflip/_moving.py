@@ -82,7 +82,8 @@ class MovingTriangulation(Handle):
         with self._explain():
             call("open_points", self._given.struct, options, ctypes.byref(self._handle), progress)
             self._count = len(self._given.points)
-            call("advance", self._handle, -1, None, progress)
+            if not _report.is_aborted(_report.read_struct(self._handle)):
+                call("advance", self._handle, -1, None, progress)
         if _report.is_aborted(_report.read_struct(self._handle)):
             raise _library.Stopped("progress has stopped the triangulation")
         self._warn(self._handle, 3)

@@ -154,8 +154,12 @@ class Moving(unittest.TestCase):
                     mesh.move(self.random.random((2000, 2)), progress=observe)
                 self.assertEqual(len(shares), most + 1)
                 self.expect(mesh, self.points)
-        with self.assertRaises(Stopped):
-            MovingTriangulation(self.points, progress=lambda share: False)
+        shares = []
+        MovingTriangulation(self.points, progress=shares.append).close()
+        for which in range(len(shares) - 1):  # the last call comes when all is done
+            answers = [number != which for number in reversed(range(len(shares)))]
+            with self.assertRaises(Stopped):
+                MovingTriangulation(self.points, progress=lambda share: answers.pop())
 
     def test_stops_flips(self):
         """An exception, such as Ctrl-C raises, stops the flips along a curve. The points are where they were."""
