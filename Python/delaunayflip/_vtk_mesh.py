@@ -247,7 +247,7 @@ class MeshInput:
 
     def _list_numbers(self, counts, angles):
         """(name, value elsewhere, values per triangle) of the requested cell arrays."""
-        if self._region_seeds:
+        if len(self._region_seeds):
             yield "Region", 0, self.session.regions
         if counts:
             yield CELL_ARRAYS[0], 0, self.session.flip_counts

@@ -236,6 +236,7 @@ def interpolate(
         arrays.setdefault(_ELEVATION, mesh.points[:, 2])
     columns = [numpy.reshape(array, (len(array), math.prod(array.shape[1:]))).astype(float)
                for array in arrays.values()]
+    columns = columns or [numpy.zeros((len(mesh.points), 1))]  # for a cloud without numbers
     field = Field(result._answers, numpy.concatenate(columns, axis=1), method=method, outside=outside,
                   fill_value=math.nan)
     places = read_places([onto.points])

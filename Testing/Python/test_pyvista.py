@@ -305,6 +305,8 @@ class PyVista(unittest.TestCase):
             mesh.delaunay.flip(size="size")
         with self.assertRaisesRegex(delaunayflip.InvalidOptions, "minimum_angle must be from 0 to 33"):
             mesh.delaunay.flip(minimum_angle=40)
+        seeded = mesh.delaunay.flip(region_seeds=numpy.array([[1, 1, 5], [9, 9, 6]]), **options)
+        self.assertEqual(set(seeded["Region"].tolist()), {5, 6})
 
     def test_heights_of_rings(self):
         """Those that have none, and their data, come from the survey."""
@@ -481,6 +483,9 @@ class PyVista(unittest.TestCase):
             values = delaunayflip.SphereInterpolator(places, cloud["Warmth"], method=method)
             numpy.testing.assert_array_equal(made["Warmth"], values(numpy.array(directions.points)))
             self.assertNotIn("Elevation", made.point_data)
+        mask = self.pyvista.PolyData(half).delaunay.interpolate(directions, projection="open-sphere")
+        self.assertEqual(mask.point_data.keys(), ["vtkValidPointMask"])
+        self.assertEqual(set(mask["vtkValidPointMask"].tolist()), {0, 1})
         made = cloud.delaunay.interpolate(image, holes=ring, projection="sphere", degrees=True)
         values = delaunayflip.SphereInterpolator(degrees, cloud["Warmth"], holes=ring)
         numpy.testing.assert_allclose(made["Warmth"], values(image.points[:, :2]), atol=1e-12)
