@@ -295,6 +295,14 @@ def as_array(name, values):
         raise kind(f"{name} cannot be made an array: {shorten(str(error))}") from error
 
 
+def read_table(name, values):
+    """An array of NumPy of what has another library's way to make one, such as a table, whose items may be
+    columns. Lists, and arrays on a GPU, stay as they are."""
+    if _is_on_device(values) or not hasattr(values, "__array__"):
+        return values
+    return as_array(name, values)
+
+
 def _choose_type(array, *kinds):
     """The array's type in native byte order if it is one of these, else the last of them."""
     native = array.dtype if array.dtype.isnative else array.dtype.newbyteorder("=")
@@ -422,10 +430,12 @@ _REGION = numpy.dtype([("x", "f8"), ("y", "f8"), ("label", "i4"), ("maximum_area
 
 def as_regions(name, regions):
     """Region seeds, as `triangulate` and `flip` get them, as an array of delaunayflip_region."""
+    regions = read_table(name, regions)
     if not hasattr(regions, "__len__") or isinstance(regions, (str, bytes, dict)):
         raise TypeError(f"{name} must be a list of (x, y, label) or (x, y, label, area), not {show(regions)}")
     made = numpy.zeros(len(regions), _REGION)
     for number, row in enumerate(regions):
+        row = read_table(f"region {number}", row)
         region = as_array(f"region {number}", row)
         if region.shape not in ((3,), (4,)) or region.dtype.kind not in "fiu":
             raise ValueError(f"region {number} must be (x, y, label) or (x, y, label, area), not {show(row)}")

@@ -22,6 +22,7 @@ def list_rings(name, given):
     """
     if given is None:
         return []
+    given = _arrays.read_table(name, given)
     _require_list(name, given)
     if len(given) == 0:
         return []
@@ -33,11 +34,17 @@ def list_rings(name, given):
 def list_lines(given):
     """Arrays of the lines of `segments`, (k, 2) or (k, 3), if it is a list of lines by coordinates; else
     an empty list."""
-    is_array = hasattr(given, "shape")
-    if not is_array and (not isinstance(given, (list, tuple)) or len(given) == 0):
+    given = _arrays.read_table("segments", given)
+    if hasattr(given, "shape"):
+        dimensions, kind = len(given.shape), str(given.dtype)
+        if 0 in given.shape:
+            return []
+    elif isinstance(given, (list, tuple)):
+        items = (_arrays.as_array("segments", item) for item in given)
+        first = next((item for item in items if item.size), numpy.empty((0, 2)))  # the others may be empty lines
+        dimensions, kind = 1 + first.ndim, str(first.dtype)
+    else:
         return []
-    dimensions = len(given.shape) if is_array else 1 + _arrays.as_array("segments", given[0]).ndim
-    kind = str(given.dtype if is_array else _arrays.as_array("segments", given[0]).dtype)
     if dimensions == 2 and "float" in kind:
         raise TypeError("segments must be pairs of point ids, or a list of lines of coordinates; put a single "
                         "line into a list: [line]")

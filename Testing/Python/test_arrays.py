@@ -235,6 +235,47 @@ class Triangulate(unittest.TestCase):
         crossed = delaunayflip.triangulate(points, [river, [[.3, 0], [.3, 1]]], heights="own")
         self.assertRegex(crossed.report.defects, "203-204 crosses segment")
 
+    def test_tables(self):
+        """A table, as of pandas, has no dtype, and its items are columns."""
+        class Table:
+            def __init__(self, rows):
+                self.rows = numpy.array(rows)
+                self.shape = self.rows.shape
+
+            def __array__(self, dtype=None, copy=None):
+                return self.rows.astype(dtype or self.rows.dtype)
+
+            def __len__(self):
+                return len(self.rows)
+
+            def __iter__(self):
+                return iter("xyzabcdefg"[:self.shape[1]])
+
+            def __getitem__(self, name):
+                raise KeyError(name)
+
+        points = numpy.random.default_rng(12).random((40, 2))
+        square = [[.05, .05], [.95, .05], [.95, .95], [.05, .95]]
+        regions = [[.5, .5, 3, 0.01], [.4, .4, 3, 0.01]]
+        for options in ({"segments": [[0, 1], [2, 3]]}, {"outline": [[4, 9, 17], [4, 9, 30]]}, {"outline": square},
+                        {"outline": square, "hole_seeds": [[.5, .5]]}, {"regions": regions, "outline": square}):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                same = delaunayflip.triangulate(points, **options)
+                given = {name: Table(rows) for name, rows in options.items()}
+                made = delaunayflip.triangulate(Table(points), **given)
+            numpy.testing.assert_array_equal(made.triangles, same.triangles)
+            numpy.testing.assert_array_equal(made.regions, same.regions)
+
+    def test_empty_lines(self):
+        points = numpy.random.default_rng(12).random((40, 2))
+        line = [[.1, .2], [.3, .9]]
+        plain, lined = (delaunayflip.triangulate(points, given).triangles for given in (None, [line]))
+        for given in (numpy.empty((0, 2)), numpy.empty(0), [], [[]], [numpy.empty((0, 3))]):
+            numpy.testing.assert_array_equal(delaunayflip.triangulate(points, given).triangles, plain)
+        for given in ([[], line], [numpy.empty((0, 2)), line, []]):
+            numpy.testing.assert_array_equal(delaunayflip.triangulate(points, given).triangles, lined)
+
     def test_heights_of_rings(self):
         """A plane is reproduced; beyond the survey its nearest place counts."""
         points = numpy.random.default_rng(5).random((100, 3))
