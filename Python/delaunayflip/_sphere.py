@@ -319,8 +319,12 @@ def describe_distances(points, ratio):
 
 def _read_directions(given, degrees):
     """Places as read_places reads them; one of x, y and z needs no second axis. Angles become degrees."""
-    if len(given) == 1 and not isinstance(given[0], tuple) and numpy.shape(given[0]) == (3,):
-        given = [[given[0]] if isinstance(given[0], list) else given[0][None]]
+    if len(given) == 1 and not isinstance(given[0], tuple):
+        one = _arrays.read_table("places", given[0])
+        shape = _arrays.as_array("places", one).shape if isinstance(one, list) else getattr(one, "shape", None)
+        if shape is not None and tuple(shape) == (3,):
+            one = [one] if isinstance(one, list) else one[None]
+        given = [one]
     places = read_places(given)
     if places.members["place_components"] == 3:
         places.columns = 3
@@ -343,14 +347,18 @@ def place_on_sphere(lonlat: Numbers, *, degrees: bool = True) -> Array:
     Returns:
         (n, 3) float64: x, y and z; NaN where an angle is not finite.
 
+    Raises:
+        ValueError, TypeError: They are no real numbers of this shape.
+
     Example:
         >>> place_on_sphere([[90, 0], [0, -90]]).tolist()
         [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]
     """
-    angles = _to_degrees(numpy.asarray(_arrays.to_host(lonlat)), degrees)
-    if angles.ndim != 2 or angles.shape[1] != 2:
+    degrees = convert("degrees", degrees, bool, None)
+    angles = _arrays.to_host(_arrays.as_plane(lonlat, "lonlat"))
+    if angles.shape[1] != 2 and len(angles):
         raise ValueError(f"lonlat must have the shape (n, 2), not {angles.shape}")
-    angles = numpy.ascontiguousarray(angles, dtype=numpy.float64)
+    angles = numpy.ascontiguousarray(_to_degrees(angles, degrees), dtype=numpy.float64)
     places = numpy.empty((len(angles), 3))
     _library.call("place_on_sphere", address(angles), len(angles), address(places))
     return places

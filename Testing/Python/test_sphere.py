@@ -330,6 +330,22 @@ class Sphere(unittest.TestCase):
         with self.assertRaises(ValueError):
             delaunayflip.triangulate_sphere(numpy.zeros((3, 4)))
 
+    def test_places_on_the_sphere(self):
+        for given in ([], numpy.empty((0, 2))):
+            self.assertEqual(delaunayflip.place_on_sphere(given).shape, (0, 3))
+        small = delaunayflip.place_on_sphere(numpy.array([[1, 0]], numpy.uint8), degrees=False)
+        self.assertAlmostEqual(small[0, 0], numpy.cos(1.0), delta=1e-15)
+        masked = numpy.ma.array([[1.0, 2], [3, 4]], mask=[[0, 0], [0, 1]])
+        for error, text, given in (
+                (ValueError, "lonlat has masked values", masked), (TypeError, "not complex128", [[1j, 2]]),
+                (TypeError, "lonlat must be real numbers, not <U1", [["1", "2"]]),
+                (TypeError, "not bool", [[True, False]]), (ValueError, "lonlat must have the shape", [1, 2]),
+                (ValueError, r"lonlat must have the shape \(n, 2\), not \(1, 3\)", [[1, 2, 3]])):
+            with self.assertRaisesRegex(error, text):
+                delaunayflip.place_on_sphere(given)
+        with self.assertRaisesRegex(TypeError, "degrees must be True or False, not 'no'"):
+            delaunayflip.place_on_sphere([[1, 2]], degrees="no")
+
 
 def find_smooth(points):
     return numpy.exp(points[..., 0]) + points[..., 1] * points[..., 2]
@@ -440,6 +456,27 @@ class SphereValues(unittest.TestCase):
         stopped = delaunayflip.triangulate_sphere(points, progress=lambda share: False)
         with self.assertRaisesRegex(ValueError, "stopped before its end"):
             stopped.locate([[0, 0]])
+        f = delaunayflip.SphereInterpolator(points, numpy.zeros(20))
+        for ragged in ([[1, 2], [3]], [[1, 2, 3], [4, 5]]):
+            with self.assertRaisesRegex(ValueError, "^places cannot be made an array"):
+                f(ragged)
+
+    def test_place_of_another_library(self):
+        class Column:
+            """Such as a row of a table of pandas; numbers are no names of its items."""
+
+            shape = (3,)
+
+            def __array__(self, dtype=None, copy=None):
+                return numpy.array([0.0, 1.0, 0.0], dtype)
+
+            def __getitem__(self, name):
+                raise KeyError(name)
+
+        octahedron = numpy.r_[numpy.eye(3), -numpy.eye(3)]
+        f = delaunayflip.SphereInterpolator(octahedron, numpy.arange(6.0))
+        for place in (Column(), [0.0, 1.0, 0.0], numpy.array([0.0, 1.0, 0.0])):
+            self.assertEqual(f(place).tolist(), [1.0])
 
 
 if __name__ == "__main__":
