@@ -119,7 +119,8 @@ class Triangulation(Asked):
             points: (k, 2) or (k, 3), as many columns as the others. They are numbered after all others
                 but those where segments cross, and get the precision of the others. Points at places of
                 others, or that are not finite, are not used. Their z is kept; heights of rings and lines
-                do not change. If the others are on a GPU, all arrays of the result are NumPy's.
+                do not change. If the others are on a GPU, all arrays of the result are NumPy's. It warns as
+                `triangulate` does, but of nothing that was the same before.
             progress: Called with the share of the work done, 0 to 1, if all is made anew; False stops it.
 
         Raises:
@@ -133,6 +134,14 @@ class Triangulation(Asked):
             >>> mesh.insert([[0.25, 0.25]]).triangles.shape
             (3, 3)
         """
+        result, trouble = self._insert(points, progress)
+        new = [text for text in trouble if f"; {text};" not in f"; {self.report.defects};"]
+        if new:
+            warnings.warn("; ".join(new), stacklevel=2)
+        return result
+
+    def _insert(self, points, progress=None):
+        """The triangulation with more points, and the texts of warnings."""
         answers = self.__dict__.get("_answers")
         if answers is None or answers.is_shared:
             answers = self._triangulate_again()
@@ -145,7 +154,7 @@ class Triangulation(Asked):
             error.args = (more.explain(str(error), error.ring), *error.args[1:])
             raise
         result.__dict__["_answers"] = answers
-        return result
+        return result, more.trouble
 
     @functools.cached_property
     def _answers(self):
@@ -158,7 +167,7 @@ class Triangulation(Asked):
         points, keywords, batches = self._made_from
         again, _ = run_points(points, keywords, keeps=True)
         for batch in batches:
-            again = again.insert(batch)
+            again, _ = again._insert(batch)
         if not numpy.array_equal(_arrays.to_host(again.triangles), _arrays.to_host(self.triangles)):
             raise ValueError("the points or segments have been changed since they were triangulated; "
                              "triangulate them again")

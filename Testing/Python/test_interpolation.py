@@ -322,6 +322,23 @@ class Lifetime(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "have been changed"):
             changed.locate(PLACES)
 
+    def test_warnings_of_insertions(self):
+        """They are those of `triangulate`, but only where something is new."""
+        with self.assertWarnsRegex(UserWarning, "segment that crosses"):
+            mesh = delaunayflip.triangulate([[0, 0], [1, 1], [1, 0], [0, 1]], [[0, 1], [2, 3]])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            mesh = mesh.insert([[0.5, 0.25]])
+        corners = [[0, 0], [4, 0], [4, 0.3], [0, 4]]
+        with self.assertWarnsRegex(UserWarning, "^2 triangles that are not as good as wanted"):
+            mesh = delaunayflip.triangulate(corners, minimum_angle=30, keep_boundary=True)
+        with self.assertWarnsRegex(UserWarning, "^[3-9] triangles that are not as good as wanted") as told:
+            mesh = mesh.insert([[2, 0.1], [1, 1]])
+        self.assertEqual(told.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            copy.copy(mesh).locate([[0.5, 0.5]])  # triangulates and inserts again
+
     def test_points_are_inserted(self):
         places = numpy.random.default_rng(8).random((250, 2))
         values, more_values = plane(POINTS), plane(places)
