@@ -62,13 +62,14 @@ def read_places(given):
 def read_raster(origin, step, shape, like):
     """The centres of cells; `origin`: of the first one."""
     origin_x, origin_y = _read_pair("origin", origin, [(2,)], "two finite numbers, x and y")
-    step_x, step_y = _read_pair("step", step, [(), (2,)], "one or two finite numbers, not 0")
+    step_x, step_y = _read_pair("step", step, [(), (2,)], "one or two finite numbers other than 0")
     if step_x == 0 or step_y == 0:
         raise ValueError("step must not be 0")
     if not isinstance(shape, (tuple, list)) or len(shape) != 2:
         raise TypeError(f"shape must be (rows, columns), not {show(shape)}")
     most = 2**40
-    rows, columns = (check_integer("shape", size, 0, most) for size in shape)
+    rows, columns = (
+        check_integer("rows and columns of shape", size, 0, most, f"integers from 0 to {most}") for size in shape)
     if rows * columns > most:
         raise ValueError(f"shape must have at most 2**40 cells, not {rows} rows of {columns}")
     return Places({"rows": rows, "columns": columns, "origin_x": origin_x, "origin_y": origin_y,
@@ -78,13 +79,15 @@ def read_raster(origin, step, shape, like):
 def _read_pair(name, given, shapes, wanted):
     pair = _arrays.as_array(name, given)
     if pair.shape not in shapes or pair.dtype.kind not in "fiu" or not numpy.isfinite(pair).all():
-        raise ValueError(f"{name} must be {wanted}, not {show(given)}")
+        raise ValueError(f"{name} must be {wanted}; it is {show(given)}")
     return numpy.broadcast_to(pair, (2,)).astype(float).tolist()
 
 
 def halve(progress, start):
     """An observer of a half of the work, which begins at the share `start`."""
-    return progress and (lambda share: progress(start + 0.5 * share))
+    if not callable(progress):  # none, or what `observe` refuses
+        return progress
+    return lambda share: progress(start + 0.5 * share)
 
 
 class Answers:

@@ -33,8 +33,8 @@ class LinearInterpolator(Interpolator):
 
     Do not change the arrays of points and values as long as you use it: they may not be copied.
 
-    Threads may share an interpolator; they take turns. One that was copied or pickled triangulates
-    again at its first use. Its memory is freed with it.
+    Threads may share an interpolator; they take turns. A copy, or one that is unpickled, triangulates
+    again at once. Its memory is freed with it.
 
     Args:
         points: (n, 2) or (n, 3), as for `triangulate`, or a pair of arrays, x and y.

@@ -68,8 +68,8 @@ def triangulate(
             points = numpy.concatenate(chunks) if chunks else numpy.empty((0, 3))
     if len(points) == 0:
         listed = ", ".join(str(int(number)) for number in seen) or "none"
-        raise ValueError(f"no point of the classes {classes!r} that is not withheld; the file has the "
-                         f"classes {listed}")
+        which = "" if classes is None else f" of the classes {classes!r}"
+        raise ValueError(f"there is no point{which} that is not withheld; the file has the classes {listed}")
     observers = {name: options.pop(name, None) for name in ("progress", "on_iteration")}
     result, trouble = run_points(points, options, **observers)
     if trouble:

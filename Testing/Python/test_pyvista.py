@@ -191,10 +191,13 @@ class Laspy(unittest.TestCase):
             for given in (tile, file):
                 self.assertEqual(len(triangulate(given, classes=classes).triangles), count)
         for error, text, options in ((ValueError, "the file has the classes 2, 5", {"classes": [9]}),
-                                     (TypeError, "integer", {"classes": [2.5]}),
+                                     (ValueError, r"there is no point of the classes \[9\] that is not",
+                                      {"classes": [9]}), (TypeError, "integer", {"classes": [2.5]}),
                                      (TypeError, "clases", {"clases": [2]})):
             with self.assertRaisesRegex(error, text):
                 triangulate(tile, **options)
+        with self.assertRaisesRegex(ValueError, "^there is no point that is not withheld"):
+            triangulate(laspy.create())
         with self.assertWarnsRegex(UserWarning, "without heights") as told:
             triangulate(tile, outline=[[1, 0.5], [3, 0.5], [3, 3]])
         self.assertEqual(told.filename, __file__)
