@@ -47,7 +47,7 @@ def flip(
             data, or (m,) values for the triangles of all blocks, take the place of these; 0 makes
             one region of all.
         return_report: Also return the `Report`.
-        **options: Those of delaunayflip.flip; its constraints are added to the lines.
+        **options: Those of delaunayflip.flip; the lines are added to its constraints.
 
     Returns:
         The mesh; with `return_report`, the mesh and the report.
@@ -94,9 +94,9 @@ def _add_constraints(pairs, options):
     given = _arrays.as_ids("constraints", [] if given is None else given, 2)
     flags = _arrays.as_flags("insert_constraints", options.get("insert_constraints", True),
                              (), (len(given),))
-    options["constraints"] = numpy.concatenate([pairs, given])
+    options["constraints"] = numpy.concatenate([given, pairs])  # so that messages number those of the caller
     options["insert_constraints"] = numpy.concatenate(
-        [numpy.zeros(len(pairs), bool), numpy.full(len(given), flags)])
+        [numpy.full(len(given), flags), numpy.zeros(len(pairs), bool)])
 
 
 def _find_shared_edges(triangles, others, count):
