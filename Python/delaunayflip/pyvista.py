@@ -14,6 +14,7 @@ first argument: `delaunayflip.pyvista.flip(mesh)`.
 
 Meshes go to the engine as arrays, so it does not matter which VTK PyVista uses (vtk or cvista).
 """
+import contextlib
 import inspect
 import math
 import types
@@ -354,6 +355,16 @@ def _require_mesh(name, mesh):
     return mesh
 
 
+@contextlib.contextmanager
+def _with_keyword():
+    """Puts the keyword for the sizes near points into messages, in place of the filter's property."""
+    try:
+        yield
+    except InvalidOptions as error:
+        error.args = (str(error).replace("SizeArray: ", "size: ", 1), *error.args[1:])
+        raise
+
+
 def _read_cloud(cloud, segments, outline, holes, options, *, projection, degrees, **settings):
     """The points of a dataset with their segments. `options`: they say where heights are found."""
     if not hasattr(cloud, "GetPoints"):
@@ -378,10 +389,11 @@ def _read_cloud(cloud, segments, outline, holes, options, *, projection, degrees
         cloud, segments = _place_meshes(cloud, segments, name, settings["heights"] == "own")
         if settings["heights"] is None:
             settings["height_array"] = name
-    given = PointsInput(
-        cloud, segments, **rings, projection=number,
-        backend={name: options[name] for name in ("backend", "threads", "device") if name in options},
-        **settings)
+    with _with_keyword():
+        given = PointsInput(
+            cloud, segments, **rings, projection=number,
+            backend={name: options[name] for name in ("backend", "threads", "device") if name in options},
+            **settings)
     if seeds is not None:
         given.take_seeds(_place("hole_seeds", as_plane(seeds, "hole_seeds"), degrees))
     return given
@@ -472,8 +484,9 @@ def _open(mesh, constraints, options, progress=None):
     if name and name not in mesh.point_data:
         listed = ", ".join(map(repr, mesh.point_data)) or "none"
         raise InvalidOptions(f"size: the mesh has no point array {name!r}; it has {listed}")
-    run = MeshInput(mesh, constraints, **flags, region_array=regions, size_array=name,
-                    region_seeds=seeds)
+    with _with_keyword():
+        run = MeshInput(mesh, constraints, **flags, region_array=regions, size_array=name,
+                        region_seeds=seeds)
     if size is not None and not name:
         run.take_sizes(size)
     run.session_type = Session

@@ -65,6 +65,10 @@ class MeshIO(unittest.TestCase):
             made = flip(meshio.Mesh(KITE, [("triangle", faces), ("line", [line])]),
                         constraints=constraints)
             self.assertEqual(as_set(made.cells[0].data), as_set(expected))
+        lined = meshio.Mesh(KITE, [("triangle", LONG), ("line", [[0, 1], [1, 2]])])
+        with self.assertRaises(delaunayflip.InvalidMesh) as told:
+            flip(lined, constraints=[[0, 3], [1, 77]])
+        self.assertEqual((told.exception.cell, told.exception.point), (1, 77))
         with self.assertRaisesRegex(TypeError, "meshio.Mesh, not list"):
             flip(KITE)
 
@@ -281,7 +285,7 @@ class PyVista(unittest.TestCase):
                 self.assertEqual(set(wanted[(lines == point).any(axis=1)]), {on_points[point]})
         same = cloud.delaunay.triangulate(wall, size=[1.0, 3, 3, 1], **options)
         numpy.testing.assert_array_equal(same.faces, made.faces)
-        with self.assertRaisesRegex(delaunayflip.InvalidOptions, 'no point array of numbers named "size"'):
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, '^size: .* no point array of numbers named "size"'):
             cloud.delaunay.triangulate(size="size")
 
     def test_refinement_of_meshes(self):
@@ -308,6 +312,9 @@ class PyVista(unittest.TestCase):
             mesh.delaunay.flip(size="size")
         with self.assertRaisesRegex(delaunayflip.InvalidOptions, "minimum_angle must be from 0 to 33"):
             mesh.delaunay.flip(minimum_angle=40)
+        mesh["Pairs"] = numpy.ones((6, 2))
+        with self.assertRaisesRegex(delaunayflip.InvalidOptions, '^size: "Pairs" must have one component'):
+            mesh.delaunay.flip(size="Pairs")
         seeded = mesh.delaunay.flip(region_seeds=numpy.array([[1, 1, 5], [9, 9, 6]]), **options)
         self.assertEqual(set(seeded["Region"].tolist()), {5, 6})
 
