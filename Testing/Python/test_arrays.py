@@ -1100,6 +1100,19 @@ class Package(unittest.TestCase):
                 self.assertRaises(OSError, load)
                 taken.assert_called_with(str(file))
 
+    def test_reference(self):
+        """The page lists all members of a class, or those that Sphinx finds, also inherited ones."""
+        page = (ROOT / "Documentation/reference/python.md").read_text()
+        directives = re.findall(r"autoclass:: delaunayflip\.(\w+)\n((?:   .*\n)+)", page)
+        self.assertGreater(len(directives), 7)
+        for name, options in directives:
+            kind = getattr(delaunayflip, name)
+            wanted = {member for member in dir(kind) if not member.startswith("_")}
+            shown = wanted if ":inherited-members:" in options else set(vars(kind))
+            if ":members:\n" not in options:
+                shown = set(re.findall(r"\w+", options))
+            self.assertEqual(wanted - shown, set(), name)
+
     def test_docstrings(self):
         result = doctest.testmod(_session)
         self.assertGreater(result.attempted, 5)
