@@ -296,8 +296,8 @@ def as_array(name, values):
 
 
 def read_table(name, values):
-    """An array of NumPy of what has another library's way to make one, such as a table, whose items may be
-    columns. Lists, and arrays on a GPU, stay as they are."""
+    """An array of NumPy of what it can make one, such as a table of another library. The items of tables may
+    be columns. Lists, and arrays on a GPU, stay as they are."""
     if _is_on_device(values) or not hasattr(values, "__array__"):
         return values
     return as_array(name, values)
