@@ -271,7 +271,7 @@ class MovingTriangulation(Handle):
             self._stored = {}
             try:
                 yield handle
-            except Exception:  # all points are where they were, but the mesh may have to be made again
+            except Exception:  # all points are where they were, but the mesh may have to be made anew
                 with contextlib.suppress(Exception):
                     _library.call("advance", handle, -1, None, None)
                 raise

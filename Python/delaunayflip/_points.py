@@ -616,8 +616,8 @@ class Input:
         return int(triangles.min()) >= first_added
 
     def find_used_points(self, handle, report):
-        """The point that is used at the place of each one, also of added ones; None if each point is
-        used itself, so that nothing has to come from a GPU."""
+        """The point that is used at the place of each one, also of added ones; None if that is always the
+        point itself, so that nothing has to come from a GPU."""
         if not (report.points_not_finite or report.repeated_points or report.points_too_near
                 or report.points_inside):
             return None
