@@ -227,9 +227,9 @@ struct MotionView
   }
 
   /// Asks the vertices of a listed triangle for equal shares of their steps, the largest with which
-  /// it is counter-clockwise. With unequal shares a thin triangle may be inverted on the way, though
-  /// it is not if all three go at the same pace. A vertex of several triangles takes the smallest
-  /// share.
+  /// it is counter-clockwise. With unequal shares a thin triangle may be inverted on the way,
+  /// though it is not if all three go at the same pace. A vertex of several triangles takes the
+  /// smallest share.
   DELAUNAYFLIP_HOST_DEVICE void AskForHalvings(std::int64_t inverted, std::uint32_t stamp) const
   {
     const TriangleId triangle = this->Inverted[inverted];

@@ -10,8 +10,8 @@
 namespace delaunayflip
 {
 
-/// A square whose sides are divided by further points, turned around its first corner. These points
-/// are on the sides only within rounding: some are outside of the square, and some inside.
+/// A square turned around its first corner. Further points divide its sides. They are on the sides
+/// only within rounding: some are outside of the square, and some inside.
 /// @param angle in radians. @param pieces of each side.
 inline Places MakeDividedSquare(double angle, int pieces)
 {
