@@ -88,7 +88,7 @@ public:
 
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
-  const FlipSession* GetSession() const override
+  const FlipSession* GetSessionToDraw() const override
   {
     return this->Bridge.IsRefined() ? nullptr : this->Session.get();
   }

@@ -112,7 +112,7 @@ public:
 
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
-  const FlipSession* GetSession() const override
+  const FlipSession* GetSessionToDraw() const override
   {
     return this->Asked.IsRefined() ? nullptr : this->Session.get();
   }

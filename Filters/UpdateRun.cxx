@@ -148,6 +148,11 @@ const FlipSession* RunKeeper::GetSession() const
   return this->HasRun() ? this->Run->GetSession() : nullptr;
 }
 
+const FlipSession* RunKeeper::GetSessionToDraw() const
+{
+  return this->HasRun() ? this->Run->GetSessionToDraw() : nullptr;
+}
+
 bool RunKeeper::IsNewWarning(const std::string& text)
 {
   return !this->HasRun() || std::exchange(this->Run->Warning, text) != text;

@@ -72,9 +72,11 @@ public:
   /// @returns false when the observer stopped it. Then there are no angles.
   virtual bool Store(vtkPolyData* output) const = 0;
 
+  const FlipSession* GetSession() const { return this->Session.get(); }
+
   /// The session, for views that draw its triangles with the points of the output. Null if the
   /// session may add points.
-  virtual const FlipSession* GetSession() const { return this->Session.get(); }
+  virtual const FlipSession* GetSessionToDraw() const { return this->GetSession(); }
 
   /// Whether this run has moved the points of the one before it. There may be more or fewer
   /// triangles than before.
@@ -131,6 +133,9 @@ public:
 
   /// The session of the live run; null if there is none.
   const FlipSession* GetSession() const;
+
+  /// Likewise, but see UpdateRun::GetSessionToDraw.
+  const FlipSession* GetSessionToDraw() const;
 
   /// Keeps the text of a warning.
   /// @returns whether it differs from the last one about this run, or there is no run.

@@ -228,7 +228,10 @@ bool vtkDelaunayFlipAlgorithm::GetMeshIsWithheld() const
   return this->Runs->Next == RunKeeper::UpdateKind::Store;
 }
 
-const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const { return this->Runs->GetSession(); }
+const FlipSession* vtkDelaunayFlipAlgorithm::GetSession() const
+{
+  return this->Runs->GetSessionToDraw();
+}
 
 void vtkDelaunayFlipAlgorithm::Restart()
 {

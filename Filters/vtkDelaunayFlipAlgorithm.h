@@ -332,10 +332,10 @@ public:
    * next update, by whatever is connected to the port, puts the mesh out and makes no step. Port 1
    * and all results are those of the step. AdvanceSession() returns false if the executive failed.
    *
-   * GetSession() returns the session of the last update, or null if LiveUpdate is off or the update
-   * failed. It is valid until the next update. Its triangles are the polygons of the output, in
-   * their order, if the input has no other polygons than triangles and no strips, and if a
-   * vtkDelaunayFlipPoints does not sort them (see KeepSession there).
+   * GetSession() returns the session of the last update, or null if LiveUpdate is off, the update
+   * failed or the mesh is refined. It is valid until the next update. Its triangles are the
+   * polygons of the output, in their order, if the input has no other polygons than triangles and
+   * no strips, and if a vtkDelaunayFlipPoints does not sort them (see KeepSession there).
    */
 #ifndef __VTK_WRAP__
   bool AdvanceSession();

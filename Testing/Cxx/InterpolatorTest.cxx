@@ -27,7 +27,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <vector>
 
 namespace
 {
@@ -279,6 +281,39 @@ TEST(Interpolator, SegmentsAndProjections)
   for (std::size_t i = 0; i < flat.size(); ++i)
   {
     EXPECT_NEAR(found[i], flat[i], 1e-9);
+  }
+}
+
+/// The points that refinement adds have values, too.
+TEST(Interpolator, RefinementAndRegions)
+{
+  using Change = std::function<void(vtkDelaunayFlipInterpolator*)>;
+  const std::vector<Change> changes = { [](auto* filter) { filter->SetMaximumArea(0.05); },
+    [](auto* filter) { filter->SetMinimumAngle(25.0); },
+    [](auto* filter) { filter->AddRegion(5.0, 5.0, 3.0, 0.0); },
+    [](auto* filter) { filter->AddRegion(5.0, 5.0, 3.0, 0.05); } };
+  const auto source = MakeSource(), places = MakePlaces();
+  const auto others = MakeArray<vtkIntArray>("integers", source->GetNumberOfPoints());
+  others->FillValue(4);
+  source->GetPointData()->AddArray(others);
+  for (std::size_t i = 0; i < changes.size(); ++i)
+  {
+    Interpolator filter(places);
+    filter->SetSourceData(source);
+    changes[i](filter.Get());
+    vtkPointData* data = Update(filter);
+    EXPECT_EQ(filter->GetReport().Points > source->GetNumberOfPoints(), i != 2);
+    for (vtkIdType k = 0; k < places->GetNumberOfPoints(); ++k)
+    {
+      double x[3];
+      places->GetPoint(k, x);
+      ASSERT_EQ(data->GetArray("vtkValidPointMask")->GetTuple1(k), IsInSquare(x));
+      if (IsInSquare(x))
+      {
+        EXPECT_NEAR(data->GetArray("Elevation")->GetTuple1(k), GetHeight(x), 1e-12);
+        EXPECT_NEAR(data->GetArray("integers")->GetTuple1(k), 4.0, 1e-12);
+      }
+    }
   }
 }
 

@@ -671,6 +671,15 @@ class SameInterpolator(Pair, unittest.TestCase):
                 flip.SetSourceData(source), flip.SetSegmentsData(lines), flip.SetSegmentHeights(heights),
                 flip.SetProjectionToOpenSphere(), flip.DegreesOn()))
 
+    def test_refinement_and_regions(self):
+        source = self.make_source()
+        for change in (lambda flip: flip.SetMaximumArea(2), lambda flip: flip.SetMinimumAngle(25),
+                       lambda flip: flip.AddRegion(15, 15, 3, 0), lambda flip: flip.AddRegion(15, 15, 3, 2)):
+            told = self.expect_same(self.list_places()[4], lambda flip, change=change: (
+                flip.SetSourceData(source), change(flip)))
+            values = next(part[3] for part in told["meshes"][0] if part[0] == "vtkValidPointMask")
+            self.assertEqual(values, ["\x01"] * 40)
+
     def test_sphere(self):
         source = self.make_source()
         for degrees, given in ((True, source), (False, make_globe())):
