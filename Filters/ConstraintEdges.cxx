@@ -548,6 +548,16 @@ std::vector<vtkIdType> SegmentList::AddPoints(const PointArray& own, const Point
     {
       TurnToDoubles(theirs);
     }
+    const auto given = TakeWholeArrays(this->Points->GetPointData(), own.Count);
+    TurnToRealsOf(given, theirs);
+    for (int i = 0; i < theirs->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = theirs->GetAbstractArray(i);
+      if (array->GetName() && KeepsName(array, given))
+      {
+        this->Received.insert(array->GetName());
+      }
+    }
     AppendPoints(CopyShallow(this->Points), segments->GetPoints(), added, theirs, this->Points);
     this->ShortArrays = FindShortArrays(
       data, others.Count, "point", " of the second input with too few tuples left out");

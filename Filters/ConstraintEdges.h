@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -175,6 +176,8 @@ public:
   /// cells of the second one.
   std::vector<vtkIdType> Cells;
   Defect ShortArrays; ///< Point arrays of the second input that are left out.
+  /// The names of the arrays in which added points have values of the second input.
+  std::set<std::string> Received;
 
 private:
   enum class CellKind

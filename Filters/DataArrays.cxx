@@ -321,7 +321,17 @@ std::vector<RegionSeed> ReadRegionSeeds(const std::vector<std::array<double, 4>>
   return seeds;
 }
 
-void TurnToDoubles(vtkDataSetAttributes* data)
+namespace
+{
+bool IsReal(vtkAbstractArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+/// Turns arrays of numbers, except labels, into others.
+/// @param find the type that an array becomes, from the array.
+template <typename FindType>
+void TurnNumbers(vtkDataSetAttributes* data, const FindType& find)
 {
   const vtkAbstractArray* labels[] = { data->GetGlobalIds(), data->GetPedigreeIds(),
     data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()) };
@@ -329,15 +339,42 @@ void TurnToDoubles(vtkDataSetAttributes* data)
   {
     vtkDataArray* array = data->GetArray(i); // null if it has no numbers
     const bool isLabel = std::count(std::begin(labels), std::end(labels), array) > 0;
-    if (array && array->GetName() && !isLabel && array->GetDataType() != VTK_FLOAT &&
-      array->GetDataType() != VTK_DOUBLE)
+    if (!array || !array->GetName() || isLabel)
     {
-      vtkNew<vtkDoubleArray> doubles;
-      doubles->DeepCopy(array);
+      continue;
+    }
+    const int type = find(array);
+    if (type != array->GetDataType())
+    {
+      const auto turned = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+      turned->DeepCopy(array);
       const int attributes = FindAttributes(data, array);
-      AddAttributes(data, data->AddArray(doubles), attributes); // replaces the array
+      AddAttributes(data, data->AddArray(turned), attributes); // replaces the array
     }
   }
+}
+}
+
+void TurnToDoubles(vtkDataSetAttributes* data)
+{
+  TurnNumbers(
+    data, [](vtkDataArray* array) { return IsReal(array) ? array->GetDataType() : VTK_DOUBLE; });
+}
+
+void TurnToRealsOf(vtkDataSetAttributes* own, vtkDataSetAttributes* data)
+{
+  TurnNumbers(data,
+    [own](vtkDataArray* array)
+    {
+      vtkAbstractArray* like = own->GetAbstractArray(array->GetName());
+      return like && IsReal(like) ? like->GetDataType() : array->GetDataType();
+    });
+}
+
+bool KeepsName(vtkAbstractArray* array, vtkDataSetAttributes* data)
+{
+  vtkAbstractArray* other = data->GetAbstractArray(array->GetName());
+  return !other || AreAlike(array, other);
 }
 
 vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids)

@@ -202,6 +202,13 @@ void InterpolateTuples(
 /// Turns arrays of integers into arrays of doubles, so that interpolated values are not rounded.
 void TurnToDoubles(vtkDataSetAttributes* data);
 
+/// Turns arrays of numbers into arrays of floats or doubles where `own` has one of that name, so
+/// that AddTuples puts both into one array. Labels stay as they are.
+void TurnToRealsOf(vtkDataSetAttributes* own, vtkDataSetAttributes* data);
+
+/// Whether AddTuples puts the values of an array into one of this name that `data` has or gets.
+bool KeepsName(vtkAbstractArray* array, vtkDataSetAttributes* data);
+
 /// The points of a mesh, then some of `more`: as double, unless those of the mesh are float.
 vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids);
 

@@ -82,6 +82,13 @@ vtkSmartPointer<vtkPolyData> CopyForRun(const TriangulationRequest& request, vtk
   return copy;
 }
 
+/// Whether points have an array with a tuple for each of them.
+bool HasWholeArray(vtkPolyData* points, const char* name)
+{
+  vtkAbstractArray* array = points->GetPointData()->GetAbstractArray(name);
+  return array && array->GetNumberOfTuples() >= points->GetNumberOfPoints();
+}
+
 /// Components of an array that are interpolated between the given points.
 struct SurveyedArray
 {
@@ -149,7 +156,8 @@ private:
   PointsWithoutHeights WithoutHeights; ///< Those that a warning counts.
   bool IsFollowing = false; ///< See HasFollowed.
   bool AreLifted = false; ///< They have got heights.
-  bool HasSurveyed = false; ///< Added points have got data of the given ones.
+  /// Sizes of the points that segments add, not rounded, if they are interpolated.
+  std::vector<double> SurveyedSizes;
   std::vector<double> Sizes; ///< Longest edges near points, if they are limited.
   std::vector<RegionSeed> Regions;
   std::vector<double> Storage; ///< Points that cannot be viewed in place, or must not.
@@ -426,19 +434,25 @@ void TriangulationRun::ReadSizes()
     return;
   }
   const vtkIdType given = this->Given->GetNumberOfPoints(), count = this->View.Points.Count;
+  const bool areGiven = this->Given->GetPointData()->HasArray(name.c_str()) != 0;
+  if (areGiven)
+  {
+    FindSizes(this->Given, name, given);
+  }
   vtkDataArray* array = FindSizes(this->Points, name, count);
-  const auto has = [&name](vtkPolyData* points)
-  { return points && points->GetPointData()->HasArray(name.c_str()) != 0; };
-  const bool areGiven = has(this->Given);
-  const bool areAddedKnown = has(this->Asked.Others) || this->HasSurveyed;
+  const bool areReceived = this->Segments.Received.count(name) > 0;
   this->Sizes.assign(count, NAN);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const bool isKnown = i < given ? areGiven : areAddedKnown;
+    const bool isKnown = i < given ? areGiven : areReceived;
     if (isKnown)
     {
       this->Sizes[i] = array->GetComponent(i, 0);
     }
+  }
+  if (!areReceived)
+  {
+    std::copy(this->SurveyedSizes.begin(), this->SurveyedSizes.end(), this->Sizes.begin() + given);
   }
   this->View.Sizes = this->Sizes.data();
 }
@@ -464,10 +478,11 @@ std::vector<SurveyedArray> TriangulationRun::ListSurveyed() const
     {
       continue;
     }
-    const bool isOfBoth = this->Asked.Others->GetPointData()->HasArray(array->GetName()) != 0;
-    if (!isOfBoth || this->Asked.HeightArray == array->GetName())
+    const bool isReceived = this->Segments.Received.count(array->GetName()) > 0;
+    const bool isWanted = !isReceived || this->Asked.HeightArray == array->GetName();
+    if (isWanted && HasWholeArray(this->Given, array->GetName()))
     {
-      surveyed.push_back({ array, 0, array->GetNumberOfComponents(), isOfBoth });
+      surveyed.push_back({ array, 0, array->GetNumberOfComponents(), isReceived });
     }
   }
   return surveyed;
@@ -517,7 +532,6 @@ void TriangulationRun::TakeHeights(
     this->Points->GetPoints()->Modified();
   }
   this->AreLifted = !lifted.empty();
-  this->HasSurveyed = true;
 }
 
 /// Writes numbers of points that are interpolated between those of the given points.
@@ -548,6 +562,11 @@ void TriangulationRun::AskSurvey(
   query.Outside = OutsideKind::Nearest;
   query.Results = results.data();
   survey.Ask(query);
+  const bool isWhole = surveyed.First == 0 && surveyed.Count == array->GetNumberOfComponents();
+  if (isWhole && GetName(array) == this->Asked.SizeArray)
+  {
+    this->SurveyedSizes = results;
+  }
   const bool isReal = array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
   for (std::size_t i = 0; i < results.size(); ++i)
   {

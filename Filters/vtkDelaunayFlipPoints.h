@@ -37,11 +37,13 @@
  * the vtkPoints object of the input, but not in live updates. Added points come last. First are
  * those of the second input with their z and point data. An array of numbers that only the first
  * input has is interpolated for them, as by SegmentHeights SURVEY; other arrays that only one input
- * has are 0 or empty for the points of the other. Then come those where segments cross, and those
- * of refinement (MinimumAngle, MaximumArea, MaximumEdge, SizeArray, AddRegion). Global ids become
- * pedigree ids if points are added, since they are no longer unique. With PassSegments the output
- * also has the edges of the segments, as lines. Port 1: the table of iterations, as of
- * vtkDelaunayFlip.
+ * has are 0 or empty for the points of the other. If both have an array of one name, numbers of the
+ * second input become float or double if those of the first one are. If types or components then
+ * differ, the values of the second input are in an array with " (2)" after its name. Its arrays
+ * with too few tuples are left out. Then come those where segments cross, and those of refinement
+ * (MinimumAngle, MaximumArea, MaximumEdge, SizeArray, AddRegion). Global ids become pedigree ids if
+ * points are added, since they are no longer unique. With PassSegments the output also has the
+ * edges of the segments, as lines. Port 1: the table of iterations, as of vtkDelaunayFlip.
  *
  * The field data of port 0 are those of vtkDelaunayFlip, and these arrays of one value each. Their
  * names begin with "DelaunayFlip:", too: UsedPoints, PointsNotFinite, RepeatedPoints, PointsTooNear

@@ -65,6 +65,7 @@ class PointsInput(Input):
         self.take_projection(projection)
         self._surveyed = []  # (name, ids, values) of each array of added points
         self._read_data = self._as_doubles if as_doubles else lambda data: data
+        self._theirs, self._received = self._match_theirs()
         self._choose_heights(heights, height_array, backend or {})
         if size_array:
             self._read_sizes(size_array)
@@ -78,12 +79,11 @@ class PointsInput(Input):
             raise InvalidOptions("SegmentHeights: the heights of the survey are for x and y; with another "
                                  "projection choose Own")
         lifted = self.choose_lifted(heights, added)
-        theirs = self._others.GetPointData() if hasattr(self._others, "GetPointData") else None
         labels = data.GetGlobalIds(), data.GetPedigreeIds(), data.GetAbstractArray(GHOST_ARRAY)
         names = [array.GetName() for array in list_arrays(data)
                  if array.GetName() and array.IsNumeric() and array.GetNumberOfTuples() >= count
                  and not is_among(array, labels)
-                 and (array.GetName() == height_array or not (theirs and theirs.HasArray(array.GetName())))]
+                 and (array.GetName() == height_array or array.GetName() not in self._received)]
         if count == 0 or len(added) == 0 or not (len(lifted) or names):
             return
         columns = [self.points[:count, 2:]]
@@ -101,8 +101,8 @@ class PointsInput(Input):
     def _read_sizes(self, name):
         """Finds the longest edges near points. Near those that have no number there is no limit."""
         own, count = self.data.GetPointData(), self.data.GetNumberOfPoints()
-        theirs = self._others.GetPointData() if len(self._sources) else None
-        arrays = [data.GetArray(name) for data in (own, theirs) if data and data.GetArray(name)]
+        theirs = self._theirs.GetArray(name) if name in self._received else None
+        arrays = [array for array in (own.GetArray(name), theirs) if array is not None]
         if not arrays:
             raise InvalidOptions(f'SizeArray: the input has no point array of numbers named "{name}"; '
                                  f"{list_names(own)}.")
@@ -113,8 +113,8 @@ class PointsInput(Input):
         sizes = numpy.full(len(self.points), numpy.nan)
         if own.GetArray(name):
             sizes[:count] = self.vtk.view(own.GetArray(name))[:count]
-        if theirs and theirs.GetArray(name):
-            sizes[count:] = self.vtk.view(theirs.GetArray(name))[self._sources]
+        if theirs is not None:
+            sizes[count:] = self.vtk.view(theirs)[self._sources]
         for surveyed, ids, values in self._surveyed:
             if surveyed == name:
                 sizes[ids] = values[:, 0]
@@ -202,20 +202,52 @@ class PointsInput(Input):
         self.vtk.add_arrays(output.GetCellData(), "", [("SegmentIds", of_cells)])
         self.vtk.add_arrays(output.GetPointData(), "", [("SegmentIds", ids[result.point_segments])])
 
-    def _as_doubles(self, data):
-        """A copy with arrays of doubles for those of integers, so that what is interpolated is not
-        rounded."""
+    def _is_real(self, array):
+        return array.GetDataType() in (self.vtk.core.VTK_FLOAT, self.vtk.core.VTK_DOUBLE)
+
+    def _turn_numbers(self, data, find_type):
+        """A copy with other arrays for those of numbers, except labels. `find_type`: the type that an array
+        becomes, from the array."""
         copy = self.vtk.model.vtkPointData()
         copy.ShallowCopy(data)
         labels = copy.GetGlobalIds(), copy.GetPedigreeIds(), copy.GetAbstractArray(GHOST_ARRAY)
         for array in list_arrays(copy):
-            if array.GetName() and array.IsNumeric() and not is_among(array, labels) and (
-                    array.GetDataType() not in (self.vtk.core.VTK_FLOAT, self.vtk.core.VTK_DOUBLE)):
-                doubles = self.vtk.core.vtkDoubleArray()
-                doubles.DeepCopy(array)
+            if not array.GetName() or not array.IsNumeric() or is_among(array, labels):
+                continue
+            kind = find_type(array)
+            if kind != array.GetDataType():
+                turned = self.vtk.core.vtkDataArray.CreateDataArray(kind)
+                turned.DeepCopy(array)
                 attributes = find_attributes(copy, array)
-                add_attributes(copy, copy.AddArray(doubles), attributes)
+                add_attributes(copy, copy.AddArray(turned), attributes)
         return copy
+
+    def _as_doubles(self, data):
+        """A copy with arrays of doubles for those of integers, so that what is interpolated is not
+        rounded."""
+        return self._turn_numbers(
+            data, lambda array: array.GetDataType() if self._is_real(array) else self.vtk.core.VTK_DOUBLE)
+
+    def _match_theirs(self):
+        """The point data of the segments that add points, as float or double where an array of that name of
+        the dataset is, and the names of the arrays in which added points have these values."""
+        if not len(self._sources):
+            return None, set()
+        count, own = self.data.GetNumberOfPoints(), self._read_data(self.data.GetPointData())
+        like = {array.GetName(): array for array in list_arrays(own) if array.GetNumberOfTuples() >= count}
+
+        def find_type(array):
+            other = like.get(array.GetName(), array)
+            return other.GetDataType() if self._is_real(other) else array.GetDataType()
+
+        def is_received(array):
+            other = like.get(array.GetName(), array)
+            return array.GetNumberOfTuples() >= self._others.GetNumberOfPoints() and (
+                array.GetDataType(), array.GetNumberOfComponents()) == (
+                    other.GetDataType(), other.GetNumberOfComponents())
+
+        theirs = self._turn_numbers(self._read_data(self._others.GetPointData()), find_type)
+        return theirs, {array.GetName() for array in list_arrays(theirs) if is_received(array)}
 
     def _extend_data(self, data, count):
         """The point data, extended by those of added points."""
@@ -223,18 +255,16 @@ class PointsInput(Input):
         data.Initialize()
         own = self._read_data(self.data.GetPointData())
         self.vtk.add_tuples(own, count, range(count), 0, size, data)
-        theirs = None
         if len(self._sources):
-            theirs = self._read_data(self._others.GetPointData())
             self.vtk.add_tuples(
-                theirs, self._others.GetNumberOfPoints(), self._sources, count, size, data)
+                self._theirs, self._others.GetNumberOfPoints(), self._sources, count, size, data)
         for name, ids, values in self._surveyed:
             numbers = self.vtk.view(data.GetArray(name))
             if numbers.dtype.kind != "f":
                 values = numpy.nan_to_num(numpy.trunc(values + numpy.copysign(0.5, values)))
             rows = numbers.reshape(size, -1)
             is_known = numpy.isfinite(rows[ids])
-            is_known[len(self._sources) if theirs and theirs.HasArray(name) else 0:] = False
+            is_known[len(self._sources) if name in self._received else 0:] = False
             rows[ids] = numpy.where(is_known, rows[ids], values)
         self.vtk.interpolate_tuples(data, len(self.points), *self.added)
         demote_global_ids(data)

@@ -251,6 +251,14 @@ TEST(Interpolator, SegmentsAndProjections)
   {
     EXPECT_NEAR(value, 1.0, 1e-12);
   }
+  // An array of the same name keeps its values, as numbers of the source's type.
+  const auto others = MakeLines({ { 1, 1, 80 }, { 9, 7, 90 } }, { { 0, 1 } });
+  const auto singles = MakeArray<vtkFloatArray>("ones", 2);
+  singles->FillValue(3.0);
+  others->GetPointData()->AddArray(singles);
+  broken->SetSegmentsData(others);
+  broken->SetInputDataObject(MakeMesh({ { 1, 1, 0 }, { 9, 7, 0 } }, {}));
+  EXPECT_EQ(GetValues(Update(broken), "ones"), (std::vector<double>{ 3.0, 3.0 }));
   // The plane of x and y stands upright, and so do the places.
   const std::vector<double> flat = [&]()
   {

@@ -371,7 +371,9 @@ TEST(FromPoints, PointsOfSegmentsAreAdded)
   auto lines = MakeLines({ { 1, 2, 9 }, { 4, 4, 3 }, { 1, 2, 9 } }, { { 0, 1 }, { 2, 1 } });
   AddNumbers(lines->GetPointData(), "both", 3, 100);
   AddNumbers(lines->GetPointData(), "theirs", 3, 200);
-  lines->GetPointData()->AddArray(MakeArray<vtkDoubleArray>("kind", 3));
+  const auto kinds = MakeArray<vtkDoubleArray>("kind", 3);
+  kinds->FillValue(0.5);
+  lines->GetPointData()->AddArray(kinds);
   auto names = vtkSmartPointer<vtkStringArray>::New();
   names->SetName("names");
   names->InsertNextValue("new");
@@ -387,7 +389,8 @@ TEST(FromPoints, PointsOfSegmentsAreAdded)
   vtkPointData* data = output->GetPointData();
   EXPECT_EQ(GetNumbers(data, "both"), (std::vector<int>{ 1, 2, 3, 4, 100 }));
   EXPECT_EQ(GetNumbers(data, "mine"), (std::vector<int>{ 11, 12, 13, 14, 13 }));
-  EXPECT_EQ(GetNumbers(data, "kind"), (std::vector<int>{ 21, 22, 23, 24, 0 }));
+  EXPECT_EQ(GetNumbers(data, "kind"), (std::vector<int>{ 21, 22, 23, 24, 23 })); // of the survey
+  EXPECT_EQ(data->GetArray("kind (2)")->GetTuple1(4), 0.5);
   EXPECT_EQ(GetNumbers(data, "theirs"), (std::vector<int>{ 0, 0, 0, 0, 200 }));
   EXPECT_EQ(data->GetAbstractArray("names")->GetVariantValue(4).ToString(), "new");
   EXPECT_EQ(data->GetScalars(), data->GetArray("mine"));
@@ -395,6 +398,99 @@ TEST(FromPoints, PointsOfSegmentsAreAdded)
   EXPECT_NE(data->GetPedigreeIds(), nullptr);
   EXPECT_EQ(filter->GetNumberOfSegmentEdges(), 1); // of both
   EXPECT_EQ(cloud->GetNumberOfPoints(), 4);
+}
+
+/// Numbers become those of the first input if these are real. Other arrays of one name are two, and
+/// those with too few tuples are left out.
+TEST(FromPoints, ArraysOfOneNameAndOtherTypes)
+{
+  const auto ofType = [](auto array, vtkIdType tuples)
+  {
+    array->SetName("v");
+    array->SetNumberOfTuples(tuples);
+    for (vtkIdType i = 0; i < tuples; ++i)
+    {
+      array->SetVariantValue(i, vtkVariant(static_cast<double>(7 + i)));
+    }
+    return vtkSmartPointer<vtkAbstractArray>(array);
+  };
+  const auto run = [](vtkAbstractArray* own, vtkAbstractArray* theirs)
+  {
+    const auto cloud = ToMesh(Square),
+               lines = MakeLines({ { 1, 2, 9 }, { 3, 2, 9 } }, { { 0, 1 } });
+    cloud->GetPointData()->AddArray(own);
+    lines->GetPointData()->AddArray(theirs);
+    PointsFilter filter(cloud);
+    filter->SetSegmentsData(lines);
+    Mesh output = filter.Run();
+    EXPECT_EQ(filter.GetErrors(), std::vector<std::string>());
+    EXPECT_EQ(filter.GetWarnings().size(), theirs->GetNumberOfTuples() < 2 ? 1u : 0u);
+    return output;
+  };
+  const auto integers = ofType(vtkSmartPointer<vtkIntArray>::New(), 2);
+  const auto floats = ofType(vtkSmartPointer<vtkFloatArray>::New(), 2);
+  const auto doubles = ofType(vtkSmartPointer<vtkDoubleArray>::New(), 2);
+  const auto texts = ofType(vtkSmartPointer<vtkStringArray>::New(), 2);
+  const auto few = ofType(vtkSmartPointer<vtkDoubleArray>::New(), 1);
+  const auto own = MakeArray<vtkDoubleArray>("v", 4);
+  const auto whole = MakeArray<vtkIntArray>("v", 4);
+  own->FillValue(2.0);
+  whole->FillValue(2);
+  const auto expect = [](const Mesh& output, double value, double other)
+  {
+    vtkPointData* data = output->GetPointData();
+    EXPECT_EQ(data->GetArray("v")->GetTuple1(4), value);
+    vtkAbstractArray* more = data->GetAbstractArray("v (2)");
+    EXPECT_EQ(more != nullptr, other > 0.0);
+    EXPECT_TRUE(!more || more->GetVariantValue(4).ToDouble() == other);
+  };
+  expect(run(own, doubles), 7.0, 0.0);
+  expect(run(own, floats), 7.0, 0.0);
+  expect(run(own, integers), 7.0, 0.0);
+  expect(run(own, texts), 2.0, 7.0);
+  expect(run(own, few), 2.0, 0.0);
+  expect(run(whole, integers), 7.0, 0.0);
+  expect(run(whole, doubles), 2.0, 7.0);
+}
+
+TEST(FromPoints, SizesOfBothInputs)
+{
+  const auto refine = [](vtkAbstractArray* theirs)
+  {
+    const auto cloud = ToMesh(MakeCloud(30, 1.0));
+    const auto lines = MakeLines({ { 0.3, 0.3, 1 }, { 0.45, 0.45, 1 } }, { { 0, 1 } });
+    const auto sizes = MakeArray<vtkDoubleArray>("size", 30);
+    sizes->FillValue(0.2);
+    cloud->GetPointData()->AddArray(sizes);
+    if (theirs)
+    {
+      lines->GetPointData()->AddArray(theirs);
+    }
+    PointsFilter filter(cloud);
+    filter->SetSegmentsData(lines);
+    filter->SetSizeArray("size");
+    filter.Run();
+    EXPECT_EQ(filter.GetErrors(), std::vector<std::string>());
+    return filter->GetOutput()->GetNumberOfPoints();
+  };
+  const auto doubles = MakeArray<vtkDoubleArray>("size", 2);
+  const auto integers = MakeArray<vtkIntArray>("size", 2);
+  doubles->FillValue(1.0);
+  integers->FillValue(1);
+  const vtkIdType alone = refine(nullptr), together = refine(doubles);
+  EXPECT_LT(together, alone);
+  EXPECT_EQ(refine(integers), together);
+  EXPECT_EQ(refine(MakeArray<vtkStringArray>("size", 2)), alone);
+  EXPECT_EQ(refine(MakeArray<vtkDoubleArray>("size", 1)), alone);
+  EXPECT_EQ(refine(MakeArray<vtkDoubleArray>("size", 2, 2)), alone);
+
+  // Where a point of a segment is nowhere, there is no limit.
+  const auto cloud = ToMesh(Square);
+  AddNumbers(cloud->GetPointData(), "size", 4, 2);
+  PointsFilter filter(cloud);
+  filter->SetSegmentsData(MakeLines({ { 1, 1, 0 }, { NAN, 1, 0 } }, { { 0, 1 } }));
+  filter->SetSizeArray("size");
+  ExpectHolds(RunToWarning(filter), "not finite");
 }
 
 TEST(FromPoints, IdsOfSegments)

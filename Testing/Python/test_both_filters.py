@@ -961,6 +961,25 @@ class SamePoints(Pair, unittest.TestCase):
                 self.assertIn(f'SizeArray: ', told["errors"][0])
                 self.assertIn(f'"{name}"', told["errors"][0])
 
+    def test_arrays_of_one_name(self):
+        """Those of the segments have other types, too few tuples or more components."""
+        lines = make_segments(make_cloud(), float)
+        count = lines.GetNumberOfPoints()
+        others = [numpy.full(count, 3, kind) for kind in (numpy.float64, numpy.float32, numpy.int32, numpy.uint8)]
+        others += [["3"] * count, numpy.full((count, 2), 3.0), [3.0], numpy.full(1, 3)]
+        kinds = (numpy.float64, numpy.float32, numpy.int32)
+        for own in (*(numpy.full(300, 4, kind) for kind in kinds), ["4"] * 300):
+            cloud = make_cloud()
+            add_array(cloud.GetPointData(), "v", own)
+            for values in others:
+                segments = vtkPolyData()
+                segments.ShallowCopy(lines)
+                add_array(segments.GetPointData(), "v", values)
+                for size in ("", "v"):
+                    told = self.expect_same(cloud, lambda points, segments=segments, size=size: (
+                        points.SetSegmentsData(segments), points.SetSizeArray(size)))
+                    self.assertEqual(len(told["errors"]), int(isinstance(own, list) and size == "v"))
+
     def test_closed_lines_and_rings_without_area(self):
         cloud = make_cloud()
         segments = make_segments(cloud, float)
