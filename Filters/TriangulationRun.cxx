@@ -48,24 +48,29 @@ Stamps StampPoints(const TriangulationRequest& request)
   return stamps;
 }
 
-/// Stamps all arrays of both inputs but these points.
+/// Stamps all arrays of both inputs but these points. A run with steps does not begin anew when a
+/// filter upstream is executed again and passes the same arrays, so the times of datasets do not
+/// matter there.
 Stamps StampArrays(const TriangulationRequest& request)
 {
   Stamps stamps;
+  const bool hasSteps = request.IterationsPerUpdate >= 0;
   for (vtkPolyData* given : { request.Input, request.Others })
   {
     if (!given)
     {
       continue;
     }
+    const vtkMTimeType time = given == request.Others ? request.OthersTime : request.InputTime;
+    const vtkMTimeType since = hasSteps ? 0 : time;
     if (given == request.Others)
     {
-      stamps.AddPoints(given);
+      stamps.AddPoints(given, since);
     }
     stamps.AddCells(given->GetVerts());
     stamps.AddCells(given->GetLines());
     stamps.AddCells(given->GetPolys());
-    stamps.AddArrays(given->GetPointData());
+    stamps.AddArrays(given->GetPointData(), since);
     stamps.AddArrays(given->GetFieldData());
   }
   return stamps;

@@ -64,6 +64,7 @@ struct TriangulationRequest : UpdateRequest
   bool IsPlain() const;
 
   vtkMTimeType InputTime = 0; ///< When the dataset with the points was modified.
+  vtkMTimeType OthersTime = 0; ///< When the second input was modified.
   vtkAbstractTransform* Transform = nullptr; ///< May be null.
   vtkMTimeType TransformTime = 0; ///< When it was modified.
   bool FitsPlane = false; ///< Points are projected to the plane that fits them best.

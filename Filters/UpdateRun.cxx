@@ -176,8 +176,8 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input)
 //------------------------------------------------------------------------------
 void Stamps::AddArray(vtkAbstractArray* array, vtkObject* owner, vtkMTimeType since)
 {
-  this->All.push_back({ array, owner, 0, array ? array->GetNumberOfValues() : 0 });
-  this->All.back().Time = std::max(since, this->All.back().FindTime());
+  this->All.push_back({ array, owner, 0, array ? array->GetNumberOfValues() : 0, since });
+  this->All.back().Time = this->All.back().FindTime();
 }
 
 void Stamps::AddCells(vtkCellArray* cells)
@@ -192,11 +192,11 @@ void Stamps::AddPoints(vtkPolyData* mesh, vtkMTimeType since)
   this->AddArray(points ? points->GetData() : nullptr, points, since);
 }
 
-void Stamps::AddArrays(vtkFieldData* data)
+void Stamps::AddArrays(vtkFieldData* data, vtkMTimeType since)
 {
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
-    this->AddArray(data->GetAbstractArray(i));
+    this->AddArray(data->GetAbstractArray(i), nullptr, since);
   }
   if (auto* attributes = vtkDataSetAttributes::SafeDownCast(data))
   {
@@ -228,7 +228,7 @@ vtkMTimeType Stamps::Stamp::FindTime() const
 
 bool Stamps::Stamp::Fits(const Stamp& now) const
 {
-  if (this->Count == now.Count && this->Time == now.Time)
+  if (this->Count == now.Count && this->Time == now.Time && this->Since == now.Since)
   {
     return true;
   }

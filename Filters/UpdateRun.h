@@ -157,7 +157,7 @@ vtkSmartPointer<vtkPolyData> CopyPoints(vtkPolyData* input);
 class Stamps
 {
 public:
-  void AddNumber(vtkIdType number) { this->All.push_back({ nullptr, nullptr, 0, number }); }
+  void AddNumber(vtkIdType number) { this->All.push_back({ nullptr, nullptr, 0, number, 0 }); }
 
   /// @param array may be null.
   /// @param owner may be marked as modified instead of the array.
@@ -167,7 +167,7 @@ public:
   void AddPoints(vtkPolyData* mesh, vtkMTimeType since = 0);
 
   /// Adds the arrays, and which of them are active.
-  void AddArrays(vtkFieldData* data);
+  void AddArrays(vtkFieldData* data, vtkMTimeType since = 0);
 
   /// Whether these arrays are the same objects and unchanged, or others with the same values. A
   /// reader makes others if its output was released and it is executed again.
@@ -180,6 +180,7 @@ private:
     vtkSmartPointer<vtkObject> Owner;
     vtkMTimeType Time; ///< No two objects ever have the same one.
     vtkIdType Count; ///< How many values: cells grow in place without being marked as modified.
+    vtkMTimeType Since; ///< Several stamps may have the same one.
 
     vtkMTimeType FindTime() const;
     bool Fits(const Stamp& now) const;

@@ -154,14 +154,15 @@ public:
    *
    *     do { flip->Update(); show(flip->GetOutput()); } while (flip->Advance());
    *
-   * A change of the input, or of an option that decides the mesh, starts a new run. After changing
-   * values in place, mark their array or its owner as modified, not only the dataset. If only the
-   * points of a mesh were moved, under the same cells, the next update continues from the flipped
-   * triangles, with the edges that were fixed at the beginning (a warm start); its statistics start
-   * again. In the plane with the canonical tie rule its triangles are those of an update without
-   * LiveUpdate if no edge is left blocked, but they may be in other cells. Composite input, and a
-   * piece of several, is flipped at once, with a warning. So is any input in ParaView's pvbatch,
-   * without a warning.
+   * A change of the input, or of an option that decides the mesh or where and how it is computed,
+   * starts a new run. After changing values in place, mark their array, vtkPoints or vtkCellArray
+   * as modified; the dataset, or its point or cell data, is not enough. If only the points of a
+   * mesh were moved, under the same cells, the next update continues from the flipped triangles,
+   * with the edges that were fixed at the beginning (a warm start); its statistics start again. In
+   * the plane with the canonical tie rule its triangles are those of an update without LiveUpdate
+   * if no edge is left blocked, but they may be in other cells. Composite input, and a piece of
+   * several, is flipped at once, with a warning. So is any input in ParaView's pvbatch, without a
+   * warning.
    */
   vtkSetMacro(LiveUpdate, bool);
   vtkGetMacro(LiveUpdate, bool);

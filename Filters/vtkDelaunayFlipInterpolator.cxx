@@ -467,24 +467,18 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   std::string elevation = this->ChooseArrays(points, block.Name, summary);
   const auto segments =
     this->FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL), elevation, summary);
-  TriangulationRequest request = this->MakeRequest(given);
+  TriangulationRequest request = this->MakeSourceRequest(given, points, segments);
   if (this->HasAngles() && !elevation.empty())
   {
     KeepHeights(given->GetPoints(), elevation, true, points->GetPointData());
     request.HeightArray = this->SegmentHeights == SEGMENT_HEIGHTS_AUTO ? elevation : "";
     elevation.clear();
   }
-  request.Input = points;
-  request.Others = segments;
-  request.PassesSegments = false; // an array of numbers of segments is nothing to interpolate
-  request.ConvertsToDoubles = true;
   request.WantsHeights = !elevation.empty();
   if (!request.WantsHeights && request.Heights == HeightsKind::Auto)
   {
     request.Heights = HeightsKind::Own;
   }
-  request.IsLive = true; // keeps the run
-  request.IterationsPerUpdate = -1;
   const auto progress = request.Progress;
   constexpr double TriangulationShare = 0.5; // of the time
   request.Progress = MakePart(progress, 0.0, TriangulationShare);
@@ -515,6 +509,27 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
     }
     begin = end;
   }
+}
+
+/// @param points those of the source.
+TriangulationRequest vtkDelaunayFlipInterpolator::MakeSourceRequest(
+  vtkPointSet* source, vtkPolyData* points, vtkPolyData* segments)
+{
+  TriangulationRequest request = this->MakeRequest(source);
+  const auto findTime = [this](int port) // the copies in blocks are new in every update
+  {
+    auto* input = vtkDataSet::SafeDownCast(this->GetInputDataObject(port, 0));
+    return input ? input->GetMTime() : 0;
+  };
+  request.Input = points;
+  request.InputTime = findTime(1);
+  request.Others = segments;
+  request.OthersTime = findTime(this->SegmentsPort);
+  request.PassesSegments = false; // an array of numbers of segments is nothing to interpolate
+  request.ConvertsToDoubles = true;
+  request.IsLive = true; // keeps the run
+  request.IterationsPerUpdate = -1;
+  return request;
 }
 
 /// Warns of points that are at no longitude and latitude.

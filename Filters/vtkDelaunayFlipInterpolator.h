@@ -55,8 +55,9 @@
  * for bit, but needs no memory for their coordinates.
  *
  * The triangulation is kept for the next update, also in memory of a GPU. It is made again only if
- * the source, the segments or an option that decides it has changed. LiveUpdate and PassSegments
- * have no effect. An aborted update gives the first input without new arrays.
+ * the source, the segments or an option that decides it has changed. After changing values in
+ * place, mark the dataset or their array as modified; in composite data, their array. LiveUpdate
+ * and PassSegments have no effect. An aborted update gives the first input without new arrays.
  *
  * Composite first input: every block has values of the source; if the source or the segments are
  * composite, of their blocks at the same place. Blocks that are no datasets pass unchanged, with a
@@ -165,6 +166,10 @@ protected:
   std::string ElevationArray = "Elevation";
 
 private:
+#ifndef __VTK_WRAP__
+  delaunayflip::TriangulationRequest MakeSourceRequest(
+    vtkPointSet* source, vtkPolyData* points, vtkPolyData* segments);
+#endif
   void CheckPlaces(
     vtkDataSet* places, const std::string& where, delaunayflip::UpdateSummary& summary) const;
   std::string ChooseArrays(

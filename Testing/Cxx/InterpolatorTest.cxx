@@ -429,6 +429,51 @@ TEST(Interpolator, OnlyWhatHasChangedIsMadeAgain)
   EXPECT_GT(filter->GetReport().FromPoints.TooNear, 0);
 }
 
+/// Values are changed in place, and something of the dataset is marked as modified.
+TEST(Interpolator, MarkedDatasetsAreReadAgain)
+{
+  const auto source = MakeSource();
+  const auto lines = MakeLines({ { 1, 5, 100 }, { 9, 5, 100 } }, { { 0, 1 } });
+  const auto values = MakeArray<vtkIntArray>("values", source->GetNumberOfPoints());
+  source->GetPointData()->AddArray(values);
+  Interpolator filter(MakeMesh({ { 4, 5, 0 } }, {}));
+  filter->SetSourceData(source);
+  filter->SetSegmentsData(lines);
+  int value = 1;
+  const std::vector<vtkObject*> marks = { values, source->GetPointData(), source };
+  for (vtkObject* mark : marks)
+  {
+    values->FillValue(++value);
+    mark->Modified();
+    EXPECT_NEAR(Update(filter)->GetArray("values")->GetTuple1(0), value, 1e-12);
+  }
+  const std::vector<vtkObject*> ends = { lines->GetPoints()->GetData(), lines->GetPoints(), lines };
+  for (vtkObject* mark : ends)
+  {
+    const double height = 100.0 * ++value;
+    lines->GetPoints()->GetData()->SetTuple3(0, 1.0, 5.0, height);
+    lines->GetPoints()->GetData()->SetTuple3(1, 9.0, 5.0, height);
+    mark->Modified();
+    EXPECT_NEAR(Update(filter)->GetArray("Elevation")->GetTuple1(0), height, 1e-9);
+  }
+  const auto* session = filter->GetSession();
+  filter->Modified();
+  Update(filter);
+  EXPECT_EQ(filter->GetSession(), session);
+
+  // Datasets may have the same time, that of what they share.
+  const auto others = MakeArray<vtkIntArray>("values", source->GetNumberOfPoints());
+  others->FillValue(++value);
+  vtkNew<vtkPolyData> twin;
+  twin->SetPoints(source->GetPoints());
+  twin->GetPointData()->AddArray(others);
+  source->GetPoints()->Modified();
+  Update(filter);
+  ASSERT_EQ(twin->GetMTime(), source->GetMTime());
+  filter->SetSourceData(twin);
+  EXPECT_NEAR(Update(filter)->GetArray("values")->GetTuple1(0), value, 1e-12);
+}
+
 TEST(Interpolator, Abort)
 {
   for (const double when : { 0.01, 0.6 })
