@@ -130,7 +130,7 @@ public:
   }
   bool HasFollowed() const override { return this->IsFollowing; }
 
-  /// Whether the request is for the same triangles.
+  /// Whether the request is for the same triangles, at once or in steps as this run.
   bool Fits(const TriangulationRequest& request) const;
 
   /// Goes on with the points as they are stamped now.
@@ -285,7 +285,8 @@ bool TriangulationRun::Follow(TriangulationRun& last)
 
 bool TriangulationRun::Fits(const TriangulationRequest& request) const
 {
-  return HaveSameOptions(this->Asked, request) && this->StampedArrays.Fit(StampArrays(request)) &&
+  return this->Asked.IsLive == request.IsLive && HaveSameOptions(this->Asked, request) &&
+    this->StampedArrays.Fit(StampArrays(request)) &&
     (this->StampedPoints.Fit(StampPoints(request)) || this->HasCopyOf(request.Input));
 }
 

@@ -558,6 +558,20 @@ TEST(MovingPoints, InLiveUpdates)
   }
 }
 
+/// The run that an update without steps has kept is at its end.
+TEST(MovingPoints, BeginALiveRunWhenItIsAskedFor)
+{
+  PointsFilter filter(MakeCloud());
+  filter->SetKeepSessionToOn();
+  filter.Run();
+  EXPECT_TRUE(filter->GetConverged());
+  filter->LiveUpdateOn();
+  filter.Run();
+  EXPECT_EQ(filter->GetStopReason(), vtkDelaunayFlip::STOP_REASON_RUNNING);
+  EXPECT_EQ(filter->GetNumberOfIterations(), 1);
+  EXPECT_TRUE(filter->Advance());
+}
+
 /// Points of segments are behind those that a view draws, so the mesh is put out.
 TEST(MovingPoints, PutMeshesWithSegmentsOut)
 {
