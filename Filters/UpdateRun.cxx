@@ -155,7 +155,7 @@ const FlipSession* RunKeeper::GetSessionToDraw() const
 
 bool RunKeeper::IsNewWarning(const std::string& text)
 {
-  return !this->HasRun() || std::exchange(this->Run->Warning, text) != text;
+  return !this->HasRun() || this->Run->Warnings.insert(text).second;
 }
 
 //------------------------------------------------------------------------------

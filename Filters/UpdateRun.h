@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,7 +83,7 @@ public:
   /// triangles than before.
   virtual bool HasFollowed() const { return false; }
 
-  std::string Warning; ///< The text of the last warning.
+  std::set<std::string> Warnings; ///< The texts of all so far.
 
 protected:
   ProgressObserver GetProgress() const { return this->Plan.For(UpdatePlan::Session); }
@@ -138,7 +139,7 @@ public:
   const FlipSession* GetSessionToDraw() const;
 
   /// Keeps the text of a warning.
-  /// @returns whether it differs from the last one about this run, or there is no run.
+  /// @returns whether it differs from all before it about this run, or there is no run.
   bool IsNewWarning(const std::string& text);
 
   bool CanContinue = true; ///< Whether another step can change the mesh.

@@ -383,7 +383,7 @@ int vtkDelaunayFlipAlgorithm::RequestData(
       size += block.Size;
     }
     const bool isLive = blocks.size() == 1 && blocks.front().IsLive;
-    if (this->LiveUpdate && !isLive && !IsBatchProgram())
+    if (this->LiveUpdate && this->HasSteps && !isLive && !IsBatchProgram())
     {
       summary.Warnings.push_back(
         { "", "LiveUpdate is for one mesh in one piece; this input was flipped at once" });
@@ -488,10 +488,7 @@ std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(
     blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram() &&
       this->GetOutputInformation(0)->Get(Asked::UPDATE_NUMBER_OF_PIECES()) <= 1;
   }
-  if (!this->Runs->HasRun()) // live updates give each warning once
-  {
-    summary.Warnings = ListMisfits(blocks, others);
-  }
+  summary.Warnings = ListMisfits(blocks, others);
   return blocks;
 }
 
@@ -524,11 +521,16 @@ void vtkDelaunayFlipAlgorithm::FlipBlock(
   }
   const std::string trouble =
     DescribeTrouble(*this->Report, this->MaximumIterations >= 0, this->HasTolerance());
-  // Live updates give each warning once.
-  const bool isNew = !this->LiveUpdate || this->Runs->IsNewWarning(trouble);
-  if (isNew && !trouble.empty())
+  std::vector<Note>& warnings = summary.Warnings;
+  if (!trouble.empty())
   {
-    summary.Warnings.push_back({ block.Name, trouble });
+    warnings.push_back({ block.Name, trouble });
+  }
+  if (this->HasSteps) // live updates give each warning once
+  {
+    const auto isKnown = [this](const Note& note)
+    { return !this->Runs->IsNewWarning(Describe({ note })); };
+    warnings.erase(std::remove_if(warnings.begin(), warnings.end(), isKnown), warnings.end());
   }
   AddReport(summary.Report, *this->Report);
 }

@@ -417,6 +417,7 @@ protected:
 
   const char* InputType = "vtkPolyData"; ///< The first input's, unless it is composite.
   bool KeepsType = false; ///< Output port 0 has the first input's type; else a vtkPolyData.
+  bool HasSteps = true; ///< LiveUpdate has an effect.
   int SizeOfBlocks; ///< What it is measured by: vtkDataObject::CELL (default) or POINT.
   int SizeOfOthers; ///< What the second input is measured by.
   bool IsSilent = false; ///< Gives no messages and no rows of the table.

@@ -374,6 +374,7 @@ vtkDelaunayFlipInterpolator::vtkDelaunayFlipInterpolator()
   this->SetNumberOfInputPorts(3);
   this->InputType = "vtkDataSet";
   this->KeepsType = true;
+  this->HasSteps = false;
   this->SizeOfOthers = vtkDataObject::POINT;
   this->SegmentsPort = 2;
 }

@@ -583,6 +583,10 @@ TEST(Interpolator, Blocks)
   shared->Update();
   ASSERT_EQ(shared.GetWarnings().size(), 1u);
   ExpectHolds(shared.GetWarnings()[0], "block 2: is no dataset, passed unchanged");
+  shared->LiveUpdateOn(); // which has no effect
+  shared->Update();
+  ASSERT_EQ(shared.GetWarnings().size(), 2u);
+  EXPECT_EQ(shared.GetWarnings()[1], shared.GetWarnings()[0]);
   Interpolator alone(image);
   alone->SetSourceData(source);
   const auto expected = GetValues(Update(alone), "Elevation");

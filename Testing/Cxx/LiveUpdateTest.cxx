@@ -10,6 +10,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCleanPolyData.h"
+#include "vtkDelaunayFlipPoints.h"
 #include "vtkFloatArray.h"
 #include "vtkMultiBlockDataSet.h"
 #include "vtkPointData.h"
@@ -117,6 +118,37 @@ TEST(LiveUpdate, ShowsRoundsOfRefinement)
   filter->Restart();
   filter.RunToTheEnd();
   EXPECT_EQ(filter.GetPolygons(), FlipAtOnce(moved, refine));
+}
+
+/// Each run gives them again, and so do updates without steps.
+TEST(LiveUpdate, GivesEachWarningOnce)
+{
+  const auto mesh = MakeBadPlane();
+  vtkNew<vtkPolyData> strip;
+  strip->SetStrips(MakeCells({ { 0, 1, 2 } }));
+  strip->SetLines(MakeCells({ { 0, 399 } }));
+  LiveFilter filter(mesh);
+  filter.Run();
+  filter->SetConstraintsData(strip); // another run
+  EXPECT_GT(filter.RunToTheEnd(), 2);
+  ASSERT_EQ(filter.GetWarnings().size(), 1u);
+  ExpectHolds(filter.GetWarnings()[0], "second input: triangle strips ignored");
+  filter->SetTieRuleToCanonical();
+  filter.RunToTheEnd();
+  EXPECT_EQ(filter.GetWarnings().size(), 2u);
+  filter->LiveUpdateOff();
+  filter.Run();
+  EXPECT_EQ(filter.GetWarnings().size(), 3u);
+}
+
+TEST(LiveUpdate, GivesWarningsOfPointsOnce)
+{
+  Watched<vtkDelaunayFlipPoints> points(MakeBadPlane());
+  points->DegreesOn();
+  points->LiveUpdateOn();
+  EXPECT_GT(RunToTheEnd(points), 2);
+  ASSERT_EQ(points.GetWarnings().size(), 1u);
+  ExpectHolds(points.GetWarnings()[0], "Degrees has no effect");
 }
 
 TEST(LiveUpdate, OtherOptionsInputsAndCellsStartAgain)
