@@ -28,7 +28,7 @@ std::string Wrap(const std::string& text)
 std::string Describe(vtkFieldData* data)
 {
   auto* summary = vtkStringArray::SafeDownCast(data->GetAbstractArray("DelaunayFlip:Summary"));
-  if (!summary)
+  if (!summary || summary->GetNumberOfValues() == 0)
   {
     return "no statistics: no triangles, or not a mesh of Delaunay Flip";
   }
