@@ -73,6 +73,7 @@ struct vtkDelaunayFlipMapper::Parts
   double Unit = 1.0; ///< The unit of places in the shader.
 
   std::unique_ptr<BufferFiller> Filler; ///< Null: the host fills.
+  bool IsOfAnother = false; ///< The filler was made for another filter, maybe on another GPU.
   std::string Obstacle = NoRun; ///< Why the host fills.
   bool MayUseDevice = true; ///< The device has not failed since the host got a mesh.
   bool IsBehind = true; ///< The buffers hold an earlier mesh.
@@ -252,6 +253,10 @@ struct vtkDelaunayFlipMapper::Parts
   /// filter has failed, its session is gone, but the mesh in the buffers stays.
   void Fill(const FlipSession* session, bool allowsDevice)
   {
+    if (std::exchange(this->IsOfAnother, false))
+    {
+      this->Filler.reset();
+    }
     if (!session)
     {
       this->Filler.reset();
@@ -367,6 +372,7 @@ vtkDelaunayFlipMapper::~vtkDelaunayFlipMapper() { this->Own->Release(this->Own->
 
 void vtkDelaunayFlipMapper::SetFilter(vtkDelaunayFlipAlgorithm* filter)
 {
+  this->Own->IsOfAnother = this->Own->IsOfAnother || this->Own->Filter != filter;
   this->Own->Filter = filter;
   this->Own->IsNew = true;
   this->EndStep();

@@ -658,6 +658,27 @@ TEST(ZeroCopy, EverythingIsReleased)
   mapper->GetBounds();
 }
 
+/// It may be on another GPU.
+TEST(ZeroCopy, AnotherFilterHasAnotherFiller)
+{
+  const TestFiller& filler = TestFiller::Install();
+  const auto mesh = MakeBadPlane();
+  WatchedView view(mesh);
+  view->Step();
+  view->Step();
+  LiveFilter other(mesh);
+  other.Run();
+  EXPECT_EQ(filler.Fillers, 1);
+  for (int i = 0; i < 2; ++i)
+  {
+    view.GetMapper()->SetFilter(other.Get());
+    view->Render();
+    EXPECT_EQ(view->GetDrawing(), WithoutCopies);
+    EXPECT_EQ(filler.Fillers, 2);
+    EXPECT_EQ(filler.Living, 1);
+  }
+}
+
 TEST(ZeroCopy, AWindowMayGoFirst)
 {
   TestFiller& filler = TestFiller::Install();
