@@ -84,6 +84,7 @@ public:
   {
     this->KeepOldMesh(grown);
     this->MakeTriangleArrays(grown, plan);
+    this->FindSmallest(grown);
     this->SegmentOfEdge = backend.template MakeArray<std::uint32_t>(this->OldEdges);
     this->FixBorders(grown);
     if (plan.HasNonManifold)
@@ -252,9 +253,6 @@ public:
     const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
     const std::int64_t halfEdges = 2 * grown.Mesh->NumberOfEdges;
     this->Grid = BuildPlaceGrid(grown.View(), triangles, this->Device);
-    // Exact arithmetic on a device needs coordinates of similar magnitudes.
-    constexpr double Share = 0x1p-60;
-    this->Smallest = Share / this->Grid.Frame.GetScale();
     this->OldTriangles = this->Device.template MakeArray<TriangleRecord>(triangles);
     this->OldCorners = this->Device.template MakeArray<CornerId>(halfEdges);
     const EdgeMeshView mesh = grown.Mesh->View();
@@ -302,6 +300,25 @@ public:
       this->AreaOfRegion = this->Device.template MakeArray<double>(areas);
       this->Device.Upload(plan.AreaOfRegion.data(), areas, this->AreaOfRegion.Data());
     }
+  }
+
+  /// Finds by the size of the kept triangles which coordinates become 0. Exact arithmetic on a
+  /// device needs coordinates of similar magnitudes.
+  void FindSmallest(const GrowingMesh<Real>& grown)
+  {
+    const PlaneMesh plane = grown.View();
+    const std::int32_t* regions = this->Regions.Data();
+    PlaceGridFrame frame;
+    frame.Box = this->Device.template Sum<PlaceBox>(grown.Mesh->NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, PlaceBox & sum)
+      {
+        for (int slot = 0; slot < 3 && regions[t] >= 0; ++slot)
+        {
+          sum.Include(plane.GetPoint(plane.Edges.Triangles[t].Vertices[slot]));
+        }
+      });
+    constexpr double Share = 0x1p-60;
+    this->Smallest = Share / frame.GetScale();
   }
 
   /// In a mesh of the caller: takes the caller's regions, and marks triangles that are not

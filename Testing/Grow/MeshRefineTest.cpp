@@ -192,6 +192,33 @@ std::map<std::int32_t, double> SumAreas(const RefinedMesh& mesh, const std::int3
   return areas;
 }
 
+/// The source of each triangle, in the mesh that was flipped but not refined, has its centroid.
+/// @param before the triangles of that mesh.
+void ExpectCentroidsInSources(const RefinedMesh& refined, const std::vector<std::int32_t>& before)
+{
+  for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
+  {
+    if (refined.GetArea(t) <= 0.0)
+    {
+      continue;
+    }
+    double center[2] = { 0.0, 0.0 };
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const double* corner = refined.GetPoint(refined.Triangles[3 * t + slot]);
+      center[0] += corner[0] / 3.0;
+      center[1] += corner[1] / 3.0;
+    }
+    const std::int32_t* ids = &before[3 * refined.Sources[t]];
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      ASSERT_LE(
+        -1e-12, Cross(refined.GetPoint(ids[slot]), refined.GetPoint(ids[(slot + 1) % 3]), center))
+        << t;
+    }
+  }
+}
+
 TEST(MeshRefineTest, ReachesGoalsInDomainsWithHoles)
 {
   const Room room;
@@ -232,24 +259,9 @@ TEST(MeshRefineTest, InterpolatesInTheMeshBefore)
     ASSERT_NEAR(2.0 * point.X + 3.0 * point.Y, point.Z, 1e-12);
     ASSERT_EQ(point.Third < 0, point.ThirdShare == 0.0 && point.Third < 0);
   }
-  // The source of each triangle, in the mesh that was flipped but not refined, has its centroid.
-  const FlipResult before = Flip(mesh, InPlane());
+  ExpectCentroidsInSources(refined, Flip(mesh, InPlane()).Triangles);
   for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
   {
-    double center[2] = { 0.0, 0.0 };
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const double* corner = refined.GetPoint(refined.Triangles[3 * t + slot]);
-      center[0] += corner[0] / 3.0;
-      center[1] += corner[1] / 3.0;
-    }
-    const std::int32_t* ids = &before.Triangles[3 * refined.Sources[t]];
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      ASSERT_LE(
-        -1e-12, Cross(refined.GetPoint(ids[slot]), refined.GetPoint(ids[(slot + 1) % 3]), center))
-        << t;
-    }
     ASSERT_GE(0.1, refined.GetArea(t));
   }
 }
@@ -534,6 +546,21 @@ TEST(MeshRefineTest, CountsFrozenTriangles)
   }
   EXPECT_LT(5, narrow);
   EXPECT_EQ(narrow, refined.Report.FromPoints.UnrefinedTriangles);
+}
+
+/// Points of no triangle do not matter, wherever they are.
+TEST(MeshRefineTest, IgnoresUnusedPoints)
+{
+  const Room room;
+  const RefinedMesh expected = Refine(room.View(), WithAngle(25.0));
+  for (const double far : { 1e30, -double(INFINITY), double(NAN) })
+  {
+    Room other;
+    other.Points.insert(other.Points.end(), { far, 0.0, 0.0 });
+    const RefinedMesh refined = Refine(other.View(), WithAngle(25.0));
+    EXPECT_EQ(expected.Triangles.size(), refined.Triangles.size()) << far;
+    EXPECT_EQ(0, refined.Report.FromPoints.UnrefinedTriangles) << far;
+  }
 }
 
 /// Rounds count as iterations of the options, too.

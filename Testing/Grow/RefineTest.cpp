@@ -440,6 +440,23 @@ TEST(Refine, ACoarseBoundaryIsKept)
 }
 
 /// The limit and an observer end with a valid mesh; after the observer, the run goes on.
+/// Points outside of the outline do not matter, wherever they are.
+TEST(Refine, PointsOutsideDoNotMatter)
+{
+  Drawing square = MakeSquare(2.0);
+  PointOptions options;
+  options.MaximumArea = 0.1;
+  const Triangulation expected = Triangulate(square, options);
+  for (const double far : { 1e19, 1e200 })
+  {
+    Drawing other = square;
+    other.Points.push_back({ far, 0.0 });
+    const Triangulation refined = Triangulate(other, options);
+    EXPECT_EQ(expected.Triangles.size(), refined.Triangles.size()) << far;
+    EXPECT_EQ(0, refined.Report.FromPoints.UnrefinedTriangles) << far;
+  }
+}
+
 TEST(Refine, EndsEarly)
 {
   const Drawing coast = MakeCoast(600 / Reduction);
