@@ -46,8 +46,7 @@ public:
     PlaceBoundary boundary;
     if (wantsValues && query.Outside == OutsideKind::Nearest)
     {
-      boundary =
-        BuildPlaceBoundary(plane, mesh.NumberOfEdges, here.Numbers, this->Grid.Frame, backend);
+      boundary = BuildPlaceBoundary(plane, mesh.NumberOfEdges, here.Numbers, backend);
     }
     const bool areHere = query.OnDevice || Backend::IsOnHost;
     AskedValues values{ areHere ? query.Values : valuesHere.Get(), mesh.Ids, query.Components,

@@ -233,18 +233,15 @@ struct CountBoundaryEdge
 };
 
 /// @param edges their number. @param numbers as in CountBoundaryEdge.
-/// @param frame of the triangulation.
 template <typename Backend>
-PlaceBoundary BuildPlaceBoundary(const PlaneMesh& mesh, std::int64_t edges,
-  const std::int32_t* numbers, const PlaceGridFrame& frame, const Backend& backend)
+PlaceBoundary BuildPlaceBoundary(
+  const PlaneMesh& mesh, std::int64_t edges, const std::int32_t* numbers, const Backend& backend)
 {
   const CountBoundaryEdge count{ mesh.Edges, numbers };
   const typename Backend::Numbering numbering = backend.Count(edges, count);
   const std::int64_t all = numbering.Total;
   PlaceBoundary boundary;
   boundary.NumberOfEdges = all;
-  boundary.Scale = frame.GetScale();
-  boundary.Box = frame.Box;
   boundary.Edges = backend.template MakeArray<BoundaryEdge>(all);
   BoundaryEdge* listed = boundary.Edges.Data();
   backend.ForEachNumbered(numbering, edges, count,
@@ -272,6 +269,12 @@ PlaceBoundary BuildPlaceBoundary(const PlaneMesh& mesh, std::int64_t edges,
       }
       boxes[group] = box;
     });
+  // Other points may be so far away that by their scale all distances here would be 0.
+  PlaceGridFrame frame;
+  frame.Box = backend.template Sum<PlaceBox>(
+    groups, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, PlaceBox & sum) { sum += boxes[i]; });
+  boundary.Scale = frame.GetScale();
+  boundary.Box = frame.Box;
   return boundary;
 }
 

@@ -5,6 +5,7 @@
 
 #include "Array.h"
 #include "PlaceGrid.h"
+#include "PlaceOffsets.h"
 #include "RefinementItem.h"
 #include "RefinementPlan.h"
 #include "RefinementStep.h"
@@ -64,21 +65,31 @@ struct VertexInterpolation
     {
       const VertexId* ends = this->Ends + 2 * std::size_t(origin);
       const PlanePoint from = this->Old.GetPoint(ends[0]), to = this->Old.GetPoint(ends[1]);
-      const double length = std::sqrt(TriangleShape::GetSquaredDistance(from, to));
-      vertex.Weights[1] = std::sqrt(TriangleShape::GetSquaredDistance(from, place)) / length;
+      const double scale = InvertPowerOfTwo(FindLargestHalf(from, to));
+      const double length = FindScaledLength(from, to, scale);
+      vertex.Weights[1] = FindScaledLength(from, place, scale) / length;
       vertex.Weights[0] = 1.0 - vertex.Weights[1];
       vertex.Points[0] = ends[0];
       vertex.Points[1] = ends[1];
       vertex.Points[2] = ends[0];
       return vertex;
     }
+    const VertexId* vertices = this->Old.Edges.Triangles[triangle].Vertices;
+    PlaceOffset seen[3]; // from the place, halved so that no difference overflows
+    double largest = 0.0;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      const PlanePoint point = this->Old.GetPoint(vertices[slot]);
+      seen[slot] = FindHalf(place, point);
+      const double half = FindLargestHalf(place, point);
+      largest = half > largest ? half : largest;
+    }
+    const double scale = InvertPowerOfTwo(largest);
     double sum = 0.0;
     for (int slot = 0; slot < 3; ++slot)
     {
-      const VertexId* vertices = this->Old.Edges.Triangles[triangle].Vertices;
-      const PlanePoint a = this->Old.GetPoint(vertices[NextSlot(slot)]);
-      const PlanePoint b = this->Old.GetPoint(vertices[PreviousSlot(slot)]);
-      const double area = (a.U - place.U) * (b.V - place.V) - (a.V - place.V) * (b.U - place.U);
+      const PlaceOffset &a = seen[NextSlot(slot)], &b = seen[PreviousSlot(slot)];
+      const double area = (a.U * scale) * (b.V * scale) - (a.V * scale) * (b.U * scale);
       vertex.Points[slot] = vertices[slot];
       vertex.Weights[slot] = area > 0.0 ? area : 0.0;
       sum += vertex.Weights[slot];
@@ -88,6 +99,29 @@ struct VertexInterpolation
       weight = sum > 0.0 ? weight / sum : 1.0 / 3.0;
     }
     return vertex;
+  }
+
+private:
+  /// Half of the vector from a place to another one.
+  DELAUNAYFLIP_HOST_DEVICE static PlaceOffset FindHalf(const PlanePoint& from, const PlanePoint& to)
+  {
+    return { 0.5 * to.U - 0.5 * from.U, 0.5 * to.V - 0.5 * from.V };
+  }
+  /// Its largest component. Its inverse, as a power of two, scales vectors so that their products
+  /// neither overflow nor underflow, with the same ratios.
+  DELAUNAYFLIP_HOST_DEVICE static double FindLargestHalf(
+    const PlanePoint& from, const PlanePoint& to)
+  {
+    const PlaceOffset half = FindHalf(from, to);
+    const double u = std::fabs(half.U), v = std::fabs(half.V);
+    return u > v ? u : v;
+  }
+  DELAUNAYFLIP_HOST_DEVICE static double FindScaledLength(
+    const PlanePoint& from, const PlanePoint& to, double scale)
+  {
+    const PlaceOffset half = FindHalf(from, to);
+    const double u = half.U * scale, v = half.V * scale;
+    return std::sqrt(u * u + v * v);
   }
 };
 

@@ -329,6 +329,22 @@ TEST(Ask, NearestPlacesOfFarPlaces)
   }
 }
 
+/// Points outside of the outline do not matter, wherever they are.
+TEST(Ask, NearestPlacesBesideFarPoints)
+{
+  for (const double far : { 10.0, 1e200, 1e300 })
+  {
+    Drawing drawing;
+    drawing.AddRing({ { 1, 1 }, { 3, 1 }, { 3, 2 }, { 1, 2 } });
+    drawing.Points.push_back({ far, 0.0 });
+    const Asked asked(drawing);
+    const Places places = { { 4, 1.5 }, { 0, 1.5 }, { 2.25, 5 } };
+    EXPECT_EQ((std::vector<double>{ 3, 1, 2.25 }),
+      asked.Interpolate({ 1, 3, 3, 1, 0 }, places, InterpolationKind::Linear, OutsideKind::Nearest))
+      << far;
+  }
+}
+
 /// Beside an edge that is straight up the nearest place is at the height of the place.
 TEST(Ask, NearestPlacesBesideAnEdge)
 {

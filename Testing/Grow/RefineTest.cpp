@@ -4,6 +4,7 @@
 #include "PointSets.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
+#include "RandomNumbers.h"
 
 #include <gtest/gtest.h>
 
@@ -522,6 +523,23 @@ TEST(Refine, DistancesThatCannotBeSquared)
     EXPECT_EQ(2, refined.Report.FromPoints.UnrefinedTriangles) << scale;
     EXPECT_EQ(6U, refined.Triangles.size()) << scale;
   }
+}
+
+/// Squares of the segments are no doubles, but those of small triangles are.
+TEST(Refine, SegmentsThatCannotBeSquared)
+{
+  Drawing drawing = MakeSquare(1e155);
+  std::mt19937 random(2);
+  for (int i = 0; i < 12; ++i)
+  {
+    drawing.Points.push_back({ DrawReal(random, 0.0, 1e155), DrawReal(random, 0.0, 1e155) });
+  }
+  PointOptions options;
+  options.MinimumAngle = 25.0;
+  options.PointLimit = 1000;
+  const Refined refined = Refine(drawing.View(), options);
+  EXPECT_LT(0, refined.Result.Report.FromPoints.RefinementPoints);
+  ExpectRightShares(refined, drawing.Points.size());
 }
 
 /// Segments that are far shorter than the largest coordinate are not split: their middles would all
