@@ -20,22 +20,20 @@
 namespace delaunayflip
 {
 
-/// Finds the region of a triangle: the caller's, or 0 if the caller has given none. It is -1 if the
-/// triangle is not counter-clockwise; such a triangle counts as removed.
+/// Finds the region of a triangle: the caller's, or 0 if the caller has given none. A triangle that
+/// is not counter-clockwise counts as removed.
 struct CallerRegionStep
 {
   PlaneMesh Mesh;
-  const std::int32_t* Given; ///< By the caller's triangle; null: none are given.
+  const std::int32_t* Given; ///< RefinementPlan::Regions; null: none are given.
   std::int32_t* Regions;
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(TriangleId t) const
   {
     const TriangleRecord& triangle = this->Mesh.Edges.Triangles[t];
-    this->Regions[t] = -1;
-    if (this->IsCounterClockwise(triangle))
-    {
-      this->Regions[t] = this->Given ? this->Given[triangle.InputTriangle] : 0;
-    }
+    const std::int32_t given = this->Given ? this->Given[triangle.InputTriangle] : 0;
+    const bool isRemoved = given < 0 || !this->IsCounterClockwise(triangle);
+    this->Regions[t] = isRemoved ? RemovedRegion(GetRegion(given)) : given;
   }
 
 private:
@@ -53,8 +51,8 @@ private:
 struct FixWallStep
 {
   EdgeMeshView Mesh;
-  /// By triangle; -1: it is removed. Null after a round, when only edges that cannot flip are
-  /// fixed.
+  /// By triangle, negative for one that is removed. Null after a round, when only edges that cannot
+  /// flip are fixed.
   const std::int32_t* Regions;
   std::uint8_t* Marks; ///< By edge, the marks for its subsegment; null after a round.
   std::uint32_t* SegmentOfEdge; ///< See RefinementView.

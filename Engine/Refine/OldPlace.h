@@ -164,7 +164,7 @@ private:
 struct SourceStep
 {
   OldPlaceFinder Finder;
-  const std::int32_t* Regions; ///< By triangle; -1: it is removed and has not changed.
+  const std::int32_t* Regions; ///< By triangle; negative: it is removed, and unchanged.
   std::int64_t OldTriangles; ///< The number of triangles before refinement.
   TriangleId* Sources; ///< By slot.
 

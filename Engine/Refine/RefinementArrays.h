@@ -61,9 +61,8 @@ private:
   DELAUNAYFLIP_HOST_DEVICE bool IsBadThoughFrozen(TriangleId triangle) const
   {
     const TriangleShape shape(this->View.Mesh, triangle);
-    const RefinementGoals& goals = this->View.Goals;
-    const bool isLarge = shape.GetArea() > goals.Area || shape.SquaredLongest > goals.SquaredEdge;
-    return shape.Cross > 0.0 && (isLarge || shape.IsSharperThan(goals.Cotangent));
+    return shape.Cross > 0.0 &&
+      (this->View.IsTooLarge(triangle, shape) || shape.IsSharperThan(this->View.Goals.Cotangent));
   }
 };
 

@@ -17,6 +17,18 @@
 namespace delaunayflip
 {
 
+/// What a removed triangle has in place of the number of its region: -1 for region 0 or if the
+/// region does not matter, -2 for region 1, and so on.
+DELAUNAYFLIP_HOST_DEVICE inline std::int32_t RemovedRegion(std::int32_t region)
+{
+  return -1 - region;
+}
+/// The region of a triangle, whether it is removed or not.
+DELAUNAYFLIP_HOST_DEVICE inline std::int32_t GetRegion(std::int32_t number)
+{
+  return number < 0 ? -1 - number : number;
+}
+
 struct RefinementPlan
 {
   RefinementGoals Goals;
@@ -26,8 +38,8 @@ struct RefinementPlan
   /// not counter-clockwise count as removed, and all their edges stay.
   bool IsOfCaller = false;
   bool HasNonManifold = false; ///< Whether edges of such a mesh may have three or more triangles.
-  /// The region of every triangle, -1 for one that is removed. Empty: all are in region 0. Edges
-  /// between removed triangles and others stay.
+  /// The region of every triangle, or RemovedRegion of it for one that is removed. Empty: all are
+  /// in region 0. Edges between removed triangles and others stay.
   std::vector<std::int32_t> Regions;
   /// The caller's label of each region; several may have the same. Empty: each has its own.
   std::vector<std::int32_t> LabelOfRegion;

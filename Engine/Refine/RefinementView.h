@@ -61,7 +61,7 @@ struct RefinementView
   double Smallest; ///< Coordinates that are nearer to 0 become 0.
   /// By triangle: ShapeKind, and above it TriangleRecord::Flips at that time.
   std::uint32_t* Shapes;
-  const std::int32_t* Regions; ///< By triangle: the number of its region; -1: it is removed.
+  const std::int32_t* Regions; ///< By triangle: the number of its region, see RemovedRegion.
   const double* AreaOfRegion; ///< The largest area there, or null.
   const double* Sizes; ///< By vertex: the longest edge there, or null.
   const EdgeId* Segments; ///< The edges that are subsegments.
@@ -177,7 +177,7 @@ struct RefinementView
     double area = this->Goals.Area;
     if (this->AreaOfRegion)
     {
-      const double ofRegion = this->AreaOfRegion[this->Regions[triangle]];
+      const double ofRegion = this->AreaOfRegion[GetRegion(this->Regions[triangle])];
       area = ofRegion < area ? ofRegion : area;
     }
     return shape.GetArea() > area;

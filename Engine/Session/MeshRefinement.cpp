@@ -92,7 +92,8 @@ void MeshRun::LabelRegions()
 }
 
 /// Numbers the regions from 0. Triangles are in one region if they have the same label and the same
-/// seed. Frozen triangles get -1. Without labels, seeds and frozen triangles there are no numbers.
+/// seed. Frozen triangles count as removed. Without labels, seeds and frozen triangles there are no
+/// numbers.
 void MeshRun::NumberRegions(RefinementPlan& plan) const
 {
   using Key = std::pair<std::int32_t, std::int32_t>; // the label, and the number of the seed
@@ -123,14 +124,14 @@ void MeshRun::NumberRegions(RefinementPlan& plan) const
   }
   for (std::size_t t = 0; t < plan.Regions.size(); ++t)
   {
-    if (given.FrozenTriangles && given.FrozenTriangles[t] != 0)
-    {
-      plan.Regions[t] = -1;
-    }
-    else if (hasRegions)
+    if (hasRegions)
     {
       const auto place = std::lower_bound(keys.begin(), keys.end(), getKey(t));
       plan.Regions[t] = static_cast<std::int32_t>(place - keys.begin());
+    }
+    if (given.FrozenTriangles && given.FrozenTriangles[t] != 0)
+    {
+      plan.Regions[t] = RemovedRegion(plan.Regions[t]);
     }
   }
 }

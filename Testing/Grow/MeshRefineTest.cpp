@@ -548,6 +548,26 @@ TEST(MeshRefineTest, CountsFrozenTriangles)
   EXPECT_EQ(narrow, refined.Report.FromPoints.UnrefinedTriangles);
 }
 
+/// Sizes and the limits of regions hold for them, too.
+TEST(MeshRefineTest, CountsFrozenTrianglesThatAreTooLarge)
+{
+  OwnedMesh<double> square;
+  square.Points = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 };
+  square.Triangles = { 0, 1, 2, 0, 2, 3 };
+  const unsigned char frozen[] = { 1, 1 };
+  const std::vector<double> sizes(4, 0.1);
+  const RegionSeed seeds[] = { { 0.6, 0.3, 1, 0.01 }, { 0.3, 0.6, 2, 0.6 } };
+  const std::vector<std::int64_t> wall = { 0, 2 };
+  TriangleMesh mesh = WithConstraints(square.View(), wall);
+  mesh.FrozenTriangles = frozen;
+  mesh.Sizes = sizes.data();
+  EXPECT_EQ(2, Refine(mesh, InPlane()).Report.FromPoints.UnrefinedTriangles);
+  mesh.Sizes = nullptr;
+  mesh.RegionSeeds = seeds;
+  mesh.NumberOfRegionSeeds = 2;
+  EXPECT_EQ(1, Refine(mesh, InPlane()).Report.FromPoints.UnrefinedTriangles);
+}
+
 /// Points of no triangle do not matter, wherever they are.
 TEST(MeshRefineTest, IgnoresUnusedPoints)
 {
