@@ -34,15 +34,28 @@ struct OldPlaceFinder
   {
     const CornerId corner = MakeCorner(triangle, 0);
     const VertexId vertex = this->Now.GetVertex(corner);
-    CornerId start = this->FindStart(corner);
+    Sector sector = this->FindSector(corner);
     if (vertex < this->FirstAdded)
     {
-      start = this->TurnTowards(place, start);
+      if (sector.First != NoCorner)
+      {
+        this->CountTurns(corner, sector);
+      }
+      sector.Start = this->TurnTowards(place, corner, sector);
     }
-    return this->Walk(this->Now.GetPoint(vertex), place, TriangleOf(start));
+    return this->Walk(this->Now.GetPoint(vertex), place, TriangleOf(sector.Start));
   }
 
 private:
+  /// The triangles between two segments at a vertex. They may turn around it by more than a circle,
+  /// if triangles that are turned over lead back. Then several have the same direction.
+  struct Sector
+  {
+    CornerId Start; ///< The rightmost corner of the mesh before.
+    CornerId First; ///< The rightmost one now; NoCorner if there are no segments.
+    int Turns = 0; ///< How many whole circles there are to the right of a corner.
+  };
+
   /// The number of the segment of which an edge of either mesh is a piece, or NoOrigin. Edges on
   /// segments keep their numbers, and no other edge comes to lie on one.
   DELAUNAYFLIP_HOST_DEVICE std::uint32_t GetOrigin(EdgeId edge) const
@@ -55,9 +68,9 @@ private:
     return this->Origins[this->SegmentOfEdge[edge]];
   }
 
-  /// Finds a corner of the mesh before at the same vertex, or of the triangle in which the vertex
-  /// was, on the same side of all segments there.
-  DELAUNAYFLIP_HOST_DEVICE CornerId FindStart(CornerId corner) const
+  /// Finds where the sector of a corner begins. Without segments at its vertex, the start is any
+  /// corner of the mesh before at the same vertex, or of the triangle in which the vertex was.
+  DELAUNAYFLIP_HOST_DEVICE Sector FindSector(CornerId corner) const
   {
     CornerId turned = corner;
     do
@@ -67,41 +80,82 @@ private:
       if (origin != NoOrigin) // half-edges of a segment keep their sides
       {
         const HalfEdgeId before = 2 * this->EdgeOfOrigin[origin] + (side & 1u);
-        return PlaneMesh::Next(this->Old.Edges.CornerOfHalfEdge[before]);
+        return { PlaneMesh::Next(this->Old.Edges.CornerOfHalfEdge[before]), turned };
       }
       turned = this->Now.FindPreviousAround(turned);
     } while (turned != corner && turned != NoCorner);
     const VertexId vertex = this->Now.GetVertex(corner);
     if (vertex < this->FirstAdded)
     {
-      return this->StartOfVertex[vertex];
+      return { this->StartOfVertex[vertex], NoCorner };
     }
-    return MakeCorner(this->TriangleOfAdded[vertex - this->FirstAdded], 0);
+    return { MakeCorner(this->TriangleOfAdded[vertex - this->FirstAdded], 0), NoCorner };
+  }
+
+  /// Counts how often the direction of a corner's right edge is passed on the way to it.
+  DELAUNAYFLIP_HOST_DEVICE void CountTurns(CornerId corner, Sector& sector) const
+  {
+    const VertexId end = this->Now.GetVertex(PlaneMesh::Next(corner));
+    const PlanePoint from = this->Now.GetPoint(this->Now.GetVertex(corner));
+    // The end of the whole segment: rounding turns its pieces a little.
+    PlanePoint right = this->Old.GetPoint(this->Old.GetVertex(PlaneMesh::Next(sector.Start)));
+    for (CornerId passed = sector.First; passed != corner;
+         passed = this->Now.FindNextAround(passed))
+    {
+      const VertexId next = this->Now.GetVertex(PlaneMesh::Previous(passed));
+      const PlanePoint left = this->Now.GetPoint(next);
+      const bool hasDirection =
+        next != end && this->IsInAngle(from, right, this->Now.GetPoint(end), left);
+      sector.Turns += int(hasDirection);
+      right = left;
+    }
   }
 
   /// Turns around a vertex, up to the next segment, to the corner with the place in its angle.
-  DELAUNAYFLIP_HOST_DEVICE CornerId TurnTowards(const PlanePoint& place, CornerId first) const
+  /// @param corner of the vertex now, with the place in its angle.
+  DELAUNAYFLIP_HOST_DEVICE CornerId TurnTowards(
+    const PlanePoint& place, CornerId corner, const Sector& sector) const
   {
-    const PlanePoint from = this->Old.GetPoint(this->Old.GetVertex(first));
-    CornerId corner = first;
+    const PlanePoint from = this->Old.GetPoint(this->Old.GetVertex(sector.Start));
+    const PlanePoint along = this->Now.GetPoint(this->Now.GetVertex(PlaneMesh::Next(corner)));
+    int turns = sector.Turns;
+    bool isInTurn = corner == sector.First || sector.First == NoCorner;
+    CornerId turned = sector.Start, first = NoCorner;
     do
     {
-      const PlanePoint right = this->Old.GetPoint(this->Old.GetVertex(PlaneMesh::Next(corner)));
-      const PlanePoint left = this->Old.GetPoint(this->Old.GetVertex(PlaneMesh::Previous(corner)));
+      const PlanePoint right = this->Old.GetPoint(this->Old.GetVertex(PlaneMesh::Next(turned)));
+      const PlanePoint left = this->Old.GetPoint(this->Old.GetVertex(PlaneMesh::Previous(turned)));
+      if (!isInTurn && this->IsInAngle(from, right, along, left))
+      {
+        isInTurn = turns == 0;
+        --turns;
+        if (isInTurn && this->FindSign(from, along, place) < 0)
+        {
+          return turned; // the place is to the right of its angle by rounding
+        }
+      }
       const bool isBetween =
         this->FindSign(from, right, place) >= 0 && this->FindSign(from, place, left) >= 0;
-      const HalfEdgeId side = this->Old.GetHalfEdge(PlaneMesh::Next(corner));
-      if (isBetween)
+      if (isBetween && isInTurn)
       {
-        return corner;
+        return turned;
       }
+      first = isBetween && first == NoCorner ? turned : first;
+      const HalfEdgeId side = this->Old.GetHalfEdge(PlaneMesh::Next(turned));
       if (this->GetOrigin(EdgeOf(side)) != NoOrigin)
       {
-        return first; // the place is in that angle except for rounding
+        break; // the place is in an angle here except for rounding
       }
-      corner = this->Old.FindNextAround(corner);
-    } while (corner != first && corner != NoCorner);
-    return first;
+      turned = this->Old.FindNextAround(turned);
+    } while (turned != sector.Start && turned != NoCorner);
+    return first != NoCorner ? first : sector.Start;
+  }
+
+  /// Whether a direction is in an angle, but not on its left side.
+  DELAUNAYFLIP_HOST_DEVICE bool IsInAngle(const PlanePoint& from, const PlanePoint& right,
+    const PlanePoint& direction, const PlanePoint& left) const
+  {
+    return this->FindSign(from, right, direction) >= 0 && this->FindSign(from, direction, left) > 0;
   }
 
   /// Follows a straight line without crossing a segment. Each step goes to a triangle with a

@@ -442,6 +442,31 @@ TEST(MeshRefineTest, StaysInItsSheet)
   EXPECT_EQ(1, refined.Report.EulerCharacteristic);
 }
 
+/// Triangles that turn around a point by more than a circle, and one turned over that leads back.
+TEST(MeshRefineTest, StaysInItsTurn)
+{
+  OwnedMesh<double> star;
+  star.Points = { 0, 0, 0 };
+  const double degrees[] = { 0, 80, 160, 240, 320, 400, 440 };
+  for (int i = 0; i < 7; ++i)
+  {
+    const double radius = i < 5 ? 1.0 : 1.5, angle = degrees[i] / DegreesPerRadian;
+    star.Points.insert(
+      star.Points.end(), { radius * std::cos(angle), radius * std::sin(angle), 10.0 * i });
+    star.Triangles.insert(star.Triangles.end(), { 0, i + 1, (i + 1) % 7 + 1 });
+  }
+  FlipOptions options = InPlane();
+  options.MaximumArea = 0.05;
+  const RefinedMesh refined = Refine(star.View(), options);
+  EXPECT_LT(30, refined.Report.FromPoints.RefinementPoints);
+  ExpectCentroidsInSources(refined, Flip(star.View(), InPlane()).Triangles);
+  for (const AddedPoint& point : refined.Added)
+  {
+    const double radius = std::hypot(point.X, point.Y);
+    EXPECT_TRUE(radius < 0.9 || point.Third >= 0 || point.Z != 0.0);
+  }
+}
+
 /// Planes other than z = 0: an upright one, and a tilted one.
 TEST(MeshRefineTest, RefinesInAnyPlane)
 {
