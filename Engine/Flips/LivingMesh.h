@@ -84,10 +84,10 @@ public:
                                : this->RefineOnce(this->RefinedDoubles);
   }
 
-  const RefinementResult& FetchRefinement() override
+  const RefinementResult& FetchRefinement(bool isOver) override
   {
-    return this->Places.Floats ? this->FetchRefinement(this->RefinedFloats)
-                               : this->FetchRefinement(this->RefinedDoubles);
+    return this->Places.Floats ? this->FetchRefinement(isOver, this->RefinedFloats)
+                               : this->FetchRefinement(isOver, this->RefinedDoubles);
   }
 
   void VisitRefined(const RefinedVertexVisitor& visit) override
@@ -367,6 +367,7 @@ private:
     GrowingMesh<Real> Grown;
     std::unique_ptr<Refinement<Real, BackendT>> Rounds;
     bool IsComplete = false;
+    bool IsPaused = false; ///< Whether edges are free that are fixed during refinement.
     RefinementResult Result; ///< What was fetched last.
   };
 
@@ -401,6 +402,7 @@ private:
   template <typename Real>
   std::int64_t RefineOnce(RefinedMesh<Real>& refined)
   {
+    this->ResumeRefinement(refined);
     std::int64_t added = 0;
     if (!refined.IsComplete)
     {
@@ -436,7 +438,7 @@ private:
     }
   }
 
-  /// Fetches the result, and then lets edges flip that were fixed for refinement alone.
+  /// Lets edges flip that were fixed for refinement alone, and then fetches the result.
   template <typename Real>
   void EndRefinement(RefinedMesh<Real>& refined)
   {
@@ -444,23 +446,55 @@ private:
     {
       return;
     }
-    refined.Result = refined.Rounds->Fetch(refined.Grown);
-    refined.IsComplete = true;
-    if (refined.Rounds->FreeEdges(refined.Grown) > 0)
+    this->ResumeRefinement(refined);
+    if (refined.Rounds->FreeEdges(refined.Grown, true) > 0)
     {
       this->template MakeLoopOfGrown<Real>(this->GetCoordinates<Real>().Data());
       this->Loop->Converge();
     }
+    refined.Result = refined.Rounds->Fetch(refined.Grown);
+    refined.IsComplete = true;
+  }
+
+  /// Fetches the result so far, and lets edges be judged that are fixed for refinement alone.
+  template <typename Real>
+  void PauseRefinement(RefinedMesh<Real>& refined)
+  {
+    if (refined.IsComplete || refined.IsPaused)
+    {
+      return;
+    }
+    refined.Result = refined.Rounds->Fetch(refined.Grown);
+    refined.IsPaused = true;
+    if (refined.Rounds->FreeEdges(refined.Grown, false) > 0)
+    {
+      this->template MakeLoopOfGrown<Real>(this->GetCoordinates<Real>().Data());
+      this->Loop->Detect();
+    }
   }
 
   template <typename Real>
-  const RefinementResult& FetchRefinement(RefinedMesh<Real>& refined)
+  void ResumeRefinement(RefinedMesh<Real>& refined)
   {
-    RefinementResult& result = refined.Result;
-    if (!refined.IsComplete)
+    if (refined.IsPaused)
     {
-      result = refined.Rounds->Fetch(refined.Grown);
+      refined.Rounds->FixFreed(refined.Grown);
+      refined.IsPaused = false;
     }
+  }
+
+  template <typename Real>
+  const RefinementResult& FetchRefinement(bool isOver, RefinedMesh<Real>& refined)
+  {
+    if (isOver)
+    {
+      this->EndRefinement(refined);
+    }
+    else
+    {
+      this->PauseRefinement(refined);
+    }
+    RefinementResult& result = refined.Result;
     const bool isOnAxes = !this->IsFromPoints && !this->Frame.Projection.Tilted;
     if (isOnAxes)
     {

@@ -125,7 +125,8 @@ public:
   /// nothing more to do, or the limit is reached.
   virtual std::int64_t Refine() = 0;
   /// What the rounds have made so far. Valid until the mesh changes.
-  virtual const RefinementResult& FetchRefinement() = 0;
+  /// @param isOver whether no round follows. Else the next round goes on as if nothing was fetched.
+  virtual const RefinementResult& FetchRefinement(bool isOver) = 0;
   /// Tells a visitor of the points that the rounds have added so far.
   virtual void VisitRefined(const RefinedVertexVisitor& visit) = 0;
 

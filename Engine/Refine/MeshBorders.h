@@ -30,9 +30,13 @@ struct CallerRegionStep
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(TriangleId t) const
   {
-    const TriangleRecord& triangle = this->Mesh.Edges.Triangles[t];
-    const std::int32_t given = this->Given ? this->Given[triangle.InputTriangle] : 0;
-    const bool isRemoved = given < 0 || !this->IsCounterClockwise(triangle);
+    this->Judge(t, this->Given ? this->Given[this->Mesh.Edges.Triangles[t].InputTriangle] : 0);
+  }
+
+  /// @param given the number of its region.
+  DELAUNAYFLIP_HOST_DEVICE void Judge(TriangleId t, std::int32_t given) const
+  {
+    const bool isRemoved = given < 0 || !this->IsCounterClockwise(this->Mesh.Edges.Triangles[t]);
     this->Regions[t] = isRemoved ? RemovedRegion(GetRegion(given)) : given;
   }
 
@@ -101,30 +105,25 @@ private:
   }
 };
 
-/// Lets an edge flip again if it was fixed for refinement alone. @returns 1 if it was, else 0.
-struct FreeEdgeStep
+/// 1 if an edge is fixed for refinement alone, else 0.
+struct FixedMeanwhileTest
 {
   EdgeMeshView Mesh;
   const std::uint32_t* SegmentOfEdge; ///< See RefinementView.
   const std::uint8_t* Marks; ///< By subsegment.
 
-  DELAUNAYFLIP_HOST_DEVICE int operator()(EdgeId e) const
+  DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t e) const
   {
     if (this->Mesh.States[e] != EdgeState::Fixed)
     {
       return 0;
     }
     const std::uint32_t segment = this->SegmentOfEdge[e];
-    bool isFree = segment == FixedForNow;
     if (segment < FixedForNow)
     {
-      isFree = (this->Marks[segment] & FixedMeanwhile) != 0;
+      return int((this->Marks[segment] & FixedMeanwhile) != 0);
     }
-    if (isFree)
-    {
-      this->Mesh.States[e] = EdgeState::Candidate;
-    }
-    return int(isFree);
+    return int(segment == FixedForNow);
   }
 };
 

@@ -21,7 +21,7 @@ namespace delaunayflip
 
 struct OldPlaceFinder
 {
-  PlaneMesh Now, Old; ///< The mesh, and the one before refinement.
+  PlaneMesh Now, Old; ///< The mesh after the last round, and the one before refinement.
   const std::uint32_t* SegmentOfEdge; ///< See RefinementView, also for the next one.
   const std::uint32_t* Origins;
   const EdgeId* EdgeOfOrigin; ///< By segment, its edge in the mesh before.
@@ -218,27 +218,64 @@ private:
 struct SourceStep
 {
   OldPlaceFinder Finder;
+  EdgeMeshView Mesh; ///< Finder.Now, or that mesh after flips of edges that were fixed meanwhile.
   const std::int32_t* Regions; ///< By triangle; negative: it is removed, and unchanged.
   std::int64_t OldTriangles; ///< The number of triangles before refinement.
   TriangleId* Sources; ///< By slot.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(TriangleId t) const
   {
-    const TriangleRecord& triangle = this->Finder.Now.Edges.Triangles[t];
+    const TriangleRecord& triangle = this->Mesh.Triangles[t];
     TriangleId source = t;
-    if (!this->IsUnchanged(t))
+    if (triangle.Flips != this->Finder.Now.Edges.Triangles[t].Flips)
     {
-      const PlanePoint a = this->Finder.Now.GetPoint(triangle.Vertices[0]);
-      const PlanePoint b = this->Finder.Now.GetPoint(triangle.Vertices[1]);
-      const PlanePoint c = this->Finder.Now.GetPoint(triangle.Vertices[2]);
-      const PlanePoint center = { a.U + ((b.U - a.U) + (c.U - a.U)) / 3.0,
-        a.V + ((b.V - a.V) + (c.V - a.V)) / 3.0, 0.0 };
-      source = this->Finder.Find(t, center);
+      source = this->FindBeforeFlips(t, this->FindCenter(triangle));
+    }
+    if (!this->IsUnchanged(source))
+    {
+      source = this->Finder.Find(source, this->FindCenter(triangle));
     }
     this->Sources[triangle.InputTriangle] = this->Finder.Old.Edges.Triangles[source].InputTriangle;
   }
 
 private:
+  DELAUNAYFLIP_HOST_DEVICE PlanePoint FindCenter(const TriangleRecord& triangle) const
+  {
+    const PlanePoint a = this->Finder.Now.GetPoint(triangle.Vertices[0]);
+    const PlanePoint b = this->Finder.Now.GetPoint(triangle.Vertices[1]);
+    const PlanePoint c = this->Finder.Now.GetPoint(triangle.Vertices[2]);
+    return { a.U + ((b.U - a.U) + (c.U - a.U)) / 3.0, a.V + ((b.V - a.V) + (c.V - a.V)) / 3.0,
+      0.0 };
+  }
+
+  /// Finds the triangle that had a place before the last flips, near a triangle that has flipped.
+  DELAUNAYFLIP_HOST_DEVICE TriangleId FindBeforeFlips(
+    TriangleId triangle, const PlanePoint& place) const
+  {
+    constexpr int MostSteps = 32; // flips are few, so that only a loop takes more
+    for (int step = 0; step < MostSteps; ++step)
+    {
+      TriangleId next = NoTriangle;
+      for (int slot = 0; slot < 3 && next == NoTriangle; ++slot)
+      {
+        const HalfEdgeId side = this->Finder.Now.GetHalfEdge(MakeCorner(triangle, slot));
+        const CornerId across = this->Finder.Now.Edges.CornerOfHalfEdge[side ^ 1u];
+        const bool isOpen = across != NoCorner && this->Regions[TriangleOf(across)] >= 0 &&
+          this->Mesh.States[EdgeOf(side)] != EdgeState::Fixed;
+        const bool isBeyond = isOpen &&
+          (this->Regions[triangle] < 0 ||
+            FindSide(this->Finder.Now, place, MakeCorner(triangle, slot)) < 0);
+        next = isBeyond ? TriangleOf(across) : NoTriangle;
+      }
+      if (next == NoTriangle)
+      {
+        return triangle;
+      }
+      triangle = next;
+    }
+    return triangle;
+  }
+
   DELAUNAYFLIP_HOST_DEVICE bool IsUnchanged(TriangleId t) const
   {
     if (this->Regions[t] < 0)

@@ -171,9 +171,13 @@ public:
 
   bool HasReachedLimit() const { return this->ReachedLimit; }
 
-  /// These three are described in RefinementArrays.
+  /// These are described in RefinementArrays.
   void FixBlocked(const GrowingMesh<Real>& grown) { this->Arrays.FixBlocked(grown); }
-  std::int64_t FreeEdges(const GrowingMesh<Real>& grown) { return this->Arrays.FreeEdges(grown); }
+  std::int64_t FreeEdges(const GrowingMesh<Real>& grown, bool keepsMesh)
+  {
+    return this->Arrays.FreeEdges(grown, keepsMesh);
+  }
+  void FixFreed(const GrowingMesh<Real>& grown) { this->Arrays.FixFreed(grown); }
 
   void VisitVertices(const GrowingMesh<Real>& grown, const RefinedVertexVisitor& visit)
   {

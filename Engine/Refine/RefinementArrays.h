@@ -187,12 +187,37 @@ public:
   }
 
   /// Lets edges flip again that were fixed for refinement alone. @returns how many there are.
-  std::int64_t FreeEdges(const GrowingMesh<Real>& grown)
+  /// @param keepsMesh whether to keep the mesh for Fetch, because flips follow.
+  std::int64_t FreeEdges(const GrowingMesh<Real>& grown, bool keepsMesh)
   {
-    const FreeEdgeStep step{ grown.Mesh->View(), this->SegmentOfEdge.Data(), this->Marks.Data() };
-    return this->Device.template Sum<std::int64_t>(this->IsOfCaller ? grown.Mesh->NumberOfEdges : 0,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, std::int64_t & sum)
-      { sum += step(static_cast<EdgeId>(e)); });
+    const EdgeMeshView mesh = grown.Mesh->View();
+    const std::int64_t edges = this->IsOfCaller ? grown.Mesh->NumberOfEdges : 0;
+    const FixedMeanwhileTest isFixed{ mesh, this->SegmentOfEdge.Data(), this->Marks.Data() };
+    const typename Backend::Numbering numbering = this->Device.Count(edges, isFixed);
+    this->Freed = this->Device.template MakeArray<EdgeId>(numbering.Total);
+    EdgeId* freed = this->Freed.Data();
+    this->Device.ForEachNumbered(numbering, edges, isFixed,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t e, std::int64_t number)
+      {
+        if (isFixed(e) != 0)
+        {
+          freed[number] = static_cast<EdgeId>(e);
+        }
+      });
+    if (keepsMesh && numbering.Total > 0)
+    {
+      this->LastTriangles = this->Copy(mesh.Triangles, grown.Mesh->NumberOfTriangles);
+      this->LastCorners = this->Copy(mesh.CornerOfHalfEdge, 2 * edges);
+      this->LastStates = this->Copy(mesh.States, edges);
+    }
+    this->SetFreed(grown, EdgeState::Candidate);
+    return numbering.Total;
+  }
+  /// Fixes the edges that FreeEdges has freed last, if none has flipped since.
+  void FixFreed(const GrowingMesh<Real>& grown)
+  {
+    this->SetFreed(grown, EdgeState::Fixed);
+    this->Freed = Array<EdgeId>();
   }
 
   /// Notes what a round has added.
@@ -247,20 +272,31 @@ public:
 
   // The functions below are public because device lambdas require it.
 
+  void SetFreed(const GrowingMesh<Real>& grown, EdgeState state)
+  {
+    EdgeState* states = grown.Mesh->View().States;
+    const EdgeId* freed = this->Freed.Data();
+    this->Device.ForEach(static_cast<std::int64_t>(this->Freed.Size()),
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { states[freed[i]] = state; });
+  }
+
+  template <typename Value>
+  Array<Value> Copy(const Value* from, std::int64_t count) const
+  {
+    Array<Value> copy = this->Device.template MakeArray<Value>(count);
+    Value* to = copy.Data();
+    this->Device.ForEach(count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { to[i] = from[i]; });
+    return copy;
+  }
+
   void KeepOldMesh(const GrowingMesh<Real>& grown)
   {
     const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
     const std::int64_t halfEdges = 2 * grown.Mesh->NumberOfEdges;
     this->Grid = BuildPlaceGrid(grown.View(), triangles, this->Device);
-    this->OldTriangles = this->Device.template MakeArray<TriangleRecord>(triangles);
-    this->OldCorners = this->Device.template MakeArray<CornerId>(halfEdges);
     const EdgeMeshView mesh = grown.Mesh->View();
-    TriangleRecord* oldTriangles = this->OldTriangles.Data();
-    CornerId* oldCorners = this->OldCorners.Data();
-    this->Device.ForEach(triangles,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { oldTriangles[t] = mesh.Triangles[t]; });
-    this->Device.ForEach(halfEdges,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { oldCorners[i] = mesh.CornerOfHalfEdge[i]; });
+    this->OldTriangles = this->Copy(mesh.Triangles, triangles);
+    this->OldCorners = this->Copy(mesh.CornerOfHalfEdge, halfEdges);
   }
 
   void MakeTriangleArrays(const GrowingMesh<Real>& grown, const RefinementPlan& plan)
@@ -542,6 +578,10 @@ public:
   OldPlaceFinder MakeFinder(const GrowingMesh<Real>& grown, std::int32_t* failed)
   {
     PlaneMesh now = grown.View();
+    if (this->LastTriangles.Size() > 0)
+    {
+      now.Edges = { this->LastTriangles.Data(), this->LastCorners.Data(), this->LastStates.Data() };
+    }
     now.Failed = failed;
     now.IsInFilterRange = false; // places may be nearer to 0
     PlaneMesh old = this->ViewOld(grown, failed);
@@ -557,12 +597,16 @@ public:
     const std::int64_t triangles = grown.Mesh->NumberOfTriangles;
     Array<std::int32_t> failed = this->MakeFailed();
     Array<TriangleId> sources = this->Device.template MakeArray<TriangleId>(triangles);
-    const SourceStep step{ this->MakeFinder(grown, failed.Data()), this->Regions.Data(),
-      static_cast<std::int64_t>(this->OldTriangles.Size()), sources.Data() };
+    const SourceStep step{ this->MakeFinder(grown, failed.Data()), grown.Mesh->View(),
+      this->Regions.Data(), static_cast<std::int64_t>(this->OldTriangles.Size()), sources.Data() };
     this->Device.ForEach(triangles,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t) { step(static_cast<TriangleId>(t)); });
     result.Sources.resize(triangles);
     this->Device.Download(sources.Data(), triangles, result.Sources.data());
+    if (this->LastTriangles.Size() > 0)
+    {
+      this->JudgeFlipped(grown, failed.Data());
+    }
     this->RequireDecided(failed);
     const EdgeMeshView mesh = grown.Mesh->View();
     const EdgeId* added = this->Segments.Data() + this->SegmentsBefore;
@@ -575,6 +619,28 @@ public:
     result.Ends.resize(2 * this->SegmentsBefore);
     const Array<VertexId> ends = this->NameEnds(grown);
     this->Device.Download(ends.Data(), SizeOf(result.Ends), result.Ends.data());
+  }
+
+  /// Finds which triangles of the last flips are counter-clockwise now, and forgets the mesh before
+  /// these.
+  void JudgeFlipped(const GrowingMesh<Real>& grown, std::int32_t* failed)
+  {
+    PlaneMesh plane = grown.View();
+    plane.Failed = failed;
+    std::int32_t* regions = this->Regions.Data();
+    const CallerRegionStep step{ plane, nullptr, regions };
+    const TriangleRecord* before = this->LastTriangles.Data();
+    this->Device.ForEach(grown.Mesh->NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t)
+      {
+        if (before[t].Flips != plane.Edges.Triangles[t].Flips)
+        {
+          step.Judge(static_cast<TriangleId>(t), GetRegion(regions[t]));
+        }
+      });
+    this->LastTriangles = Array<TriangleRecord>();
+    this->LastCorners = Array<CornerId>();
+    this->LastStates = Array<EdgeState>();
   }
 
   /// The points at the ends of the original segments.
@@ -675,6 +741,11 @@ private:
   PlaceGrid Grid; ///< That of the mesh before.
   Array<TriangleRecord> OldTriangles;
   Array<CornerId> OldCorners;
+
+  Array<EdgeId> Freed; ///< What FreeEdges has freed.
+  Array<TriangleRecord> LastTriangles; ///< The mesh before the flips that follow the last round.
+  Array<CornerId> LastCorners;
+  Array<EdgeState> LastStates;
 };
 
 }

@@ -103,7 +103,7 @@ bool LoadedRun::Refine()
     this->RecordFound(this->Loaded->GetLoop().GetFound());
     this->AreAnglesKnown = false;
   }
-  return this->IsRefined || this->IsAtIterationLimit();
+  return this->IsRefinementOver();
 }
 
 bool LoadedRun::IsAtIterationLimit() const

@@ -92,11 +92,11 @@ protected:
   /// @returns whether refinement has ended.
   bool Refine();
   void RepeatRounds(LoadedMesh& mesh, std::int64_t rounds);
-  /// Whether no more rounds follow, so that triangles that are not good stay as they are.
-  bool HasEndedRefinement() const
-  {
-    return this->IsRefined || this->WasStopped || this->IsAtIterationLimit();
-  }
+  /// Whether no more rounds follow.
+  bool IsRefinementOver() const { return this->IsRefined || this->IsAtIterationLimit(); }
+  /// Whether no more rounds follow in this call, so that triangles that are not good stay as they
+  /// are.
+  bool HasEndedRefinement() const { return this->IsRefinementOver() || this->WasStopped; }
   /// Whether the options allow no more iterations. Rounds count as iterations.
   bool IsAtIterationLimit() const;
   /// Whether the options ask for refinement.

@@ -138,7 +138,7 @@ void MeshRun::NumberRegions(RefinementPlan& plan) const
 
 void MeshRun::TakeRefinement(LoadedMesh& mesh)
 {
-  const RefinementResult& made = mesh.FetchRefinement();
+  const RefinementResult& made = mesh.FetchRefinement(this->IsRefinementOver());
   this->AddRefinedPoints(made);
   this->Refined.Sources = made.Sources;
   const std::int64_t unrefined = this->HasEndedRefinement() ? made.Unrefined : 0;

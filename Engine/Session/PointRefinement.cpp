@@ -169,7 +169,7 @@ RefinementPlan PointRun::PlanRefinement(LoadedMesh& mesh)
 void PointRun::TakeRefinement(LoadedMesh& mesh)
 {
   PointResult& result = this->Result;
-  const RefinementResult& made = mesh.FetchRefinement();
+  const RefinementResult& made = mesh.FetchRefinement(this->IsRefinementOver());
   PieceMap pieces(made.Segments);
   std::vector<std::uint32_t> originOf; // by edge of EdgesBefore
   originOf.reserve(result.EdgesBefore.size());

@@ -160,7 +160,10 @@ public:
     this->Report.Backend = "CUDA: fake";
     return added;
   }
-  const RefinementResult& FetchRefinement() override { return this->Engine->FetchRefinement(); }
+  const RefinementResult& FetchRefinement(bool isOver) override
+  {
+    return this->Engine->FetchRefinement(isOver);
+  }
   void VisitRefined(const RefinedVertexVisitor& visit) override
   {
     this->Engine->VisitRefined(visit);

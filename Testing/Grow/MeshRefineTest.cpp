@@ -631,6 +631,82 @@ TEST(MeshRefineTest, KeepsTheIterationLimit)
   }
 }
 
+/// A mesh with a triangle that is turned over.
+OwnedMesh<double> MakeFolded(const std::vector<double>& xy, std::vector<std::int32_t> triangles)
+{
+  OwnedMesh<double> mesh;
+  for (std::size_t i = 0; i < xy.size(); i += 2)
+  {
+    mesh.Points.insert(mesh.Points.end(), { xy[i], xy[i + 1], 0.0 });
+  }
+  mesh.Triangles = std::move(triangles);
+  return mesh;
+}
+
+/// Edges that flip after refinement, because they were fixed for refinement alone.
+TEST(MeshRefineTest, CountsAfterTheLastFlips)
+{
+  const OwnedMesh<double> mesh =
+    MakeFolded({ 17, 5, 4, 3, 1, 3, 16, 11, 13, 12 }, { 3, 0, 4, 1, 0, 3, 3, 2, 1, 4, 2, 3 });
+  FlipOptions options = WithAngle(20.0);
+  options.PointLimit = 2000;
+  const RefinedMesh refined = Refine(mesh.View(), options);
+  std::int64_t narrow = 0;
+  for (std::size_t t = 0; t < refined.Triangles.size() / 3; ++t)
+  {
+    narrow += refined.GetArea(t) > 0.0 && refined.GetSmallestAngle(t) < 20.0 ? 1 : 0;
+  }
+  EXPECT_EQ(narrow, refined.Report.FromPoints.UnrefinedTriangles);
+  ExpectCentroidsInSources(refined, Flip(mesh.View(), InPlane()).Triangles);
+}
+
+/// Edges that are fixed for refinement alone count as bad before it ends, and after a limit or an
+/// observer has ended it.
+TEST(MeshRefineTest, CountsEdgesThatAreFixedMeanwhile)
+{
+  const auto expectSame = [](const RefinedMesh& refined)
+  {
+    const FlipReport again =
+      Flip(refined.View(), With(&FlipOptions::MaximumIterations, 0, InPlane())).Report;
+    EXPECT_EQ(again.NonDelaunayAfter, refined.Report.NonDelaunayAfter);
+    EXPECT_EQ(again.BlockedByShape, refined.Report.BlockedByShape);
+    EXPECT_EQ(again.BlockedByEdge, refined.Report.BlockedByEdge);
+  };
+  std::vector<OwnedMesh<double>> meshes;
+  meshes.push_back(
+    MakeFolded({ 13, 6, 14, 7, 11, 1, 17, 10, 13, 6 }, { 3, 0, 1, 2, 1, 0, 3, 2, 0 }));
+  for (std::uint32_t seed = 0; seed < 20; ++seed)
+  {
+    meshes.push_back(MakeSoup(12, 14, seed));
+  }
+  for (const OwnedMesh<double>& mesh : meshes)
+  {
+    FlipOptions options = WithAngle(20.0);
+    options.PointLimit = 300;
+    const RefinedMesh expected = Refine(mesh.View(), options);
+    expectSame(expected);
+    FlipSession session = MakeSession(mesh.View(), options);
+    while (session.Advance(1))
+    {
+      expectSame(Take(session, mesh.View()));
+    }
+    EXPECT_EQ(expected.Triangles, StoreTriangles(session));
+    FlipSession stopped = MakeSession(mesh.View(), options);
+    do
+    {
+      stopped.Advance(-1, {}, [](double share) { return share == 1.0; });
+      expectSame(Take(stopped, mesh.View()));
+    } while (stopped.GetReport().StopReason == StopReasonKind::Aborted);
+    EXPECT_EQ(expected.Triangles, StoreTriangles(stopped));
+    const auto flips = static_cast<std::int64_t>(expected.Report.Iterations.size());
+    for (int rounds = 1; rounds < 4; ++rounds)
+    {
+      options.MaximumIterations = flips + rounds;
+      expectSame(Refine(mesh.View(), options));
+    }
+  }
+}
+
 /// Rounds count as iterations of Advance, and an observer may stop the run in each.
 TEST(MeshRefineTest, AdvancesRoundByRound)
 {
