@@ -239,6 +239,11 @@ void CheckMeshSize(std::int64_t triangles, std::int64_t points, const char* reme
   }
 }
 
+std::int64_t CountPointsThatFit(std::int64_t triangles, std::int64_t points)
+{
+  return std::max<std::int64_t>(0, std::min((LargestMesh - triangles) / 2, MostPoints - points));
+}
+
 void CheckPointCount(std::int64_t points)
 {
   constexpr std::int64_t Most = LargestMesh / 2; // There are fewer than two triangles per point.

@@ -57,6 +57,10 @@ int CountPieces(const FlipOptions& options, std::int64_t triangles);
 void CheckMeshSize(std::int64_t triangles, std::int64_t points,
   const char* remedy = "in one piece; flip the mesh in more pieces");
 
+/// How many points can be added to a mesh before CheckMeshSize would refuse it. Each adds two
+/// triangles.
+std::int64_t CountPointsThatFit(std::int64_t triangles, std::int64_t points);
+
 /// Throws MeshTooLarge if the triangulation of this many points may have too many triangles for
 /// 32-bit half-edges.
 void CheckPointCount(std::int64_t points);

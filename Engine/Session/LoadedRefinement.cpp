@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LoadedRun.h"
 
+#include "InputChecks.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -22,7 +24,7 @@ std::int64_t GetPointLimit(std::int64_t limit, std::int64_t points)
 
 }
 
-RefinementPlan LoadedRun::PlanGoals(std::int64_t given, std::int64_t used)
+RefinementPlan LoadedRun::PlanGoals(const LoadedMesh& mesh, std::int64_t given, std::int64_t used)
 {
   const FlipOptions& options = this->Options;
   RefinementPlan plan;
@@ -35,7 +37,9 @@ RefinementPlan LoadedRun::PlanGoals(std::int64_t given, std::int64_t used)
   {
     plan.Goals.SquaredEdge = options.MaximumEdge * options.MaximumEdge;
   }
-  this->MostPoints = GetPointLimit(options.PointLimit, given);
+  const FlipReport& report = mesh.GetInputReport(); // also of triangles that are removed
+  this->MostPoints = std::min(GetPointLimit(options.PointLimit, given),
+    used + CountPointsThatFit(report.Triangles, report.Points));
   plan.MostAdded = std::max<std::int64_t>(0, this->MostPoints - used);
   plan.KeepsBoundary = options.KeepBoundary;
   return plan;

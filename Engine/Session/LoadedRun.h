@@ -103,7 +103,7 @@ protected:
   virtual bool WantsRefinement() const = 0;
   /// Makes a plan with the goals of the options.
   /// @param given the number of the caller's points. @param used those that the limit counts.
-  RefinementPlan PlanGoals(std::int64_t given, std::int64_t used);
+  RefinementPlan PlanGoals(const LoadedMesh& mesh, std::int64_t given, std::int64_t used);
   /// Names options of refinement that have no effect because nothing is refined.
   Defect FindIdleOptions() const;
   /// Counts the triangles if the limit on iterations allows no round.

@@ -68,7 +68,7 @@ bool MeshRun::WantsRefinement() const
 RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
 {
   const std::int64_t points = this->Mesh.CountPoints();
-  RefinementPlan plan = this->PlanGoals(points, points);
+  RefinementPlan plan = this->PlanGoals(mesh, points, points);
   plan.IsOfCaller = true;
   plan.HasNonManifold = mesh.GetInputReport().Edges.NonManifold > 0;
   this->NumberRegions(plan);

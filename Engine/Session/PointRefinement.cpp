@@ -139,7 +139,7 @@ RefinementPlan PointRun::PlanRefinement(LoadedMesh& mesh)
   const std::int64_t unused = report.FromPoints.NotFinite + report.FromPoints.Repeated;
   const std::int64_t given = report.Points - unused;
   const bool hasRemoved = this->Result.HasRemoved();
-  RefinementPlan plan = this->PlanGoals(given, hasRemoved ? this->Result.Kept.Used : given);
+  RefinementPlan plan = this->PlanGoals(mesh, given, hasRemoved ? this->Result.Kept.Used : given);
   this->Result.EdgesBefore = this->Result.Edges;
   plan.Regions = this->Result.Regions;
   if (plan.Regions.empty() && hasRemoved)

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DividedSquare.h"
+#include "FlipError.h"
+#include "InputChecks.h"
 #include "PointSets.h"
 #include "PointTestSupport.h"
 #include "RandomInputs.h"
@@ -456,6 +458,20 @@ TEST(Refine, PointsOutsideDoNotMatter)
     EXPECT_EQ(expected.Triangles.size(), refined.Triangles.size()) << far;
     EXPECT_EQ(0, refined.Report.FromPoints.UnrefinedTriangles) << far;
   }
+}
+
+/// Points that are added get numbers of 32 bits, as do their triangles and edges.
+TEST(Refine, StaysWithinItsNumbers)
+{
+  for (const std::int64_t points : { 4, 300000000 })
+  {
+    const std::int64_t triangles = 2 * points - 5, more = CountPointsThatFit(triangles, points);
+    EXPECT_LT(50000000, more);
+    EXPECT_NO_THROW(CheckMeshSize(triangles + 2 * more, points + more));
+    EXPECT_THROW(CheckMeshSize(triangles + 2 * more + 2, points + more + 1), MeshTooLarge);
+  }
+  EXPECT_EQ(0, CountPointsThatFit(10, (std::int64_t(1) << 32) - 2));
+  EXPECT_EQ(0, CountPointsThatFit(std::int64_t(1) << 31, 10));
 }
 
 TEST(Refine, EndsEarly)
