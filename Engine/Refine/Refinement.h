@@ -184,8 +184,10 @@ public:
     this->Arrays.VisitVertices(grown, visit);
   }
 
+  /// @throws BeyondDevice.
   RefinementResult Fetch(GrowingMesh<Real>& grown)
   {
+    this->RequireDecided(); // the steps after the winners were chosen
     RefinementResult result = this->Arrays.Fetch(grown);
     result.HasReachedLimit = this->ReachedLimit;
     return result;
