@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -355,6 +356,31 @@ inline ProgressObserver ToProgress(const delaunayflip_callbacks* given)
   }
   return call;
 }
+
+/// The caller's function for a session that keeps its observer. It is called only as long as this
+/// lives; afterwards nothing is told, and nothing is stopped.
+class ProgressOfCall
+{
+public:
+  explicit ProgressOfCall(const delaunayflip_callbacks* given)
+    : Observer(ToProgress(given))
+  {
+  }
+  ~ProgressOfCall() { *this->IsOver = true; }
+  ProgressOfCall(const ProgressOfCall&) = delete;
+  ProgressOfCall& operator=(const ProgressOfCall&) = delete;
+
+  ProgressObserver Get() const
+  {
+    const auto call = [isOver = this->IsOver, observer = this->Observer](double share)
+    { return *isOver || observer(share); };
+    return this->Observer ? ProgressObserver(call) : nullptr;
+  }
+
+private:
+  ProgressObserver Observer;
+  std::shared_ptr<bool> IsOver = std::make_shared<bool>(false);
+};
 
 inline FlipObserver ToObserver(const delaunayflip_callbacks* given)
 {

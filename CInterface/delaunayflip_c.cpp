@@ -213,8 +213,9 @@ extern "C"
           wanted.MaximumEdge > 0.0 || c.sizes ||
           std::any_of(seeds.begin(), seeds.end(),
             [](const RegionSeed& seed) { return seed.MaximumArea > 0.0; });
+        const ProgressOfCall progress(callbacks);
         const auto open = [&](const auto& view)
-        { return FlipSession(view, wanted, ToProgress(callbacks)); };
+        { return FlipSession(view, wanted, progress.Get()); };
         FlipSession opened =
           IsOnDevice(c.memory) ? open(ToDeviceMesh(c, seeds)) : open(ToMesh(&c, seeds));
         *session = new delaunayflip_session{ std::move(opened), false, isRefined,
@@ -232,8 +233,9 @@ extern "C"
         Require(session, "session is null");
         const delaunayflip_points c = Complete(points, delaunayflip_points_init_sized);
         std::vector<RegionSeed> regions = ToRegions(c.regions, c.number_of_regions, "regions");
+        const ProgressOfCall progress(callbacks);
         FlipSession opened(
-          ToPointInput(c, regions), ToPointOptions(c, ToOptions(options)), ToProgress(callbacks));
+          ToPointInput(c, regions), ToPointOptions(c, ToOptions(options)), progress.Get());
         *session = new delaunayflip_session{ std::move(opened), true, true, 0, nullptr, {},
           std::move(regions) };
       });

@@ -375,7 +375,8 @@ extern "C"
   } delaunayflip_report;
 
   /** Functions of the caller, or null. Each is called on the calling thread with `user` and returns
-   * 0 to abort the run, which then ends with a valid mesh. */
+   * 0 to abort the run, which then ends with a valid mesh. They and `user` must live until the
+   * function that they are passed to returns; a session does not keep them. */
   typedef struct
   {
     int64_t size;

@@ -6,6 +6,7 @@
 #include "Interpolation.h"
 #include "RandomNumbers.h"
 #include "TestDevice.h"
+#include "delaunayflip_c.h"
 
 #include <gtest/gtest.h>
 
@@ -188,6 +189,36 @@ TEST_F(LostDeviceTest, ASphereIsForgotten)
   FlipSession expected = OpenSphere(points, BackendKind::Threads);
   expected.Advance();
   EXPECT_TRUE(StoreTriangles(expected) == ids);
+}
+
+/// The functions of a C program need not live longer than the call.
+TEST_F(LostDeviceTest, CallbacksAreCalledDuringTheirCallAlone)
+{
+  const std::vector<double> xy = MakeSpiral();
+  delaunayflip_points points;
+  delaunayflip_points_init(&points);
+  points.points = xy.data();
+  points.number_of_points = Many;
+  int calls = 0;
+  delaunayflip_callbacks callbacks;
+  delaunayflip_callbacks_init(&callbacks);
+  callbacks.progress = [](double, void* user) { return ++*static_cast<int*>(user); };
+  callbacks.user = &calls;
+  delaunayflip_session* session = nullptr;
+  ASSERT_EQ(DELAUNAYFLIP_OK, delaunayflip_open_points(&points, nullptr, &callbacks, &session));
+  EXPECT_LT(0, calls);
+  ASSERT_EQ(DELAUNAYFLIP_OK, delaunayflip_advance(session, -1, nullptr, nullptr));
+  calls = 0;
+  IsDeviceLost = true;
+  std::vector<std::int32_t> triangles(6 * Many);
+  delaunayflip_report report;
+  delaunayflip_report_init(&report);
+  EXPECT_EQ(
+    DELAUNAYFLIP_OK, delaunayflip_store_triangles(session, triangles.data(), DELAUNAYFLIP_INT32));
+  EXPECT_EQ(DELAUNAYFLIP_OK, delaunayflip_get_report(session, &report));
+  EXPECT_STREQ("as the test wants it", report.fallback);
+  EXPECT_EQ(0, calls);
+  delaunayflip_close(session);
 }
 
 }
