@@ -32,8 +32,8 @@ constexpr double TooShort = 3e-12; // 1024 roundings of the coordinates; see Ref
 /// are 0.03 apart need 20,000 points for 30 degrees, and there may be four.
 constexpr double LargestSafeAngle = 30.0;
 constexpr std::int64_t PointLimit = 100000, UnsafeLimit = 3000;
-/// Above LargestSafeAngle, edges that are shorter may be beside those that are too short.
-constexpr double ShortForUnsafe = 1e-8;
+/// Above LargestSafeAngle, triangles that are far smaller than the features there are left.
+constexpr double ShortForUnsafe = 0.2;
 
 struct RefinementCase
 {
