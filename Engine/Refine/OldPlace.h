@@ -120,7 +120,7 @@ private:
     const PlanePoint along = this->Now.GetPoint(this->Now.GetVertex(PlaneMesh::Next(corner)));
     int turns = sector.Turns;
     bool isInTurn = corner == sector.First || sector.First == NoCorner;
-    CornerId turned = sector.Start, first = NoCorner;
+    CornerId turned = sector.Start, first = NoCorner, before = NoCorner;
     do
     {
       const PlanePoint right = this->Old.GetPoint(this->Old.GetVertex(PlaneMesh::Next(turned)));
@@ -129,9 +129,10 @@ private:
       {
         isInTurn = turns == 0;
         --turns;
-        if (isInTurn && this->FindSign(from, along, place) < 0)
+        if (isInTurn && this->FindSign(from, along, place) <= 0)
         {
-          return turned; // the place is to the right of its angle by rounding
+          // The place is on the right side of its angle, or beside it by rounding.
+          return before != NoCorner ? before : turned;
         }
       }
       const bool isBetween =
@@ -141,6 +142,7 @@ private:
         return turned;
       }
       first = isBetween && first == NoCorner ? turned : first;
+      before = isBetween ? turned : NoCorner;
       const HalfEdgeId side = this->Old.GetHalfEdge(PlaneMesh::Next(turned));
       if (this->GetOrigin(EdgeOf(side)) != NoOrigin)
       {
