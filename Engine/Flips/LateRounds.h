@@ -51,7 +51,11 @@ struct LateRounds
         return;
       }
       const bool isDelaunay = this->Flip(group, late, stamp);
-      this->KeepLate(group, late);
+      if (!this->KeepLate(group, late))
+      {
+        this->Finish(group, LateEnd::Failed, stamp);
+        return;
+      }
       if (!isDelaunay)
       {
         this->Finish(group, LateEnd::GoesOn, stamp);
@@ -322,11 +326,14 @@ private:
   //----------------------------------------------------------------------------
 
   /// Keeps the vertices that are not at their targets for the next round.
-  DELAUNAYFLIP_HOST_DEVICE void KeepLate(const ThreadGroup& group, std::uint32_t late) const
+  /// @returns false if a device could not decide something, so that triangles may be inverted.
+  DELAUNAYFLIP_HOST_DEVICE bool KeepLate(const ThreadGroup& group, std::uint32_t late) const
   {
     ForEachInGroup(group, late,
       [&](std::uint32_t i) { this->Motion.HalvingsOf[this->Late[i].Vertex] = AtTarget; });
     const std::uint32_t next = AtomicLoad(this->Motion.Get(MotionCount::Late));
+    // Read between two waits, because the next round may set it.
+    const bool isDecided = AtomicLoad(this->Motion.Get(MotionCount::Undecided)) == 0;
     ShareInGroup(group, next < this->Motion.MostLate ? next : this->Motion.MostLate,
       [&](std::uint32_t i) { this->Late[i] = this->Motion.Next[i]; });
     if (group.Rank == 0)
@@ -335,6 +342,7 @@ private:
       ++this->Counts->Rounds;
     }
     group.Sync();
+    return isDecided;
   }
 };
 

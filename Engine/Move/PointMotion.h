@@ -296,6 +296,7 @@ public:
         return counts;
       }
       this->HalvePass(motion, inverted);
+      ++passes;
     }
   }
 

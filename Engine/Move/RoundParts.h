@@ -37,7 +37,8 @@ struct CutInGroup
   }
 };
 
-/// Lists the triangles that are not counter-clockwise, after CutInGroup.
+/// Lists the triangles that are not counter-clockwise, after CutInGroup, unless the motion has
+/// failed. Then coordinates may be unusual, and a device could not decide.
 template <typename Real>
 struct FindLeftInverted
 {
@@ -47,7 +48,7 @@ struct FindLeftInverted
   void Prefetch(std::int64_t triangle) const { this->Find.Prefetch(triangle); }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t triangle) const
   {
-    if (triangle < this->Counts->Sizes.Triangles)
+    if (this->Counts->End != LateEnd::Failed && triangle < this->Counts->Sizes.Triangles)
     {
       this->Find(triangle);
     }

@@ -223,6 +223,28 @@ void ExpectInsertionAgrees(std::int64_t count)
 
 TEST_F(AskTest, PointsThatComeLaterAreInsertedAlike) { ExpectInsertionAgrees(20000); }
 
+/// Expects that sessions on threads and on a GPU have the same triangles.
+void ExpectSameSessions(const std::vector<FlipSession>& sessions)
+{
+  const FlipReport& expected = sessions[0].GetReport();
+  const FlipReport& actual = sessions[1].GetReport();
+  EXPECT_EQ(expected.FromPoints.MoveRounds, actual.FromPoints.MoveRounds);
+  EXPECT_EQ(expected.TotalFlips, actual.TotalFlips);
+  EXPECT_EQ(expected.MinimumAngleAfter, actual.MinimumAngleAfter);
+  EXPECT_TRUE(IsOnGpu(actual)) << actual.Backend;
+  EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
+  EXPECT_EQ(StoreOrderedTriangles(sessions[0]), StoreOrderedTriangles(sessions[1]));
+}
+
+void ExpectSameMove(std::vector<FlipSession>& sessions, const Places& points)
+{
+  for (FlipSession& session : sessions)
+  {
+    EXPECT_TRUE(session.Move({ PlaneArray(points.front().data(), SizeOf(points), 2) }));
+  }
+  ExpectSameSessions(sessions);
+}
+
 /// Points are moved and removed in place on both backends, with the same bits. The boundary
 /// changes, too.
 void ExpectLifeAgrees(std::size_t count)
@@ -243,17 +265,6 @@ void ExpectLifeAgrees(std::size_t count)
       PointInput{ PlaneArray(points.front().data(), SizeOf(points), 2) }, options);
     sessions.back().Advance();
   }
-  const auto expectSame = [&]
-  {
-    const FlipReport& expected = sessions[0].GetReport();
-    const FlipReport& actual = sessions[1].GetReport();
-    EXPECT_EQ(expected.FromPoints.MoveRounds, actual.FromPoints.MoveRounds);
-    EXPECT_EQ(expected.TotalFlips, actual.TotalFlips);
-    EXPECT_EQ(expected.MinimumAngleAfter, actual.MinimumAngleAfter);
-    EXPECT_TRUE(IsOnGpu(actual)) << actual.Backend;
-    EXPECT_EQ(StoreTriangles(sessions[0]), StoreTriangles(sessions[1]));
-    EXPECT_EQ(StoreOrderedTriangles(sessions[0]), StoreOrderedTriangles(sessions[1]));
-  };
   Places moved = points;
   for (const double share : { 0.01, 0.03, 0.05, 1.0, 0.01 })
   {
@@ -262,13 +273,16 @@ void ExpectLifeAgrees(std::size_t count)
       const double way = static_cast<double>(DrawIndex(random, 2001)) / 1000.0 - 1.0;
       *x += share * way / std::sqrt(static_cast<double>(count));
     }
-    for (FlipSession& session : sessions)
-    {
-      EXPECT_TRUE(session.Move({ PlaneArray(moved.front().data(), SizeOf(moved), 2) }));
-    }
+    ExpectSameMove(sessions, moved);
     const bool isInPlace = sessions[0].GetReport().FromPoints.MoveRounds > 0;
     EXPECT_TRUE(isInPlace == (share < 0.5) || count < 1000); // small ones move in place more often
-    expectSame();
+  }
+  Places strange = moved;
+  for (const double coordinate : { double(NAN), double(INFINITY), 1e-40, moved[count / 2][0] })
+  {
+    SCOPED_TRACE(coordinate);
+    strange[count / 2][0] = coordinate;
+    ExpectSameMove(sessions, strange);
   }
   const auto remove = [&](const std::vector<std::int64_t>& ids)
   {
@@ -277,7 +291,7 @@ void ExpectLifeAgrees(std::size_t count)
       EXPECT_TRUE(session.Remove(ids.data(), SizeOf(ids)));
     }
     EXPECT_LT(0, sessions[0].GetReport().FromPoints.MoveRounds);
-    expectSame();
+    ExpectSameSessions(sessions);
   };
   std::vector<std::int64_t> scattered, clustered;
   for (std::size_t i = 0; i < count / 40; ++i)
@@ -302,7 +316,7 @@ void ExpectLifeAgrees(std::size_t count)
   {
     EXPECT_TRUE(session.Insert(View(back)));
   }
-  expectSame();
+  ExpectSameSessions(sessions);
 }
 
 /// Points come between segments, where triangles are removed.
