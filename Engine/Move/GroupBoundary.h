@@ -106,8 +106,7 @@ private:
       {
         const BoundarySide side = this->Hull.Sides[i];
         const int turn = this->Hull.FindTurn(side);
-        const bool isReversed =
-          this->Hull.RunsUp(side) != this->Hull.RunsUp(this->Hull.Sides[side.Before]);
+        const bool isReversed = this->Hull.IsReversal(side);
         CountIf(turn == 0 && isReversed, turnsBack);
         CountIf(isReversed, reversals);
         if (turn < 0)

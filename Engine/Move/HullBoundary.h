@@ -199,7 +199,7 @@ public:
       {
         const BoundarySide side = sides[i];
         const int turn = hull.FindTurn(side);
-        const bool isReversed = hull.RunsUp(side) != hull.RunsUp(sides[side.Before]);
+        const bool isReversed = hull.IsReversal(side);
         Add(turn < 0, HullCount::Concave, counts);
         Add(turn == 0 && isReversed, HullCount::TurnsBack, counts);
         Add(isReversed, HullCount::Reversals, counts);

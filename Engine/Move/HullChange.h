@@ -133,6 +133,11 @@ struct HullView
     const PlanePoint to = this->Mesh.GetPoint(this->GetStart(this->Sides[side.After]));
     return from.U < to.U || (from.U == to.U && from.V < to.V);
   }
+  /// Whether a side runs up and the one before it down, or the other way round.
+  DELAUNAYFLIP_HOST_DEVICE bool IsReversal(const BoundarySide& side) const
+  {
+    return this->RunsUp(side) != this->RunsUp(this->Sides[side.Before]);
+  }
 };
 
 /// Changes the boundary. The mesh and the arrays must have room for that.

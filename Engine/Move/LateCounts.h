@@ -21,9 +21,10 @@ struct LateLimits
   static constexpr std::uint32_t Triangles = 1u << 16; ///< Triangles that change together.
   static constexpr std::uint32_t Edges = 1u << 17; ///< Edges that are judged together.
   static constexpr std::uint32_t Pending = 1u << 10; ///< Changes of the boundary in a round.
-  static constexpr std::uint32_t Rounds = 48;
+  static constexpr std::uint32_t Rounds = 48; ///< Rounds of a motion, also without a group.
   static constexpr std::uint32_t Iterations = 256; ///< Iterations of flips in a round.
-  static constexpr std::uint32_t Passes = 256; ///< Passes of halved steps in a round.
+  static constexpr std::uint32_t Passes =
+    256; ///< Passes of halved steps in a round, also without a group.
 };
 
 /// How rounds by one group have ended.

@@ -151,7 +151,7 @@ public:
     this->NumberOfNext = counts.Get(MotionCount::Late);
     this->ChooseCandidates(mesh, all);
     this->KeepLate(mesh);
-    return this->Rounds < MostRounds && this->CountLate() <= this->Allowance;
+    return this->Rounds < LateLimits::Rounds && this->CountLate() <= this->Allowance;
   }
 
   /// Whether so few vertices are late that MakeLateRounds moves them.
@@ -187,7 +187,7 @@ public:
     this->IsSettled = counts.End == LateEnd::Done;
     this->NumberOfLate = counts.Late;
     this->ChangedHull = haveStatesMoved || counts.HasChangedHull != 0;
-    return counts.End != LateEnd::Failed && this->Rounds < MostRounds;
+    return counts.End != LateEnd::Failed && this->Rounds < LateLimits::Rounds;
   }
 
   /// How many edges MakeLateRounds has flipped, if it made the last rounds.
@@ -283,13 +283,13 @@ public:
     std::uint32_t passes = 0;
     for (;;)
     {
-      this->Device.RunGroup(HalveAndFill<Real>{
-        motion, this->ViewBoundary(mesh), this->Stamp + 1, MostPasses - passes, MostForGroup });
-      this->Stamp += MostPasses;
+      this->Device.RunGroup(HalveAndFill<Real>{ motion, this->ViewBoundary(mesh), this->Stamp + 1,
+        LateLimits::Passes - passes, MostForGroup });
+      this->Stamp += LateLimits::Passes;
       const SharedCounts counts = this->FetchCounts();
       const std::uint32_t inverted = counts.Get(MotionCount::Inverted);
       passes = counts.Get(MotionCount::Passes);
-      const bool isTooMuch = inverted > this->MostInverted || passes >= MostPasses ||
+      const bool isTooMuch = inverted > this->MostInverted || passes >= LateLimits::Passes ||
         counts.Get(MotionCount::Late) > motion.MostLate;
       if (counts.Late.End != LateEnd::GoesOn || isTooMuch)
       {
@@ -381,8 +381,6 @@ private:
   static constexpr std::int64_t Fewest = 64;
   /// If more than one triangle in 64 is inverted, triangulating anew takes less time.
   static constexpr std::int64_t MostShare = 64;
-  static constexpr std::int64_t MostRounds = 48;
-  static constexpr std::uint32_t MostPasses = 256;
 
   PlaneMesh ViewPlane(const MovingMesh<Real>& mesh)
   {

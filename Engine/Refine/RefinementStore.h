@@ -222,7 +222,8 @@ struct RefinementStore
     }
     if (this->Features)
     {
-      this->Features[vertex] = this->FindFeature(item.Found.Triangle);
+      const TriangleRecord& split = this->Splitter.GetMesh().Triangles[item.Found.Triangle];
+      this->Features[vertex] = FindLeastFeature(this->Features, split);
     }
     const NewVertex added{ vertex, item.Found, triangle, edge };
     if (item.CutsSliver)
@@ -341,18 +342,6 @@ private:
     const VertexId* now = this->Splitter.GetMesh().Triangles[found.Triangle].Vertices;
     const VertexId* before = this->Old.Edges.Triangles[found.Triangle].Vertices;
     return now[0] == before[0] && now[1] == before[1] && now[2] == before[2];
-  }
-
-  /// The least feature at the vertices of a triangle before it is split.
-  DELAUNAYFLIP_HOST_DEVICE double FindFeature(TriangleId triangle) const
-  {
-    double least = INFINITY;
-    for (const VertexId vertex : this->Splitter.GetMesh().Triangles[triangle].Vertices)
-    {
-      const double feature = this->Features[vertex];
-      least = feature < least ? feature : least;
-    }
-    return least;
   }
 
   DELAUNAYFLIP_HOST_DEVICE double InterpolateSize(const RefinedVertex& vertex) const

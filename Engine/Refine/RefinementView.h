@@ -52,6 +52,18 @@ enum class ShapeKind : std::uint32_t
   Left ///< Bad, but nothing can be done.
 };
 
+/// The least feature at the vertices of a triangle.
+DELAUNAYFLIP_HOST_DEVICE inline double FindLeastFeature(
+  const double* features, const TriangleRecord& triangle)
+{
+  double least = INFINITY;
+  for (const VertexId vertex : triangle.Vertices)
+  {
+    least = features[vertex] < least ? features[vertex] : least;
+  }
+  return least;
+}
+
 /// The arrays of a refinement.
 struct RefinementView
 {
@@ -269,20 +281,9 @@ struct RefinementView
     TriangleId triangle, const TriangleShape& shape) const
   {
     constexpr double Share = 0x1p-12; // the square of 1/64
-    return this->Features && shape.SquaredLongest < Share * this->FindFeature(triangle);
-  }
-
-  /// The square of the least feature at the vertices of a triangle.
-  DELAUNAYFLIP_HOST_DEVICE double FindFeature(TriangleId triangle) const
-  {
-    const VertexId* vertices = this->Mesh.Edges.Triangles[triangle].Vertices;
-    double least = INFINITY;
-    for (int slot = 0; slot < 3; ++slot)
-    {
-      const double feature = this->Features[vertices[slot]];
-      least = feature < least ? feature : least;
-    }
-    return least;
+    return this->Features &&
+      shape.SquaredLongest <
+      Share * FindLeastFeature(this->Features, this->Mesh.Edges.Triangles[triangle]);
   }
 
   // Threads prefetch the data around a triangle in five stages. Each is found by means of the one
