@@ -49,20 +49,20 @@ public:
   {
     const int ranks = this->GetSize();
     const int own = this->GetRank();
-    std::vector<Message> received(ranks);
-    std::vector<std::int64_t> sizes(ranks);
-    std::vector<std::int64_t> all(sizes.size() * sizes.size()); // from each rank to each rank
-    std::transform(messages.begin(), messages.end(), sizes.begin(),
-      [](const Message& message) { return static_cast<std::int64_t>(message.size()); });
-    Require(this->Controller->AllGather(sizes.data(), all.data(), ranks));
+    this->RequireTables();
+    std::transform(messages.begin(), messages.end(), this->Sizes.begin(),
+      [](const Message& message) { return static_cast<vtkIdType>(message.size()); });
+    Require(this->Controller->AllGather(this->Sizes.data(), this->AllSizes.data(), ranks));
+    std::vector<Message> received;
     this->AllocateTogether(
       [&]()
       {
+        received.resize(ranks);
         for (int rank = 0; rank < ranks; ++rank)
         {
           if (rank != own)
           {
-            received[rank].resize(all[static_cast<std::size_t>(rank) * ranks + own]);
+            received[rank].resize(this->AllSizes[static_cast<std::size_t>(rank) * ranks + own]);
           }
         }
       });
@@ -94,7 +94,9 @@ public:
   {
     const int ranks = this->GetSize();
     const auto own = static_cast<vtkIdType>(message.size());
-    std::vector<vtkIdType> sizes(ranks), offsets(ranks);
+    this->RequireTables();
+    std::vector<vtkIdType>& sizes = this->Sizes;
+    std::vector<vtkIdType>& offsets = this->Offsets;
     Require(this->Controller->AllGather(&own, sizes.data(), 1));
     std::partial_sum(sizes.begin(), sizes.end() - 1, offsets.begin() + 1);
     const auto total = static_cast<std::size_t>(offsets.back() + sizes.back());
@@ -105,11 +107,12 @@ public:
       return this->Exchange(std::move(copies));
     }
     Message all;
-    std::vector<Message> received(ranks);
+    std::vector<Message> received;
     this->AllocateTogether(
       [&]()
       {
         all.resize(total + 1); // so that it has an address
+        received.resize(ranks);
         for (int rank = 0; rank < ranks; ++rank)
         {
           received[rank].resize(sizes[rank]);
@@ -125,6 +128,23 @@ public:
   }
 
 private:
+  /// Makes the tables at the first call, which is that of all ranks.
+  void RequireTables()
+  {
+    if (!this->Sizes.empty())
+    {
+      return;
+    }
+    this->AllocateTogether(
+      [&]()
+      {
+        const auto ranks = static_cast<std::size_t>(this->GetSize());
+        this->Offsets.resize(ranks);
+        this->AllSizes.resize(ranks * ranks);
+        this->Sizes.resize(ranks); // last, because it tells whether there are tables
+      });
+  }
+
   void Send(const Message& message, int rank)
   {
     for (std::size_t at = 0; at < message.size(); at += LargestPart)
@@ -167,6 +187,10 @@ private:
   }
 
   vtkMultiProcessController* Controller;
+  // Kept, because a rank that lacked memory for them before it communicates would leave the others
+  // waiting.
+  std::vector<vtkIdType> Sizes, Offsets; ///< By rank.
+  std::vector<vtkIdType> AllSizes; ///< From each rank to each rank.
 };
 
 }
