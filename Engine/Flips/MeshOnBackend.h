@@ -33,12 +33,15 @@ class MeshOnBackend : public LivingMesh<BackendT>
 public:
   using LocalMesh = typename BackendT::LocalMesh;
 
-  /// @param local `mesh` as made by the backend. No reference to either is kept.
+  /// @param given `mesh` as made by the backend. No reference to either is kept.
   /// @throws RunAborted.
-  MeshOnBackend(const TriangleMesh& mesh, LocalMesh local, const FlipOptions& options,
+  MeshOnBackend(const TriangleMesh& mesh, LocalMesh&& given, const FlipOptions& options,
     BackendT backend, const BuildProgress& progress)
     : LivingMesh<BackendT>(std::move(backend))
   {
+    // An exception ends this variable before the member that owns the backend, and with it the
+    // memory of its arrays. A parameter would end later.
+    LocalMesh local = std::move(given);
     const MeshInput input{ mesh, local.Mesh, local.IsOnHost };
     MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);

@@ -116,9 +116,9 @@ std::unique_ptr<LoadedMesh> LoadOnThreads(
   const TriangleMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
   ThreadBackend backend(options.NumberOfThreads);
-  const ThreadBackend::LocalMesh local = backend.Localize(mesh);
-  return std::unique_ptr<LoadedMesh>(
-    new MeshOnBackend<ThreadBackend>(mesh, local, options, std::move(backend), progress));
+  ThreadBackend::LocalMesh local = backend.Localize(mesh);
+  return std::unique_ptr<LoadedMesh>(new MeshOnBackend<ThreadBackend>(
+    mesh, std::move(local), options, std::move(backend), progress));
 }
 
 std::unique_ptr<LoadedMesh> LoadOnThreads(
