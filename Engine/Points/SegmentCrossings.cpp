@@ -40,6 +40,21 @@ struct Rounded
   double Shift; ///< How far it is from what was rounded.
 };
 
+/// The multiple of 2^zeros that is next to a number, the even one of two that are.
+std::uint64_t RoundToMultiple(std::uint64_t bits, int zeros)
+{
+  if (zeros > 63)
+  {
+    return 0;
+  }
+  const std::uint64_t unit = std::uint64_t(1) << zeros;
+  const std::uint64_t rest = bits & (unit - 1);
+  const std::uint64_t below = bits - rest;
+  const bool isOdd = (below & unit) != 0;
+  const bool goesUp = rest > unit / 2 || (rest == unit / 2 && rest > 0 && isOdd);
+  return goesUp ? below + unit : below;
+}
+
 /// A fraction times 2^exponent, rounded once to the nearest double or float.
 Rounded Round(const Fraction& fraction, int exponent, bool toFloat)
 {
@@ -64,8 +79,16 @@ Rounded Round(const Fraction& fraction, int exponent, bool toFloat)
   Integer quotient, rest;
   divide_qr(above, below, quotient, rest);
   const std::int64_t bits = static_cast<std::int64_t>(quotient) | (rest != 0 ? 1 : 0);
+  // Subnormal numbers have fewer bits than others.
+  const int smallest = toFloat ? -149 : -1074;
+  const int zeros = smallest - (exponent - shift);
+  const int fewestToRound = 62 - (toFloat ? 24 : 53);
   auto rounded = static_cast<double>(bits);
-  if (toFloat)
+  if (zeros > fewestToRound)
+  {
+    rounded = static_cast<double>(RoundToMultiple(static_cast<std::uint64_t>(bits), zeros));
+  }
+  else if (toFloat)
   {
     rounded = static_cast<double>(static_cast<float>(bits));
   }

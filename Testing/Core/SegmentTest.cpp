@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -357,6 +358,29 @@ TEST(SplitCrossings, RoundsOnceAndUsesPointsThatAreThere)
   EXPECT_EQ(2.0, rounded.Added[0].X);
   EXPECT_EQ(2.0 / 3.0, rounded.Added[0].Y);
   EXPECT_NEAR(3.7e-17, rounded.Report.FromPoints.LargestShift, 1e-18);
+}
+
+/// The smallest numbers have fewer bits than others.
+TEST(SplitCrossings, RoundsSubnormalNumbersOnce)
+{
+  constexpr float Unit = std::numeric_limits<float>::denorm_min();
+  const std::int64_t segments[] = { 0, 1, 2, 3 };
+  const auto triangulate = [&](float size)
+  {
+    const float far = size * Unit; // the segments cross in the middle of a square
+    const float coordinates[] = { 0, 0, far, far, 0, far, far, 0, 2 * far, 0 };
+    PointInput input{ PlaneArray(coordinates, 5, 2) };
+    input.Segments = segments;
+    input.NumberOfSegments = 2;
+    return Triangulate(input, With(&PointOptions::SplitCrossings, true));
+  };
+  const Triangulation three = triangulate(3);
+  ASSERT_EQ(1u, three.Added.size());
+  EXPECT_EQ(2.0, three.Added[0].X / Unit);
+  EXPECT_EQ(2.0, three.Added[0].Y / Unit);
+  EXPECT_NEAR(0.7071, three.Report.FromPoints.LargestShift / Unit, 1e-4);
+  const Triangulation one = triangulate(1);
+  EXPECT_EQ(0u, one.Added.size()); // (1/2, 1/2) becomes (0, 0), which is there
 }
 
 //------------------------------------------------------------------------------
