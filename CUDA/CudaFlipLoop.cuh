@@ -83,33 +83,28 @@ public:
 
   // Public because device lambdas require it.
 
-  /// Takes over the states that are Fixed or Candidate. Other edges keep theirs, or, if isFirst,
-  /// have none. Bits after the last edge are fixed.
-  void TakeStates(const EdgeMesh& mesh, bool isFirst)
+  /// Takes over the states that are Fixed or Candidate. Other edges keep their bits, or, if
+  /// isFirst, have none. Bits after the last edge are fixed.
+  /// @param clears whether candidates become Good, so that nobody takes them twice.
+  void TakeStates(EdgeMesh& mesh, bool isFirst, bool clears = false)
   {
     const EdgeBits bits = this->Bits;
-    const EdgeState* states = mesh.States.Data();
+    EdgeState* states = mesh.States.Data();
     const CornerId* corners = mesh.CornerOfHalfEdge.Data();
     const std::int64_t edges = mesh.NumberOfEdges;
     this->Backend.ForEach(this->NumberOfWords,
       [=] __device__(std::int64_t word)
       {
-        std::uint32_t fixed = 0, candidates = 0;
-        for (int i = 0; i < 32; ++i)
+        StateWord own{ ~0u, 0 };
+        if (32 * word < edges)
         {
-          const std::int64_t edge = 32 * word + i;
-          EdgeState state = EdgeState::Fixed;
-          if (edge < edges && states)
-          {
-            state = states[edge];
-          }
-          else if (edge < edges && corners[2 * edge + 1] != NoCorner)
-          {
-            state = EdgeState::Candidate;
-          }
-          fixed |= std::uint32_t(state == EdgeState::Fixed) << i;
-          candidates |= std::uint32_t(state == EdgeState::Candidate) << i;
+          own =
+            states ? TakeWord(states + 32 * word, clears) : FindInner(corners, 32 * word, edges);
         }
+        const std::int64_t left = edges - 32 * word;
+        const std::uint32_t after = left < 32 ? ~0u << (left > 0 ? left : 0) : 0;
+        std::uint32_t fixed = own.Fixed | after;
+        const std::uint32_t candidates = own.Candidates & ~after;
         if (!isFirst)
         {
           fixed |= bits.FixedOrDeferred[word];
@@ -123,6 +118,61 @@ public:
         keep(bits.BlockedByShape);
         keep(bits.BlockedByEdge);
       });
+  }
+
+  /// The bits of 32 edges.
+  struct StateWord
+  {
+    std::uint32_t Fixed, Candidates;
+  };
+
+  /// Takes the states of 32 edges. All of them have room, because States is padded.
+  __device__ static StateWord TakeWord(EdgeState* states, bool clears)
+  {
+    constexpr int Words = 32 / sizeof(std::uint32_t);
+    static_assert(sizeof(EdgeState) == 1 && EdgeMesh::StatePadding % 32 == 0);
+    std::uint32_t words[Words];
+    auto* halves = reinterpret_cast<uint4*>(states);
+    *reinterpret_cast<uint4*>(words) = halves[0];
+    *reinterpret_cast<uint4*>(words + Words / 2) = halves[1];
+    constexpr auto ToGood = static_cast<std::uint32_t>(EdgeState::Candidate) ^
+      static_cast<std::uint32_t>(EdgeState::Good);
+    StateWord taken{ 0, 0 };
+    for (int i = 0; i < 32; ++i)
+    {
+      const int shift = 8 * (i % 4);
+      const auto state = static_cast<EdgeState>(words[i / 4] >> shift & 0xFFu);
+      const auto isCandidate = static_cast<std::uint32_t>(state == EdgeState::Candidate);
+      taken.Fixed |= static_cast<std::uint32_t>(state == EdgeState::Fixed) << i;
+      taken.Candidates |= isCandidate << i;
+      words[i / 4] ^= isCandidate * (ToGood << shift);
+    }
+    if (clears && taken.Candidates != 0)
+    {
+      halves[0] = *reinterpret_cast<const uint4*>(words);
+      halves[1] = *reinterpret_cast<const uint4*>(words + Words / 2);
+    }
+    return taken;
+  }
+
+  /// The states of 32 edges of a mesh that has none: edges with two triangles are candidates.
+  __device__ static StateWord FindInner(
+    const CornerId* corners, std::int64_t first, std::int64_t edges)
+  {
+    StateWord found{ 0, 0 };
+    for (int i = 0; i < 32 && first + i < edges; ++i)
+    {
+      const bool isInner = corners[2 * (first + i) + 1] != NoCorner;
+      found.Fixed |= static_cast<std::uint32_t>(!isInner) << i;
+      found.Candidates |= static_cast<std::uint32_t>(isInner) << i;
+    }
+    return found;
+  }
+
+  /// Whether there is room for the bits of all edges.
+  bool HasRoom(const EdgeMesh& mesh) const
+  {
+    return mesh.NumberOfEdges <= 32 * this->NumberOfWords;
   }
 
   /// Writes what is known after a detection.
@@ -261,31 +311,38 @@ public:
 protected:
   StepCounts DetectAll() override
   {
-    const Results& results = this->LaunchOnMesh(this->GetDetectKernel());
-    const IterationSums& all = results.Sums[1];
-    StepCounts found;
-    found.Tested = GetSum(results.Sums[0], IterationSum::Tested);
-    found.Bad = GetSum(all, IterationSum::AllBad);
-    found.BlockedByShape = GetSum(all, IterationSum::AllBlockedByShape);
-    found.BlockedByEdge = GetSum(all, IterationSum::AllBlockedByEdge);
-    return found;
+    return ToFound(this->LaunchOnMesh(this->GetIterateKernel(), this->MakePlan(true, 0)));
+  }
+
+  /// One launch for both, so that the host waits once.
+  std::vector<IterationCounts> DetectAndIterate(std::int64_t iterations) override
+  {
+    const Results& results =
+      this->LaunchOnMesh(this->GetIterateKernel(), this->MakePlan(true, iterations));
+    this->Found = ToFound(results);
+    return this->TakeIterations(results, SumsOfDetection);
   }
 
   void TakeStates() override { this->Bits.TakeStates(this->Mesh, false); }
+
+  bool TakeMoved(bool hasOtherEdges) override
+  {
+    const bool canTake =
+      !hasOtherEdges || (!this->Guard.IsActive() && this->Bits.HasRoom(this->Mesh));
+    if (canTake)
+    {
+      this->Bits.TakeStates(this->Mesh, hasOtherEdges, true);
+    }
+    return canTake;
+  }
 
   /// A launch of iterations on the whole mesh.
   std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) override
   {
     const bool measure = plan.MeasureFirst || plan.MeasureAll;
-    std::int64_t most = std::min<std::int64_t>(plan.Iterations, MostIterations);
-    if (measure)
-    {
-      most = 1;
-    }
-    const IterationPlan iterationPlan{ static_cast<int>(most), this->Found.Bad,
-      this->Guard.GetFreshSlotsLeft() };
-    std::vector<IterationCounts> iterations =
-      this->TakeIterations(this->LaunchOnMesh(this->GetIterateKernel(), iterationPlan));
+    const std::int64_t most = measure ? 1 : plan.Iterations;
+    std::vector<IterationCounts> iterations = this->TakeIterations(
+      this->LaunchOnMesh(this->GetIterateKernel(), this->MakePlan(false, most)), 0);
     if (measure)
     {
       iterations.back().SquaredCotangent = this->MeasureAngles().Largest;
@@ -320,21 +377,13 @@ private:
   /// The results of a launch.
   struct Results
   {
-    int IterationsDone;
-    IterationSums Sums[MostIterations + 1];
+    int EntriesUsed;
+    IterationSums Sums[MostIterations + SumsOfDetection];
   };
 
   /// With fewer edges one GPU makes iterations on the whole mesh: waits of several take longer.
   static constexpr std::int64_t SmallestShared = std::int64_t(1) << 20;
 
-  auto* GetDetectKernel() const
-  {
-    if (this->Guard.IsActive())
-    {
-      return DetectAllKernel<true, Rule>;
-    }
-    return DetectAllKernel<Rule::IsInSpace, Rule>;
-  }
   auto* GetIterateKernel() const
   {
     if (this->Guard.IsActive())
@@ -384,8 +433,7 @@ private:
       this->Devices = this->Backend.CountDevices();
     }
     const std::int64_t blocks = std::min(
-      { MostIterateBlocks / this->Devices, this->CountResidentBlocks(this->GetIterateKernel()),
-        this->CountResidentBlocks(this->GetDetectKernel()) });
+      { MostIterateBlocks / this->Devices, this->CountResidentBlocks(this->GetIterateKernel()) });
     std::int64_t parts = this->Bits.CountUnits();
     for (; this->Splits < EdgeUnits::MostSplits && 2 * parts <= blocks * LoopWarps; parts *= 2)
     {
@@ -442,8 +490,7 @@ private:
     { return static_cast<int>(this->NumberOfChunks * of / devices); };
     return { this->Mesh.View(), this->Decision, this->Guard.View(), this->Bits.View(), this->Splits,
       this->Devices, edges(device), edges(device + 1), this->Chunks.Data(), chunks(device),
-      chunks(device + 1), this->TeamStates.Data() + teams, results->Sums,
-      &results->IterationsDone };
+      chunks(device + 1), this->TeamStates.Data() + teams, results->Sums, &results->EntriesUsed };
   }
 
   /// Clears the counters of the kernels.
@@ -483,7 +530,7 @@ private:
           stream, this->GridBlocks, kernel, this->View(device, this->Devices, 0), arguments...);
       });
     const Results& results = this->FetchResults();
-    if (results.IterationsDone == 0 && this->Devices > 1)
+    if (results.EntriesUsed == 0 && this->Devices > 1)
     {
       this->Devices = 1;
       return this->LaunchOnMesh(kernel, arguments...);
@@ -506,12 +553,32 @@ private:
     return *results;
   }
 
+  /// @param detects whether the kernel begins with a detection.
+  IterationPlan MakePlan(bool detects, std::int64_t iterations) const
+  {
+    const auto most = static_cast<int>(std::min<std::int64_t>(iterations, MostIterations));
+    return { detects, most, this->Found.Bad, this->Guard.GetFreshSlotsLeft() };
+  }
+
+  /// What a detection has found.
+  static StepCounts ToFound(const Results& results)
+  {
+    const IterationSums& all = results.Sums[1];
+    StepCounts found;
+    found.Tested = GetSum(results.Sums[0], IterationSum::Tested);
+    found.Bad = GetSum(all, IterationSum::AllBad);
+    found.BlockedByShape = GetSum(all, IterationSum::AllBlockedByShape);
+    found.BlockedByEdge = GetSum(all, IterationSum::AllBlockedByEdge);
+    return found;
+  }
+
   /// Takes over the counts of a launch, and maintains the guard.
-  std::vector<IterationCounts> TakeIterations(const Results& results)
+  /// @param first the entry of the first iteration.
+  std::vector<IterationCounts> TakeIterations(const Results& results, int first)
   {
     std::vector<IterationCounts> iterations;
     StepCounts flips;
-    for (int i = 0; i < results.IterationsDone; ++i)
+    for (int i = first; i < results.EntriesUsed; ++i)
     {
       const IterationSums& iteration = results.Sums[i];
       iterations.push_back(ToIteration(this->Found, iteration));

@@ -344,8 +344,8 @@ struct LoopView
   DeviceChunk* Chunks;
   int FirstChunk, LastChunk; ///< The range of this GPU.
   TeamState* Teams; ///< Zero before a launch.
-  IterationSums* Sums; ///< One per iteration and one more; zero before a launch.
-  int* IterationsDone; ///< Iterations of this launch.
+  IterationSums* Sums; ///< One per iteration, and those of a detection; zero before a launch.
+  int* EntriesUsed; ///< How many of Sums IterateKernel has used.
 
   __device__ WarpWorklist GetWorklist() const
   {

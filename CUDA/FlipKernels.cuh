@@ -57,27 +57,6 @@ __device__ void RunFlips(const LoopView<Rule>& loop, const Worklist& worklist, T
   team.Wait();
 }
 
-/// A detection on the whole mesh, which is counted in Sums[0]. Sums[1] gets the number of all bad
-/// and blocked edges.
-template <bool IsGuarded, typename Rule>
-__global__ void __launch_bounds__(LoopThreads, LoopBlocks)
-  DetectAllKernel(const __grid_constant__ LoopView<Rule> loop)
-{
-  Team team(loop.Teams, gridDim.x, loop.Devices);
-  if (!team.Meet())
-  {
-    return;
-  }
-  const WarpWorklist worklist = loop.GetWorklist();
-  RunDetection<IsGuarded>(loop, worklist, team, &loop.Sums[0]);
-  CountAll(loop, worklist, team);
-  team.Wait(&loop.Sums[1]);
-  if (team.IsFirstThread())
-  {
-    *loop.IterationsDone = 1;
-  }
-}
-
 /// Iterations within chunks. A team makes all iterations of a chunk, while the chunk is in the
 /// cache, and then those of the next one. They are counted in Sums[0] and so on. Sums[iterations]
 /// gets the bad and blocked edges from before them.
@@ -292,16 +271,21 @@ constexpr int MostWaits = 5;
 constexpr int MostIterations = 128;
 
 /// The most blocks per such launch, so that the parts of their news stay within their bits.
-constexpr int MostIterateBlocks = TeamNews::MostArrivals / (MostIterations * MostWaits);
+constexpr int MostIterateBlocks = TeamNews::MostArrivals / ((MostIterations + 1) * MostWaits);
 static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at the same wait");
 static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");
+
+/// How many entries of Sums a detection has: one with its own counts, and one with all bad and
+/// blocked edges.
+constexpr int SumsOfDetection = 2;
 
 /// What a launch of IterateKernel starts from, and its limits. It ends when no bad edge is left, or
 /// at a limit.
 struct IterationPlan
 {
+  bool Detects; ///< Whether a detection comes first.
   int Iterations; ///< It makes at most so many.
-  long long BadAtStart; ///< The number of bad edges at the start.
+  long long BadAtStart; ///< The number of bad edges at the start, unless it detects.
   long long FreshSlots; ///< So many slots of the guard table may come into use.
 };
 
@@ -319,23 +303,32 @@ public:
     : Loop(loop),
       Plan(plan),
       Members(loop.Teams, gridDim.x, loop.Devices, loop.Splits > 0),
+      BadAtStart(plan.BadAtStart),
       Bad(plan.BadAtStart),
       // A quarter of the room, because bad edges are not spread evenly.
       MostToList(Members.GetNumberOfThreads() / LoopThreads * (MostListed / 4))
   {
   }
 
-  /// @returns how many were made; 0 if several GPUs share them and do not run at the same time.
+  /// @returns how many entries of Sums it has used; 0 if several GPUs share the work and do not run
+  /// at the same time.
   __device__ int Run()
   {
     int done = 0;
-    for (bool isRunning = this->Members.Meet(); isRunning;)
+    int most = this->Plan.Iterations;
+    bool isRunning = this->Members.Meet();
+    if (isRunning && this->Plan.Detects)
+    {
+      isRunning = this->DetectFirst() && most > 0;
+      done = SumsOfDetection;
+      most += SumsOfDetection;
+    }
+    while (isRunning)
     {
       IterationSums* iteration = &this->Loop.Sums[done++];
       this->Flip();
       this->Detect(iteration);
-      isRunning = this->Bad > 0 && done < this->Plan.Iterations && this->HasRoom &&
-        !this->IsUncertain(iteration);
+      isRunning = this->Bad > 0 && done < most && this->HasRoom && !this->IsUncertain(iteration);
     }
     if (IsGuarded && this->IsListed)
     {
@@ -347,6 +340,19 @@ public:
   __device__ bool IsFirstThread() const { return this->Members.IsFirstThread(); }
 
 private:
+  /// Makes a detection before all iterations. @returns whether these have something to do.
+  __device__ bool DetectFirst()
+  {
+    IterationSums* sums = this->Loop.Sums;
+    RunDetection<IsGuarded>(this->Loop, this->Loop.GetWorklist(), this->Members, &sums[0]);
+    this->IsWarned = this->Members.IsWarned();
+    CountAll(this->Loop, this->Loop.GetWorklist(), this->Members);
+    this->Members.Wait(&sums[1]);
+    this->Bad = LoadSum(sums[1], IterationSum::AllBad);
+    this->BadAtStart = this->Bad - this->Members.GetBadChange();
+    return this->Bad > 0 && !this->IsUncertain(&sums[0]);
+  }
+
   __device__ void Flip()
   {
     if (!this->IsListed)
@@ -380,7 +386,7 @@ private:
       RunDetection<IsGuarded>(this->Loop, this->Loop.GetWorklist(), this->Members, iteration);
       this->IsWarned = this->Members.IsWarned();
     }
-    this->Bad = this->Plan.BadAtStart + this->Members.GetBadChange();
+    this->Bad = this->BadAtStart + this->Members.GetBadChange();
     bool isDropped = list && !this->IsListed;
     if (IsGuarded && !this->IsListed)
     {
@@ -409,6 +415,7 @@ private:
   Team Members;
   bool IsListed = false; ///< Whether the lists of all blocks hold all bad edges.
   bool IsWarned = false; ///< Whether a thread has warned in the last detection.
+  long long BadAtStart; ///< The number of bad edges when the changes are 0.
   long long Bad; ///< The number of bad edges that the last detection has found.
   long long MostToList; ///< Detections make lists of at most so many bad edges.
   /// How many slots of the guard's table have come into use, without iterations that end with a
@@ -419,9 +426,9 @@ private:
   bool HasLost = false;
 };
 
-/// Iterations on the whole mesh after a detection. Each is counted in an entry of Sums. If the
-/// guard's table must be rebuilt, the last detection may have missed edges that found no room in
-/// it.
+/// Iterations on the whole mesh after a detection, which the kernel makes if there was none. Each
+/// is counted in an entry of Sums. If the guard's table must be rebuilt, the last detection may
+/// have missed edges that found no room in it.
 template <bool IsGuarded, typename Rule>
 __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const __grid_constant__ LoopView<Rule> loop, const __grid_constant__ IterationPlan plan)
@@ -430,7 +437,7 @@ __global__ void __launch_bounds__(LoopThreads, LoopBlocks) IterateKernel(
   const int done = iterations.Run();
   if (iterations.IsFirstThread())
   {
-    *loop.IterationsDone = done;
+    *loop.EntriesUsed = done;
   }
 }
 

@@ -102,13 +102,6 @@ constexpr int LoopWarps = LoopThreads / WarpSize;
 /// worklist.
 constexpr int WarpListSize = 384;
 
-/// A bad edge, with everything that its choice reads except the states of its neighbours.
-struct BadEdge
-{
-  EdgeId Edge;
-  CornerPair Corners;
-  OuterHalfEdges Outer;
-};
 /// Room for the bad edges that a block lists where there are few.
 constexpr int MostListed = 48 * LoopWarps;
 

@@ -48,11 +48,32 @@ const StepCounts& FlipLoop::Detect()
   return this->Found;
 }
 
+std::vector<IterationCounts> FlipLoop::DetectAndIterate(std::int64_t /*iterations*/)
+{
+  this->Detect();
+  return {};
+}
+
 /// Edges may be in other chunks now.
 void FlipLoop::Restart()
 {
   this->ChunkIterationsLeft = 0;
   this->TakeStates();
+}
+
+bool FlipLoop::RestartMoved(bool hasOtherEdges)
+{
+  this->ChunkIterationsLeft = 0;
+  return this->TakeMoved(hasOtherEdges);
+}
+
+bool FlipLoop::TakeMoved(bool hasOtherEdges)
+{
+  if (!hasOtherEdges)
+  {
+    this->TakeStates();
+  }
+  return !hasOtherEdges;
 }
 
 std::vector<IterationCounts> FlipLoop::Advance(const AdvancePlan& plan)
@@ -95,10 +116,12 @@ std::int64_t FlipLoop::Converge(const ConvergeLimit& limit)
   constexpr std::int64_t FlipsPerIteration = 256;
   constexpr std::int64_t FlipsToTell = std::int64_t(1) << 14; // a few milliseconds on one thread
   std::int64_t flips = 0, cost = 0, nextToTell = FlipsToTell;
-  this->Detect();
-  while (this->Found.Bad > 0)
+  const bool startsInChunks = this->ChunkIterationsLeft > 0;
+  std::vector<IterationCounts> iterations =
+    startsInChunks ? FlipLoop::DetectAndIterate(0) : this->DetectAndIterate(Plan.Iterations);
+  for (;;)
   {
-    for (const IterationCounts& iteration : this->Advance(Plan))
+    for (const IterationCounts& iteration : iterations)
     {
       flips += iteration.Flipped;
       cost += iteration.Flipped + FlipsPerIteration;
@@ -108,13 +131,17 @@ std::int64_t FlipLoop::Converge(const ConvergeLimit& limit)
     {
       return GaveUp;
     }
+    if (this->Found.Bad == 0)
+    {
+      return flips;
+    }
     if (limit.Tell && cost >= nextToTell)
     {
       nextToTell = cost + FlipsToTell;
       limit.Tell(static_cast<double>(cost) / static_cast<double>(limit.Flips));
     }
+    iterations = this->Advance(Plan);
   }
-  return flips;
 }
 
 }

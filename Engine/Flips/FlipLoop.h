@@ -90,6 +90,12 @@ public:
   /// the state Candidate. Detect must follow.
   void Restart();
 
+  /// Likewise, after points have moved. A loop that does not write states makes the candidates
+  /// good.
+  /// @param hasOtherEdges whether edges were added or dropped.
+  /// @returns false if the mesh needs a new loop.
+  bool RestartMoved(bool hasOtherEdges);
+
   /// Makes no more iterations within chunks. For a new loop of a mesh that has grown.
   void LeaveChunks() { this->ChunkIterationsLeft = 0; }
 
@@ -128,7 +134,13 @@ protected:
   /// Passes 1 to 3 for the whole mesh. @returns what they found.
   virtual StepCounts DetectAll() = 0;
 
+  /// Detects, and may also make iterations like IterateMesh, where this takes less time than two
+  /// calls. Sets Found.
+  /// @param iterations the most iterations. @returns them.
+  virtual std::vector<IterationCounts> DetectAndIterate(std::int64_t iterations);
+
   virtual void TakeStates() = 0;
+  virtual bool TakeMoved(bool hasOtherEdges);
 
   /// Passes 4 to 6 and a detection, on the whole mesh, once or more. Sets Found.
   virtual std::vector<IterationCounts> IterateMesh(const AdvancePlan& plan) = 0;

@@ -30,8 +30,8 @@ struct LateRounds
   GroupBoundary Boundary;
   LateVertex* Late;
   LateCounts* Counts;
-  TriangleId* Triangles;
-  EdgeId* Edges[2]; ///< Edges that flips have to judge.
+  TriangleId* Triangles; ///< Triangles that have changed.
+  BadEdge* Bad[2]; ///< Bad edges of this iteration and of the last one, by turns.
   std::uint32_t Stamp; ///< The last stamp that was used.
 
   DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& group) const
@@ -45,12 +45,17 @@ struct LateRounds
         this->Finish(group, late == 0 ? LateEnd::Done : LateEnd::GoesOn, stamp);
         return;
       }
+      if (!this->ListStars(group, late, stamp))
+      {
+        this->Finish(group, LateEnd::GoesOn, stamp);
+        return;
+      }
       if (!this->Move(group, late, stamp))
       {
         this->Finish(group, LateEnd::Failed, stamp);
         return;
       }
-      const bool isDelaunay = this->Flip(group, late, stamp);
+      const bool isDelaunay = this->Flip(group, stamp);
       if (!this->KeepLate(group, late))
       {
         this->Finish(group, LateEnd::Failed, stamp);
@@ -65,8 +70,6 @@ struct LateRounds
   }
 
 private:
-  static constexpr EdgeId Winner = 1u << 31; ///< This bit marks an edge that flips.
-
   DELAUNAYFLIP_HOST_DEVICE void Finish(
     const ThreadGroup& group, LateEnd end, std::uint32_t stamp) const
   {
@@ -80,175 +83,273 @@ private:
   //----------------------------------------------------------------------------
   // Steps of vertices.
 
-  /// Moves the late vertices as far as triangles allow.
+  /// Lists the triangles around the late vertices. @returns false if there is no room.
+  DELAUNAYFLIP_HOST_DEVICE bool ListStars(
+    const ThreadGroup& group, std::uint32_t late, std::uint32_t& stamp) const
+  {
+    const MotionView<Real>& motion = this->Motion;
+    const auto triangles = static_cast<TriangleId>(this->Counts->Sizes.Triangles);
+    stamp += LateLimits::Passes + 1; // the passes have the stamps before it
+    if (group.Rank == 0)
+    {
+      motion.ClearCounts();
+    }
+    ForEachInGroup(group, late,
+      [&](std::uint32_t i)
+      {
+        motion.FindCorner(this->Late[i], triangles);
+        this->ListStar(this->Late[i], stamp);
+      });
+    return AtomicLoad(&this->Counts->Listed) <= LateLimits::Triangles;
+  }
+
+  /// Moves the late vertices as far as the listed triangles allow, and lists new triangles at the
+  /// boundary.
   /// @returns false if the motion does not suit steps.
   DELAUNAYFLIP_HOST_DEVICE bool Move(
     const ThreadGroup& group, std::uint32_t late, std::uint32_t& stamp) const
   {
     const MotionView<Real>& motion = this->Motion;
-    const auto triangles = static_cast<TriangleId>(this->Counts->Sizes.Triangles);
-    if (group.Rank == 0)
-    {
-      motion.ClearCounts();
-      this->Counts->BeginRound();
-    }
-    ForEachInGroup(
-      group, late, [&](std::uint32_t i) { motion.FindCorner(this->Late[i], triangles); });
+    ShareInGroup(group, AtomicLoad(&this->Counts->Listed),
+      [&](std::uint32_t i) { this->LookForHull(this->Triangles[i]); });
     ForEachInGroup(group, late, [&](std::uint32_t i) { motion.Start(this->Late[i].Vertex); });
-    if (!this->CutOff(group, late))
+    if (!this->CutOff(group, late, stamp))
     {
       return false;
     }
-    ++stamp;
-    ForEachInGroup(group, late, [&](std::uint32_t i) { motion.CheckStar(this->Late[i], stamp); });
-    HalveInGroup<Real>{ motion, stamp + 1, LateLimits::Passes }(group);
-    stamp += LateLimits::Passes;
+    this->Halve(group, stamp - LateLimits::Passes);
     const bool isHalved = AtomicLoad(motion.Get(MotionCount::Inverted)) == 0 &&
       AtomicLoad(motion.Get(MotionCount::Late)) <= motion.MostLate;
-    return isHalved && this->Boundary.FillUp(group);
+    return isHalved && this->FillUp(group, stamp);
+  }
+
+  /// Lists the triangles around a vertex.
+  DELAUNAYFLIP_HOST_DEVICE void ListStar(const LateVertex& late, std::uint32_t stamp) const
+  {
+    this->Motion.ForStar(
+      late.Corner, [&](CornerId corner) { this->List(TriangleOf(corner), stamp); });
+  }
+
+  /// Lists a triangle once under each stamp, and counts it if there is no room.
+  DELAUNAYFLIP_HOST_DEVICE void List(TriangleId triangle, std::uint32_t stamp) const
+  {
+    if (AtomicExchange(&this->Motion.TriangleMarks[triangle], stamp) != stamp)
+    {
+      Append(this->Triangles, &this->Counts->Listed, LateLimits::Triangles, triangle);
+    }
+  }
+
+  /// Notes if a triangle has a side on the boundary.
+  DELAUNAYFLIP_HOST_DEVICE void LookForHull(TriangleId triangle) const
+  {
+    const EdgeMeshView& edges = this->Motion.Mesh.Edges;
+    for (const HalfEdgeId side : edges.Triangles[triangle].HalfEdges)
+    {
+      if (edges.CornerOfHalfEdge[side ^ 1u] == NoCorner)
+      {
+        AtomicStore(&this->Counts->IsAtHull, 1u);
+      }
+    }
   }
 
   /// Cuts off triangles at the boundary that are inverted. @returns whether this was possible.
-  DELAUNAYFLIP_HOST_DEVICE bool CutOff(const ThreadGroup& group, std::uint32_t late) const
+  DELAUNAYFLIP_HOST_DEVICE bool CutOff(
+    const ThreadGroup& group, std::uint32_t late, std::uint32_t& stamp) const
   {
+    if (AtomicLoad(&this->Counts->IsAtHull) == 0)
+    {
+      return true;
+    }
     if (!this->Boundary.CutOff(group))
     {
       return false;
     }
-    ForEachInGroup(group, this->Counts->Sizes.Cuts > 0 ? late : 0,
-      [&](std::uint32_t i) {
-        this->Late[i].Corner =
-          this->Boundary.FindCorner(this->Late[i].Vertex, this->Late[i].Corner);
+    if (this->Counts->Sizes.Cuts == 0)
+    {
+      return true;
+    }
+    if (group.Rank == 0)
+    {
+      AtomicStore(&this->Counts->Listed, 0u);
+    }
+    group.Sync();
+    ++stamp;
+    ForEachInGroup(group, late,
+      [&](std::uint32_t i)
+      {
+        LateVertex& moved = this->Late[i];
+        moved.Corner = this->Boundary.FindCorner(moved.Vertex, moved.Corner);
+        this->ListStar(moved, stamp);
       });
     return true;
+  }
+
+  /// Halves the steps of vertices until no listed triangle is inverted.
+  /// @param first the stamp of the first pass.
+  DELAUNAYFLIP_HOST_DEVICE void Halve(const ThreadGroup& group, std::uint32_t first) const
+  {
+    const MotionView<Real>& motion = this->Motion;
+    const std::uint32_t listed = AtomicLoad(&this->Counts->Listed);
+    const auto check = [&](std::uint32_t i)
+    {
+      if (motion.IsInverted(this->Triangles[i]))
+      {
+        motion.AppendInverted(this->Triangles[i]);
+      }
+    };
+    ForEachInGroup(group, listed, check);
+    HalveInGroup<Real>{ motion, first, LateLimits::Passes }(group,
+      [&](std::uint32_t, std::uint32_t stamp)
+      {
+        ForEachInGroup(group, listed,
+          [&](std::uint32_t i)
+          {
+            if (motion.HasNewStep(this->Triangles[i], stamp))
+            {
+              check(i);
+            }
+          });
+      });
+  }
+
+  /// Makes the boundary convex, and lists the new triangles. @returns whether this was possible.
+  DELAUNAYFLIP_HOST_DEVICE bool FillUp(const ThreadGroup& group, std::uint32_t stamp) const
+  {
+    if (AtomicLoad(&this->Counts->IsAtHull) == 0)
+    {
+      return true;
+    }
+    if (!this->Boundary.FillUp(group))
+    {
+      return false;
+    }
+    const std::uint32_t firstNew = this->Counts->FirstNew;
+    ForEachInGroup(group, this->Counts->Sizes.Triangles - firstNew,
+      [&](std::uint32_t i) { this->List(firstNew + i, stamp); });
+    return AtomicLoad(&this->Counts->Listed) <= LateLimits::Triangles;
   }
 
   //----------------------------------------------------------------------------
   // Flips.
 
-  /// Flips edges around the late vertices, and at new triangles, until the mesh is Delaunay. At the
-  /// beginning of an iteration all edges that have to be judged are candidates, also those for
-  /// which lists have no room. So another loop can go on.
-  /// @returns false if this takes too many iterations, or too much room.
-  DELAUNAYFLIP_HOST_DEVICE bool Flip(
-    const ThreadGroup& group, std::uint32_t late, std::uint32_t& stamp) const
+  /// Flips edges of the listed triangles, and of those that change then, until the mesh is
+  /// Delaunay.
+  /// @returns false if this takes too many iterations, or too much room. Then all edges that have
+  /// to be judged are candidates, so that another loop can go on.
+  DELAUNAYFLIP_HOST_DEVICE bool Flip(const ThreadGroup& group, std::uint32_t& stamp) const
   {
-    ++stamp;
-    ForEachInGroup(group, late,
-      [&](std::uint32_t i)
-      {
-        this->Motion.ForStar(
-          this->Late[i].Corner, [&](CornerId corner) { this->List(TriangleOf(corner), stamp); });
-      });
-    const std::uint32_t firstNew = this->Counts->FirstNew;
-    ForEachInGroup(group, this->Counts->Sizes.Triangles - firstNew,
-      [&](std::uint32_t i) { this->List(firstNew + i, stamp); });
     int current = 0;
-    this->ListEdges(group, stamp, current);
-    group.Sync();
-    for (std::uint32_t iteration = 0; iteration < LateLimits::Iterations; ++iteration)
+    std::uint32_t before = 0; // bad edges of the last iteration
+    for (std::uint32_t iteration = 0;; ++iteration)
     {
-      const std::uint32_t count = AtomicLoad(&this->Counts->Edges[current]);
-      const std::uint32_t triangles = AtomicLoad(&this->Counts->Listed);
-      if (count > LateLimits::Edges || triangles > LateLimits::Triangles)
-      {
-        return false;
-      }
-      this->Judge(group, current, count);
-      if (AtomicLoad(&this->Counts->Bad) == 0)
+      this->JudgeListed(group, current, stamp);
+      this->KeepLosers(group, current, before, stamp);
+      group.Sync();
+      const std::uint32_t bad = AtomicLoad(&this->Counts->Bad[current]);
+      if (bad == 0)
       {
         return true;
       }
-      if (group.Rank == 0) // all have read these
+      if (bad > LateLimits::Bad || iteration == LateLimits::Iterations)
       {
-        AtomicStore(&this->Counts->Listed, 0u);
-        AtomicStore(&this->Counts->Edges[1 - current], 0u);
+        this->LeaveEdges(group, current, bad);
+        return false;
       }
-      this->Choose(group, current, count);
-      ++stamp;
-      this->FlipWinners(group, current, count, stamp);
       if (group.Rank == 0)
       {
-        AtomicStore(&this->Counts->Bad, 0u);
+        AtomicStore(&this->Counts->Listed, 0u);
+        AtomicStore(&this->Counts->Bad[1 - current], 0u);
       }
-      this->KeepLosers(group, current, count, stamp);
-      current = 1 - current;
-      this->ListEdges(group, stamp, current);
       group.Sync();
-    }
-    return false;
-  }
-
-  /// Lists a triangle once under each stamp. If there is no room, its edges become candidates.
-  DELAUNAYFLIP_HOST_DEVICE void List(TriangleId triangle, std::uint32_t stamp) const
-  {
-    const bool isFirst = AtomicExchange(&this->Motion.TriangleMarks[triangle], stamp) != stamp;
-    if (isFirst && !Append(this->Triangles, &this->Counts->Listed, LateLimits::Triangles, triangle))
-    {
-      this->Motion.JudgeEdges(triangle);
+      ++stamp;
+      this->FlipWinners(group, current, bad, stamp);
+      before = bad;
+      current = 1 - current;
     }
   }
 
-  /// Lists the edges of the listed triangles, each once. Does not wait for the group.
-  DELAUNAYFLIP_HOST_DEVICE void ListEdges(
-    const ThreadGroup& group, std::uint32_t stamp, int current) const
+  /// Judges the edges of the listed triangles, each once, and lists those that are bad. Does not
+  /// wait for the group.
+  DELAUNAYFLIP_HOST_DEVICE void JudgeListed(
+    const ThreadGroup& group, int current, std::uint32_t stamp) const
   {
     const EdgeMeshView& edges = this->Motion.Mesh.Edges;
-    const std::uint32_t listed = AtomicLoad(&this->Counts->Listed);
-    ShareInGroup(group, listed < LateLimits::Triangles ? listed : LateLimits::Triangles,
+    ShareInGroup(group, std::int64_t(3) * AtomicLoad(&this->Counts->Listed),
       [&](std::uint32_t i)
       {
-        const TriangleId triangle = this->Triangles[i];
-        for (int slot = 0; slot < 3; ++slot)
+        const TriangleId triangle = this->Triangles[i / 3];
+        const HalfEdgeId side = edges.Triangles[triangle].HalfEdges[i % 3];
+        const EdgeId edge = EdgeOf(side);
+        const CornerPair corners = edges.GetCorners(edge);
+        if (corners.B == NoCorner || AtomicLoad(&edges.States[edge]) == EdgeState::Fixed)
         {
-          const HalfEdgeId side = edges.Triangles[triangle].HalfEdges[slot];
-          const CornerId across = edges.CornerOfHalfEdge[side ^ 1u];
-          if (across == NoCorner || AtomicLoad(&edges.States[EdgeOf(side)]) == EdgeState::Fixed)
-          {
-            continue;
-          }
-          const TriangleId other = TriangleOf(across);
-          const bool isOfOther =
-            other < triangle && AtomicLoad(&this->Motion.TriangleMarks[other]) == stamp;
-          if (!isOfOther)
-          {
-            AtomicStore(&edges.States[EdgeOf(side)], EdgeState::Candidate);
-            Append(
-              this->Edges[current], &this->Counts->Edges[current], LateLimits::Edges, EdgeOf(side));
-          }
+          return;
+        }
+        const TriangleId other = TriangleOf((side & 1u) == 0 ? corners.B : corners.A);
+        const bool isOfOther =
+          other < triangle && AtomicLoad(&this->Motion.TriangleMarks[other]) == stamp;
+        if (!isOfOther)
+        {
+          this->Judge(edge, corners, current);
         }
       });
   }
 
-  /// Judges the listed edges, and counts those that are bad.
-  DELAUNAYFLIP_HOST_DEVICE void Judge(
-    const ThreadGroup& group, int current, std::uint32_t count) const
+  DELAUNAYFLIP_HOST_DEVICE void Judge(EdgeId edge, const CornerPair& corners, int current) const
   {
     const EdgeMeshView& edges = this->Motion.Mesh.Edges;
     const PlanarRule<Real, 2> rule{ this->Motion.Now, 1, true, true };
-    ForEachInGroup(group, count,
+    const Quad quad = edges.GetQuad(corners);
+    EdgeState state = rule.Judge(quad);
+    if (state == EdgeState::Uncertain)
+    {
+      state = rule.JudgeExactly(quad);
+    }
+    if (state == EdgeState::Uncertain) // a device cannot decide, which ends the motion
+    {
+      *this->Motion.Mesh.Failed = 1;
+      state = EdgeState::Good;
+    }
+    AtomicStore(&edges.States[edge], state);
+    if (state == EdgeState::Bad)
+    {
+      this->AppendBad({ edge, corners, GetOuterHalfEdges(edges, corners.A, corners.B) }, current);
+    }
+  }
+
+  /// Lists a bad edge. If there is no room, it becomes a candidate.
+  DELAUNAYFLIP_HOST_DEVICE void AppendBad(const BadEdge& bad, int current) const
+  {
+    const bool hasRoom =
+      Append(this->Bad[current], &this->Counts->Bad[current], LateLimits::Bad, bad);
+    if (!hasRoom)
+    {
+      AtomicStore(&this->Motion.Mesh.Edges.States[bad.Edge], EdgeState::Candidate);
+    }
+  }
+
+  /// Lists the bad edges of the last iteration again, except those of changed triangles, which are
+  /// those that have flipped and others that are judged again. Does not wait for the group.
+  DELAUNAYFLIP_HOST_DEVICE void KeepLosers(
+    const ThreadGroup& group, int current, std::uint32_t before, std::uint32_t stamp) const
+  {
+    const auto isChanged = [&](CornerId corner)
+    { return AtomicLoad(&this->Motion.TriangleMarks[TriangleOf(corner)]) == stamp; };
+    ShareInGroup(group, before,
       [&](std::uint32_t i)
       {
-        const EdgeId edge = this->Edges[current][i];
-        const Quad quad = edges.GetQuad(edge);
-        EdgeState state = rule.Judge(quad);
-        if (state == EdgeState::Uncertain)
+        const BadEdge& bad = this->Bad[1 - current][i];
+        if (!isChanged(bad.Corners.A) && !isChanged(bad.Corners.B))
         {
-          state = rule.JudgeExactly(quad);
+          this->AppendBad(bad, current);
         }
-        if (state == EdgeState::Uncertain) // a device cannot decide, which ends the motion
-        {
-          *this->Motion.Mesh.Failed = 1;
-          state = EdgeState::Good;
-        }
-        AtomicStore(&edges.States[edge], state);
-        CountIf(state == EdgeState::Bad, &this->Counts->Bad);
       });
   }
 
-  /// Chooses the bad edges that flip: no two of them are edges of one triangle.
-  DELAUNAYFLIP_HOST_DEVICE void Choose(
-    const ThreadGroup& group, int current, std::uint32_t count) const
+  /// Flips bad edges, no two of them of one triangle, and lists their triangles. The states stay as
+  /// they are, because other threads still choose by them; all these edges are judged again.
+  DELAUNAYFLIP_HOST_DEVICE void FlipWinners(
+    const ThreadGroup& group, int current, std::uint32_t count, std::uint32_t stamp) const
   {
     const EdgeMeshView& edges = this->Motion.Mesh.Edges;
     const auto isBad = [&](HalfEdgeId side)
@@ -256,71 +357,33 @@ private:
     ForEachInGroup(group, count,
       [&](std::uint32_t i)
       {
-        const EdgeId edge = this->Edges[current][i];
-        if (!isBad(2 * edge))
+        const BadEdge bad = this->Bad[current][i];
+        const OuterHalfEdges& outer = bad.Outer;
+        const bool wins = IsFirst(
+          bad.Edge, outer, isBad(outer.AP), isBad(outer.QA), isBad(outer.PB), isBad(outer.BQ));
+        if (!wins)
         {
           return;
         }
-        const CornerPair corners = edges.GetCorners(edge);
-        const OuterHalfEdges outer = GetOuterHalfEdges(edges, corners.A, corners.B);
-        if (IsFirst(
-              edge, outer, isBad(outer.AP), isBad(outer.QA), isBad(outer.PB), isBad(outer.BQ)))
-        {
-          this->Edges[current][i] = edge | Winner;
-        }
-      });
-  }
-
-  /// Flips the chosen edges, and lists their triangles.
-  DELAUNAYFLIP_HOST_DEVICE void FlipWinners(
-    const ThreadGroup& group, int current, std::uint32_t count, std::uint32_t stamp) const
-  {
-    const EdgeMeshView& edges = this->Motion.Mesh.Edges;
-    ForEachInGroup(group, count,
-      [&](std::uint32_t i)
-      {
-        if ((this->Edges[current][i] & Winner) == 0)
-        {
-          return;
-        }
-        const EdgeId edge = this->Edges[current][i] & ~Winner;
-        const Quad quad = edges.GetQuad(edge);
-        const TriangleId upper = TriangleOf(quad.CornerA), lower = TriangleOf(quad.CornerB);
-        FlipEdge(edges, edge, quad, edges.Triangles[upper], edges.Triangles[lower],
+        const TriangleId upper = TriangleOf(bad.Corners.A), lower = TriangleOf(bad.Corners.B);
+        FlipEdge(edges, bad.Edge, edges.GetQuad(bad.Corners), edges.Triangles[upper],
+          edges.Triangles[lower],
           [&](int, TriangleId triangle, const TriangleRecord& record)
           { edges.Triangles[triangle] = record; });
-        AtomicStore(&edges.States[edge], EdgeState::Good);
         this->List(upper, stamp);
         this->List(lower, stamp);
         AtomicAdd(&this->Counts->Flips, 1u);
       });
   }
 
-  /// Lists the bad edges again that have not flipped, except those of changed triangles. Does
-  /// not wait for the group.
-  DELAUNAYFLIP_HOST_DEVICE void KeepLosers(
-    const ThreadGroup& group, int current, std::uint32_t count, std::uint32_t stamp) const
+  /// Leaves the bad edges to another loop.
+  DELAUNAYFLIP_HOST_DEVICE void LeaveEdges(
+    const ThreadGroup& group, int current, std::uint32_t bad) const
   {
-    const EdgeMeshView& edges = this->Motion.Mesh.Edges;
-    const auto isChanged = [&](CornerId corner)
-    { return AtomicLoad(&this->Motion.TriangleMarks[TriangleOf(corner)]) == stamp; };
-    std::uint32_t* next = this->Edges[1 - current];
-    std::uint32_t* nextCount = &this->Counts->Edges[1 - current];
-    ShareInGroup(group, count,
+    EdgeState* states = this->Motion.Mesh.Edges.States;
+    ForEachInGroup(group, bad < LateLimits::Bad ? bad : LateLimits::Bad,
       [&](std::uint32_t i)
-      {
-        const EdgeId edge = this->Edges[current][i];
-        if ((edge & Winner) != 0 || AtomicLoad(&edges.States[edge]) != EdgeState::Bad)
-        {
-          return;
-        }
-        const CornerPair corners = edges.GetCorners(edge);
-        if (!isChanged(corners.A) && !isChanged(corners.B))
-        {
-          AtomicStore(&edges.States[edge], EdgeState::Candidate);
-          Append(next, nextCount, LateLimits::Edges, edge);
-        }
-      });
+      { AtomicStore(&states[this->Bad[current][i].Edge], EdgeState::Candidate); });
   }
 
   //----------------------------------------------------------------------------
@@ -340,6 +403,7 @@ private:
     {
       AtomicStore(&this->Counts->Late, next);
       ++this->Counts->Rounds;
+      this->Counts->BeginRound();
     }
     group.Sync();
     return isDecided;

@@ -323,13 +323,9 @@ private:
   template <typename Real>
   std::int64_t Settle(const Real* coordinates, bool hasOtherEdges, const ConvergeLimit& limit = {})
   {
-    if (hasOtherEdges)
+    if (!this->Loop->RestartMoved(hasOtherEdges))
     {
       this->template MakeLoopOfGrown<Real>(coordinates);
-    }
-    else
-    {
-      this->Loop->Restart();
     }
     return this->Loop->Converge(limit);
   }

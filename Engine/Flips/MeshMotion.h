@@ -36,12 +36,8 @@ public:
     const Settle& settle)
   {
     MotionResult result;
-    if (!KeepsUse(targets, used, backend))
-    {
-      return result;
-    }
     auto& motion = this->GetMotion<Real>(backend);
-    motion.Begin(mesh, targets, segments);
+    motion.Begin(mesh, targets, used, segments);
     bool hasOtherEdges = false;
     do
     {
@@ -63,7 +59,6 @@ public:
         return result;
       }
       result.Flips += flips;
-      ClearCandidates(mesh.Edges, backend);
     } while (motion.CountLate() > 0);
     motion.End(mesh);
     if (hasOtherEdges)
@@ -91,47 +86,8 @@ public:
       result.Rounds = 1;
       result.Flips = settle(true);
       result.Edges = motion.FetchPinned(mesh);
-      ClearCandidates(mesh.Edges, backend);
     }
     return result;
-  }
-
-  // The functions below are public because device lambdas require it.
-
-  /// Whether the points that are not used stay so. Each of them must be at the place of the same
-  /// used point as before, or not be finite, as before.
-  static bool KeepsUse(
-    const PlaneArray& targets, const Array<VertexId>& used, const Backend& backend)
-  {
-    const VertexId* usedPoint = used.Data();
-    return backend.template Sum<std::int64_t>(static_cast<std::int64_t>(used.Size()),
-             [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t & sum)
-             {
-               const VertexId own = usedPoint[i];
-               const double x = targets.Get(i, 0), y = targets.Get(i, 1);
-               bool isKept = own == i || (own == NoVertex && !(IsFinite(x) && IsFinite(y)));
-               if (!isKept && own != NoVertex)
-               {
-                 isKept = x == targets.Get(own, 0) && y == targets.Get(own, 1);
-               }
-               sum += isKept ? 0 : 1;
-             }) == 0;
-  }
-
-  /// Makes candidates good edges. A loop on a device reads states and does not write them, so the
-  /// next loop would judge these edges again.
-  static void ClearCandidates(EdgeMesh& mesh, const Backend& backend)
-  {
-    if constexpr (!Backend::IsOnHost)
-    {
-      EdgeState* states = mesh.States.Data();
-      backend.ForEach(mesh.NumberOfEdges,
-        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
-        {
-          const bool isFixed = states[edge] == EdgeState::Fixed;
-          states[edge] = isFixed ? EdgeState::Fixed : EdgeState::Good;
-        });
-    }
   }
 
 private:

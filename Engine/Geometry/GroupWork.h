@@ -37,8 +37,9 @@ DELAUNAYFLIP_HOST_DEVICE void ForEachInGroup(
 
 /// Counts a value, and lists it if there is room. One thread may call it. @returns whether there
 /// is.
-DELAUNAYFLIP_HOST_DEVICE inline bool Append(
-  std::uint32_t* list, std::uint32_t* count, std::uint32_t most, std::uint32_t value)
+template <typename Value>
+DELAUNAYFLIP_HOST_DEVICE bool Append(
+  Value* list, std::uint32_t* count, std::uint32_t most, const Value& value)
 {
   const std::uint32_t place = AtomicAdd(count, 1u);
   const bool hasRoom = place < most;

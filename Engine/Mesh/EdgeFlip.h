@@ -33,6 +33,14 @@ DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE OuterHalfEdges GetOuterHalfE
   return GetOuterHalfEdges(upper.HalfEdges, SlotOf(cornerA), lower.HalfEdges, SlotOf(cornerB));
 }
 
+/// A bad edge, with everything that its choice reads except the states of its neighbours.
+struct BadEdge
+{
+  EdgeId Edge;
+  CornerPair Corners;
+  OuterHalfEdges Outer;
+};
+
 /// Writes `vertex` in the place of the one that the flip removes, and the two half-edges that move
 /// with it.
 DELAUNAYFLIP_HOST_DEVICE inline void ReplaceAfter(

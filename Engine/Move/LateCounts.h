@@ -17,9 +17,9 @@ namespace delaunayflip
 /// made together, and so the numbers of triangles.
 struct LateLimits
 {
-  static constexpr std::uint32_t Late = 2048; ///< With more late vertices it makes no round.
-  static constexpr std::uint32_t Triangles = 1u << 16; ///< Triangles that change together.
-  static constexpr std::uint32_t Edges = 1u << 17; ///< Edges that are judged together.
+  static constexpr std::uint32_t Late = 1024; ///< With more late vertices it makes no round.
+  static constexpr std::uint32_t Bad = 1u << 15; ///< Edges that are bad together.
+  static constexpr std::uint32_t Triangles = 2 * Bad; ///< Triangles that change together.
   static constexpr std::uint32_t Pending = 1u << 10; ///< Changes of the boundary in a round.
   static constexpr std::uint32_t Rounds = 48; ///< Rounds of a motion, also without a group.
   static constexpr std::uint32_t Iterations = 256; ///< Iterations of flips in a round.
@@ -46,15 +46,15 @@ struct LateCounts
   std::uint32_t Stamp; ///< The last stamp that was used.
   std::uint32_t CutsPending, FillsPending; ///< Vertices where GroupBoundary changes the boundary.
   std::uint32_t Listed; ///< The length of LateRounds::Triangles.
-  std::uint32_t Edges[2]; ///< The lengths of LateRounds::Edges.
-  std::uint32_t Bad;
+  std::uint32_t Bad[2]; ///< The lengths of LateRounds::Bad.
+  std::uint32_t IsAtHull; ///< 1 if a triangle around a late vertex has a side on the boundary.
   HullSizes Sizes;
 
   /// Begins the counts of another round.
   DELAUNAYFLIP_HOST_DEVICE void BeginRound()
   {
-    this->CutsPending = this->FillsPending = this->Listed = this->Bad = 0;
-    this->Edges[0] = this->Edges[1] = 0;
+    this->CutsPending = this->FillsPending = this->Listed = this->IsAtHull = 0;
+    this->Bad[0] = this->Bad[1] = 0;
     this->Sizes.Cuts = 0;
   }
 };

@@ -42,7 +42,7 @@ enum class MotionCount : int
   Changed, ///< Vertices that were halved in the last pass.
   Late, ///< Vertices that the next round moves.
   Passes, ///< Passes of a round that have halved steps.
-  Unusual, ///< Targets with unusual coordinates.
+  Unusual, ///< Targets with unusual coordinates, or of points that would be used or no longer used.
   Undecided, ///< 1 if a device could not decide.
   Hull, ///< The first of HullCount.
   End = Hull + static_cast<int>(HullCount::End)
@@ -81,20 +81,35 @@ struct MotionView
     return size == 0.0 || (size >= Least && size <= 1.0 / Least);
   }
 
+  /// Whether a point that is not used stays so: at the place of the same used point as before, or
+  /// not finite, as before. @param own the used point of its place.
+  DELAUNAYFLIP_HOST_DEVICE bool KeepsUse(std::int64_t point, VertexId own) const
+  {
+    if (own == point)
+    {
+      return true;
+    }
+    const double x = this->Targets.Get(point, 0), y = this->Targets.Get(point, 1);
+    if (own == NoVertex)
+    {
+      return !(IsFinite(x) && IsFinite(y));
+    }
+    return x == this->Targets.Get(own, 0) && y == this->Targets.Get(own, 1);
+  }
+
   /// Moves a vertex to its target.
   DELAUNAYFLIP_HOST_DEVICE void Start(VertexId vertex) const
   {
-    bool isUsual = true;
-    for (int axis = 0; axis < 2; ++axis)
-    {
-      const std::int64_t i = std::int64_t(2) * vertex + axis;
-      const Real target = this->GetTarget(vertex, axis);
-      this->Before[i] = this->Now[i];
-      this->Now[i] = target;
-      isUsual = isUsual && IsUsual(target);
-    }
+    // All four are loaded before any of them is waited for.
+    const Real x = this->GetTarget(vertex, 0), y = this->GetTarget(vertex, 1);
+    const std::int64_t i = std::int64_t(2) * vertex;
+    const Real beforeX = this->Now[i], beforeY = this->Now[i + 1];
+    this->Before[i] = beforeX;
+    this->Before[i + 1] = beforeY;
+    this->Now[i] = x;
+    this->Now[i + 1] = y;
     this->HalvingsOf[vertex] = WholeStep;
-    if (!isUsual)
+    if (!IsUsual(x) || !IsUsual(y))
     {
       this->Increment(MotionCount::Unusual);
     }
@@ -169,19 +184,24 @@ struct MotionView
   template <typename Visit>
   DELAUNAYFLIP_HOST_DEVICE void ForStar(CornerId first, const Visit& visit) const
   {
-    visit(first);
-    CornerId corner = this->Mesh.FindNextAround(first);
-    for (; corner != NoCorner && corner != first; corner = this->Mesh.FindNextAround(corner))
+    // The next corner is loaded while the visit takes its time.
+    CornerId corner = first;
+    do
     {
+      const CornerId next = this->Mesh.FindNextAround(corner);
       visit(corner);
-    }
-    if (corner == NoCorner) // the vertex is on the boundary
+      corner = next;
+    } while (corner != NoCorner && corner != first);
+    if (corner == first)
     {
-      corner = this->Mesh.FindPreviousAround(first);
-      for (; corner != NoCorner; corner = this->Mesh.FindPreviousAround(corner))
-      {
-        visit(corner);
-      }
+      return;
+    }
+    corner = this->Mesh.FindPreviousAround(first); // the vertex is on the boundary
+    while (corner != NoCorner)
+    {
+      const CornerId next = this->Mesh.FindPreviousAround(corner);
+      visit(corner);
+      corner = next;
     }
   }
 
@@ -291,6 +311,15 @@ struct MotionView
     return this->Mesh.RequireSign(FindOrientation(places[0], places[1], places[2])) <= 0;
   }
 
+  /// Whether triangles have asked a vertex of this one for a smaller step in the pass of a stamp.
+  DELAUNAYFLIP_HOST_DEVICE bool HasNewStep(TriangleId triangle, std::uint32_t stamp) const
+  {
+    const VertexId* v = this->Mesh.Edges.Triangles[triangle].Vertices;
+    const auto isNew = [&](VertexId vertex)
+    { return this->VertexMarks[vertex] / StampUnit == stamp; };
+    return isNew(v[0]) || isNew(v[1]) || isNew(v[2]);
+  }
+
   /// Moves a listed vertex as far as the triangles have asked for.
   DELAUNAYFLIP_HOST_DEVICE void TakeHalvings(std::int64_t changed) const
   {
@@ -364,7 +393,10 @@ struct HalveInGroup
   std::uint32_t Stamp; ///< The stamp of the first pass.
   std::uint32_t MostPasses;
 
-  DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& group) const
+  /// @param check check(changed, stamp) lists the triangles that are inverted and have one of so
+  /// many vertices of MotionView::Changed, after the pass with this stamp. It waits for the group.
+  template <typename Check>
+  DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& group, const Check& check) const
   {
     for (std::uint32_t pass = 0; pass < this->MostPasses; ++pass)
     {
@@ -386,9 +418,7 @@ struct HalveInGroup
       {
         AtomicStore(this->Motion.Get(MotionCount::Changed), 0u);
       }
-      ForEachInGroup(group, changed,
-        [&](std::uint32_t i)
-        { this->Motion.CheckStar(this->Motion.Changed[i], this->Stamp + pass); });
+      check(changed, this->Stamp + pass);
     }
   }
 };

@@ -4,6 +4,7 @@
 #define DELAUNAYFLIP_POINTMOTION_H
 
 #include "Array.h"
+#include "EdgeFlip.h"
 #include "FlipError.h"
 #include "GroupBoundary.h"
 #include "HullBoundary.h"
@@ -73,11 +74,14 @@ public:
 
   /// Begins a motion. The mesh must be Delaunay.
   /// @param targets by point, in the memory of the backend.
+  /// @param used by point, what MergePlaces returned. Empty if all are used.
   /// @param segments the edges that segments have become.
-  void Begin(
-    const MovingMesh<Real>& mesh, const PlaneArray& targets, const std::vector<EdgeId>& segments)
+  void Begin(const MovingMesh<Real>& mesh, const PlaneArray& targets, const Array<VertexId>& used,
+    const std::vector<EdgeId>& segments)
   {
     this->Targets = targets;
+    this->UsedPoint = used.Size() > 0 ? used.Data() : nullptr;
+    this->NumberOfPoints = std::max(mesh.Vertices, static_cast<std::int64_t>(used.Size()));
     this->Rounds = 0;
     this->Allowance = mesh.Vertices / 4 + Fewest;
     this->MostInverted =
@@ -129,7 +133,7 @@ public:
     const bool all = ++this->Rounds == 1;
     this->LateFlips = 0;
     this->IsSettled = false;
-    this->ClearCounts();
+    this->HasVeryLargeStar = false;
     const EdgeState* states = mesh.Edges.States.Data();
     this->BeginChanges(mesh);
     if (all)
@@ -154,10 +158,12 @@ public:
     return this->Rounds < LateLimits::Rounds && this->CountLate() <= this->Allowance;
   }
 
-  /// Whether so few vertices are late that MakeLateRounds moves them.
+  /// Whether so few vertices are late that MakeLateRounds moves them. If it had no room for their
+  /// triangles, MakeRound comes next.
   bool AreFewLate() const
   {
-    return this->Rounds > 0 && this->NumberOfLate > 0 && this->NumberOfLate <= LateLimits::Late;
+    return this->Rounds > 0 && this->NumberOfLate > 0 && this->NumberOfLate <= LateLimits::Late &&
+      !this->HasVeryLargeStar;
   }
 
   /// Makes rounds with their flips, by one group of threads, until all vertices are at their
@@ -169,20 +175,21 @@ public:
   {
     const Backend& device = this->Device;
     Reserve(this->ChangedTriangles, 0, LateLimits::Triangles, device);
-    for (Array<EdgeId>& edges : this->JudgedEdges)
+    for (Array<BadEdge>& bad : this->BadEdges)
     {
-      Reserve(edges, 0, LateLimits::Edges, device);
+      Reserve(bad, 0, LateLimits::Bad, device);
     }
     const EdgeState* states = mesh.Edges.States.Data();
     this->BeginChanges(mesh);
     const bool haveStatesMoved = mesh.Edges.States.Data() != states; // loops know their address
     device.RunGroup(LateRounds<Real>{ this->View(mesh), this->ViewBoundary(mesh), this->Late.Data(),
       this->GetLateCounts(), this->ChangedTriangles.Data(),
-      { this->JudgedEdges[0].Data(), this->JudgedEdges[1].Data() }, this->Stamp });
+      { this->BadEdges[0].Data(), this->BadEdges[1].Data() }, this->Stamp });
     const LateCounts counts = this->FetchCounts().Late;
     this->Hull.EndChanges(counts.Sizes, mesh.Edges);
     this->Stamp = counts.Stamp;
     this->Rounds += counts.Rounds;
+    this->HasVeryLargeStar = counts.End == LateEnd::GoesOn && counts.Rounds == 0;
     this->LateFlips = counts.Flips;
     this->IsSettled = counts.End == LateEnd::Done;
     this->NumberOfLate = counts.Late;
@@ -229,25 +236,37 @@ public:
     this->KnownTriangles = -1; // until a change ends well
   }
 
-  /// Makes room for changes of the boundary, and sets what LateCounts begin with.
+  /// Makes room for changes of the boundary, and sets what the counts begin with.
   void BeginChanges(const MovingMesh<Real>& mesh)
   {
     Reserve(this->PendingSides, 0, LateLimits::Pending, this->Device);
-    LateCounts counts{};
-    counts.Late = static_cast<std::uint32_t>(this->NumberOfLate);
-    counts.End = LateEnd::GoesOn;
-    counts.Sizes = this->Hull.BeginChanges(mesh.Edges);
-    LateCounts* to = this->GetLateCounts();
+    SharedCounts counts{};
+    counts.Late.Late = static_cast<std::uint32_t>(this->NumberOfLate);
+    counts.Late.End = LateEnd::GoesOn;
+    counts.Late.Sizes = this->Hull.BeginChanges(mesh.Edges);
+    SharedCounts* to = this->Counts.Data();
     this->Device.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *to = counts; });
   }
 
   /// Moves all vertices to their targets, cuts off triangles at the boundary that are inverted
-  /// then, and lists the others that are, unless coordinates are unusual.
+  /// then, and lists the others that are, unless a target is unusual.
   void StartAll(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
-    this->Device.ForEach(mesh.Vertices,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { motion.Start(static_cast<VertexId>(i)); });
+    const VertexId* usedPoint = this->UsedPoint;
+    const std::int64_t vertices = mesh.Vertices; // at most as many as points
+    this->Device.ForEach(this->NumberOfPoints,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (usedPoint && !motion.KeepsUse(i, usedPoint[i]))
+        {
+          motion.Increment(MotionCount::Unusual);
+        }
+        if (i < vertices)
+        {
+          motion.Start(static_cast<VertexId>(i));
+        }
+      });
     this->Device.RunGroup(CutInGroup<Real>{ motion, this->ViewBoundary(mesh) });
     this->Device.ForEach(
       mesh.Edges.NumberOfTriangles, FindLeftInverted<Real>{ { motion }, this->GetLateCounts() });
@@ -460,6 +479,8 @@ private:
   const Backend& Device;
   HullBoundary<Backend> Hull;
   PlaneArray Targets;
+  const VertexId* UsedPoint = nullptr; ///< By point. Null if all are used.
+  std::int64_t NumberOfPoints = 0;
   Array<Real> Before;
   Array<std::uint8_t> HalvingsOf;
   Array<std::uint32_t> VertexMarks, TriangleMarks;
@@ -470,13 +491,14 @@ private:
   Array<LateVertex> Next; ///< Vertices that the next round moves.
   Array<TriangleId> ChangedTriangles;
   Array<std::uint32_t> PendingSides;
-  Array<EdgeId> JudgedEdges[2];
+  Array<BadEdge> BadEdges[2];
   std::int64_t NumberOfLate = 0, NumberOfNext = 0, LateFlips = 0;
   std::int64_t Rounds = 0;
   std::int64_t Allowance = 0;
   std::uint32_t MostInverted = 0;
   std::uint32_t Stamp = 0;
   bool ChangedHull = false;
+  bool HasVeryLargeStar = false; ///< Whether MakeLateRounds had no room for a round.
   bool IsSettled = false; ///< Whether MakeLateRounds has left a Delaunay triangulation.
   /// The sizes that the mesh had when its boundary was found.
   std::int64_t KnownTriangles = -1, KnownEdges = -1, KnownVertices = -1;

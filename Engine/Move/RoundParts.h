@@ -74,7 +74,12 @@ struct HalveAndFill
     {
       return;
     }
-    HalveInGroup<Real>{ this->Motion, this->Stamp, this->MostPasses }(group);
+    HalveInGroup<Real>{ this->Motion, this->Stamp, this->MostPasses }(group,
+      [&](std::uint32_t changed, std::uint32_t stamp)
+      {
+        ForEachInGroup(group, changed,
+          [&](std::uint32_t i) { this->Motion.CheckStar(this->Motion.Changed[i], stamp); });
+      });
     const bool isHalved = AtomicLoad(this->Motion.Get(MotionCount::Inverted)) == 0 &&
       AtomicLoad(this->Motion.Get(MotionCount::Late)) <= this->Motion.MostLate;
     const bool isDone = isHalved && this->Boundary.FillUp(group);
