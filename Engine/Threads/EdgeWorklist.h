@@ -32,13 +32,25 @@ inline std::uint64_t MatchStates(const EdgeState* states, StateRange wanted)
 {
   using Word __attribute__((may_alias)) = std::uint64_t;
   constexpr std::uint64_t EveryByte = 0x0101010101010101u;
+  std::uint64_t words[8], all = 0;
+  for (int i = 0; i < 8; ++i)
+  {
+    words[i] = __atomic_load_n(reinterpret_cast<const Word*>(states) + i, __ATOMIC_RELAXED);
+    all |= words[i];
+  }
+  // Most often all of these edges are Good or Fixed, which are 0 and 1.
+  static_assert(int(EdgeState::Good) == 0 && int(EdgeState::Fixed) == 1,
+    "all bits of Good and Fixed are in EveryByte");
+  if (wanted.First > EdgeState::Fixed && (all & ~EveryByte) == 0)
+  {
+    return 0;
+  }
   const std::uint64_t first = (0x80 - static_cast<std::uint64_t>(wanted.First)) * EveryByte;
   const std::uint64_t last = (0x7F - static_cast<std::uint64_t>(wanted.Last)) * EveryByte;
   std::uint64_t set = 0;
   for (int i = 0; i < 8; ++i)
   {
-    const std::uint64_t word =
-      __atomic_load_n(reinterpret_cast<const Word*>(states) + i, __ATOMIC_RELAXED);
+    const std::uint64_t word = words[i];
     // States are below 16, so bytes do not carry into each other, and their top bits have the
     // answer.
     const std::uint64_t matches = (word + first) & ~(word + last) & (0x80 * EveryByte);
