@@ -37,6 +37,17 @@ struct StoredTriangles
     return this->Numbers ? static_cast<std::uint32_t>(this->Numbers[triangle])
                          : this->Triangles[triangle].InputTriangle;
   }
+  void PrefetchSlot(TriangleId triangle) const
+  {
+    if (this->Numbers)
+    {
+      Prefetch(&this->Numbers[triangle]);
+    }
+    else
+    {
+      Prefetch(&this->Triangles[triangle]);
+    }
+  }
 };
 
 /// Sets the ids of a triangle in the caller's slot, if the target includes it.
@@ -72,17 +83,37 @@ struct NeighborStep
   StoredTriangles Stored;
   const CornerId* CornerOfHalfEdge;
 
+  /// Prefetches what is read for this value, and for an earlier one.
+  void Prefetch(std::int64_t i) const
+  {
+    constexpr std::int64_t Second = 16;
+    delaunayflip::Prefetch(&this->CornerOfHalfEdge[this->GetOtherSide(i)]);
+    if (i >= Second)
+    {
+      const CornerId across = this->CornerOfHalfEdge[this->GetOtherSide(i - Second)];
+      if (across != NoCorner)
+      {
+        this->Stored.PrefetchSlot(TriangleOf(across));
+      }
+    }
+  }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, const OutputSlice& target) const
   {
-    const TriangleRecord& triangle = this->Stored.Get(i / 3);
     const int slot = static_cast<int>(i % 3);
-    const CornerId across = this->CornerOfHalfEdge[GetAt(triangle.HalfEdges, slot) ^ 1u];
+    const CornerId across = this->CornerOfHalfEdge[this->GetOtherSide(i)];
     TriangleId neighbor = NoTriangle;
     if (across != NoCorner)
     {
       neighbor = this->Stored.FindSlot(TriangleOf(across));
     }
     target.Set(std::int64_t(3) * this->Stored.GetSlot(i / 3) + slot, neighbor);
+  }
+
+private:
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId GetOtherSide(std::int64_t i) const
+  {
+    const TriangleRecord& triangle = this->Stored.Get(i / 3);
+    return GetAt(triangle.HalfEdges, static_cast<int>(i % 3)) ^ 1u;
   }
 };
 

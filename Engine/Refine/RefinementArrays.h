@@ -234,7 +234,7 @@ public:
     const VertexNaming naming = this->GetNaming(grown);
     if constexpr (Backend::IsOnHost)
     {
-      this->Device.ForEach(added, [&](std::int64_t i) { visit(i, naming.Name(i)); });
+      this->Device.ForEach(added, VisitVertex{ naming, visit });
     }
     else
     {

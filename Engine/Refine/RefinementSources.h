@@ -103,25 +103,66 @@ struct RefinementSources
     return static_cast<TriangleId>(number - this->NumberOfVertices);
   }
 
-  /// Prefetches what Count or Propose will read of this source, and of earlier ones.
-  void Prefetch(std::int64_t source) const
+  /// Prefetches what Count will read of this source, and of earlier ones.
+  void PrefetchToCount(std::int64_t source) const
   {
+    if (source < this->NumberOfItems + RefinementView::Fifth)
+    {
+      return; // items are counted already
+    }
     this->View.PrefetchTriangle(this->GetStart(source));
+    const TriangleId second = this->GetStart(source - RefinementView::Second);
+    if (!this->IsAroundVertex(source))
+    {
+      if (!this->View.IsJudged(second))
+      {
+        this->View.PrefetchCorners(second);
+      }
+      return;
+    }
+    this->View.PrefetchCorners(second);
+    this->View.PrefetchNeighbors(this->GetStart(source - RefinementView::Third));
+    this->View.PrefetchBeyond(this->GetStart(source - RefinementView::Fourth));
+    this->View.PrefetchSecondNeighbors(this->GetStart(source - RefinementView::Fifth));
+  }
+
+  /// Likewise for Propose, which does nothing for sources without bad triangles.
+  void PrefetchToPropose(std::int64_t source, const std::uint64_t* claims) const
+  {
+    this->PrefetchStage(source,
+      [&](TriangleId triangle)
+      {
+        this->View.PrefetchTriangle(triangle);
+        delaunayflip::Prefetch(&claims[triangle]);
+      });
     if (source >= RefinementView::Fifth)
     {
-      this->View.PrefetchCorners(this->GetStart(source - RefinementView::Second));
-      this->View.PrefetchNeighbors(this->GetStart(source - RefinementView::Third));
+      const RefinementView& view = this->View;
+      this->PrefetchStage(source - RefinementView::Second,
+        [&](TriangleId triangle) { view.PrefetchCorners(triangle); });
+      this->PrefetchStage(source - RefinementView::Third,
+        [&](TriangleId triangle) { view.PrefetchNeighbors(triangle); });
       const std::int64_t fourth = source - RefinementView::Fourth;
       const std::int64_t fifth = source - RefinementView::Fifth;
       if (this->IsAroundVertex(fourth) && this->IsAroundVertex(fifth))
       {
-        this->View.PrefetchBeyond(this->GetStart(fourth));
-        this->View.PrefetchSecondNeighbors(this->GetStart(fifth));
+        this->PrefetchStage(fourth, [&](TriangleId triangle) { view.PrefetchBeyond(triangle); });
+        this->PrefetchStage(
+          fifth, [&](TriangleId triangle) { view.PrefetchSecondNeighbors(triangle); });
       }
     }
   }
 
 private:
+  template <typename Stage>
+  void PrefetchStage(std::int64_t source, const Stage& stage) const
+  {
+    if (this->Counts[source] > 0)
+    {
+      stage(this->GetStart(source));
+    }
+  }
+
   /// Whether a source is a new vertex.
   bool IsAroundVertex(std::int64_t source) const
   {
@@ -202,13 +243,7 @@ struct JudgeSource
 {
   RefinementSources Sources;
 
-  void Prefetch(std::int64_t i) const
-  {
-    if (i >= this->Sources.NumberOfItems)
-    {
-      this->Sources.Prefetch(i);
-    }
-  }
+  void Prefetch(std::int64_t i) const { this->Sources.PrefetchToCount(i); }
   DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t i) const { return this->Sources.Count(i); }
 };
 
@@ -218,11 +253,7 @@ struct ProposePlaces
   RefinementSources Sources;
   RefinementStep Step;
 
-  void Prefetch(std::int64_t i) const
-  {
-    this->Sources.Prefetch(i);
-    delaunayflip::Prefetch(&this->Step.Claims[this->Sources.GetStart(i)]);
-  }
+  void Prefetch(std::int64_t i) const { this->Sources.PrefetchToPropose(i, this->Step.Claims); }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, std::int64_t number) const
   {
     this->Sources.Propose(i, number, this->Step);

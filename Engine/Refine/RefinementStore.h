@@ -136,6 +136,26 @@ struct VertexNaming
   const TriangleId* OldTriangles; ///< By added vertex, see RefinementStore::OldTriangleOf.
   const VertexId* Ids; ///< By vertex.
 
+  /// Prefetches what Name will read for this vertex, and for an earlier one.
+  void Prefetch(std::int64_t i) const
+  {
+    constexpr std::int64_t Second = 16;
+    const TriangleRecord* triangles = this->Interpolation.Old.Edges.Triangles;
+    if (this->OldTriangles[i] != NoTriangle)
+    {
+      delaunayflip::Prefetch(&triangles[this->OldTriangles[i]]);
+    }
+    if (i < Second || this->OldTriangles[i - Second] == NoTriangle)
+    {
+      return;
+    }
+    for (const VertexId vertex : triangles[this->OldTriangles[i - Second]].Vertices)
+    {
+      this->Interpolation.Old.PrefetchPoint(vertex);
+      delaunayflip::Prefetch(&this->Ids[vertex]);
+    }
+  }
+
   DELAUNAYFLIP_HOST_DEVICE RefinedVertex Name(std::int64_t i) const
   {
     const auto vertex = static_cast<VertexId>(this->FirstVertex + i);
@@ -147,6 +167,16 @@ struct VertexNaming
     }
     return named;
   }
+};
+
+/// Tells a visitor on threads of an added vertex.
+struct VisitVertex
+{
+  const VertexNaming& Naming;
+  const RefinedVertexVisitor& Visit;
+
+  void Prefetch(std::int64_t i) const { this->Naming.Prefetch(i); }
+  void operator()(std::int64_t i) const { this->Visit(i, this->Naming.Name(i)); }
 };
 
 /// Inserts the places of items, and stores the data of new vertices, triangles and edges.
@@ -242,6 +272,7 @@ struct RefinementStore
   {
     Prefetch(&this->Splitter.GetMesh().Triangles[triangle]);
     Prefetch(&this->Shapes[triangle]);
+    Prefetch(&this->Regions[triangle]);
   }
   void PrefetchEdges(TriangleId triangle) const
   {

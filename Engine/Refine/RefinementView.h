@@ -295,6 +295,7 @@ struct RefinementView
   {
     Prefetch(&this->Mesh.Edges.Triangles[triangle]);
     Prefetch(&this->Shapes[triangle]);
+    Prefetch(&this->Regions[triangle]);
   }
   void PrefetchCorners(TriangleId triangle) const
   {
