@@ -212,7 +212,8 @@ public:
   {
     std::swap(this->Items, this->ItemsBefore);
     RefinementSources sources{ view, this->ItemsBefore.Data(), this->NumberOfPlaces,
-      this->Arrays.GetSplits(), grown.Vertices - this->NumberAdded, this->NumberAdded, 0, nullptr };
+      this->Arrays.GetSplits(), grown.Vertices - this->NumberAdded, this->NumberAdded, 0, nullptr,
+      nullptr };
     if (this->LooksAtAll)
     {
       sources.NumberOfItems = sources.NumberOfVertices = 0;
@@ -221,12 +222,19 @@ public:
     const std::int64_t size = sources.GetSize();
     Reserve(this->Counts, 0, size, this->Device);
     sources.Counts = this->Counts.Data();
+    Reserve(
+      this->Listed, 0, RefinementSources::MostListed * sources.NumberOfVertices, this->Device);
+    sources.Listed = this->Listed.Data();
     this->Device.ForEach(
       sources.NumberOfItems, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { sources.Keep(i); });
     const typename Backend::Numbering numbering = this->Device.Count(size, JudgeSource{ sources });
     this->NumberOfPlaces = numbering.Total;
     Reserve(this->Items, 0, numbering.Total, this->Device);
     Reserve(this->Cavities, 0, numbering.Total, this->Device);
+    if (numbering.Total == 0)
+    {
+      return;
+    }
     const RefinementStep step = this->GetStep(view);
     this->Device.ForEachNumbered(
       numbering, size,
@@ -397,6 +405,7 @@ private:
   bool LooksAtAll = true; ///< Whether the next round looks at all triangles.
   std::int64_t NumberAdded = 0; ///< Vertices that the last round has added.
   Array<std::uint32_t> Counts; ///< See RefinementSources.
+  Array<TriangleId> Listed; ///< See RefinementSources.
   Array<RefinementItem> Items; ///< First those for triangles, then those on segments.
   Array<RefinementItem> ItemsBefore;
   std::int64_t NumberOfPlaces = 0; ///< Items for triangles.

@@ -99,7 +99,7 @@ public:
     PlaneMesh plane = grown.View();
     plane.Failed = failed;
     return { plane, this->Goals, std::is_same<Real, float>::value, this->Smallest,
-      this->Shapes.Data(), this->Regions.Data(), this->AreaOfRegion.Data(), this->Sizes.Data(),
+      this->Shapes.Data(), this->GetRegions(), this->AreaOfRegion.Data(), this->Sizes.Data(),
       this->Segments.Data(), this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
       this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Features.Data() };
   }
@@ -132,7 +132,10 @@ public:
     const std::int64_t vertices = before.Vertex - this->FirstVertex;
     Reserve(this->OldTriangleOf, vertices, vertices + added.Vertex, backend);
     Reserve(this->Shapes, before.Triangle, before.Triangle + added.Triangle, backend);
-    Reserve(this->Regions, before.Triangle, before.Triangle + added.Triangle, backend);
+    if (this->GetRegions())
+    {
+      Reserve(this->Regions, before.Triangle, before.Triangle + added.Triangle, backend);
+    }
     Reserve(this->Claims, before.Triangle, before.Triangle + added.Triangle, backend);
     Reserve(this->SegmentOfEdge, before.Edge, before.Edge + added.Edge, backend);
     Reserve(this->Segments, before.Subsegment, before.Subsegment + added.Subsegment, backend);
@@ -141,9 +144,9 @@ public:
     Reserve(this->Splits, 0, added.Vertex, backend);
     const PlaneMesh old = this->ViewOld(grown, failed);
     return { TriangleSplitter(grown.Mesh->View()), before, grown.Coordinates->Data(),
-      grown.Ids->Data(), this->FirstId, this->FirstVertex, this->Shapes.Data(),
-      this->Regions.Data(), this->Sizes.Data(), this->Features.Data(), this->Claims.Data(),
-      this->Segments.Data(), this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
+      grown.Ids->Data(), this->FirstId, this->FirstVertex, this->Shapes.Data(), this->GetRegions(),
+      this->Sizes.Data(), this->Features.Data(), this->Claims.Data(), this->Segments.Data(),
+      this->Marks.Data(), this->Origins.Data(), this->SegmentOfEdge.Data(),
       this->OriginOfVertex.Data(), this->Ends.Data(), this->IsSharp.Data(), this->Splits.Data(),
       this->OldTriangleOf.Data(), old, static_cast<std::int64_t>(this->OldTriangles.Size()),
       this->Grid.View(), this->IsOfCaller };
@@ -271,6 +274,12 @@ public:
   }
 
   // The functions below are public because device lambdas require it.
+
+  /// The regions, or null if all triangles are in region 0 and kept.
+  std::int32_t* GetRegions()
+  {
+    return this->HasRegions || this->IsOfCaller ? this->Regions.Data() : nullptr;
+  }
 
   void SetFreed(const GrowingMesh<Real>& grown, EdgeState state)
   {
@@ -692,6 +701,10 @@ public:
     const UnrefinedTest isUnrefined{ view, this->IsOfCaller };
     const typename Backend::Numbering numbering = this->Device.Count(triangles, isUnrefined);
     result.Unrefined = numbering.Total;
+    if (numbering.Total == 0)
+    {
+      return;
+    }
     Array<GradedTriangle> left = this->Device.template MakeArray<GradedTriangle>(numbering.Total);
     GradedTriangle* to = left.Data();
     this->Device.ForEachNumbered(numbering, triangles, isUnrefined,
@@ -723,7 +736,7 @@ private:
   std::int64_t OldEdges, SegmentsBefore = 0, NumberOfSegments = 0;
 
   Array<std::uint32_t> Shapes; ///< See RefinementView for this one and the next.
-  Array<std::int32_t> Regions;
+  Array<std::int32_t> Regions; ///< Those of added triangles only if GetRegions is not null.
   Array<std::int32_t> LabelOfRegion; ///< RefinementPlan's.
   Array<double> AreaOfRegion, Sizes;
   Array<EdgeId> Segments;

@@ -30,6 +30,8 @@ struct RefinementSources
   std::int64_t NumberOfVertices;
   std::int64_t NumberOfTriangles; ///< All triangles, or 0 if the round does not look at all.
   std::uint32_t* Counts; ///< By source, the number of its bad triangles.
+  TriangleId* Listed; ///< By new vertex, its first bad triangles, MostListed each.
+  static constexpr std::uint32_t MostListed = 4; ///< Few vertices have more.
 
   DELAUNAYFLIP_HOST_DEVICE std::int64_t GetSize() const
   {
@@ -51,9 +53,20 @@ struct RefinementSources
     if (source >= this->NumberOfItems)
     {
       std::uint32_t count = 0;
+      const bool listsBad = this->IsAroundVertex(source);
       this->ForTriangles(source,
         [&](TriangleId triangle)
-        { count += this->View.Judge(triangle) == ShapeKind::Bad ? 1 : 0; });
+        {
+          if (this->View.Judge(triangle) != ShapeKind::Bad)
+          {
+            return;
+          }
+          if (listsBad && count < MostListed)
+          {
+            this->GetListed(source)[count] = triangle;
+          }
+          ++count;
+        });
       this->Counts[source] = count;
     }
     return static_cast<int>(this->Counts[source]);
@@ -72,6 +85,15 @@ struct RefinementSources
     {
       step.Items[first] = this->Items[source];
       step.LocateAndClaim(first);
+      return;
+    }
+    if (this->IsListed(source))
+    {
+      for (std::uint32_t k = 0; k < this->Counts[source]; ++k)
+      {
+        step.MakeItem(first + k, this->GetListed(source)[k]);
+        step.LocateAndClaim(first + k);
+      }
       return;
     }
     std::int64_t next = first;
@@ -129,45 +151,56 @@ struct RefinementSources
   /// Likewise for Propose, which does nothing for sources without bad triangles.
   void PrefetchToPropose(std::int64_t source, const std::uint64_t* claims) const
   {
+    const RefinementView& view = this->View;
     this->PrefetchStage(source,
       [&](TriangleId triangle)
       {
-        this->View.PrefetchTriangle(triangle);
+        view.PrefetchTriangle(triangle);
         delaunayflip::Prefetch(&claims[triangle]);
       });
-    if (source >= RefinementView::Fifth)
+    if (source >= RefinementView::Fourth)
     {
-      const RefinementView& view = this->View;
       this->PrefetchStage(source - RefinementView::Second,
         [&](TriangleId triangle) { view.PrefetchCorners(triangle); });
       this->PrefetchStage(source - RefinementView::Third,
         [&](TriangleId triangle) { view.PrefetchNeighbors(triangle); });
-      const std::int64_t fourth = source - RefinementView::Fourth;
-      const std::int64_t fifth = source - RefinementView::Fifth;
-      if (this->IsAroundVertex(fourth) && this->IsAroundVertex(fifth))
-      {
-        this->PrefetchStage(fourth, [&](TriangleId triangle) { view.PrefetchBeyond(triangle); });
-        this->PrefetchStage(
-          fifth, [&](TriangleId triangle) { view.PrefetchSecondNeighbors(triangle); });
-      }
+      this->PrefetchStage(source - RefinementView::Fourth,
+        [&](TriangleId triangle) { view.PrefetchBeyond(triangle); });
     }
   }
 
 private:
+  /// Calls stage(triangle) for the triangles of a source from which Propose will start.
   template <typename Stage>
   void PrefetchStage(std::int64_t source, const Stage& stage) const
   {
-    if (this->Counts[source] > 0)
+    if (this->IsListed(source))
+    {
+      for (std::uint32_t k = 0; k < this->Counts[source]; ++k)
+      {
+        stage(this->GetListed(source)[k]);
+      }
+    }
+    else if (this->Counts[source] > 0)
     {
       stage(this->GetStart(source));
     }
   }
 
   /// Whether a source is a new vertex.
-  bool IsAroundVertex(std::int64_t source) const
+  DELAUNAYFLIP_HOST_DEVICE bool IsAroundVertex(std::int64_t source) const
   {
     const std::int64_t number = source - this->NumberOfItems;
     return number >= 0 && number < this->NumberOfVertices;
+  }
+  /// Whether a source is a new vertex, and all its bad triangles are listed.
+  DELAUNAYFLIP_HOST_DEVICE bool IsListed(std::int64_t source) const
+  {
+    return this->IsAroundVertex(source) && this->Counts[source] <= MostListed;
+  }
+  DELAUNAYFLIP_HOST_DEVICE TriangleId* GetListed(std::int64_t source) const
+  {
+    return this->Listed + std::int64_t(MostListed) * (source - this->NumberOfItems);
   }
 
   /// Calls visit(triangle) for the triangles of a source that is not an item.

@@ -189,7 +189,7 @@ struct RefinementStore
   VertexId* Ids;
   std::int64_t FirstId, FirstVertex; ///< Id and number of the first vertex of refinement.
   std::uint32_t* Shapes;
-  std::int32_t* Regions;
+  std::int32_t* Regions; ///< See RefinementView.
   double* Sizes;
   double* Features; ///< See RefinementView.
   std::uint64_t* Claims;
@@ -272,7 +272,10 @@ struct RefinementStore
   {
     Prefetch(&this->Splitter.GetMesh().Triangles[triangle]);
     Prefetch(&this->Shapes[triangle]);
-    Prefetch(&this->Regions[triangle]);
+    if (this->Regions)
+    {
+      Prefetch(&this->Regions[triangle]);
+    }
   }
   void PrefetchEdges(TriangleId triangle) const
   {
@@ -333,7 +336,10 @@ private:
   /// Puts a new triangle into the region of the split one, and lets both be judged again.
   DELAUNAYFLIP_HOST_DEVICE void TakeOver(TriangleId from, TriangleId to) const
   {
-    this->Regions[to] = this->Regions[from];
+    if (this->Regions)
+    {
+      this->Regions[to] = this->Regions[from];
+    }
     this->Claims[to] = RefinementKey::None;
     this->Shapes[from] = static_cast<std::uint32_t>(ShapeKind::Unknown);
     this->Shapes[to] = static_cast<std::uint32_t>(ShapeKind::Unknown);

@@ -73,7 +73,8 @@ struct RefinementView
   double Smallest; ///< Coordinates that are nearer to 0 become 0.
   /// By triangle: ShapeKind, and above it TriangleRecord::Flips at that time.
   std::uint32_t* Shapes;
-  const std::int32_t* Regions; ///< By triangle: the number of its region, see RemovedRegion.
+  /// By triangle: the number of its region, see RemovedRegion. Null: all are in region 0.
+  const std::int32_t* Regions;
   const double* AreaOfRegion; ///< The largest area there, or null.
   const double* Sizes; ///< By vertex: the longest edge there, or null.
   const EdgeId* Segments; ///< The edges that are subsegments.
@@ -90,7 +91,7 @@ struct RefinementView
 
   DELAUNAYFLIP_HOST_DEVICE bool IsKept(TriangleId triangle) const
   {
-    return this->Regions[triangle] >= 0;
+    return !this->Regions || this->Regions[triangle] >= 0;
   }
 
   //------------------------------------------------------------------------------
@@ -295,7 +296,10 @@ struct RefinementView
   {
     Prefetch(&this->Mesh.Edges.Triangles[triangle]);
     Prefetch(&this->Shapes[triangle]);
-    Prefetch(&this->Regions[triangle]);
+    if (this->Regions)
+    {
+      Prefetch(&this->Regions[triangle]);
+    }
   }
   void PrefetchCorners(TriangleId triangle) const
   {
