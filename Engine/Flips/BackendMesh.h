@@ -61,7 +61,16 @@ public:
 
   void StoreNeighbors(std::int32_t* neighbors) const override
   {
-    this->Backend.StoreValues(3 * this->CountStored(), neighbors, this->GetNeighborStep());
+    const std::int64_t triangles = this->CountStored();
+    if constexpr (BackendT::IsOnHost)
+    {
+      const OutputSlice all{ reinterpret_cast<std::uint32_t*>(neighbors), 0, 3 * triangles };
+      this->Backend.ForEach(triangles, NeighborsStep{ this->GetNeighborStep(), all });
+    }
+    else
+    {
+      this->Backend.StoreValues(3 * triangles, neighbors, this->GetNeighborStep());
+    }
   }
 
   void StoreUsedPoints(std::int64_t* ids) const override

@@ -83,37 +83,56 @@ struct NeighborStep
   StoredTriangles Stored;
   const CornerId* CornerOfHalfEdge;
 
-  /// Prefetches what is read for this value, and for an earlier one.
-  void Prefetch(std::int64_t i) const
-  {
-    constexpr std::int64_t Second = 16;
-    delaunayflip::Prefetch(&this->CornerOfHalfEdge[this->GetOtherSide(i)]);
-    if (i >= Second)
-    {
-      const CornerId across = this->CornerOfHalfEdge[this->GetOtherSide(i - Second)];
-      if (across != NoCorner)
-      {
-        this->Stored.PrefetchSlot(TriangleOf(across));
-      }
-    }
-  }
   DELAUNAYFLIP_HOST_DEVICE void operator()(std::int64_t i, const OutputSlice& target) const
   {
-    const int slot = static_cast<int>(i % 3);
-    const CornerId across = this->CornerOfHalfEdge[this->GetOtherSide(i)];
+    this->Store(i / 3, static_cast<int>(i % 3), target);
+  }
+  DELAUNAYFLIP_HOST_DEVICE void Store(std::int64_t t, int slot, const OutputSlice& target) const
+  {
+    const CornerId across = this->CornerOfHalfEdge[this->GetOtherSide(t, slot)];
     TriangleId neighbor = NoTriangle;
     if (across != NoCorner)
     {
       neighbor = this->Stored.FindSlot(TriangleOf(across));
     }
-    target.Set(std::int64_t(3) * this->Stored.GetSlot(i / 3) + slot, neighbor);
+    target.Set(std::int64_t(3) * this->Stored.GetSlot(t) + slot, neighbor);
   }
-
-private:
-  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId GetOtherSide(std::int64_t i) const
+  DELAUNAYFLIP_HOST_DEVICE HalfEdgeId GetOtherSide(std::int64_t t, int slot) const
   {
-    const TriangleRecord& triangle = this->Stored.Get(i / 3);
-    return GetAt(triangle.HalfEdges, static_cast<int>(i % 3)) ^ 1u;
+    return GetAt(this->Stored.Get(t).HalfEdges, slot) ^ 1u;
+  }
+};
+
+/// Sets all neighbors of a triangle, on threads.
+struct NeighborsStep
+{
+  NeighborStep Step;
+  OutputSlice Target;
+
+  /// Prefetches the edges of this triangle, and the triangles beyond those of an earlier one.
+  void Prefetch(std::int64_t t) const
+  {
+    constexpr std::int64_t Second = 12;
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      delaunayflip::Prefetch(&this->Step.CornerOfHalfEdge[this->Step.GetOtherSide(t, slot)]);
+    }
+    for (int slot = 0; slot < 3 && t >= Second; ++slot)
+    {
+      const HalfEdgeId side = this->Step.GetOtherSide(t - Second, slot);
+      const CornerId across = this->Step.CornerOfHalfEdge[side];
+      if (across != NoCorner)
+      {
+        this->Step.Stored.PrefetchSlot(TriangleOf(across));
+      }
+    }
+  }
+  void operator()(std::int64_t t) const
+  {
+    for (int slot = 0; slot < 3; ++slot)
+    {
+      this->Step.Store(t, slot, this->Target);
+    }
   }
 };
 

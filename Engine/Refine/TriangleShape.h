@@ -54,7 +54,8 @@ struct TriangleShape
   double SquaredShortest, SquaredLongest;
   double Dot, Cross; ///< Products of the two edges at the apex, where the smallest angle is.
 
-  DELAUNAYFLIP_HOST_DEVICE TriangleShape(const PlaneMesh& mesh, TriangleId triangle)
+  DELAUNAYFLIP_HOST_DEVICE DELAUNAYFLIP_ALWAYS_INLINE TriangleShape(
+    const PlaneMesh& mesh, TriangleId triangle)
   {
     const TriangleRecord& record = mesh.Edges.Triangles[triangle];
     const PlanePoint corners[3] = { mesh.GetPoint(record.Vertices[0]),

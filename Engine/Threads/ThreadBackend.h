@@ -356,25 +356,10 @@ public:
   void StoreValues(std::int64_t size, std::int32_t* values, const Store& store) const
   {
     const OutputSlice all{ reinterpret_cast<std::uint32_t*>(values), 0, size };
-    this->ForEach(size, StoreInto<Store>{ store, all });
+    this->ForEach(size, [&](std::int64_t i) { store(i, all); });
   }
 
 private:
-  /// Calls store(i, target), and store.Prefetch(i) if that exists.
-  template <typename Store>
-  struct StoreInto
-  {
-    const Store& ToStore;
-    OutputSlice Target;
-
-    template <typename Prefetching = Store>
-    auto Prefetch(std::int64_t i) const -> decltype(std::declval<const Prefetching&>().Prefetch(i))
-    {
-      this->ToStore.Prefetch(i);
-    }
-    void operator()(std::int64_t i) const { this->ToStore(i, this->Target); }
-  };
-
   /// Runs the poll where that is due.
   void TakePoll() const;
 
