@@ -174,7 +174,7 @@ void CheckRefinement(
 
 void CheckSizes(const double* sizes, std::int64_t points)
 {
-  for (std::int64_t i = 0; sizes && i < points; ++i)
+  for (std::int64_t i = 0; i < points; ++i)
   {
     if (sizes[i] <= 0.0)
     {

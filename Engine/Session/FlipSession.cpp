@@ -56,7 +56,13 @@ FlipSession::FlipSession(const TriangleMesh& mesh, const FlipOptions& options,
     this->Run = std::make_unique<PiecesRun>(mesh, options, progress);
     return;
   }
-  this->Run = std::make_unique<MeshRun>(CallerMesh(mesh), options, progress, expected);
+  auto run = std::make_unique<MeshRun>(CallerMesh(mesh), options, progress);
+  for (const ResultMemory& memory : expected)
+  {
+    run->Expect(memory);
+  }
+  run->Begin();
+  this->Run = std::move(run);
 }
 
 FlipSession::FlipSession(
@@ -68,7 +74,9 @@ FlipSession::FlipSession(
     throw InvalidOptions("a mesh in the memory of a GPU cannot be flipped in several pieces");
   }
   CheckOptions(options);
-  this->Run = std::make_unique<MeshRun>(caller, options, progress);
+  auto run = std::make_unique<MeshRun>(caller, options, progress);
+  run->Begin();
+  this->Run = std::move(run);
 }
 
 FlipSession::FlipSession(
@@ -79,7 +87,9 @@ FlipSession::FlipSession(
     this->Run = std::make_unique<SphereRun>(points, options, progress);
     return;
   }
-  this->Run = std::make_unique<PointRun>(points, options, progress);
+  auto run = std::make_unique<PointRun>(points, options, progress);
+  run->Begin();
+  this->Run = std::move(run);
 }
 
 FlipSession::~FlipSession() = default;

@@ -56,10 +56,6 @@ Defect LoadedRun::DescribeLimit(std::int64_t points) const
 Defect LoadedRun::FindIdleOptions() const
 {
   Defect defect(DefectKind::OptionsWithoutGoal);
-  if (this->WantsRefinement())
-  {
-    return defect;
-  }
   const auto add = [&](bool isGiven, const char* name)
   {
     if (isGiven)
@@ -75,8 +71,7 @@ Defect LoadedRun::FindIdleOptions() const
 
 Defect LoadedRun::CountUnjudged() const
 {
-  const bool isAtLimit = this->Rounds == 0 && !this->IsRefined && this->IsAtIterationLimit();
-  const bool isCut = isAtLimit && this->WantsRefinement();
+  const bool isCut = this->Rounds == 0 && !this->IsRefined && this->IsAtIterationLimit();
   return Defect(DefectKind::TrianglesNotJudged, isCut ? this->Report.Triangles : 0);
 }
 

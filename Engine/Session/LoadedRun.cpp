@@ -15,7 +15,13 @@ namespace delaunayflip
 {
 
 LoadedRun::LoadedRun(const FlipOptions& options, const ProgressObserver& progress)
-  : Options(options)
+  : Options(options),
+    Building(
+      [this](double share)
+      {
+        const double done = this->ShareBefore + (1.0 - this->ShareBefore) * share;
+        return !this->MayForget || this->Progress.Tell(this->Observer, done);
+      })
 {
   this->Observer = progress;
 }
@@ -25,9 +31,7 @@ try
 {
   this->Reset();
   this->SinceBegin = StopWatch();
-  const auto flips = std::find_if(this->Stages.begin(), this->Stages.end(),
-    [](const Stage& stage) { return stage.Stop != OnStop::Forgets; });
-  this->RunStages(flips - this->Stages.begin());
+  this->RunStages(this->FindFlips());
   return true;
 }
 catch (const RunAborted&)
@@ -39,6 +43,13 @@ catch (...)
 {
   this->Reset();
   throw;
+}
+
+std::size_t LoadedRun::FindFlips() const
+{
+  const auto flips = std::find_if(this->Stages.begin(), this->Stages.end(),
+    [](const Stage& stage) { return stage.Stop != OnStop::Forgets; });
+  return flips - this->Stages.begin();
 }
 
 bool LoadedRun::Advance(
@@ -158,6 +169,7 @@ void LoadedRun::TestAllEdges()
   this->Building.Reach(report.GeometryUsed, BuildStep::Tested);
   this->Progress.StartFlips(
     this->Found.Bad, report.BuildSeconds, report.FlipSeconds, this->SumLaterShares());
+  this->InputDefects = report.Defects;
   this->ListDefects();
 }
 
@@ -197,7 +209,7 @@ void LoadedRun::RepeatFlips(LoadedMesh& mesh, std::int64_t iterations)
 
 void LoadedRun::MeasureEnd()
 {
-  const bool isCutShort = this->WantsRefinement() && !this->IsRefined && this->Report.Triangles > 0;
+  const bool isCutShort = this->WantsRefinement && !this->IsRefined && this->Report.Triangles > 0;
   const bool hasConverged = this->Found.Bad == 0 && !isCutShort;
   this->Report.StopReason =
     hasConverged ? StopReasonKind::Converged : StopReasonKind::IterationLimit;
@@ -253,6 +265,7 @@ void LoadedRun::Reset()
   this->Touching.clear(); // waits: after the call under way the caller may free the memory
   this->Loaded.reset();
   this->Journal.clear();
+  this->ShareBefore = 0.0;
   this->Rounds = 0;
   this->IsRefined = false;
   this->Current = 0;

@@ -35,6 +35,11 @@ public:
   /// From now on angles are not measured. The report says that there are none.
   void LeaveAnglesOut() { this->MeasuresAngles = false; }
 
+  /// Begins anew, and does all stages before the first flip. An observer may stop this.
+  /// @returns whether it was not stopped.
+  /// @throws as FlipSession's constructor.
+  bool Begin();
+
   /// An entry of the journal: how much of a stage was done to the loaded mesh.
   struct Entry
   {
@@ -99,8 +104,6 @@ protected:
   bool HasEndedRefinement() const { return this->IsRefinementOver() || this->WasStopped; }
   /// Whether the options allow no more iterations. Rounds count as iterations.
   bool IsAtIterationLimit() const;
-  /// Whether the options ask for refinement.
-  virtual bool WantsRefinement() const = 0;
   /// Makes a plan with the goals of the options.
   /// @param given the number of the caller's points. @param used those that the limit counts.
   RefinementPlan PlanGoals(const LoadedMesh& mesh, std::int64_t given, std::int64_t used);
@@ -121,9 +124,8 @@ protected:
   //------------------------------------------------------------------------------
   // What stages and getters consist of.
 
-  /// Begins anew, and does all stages before the first flip. An observer may stop this.
-  /// @returns whether it was not stopped.
-  bool Begin();
+  /// The number of the first stage that may flip.
+  std::size_t FindFlips() const;
 
   /// Calls work(mesh), and calls it again on the CPU if the GPU fails.
   /// @throws BackendUnavailable with BackendKind::CUDA.
@@ -195,10 +197,13 @@ protected:
   bool TellStage(double share);
 
   FlipOptions Options;
+  bool WantsRefinement = false; ///< Whether the options ask for refinement. Runs set it when made.
   BuildProgress Building; ///< Tells of the loading, and of what divide and conquer does later.
+  double ShareBefore = 0.0; ///< The share of the progress before the loading.
   std::unique_ptr<LoadedMesh> Loaded; ///< None if the build was stopped.
   std::vector<Entry> Journal; ///< What has happened to the loaded mesh.
   RunProgress Progress;
+  std::vector<Defect> InputDefects; ///< What stages have found before all edges are tested.
   StepCounts Found; ///< The counts of the last detection.
   std::int64_t Rounds = 0; ///< How often refinement has added points.
   std::int64_t MostPoints = 0; ///< FlipOptions::PointLimit, or its default.

@@ -60,11 +60,6 @@ void FindPosition(
 
 }
 
-bool MeshRun::WantsRefinement() const
-{
-  return HasGoals(this->Options, this->Mesh.GetFixedEdges());
-}
-
 RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
 {
   const std::int64_t points = this->Mesh.CountPoints();
@@ -82,13 +77,12 @@ RefinementPlan MeshRun::PlanRefinement(LoadedMesh& mesh)
 
 void MeshRun::LabelRegions()
 {
-  const std::int64_t seeds = this->Mesh.GetFixedEdges().NumberOfRegionSeeds;
-  if (seeds > 0)
-  {
-    FlipOptions options = this->Insertion.GetOptions(this->Options);
-    options.Geometry = this->Report.GeometryUsed;
-    this->Regions = FindSeededRegions(this->Start->CopyToHost(), options, this->Unused);
-  }
+  FlipOptions options = this->Insertion.GetOptions(this->Options);
+  options.Geometry = this->Report.GeometryUsed;
+  UnusedSeeds unused;
+  this->Regions = FindSeededRegions(this->Start.CopyToHost(), options, unused);
+  AddDefect(unused.Outside, this->Report.Defects);
+  AddDefect(unused.Repeated, this->Report.Defects);
 }
 
 /// Numbers the regions from 0. Triangles are in one region if they have the same label and the same
@@ -171,7 +165,7 @@ void MeshRun::TakeRefinement(LoadedMesh& mesh)
 /// Counts the edges that splits of constraint edges have added.
 std::int64_t MeshRun::CountConstraints(const RefinementResult& made) const
 {
-  const FixedEdges& edges = this->Start->GetFixedEdges();
+  const FixedEdges& edges = this->Start.GetFixedEdges();
   std::vector<std::pair<std::int64_t, std::int64_t>> constraints;
   for (std::int64_t i = 0; i < edges.NumberOfConstraintEdges; ++i)
   {

@@ -18,28 +18,40 @@ namespace delaunayflip
 
 namespace
 {
-constexpr const char* TestAllEdgesStage = "test all edges";
+constexpr const char* LoadStage = "load";
 }
 
 void MeshRun::ListStages()
 {
+  const FixedEdges& given = this->Mesh.GetFixedEdges();
   const auto load = [this]
-  {
-    this->Load(this->Start->GetOnDevice() != nullptr, this->Mesh.CountTriangles());
-    this->Insertion.AddTo(this->Report);
-  };
+  { this->Load(this->Start.GetOnDevice() != nullptr, this->Mesh.CountTriangles()); };
   const auto flips = [this](LoadedMesh& loaded, std::int64_t iterations)
   { this->RepeatFlips(loaded, iterations); };
   const auto test = [this](LoadedMesh& loaded, std::int64_t) { this->RepeatTest(loaded); };
-  this->Stages = {
-    { "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
-      Whole([this] { this->InsertConstraints(); }), {} },
-    { "load", OnStop::Forgets, 0.0, Whole(load), {} },
-    { "label regions", OnStop::Forgets, 0.0, Whole([this] { this->LabelRegions(); }), {} },
-    { TestAllEdgesStage, OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
-    { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips },
-  };
-  if (this->WantsRefinement())
+  const bool inserts = ConstraintInsertion::IsRequested(given);
+  if (inserts)
+  {
+    this->Stages.push_back({ "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
+      Whole([this] { this->InsertConstraints(); }), {} });
+  }
+  this->Stages.push_back({ LoadStage, OnStop::Forgets, 0.0, Whole(load), {} });
+  if (inserts)
+  {
+    this->Stages.push_back({ "report constraints", OnStop::Forgets, 0.0,
+      Whole([this] { this->Insertion.AddTo(this->Report); }), {} });
+  }
+  if (given.NumberOfRegionSeeds > 0)
+  {
+    CheckRegions(given.RegionSeeds, given.NumberOfRegionSeeds);
+    this->Stages.push_back(
+      { "label regions", OnStop::Forgets, 0.0, Whole([this] { this->LabelRegions(); }), {} });
+  }
+  this->Stages.push_back(
+    { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test });
+  this->Stages.push_back(
+    { "flip", OnStop::KeepsMesh, 0.0, [this] { return this->Flip(); }, flips });
+  if (this->WantsRefinement)
   {
     const auto refine = [this](LoadedMesh& loaded, std::int64_t rounds)
     { this->RepeatRounds(loaded, rounds); };
@@ -50,40 +62,32 @@ void MeshRun::ListStages()
     { "measure", OnStop::Ignores, 0.0, Whole([this] { this->MeasureEnd(); }), {} });
 }
 
-MeshRun::MeshRun(const CallerMesh& mesh, const FlipOptions& options,
-  const ProgressObserver& progress, const std::vector<ResultMemory>& expected)
+MeshRun::MeshRun(
+  const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress)
   : LoadedRun(options, progress),
-    Mesh(mesh)
+    Mesh(mesh),
+    Start(mesh)
 {
   CheckMeshSize(mesh.CountTriangles(), mesh.CountPoints());
   const FixedEdges& given = mesh.GetFixedEdges();
-  CheckSizes(given.Sizes, mesh.CountPoints());
-  CheckRegions(given.RegionSeeds, given.NumberOfRegionSeeds);
-  this->Options.Device = mesh.ChooseDevice(options.Device);
-  this->ListStages();
-  for (const ResultMemory& memory : expected)
+  if (given.Sizes)
   {
-    this->Expect(memory);
+    CheckSizes(given.Sizes, mesh.CountPoints());
   }
-  this->Begin();
+  this->WantsRefinement = HasGoals(options, given);
+  this->ListStages();
+  this->Options.Device = mesh.ChooseDevice(options.Device);
 }
 
 /// Makes constraints edges by flips, on the host, before a backend is chosen.
 void MeshRun::InsertConstraints()
 {
-  const auto tell = [this](double share)
-  { return !this->MayForget || this->Progress.Tell(this->Observer, share); };
-  this->Start = this->Mesh;
-  if (ConstraintInsertion::IsRequested(this->Mesh.GetFixedEdges()))
-  {
-    const TriangleMesh& mesh = this->Mesh.CopyToHost();
-    this->Insertion = ConstraintInsertion(mesh, this->Options,
-      [&](double share) { return tell(ConstraintInsertion::ShareOfRun * share); });
-    this->Start = CallerMesh(this->Insertion.GetMesh(mesh));
-  }
-  const double begin = this->Insertion.GetShare();
-  this->Building =
-    BuildProgress([tell, begin](double share) { return tell(begin + (1.0 - begin) * share); });
+  const TriangleMesh& mesh = this->Mesh.CopyToHost();
+  this->Insertion = ConstraintInsertion(mesh, this->Options,
+    [this](double share)
+    { return this->Progress.Tell(this->Observer, ConstraintInsertion::ShareOfRun * share); });
+  this->Start = CallerMesh(this->Insertion.GetMesh(mesh));
+  this->ShareBefore = this->Insertion.GetShare();
 }
 
 std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
@@ -91,25 +95,24 @@ std::unique_ptr<LoadedMesh> MeshRun::LoadOn(BackendKind backend)
   const FlipOptions options = this->Insertion.GetOptions(this->Options);
   if (backend == BackendKind::Threads)
   {
-    return LoadOnThreads(this->Start->CopyToHost(), options, this->Building);
+    return LoadOnThreads(this->Start.CopyToHost(), options, this->Building);
   }
-  const DeviceMesh* device = this->Start->GetOnDevice();
+  const DeviceMesh* device = this->Start.GetOnDevice();
   if (device)
   {
     return LoadOnCuda(*device, options, this->Building);
   }
-  return LoadOnCuda(this->Start->CopyToHost(), options, this->Building);
+  return LoadOnCuda(this->Start.CopyToHost(), options, this->Building);
 }
 
 void MeshRun::Reset()
 {
   LoadedRun::Reset();
-  this->Start.reset();
   this->Insertion = ConstraintInsertion();
   this->HasMoved = false;
   this->Refined = RefinedCallerMesh();
   this->Regions.clear();
-  this->Unused = UnusedSeeds();
+  this->Start = this->Mesh;
   this->Report.Points = this->Mesh.CountPoints();
   this->Report.Triangles = this->Mesh.CountTriangles();
 }
@@ -117,13 +120,16 @@ void MeshRun::Reset()
 void MeshRun::ListDefects()
 {
   FlipReport& report = this->Report;
-  report.Defects = this->Loaded->GetInputReport().Defects;
-  AddDefects(this->Insertion.GetRefused(), report.Defects);
-  AddDefect(this->Unused.Outside, report.Defects);
-  AddDefect(this->Unused.Repeated, report.Defects);
-  AddDefect(this->FindIdleOptions(), report.Defects);
-  AddDefect(this->CountUnjudged(), report.Defects);
-  AddDefect(this->Refined.Unrefined, report.Defects);
+  report.Defects = this->InputDefects;
+  if (this->WantsRefinement)
+  {
+    AddDefect(this->CountUnjudged(), report.Defects);
+    AddDefect(this->Refined.Unrefined, report.Defects);
+  }
+  else
+  {
+    AddDefect(this->FindIdleOptions(), report.Defects);
+  }
   if (this->Refined.HasReachedLimit)
   {
     const std::int64_t points = this->Mesh.CountPoints() + SizeOf(this->Refined.Points);
@@ -217,14 +223,14 @@ bool MeshRun::Move(const PointMove& move, const ProgressObserver& progress)
 void MeshRun::GoOnAt(MovedPoints points)
 {
   const StopWatch watch;
-  const bool mayFollow = this->Loaded && !this->Mesh.GetOnDevice() && !this->WantsRefinement() &&
+  const bool mayFollow = this->Loaded && !this->Mesh.GetOnDevice() && !this->WantsRefinement &&
     this->Mesh.GetFixedEdges().NumberOfRegionSeeds == 0;
   TriangleMesh moved, start;
   bool follows = false;
   if (mayFollow)
   {
     moved = this->Mesh.CopyToHost();
-    start = this->Start->CopyToHost();
+    start = this->Start.CopyToHost();
     moved.Points = points.View();
     start.Points = points.View();
     follows = this->OnBackend([&](LoadedMesh& mesh)
@@ -243,13 +249,12 @@ void MeshRun::GoOnAt(MovedPoints points)
   this->Report = this->Loaded->GetInputReport();
   this->Report.Fallback = fallback;
   this->Report.Backend = backend;
-  this->Insertion.AddTo(this->Report);
   this->Report.BuildSeconds = watch.GetSeconds();
   this->AreKeptEdgesKnown = false;
-  const auto test = std::find_if(this->Stages.begin(), this->Stages.end(),
-    [](const Stage& stage) { return std::string(stage.Name) == TestAllEdgesStage; });
-  this->Current = test - this->Stages.begin();
-  this->RunStages(this->Current + 1);
+  const auto load = std::find_if(this->Stages.begin(), this->Stages.end(),
+    [](const Stage& stage) { return std::string(stage.Name) == LoadStage; });
+  this->Current = load + 1 - this->Stages.begin();
+  this->RunStages(this->FindFlips());
   // Last, so that points are where they were after an exception. Threads have the mesh now, so
   // there is no fallback that loads it again.
   this->Mesh = CallerMesh(moved);

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace delaunayflip
@@ -44,8 +43,7 @@ class MeshRun final : public LoadedRun
 {
 public:
   /// @throws as FlipSession's constructor.
-  MeshRun(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress,
-    const std::vector<ResultMemory>& expected = {});
+  MeshRun(const CallerMesh& mesh, const FlipOptions& options, const ProgressObserver& progress);
 
   void StoreTriangles(const MutableTriangleArray& triangles) override;
   void StoreFlipCounts(std::int32_t* counts) override;
@@ -67,7 +65,6 @@ private:
   void MeasureKeptEdges() override;
 
   // (MeshRefinement.cpp)
-  bool WantsRefinement() const override;
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
   void TakeRefinement(LoadedMesh& mesh) override;
   void AddRefinedPoints(const RefinementResult& made);
@@ -77,13 +74,12 @@ private:
 
   CallerMesh Mesh;
   ConstraintInsertion Insertion; ///< Owns the arrays of Start if it has inserted constraints.
-  std::optional<CallerMesh> Start; ///< The caller's mesh, with its constraints inserted.
+  CallerMesh Start; ///< The caller's mesh, with its constraints inserted.
   MovedPoints Moved; ///< Has the caller's points after a move.
   /// Whether points have moved. Since then flips are counted anew, without those of Insertion.
   bool HasMoved = false;
   RefinedCallerMesh Refined;
   std::vector<std::int32_t> Regions; ///< What FindSeededRegions returns, if there are seeds.
-  UnusedSeeds Unused;
 };
 
 }

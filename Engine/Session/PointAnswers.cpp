@@ -53,7 +53,7 @@ AskResult PointRun::Answer(const PlaceQuery& query, const ProgressObserver& prog
       return;
     }
     const std::int64_t points = this->Points.CountAll();
-    const bool isConvex = !this->WantsRefinement();
+    const bool isConvex = !this->WantsRefinement;
     result = mesh.Ask({ query, this->Result.Kept.Numbers, points, isConvex }, progress);
   };
   if (this->Report.Triangles > 0)

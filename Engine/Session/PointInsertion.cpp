@@ -70,7 +70,7 @@ bool PointRun::IsDelaunay() const
 {
   const PointOptions& options = this->Points.GetOptions();
   const bool isSplit = options.SplitCrossings && this->Points.GetCaller().NumberOfSegments > 0;
-  const bool isOfCaller = !this->WantsRefinement() && options.PointTolerance == 0.0 && !isSplit;
+  const bool isOfCaller = !this->WantsRefinement && options.PointTolerance == 0.0 && !isSplit;
   return isOfCaller && this->Loaded && this->IsOver() && this->Found.Bad == 0;
 }
 

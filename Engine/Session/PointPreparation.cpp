@@ -54,7 +54,10 @@ void CheckInput(const PointInput& input, const PointOptions& options)
   ForEachPointOption(
     [](const char* name, const auto& option) { CheckNumber(name, option); }, options);
   CheckRegions(input.Regions, input.NumberOfRegions);
-  CheckSizes(input.Sizes, input.Points.Count);
+  if (input.Sizes)
+  {
+    CheckSizes(input.Sizes, input.Points.Count);
+  }
   if (options.NumberOfPieces > 1)
   {
     throw InvalidOptions(

@@ -116,8 +116,6 @@ private:
 
 }
 
-bool PointRun::WantsRefinement() const { return this->Points.WantsRefinement(); }
-
 void PointRun::LabelRegions()
 {
   this->OnBackend([this](LoadedMesh& mesh) { this->LabelRegions(mesh); });

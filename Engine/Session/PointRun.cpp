@@ -55,7 +55,8 @@ void PointRun::ListStages()
   const auto remove = [this](LoadedMesh& mesh, std::int64_t) { this->RemoveTriangles(mesh); };
 
   this->Stages = {
-    { "prepare points and segments", OnStop::Forgets, 0.0, Whole([this] { this->Prepare(); }), {} },
+    { "prepare points and segments", OnStop::Forgets, 0.0,
+      Whole([this] { this->Points.Prepare(this->Observer); }), {} },
     { "triangulate", OnStop::Forgets, 0.0, Whole([this] { this->Triangulate(); }), {} },
     { "test all edges", OnStop::Forgets, 0.0, Whole([this] { this->TestAllEdges(); }), test },
     { "flip", OnStop::KeepsMesh, 0.0,
@@ -80,7 +81,7 @@ void PointRun::ListStages()
     this->Stages.push_back(
       { "label regions", OnStop::Ignores, 0.0, Whole([this] { this->LabelRegions(); }), label });
   }
-  if (this->WantsRefinement())
+  if (this->WantsRefinement)
   {
     const auto refine = [this](LoadedMesh& mesh, std::int64_t rounds)
     { this->RepeatRounds(mesh, rounds); };
@@ -119,15 +120,8 @@ PointRun::PointRun(
   this->Options.TieRule = TieRuleKind::Canonical;
   this->Options.NumberOfPieces = 1;
   this->MeasuresStart = false; // nobody sees the triangles from which flips begin
+  this->WantsRefinement = this->Points.WantsRefinement();
   this->ListStages();
-  this->Begin();
-}
-
-void PointRun::Prepare()
-{
-  this->Points.Prepare(this->Observer);
-  this->Building = BuildProgress([this](double share)
-    { return !this->MayForget || this->Progress.Tell(this->Observer, share); });
 }
 
 void PointRun::Triangulate()
@@ -425,8 +419,14 @@ void PointRun::ListDefects()
       this->Report.Edges = mesh.GetInputReport().Edges;
       AddPointsTo(this->Report, mesh, this->Points, this->Result);
     });
-  AddDefect(this->FindIdleOptions(), this->Report.Defects);
-  AddDefect(this->CountUnjudged(), this->Report.Defects);
+  if (this->WantsRefinement)
+  {
+    AddDefect(this->CountUnjudged(), this->Report.Defects);
+  }
+  else
+  {
+    AddDefect(this->FindIdleOptions(), this->Report.Defects);
+  }
   if (this->Result.HasReachedLimit)
   {
     AddDefect(this->DescribeLimit(this->Report.FromPoints.Used), this->Report.Defects);

@@ -58,7 +58,6 @@ private:
   static constexpr std::int64_t AllPoints = -1;
 
   void ListStages();
-  void Prepare();
   void Triangulate();
   bool GivesUpFlips();
   void DropIterations(std::size_t left);
@@ -90,7 +89,6 @@ private:
   void ListPins(LoadedMesh& mesh);
   void JudgeTriangles(LoadedMesh& mesh);
   bool JudgeAgain(const MotionResult& motion);
-  bool WantsRefinement() const override;
   void LabelRegions();
   void LabelRegions(LoadedMesh& mesh);
   RefinementPlan PlanRefinement(LoadedMesh& mesh) override;
