@@ -83,8 +83,10 @@ struct RunStart
 class FlipRun : public UpdateRun
 {
 public:
-  /// Reads the input. The session is not open yet.
-  FlipRun(const FlipRequest& request, UpdatePlan plan);
+  /// Reads the input. @param start is taken only if Auto chooses the same geometry there.
+  FlipRun(const FlipRequest& request, UpdatePlan plan, RunStart start);
+
+  void OpenSession() override;
 
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
@@ -107,15 +109,11 @@ public:
   /// @throws RunAborted.
   RunStart GetEnd(const ProgressObserver& progress) const;
 
+private:
   /// Whether Auto chooses the geometry of a warm start both for the triangles that flips have made
   /// and, as it does without LiveUpdate, for those of the input. A surface has feature edges that a
   /// plane does not have, so the fixed edges are not right in another geometry.
-  bool KeepsGeometry(const RunStart& start) const;
-
-  /// @throws as FlipSession's constructor.
-  void OpenSession(RunStart start);
-
-private:
+  bool KeepsGeometry() const;
   TriangleMesh GetMesh(const RunStart& start) const;
   bool IsWarm() const { return !this->Begin.Triangles.empty(); }
   void AddUnmatchedConstraints(FlipReport& report) const;
@@ -140,7 +138,7 @@ private:
   FirstPoints First;
 };
 
-FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
+FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan, RunStart start)
   : UpdateRun(std::move(plan)),
     Asked(request),
     Edges(StampEdges(request)),
@@ -148,8 +146,13 @@ FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan)
     Current(ShareMesh(request.Input)),
     Constraints(request.Others ? ShareMesh(request.Others) : nullptr),
     Origin(request.IsLive ? CopyPoints(Current) : Current),
-    Bridge(Origin, Constraints, request.Settings, this->Plan)
+    Bridge(Origin, Constraints, request.Settings, this->Plan),
+    Begin(std::move(start))
 {
+  if (this->IsWarm() && !this->KeepsGeometry())
+  {
+    this->Begin = RunStart();
+  }
 }
 
 InputChange FlipRun::FindChange(const FlipRequest& request) const
@@ -239,11 +242,12 @@ RunStart FlipRun::GetEnd(const ProgressObserver& progress) const
   return start;
 }
 
-bool FlipRun::KeepsGeometry(const RunStart& start) const
+bool FlipRun::KeepsGeometry() const
 {
-  const auto find = [this](const RunStart& begin)
-  { return FindGeometry(this->GetMesh(begin), this->Asked.Options); };
-  return find(RunStart()) == start.Geometry && find(start) == start.Geometry;
+  const auto find = [this](const RunStart& start)
+  { return FindGeometry(this->GetMesh(start), this->Asked.Options); };
+  const GeometryKind geometry = this->Begin.Geometry;
+  return find(RunStart()) == geometry && find(this->Begin) == geometry;
 }
 
 TriangleMesh FlipRun::GetMesh(const RunStart& start) const
@@ -259,9 +263,8 @@ TriangleMesh FlipRun::GetMesh(const RunStart& start) const
   return mesh;
 }
 
-void FlipRun::OpenSession(RunStart start)
+void FlipRun::OpenSession()
 {
-  this->Begin = std::move(start);
   FlipOptions options = this->Asked.Options;
   if (this->IsWarm())
   {
@@ -387,14 +390,7 @@ bool FlipRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) const
   {
     run.reset(); // its memory may be needed
   }
-  auto made = std::make_unique<FlipRun>(*this, std::move(plan));
-  if (isWarm && !made->KeepsGeometry(start))
-  {
-    start = RunStart();
-  }
-  run.reset(); // its memory may be needed
-  made->OpenSession(std::move(start));
-  run = std::move(made);
+  run = std::make_unique<FlipRun>(*this, std::move(plan), std::move(start));
   return false;
 }
 

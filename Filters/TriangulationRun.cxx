@@ -107,20 +107,18 @@ struct SurveyedArray
 class TriangulationRun : public UpdateRun
 {
 public:
-  /// Reads the input. The session is not open yet.
+  /// Reads the input.
   explicit TriangulationRun(const TriangulationRequest& request);
 
-  /// Opens a session for the points. @throws as FlipSession's constructor.
-  void OpenSession();
+  void OpenSession() override;
 
   /// Whether the points of a request may be those of this run at other places.
   bool MayBeFollowed(const TriangulationRequest& request) const;
 
   /// Takes over the session of such a run and moves its points to the places of these. Nothing
   /// happens if their coordinates have another precision, or if segments have other ends.
-  /// @returns whether there is a session now.
   /// @throws RunAborted; then the other run is what it was. See FlipSession::Move.
-  bool Follow(TriangulationRun& last);
+  void Follow(TriangulationRun& last);
 
   FlipReport GetReport() const override;
   bool Store(vtkPolyData* output) const override;
@@ -255,7 +253,7 @@ bool TriangulationRun::MayBeFollowed(const TriangulationRequest& request) const
     this->Session->GetReport().Converged();
 }
 
-bool TriangulationRun::Follow(TriangulationRun& last)
+void TriangulationRun::Follow(TriangulationRun& last)
 {
   const PlaneArray& places = this->View.Points;
   const bool isSameType = (places.Floats == nullptr) == (last.View.Points.Floats == nullptr);
@@ -263,7 +261,7 @@ bool TriangulationRun::Follow(TriangulationRun& last)
     this->Segments.Ends == last.Segments.Ends && this->Segments.Rings == last.Segments.Rings;
   if (!isSame)
   {
-    return false;
+    return;
   }
   PointMove move;
   move.Points = places;
@@ -280,7 +278,6 @@ bool TriangulationRun::Follow(TriangulationRun& last)
   this->IsFollowing = report.FromPoints.MoveRounds > 0 && report.Triangles > 0 &&
     this->Points->GetNumberOfPoints() == this->Given->GetNumberOfPoints() &&
     this->Segments.Ends.empty();
-  return true;
 }
 
 bool TriangulationRun::Fits(const TriangulationRequest& request) const
@@ -664,10 +661,9 @@ bool TriangulationRequest::ContinueOrStart(std::unique_ptr<UpdateRun>& run) cons
     last = nullptr;
   }
   auto made = std::make_unique<TriangulationRun>(*this);
-  if (!last || !made->Follow(*last))
+  if (last)
   {
-    run.reset(); // its memory may be needed
-    made->OpenSession();
+    made->Follow(*last);
   }
   run = std::move(made);
   return false;

@@ -103,6 +103,10 @@ void RunKeeper::Update(const UpdateRequest& request, FlipReport& report, vtkPoly
       throw RunAborted(); // in another block
     }
     const bool isSame = request.ContinueOrStart(run);
+    if (!run->GetSession())
+    {
+      run->OpenSession();
+    }
     report = run->GetReport();
     const UpdateKind kind = FindKind(asked, isSame, run->HasFollowed(), report.StopReason);
     if (kind != UpdateKind::Store)

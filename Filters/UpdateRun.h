@@ -33,9 +33,10 @@ struct UpdateRequest
   virtual bool HasWork() const = 0;
 
   /// Makes `run` the run for this request. It stays the same run if the request has not changed,
-  /// apart from attributes. Otherwise, or if it is null, it becomes another one.
+  /// apart from attributes. Otherwise, or if it is null, it becomes another one, with the session
+  /// of the last run or without one.
   /// @returns whether it stayed the same run.
-  /// @throws as FlipSession's constructor. After RunAborted, `run` is what it was, or null.
+  /// @throws as the functions that read an input. After RunAborted, `run` is what it was, or null.
   virtual bool ContinueOrStart(std::unique_ptr<UpdateRun>& run) const = 0;
 
   vtkPolyData* Input = nullptr;
@@ -60,6 +61,9 @@ public:
   virtual ~UpdateRun() = default;
   UpdateRun(const UpdateRun&) = delete;
   UpdateRun& operator=(const UpdateRun&) = delete;
+
+  /// Opens a session. To be called if there is none. @throws as FlipSession's constructor.
+  virtual void OpenSession() = 0;
 
   /// Makes all iterations or, in a live update, those of a step.
   /// @param report receives each iteration when it is done, for observers of the progress.
