@@ -83,11 +83,10 @@ void CheckGoals(const FlipOptions& options)
 
 void CheckSphere(const FlipOptions& options)
 {
-  const bool isSphere = options.Geometry == GeometryKind::Sphere;
-  Require(!isSphere || options.Criterion == CriterionKind::InCircle,
+  Require(options.Criterion == CriterionKind::InCircle,
     "on a sphere edges are judged by the exact orientation of four points: use the criterion "
     "'in-circle', or geometry 'surface' for opposite angles");
-  Require(!isSphere || options.NumberOfPieces <= 1,
+  Require(options.NumberOfPieces <= 1,
     "a mesh on a sphere cannot be flipped in several pieces: leave the number of pieces 0 or 1");
 }
 }
@@ -102,7 +101,10 @@ void RefuseParts(GeometryKind geometry)
 void CheckOptions(const FlipOptions& options)
 {
   Require(options.Geometry != GeometryKind::Mixed, "a mesh has one geometry");
-  CheckSphere(options);
+  if (options.Geometry == GeometryKind::Sphere)
+  {
+    CheckSphere(options);
+  }
   Require(options.Tolerance == -1.0 || (options.Tolerance >= 0.0 && options.Tolerance < 1.0),
     "the tolerance must be -1 (automatic), or at least 0 and below 1 radian");
   static_assert(MostPieces == 255, "the words of the table say so");

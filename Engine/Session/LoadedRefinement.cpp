@@ -55,6 +55,11 @@ Defect LoadedRun::DescribeLimit(std::int64_t points) const
 
 Defect LoadedRun::FindIdleOptions() const
 {
+  if (this->WantsRefinement)
+  {
+    const bool isCut = this->Rounds == 0 && !this->IsRefined && this->IsAtIterationLimit();
+    return Defect(DefectKind::TrianglesNotJudged, isCut ? this->Report.Triangles : 0);
+  }
   Defect defect(DefectKind::OptionsWithoutGoal);
   const auto add = [&](bool isGiven, const char* name)
   {
@@ -67,12 +72,6 @@ Defect LoadedRun::FindIdleOptions() const
   add(this->Options.KeepBoundary, "KeepBoundary");
   add(this->Options.PointLimit > 0, "PointLimit");
   return defect;
-}
-
-Defect LoadedRun::CountUnjudged() const
-{
-  const bool isCut = this->Rounds == 0 && !this->IsRefined && this->IsAtIterationLimit();
-  return Defect(DefectKind::TrianglesNotJudged, isCut ? this->Report.Triangles : 0);
 }
 
 bool LoadedRun::Refine()

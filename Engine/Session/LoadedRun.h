@@ -107,10 +107,9 @@ protected:
   /// Makes a plan with the goals of the options.
   /// @param given the number of the caller's points. @param used those that the limit counts.
   RefinementPlan PlanGoals(const LoadedMesh& mesh, std::int64_t given, std::int64_t used);
-  /// Names options of refinement that have no effect because nothing is refined.
+  /// Finds options of refinement that have no effect: the goals, if the limit on iterations allows
+  /// no round, or others, if there are no goals.
   Defect FindIdleOptions() const;
-  /// Counts the triangles if the limit on iterations allows no round.
-  Defect CountUnjudged() const;
   /// Says that there are so many points, and refinement may add no more.
   Defect DescribeLimit(std::int64_t points) const;
 

@@ -16,11 +16,6 @@
 namespace delaunayflip
 {
 
-namespace
-{
-constexpr const char* LoadStage = "load";
-}
-
 void MeshRun::ListStages()
 {
   const FixedEdges& given = this->Mesh.GetFixedEdges();
@@ -35,7 +30,8 @@ void MeshRun::ListStages()
     this->Stages.push_back({ "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
       Whole([this] { this->InsertConstraints(); }), {} });
   }
-  this->Stages.push_back({ LoadStage, OnStop::Forgets, 0.0, Whole(load), {} });
+  this->Stages.push_back({ "load", OnStop::Forgets, 0.0, Whole(load), {} });
+  this->AfterLoad = this->Stages.size();
   if (inserts)
   {
     this->Stages.push_back({ "report constraints", OnStop::Forgets, 0.0,
@@ -121,15 +117,8 @@ void MeshRun::ListDefects()
 {
   FlipReport& report = this->Report;
   report.Defects = this->InputDefects;
-  if (this->WantsRefinement)
-  {
-    AddDefect(this->CountUnjudged(), report.Defects);
-    AddDefect(this->Refined.Unrefined, report.Defects);
-  }
-  else
-  {
-    AddDefect(this->FindIdleOptions(), report.Defects);
-  }
+  AddDefect(this->FindIdleOptions(), report.Defects);
+  AddDefect(this->Refined.Unrefined, report.Defects);
   if (this->Refined.HasReachedLimit)
   {
     const std::int64_t points = this->Mesh.CountPoints() + SizeOf(this->Refined.Points);
@@ -251,9 +240,7 @@ void MeshRun::GoOnAt(MovedPoints points)
   this->Report.Backend = backend;
   this->Report.BuildSeconds = watch.GetSeconds();
   this->AreKeptEdgesKnown = false;
-  const auto load = std::find_if(this->Stages.begin(), this->Stages.end(),
-    [](const Stage& stage) { return std::string(stage.Name) == LoadStage; });
-  this->Current = load + 1 - this->Stages.begin();
+  this->Current = this->AfterLoad;
   this->RunStages(this->FindFlips());
   // Last, so that points are where they were after an exception. Threads have the mesh now, so
   // there is no fallback that loads it again.

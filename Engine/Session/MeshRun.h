@@ -75,6 +75,7 @@ private:
   CallerMesh Mesh;
   ConstraintInsertion Insertion; ///< Owns the arrays of Start if it has inserted constraints.
   CallerMesh Start; ///< The caller's mesh, with its constraints inserted.
+  std::size_t AfterLoad = 0; ///< The number of the stage after that which loads the mesh.
   MovedPoints Moved; ///< Has the caller's points after a move.
   /// Whether points have moved. Since then flips are counted anew, without those of Insertion.
   bool HasMoved = false;

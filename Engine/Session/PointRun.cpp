@@ -419,14 +419,7 @@ void PointRun::ListDefects()
       this->Report.Edges = mesh.GetInputReport().Edges;
       AddPointsTo(this->Report, mesh, this->Points, this->Result);
     });
-  if (this->WantsRefinement)
-  {
-    AddDefect(this->CountUnjudged(), this->Report.Defects);
-  }
-  else
-  {
-    AddDefect(this->FindIdleOptions(), this->Report.Defects);
-  }
+  AddDefect(this->FindIdleOptions(), this->Report.Defects);
   if (this->Result.HasReachedLimit)
   {
     AddDefect(this->DescribeLimit(this->Report.FromPoints.Used), this->Report.Defects);
