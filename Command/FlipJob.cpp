@@ -189,7 +189,10 @@ public:
     {
       this->Messages.Warn(WithOptions(warning, this->Settings));
     }
-    this->WarnOfRings();
+    if (!this->RingDefects.empty())
+    {
+      this->WarnOfRings();
+    }
     this->ThrowErrors();
     this->TakeReport();
   }
@@ -331,10 +334,7 @@ private:
       texts.push_back(WithOptions(DescribeDefects({ defect }), this->Settings) +
         " (first: " + JoinWords(names) + ")");
     }
-    if (!texts.empty())
-    {
-      this->Messages.Warn(JoinWords(texts, "; "));
-    }
+    this->Messages.Warn(JoinWords(texts, "; "));
   }
 
   void ThrowErrors()

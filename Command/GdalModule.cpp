@@ -27,10 +27,6 @@ const GdalModule& LoadGdal()
 
 std::string SharedCrs::Compare(const std::string& crs, const std::string& path)
 {
-  if (crs.empty())
-  {
-    return "";
-  }
   if (this->Crs.empty())
   {
     this->Crs = crs;

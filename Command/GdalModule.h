@@ -61,7 +61,7 @@ const GdalModule& LoadGdal();
 class SharedCrs
 {
 public:
-  /// @param crs FileMesh::Crs of a file, or a name that GDAL knows; may be empty.
+  /// @param crs FileMesh::Crs of a file, or a name that GDAL knows.
   /// @param path the file, or the option that has the name.
   /// @returns the text of a warning about another system, or "".
   std::string Compare(const std::string& crs, const std::string& path);

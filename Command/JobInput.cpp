@@ -136,6 +136,10 @@ private:
   /// @param where a file, or the option that names it.
   void CompareCrs(const std::string& crs, const std::string& where)
   {
+    if (crs.empty())
+    {
+      return;
+    }
     const std::string difference = this->FilesCrs.Compare(crs, where);
     if (!difference.empty())
     {

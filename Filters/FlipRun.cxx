@@ -298,7 +298,7 @@ FlipReport FlipRun::GetReport() const
     report.InsertedConstraints = first.InsertedConstraints;
     report.ConstraintFlips = first.ConstraintFlips;
   }
-  else
+  else if (this->Bridge.GetConstraints().Unmatched > 0)
   {
     this->AddUnmatchedConstraints(report);
   }
@@ -319,10 +319,6 @@ FlipReport FlipRun::GetReport() const
 void FlipRun::AddUnmatchedConstraints(FlipReport& report) const
 {
   const ConstraintEdges& constraints = this->Bridge.GetConstraints();
-  if (constraints.Unmatched == 0)
-  {
-    return;
-  }
   Defect missing(DefectKind::ConstraintsNotInMesh, constraints.Unmatched);
   if (!constraints.FirstStranger.empty())
   {
@@ -338,7 +334,10 @@ bool FlipRun::Store(vtkPolyData* output) const
 {
   const auto room = this->Room ? this->Room : this->Bridge.MakeRoom();
   this->Bridge.Store(*this->Session, room, this->Current, output);
-  this->Bridge.StoreRegions(*this->Session, output);
+  if (!this->Asked.Settings.RegionSeeds.empty())
+  {
+    this->Bridge.StoreRegions(*this->Session, output);
+  }
   if (this->Asked.WantsFlipCounts)
   {
     this->Bridge.StoreFlipCounts(*this->Session, output);

@@ -30,8 +30,12 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
     Refines(settings.Refines),
     Slots(mesh, Points, settings.Triangulate, plan.For(UpdatePlan::Polygons))
 {
-  this->Constraints = FindConstraintEdges(
-    this->GetMesh(), mesh, constraints, settings, plan.For(UpdatePlan::Constraints));
+  const bool hasLines = settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0;
+  if (constraints || hasLines)
+  {
+    this->Constraints = FindConstraintEdges(
+      this->GetMesh(), mesh, constraints, settings, plan.For(UpdatePlan::Constraints));
+  }
   if (const auto ghosts = FindGhosts(mesh))
   {
     const int ghost = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
@@ -384,12 +388,9 @@ void PolyDataBridge::StoreFlipCounts(const FlipSession& session, vtkPolyData* ou
 
 void PolyDataBridge::StoreRegions(const FlipSession& session, vtkPolyData* output) const
 {
-  if (!this->RegionSeeds.empty())
-  {
-    std::vector<std::int32_t> labels(session.CountTriangles());
-    session.StoreRegions(labels.data());
-    this->AddNumbers("Region", labels, output);
-  }
+  std::vector<std::int32_t> labels(session.CountTriangles());
+  session.StoreRegions(labels.data());
+  this->AddNumbers("Region", labels, output);
 }
 
 /// Adds a number per triangle of the session; other cells get 0. Triangles that refinement has

@@ -123,7 +123,11 @@ void vtkDelaunayFlip::FlipLeaves(
   MeshBlock& block, const std::vector<MeshBlock>& constraints, UpdateSummary& summary)
 {
   BlockMesh mesh(block, this->RegionArray);
-  const auto edges = mesh.FindConstraints(constraints);
+  vtkSmartPointer<vtkPolyData> edges;
+  if (!constraints.empty())
+  {
+    edges = mesh.FindConstraints(constraints);
+  }
   const std::vector<Note> notes = mesh.ListNotes();
   summary.Warnings.insert(summary.Warnings.end(), notes.begin(), notes.end());
   if (!mesh.GetMesh())
