@@ -80,7 +80,18 @@ private:
     }
     if (!fits)
     {
+      this->TellDropped();
       names.clear();
+    }
+  }
+
+  /// Tells of a line that was taken for one of names, but fits no points.
+  void TellDropped()
+  {
+    if (!this->Header.IsComment)
+    {
+      this->Warnings.push_back("left out line " + std::to_string(this->Header.Line) +
+        ", which has other columns than the first point: " + Quoted(this->Header.Names));
     }
   }
 

@@ -46,10 +46,34 @@ bool IsBlank(const TextLines& lines)
 namespace
 {
 /// Whether no word at these places, as far as they are there, is other than a number.
-bool AreValues(const Words& words, const Places& places)
+bool MayBeValues(const Words& words, const Places& places)
 {
   return std::all_of(places.begin(), places.end(),
     [&words](std::size_t place) { return place >= words.size() || IsValue(words[place]); });
+}
+
+/// Whether there are words at all of these places, and they are numbers.
+bool AreValues(const Words& words, const Places& places)
+{
+  return std::all_of(places.begin(), places.end(),
+    [&words](std::size_t place) { return place < words.size() && IsValue(words[place]); });
+}
+
+/// Separates the words of a line at the first separator that makes numbers of those at these
+/// places.
+/// @returns whether one does.
+bool SeparateValues(TextLines& lines, const Places& places)
+{
+  for (const char* const one : { ";", "\t", ",", "" })
+  {
+    lines.SeparateBy(one);
+    const bool occurs = *one == '\0' || lines.Separator == *one;
+    if (occurs && AreValues(lines.Words, places))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// The separator that a spreadsheet names in a line such as sep=; else 0.
@@ -67,6 +91,18 @@ bool MayHaveDecimalCommas(const Words& words)
   const auto isOne = [](std::string_view word)
   { return IsValue(word) && word.front() != ',' && word.back() != ','; };
   return words.size() > 1 && std::all_of(words.begin(), words.end(), isOne);
+}
+
+/// Where coordinates must be. Without names, they are the first ones of a line.
+/// @param least how many coordinates a line without names must begin with.
+Places FindCoordinates(const Words& names, const ChosenColumns& chosen, std::size_t least)
+{
+  Places places = chosen.IsEmpty() ? FindKnownColumns(names) : chosen.Find(names);
+  for (std::size_t place = 0; place < least && chosen.IsEmpty() && names.empty(); ++place)
+  {
+    places.push_back(place);
+  }
+  return places;
 }
 
 /// Splits a line of numbers. Tabs separate numbers with decimal commas. So do blanks if what is
@@ -133,21 +169,60 @@ bool AreCounted(const Words& words)
       [&next](std::string_view word) { return word == std::to_string(next++); });
 }
 
+/// Whether a line has numbers where coordinates must be, whatever separates its words.
+bool IsPoint(TextLines lines, const ChosenColumns& chosen)
+{
+  const bool isFree = chosen.IsEmpty() || !chosen.AreNumbers();
+  return SeparateValues(lines, isFree ? Places{ 0, 1 } : chosen.Find({}));
+}
+
 /// Whether the first line that is no comment names columns. Names may be numbers, too.
 bool IsLineOfNames(const TextLines& lines, const ChosenColumns& chosen)
 {
   const Words& words = lines.Words;
-  if (std::none_of(words.begin(), words.end(), IsValue) || AreCounted(words))
+  if (AreCounted(words))
   {
     return true;
   }
+  if (!chosen.IsEmpty() && !chosen.AreNumbers() && !chosen.Find(words).empty())
+  {
+    return true;
+  }
+  if (std::none_of(words.begin(), words.end(), IsValue))
+  {
+    return !IsPoint(lines, chosen);
+  }
   if (!chosen.IsEmpty())
   {
-    return chosen.AreNumbers() ? !AreValues(words, chosen.Find({})) : !chosen.Find(words).empty();
+    return chosen.AreNumbers() && !MayBeValues(words, chosen.Find({})) && !IsPoint(lines, chosen);
   }
   const Places places = FindKnownColumns(words);
   TextLines next = lines;
-  return !places.empty() && next.Next() && AreValues(next.Words, places);
+  return !places.empty() && next.Next() && MayBeValues(next.Words, places);
+}
+
+/// Splits a line of numbers, which text may follow that has other separators. Blanks separate then
+/// only if a coordinate has a decimal comma: in "48 12 30 N;16 22 15 E" they do not.
+/// @param names of the columns.
+void SplitPoint(
+  TextLines& lines, const std::string& separators, const Words& names, const ChosenColumns& chosen)
+{
+  SplitValues(lines, separators);
+  const Places places = FindCoordinates(names, chosen, 3);
+  const bool isSplit = AreValues(lines.Words, FindCoordinates(names, chosen, 2)) || IsBlank(lines);
+  TextLines trial = lines;
+  if (isSplit || separators.size() == 1 || places.empty() || !SeparateValues(trial, places))
+  {
+    return;
+  }
+  const bool hasComma = std::any_of(places.begin(), places.end(),
+    [&trial](std::size_t place) { return trial.Words[place].find(',') != std::string_view::npos; });
+  const bool isSure =
+    trial.Separator != ' ' || (hasComma && trial.Text.find(';') == trial.Text.npos);
+  if (isSure)
+  {
+    lines.SeparateBy({ &trial.Separator, 1 });
+  }
 }
 }
 
@@ -183,6 +258,7 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
       hasNames = true;
       header.EmptyRows = 0;
       header.Names = lines.Words;
+      header.Line = lines.GetLine();
       header.IsComment = false;
       if (lines.Separator != ' ')
       {
@@ -190,7 +266,7 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
       }
       continue;
     }
-    SplitValues(lines, header.Separators);
+    SplitPoint(lines, header.Separators, header.Names, chosen);
     if (!IsBlank(lines))
     {
       return header;

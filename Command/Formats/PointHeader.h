@@ -20,6 +20,7 @@ class TextLines;
 struct PointHeader
 {
   Words Names; ///< Names of the columns; empty if the file names none.
+  std::size_t Line = 0; ///< The number of their line, if it is no comment.
   bool IsComment = false; ///< Whether a comment names them.
   char Separator = ' '; ///< What separates the names.
   std::string Separators = ";,"; ///< A line of points is split at the first that it has.
