@@ -195,7 +195,8 @@ void TextLines::Split(std::string_view line)
 {
   this->Text = line;
   auto begin = std::find_if_not(line.begin(), line.end(), IsBlank);
-  if (this->Separator != ' ' && begin != line.end())
+  const bool isRow = begin != line.end() || line.find(this->Separator) != line.npos; // of tabs
+  if (this->Separator != ' ' && isRow)
   {
     for (std::size_t start = 0; start <= line.size();)
     {

@@ -313,6 +313,15 @@ class Tables(HeightTest):
         result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv", "--raster-method", "natural")
         self.assertIn("warning: out.csv: has no value", result.stderr)
 
+    def test_rows_of_empty_cells_between_tabs(self):
+        """They are rows, as between commas. An empty line is none."""
+        self.write("places.txt", "x\ty\n\t\n1\t1\n \t \n\n2\t2\n\t\n")
+        self.ask("peak.csv", "out.csv", "--heights-at", "places.txt")
+        self.assertEqual(self.content("out.csv").decode().splitlines(),
+                         ["x,y,z", "nan,nan,", "1,1,3", "nan,nan,", "2,2,5", "nan,nan,"])
+        self.write("in.txt", "x\ty\tz\n\t\t\n" + text_of(PLACES, "\t", end="\n\t\t\n"))
+        self.assertEqual(self.triangulate("in.txt")[0].GetNumberOfPoints(), 5)
+
     def test_usage(self):
         for code, options, words in (
             (2, ["out.vtp", "--from-points", "--raster", 1], ["out.vtp", ".tif, .asc or .vti"]),
