@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <new>
 
 namespace delaunayflip
@@ -118,6 +119,19 @@ bool IsBlank(char letter)
   return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f';
 }
 
+/// Where the comment of a line of an .obj begins. Names and paths may have marks of comments, for
+/// other programs too.
+/// @param start begins with the first word of the line, or of those that it continues.
+std::size_t FindObjComment(std::string_view line, std::string_view start)
+{
+  constexpr std::string_view named[] = { "usemtl", "g", "o", "mtllib" };
+  const std::size_t begin = std::min(start.find_first_not_of(" \t\v\f"), start.size());
+  start.remove_prefix(begin);
+  const std::string_view word = start.substr(0, start.find_first_of(" \t\v\f"));
+  const bool isName = std::find(std::begin(named), std::end(named), word) != std::end(named);
+  return isName ? line.npos : line.find('#');
+}
+
 /// Without blanks around it, and without quotes around what is left.
 std::string_view Trimmed(std::string_view word)
 {
@@ -169,7 +183,7 @@ bool TextLines::Next()
     ++this->Line;
     if (this->IsObj)
     {
-      line = line.substr(0, line.find('#'));
+      line = line.substr(0, FindObjComment(line, this->Words.empty() ? line : this->Words[0]));
       const std::size_t last = line.find_last_not_of(" \t\v\f");
       isContinued = last != line.npos && line[last] == '\\';
       if (isContinued)

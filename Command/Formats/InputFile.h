@@ -64,8 +64,8 @@ private:
 class TextLines
 {
 public:
-  /// Begins behind a byte order mark, if there is one. In an .obj, # begins a comment, and a
-  /// backslash at the end of a line continues the line.
+  /// Begins behind a byte order mark, if there is one. In an .obj, # begins a comment, but
+  /// not in names, and a backslash at the end of a line continues the line.
   explicit TextLines(const InputFile& file, bool isObj = false);
 
   /// From this line on, words are separated by the first of these characters that this line has, if

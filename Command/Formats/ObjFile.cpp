@@ -368,7 +368,7 @@ private:
     }
     this->Last[kind] = text;
     const auto isSpecial = [](unsigned char letter)
-    { return std::iscntrl(letter) || letter == '#' || letter == '\\'; };
+    { return std::iscntrl(letter) || letter == '\\'; };
     std::replace_if(text.begin(), text.end(), isSpecial, '_');
     this->Out << LabelKeywords[kind];
     if (!text.empty())

@@ -40,7 +40,7 @@ class Obj(ArrayTest):
 
     def test_labels_of_faces(self):
         """Two coplanar triangles of different materials, with a bad edge."""
-        text = ("v 0 0 0\nv 4 0 0\nv 2 1 0\nv 2 -1 0\nf 1 2 3\nl 1 2\no a b\nusemtl red # 1\n"
+        text = ("v 0 0 0\nv 4 0 0\nv 2 1 0\nv 2 -1 0\nf 1 2 3\nl 1 2\no a b\nusemtl red\n"
                 "g one two\nf 1 2 3\nusemtl blue\nf 2 1 4\nusemtl red\nl 1 3\n")
         self.write("in.obj", text)
         note = ("its faces have labels (Material, Group, Object); --region-array Material keeps the "
@@ -65,6 +65,23 @@ class Obj(ArrayTest):
         self.assertIn("usemtl red\nf 1 2 3\nf ", self.content("out.obj").decode())
         self.write("line.obj", "usemtl red\n" + SQUARE + "f 1 2 3\nf 1 3 4\nusemtl blue\nl 1 2\n")
         self.assertEqual(self.succeed("line.obj", "out.obj").stderr, "")
+
+    def test_names_with_marks_of_comments(self):
+        """In names, as elsewhere in words, # begins no comment, for other programs neither."""
+        text = ("mtllib a#b.mtl\n# comment\no a # b\ng #1 two\nv 0 0 0 # comment\nv 4 0 0\nv 2 1 0\nv 2 -1 0\n"
+                "usemtl Material #1\nf 1 2 3 # comment\n  usemtl Material \\\n #2\nf 2 1 4\n#usemtl red\n")
+        self.write("in.obj", text)
+        for name in ("out.vtp", "out.obj"):
+            said = self.succeed("in.obj", name, "--region-array", "Material").stderr
+            self.assertEqual(said, "warning: in.obj: left out mtllib (1)\n")
+            self.succeed(name, "again.vtp", "--region-array", "Material")
+            mesh = self.read_mesh("again.vtp")
+            self.assertEqual(triangles_of(mesh), [(0, 1, 2), (1, 0, 3)])
+            for array, labels in (("Material", ["Material #1", "Material #2"]), ("Group", ["#1 two"] * 2),
+                                  ("Object", ["a # b"] * 2)):
+                texts = mesh.GetFieldData().GetAbstractArray(array + "Names")
+                numbers = mesh.GetCellData().GetArray(array)
+                self.assertEqual([texts.GetValue(int(n)) for n in values_of(numbers)], labels, (name, array))
 
     def test_normals_and_texture_that_do_not_exist(self):
         for kind, element, faces in (
