@@ -401,21 +401,21 @@ void WriteObj(vtkPolyData* mesh, const std::string& path)
   out << "# written by delaunay-flip\n";
   const auto arrays = FindArrays(mesh);
   vtkDataArray *const colors = arrays[0], *const texture = arrays[1], *const normals = arrays[2];
-  const auto put = [&out](vtkDataArray* array, vtkIdType tuple)
+  const auto put = [&out](vtkDataArray* array, vtkIdType tuple, double scale = 1.0)
   {
-    const double scale = array->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
     for (int component = 0; component < array->GetNumberOfComponents(); ++component)
     {
       PutNumber(out, array->GetComponent(tuple, component) / scale, ' ');
     }
   };
+  const double most = colors && colors->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
   for (vtkIdType point = 0; point < mesh->GetNumberOfPoints(); ++point)
   {
     out << 'v';
     put(mesh->GetPoints()->GetData(), point);
     if (colors)
     {
-      put(colors, point);
+      put(colors, point, most);
     }
     out << '\n';
   }

@@ -166,6 +166,16 @@ class Obj(ArrayTest):
         colors = out.GetPointData().GetArray("Colors")
         self.assertEqual(colors.GetTuple(3), (3 / 255, 0, 1))
 
+    def test_bytes_that_are_no_colors(self):
+        """Of bytes, only colors are fractions of 255."""
+        self.write("in.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 unsigned_char\n"
+                   "0 0 0 4 0 0 0 200 0\nPOLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\n"
+                   "NORMALS n unsigned_char\n0 0 1 0 0 1 0 3 1\nTEXTURE_COORDINATES t 2 unsigned_char\n0 0 1 0 0 2\n")
+        self.succeed("in.vtk", "out.obj")
+        lines = self.content("out.obj").decode().splitlines()
+        for line in ("v 4 0 0", "v 0 200 0", "vn 0 3 1", "vt 0 2"):
+            self.assertIn(line, lines)
+
     def test_arrays_of_too_few_tuples(self):
         mesh = bumpy_grid(3, 0)
         for kind, name in (("Double", "Colors"), ("UnsignedChar", "RGB")):
