@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DataArrays.h"
 #include "Formats.h"
+#include "PlyProperties.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -9,12 +9,9 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 /// @file
-/// .ply: a header lists elements (vertex, face, edge) with their number and properties; their
-/// values follow as text or as binary numbers of either byte order.
+/// The reader of .ply.
 
 namespace delaunayflip
 {
@@ -22,51 +19,9 @@ namespace delaunayflip
 namespace
 {
 
-/// The types, each by two names; the first is written. The last two are only read.
-constexpr std::pair<const char*, int> Types[] = { { "char", VTK_SIGNED_CHAR },
-  { "int8", VTK_SIGNED_CHAR }, { "uchar", VTK_UNSIGNED_CHAR }, { "uint8", VTK_UNSIGNED_CHAR },
-  { "short", VTK_SHORT }, { "int16", VTK_SHORT }, { "ushort", VTK_UNSIGNED_SHORT },
-  { "uint16", VTK_UNSIGNED_SHORT }, { "int", VTK_INT }, { "int32", VTK_INT },
-  { "uint", VTK_UNSIGNED_INT }, { "uint32", VTK_UNSIGNED_INT }, { "float", VTK_FLOAT },
-  { "float32", VTK_FLOAT }, { "double", VTK_DOUBLE }, { "float64", VTK_DOUBLE },
-  { "int64", VTK_LONG_LONG }, { "uint64", VTK_UNSIGNED_LONG_LONG } };
-
-bool IsInteger(int type) { return type != VTK_FLOAT && type != VTK_DOUBLE; }
-
-using Names = std::vector<std::string>;
-
-/// Properties that together are an array.
-struct PlyGroup
-{
-  std::string Array;
-  Names Properties;
-  int Attribute; ///< What the array is for VTK.
-};
-
 /// No property can have this name. What the array is for VTK has no effect, since no array of the
 /// points stays.
 const PlyGroup Coordinates = { "x y z", { "x", "y", "z" }, vtkDataSetAttributes::VECTORS };
-
-/// Larger groups first.
-const PlyGroup Groups[] = {
-  { "Normals", { "nx", "ny", "nz" }, vtkDataSetAttributes::NORMALS },
-  { "RGBA", { "red", "green", "blue", "alpha" }, vtkDataSetAttributes::SCALARS },
-  { "RGB", { "red", "green", "blue" }, vtkDataSetAttributes::SCALARS },
-  { "RGB", { "diffuse_red", "diffuse_green", "diffuse_blue" }, vtkDataSetAttributes::SCALARS },
-  { "TCoords", { "u", "v" }, vtkDataSetAttributes::TCOORDS },
-  { "TCoords", { "s", "t" }, vtkDataSetAttributes::TCOORDS },
-  { "TCoords", { "texture_u", "texture_v" }, vtkDataSetAttributes::TCOORDS },
-};
-
-struct PlyProperty
-{
-  std::string Name;
-  int Type;
-  vtkDataArray* Array = nullptr; ///< Has the numbers of vertices.
-  int Component = 0;
-  int CountType = VTK_VOID; ///< For a list, the type of its length.
-  bool IsOfCell = false; ///< Whether its values are points of a face or an edge.
-};
 
 struct PlyElement
 {
@@ -74,14 +29,6 @@ struct PlyElement
   std::uint64_t Count;
   std::vector<PlyProperty> Properties;
 };
-
-template <typename Thing>
-const Thing* Find(const std::vector<Thing>& things, const std::string& name)
-{
-  const auto found = std::find_if(
-    things.begin(), things.end(), [&name](const Thing& thing) { return thing.Name == name; });
-  return found != things.end() ? &*found : nullptr;
-}
 
 /// Makes one array of those of a group, if all are there and no other has its name.
 void Join(vtkDataSetAttributes* data, const PlyGroup& group)
@@ -201,9 +148,9 @@ private:
 
   int TypeAt(std::size_t place) const
   {
-    const auto* const found = std::find_if(std::begin(Types), std::end(Types),
+    const auto* const found = std::find_if(std::begin(PlyTypes), std::end(PlyTypes),
       [name = this->Word(place)](const auto& type) { return name == type.first; });
-    if (found == std::end(Types))
+    if (found == std::end(PlyTypes))
     {
       this->Lines.FailOn(this->Word(place), " is not a type of a property");
     }
@@ -288,8 +235,8 @@ private:
     if (isVertex)
     {
       Join(data, Coordinates);
-      std::for_each(
-        std::begin(Groups), std::end(Groups), [data](const PlyGroup& group) { Join(data, group); });
+      std::for_each(std::begin(PlyGroups), std::end(PlyGroups),
+        [data](const PlyGroup& group) { Join(data, group); });
       if (vtkDataArray* const points = data->GetArray(Coordinates.Array.c_str()))
       {
         mesh->SetPoints(vtkNew<vtkPoints>());
@@ -316,7 +263,7 @@ private:
   void StoreFaceData()
   {
     vtkPolyData* const mesh = this->Result.Mesh;
-    for (const PlyGroup& group : Groups)
+    for (const PlyGroup& group : PlyGroups)
     {
       if (group.Attribute == vtkDataSetAttributes::SCALARS)
       {
@@ -418,215 +365,8 @@ private:
   std::vector<vtkIdType> Cell; ///< The points of a face or an edge.
 };
 
-const char* NameOf(int type)
-{
-  const auto* const found = std::find_if(std::begin(Types), std::end(Types),
-    [type](const auto& one) { return one.second == type && type < VTK_LONG_LONG; });
-  return found == std::end(Types) ? nullptr : found->first;
-}
-
-/// The type of a .ply that holds all values of an array; VTK_VOID if none does.
-int TypeFor(vtkDataArray* array)
-{
-  if (NameOf(array->GetDataType()))
-  {
-    return array->GetDataType();
-  }
-  const double* const range = array->GetRange(-1); // of the lengths, if there are components
-  return std::max(-range[0], range[1]) < std::ldexp(1.0, 53) ? VTK_DOUBLE : VTK_VOID;
-}
-
-/// The names by which other programs know an array, else its own, as one word.
-Names PropertyNames(vtkDataSetAttributes* data, vtkDataArray* array)
-{
-  std::string name = GetName(array);
-  if (name.empty())
-  {
-    name = "values";
-  }
-  const auto components = static_cast<std::size_t>(array->GetNumberOfComponents());
-  for (const PlyGroup& group : Groups)
-  {
-    const bool isColor = group.Attribute == vtkDataSetAttributes::SCALARS;
-    const bool isActive = array == data->GetAbstractAttribute(group.Attribute) &&
-      (!isColor || array->GetDataType() == VTK_UNSIGNED_CHAR);
-    if (group.Properties.size() == components && (isActive || (isColor && name == group.Array)))
-    {
-      return group.Properties;
-    }
-  }
-  std::replace_if(
-    name.begin(), name.end(), [](unsigned char c) { return std::isspace(c) || std::iscntrl(c); },
-    '_');
-  Names names(components, name);
-  for (std::size_t component = 0; component < components && components > 1; ++component)
-  {
-    names[component] += "_" + std::to_string(component);
-  }
-  return names;
-}
-
-/// The properties of vertices. Leaves out arrays that a .ply cannot hold: strings, too large
-/// integers, and an array if the coordinates or an earlier array use its name.
-std::vector<PlyProperty> PlanColumns(vtkPolyData* mesh)
-{
-  vtkDataArray* const points = mesh->GetPoints()->GetData();
-  const int real = points->GetDataType() == VTK_FLOAT ? VTK_FLOAT : VTK_DOUBLE;
-  std::vector<PlyProperty> columns = { { "x", real, points, 0 }, { "y", real, points, 1 },
-    { "z", real, points, 2 } };
-  vtkPointData* const data = mesh->GetPointData();
-  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
-  {
-    vtkDataArray* const array = data->GetArray(index);
-    const bool isWhole = array && array->GetNumberOfTuples() >= mesh->GetNumberOfPoints();
-    if (!isWhole || TypeFor(array) == VTK_VOID)
-    {
-      continue;
-    }
-    const Names names = PropertyNames(data, array);
-    const bool isTaken = std::any_of(names.begin(), names.end(),
-      [&columns](const std::string& name) { return Find(columns, name); });
-    for (std::size_t component = 0; component < names.size() && !isTaken; ++component)
-    {
-      columns.push_back({ names[component], TypeFor(array), array, static_cast<int>(component) });
-    }
-  }
-  return columns;
-}
-
-/// The properties of faces: arrays of integers of cells, and colors. Larger integers are left out.
-std::vector<PlyProperty> PlanFaceColumns(vtkPolyData* mesh)
-{
-  std::vector<PlyProperty> columns;
-  vtkCellData* const data = mesh->GetCellData();
-  for (int index = 0; index < data->GetNumberOfArrays(); ++index)
-  {
-    vtkDataArray* const array = data->GetArray(index);
-    if (!array || !IsInteger(array->GetDataType()) ||
-      array->GetNumberOfTuples() < mesh->GetNumberOfCells())
-    {
-      continue;
-    }
-    int type = array->GetDataType();
-    if (!NameOf(type))
-    {
-      const double* const range = array->GetRange(0);
-      const bool fits = range[0] >= VTK_INT_MIN && range[1] <= VTK_INT_MAX;
-      if (!fits)
-      {
-        continue;
-      }
-      type = VTK_INT;
-    }
-    const Names names = PropertyNames(data, array);
-    const bool isTaken = std::any_of(names.begin(), names.end(),
-      [&columns](const std::string& name)
-      { return Find(columns, name) || name == "vertex_indices" || name == "vertex_index"; });
-    const bool isOne = names.size() == 1 || names[0] == "red";
-    for (std::size_t i = 0; i < names.size() && !isTaken && isOne; ++i)
-    {
-      columns.push_back({ names[i], type, array, static_cast<int>(i) });
-    }
-  }
-  return columns;
-}
-
-template <typename T>
-void WriteNumber(std::ostream& out, T number)
-{
-  out.write(reinterpret_cast<const char*>(&number), sizeof(number));
-}
-
-void WriteRow(std::ostream& out, const std::vector<PlyProperty>& columns, vtkIdType tuple)
-{
-  for (const PlyProperty& column : columns)
-  {
-    const double value = column.Array->GetComponent(tuple, column.Component);
-    switch (column.Type)
-    {
-      vtkTemplateMacro(WriteNumber(out, static_cast<VTK_TT>(value)));
-    }
-  }
-}
-
 }
 
 FileMesh ReadPly(const InputFile& file) { return PlyReader(file).Result; }
-
-void WritePly(vtkPolyData* mesh, const std::string& path)
-{
-  const vtkIdType size = mesh->GetNumberOfPoints();
-  if (size > VTK_INT_MAX)
-  {
-    throw CommandError(ExitCode::BadFile, "more points than this file format can number");
-  }
-  const std::vector<PlyProperty> columns = PlanColumns(mesh);
-  const bool isShort = mesh->GetPolys()->GetMaxCellSize() < 256;
-  std::ostringstream edges;
-  ForEachCell(mesh->GetLines(),
-    [&edges](vtkIdType count, const vtkIdType* points)
-    {
-      for (vtkIdType end = 1; end < count; ++end)
-      {
-        WriteNumber(edges, static_cast<std::int32_t>(points[end - 1]));
-        WriteNumber(edges, static_cast<std::int32_t>(points[end]));
-      }
-    });
-
-  std::ofstream out(path, std::ios::binary);
-  out << "ply\nformat binary_little_endian 1.0\ncomment written by delaunay-flip\nelement vertex "
-      << size << '\n';
-  for (const PlyProperty& column : columns)
-  {
-    out << "property " << NameOf(column.Type) << ' ' << column.Name << '\n';
-  }
-  out << "element face " << mesh->GetNumberOfPolys() << "\nproperty list "
-      << (isShort ? "uchar" : "int") << " int vertex_indices\n";
-  const std::vector<PlyProperty> ofFaces = PlanFaceColumns(mesh);
-  for (const PlyProperty& column : ofFaces)
-  {
-    out << "property " << NameOf(column.Type) << ' ' << column.Name << '\n';
-  }
-  if (const std::size_t bytes = edges.str().size())
-  {
-    out << "element edge " << bytes / 8 << "\nproperty int vertex1\nproperty int vertex2\n";
-  }
-  out << "end_header\n";
-  for (vtkIdType point = 0; point < size; ++point)
-  {
-    WriteRow(out, columns, point);
-  }
-  vtkIdType cell = mesh->GetNumberOfVerts() + mesh->GetNumberOfLines();
-  ForEachCell(mesh->GetPolys(),
-    [&](vtkIdType count, const vtkIdType* points)
-    {
-      if (isShort)
-      {
-        WriteNumber(out, static_cast<std::uint8_t>(count));
-      }
-      else
-      {
-        WriteNumber(out, static_cast<std::int32_t>(count));
-      }
-      std::for_each(points, points + count,
-        [&out](vtkIdType point) { WriteNumber(out, static_cast<std::int32_t>(point)); });
-      WriteRow(out, ofFaces, cell++);
-    });
-  out << edges.str();
-}
-
-HeldArrays ArraysOfPly(vtkPolyData* mesh)
-{
-  HeldArrays held;
-  for (const PlyProperty& column : PlanColumns(mesh))
-  {
-    held.OfPoints.push_back(column.Array);
-  }
-  for (const PlyProperty& column : PlanFaceColumns(mesh))
-  {
-    held.OfCells.push_back(column.Array);
-  }
-  return held;
-}
 
 }
