@@ -191,7 +191,7 @@ void RequireStorable(vtkPolyData* mesh, MeshFormat format)
     RequireSizes(mesh->GetVerts(), 1, "vert");
     RequireSizes(mesh->GetLines(), 2, "line");
   }
-  if (format != MeshFormat::VTK && format != MeshFormat::PLY)
+  if (format != MeshFormat::VTK)
   {
     RequireSizes(mesh->GetPolys(), 3, "polygon");
   }

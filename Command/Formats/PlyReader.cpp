@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats.h"
 #include "PlyProperties.h"
+#include "PointColumns.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -9,6 +10,7 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <array>
 
 /// @file
 /// The reader of .ply.
@@ -72,7 +74,9 @@ public:
         this->ReadElement(element);
       }
     }
+    this->StoreCells();
     this->StoreFaceData();
+    this->TellLosses();
     const std::size_t rest = this->Lines.Rest.size();
     if (rest > 0 && (!this->IsText || this->Lines.Next()))
     {
@@ -101,6 +105,12 @@ private:
       const bool isList = this->Word(1) == "list";
       bool isRight = keyword == "comment" || keyword == "obj_info" ||
         keyword == "Created"; // by Open Asset Import Library
+      if (keyword == "comment" && this->Word(1) == "TextureFile" && this->Lines.Words.size() > 2)
+      {
+        const char* const name = this->Lines.Words[2].data();
+        const std::string_view last = this->Lines.Words.back();
+        this->Textures.emplace_back(name, last.data() + last.size() - name);
+      }
       if (keyword == "format")
       {
         format = this->Word(1);
@@ -223,13 +233,16 @@ private:
       }
     }
     this->RequireCells(element, found);
-    const vtkNew<vtkCellArray> cells;
     for (std::uint64_t row = 0; row < element.Count && !element.Properties.empty(); ++row)
     {
       this->ReadRow(element, static_cast<vtkIdType>(row));
-      if (found > 0)
+      if (isFace)
       {
-        cells->InsertNextCell(static_cast<vtkIdType>(this->Cell.size()), this->Cell.data());
+        this->AddFace(static_cast<vtkIdType>(row));
+      }
+      else if (isEdge)
+      {
+        this->Edges->InsertNextCell(2, this->Cell.data());
       }
     }
     if (isVertex)
@@ -244,14 +257,6 @@ private:
         data->RemoveArray(Coordinates.Array.c_str());
       }
     }
-    else if (isFace)
-    {
-      mesh->SetPolys(cells);
-    }
-    else if (isEdge)
-    {
-      mesh->SetLines(cells);
-    }
     if (!others.empty())
     {
       this->Result.Warnings.push_back(
@@ -259,7 +264,51 @@ private:
     }
   }
 
-  /// Gives the integers of faces to the mesh. Edges, which come first there, have zeros.
+  void AddFace(vtkIdType row)
+  {
+    if (this->Cell.empty())
+    {
+      ++this->EmptyFaces;
+      return;
+    }
+    const std::size_t kind = std::min<std::size_t>(this->Cell.size(), 3) - 1;
+    this->Faces[kind]->InsertNextCell(static_cast<vtkIdType>(this->Cell.size()), this->Cell.data());
+    this->FaceRows[kind].push_back(row);
+  }
+
+  /// Faces of one point become verts, and those of two become lines, behind the edges.
+  void StoreCells()
+  {
+    vtkPolyData* const mesh = this->Result.Mesh;
+    mesh->SetPolys(this->Faces[2]);
+    if (this->Faces[1]->GetNumberOfCells() > 0)
+    {
+      this->Edges->Append(this->Faces[1]);
+    }
+    if (this->Edges->GetNumberOfCells() > 0)
+    {
+      mesh->SetLines(this->Edges);
+    }
+    if (this->Faces[0]->GetNumberOfCells() > 0)
+    {
+      mesh->SetVerts(this->Faces[0]);
+    }
+  }
+
+  void TellLosses()
+  {
+    if (this->EmptyFaces > 0)
+    {
+      this->Result.Warnings.push_back(
+        "left out " + Counted(this->EmptyFaces, "face") + " without points");
+    }
+    if (!this->Textures.empty())
+    {
+      this->Result.Warnings.push_back("left out TextureFile " + Quoted(this->Textures));
+    }
+  }
+
+  /// Gives the integers of faces to the mesh, in the order of its cells. Edges have zeros.
   void StoreFaceData()
   {
     vtkPolyData* const mesh = this->Result.Mesh;
@@ -276,11 +325,27 @@ private:
       const auto ofCells = vtk::TakeSmartPointer(given->NewInstance());
       ofCells->SetName(given->GetName());
       ofCells->SetNumberOfComponents(given->GetNumberOfComponents());
-      ofCells->SetNumberOfTuples(mesh->GetNumberOfLines());
+      ofCells->SetNumberOfTuples(mesh->GetNumberOfCells());
       ofCells->Fill(0.0);
-      ofCells->InsertTuples(mesh->GetNumberOfLines(), given->GetNumberOfTuples(), 0, given);
+      const auto ofPolygons = vtk::TakeSmartPointer(ofCells->NewInstance());
+      ofPolygons->SetName(given->GetName());
+      ofPolygons->SetNumberOfComponents(given->GetNumberOfComponents());
+      const vtkIdType polygons = mesh->GetNumberOfPolys();
+      const vtkIdType faceLines = this->Faces[1]->GetNumberOfCells();
+      const std::array<vtkIdType, 3> begins = { 0,
+        mesh->GetNumberOfVerts() + mesh->GetNumberOfLines() - faceLines,
+        mesh->GetNumberOfCells() - polygons };
+      for (std::size_t kind = 0; kind < begins.size(); ++kind)
+      {
+        vtkIdType cell = begins[kind];
+        for (const vtkIdType row : this->FaceRows[kind])
+        {
+          ofCells->SetTuple(cell++, row, given);
+        }
+      }
       mesh->GetCellData()->AddArray(ofCells);
-      this->Result.AddLabels(given);
+      ofPolygons->InsertTuples(0, polygons, begins[2], ofCells);
+      this->Result.AddLabels(ofPolygons);
     }
   }
 
@@ -363,6 +428,11 @@ private:
   vtkNew<vtkCellData> FaceData;
   std::size_t Place = 0; ///< Where the next word begins in a line of values.
   std::vector<vtkIdType> Cell; ///< The points of a face or an edge.
+  vtkNew<vtkCellArray> Edges;
+  std::array<vtkNew<vtkCellArray>, 3> Faces; ///< Those of one, two and more points.
+  std::array<std::vector<vtkIdType>, 3> FaceRows; ///< Their places in the file.
+  std::int64_t EmptyFaces = 0;
+  Words Textures; ///< Their files, which comments name.
 };
 
 }

@@ -71,6 +71,39 @@ class Elements(PlyTest):
                           "view, far of the element camera"):
                 self.assertIn(f"warning: a.ply: left out {names}\n", said)
 
+    def test_faces_of_few_points(self):
+        """As meshio writes verts and lines. Arrays of faces follow the order of VTK's cells."""
+        faces = [([0, 1, 2], 7), ([0, 2], 8), ([3], 9), ([], 10), ([0, 2, 3], 11), ([1, 3], 12), ([], 13)]
+        edges = ("edge", ["int vertex1", "int vertex2"], [(0, 1)])
+        for elements in ([("face", INDICES + ["int mark"], faces), edges],
+                         [edges, ("face", INDICES + ["int mark"], faces)]):
+            for mesh, said in self.read_all(("vertex", XYZ, SQUARE), *elements):
+                self.assertEqual(cells_of(mesh.GetVerts()), [(3,)])
+                self.assertEqual(cells_of(mesh.GetLines()), [(0, 1), (0, 2), (1, 3)])
+                self.assertEqual(triangles_of(mesh), [(0, 1, 2), (0, 2, 3)])
+                self.assertEqual(values_of(mesh.GetCellData().GetArray("mark")), [9, 0, 8, 12, 7, 11])
+                self.assertIn("warning: a.ply: left out 2 faces without points\n", said)
+
+    def test_faces_of_two_points_are_constraints(self):
+        """An interface that flips would remove."""
+        points = [(0, 0, 0), (4, 0, 0), (2, 1, 0), (2, -1, 0)]
+        faces = [([0, 1, 2],), ([1, 0, 3],), ([0, 1],)]
+        self.write("a.ply", make_ply("ascii", ("vertex", XYZ, points), ("face", INDICES, faces)))
+        for name in ("out.vtp", "out.obj", "out.ply", "out.stl", "out.vtk"):
+            self.succeed("a.ply", name)
+            if name == "out.stl":
+                continue  # which has no lines
+            self.succeed(name, "again.vtp")
+            mesh = self.read_mesh("again.vtp")
+            self.assertEqual(triangles_of(mesh), [(0, 1, 2), (1, 0, 3)], name)
+            self.assertEqual(cells_of(mesh.GetLines()), [(0, 1)], name)
+
+    def test_textures_are_named(self):
+        content = make_ply("ascii", ("vertex", XYZ, SQUARE), ("face", INDICES, [([0, 1, 2],)]))
+        self.write("a.ply", content.replace(b"comment", b"comment TextureFile my x.png\ncomment", 1))
+        self.assertEqual(self.succeed("a.ply", "out.vtp").stderr,
+                         "warning: a.ply: left out TextureFile 'my x.png'\n")
+
     def test_unknown_element_with_lists_is_refused(self):
         vertices = ("vertex", XYZ, SQUARE)
         polygons = ("polygons", INDICES, [([0, 1, 2],)])
@@ -275,11 +308,11 @@ class Written(ArrayTest):
 
     def test_cells_of_few_and_many_points(self):
         points = [(math.cos(i / 50), math.sin(i / 50), 0) for i in range(300)] + [(math.nan, 0, 0)]
-        for cell in ((), (4,), (4, 5), tuple(range(301))):
-            out = self.convert_by_vtk(make_mesh(points, [(0, 1, 2), cell]), "out.ply")
-            self.assertIn(cell, [(), (4,), (4, 5)] + triangles_of(out) + [tuple(range(301))])
-            if len(cell) < 3:
-                self.assertEqual(triangles_of(out), [(0, 1, 2), cell])
+        out = self.convert_by_vtk(make_mesh(points, [(0, 1, 2), tuple(range(301))]), "out.ply")
+        self.assertIn((0, 1, 2), triangles_of(out))
+        for cell in ((), (4,), (4, 5)):  # which would come back as verts and lines
+            source = self.write_mesh(make_mesh(points, [(0, 1, 2), cell]), "in.vtk")
+            self.fail_with(3, source, "out.ply", naming=["out.ply", "polygon 1 has", "a .vtk can hold it"])
 
     def test_what_does_not_fit_is_named(self):
         mesh = bumpy_grid(3, 0)
