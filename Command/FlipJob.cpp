@@ -6,6 +6,7 @@
 #include "CommandError.h"
 #include "Console.h"
 #include "DelaunayFlip.h"
+#include "GdalModule.h"
 #include "HeightQuery.h"
 #include "JobInput.h"
 #include "JobMessages.h"
@@ -237,7 +238,7 @@ private:
     HeightOptions options = this->Settings.Heights;
     if (options.Crs.empty())
     {
-      options.Crs = this->Input.Crs;
+      options.Crs = this->FindCrs();
     }
     options.Output = this->Settings.Output;
     options.PlacesAreAngles = this->Input.PlacesAreAngles;
@@ -245,6 +246,28 @@ private:
     this->Heights->Begin(this->Settings.Interpolator,
       SelectArray(this->Input.Mesh, options.Array, this->Settings.Input));
     this->Filter->SetInputData(2, this->Input.Segments);
+  }
+
+  /// The coordinate reference system of INPUT. Warns if a GeoTIFF has no way to name it.
+  std::string FindCrs()
+  {
+    const std::string& crs = this->Input.Crs;
+    if (crs.empty() || ExtensionOf(this->Settings.Output) != ".tif")
+    {
+      return crs;
+    }
+    try
+    {
+      LoadGdal().DescribeCrs(crs, true);
+      return crs;
+    }
+    catch (const std::runtime_error&)
+    {
+      this->Messages.Warn(this->Settings.Output +
+        ": its format has no way to name the coordinate reference system of " +
+        this->Settings.Input + ", so it names none");
+      return "";
+    }
   }
 
   void WriteHeights()

@@ -42,7 +42,8 @@ public:
 
   /// A coordinate reference system as the .prj beside an ESRI ASCII grid has it.
   /// @param crs such as EPSG:25832, or any other text that GDAL knows
-  virtual std::string DescribeCrs(const std::string& crs) const = 0;
+  /// @param isForGeoTiff whether a GeoTIFF must have a way to name it; else a .prj
+  virtual std::string DescribeCrs(const std::string& crs, bool isForGeoTiff) const = 0;
 
   /// The names of two coordinate reference systems if their x and y differ; else "".
   virtual std::string DescribeDifference(

@@ -139,7 +139,8 @@ private:
 
 std::string TryRaster(const std::string& output, const std::string& crs)
 {
-  const bool needsGdal = !crs.empty() || ExtensionOf(output) == ".tif";
+  const bool isGeoTiff = ExtensionOf(output) == ".tif";
+  const bool needsGdal = !crs.empty() || isGeoTiff;
   if (!needsGdal)
   {
     return "";
@@ -147,7 +148,7 @@ std::string TryRaster(const std::string& output, const std::string& crs)
   try
   {
     const GdalModule& gdal = LoadGdal();
-    return crs.empty() ? "" : gdal.DescribeCrs(crs);
+    return crs.empty() ? "" : gdal.DescribeCrs(crs, isGeoTiff);
   }
   catch (const std::runtime_error& error)
   {

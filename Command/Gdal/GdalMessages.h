@@ -43,10 +43,12 @@ public:
   GdalMessages(const GdalMessages&) = delete;
   GdalMessages& operator=(const GdalMessages&) = delete;
 
+  bool HasErrors() const { return !this->Errors.empty(); }
+
   /// @throws std::runtime_error if there was an error.
   void Check() const
   {
-    if (!this->Errors.empty())
+    if (this->HasErrors())
     {
       this->Fail();
     }

@@ -4,9 +4,8 @@
 #include "GdalMessages.h"
 #include "GdalModule.h"
 #include "RasterFile.h"
+#include "ReferenceSystem.h"
 #include "VectorReader.h"
-
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
@@ -14,26 +13,13 @@
 #include <stdexcept>
 
 /// @file
-/// GeoTIFF and coordinate reference systems by GDAL, and the one function of this library.
+/// GeoTIFF by GDAL, and the one function of this library.
 
 namespace delaunayflip
 {
 
 namespace
 {
-
-/// Only what GDAL itself knows: a text may also name a file or an address.
-OGRSpatialReference FindCrs(const std::string& crs)
-{
-  const char* const options[] = { "ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr };
-  OGRSpatialReference reference;
-  if (reference.SetFromUserInput(crs.c_str(), const_cast<char**>(options)) != OGRERR_NONE)
-  {
-    throw std::runtime_error(
-      crs + " is no coordinate reference system that GDAL knows; one is, for example, EPSG:25832");
-  }
-  return reference;
-}
 
 class GeoTiff : public RasterFile
 {
@@ -101,27 +87,24 @@ public:
     return delaunayflip::ReadVectors(request);
   }
 
-  std::string DescribeCrs(const std::string& crs) const override
+  std::string DescribeCrs(const std::string& crs, bool isForGeoTiff) const override
   {
     const GdalMessages messages;
-    return WriteCrs(FindCrs(crs), "WKT1_ESRI");
+    const OGRSpatialReference reference = FindCrs(crs);
+    const std::string text = WriteCrs(reference, "WKT1_ESRI");
+    const bool fits = isForGeoTiff ? FitsGeoTiff(reference) : !text.empty();
+    if (!fits)
+    {
+      throw std::runtime_error("its format has no way to name " + crs +
+        "; choose another coordinate reference system, or write the raster without --crs");
+    }
+    return text;
   }
 
   std::string DescribeDifference(const std::string& one, const std::string& other) const override
   {
     const GdalMessages messages;
-    OGRSpatialReference systems[] = { FindCrs(one), FindCrs(other) };
-    for (OGRSpatialReference& system : systems)
-    {
-      system.DemoteTo2D(nullptr);
-    }
-    const char* const options[] = { "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
-      "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr };
-    if (systems[0].IsSame(&systems[1], options) != 0)
-    {
-      return "";
-    }
-    return std::string(systems[0].GetName()) + " and " + systems[1].GetName();
+    return delaunayflip::DescribeDifference(FindCrs(one), FindCrs(other));
   }
 
   std::unique_ptr<RasterFile> MakeGeoTiff(

@@ -4,6 +4,7 @@
 
 #include "CommandError.h"
 #include "GdalMessages.h"
+#include "ReferenceSystem.h"
 
 #include <ogrsf_frmts.h>
 
@@ -375,17 +376,6 @@ private:
   vtkNew<vtkCellArray> Lines, Rings;
 };
 
-}
-
-std::string WriteCrs(const OGRSpatialReference& crs, const std::string& format)
-{
-  const std::string option = "FORMAT=" + format;
-  const char* const options[] = { option.c_str(), nullptr };
-  char* text = nullptr;
-  crs.exportToWkt(&text, options);
-  const std::string written = text;
-  CPLFree(text);
-  return written;
 }
 
 FileMesh ReadVectors(const VectorRequest& request)

@@ -5,13 +5,8 @@
 
 #include "GdalModule.h"
 
-class OGRSpatialReference;
-
 namespace delaunayflip
 {
-
-/// A coordinate reference system in one of the formats that GDAL calls so.
-std::string WriteCrs(const OGRSpatialReference& crs, const std::string& format);
 
 /// Does what GdalModule::ReadVectors does.
 FileMesh ReadVectors(const VectorRequest& request);

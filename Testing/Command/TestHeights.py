@@ -288,6 +288,18 @@ class Rasters(HeightTest):
         self.ask("plane.csv", "out.vti", "--raster", 1, "--quiet")
 
 
+    def test_reference_systems_that_a_file_cannot_name(self):
+        """Said before the work begins."""
+        rotated = "+proj=ob_tran +o_proj=longlat +o_lon_p=0 +o_lat_p=39.25 +lon_0=18 +datum=WGS84"
+        for name, crs in (("out.asc", rotated), ("out.asc", "EPSG:4978"), ("out.tif", rotated),
+                          ("out.tif", "EPSG:5773")):
+            told = self.run_command("plane.csv", name, "--from-points", "--raster", 1, "--crs", crs)
+            if "needs GDAL" in told.stderr:
+                self.skipTest(told.stderr)
+            self.fail_with(2, "plane.csv", name, "--from-points", "--raster", 1, "--crs", crs, naming=[
+                f"{name}: its format has no way to name {crs}", "without --crs"])
+
+
 class Tables(HeightTest):
     def test_places(self):
         self.write("places.csv", "x,y\n2,1\n4.5,1\n2,2\nnan,1\n1,1\n")
