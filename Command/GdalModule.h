@@ -26,7 +26,7 @@ struct VectorRequest
   std::string Driver; ///< GDAL's name of the format.
   std::string Layer; ///< Empty: the only one; *: all.
   std::string Height; ///< The attribute that is z; empty: z of the geometries.
-  bool AreSegments = false; ///< Whether only lines and polygons matter, not points with their data.
+  bool HasData = true; ///< Whether numeric attributes of points are wanted.
   bool AreFlat = false; ///< Whether z does not matter.
 };
 
@@ -37,7 +37,7 @@ public:
   virtual ~GdalModule() = default;
 
   /// Points, lines, and each ring of polygons as a polygon. If there are points alone, their
-  /// numeric attributes become point data.
+  /// numeric attributes become point data, joined by their names if there are several layers.
   virtual FileMesh ReadVectors(const VectorRequest& request) const = 0;
 
   /// A coordinate reference system as the .prj beside an ESRI ASCII grid has it.

@@ -344,9 +344,9 @@ FileMesh ReadVectorFile(
   request.Path = file.GetPath();
   request.Driver = FindVectorFormat(layer.File)->Driver;
   request.Layer = layer.Layer;
-  request.AreSegments = content == Content::Segments;
+  request.HasData = content != Content::Segments && content != Content::Rows;
   request.AreFlat = content == Content::Places || content == Content::Rows;
-  if (!request.AreSegments)
+  if (content != Content::Segments)
   {
     request.Height = height;
   }

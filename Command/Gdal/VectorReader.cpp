@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -31,10 +32,15 @@ std::string Quoted(const std::vector<std::string>& names)
   return "'" + Printable(JoinWords(names, "', '")) + "'";
 }
 
+bool HasName(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// Adds a name that is new, behind the others.
 void AddName(std::vector<std::string>& names, const std::string& name)
 {
-  if (std::find(names.begin(), names.end(), name) == names.end())
+  if (!HasName(names, name))
   {
     names.push_back(name);
   }
@@ -173,17 +179,14 @@ public:
     this->HasHeights = this->HasHeights || geometry->Is3D();
     const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry()); // without arcs
     this->AddGeometry(*straight);
-    for (const auto& [field, values] : this->Attributes)
+    for (Attribute& attribute : this->Attributes)
     {
       double value = std::numeric_limits<double>::quiet_NaN();
-      if (feature.IsFieldSetAndNotNull(field))
+      if (attribute.Field >= 0 && feature.IsFieldSetAndNotNull(attribute.Field))
       {
-        value = feature.GetFieldAsDouble(field);
+        value = this->ReadNumber(feature, attribute.Field);
       }
-      while (values->GetNumberOfValues() < this->Points->GetNumberOfPoints())
-      {
-        values->InsertNextValue(value);
-      }
+      this->FillUp(attribute, value);
     }
   }
 
@@ -212,18 +215,9 @@ public:
       file.Warnings.push_back(
         "left out texts and what is in paper space (" + Counted(this->Labels, "feature") + ")");
     }
-    if (this->Request.AreSegments)
-    {
-      return file;
-    }
-    if (file.Mesh->GetNumberOfCells() == 0)
-    {
-      for (const auto& [field, values] : this->Attributes)
-      {
-        file.Mesh->GetPointData()->AddArray(values);
-      }
-    }
-    const bool lacksHeights = !this->HasHeights && this->HeightField < 0;
+    this->StoreAttributes(file);
+    file.Warnings.insert(file.Warnings.end(), this->Warnings.begin(), this->Warnings.end());
+    const bool lacksHeights = !this->HasHeights && this->HeightField < 0 && this->Request.HasData;
     if (lacksHeights && !this->Request.AreFlat && !this->Numeric.empty())
     {
       file.Notes.push_back("its geometries have no z, so z is 0; --columns NAME takes a numeric "
@@ -234,6 +228,96 @@ public:
   }
 
 private:
+  /// A numeric attribute of points.
+  struct Attribute
+  {
+    std::string Name;
+    vtkSmartPointer<vtkDoubleArray> Values;
+    int Field = -1; ///< In the layer now; -1: it has none.
+  };
+
+  /// Gives points without a value this one.
+  void FillUp(const Attribute& attribute, double value) const
+  {
+    while (attribute.Values->GetNumberOfValues() < this->Points->GetNumberOfPoints())
+    {
+      attribute.Values->InsertNextValue(value);
+    }
+  }
+
+  /// A double holds all numbers of attributes but large integers of 64 bits.
+  double ReadNumber(const OGRFeature& feature, int field)
+  {
+    constexpr std::int64_t Most = std::int64_t{ 1 } << 53;
+    const OGRFieldDefn* const definition = feature.GetFieldDefnRef(field);
+    if (definition->GetType() == OFTInteger64)
+    {
+      const std::int64_t integer = feature.GetFieldAsInteger64(field);
+      if (integer > Most || integer < -Most)
+      {
+        AddName(this->Rounded, definition->GetNameRef());
+      }
+    }
+    return feature.GetFieldAsDouble(field);
+  }
+
+  /// Gives attributes to the points of the mesh, and tells of those that are left out.
+  void StoreAttributes(FileMesh& file)
+  {
+    constexpr std::size_t Most = 10; // names in a warning
+    if (!this->Request.HasData || file.Mesh->GetNumberOfCells() > 0)
+    {
+      this->Texts = this->Names;
+      this->Attributes.clear();
+    }
+    for (const Attribute& attribute : this->Attributes)
+    {
+      file.Mesh->GetPointData()->AddArray(attribute.Values);
+    }
+    std::vector<std::string> others;
+    std::copy_if(this->Names.begin(), this->Names.end(), std::back_inserter(others),
+      [this](const std::string& name) { return HasName(this->Texts, name); });
+    const bool areMany = others.size() > Most;
+    others.resize(std::min(others.size(), Most));
+    if (!others.empty())
+    {
+      file.Warnings.push_back(
+        "left out the attributes " + Quoted(others) + (areMany ? " and others" : ""));
+    }
+    for (const std::string& name : this->Rounded)
+    {
+      if (!HasName(this->Texts, name))
+      {
+        file.Warnings.push_back(
+          "the attribute '" + Printable(name) + "' has integers beyond 2^53, which are rounded");
+      }
+    }
+  }
+
+  /// Layers should have one coordinate reference system: that of the first that names one.
+  void CompareCrs(const OGRSpatialReference& crs, const std::string& layer)
+  {
+    if (std::string(crs.GetName()).rfind("Undefined", 0) == 0) // as newer versions of GDAL say
+    {
+      return;
+    }
+    if (!this->System)
+    {
+      this->System.reset(crs.Clone());
+      this->SystemLayer = layer;
+      this->Crs = WriteCrs(crs, "WKT2_2019");
+      this->HasAngles = crs.IsGeographic() != 0;
+      return;
+    }
+    const std::string names = DescribeDifference(crs, *this->System);
+    if (!names.empty())
+    {
+      this->Warnings.push_back("the coordinate reference system of its layer " + Quoted({ layer }) +
+        " is not that of its layer " + Quoted({ this->SystemLayer }) + " (" + names +
+        "); the coordinates are taken as they are");
+    }
+  }
+
   bool MayBeAngles() const
   {
     constexpr double MostDegrees = 360.0;
@@ -244,38 +328,47 @@ private:
       this->Points->GetNumberOfPoints() == 0;
   }
 
-  /// Finds the attributes of a layer. Those of several layers are not joined.
+  /// Finds the attributes of a layer. Those of several layers are joined by their names.
   void BeginLayer(OGRLayer& layer)
   {
-    const bool isFirst = this->Layer == nullptr;
     const OGRFeatureDefn& fields = *layer.GetLayerDefn();
     this->Layer = &layer;
     this->HeightField = -1;
     this->Numeric.clear();
-    this->Attributes.clear();
+    for (Attribute& attribute : this->Attributes)
+    {
+      attribute.Field = -1;
+    }
     if (const OGRSpatialReference* const crs = layer.GetSpatialRef())
     {
-      this->Crs = WriteCrs(*crs, "WKT2_2019");
-      this->HasAngles = crs->IsGeographic() != 0;
+      this->CompareCrs(*crs, layer.GetName());
     }
     for (int i = 0; i < fields.GetFieldCount(); ++i)
     {
       const OGRFieldType type = fields.GetFieldDefn(i)->GetType();
       const std::string name = fields.GetFieldDefn(i)->GetNameRef();
       const bool isNumeric = type == OFTInteger || type == OFTInteger64 || type == OFTReal;
-      if (!isNumeric || this->Request.Driver == "DXF") // which has only flags
+      if (this->Request.Driver == "DXF") // which has only flags and what GDAL makes of the layer
       {
         continue;
       }
-      this->Numeric.push_back(name);
-      if (name == this->Request.Height)
+      if (isNumeric)
+      {
+        this->Numeric.push_back(name);
+      }
+      if (isNumeric && name == this->Request.Height)
       {
         this->HeightField = i;
+        continue;
       }
-      else if (isFirst)
+      AddName(this->Names, name);
+      if (isNumeric)
       {
-        this->Attributes.emplace_back(i, vtkSmartPointer<vtkDoubleArray>::New());
-        this->Attributes.back().second->SetName(name.c_str());
+        this->AttributeOf(name).Field = i;
+      }
+      else
+      {
+        AddName(this->Texts, name);
       }
     }
     if (this->HeightField < 0 && !this->Request.Height.empty())
@@ -286,6 +379,22 @@ private:
     }
   }
 
+  /// The attribute with this name. Points of layers that do not have it have NaN.
+  Attribute& AttributeOf(const std::string& name)
+  {
+    const auto known = std::find_if(this->Attributes.begin(), this->Attributes.end(),
+      [&name](const Attribute& attribute) { return attribute.Name == name; });
+    if (known != this->Attributes.end())
+    {
+      return *known;
+    }
+    this->Attributes.push_back({ name, vtkSmartPointer<vtkDoubleArray>::New() });
+    Attribute& added = this->Attributes.back();
+    added.Values->SetName(name.c_str());
+    this->FillUp(added, std::numeric_limits<double>::quiet_NaN());
+    return added;
+  }
+
   void TakeHeight(const OGRFeature& feature)
   {
     if (!feature.IsFieldSetAndNotNull(this->HeightField))
@@ -293,7 +402,7 @@ private:
       throw std::runtime_error("feature " + std::to_string(feature.GetFID()) +
         " has no value of '" + this->Request.Height + "'");
     }
-    this->Height = feature.GetFieldAsDouble(this->HeightField);
+    this->Height = this->ReadNumber(feature, this->HeightField);
   }
 
   void AddGeometry(const OGRGeometry& geometry)
@@ -366,11 +475,17 @@ private:
   int HeightField = -1; ///< Its attribute that is z, or -1.
   double Height = 0.0; ///< That of the feature, from this attribute.
   std::vector<std::string> Numeric; ///< Its numeric attributes.
-  std::vector<std::pair<int, vtkSmartPointer<vtkDoubleArray>>> Attributes; ///< Per field.
+  std::vector<Attribute> Attributes; ///< Of all layers.
+  std::vector<std::string> Names; ///< All attributes but the height.
+  std::vector<std::string> Texts; ///< Those that are no numbers.
+  std::vector<std::string> Rounded; ///< Those with integers that doubles cannot hold.
+  std::vector<std::string> Warnings;
   bool HasHeights = false;
   std::int64_t Empty = 0;
   std::int64_t Labels = 0; ///< How many labels a drawing has.
-  std::string Crs;
+  std::unique_ptr<OGRSpatialReference> System; ///< That of the file; null: none is named.
+  std::string SystemLayer; ///< The first layer that has it.
+  std::string Crs; ///< Its text.
   bool HasAngles = false; ///< Whether that is of longitudes and latitudes.
   vtkNew<vtkPoints> Points;
   vtkNew<vtkCellArray> Lines, Rings;

@@ -9,9 +9,10 @@ import math
 import os
 import sqlite3
 import struct
+import threading
 import zlib
 
-from CommandTesting import points_of, triangles_of, values_of
+from CommandTesting import points_of, same, triangles_of, values_of
 from TestPoints import PLACES, PointTest, area_of, edges_of, grid, text_of
 
 FLAT_GEOBUF = (  # PLACES, by GDAL
@@ -66,8 +67,9 @@ def shapefile(points):
     return (header(50 + len(records) // 2) + records, header(50 + len(index) // 2) + index)
 
 
-def write_geopackage(path, **layers):
-    """A GeoPackage of layers of points with z."""
+def write_geopackage(path, systems=None, attributes=None, **layers):
+    """A GeoPackage of layers of points with z. `systems` has a number of EPSG for some of them, and
+    `attributes` columns, such as {"n INTEGER": values}."""
     data = sqlite3.connect(path)
     data.executescript("""
         PRAGMA application_id = 1196444487; PRAGMA user_version = 10200;
@@ -80,13 +82,18 @@ def write_geopackage(path, **layers):
         CREATE TABLE gpkg_geometry_columns (table_name TEXT PRIMARY KEY, column_name TEXT,
           geometry_type_name TEXT, srs_id INTEGER, z TINYINT, m TINYINT);""")
     for name, points in layers.items():
-        data.execute(f"CREATE TABLE {name} (fid INTEGER PRIMARY KEY, geom POINT)")
+        system = (systems or {}).get(name, -1)
+        columns = (attributes or {}).get(name, {})
+        data.execute("INSERT OR IGNORE INTO gpkg_spatial_ref_sys VALUES ('s', ?, 'EPSG', ?, 'undefined', '')",
+                     (system, system))
+        data.execute(f'CREATE TABLE "{name}" ({", ".join(["fid INTEGER PRIMARY KEY, geom POINT", *columns])})')
         data.execute("INSERT INTO gpkg_contents (table_name, data_type, last_change, srs_id) "
-                     "VALUES (?, 'features', '2026-01-01T00:00:00Z', -1)", (name,))
-        data.execute("INSERT INTO gpkg_geometry_columns VALUES (?, 'geom', 'POINT', -1, 1, 0)", (name,))
-        for point in points:
-            blob = b"GP\0\1" + struct.pack("<i", -1) + struct.pack("<BI3d", 1, 1001, *point)
-            data.execute(f"INSERT INTO {name} (geom) VALUES (?)", (blob,))
+                     "VALUES (?, 'features', '2026-01-01T00:00:00Z', ?)", (name, system))
+        data.execute("INSERT INTO gpkg_geometry_columns VALUES (?, 'geom', 'POINT', ?, 1, 0)", (name, system))
+        for number, point in enumerate(points):
+            blob = b"GP\0\1" + struct.pack("<i", system) + struct.pack("<BI3d", 1, 1001, *point)
+            row = [number + 1, blob, *(values[number] for values in columns.values())]
+            data.execute(f'INSERT INTO "{name}" VALUES ({", ".join("?" * len(row))})', row)
     data.commit()
     data.close()
 
@@ -137,7 +144,8 @@ class Vectors(VectorTest):
         self.assertEqual(numbers, [0, 1, 2, 4])
         mesh, result = self.triangulate("in.geojson", "--columns", "elev")
         self.assertEqual([z for _, _, z in points_of(mesh)], [0.5, 1, 1.5, 2, 2.5])
-        self.assertEqual(result.stderr, HINT.replace("points", "in", 1))
+        told = "warning: in.geojson: left out the attributes 'name'\n"
+        self.assertEqual(sorted(result.stderr.splitlines()), sorted((told + HINT.replace("points", "in", 1)).splitlines()))
         for code, choice, words in ((3, "name", ["no numeric attribute 'name'", "'n', 'elev'"]),
                                     (3, "n", ["feature 3 has no value of 'n'"]),
                                     (2, "x,y,elev", ["--columns takes one attribute"])):
@@ -146,10 +154,12 @@ class Vectors(VectorTest):
         self.write("bare.geojson", geojson(*(("Point", place) for place in PLACES)))
         self.fail_with(3, "bare.geojson", "out.vtk", "--from-points", "--columns", "n",
                        naming=["no numeric attribute 'n'; it has no numeric attributes"])
-        for options in (["bare.geojson", "out.csv", "--heights-at", "in.geojson"],
-                        ["in.geojson", "out.vti", "--raster", 1, "--raster-array", "elev"]):
+        everything = "warning: in.geojson: left out the attributes 'n', 'name', 'elev'\n"
+        for warning, options in ((everything, ["bare.geojson", "out.csv", "--heights-at", "in.geojson"]),
+                                 (told, ["in.geojson", "out.vti", "--raster", 1, "--raster-array", "elev"])):
             result = self.succeed(*options, "--from-points")  # z does not matter
-            self.assertEqual(result.stderr, HINT.replace("points.geojson", options[0]))
+            self.assertEqual(sorted(result.stderr.splitlines()),
+                             sorted((warning + HINT.replace("points.geojson", options[0])).splitlines()))
 
     def test_lines_and_rings(self):
         """Breaklines, and areas of several polygons with holes, as survey data come."""
@@ -213,6 +223,57 @@ class Vectors(VectorTest):
                     "(ETRS89 / UTM zone 33N and ETRS89 / UTM zone 32N)")
             self.assertEqual(told in result.stderr, differs, result.stderr)
             self.assertEqual("warning" in result.stderr, differs, result.stderr)
+
+    def test_attributes_of_several_layers(self):
+        """Numbers are joined by their names; a warning names the attributes that are left out."""
+        more = [(1, 1, 9), (3, 1, 9)]
+        write_geopackage(self.path("two.gpkg"), survey=PLACES, trees=more, attributes={
+            "survey": {"n INTEGER": range(5), "kind TEXT": ["a"] * 5},
+            "trees": {"height REAL": [7.5, 8.5], "n INTEGER": [20, None], "day DATE": ["2026-01-01"] * 2}})
+        mesh, result = self.triangulate("two.gpkg:*")
+        self.assertEqual(points_of(mesh), PLACES + more)
+        data, nan = mesh.GetPointData(), math.nan
+        self.assertEqual([data.GetArrayName(i) for i in range(data.GetNumberOfArrays())], ["n", "height"])
+        for name, expected in (("n", [0, 1, 2, 3, 4, 20, nan]), ("height", [nan] * 5 + [7.5, 8.5])):
+            self.assertTrue(same(values_of(data.GetArray(name)), expected), name)
+        self.assertEqual(result.stderr, "warning: two.gpkg:*: left out the attributes 'kind', 'day'\n")
+        self.write("in.xyz", text_of(grid(5)))
+        self.write("roads.geojson", geojson(("LineString", [[0, 0], [3, 1]], {"n": 1, "name": "a"})))
+        _, result = self.triangulate("in.xyz", "--constraints", "roads.geojson")
+        self.assertIn("warning: roads.geojson: left out the attributes 'n', 'name'\n", result.stderr)
+
+    def test_large_integers(self):
+        """Beyond 2^53 a double cannot hold all of them."""
+        for number, isTold in ((2**53, False), (2**53 + 1, True), (-2**53 - 1, True), (2**63 - 1, True)):
+            path = self.path(f"in{number}.gpkg")
+            write_geopackage(path, survey=PLACES, attributes={"survey": {"id INTEGER": [1, 2, 3, 4, number]}})
+            for options in ([], ["--columns", "id"]):
+                mesh, result = self.triangulate(path, *options)
+                self.assertEqual("warning: " + path + ": the attribute 'id' has integers beyond 2^53, "
+                                 "which are rounded\n" in result.stderr, isTold, (number, options))
+                values = [point[2] for point in points_of(mesh)]
+                if not options:
+                    values = values_of(mesh.GetPointData().GetArray("id"))
+                self.assertEqual(values[4], float(number))
+
+    def test_layers_in_different_systems(self):
+        """The first one is that of the file."""
+        write_geopackage(self.path("two.gpkg"), first=PLACES, none=[(1, 1, 9)], same=[(1, 2, 9)], other=[(3, 1, 9)],
+                         systems={"first": 25832, "same": 25832, "other": 25833})
+        _, result = self.triangulate("two.gpkg:*")
+        self.assertEqual(result.stderr, "warning: two.gpkg:*: the coordinate reference system of its layer 'other' "
+                         "is not that of its layer 'first' (ETRS89 / UTM zone 33N and ETRS89 / UTM zone 32N); "
+                         "the coordinates are taken as they are\n")
+        for crs, isTold in (("EPSG:25832", False), ("EPSG:25833", True)):
+            result = self.succeed("two.gpkg:*", "out.asc", "--from-points", "--raster", 1, "--crs", crs)
+            self.assertEqual("warning: --crs: its coordinate" in result.stderr, isTold, result.stderr)
+
+    def test_systems_that_a_raster_cannot_name(self):
+        write_geopackage(self.path("in.gpkg"), survey=PLACES, systems={"survey": 5773})  # of heights
+        for name in ("out.tif", "out.asc"):
+            result = self.succeed("in.gpkg", name, "--from-points", "--raster", 1)
+            self.assertEqual(result.stderr, "" if name == "out.asc" else "warning: out.tif: its format has no way to "
+                             "name the coordinate reference system of in.gpkg, so it names none\n")
 
     def test_bad_files(self):
         """GDAL's messages are in the error, and nowhere else."""
