@@ -292,13 +292,26 @@ std::string NameTheWay(const std::string& extension)
 FileLayer::FileLayer(const std::string& path)
   : File(path)
 {
-  const std::size_t colon = path.find_last_of(':');
-  const bool namesLayer = colon != path.npos && FindVectorFormat(path.substr(0, colon)) &&
-    !vtksys::SystemTools::FileExists(path);
-  if (namesLayer)
+  const auto isThere = [](const std::string& file)
+  { return vtksys::SystemTools::FileExists(file); };
+  if (isThere(path))
   {
-    this->File = path.substr(0, colon);
-    this->Layer = path.substr(colon + 1);
+    return;
+  }
+  // Names of layers may have colons, and so may those of files.
+  for (std::size_t colon = path.find(':'); colon != path.npos; colon = path.find(':', colon + 1))
+  {
+    const std::string file = path.substr(0, colon);
+    const bool isFirst = this->Layer.empty();
+    if (FindVectorFormat(file) && (isFirst || isThere(file)))
+    {
+      this->File = file;
+      this->Layer = path.substr(colon + 1);
+    }
+    if (isThere(this->File))
+    {
+      return;
+    }
   }
 }
 

@@ -256,6 +256,17 @@ class Vectors(VectorTest):
                     values = values_of(mesh.GetPointData().GetArray("id"))
                 self.assertEqual(values[4], float(number))
 
+    def test_layers_with_colons(self):
+        write_geopackage(self.path("ns.gpkg"), **{"topp:states": PLACES, "a.gpkg:b": PLACES[:4]})
+        os.mkdir(self.path("old.gpkg:x"))
+        write_geopackage(self.path("old.gpkg:x/in.gpkg"), one=PLACES[:3], two=PLACES)
+        for name, points in (("ns.gpkg:topp:states", PLACES), ("ns.gpkg:a.gpkg:b", PLACES[:4]),
+                             ("old.gpkg:x/in.gpkg:one", PLACES[:3])):
+            mesh, _ = self.triangulate(name)
+            self.assertEqual(points_of(mesh), points, name)
+        self.fail_with(3, "ns.gpkg:topp:rivers", "out.vtk", "--from-points",
+                       naming=["ns.gpkg", "no layer 'topp:rivers'"])
+
     def test_layers_in_different_systems(self):
         """The first one is that of the file."""
         write_geopackage(self.path("two.gpkg"), first=PLACES, none=[(1, 1, 9)], same=[(1, 2, 9)], other=[(3, 1, 9)],
