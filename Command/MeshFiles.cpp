@@ -349,6 +349,16 @@ void FileMesh::AddLabels(vtkDataArray* array)
 namespace
 {
 
+/// A text with another one in all places of a part, which is not empty.
+std::string Replaced(std::string text, const std::string& part, const std::string& other)
+{
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + other.size()))
+  {
+    text.replace(at, part.size(), other);
+  }
+  return text;
+}
+
 FileMesh ReadVectorFile(
   const InputFile& file, const std::string& path, const std::string& height, Content content)
 {
@@ -363,13 +373,19 @@ FileMesh ReadVectorFile(
   {
     request.Height = height;
   }
+  const std::string extension = ExtensionOf(layer.File);
+  const bool isPipe = file.GetPath() != layer.File;
+  if (isPipe && (extension == ".gpkg" || extension == ".shp"))
+  {
+    file.Fail("a " + extension + " cannot be read from a pipe, because GDAL needs the file itself");
+  }
   try
   {
     return LoadGdal().ReadVectors(request);
   }
   catch (const std::runtime_error& error)
   {
-    file.Fail(error.what());
+    file.Fail(Replaced(error.what(), file.GetPath(), layer.File));
   }
 }
 

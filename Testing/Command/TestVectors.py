@@ -286,6 +286,27 @@ class Vectors(VectorTest):
             self.assertEqual(result.stderr, "" if name == "out.asc" else "warning: out.tif: its format has no way to "
                              "name the coordinate reference system of in.gpkg, so it names none\n")
 
+    def test_pipes(self):
+        """GDAL reads some formats from a pipe. It needs files of the others."""
+        write_geopackage(self.path("in.gpkg"), survey=PLACES)
+        flat = zlib.decompress(base64.b64decode(FLAT_GEOBUF))
+        drawing = dxf(*(("0", [place]) for place in PLACES))
+        for name, content, words in (
+            ("pipe.gpkg", self.content("in.gpkg"), ["a .gpkg cannot be read from a pipe", "file"]),
+            ("pipe.shp", shapefile(PLACES)[0], ["a .shp cannot be read from a pipe", "file"]),
+            ("pipe.geojson", self.content("points.geojson"), []), ("pipe.fgb", flat, []), ("pipe.dxf", drawing, []),
+            ("bad.geojson", "{", ["bad.geojson"]),
+        ):
+            os.mkfifo(self.path(name))
+            writer = threading.Thread(target=self.write, args=(name, content), daemon=True)
+            writer.start()
+            if words:
+                result = self.fail_with(3, name, "out.vtp", "--from-points", naming=[name, *words])
+                self.assertNotIn("/dev/fd", result.stderr)
+            else:
+                self.assertEqual(points_of(self.triangulate(name)[0]), PLACES, name)
+            writer.join()
+
     def test_bad_files(self):
         """GDAL's messages are in the error, and nowhere else."""
         shp, shx = shapefile(PLACES)
