@@ -473,9 +473,9 @@ private:
   const VectorRequest& Request;
   const OGRLayer* Layer = nullptr; ///< That of the features now.
   int HeightField = -1; ///< Its attribute that is z, or -1.
-  double Height = 0.0; ///< That of the feature, from this attribute.
+  double Height = 0.0; ///< The z of the feature, from this attribute.
   std::vector<std::string> Numeric; ///< Its numeric attributes.
-  std::vector<Attribute> Attributes; ///< Of all layers.
+  std::vector<Attribute> Attributes; ///< Those of all layers.
   std::vector<std::string> Names; ///< All attributes but the height.
   std::vector<std::string> Texts; ///< Those that are no numbers.
   std::vector<std::string> Rounded; ///< Those with integers that doubles cannot hold.
