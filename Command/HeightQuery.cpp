@@ -35,6 +35,9 @@ namespace delaunayflip
 namespace
 {
 
+/// Of the interpolator's output: which places are inside.
+constexpr const char* MaskArray = "vtkValidPointMask";
+
 /// A number with commas, as in 12,345.
 std::string Grouped(std::int64_t number)
 {
@@ -192,6 +195,13 @@ public:
     const double ofBlock =
       bytesOfCell * columns * std::min(static_cast<double>(this->RowsOfBlock), rows);
     const bool isWhole = this->Name.Extension == ".vti"; // else it is written in blocks
+    if (isWhole && HasMarkup(this->Array))
+    {
+      throw CommandError(ExitCode::BadFile,
+        options.Output + ": the array '" + this->Array +
+          "' has one of < > & \" or a control character in the name, which this file format cannot "
+          "hold; a .tif or .asc can hold it");
+    }
     RequireMemory(grid, ofBlock + (isWhole ? sizeof(double) * columns * rows : 0.0));
   }
 
@@ -244,6 +254,21 @@ private:
   std::unique_ptr<RasterFile> File;
 };
 
+/// A text as a cell of a table: in quotes, which are doubled inside, where it needs them.
+std::string CellOf(const std::string& text)
+{
+  if (text.find_first_of(",\"\r\n") == text.npos)
+  {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char letter : text)
+  {
+    quoted.append(letter == '"' ? 2 : 1, letter);
+  }
+  return quoted + '"';
+}
+
 /// The points of a file, as rows of text: x, y, perhaps z, and the value, which is empty outside.
 class PlaceTable : public HeightQuery
 {
@@ -270,7 +295,7 @@ public:
   void Open(const std::string& path) override
   {
     this->File.open(path, std::ios::binary);
-    this->File << (this->Axes == 3 ? "x,y,z," : "x,y,") << this->Array << '\n';
+    this->File << (this->Axes == 3 ? "x,y,z," : "x,y,") << CellOf(this->Array) << '\n';
   }
 
   void Finish() override
@@ -391,7 +416,7 @@ void HeightQuery::WriteBlock(vtkDataSet* block)
 {
   const vtkIdType count = block->GetNumberOfPoints();
   vtkDataArray* const found = block->GetPointData()->GetArray(this->Array.c_str());
-  vtkDataArray* const inside = block->GetPointData()->GetArray("vtkValidPointMask");
+  vtkDataArray* const inside = block->GetPointData()->GetArray(MaskArray);
   std::vector<double> values(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
@@ -452,6 +477,12 @@ vtkSmartPointer<vtkPolyData> SelectArray(
   if (array.empty())
   {
     return selected;
+  }
+  if (array == MaskArray)
+  {
+    throw CommandError(ExitCode::WrongUsage,
+      "--raster-array: VTK calls the mask of places inside " + array +
+        ", so an array of this name cannot be taken; give it another name");
   }
   vtkPointData* const data = points->GetPointData();
   vtkDataArray* const found = data->GetArray(array.c_str());

@@ -18,9 +18,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <iterator>
@@ -46,6 +48,12 @@ std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& 
       { std::for_each(points, points + size, [&](vtkIdType point) { isUsed[point] = true; }); });
   }
   return isUsed;
+}
+
+bool HasMarkup(const std::string& name)
+{
+  return std::any_of(name.begin(), name.end(),
+    [](unsigned char letter) { return std::strchr("<>&\"", letter) || std::iscntrl(letter); });
 }
 
 std::string LostArrays(

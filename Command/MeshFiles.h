@@ -82,6 +82,9 @@ FileMesh ReadMesh(const std::string& path, MeshFormat format, const std::string&
 /// Which points are corners of these cells.
 std::vector<bool> FindUsed(vtkPolyData* mesh, const std::vector<vtkCellArray*>& kinds);
 
+/// Whether a name has a character that VTK, which does not escape names, spoils in its XML files.
+bool HasMarkup(const std::string& name);
+
 /// `what` and, in parentheses, the names of the arrays of `data` that are not among `kept`; empty
 /// if there are none.
 std::string LostArrays(

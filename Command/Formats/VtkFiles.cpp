@@ -375,13 +375,10 @@ void PrepareForXml(vtkFieldData* data, vtkIdType tuples)
     const bool areIds =
       attributes && (array == attributes->GetPedigreeIds() || array == attributes->GetGlobalIds());
     require(!areIds || canBeIds, "ids that are not integers with a sign");
-    // VTK does not escape names.
-    const auto isMarkup = [](unsigned char c)
-    { return std::strchr("<>&\"", c) || std::iscntrl(c); };
     for (int component = -1; component < array->GetNumberOfComponents(); ++component)
     {
       const char* const part = component < 0 ? name.c_str() : array->GetComponentName(component);
-      require(!part || std::none_of(part, part + std::strlen(part), isMarkup),
+      require(!part || !HasMarkup(part),
         "one of < > & \" or a control character in the name of the array or of a component");
     }
     require(tuples < 0 || array->GetNumberOfTuples() == tuples,

@@ -325,6 +325,25 @@ class Tables(HeightTest):
         result = self.ask("peak.csv", "out.csv", "--heights-at", "places.csv", "--raster-method", "natural")
         self.assertIn("warning: out.csv: has no value", result.stderr)
 
+    def test_names_of_arrays(self):
+        """In a table they are quoted like other text. The mask of places has a name of its own."""
+        self.write("places.csv", "x,y\n1,1\n")
+        for name, head in (("a,b", 'x,y,"a,b"'), ('a"b', 'x,y,"a""b"'), ("plain name", "x,y,plain name")):
+            mesh = make_mesh(PLACES, [])
+            mesh.GetPointData().AddArray(make_array(name, [1, 2, 3, 4, 5]))
+            mesh.GetPointData().AddArray(make_array("vtkValidPointMask", [1, 2, 3, 4, 5]))
+            path = self.write_mesh(mesh, "in.vtk")
+            self.ask(path, "out.csv", "--heights-at", "places.csv", "--raster-array", name)
+            self.assertEqual(self.content("out.csv").decode().splitlines(), [head, "1,1,3"])
+        self.fail_with(2, path, "out.csv", "--from-points", "--heights-at", "places.csv", "--raster-array",
+                       "vtkValidPointMask", naming=["--raster-array", "vtkValidPointMask", "another name"])
+        for name in ("a<b", "a&b", 'a"b', "a\nb"):
+            mesh = make_mesh(PLACES, [])
+            mesh.GetPointData().AddArray(make_array(name, [1, 2, 3, 4, 5]))
+            path = self.write_mesh(mesh, "in.vtk")
+            self.fail_with(3, path, "out.vti", "--from-points", "--raster", 1, "--raster-array", name, naming=[
+                "out.vti", "< > & \" or a control character in the name", "a .tif or .asc can hold it"])
+
     def test_rows_of_empty_cells_between_tabs(self):
         """They are rows, as between commas. An empty line is none."""
         self.write("places.txt", "x\ty\n\t\n1\t1\n \t \n\n2\t2\n\t\n")
