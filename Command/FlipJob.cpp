@@ -15,6 +15,7 @@
 #include "RasterFile.h"
 #include "RoundedDigits.h"
 #include "RunReport.h"
+#include "SegmentLines.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkCommand.h>
@@ -369,7 +370,8 @@ private:
       const std::string name = "ring " + std::to_string(failed);
       const std::size_t place = errors.find(name);
       const std::string fault =
-        place == std::string::npos ? ": " + errors : errors.substr(place + name.size());
+        NamePlaces(place == std::string::npos ? ": " + errors : errors.substr(place + name.size()),
+          this->Input.Mesh, this->Input.Segments);
       const auto [path, ring] = this->FindRing(failed);
       throw CommandError(
         ExitCode::BadFile, path + ": " + ring + WithOptions(fault, this->Settings));
@@ -381,6 +383,14 @@ private:
       if (failure == vtkDelaunayFlip::FAILURE_OTHER)
       {
         throw std::runtime_error(text); // main says of which file, and what was being done
+      }
+      const bool isOfSegment = errors.rfind("segment ", 0) == 0 && this->Input.Segments &&
+        !this->Settings.Constraints.empty();
+      if (isOfSegment)
+      {
+        throw CommandError(ExitCodeOf(failure),
+          this->Settings.Constraints + ": " +
+            NamePlaces(text, this->Input.Mesh, this->Input.Segments));
       }
       throw CommandError(ExitCodeOf(failure), this->Settings.Input + ": " + text);
     }

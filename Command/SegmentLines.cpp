@@ -6,6 +6,7 @@
 #include "ConstraintEdges.h"
 #include "DataArrays.h"
 #include "Formats.h"
+#include "RasterFile.h"
 
 #include <vtkCellArray.h>
 #include <vtkNew.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <regex>
 #include <utility>
 #include <vector>
 
@@ -162,6 +164,30 @@ std::vector<PointIds> ListBreaklines(vtkPolyData* mesh)
   return lines;
 }
 
+/// The points of segments that a filter adds to those of the input: the first at each place where
+/// the input has none.
+std::vector<vtkIdType> ListAddedPoints(vtkPolyData* input, vtkPolyData* segments)
+{
+  std::vector<double> storage, inputStorage;
+  const PointArray points = ViewPoints(segments, storage);
+  const PointArray given = ViewPoints(input, inputStorage);
+  PointPlaces places(points.Floats || given.Floats);
+  for (std::int64_t i = 0; i < given.Count; ++i)
+  {
+    places.Add(given, i);
+  }
+  std::vector<vtkIdType> added;
+  for (std::int64_t i = 0; i < points.Count; ++i)
+  {
+    const std::int64_t known = places.GetNumberOfPlaces();
+    if (places.Add(points, i) == known)
+    {
+      added.push_back(i);
+    }
+  }
+  return added;
+}
+
 }
 
 vtkSmartPointer<vtkPolyData> MakeSegments(
@@ -191,6 +217,47 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
     made->SetPolys(segments);
   }
   return made;
+}
+
+std::string NamePlaces(const std::string& message, vtkPolyData* input, vtkPolyData* segments)
+{
+  static const std::regex Numbers(
+    "\\(points ([0-9]+) and ([0-9]+)\\)|points? ([0-9]+)(?: and ([0-9]+))?");
+  const std::vector<vtkIdType> added = ListAddedPoints(input, segments);
+  const vtkIdType given = input->GetNumberOfPoints();
+  const auto placeOf = [&](const std::string& number)
+  {
+    vtkIdType id = given;
+    ReadNumber(number, id);
+    std::array<double, 3> place = {};
+    if (id < given)
+    {
+      input->GetPoint(id, place.data());
+    }
+    else if (id - given < static_cast<vtkIdType>(added.size()))
+    {
+      segments->GetPoint(added[id - given], place.data());
+    }
+    return "(" + TextOf(place[0]) + ", " + TextOf(place[1]) + ", " + TextOf(place[2]) + ")";
+  };
+  std::string text;
+  auto rest = message.begin();
+  for (std::sregex_iterator found(message.begin(), message.end(), Numbers), end; found != end;
+       ++found)
+  {
+    const std::smatch& match = *found;
+    text.append(rest, match[0].first);
+    if (match[1].matched)
+    {
+      text += "from " + placeOf(match[1]) + " to " + placeOf(match[2]);
+    }
+    else
+    {
+      text += placeOf(match[3]) + (match[4].matched ? " and " + placeOf(match[4]) : "");
+    }
+    rest = match[0].second;
+  }
+  return text.append(rest, message.end());
 }
 
 void TakeExactPlaces(vtkPolyData* mesh, vtkPolyData* input)

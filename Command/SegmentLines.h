@@ -22,6 +22,10 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
 /// input, rounded, become that point.
 void TakeExactPlaces(vtkPolyData* mesh, vtkPolyData* input);
 
+/// Puts coordinates in the place of numbers of points in a message of vtkDelaunayFlipPoints, which
+/// count the points of the input first, then those of segments that are at none of their places.
+std::string NamePlaces(const std::string& message, vtkPolyData* input, vtkPolyData* segments);
+
 }
 
 #endif

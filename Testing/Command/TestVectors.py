@@ -386,3 +386,25 @@ class TextLines(PointTest):
             self.write("lines.csv", text)
             self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--constraints", "lines.csv",
                            naming=["lines.csv", *words])
+
+    def test_errors_name_places(self):
+        """Points have numbers that count those of all files, so coordinates say which they are."""
+        self.write("breaks.csv", "0.75,0.75,1\n1,3,1\n")
+        self.write("good.csv", text_of([(*place, 5) for place in SQUARE], ","))
+        self.write("bad.csv", text_of([(*place, 5) for place in SQUARE], ",")
+                   + "1.25,1.5,7\n3,1,7\nnan,3,7\n1.25,1.5,7\n")
+        for options in (["--outline", "bad.csv"], ["--outline", "bad.csv", "--constraints", "breaks.csv"],
+                        ["--holes", "bad.csv", "--outline", "good.csv", "--constraints", "breaks.csv"]):
+            self.fail_with(3, "in.xyz", "out.vtk", "--from-points", *options, naming=[
+                "bad.csv: ring 1 from (3, 1, 0) to (nan, 3, 0) cannot be inserted: a coordinate of an end is"])
+        self.write("breaks.csv", "0.25,0.25,1\n3,1,1\n")
+        self.fail_with(3, "in.xyz", "out.vtk", "--from-points", "--outline", "good.csv", "--constraints", "breaks.csv",
+                       naming=["good.csv: ring 0 from (0.5, 0.5, 0) to (3.5, 0.5, 0) crosses segment 0 from "
+                               "(0.25, 0.25, 0) to (3, 1, 0): "])
+        globe = ["globe.csv", "out.vtk", "--from-points", "--projection", "sphere", "--degrees"]
+        self.write("globe.csv", "10,20\n20,30\n80,-30\n")
+        self.write("far.csv", "0,0,1\n10,20,1\n190,-20,1\n")
+        self.fail_with(3, *globe, "--constraints", "far.csv", naming=[
+            "far.csv: segment 1 from (10, 20, 0) to (190, -20, 0) has ends on opposite sides"])
+        self.write("far.csv", "0,0,1\n10,20,1\n190,-20,1\n0,0,1\n")
+        self.fail_with(3, *globe, "--outline", "far.csv", naming=["from (10, 20, 0) to (190, -20, 0) has ends"])
