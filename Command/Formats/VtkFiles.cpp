@@ -3,6 +3,7 @@
 #include "Console.h"
 #include "DataArrays.h"
 #include "Formats.h"
+#include "VtkIntegers.h"
 
 #include <vtkCellData.h>
 #include <vtkErrorCode.h>
@@ -195,10 +196,7 @@ protected:
       this->Superclass::ReadArrayValues(element, arrayIndex, array, startIndex, numValues, type);
     if (IsText(element) && vtkDataArray::SafeDownCast(array))
     {
-      const std::string_view bytes = this->File->GetBytes();
-      const std::size_t begin = std::min(
-        bytes.find('>', static_cast<std::size_t>(element->GetXMLByteIndex())), bytes.size());
-      if (bytes.substr(begin, bytes.find('<', begin) - begin).find_first_of("nN") != bytes.npos)
+      if (this->TextOf(element).find_first_of("nN") != std::string_view::npos)
       {
         this->File->Fail("nan or inf as text, which VTK changes; binary data may have them");
       }
@@ -222,6 +220,7 @@ private:
     const bool isPiece = std::strcmp(element->GetName(), "Piece") == 0;
     element->RemoveAttribute("RangeMin");
     element->RemoveAttribute("RangeMax");
+    this->RequireIntegersOf(element);
     for (int i = element->GetNumberOfNestedElements() - 1; i >= 0; --i)
     {
       vtkXMLDataElement* const child = element->GetNestedElement(i);
@@ -270,6 +269,27 @@ private:
   {
     const char* const format = element->GetAttribute("format");
     return !format || std::strcmp(format, "ascii") == 0;
+  }
+
+  /// The numbers of an array in text.
+  std::string_view TextOf(vtkXMLDataElement* element) const
+  {
+    const std::string_view bytes = this->File->GetBytes();
+    const auto start = static_cast<std::size_t>(element->GetXMLByteIndex());
+    const std::size_t begin = std::min(bytes.find('>', start), bytes.size() - 1) + 1;
+    return bytes.substr(begin, bytes.find('<', begin) - begin);
+  }
+
+  void RequireIntegersOf(vtkXMLDataElement* element) const
+  {
+    const char* const type = element->GetAttribute("type");
+    const char* const name = element->GetAttribute("Name");
+    if (type && IsText(element) && std::strcmp(element->GetName(), "DataArray") == 0)
+    {
+      const std::string ofParent = std::string("of ") + element->GetParent()->GetName();
+      RequireIntegers(
+        *this->File, name ? "'" + std::string(name) + "'" : ofParent, type, this->TextOf(element));
+    }
   }
 
   /// Whether an array of numbers has another value after its first `count`. Asks for the last of
@@ -461,6 +481,7 @@ FileMesh ReadLegacy(const InputFile& file)
   {
     file.Fail("has no POINTS (truncated or corrupt)");
   }
+  RequireIntegersOfLegacy(file);
   const auto headers = ReadHeaders(bytes, hasOffsets);
   for (const MeshCount& count : CountsOf(mesh))
   {

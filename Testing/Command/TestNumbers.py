@@ -134,6 +134,64 @@ class Refused(BadFileTest):
             self.refuse("a.ply", "line 12", f"'{text}'")
 
 
+class IntegersOfVtk(BadFileTest):
+    """VTK wraps integers in text that their types cannot hold."""
+
+    # Types of a .vtk and a .vtp, and for each the least and the largest integer.
+    TYPES = [("unsigned_char", "UInt8", 0, 2**8 - 1), ("char", "Int8", -(2**7), 2**7 - 1),
+             ("unsigned_short", "UInt16", 0, 2**16 - 1), ("short", "Int16", -(2**15), 2**15 - 1),
+             ("unsigned_int", "UInt32", 0, 2**32 - 1), ("int", "Int32", -(2**31), 2**31 - 1),
+             ("unsigned_long", "UInt64", 0, 2**64 - 1), ("long", "Int64", -(2**63), 2**63 - 1)]
+    LEGACY = ("# vtk DataFile Version 3.0\n300 999\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+              "POLYGONS 1 4\n3 0 1 2\n")
+    XML = ('<VTKFile type="PolyData" version="0.1"><PolyData><Piece NumberOfPoints="3" NumberOfPolys="1">{}'
+           '<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray>'
+           '</Points><Polys><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2</DataArray>'
+           '<DataArray type="Int32" Name="offsets" format="ascii">3</DataArray></Polys></Piece></PolyData></VTKFile>')
+
+    def expect(self, name, text, kind, number, fits):
+        self.write(name, text)
+        if fits:
+            self.succeed(name, "out.vtk", "--quiet")
+        else:
+            self.refuse(name)
+            told = self.run_command(name, "out.vtk").stderr
+            isWrapped = "char" in kind or name == "a.vtp"  # else VTK itself may refuse it
+            self.assertTrue(f"{number} in the array 'a' does not fit into its type {kind}" in told
+                            or not isWrapped and "cannot be read" in told, told)
+
+    def test_ends_of_the_ranges(self):
+        for legacy, xml, least, most in self.TYPES:
+            for number in (least, most, least - 1, most + 1):
+                fits = least <= number <= most
+                for field in (f"SCALARS a {legacy}\nLOOKUP_TABLE default\n1 {number}\n0\n",
+                              f"FIELD f 2\na 1 3 {legacy}\n1 0 {number}\n300 1 3 short\n300 -300 7\n"):
+                    self.expect("a.vtk", self.LEGACY + "POINT_DATA 3\n" + field, legacy, number, fits)
+                array = f'<PointData><DataArray type="{xml}" Name="a" format="ascii">\n1 0\n {number}\n'
+                self.expect("a.vtp", self.XML.format(array + "</DataArray></PointData>"), xml, number, fits)
+
+    def test_attributes_of_a_vtk(self):
+        many = "1 1 1 1 1 1 1 1 1 "
+        for section, bad in (
+            ("CELL_DATA 1\nSCALARS a unsigned_char 2\nLOOKUP_TABLE t\n1 ", 300), ("CELL_DATA 1\nVECTORS a char\n1 2 ", 128),
+            ("CELL_DATA 1\nNORMALS a char\n1 2\n", -129), ("CELL_DATA 1\nTENSORS a char\n1 1 1 1 1 1 1 1 ", 128),
+            ("CELL_DATA 1\nTEXTURE_COORDINATES a 2 char\n1 ", 128), ("FIELD FieldData 1\na 1 2 char\n1 ", 128),
+            ("POINT_DATA 3\nSCALARS first float 3\nLOOKUP_TABLE default\n" + many + "\nVECTORS b char\n" + many
+             + "\nMETADATA\nINFORMATION 0\n\nVECTORS a char\n1 2 3 1 2 3 1 2 ", 128),
+            ("CELL_DATA 1\nSCALARS b char 1\nLOOKUP_TABLE 300\n1\nLOOKUP_TABLE 300 1\n1 1 1 1\nSCALARS a char\n"
+             "LOOKUP_TABLE default\n", 128),
+        ):
+            for number in (3, bad):
+                kind = "unsigned_char" if "unsigned" in section else "char"
+                self.expect("a.vtk", self.LEGACY + section + f"{number}\n", kind, number, number == 3)
+
+    def test_points_and_cells_of_a_vtp(self):
+        for old, new, kind in (("Float32", "UInt8", "UInt8"),):
+            text = self.XML.format("").replace(old, new).replace("0 0 0 1 0 0", "0 0 0 300 0 0")
+            self.write("a.vtp", text)
+            self.refuse("a.vtp", f"300 in the array of Points does not fit into its type {kind}")
+
+
 class Lines(BadFileTest):
     def test_byte_order_mark_and_old_line_ends(self):
         for name in ("a.obj", "a.ply", "a.stl"):
