@@ -35,7 +35,7 @@ namespace delaunayflip
 namespace
 {
 
-/// Of the interpolator's output: which places are inside.
+/// The array of the interpolator's output that says which places are inside.
 constexpr const char* MaskArray = "vtkValidPointMask";
 
 /// A number with commas, as in 12,345.

@@ -265,7 +265,7 @@ private:
 
   const InputFile& File;
   std::string_view Text; ///< What is left.
-  std::int64_t Tuples = 0; ///< Of attributes now.
+  std::int64_t Tuples = 0; ///< How many attributes now have.
 };
 
 }
