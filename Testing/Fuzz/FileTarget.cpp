@@ -317,14 +317,31 @@ void ExpectSameCounts(const FileCounts& in, const FileCounts& out)
 
 std::string FormatOf(const std::string& name) { return name.substr(name.rfind('.') + 1); }
 
+/// How many faces of a .ply may have become something else: those of one and two points become
+/// verts and lines, which some formats cannot hold, and those of none are left out.
+std::int64_t CountSmallFaces(
+  const std::string& text, const std::string& bytes, const FileCounts& out)
+{
+  const std::string head = bytes.substr(0, bytes.find("end_header"));
+  return SumOf(text, "left out ([0-9]+) faces? without points") +
+    SumOf(text, "(?:verts|lines) \\(([0-9]+)\\)") + SumOf(head, "[\r\n]element edge ([0-9]+)") +
+    std::max<std::int64_t>(out.Verts, 0) + std::max<std::int64_t>(out.Lines, 0);
+}
+
 void ExpectSuccess(const fs::path& folder, const FileCase& drawn)
 {
   if (!fs::exists(folder / drawn.Output) || ReadFile(folder / drawn.Output) == EarlierOutput)
   {
     Fail("writes nothing and says that all is well");
   }
-  ExpectSameCounts(CountsOf(drawn.Bytes, FormatOf(drawn.Input)),
-    CountsOf(ReadFile(folder / drawn.Output), FormatOf(drawn.Output)));
+  const std::string bytes = ReadFile(folder / drawn.Output);
+  FileCounts in = CountsOf(drawn.Bytes, FormatOf(drawn.Input));
+  const FileCounts out = CountsOf(bytes, FormatOf(drawn.Output));
+  if (FormatOf(drawn.Input) == "ply")
+  {
+    in.Faces -= CountSmallFaces(ReadFile(folder / "text"), bytes, out);
+  }
+  ExpectSameCounts(in, out);
   const auto isEmpty = [&]
   { return ReadFile(folder / "text").find(": is empty: ") != std::string::npos; };
   if (drawn.IsReadAgain && Run(folder, drawn.Output, "again.vtk") != 0 && !isEmpty())
