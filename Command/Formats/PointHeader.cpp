@@ -45,11 +45,12 @@ bool IsBlank(const TextLines& lines)
 
 namespace
 {
-/// Whether no word at these places, as far as they are there, is other than a number.
+/// Whether no word at these places, as far as they are there, is other than a number or empty.
 bool MayBeValues(const Words& words, const Places& places)
 {
   return std::all_of(places.begin(), places.end(),
-    [&words](std::size_t place) { return place >= words.size() || IsValue(words[place]); });
+    [&words](std::size_t place)
+    { return place >= words.size() || words[place].empty() || IsValue(words[place]); });
 }
 
 /// Whether there are words at all of these places, and they are numbers.

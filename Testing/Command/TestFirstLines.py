@@ -43,6 +43,13 @@ class FirstLines(PointTest):
         self.write("in.txt", text_of(PLACES, end=";\n"))
         self.fail_with(3, "in.txt", "out.vtk", "--from-points", naming=["in.txt: line 1: "])
 
+    def test_empty_cells(self):
+        """A first point without y is an error like a later one, and no line of names."""
+        for rows in ("7,,5\n8,1,5\n9,2,6\n", "8,1,5\n7,,5\n9,2,6\n"):
+            self.write("in.csv", rows)
+            self.fail_with(3, "in.csv", "out.vtk", "--from-points", "--columns", "2,3",
+                           naming=[f"in.csv: line {2 if rows[0] == '8' else 1}: a number is missing"])
+
     def test_breaklines(self):
         for separator in (" ", "\t"):
             rows = [("0", "0", "7"), ("1", "1,5", "7"), ("3,5", "3,25", "7")]
