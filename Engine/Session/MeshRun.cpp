@@ -108,9 +108,9 @@ void MeshRun::Reset()
   this->HasMoved = false;
   this->Refined = RefinedCallerMesh();
   this->Regions.clear();
-  this->Start = this->Mesh;
   this->Report.Points = this->Mesh.CountPoints();
   this->Report.Triangles = this->Mesh.CountTriangles();
+  this->Start = this->Mesh; // last, because memory may be lacking
 }
 
 void MeshRun::ListDefects()
