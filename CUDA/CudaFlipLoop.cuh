@@ -433,7 +433,7 @@ private:
       this->Devices = this->Backend.CountDevices();
     }
     const std::int64_t blocks = std::min(
-      { MostIterateBlocks / this->Devices, this->CountResidentBlocks(this->GetIterateKernel()) });
+      MostIterateBlocks / this->Devices, this->CountResidentBlocks(this->GetIterateKernel()));
     std::int64_t parts = this->Bits.CountUnits();
     for (; this->Splits < EdgeUnits::MostSplits && 2 * parts <= blocks * LoopWarps; parts *= 2)
     {

@@ -270,7 +270,8 @@ constexpr int MostWaits = 5;
 /// stop the run in time.
 constexpr int MostIterations = 128;
 
-/// The most blocks per such launch, so that the parts of their news stay within their bits.
+/// The most blocks per such launch, so that the parts of their news stay within their bits. The
+/// detection before the iterations has fewer waits than one of them.
 constexpr int MostIterateBlocks = TeamNews::MostArrivals / ((MostIterations + 1) * MostWaits);
 static_assert(MostIterateBlocks < 1 << TeamNews::WarningBits, "all may warn at the same wait");
 static_assert(MostIterateBlocks >= 1024, "enough for any GPU; else lower MostIterations");

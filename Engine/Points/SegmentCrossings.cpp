@@ -40,7 +40,8 @@ struct Rounded
   double Shift; ///< How far it is from what was rounded.
 };
 
-/// The multiple of 2^zeros that is next to a number, the even one of two that are.
+/// A number below 2^63, rounded to the nearest multiple of 2^zeros, and to the even one of two.
+/// @param zeros positive.
 std::uint64_t RoundToMultiple(std::uint64_t bits, int zeros)
 {
   if (zeros > 63)
@@ -51,7 +52,7 @@ std::uint64_t RoundToMultiple(std::uint64_t bits, int zeros)
   const std::uint64_t rest = bits & (unit - 1);
   const std::uint64_t below = bits - rest;
   const bool isOdd = (below & unit) != 0;
-  const bool goesUp = rest > unit / 2 || (rest == unit / 2 && rest > 0 && isOdd);
+  const bool goesUp = rest > unit / 2 || (rest == unit / 2 && isOdd);
   return goesUp ? below + unit : below;
 }
 
