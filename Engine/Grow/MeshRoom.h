@@ -15,7 +15,9 @@
 namespace delaunayflip
 {
 
-/// Makes room in an array for `size` values, a half more than that if it has to move.
+/// Makes room in an array for `size` values, and for more if it has to move: on a device for a half
+/// more. A host gives an array pages when they are written, so there room for twice as many costs
+/// nothing, and the array moves less often.
 template <typename T, typename Backend>
 void Reserve(Array<T>& array, std::int64_t used, std::int64_t size, const Backend& backend)
 {
@@ -23,7 +25,8 @@ void Reserve(Array<T>& array, std::int64_t used, std::int64_t size, const Backen
   {
     return;
   }
-  Array<T> larger = backend.template MakeArray<T>(size + size / 2);
+  const std::int64_t spare = Backend::IsOnHost ? size : size / 2;
+  Array<T> larger = backend.template MakeArray<T>(size + spare);
   const T* from = array.Data();
   T* to = larger.Data();
   backend.ForEach(used, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { to[i] = from[i]; });
