@@ -81,6 +81,11 @@ void CheckOutput(Arguments& arguments)
   {
     FailOnUsage(arguments.Output + ": --crs is for a .tif or .asc; a .vti does not store it");
   }
+  if (!heights.Crs.empty() && extension == ".asc")
+  {
+    arguments.ProjectionFile =
+      std::filesystem::path(arguments.Output).replace_extension(".prj").string();
+  }
   if (heights.AreWanted())
   {
     return;
@@ -133,7 +138,10 @@ void CheckFormats(Arguments& arguments)
 void CheckArguments(Arguments& arguments)
 {
   CheckFormats(arguments);
-  CheckProjection(arguments);
+  if (arguments.FromPoints)
+  {
+    CheckProjection(arguments);
+  }
   const bool holdsCellData =
     arguments.OutputFormat == MeshFormat::VTK || arguments.OutputFormat == MeshFormat::VTP;
   if (arguments.Flip->GetGenerateQuality() && !holdsCellData)
@@ -147,7 +155,7 @@ void CheckArguments(Arguments& arguments)
     used.insert(FollowLinks(FileLayer(file).File));
   }
   for (const std::string& file :
-    { arguments.Output, arguments.Statistics, arguments.Report, arguments.FindProjectionFile() })
+    { arguments.Output, arguments.Statistics, arguments.Report, arguments.ProjectionFile })
   {
     if (!file.empty() && !used.insert(FollowLinks(file)).second)
     {
@@ -155,12 +163,6 @@ void CheckArguments(Arguments& arguments)
     }
     used.insert(FollowLinks(FileLayer(arguments.Input).File));
   }
-}
-
-std::string Arguments::FindProjectionFile() const
-{
-  const bool hasOne = !this->Heights.Crs.empty() && ExtensionOf(this->Output) == ".asc";
-  return hasOne ? std::filesystem::path(this->Output).replace_extension(".prj").string() : "";
 }
 
 }

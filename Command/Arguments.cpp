@@ -452,19 +452,6 @@ void RelateOptions(CLI::App& app)
     "--quality");
 }
 
-/// Checks that options about heights are used only with an option that asks for heights.
-void CheckHeightOptions(const CLI::App& app)
-{
-  const bool areWanted = app.count("--raster") > 0 || app.count("--heights-at") > 0;
-  for (const char* const option : { "--raster-method", "--raster-array" })
-  {
-    if (app.count(option) > 0 && !areWanted)
-    {
-      throw CLI::RequiresError(option, "--raster or --heights-at");
-    }
-  }
-}
-
 }
 
 std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
@@ -484,7 +471,13 @@ std::optional<int> ParseArguments(int argc, char** argv, Arguments& arguments)
   try
   {
     app.parse(argc, argv);
-    CheckHeightOptions(app);
+    for (const char* const option : { "--raster-method", "--raster-array" })
+    {
+      if (app.count(option) > 0 && !arguments.Heights.AreWanted())
+      {
+        throw CLI::RequiresError(option, "--raster or --heights-at");
+      }
+    }
     CheckArguments(arguments);
   }
   catch (const CLI::Success& success)

@@ -40,9 +40,6 @@ struct Arguments
   std::string Holes;
   std::string Constraints; ///< File; empty: none.
 
-  /// The .prj beside an .asc with a coordinate reference system; empty: none.
-  std::string FindProjectionFile() const;
-
   /// The files to read beside the input; some are empty.
   std::vector<std::string> ListOthers() const
   {
@@ -51,6 +48,7 @@ struct Arguments
 
   std::string Statistics; ///< CSV file; empty: none.
   std::string Report; ///< JSON file; empty: none.
+  std::string ProjectionFile; ///< Beside an .asc with a coordinate reference system; empty: none.
   bool Quiet = false;
 };
 

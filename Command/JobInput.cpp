@@ -57,16 +57,28 @@ public:
     if (this->Settings.FromPoints)
     {
       this->ReadSegments();
-      this->CompareCrs(heights.Crs, "--crs");
+      if (!heights.Crs.empty())
+      {
+        this->CompareCrs(heights.Crs, "--crs");
+      }
     }
     else if (!this->Settings.Constraints.empty())
     {
       const std::string& path = this->Settings.Constraints;
       this->Input.Segments = MakeSegments(this->ReadFile(path, Content::Segments), path, true);
     }
-    this->Repair(this->Settings.MergePoints, MergeEqualPoints);
-    this->Repair(this->Settings.DropDuplicates, DropDuplicates);
-    this->Repair(this->Settings.Orient, Orient);
+    if (this->Settings.MergePoints)
+    {
+      this->Repair(MergeEqualPoints);
+    }
+    if (this->Settings.DropDuplicates)
+    {
+      this->Repair(DropDuplicates);
+    }
+    if (this->Settings.Orient)
+    {
+      this->Repair(Orient);
+    }
     const bool hasTriangles =
       this->Input.Mesh->GetNumberOfPolys() + this->Input.Mesh->GetNumberOfStrips() > 0;
     if (this->Input.Mesh->GetNumberOfPoints() == 0)
@@ -121,7 +133,10 @@ private:
       this->PlacesHaveAngles = file.HasAngles;
     }
     this->Bar.Clear();
-    this->CompareCrs(file.Crs, path);
+    if (!file.Crs.empty())
+    {
+      this->CompareCrs(file.Crs, path);
+    }
     // The others say that they have nothing.
     const bool mayBeEmpty =
       format == MeshFormat::VTK || format == MeshFormat::VTP || format == MeshFormat::PLY;
@@ -136,10 +151,6 @@ private:
   /// @param where a file, or the option that names it.
   void CompareCrs(const std::string& crs, const std::string& where)
   {
-    if (crs.empty())
-    {
-      return;
-    }
     const std::string difference = this->FilesCrs.Compare(crs, where);
     if (!difference.empty())
     {
@@ -169,14 +180,11 @@ private:
     return file.Mesh;
   }
 
-  void Repair(bool isWanted, RepairedMesh (*repair)(vtkPolyData*))
+  void Repair(RepairedMesh (*repair)(vtkPolyData*))
   {
-    if (isWanted)
-    {
-      const RepairedMesh repaired = repair(this->Input.Mesh);
-      this->Input.Mesh = this->Take(repaired.Result, this->Settings.Input);
-      this->Messages.Note(this->Settings.Input + ": " + repaired.Note);
-    }
+    const RepairedMesh repaired = repair(this->Input.Mesh);
+    this->Input.Mesh = this->Take(repaired.Result, this->Settings.Input);
+    this->Messages.Note(this->Settings.Input + ": " + repaired.Note);
   }
 
   /// Reads breaklines and rings, which become one mesh.

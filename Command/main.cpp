@@ -107,7 +107,7 @@ int main(int argc, char** argv)
     }
     ChildProcess child;
     OutputFiles files{ PendingFile(arguments.Output), PendingFile(arguments.Statistics, true),
-      PendingFile(arguments.Report, true), PendingFile(arguments.FindProjectionFile()) };
+      PendingFile(arguments.Report, true), PendingFile(arguments.ProjectionFile) };
     const auto work = [&]
     {
       return Guarded([&] { return RunFlipJob(arguments, files, child); },
