@@ -132,12 +132,8 @@ std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements)
 
 std::vector<MeshBlock> ListOtherBlocks(vtkDataObject* input, int elements)
 {
-  std::vector<MeshBlock> blocks;
-  if (input)
-  {
-    blocks = ListMeshBlocks(input, elements);
-    blocks.resize(std::max<std::size_t>(1, blocks.size()), { { 0 }, "", 0.0, false, {} });
-  }
+  std::vector<MeshBlock> blocks = ListMeshBlocks(input, elements);
+  blocks.resize(std::max<std::size_t>(1, blocks.size()), { { 0 }, "", 0.0, false, {} });
   return blocks;
 }
 

@@ -45,7 +45,7 @@ struct MeshBlock
 /// is a block of its own.
 DELAUNAYFLIP_EXPORT std::vector<MeshBlock> ListMeshBlocks(vtkDataObject* input, int elements);
 
-/// Does so for another input than the first one, which may be null. Only null has no blocks.
+/// Does so for another input than the first one. There is at least one block.
 std::vector<MeshBlock> ListOtherBlocks(vtkDataObject* input, int elements);
 
 /// Lists what is ignored of another input than the first one.

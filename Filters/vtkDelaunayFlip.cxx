@@ -113,7 +113,10 @@ FlipRequest vtkDelaunayFlip::MakeRequest(vtkPolyData* mesh, vtkPolyData* constra
   const bool hasGoals =
     this->MinimumAngle > 0.0 || this->MaximumArea > 0.0 || this->MaximumEdge > 0.0 || hasAreas;
   request.Settings.Refines = hasGoals || !this->SizeArray.empty();
-  request.Options.Devices = ParseDevices(this->Devices);
+  if (!this->Devices.empty())
+  {
+    request.Options.Devices = ParseDevices(this->Devices);
+  }
   request.WantsFlipCounts = this->GenerateFlipCount;
   request.WantsAngles = this->GenerateQuality;
   return request;

@@ -373,8 +373,11 @@ int vtkDelaunayFlipAlgorithm::RequestData(
   try
   {
     const auto structure = Hold(input);
-    const auto second = Hold(vtkDataObject::GetData(inputVector[1]));
-    const std::vector<MeshBlock> others = ListOtherBlocks(second, this->SizeOfOthers);
+    std::vector<MeshBlock> others;
+    if (vtkDataObject* second = vtkDataObject::GetData(inputVector[1]))
+    {
+      others = ListOtherBlocks(Hold(second), this->SizeOfOthers);
+    }
     std::vector<MeshBlock> blocks = this->ListBlocks(
       vtkCompositeDataSet::SafeDownCast(input) ? structure : input, others, summary);
     double size = 0.0;
@@ -488,7 +491,10 @@ std::vector<MeshBlock> vtkDelaunayFlipAlgorithm::ListBlocks(
     blocks.front().IsLive = this->LiveUpdate && !IsBatchProgram() &&
       this->GetOutputInformation(0)->Get(Asked::UPDATE_NUMBER_OF_PIECES()) <= 1;
   }
-  summary.Warnings = ListMisfits(blocks, others);
+  if (!others.empty())
+  {
+    summary.Warnings = ListMisfits(blocks, others);
+  }
   return blocks;
 }
 

@@ -422,6 +422,13 @@ int vtkDelaunayFlipInterpolator::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
+/// The blocks of the third input; none without it.
+std::vector<MeshBlock> vtkDelaunayFlipInterpolator::ListSegments()
+{
+  vtkDataObject* third = this->GetInputDataObject(this->SegmentsPort, 0);
+  return third ? ListOtherBlocks(Hold(third), vtkDataObject::CELL) : std::vector<MeshBlock>();
+}
+
 /// The run of a single block is kept. It has no steps.
 std::vector<MeshBlock> vtkDelaunayFlipInterpolator::ListBlocks(
   vtkDataObject* input, const std::vector<MeshBlock>&, UpdateSummary& summary)
@@ -431,9 +438,7 @@ std::vector<MeshBlock> vtkDelaunayFlipInterpolator::ListBlocks(
   {
     block.IsLive = true;
   }
-  const auto segments = Hold(this->GetInputDataObject(this->SegmentsPort, 0));
-  summary.Warnings =
-    ListMisfits(blocks, ListOtherBlocks(segments, vtkDataObject::CELL), "third input");
+  summary.Warnings = ListMisfits(blocks, this->ListSegments(), "third input");
   return blocks;
 }
 
@@ -463,11 +468,9 @@ void vtkDelaunayFlipInterpolator::FlipLeaves(
   {
     summary.Warnings.push_back({ block.Name, "the source has no points, so there are no values" });
   }
-  const auto third = Hold(this->GetInputDataObject(this->SegmentsPort, 0));
   const auto points = this->ReadPoints(given, block, summary);
   std::string elevation = this->ChooseArrays(points, block.Name, summary);
-  const auto segments =
-    this->FindSegments(block, ListOtherBlocks(third, vtkDataObject::CELL), elevation, summary);
+  const auto segments = this->FindSegments(block, this->ListSegments(), elevation, summary);
   TriangulationRequest request = this->MakeSourceRequest(given, points, segments);
   if (this->HasAngles() && !elevation.empty())
   {

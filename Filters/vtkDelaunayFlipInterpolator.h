@@ -167,6 +167,7 @@ protected:
 
 private:
 #ifndef __VTK_WRAP__
+  std::vector<delaunayflip::MeshBlock> ListSegments();
   delaunayflip::TriangulationRequest MakeSourceRequest(
     vtkPointSet* source, vtkPolyData* points, vtkPolyData* segments);
 #endif
