@@ -119,7 +119,7 @@ private:
   void AddUnmatchedConstraints(FlipReport& report) const;
 
   FlipRequest Asked; ///< Its meshes may be gone.
-  Stamps Edges; ///< See StampEdges.
+  Stamps Edges; ///< See StampEdges. Only a live run is compared with the next input.
   Stamps Points;
   vtkSmartPointer<vtkPolyData> Current; ///< The input as it was at the last update.
   vtkSmartPointer<vtkPolyData> Constraints; ///< Null without a second input.
@@ -141,8 +141,8 @@ private:
 FlipRun::FlipRun(const FlipRequest& request, UpdatePlan plan, RunStart start)
   : UpdateRun(std::move(plan)),
     Asked(request),
-    Edges(StampEdges(request)),
-    Points(StampPoints(request)),
+    Edges(request.IsLive ? StampEdges(request) : Stamps()),
+    Points(request.IsLive ? StampPoints(request) : Stamps()),
     Current(ShareMesh(request.Input)),
     Constraints(request.Others ? ShareMesh(request.Others) : nullptr),
     Origin(request.IsLive ? CopyPoints(Current) : Current),
@@ -270,14 +270,16 @@ void FlipRun::OpenSession()
   {
     options.FeatureAngle = 180.0; // none: the fixed edges include the feature edges
   }
+  std::vector<ResultMemory> expected;
   if (!this->Asked.IsLive)
   {
     this->Room = this->Bridge.MakeRoom();
+    expected = ListMemory(this->Room);
   }
   try
   {
     this->Session = std::make_unique<FlipSession>(
-      this->GetMesh(this->Begin), options, this->GetProgress(), ListMemory(this->Room));
+      this->GetMesh(this->Begin), options, this->GetProgress(), expected);
   }
   catch (const InvalidMesh&)
   {

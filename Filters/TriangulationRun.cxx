@@ -151,7 +151,7 @@ private:
   void StoreRegions(vtkPolyData* output) const;
 
   TriangulationRequest Asked; ///< Its meshes may be gone.
-  Stamps StampedPoints;
+  Stamps StampedPoints; ///< Only a live run is compared with the next input.
   Stamps StampedArrays;
   vtkSmartPointer<vtkPolyData> Given; ///< The input.
   vtkSmartPointer<vtkPolyData> Points; ///< The input with the points of the segments.
@@ -199,8 +199,8 @@ TriangulationRun::TriangulationRun(const TriangulationRequest& request)
                   true, false },
       request.Progress }),
     Asked(request),
-    StampedPoints(StampPoints(request)),
-    StampedArrays(StampArrays(request)),
+    StampedPoints(request.IsLive ? StampPoints(request) : Stamps()),
+    StampedArrays(request.IsLive ? StampArrays(request) : Stamps()),
     Given(request.IsLive ? CopyPoints(request.Input) : CopyShallow(request.Input)),
     Points(CopyForRun(request, Given)),
     Segments({ request.Others, request.ClosedLinesAsRings, request.ConvertsToDoubles }, Given,
