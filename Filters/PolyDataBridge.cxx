@@ -25,30 +25,23 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   const BridgeSettings& settings, const UpdatePlan& plan)
   : Mesh(mesh),
     Points(ViewPoints(mesh, Coordinates)),
-    RegionSeeds(ReadRegionSeeds(settings.RegionSeeds)),
     AreLinesConstraints(settings.LinesAsConstraints),
     Refines(settings.Refines),
     Slots(mesh, Points, settings.Triangulate, plan.For(UpdatePlan::Polygons))
 {
+  if (!settings.RegionSeeds.empty())
+  {
+    this->RegionSeeds = ReadRegionSeeds(settings.RegionSeeds);
+  }
   const bool hasLines = settings.LinesAsConstraints && mesh->GetNumberOfLines() > 0;
   if (constraints || hasLines)
   {
     this->Constraints = FindConstraintEdges(
       this->GetMesh(), mesh, constraints, settings, plan.For(UpdatePlan::Constraints));
   }
-  if (const auto ghosts = FindGhosts(mesh))
+  if (mesh->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName()))
   {
-    const int ghost = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
-      vtkDataSetAttributes::HIDDENCELL;
-    this->Slots.Frozen.resize(this->Slots.Triangles.Count);
-    for (vtkIdType triangle = 0; triangle < this->Slots.Triangles.Count; ++triangle)
-    {
-      const vtkIdType cell = this->Slots.GetCell(triangle);
-      if (cell < ghosts->GetNumberOfValues() && (ghosts->GetValue(cell) & ghost) != 0)
-      {
-        this->Slots.Frozen[triangle] = 1;
-      }
-    }
+    this->FreezeGhosts();
   }
   if (!settings.RegionArray.empty())
   {
@@ -57,6 +50,27 @@ PolyDataBridge::PolyDataBridge(vtkPolyData* mesh, vtkPolyData* constraints,
   if (!settings.SizeArray.empty())
   {
     this->ReadSizes(settings.SizeArray);
+  }
+}
+
+/// Triangles of ghost cells stay.
+void PolyDataBridge::FreezeGhosts()
+{
+  const auto ghosts = FindGhosts(this->Mesh);
+  if (!ghosts)
+  {
+    return;
+  }
+  const int ghost = vtkDataSetAttributes::DUPLICATECELL | vtkDataSetAttributes::REFINEDCELL |
+    vtkDataSetAttributes::HIDDENCELL;
+  this->Slots.Frozen.resize(this->Slots.Triangles.Count);
+  for (vtkIdType triangle = 0; triangle < this->Slots.Triangles.Count; ++triangle)
+  {
+    const vtkIdType cell = this->Slots.GetCell(triangle);
+    if (cell < ghosts->GetNumberOfValues() && (ghosts->GetValue(cell) & ghost) != 0)
+    {
+      this->Slots.Frozen[triangle] = 1;
+    }
   }
 }
 

@@ -107,6 +107,7 @@ public:
     RegionKeys; ///< One per label. Equal values have equal keys in all meshes.
 
 private:
+  void FreezeGhosts();
   void LabelRegions(const std::string& name, const ProgressObserver& progress);
   void ReadSizes(const std::string& name);
 
