@@ -45,9 +45,12 @@ public:
     const MeshInput input{ mesh, local.Mesh, local.IsOnHost };
     MeshSurvey survey = BuildMeshSurvey(input, options.Geometry, this->Backend);
     CheckTieRule(options, survey.Geometry);
-    const bool isPlanar =
-      survey.Geometry == GeometryKind::Planar || survey.Geometry == GeometryKind::PlanarXY;
-    CheckRefinement(options, mesh, survey.Geometry, isPlanar && survey.Projection.IsInXY());
+    if (HasGoals(options, mesh) || mesh.NumberOfRegionSeeds > 0)
+    {
+      const bool isPlanar =
+        survey.Geometry == GeometryKind::Planar || survey.Geometry == GeometryKind::PlanarXY;
+      CheckRefinement(options, mesh, survey.Geometry, isPlanar && survey.Projection.IsInXY());
+    }
     progress.Reach(survey.Geometry, BuildStep::Surveyed);
     this->Order = OrderMesh(input, survey, this->Backend);
     progress.Reach(survey.Geometry, BuildStep::Ordered);
@@ -135,19 +138,13 @@ public:
     }
   }
 
-  /// WholeMesh::SharedPoints in the order of vertices; empty if there are none. Public because
-  /// device lambdas require it.
+  /// WholeMesh::SharedPoints in the order of vertices. Public because device lambdas require it.
   Array<unsigned char> RankSharedPoints(const TriangleMesh& mesh) const
   {
-    const unsigned char* caller = mesh.Whole.SharedPoints;
     const std::int64_t count = mesh.Points.Count;
-    if (!caller)
-    {
-      return {};
-    }
     Array<unsigned char> given = this->Backend.template MakeArray<unsigned char>(count);
     Array<unsigned char> ranked = this->Backend.template MakeArray<unsigned char>(count);
-    this->Backend.Upload(caller, count, given.Data());
+    this->Backend.Upload(mesh.Whole.SharedPoints, count, given.Data());
     const SpatialOrderView order = this->Order.View();
     const unsigned char* from = given.Data();
     unsigned char* to = ranked.Data();
@@ -307,7 +304,11 @@ private:
     const MeshSurvey& survey, const FlipOptions& options, const TriangleMesh& mesh)
   {
     const bool isSurface = survey.Geometry == GeometryKind::Surface;
-    Array<unsigned char> shared = this->RankSharedPoints(mesh);
+    Array<unsigned char> shared;
+    if (mesh.Whole.SharedPoints)
+    {
+      shared = this->RankSharedPoints(mesh);
+    }
     std::vector<Defect> defects;
     bool needsGuard = true;
     int uniformSide = 0;

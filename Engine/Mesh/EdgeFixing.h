@@ -196,10 +196,6 @@ void FixConstraints(const EdgeMeshInput& input, EdgeMeshResult& result, const Ba
 {
   const TriangleMesh& caller = input.Input.Caller;
   const std::int64_t count = caller.NumberOfConstraintEdges;
-  if (count == 0)
-  {
-    return;
-  }
   CheckConstraints(caller);
   const std::vector<std::uint32_t> ends(caller.ConstraintEdges, caller.ConstraintEdges + 2 * count);
   Array<std::uint32_t> local = backend.template MakeArray<std::uint32_t>(2 * count);

@@ -387,7 +387,10 @@ EdgeMeshResult BuildEdgeMesh(const EdgeMeshInput& input, EdgeMesh loaded, const 
   {
     result.DuplicateTriangles = FindDuplicates(result.Edges, backend);
   }
-  FixConstraints(input, result, backend);
+  if (input.Input.Caller.NumberOfConstraintEdges > 0)
+  {
+    FixConstraints(input, result, backend);
+  }
   return result;
 }
 

@@ -36,7 +36,7 @@ ConstraintInsertion InsertConstraints(
 {
   CheckOptions(options);
   RefuseRefinement(options, mesh, "a mesh in several pieces");
-  if (!ConstraintInsertion::IsRequested(mesh))
+  if (!mesh.ConstraintsToInsert || !ConstraintInsertion::IsRequested(mesh))
   {
     return {};
   }

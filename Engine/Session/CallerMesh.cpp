@@ -92,10 +92,6 @@ int JoinDevice(int chosen, const void* memory, std::int64_t size, const char* wh
 
 int CallerMesh::ChooseDevice(int requested) const
 {
-  if (!this->Device)
-  {
-    return requested;
-  }
   const DevicePointArray& points = this->Device->Points;
   const auto& triangles = this->Device->Triangles;
   const int chosen = JoinDevice(requested, points.Data(), points.Count, "the points are");

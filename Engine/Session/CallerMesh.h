@@ -40,7 +40,8 @@ public:
   /// @throws BackendUnavailable.
   const TriangleMesh& CopyToHost();
 
-  /// The GPU to use: `requested`, or if that is -1 the one that has the arrays.
+  /// The GPU to use for arrays in device memory: `requested`, or if that is -1 the one that has
+  /// them.
   /// @throws InvalidOptions if another GPU, or none, has them.
   int ChooseDevice(int requested) const;
 

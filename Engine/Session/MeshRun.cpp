@@ -24,7 +24,7 @@ void MeshRun::ListStages()
   const auto flips = [this](LoadedMesh& loaded, std::int64_t iterations)
   { this->RepeatFlips(loaded, iterations); };
   const auto test = [this](LoadedMesh& loaded, std::int64_t) { this->RepeatTest(loaded); };
-  const bool inserts = ConstraintInsertion::IsRequested(given);
+  const bool inserts = given.ConstraintsToInsert && ConstraintInsertion::IsRequested(given);
   if (inserts)
   {
     this->Stages.push_back({ "insert constraints", OnStop::Forgets, ConstraintInsertion::ShareOfRun,
@@ -72,7 +72,10 @@ MeshRun::MeshRun(
   }
   this->WantsRefinement = HasGoals(options, given);
   this->ListStages();
-  this->Options.Device = mesh.ChooseDevice(options.Device);
+  if (mesh.GetOnDevice())
+  {
+    this->Options.Device = mesh.ChooseDevice(options.Device);
+  }
 }
 
 /// Makes constraints edges by flips, on the host, before a backend is chosen.

@@ -62,9 +62,8 @@ void AddDefects(const std::vector<RefusedConstraint>& refused, std::vector<Defec
 bool ConstraintInsertion::IsRequested(const FixedEdges& edges)
 {
   const unsigned char* flags = edges.ConstraintsToInsert;
-  return flags &&
-    std::any_of(
-      flags, flags + edges.NumberOfConstraintEdges, [](unsigned char flag) { return flag != 0; });
+  return std::any_of(
+    flags, flags + edges.NumberOfConstraintEdges, [](unsigned char flag) { return flag != 0; });
 }
 
 MissingConstraints FindMissingConstraints(const TriangleMesh& mesh, const ThreadBackend& backend)

@@ -50,7 +50,7 @@ public:
   /// For a mesh without constraints to be inserted.
   ConstraintInsertion() = default;
 
-  /// Whether flips may have to make constraint edges.
+  /// Whether flips may have to make constraint edges. @param edges with ConstraintsToInsert.
   static bool IsRequested(const FixedEdges& edges);
 
   /// @param observer is told of the insertion; not called if the mesh has all constraints as edges.
