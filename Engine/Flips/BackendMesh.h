@@ -178,9 +178,7 @@ public:
 
   Defect FindTurnedTriangles() const override
   {
-    const bool wasHeightField =
-      this->Report.GeometryUsed == GeometryKind::Surface && this->Orientations.AreNearlyUniform();
-    if (!wasHeightField)
+    if (!this->Orientations.AreNearlyUniform()) // it never was a height field
     {
       return Defect();
     }

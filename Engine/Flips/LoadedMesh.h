@@ -167,8 +167,8 @@ public:
   virtual bool StoreFlipCountsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
   virtual bool StoreNeighborsOnDevice(std::int32_t*, const DeviceStream&) const { return false; }
 
-  /// Finds the triangles that flips have turned over in x and y, on a surface that was a height
-  /// field or nearly one. On other meshes there are none.
+  /// Finds the triangles of a surface that flips have turned over in x and y. If it was not a
+  /// height field or nearly one, there are none.
   virtual Defect FindTurnedTriangles() const = 0;
 
   /// Returns what KeepsWorstSliver (SmallestAngle.h) does.

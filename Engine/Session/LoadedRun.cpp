@@ -180,6 +180,11 @@ void LoadedRun::RepeatTest(LoadedMesh& mesh)
   this->Building.Reach(this->Report.GeometryUsed, BuildStep::Tested);
 }
 
+bool LoadedRun::HasMoreFlips() const
+{
+  return this->Found.Bad > 0 && this->CountIterations() < this->GetIterationLimit();
+}
+
 bool LoadedRun::Flip(const std::function<bool()>& givesUp)
 {
   bool isOver = !this->HasMoreFlips();
@@ -436,8 +441,11 @@ void LoadedRun::Measure()
   if (report.StopReason != StopReasonKind::Running && !report.Iterations.empty())
   {
     report.Iterations.back().MinimumAngle = report.MinimumAngleAfter;
-    AddDefect(this->OnBackend([](const LoadedMesh& mesh) { return mesh.FindTurnedTriangles(); }),
-      report.Defects);
+    if (report.GeometryUsed == GeometryKind::Surface)
+    {
+      AddDefect(this->OnBackend([](const LoadedMesh& mesh) { return mesh.FindTurnedTriangles(); }),
+        report.Defects);
+    }
   }
 }
 

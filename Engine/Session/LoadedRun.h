@@ -179,10 +179,7 @@ protected:
   /// Begins to touch the pages of the memory that is expected, if a GPU flips.
   void TouchExpected();
 
-  bool HasMoreFlips() const
-  {
-    return this->Found.Bad > 0 && this->CountIterations() < this->GetIterationLimit();
-  }
+  bool HasMoreFlips() const;
   bool MayIterate() const { return !this->WasStopped && this->CountIterations() < this->Limit; }
   std::int64_t CountIterations() const { return SizeOf(this->Report.Iterations); }
   void RunBatch();
