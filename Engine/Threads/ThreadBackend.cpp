@@ -3,6 +3,7 @@
 #include "ThreadBackend.h"
 
 #include "CornerPairing.h"
+#include "SystemMemory.h"
 
 #include <array>
 #include <atomic>
@@ -89,10 +90,9 @@ int ResolveThreads(int wanted)
   }
   // The heap may have some memory of its own that oneTBB cannot use.
   constexpr std::size_t room = 16 << 20; // many times what oneTBB takes at first or for an arena
-  HostMemory memory;
   try
   {
-    memory.Free(memory.Allocate(room), room);
+    FreeToSystem(AllocateFromSystem(room), room);
     return threads;
   }
   catch (const std::bad_alloc&)

@@ -84,18 +84,14 @@ public:
     return size <= Most ? Most : std::clamp(size / WantedPieces, Fewest, Most);
   }
 
-  /// Calls work(begin, end) on pieces of [0, size) of `grain` items.
+  /// Calls work(begin, end) on pieces of [0, size).
+  /// @param grain how many items a piece has; 0: as GetGrain says.
   template <typename Work>
-  void ForRange(std::int64_t size, const Work& work, std::int64_t grain) const
+  void ForRange(std::int64_t size, const Work& work, std::int64_t grain = 0) const
   {
-    this->ForTasks((size + grain - 1) / grain,
-      [&](std::int64_t piece) { work(piece * grain, std::min(size, (piece + 1) * grain)); });
-  }
-
-  template <typename Work>
-  void ForRange(std::int64_t size, const Work& work) const
-  {
-    this->ForRange(size, work, GetGrain(size));
+    const std::int64_t items = grain > 0 ? grain : GetGrain(size);
+    this->ForTasks((size + items - 1) / items,
+      [&](std::int64_t piece) { work(piece * items, std::min(size, (piece + 1) * items)); });
   }
 
   /// The sum, by operator+=, of work(begin, end) over pieces of [0, size), in their order.
