@@ -7,32 +7,14 @@
 #include "FlipRules.h"
 #include "MeshSurvey.h"
 #include "PortableMath.h"
-#include "SpatialOrder.h"
 
 #include <cmath>
 
 /// @file
-/// Which rule judges a mesh, and on which coordinates.
+/// Which rule judges a mesh.
 
 namespace delaunayflip
 {
-
-/// The coordinates by which a mesh is judged. For terrain judged by angles, those of the
-/// projection.
-/// @param asFloat whether the caller's coordinates are of type float.
-inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion, bool asFloat)
-{
-  if (survey.Geometry == GeometryKind::Surface || survey.Geometry == GeometryKind::Sphere)
-  {
-    return { { 0, 1, 2 }, 3, asFloat, false, false };
-  }
-  const PlaneProjection& plane = survey.Projection;
-  const bool byAngles = criterion == CriterionKind::OppositeAngles;
-  const int components = 2 + int(byAngles || plane.Tilted);
-  return { { plane.AxisU, plane.AxisV, plane.AxisW }, components, asFloat && components == 2,
-    byAngles && survey.Geometry == GeometryKind::PlanarXY,
-    survey.Geometry == GeometryKind::Planar && survey.NonFinitePoints.Count > 0 };
-}
 
 /// Which rule of FlipRules.h judges a mesh.
 struct RuleChoice

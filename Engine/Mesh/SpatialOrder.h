@@ -6,6 +6,7 @@
 #include "Array.h"
 #include "EdgeMesh.h"
 #include "FilteredPredicates.h"
+#include "FlipOptions.h"
 #include "MeshSurvey.h"
 #include "TriangleMesh.h"
 
@@ -367,6 +368,23 @@ struct PackingPlan
     return points.Get(point, this->Axes[component]);
   }
 };
+
+/// The coordinates by which a mesh is judged. For terrain judged by angles, those of the
+/// projection.
+/// @param asFloat whether the caller's coordinates are of type float.
+inline PackingPlan PlanPacking(const MeshSurvey& survey, CriterionKind criterion, bool asFloat)
+{
+  if (survey.Geometry == GeometryKind::Surface || survey.Geometry == GeometryKind::Sphere)
+  {
+    return { { 0, 1, 2 }, 3, asFloat, false, false };
+  }
+  const PlaneProjection& plane = survey.Projection;
+  const bool byAngles = criterion == CriterionKind::OppositeAngles;
+  const int components = 2 + int(byAngles || plane.Tilted);
+  return { { plane.AxisU, plane.AxisV, plane.AxisW }, components, asFloat && components == 2,
+    byAngles && survey.Geometry == GeometryKind::PlanarXY,
+    survey.Geometry == GeometryKind::Planar && survey.NonFinitePoints.Count > 0 };
+}
 
 /// Packs the point of a rank.
 template <typename Real>
