@@ -266,8 +266,10 @@ TriangleMesh FlipRun::GetMesh(const RunStart& start) const
 void FlipRun::OpenSession()
 {
   FlipOptions options = this->Asked.Options;
+  TriangleMesh mesh = this->Bridge.GetMesh();
   if (this->IsWarm())
   {
+    mesh = this->GetMesh(this->Begin);
     options.FeatureAngle = 180.0; // none: the fixed edges include the feature edges
   }
   std::vector<ResultMemory> expected;
@@ -278,8 +280,7 @@ void FlipRun::OpenSession()
   }
   try
   {
-    this->Session = std::make_unique<FlipSession>(
-      this->GetMesh(this->Begin), options, this->GetProgress(), expected);
+    this->Session = std::make_unique<FlipSession>(mesh, options, this->GetProgress(), expected);
   }
   catch (const InvalidMesh&)
   {

@@ -185,7 +185,7 @@ void StoreCells(vtkPolyData* mesh, const TriangleSlots& slots,
 void RenewNormals(vtkPolyData* output, const FindChange& findChange)
 {
   vtkDataArray* shared = output->GetCellData()->GetNormals();
-  if (!shared || shared->GetNumberOfComponents() != 3 ||
+  if (shared->GetNumberOfComponents() != 3 ||
     shared->GetNumberOfTuples() < output->GetNumberOfCells())
   {
     return;

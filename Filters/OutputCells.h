@@ -59,9 +59,9 @@ DELAUNAYFLIP_EXPORT void StoreCells(vtkPolyData* mesh, const TriangleSlots& slot
 using FindChange =
   std::function<bool(vtkIdType polygon, const std::int64_t ids[3], std::int64_t before[3])>;
 
-/// Recomputes the active cell normals of changed triangles. A normal that pointed against the
-/// winding of the triangle before points against that of the new one. Normals with too few tuples
-/// stay as they are.
+/// Recomputes the active cell normals of changed triangles, for an output that has normals. One
+/// that pointed against the winding of the triangle before points against that of the new one.
+/// Normals with too few tuples stay as they are.
 DELAUNAYFLIP_EXPORT void RenewNormals(vtkPolyData* output, const FindChange& findChange);
 
 /// Adds a cell array to an output: vtkIntArray for integers, else vtkDoubleArray.

@@ -207,7 +207,8 @@ void PolyDataBridge::NumberCells(std::vector<Defect>& defects) const
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkCellArray> PolyDataBridge::MakeRoom() const
 {
-  if (this->Refines || !this->Slots.ArePolygonsTriangles())
+  const bool areTriangles = this->Slots.InPlace || this->Slots.ArePolygonsTriangles();
+  if (this->Refines || !areTriangles)
   {
     return nullptr;
   }
@@ -242,16 +243,19 @@ void PolyDataBridge::Store(const FlipSession& session, const vtkSmartPointer<vtk
   {
     DemoteGlobalIds(output->GetCellData());
   }
-  RenewNormals(output,
-    [&slots](vtkIdType polygon, const std::int64_t ids[3], std::int64_t before[3])
-    {
-      const vtkIdType triangle = slots.GetPolygon(polygon).Triangle;
-      for (int slot = 0; slot < 3 && triangle != TriangleSlots::None; ++slot)
+  if (output->GetCellData()->GetNormals())
+  {
+    RenewNormals(output,
+      [&slots](vtkIdType polygon, const std::int64_t ids[3], std::int64_t before[3])
       {
-        before[slot] = slots.Triangles.Get(triangle, slot);
-      }
-      return !std::equal(ids, ids + 3, before);
-    });
+        const vtkIdType triangle = slots.GetPolygon(polygon).Triangle;
+        for (int slot = 0; slot < 3 && triangle != TriangleSlots::None; ++slot)
+        {
+          before[slot] = slots.Triangles.Get(triangle, slot);
+        }
+        return !std::equal(ids, ids + 3, before);
+      });
+  }
 }
 
 namespace
@@ -358,16 +362,19 @@ void PolyDataBridge::StoreRefined(
   {
     DemoteGlobalIds(output->GetCellData());
   }
-  RenewNormals(output,
-    [&](vtkIdType polygon, const std::int64_t of[3], std::int64_t before[3])
-    {
-      const vtkIdType source = refined.GetSource(polygon);
-      for (int slot = 0; slot < 3 && source != TriangleSlots::None; ++slot)
+  if (output->GetCellData()->GetNormals())
+  {
+    RenewNormals(output,
+      [&](vtkIdType polygon, const std::int64_t of[3], std::int64_t before[3])
       {
-        before[slot] = slots.Triangles.Get(source, slot);
-      }
-      return !std::equal(of, of + 3, before);
-    });
+        const vtkIdType source = refined.GetSource(polygon);
+        for (int slot = 0; slot < 3 && source != TriangleSlots::None; ++slot)
+        {
+          before[slot] = slots.Triangles.Get(source, slot);
+        }
+        return !std::equal(of, of + 3, before);
+      });
+  }
 }
 
 /// Gives an output the points of the mesh, followed by those of refinement, with their data.

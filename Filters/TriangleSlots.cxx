@@ -39,25 +39,21 @@ bool AreTriangleOffsets(const Id* offsets, vtkIdType count)
   return are;
 }
 
-/// Whether all cells have three points. Offsets in plain memory are of type VtkId.
-template <typename VtkId>
-bool AreTriangles(vtkCellArray* cells)
-{
-  using ArrayT = vtkAOSDataArrayTemplate<VtkId>;
-  if (auto* offsets = vtkArrayDownCast<ArrayT>(cells->GetOffsetsArray()))
-  {
-    return AreTriangleOffsets(offsets->GetPointer(0), offsets->GetNumberOfValues());
-  }
-  return cells->IsValid() && cells->IsHomogeneous() == 3;
-}
-
 /// Views cells as triangles, if all of them are. VTK has ids of type VtkId, and the engine of Id.
 template <typename VtkId, typename Id>
 bool ViewTriangles(vtkCellArray* cells, TriangleArray& triangles)
 {
-  auto* ids = vtkArrayDownCast<vtkAOSDataArrayTemplate<VtkId>>(cells->GetConnectivityArray());
-  if (!ids || ids->GetNumberOfValues() != 3 * cells->GetNumberOfCells() ||
-    !AreTriangles<VtkId>(cells))
+  using ArrayT = vtkAOSDataArrayTemplate<VtkId>;
+  auto* ids = vtkArrayDownCast<ArrayT>(cells->GetConnectivityArray());
+  if (!ids || ids->GetNumberOfValues() != 3 * cells->GetNumberOfCells())
+  {
+    return false;
+  }
+  auto* offsets = vtkArrayDownCast<ArrayT>(cells->GetOffsetsArray()); // null: not in plain memory
+  const bool areTriangles = offsets
+    ? AreTriangleOffsets(offsets->GetPointer(0), offsets->GetNumberOfValues())
+    : cells->IsValid() && cells->IsHomogeneous() == 3;
+  if (!areTriangles)
   {
     return false;
   }
@@ -189,10 +185,9 @@ void TriangleSlots::AddTriangles(vtkIdType cell, vtkIdType count, bool stays)
 
 bool TriangleSlots::ArePolygonsTriangles() const
 {
-  return this->InPlace ||
-    (this->Polygons.size() == this->Cells.size() &&
-      std::all_of(this->Polygons.begin(), this->Polygons.end(),
-        [](const OutputPolygon& polygon) { return polygon.Triangle != None; }));
+  return this->Polygons.size() == this->Cells.size() &&
+    std::all_of(this->Polygons.begin(), this->Polygons.end(),
+      [](const OutputPolygon& polygon) { return polygon.Triangle != None; });
 }
 
 }

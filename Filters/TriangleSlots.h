@@ -58,7 +58,8 @@ public:
                          : this->Polygons[polygon];
   }
 
-  /// Whether output polygon i is triangle i for every i, and there are no others.
+  /// Whether output polygon i is triangle i for every i, and there are no others, though cells are
+  /// not used in place.
   bool ArePolygonsTriangles() const;
 
   bool InPlace = false; ///< The cells of the output correspond one to one to those of the mesh.

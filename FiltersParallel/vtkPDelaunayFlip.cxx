@@ -200,17 +200,20 @@ public:
     {
       DemoteGlobalIds(output->GetCellData());
     }
-    RenewNormals(output,
-      [this](vtkIdType polygon, const std::int64_t*, std::int64_t before[3])
-      {
-        const vtkIdType triangle = this->Polygons[polygon].Triangle;
-        const vtkIdType slot = this->Origins[polygon];
-        for (int i = 0; i < 3 && slot != TriangleSlots::None; ++i)
+    if (output->GetCellData()->GetNormals())
+    {
+      RenewNormals(output,
+        [this](vtkIdType polygon, const std::int64_t*, std::int64_t before[3])
         {
-          before[i] = this->Slots.Triangles.Get(slot, i);
-        }
-        return triangle >= 0 && this->Flipped.FlipCounts[triangle] > 0;
-      });
+          const vtkIdType triangle = this->Polygons[polygon].Triangle;
+          const vtkIdType slot = this->Origins[polygon];
+          for (int i = 0; i < 3 && slot != TriangleSlots::None; ++i)
+          {
+            before[i] = this->Slots.Triangles.Get(slot, i);
+          }
+          return triangle >= 0 && this->Flipped.FlipCounts[triangle] > 0;
+        });
+    }
   }
 
   template <typename Value>
