@@ -7,7 +7,7 @@
 #include "EdgeGuard.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
-#include "FlipLoopChoice.h"
+#include "FlipRules.h"
 #include "GeometryChoice.h"
 #include "HiddenEdges.h"
 #include "LoadedMesh.h"

@@ -5,9 +5,9 @@
 
 #include "ConstraintInsertion.h"
 #include "EdgeMesh.h"
-#include "FlipLoopChoice.h"
 #include "FlipOptions.h"
 #include "FlipReport.h"
+#include "FlipRules.h"
 #include "PartMesh.h"
 #include "PartSurvey.h"
 #include "SpatialOrder.h"
