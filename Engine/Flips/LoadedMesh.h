@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_LOADEDMESH_H
 #define DELAUNAYFLIP_LOADEDMESH_H
 
-#include "BuildProgress.h"
 #include "DeviceMesh.h"
 #include "EdgeMesh.h"
 #include "FlipLoop.h"
@@ -12,6 +11,7 @@
 #include "HiddenEdges.h"
 #include "Outline.h"
 #include "RefinementPlan.h"
+#include "RunProgress.h"
 #include "RunQuery.h"
 #include "TriangleMesh.h"
 

@@ -4,12 +4,12 @@
 #define DELAUNAYFLIP_EDGEMESHBUILDER_H
 
 #include "Atomics.h"
-#include "BuildProgress.h"
 #include "EdgeFixing.h"
 #include "EdgeMesh.h"
 #include "EdgeTable.h"
 #include "MeshSurvey.h"
 #include "RepeatedTriangles.h"
+#include "RunProgress.h"
 #include "SpatialOrder.h"
 
 #include <cstdint>

@@ -4,13 +4,13 @@
 #define DELAUNAYFLIP_POINTMESH_H
 
 #include "Array.h"
-#include "BuildProgress.h"
 #include "DivideAndConquer.h"
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
 #include "Hull.h"
 #include "MeshSurveyBuilder.h"
 #include "Mountains.h"
+#include "RunProgress.h"
 #include "Strips.h"
 
 #include <algorithm>

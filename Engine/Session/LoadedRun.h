@@ -3,7 +3,6 @@
 #ifndef DELAUNAYFLIP_LOADEDRUN_H
 #define DELAUNAYFLIP_LOADEDRUN_H
 
-#include "BuildProgress.h"
 #include "LoadedMesh.h"
 #include "RunProgress.h"
 #include "SessionRun.h"

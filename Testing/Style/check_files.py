@@ -49,7 +49,7 @@ SYSTEM_MATH = re.compile(
     r"\b(?:sin|cos|tan|asin|acos|atan|atan2|pow|exp|exp2|log|log2|log10|cbrt|hypot|fma)\s*\(")
 MAY_USE_SYSTEM_MATH = (
     "Engine/Geometry/PortableMath.cpp", "Engine/Geometry/SurfaceAngles.h", "Engine/MeshAudit.cpp",
-    "Engine/Mesh/SmallestAngle.h", "Engine/Session/RunProgress.h")
+    "Engine/Mesh/SmallestAngle.h", "Engine/Mesh/RunProgress.h")
 COMMENT_OR_STRING = re.compile(
     r"""//[^\n]*|/\*.*?\*/|'(?:\\.|[^'\\\n])'|"(?:\\.|[^"\\\n])*\"""", re.DOTALL)
 # Words for what has another name already, in the libraries.
