@@ -306,17 +306,6 @@ private:
     return this->StoreHere(values, size, all, stream, store);
   }
 };
-
-/// @param view the caller's arrays, wherever they are.
-template <typename Mesh>
-std::unique_ptr<LoadedMesh> LoadMesh(const Mesh& mesh, const TriangleMesh& view,
-  const std::vector<int>& devices, const FlipOptions& options, const BuildProgress& progress)
-{
-  CudaBackend backend(devices, options.NumberOfThreads);
-  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
-  LocalDeviceMesh local = backend.Localize(mesh);
-  return std::make_unique<CudaMesh>(view, std::move(local), options, std::move(backend), progress);
-}
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(
@@ -329,18 +318,24 @@ std::unique_ptr<LoadedMesh> LoadOnCuda(
     devices = options.Devices;
     devices.resize(std::max<std::size_t>(1, std::min(devices.size(), most)));
   }
-  return LoadMesh(mesh, mesh, devices, options, progress);
+  CudaBackend backend(devices, options.NumberOfThreads);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+  LocalDeviceMesh local = backend.Localize(mesh);
+  return std::make_unique<CudaMesh>(mesh, std::move(local), options, std::move(backend), progress);
 }
 
 /// A mesh that is on a GPU stays there.
 std::unique_ptr<LoadedMesh> LoadOnCuda(
   const DeviceMesh& mesh, const FlipOptions& options, const BuildProgress& progress)
 {
-  TriangleMesh view;
+  CudaBackend backend({ options.Device }, options.NumberOfThreads);
+  const std::unique_ptr<DeviceScope> current = backend.MakeCurrent();
+  LocalDeviceMesh local = backend.Localize(mesh);
+  TriangleMesh view; // the caller's arrays, where they are
   static_cast<FixedEdges&>(view) = mesh;
   static_cast<CoordinateArray&>(view.Points) = mesh.Points;
   view.Triangles = mesh.Triangles;
-  return LoadMesh(mesh, view, { options.Device }, options, progress);
+  return std::make_unique<CudaMesh>(view, std::move(local), options, std::move(backend), progress);
 }
 
 std::unique_ptr<LoadedMesh> LoadOnCuda(
