@@ -127,9 +127,10 @@ CudaContext::CudaContext(const std::vector<int>& devices)
   this->Multiprocessors = properties.multiProcessorCount;
   this->CacheBytes = static_cast<std::size_t>(properties.l2CacheSize);
   this->Stream = MakeStream();
-  this->Pool.reset(new DeviceMemory(this->Device, this->Stream));
   this->CallerDone = MakeEvent();
   this->StreamDone = MakeEvent();
+  this->Result = LockPages(ResultBytes);
+  this->Pool.reset(new DeviceMemory(this->Device, this->Stream));
   for (std::size_t i = 1; i < devices.size(); ++i)
   {
     const CurrentDevice other(devices[i]);
@@ -166,15 +167,6 @@ const StagingBuffer& CudaContext::GetBuffer(std::int64_t i)
     buffer.Memory = LockPages(StagingBytes);
   }
   return buffer;
-}
-
-void* CudaContext::GetResult()
-{
-  if (!this->Result)
-  {
-    this->Result = LockPages(ResultBytes);
-  }
-  return this->Result.Get();
 }
 
 Memory& CudaContext::GetMemory() const

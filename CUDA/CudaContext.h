@@ -122,7 +122,7 @@ public:
 
   /// Page-locked memory for a small result, which kernels can write. A copy to it takes half the
   /// time of one to ordinary memory.
-  void* GetResult();
+  void* GetResult() const { return this->Result.Get(); }
   static constexpr std::size_t ResultBytes = 4096;
 
   /// Where arrays are.
@@ -155,7 +155,7 @@ public:
   std::unique_ptr<SharedMemory> Shared; ///< Null if there is one GPU.
 
 private:
-  PageLocked Result; ///< None before it is used.
+  PageLocked Result;
   std::vector<StagingBuffer> Staging; ///< One of every GPU, in their order, then the next ones.
 };
 
