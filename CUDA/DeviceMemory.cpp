@@ -14,6 +14,29 @@
 namespace delaunayflip
 {
 
+namespace
+{
+/// Calls allocate(), and once more without that memory if it fails. Other runs, on other sets of
+/// GPUs or at the same time, may have left it.
+/// @throws BackendUnavailable.
+template <typename Allocate>
+void* AllocateOrRelease(const Allocate& allocate)
+{
+  try
+  {
+    return allocate();
+  }
+  catch (const BackendUnavailable&)
+  {
+    if (!ReleaseIdleMemory())
+    {
+      throw;
+    }
+    return allocate();
+  }
+}
+}
+
 DeviceMemory::DeviceMemory(int device, cudaStream_t stream)
   : Device(device),
     Stream(stream)

@@ -51,26 +51,6 @@ private:
 /// was any.
 bool ReleaseIdleMemory();
 
-/// Calls allocate(), and once more without that memory if it fails. Other runs, on other sets of
-/// GPUs or at the same time, may have left it.
-/// @throws BackendUnavailable.
-template <typename Allocate>
-void* AllocateOrRelease(const Allocate& allocate)
-{
-  try
-  {
-    return allocate();
-  }
-  catch (const BackendUnavailable&)
-  {
-    if (!ReleaseIdleMemory())
-    {
-      throw;
-    }
-    return allocate();
-  }
-}
-
 /// The fewest triangles per GPU for which GPUs share a mesh; smaller meshes stay on one GPU. With
 /// fewer, the smallest arrays with a value per edge, the bits, would be on one GPU, and the others
 /// would wait for it. Only tests change it.
