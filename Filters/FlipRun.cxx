@@ -306,7 +306,10 @@ FlipReport FlipRun::GetReport() const
     this->AddUnmatchedConstraints(report);
   }
   const TriangleSlots& slots = this->Bridge.GetSlots();
-  this->Bridge.NumberCells(report.Defects);
+  if (!report.Defects.empty())
+  {
+    this->Bridge.NumberCells(report.Defects);
+  }
   if (slots.NoTriangles.Count > 0)
   {
     report.Defects.push_back(slots.NoTriangles);
