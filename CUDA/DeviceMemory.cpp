@@ -3,6 +3,7 @@
 #include "DeviceMemory.h"
 
 #include "CudaContext.h"
+#include "FlipError.h"
 
 #include <cuda.h>
 
@@ -16,8 +17,8 @@ namespace delaunayflip
 
 namespace
 {
-/// Calls allocate(), and once more without that memory if it fails. Other runs, on other sets of
-/// GPUs or at the same time, may have left it.
+/// Calls allocate(), and if it fails once more without the memory that is kept for later runs.
+/// Other runs, on other sets of GPUs or at the same time, may have left it.
 /// @throws BackendUnavailable.
 template <typename Allocate>
 void* AllocateOrRelease(const Allocate& allocate)

@@ -4,7 +4,6 @@
 #define DELAUNAYFLIP_DEVICEMEMORY_H
 
 #include "Array.h"
-#include "FlipError.h"
 
 #include <cuda_runtime_api.h>
 
