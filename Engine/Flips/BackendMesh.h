@@ -8,7 +8,7 @@
 #include "EdgeMesh.h"
 #include "EdgeMeshBuilder.h"
 #include "FlipRules.h"
-#include "GeometryChoice.h"
+#include "GeometryPasses.h"
 #include "HiddenEdges.h"
 #include "LoadedMesh.h"
 #include "MeshSurvey.h"
@@ -21,6 +21,7 @@
 #include "SurfaceAngles.h"
 #include "TriangleCut.h"
 #include "TriangleOrder.h"
+#include "WideAngles.h"
 
 #include <algorithm>
 #include <memory>
@@ -29,6 +30,20 @@
 
 namespace delaunayflip
 {
+
+/// How many triangles have the less common orientation in x and y.
+struct TurnedSums
+{
+  std::int64_t All = 0;
+  IdSample Flipped; ///< Triangles that flips have made.
+
+  DELAUNAYFLIP_HOST_DEVICE TurnedSums& operator+=(const TurnedSums& part)
+  {
+    this->All += part.All;
+    this->Flipped += part.Flipped;
+    return *this;
+  }
+};
 
 /// A mesh in the memory of a backend, and the loop that flips its edges.
 template <typename BackendT>
@@ -176,14 +191,44 @@ public:
     }
   }
 
+  /// Finds how many more triangles have the less common orientation than at first.
   Defect FindTurnedTriangles() const override
   {
-    if (!this->Orientations.AreNearlyUniform()) // it never was a height field
+    const OrientationSample& before = this->Orientations;
+    if (!before.AreNearlyUniform()) // it never was a height field
     {
       return Defect();
     }
-    return delaunayflip::FindTurnedTriangles(
-      this->Mesh, this->Points, this->Orientations, this->Backend);
+    const TriangleRecord* triangles = this->Mesh.Triangles.Data();
+    const PackedPointsView packed = this->Points.View();
+    const int side = before.GetSide(); // the orientation of most triangles at first
+    const TurnedSums sums = this->Backend.template Sum<TurnedSums>(this->Mesh.NumberOfTriangles,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, TurnedSums & sum)
+      {
+        const TriangleRecord& triangle = triangles[t];
+        Vector3 a = packed.GetPosition(triangle.Vertices[0]);
+        Vector3 b = packed.GetPosition(triangle.Vertices[1]);
+        Vector3 c = packed.GetPosition(triangle.Vertices[2]);
+        if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
+        {
+          return;
+        }
+        BringNearOne(a, b, c);
+        if (FindOrientationXY(a, b, c) == -side)
+        {
+          ++sum.All;
+          if (triangle.Flips >= OneFlip)
+          {
+            sum.Flipped.Note(triangle.InputTriangle);
+          }
+        }
+      });
+    Defect defect = MakeDefect(DefectKind::TurnedByFlips, sums.Flipped);
+    defect.Detail = ", although the input was a height field or nearly one; if it is terrain, use "
+                    "planar-xy";
+    defect.Count = std::max<std::int64_t>(0, sums.All - before.GetOthers().Count);
+    defect.FirstIds.resize(std::min<std::size_t>(defect.FirstIds.size(), defect.Count));
+    return defect;
   }
 
   bool KeepsSliver() override

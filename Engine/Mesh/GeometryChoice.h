@@ -4,7 +4,6 @@
 #define DELAUNAYFLIP_GEOMETRYCHOICE_H
 
 #include "Array.h"
-#include "EdgeMesh.h"
 #include "FlipError.h"
 #include "FlipOptions.h"
 #include "GeometryPasses.h"
@@ -13,7 +12,6 @@
 #include "SphereSurvey.h"
 #include "SurfaceAngles.h"
 #include "TriangleMesh.h"
-#include "WideAngles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -419,57 +417,6 @@ private:
   const BackendT& Backend;
   const ScaledTriangles Triangles;
 };
-
-struct TurnedSums
-{
-  std::int64_t All = 0;
-  IdSample Flipped; ///< Triangles that flips have made.
-
-  DELAUNAYFLIP_HOST_DEVICE TurnedSums& operator+=(const TurnedSums& part)
-  {
-    this->All += part.All;
-    this->Flipped += part.Flipped;
-    return *this;
-  }
-};
-
-/// Finds how many more triangles have the less common orientation in x and y than at first.
-/// @param points the points in space.
-template <typename Backend>
-Defect FindTurnedTriangles(const EdgeMesh& mesh, const PackedPoints& points,
-  const OrientationSample& before, const Backend& backend)
-{
-  const TriangleRecord* triangles = mesh.Triangles.Data();
-  const PackedPointsView packed = points.View();
-  const int side = before.GetSide(); // the orientation of most triangles at first
-  const TurnedSums sums = backend.template Sum<TurnedSums>(mesh.NumberOfTriangles,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t t, TurnedSums & sum)
-    {
-      const TriangleRecord& triangle = triangles[t];
-      Vector3 a = packed.GetPosition(triangle.Vertices[0]);
-      Vector3 b = packed.GetPosition(triangle.Vertices[1]);
-      Vector3 c = packed.GetPosition(triangle.Vertices[2]);
-      if (!IsFinite(a) || !IsFinite(b) || !IsFinite(c))
-      {
-        return;
-      }
-      BringNearOne(a, b, c);
-      if (FindOrientationXY(a, b, c) == -side)
-      {
-        ++sum.All;
-        if (triangle.Flips >= OneFlip)
-        {
-          sum.Flipped.Note(triangle.InputTriangle);
-        }
-      }
-    });
-  Defect defect = MakeDefect(DefectKind::TurnedByFlips, sums.Flipped);
-  defect.Detail = ", although the input was a height field or nearly one; if it is terrain, use "
-                  "planar-xy";
-  defect.Count = std::max<std::int64_t>(0, sums.All - before.GetOthers().Count);
-  defect.FirstIds.resize(std::min<std::size_t>(defect.FirstIds.size(), defect.Count));
-  return defect;
-}
 
 }
 
