@@ -121,8 +121,20 @@ public:
   template <typename Work>
   void RunGroup(const Work& work) const
   {
+    cudaLaunchAttribute cluster{};
+    cudaLaunchConfig_t config = ConfigureGroup(this->CountGroupBlocks(), cluster);
     Launch(this->GetStream(),
-      [&](cudaStream_t stream) { GroupKernel<<<1, ThreadsOfGroup, 0, stream>>>(work); });
+      [&](cudaStream_t stream)
+      {
+        config.stream = stream;
+        cudaLaunchKernelEx(&config, GroupKernel<Work>, work); // Launch sees whether this fails
+      });
+  }
+
+  /// The number of threads of a group.
+  std::int64_t CountGroupThreads() const
+  {
+    return std::int64_t(this->CountGroupBlocks()) * ThreadsOfGroup;
   }
 
   template <typename Result, typename Work>
@@ -398,6 +410,47 @@ public:
         { ForEachKernel<<<this->GetBlocks(items), ThreadsPerBlock, 0, own>>>(items, work); });
     }
     this->Synchronize();
+  }
+
+  /// The number of blocks of a group. Blocks wait for each other in a cluster, if the code was
+  /// compiled for GPUs that have them, which begin with compute capability 9.0.
+  unsigned int CountGroupBlocks() const
+  {
+    constexpr int FirstWithClusters = 90;
+    unsigned int& known = this->Context->GroupBlocks;
+    if (known == 0)
+    {
+      const auto kernel = GroupKernel<EmptyWork>; // all kernels are compiled for the same GPUs
+      cudaFuncAttributes attributes{};
+      CallCuda("plan a launch", [&] { return cudaFuncGetAttributes(&attributes, kernel); });
+      int clusters = 0; // a share of a GPU may have no room for one
+      if (attributes.ptxVersion >= FirstWithClusters)
+      {
+        cudaLaunchAttribute cluster{};
+        const cudaLaunchConfig_t config = ConfigureGroup(MostGroupBlocks, cluster);
+        if (cudaOccupancyMaxActiveClusters(&clusters, kernel, &config) != cudaSuccess)
+        {
+          clusters = 0;
+          cudaGetLastError(); // so that nobody takes it for a failure of what follows
+        }
+      }
+      known = clusters > 0 ? MostGroupBlocks : 1;
+    }
+    return known;
+  }
+
+  /// @param cluster is written, and must live until the launch.
+  static cudaLaunchConfig_t ConfigureGroup(unsigned int blocks, cudaLaunchAttribute& cluster)
+  {
+    cluster.id = cudaLaunchAttributeClusterDimension;
+    cluster.val.clusterDim.x = blocks;
+    cluster.val.clusterDim.y = cluster.val.clusterDim.z = 1;
+    cudaLaunchConfig_t config{};
+    config.gridDim = { blocks, 1, 1 };
+    config.blockDim = { ThreadsOfGroup, 1, 1 };
+    config.attrs = &cluster;
+    config.numAttrs = blocks > 1 ? 1 : 0;
+    return config;
   }
 
   /// Calls launch(stream), which launches a kernel, and checks it.

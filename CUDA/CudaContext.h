@@ -147,6 +147,7 @@ public:
   std::size_t CacheBytes = 0; ///< The size of the second-level cache.
   /// By kernel, how many of its blocks can run at the same time on every GPU, once that is known.
   std::map<const void*, int> ResidentBlocks;
+  unsigned int GroupBlocks = 0; ///< The number of blocks of a ThreadGroup; 0: not known yet.
   CudaStream Stream;
   CudaEvent StreamDone; ///< What is in the stream so far.
   CudaEvent CallerDone; ///< What was in a stream of the caller's.

@@ -266,7 +266,6 @@ public:
       Backend(backend),
       Bits(mesh, Rule::MayBlock, backend)
   {
-    this->DeviceResults = backend.MakeArray<Results>(1);
     this->PlanGrid();
     this->PlanTeams();
   }
@@ -460,8 +459,10 @@ private:
     const auto chunks = static_cast<int>((this->NumberOfChunks + devices - 1) / devices);
     this->Teams = std::max(1, std::min({ teams, chunks, blocks }));
     this->BlocksOfTeam = blocks / this->Teams;
-    this->TeamStates = this->Backend.template MakeArray<TeamState>(
-      this->Backend.CountDevices() * this->CountTeamStates());
+    constexpr std::int64_t ForResults = (sizeof(Results) - 1) / sizeof(TeamState) + 1;
+    const std::int64_t states = this->Backend.CountDevices() * this->CountTeamStates();
+    this->TeamStates = this->Backend.template MakeArray<TeamState>(states + ForResults);
+    this->DeviceResults = reinterpret_cast<Results*>(this->TeamStates.Data() + states);
   }
 
   /// The number of team states per GPU. With several GPUs there are so many that those of each are
@@ -480,7 +481,7 @@ private:
   /// @param teams the first of its team states.
   LoopView<Rule> View(int device, int devices, std::int64_t teams)
   {
-    Results* results = this->DeviceResults.Data();
+    Results* results = this->DeviceResults;
     const auto edges = [&](int of)
     {
       const std::int64_t units = this->Bits.CountUnits() * of / devices;
@@ -496,7 +497,6 @@ private:
   /// Clears the counters of the kernels.
   void Prepare()
   {
-    this->Backend.Fill(this->DeviceResults.Data(), 0, 1);
     this->Backend.Fill(
       this->TeamStates.Data(), 0, static_cast<std::int64_t>(this->TeamStates.Size()));
   }
@@ -542,7 +542,7 @@ private:
   const Results& FetchResults()
   {
     auto* results = static_cast<Results*>(this->Backend.GetContext().GetBuffer(0).Memory.Get());
-    this->Backend.Download(this->DeviceResults.Data(), 1, results);
+    this->Backend.Download(this->DeviceResults, 1, results);
     for (const IterationSums& iteration : results->Sums)
     {
       if (GetSum(iteration, IterationSum::Uncertain) > 0)
@@ -638,8 +638,8 @@ private:
   int Splits = 0; ///< 2^Splits warps share a unit of the worklist.
   DeviceEdgeBits Bits;
   Array<DeviceChunk> Chunks;
-  Array<TeamState> TeamStates;
-  Array<Results> DeviceResults;
+  Array<TeamState> TeamStates; ///< The results are behind them, so that both are cleared at once.
+  Results* DeviceResults = nullptr;
 };
 
 template <typename Rule>

@@ -48,12 +48,21 @@ __global__ void __launch_bounds__(ThreadsPerBlock) ForEachKernel(ItemRange items
   }
 }
 
-constexpr int ThreadsOfGroup = 512;
+constexpr int ThreadsOfGroup = 512; ///< In one of its blocks.
+/// The most blocks that all GPUs with clusters can have in one.
+constexpr unsigned int MostGroupBlocks = 8;
 
+struct EmptyWork
+{
+  __device__ void operator()(const ThreadGroup&) const {}
+};
+
+/// @param work is given a group that is one block or a cluster of blocks.
 template <typename Work>
 __global__ void __launch_bounds__(ThreadsOfGroup) GroupKernel(Work work)
 {
-  work(ThreadGroup{ threadIdx.x, ThreadsOfGroup });
+  work(ThreadGroup{
+    blockIdx.x * ThreadsOfGroup + threadIdx.x, gridDim.x * ThreadsOfGroup, ThreadsOfGroup });
 }
 
 /// Does the work of ForEachKernel and sums up: every block writes its partial sum.

@@ -34,8 +34,9 @@ struct LateRounds
   BadEdge* Bad[2]; ///< Bad edges of this iteration and of the last one, by turns.
   std::uint32_t Stamp; ///< The last stamp that was used.
 
-  DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& group) const
+  DELAUNAYFLIP_HOST_DEVICE void operator()(const ThreadGroup& all) const
   {
+    ThreadGroup group = all;
     std::uint32_t stamp = this->Stamp;
     for (std::uint32_t round = 0;; ++round)
     {
@@ -44,6 +45,14 @@ struct LateRounds
       {
         this->Finish(group, late == 0 ? LateEnd::Done : LateEnd::GoesOn, stamp);
         return;
+      }
+      if (late <= LateLimits::ForBlock)
+      {
+        if (!group.IsInFirstBlock())
+        {
+          return;
+        }
+        group = group.GetFirstBlock();
       }
       if (!this->ListStars(group, late, stamp))
       {
@@ -126,8 +135,34 @@ private:
   /// Lists the triangles around a vertex.
   DELAUNAYFLIP_HOST_DEVICE void ListStar(const LateVertex& late, std::uint32_t stamp) const
   {
-    this->Motion.ForStar(
-      late.Corner, [&](CornerId corner) { this->List(TriangleOf(corner), stamp); });
+    // The place in the list is waited for once, because it takes as long as the way around.
+    constexpr std::uint32_t Most = 12; // few vertices have more triangles
+    TriangleId found[Most];
+    std::uint32_t count = 0;
+    const auto append = [&]
+    {
+      const std::uint32_t place = AtomicAdd(&this->Counts->Listed, count);
+      for (std::uint32_t i = 0; i < count && place + i < LateLimits::Triangles; ++i)
+      {
+        this->Triangles[place + i] = found[i];
+      }
+      count = 0;
+    };
+    this->Motion.ForStar(late.Corner,
+      [&](CornerId corner)
+      {
+        const TriangleId triangle = TriangleOf(corner);
+        if (AtomicExchange(&this->Motion.TriangleMarks[triangle], stamp) == stamp)
+        {
+          return;
+        }
+        if (count == Most)
+        {
+          append();
+        }
+        found[count++] = triangle;
+      });
+    append();
   }
 
   /// Lists a triangle once under each stamp, and counts it if there is no room.
@@ -280,26 +315,28 @@ private:
         const TriangleId triangle = this->Triangles[i / 3];
         const HalfEdgeId side = edges.Triangles[triangle].HalfEdges[i % 3];
         const EdgeId edge = EdgeOf(side);
+        // Both are loaded before any of them is waited for, and so are the two below.
+        const EdgeState state = AtomicLoad(&edges.States[edge]);
         const CornerPair corners = edges.GetCorners(edge);
-        if (corners.B == NoCorner || AtomicLoad(&edges.States[edge]) == EdgeState::Fixed)
+        if (corners.B == NoCorner || state == EdgeState::Fixed)
         {
           return;
         }
         const TriangleId other = TriangleOf((side & 1u) == 0 ? corners.B : corners.A);
-        const bool isOfOther =
-          other < triangle && AtomicLoad(&this->Motion.TriangleMarks[other]) == stamp;
-        if (!isOfOther)
+        const bool isListed = AtomicLoad(&this->Motion.TriangleMarks[other]) == stamp;
+        const Quad quad = edges.GetQuad(corners);
+        if (other > triangle || !isListed) // else it is judged from the other one
         {
-          this->Judge(edge, corners, current);
+          this->Judge(edge, corners, quad, current);
         }
       });
   }
 
-  DELAUNAYFLIP_HOST_DEVICE void Judge(EdgeId edge, const CornerPair& corners, int current) const
+  DELAUNAYFLIP_HOST_DEVICE void Judge(
+    EdgeId edge, const CornerPair& corners, const Quad& quad, int current) const
   {
     const EdgeMeshView& edges = this->Motion.Mesh.Edges;
     const PlanarRule<Real, 2> rule{ this->Motion.Now, 1, true, true };
-    const Quad quad = edges.GetQuad(corners);
     EdgeState state = rule.Judge(quad);
     if (state == EdgeState::Uncertain)
     {
@@ -370,10 +407,20 @@ private:
           edges.Triangles[lower],
           [&](int, TriangleId triangle, const TriangleRecord& record)
           { edges.Triangles[triangle] = record; });
-        this->List(upper, stamp);
-        this->List(lower, stamp);
+        this->ListFlipped(upper, lower, stamp);
         AtomicAdd(&this->Counts->Flips, 1u);
       });
+  }
+
+  /// Lists the triangles of an edge that has flipped. No other edge of theirs has.
+  DELAUNAYFLIP_HOST_DEVICE void ListFlipped(
+    TriangleId upper, TriangleId lower, std::uint32_t stamp) const
+  {
+    AtomicStore(&this->Motion.TriangleMarks[upper], stamp);
+    AtomicStore(&this->Motion.TriangleMarks[lower], stamp);
+    const std::uint32_t place = AtomicAdd(&this->Counts->Listed, 2u);
+    this->Triangles[place] = upper; // there is room, because at most LateLimits::Bad edges flip
+    this->Triangles[place + 1] = lower;
   }
 
   /// Leaves the bad edges to another loop.

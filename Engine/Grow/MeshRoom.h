@@ -33,19 +33,36 @@ void Reserve(Array<T>& array, std::int64_t used, std::int64_t size, const Backen
   array = std::move(larger);
 }
 
+/// The states behind the last edge. Fewer edges may be added than there is room for, and loops read
+/// states there.
+struct StatesBehind
+{
+  EdgeState* First;
+  std::int64_t Count;
+
+  DELAUNAYFLIP_HOST_DEVICE void Fix(std::int64_t i) const { this->First[i] = EdgeState::Fixed; }
+};
+
 /// Makes room in a mesh for so many triangles and edges.
+/// @returns states that the caller must fix.
 template <typename Backend>
-void ReserveMesh(EdgeMesh& mesh, std::int64_t triangles, std::int64_t edges, const Backend& backend)
+StatesBehind MakeMeshRoom(
+  EdgeMesh& mesh, std::int64_t triangles, std::int64_t edges, const Backend& backend)
 {
   constexpr std::int64_t Padding = EdgeMesh::StatePadding;
   const std::int64_t states = (edges + Padding - 1) / Padding * Padding;
   Reserve(mesh.Triangles, mesh.NumberOfTriangles, triangles, backend);
   Reserve(mesh.CornerOfHalfEdge, 2 * mesh.NumberOfEdges, 2 * edges, backend);
   Reserve(mesh.States, mesh.NumberOfEdges, states, backend);
-  // Fewer edges may be added than there is room for, and loops read states behind the last edge.
-  EdgeState* padding = mesh.States.Data() + mesh.NumberOfEdges;
-  backend.ForEach(states - mesh.NumberOfEdges,
-    [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { padding[i] = EdgeState::Fixed; });
+  return { mesh.States.Data() + mesh.NumberOfEdges, states - mesh.NumberOfEdges };
+}
+
+/// Likewise, and fixes these states.
+template <typename Backend>
+void ReserveMesh(EdgeMesh& mesh, std::int64_t triangles, std::int64_t edges, const Backend& backend)
+{
+  const StatesBehind behind = MakeMeshRoom(mesh, triangles, edges, backend);
+  backend.ForEach(behind.Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { behind.Fix(i); });
 }
 
 }

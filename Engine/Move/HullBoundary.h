@@ -48,16 +48,17 @@ public:
   }
 
   /// Makes room for any number of changes by GroupBoundary. A change makes as many sides less as
-  /// triangles more, or the other way round. @returns the sizes before the changes.
-  HullSizes BeginChanges(EdgeMesh& mesh)
+  /// triangles more, or the other way round.
+  /// @param sizes receives the sizes before the changes. @returns states that the caller must fix.
+  StatesBehind BeginChanges(EdgeMesh& mesh, HullSizes& sizes)
   {
-    const std::int64_t triangles = mesh.NumberOfTriangles + this->Count;
     const std::int64_t sides = this->Count + MostCuts;
-    ReserveMesh(mesh, triangles, mesh.NumberOfEdges + this->Count, this->Device);
     Reserve(this->Sides, this->Count, sides, this->Device);
     Reserve(this->Cuts, 0, sides, this->Device);
     Reserve(this->Pending, 0, 2 * sides, this->Device);
-    return { mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count, sides, 0, 0 };
+    sizes = { mesh.NumberOfTriangles, mesh.NumberOfEdges, this->Count, sides, 0, 0 };
+    return MakeMeshRoom(
+      mesh, mesh.NumberOfTriangles + this->Count, mesh.NumberOfEdges + this->Count, this->Device);
   }
   VertexId* GetPending() { return this->Pending.Data(); }
 

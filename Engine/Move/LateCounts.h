@@ -17,7 +17,8 @@ namespace delaunayflip
 /// made together, and so the numbers of triangles.
 struct LateLimits
 {
-  static constexpr std::uint32_t Late = 1024; ///< With more late vertices it makes no round.
+  static constexpr std::uint32_t Late = 8192; ///< With more late vertices it makes no round.
+  static constexpr std::uint32_t ForBlock = 128; ///< So few are moved by the first block alone.
   static constexpr std::uint32_t Bad = 1u << 15; ///< Edges that are bad together.
   static constexpr std::uint32_t Triangles = 2 * Bad; ///< Triangles that change together.
   static constexpr std::uint32_t Pending = 1u << 10; ///< Changes of the boundary in a round.

@@ -153,8 +153,16 @@ public:
     const bool haveStatesMoved = mesh.Edges.States.Data() != states; // loops know their address
     this->ChangedHull = haveStatesMoved || counts.Late.HasChangedHull != 0;
     this->NumberOfNext = counts.Get(MotionCount::Late);
-    this->ChooseCandidates(mesh, all);
-    this->KeepLate(mesh);
+    if (all)
+    {
+      this->ChooseAll(mesh);
+    }
+    else
+    {
+      this->ChooseCandidates(mesh);
+    }
+    std::swap(this->Late, this->Next);
+    this->NumberOfLate = this->NumberOfNext;
     return this->Rounds < LateLimits::Rounds && this->CountLate() <= this->Allowance;
   }
 
@@ -243,9 +251,20 @@ public:
     SharedCounts counts{};
     counts.Late.Late = static_cast<std::uint32_t>(this->NumberOfLate);
     counts.Late.End = LateEnd::GoesOn;
-    counts.Late.Sizes = this->Hull.BeginChanges(mesh.Edges);
+    const StatesBehind behind = this->Hull.BeginChanges(mesh.Edges, counts.Late.Sizes);
     SharedCounts* to = this->Counts.Data();
-    this->Device.ForEach(1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *to = counts; });
+    this->Device.ForEach(behind.Count + 1,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        if (i < behind.Count)
+        {
+          behind.Fix(i);
+        }
+        else
+        {
+          *to = counts;
+        }
+      });
   }
 
   /// Moves all vertices to their targets, cuts off triangles at the boundary that are inverted
@@ -299,11 +318,13 @@ public:
   SharedCounts Halve(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
+    const auto mostForGroup =
+      static_cast<std::uint32_t>(MostForThread * this->Device.CountGroupThreads());
     std::uint32_t passes = 0;
     for (;;)
     {
       this->Device.RunGroup(HalveAndFill<Real>{ motion, this->ViewBoundary(mesh), this->Stamp + 1,
-        LateLimits::Passes - passes, MostForGroup });
+        LateLimits::Passes - passes, mostForGroup });
       this->Stamp += LateLimits::Passes;
       const SharedCounts counts = this->FetchCounts();
       const std::uint32_t inverted = counts.Get(MotionCount::Inverted);
@@ -353,50 +374,44 @@ public:
       1, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t) { *motion.Get(MotionCount::Changed) = 0; });
   }
 
-  /// Makes edges candidates if a vertex of their two triangles has moved.
-  void ChooseCandidates(const MovingMesh<Real>& mesh, bool all)
+  /// Makes all edges candidates that are not fixed, after the first round. All vertices are marked
+  /// as before a round.
+  void ChooseAll(const MovingMesh<Real>& mesh)
+  {
+    EdgeState* states = mesh.Edges.States.Data();
+    std::uint8_t* halvings = this->HalvingsOf.Data();
+    const std::int64_t vertices = this->NumberOfNext > 0 ? mesh.Vertices : 0;
+    this->Device.ForEach(mesh.Edges.NumberOfEdges, // there are more than vertices
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
+      {
+        const bool isFixed = states[i] == EdgeState::Fixed;
+        states[i] = isFixed ? EdgeState::Fixed : EdgeState::Candidate;
+        if (i < vertices)
+        {
+          halvings[i] = AtTarget;
+        }
+      });
+  }
+
+  /// Makes edges candidates if a vertex of their two triangles has moved, after another round.
+  void ChooseCandidates(const MovingMesh<Real>& mesh)
   {
     const MotionView<Real> motion = this->View(mesh);
-    EdgeState* states = mesh.Edges.States.Data();
-    if (all)
-    {
-      this->Device.ForEach(mesh.Edges.NumberOfEdges,
-        [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t edge)
-        {
-          const bool isFixed = states[edge] == EdgeState::Fixed;
-          states[edge] = isFixed ? EdgeState::Fixed : EdgeState::Candidate;
-        });
-      return;
-    }
+    std::uint8_t* halvings = this->HalvingsOf.Data();
     const LateVertex* late = this->Late.Data();
     this->Device.ForEach(this->NumberOfLate,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
       {
         motion.ForStar(
           late[i].Corner, [&](CornerId corner) { motion.JudgeEdges(TriangleOf(corner)); });
+        halvings[late[i].Vertex] = AtTarget;
       });
   }
 
-  /// Keeps the vertices that are not at their targets for the next round.
-  void KeepLate(const MovingMesh<Real>& mesh)
-  {
-    std::uint8_t* halvings = this->HalvingsOf.Data();
-    if (this->Rounds == 1 && this->NumberOfNext > 0)
-    {
-      this->Device.ForEach(
-        mesh.Vertices, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { halvings[i] = AtTarget; });
-    }
-    const LateVertex* late = this->Late.Data();
-    this->Device.ForEach(this->Rounds == 1 ? 0 : this->NumberOfLate,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { halvings[late[i].Vertex] = AtTarget; });
-    std::swap(this->Late, this->Next);
-    this->NumberOfLate = this->NumberOfNext;
-  }
-
 private:
-  /// So few inverted triangles are handled by one group of threads, which need not wait for the
-  /// host between passes.
-  static constexpr std::uint32_t MostForGroup = Backend::IsOnHost ? 64 : 2048;
+  /// A group handles so many inverted triangles per thread. It need not wait for the host between
+  /// passes.
+  static constexpr std::uint32_t MostForThread = Backend::IsOnHost ? 64 : 4;
   static constexpr std::int64_t Fewest = 64;
   /// If more than one triangle in 64 is inverted, triangulating anew takes less time.
   static constexpr std::int64_t MostShare = 64;

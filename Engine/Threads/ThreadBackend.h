@@ -123,8 +123,9 @@ public:
   template <typename Work>
   void RunGroup(const Work& work) const
   {
-    work(ThreadGroup{ 0, 1 });
+    work(ThreadGroup{ 0, 1, 1 });
   }
+  std::int64_t CountGroupThreads() const { return 1; }
 
   /// Calls work(i, sum) for i = 0 .. size - 1 on partial sums. @returns their sum by operator+=,
   /// which must not depend on an order.
