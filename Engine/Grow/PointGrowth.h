@@ -126,23 +126,44 @@ private:
   }
 };
 
-/// Counts what the winners add: vertices, triangles or edges.
-struct CountAdded
+/// What is counted of a round.
+struct GrowthSums
+{
+  std::int64_t Winners = 0;
+  std::int64_t OnBoundary = 0; ///< Those of them that split an edge of the boundary.
+  std::int64_t Failed = 0; ///< Not 0 if a device could not decide.
+
+  DELAUNAYFLIP_HOST_DEVICE GrowthSums& operator+=(const GrowthSums& part)
+  {
+    this->Winners += part.Winners;
+    this->OnBoundary += part.OnBoundary;
+    this->Failed += part.Failed;
+    return *this;
+  }
+
+  /// What so many winners add. On the boundary it is a triangle and an edge less.
+  DELAUNAYFLIP_HOST_DEVICE std::int64_t CountTriangles() const
+  {
+    return 2 * this->Winners - this->OnBoundary;
+  }
+  DELAUNAYFLIP_HOST_DEVICE std::int64_t CountEdges() const
+  {
+    return 3 * this->Winners - this->OnBoundary;
+  }
+};
+
+/// Counts the winners.
+struct CountWinners
 {
   TriangleSplitter Splitter;
   const GrowthItem* Items;
-  int Kind; ///< 0: vertices, 1: triangles, 2: edges.
+  bool OnBoundary; ///< Whether only those that split an edge of the boundary count.
 
   DELAUNAYFLIP_HOST_DEVICE int operator()(std::int64_t i) const
   {
     const GrowthItem& item = this->Items[i];
-    if (item.State != GrowthState::Wins)
-    {
-      return 0;
-    }
-    const SplitSize size = this->Splitter.GetSize(item.Place);
-    const int counts[3] = { 1, size.Triangles, size.Edges };
-    return counts[this->Kind];
+    const bool wins = item.State == GrowthState::Wins;
+    return wins && (!this->OnBoundary || this->Splitter.IsOnBoundary(item.Place)) ? 1 : 0;
   }
 };
 
@@ -179,7 +200,7 @@ public:
       Count(count),
       KeepsFixed(keepsFixed),
       Items(backend.template MakeArray<GrowthItem>(count)),
-      First(backend.template MakeArray<std::int64_t>(3 * count))
+      Before(backend.template MakeArray<std::int64_t>(2 * count))
   {
     this->Start();
   }
@@ -195,24 +216,25 @@ public:
   std::int64_t InsertSome(EdgeMesh& mesh, PlaneMesh plane, std::int64_t vertices,
     const PlaceGridView& grid, const Grow& grow)
   {
-    this->FindWinners(mesh, plane, grid);
-    const TriangleSplitter splitter(mesh.View());
-    std::int64_t added[3];
-    for (int kind = 0; kind < 3; ++kind)
+    const GrowthSums added = this->FindWinners(mesh, plane, grid);
+    if (added.Winners == 0)
     {
-      added[kind] = this->Number(CountAdded{ splitter, this->Items.Data(), kind });
-      if (added[kind] == 0)
-      {
-        return 0;
-      }
+      return 0;
     }
-    const std::int64_t triangles = mesh.NumberOfTriangles, edges = mesh.NumberOfEdges;
-    ReserveMesh(mesh, triangles + added[1], edges + added[2], this->Device);
-    const auto store = grow(vertices + added[0]);
-    this->Split(TriangleSplitter(mesh.View()), { vertices, triangles, edges }, store);
-    mesh.NumberOfTriangles = triangles + added[1];
-    mesh.NumberOfEdges = edges + added[2];
-    return added[0];
+    this->Number({ TriangleSplitter(mesh.View()), this->Items.Data(), false });
+    if (added.OnBoundary > 0)
+    {
+      this->Number({ TriangleSplitter(mesh.View()), this->Items.Data(), true });
+    }
+    const Sizes before{ vertices, mesh.NumberOfTriangles, mesh.NumberOfEdges };
+    const std::int64_t triangles = before.Triangles + added.CountTriangles();
+    const std::int64_t edges = before.Edges + added.CountEdges();
+    ReserveMesh(mesh, triangles, edges, this->Device);
+    const auto store = grow(vertices + added.Winners);
+    this->Split(TriangleSplitter(mesh.View()), before, added.OnBoundary > 0, store);
+    mesh.NumberOfTriangles = triangles;
+    mesh.NumberOfEdges = edges;
+    return added.Winners;
   }
 
   // The functions below are public because device lambdas require it.
@@ -236,7 +258,7 @@ public:
       });
   }
 
-  void FindWinners(const EdgeMesh& mesh, PlaneMesh plane, const PlaceGridView& grid)
+  GrowthSums FindWinners(const EdgeMesh& mesh, PlaneMesh plane, const PlaceGridView& grid)
   {
     Reserve(this->Claims, 0, mesh.NumberOfTriangles, this->Device);
     std::uint32_t* claims = this->Claims.Data();
@@ -248,24 +270,30 @@ public:
     const GrowthRound round{ plane, this->Places, this->Items.Data(), claims, this->KeepsFixed };
     this->Device.ForEach(
       this->Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { round.FindAndClaim(i, grid); });
-    this->Device.ForEach(
-      this->Count, [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i) { round.Decide(i); });
-    std::int32_t hasFailed = 0;
-    this->Device.Download(failed.Data(), 1, &hasFailed);
-    if (hasFailed != 0)
+    const TriangleSplitter splitter(plane.Edges);
+    const GrowthSums sums = this->Device.template Sum<GrowthSums>(this->Count,
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, GrowthSums & sum)
+      {
+        round.Decide(i);
+        const bool wins = round.Items[i].State == GrowthState::Wins;
+        sum.Winners += wins ? 1 : 0;
+        sum.OnBoundary += wins && splitter.IsOnBoundary(round.Items[i].Place) ? 1 : 0;
+        sum.Failed += i == 0 ? *round.Mesh.Failed : 0;
+      });
+    if (sums.Failed != 0)
     {
       throw BeyondDevice();
     }
+    return sums;
   }
 
-  /// Numbers what the winners add. @returns how much it is.
-  std::int64_t Number(const CountAdded& count)
+  /// Finds out how many winners precede each one.
+  void Number(const CountWinners& count)
   {
     const typename Backend::Numbering numbering = this->Device.Count(this->Count, count);
-    std::int64_t* first = this->First.Data() + count.Kind * this->Count;
+    std::int64_t* before = this->Before.Data() + (count.OnBoundary ? this->Count : 0);
     this->Device.ForEachNumbered(numbering, this->Count, count,
-      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number) { first[i] = number; });
-    return numbering.Total;
+      [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i, std::int64_t number) { before[i] = number; });
   }
 
   /// How much a mesh has before it grows.
@@ -274,11 +302,13 @@ public:
     std::int64_t Vertices, Triangles, Edges;
   };
 
+  /// @param onBoundary whether a winner splits an edge of the boundary.
   template <typename Store>
-  void Split(const TriangleSplitter& splitter, const Sizes& before, const Store& store)
+  void Split(
+    const TriangleSplitter& splitter, const Sizes& before, bool onBoundary, const Store& store)
   {
     GrowthItem* items = this->Items.Data();
-    const std::int64_t* first = this->First.Data();
+    const std::int64_t* winners = this->Before.Data();
     const std::int64_t count = this->Count;
     this->Device.ForEach(count,
       [=] DELAUNAYFLIP_HOST_DEVICE(std::int64_t i)
@@ -289,11 +319,14 @@ public:
           return;
         }
         item.State = GrowthState::Inserted;
-        item.Vertex = static_cast<VertexId>(before.Vertices + first[i]);
+        GrowthSums added; // by the winners before this one
+        added.Winners = winners[i];
+        added.OnBoundary = onBoundary ? winners[count + i] : 0;
+        item.Vertex = static_cast<VertexId>(before.Vertices + added.Winners);
         store(item.Vertex, i);
-        splitter.Split(
-          { item.Vertex, item.Place, static_cast<TriangleId>(before.Triangles + first[count + i]),
-            static_cast<EdgeId>(before.Edges + first[2 * count + i]) });
+        splitter.Split({ item.Vertex, item.Place,
+          static_cast<TriangleId>(before.Triangles + added.CountTriangles()),
+          static_cast<EdgeId>(before.Edges + added.CountEdges()) });
       });
   }
 
@@ -303,7 +336,8 @@ private:
   std::int64_t Count;
   bool KeepsFixed;
   Array<GrowthItem> Items;
-  Array<std::int64_t> First; ///< The numbers of vertices, triangles and edges that winners add.
+  /// By item, how many winners precede it; then how many of those on the boundary.
+  Array<std::int64_t> Before;
   Array<std::uint32_t> Claims;
 };
 

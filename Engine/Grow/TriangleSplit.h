@@ -21,12 +21,6 @@
 namespace delaunayflip
 {
 
-/// What a new vertex adds to a mesh.
-struct SplitSize
-{
-  int Triangles, Edges;
-};
-
 /// A new vertex, and where it is.
 struct NewVertex
 {
@@ -54,14 +48,10 @@ public:
     return this->Mesh.CornerOfHalfEdge[triangle.HalfEdges[place.FindEdgeSlot()] ^ 1u];
   }
 
-  DELAUNAYFLIP_HOST_DEVICE SplitSize GetSize(const FoundPlace& place) const
+  /// Whether a place splits an edge of the boundary.
+  DELAUNAYFLIP_HOST_DEVICE bool IsOnBoundary(const FoundPlace& place) const
   {
-    const bool isOnHull = place.FindEdgeSlot() >= 0 && this->FindAcross(place) == NoCorner;
-    if (isOnHull)
-    {
-      return { 1, 2 };
-    }
-    return { 2, 3 };
+    return place.FindEdgeSlot() >= 0 && this->FindAcross(place) == NoCorner;
   }
 
   /// Edges of the triangles that are split become candidates, except fixed ones. The new edges are

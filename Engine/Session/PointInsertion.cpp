@@ -136,6 +136,7 @@ MotionResult PointRun::InsertBatch(LoadedMesh& mesh, std::size_t batch) const
 {
   const PlaneArray& all = this->Points.GetInput().Points;
   std::vector<double> places;
+  places.reserve(2 * (this->BatchEnds[batch + 1] - this->BatchEnds[batch]));
   for (std::int64_t i = this->BatchEnds[batch]; i < this->BatchEnds[batch + 1]; ++i)
   {
     places.push_back(all.Get(i, 0));
