@@ -361,6 +361,12 @@ private:
     this->Messages.Warn(JoinWords(texts, "; "));
   }
 
+  std::string NamePlacesOf(const std::string& message) const
+  {
+    return NamePlaces(
+      message, this->Input.Mesh, this->Input.Segments, this->Settings.Points->GetDegrees());
+  }
+
   void ThrowErrors()
   {
     const std::string errors = TakeVTKErrors();
@@ -369,9 +375,8 @@ private:
     {
       const std::string name = "ring " + std::to_string(failed);
       const std::size_t place = errors.find(name);
-      const std::string fault =
-        NamePlaces(place == std::string::npos ? ": " + errors : errors.substr(place + name.size()),
-          this->Input.Mesh, this->Input.Segments);
+      const std::string fault = this->NamePlacesOf(
+        place == std::string::npos ? ": " + errors : errors.substr(place + name.size()));
       const auto [path, ring] = this->FindRing(failed);
       throw CommandError(
         ExitCode::BadFile, path + ": " + ring + WithOptions(fault, this->Settings));
@@ -388,9 +393,8 @@ private:
         !this->Settings.Constraints.empty();
       if (isOfSegment)
       {
-        throw CommandError(ExitCodeOf(failure),
-          this->Settings.Constraints + ": " +
-            NamePlaces(text, this->Input.Mesh, this->Input.Segments));
+        throw CommandError(
+          ExitCodeOf(failure), this->Settings.Constraints + ": " + this->NamePlacesOf(text));
       }
       throw CommandError(ExitCodeOf(failure), this->Settings.Input + ": " + text);
     }

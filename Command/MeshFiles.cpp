@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshFiles.h"
 
+#include "DataArrays.h"
 #include "Formats.h"
 #include "GdalModule.h"
 #include "OutputFiles.h"
@@ -478,6 +479,45 @@ void WriteMesh(vtkPolyData* mesh, const std::string& path, MeshFormat format)
   throw std::runtime_error(problem + ExplainFailedWrite(path));
 }
 
+namespace
+{
+
+/// Whether an array of cells has another value than 0 at a line.
+bool HasValueOfLine(vtkPolyData* mesh, vtkDataArray* array)
+{
+  const vtkIdType first = mesh->GetNumberOfVerts();
+  const vtkIdType end = first + mesh->GetNumberOfLines();
+  for (vtkIdType cell = first; cell < end; ++cell)
+  {
+    for (int component = 0; component < array->GetNumberOfComponents(); ++component)
+    {
+      if (array->GetComponent(cell, component) != 0.0)
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// What lines lose in a .ply, which has cell data of faces alone.
+std::string LostValuesOfLines(vtkPolyData* mesh, const HeldArrays& held)
+{
+  std::vector<std::string> names;
+  for (vtkAbstractArray* const array : held.OfCells)
+  {
+    auto* const numbers = vtkArrayDownCast<vtkDataArray>(array);
+    const bool isKnown = !names.empty() && names.back() == GetName(array); // of several components
+    if (!isKnown && HasValueOfLine(mesh, numbers))
+    {
+      names.push_back(GetName(array));
+    }
+  }
+  return names.empty() ? "" : "cell data of lines (" + JoinWords(names) + ")";
+}
+
+}
+
 std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
 {
   if (format == MeshFormat::VTK || format == MeshFormat::VTP)
@@ -534,6 +574,10 @@ std::string DescribeLosses(vtkPolyData* mesh, MeshFormat format)
   }
   add(LostArrays("point data", mesh->GetPointData(), held.OfPoints));
   add(LostArrays("cell data", mesh->GetCellData(), held.OfCells));
+  if (format == MeshFormat::PLY)
+  {
+    add(LostValuesOfLines(mesh, held));
+  }
   add(LostArrays("field data", mesh->GetFieldData(), held.OfField));
   return JoinWords(losses);
 }

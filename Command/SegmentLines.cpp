@@ -164,6 +164,14 @@ std::vector<PointIds> ListBreaklines(vtkPolyData* mesh)
   return lines;
 }
 
+/// The points of longitudes and latitudes on the sphere.
+vtkSmartPointer<vtkPolyData> PlaceMesh(vtkPolyData* degrees)
+{
+  auto placed = vtkSmartPointer<vtkPolyData>::New();
+  placed->SetPoints(PlacePoints(degrees->GetPoints()));
+  return placed;
+}
+
 /// The points of segments that a filter adds to those of the input: the first at each place where
 /// the input has none.
 std::vector<vtkIdType> ListAddedPoints(vtkPolyData* input, vtkPolyData* segments)
@@ -219,11 +227,14 @@ vtkSmartPointer<vtkPolyData> MakeSegments(
   return made;
 }
 
-std::string NamePlaces(const std::string& message, vtkPolyData* input, vtkPolyData* segments)
+std::string NamePlaces(
+  const std::string& message, vtkPolyData* input, vtkPolyData* segments, bool areAngles)
 {
   static const std::regex Numbers(
     "\\(points ([0-9]+) and ([0-9]+)\\)|points? ([0-9]+)(?: and ([0-9]+))?");
-  const std::vector<vtkIdType> added = ListAddedPoints(input, segments);
+  const std::vector<vtkIdType> added = areAngles
+    ? ListAddedPoints(PlaceMesh(input), PlaceMesh(segments))
+    : ListAddedPoints(input, segments);
   const vtkIdType given = input->GetNumberOfPoints();
   const auto placeOf = [&](const std::string& number)
   {

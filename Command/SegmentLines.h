@@ -24,7 +24,9 @@ void TakeExactPlaces(vtkPolyData* mesh, vtkPolyData* input);
 
 /// Puts coordinates in the place of numbers of points in a message of vtkDelaunayFlipPoints, which
 /// count the points of the input first, then those of segments that are at none of their places.
-std::string NamePlaces(const std::string& message, vtkPolyData* input, vtkPolyData* segments);
+/// @param areAngles whether x and y are longitudes and latitudes.
+std::string NamePlaces(
+  const std::string& message, vtkPolyData* input, vtkPolyData* segments, bool areAngles);
 
 }
 

@@ -84,6 +84,21 @@ PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage)
   return { static_cast<const double*>(storage.data()), count };
 }
 
+vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees)
+{
+  auto places = vtkSmartPointer<vtkPoints>::New();
+  places->SetDataTypeToDouble();
+  places->SetNumberOfPoints(degrees->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
+  {
+    double given[3], place[3];
+    degrees->GetPoint(i, given);
+    PlaceOnSphere(given[0], given[1], place);
+    places->SetPoint(i, place);
+  }
+  return places;
+}
+
 bool HaveSameBits(const PointArray& points, const PointArray& others)
 {
   const auto areSame = [&](const auto* a, const auto* b)

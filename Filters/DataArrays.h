@@ -44,6 +44,9 @@ inline vtkSmartPointer<vtkPolyData> CopyShallow(vtkPolyData* mesh)
 /// @throws InvalidMesh if points do not have three coordinates.
 DELAUNAYFLIP_EXPORT PointArray ViewPoints(vtkPolyData* mesh, std::vector<double>& storage);
 
+/// The places of longitudes and latitudes on the unit sphere.
+DELAUNAYFLIP_EXPORT vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees);
+
 /// A view of their x and y.
 inline PlaneArray ViewPlane(const PointArray& points)
 {

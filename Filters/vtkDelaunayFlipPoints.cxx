@@ -106,22 +106,6 @@ namespace
 {
 /// What the array of heights of longitudes and latitudes is called.
 constexpr char HeightArray[] = "Height";
-
-/// The places of longitudes and latitudes on the unit sphere.
-vtkSmartPointer<vtkPoints> PlacePoints(vtkPoints* degrees)
-{
-  auto places = vtkSmartPointer<vtkPoints>::New();
-  places->SetDataTypeToDouble();
-  places->SetNumberOfPoints(degrees->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < degrees->GetNumberOfPoints(); ++i)
-  {
-    double given[3], place[3];
-    degrees->GetPoint(i, given);
-    PlaceOnSphere(given[0], given[1], place);
-    places->SetPoint(i, place);
-  }
-  return places;
-}
 }
 
 namespace

@@ -119,17 +119,16 @@ bool IsBlank(char letter)
   return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f';
 }
 
-/// Where the comment of a line of an .obj begins. Names and paths may have marks of comments, for
-/// other programs too.
+/// Whether a line of an .obj has a name or a path, which may have marks of comments, for other
+/// programs too.
 /// @param start begins with the first word of the line, or of those that it continues.
-std::size_t FindObjComment(std::string_view line, std::string_view start)
+bool HasName(std::string_view start)
 {
   constexpr std::string_view named[] = { "usemtl", "g", "o", "mtllib" };
   const std::size_t begin = std::min(start.find_first_not_of(" \t\v\f"), start.size());
   start.remove_prefix(begin);
   const std::string_view word = start.substr(0, start.find_first_of(" \t\v\f"));
-  const bool isName = std::find(std::begin(named), std::end(named), word) != std::end(named);
-  return isName ? line.npos : line.find('#');
+  return std::find(std::begin(named), std::end(named), word) != std::end(named);
 }
 
 /// Without blanks around it, and without quotes around what is left.
@@ -183,12 +182,17 @@ bool TextLines::Next()
     ++this->Line;
     if (this->IsObj)
     {
-      line = line.substr(0, FindObjComment(line, this->Words.empty() ? line : this->Words[0]));
-      const std::size_t last = line.find_last_not_of(" \t\v\f");
-      isContinued = last != line.npos && line[last] == '\\';
+      // Also in a line with a name, a backslash behind a # continues nothing.
+      const std::string_view plain = line.substr(0, line.find('#'));
+      const std::size_t last = plain.find_last_not_of(" \t\v\f");
+      isContinued = last != plain.npos && plain[last] == '\\';
       if (isContinued)
       {
-        line = line.substr(0, last);
+        line = plain.substr(0, last);
+      }
+      else if (!HasName(this->Words.empty() ? line : this->Words[0]))
+      {
+        line = plain;
       }
     }
     this->Split(line);

@@ -141,9 +141,14 @@ private:
     this->IsText = format == "ascii";
     this->IsSwapped = format == "binary_big_endian";
     const bool isKnown = this->IsText || this->IsSwapped || format == "binary_little_endian";
-    if (!isKnown || this->Word(0).empty())
+    if (this->Word(0).empty())
     {
-      this->File.Fail("its header has no end, or an unknown format '" + format + "'");
+      this->File.Fail("its header has no line 'end_header'");
+    }
+    if (!isKnown)
+    {
+      this->File.Fail(format.empty() ? "its header names no format"
+                                     : "its header names an unknown format, '" + format + "'");
     }
   }
 

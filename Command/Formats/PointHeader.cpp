@@ -191,7 +191,7 @@ bool IsLineOfNames(const TextLines& lines, const ChosenColumns& chosen)
   }
   if (std::none_of(words.begin(), words.end(), IsValue))
   {
-    return !IsPoint(lines, chosen);
+    return !FindKnownColumns(words).empty() || !IsPoint(lines, chosen);
   }
   if (!chosen.IsEmpty())
   {
@@ -242,13 +242,14 @@ PointHeader ReadHeader(TextLines& lines, const ChosenColumns& chosen)
     }
     if (IsComment(lines))
     {
-      lines.SeparateBy(";,\t");
-      const Words found = WordsOfComment(lines);
+      TextLines comment = lines; // so that rows go on with their own separator
+      comment.SeparateBy(";,\t");
+      const Words found = WordsOfComment(comment);
       if (!hasNames && NamesColumns(found, chosen))
       {
         header.Names = found;
         header.IsComment = true;
-        header.Separator = lines.Separator;
+        header.Separator = comment.Separator;
       }
       continue;
     }

@@ -189,14 +189,20 @@ private:
     }
   }
 
-  /// The number of components may be missing; a table of colors is named in any case.
+  /// The number of components may be missing; a table of colors is named in any case. VTK reads
+  /// words, whatever lines they are in.
   void CheckScalars()
   {
     const std::string_view name = this->Take();
     const std::string_view type = this->Take();
-    const std::int64_t components = this->CountOf(this->TakeRest(), 1);
-    this->Take(); // LOOKUP_TABLE
-    this->Take();
+    std::int64_t components = 1;
+    const std::string_view next = this->Take();
+    if (Lower(next) != "lookup_table")
+    {
+      components = this->CountOf(next, 1);
+      this->Take(); // LOOKUP_TABLE
+    }
+    this->Take(); // the name of the table
     this->CheckArray(name, type, components * this->Tuples);
   }
 

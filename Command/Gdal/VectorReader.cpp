@@ -177,16 +177,12 @@ public:
       this->TakeHeight(feature);
     }
     this->HasHeights = this->HasHeights || geometry->Is3D();
+    const vtkIdType before = this->Points->GetNumberOfPoints();
     const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry()); // without arcs
     this->AddGeometry(*straight);
-    for (Attribute& attribute : this->Attributes)
+    if (this->KeepsAttributes())
     {
-      double value = std::numeric_limits<double>::quiet_NaN();
-      if (attribute.Field >= 0 && feature.IsFieldSetAndNotNull(attribute.Field))
-      {
-        value = this->ReadNumber(feature, attribute.Field);
-      }
-      this->FillUp(attribute, value);
+      this->TakeAttributes(feature, before);
     }
   }
 
@@ -236,42 +232,69 @@ private:
     int Field = -1; ///< In the layer now; -1: it has none.
   };
 
-  /// Gives points without a value this one.
-  void FillUp(const Attribute& attribute, double value) const
+  /// Attributes are kept only where all points are features of their own.
+  bool KeepsAttributes() const
   {
-    while (attribute.Values->GetNumberOfValues() < this->Points->GetNumberOfPoints())
+    const bool hasCells = this->Lines->GetNumberOfCells() + this->Rings->GetNumberOfCells() > 0;
+    return this->Request.HasData && !hasCells;
+  }
+
+  /// Gives points without a value this one, up to a number of points.
+  static void FillUp(const Attribute& attribute, vtkIdType points, double value)
+  {
+    while (attribute.Values->GetNumberOfValues() < points)
     {
       attribute.Values->InsertNextValue(value);
+    }
+  }
+
+  /// Gives the points of a feature its values. @param before how many points precede it.
+  void TakeAttributes(const OGRFeature& feature, vtkIdType before)
+  {
+    constexpr double None = std::numeric_limits<double>::quiet_NaN();
+    for (const Attribute& attribute : this->Attributes)
+    {
+      if (attribute.Field < 0)
+      {
+        continue;
+      }
+      FillUp(attribute, before, None); // points of layers that do not have it
+      double value = None;
+      if (feature.IsFieldSetAndNotNull(attribute.Field))
+      {
+        value = this->ReadNumber(feature, attribute.Field);
+      }
+      FillUp(attribute, this->Points->GetNumberOfPoints(), value);
     }
   }
 
   /// A double holds all numbers of attributes but large integers of 64 bits.
   double ReadNumber(const OGRFeature& feature, int field)
   {
-    constexpr std::int64_t Most = std::int64_t{ 1 } << 53;
     const OGRFieldDefn* const definition = feature.GetFieldDefnRef(field);
-    if (definition->GetType() == OFTInteger64)
+    const double number = feature.GetFieldAsDouble(field);
+    const bool isExact = definition->GetType() != OFTInteger64 ||
+      (number < 0x1p63 && static_cast<std::int64_t>(number) == feature.GetFieldAsInteger64(field));
+    if (!isExact)
     {
-      const std::int64_t integer = feature.GetFieldAsInteger64(field);
-      if (integer > Most || integer < -Most)
-      {
-        AddName(this->Rounded, definition->GetNameRef());
-      }
+      AddName(this->Rounded, definition->GetNameRef());
     }
-    return feature.GetFieldAsDouble(field);
+    return number;
   }
 
   /// Gives attributes to the points of the mesh, and tells of those that are left out.
   void StoreAttributes(FileMesh& file)
   {
     constexpr std::size_t Most = 10; // names in a warning
-    if (!this->Request.HasData || file.Mesh->GetNumberOfCells() > 0)
+    if (!this->KeepsAttributes())
     {
       this->Texts = this->Names;
       this->Attributes.clear();
     }
     for (const Attribute& attribute : this->Attributes)
     {
+      FillUp(
+        attribute, this->Points->GetNumberOfPoints(), std::numeric_limits<double>::quiet_NaN());
       file.Mesh->GetPointData()->AddArray(attribute.Values);
     }
     std::vector<std::string> others;
@@ -391,7 +414,6 @@ private:
     this->Attributes.push_back({ name, vtkSmartPointer<vtkDoubleArray>::New() });
     Attribute& added = this->Attributes.back();
     added.Values->SetName(name.c_str());
-    this->FillUp(added, std::numeric_limits<double>::quiet_NaN());
     return added;
   }
 

@@ -43,6 +43,14 @@ class FirstLines(PointTest):
         self.write("in.txt", text_of(PLACES, end=";\n"))
         self.fail_with(3, "in.txt", "out.vtk", "--from-points", naming=["in.txt: line 1: "])
 
+    def test_names_with_numbers(self):
+        """Known names make a line of names, also if another one begins with numbers."""
+        for first, options in (("0 1 flag;x;y;z", []), ("2019 2020;x;y;z", []), ("Height 2019 2020 (m);X;Y;Z", []),
+                               ("Height 2019 2020 (m);X;Y;Z", ["--columns", "2,3,4"])):
+            self.write("in.csv", first + "\n" + text_of([(9, *p) for p in PLACES], ";"))
+            mesh, _ = self.triangulate("in.csv", *options)
+            self.assertEqual(points_of(mesh), PLACES, (first, options))
+
     def test_empty_cells(self):
         """A first point without y is an error like a later one, and no line of names."""
         for rows in ("7,,5\n8,1,5\n9,2,6\n", "8,1,5\n7,,5\n9,2,6\n"):

@@ -350,6 +350,9 @@ class Tables(HeightTest):
         self.ask("peak.csv", "out.csv", "--heights-at", "places.txt")
         self.assertEqual(self.content("out.csv").decode().splitlines(),
                          ["x,y,z", "nan,nan,", "1,1,3", "nan,nan,", "2,2,5", "nan,nan,"])
+        self.write("places.txt", "x\ty\n# a comment, with a comma\n\t\n1\t1\n")
+        self.ask("peak.csv", "out.csv", "--heights-at", "places.txt")
+        self.assertEqual(self.content("out.csv").decode().splitlines(), ["x,y,z", "nan,nan,", "1,1,3"])
         self.write("in.txt", "x\ty\tz\n\t\t\n" + text_of(PLACES, "\t", end="\n\t\t\n"))
         self.assertEqual(self.triangulate("in.txt")[0].GetNumberOfPoints(), 5)
 

@@ -180,6 +180,9 @@ class IntegersOfVtk(BadFileTest):
              + "\nMETADATA\nINFORMATION 0\n\nVECTORS a char\n1 2 3 1 2 3 1 2 ", 128),
             ("CELL_DATA 1\nSCALARS b char 1\nLOOKUP_TABLE 300\n1\nLOOKUP_TABLE 300 1\n1 1 1 1\nSCALARS a char\n"
              "LOOKUP_TABLE default\n", 128),
+            ("CELL_DATA 1\nSCALARS a unsigned_char LOOKUP_TABLE default\n", 300),
+            ("CELL_DATA 1\nSCALARS a unsigned_char 1 lookup_table default ", 300),
+            ("CELL_DATA 1\nSCALARS a unsigned_char\n1\nLOOKUP_TABLE default\n", 300),
         ):
             for number in (3, bad):
                 kind = "unsigned_char" if "unsigned" in section else "char"

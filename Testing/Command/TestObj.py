@@ -83,6 +83,11 @@ class Obj(ArrayTest):
                 numbers = mesh.GetCellData().GetArray(array)
                 self.assertEqual([texts.GetValue(int(n)) for n in values_of(numbers)], labels, (name, array))
 
+    def test_comments_behind_names_continue_nothing(self):
+        self.write("in.obj", SQUARE + "usemtl wood # from C:\\mats\\\nf 1 2 3\ng part # \\\nf 1 3 4\n")
+        self.succeed("in.obj", "out.vtp")
+        self.assertEqual(len(triangles_of(self.read_mesh("out.vtp"))), 2)
+
     def test_normals_and_texture_that_do_not_exist(self):
         for kind, element, faces in (
             ("vt", "texture coordinate (vt)", "f 1/1 2/1 3/7\nf 1/1 3/1 4/1\n"),

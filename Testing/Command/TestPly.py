@@ -300,6 +300,19 @@ class Written(ArrayTest):
         self.assertEqual(cells_of(out.GetLines()), [(0, 1), (1, 2), (3, 4)])
         self.read_plainly("out.ply")
 
+    def test_labels_of_lines_are_left_out_with_a_note(self):
+        self.write("in.ply", self.text_with_line(7))
+        self.assertIn("cell data of lines (material)", self.succeed("in.ply", "out.ply").stderr)
+        self.write("in.ply", self.text_with_line(0))
+        self.assertNotIn("cell data", self.succeed("in.ply", "out.ply").stderr)
+
+    @staticmethod
+    def text_with_line(label):
+        """Two triangles, and the line between them as a face of two points."""
+        return ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 3\nproperty list uchar int vertex_indices\nproperty int material\nend_header\n"
+                f"0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 5\n3 0 2 3 6\n2 0 2 {label}\n")
+
     def convert_by_vtk(self, mesh, name):
         """Like convert, but from a .vtk, which can hold more."""
         self.succeed(self.write_mesh(mesh, "in.vtk"), name)

@@ -244,7 +244,7 @@ class Vectors(VectorTest):
 
     def test_large_integers(self):
         """Beyond 2^53 a double cannot hold all of them."""
-        for number, isTold in ((2**53, False), (2**53 + 1, True), (-2**53 - 1, True), (2**63 - 1, True)):
+        for number, isTold in ((2**53, False), (2**53 + 2, False), (-2**60, False), (2**53 + 1, True), (-2**53 - 1, True), (2**63 - 1, True)):
             path = self.path(f"in{number}.gpkg")
             write_geopackage(path, survey=PLACES, attributes={"survey": {"id INTEGER": [1, 2, 3, 4, number]}})
             for options in ([], ["--columns", "id"]):
@@ -408,3 +408,7 @@ class TextLines(PointTest):
             "far.csv: segment 1 from (10, 20, 0) to (190, -20, 0) has ends on opposite sides"])
         self.write("far.csv", "0,0,1\n10,20,1\n190,-20,1\n0,0,1\n")
         self.fail_with(3, *globe, "--outline", "far.csv", naming=["from (10, 20, 0) to (190, -20, 0) has ends"])
+        self.write("globe.csv", "10,20\n20,30\n80,-30\n180,0\n0,90\n")
+        self.write("far.csv", "-180,0,0\n170,10,0\n20,1,1\n77,90,1\n20,1,2\n-160,-1,2\n")
+        self.fail_with(3, *globe, "--constraints", "far.csv", naming=[
+            "far.csv: segment 2 from (20, 1, 0) to (-160, -1, 0) has ends on opposite sides"])
