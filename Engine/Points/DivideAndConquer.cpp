@@ -129,36 +129,38 @@ private:
     this->Sides[next].Previous = e;
   }
 
-  Edge MakeEdge(Subset& set, std::uint32_t from, std::uint32_t to)
+  /// An edge that is not used yet. Both of its sides are to be put around their origins.
+  Edge TakeEdge(Subset& set)
   {
     const Edge e = set.FreeHead;
     set.FreeHead = this->Next(e);
-    this->Sides[e] = { from, e, e };
-    this->Sides[e ^ 1] = { to, e ^ 1, e ^ 1 };
     return e;
   }
 
-  /// Joins or separates the rings of edges around the origins of two edges.
-  void Splice(Edge a, Edge b)
+  void PutAlone(Edge e, std::uint32_t origin) { this->Sides[e] = { origin, e, e }; }
+
+  /// Puts a side between two others around its origin. Each number is written once, since a merge
+  /// makes so many edges that stores and the loads that wait for them take much of its time.
+  void PutBetween(Edge e, std::uint32_t origin, Edge previous, Edge next)
   {
-    const Edge afterA = this->Next(a), afterB = this->Next(b);
-    this->Link(a, afterB);
-    this->Link(b, afterA);
+    this->Sides[e] = { origin, next, previous };
+    this->Sides[previous].Next = e;
+    this->Sides[next].Previous = e;
   }
 
   /// A new edge from the destination of `a` to the origin of `b`, left of both.
   Edge Connect(Subset& set, Edge a, Edge b)
   {
-    const Edge e = this->MakeEdge(set, this->Destination(a), this->Origin(b));
-    this->Splice(e, this->NextLeft(a));
-    this->Splice(e ^ 1, b);
+    const Edge e = this->TakeEdge(set);
+    this->PutBetween(e, this->Destination(a), this->NextLeft(a), a ^ 1);
+    this->PutBetween(e ^ 1, this->Origin(b), b, this->Next(b));
     return e;
   }
 
   void Delete(Subset& set, Edge e)
   {
-    this->Splice(e, this->Previous(e));
-    this->Splice(e ^ 1, this->Previous(e ^ 1));
+    this->Link(this->Previous(e), this->Next(e));
+    this->Link(this->Previous(e ^ 1), this->Next(e ^ 1));
     e &= ~Edge(1);
     this->Sides[e] = { None, set.FreeHead, None };
     if (set.FreeHead == None)
@@ -269,12 +271,15 @@ private:
       this->Sides[e] = { None, e + 2, None };
     }
     this->Sides[set.FreeTail] = { None, None, None };
-    const Edge a = this->MakeEdge(set, begin, begin + 1);
+    const Edge a = this->TakeEdge(set);
+    this->PutAlone(a, begin);
+    this->PutAlone(a ^ 1, begin + 1);
     std::array<Edge, 3> leaving{ a, a ^ 1, None }; // by point: the edge of the hull
     if (end - begin == 3)
     {
-      const Edge b = this->MakeEdge(set, begin + 1, begin + 2);
-      this->Splice(a ^ 1, b);
+      const Edge b = this->TakeEdge(set);
+      this->PutBetween(b, begin + 1, a ^ 1, a ^ 1);
+      this->PutAlone(b ^ 1, begin + 2);
       const int orientation = this->Tests.Orient(begin, begin + 1, begin + 2);
       leaving = { a, b, b ^ 1 }; // if the points are on one line
       if (orientation > 0)
