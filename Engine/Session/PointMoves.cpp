@@ -5,6 +5,7 @@
 #include "Array.h"
 #include "CallerMesh.h"
 #include "FlipError.h"
+#include "ThreadBackend.h"
 
 #include <algorithm>
 #include <array>
@@ -57,10 +58,13 @@ void SetPlace(PointPlaces& places, std::int64_t point, double x, double y)
 
 /// Copies x and y of places into an array that the run owns.
 template <typename Real>
-void CopyInto(const PlaneArray& from, std::vector<Real>& coordinates, PointPlaces& places)
+void CopyInto(const PlaneArray& from, std::vector<Real>& coordinates, PointPlaces& places,
+  const ThreadBackend& threads)
 {
   coordinates.resize(2 * from.Count);
-  CopyCoordinates(from, coordinates.data());
+  threads.ForRange(from.Count,
+    [&](std::int64_t begin, std::int64_t end)
+    { CopyCoordinates(from, begin, end, coordinates.data()); });
   places.Points = PlaneArray(coordinates.data(), from.Count, 2);
 }
 
@@ -178,11 +182,11 @@ void PointRun::ReadPlaces(const PointMove& move)
   }
   else if (now.Floats)
   {
-    CopyInto(move.Points, places.Floats, places);
+    CopyInto(move.Points, places.Floats, places, ThreadBackend(this->Options.NumberOfThreads));
   }
   else
   {
-    CopyInto(move.Points, places.Doubles, places);
+    CopyInto(move.Points, places.Doubles, places, ThreadBackend(this->Options.NumberOfThreads));
   }
   places.OnDevice = false;
   for (const std::int64_t id : this->Points.GetRemoved())

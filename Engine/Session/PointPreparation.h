@@ -30,15 +30,35 @@ struct PointPlaces
   std::vector<double> Doubles;
 };
 
-/// Copies x and y of all points. @param xy has room for them.
+/// Copies x and y of some points, from `begin` to before `end`. @param xy has room for all points.
+template <typename Real>
+void CopyCoordinates(const PlaneArray& points, std::int64_t begin, std::int64_t end, Real* xy)
+{
+  // PlaneArray::Get would ask for the type again in every call.
+  const auto copy = [&](const auto* from)
+  {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const auto* place = from + points.Stride * i;
+      xy[2 * i] = static_cast<Real>(place[0] + 0.0); // -0.0 becomes 0.0
+      xy[2 * i + 1] = static_cast<Real>(place[1] + 0.0);
+    }
+  };
+  if (points.Floats)
+  {
+    copy(points.Floats);
+  }
+  else
+  {
+    copy(points.Doubles);
+  }
+}
+
+/// Likewise of all points.
 template <typename Real>
 void CopyCoordinates(const PlaneArray& points, Real* xy)
 {
-  for (std::int64_t i = 0; i < points.Count; ++i)
-  {
-    xy[2 * i] = static_cast<Real>(points.Get(i, 0));
-    xy[2 * i + 1] = static_cast<Real>(points.Get(i, 1));
-  }
+  CopyCoordinates(points, 0, points.Count, xy);
 }
 
 /// Requires segments to name points that there are, and hole seeds to be finite.
