@@ -3,7 +3,6 @@
 """Queries about places: their triangles, and values between those of the points."""
 from __future__ import annotations  # help() shows types by their names
 
-import contextlib
 import dataclasses
 import functools
 import math
@@ -40,6 +39,15 @@ def require_triangles(report):
     if report.triangles == 0:
         why = report.defects or "there are no triangles"
         raise ValueError(f"nothing can be interpolated between {report.points} points: {why}")
+
+
+def require_same(again, before):
+    """Raises ValueError if a triangulation that was made again is another one than before."""
+    for one, other in ((again.triangles, before.triangles), (again.points, before.points)):
+        if one is not other and not numpy.array_equal(
+                _arrays.to_host(one), _arrays.to_host(other), equal_nan=True):
+            raise ValueError("the points or segments have been changed since they were triangulated; "
+                             "triangulate them again")
 
 
 def read_places(given):
@@ -90,6 +98,10 @@ def halve(progress, start):
     return lambda share: progress(start + 0.5 * share)
 
 
+class Taken(Exception):
+    """Another thread has inserted points, so the session belongs to another triangulation now."""
+
+
 class Answers:
     """A session of points that has ended its run and is kept to be asked. It ends with this object."""
 
@@ -99,17 +111,18 @@ class Answers:
         self.is_shared = False  #: Whether an interpolator uses it.
         self._lock, self._asker = threading.Lock(), None
 
-    @contextlib.contextmanager
-    def _alone(self):
-        """Lets other threads wait. An observer gets an error, since it would wait for itself."""
-        if self._asker == threading.get_ident():
+    def _alone(self, act, *arguments):
+        """What act(handle, *arguments) returns. Other threads wait. An observer gets an error, since it would
+        wait for itself."""
+        own = threading.get_ident()
+        if self._asker == own:
             raise RuntimeError("an observer cannot ask the triangulation that it observes")
         with self._lock:
-            if not self._handle:
-                raise RuntimeError("another thread has inserted points meanwhile; call it again")
-            self._asker = threading.get_ident()
             try:
-                yield
+                self._asker = own
+                if not self._handle:
+                    raise Taken
+                return act(self._handle, *arguments)
             finally:
                 self._asker = None
 
@@ -135,9 +148,14 @@ class Answers:
             struct.outside = int(field.outside == "nearest")
             if len(values) == 0:  # then the engine is asked for none
                 results[:] = math.nan
-        with self._alone(), observe(progress) as callbacks:
+
+        def act(handle, callbacks):
             if count:
-                _library.call("ask", self._handle, struct, callbacks)
+                _library.call("ask", handle, struct, callbacks)
+            if progress is not None:
+                progress(1.0)
+
+        self._alone(lambda handle: observe(functools.partial(act, handle), progress))
         return triangles, results
 
     def insert(self, more, batch, progress):
@@ -147,12 +165,14 @@ class Answers:
             more: The Input of all points.
             batch: The C struct of those that are new.
         """
-        with self._alone():
-            handle, self._handle = self._handle, None
-            opened, self._opened = self._opened, None
-        with observe(progress) as callbacks:
-            _library.call("insert_points", handle, batch, callbacks)
+        handle, opened = self._alone(self._take)
+        observe(lambda callbacks: _library.call("insert_points", handle, batch, callbacks), progress)
         return Answers(more, handle, opened)
+
+    def _take(self, handle):
+        """The session, of which this object has no more."""
+        opened, self._handle, self._opened = self._opened, None, None
+        return handle, opened
 
     def move_to(self, given, keywords, progress):
         """The Triangulation of another Input, after the points have moved there. It has as many points,
@@ -162,14 +182,16 @@ class Answers:
             Stopped: The observer has returned False, and all points are where they were.
             InvalidMesh: A ring crosses a segment.
         """
+        def act(handle, callbacks):
+            _library.call("move_points", handle, given.struct, None, callbacks)
+            given.share_segments(self.given)
+            self.given = given
+
         try:
-            with self._alone(), observe(progress) as callbacks:
-                _library.call("move_points", self._handle, given.struct, None, callbacks)
+            self._alone(lambda handle: observe(functools.partial(act, handle), progress))
         except _library.InvalidMesh as error:
             error.args = (given.explain(str(error), error.ring), *error.args[1:])
             raise
-        given.share_segments(self.given)
-        self.given = given
         return self.store((given, keywords, ()))
 
     def store(self, made_from):
@@ -224,23 +246,38 @@ class Field:
     def _find_softly(self, places, progress):
         """Segments say what is outside, and the triangulation without them has the values."""
         triangles, spots = self._answers.ask(places, self._spots, True, halve(progress, 0.0))
-        results, beyond = self._soft.ask(places, self, False, halve(progress, 0.5))[1], math.nan
+        beyond = math.nan
         if spots is not None:
             beyond = self._soft.ask(read_places([spots]), self, False)[1]
+        results = self._soft.ask(places, self, False, halve(progress, 0.5))[1]
         _arrays.put(results, triangles, beyond)
         return triangles, results
 
 
 class Asked:
-    """What triangulations that are asked about places have in common. They have `_answers`, a property."""
+    """What triangulations that are asked about places have in common. They have `_triangulate_again`, which
+    gives new Answers."""
 
     _read_places = staticmethod(read_places)
     _read_raster = staticmethod(read_raster)
 
+    @functools.cached_property
+    def _answers(self):
+        return self._triangulate_again()
+
+    def _ask(self, act):
+        """What act(answers) returns. If another thread inserts points just now, which takes the session, the
+        answers are new ones, of this call alone."""
+        try:
+            return act(self._answers)
+        except Taken:
+            return act(self._triangulate_again())
+
     def locate(self, *places: Numbers, progress: Optional[Progress] = None) -> Array:
         """The triangle of each place, int32; -1: outside. Where there are several, on edges and points,
         the one with the lowest number. Places are given as to the interpolators."""
-        return self._answers.locate(self._read_places(places), progress)
+        spots = self._read_places(places)
+        return self._ask(lambda answers: answers.locate(spots, progress))
 
     def interpolate(
         self, values: Numbers, *places: Numbers, method: Method = "linear",
@@ -251,8 +288,9 @@ class Asked:
         Args:
             method: "linear", or "natural" for natural neighbours.
         """
-        field = self._make_field(values, method, fill_value, outside)
-        return field.find(self._read_places(places), progress)
+        how = {"method": method, "fill_value": fill_value, "outside": outside}
+        spots = self._read_places(places)
+        return self._ask(lambda answers: Field(answers, values, **how).find(spots, progress))
 
     def raster(
         self, values: Numbers, origin: Numbers, step: Union[float, Numbers], shape: Tuple[int, int], *,
@@ -260,11 +298,9 @@ class Asked:
         progress: Optional[Progress] = None,
     ) -> Array:
         """Values at the centres of the cells of a raster; see the interpolators."""
-        field = self._make_field(values, method, fill_value, outside)
-        return field.find(self._read_raster(origin, step, shape, field.values), progress)
-
-    def _make_field(self, values, method, fill_value, outside):
-        return Field(self._answers, values, method=method, fill_value=fill_value, outside=outside)
+        how = {"method": method, "fill_value": fill_value, "outside": outside}
+        cells = self._read_raster(origin, step, shape, _arrays.as_values(values)[0])
+        return self._ask(lambda answers: Field(answers, values, **how).find(cells, progress))
 
     def __getstate__(self):
         """Without the engine's memory, which cannot be copied."""

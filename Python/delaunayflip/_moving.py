@@ -6,6 +6,7 @@ from __future__ import annotations  # help() shows types by their names
 import contextlib
 import ctypes
 import dataclasses
+import functools
 import warnings
 from typing import Optional
 
@@ -79,14 +80,19 @@ class MovingTriangulation(Handle):
         self._first = Input(self._own(points), segments, outline=outline, holes=holes)
         self._given = self._first
         options = make_options(triangulate, backend=backend, threads=threads, device=device)
-        with self._explain():
+        try:
             call("open_points", self._given.struct, options, ctypes.byref(self._handle), progress)
             self._count = len(self._given.points)
             if not _report.is_aborted(_report.read_struct(self._handle)):
                 call("advance", self._handle, -1, None, progress)
+        except _library.InvalidMesh as error:
+            self._explain(error)
+            raise
         if _report.is_aborted(_report.read_struct(self._handle)):
             raise _library.Stopped("progress has stopped the triangulation")
-        self._warn(self._handle, 3)
+        trouble = self._find_trouble(self._handle)
+        if trouble:
+            warnings.warn(trouble, stacklevel=2)
 
     @staticmethod
     def _own(points):
@@ -94,29 +100,23 @@ class MovingTriangulation(Handle):
         points = _arrays.as_plane(points)
         return points.copy() if isinstance(points, numpy.ndarray) else points
 
-    @contextlib.contextmanager
-    def _explain(self):
-        """Puts the names of rings into messages of the engine."""
-        try:
-            yield
-        except _library.InvalidMesh as error:
-            text = self._first.explain(str(error), error.ring).replace(_ADVICE, "")
-            error.args = (text, *error.args[1:])
-            raise
+    def _explain(self, error):
+        """Puts the names of rings into an InvalidMesh of the engine."""
+        text = self._first.explain(str(error), error.ring).replace(_ADVICE, "")
+        error.args = (text, *error.args[1:])
 
     def _describe(self, handle):
         """The defects as one text, and a list of those that are warned of."""
         text, trouble = self._first.describe_again(handle)
         return text.replace(_ADVICE, ""), [warning.replace(_ADVICE, "") for warning in trouble]
 
-    def _warn(self, handle, level):
-        """Warns of what is not used of segments and rings, unless that was the same before."""
+    def _find_trouble(self, handle):
+        """The text of a warning of what is not used of segments and rings; "" if that was the same before."""
         if self._first.struct.number_of_segments == 0:
-            return
+            return ""
         _report.read_struct(handle)  # the defects are those of the last report
         before, self._trouble = self._trouble, self._describe(handle)[1]
-        if self._trouble and self._trouble != before:
-            warnings.warn("; ".join(self._trouble), stacklevel=level)
+        return "" if self._trouble == before else "; ".join(self._trouble)
 
     def __len__(self) -> int:
         """The number of points, removed ones included."""
@@ -152,10 +152,13 @@ class MovingTriangulation(Handle):
         if ids is not None and wanted == 0:
             return  # the address of an empty array may be null, which means all points
         number = None if ids is None else address(ids)
-        with self._change() as handle, observe(progress) as callbacks:
+
+        def act(handle, callbacks):
             _library.call("move_points", handle, given.struct, number, callbacks)
             if ids is None:
                 self._given = given  # keeps arrays on a GPU
+
+        self._change(act, progress)
 
     def insert(self, points: Numbers, *, progress: Optional[Progress] = None) -> Array:
         """Inserts points, (k, 2) or (k, 3). Returns their ids, (k,) int64, which follow the others.
@@ -165,15 +168,18 @@ class MovingTriangulation(Handle):
             new points count as removed.
         """
         batch = Input(_arrays.to_host(_arrays.as_plane(points)))
-        before = len(self)
-        with self._change() as handle, observe(progress) as callbacks:
+
+        def act(handle, callbacks):
+            before = self._count
             try:
                 _library.call("insert_points", handle, batch.struct, callbacks)
             except Exception:
                 self._remove_from(before, handle)
                 raise
             self._count = before + len(batch.points)
-        return numpy.arange(before, self._count)
+            return numpy.arange(before, self._count)
+
+        return self._change(act, progress)
 
     def _remove_from(self, first, handle):
         """Removes the points from the id `first` on, which an insertion that failed has added."""
@@ -192,8 +198,8 @@ class MovingTriangulation(Handle):
             As for `move`.
         """
         ids = self._read_ids(ids)
-        with self._change() as handle, observe(progress) as callbacks:
-            _library.call("remove_points", handle, address(ids), len(ids), callbacks)
+        self._change(lambda handle, callbacks: _library.call(
+            "remove_points", handle, address(ids), len(ids), callbacks), progress)
 
     def compact(self, *, progress: Optional[Progress] = None) -> None:
         """Numbers the points anew, without the removed ones and in the same order. It is an error with
@@ -202,10 +208,12 @@ class MovingTriangulation(Handle):
         Raises:
             As for `move`.
         """
-        removed = self.report.removed_points
-        with self._change() as handle, observe(progress) as callbacks:
+        def act(handle, callbacks):
+            removed = _report.read_struct(handle).removed_points
             _library.call("compact_points", handle, callbacks)
             self._count -= removed
+
+        self._change(act, progress)
 
     @property
     def triangles(self) -> Array:
@@ -220,28 +228,34 @@ class MovingTriangulation(Handle):
     @property
     def segments(self) -> Array:
         """(k, 2) int64: the edges that segments have become, in their order and direction, each once."""
-        with self._open() as handle:
+        def read(handle):
             edges = numpy.empty((_report.read_struct(handle).segment_edges, 2), dtype=numpy.int64)
             _library.call("store_segment_edges", handle, address(edges))
             return edges
+
+        return self._alone(read)
 
     @property
     def used_points(self) -> Array:
         """(n,) int64: the point that is used at the place of each point; -1: it is removed or not
         finite."""
-        used = numpy.empty(len(self), dtype=numpy.int64)
-        with self._open() as handle:
+        def read(handle):
+            used = numpy.empty(self._count, dtype=numpy.int64)
             _library.call("store_used_points", handle, address(used))
-        return used
+            return used
+
+        return self._alone(read)
 
     @property
     def report(self) -> Report:
         """The `Report` on the last change. Reading it measures all angles."""
-        with self._open() as handle:
+        def read(handle):
             report = _report.read(handle)
             if report.defects:
                 report = dataclasses.replace(report, defects=self._describe(handle)[0])
             return report
+
+        return self._alone(read)
 
     def _read_ids(self, ids):
         """The ids of points as the engine takes them, (k,) int64."""
@@ -265,24 +279,38 @@ class MovingTriangulation(Handle):
                     f"point {wrong[0]} does not exist; there are {len(self):,} points")
         return numpy.ascontiguousarray(ids, dtype=numpy.int64)
 
-    @contextlib.contextmanager
-    def _change(self):
-        with self._open() as handle, self._explain():
+    def _change(self, act, progress):
+        """What act(handle, callbacks) returns, which changes the points. Warns where that was asked for."""
+        def change(handle, callbacks):
             self._stored = {}
             try:
-                yield handle
+                return act(handle, callbacks)
             except Exception:  # all points are where they were, but the mesh may have to be made anew
                 with contextlib.suppress(Exception):
                     _library.call("advance", handle, -1, None, None)
                 raise
-            self._warn(handle, 5)
+
+        def change_and_look(handle):
+            result = observe(functools.partial(change, handle), progress)
+            return result, self._find_trouble(handle)
+
+        try:
+            result, trouble = self._alone(change_and_look)
+        except _library.InvalidMesh as error:
+            self._explain(error)
+            raise
+        if trouble:
+            warnings.warn(trouble, stacklevel=3)
+        return result
 
     def _store(self, name, *more):
         """An array of the current triangulation; the second time it is the same object."""
-        with self._open() as handle:
+        def read(handle):
             if name not in self._stored:
                 count = _library.run("count_triangles", handle)
                 room = _arrays.make_empty(self._given.points, (count, 3), "int32")
                 _arrays.store(name, handle, room, *more)
                 self._stored[name] = room
             return self._stored[name]
+
+        return self._alone(read)

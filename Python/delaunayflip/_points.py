@@ -17,7 +17,7 @@ import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
-from ._ask import Answers, Asked
+from ._ask import Answers, Asked, require_same
 from ._options import (
     Array, Backend, Numbers, OnIteration, Progress, choose, convert, list_ranges, make_options)
 from ._report import Report, name_keywords
@@ -142,11 +142,14 @@ class Triangulation(Asked):
 
     def _insert(self, points, progress=None):
         """The triangulation with more points, and the texts of warnings."""
-        answers = self.__dict__.get("_answers")
+        answers = self.__dict__.pop("_answers", None)  # of two threads that insert one gets it
         if answers is None or answers.is_shared:
             answers = self._triangulate_again()
-        more, batch = answers.given.append(points)
-        self.__dict__.pop("_answers", None)
+        try:
+            more, batch = answers.given.append(points)
+        except Exception:
+            self.__dict__.setdefault("_answers", answers)
+            raise
         try:
             answers = answers.insert(more, batch.struct, progress)
             result = answers.store((*self._made_from[:2], (*self._made_from[2], batch.points)))
@@ -156,10 +159,6 @@ class Triangulation(Asked):
         result.__dict__["_answers"] = answers
         return result, more.trouble
 
-    @functools.cached_property
-    def _answers(self):
-        return self._triangulate_again()
-
     def _triangulate_again(self):
         if self.report.stop_reason == "aborted":
             raise ValueError("the triangulation was stopped before its end, so it cannot be asked, nor can "
@@ -168,9 +167,7 @@ class Triangulation(Asked):
         again, _ = run_points(points, keywords, keeps=True)
         for batch in batches:
             again, _ = again._insert(batch)
-        if not numpy.array_equal(_arrays.to_host(again.triangles), _arrays.to_host(self.triangles)):
-            raise ValueError("the points or segments have been changed since they were triangulated; "
-                             "triangulate them again")
+        require_same(again, self)
         return again._answers
 
 
@@ -210,8 +207,8 @@ def triangulate(
         hole_seeds: (k, 2) places: what is reached from there without crossing a segment is removed.
         ring_rule: When a place is inside a set of rings. "evenodd": if a path to infinity crosses them
             an odd number of times. "nonzero": if their turns around the place do not add up to 0.
-            "orientation": as "nonzero", but of the outline only counter-clockwise turns count as
-            inside, as for vtkDelaunay2D.
+            "orientation": as "nonzero", but of the outline only counter-clockwise turns count as inside,
+            as for vtkDelaunay2D. If the outline is clockwise only, what is outside of it is kept.
         alpha, longest_edge: Triangles with a larger circumradius, or a longer edge, are removed, unless
             they have a segment as an edge; 0: none.
         point_tolerance: Points nearer than this to one with a lower id are not used; 0: only those
@@ -224,7 +221,7 @@ def triangulate(
         size: (n,), the longest edge near each point, linear in between; NaN: no limit near that point.
         regions: (x, y, label[, area]): a place in what segments enclose, the label and largest area there.
         keep_boundary: Split no edge of the boundary. Triangles near it may then miss the goals.
-        point_limit: Of all points. 0: ten times as many as are given, at least a million.
+        point_limit: Of the points that triangles use. 0: ten times as many as are given, at least a million.
         heights: z of points that lines and rings add. "survey": that of the points there, linear in
             their triangulation without segments, and beyond its hull that of the nearest place on it.
             "own": that of the lines and rings, 0 for those of two columns. None: "survey" for those
@@ -264,8 +261,13 @@ def run_points(points, keywords, progress=None, on_iteration=None, keeps=False):
         keeps: Whether the session is kept for questions.
     """
     given, options = _prepare(points, **keywords)
+    start, count = given.points, given.struct.first_added
+    if given is points:
+        start = given
+    elif count < len(start):
+        start = start[:count]
     result = run_input(given, options, given.make_room,
-                       lambda handle, room: given.store(handle, room, (points, keywords, ())),
+                       lambda handle, room: given.store(handle, room, (start, keywords, ())),
                        progress, on_iteration, keeps)
     return result, "" if given is points else "; ".join(given.trouble)
 
@@ -423,14 +425,16 @@ class Input:
     def append(self, points):
         """The Input of all points with more of them, and the Input of these."""
         batch = Input(numpy.array(_arrays.to_host(_arrays.as_plane(points))))
-        columns = self.points.shape[1]
+        columns = self.points.shape[1] if len(self.points) else batch.points.shape[1]
         if len(batch.points) and batch.points.shape[1] != columns:
             raise ValueError(f"points must have {columns} columns, as those of the triangulation, not "
                              f"{batch.points.shape[1]}")
         more = copy.copy(self)
         own = _arrays.to_host(self.points)
+        own = own.reshape(-1, columns)
         more.points = numpy.concatenate([own, batch.points.reshape(-1, columns).astype(own.dtype)])
         more.struct = type(self.struct).from_buffer_copy(self.struct)
+        more.struct.point_components = columns
         more.struct.first_added = len(more.points)  # The values of added points are needed.
         more.trouble, more.added = [], _NOTHING_ADDED
         return more, batch
@@ -493,7 +497,7 @@ class Input:
             heights: As for `triangulate`, or UNSEEN.
             added: The ids of all that may get some.
         """
-        if heights not in (None, UNSEEN):
+        if heights is not None and not (isinstance(heights, str) and heights == UNSEEN):
             choose("heights", heights, typing.get_args(Heights))
         lifted = added[:0]
         if heights is None:
@@ -600,9 +604,12 @@ class Input:
             points, added = self._append_added(handle, report.crossings + report.refinement_points)
             report = dataclasses.replace(report, points=len(points))
         iterations = _report.read_iterations(handle, report)
+        first, keywords, batches = made_from
+        if not isinstance(first, Input) and len(first) < len(points):
+            first = points[:len(first)]  # the caller may change the other array, but this is a copy
         return Triangulation(
-            points, triangles, neighbors, edges, segments, regions, iterations, report, used, made_from,
-            added)
+            points, triangles, neighbors, edges, segments, regions, iterations, report, used,
+            (first, keywords, batches), added)
 
     def _is_nothing_left(self, report, triangles):
         """Whether triangles are removed, and none is left that has one of the caller's points."""

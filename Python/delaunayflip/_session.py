@@ -6,6 +6,7 @@ from __future__ import annotations  # help() shows types by their names
 import contextlib
 import ctypes
 import dataclasses
+import functools
 import signal
 import threading
 import warnings
@@ -37,41 +38,50 @@ Region = Tuple[float, ...]
 _REFINEMENT = (*GOALS, "keep_boundary", "point_limit", "maximum_iterations")
 
 
-@contextlib.contextmanager
-def _raise_after(raised):
-    """Raises the exception in `raised`, if there is one, after the block. While it runs, what handlers of
-    signals raise, such as that of Ctrl-C, goes there too: ctypes would swallow it in a callback. Only
-    the main thread has handlers."""
-    is_main = threading.current_thread() is threading.main_thread()
-    own = {number: handler for number in (_SIGNALS if is_main else ())
-           if callable(handler := _get_handler(number))}
+def _raise_after(raised, act, *arguments):
+    """What act(*arguments) returns. After it, the exception in `raised` is raised, if there is one. Until
+    then, what handlers of signals raise, such as that of Ctrl-C, goes there too: ctypes would swallow it in
+    a callback, and it cannot interrupt what `act` does. Only the main thread has handlers."""
+    own, is_over = {}, False
 
     def handle(number, frame):
         try:
             own[number](number, frame)
         except BaseException as error:
-            if is_over:  # an exception has ended the loop that puts the handlers back
+            if is_over:  # exceptions have kept this handler from being put back
                 raise
             raised[:] = [error]  # the others would keep memory
 
-    is_over = False
     try:
-        for number in own:
-            _set_handler(number, handle)
-        yield
+        if threading.current_thread() is threading.main_thread():
+            for number in _SIGNALS:
+                handler = _get_handler(number)
+                if callable(handler):
+                    own[number] = handler
+                    _set_handler(number, handle)
+        return act(*arguments)
     finally:
-        is_over = True
-        for number, handler in own.items():
-            if _get_handler(number) is handle:  # a callback may have set another one
-                _set_handler(number, handler)
+        try:
+            _put_back(own, handle)
+        except BaseException as error:  # it came from a handler that was put back already
+            raised[:] = [error]
+            _put_back(own, handle)
+        finally:
+            is_over = True
         if raised:
             raise raised.pop()
 
 
-@contextlib.contextmanager
-def observe(progress=None, on_iteration=None):
-    """Gives these observers as callbacks for the engine. If one raises an exception, the run is aborted
-    and the exception raised after the block.
+def _put_back(own, handle):
+    """Sets the handlers of signals again in place of `handle`, unless a callback has set another one."""
+    for number, handler in own.items():
+        if _get_handler(number) is handle:
+            _set_handler(number, handler)
+
+
+def observe(act, progress=None, on_iteration=None):
+    """What act(callbacks) returns, with these observers as callbacks for the engine. If one raises an
+    exception, the run is aborted and the exception raised after `act`.
 
     There is always a progress callback, even without an observer: while Python runs in it, the
     interpreter handles signals, so Ctrl-C works.
@@ -100,14 +110,12 @@ def observe(progress=None, on_iteration=None):
     callbacks.progress = _library.ProgressFunction(lambda share, _: ask(progress, share))
     if on_iteration is not None:
         callbacks.iteration = _library.IterationFunction(tell_iteration)
-    with _raise_after(raised):
-        yield callbacks
+    return _raise_after(raised, act, callbacks)
 
 
 def call(name, first, second, last, progress=None, on_iteration=None):
     """Calls a function of the engine, with these observers as its third argument."""
-    with observe(progress, on_iteration) as callbacks:
-        _library.call(name, first, second, callbacks, last)
+    observe(lambda callbacks: _library.call(name, first, second, callbacks, last), progress, on_iteration)
 
 
 @contextlib.contextmanager
@@ -115,15 +123,18 @@ def run(name, struct, options, make_room, progress, on_iteration):
     """A whole run: gives the handle of its session and the room for its results, which
     `make_room` makes when the report of the opened session is known."""
     handle = ctypes.c_void_p()
+
+    def act(callbacks):
+        _library.call(name, struct, options, callbacks, ctypes.byref(handle))
+        report = _report.read_struct(handle)
+        room = make_room(report)
+        if not _report.is_aborted(report):
+            _arrays.expect(handle, *room)
+            _library.call("advance", handle, -1, callbacks, None)
+        return room
+
     try:
-        with observe(progress, on_iteration) as callbacks:
-            _library.call(name, struct, options, callbacks, ctypes.byref(handle))
-            report = _report.read_struct(handle)
-            room = make_room(report)
-            if not _report.is_aborted(report):
-                _arrays.expect(handle, *room)
-                _library.call("advance", handle, -1, callbacks, None)
-        yield handle, room
+        yield handle, observe(act, progress, on_iteration)
     finally:
         _library.run("close", handle)
 
@@ -152,13 +163,14 @@ class Handle:
     """What the engine keeps for an object: it does one thing at a time, and is freed at last."""
 
     _what = "session"  # in messages
+    _user = None  #: What stands for the call that is at work.
 
     def __init__(self):
-        self._handle, self._lock = ctypes.c_void_p(), threading.Lock()
+        self._handle = ctypes.c_void_p()
 
     def __enter__(self: _Self) -> _Self:
-        with self._open():
-            return self
+        self._alone(lambda _: None)
+        return self
 
     def __exit__(self, *_: Any) -> None:
         self.close()
@@ -173,23 +185,30 @@ class Handle:
     def close(self) -> None:
         """Frees the memory of the engine. Nothing else can be called afterwards; closing again is
         allowed."""
-        with self._open(may_be_closed=True) as handle:
-            self._handle = None
-            if handle:
-                _library.run("close", handle)
+        self._alone(self._free, may_be_closed=True)
 
-    @contextlib.contextmanager
-    def _open(self, may_be_closed=False):
-        """The handle, for this call alone."""
-        if not self._lock.acquire(blocking=False):
-            raise RuntimeError(f"the {self._what} is at work: observers and other threads have to wait "
-                               "until its call has returned")
+    def _free(self, handle):
+        self._handle = None
+        if handle:
+            _library.run("close", handle)
+
+    def _alone(self, act, *arguments, may_be_closed=False):
+        """What act(handle, *arguments) returns; meanwhile nothing else can use the handle.
+
+        The handler of a signal may raise an exception after any call, also after one that has just locked
+        something. So the lock is a member that is set within `try`, and removed without a call.
+        """
+        own = object()
         try:
+            if self.__dict__.setdefault("_user", own) is not own:
+                raise RuntimeError(f"the {self._what} is at work: observers and other threads have to wait "
+                                   "until its call has returned")
             if not self._handle and not may_be_closed:
                 raise ValueError(f"the {self._what} is closed")
-            yield self._handle
+            return act(self._handle, *arguments)
         finally:
-            self._lock.release()
+            if self._user is own:
+                del self._user
 
 
 class Session(Handle):
@@ -255,8 +274,8 @@ class Session(Handle):
         """
         iterations = check_integer("iterations", iterations, -1, 2**63 - 1)
         running = ctypes.c_int32()
-        with self._open() as handle:
-            call("advance", handle, iterations, ctypes.byref(running), progress, on_iteration)
+        self._alone(lambda handle: call("advance", handle, iterations, ctypes.byref(running), progress,
+                                        on_iteration))
         return bool(running.value)
 
     def move(self, points: Numbers, *, progress: Optional[Progress] = None) -> None:
@@ -290,22 +309,24 @@ class Session(Handle):
         """
         from ._points import Input  # which needs this file
         places = _arrays.as_points(_arrays.to_host(points)).astype(_arrays.type_of(self._mesh.points))
-        with self._open() as handle, observe(progress) as callbacks:
-            _library.call("move_points", handle, Input(places).struct, None, callbacks)
+        struct = Input(places).struct
+
+        def act(handle, callbacks):
+            _library.call("move_points", handle, struct, None, callbacks)
             self._mesh.points = places
+
+        self._alone(lambda handle: observe(functools.partial(act, handle), progress))
 
     @property
     def report(self) -> Report:
         """The `Report` on the run so far."""
-        with self._open() as handle:
-            return _read_report(handle, self._keywords)
+        return self._alone(_read_report, self._keywords)
 
     @property
     def iterations(self) -> Array:
         """A structured array with a row per iteration: iteration, tested, non_delaunay, flipped,
         excluded, blocked, minimum_angle (degrees; NaN where it was not computed) and seconds."""
-        with self._open() as handle:
-            return _report.read_iterations(handle, _report.read(handle))
+        return self._alone(lambda handle: _report.read_iterations(handle, _report.read(handle)))
 
     @property
     def triangles(self) -> Array:
@@ -325,40 +346,35 @@ class Session(Handle):
         """(m,) int32: for each triangle its source, the triangle before refinement that contains its
         centroid. The triangle gets the data of its source."""
         count = self._count_triangles()
-        with self._open() as handle:
-            return self._mesh.read_sources(handle, count)
+        return self._alone(self._mesh.read_sources, count)
 
     @property
     def regions(self) -> Array:
         """(m,) int32: the label of the region of each triangle, 0 where no seed names one."""
         count = self._count_triangles()
-        with self._open() as handle:
-            return self._mesh.read_regions(handle, count)
+        return self._alone(self._mesh.read_regions, count)
 
     def _read_points(self):
         """The points, and for each added one the ids of three points and their weights."""
-        with self._open() as handle:
-            return self._mesh.read_points(handle, _report.read_struct(handle).refinement_points)
+        return self._alone(lambda handle: self._mesh.read_points(
+            handle, _report.read_struct(handle).refinement_points))
 
     def _count_triangles(self):
         if not self._refines:
             return self._mesh.struct.number_of_triangles
-        with self._open() as handle:
-            return _report.read_struct(handle).triangles
+        return self._alone(_report.read_struct).triangles
 
     def store_triangles(self, target: Array) -> None:
         """Writes the triangles so far to `target`, contiguous int32 or int64 of shape (m, 3) that can
         be written, in the host's memory or on a GPU."""
         count = self._count_triangles()
-        with self._open() as handle:
-            _arrays.store_triangles(handle, target, count)
+        self._alone(_arrays.store_triangles, target, count)
 
     @property
     def flip_counts(self) -> Array:
         """How many flips each triangle was part of, (m,) int32."""
         counts = self._mesh.make_flip_counts(self._count_triangles())
-        with self._open() as handle:
-            _arrays.store("flip_counts", handle, counts)
+        self._alone(lambda handle: _arrays.store("flip_counts", handle, counts))
         return counts
 
 

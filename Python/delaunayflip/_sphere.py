@@ -13,7 +13,8 @@ import numpy
 
 from . import _arrays, _library, _report
 from ._arrays import address
-from ._ask import Asked, Field, Interpolator, Method, Outside, Places, read_places, read_raster, require_triangles
+from ._ask import (
+    Asked, Field, Interpolator, Method, Outside, Places, read_places, read_raster, require_same, require_triangles)
 from ._options import Array, Backend, Numbers, OnIteration, Progress, convert, make_options
 from ._points import Input, run_input
 from ._report import Report
@@ -83,15 +84,12 @@ class SphereTriangulation(Asked):
         if trouble:
             warnings.warn(trouble, stacklevel=4)  # in the line that asks
 
-    @functools.cached_property
-    def _answers(self):
+    def _triangulate_again(self):
         if self.report.stop_reason == "aborted":
             raise ValueError("the triangulation was stopped before its end, so it cannot be asked")
         points, lines = self._made_from
         again, _ = _triangulate(points, self._keywords, keeps=True, lines=lines)
-        if not numpy.array_equal(_arrays.to_host(again.triangles), _arrays.to_host(self.triangles)):
-            raise ValueError("the points or segments have been changed since they were triangulated; "
-                             "triangulate them again")
+        require_same(again, self)
         return again._answers
 
 
