@@ -944,9 +944,50 @@ class Callbacks(unittest.TestCase):
                 signal.setitimer(signal.ITIMER_REAL, 0.02)
                 delaunayflip.flip(*mesh, backend="threads", threads=1)  # a GPU is too fast
             self.assertIs(signal.getsignal(signal.SIGALRM), raise_it)
-        with _session._raise_after([]):
-            handler = signal.getsignal(signal.SIGALRM)
+        handler = _session._raise_after([], signal.getsignal, signal.SIGALRM)
+        self.assertIsNot(handler, raise_it)
         self.assertRaises(TimeoutError, handler, signal.SIGALRM, None)  # were it still there
+
+    def test_signals_at_any_moment(self):
+        """An exception of a handler, at whatever moment it comes, leaves nothing locked, and no handler."""
+        def raise_it(*_):
+            raise TimeoutError
+
+        def ignore(*_):
+            pass
+
+        handlers = {signal.SIGALRM: raise_it, signal.SIGUSR1: ignore, signal.SIGUSR2: ignore}
+        for number, handler in handlers.items():
+            self.addCleanup(signal.signal, number, signal.signal(number, handler))
+        self.addCleanup(sys.setprofile, None)
+        session = delaunayflip.Session(POINTS, TRIANGLES)
+        mesh = delaunayflip.MovingTriangulation(POINTS)
+        f = delaunayflip.LinearInterpolator(POINTS, POINTS[:, 0])
+        for act in (session.advance, lambda: session.report, session.__enter__, lambda: mesh.move(POINTS),
+                    lambda: mesh.move(POINTS[:1], [0]), lambda: mesh.triangles, lambda: f([[1.0, 0.0]])):
+            moment = 0
+            while moment >= 0:
+                left = itertools.count(moment, -1)
+
+                def look(_, event, function):  # the interpreter handles signals where these events are
+                    if event in ("call", "c_return") and next(left) == 0:
+                        signal.raise_signal(signal.SIGALRM)
+
+                try:
+                    sys.setprofile(look)
+                    act()
+                    sys.setprofile(None)
+                except TimeoutError:
+                    pass
+                finally:
+                    sys.setprofile(None)
+                moment = moment + 1 if next(left) < 0 else -1
+                self.assertEqual({number: signal.getsignal(number) for number in handlers}, handlers)
+                self.assertEqual(len(mesh.triangles), 2)
+                self.assertEqual(session.report.triangles, 2)
+                self.assertEqual(f([[1.0, 0.0]]).tolist(), [1.0])
+        session.close()
+        mesh.close()
 
 
 class Session(unittest.TestCase):

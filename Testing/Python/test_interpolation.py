@@ -328,6 +328,64 @@ class Lifetime(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "have been changed"):
             changed.locate(PLACES)
 
+    def test_arrays_that_are_used_again(self):
+        """A triangulation answers for its own points, or not at all."""
+        ring = [[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, 2.0]]
+        globe = numpy.random.default_rng(3).normal(size=(50, 3))
+        make = delaunayflip.triangulate
+        makers = (lambda points: make(points, outline=ring), lambda points: make(points, minimum_angle=20.0),
+                  lambda points: make(points[:, ::-1][:, ::-1]), lambda points: make(points).insert([[0.5, 0.6]]),
+                  lambda points: make(points.tolist()))
+        for maker in makers:
+            points = POINTS.copy()
+            mesh = maker(points)
+            values = plane(mesh.points)
+            points += 1e-6
+            for again in (mesh, pickle.loads(pickle.dumps(mesh)), mesh.insert([[0.25, 0.75]])):
+                values = plane(again.points)
+                numpy.testing.assert_allclose(again.interpolate(values, 0.5, 0.5), plane(numpy.full((1, 2), 0.5))[0],
+                                              rtol=1e-12)
+        line = numpy.array([[0.2, 0.2], [0.8, 0.8]])
+        mesh = make(POINTS, [line])
+        line += 1e-9
+        with self.assertRaisesRegex(ValueError, "have been changed"):
+            mesh.locate(PLACES)
+        line = globe[:2] / 3.0 + 0.25
+        mesh = delaunayflip.triangulate_sphere(globe / numpy.linalg.norm(globe, axis=1)[:, None],
+                                               [line / numpy.linalg.norm(line, axis=1)[:, None]])
+        expected = mesh.locate(globe)
+        self.assertGreaterEqual(expected.min(), 0)
+        lines = mesh._made_from[1]["segments"]
+        lines[0] *= 1.0 + 1e-9
+        mesh.__dict__.pop("_answers")
+        with self.assertRaisesRegex(ValueError, "have been changed"):
+            mesh.locate(globe)
+
+    def test_readers_while_points_are_inserted(self):
+        """Another thread takes the engine's triangulation between a question and its answer."""
+        values, expected = plane(POINTS), delaunayflip.triangulate(POINTS).locate(PLACES)
+        for ask in (lambda mesh: mesh.locate(PLACES), lambda mesh: mesh.interpolate(values, PLACES),
+                    lambda mesh: mesh.raster(values, (0.4, 0.4), 0.1, (2, 2))):
+            mesh = delaunayflip.triangulate(POINTS)
+            known, kept = ask(mesh), mesh._answers
+            more = mesh.insert([[0.5, 0.5]])
+            mesh.__dict__["_answers"] = kept  # as another thread has it that began to ask
+            numpy.testing.assert_array_equal(ask(mesh), known)
+            del mesh.__dict__["_answers"]
+            self.assertEqual(list_corners(mesh.insert([[0.5, 0.5]])), list_corners(more))
+        numpy.testing.assert_array_equal(mesh.locate(PLACES), expected)
+
+    def test_points_without_others(self):
+        """A triangulation without points takes the columns of those that come."""
+        for columns in (2, 3):
+            places = numpy.random.default_rng(columns).random((20, columns))
+            mesh = delaunayflip.triangulate([]).insert(places)
+            self.assertEqual(mesh.points.shape, places.shape)
+            self.assertEqual(list_corners(mesh), list_corners(delaunayflip.triangulate(places)))
+            again = pickle.loads(pickle.dumps(mesh)).insert([places[0] + 0.01])
+            self.assertEqual(len(again.points), 21)
+            self.assertGreaterEqual(again.locate([[0.5, 0.5]])[0], 0)
+
     def test_warnings_of_insertions(self):
         """They are those of `triangulate`, but only where something is new."""
         with self.assertWarnsRegex(UserWarning, "segment that crosses"):
@@ -443,6 +501,15 @@ class Lifetime(unittest.TestCase):
         f(PLACES, progress=shares.append)
         self.assertEqual(shares, sorted(shares))
         self.assertLessEqual(shares[-1], 1.0)
+        mesh = f.triangulation
+        for ask in (lambda **options: f(PLACES, **options), lambda **options: f.locate(PLACES, **options),
+                    lambda **options: f.raster((0, 0), 0.1, (5, 5), **options), lambda **options: f([], **options),
+                    lambda **options: mesh.interpolate(values, PLACES, **options),
+                    lambda **options: mesh.locate(PLACES, **options)):
+            shares.clear()
+            ask(progress=shares.append)
+            self.assertEqual(shares, sorted(shares))
+            self.assertEqual(shares[-1], 1.0)
         for call in (lambda **options: delaunayflip.LinearInterpolator(POINTS, values, **options),
                      lambda **options: f(PLACES, **options),
                      lambda **options: f.locate(PLACES, **options),
