@@ -96,6 +96,18 @@ def __getattr__(name: str) -> typing.Any:
 
 def __dir__() -> typing.List[str]:
     """Only names that can be had: help() and inspect.getmembers() look all of them up."""
-    find = importlib.util.find_spec
-    absent = {name for name, needed in _NEEDS.items() if not find("vtkmodules") or not find(needed)}
+    absent = {name for name in _NEEDS if not _can_be_had(name)}
     return sorted({*globals(), *__all__, *_NEEDS, "__version__"} - absent)
+
+
+def _can_be_had(name: str) -> bool:
+    """Whether a name of _vtk can be imported. A module in C++ that is there may be for another VTK."""
+    find = importlib.util.find_spec
+    if not find("vtkmodules") or not find(_NEEDS[name]):
+        return False
+    if not _NEEDS[name].startswith(__name__):
+        return True
+    try:
+        return importlib.import_module("._vtk", __name__)._is_built_for_this_vtk()
+    except ImportError:
+        return False

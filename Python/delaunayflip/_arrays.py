@@ -298,7 +298,7 @@ def as_array(name, values):
 def read_table(name, values):
     """An array of NumPy of what it can make one, such as a table of another library. The items of tables may
     be columns. Lists, and arrays on a GPU, stay as they are."""
-    if _is_on_device(values) or not hasattr(values, "__array__"):
+    if _is_on_device(values) or not (hasattr(values, "__array__") or isinstance(values, memoryview)):
         return values
     return as_array(name, values)
 
@@ -431,7 +431,8 @@ _REGION = numpy.dtype([("x", "f8"), ("y", "f8"), ("label", "i4"), ("maximum_area
 def as_regions(name, regions):
     """Region seeds, as `triangulate` and `flip` get them, as an array of delaunayflip_region."""
     regions = read_table(name, regions)
-    if not hasattr(regions, "__len__") or isinstance(regions, (str, bytes, dict)):
+    is_list = hasattr(regions, "__len__") and getattr(regions, "shape", None) != ()
+    if not is_list or isinstance(regions, (str, bytes, dict)):
         raise TypeError(f"{name} must be a list of (x, y, label) or (x, y, label, area), not {show(regions)}")
     made = numpy.zeros(len(regions), _REGION)
     for number, row in enumerate(regions):

@@ -10,12 +10,9 @@ from typing import Optional
 
 from . import _arrays
 from ._ask import METHODS, Field, Interpolator, Method, Outside, halve, require_triangles
-from ._options import Array, Backend, Numbers, Progress, choose, show_options
+from ._options import Array, Backend, Numbers, Progress, Unpack, choose, show_options
 from ._points import POINT_OPTIONS, UNSEEN, PointOptions, run_points, triangulate
 from ._rings import RingRule, Rings
-
-if typing.TYPE_CHECKING:
-    from typing_extensions import Unpack
 
 Breaklines = typing.Literal["hard", "soft"]
 

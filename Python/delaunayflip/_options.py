@@ -17,6 +17,18 @@ from . import _library
 from ._library import InvalidOptions
 
 
+if typing.TYPE_CHECKING:
+    from typing_extensions import Unpack
+elif hasattr(typing, "Unpack"):
+    Unpack = typing.Unpack
+else:
+    class Unpack:
+        """What an older Python takes for the type of keywords."""
+
+        def __class_getitem__(cls, options):
+            return options
+
+
 class OnDevice(typing.Protocol):
     """An array in the memory of a GPU, of CuPy, PyTorch or Numba."""
 
@@ -147,7 +159,7 @@ def make_options(function=None, **keywords):
 def has_goal(options, name):
     """Whether keywords have this goal of refinement."""
     given = options.get(name)
-    return given is not None if name == "size" else bool(given)
+    return given is not None if name == "size" else given is not None and to_number(name, given) != 0.0
 
 
 def refuse_goals(options, name):
@@ -194,7 +206,7 @@ def check_integer(name, value, low, high, wanted=""):
     """
     wanted = wanted or f"an integer from {low} to {high}"
     try:
-        number = operator.index(bool(value) if isinstance(value, numpy.bool_) else value)
+        number = operator.index(_as_python(value))
     except TypeError:
         raise TypeError(f"{name} must be {wanted}, not {show(value)}") from None
     if not low <= number <= high:
@@ -202,11 +214,18 @@ def check_integer(name, value, low, high, wanted=""):
     return number
 
 
+def _as_python(value):
+    """Python's number for one of NumPy, or for an array of NumPy without dimensions."""
+    is_single = isinstance(value, (numpy.generic, numpy.ndarray)) and value.ndim == 0
+    return value.item() if is_single and not numpy.ma.isMaskedArray(value) else value
+
+
 def to_number(name, value):
-    if not isinstance(value, numbers.Real):
+    number = _as_python(value)
+    if not isinstance(number, numbers.Real):
         raise TypeError(f"{name} must be a number, not {show(value)}")
     try:
-        return float(value)
+        return float(number)
     except OverflowError:
         raise InvalidOptions(f"{name} is out of range: {show(value)}") from None
 

@@ -6,7 +6,7 @@ import typing
 import numpy
 
 from . import _arrays
-from ._options import Numbers
+from ._options import Numbers, show
 
 RingRule = typing.Literal["evenodd", "nonzero", "orientation"]
 RING_RULES = typing.get_args(RingRule)
@@ -35,7 +35,7 @@ def list_lines(given):
     """Arrays of the lines of `segments`, (k, 2) or (k, 3), if it is a list of lines by coordinates; else
     an empty list."""
     given = _arrays.read_table("segments", given)
-    if hasattr(given, "shape"):
+    if hasattr(given, "shape") and hasattr(given, "dtype"):
         dimensions, kind = len(given.shape), str(given.dtype)
         if 0 in given.shape:
             return []
@@ -55,10 +55,11 @@ def list_lines(given):
 
 
 def _require_list(name, given):
-    is_list = hasattr(given, "__len__") and hasattr(given, "__getitem__")
+    is_single = getattr(given, "shape", None) == ()  # such as an array without dimensions, which has no length
+    is_list = hasattr(given, "__len__") and hasattr(given, "__getitem__") and not is_single
     if not is_list or isinstance(given, (str, bytes, dict)):
         raise TypeError(f"{name} must be a list of point ids, an array of coordinates or a list of such "
-                        f"rings, not {type(given).__name__}")
+                        f"rings, not {show(given) if is_single else type(given).__name__}")
 
 
 def _is_ring(name, given):

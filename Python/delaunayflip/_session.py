@@ -10,19 +10,15 @@ import functools
 import signal
 import threading
 import warnings
-from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, TypeVar, Union
+from typing import Any, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy
 
 from . import _arrays, _library, _report
 from ._options import (
-    GOALS, Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule,
+    GOALS, Array, Backend, Criterion, Devices, Geometry, Numbers, OnIteration, Options, Progress, TieRule, Unpack,
     check_integer, choose, has_goal, make_options, show)
 from ._report import Report, name_keywords
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack
-
 
 try:  # these do not convert numbers to enumerations, which would take most of the time of a small call
     from _signal import getsignal as _get_handler, signal as _set_handler
@@ -248,7 +244,7 @@ class Session(Handle):
         insert_constraints: Union[bool, Numbers] = True, regions: Optional[Numbers] = None,
         frozen: Optional[Numbers] = None, triangle_numbers: Optional[Numbers] = None,
         size: Optional[Numbers] = None, region_seeds: Sequence[Region] = (),
-        progress: Optional[Progress] = None, **options: "Unpack[Options]",
+        progress: Optional[Progress] = None, **options: Unpack[Options],
     ) -> None:
         super().__init__()
         self._mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen,
@@ -488,23 +484,28 @@ def flip(
         >>> result.report.total_flips, sorted(sorted(ids) for ids in result.triangles.tolist())
         (1, [[0, 1, 3], [1, 2, 3]])
     """
+    result, trouble = flip_arrays(**locals())
+    for text in trouble:
+        warnings.warn(text, stacklevel=2)
+    return result
+
+
+def flip_arrays(
+    points, triangles, *, geometry="auto", constraints=None, insert_constraints=True, regions=None, frozen=None,
+    size=None, region_seeds=(), progress=None, on_iteration=None, **options,
+):
+    """The Result of `flip` with these arguments, and the texts of warnings."""
     mesh = _arrays.Mesh(points, triangles, constraints, regions, frozen, insert_constraints, None, size, region_seeds)
     _require_xyz(points, geometry)
-    wanted = make_options(
-        flip, geometry=geometry, criterion=criterion, tie_rule=tie_rule, tolerance=tolerance,
-        feature_angle=feature_angle, maximum_deviation=maximum_deviation, maximum_iterations=maximum_iterations,
-        backend=backend, threads=threads, device=device, devices=devices, pieces=pieces,
-        track_quality=track_quality, minimum_angle=minimum_angle, maximum_area=maximum_area,
-        maximum_edge=maximum_edge, keep_boundary=keep_boundary, point_limit=point_limit)
-    refines = mesh.has_goals or bool(minimum_angle or maximum_area or maximum_edge)
+    wanted = make_options(flip, geometry=geometry, **options)
+    refines = mesh.has_goals or any(has_goal(options, goal) for goal in GOALS)
 
     def make_room(_):
         return () if refines else (mesh.make_triangles(), mesh.make_flip_counts())
 
     with _with_keywords(), run("open", mesh.struct, wanted, make_room, progress, on_iteration) as (handle, room):
         result = _store(mesh, handle, room)
-        _warn(handle, mesh.points, result, geometry)
-    return result
+        return result, _list_trouble(handle, mesh.points, result, geometry)
 
 
 def _require_xyz(points, geometry):
@@ -515,15 +516,14 @@ def _require_xyz(points, geometry):
                          "latitudes")
 
 
-def _warn(handle, points, result, geometry):
-    """Warns, where `flip` was called, of what refinement has left or could not use, and of points that are
-    not on a sphere, but have to be."""
+def _list_trouble(handle, points, result, geometry):
+    """The texts of warnings of what refinement has left or could not use, and of points that are not on a
+    sphere, but have to be."""
     left = [text for kind, _, text in _report.list_defects(handle) if kind in LEFT_BY_REFINEMENT]
     trouble = [name_keywords("; ".join(left), _REFINEMENT)]
     if geometry == "sphere":
         trouble.append(_describe_distances(points, result.triangles))
-    for text in filter(None, trouble):
-        warnings.warn(text, stacklevel=3)
+    return list(filter(None, trouble))
 
 
 def _describe_distances(points, triangles):

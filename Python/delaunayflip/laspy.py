@@ -11,6 +11,7 @@ import warnings
 import laspy
 import numpy
 
+from ._options import show
 from ._points import Triangulation, run_points
 from ._points import triangulate as _triangulate
 
@@ -54,8 +55,7 @@ def triangulate(
     inspect.signature(_triangulate).bind(None, **options)  # refuses unknown ones
     wanted = None
     if classes is not None:
-        listed = [classes] if isinstance(classes, numbers.Integral) else classes
-        wanted = numpy.array([operator.index(number) for number in listed], dtype=numpy.int64)
+        wanted = _read_classes(classes)
     if isinstance(file, laspy.LasData):
         points = _select(file.points, wanted)
         seen = numpy.unique(file.classification)
@@ -75,6 +75,18 @@ def triangulate(
     if trouble:
         warnings.warn(trouble, stacklevel=2)
     return result
+
+
+def _read_classes(classes):
+    """The numbers of classes as an array."""
+    try:
+        listed = [classes] if isinstance(classes, numbers.Integral) else classes
+        if isinstance(listed, (str, bytes)):
+            raise TypeError
+        return numpy.array([operator.index(number) for number in listed], dtype=numpy.int64)
+    except (TypeError, OverflowError):
+        raise TypeError("classes must be integers, such as [2], or one integer, not "
+                        f"{show(classes)}") from None
 
 
 def _select(records, wanted):

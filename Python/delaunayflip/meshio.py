@@ -9,9 +9,10 @@ import meshio
 import numpy
 
 from . import _arrays
+from ._library import InvalidMesh
 from ._options import Numbers, refuse_goals
 from ._report import Report
-from ._session import flip as _flip
+from ._session import flip_arrays
 from ._surface import number_tuples
 
 #: Cell data in which meshio's readers keep the materials, groups or tags of cells.
@@ -75,16 +76,31 @@ def flip(
     triangles = [_arrays.as_ids("triangles", block.data, 3) for block in blocks]
     triangles = numpy.concatenate(triangles or [numpy.empty((0, 3), dtype=int)])
     lines = [_arrays.as_ids("lines", block.data, 2) for block in mesh.cells if block.type == "line"]
+    lines = numpy.concatenate([numpy.empty((0, 2), dtype=int), *lines])
+    _require_points("line", lines, len(mesh.points))
     others = [block for block in mesh.cells if block.type not in ("triangle", "line")]
     edges, are_all = _find_shared_edges(triangles, others, len(mesh.points))
-    _add_constraints([*lines, edges], options)
+    _add_constraints([lines, edges], options)
     if len(triangles) == 0 or are_all:
         warnings.warn(_describe_nothing(mesh, len(triangles)), stacklevel=2)
-    result = _flip(mesh.points, triangles, regions=_number_regions(mesh, regions, len(triangles)),
-                   **options)
+    result, trouble = flip_arrays(
+        mesh.points, triangles, regions=_number_regions(mesh, regions, len(triangles)), **options)
+    for text in trouble:
+        warnings.warn(text, stacklevel=2)
     for block, end in zip(blocks, numpy.cumsum([len(block) for block in blocks])):
         block.data = result.triangles[end - len(block):end]
     return (made, result.report) if return_report else made
+
+
+def _require_points(what, rows, count):
+    """Raises InvalidMesh if a cell names a point that does not exist: as a constraint it would get another
+    number."""
+    wrong = numpy.argwhere((rows < 0) | (rows >= count))
+    if len(wrong):
+        row, column = wrong[0].tolist()
+        point = int(rows[row, column])
+        raise InvalidMesh(f"{what} {row} names point {point}, but there are {count} points, numbered from 0",
+                          row, point)
 
 
 def _add_constraints(pairs, options):
@@ -175,11 +191,25 @@ def _list_set_flags(mesh):
     for name, members in mesh.cell_sets.items():
         if name.startswith("gmsh:"):
             continue
-        flags = [numpy.zeros(len(block), dtype=bool) for block in mesh.cells]
-        for one, ids in zip(flags, members):
-            chosen = numpy.asarray([] if ids is None else ids)
-            one[chosen if chosen.dtype == bool else chosen.astype(int)] = True
-        yield flags
+        yield [_mark_cells(f"cell set {name!r}", [] if ids is None else ids, block)
+               for block, ids in itertools.zip_longest(mesh.cells, members[:len(mesh.cells)])]
+
+
+def _mark_cells(name, ids, block):
+    """Whether a set, of numbers of cells or a mask, has each cell of a block."""
+    count, ids = len(block), _arrays.as_array(name, ids)
+    if ids.dtype == bool and ids.shape == (count,):
+        return ids
+    if ids.dtype == bool or ids.ndim != 1 or ids.size and ids.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must have numbers of cells, or a mask of shape ({count},), in each block, not "
+                         f"{ids.dtype} of shape {ids.shape}")
+    wrong = ids[~((ids >= 0) & (ids < count) & (ids == numpy.floor(ids)))] if ids.size else ids
+    if wrong.size:
+        raise ValueError(f"{name} names cell {wrong[0]} of a block that has {count} cells of type {block.type}, "
+                         "numbered from 0")
+    flags = numpy.zeros(count, dtype=bool)
+    flags[ids.astype(int)] = True
+    return flags
 
 
 def _describe_nothing(mesh, count):

@@ -28,7 +28,8 @@ from ._arrays import as_plane
 from ._ask import Field, Method, Outside, halve, read_places
 from ._library import InvalidOptions, Stopped
 from ._session import Region, Session, smallest_angles as _angles_of_arrays
-from ._options import Array, Numbers, OnIteration, Progress, check_integer, choose, make_options, show
+from ._options import (
+    Array, Numbers, OnIteration, Progress, Unpack, check_integer, choose, make_options, show)
 from ._options import Options as _Options
 from ._points import Heights, run_points
 from ._points import triangulate as _triangulate_arrays
@@ -60,10 +61,6 @@ class Options(_Options, total=False):
     insert_constraints: bool
     triangulate: bool
     size: typing.Union[None, str, Numbers]
-
-
-if typing.TYPE_CHECKING:
-    from typing_extensions import Unpack
 
 
 def flip(

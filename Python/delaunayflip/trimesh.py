@@ -3,12 +3,13 @@
 """Delaunay flips for trimesh."""
 import copy
 import typing
+import warnings
 
 import trimesh
 
 from ._options import refuse_goals
 from ._report import Report
-from ._session import flip as _flip
+from ._session import flip_arrays
 
 
 @typing.overload
@@ -50,7 +51,9 @@ def flip(
         raise TypeError(f"mesh must be a trimesh.Trimesh, not {type(mesh).__name__}; of a scene, take "
                         "scene.to_mesh(), or its geometry one by one")
     refuse_goals(options, "trimesh")
-    result = _flip(mesh.vertices, mesh.faces, **options)
+    result, trouble = flip_arrays(mesh.vertices, mesh.faces, **options)
+    for text in trouble:
+        warnings.warn(text, stacklevel=2)
     colors = {}
     if mesh.visual.kind in ("face", "vertex"):
         name = mesh.visual.kind + "_colors"

@@ -17,6 +17,7 @@ import sys
 import tempfile
 import threading
 import types
+import typing
 import unittest
 import unittest.mock
 import warnings
@@ -854,6 +855,35 @@ class Errors(unittest.TestCase):
         self.assertEqual(_arrays.as_points(points).ctypes.data, points.address)
         self.assertEqual(_arrays.as_ids("triangles", triangles, 3).ctypes.data, triangles.address)
 
+    def test_single_values(self):
+        """What is no list is refused by the argument's name; an array without dimensions is a number."""
+        for name in ("outline", "holes", "regions"):
+            for wrong in (numpy.array(1), numpy.array(1.5), numpy.float64(2.0)):
+                with self.assertRaisesRegex(TypeError, f"^{name} must be a list of "):
+                    delaunayflip.triangulate(POINTS, **{name: wrong})
+        with self.assertRaisesRegex(TypeError, "^region_seeds must be a list of "):
+            delaunayflip.flip(POINTS, TRIANGLES, region_seeds=numpy.array(1))
+        for wrong in (numpy.array([1, 2]), numpy.array(["own", "own"]), numpy.array("own")):
+            with self.assertRaisesRegex(ValueError, "^heights must be one of survey, own, not "):
+                delaunayflip.triangulate(POINTS, heights=wrong)
+        for make in (delaunayflip.Session, delaunayflip.flip):
+            with self.assertRaisesRegex(TypeError, "^minimum_angle must be a number, not "):
+                make(POINTS, TRIANGLES, minimum_angle=numpy.array([1, 2]))
+        segments = memoryview(numpy.array([[1, 3]]))
+        self.assertEqual(delaunayflip.triangulate(POINTS, segments).segments.tolist(), [[1, 3]])
+        for one in (numpy.array(1), numpy.array(1.0), True, numpy.True_, numpy.array(True)):
+            number = _options.to_number("alpha", one)
+            self.assertIs(type(number), float)
+            self.assertEqual(number, 1.0)
+        for one in (numpy.array(1), numpy.int8(1), True, numpy.True_, numpy.array(True)):
+            number = _options.check_integer("threads", one, 0, 9)
+            self.assertEqual((number, isinstance(number, int)), (1, True))
+        for wrong in (numpy.array([1]), numpy.ma.masked, numpy.array("1"), None):
+            with self.assertRaisesRegex(TypeError, "^alpha must be a number, not "):
+                _options.to_number("alpha", wrong)
+            with self.assertRaisesRegex(TypeError, "^threads must be an integer from 0 to 9, not "):
+                _options.check_integer("threads", wrong if wrong is not numpy.ma.masked else 1.0, 0, 9)
+
     def test_backend_unavailable(self):
         with self.assertRaises(delaunayflip.BackendUnavailable):
             delaunayflip.flip(POINTS, TRIANGLES, backend="cuda")
@@ -1105,6 +1135,23 @@ class Package(unittest.TestCase):
             signature = str(inspect.signature(function))
             self.assertNotIn("numpy", signature)
             self.assertIn("points: 'Numbers'", signature)
+
+    def test_types_can_be_looked_up(self):
+        for name in set(delaunayflip.__all__) - {"Report"}:
+            value = None if name.startswith("vtk") else getattr(delaunayflip, name)
+            for one in (value, getattr(value, "__init__", None), getattr(value, "insert", None)):
+                if isinstance(one, types.FunctionType):
+                    self.assertIsInstance(typing.get_type_hints(one), dict)
+
+    def test_names_of_another_vtk(self):
+        """Names of modules in C++ that are there, but not for the VTK of Python, are left out."""
+        other = types.ModuleType("delaunayflip._vtk")
+        with (unittest.mock.patch.dict(sys.modules, {"delaunayflip._vtk": other}),
+              unittest.mock.patch("importlib.util.find_spec", lambda name: name)):
+            for is_for_this in (True, False):
+                other._is_built_for_this_vtk = lambda answer=is_for_this: answer
+                self.assertEqual("vtkDelaunayFlipLiveView" in dir(delaunayflip), is_for_this)
+
     def test_arrays_need_no_vtk(self):
         program = ("import sys, delaunayflip\n"
                    "assert 'numpy' not in sys.modules\n"

@@ -130,6 +130,26 @@ class MeshIO(unittest.TestCase):
                 flip(meshio.Mesh(KITE, cells))
             self.assertEqual(told.filename, __file__)
 
+    def test_sets_and_lines_that_do_not_fit(self):
+        meshio = load("meshio")
+        import delaunayflip.meshio
+        points = [[0.0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]]
+        cells = [("triangle", [[0, 1, 2], [0, 2, 3]])]
+        for wrong in ([9999], [-1], [0.5], [True], [[0]], ["a"]):
+            mesh = meshio.Mesh(points, cells, cell_sets={"name": [numpy.array(wrong)]})
+            with self.assertRaisesRegex(ValueError, "^cell set 'name' "):
+                delaunayflip.meshio.flip(mesh)
+        for right in ([0], [False, True], [], [0.0]):
+            mesh = meshio.Mesh(points, cells, cell_sets={"name": [numpy.array(right)]})
+            self.assertEqual(len(delaunayflip.meshio.flip(mesh).cells[0].data), 2)
+        mesh = meshio.Mesh(points, [*cells, ("line", [[0, 1]]), ("line", [[0, 999]])])
+        with self.assertRaisesRegex(delaunayflip.InvalidMesh, "^line 1 names point 999") as told:
+            delaunayflip.meshio.flip(mesh, constraints=[[0, 1], [1, 2]])
+        self.assertEqual((told.exception.cell, told.exception.point), (1, 999))
+        with self.assertWarnsRegex(UserWarning, "point_limit") as told:
+            delaunayflip.meshio.flip(meshio.Mesh(points, cells), point_limit=3)
+        self.assertEqual(told.filename, __file__)
+
     def test_sets_and_info_stay(self):
         meshio = load("meshio")
         from delaunayflip.meshio import flip
@@ -168,6 +188,14 @@ class Trimesh(unittest.TestCase):
         self.assertEqual(flip(given).visual.uv.tolist()[3], [6, 7])
         with self.assertRaisesRegex(TypeError, "trimesh.Trimesh, not Scene"):
             flip(trimesh.Scene())
+
+    def test_warnings_name_the_line_of_the_caller(self):
+        trimesh = load("trimesh")
+        import delaunayflip.trimesh
+        kite = trimesh.Trimesh([[0, 0, 0], [2, -1, 0], [4, 0, 0], [2, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+        with self.assertWarnsRegex(UserWarning, "point_limit") as told:
+            delaunayflip.trimesh.flip(kite, point_limit=3)
+        self.assertEqual(told.filename, __file__)
 
     def test_goals_are_refused(self):
         trimesh = load("trimesh")
@@ -524,6 +552,14 @@ class PyVista(unittest.TestCase):
         self.assertIn("DelaunayFlip:Flipped", whole.field_data)
         data = whole.delaunay.flip().field_data
         self.assertEqual([name for name in data if len(data[name]) == 0 or "Flipped" in name], [])
+
+    def test_shares_of_interpolation(self):
+        pyvista = load("pyvista")
+        import delaunayflip.pyvista
+        cloud, shares = pyvista.PolyData([[0.0, 0, 0], [2, 0, 2], [0, 2, 4], [2, 2, 6]]), []
+        delaunayflip.pyvista.interpolate(cloud, cloud, progress=shares.append)
+        self.assertEqual(shares, sorted(shares))
+        self.assertEqual(shares[-1], 1.0)
 
     def test_what_is_refused(self):
         pyvista, flip = self.pyvista, self.mesh.delaunay.flip
