@@ -61,11 +61,18 @@ class _DeviceArrays:
     def take(self, name, array, types, columns):
         """The array, without gaps. Requires one of these types, and so many columns."""
         array = self.as_contiguous(array)
-        if type_of(array) not in types:
-            raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {type_of(array)}")
+        kind = self.type_of(array)
+        if kind not in types:
+            raise TypeError(f"{name} on a GPU must be {' or '.join(types)}, not {kind}")
         if len(array.shape) != 2 or array.shape[1] not in columns:
             raise _shape_error(name, array, " or ".join(f"(n, {count})" for count in columns))
         return array
+
+    def type_of(self, array):
+        return type_of(array)
+
+    def address(self, array):
+        return address(array)
 
     def can_be_written(self, array):
         """Whether it is contiguous, too."""
@@ -75,7 +82,13 @@ class _DeviceArrays:
 
 class _CupyArrays(_DeviceArrays):
     def as_contiguous(self, array):
-        return importlib.import_module("cupy").ascontiguousarray(array)
+        return array if array.flags.c_contiguous else importlib.import_module("cupy").ascontiguousarray(array)
+
+    def type_of(self, array):
+        return _KNOWN_TYPES.get(array.dtype) or type_of(array)
+
+    def address(self, array):
+        return array.data.ptr
 
     def as_doubles(self, _, values):
         return importlib.import_module("cupy").ascontiguousarray(values, dtype="float64")
@@ -176,7 +189,8 @@ def _is_on_device(array):
         return False
     if _library_name(array) == "torch":
         return getattr(array, "is_cuda", False)
-    if hasattr(array, "__cuda_array_interface__"):
+    # Libraries make the interface when it is read, which takes a while.
+    if hasattr(type(array), "__cuda_array_interface__") or hasattr(array, "__cuda_array_interface__"):
         return True
     return hasattr(array, "__dlpack__") and array.__dlpack_device__()[0] in _DLPACK_MEMORIES
 
@@ -236,6 +250,14 @@ def find_memory(array):
     return memory, adapter.get_stream(array)
 
 
+def describe(array):
+    """Where a contiguous array begins, its type as a number of TYPES, its memory and the stream."""
+    adapter, array = _adapt(array)
+    if adapter is _HOST:
+        return address(array), TYPES[type_of(array)], _library.HOST, None
+    return adapter.address(array), TYPES[adapter.type_of(array)], _library.CUDA, adapter.get_stream(array)
+
+
 def move(array, like):
     """The array in the memory of another one, for its library."""
     adapter, like = _adapt(like)
@@ -261,7 +283,7 @@ def put(results, triangles, values):
 def address(array):
     """Where an array of NumPy, or one on a GPU, begins; 0 if it is empty."""
     if isinstance(array, numpy.ndarray):
-        return array.ctypes.data if array.size else 0
+        return array.__array_interface__["data"][0] if array.size else 0
     return array.__cuda_array_interface__["data"][0]
 
 
@@ -284,6 +306,8 @@ def _shape_error(name, array, wanted):
 
 def as_array(name, values):
     """What NumPy makes of the values; by DLPack, in their memory, what it cannot convert itself."""
+    if type(values) is numpy.ndarray:
+        return values
     if numpy.ma.is_masked(values):
         raise ValueError(f"{name} has masked values: fill them or leave them out")
     try:
@@ -311,6 +335,9 @@ def _choose_type(array, *kinds):
 
 def _convert(array, kind):
     """The values as the engine reads them: row by row without gaps, aligned, in native byte order."""
+    flags = array.flags
+    if array.dtype == kind and array.dtype.isnative and flags.c_contiguous and flags.aligned:
+        return array
     return numpy.require(array, kind, "CA")
 
 

@@ -15,7 +15,7 @@ import numpy
 from . import _arrays, _library, _report
 from ._arrays import address
 from ._options import Array, Backend, Numbers, Progress, make_options
-from ._points import Input, triangulate
+from ._points import Batch, Input, triangulate
 from ._report import Report
 from ._rings import Rings
 from ._session import Handle, call, observe
@@ -141,10 +141,10 @@ class MovingTriangulation(Handle):
             InvalidMesh: A ring crosses a segment. All points are where they were.
             InvalidOptions, BackendUnavailable, MemoryError, TypeError, ValueError.
         """
-        given = Input(points)
+        given = Batch(points)
         wanted = len(self)
         if ids is not None:
-            given = Input(_arrays.to_host(given.points))
+            given = Batch(_arrays.to_host(given.points))
             ids = self._read_ids(ids)
             wanted = len(ids)
         if len(given.points) != wanted:
@@ -167,7 +167,7 @@ class MovingTriangulation(Handle):
             As for `move`. If the points have to be triangulated anew and that is stopped or fails, the
             new points count as removed.
         """
-        batch = Input(_arrays.to_host(_arrays.as_plane(points)))
+        batch = Batch(_arrays.to_host(_arrays.as_plane(points)))
 
         def act(handle, callbacks):
             before = self._count

@@ -333,6 +333,19 @@ _HEIGHT_WORDS = {
 _NOTHING_ADDED = numpy.empty((0, 3), dtype=numpy.int64), numpy.empty((0, 3))
 
 
+class Batch:
+    """Points alone and their C struct, which takes a fraction of the time of an Input."""
+
+    def __init__(self, points):
+        self.points, self.struct = _arrays.as_plane(points), _library.make(Struct)
+        _fill_points(self.struct, self.points)
+
+
+def _fill_points(struct, points):
+    struct.points, struct.point_type, struct.memory, struct.stream = _arrays.describe(points)
+    struct.number_of_points, struct.point_components = points.shape
+
+
 class Input:
     """The arrays of a call, which live as long, and their C struct."""
 
@@ -377,10 +390,7 @@ class Input:
 
     def _fill_struct(self, has_rings, ring_rule):
         struct = self.struct
-        struct.points, struct.number_of_points = address(self.points), len(self.points)
-        struct.point_type = _library.TYPES[_arrays.type_of(self.points)]
-        struct.point_components = self.points.shape[1]
-        struct.memory, struct.stream = _arrays.find_memory(self.points)
+        _fill_points(struct, self.points)
         struct.segments, struct.number_of_segments = address(self.all_segments), len(self.all_segments)
         struct.rings = address(self.all_rings) if has_rings else None
         struct.ring_rule = choose("ring_rule", ring_rule, RING_RULES)
@@ -424,7 +434,7 @@ class Input:
 
     def append(self, points):
         """The Input of all points with more of them, and the Input of these."""
-        batch = Input(numpy.array(_arrays.to_host(_arrays.as_plane(points))))
+        batch = Batch(numpy.array(_arrays.to_host(_arrays.as_plane(points))))
         columns = self.points.shape[1] if len(self.points) else batch.points.shape[1]
         if len(batch.points) and batch.points.shape[1] != columns:
             raise ValueError(f"points must have {columns} columns, as those of the triangulation, not "

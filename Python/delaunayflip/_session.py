@@ -303,12 +303,12 @@ class Session(Handle):
             ...     print(session.report.total_flips, "flip")
             1 flip
         """
-        from ._points import Input  # which needs this file
+        from ._points import Batch  # which needs this file
         places = _arrays.as_points(_arrays.to_host(points)).astype(_arrays.type_of(self._mesh.points))
-        struct = Input(places).struct
+        given = Batch(places)
 
         def act(handle, callbacks):
-            _library.call("move_points", handle, struct, None, callbacks)
+            _library.call("move_points", handle, given.struct, None, callbacks)
             self._mesh.points = places
 
         self._alone(lambda handle: observe(functools.partial(act, handle), progress))
