@@ -74,6 +74,9 @@ class Triangulation(Asked):
     It can be asked about places. The first question makes the engine's triangulation anew, which then
     stays in memory as long as this object, and so do the first questions of copies. If many questions
     are known to come, `LinearInterpolator` and `NaturalNeighborInterpolator` triangulate only once.
+
+    Without added points, `points` may be the caller's own array. If that changes, so do they, and a
+    question is an error once the triangles are others.
     """
 
     #: (n, 2) or (n, 3): the points of the caller, then those of lines and rings that are given by

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) The DelaunayFlip developers
 # SPDX-License-Identifier: BSD-3-Clause
 """The package's functions for NumPy arrays. None of it may load VTK."""
+import contextlib
 import copy
 import ctypes
 import doctest
@@ -836,6 +837,28 @@ class Errors(unittest.TestCase):
         with unittest.mock.patch("importlib.util.find_spec", lambda name: None):
             with self.assertRaisesRegex(TypeError, "need CuPy or PyTorch"):
                 delaunayflip.flip(Other(POINTS), Other(TRIANGLES))
+
+    def test_what_the_engine_is_told_of_an_array(self):
+        class OfCuPy:
+            """An array on a GPU. Its interface is not read, which takes a while."""
+
+            __module__ = "cupy"
+            dtype, shape, device = numpy.dtype("f4"), (4, 3), contextlib.nullcontext()
+            flags, data = types.SimpleNamespace(c_contiguous=True), types.SimpleNamespace(ptr=4096)
+            __cuda_array_interface__ = property(lambda self: self.fail())
+
+        stream = types.SimpleNamespace(ptr=7)
+        cupy = types.ModuleType("cupy")
+        cupy.cuda = types.SimpleNamespace(get_current_stream=lambda: stream)
+        with unittest.mock.patch.dict(sys.modules, cupy=cupy):
+            struct = _points.Batch(OfCuPy()).struct
+        self.assertEqual((struct.points, struct.number_of_points, struct.point_components), (4096, 4, 3))
+        self.assertEqual((struct.point_type, struct.memory, struct.stream), (0, _library.CUDA, 7))
+        for points in (POINTS, POINTS.astype("f4")[:, :2], POINTS[:0]):
+            struct, whole = _points.Batch(points).struct, _points.Input(points).struct
+            self.assertEqual((struct.memory, struct.stream), (_library.HOST, None))
+            for name in ("point_type", "point_components", "number_of_points"):
+                self.assertEqual(getattr(struct, name), getattr(whole, name))
 
     def test_arrays_of_other_libraries(self):
         class Other:
