@@ -187,6 +187,67 @@ std::string DescribeEdge(const PointArray& points, std::int64_t from, std::int64
   return text.str();
 }
 
+/// The points of a mesh at each place.
+struct PointsAtPlaces
+{
+  explicit PointsAtPlaces(std::int64_t places)
+    : HowMany(places),
+      First(places)
+  {
+  }
+
+  void Add(std::int64_t point, std::int64_t place)
+  {
+    if (place != PointPlaces::None && this->HowMany[place]++ == 0)
+    {
+      this->First[place] = point;
+    }
+  }
+
+  std::vector<std::int64_t> HowMany, First;
+};
+
+/// Counts the points of a mesh at each place. Where there are several, those that no triangle uses
+/// count only if there are no others. @param placeOf by point.
+PointsAtPlaces CountPoints(
+  const TriangleMesh& mesh, const std::vector<std::int64_t>& placeOf, std::int64_t places)
+{
+  PointsAtPlaces all(places);
+  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
+  {
+    all.Add(point, placeOf[point]);
+  }
+  const bool areSingle = std::all_of(
+    all.HowMany.begin(), all.HowMany.end(), [](std::int64_t points) { return points < 2; });
+  if (areSingle)
+  {
+    return all;
+  }
+  std::vector<char> isUsed(mesh.Points.Count);
+  for (std::int64_t corner = 0; corner < 3 * mesh.Triangles.Count; ++corner)
+  {
+    const std::int64_t point = mesh.Triangles.Get(corner / 3, static_cast<int>(corner % 3));
+    if (point >= 0 && point < mesh.Points.Count) // the engine reports other ids later
+    {
+      isUsed[point] = 1;
+    }
+  }
+  PointsAtPlaces used(places);
+  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
+  {
+    used.Add(point, isUsed[point] != 0 ? placeOf[point] : PointPlaces::None);
+  }
+  for (std::int64_t place = 0; place < places; ++place)
+  {
+    if (used.HowMany[place] > 0)
+    {
+      all.HowMany[place] = used.HowMany[place];
+      all.First[place] = used.First[place];
+    }
+  }
+  return all;
+}
+
 /// Finds, for edges between points of another dataset, the edges of the mesh at the same places.
 ///
 /// Coordinates are compared in the lower of the two precisions: float constraints match the double
@@ -234,20 +295,11 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
       });
     finding.Add(Chunk);
   }
-  std::vector<std::int64_t> pointsAt(places.GetNumberOfPlaces()); // how many
-  std::vector<std::int64_t> firstAt(places.GetNumberOfPlaces());
-  for (std::int64_t point = 0; point < mesh.Points.Count; ++point)
-  {
-    if (placeOf[point] != PointPlaces::None && pointsAt[placeOf[point]]++ == 0)
-    {
-      firstAt[placeOf[point]] = point;
-    }
-  }
-
+  const PointsAtPlaces at = CountPoints(mesh, placeOf, places.GetNumberOfPlaces());
   for (const PointPair& pair : pairs)
   {
     const std::int64_t from = placeOfOther[pair[0]], to = placeOfOther[pair[1]];
-    const bool areHere = pointsAt[from] > 0 && pointsAt[to] > 0;
+    const bool areHere = at.HowMany[from] > 0 && at.HowMany[to] > 0;
     edges.AreHere.push_back(static_cast<char>(areHere));
     if (!areHere && from != to && edges.FirstStranger.empty())
     {
@@ -257,14 +309,14 @@ void MatchPlaces(const PointArray& others, const std::vector<PointPair>& pairs,
   std::vector<PointPair> crowded;
   for (const PointPair& pair : wanted)
   {
-    const std::int64_t points = pointsAt[pair[0]] * pointsAt[pair[1]];
+    const std::int64_t points = at.HowMany[pair[0]] * at.HowMany[pair[1]];
     if (points == 0)
     {
       ++edges.Unmatched;
     }
     else if (points == 1)
     {
-      AddPair(firstAt[pair[0]], firstAt[pair[1]], edges.Pairs);
+      AddPair(at.First[pair[0]], at.First[pair[1]], edges.Pairs);
     }
     else
     {
@@ -550,15 +602,8 @@ std::vector<vtkIdType> SegmentList::AddPoints(const PointArray& own, const Point
     }
     const auto given = TakeWholeArrays(this->Points->GetPointData(), own.Count);
     TurnToRealsOf(given, theirs);
-    for (int i = 0; i < theirs->GetNumberOfArrays(); ++i)
-    {
-      vtkAbstractArray* array = theirs->GetAbstractArray(i);
-      if (array->GetName() && KeepsName(array, given))
-      {
-        this->Received.insert(array->GetName());
-      }
-    }
-    AppendPoints(CopyShallow(this->Points), segments->GetPoints(), added, theirs, this->Points);
+    this->Received =
+      AppendPoints(CopyShallow(this->Points), segments->GetPoints(), added, theirs, this->Points);
     this->ShortArrays = FindShortArrays(
       data, others.Count, "point", " of the second input with too few tuples left out");
   }

@@ -251,10 +251,11 @@ vtkSmartPointer<vtkAbstractArray> MakeZeros(vtkAbstractArray* like, vtkIdType tu
 
 }
 
-void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places, vtkIdType size,
-  vtkDataSetAttributes* data)
+std::set<std::string> AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
+  vtkIdType size, vtkDataSetAttributes* data)
 {
   std::set<vtkAbstractArray*> taken; // never iterated over
+  std::set<std::string> names;
   for (int i = 0; i < own->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = own->GetAbstractArray(i);
@@ -286,8 +287,10 @@ void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
       AddAttributes(data, data->AddArray(target), FindAttributes(own, array));
     }
     taken.insert(target);
+    names.insert(name);
     target->InsertTuples(places, sources, array);
   }
+  return names;
 }
 
 void DemoteGlobalIds(vtkDataSetAttributes* data)
@@ -386,12 +389,6 @@ void TurnToRealsOf(vtkDataSetAttributes* own, vtkDataSetAttributes* data)
     });
 }
 
-bool KeepsName(vtkAbstractArray* array, vtkDataSetAttributes* data)
-{
-  vtkAbstractArray* other = data->GetAbstractArray(array->GetName());
-  return !other || AreAlike(array, other);
-}
-
 vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids)
 {
   const vtkIdType given = mesh->GetNumberOfPoints();
@@ -449,8 +446,8 @@ void InterpolateTuples(
   }
 }
 
-void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids, vtkDataSetAttributes* data,
-  vtkPolyData* output)
+std::set<std::string> AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids,
+  vtkDataSetAttributes* data, vtkPolyData* output)
 {
   const vtkIdType given = mesh->GetNumberOfPoints();
   const vtkIdType size = given + ids->GetNumberOfIds();
@@ -458,10 +455,11 @@ void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids, vtkDataSet
   output->SetPoints(ExtendPoints(mesh, more, ids));
   output->GetPointData()->Initialize();
   AddTuples(TakeWholeArrays(mesh->GetPointData(), given), own, own, size, output->GetPointData());
-  if (data)
+  if (!data)
   {
-    AddTuples(data, ids, places, size, output->GetPointData());
+    return {};
   }
+  return AddTuples(data, ids, places, size, output->GetPointData());
 }
 
 void AppendAdded(

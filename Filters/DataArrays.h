@@ -16,6 +16,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -190,8 +191,9 @@ DELAUNAYFLIP_EXPORT void AddAttributes(vtkDataSetAttributes* data, int index, in
 /// but with another type or number of components, it is added under another name. Arrays without a
 /// name are the same if they are alike and in the same order.
 /// @param size how many tuples the arrays of `data` have.
-DELAUNAYFLIP_EXPORT void AddTuples(vtkDataSetAttributes* own, vtkIdList* sources, vtkIdList* places,
-  vtkIdType size, vtkDataSetAttributes* data);
+/// @returns the names of the arrays of `data` that have got tuples.
+DELAUNAYFLIP_EXPORT std::set<std::string> AddTuples(vtkDataSetAttributes* own, vtkIdList* sources,
+  vtkIdList* places, vtkIdType size, vtkDataSetAttributes* data);
 
 /// Turns global ids into pedigree ids: when cells are divided or points added, several share an id.
 /// If there are pedigree ids already, the array is no attribute any more.
@@ -209,16 +211,14 @@ void TurnToDoubles(vtkDataSetAttributes* data);
 /// that AddTuples puts both into one array. Labels stay as they are.
 void TurnToRealsOf(vtkDataSetAttributes* own, vtkDataSetAttributes* data);
 
-/// Whether AddTuples puts the values of an array into one of this name that `data` has or gets.
-bool KeepsName(vtkAbstractArray* array, vtkDataSetAttributes* data);
-
 /// The points of a mesh, then some of `more`: as double, unless those of the mesh are float.
 vtkSmartPointer<vtkPoints> ExtendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids);
 
 /// Gives `output` the points of a mesh, then some of `more`, with their data.
 /// @param ids which of them. @param data of `more`; or null: zeros.
-DELAUNAYFLIP_EXPORT void AppendPoints(vtkPolyData* mesh, vtkPoints* more, vtkIdList* ids,
-  vtkDataSetAttributes* data, vtkPolyData* output);
+/// @returns the names of the arrays that have got tuples of `data`.
+DELAUNAYFLIP_EXPORT std::set<std::string> AppendPoints(vtkPolyData* mesh, vtkPoints* more,
+  vtkIdList* ids, vtkDataSetAttributes* data, vtkPolyData* output);
 
 /// Does so for points that the engine has added to those of a triangulation. Their coordinates and
 /// data are interpolated.

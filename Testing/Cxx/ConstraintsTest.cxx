@@ -332,6 +332,24 @@ TEST(ConstraintInsertion, OfTheSecondInputByDefault)
   EXPECT_EQ(filter->GetTotalFlips(), 0);
 }
 
+/// A point that no triangle uses does not make it ambiguous which point is meant.
+TEST(ConstraintInsertion, BesidePointsThatNoTriangleUses)
+{
+  const Points corners = { { 0, -1, 0 }, { 3, 0, 0 }, { 0, 1, 0 }, { -3, 0, 0 } };
+  for (const auto& extra : Points{ corners[3], { 9, 9, 0 } })
+  {
+    Points points = corners;
+    points.push_back(extra);
+    const Mesh mesh = MakeMesh(points, { { 0, 1, 2 }, { 0, 2, 3 } });
+    const Mesh line = MakeLines({ corners[1], corners[3] }, { { 0, 1 } });
+    WatchedFilter filter(mesh);
+    filter->SetConstraintsData(line);
+    RunCleanly(filter);
+    EXPECT_EQ(filter->GetNumberOfInsertedConstraints(), 1);
+    EXPECT_EQ(filter->GetNumberOfUnmatchedConstraints(), 0);
+  }
+}
+
 TEST(ConstraintInsertion, OfLinesOnRequest)
 {
   Mesh mesh = MakeLattice();

@@ -453,6 +453,36 @@ TEST(FromPoints, ArraysOfOneNameAndOtherTypes)
   expect(run(whole, doubles), 2.0, 7.0);
 }
 
+/// The second input's values stay where their array is added under another name, also if the first
+/// input has an array of that name.
+TEST(FromPoints, ArraysOfOtherTypesInBothInputs)
+{
+  const auto addSegment = [](vtkPolyData* points, double y, double value)
+  {
+    const auto line = MakeLines({ { 1, y, 0 }, { 2, y, 0 } }, { { 0, 1 } });
+    const auto values = MakeArray<vtkDoubleArray>("a", 2);
+    values->FillValue(value);
+    line->GetPointData()->AddArray(values);
+    PointsFilter filter(points);
+    filter->SetSegmentsData(line);
+    Mesh output = Mesh::New();
+    output->ShallowCopy(filter.Run());
+    return output;
+  };
+  const auto first = ToMesh({ { 0, 0, 0 }, { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 } });
+  AddNumbers(first->GetPointData(), "a", 4, 1);
+  const auto once = addSegment(first, 1, 0.5);
+  const auto twice = addSegment(once, 3, 77);
+  vtkDataArray* values = twice->GetPointData()->GetArray("a (2)");
+  const double expected[] = { 0, 0, 0, 0, 0.5, 0.5, 77, 77 };
+  ASSERT_TRUE(values);
+  ASSERT_EQ(values->GetNumberOfTuples(), 8);
+  for (vtkIdType i = 0; i < 8; ++i)
+  {
+    EXPECT_EQ(values->GetComponent(i, 0), expected[i]) << i;
+  }
+}
+
 TEST(FromPoints, SizesOfBothInputs)
 {
   const auto refine = [](vtkAbstractArray* theirs)
