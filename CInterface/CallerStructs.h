@@ -80,7 +80,7 @@ Struct MakeEmpty()
 template <typename Struct>
 void Initialize(Struct* target, std::int64_t size, const Struct& values)
 {
-  if (size >= static_cast<std::int64_t>(sizeof(values.size)))
+  if (target && size >= static_cast<std::int64_t>(sizeof(values.size)))
   {
     const auto bytes = static_cast<std::size_t>(size);
     std::memset(static_cast<void*>(target), 0, bytes);
@@ -254,9 +254,23 @@ constexpr struct
   }
 } CopyOption;
 
+/// Refuses members for the refinement of meshes, which would have no effect on points.
+inline void RequireNoGoals(const FlipOptions& options)
+{
+  const bool hasGoal =
+    options.MinimumAngle != 0.0 || options.MaximumArea != 0.0 || options.MaximumEdge != 0.0;
+  if (hasGoal || options.KeepBoundary || options.PointLimit != 0)
+  {
+    throw InvalidOptions("minimum_angle, maximum_area, maximum_edge, keep_boundary and point_limit "
+                         "in delaunayflip_options are for meshes; for points they are in "
+                         "delaunayflip_points");
+  }
+}
+
 /// @param options of the run.
 inline PointOptions ToPointOptions(const delaunayflip_points& c, const FlipOptions& options)
 {
+  RequireNoGoals(options);
   ToEnumeration(c.ring_rule, RingRuleKind::Orientation, "ring_rule");
   ToEnumeration(c.projection, ProjectionKind::OpenSphere, "projection");
   PointOptions all{ options };
@@ -417,7 +431,8 @@ template <typename Number>
 using NumberInC = std::conditional_t<std::is_floating_point<Number>::value, double, std::int64_t>;
 
 /// A report with the numbers of a C struct, for Summarize.
-inline FlipReport ToReport(const delaunayflip_report* given)
+/// @param iterations becomes their number. A sum over meshes may have any, so there are no records.
+inline FlipReport ToReport(const delaunayflip_report* given, std::int64_t& iterations)
 {
   const delaunayflip_report c = Complete(given, delaunayflip_report_init_sized);
   FlipReport report;
@@ -432,7 +447,7 @@ inline FlipReport ToReport(const delaunayflip_report* given)
   report.GeometryReason = c.geometry_reason ? c.geometry_reason : "";
   report.StopReason = ToEnumeration(c.stop_reason, StopReasonKind::Running, "stop_reason");
   Require(c.number_of_iterations >= 0, "number_of_iterations is negative");
-  report.Iterations.resize(c.number_of_iterations);
+  iterations = c.number_of_iterations;
   return report;
 }
 

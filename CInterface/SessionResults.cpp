@@ -21,7 +21,10 @@ delaunayflip_status TryWithPoints(
   return TryWith(session,
     [&]()
     {
-      Require(session->IsFromPoints, "this session was not made from points");
+      if (!session->IsFromPoints) // the error of all functions that such a session does not have
+      {
+        throw InvalidOptions("this session was not made from points");
+      }
       Require(target || std::invoke(count, session->Session.GetReport()) == 0, "an array is null");
       work();
     });
@@ -133,7 +136,10 @@ extern "C"
     return TryWith(session,
       [=]()
       {
-        Require(!session->IsFromPoints, "this session was made from points");
+        if (session->IsFromPoints)
+        {
+          throw InvalidOptions("this session was made from points");
+        }
         const std::int64_t added = session->Session.GetReport().FromPoints.RefinementPoints;
         Require((xyz && ids && weights) || added == 0, "an array is null");
         AddedPointArrays arrays;

@@ -302,7 +302,7 @@ extern "C"
 
   std::int64_t delaunayflip_count_triangles(const delaunayflip_session* session)
   {
-    return session->Session.CountTriangles();
+    return session ? session->Session.CountTriangles() : 0;
   }
 
   delaunayflip_status delaunayflip_ask(delaunayflip_session* session,
@@ -357,7 +357,9 @@ extern "C"
       {
         Require(text, "text is null");
         thread_local std::string kept;
-        kept = Summarize(ToReport(report));
+        SummaryNotes notes;
+        const FlipReport all = ToReport(report, notes.Iterations);
+        kept = Summarize(all, notes);
         *text = kept.c_str();
       });
   }
@@ -386,7 +388,7 @@ extern "C"
 
   std::int64_t delaunayflip_count_defects(const delaunayflip_session* session)
   {
-    return session->Report.CountDefects();
+    return session ? session->Report.CountDefects() : 0;
   }
 
   delaunayflip_status delaunayflip_get_defects(delaunayflip_session* session, std::int64_t first,

@@ -459,7 +459,7 @@ std::string DescribeMesh(const FlipReport& report, const std::string& hint)
 
 /// What has become of it. Nobody has seen the triangles that a run from points begins with, so
 /// their numbers are left out.
-std::string DescribeResult(const FlipReport& report, double wantedAngle)
+std::string DescribeResult(const FlipReport& report, const SummaryNotes& notes)
 {
   const bool hasBefore = !IsFromPoints(report);
   const auto compare = [hasBefore](const std::string& before, const std::string& after)
@@ -476,8 +476,13 @@ std::string DescribeResult(const FlipReport& report, double wantedAngle)
     text = "bad edges: " + text + "\n";
   }
   constexpr int Digits = 6;
-  const std::string wanted =
-    wantedAngle > 0.0 ? " (asked for: " + FormatNumber(wantedAngle, Digits) + ")" : "";
+  std::string wanted;
+  if (notes.WantedAngle > 0.0)
+  {
+    wanted = " (asked for: " + FormatNumber(notes.WantedAngle, Digits) + ")";
+  }
+  const auto records = static_cast<std::int64_t>(report.Iterations.size());
+  const std::int64_t iterations = notes.Iterations >= 0 ? notes.Iterations : records;
   return text + "smallest angle: " +
     compare(Degrees(report.MinimumAngleBefore), Degrees(report.MinimumAngleAfter)) + " degrees" +
     wanted + "\nsmall angles: " +
@@ -485,8 +490,7 @@ std::string DescribeResult(const FlipReport& report, double wantedAngle)
       " triangles below 10 degrees, ") +
     countBelow(report.TrianglesBelow20Before, report.TrianglesBelow20After, " below 20, ") +
     countBelow(report.TrianglesBelow30Before, report.TrianglesBelow30After, " below 30") +
-    "\nflips: " + Count(report.TotalFlips, "") + " in " +
-    Count(static_cast<std::int64_t>(report.Iterations.size()), "iteration") + ", " +
+    "\nflips: " + Count(report.TotalFlips, "") + " in " + Count(iterations, "iteration") + ", " +
     ToString(report.StopReason) + "\n";
 }
 
@@ -501,9 +505,9 @@ std::string Summarize(const FlipReport& report, const SummaryNotes& notes)
   // What has become better comes first. From points nothing has.
   if (IsFromPoints(report))
   {
-    return DescribeMesh(report, notes.Hint) + DescribeResult(report, notes.WantedAngle);
+    return DescribeMesh(report, notes.Hint) + DescribeResult(report, notes);
   }
-  return DescribeResult(report, notes.WantedAngle) + DescribeMesh(report, notes.Hint);
+  return DescribeResult(report, notes) + DescribeMesh(report, notes.Hint);
 }
 
 }

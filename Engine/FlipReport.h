@@ -370,6 +370,7 @@ struct SummaryNotes
 {
   double WantedAngle = 0.0; ///< The smallest angle that was asked for, in degrees; 0: none.
   std::string Hint; ///< One line, which stands before the geometry, with its end; mostly empty.
+  std::int64_t Iterations = -1; ///< Their number; -1: as many as the report has records of.
 };
 
 /// What was done, in lines of a title, ": " and a text; "" without triangles.

@@ -127,11 +127,15 @@ struct SeenPoint
   double Square; ///< That of the distance.
 };
 
-/// The least area that is used, in squares of a triangle's size. FindTwiceArea finds fewer than
-/// nine digits of a smaller area. A sliver with such an area is taken for its longest edge.
+/// The least area that is used, relative to the magnitude of its cross product. FindTwiceArea finds
+/// fewer than nine digits of a smaller area. A sliver with such an area is taken for its longest
+/// edge. Squares of sizes would not do: where x and y have different units, areas are small, but
+/// have all digits.
 constexpr double MeasurableArea = 1e-22;
+/// Below this area products underflow, and digits are lost without having cancelled.
+constexpr double SmallestArea = 0x1p-1022;
 
-/// Twice the area of a triangle. Its error is about 1e-32 of the square of the triangle's size, if
+/// Twice the area of a triangle. Its error is about 1e-32 of the magnitude of the cross product, if
 /// that is more than a few roundings.
 /// @param seenA, seenB as seen from the origin. @param cross of their offsets.
 DELAUNAYFLIP_HOST_DEVICE inline double FindTwiceArea(const ScaledPoint& origin,

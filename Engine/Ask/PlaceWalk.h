@@ -92,27 +92,17 @@ struct PlaceSides
   /// Twice the areas of the triangles from the place to the edges, and what their errors depend on.
   double Areas[3] = {}, Magnitudes[3] = {};
 
-  /// Whether each area is positive and has lost few digits only, and the triangle is not a sliver
+  /// Whether each area is positive and has lost few digits only. Then the triangle is no sliver
   /// beyond measure. The signs must be certain without exact arithmetic.
   DELAUNAYFLIP_HOST_DEVICE bool AreWeights() const
   {
-    double size = 0.0;
     bool areExact = true;
     for (int slot = 0; slot < 3; ++slot)
     {
-      const double u = std::fabs(this->Offsets[slot].U), v = std::fabs(this->Offsets[slot].V);
-      for (const double one : { u, v })
-      {
-        if (one > size)
-        {
-          size = one;
-        }
-      }
       areExact &= this->Areas[slot] > CrossProduct::Cancelled * this->Magnitudes[slot] &&
         this->Areas[slot] > SmallestCertifiable;
     }
-    const double sum = this->Areas[0] + this->Areas[1] + this->Areas[2];
-    return areExact && sum > MeasurableArea * size * size;
+    return areExact;
   }
 };
 

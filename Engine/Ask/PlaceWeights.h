@@ -59,16 +59,19 @@ DELAUNAYFLIP_HOST_DEVICE void VisitLinearWeights(
   const SeenPoint seen[3] = { { points[0], frame.GetPlace() }, { points[1], frame.GetPlace() },
     { points[2], frame.GetPlace() } };
   double areas[3];
-  double sum = 0.0;
+  double sum = 0.0, magnitude = 0.0;
   const int edge = found.FindEdgeSlot();
   for (int slot = 0; slot < 3 && edge < 0; ++slot)
   {
-    const double area =
-      FindTwiceArea(frame.GetPlace(), seen[NextSlot(slot)], seen[PreviousSlot(slot)]);
+    const SeenPoint& next = seen[NextSlot(slot)];
+    const SeenPoint& previous = seen[PreviousSlot(slot)];
+    const CrossProduct cross(next.Offset, previous.Offset);
+    const double area = FindTwiceArea(frame.GetPlace(), next, previous, cross);
     areas[slot] = area > 0.0 ? area : 0.0;
     sum += areas[slot];
+    magnitude += cross.GetMagnitude();
   }
-  if (sum > MeasurableArea) // the size is about 1
+  if (sum > MeasurableArea * magnitude && sum > SmallestArea)
   {
     for (int slot = 0; slot < 3; ++slot)
     {

@@ -75,6 +75,9 @@ static void TestSummary(void)
   report.number_of_iterations = -1;
   CHECK(delaunayflip_summarize(&report, &text) == DELAUNAYFLIP_INVALID_CALL);
   CHECK(strstr(delaunayflip_error_message(), "number_of_iterations is negative") != NULL);
+  report.number_of_iterations = INT64_MAX;
+  CHECK(delaunayflip_summarize(&report, &text) == DELAUNAYFLIP_OK);
+  CHECK(strstr(text, " in 9,223,372,036,854,775,807 iterations, converged\n") != NULL);
   CHECK(delaunayflip_summarize(NULL, &text) != DELAUNAYFLIP_OK);
 }
 
@@ -181,6 +184,9 @@ static void TestNullPointers(void)
   CHECK(session == NULL);
   CHECK(strstr(delaunayflip_error_message(), "points") != NULL);
   delaunayflip_close(NULL);
+  delaunayflip_mesh_init_sized(NULL, 8);
+  delaunayflip_report_init_sized(NULL, sizeof(delaunayflip_report));
+  CHECK(delaunayflip_count_triangles(NULL) == 0 && delaunayflip_count_defects(NULL) == 0);
 }
 
 static void TestUnsetSizes(void)
@@ -693,6 +699,7 @@ static void TestInsertion(void)
   const float middle[] = { 2, 0, 7 };
   const double outside[] = { 5, 5 };
   int64_t triangles[12];
+  int32_t neighbors[6];
   delaunayflip_points points, more;
   delaunayflip_callbacks callbacks;
   delaunayflip_session* session = NULL;
@@ -736,7 +743,34 @@ static void TestInsertion(void)
   delaunayflip_close(session);
   CHECK(delaunayflip_open(&mesh, NULL, NULL, &session) == DELAUNAYFLIP_OK);
   CHECK(delaunayflip_insert_points(session, &more, NULL) == DELAUNAYFLIP_INVALID_OPTIONS);
+  CHECK(delaunayflip_store_neighbors(session, neighbors) == DELAUNAYFLIP_INVALID_OPTIONS);
+  CHECK(strstr(delaunayflip_error_message(), "not made from points") != NULL);
   delaunayflip_close(session);
+}
+
+/** Each member for refinement in the options of a session from points, where it has no effect. */
+static void TestGoalsOfMeshes(void)
+{
+  delaunayflip_points points;
+  delaunayflip_session* session = NULL;
+  int i;
+  delaunayflip_points_init(&points);
+  points.points = Points;
+  points.number_of_points = 4;
+  points.point_components = 3;
+  for (i = 0; i < 5; ++i)
+  {
+    delaunayflip_options options;
+    delaunayflip_options_init(&options);
+    options.minimum_angle = i == 0 ? 20 : 0;
+    options.maximum_area = i == 1 ? 0.5 : 0;
+    options.maximum_edge = i == 2 ? 0.5 : 0;
+    options.keep_boundary = i == 3;
+    options.point_limit = i == 4 ? 100 : 0;
+    CHECK(
+      delaunayflip_open_points(&points, &options, NULL, &session) == DELAUNAYFLIP_INVALID_OPTIONS);
+    CHECK(strstr(delaunayflip_error_message(), "delaunayflip_points") != NULL);
+  }
 }
 
 /** Points move, and one is removed. */
@@ -877,6 +911,7 @@ int main(void)
   TestRings();
   TestQueries();
   TestInsertion();
+  TestGoalsOfMeshes();
   TestRefinement();
   TestRefinementOfMesh();
   TestMove();
