@@ -18,7 +18,9 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
+#include <functional>
 #include <new>
 #include <type_traits>
 
@@ -211,12 +213,12 @@ std::vector<Defect> ListMalformedArrays(vtkPolyData* mesh, bool pointsPass, bool
 //------------------------------------------------------------------------------
 void AddIterationColumns(const FlipReport& report, const std::string& prefix, vtkFieldData* data)
 {
-  const auto add = [&](auto* array, const char* name, auto member)
+  const auto add = [&](auto* array, const char* name, auto find)
   {
     array->SetName((prefix + name).c_str());
     for (const IterationRecord& record : report.Iterations)
     {
-      array->InsertNextValue(record.*member);
+      array->InsertNextValue(std::invoke(find, record));
     }
     if (prefix.empty() || !report.Iterations.empty())
     {
@@ -231,7 +233,10 @@ void AddIterationColumns(const FlipReport& report, const std::string& prefix, vt
   addCount("Flipped", &IterationRecord::Flipped);
   addCount("Excluded", &IterationRecord::Excluded);
   addCount("Blocked", &IterationRecord::Blocked);
-  add(vtkNew<vtkDoubleArray>().Get(), "MinimumAngle", &IterationRecord::MinimumAngle);
+  // VTK 9.1 cannot read NaN in a .vtk of text.
+  const auto findAngle = [](const IterationRecord& record)
+  { return std::isnan(record.MinimumAngle) ? -1.0 : record.MinimumAngle; };
+  add(vtkNew<vtkDoubleArray>().Get(), "MinimumAngle", findAngle);
   add(vtkNew<vtkDoubleArray>().Get(), "Seconds", &IterationRecord::Seconds);
 }
 

@@ -78,7 +78,7 @@ DELAUNAYFLIP_EXPORT std::vector<Defect> ListMalformedArrays(
   vtkPolyData* mesh, bool pointsPass, bool cellsPass);
 
 /// Adds the columns of the iterations as arrays with one tuple per iteration. Replaces arrays with
-/// the same names.
+/// the same names. A smallest angle that was not computed is -1.
 /// @param prefix of their names.
 void AddIterationColumns(const FlipReport& report, const std::string& prefix, vtkFieldData* data);
 

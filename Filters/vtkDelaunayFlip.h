@@ -41,7 +41,7 @@
  * strips passes as a shallow copy, with an empty table.
  *
  * Output port 1: a vtkTable with one row per iteration and the columns Iteration, Tested,
- * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; NaN where it was not computed)
+ * NonDelaunay, Flipped, Excluded, Blocked, MinimumAngle (degrees; -1 where it was not computed)
  * and Seconds. Port 0 has the same columns as field data, unless there are no rows, and arrays with
  * one value each: Converged, StopReason, Summary, TotalFlips, NonDelaunayAfter, BlockedByShape,
  * BlockedByDeviation, BlockedByEdge, TrianglesBelow10Before, TrianglesBelow10After and so on for 20

@@ -228,9 +228,11 @@ class Totals:
         return text.value.decode()
 
     def list_columns(self):
-        """(name, values) with a value per iteration."""
+        """(name, values) of VTK's arrays with a value per iteration. VTK 9.1 cannot read NaN in a .vtk of
+        text, so that -1 is in its place."""
         for name in ITERATION.names:
-            yield to_camel_case(name), numpy.ascontiguousarray(self.iterations[name])
+            values = self.iterations[name]
+            yield to_camel_case(name), numpy.ascontiguousarray(numpy.where(numpy.isnan(values), -1, values))
 
     def list_numbers(self, names):
         """(name, number) of VTK's field data."""
