@@ -64,7 +64,8 @@ using FindChange =
 /// Normals with too few tuples stay as they are.
 DELAUNAYFLIP_EXPORT void RenewNormals(vtkPolyData* output, const FindChange& findChange);
 
-/// Adds a cell array to an output: vtkIntArray for integers, else vtkDoubleArray.
+/// Adds a cell array to an output: vtkIntArray for integers, else vtkDoubleArray. It is no
+/// attribute, also if it replaces one.
 /// @param values one per triangle. @param elsewhere the value for cells that are not triangles.
 /// @param triangleOf the triangle of a polygon of the output, or a negative number.
 template <typename Value, typename TriangleOf>
@@ -84,6 +85,7 @@ void AddTriangleArray(const char* name, const std::vector<Value>& values, Value 
       array->SetValue(first + polygon, values[triangle]);
     }
   }
+  output->GetCellData()->RemoveArray(name); // or it would be global ids, if those had its name
   output->GetCellData()->AddArray(array);
 }
 

@@ -198,12 +198,17 @@ public:
     return values;
   }
 
-  /// Writes the arrays.
+  /// Writes the arrays. Those that they replace take their attributes along.
   /// @param values at places, which come again until there are `count`.
   void Scatter(const std::vector<double>& values, vtkIdType count, vtkPointData* output) const
   {
     const double* first = values.data();
     const auto places = static_cast<vtkIdType>(values.size()) / std::max(this->Width, 1);
+    for (vtkDataArray* array : this->Arrays)
+    {
+      output->RemoveArray(array->GetName());
+    }
+    output->RemoveArray(this->Elevation->GetName());
     const auto add = [&](vtkDataArray* like, int attributes)
     {
       const auto array = MakeArray(like, count);
@@ -342,6 +347,7 @@ struct Source
     {
       mask->SetValue(i, static_cast<char>(triangles[i % triangles.size()] >= 0));
     }
+    output->RemoveArray(mask->GetName());
     output->AddArray(mask);
   }
 };

@@ -24,10 +24,11 @@ class Vtk:
         self.support = importlib.import_module(f"{package}.util.numpy_support")
 
     def add_arrays(self, data, prefix, arrays):
-        """`arrays`: (name, values, a number or a text) of each; None removes it."""
+        """`arrays`: (name, values, a number or a text) of each; None removes it. They are no attributes, also
+        if they replace some."""
         for name, values in arrays:
+            data.RemoveArray(prefix + name)
             if values is None:
-                data.RemoveArray(prefix + name)
                 continue
             if isinstance(values, str):
                 array = self.core.vtkStringArray()

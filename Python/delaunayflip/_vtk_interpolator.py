@@ -206,6 +206,7 @@ class vtkDelaunayFlipInterpolator(vtkDelaunayFlipPoints):
         core, support = vtk_of(output).core, vtk_of(output).support
         mask = support.numpy_to_vtk((triangles[rows] >= 0).astype(numpy.int8), True, core.VTK_CHAR)
         mask.SetName(_MASK)
+        output.GetPointData().RemoveArray(_MASK)
         output.GetPointData().AddArray(mask)
         return ""
 
@@ -248,8 +249,11 @@ class Columns:
         return numpy.concatenate([column.astype(float) for column in columns], axis=1)
 
     def scatter(self, values, output):
-        """Writes the arrays of values at places; None: there are none."""
+        """Writes the arrays of values at places; None: there are none. Those that they replace take their
+        attributes along."""
         first = 0
+        for name in (*(array.GetName() for array in self._arrays), self._elevation):
+            output.RemoveArray(name or "")
         for like, width in zip(self._arrays, self._widths):
             kind = numpy.float32 if like.GetDataType() == self._vtk.core.VTK_FLOAT else float
             array = self._vtk.support.numpy_to_vtk(

@@ -11,6 +11,7 @@
 #include "vtkDelaunayFlipInterpolator.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
@@ -399,6 +400,29 @@ TEST(Interpolator, IntegersAreNotRoundedAtBreaklines)
       EXPECT_NEAR(data->GetArray("classes")->GetTuple1(i), x[0] / 10.0, 1e-12);
     }
   }
+}
+
+/// An array that is replaced was an attribute for what it held.
+TEST(Interpolator, ReplacedArraysAreNoAttributesAnyMore)
+{
+  const auto source = MakeSource();
+  AddNumbers(source->GetPointData(), "ids", source->GetNumberOfPoints(), 0);
+  AddNumbers(source->GetPointData(), "scalars", source->GetNumberOfPoints(), 0);
+  source->GetPointData()->SetActiveScalars("scalars");
+  const auto places = MakePlaces();
+  const vtkIdType count = places->GetNumberOfPoints();
+  vtkPointData* given = places->GetPointData();
+  given->SetGlobalIds(MakeArray<vtkIdTypeArray>("ids", count));
+  given->SetScalars(MakeArray<vtkIntArray>("vtkValidPointMask", count));
+  given->SetNormals(MakeArray<vtkFloatArray>("Elevation", count, 3));
+  Interpolator filter(places);
+  filter->SetSourceData(source);
+  vtkPointData* data = Update(filter);
+  EXPECT_EQ(data->GetNumberOfArrays(), 4);
+  EXPECT_EQ(data->GetGlobalIds(), nullptr);
+  EXPECT_EQ(data->GetNormals(), nullptr);
+  EXPECT_EQ(data->GetScalars(), data->GetArray("scalars"));
+  EXPECT_EQ(given->GetGlobalIds(), given->GetArray("ids"));
 }
 
 TEST(Interpolator, OnlyWhatHasChangedIsMadeAgain)

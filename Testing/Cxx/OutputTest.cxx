@@ -13,6 +13,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkMath.h"
 #include "vtkPointData.h"
@@ -293,6 +294,19 @@ TEST(Output, ArraysMayBeSeveralAttributes)
     ASSERT_NE(data->GetNormals(), nullptr);
     EXPECT_EQ(data->GetVectors(), data->GetNormals());
   }
+}
+
+TEST(Output, LabelsOfRegionsAreNoGlobalIds)
+{
+  auto mesh = MakeRhombus();
+  mesh->GetCellData()->SetGlobalIds(MakeArray<vtkIdTypeArray>("Region", 2));
+  WatchedFilter filter(mesh);
+  filter->AddRegion(0.0, 0.5, 7.0, 0.0);
+  vtkCellData* data = RunCleanly(filter)->GetCellData();
+  EXPECT_EQ(data->GetNumberOfArrays(), 1);
+  EXPECT_EQ(data->GetArray("Region")->GetTuple1(0), 7.0);
+  EXPECT_EQ(data->GetGlobalIds(), nullptr);
+  EXPECT_EQ(data->GetPedigreeIds(), nullptr);
 }
 
 TEST(Output, CellDataOfAllTypesFollowTheirCells)

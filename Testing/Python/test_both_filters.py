@@ -379,6 +379,29 @@ class Same(Pair, unittest.TestCase):
             self.expect_same(mesh, lambda flip, name=name: flip.SetRegionArray(name))
 
     def test_what_hides_bad_edges(self):
+    def test_regions_of_variants(self):
+        given = ((1.23456789, 1.23456788, 1), (0.0, -0.0, 0), (math.nan, -math.nan, 0), (2, 2.0, 0),
+                 (2**53, 2**53 + 1, 1), ("oak", "oak", 0), ("oak", 1.5, 1))
+        for *values, keeps in given:
+            mesh, labels = make_rhombus(), vtkVariantArray()
+            labels.SetName("Label")
+            for value in values:
+                labels.InsertNextValue(vtkVariant(value))
+            mesh.GetCellData().AddArray(labels)
+            told = self.expect_same(mesh, lambda flip: flip.SetRegionArray("Label"))
+            self.assertIn(("DelaunayFlip:TotalFlips", "idtype", 1, [str(1 - keeps)]), told["meshes"][0])
+
+    def test_labels_replace_global_ids(self):
+        mesh = make_rhombus()
+        add_array(mesh.GetCellData(), "Region", numpy.arange(2))
+        mesh.GetCellData().SetActiveGlobalIds("Region")
+        for kind in self.kinds:
+            flip = kind()
+            flip.SetInputData(mesh)
+            flip.AddRegion(0, 0.5, 7, 0)
+            flip.Update()
+            self.assertIsNone(flip.GetOutput().GetCellData().GetGlobalIds())
+
         mesh = make_rhombus()
         for cells, hint in (([(0, 1, 2), (3, 2, 0)], "hint: 1 bad edge kept between triangles that are wound "
                              "differently; wind all the same way (vtkPolyDataNormals with ConsistencyOn)"),
@@ -707,6 +730,20 @@ class SameInterpolator(Pair, unittest.TestCase):
                 self.assertIn("segments: 1 point with a latitude beyond 90 degrees", told["warnings"][0])
 
     def test_partitions(self):
+    def test_replaced_arrays(self):
+        source, places = self.make_source(), make_cloud(30, seed=4)
+        for name in ("real", "Elevation"):
+            add_array(source.GetPointData(), name, numpy.arange(source.GetNumberOfPoints()))
+            add_array(places.GetPointData(), name, numpy.arange(30))
+            places.GetPointData().SetActiveGlobalIds(name)
+            self.expect_same(places, lambda flip: flip.SetSourceData(source))
+            for kind in self.kinds:
+                flip = kind()
+                flip.SetInputData(places)
+                flip.SetSourceData(source)
+                flip.Update()
+                self.assertIsNone(flip.GetOutput().GetPointData().GetGlobalIds())
+
         source, lines = self.make_source(), make_segments(self.make_source(), float)
         places = [make_cloud(30, seed=4), vtkPolyData(), make_cloud(20, seed=5)]
         for sources in (source, join([vtkPolyData(), source]), join([source, source])):
