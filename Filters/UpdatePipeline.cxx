@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 namespace delaunayflip
 {
@@ -25,9 +26,14 @@ std::string DescribeFault(vtkAlgorithm* filter, int port, vtkInformationVector* 
   const std::string names[] = { "input", "second input", "third input" };
   const std::string& name = names[port];
   vtkInformation* info = filter->GetInputPortInformation(port);
-  if (inputs->GetNumberOfInformationObjects() == 0)
+  const int connections = inputs->GetNumberOfInformationObjects();
+  if (connections == 0)
   {
     return info->Has(vtkAlgorithm::INPUT_IS_OPTIONAL()) ? "" : "there is no " + name;
+  }
+  if (connections > 1)
+  {
+    return "the " + name + " has " + std::to_string(connections) + " connections; it takes one";
   }
   vtkDataObject* data = vtkDataObject::GetData(inputs);
   if (!data)

@@ -106,8 +106,11 @@ class Filter(VTKPythonAlgorithmBase):
     def _describe_fault(self, port):
         """What is wrong with the data of an input port; "" if nothing."""
         name = ("input", "second input", "third input")[port]
-        if self.GetNumberOfInputConnections(port) == 0:
+        connections = self.GetNumberOfInputConnections(port)
+        if connections == 0:
             return "" if port == len(self.others) else f"there is no {name}"
+        if connections > 1:
+            return f"the {name} has {connections} connections; it takes one"
         data = self.GetInputDataObject(port, 0)
         if data is None or self.GetInputAlgorithm(port, 0).GetErrorCode():
             return f"the {name} was not made: see the errors of what makes it"

@@ -184,6 +184,14 @@ TEST(BadInput, AMissingOrWrongOneIsTold)
   filter->RemoveAllInputConnections(0);
   expectRefusal("there is no input");
   filter->SetInputData(mesh);
+  filter->AddInputData(mesh);
+  expectRefusal("the input has 2 connections; it takes one");
+  filter->SetInputData(mesh);
+  for (int i = 0; i < 3; ++i)
+  {
+    filter->AddInputData(1, mesh);
+  }
+  expectRefusal("the second input has 3 connections; it takes one");
   filter->SetInputDataObject(1, vtkNew<vtkUnstructuredGrid>());
   expectRefusal(
     "the second input is a vtkUnstructuredGrid; it must be a vtkPolyData or vtkCompositeDataSet");

@@ -272,6 +272,22 @@ class Faults(unittest.TestCase):
             self.assertEqual(filter_.GetStopReasonAsString(), "failed: " + why if why else "converged")
             self.assertEqual(filter_.GetOutput().GetNumberOfCells() > 0, not why)
 
+    def test_several_connections_are_told(self):
+        filter_ = vtkDelaunayFlip()
+        vtkObject.GlobalWarningDisplayOff()
+        self.addCleanup(vtkObject.GlobalWarningDisplayOn)
+        filter_.SetInputData(make_rhombus())
+        filter_.AddInputData(make_rhombus())
+        filter_.Update()
+        self.assertEqual(filter_.GetErrorMessage(), "the input has 2 connections; it takes one")
+        filter_.SetInputData(make_rhombus())
+        filter_.AddInputData(1, make_rhombus())
+        filter_.Update()
+        self.assertEqual(filter_.GetErrorMessage(), "")
+        filter_.AddInputData(1, make_rhombus())
+        filter_.Update()
+        self.assertEqual(filter_.GetErrorMessage(), "the second input has 2 connections; it takes one")
+
     def test_ids_and_offsets(self):
         for offsets, ids, text in (((0, 3), (0, 2, 44), "cell 0 names point 44"),
                                    *((offsets, (0, 1, 2), "offsets") for offsets in
