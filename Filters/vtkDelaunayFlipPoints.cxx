@@ -278,7 +278,10 @@ void vtkDelaunayFlipPoints::HandleDefects()
 bool vtkDelaunayFlipPoints::WantsToKeep()
 {
   using Asked = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* info = this->GetInputInformation(0, 0);
+  // An observer may have removed the input, and VTK has an error for a connection that is not
+  // there.
+  const bool hasInput = this->GetNumberOfInputConnections(0) > 0;
+  vtkInformation* info = hasInput ? this->GetInputInformation(0, 0) : nullptr;
   const bool hasTimes =
     info && info->Has(Asked::TIME_STEPS()) && info->Length(Asked::TIME_STEPS()) > 1;
   return this->KeepSession == KEEP_SESSION_ON ||

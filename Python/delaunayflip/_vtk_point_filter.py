@@ -111,7 +111,9 @@ class vtkDelaunayFlipPoints(Regions, Filter):
     def _is_followed(self, cloud, options):
         """Whether the points and the segments between them alone decide about the triangles, and later points
         may be these, moved."""
-        times, info = vtkStreamingDemandDrivenPipeline.TIME_STEPS(), self.GetInputInformation(0, 0)
+        # An observer may have removed the input, and VTK has an error for a connection that is not there.
+        info = self.GetInputInformation(0, 0) if self.GetNumberOfInputConnections(0) else None
+        times = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
         has_times = info is not None and info.Has(times) and info.Length(times) > 1
         is_wanted = (has_times, True, False)[self.keep_session]
         limits = ("alpha", "longest_edge", "point_tolerance", *GOALS)

@@ -6,6 +6,7 @@
 
 #include "vtkAppendPolyData.h"
 #include "vtkCellArray.h"
+#include "vtkDelaunayFlipPoints.h"
 #include "vtkExecutive.h"
 #include "vtkTable.h"
 
@@ -213,6 +214,19 @@ TEST(ObserverSafety, TheInputMayBeRemovedBeforeTheFilterHasIt)
     filter->Update();
     EXPECT_EQ(filter->GetOutputDataObject(0)->GetNumberOfElements(vtkDataObject::CELL), 0);
     EXPECT_STREQ(filter->GetOutputDataObject(0)->GetClassName(), input->GetClassName());
+  }
+}
+
+TEST(ObserverSafety, TheInputOfPointsMayBeRemoved)
+{
+  for (const unsigned long event : { vtkCommand::StartEvent, vtkCommand::ProgressEvent })
+  {
+    Watched<vtkDelaunayFlipPoints> filter(MakeBadPlane());
+    OnEvent(filter.Get(), event, [&]() { filter->RemoveAllInputs(); });
+    filter->Update();
+    EXPECT_EQ(filter->GetNumberOfInputConnections(0), 0);
+    EXPECT_EQ(filter.GetErrors(), std::vector<std::string>{});
+    EXPECT_EQ(filter.GetExecutiveErrors(), std::vector<std::string>{});
   }
 }
 
